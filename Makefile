@@ -1,0 +1,44 @@
+# Two commands: `make demo` and `make test`.  Everything happens in .venv; nothing else on the machine is touched but by `make system`.
+PYTHON ?= python3
+VENV   := .venv
+BIN    := $(VENV)/bin
+JOBS   ?= 2
+export MPLBACKEND = Agg
+
+.PHONY: demo test test-slow test-all system bench docs lint clean
+
+demo: $(VENV)/core.ready
+	$(BIN)/drivewright examples --run all --out out
+
+test: $(VENV)/test.ready
+	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(JOBS) -m "not slow" $(ARGS)
+
+test-slow: $(VENV)/test.ready
+	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(JOBS) -m slow $(ARGS)
+
+bench: $(VENV)/test.ready
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/run.py
+
+docs: $(VENV)/docs.ready
+	$(BIN)/python docs/generate.py
+	$(BIN)/mkdocs build --strict
+
+lint: $(VENV)/test.ready
+	$(BIN)/ruff check src tests benchmarks docs
+
+system:
+	scripts/system.sh install
+
+clean:
+	rm -rf $(VENV) out site dist
+
+# .venv counts as ready only after pip has succeeded, and is remade when pyproject.toml changes.
+$(VENV)/core.ready: pyproject.toml scripts/venv.sh
+	scripts/venv.sh "$(PYTHON)" "$(VENV)" core
+
+$(VENV)/test.ready: pyproject.toml scripts/venv.sh
+	scripts/system.sh offer
+	scripts/venv.sh "$(PYTHON)" "$(VENV)" test
+
+$(VENV)/docs.ready: pyproject.toml scripts/venv.sh
+	scripts/venv.sh "$(PYTHON)" "$(VENV)" docs

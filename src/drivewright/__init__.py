@@ -1,0 +1,31 @@
+"""Drivewright: design, simulate and verify mechanical drives.
+
+The names below are loaded when first used; importing the package costs next to nothing.
+"""
+
+from importlib import import_module
+
+__version__ = "0.1.0"
+
+_WHERE = {
+    "DrivewrightError": "errors", "InputError": "errors", "MissingExtra": "errors", "SolverError": "errors", "SpecError": "errors",
+    "Cam": "mechanisms.cam.spec:CamSpec", "SeedlingPusher": "mechanisms.seedling_pusher.spec:SeedlingPusherSpec",
+    "Result": "result", "Scene": "scene",
+    "build": "runner", "load": "spec", "run": "runner",
+    "optimise": "studies.optimise", "verify": "studies.verify",
+    "cams": "cams:", "contact": "contact:", "curves": "curves:", "gears": "gears:", "materials": "materials:", "motion": "motion:", "units": "units:",
+}
+
+__all__ = ["__version__", *sorted(_WHERE)]
+
+
+def __getattr__(name):
+    if name not in _WHERE:
+        raise AttributeError(f"module 'drivewright' has no attribute {name!r}")
+    module, colon, attribute = _WHERE[name].partition(":")
+    found = import_module(f"drivewright.{module}")
+    return found if colon and not attribute else getattr(found, attribute or name)
+
+
+def __dir__():
+    return __all__

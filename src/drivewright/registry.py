@@ -1,0 +1,86 @@
+"""What can be plugged in, by entry point.
+
+Groups: `drivewright.mechanisms` (a `Mechanism`), `drivewright.motion_laws` (a function returning a motion law),
+`drivewright.views` (a function that draws a table), `drivewright.validation` (a published source beside ours).
+A third-party package declares the same groups in its own pyproject.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import Any
+
+from drivewright.errors import UnknownName
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """A question a mechanism can answer: `answer(model, done) -> Answer`.
+
+    `needs` names analyses that come first; their answers are in `done` by name.  `default` analyses run without being asked.
+    `missing(spec)` gives the reason why this analysis has to be left out (missing input), or None.
+    """
+
+    name: str
+    answer: Callable[[Any, Mapping], Any]
+    meaning: str
+    default: bool = True
+    needs: tuple = ()
+    missing: Callable[[Any], str | None] = lambda spec: None
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """All that the house knows of a kind of drive.
+
+    `build(spec)` gives the model; `analyses` ask it; `scene(model)`, `plots`, `drawings(model)` and `parts(model)` show it;
+    `verify(model, result)` re-computes it on an independent route; `batch(spec, names)` compiles a fast evaluation of many designs.
+    `folder` holds `presets/*.toml` and `theory.md`.
+    """
+
+    kind: str
+    summary: str
+    spec: type
+    build: Callable
+    analyses: tuple
+    folder: Path
+    scene: Callable | None = None
+    plots: tuple = ()
+    drawings: Callable | None = None
+    parts: Callable | None = None
+    verify: Callable | None = None
+    batch: Callable | None = None
+    sources: tuple = ()
+    headline: tuple = ()  # value names shown first
+    commands: Mapping[str, Callable] = field(default_factory=dict)
+
+    def presets(self):
+        """Name -> path of the spec files that come with the kind."""
+        return {path.stem: path for path in sorted((self.folder / "presets").glob("*.toml"))}
+
+
+@cache
+def plugins(group):
+    """Name -> entry point of everything installed under `group`."""
+    return {point.name: point for point in entry_points(group=group)}
+
+
+@cache
+def load(group, name, what="plug-in"):
+    """The object behind a name of a group; UnknownName with the nearest name otherwise."""
+    known = plugins(group)
+    if name not in known:
+        raise UnknownName(what, name, known)
+    return known[name].load()
+
+
+def kinds():
+    """Names of all mechanism kinds, sorted."""
+    return sorted(plugins("drivewright.mechanisms"))
+
+
+def mechanism(kind):
+    """The `Mechanism` of a kind."""
+    return load("drivewright.mechanisms", kind, "mechanism")

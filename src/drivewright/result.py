@@ -1,0 +1,170 @@
+"""What comes out: values, tables, checks and findings that remember what they came from.
+
+A result is a value: frozen, picklable, SI throughout, every number with a unit and a meaning.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from drivewright import registry
+from drivewright.errors import UnknownName
+
+
+class Value(NamedTuple):
+    """One number [SI unit] and what it means."""
+
+    value: float
+    unit: str
+    meaning: str
+
+
+class Array(NamedTuple):
+    """A labelled array: `axes` names each axis, `labels` its entries."""
+
+    unit: str
+    axes: tuple
+    labels: tuple
+    values: np.ndarray
+
+
+class Column(NamedTuple):
+    """One column of a table [SI unit]."""
+
+    name: str
+    unit: str
+    meaning: str
+    data: np.ndarray
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns of equal length; the first is the independent variable."""
+
+    name: str
+    title: str
+    columns: tuple
+
+    def __getitem__(self, name):
+        for column in self.columns:
+            if column.name == name:
+                return column
+        raise UnknownName(f"column of table {self.name!r}", name, [c.name for c in self.columns])
+
+    def arrow(self):
+        """The same as a pyarrow.Table; `unit` and `meaning` in the metadata of each field."""
+        import pyarrow as pa
+
+        fields = [pa.field(c.name, pa.array(c.data).type, metadata={"unit": c.unit, "meaning": c.meaning}) for c in self.columns]
+        return pa.Table.from_arrays([pa.array(c.data) for c in self.columns], schema=pa.schema(fields, metadata={"title": self.title}))
+
+
+class Check(NamedTuple):
+    """A design requirement: `value sense limit`, e.g. 0.86 >= 1.0, with the parts it concerns."""
+
+    name: str
+    value: float
+    limit: float
+    sense: str  # "<=" or ">="
+    unit: str
+    message: str
+    parts: tuple = ()
+    geometry: bool = False  # a part with this check failed should not be manufactured
+
+    @property
+    def margin(self):
+        """Distance to the limit, positive on the good side."""
+        return self.limit - self.value if self.sense == "<=" else self.value - self.limit
+
+    @property
+    def ok(self):
+        return self.margin >= 0
+
+    def record(self):
+        """Plain dictionary as in result.json."""
+        keep = {"name": self.name, "value": self.value, "limit": self.limit, "sense": self.sense, "margin": self.margin}
+        return {**keep, "unit": self.unit, "ok": self.ok, "message": self.message, "parts": list(self.parts)}
+
+
+class Plot(NamedTuple):
+    """How to look at a table: y columns over an x column.  `limits` are (value, label) lines; `equal` for geometry."""
+
+    name: str
+    title: str
+    table: str
+    x: str
+    y: tuple
+    limits: tuple = ()
+    equal: bool = False
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What one analysis found.  `data` carries objects for the analyses that need this one; it is not written to disk."""
+
+    values: Mapping[str, Value] = field(default_factory=dict)
+    tables: tuple = ()
+    checks: tuple = ()
+    findings: tuple = ()
+    arrays: Mapping[str, Array] = field(default_factory=dict)
+    outcome: str = "complete"
+    data: Any = None
+
+
+@dataclass(frozen=True)
+class Result:
+    """The answers of one run, with the spec they came from."""
+
+    spec: Any
+    mechanism: str
+    title: str
+    digest: str
+    values: Mapping[str, Value]
+    tables: Mapping[str, Table]
+    checks: tuple
+    findings: tuple
+    provenance: Mapping
+    arrays: Mapping[str, Array] = field(default_factory=dict)
+    outcome: str = "complete"
+
+    def __getitem__(self, name):
+        """A value by its dotted name, as an SI float."""
+        if name not in self.values:
+            raise UnknownName("value", name, self.values)
+        return self.values[name].value
+
+    def check(self, name):
+        """A design check by name."""
+        for check in self.checks:
+            if check.name == name:
+                return check
+        raise UnknownName("check", name, [c.name for c in self.checks])
+
+    def table(self, name):
+        """A table as pyarrow.Table with units in the column metadata."""
+        if name not in self.tables:
+            raise UnknownName("table", name, self.tables)
+        return self.tables[name].arrow()
+
+    def plot(self, name):
+        """A matplotlib Figure of a table or of one of the mechanism's plots."""
+        return registry.load("drivewright.views", "matplotlib", "view")(self, name)
+
+    @property
+    def ok(self):
+        """Whether every design check passed."""
+        return all(check.ok for check in self.checks)
+
+    def record(self):
+        """The content of result.json; non-finite values are left out (a finding says why)."""
+        from drivewright import __version__
+
+        values = {k: v._asdict() for k, v in self.values.items() if math.isfinite(v.value)}
+        arrays = {k: {"unit": a.unit, "axes": list(a.axes), "labels": [list(x) for x in a.labels], "values": np.asarray(a.values).tolist()}
+                  for k, a in self.arrays.items()}
+        return {"format": 1, "drivewright": __version__, "mechanism": self.mechanism, "title": self.title, "digest": self.digest,
+                "values": values, "arrays": arrays, "checks": [c.record() for c in self.checks if math.isfinite(c.value)],
+                "findings": list(self.findings), "outcome": self.outcome, "provenance": dict(self.provenance)}

@@ -1,0 +1,95 @@
+"""One run: spec -> model -> analyses -> result.  The data goes one way; nothing is filled in later."""
+
+import platform
+import time
+from importlib.metadata import PackageNotFoundError, version
+
+from drivewright import registry
+from drivewright.errors import MissingExtra, UnknownName
+from drivewright.result import Answer, Result
+
+
+def build(spec):
+    """The model of a spec: curves, trains, systems - common types only."""
+    return registry.mechanism(spec.mechanism).build(spec)
+
+
+def scene(spec):
+    """The Scene of a spec, or None where the kind has none."""
+    make = registry.mechanism(spec.mechanism).scene
+    return make(build(spec)) if make else None
+
+
+def run(spec, only=(), everything=False, progress=None):
+    """Result of the default analyses of a spec, of exactly those named in `only` and what they need, or of all.
+
+    `progress(done, total, name)` is called before each analysis.  What is left out is listed in the findings.
+    """
+    started = time.perf_counter()
+    mechanism = registry.mechanism(spec.mechanism)
+    wanted = selection(mechanism.analyses, only, everything)
+    model = mechanism.build(spec)
+    answers, findings = {}, list(getattr(model, "findings", ()))
+    for number, analysis in enumerate(wanted):
+        if progress:
+            progress(number, len(wanted), analysis.name)
+        answers[analysis.name] = answer = _answer(analysis, spec, model, answers)
+        findings += answer.findings
+    findings += [f"analysis '{a.name}' ({a.meaning}) runs on request: --only {a.name}" for a in mechanism.analyses
+                 if not only and not everything and not a.default]
+    return _result(spec, mechanism, answers, findings, time.perf_counter() - started)
+
+
+def selection(analyses, only=(), everything=False):
+    """The analyses to do, each after those that it needs; UnknownName for a name that is none."""
+    by_name = {a.name: a for a in analyses}
+    for name in only:
+        if name not in by_name:
+            raise UnknownName("analysis", name, by_name)
+    chosen = {}
+
+    def take(name):
+        if name not in chosen:
+            for needed in by_name[name].needs:
+                take(needed)
+            chosen[name] = by_name[name]
+
+    for analysis in analyses:
+        if analysis.name in only if only else (everything or analysis.default):
+            take(analysis.name)
+    return tuple(chosen.values())
+
+
+def _answer(analysis, spec, model, answers):
+    """The analysis' answer; an empty one with a finding where its input or its extra is missing."""
+    reason = analysis.missing(spec) or next((f"it needs '{n}', which is left out" for n in analysis.needs if answers[n].outcome == "left out"), None)
+    if reason is None:
+        try:
+            return analysis.answer(model, answers)
+        except MissingExtra as error:
+            reason = str(error)
+    return Answer(findings=(f"analysis '{analysis.name}' ({analysis.meaning}) is left out: {reason}",), outcome="left out")
+
+
+def _result(spec, mechanism, answers, findings, seconds):
+    values = {k: v for a in answers.values() for k, v in a.values.items()}
+    return Result(
+        spec=spec, mechanism=mechanism.kind, title=spec.title or mechanism.summary, digest=spec.digest(), values=values,
+        arrays={k: v for a in answers.values() for k, v in a.arrays.items()},
+        tables={t.name: t for a in answers.values() for t in a.tables},
+        checks=tuple(c for a in answers.values() for c in a.checks),
+        findings=tuple(findings),
+        outcome="partial" if any(a.outcome == "partial" for a in answers.values()) else "complete",
+        provenance={"seed": spec.optimise.seed if spec.optimise else 0, "seconds": round(seconds, 4), "analyses": list(answers),
+                    "versions": versions(), "sources": list(mechanism.sources)})
+
+
+def versions():
+    """Version of Python and of the libraries that make numbers."""
+    found = {"python": platform.python_version()}
+    for name in ("drivewright", "numpy", "scipy", "numba"):
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            found[name] = "not installed"
+    return found

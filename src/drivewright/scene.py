@@ -1,0 +1,208 @@
+"""Plain data for everything that draws: figures, the motion player, DXF, STEP, the studio.
+
+A `Scene` is labelled planar shapes that move rigidly through one cycle; a `Drawing` is one flat part on named layers;
+a `Part` is a set of prisms and bars at its start position.  Lengths in metres, angles in radians, y up,
+counter-clockwise positive.  Nothing here computes mechanics or knows a file format.
+"""
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+
+def place(points, pose, mirror=False):
+    """Points (n, 2) reflected about the x axis where asked, then carried by a pose (x, y, angle)."""
+    x, y, angle = pose
+    c, s = np.cos(angle), np.sin(angle)
+    flip = np.array([1.0, -1.0 if mirror else 1.0])
+    return (np.asarray(points, float) * flip) @ np.array([[c, s], [-s, c]]) + (x, y)
+
+
+def _point(point, pose, mirror):
+    return tuple(float(v) for v in place(np.array([point]), pose, mirror)[0])
+
+
+class Line(NamedTuple):
+    """Straight segment between two points (x, y)."""
+
+    start: tuple
+    end: tuple
+
+    def points(self, tolerance):
+        return np.array([self.start, self.end], float)
+
+    def moved(self, pose, mirror):
+        return Line(_point(self.start, pose, mirror), _point(self.end, pose, mirror))
+
+
+class Arc(NamedTuple):
+    """True circular arc: from angle `start` through the signed angle `sweep` (counter-clockwise positive)."""
+
+    center: tuple
+    radius: float
+    start: float
+    sweep: float
+
+    def points(self, tolerance):
+        step = 2 * np.arccos(max(1 - tolerance / max(self.radius, tolerance), 0.0))
+        angles = self.start + self.sweep * np.linspace(0, 1, max(3, int(np.ceil(abs(self.sweep) / step)) + 1))
+        return np.asarray(self.center) + self.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+
+    def moved(self, pose, mirror):
+        sign = -1.0 if mirror else 1.0
+        return Arc(_point(self.center, pose, mirror), self.radius, sign * self.start + pose[2], sign * self.sweep)
+
+
+class Spline(NamedTuple):
+    """Smooth curve through dense `knots` (n, 2) with unit end tangents; the knots lie on the exact curve."""
+
+    knots: np.ndarray
+    start_tangent: tuple
+    end_tangent: tuple
+
+    def points(self, tolerance):
+        return np.asarray(self.knots, float)
+
+    def moved(self, pose, mirror):
+        turn = (0.0, 0.0, pose[2])
+        return Spline(place(self.knots, pose, mirror), _point(self.start_tangent, turn, mirror), _point(self.end_tangent, turn, mirror))
+
+
+class Outline(NamedTuple):
+    """Chain of pieces end to end, closed unless told otherwise."""
+
+    pieces: tuple
+    closed: bool = True
+
+    def points(self, tolerance=1e-5):
+        """Polyline (n, 2) within `tolerance` [m] of the arcs; splines give their own knots."""
+        chains = [piece.points(tolerance) for piece in self.pieces]
+        joined = np.concatenate([chains[0], *(chain[1:] for chain in chains[1:])])
+        return joined[:-1] if self.closed and len(joined) > 2 and np.allclose(joined[0], joined[-1], atol=1e-12) else joined
+
+    def moved(self, pose, mirror=False):
+        """The same outline reflected about the x axis where asked, then carried by a pose (x, y, angle)."""
+        return Outline(tuple(piece.moved(pose, mirror) for piece in self.pieces), self.closed)
+
+
+def circle(center, radius):
+    """Outline of a full circle, in two half arcs as most CAD kernels want it."""
+    return Outline((Arc(tuple(center), radius, 0.0, np.pi), Arc(tuple(center), radius, np.pi, np.pi)))
+
+
+def polygon(points, closed=True):
+    """Outline of straight segments through `points` (n, 2)."""
+    points = [tuple(map(float, p)) for p in points]
+    ends = points[1:] + points[:1] if closed else points[1:]
+    return Outline(tuple(Line(a, b) for a, b in zip(points, ends, strict=False)), closed)
+
+
+def capsule(start, end, radius):
+    """Outline of a bar with round ends: all points within `radius` of the segment start - end."""
+    (x0, y0), (x1, y1) = start, end
+    angle = float(np.arctan2(y1 - y0, x1 - x0))
+    side = radius * np.array([-np.sin(angle), np.cos(angle)])
+    a, b = np.array(start, float), np.array(end, float)
+    return Outline((Line(tuple(a - side), tuple(b - side)), Arc(tuple(b), radius, angle - np.pi / 2, np.pi),
+                    Line(tuple(b + side), tuple(a + side)), Arc(tuple(a), radius, angle + np.pi / 2, np.pi)))
+
+
+class Shape(NamedTuple):
+    """One outline on a layer.  Layers: profile, pitch, base, roller, body, hole, axis, ground, defect."""
+
+    layer: str
+    outline: Outline
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body: shapes in its own frame and its pose (x [m], y [m], angle [rad]) in every frame of the cycle."""
+
+    name: str
+    label: str
+    shapes: tuple
+    poses: np.ndarray
+    colour: str = "steel"  # a role the viewer turns into a colour: steel, blue, orange, green, violet, ground
+
+
+@dataclass(frozen=True)
+class Trace:
+    """The path of a point of a body over the cycle."""
+
+    name: str
+    label: str
+    body: str
+    point: tuple
+
+
+@dataclass(frozen=True)
+class Frame:
+    """An observer: everything is drawn relative to `poses` (frames, 3).
+
+    `advance` (x, y) [m] is how far the observer's own motion carries on from one cycle to the next;
+    `shapes` stand still for this observer (soil line, box).
+    """
+
+    name: str
+    label: str
+    poses: np.ndarray
+    advance: tuple = (0.0, 0.0)
+    shapes: tuple = ()
+
+
+@dataclass(frozen=True)
+class Scene:
+    """One cycle of a mechanism.  `cycle` (frames,) is the driving quantity; first and last frame close the cycle."""
+
+    cycle: np.ndarray
+    cycle_label: str
+    cycle_unit: str
+    period: float
+    bodies: tuple
+    frames: tuple
+    traces: tuple = ()
+    table: str = ""  # name of the result's table that shares this cycle, for the linked cursor
+    marks: tuple = field(default=())  # (cycle value, label)
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """One flat part for manufacture: shapes on layers; `thickness` [m]."""
+
+    name: str
+    title: str
+    shapes: tuple
+    thickness: float = 0.0
+
+    def on(self, layer):
+        return tuple(shape.outline for shape in self.shapes if shape.layer == layer)
+
+
+class Prism(NamedTuple):
+    """Outline minus holes, extruded from height z over `thickness`."""
+
+    outline: Outline
+    holes: tuple
+    z: float
+    thickness: float
+
+
+class Bar(NamedTuple):
+    """Round bar lying in the plane from `start` to `end` (x, y) at height z."""
+
+    start: tuple
+    end: tuple
+    z: float
+    diameter: float
+
+
+@dataclass(frozen=True)
+class Part:
+    """A named solid of an assembly: prisms and bars fused together, placed at `pose` (x, y, angle)."""
+
+    name: str
+    solids: tuple
+    pose: tuple = (0.0, 0.0, 0.0)
+    colour: str = "steel"
+
