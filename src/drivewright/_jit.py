@@ -1,0 +1,235 @@
+"""Compiled kernels: the one place that imports numba, and only when the first kernel is decorated.
+
+`kernel`      compiles a function of numbers and arrays; cached on disk, runs without the interpreter lock.
+`generic`     declares a formula with one version per type of its first argument, a NamedTuple of parameters;
+`implements`  states the version of one type.  The call works in plain Python and inside kernels alike, and a new type
+              touches no kernel.  What a formula calls must be numpy, a kernel or a generic itself.
+`plain`       the uncompiled twin of a kernel, for tests and for arguments that numba cannot compile.
+`warmer`      marks a function that calls kernels once, so that `warm` can compile everything ahead of time.
+
+numba's disk cache watches the file of the kernel alone and would answer with old numbers after an edit anywhere else.
+Therefore each compiled kernel is filed under a hash of all sources it may depend on: this package, and the packages that
+bring the types of its arguments and their formulas.
+"""
+
+import atexit
+import contextlib
+import functools
+import hashlib
+import importlib
+import shutil
+import sys
+import tempfile
+import time
+import types
+from pathlib import Path
+
+from drivewright.errors import InputError
+
+_UNUSED_DAYS = 30
+_generics = []
+_told_numba = []  # the generics numba knows of
+_warmers = []
+
+
+def kernel(function):
+    """Compile `function` with numba: cached on disk, without the interpreter lock, 1/0 = inf as in numpy, no fastmath.
+
+    The original stays reachable as `.py_func`.
+    """
+    import numba
+
+    compiled = numba.njit(nogil=True, error_model="numpy")(function)
+    compiled._cache = _KernelCache(function)
+    for dispatch in _generics:
+        _tell_numba(dispatch)
+    return compiled
+
+
+def generic(stub):
+    """Declare a formula that depends on the type of its first argument; the stub gives name, arguments and docstring."""
+
+    @functools.wraps(stub)
+    def dispatch(first, *rest):
+        return formula_of(dispatch, type(first))(first, *rest)
+
+    dispatch.formulas = {}
+    _generics.append(dispatch)
+    if _told_numba:
+        _tell_numba(dispatch)
+    return dispatch
+
+
+def implements(dispatch, kind):
+    """Decorator: the version of the generic formula `dispatch` for a first argument of type `kind`, a NamedTuple class."""
+
+    def register(formula):
+        if kind in dispatch.formulas:
+            raise InputError(f"{dispatch.__name__}: {kind.__name__} already has a formula; give the new one a type of its own.")
+        dispatch.formulas[kind] = formula
+        return formula
+
+    return register
+
+
+def formula_of(dispatch, kind, error=InputError):
+    """The version of a generic formula for the type `kind`; raises `error`, naming the known ones, where there is none."""
+    if kind not in dispatch.formulas:
+        known = ", ".join(sorted(each.__name__ for each in dispatch.formulas)) or "none yet"
+        raise error(
+            f"{dispatch.__name__}: no formula for a {getattr(kind, '__name__', kind)}; it has one for: {known}. "
+            f"Import the module that states it, or write one under @implements({dispatch.__name__}, ...)."
+        )
+    return dispatch.formulas[kind]
+
+
+@functools.cache
+def plain(compiled):
+    """The kernel in plain Python, together with the kernels that it calls by name."""
+    function = compiled.py_func
+    names = {name: function.__globals__.get(name) for name in function.__code__.co_names}
+    callees = {name: plain(value) for name, value in names.items() if hasattr(value, "py_func")}
+    return types.FunctionType(function.__code__, function.__globals__ | callees, function.__name__, function.__defaults__)
+
+
+def warmer(function):
+    """Mark a function without arguments that calls kernels with typical argument types."""
+    _warmers.append(function)
+    return function
+
+
+def warm():
+    """Compile every kernel that has a warmer; yields (name, seconds) one by one, so that progress can be shown."""
+    for module in _modules_with("@warmer"):
+        importlib.import_module(module)
+    for function in _warmers:
+        start = time.perf_counter()
+        function()
+        yield f"{function.__module__}.{function.__name__}", time.perf_counter() - start
+
+
+def _tell_numba(dispatch):
+    """Let kernels call the generic: the version is chosen while compiling, from the type of the first argument."""
+    if dispatch in _told_numba:
+        return
+    from numba.core.errors import TypingError
+    from numba.extending import overload
+
+    @overload(dispatch, strict=False, jit_options={"error_model": "numpy"})
+    def choose(first, *rest):
+        return formula_of(dispatch, getattr(first, "instance_class", first), TypingError)
+
+    _told_numba.append(dispatch)
+
+
+# ---------------------------------------------------------------------------------------------------------- disk cache
+
+
+class _KernelCache:
+    """numba's disk cache of one kernel, in one folder per set of sources that a signature depends on."""
+
+    def __init__(self, function):
+        self.function = function
+        self.by_modules = {}
+
+    @property
+    def cache_path(self):
+        return str(cache_folder())
+
+    def load_overload(self, signature, target):
+        return self._for(signature).load_overload(signature, target)
+
+    def save_overload(self, signature, result):
+        self._for(signature).save_overload(signature, result)
+
+    def _for(self, signature):
+        classes = set().union(*(_tuple_classes(each) for each in getattr(signature, "args", signature)))
+        modules = frozenset({self.function.__module__}.union(*(_modules_of(each) for each in classes)))
+        if modules not in self.by_modules:
+            self.by_modules[modules] = self._open(modules)
+        return self.by_modules[modules]
+
+    def _open(self, modules):
+        from numba import config
+        from numba.core.caching import FunctionCache, NullCache
+
+        if "__main__" in modules:  # a class of a script is another class in every run: its kernels would never be found again
+            return NullCache()
+        other, config.CACHE_DIR = config.CACHE_DIR, str(_folder_of(modules))
+        try:
+            return FunctionCache(self.function)
+        finally:
+            config.CACHE_DIR = other  # kernels of other libraries stay where their users want them
+
+
+def _tuple_classes(numba_type):
+    """The NamedTuple classes in the type of one argument, nested ones included."""
+    own = {numba_type.instance_class} if hasattr(numba_type, "instance_class") else set()
+    return own.union(*(_tuple_classes(part) for part in getattr(numba_type, "types", ())))
+
+
+def _modules_of(kind):
+    """The modules that state the class and its formulas; a class made inside a function counts as a script's."""
+    formulas = {dispatch.formulas[kind].__module__ for dispatch in _generics if kind in dispatch.formulas}
+    return formulas | {"__main__" if "<locals>" in kind.__qualname__ else kind.__module__}
+
+
+@functools.cache
+def cache_folder():
+    """The folder of the compiled kernels: the user's cache folder, or a temporary one where that is not writable."""
+    from platformdirs import user_cache_path
+
+    folder = user_cache_path("drivewright", appauthor=False) / "kernels"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError:
+        # Fresh and private: what lies in a folder that others may write to must never be loaded as code.
+        folder = Path(tempfile.mkdtemp(prefix="drivewright-"))
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    _remove_unused(folder)
+    return folder
+
+
+@functools.cache
+def _folder_of(modules):
+    """The folder for kernels that depend on these modules' packages, stamped as used today."""
+    packages = {__package__}.union(module.partition(".")[0] for module in modules)
+    digest = hashlib.sha256(" ".join(sorted(modules)).encode())
+    for package in sorted(packages):
+        digest.update(_hash_of(package))
+    folder = cache_folder() / digest.hexdigest()[:20]
+    folder.mkdir(exist_ok=True)
+    (folder / "last-used").touch()
+    return folder
+
+
+def _remove_unused(root):
+    oldest = time.time() - _UNUSED_DAYS * 86400
+    for stamp in root.glob("*/last-used"):
+        with contextlib.suppress(FileNotFoundError):  # another process may be tidying up too
+            if stamp.stat().st_mtime < oldest:
+                shutil.rmtree(stamp.parent, ignore_errors=True)
+
+
+@functools.cache
+def _hash_of(package):
+    digest = hashlib.sha256()
+    for path in _sources(package):
+        digest.update(path.as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.digest()
+
+
+def _sources(package):
+    """The Python files of a package, or the one file of a module, in a fixed order."""
+    module = sys.modules[package]
+    folders = getattr(module, "__path__", None)
+    return [Path(module.__file__)] if folders is None else sorted(file for folder in folders for file in Path(folder).rglob("*.py"))
+
+
+def _modules_with(text):
+    """Names of this package's modules whose source contains `text` at the start of a line."""
+    root = Path(__file__).parent
+    for path in _sources(__package__):
+        if f"\n{text}" in path.read_text(encoding="utf-8"):
+            yield ".".join((__package__, *(part for part in path.relative_to(root).with_suffix("").parts if part != "__init__")))

@@ -1,0 +1,104 @@
+"""Material cards: elasticity, density and strength by standard designation, each number with its source.
+
+Room temperature, SI units.  A source is `recalled` where the number was written from general knowledge and not read in the
+work that it names; check such numbers before they carry a design.  Your own material is one more `Material(...)`.
+"""
+
+from dataclasses import dataclass, fields
+
+from drivewright.errors import UnknownName
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where numbers come from; recalled: named from memory, not read."""
+
+    text: str
+    recalled: bool
+
+
+@dataclass(frozen=True)
+class Material:
+    """One material in one condition.
+
+    modulus E [Pa], poisson nu [-], density [kg/m^3], yield_strength [Pa]: lower limit of 0.2 % proof or yield stress, of a
+    case-hardened steel that of the core; hertz_limit [Pa]: peak Hertz pressure endured for rolling without end, None where no
+    number can be supported.
+    """
+
+    name: str
+    condition: str
+    modulus: float
+    poisson: float
+    density: float
+    yield_strength: float
+    hertz_limit: float | None
+    sources: tuple[tuple[str, Source], ...]
+
+    def source(self, quantity):
+        """Source of one number, e.g. source("modulus")."""
+        known = dict(self.sources)
+        if quantity not in known:
+            raise UnknownName(f"quantity of {self.name} with a source", quantity, known)
+        return known[quantity]
+
+
+def material(name):
+    """The card of this name; raises UnknownName, with the nearest name, where there is none."""
+    if name not in _CARDS:
+        raise UnknownName("material", name, _CARDS)
+    return _CARDS[name]
+
+
+def names():
+    """Names of all cards."""
+    return sorted(_CARDS)
+
+
+_QUANTITIES = tuple(field.name for field in fields(Material) if field.name not in ("name", "condition", "sources"))
+
+
+def _card(name, condition, *values):
+    """A card from (number, source) pairs in the order of the fields; a lone None is a number that is not given."""
+    numbers = {quantity: value and value[0] for quantity, value in zip(_QUANTITIES, values, strict=True)}
+    sources = tuple((quantity, value[1]) for quantity, value in zip(_QUANTITIES, values, strict=True) if value)
+    return Material(name, condition, **numbers, sources=sources)
+
+
+def _recalled(text):
+    return Source(f"recalled: {text}", recalled=True)
+
+
+_STEEL = _recalled("usual design values of structural and engineering steels")
+_E_STEEL, _NU_STEEL, _RHO_STEEL = (210e9, _STEEL), (0.3, _STEEL), (7850.0, _STEEL)
+_SAARSTAHL = Source("Saarstahl, specification sheets of C45E and 42CrMo4 (after EN 10083), minimum for this diameter", recalled=False)
+_LUCEFIN = Source("Lucefin Group, technical card 16MnCr5, rev. 2018: test blank of 30 mm, core hardened, for reference", recalled=False)
+_ZARETSKY = Source(
+    "E. V. Zaretsky, In search of a fatigue limit: a critique of ISO 281:2007, Tribology & Lubrication Technology 2010, quoting "
+    "ISO 281 for 52100 steel in clean mineral oil; the author himself doubts that there is a limit", recalled=False)
+_DUCTILE = Source("sn-castiron.nl, Cast iron (EN-GJS), table after DIN EN 1563", recalled=False)
+_ACETAL = Source("apacinfrastructure.com.au, Material specifications, acetal unreinforced; creeps and softens with heat", recalled=False)
+_EN_10083_3 = _recalled("EN 10083-3, minimum for this diameter")
+_EN_10025 = _recalled("EN 10025-2, minimum up to 16 mm")
+_EN_10088 = _recalled("EN 10088-3, minimum of bars")
+_EN_1561 = _recalled("EN 1561, informative values; 0.1 % proof stress")
+_EN_1982 = _recalled("EN 1982, sand cast; handbooks of copper alloys")
+_EN_755 = _recalled("EN 755-2, extruded bars; handbooks of aluminium alloys")
+_ISO_6336 = _recalled("ISO 6336-5, contact stress number of case-hardened gear flanks, quality MQ")
+_BEARING = _recalled("handbooks of rolling bearings; lower end of the values given for the hardened state")
+_IRON = _recalled("handbooks of cast iron")
+
+_CARDS = {card.name: card for card in (
+    _card("S355J2", "hot rolled, up to 16 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (355e6, _EN_10025), None),
+    _card("C45", "quenched and tempered, 16 to 40 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (430e6, _SAARSTAHL), None),
+    _card("42CrMo4", "quenched and tempered, 40 to 100 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (650e6, _SAARSTAHL), None),
+    _card("34CrNiMo6", "quenched and tempered, 40 to 100 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (800e6, _EN_10083_3), None),
+    _card("16MnCr5", "case hardened, core of 30 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (490e6, _LUCEFIN), (1500e6, _ISO_6336)),
+    _card("100Cr6", "hardened, 58 to 62 HRC", _E_STEEL, _NU_STEEL, (7810.0, _BEARING), (1700e6, _BEARING), (1500e6, _ZARETSKY)),
+    _card("X5CrNi18-10", "solution annealed", (200e9, _EN_10088), (0.3, _STEEL), (7900.0, _EN_10088), (190e6, _EN_10088), None),
+    _card("EN-GJL-250", "as cast", (110e9, _EN_1561), (0.26, _EN_1561), (7200.0, _EN_1561), (165e6, _EN_1561), None),
+    _card("EN-GJS-600-3", "as cast", (175e9, _DUCTILE), (0.28, _DUCTILE), (7200.0, _IRON), (370e6, _DUCTILE), None),
+    _card("CuSn12-C", "sand cast", (95e9, _EN_1982), (0.34, _EN_1982), (8600.0, _EN_1982), (140e6, _EN_1982), None),
+    _card("EN AW-6082", "T6, extruded", (70e9, _EN_755), (0.33, _EN_755), (2700.0, _EN_755), (250e6, _EN_755), None),
+    _card("POM", "unreinforced, 23 degC, short load", (2.82e9, _ACETAL), (0.363, _ACETAL), (1410.0, _ACETAL), (59.3e6, _ACETAL), None),
+)}

@@ -1,0 +1,222 @@
+"""Kernels of `numerics.ode`: the method of Dormand and Prince, step by step, for any system of numbers.
+
+Dormand & Prince, J. Comp. Appl. Math. 6 (1980); interpolant of order 4 and step control: Hairer, Norsett & Wanner, Solving
+Ordinary Differential Equations I (code DOPRI5).  Both recalled; the tests check every order condition.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright._jit import generic, implements, kernel
+
+_C = np.array([0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1, 1])
+_A = np.array([
+    [0, 0, 0, 0, 0, 0],
+    [1 / 5, 0, 0, 0, 0, 0],
+    [3 / 40, 9 / 40, 0, 0, 0, 0],
+    [44 / 45, -56 / 15, 32 / 9, 0, 0, 0],
+    [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729, 0, 0],
+    [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0],
+    [35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],  # also the result: the last stage is the first of the next step
+])
+_ERROR = np.array([71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])  # order 5 minus order 4
+_DENSE = np.array([
+    -12715105075 / 11282082432, 0, 87487479700 / 32700410799, -10690763975 / 1880347072,
+    701980252875 / 199316789632, -1453857185 / 822651844, 69997945 / 29380423,
+])
+
+GOES_ON, FINISHED, EVENT, MIN_STEP, NOT_FINITE = range(5)
+
+
+@generic
+def rate(system, t, y, dy):
+    """Write the derivative of the state y at time t into dy."""
+
+
+@generic
+def events(system, t, y, values):
+    """Write the event functions at (t, y) into `values`; an event happens where one of them changes sign."""
+
+
+class Unwatched(NamedTuple):
+    """Stands for the system where nobody watches for events."""
+
+    nothing: int
+
+
+@implements(events, Unwatched)
+def _(system, t, y, values):
+    pass
+
+
+class Settings(NamedTuple):
+    t1: float
+    rtol: float
+    atol: np.ndarray
+    max_step: float
+    min_step: float
+
+
+class Batch(NamedTuple):
+    """Room for a batch of steps."""
+
+    steps: np.ndarray  # (m, 2): start, size
+    dense: np.ndarray  # (m, 5, n): coefficients of the interpolant
+    hits: np.ndarray  # (m * events, 3): row of the step, number of the event function, fraction of the step
+
+
+@kernel
+def begin(system, watched, settings, clock, y, k, values):
+    """Rates and event functions at the start, and a first step: a hundredth of the time in which y changes by its size."""
+    rate(system, clock[0], y, k[0])
+    events(watched, clock[0], y, values)
+    size = change = 0.0
+    for i in range(y.size):
+        scale = settings.atol[i] + settings.rtol * abs(y[i])
+        size += (y[i] / scale) ** 2
+        change += (k[0, i] / scale) ** 2
+    if not np.isfinite(change):
+        return NOT_FINITE
+    first = 0.01 * np.sqrt(size / change) if min(size, change) > 1e-10 else 1e-6 * (settings.t1 - clock[0])
+    clock[1] = max(first, settings.min_step)
+    return GOES_ON
+
+
+@kernel
+def advance(system, watched, settings, directions, terminal, clock, y, k, values, batch):
+    """Step until the batch is full or the run ends; returns (code, accepted steps, rejected steps, event hits).
+
+    clock = (time, next step, last error); clock, y, k and the event values are carried from batch to batch.
+    """
+    trial, after = np.empty_like(y), np.empty_like(values)
+    accepted = rejected = hits = 0
+    most = 5.0
+    while accepted < len(batch.steps):
+        t, h = clock[0], min(clock[1], settings.max_step)
+        last = t + 1.000001 * h >= settings.t1  # no tiny step is left over
+        if last:
+            h = settings.t1 - t
+        elif h < settings.min_step:
+            return (MIN_STEP if np.isfinite(clock[2]) else NOT_FINITE), accepted, rejected, hits
+        _stages(system, t, h, y, k, trial)
+        error = _error(h, y, trial, k, settings)
+        clock[1] = h * _growth(error, clock, most)
+        if not error <= 1.0:  # nan is no success either
+            rejected, most = rejected + 1, 1.0
+            continue
+        most = 5.0
+        _interpolant(h, y, trial, k, batch.dense[accepted])
+        batch.steps[accepted, 0], batch.steps[accepted, 1] = t, h
+        clock[0] = settings.t1 if last else t + h
+        _copy(trial, y)
+        _copy(k[6], k[0])
+        events(watched, clock[0], y, after)
+        hits, stop = _watch(watched, directions, terminal, values, after, trial, accepted, batch, hits)
+        _copy(after, values)
+        accepted += 1
+        if stop:
+            return EVENT, accepted, rejected, hits
+        if last:
+            return FINISHED, accepted, rejected, hits
+    return GOES_ON, accepted, rejected, hits
+
+
+@kernel
+def _copy(source, target):
+    # target[:] = source would cost three seconds of compiling, for the message on unequal shapes.
+    for i in range(source.size):
+        target[i] = source[i]
+
+
+@kernel
+def _stages(system, t, h, y, k, trial):
+    """Rates k[1..6] of the step from (t, y), k[0] being known, and its result in `trial`."""
+    for stage in range(1, 7):
+        for i in range(y.size):
+            total = 0.0
+            for j in range(stage):
+                total += _A[stage, j] * k[j, i]
+            trial[i] = y[i] + h * total
+        rate(system, t + _C[stage] * h, trial, k[stage])
+
+
+@kernel
+def _error(h, y, trial, k, settings):
+    """Root mean square of the estimated error over its tolerance."""
+    total = 0.0
+    for i in range(y.size):
+        error = 0.0
+        for j in range(7):
+            error += _ERROR[j] * k[j, i]
+        total += (h * error / (settings.atol[i] + settings.rtol * max(abs(y[i]), abs(trial[i])))) ** 2
+    return np.sqrt(total / y.size)
+
+
+@kernel
+def _growth(error, clock, most):
+    """Factor on the step: proportional-integral control, which settles where pure error control would hunt."""
+    if not np.isfinite(error):
+        clock[2] = np.nan
+        return 0.1
+    previous = clock[2] if np.isfinite(clock[2]) else 1e-4
+    if error > 1.0:
+        clock[2] = previous
+        return max(0.2, 0.9 * error**-0.17)
+    clock[2] = max(error, 1e-4)
+    return min(most, max(0.2, 0.9 * max(error, 1e-8) ** -0.17 * previous**0.04))
+
+
+@kernel
+def _interpolant(h, y, trial, k, dense):
+    """Coefficients of the polynomial through both ends of the step, with their slopes, and of order 4 between."""
+    for i in range(y.size):
+        bend = 0.0
+        for j in range(7):
+            bend += _DENSE[j] * k[j, i]
+        rise = trial[i] - y[i]
+        dense[0, i] = y[i]
+        dense[1, i] = rise
+        dense[2, i] = h * k[0, i] - rise
+        dense[3, i] = rise - h * k[6, i] - dense[2, i]
+        dense[4, i] = h * bend
+
+
+@kernel
+def _watch(watched, directions, terminal, before, after, y, row, batch, hits):
+    """Record the events within step `row`; returns the number of hits and whether the run must stop.  y is scratch."""
+    stop = False
+    values = np.empty_like(after)
+    for index in range(after.size):
+        rises, falls = before[index] < 0.0 <= after[index], before[index] > 0.0 >= after[index]
+        if (rises and directions[index] >= 0) or (falls and directions[index] <= 0):
+            batch.hits[hits, 0], batch.hits[hits, 1] = row, index
+            batch.hits[hits, 2] = _locate(watched, index, before[index], batch.steps[row], batch.dense[row], y, values)
+            hits += 1
+            stop = stop or terminal[index] != 0
+    return hits, stop
+
+
+@kernel
+def _locate(watched, index, before, step, dense, y, values):
+    """Fraction of the step just after the sign change.
+
+    Bisection, for it ends on the far side: a run that starts again from there does not meet the same event at once.
+    """
+    low, high = 0.0, 1.0
+    for _ in range(53):
+        theta = 0.5 * (low + high)
+        for i in range(y.size):
+            y[i] = _point(dense, i, theta)
+        events(watched, step[0] + theta * step[1], y, values)
+        if values[index] * before > 0.0:
+            low = theta
+        else:
+            high = theta
+    return high
+
+
+@kernel
+def _point(dense, i, theta):
+    """`_polynomial` of one component."""
+    return dense[0, i] + theta * (dense[1, i] + (1 - theta) * (dense[2, i] + theta * (dense[3, i] + (1 - theta) * dense[4, i])))
