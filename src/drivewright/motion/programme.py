@@ -1,0 +1,199 @@
+"""A motion programme: segments that follow each other around a closed cycle."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.errors import InputError
+from drivewright.motion.laws import MotionLaw, law
+from drivewright.motion.piecewise import CLOSURE, Motion, Piecewise, joined
+from drivewright.numerics.jets import compose
+
+TURN = 2 * math.pi
+DWELL = MotionLaw("dwell", Piecewise(np.array([0.0, 1.0]), np.zeros((1, 1)), np.zeros((1, 0), complex), np.zeros((1, 0))))
+
+
+@dataclass(frozen=True, eq=False)
+class Segment:
+    """A stretch of the cycle: its angle [rad], its law (a `MotionLaw`, a law's name or "dwell") and its rise [m or rad].
+
+    A dwell has no rise, nor has a table, whose lifts are absolute.  A negative rise is a return.
+    """
+
+    angle: float
+    law: MotionLaw | str
+    rise: float = 0.0
+
+    def __post_init__(self):
+        if isinstance(self.law, str):
+            object.__setattr__(self, "law", DWELL if self.law == DWELL.name else law(self.law))
+        if not isinstance(self.law, MotionLaw):
+            raise InputError(f"segment: its law is {self.law!r}; give a MotionLaw, the name of one, or 'dwell'.")
+        if not (math.isfinite(self.angle) and self.angle > 0):
+            raise InputError(f"segment {self.law.name!r}: its angle is {math.degrees(self.angle):.9g} deg; it must be positive and finite.")
+        if not math.isfinite(self.rise):
+            raise InputError(f"segment {self.law.name!r}: its rise is {self.rise}; it must be finite.")
+        self._refuse_rise()
+
+    def _refuse_rise(self):
+        reason = "a dwell does not move" if self.law.name == DWELL.name else "the lifts of a table are absolute" if self.law.span else ""
+        if reason and self.rise != 0:
+            raise InputError(f"segment {self.law.name!r}: a rise of {self.rise:.9g} is given, but {reason}; leave the rise out.")
+        if not reason and self.rise == 0:
+            raise InputError(f"segment {self.law.name!r}: no rise is given; say how far it moves, or make it a dwell.")
+
+    def placed(self, start, level):
+        """Its motion as a function of the cycle's angle, beginning at angle `start` and lift `level`."""
+        if self.law.span is not None:
+            return self.law.function.scaled(width=self.angle, start=start)
+        offset = level - self.rise * self.law(0.0).s
+        return self.law.function.scaled(width=self.angle, height=self.rise, start=start, level=offset)
+
+
+class Piece(NamedTuple):
+    """A smooth interval [theta0, theta1] of the cycle, of a segment (by index), in a phase: 'rise', 'return' or 'dwell'."""
+
+    theta0: float
+    theta1: float
+    segment: int
+    phase: str
+
+
+class Joint(NamedTuple):
+    """What lift and its derivatives jump by where a segment begins, at `angle`; 0.0 where they are continuous."""
+
+    angle: float
+    ds: float
+    dv: float
+    da: float
+    dj: float
+
+
+@dataclass(frozen=True, eq=False)
+class Programme:
+    """Segments in order on a closed cycle [rad]; called with theta it gives Motion(s, s', s'', s''') of the lift [m or rad].
+
+    Derivatives are with respect to theta, which is taken modulo the cycle.  The lift starts at 0, or at the first row of a
+    table that comes first.  Raises InputError where angles do not fill the cycle or the lift does not close; a jump of
+    velocity or acceleration is no error but stands in `joints()`.
+    """
+
+    segments: tuple
+    cycle: float = TURN
+
+    def __post_init__(self):
+        object.__setattr__(self, "segments", tuple(self.segments))
+        _refuse_angles(self.segments, self.cycle)
+        _refuse_tables(self.segments, self.levels)
+        _refuse_open(self.levels, np.ptp(self._sampled_lift))
+
+    @cached_property
+    def starts(self):
+        """Angle at which each segment begins, and the cycle itself (n+1,)."""
+        return np.append(np.cumsum([0.0, *(segment.angle for segment in self.segments[:-1])]), self.cycle)
+
+    @cached_property
+    def levels(self):
+        """Lift at the start of each segment and at the end of the cycle (n+1,)."""
+        first = self.segments[0].law
+        levels = [first(0.0).s if first.span is not None else 0.0]
+        for segment in self.segments:
+            levels.append(segment.placed(0.0, levels[-1]).on_piece(-1, segment.angle).s)
+        return np.array(levels)
+
+    @cached_property
+    def function(self):
+        """The whole cycle as one `Piecewise`."""
+        parts = [segment.placed(start, level) for segment, start, level in zip(self.segments, self.starts, self.levels, strict=False)]
+        whole = joined(parts, closed=True)
+        return Piecewise(np.append(whole.breaks[:-1], self.cycle), whole.poly, whole.amplitude, whole.frequency, closed=True)
+
+    def __call__(self, theta):
+        return self.function(np.mod(theta, self.cycle))
+
+    def on_piece(self, k, theta):
+        """Motion by the formula of piece k (or pieces, an array), one-sided at its ends; theta within breaks[k] .. breaks[k + 1]."""
+        return self.function.on_own_piece(k, theta, "programme on a piece: theta")
+
+    @property
+    def breaks(self):
+        """Ends of the smooth pieces [rad], 0 and the cycle included."""
+        return self.function.breaks
+
+    @cached_property
+    def pieces(self):
+        """The smooth intervals of the cycle, in order."""
+        s = self._sampled_lift
+        moves, up = np.ptp(s, axis=1) > CLOSURE * np.ptp(s), s[:, -1] >= s[:, 0]
+        phases = np.where(moves, np.where(up, "rise", "return"), "dwell").tolist()
+        owners = np.repeat(np.arange(len(self.segments)), [segment.law.function.count for segment in self.segments]).tolist()
+        ends = self.function.breaks.tolist()
+        return tuple(map(Piece, ends[:-1], ends[1:], owners, phases))
+
+    @cached_property
+    def _sampled_lift(self):
+        """Lift at nine places of every piece, ends included (pieces, 9)."""
+        return self.function.on_piece(*self.function.samples(8)).s
+
+    def joints(self):
+        """The `Joint` at the start of every segment; the first is where the cycle closes."""
+        jumps = [self.function.jumps(order) for order in range(4)]
+        at = np.searchsorted(self.function.breaks, self.starts[:-1])
+        return [Joint(float(angle), *(float(jump[k]) for jump in jumps)) for k, angle in zip(at, self.starts, strict=False)]
+
+    @property
+    def continuity(self):
+        """Order of the highest derivative that nowhere jumps, inside the laws included."""
+        return self.function.continuity
+
+    def driven_by(self, angle_of):
+        """The lift as a function of another variable t: angle_of(t) is the jet of theta(t), monotone or not."""
+        return partial(_driven, self, angle_of)
+
+
+def through(motion, theta):
+    """Motion(s, ds/dt, ...) of motion(theta(t)) by the chain rule; `theta` is a jet, `motion` a programme, a law or one piece of it."""
+    return Motion(*compose(motion(theta.d0), theta))
+
+
+def _driven(motion, angle_of, t):
+    return through(motion, angle_of(t))
+
+
+def _refuse_angles(segments, cycle):
+    if not segments:
+        raise InputError("programme: it has no segment; give at least one.")
+    if not (math.isfinite(cycle) and cycle > 0):
+        raise InputError(f"programme: its cycle is {math.degrees(cycle):.9g} deg; it must be positive and finite.")
+    total = math.fsum(segment.angle for segment in segments)
+    missing = math.degrees(cycle - total)
+    if abs(cycle - total) > CLOSURE * cycle:
+        remedy = f"add a dwell of {missing:.9g} deg or lengthen a segment" if missing > 0 else "shorten a segment"
+        raise InputError(f"programme: the angles of its segments sum to {math.degrees(total):.9g} deg, {abs(missing):.9g} deg "
+                         f"{'less' if missing > 0 else 'more'} than the cycle of {math.degrees(cycle):.9g} deg; {remedy}.")
+
+
+def _refuse_tables(segments, levels):
+    for number, (segment, level) in enumerate(zip(segments, levels, strict=False), 1):
+        span = segment.law.span
+        if span is None:
+            continue
+        if abs(span - segment.angle) > CLOSURE * segment.angle:
+            raise InputError(f"programme, segment {number}: its table ends at {math.degrees(span):.9g} deg, but the segment spans "
+                             f"{math.degrees(segment.angle):.9g} deg; make the last angle of the table and the segment's angle equal.")
+        first = segment.law(0.0).s
+        if abs(first - level) > CLOSURE * np.max(np.abs([first, *levels])):
+            raise InputError(f"programme, segment {number}: its table starts at a lift of {first:.9g}, but the segment before ends at "
+                             f"{level:.9g}, a jump of {first - level:+.3g} (SI). The lifts of a table are absolute: shift them, or change "
+                             "the rise before.")
+
+
+def _refuse_open(levels, stroke):
+    gap = levels[-1] - levels[0]
+    if abs(gap) > CLOSURE * stroke:
+        raise InputError(f"programme: it ends at a lift of {levels[-1]:.9g}, {abs(gap):.9g} (m, or rad for a swing) "
+                         f"{'above' if gap > 0 else 'below'} its start at {levels[0]:.9g}; the rises of a closed cycle sum to zero. "
+                         f"Change one by {-gap:.9g}.")
