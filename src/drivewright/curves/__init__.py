@@ -1,0 +1,43 @@
+"""Plane curves as complex jets, envelopes of moving circles and lines, and the profile that is really left of them."""
+
+from drivewright.curves.crossings import Crossing
+from drivewright.curves.families import CircleFamily, LineFamily
+from drivewright.curves.outlines import outline_area, outline_of_spans, perimeter
+from drivewright.curves.pieces import Piece
+from drivewright.curves.plane import (
+    curvature,
+    curvature_rate,
+    derivative,
+    envelope_of_circle,
+    envelope_of_line,
+    normal,
+    offset,
+    tangent,
+)
+from drivewright.curves.toolpath import offset_outline
+from drivewright.curves.trim import Corner, Span, Trimmed, largest_lost_motion, lost_motion, trim
+
+__all__ = [
+    "CircleFamily",
+    "Corner",
+    "Crossing",
+    "LineFamily",
+    "Piece",
+    "Span",
+    "Trimmed",
+    "curvature",
+    "curvature_rate",
+    "derivative",
+    "envelope_of_circle",
+    "envelope_of_line",
+    "largest_lost_motion",
+    "lost_motion",
+    "normal",
+    "offset",
+    "offset_outline",
+    "outline_area",
+    "outline_of_spans",
+    "perimeter",
+    "tangent",
+    "trim",
+]

@@ -1,0 +1,128 @@
+"""Where a chain of smooth pieces crosses itself.
+
+Chords of dense samples find the crossings, Newton's method on q(a) = q(b) makes them exact.  Swallowtails smaller than the
+chords show as pairs of cusps and are sought from there.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.curves.pieces import gather
+
+_TOLERANCE = 1e-12  # two branches meet when they are this close, relative to the size of the curve
+_TAIL = 0.5  # branches nearer than this [sample numbers] are one branch meeting itself
+_SAME = 1e-6  # places [sample numbers] closer than this are one
+
+
+class Crossing(NamedTuple):
+    """The chain passes `point` (complex) at the places `first` < `second`."""
+
+    first: float
+    second: float
+    point: complex
+
+
+def self_crossings(chain):
+    """All crossings of the chain with itself, in order of their first place."""
+    seeds = np.concatenate([_from_chords(chain), _from_cusps(chain)])
+    if not len(seeds):
+        return ()
+    first, second, point = _refined(chain, seeds)
+    order = np.lexsort((np.maximum(first, second), np.minimum(first, second)))
+    kept = []
+    for a, b, z in zip(first[order], second[order], point[order], strict=True):
+        crossing = Crossing(float(min(a, b)), float(max(a, b)), complex(z))
+        if not any(abs(crossing.first - other.first) < _SAME and abs(crossing.second - other.second) < _SAME for other in kept):
+            kept.append(crossing)
+    return tuple(kept)
+
+
+def _from_chords(chain):
+    """Places (n, 2) where two chords that are not neighbours cross."""
+    from scipy.spatial import cKDTree
+
+    start = chain.segments
+    a, b = chain.z[start], chain.z[start + 1]
+    middle = 0.5 * (a + b)
+    pairs = cKDTree(np.stack([middle.real, middle.imag], axis=1)).query_pairs(1.0001 * np.max(np.abs(b - a)), output_type="ndarray")
+    i, j = np.sort(pairs, axis=1).T
+    apart = (j - i > 1) & (j - i < len(start) - 1 if chain.closed else True)
+    i, j = i[apart], j[apart]
+    along_i, along_j, between = b[i] - a[i], b[j] - a[j], a[j] - a[i]
+    with np.errstate(divide="ignore", invalid="ignore"):  # parallel chords: nan or inf, and no crossing
+        area = _cross(along_i, along_j)
+        s, r = _cross(between, along_j) / area, _cross(between, along_i) / area
+        hit = (s >= 0) & (s <= 1) & (r >= 0) & (r <= 1)
+    return np.stack([start[i[hit]] + s[hit], start[j[hit]] + r[hit]], axis=1)
+
+
+def _from_cusps(chain):
+    """Starting places for the small swallowtails between neighbouring cusps.
+
+    Near the middle m of two cusps 2 w apart q' is proportional to ((t - m)^2 - w^2)(1, t - m): the branches cross at m +- sqrt(3) w.
+    """
+    start = chain.segments
+    back = start[np.real(np.conj(chain.v[start]) * chain.v[start + 1]) < 0]
+    speed = np.abs(chain.v)
+    cusps = back + speed[back] / (speed[back] + speed[back + 1])
+    middle, half = 0.5 * (cusps[1:] + cusps[:-1]), 0.5 * np.diff(cusps)
+    near = half < 20
+    return np.stack([middle - np.sqrt(3) * half, middle + np.sqrt(3) * half], axis=1)[near]
+
+
+def _refined(chain, seeds, steps=15):
+    """Newton on q(a) = q(b) for all seeds at once; those that meet nowhere or only themselves are dropped."""
+    index, t = chain.locate(seeds.ravel())
+    for _ in range(steps):
+        step = _step(gather(chain.pieces, index, t), index, t)
+        index, t = _cross_joints(chain, index, t + step)
+        low, high = _range(chain, index)
+        t = np.clip(t, low, high)
+        if np.all(np.abs(step) <= 1e-12 * np.maximum(np.abs(low), np.abs(high))):  # the step made leaves its square
+            break
+    q = gather(chain.pieces, index, t).d0
+    u = chain.place(index, t)
+    apart = np.abs(u[1::2] - u[::2])
+    if chain.closed:
+        apart = np.minimum(apart, len(chain.t) - apart)
+    good = (np.abs(q[1::2] - q[::2]) <= _TOLERANCE * chain.size) & (apart > _TAIL)
+    return u[::2][good], u[1::2][good], q[::2][good]
+
+
+def _step(q, index, t):
+    """Newton step for a and b in turn.
+
+    On one piece a = b is a root too, and near a cusp it attracts.  It is divided out: Newton on (q(b) - q(a))/(b - a) is Newton
+    on q(b) - q(a) with the chord's slope (q(b) - q(a))/(b - a) taken off both derivatives.
+    """
+    miss, between = q.d0[1::2] - q.d0[::2], t[1::2] - t[::2]
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        chord = np.where((index[::2] == index[1::2]) & (between != 0), miss / between, 0.0)
+        from_a, from_b = q.d1[::2] - chord, q.d1[1::2] - chord
+        area = _cross(from_a, from_b)
+        step = np.stack([_cross(miss, from_b) / area, _cross(miss, from_a) / area], axis=1).ravel()
+    return np.where(np.isfinite(step), step, 0.0)
+
+
+def _range(chain, index):
+    ends = np.array([sorted((piece.start, piece.stop)) for piece in chain.pieces])
+    return ends[index, 0], ends[index, 1]
+
+
+def _cross_joints(chain, index, t):
+    """A parameter that has run over the end of its piece moves to the neighbouring piece's end."""
+    count = len(chain.pieces)
+    starts, stops = (np.array([getattr(piece, end) for piece in chain.pieces]) for end in ("start", "stop"))
+    sense = np.array([piece.sense for piece in chain.pieces])[index]
+    over, under = sense * (t - stops[index]) > 0, sense * (t - starts[index]) < 0
+    if not chain.closed:
+        over, under = over & (index < count - 1), under & (index > 0)
+    following, previous = (index + 1) % count, (index - 1) % count
+    return (np.where(over, following, np.where(under, previous, index)),
+            np.where(over, starts[following], np.where(under, stops[previous], t)))
+
+
+def _cross(a, b):
+    """z component of the cross product of plane vectors."""
+    return np.imag(np.conj(a) * b)

@@ -1,0 +1,155 @@
+"""What cuts a profile: a circle or a straight line moving in the plane of the part, in pieces over one closed cycle.
+
+Each family gives the pieces of its envelope and the gap between one of its members and a point: a point is left standing
+when no member's gap is negative.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from drivewright.curves.pieces import Piece, gather
+from drivewright.curves.plane import envelope_of_circle, envelope_of_line
+from drivewright.errors import InputError
+from drivewright.numerics.jets import Jet, exp, sqrt, variable
+
+_CORNER = 1e-9  # a turn [rad], or a step relative to the radius, below this is rounding and no corner
+
+
+@dataclass(frozen=True)
+class CircleFamily:
+    """A roller or cutter of `radius` whose centre runs once along the closed `path` (Pieces of complex jets).
+
+    `material` is "inside" when the part lies within the ring that the circle sweeps (disc cam, inner flank of a groove) and
+    "outside" when it surrounds it (outer ring, outer flank).
+    """
+
+    path: tuple
+    radius: float
+    material: str = "inside"
+
+    def __post_init__(self):
+        if not (np.isfinite(self.radius) and self.radius > 0):
+            raise InputError(f"CircleFamily: radius = {self.radius:.6g} m; it must be positive and finite.")
+        if self.material not in ("inside", "outside"):
+            raise InputError(f"CircleFamily: material = {self.material!r}; it is 'inside' or 'outside' the swept ring.")
+        _refuse_disorder(self.path)
+
+    @cached_property
+    def side(self):
+        """+1 when the profile lies to the left of the centre's travel, -1 to the right."""
+        points = np.concatenate([piece.at(np.linspace(piece.start, piece.stop, 65)).d0 for piece in self.path])
+        turn = np.sign(np.sum(np.imag(np.conj(points) * np.roll(points, -1))))
+        return turn if self.material == "inside" else -turn
+
+    def envelope(self):
+        """Pieces of the envelope in the order of the motion, an arc put in wherever the path has a corner."""
+        pieces = []
+        for number, (piece, following) in enumerate(_pairs(self.path)):
+            pieces.append(Piece(piece.start, piece.stop, self._branch(piece), piece.label, piece.shape, number))
+            pieces.extend(self._corner(piece, following))
+        return tuple(pieces)
+
+    def _branch(self, piece):
+        return lambda t: envelope_of_circle(piece.at(t), self.radius, self.side)
+
+    def _corner(self, piece, following):
+        before, after = _end(piece, piece.stop), _end(following, following.start)
+        turn = float(np.angle(after.d1 / before.d1))
+        if abs(turn) < _CORNER:
+            return
+        arm = self.side * self.radius * 1j * before.d1 / abs(before.d1)
+        yield Piece(0.0, turn, lambda angle: before.d0 + arm * exp(1j * variable(angle)), f"{piece.label} corner", "arc")
+
+    def members(self, index, t):
+        """The centre, as a jet of the motion's parameter."""
+        return gather(self.path, index, t)
+
+    def values(self, members):
+        """The members without their derivatives."""
+        return members.d0
+
+    def gap(self, centre, point):
+        """|point - centre| - radius; jets or arrays."""
+        apart = point - centre
+        return (sqrt(apart.abs2()) if isinstance(apart, Jet) else np.abs(apart)) - self.radius
+
+    def deepest(self, members, points):
+        """For each point the number of the member with the least gap."""
+        from scipy.spatial import cKDTree
+
+        return cKDTree(np.stack([members.real, members.imag], axis=1)).query(np.stack([points.real, points.imag], axis=1))[1]
+
+
+@dataclass(frozen=True)
+class LineFamily:
+    """A flat face moving through one cycle: pieces whose `at(t)` gives the jets (direction beta, support p).
+
+    The face is the line Re(conj(n) z) = p with n = e^{i beta}; the part lies on its side Re(conj(n) z) <= p, the follower beyond.
+    """
+
+    motion: tuple
+    material: str = "inside"
+
+    def __post_init__(self):
+        if self.material != "inside":
+            raise InputError(f"LineFamily: material = {self.material!r}; a straight face can only cut what lies 'inside' its envelope.")
+        _refuse_disorder(self.motion)
+
+    def envelope(self):
+        """Pieces of the envelope in the order of the motion, a straight piece put in wherever the contact point jumps."""
+        pieces = [
+            Piece(piece.start, piece.stop, self._branch(piece), piece.label, piece.shape, k) for k, piece in enumerate(self.motion)
+        ]
+        size = max(abs(_end(piece, piece.start).d0) for piece in pieces)
+        joined = []
+        for piece, following in _pairs(pieces):
+            joined += [piece, *self._corner(_end(piece, piece.stop).d0, _end(following, following.start).d0, piece, size)]
+        return tuple(joined)
+
+    def _branch(self, piece):
+        return lambda t: envelope_of_line(*piece.at(t))
+
+    def _corner(self, before, after, piece, size):
+        if abs(after - before) > _CORNER * size:
+            yield Piece(0.0, 1.0, lambda u: before + (after - before) * variable(u), f"{piece.label} corner", "line")
+
+    def members(self, index, t):
+        """Unit normal and support, as jets of the motion's parameter."""
+        direction, support = gather(self.motion, index, t)
+        return exp(1j * direction), support
+
+    def values(self, members):
+        """The members without their derivatives, one row each of normal and support."""
+        return np.stack([members[0].d0, members[1].d0 + 0j])
+
+    def gap(self, member, point):
+        """p - Re(conj(n) z); jets or arrays."""
+        normal, support = member
+        return support.real - (normal.conj() * point).real
+
+    def deepest(self, members, points):
+        """For each point the number of the member with the least gap."""
+        normal, support = members
+        reach = np.stack([points.real, points.imag], axis=1) @ np.stack([normal.real, normal.imag])
+        return np.argmin(support.real - reach, axis=1)
+
+
+def _pairs(pieces):
+    return zip(pieces, (*pieces[1:], pieces[0]), strict=True)
+
+
+def _end(piece, t):
+    return piece.at(np.array([float(t)]))[0]
+
+
+def _refuse_disorder(pieces):
+    if not pieces:
+        raise InputError("family: it has no pieces; give at least one covering the cycle.")
+    for piece, following in zip(pieces, pieces[1:], strict=False):
+        if not piece.start < piece.stop or abs(following.start - piece.stop) > 1e-9 * abs(pieces[-1].stop - pieces[0].start):
+            raise InputError(
+                f"family: piece '{piece.label}' runs from {piece.start:.6g} to {piece.stop:.6g} and the next starts at "
+                f"{following.start:.6g}. Each must run upwards and start where the one before stops."
+            )

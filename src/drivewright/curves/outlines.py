@@ -1,0 +1,128 @@
+"""Outlines from surviving spans of exact curves; area, perimeter and parallel outline (tool path) of an outline."""
+
+import numpy as np
+
+from drivewright.errors import InputError
+from drivewright.scene import Arc, Line, Outline, Spline
+
+_ARC = 1e-8  # a piece flagged as an arc may differ from one by this, relative to its radius
+_FEWEST = 8  # chords in a spline
+
+
+def span_measures(spans, panels=12, order=8):
+    """Signed area (1/2) int Im(conj(z) dz) [m^2] and length int |dz| [m] of the closed chain of spans, by Gauss's rule."""
+    x, w = np.polynomial.legendre.leggauss(order)
+    area = length = 0.0
+    for span in spans:
+        edges = np.linspace(span.start, span.stop, panels + 1)
+        half = 0.5 * np.diff(edges)[:, None]
+        jet = span.piece.at((0.5 * (edges[1:] + edges[:-1])[:, None] + half * x).ravel())
+        weight = (half * w).ravel()
+        area += 0.5 * np.sum(weight * np.imag(np.conj(jet.d0) * jet.d1))
+        length += np.sum(np.abs(weight * jet.d1))
+    return float(area), float(length)
+
+
+def outline_of_spans(spans, tolerance, closed=True):
+    """Outline of the spans, turned counter-clockwise if closed: Arc and Line where flagged, else Spline.
+
+    The knots of a spline lie on the exact curve, so close that no chord is further than `tolerance` [m] from it.
+    """
+    if closed and span_measures(spans)[0] < 0:
+        spans = [span._replace(start=span.stop, stop=span.start) for span in reversed(spans)]
+    makers = {"arc": _arc, "line": _line, "smooth": _spline}
+    return Outline(tuple(makers[span.piece.shape](span, tolerance) for span in spans), closed)
+
+
+def _arc(span, tolerance):
+    points = span.piece.at(np.linspace(span.start, span.stop, 9)).d0
+    center = _center(points[0], points[3], points[6])  # of a full circle the last point is the first
+    arms = points - center
+    radius = abs(arms[0])
+    if not np.max(np.abs(np.abs(arms) - radius)) <= _ARC * radius:
+        raise InputError(
+            f"outline: piece '{span.piece.label}' is flagged as an arc but leaves the circle of radius {radius * 1e3:.4g} mm by "
+            f"{np.max(np.abs(np.abs(arms) - radius)) * 1e3:.3g} mm. Flag only dwells about a fixed axis as arcs."
+        )
+    sweep = float(np.sum(np.angle(arms[1:] / arms[:-1])))
+    return Arc(_pair(center), float(radius), float(np.angle(arms[0])), sweep)
+
+
+def _center(a, b, c):
+    """Centre of the circle through three points; nan when they are in line."""
+    b, c = b - a, c - a
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return a + 1j * (b * abs(c) ** 2 - c * abs(b) ** 2) / (2 * np.imag(np.conj(b) * c))
+
+
+def _line(span, tolerance):
+    ends = span.piece.at(np.array([span.start, span.stop])).d0
+    return Line(_pair(ends[0]), _pair(ends[1]))
+
+
+def _spline(span, tolerance, coarse=129):
+    """Knots spread so that the sagitta of every chord, its length times its turn / 8, is half the tolerance."""
+    t = np.linspace(span.start, span.stop, coarse)
+    speed = span.piece.at(t).d1
+    length = 0.5 * np.abs(speed[1:] + speed[:-1]) * np.abs(np.diff(t))
+    turn = np.abs(np.angle(speed[1:] / speed[:-1]))
+    chords = np.maximum(np.sqrt(length * turn / (4 * tolerance)), _FEWEST / (coarse - 1))
+    number = np.append(0.0, np.cumsum(chords))
+    knots = np.interp(np.linspace(0, number[-1], int(np.ceil(number[-1])) + 1), number, t)
+    knots[0], knots[-1] = span.start, span.stop
+    jet = span.piece.at(knots)
+    heading = jet.d1 / np.abs(jet.d1) * np.sign(span.stop - span.start)
+    return Spline(np.stack([jet.d0.real, jet.d0.imag], axis=1), _pair(heading[0]), _pair(heading[-1]))
+
+
+def _pair(z):
+    return float(z.real), float(z.imag)
+
+
+def outline_area(outline):
+    """Area [m^2] of a closed outline, positive when it runs counter-clockwise."""
+    return float(sum(_sector(piece) for piece in outline.pieces))
+
+
+def perimeter(outline):
+    """Length [m] of an outline."""
+    return float(sum(_length(piece) for piece in outline.pieces))
+
+
+def _sector(piece):
+    """(1/2) int x dy - y dx along the piece."""
+    if isinstance(piece, Arc):
+        start, end = (piece.radius * np.exp(1j * (piece.start + part)) for part in (0.0, piece.sweep))
+        return 0.5 * (piece.radius**2 * piece.sweep + np.imag(np.conj(complex(*piece.center)) * (end - start)))
+    if isinstance(piece, Line):
+        return 0.5 * np.imag(np.conj(complex(*piece.start)) * complex(*piece.end))
+    z, v, weight = _gauss(piece)
+    return 0.5 * np.sum(weight * np.imag(np.conj(z) * v))
+
+
+def _length(piece):
+    if isinstance(piece, Arc):
+        return piece.radius * abs(piece.sweep)
+    if isinstance(piece, Line):
+        return abs(complex(*piece.end) - complex(*piece.start))
+    _, v, weight = _gauss(piece)
+    return np.sum(weight * np.abs(v))
+
+
+def _gauss(spline):
+    """Points, derivatives and weights of Gauss's rule between the knots of a spline."""
+    curve, u = interpolant(spline)
+    x, w = np.polynomial.legendre.leggauss(4)
+    half = 0.5 * np.diff(u)[:, None]
+    at = 0.5 * (u[1:] + u[:-1])[:, None] + half * x
+    return curve(at), curve(at, 1), half * w
+
+
+def interpolant(spline):
+    """Cubic through the knots with the given end tangents, over the running chord length; returns (curve, u at the knots)."""
+    from scipy.interpolate import CubicSpline
+
+    z = np.asarray(spline.knots) @ (1, 1j)
+    u = np.append(0.0, np.cumsum(np.abs(np.diff(z))))
+    ends = complex(*spline.start_tangent), complex(*spline.end_tangent)
+    return CubicSpline(u, z, bc_type=((1, ends[0]), (1, ends[1]))), u

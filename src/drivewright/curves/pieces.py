@@ -1,0 +1,163 @@
+"""Curves made of smooth pieces joined end to end, and points spread along them."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from drivewright.errors import InputError
+from drivewright.numerics.jets import Jet
+
+_JOINT = 1e-8  # two pieces meet when their ends are this close, relative to the size of the curve
+
+_SLOW = 0.05  # a place is slow where the speed is below this part of the piece's greatest
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A smooth stretch of a curve or of a motion: `at(t)` for t from `start` to `stop`.
+
+    `at` maps an array of t to a complex Jet (a line family: to the two real Jets direction, support).
+    `shape` is "smooth", "arc" for a true circular arc (a dwell), or "line" for a straight one.
+    `stop` below `start` runs the piece backwards.  `source` tells pieces of the given motion from corners put between them.
+    """
+
+    start: float
+    stop: float
+    at: Callable
+    label: str = ""
+    shape: str = "smooth"
+    source: int | None = None
+
+    @property
+    def sense(self):
+        """+1 where the piece runs with its parameter, -1 where against it."""
+        return 1.0 if self.stop >= self.start else -1.0
+
+
+def gather(pieces, index, t):
+    """Values of piece `index[k]` at `t[k]`: a Jet, or a tuple of Jets, of the shape of t."""
+    order = np.argsort(index, kind="stable")
+    used, first = np.unique(index[order], return_index=True)
+    parts = np.split(t[order], first[1:])
+    values = [_spread(pieces[k].at(part), part.shape) for k, part in zip(used, parts, strict=True)]
+    back = np.empty_like(order)
+    back[order] = np.arange(len(order))
+    if isinstance(values[0], Jet):
+        return _joined(values)[back]
+    return tuple(_joined(column)[back] for column in zip(*values, strict=True))
+
+
+def _spread(value, shape):
+    """The jet, or each jet of the tuple, with all parts of one shape (a constant may come as a scalar)."""
+    if isinstance(value, Jet):
+        return Jet(*(np.broadcast_to(part, shape) for part in value))
+    return tuple(_spread(jet, shape) for jet in value)
+
+
+def _joined(jets):
+    return Jet(*(np.concatenate(column) for column in zip(*jets, strict=True)))
+
+
+@dataclass(frozen=True)
+class Chain:
+    """Pieces joined end to end with sample points: piece index, parameter, point z, velocity v in the direction of the chain.
+
+    A place on the chain is a float u: the sample number, fractions in between.
+    """
+
+    pieces: tuple
+    closed: bool
+    index: np.ndarray
+    t: np.ndarray
+    z: np.ndarray
+    v: np.ndarray
+
+    @cached_property
+    def first(self):
+        """Sample number at which each piece starts, and the total number at the end."""
+        return np.append(np.searchsorted(self.index, np.arange(len(self.pieces))), len(self.t))
+
+    @cached_property
+    def segments(self):
+        """Sample numbers that start a chord inside a piece."""
+        return np.flatnonzero(self.index[:-1] == self.index[1:])
+
+    @cached_property
+    def size(self):
+        """Largest extent of the curve [m]."""
+        return float(max(np.ptp(self.z.real), np.ptp(self.z.imag)))
+
+    def locate(self, u):
+        """Piece index and parameter at the places u."""
+        u = np.mod(u, len(self.t)) if self.closed else np.clip(u, 0, len(self.t) - 1)
+        index = np.clip(np.searchsorted(self.first, u, side="right") - 1, 0, len(self.pieces) - 1)
+        u = np.minimum(u, self.first[index + 1] - 1)
+        below = np.minimum(np.floor(u).astype(int), self.first[index + 1] - 2)
+        return index, self.t[below] + (u - below) * (self.t[below + 1] - self.t[below])
+
+    def place(self, index, t):
+        """The places u of parameters t on pieces `index`."""
+        u = np.empty(len(t))
+        for k in np.unique(index):
+            span = slice(self.first[k], self.first[k + 1])
+            sense = self.pieces[k].sense
+            u[index == k] = self.first[k] + np.interp(sense * t[index == k], sense * self.t[span], np.arange(span.stop - span.start))
+        return u
+
+
+def sample(pieces, count=1440, least=96, closed=True):
+    """Chain of the pieces with about `count` samples, spread half by parameter, half by arc length; at least `least` per piece."""
+    coarse = [np.linspace(piece.start, piece.stop, 33) for piece in pieces]
+    lengths = [_running_length(piece, t) for piece, t in zip(pieces, coarse, strict=True)]
+    total = sum(length[-1] for length in lengths)
+    spans = np.array([abs(piece.stop - piece.start) for piece in pieces])
+    parameters = []
+    for t, length, span in zip(coarse, lengths, spans / spans.sum(), strict=True):
+        share = 0.5 * span * np.linspace(0, 1, 33) + 0.5 * length / total
+        number = max(least, int(np.ceil(count * share[-1])))
+        parameters.append(_ends_exact(np.interp(np.linspace(0, share[-1], number), share, t), t))
+    parameters = [_crowded(piece, t) for piece, t in zip(pieces, parameters, strict=True)]
+    index = np.repeat(np.arange(len(pieces)), [len(t) for t in parameters])
+    jets = _joined([_spread(piece.at(t), t.shape) for piece, t in zip(pieces, parameters, strict=True)])
+    senses = np.array([piece.sense for piece in pieces])[index]
+    chain = Chain(tuple(pieces), closed, index, np.concatenate(parameters), jets.d0, jets.d1 * senses)
+    _refuse_gaps(chain)
+    return chain
+
+
+def _crowded(piece, t, parts=16):
+    """Parameters t with `parts` times as many about the places where the curve is slow: cusps come in narrow pairs."""
+    speed = np.abs(_spread(piece.at(t), t.shape).d1)
+    slow = np.flatnonzero((speed[1:-1] <= speed[:-2]) & (speed[1:-1] <= speed[2:]) & (speed[1:-1] < _SLOW * np.max(speed))) + 1
+    if not len(slow):
+        return t
+    steps = np.unique(np.clip(slow[:, None] + np.arange(-3, 3), 0, len(t) - 2))
+    between = t[steps, None] + (t[steps + 1] - t[steps])[:, None] * np.arange(1, parts) / parts
+    merged = np.sort(np.concatenate([t, between.ravel()]))
+    return merged if piece.sense > 0 else merged[::-1]
+
+
+def _running_length(piece, t):
+    speed = np.abs(np.broadcast_to(piece.at(t).d1, t.shape))
+    return np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.abs(np.diff(t))))
+
+
+def _ends_exact(t, like):
+    t[0], t[-1] = like[0], like[-1]
+    return t
+
+
+def _refuse_gaps(chain):
+    ends, starts = chain.first[1:] - 1, np.append(chain.first[1:-1], 0)
+    if not chain.closed:
+        ends, starts = ends[:-1], starts[:-1]
+    miss = np.abs(chain.z[ends] - chain.z[starts])
+    worst = int(np.argmax(miss)) if len(miss) else 0
+    if len(miss) and miss[worst] > _JOINT * chain.size:
+        here, there = chain.pieces[worst], chain.pieces[(worst + 1) % len(chain.pieces)]
+        raise InputError(
+            f"curve: piece '{here.label}' ends at t = {here.stop:.6g} and piece '{there.label}' starts at t = {there.start:.6g}, "
+            f"{miss[worst] * 1e3:.4g} mm apart. Pieces must follow one another without a jump and close after the last."
+        )

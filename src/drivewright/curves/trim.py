@@ -1,0 +1,275 @@
+"""The profile that is really left when a circle or a line has swept through the blank.
+
+The envelope q(t) of the cutting family is only a candidate: parts of it are cut away later by other members.  A test of the
+local curvature misses those made by distant members, so trimming is global: the envelope is split where it crosses itself,
+a part survives when no member of the whole family covers it, and the survivors are chained into the loop around the part.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.curves.coverage import Coverage, newton_step
+from drivewright.curves.crossings import self_crossings
+from drivewright.curves.outlines import outline_of_spans, span_measures
+from drivewright.curves.pieces import Chain, Piece, gather, sample
+from drivewright.errors import InputError, SolverError
+
+_UNSEEN = 1e-7  # swallowtails too small for the samples are this shallow, relative to the size of the curve
+
+
+class Span(NamedTuple):
+    """A surviving stretch of one envelope piece, from parameter `start` to `stop`."""
+
+    piece: Piece
+    start: float
+    stop: float
+
+
+class Corner(NamedTuple):
+    """A sharp corner of the profile: the envelope leaves at parameter `leaves` and goes on from `resumes`."""
+
+    leaves: float
+    resumes: float
+    point: complex
+
+
+@dataclass(frozen=True)
+class Trimmed:
+    """The surviving profile of a family.
+
+    spans: stretches of the envelope in order around the profile; corners: the trim points between them; crossings: every
+    self-intersection of the envelope; area [m^2], perimeter [m] of the closed profile (of the part, or of the hole in it).
+    """
+
+    family: object
+    spans: tuple
+    corners: tuple
+    crossings: tuple
+    area: float
+    perimeter: float
+    chain: Chain
+
+    @property
+    def undercut(self):
+        """True when some of the envelope was cut away."""
+        return bool(self.removed)
+
+    @cached_property
+    def removed(self):
+        """Intervals (start, stop) of the motion's parameter whose contact point was cut away, ascending."""
+        return tuple(_merged(gap for piece in self.chain.pieces if piece.source is not None for gap in _missing(piece, self.spans)))
+
+    def outline(self, tolerance=1e-6):
+        """Counter-clockwise Outline: true arcs on dwells and rounded corners, splines within `tolerance` [m] of their chords elsewhere."""
+        return outline_of_spans(self.spans, tolerance)
+
+
+def trim(family, interior=0j, samples=1440, least=96):
+    """Profile left by the family around the point `interior` (for material "outside": around the whole sweep).
+
+    samples: points on the envelope from which crossings are sought, at least `least` on each piece; a swallowtail narrower than
+    two of them is not seen, it is shallower than 1e-7 of the profile's size.
+    Raises InputError where nothing is left around the interior point, SolverError when the parts do not chain.
+    """
+    chain = sample(family.envelope(), samples, least)
+    crossings = self_crossings(chain)
+    cuts, partner = _cuts(crossings)
+    coverage = Coverage(family, chain, crossings)
+    if family.material == "inside":
+        _refuse_swept(coverage, interior)
+    alive = _alive(chain, coverage, cuts)
+    loop = _choose(chain, cuts, _loops(cuts, partner, alive), interior, family.material)
+    _refuse_missed_cuts(chain, coverage, cuts, loop)
+    spans, corners = _spans(chain, cuts, partner, loop)
+    area, perimeter = span_measures(spans)
+    return Trimmed(family, spans, corners, crossings, abs(area), perimeter, chain)
+
+
+def lost_motion(trimmed, t):
+    """How far [m] the follower can move beyond its planned place at the parameters t before it touches the real profile.
+
+    For a circle: distance from its planned centre to the profile minus the radius; for a line: its distance from the profile.
+    0 exactly where the planned contact point survives.
+    """
+    t = np.asarray(t, dtype=float)
+    flat = t.ravel()
+    lost = np.zeros(flat.shape)
+    missing = np.zeros(flat.shape, dtype=bool)
+    for start, stop in trimmed.removed:
+        missing |= (flat >= start) & (flat <= stop)
+    if missing.any():
+        lost[missing] = np.maximum(_gap_to_profile(trimmed, flat[missing]), 0.0)
+    return lost.reshape(t.shape)
+
+
+def largest_lost_motion(trimmed):
+    """(parameter, lost motion [m]) where it is greatest; (nan, 0.0) for an untrimmed profile."""
+    best = (np.nan, 0.0)
+    for start, stop in trimmed.removed:
+        for _ in range(3):  # each pass narrows the place by 32
+            t = np.linspace(start, stop, 65)
+            lost = lost_motion(trimmed, t)
+            k = int(np.argmax(lost))
+            start, stop = t[max(k - 1, 0)], t[min(k + 1, 64)]
+        best = max(best, (float(t[k]), float(lost[k])), key=lambda found: found[1])
+    return best
+
+
+def _refuse_swept(coverage, interior):
+    gap = float(coverage.coarse(np.array([complex(interior)]))[0])
+    if gap <= 0:
+        raise InputError(
+            f"trim: the cutter passes {-gap * 1e3:.4g} mm over the interior point ({interior.real:.4g}, {interior.imag:.4g}) m, so no part "
+            "is left around it. Enlarge the base circle or take a smaller roller."
+        )
+
+
+def _cuts(crossings):
+    """Places where the chain is split, ascending, and for each the number of its partner."""
+    places = np.array([place for crossing in crossings for place in crossing[:2]])
+    order = np.argsort(places)
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    return places[order], rank[order ^ 1]
+
+
+def _alive(chain, coverage, cuts):
+    """Whether the interval that starts at each cut survives: no member covers it.
+
+    One uncovered point of three is enough: the others may have fallen into a swallowtail too small to be seen.
+    """
+    if not len(cuts):
+        return np.ones(1, dtype=bool)
+    widths = np.diff(np.append(cuts, cuts[0] + len(chain.t)))
+    places = cuts + widths * np.array([[0.5], [0.37], [0.71]])
+    points = gather(chain.pieces, *chain.locate(places.ravel())).d0
+    return np.any(coverage.least(points).reshape(places.shape) >= -coverage.depth, axis=0)
+
+
+def _loops(cuts, partner, alive):
+    """Closed sequences of surviving intervals; at each cut the next interval, or the one that starts at the partner."""
+    left = set(np.flatnonzero(alive))
+    loops = []
+    while left:
+        start = k = min(left)
+        loop = []
+        while k in left:
+            left.remove(k)
+            loop.append(int(k))
+            if len(cuts):
+                following = (k + 1) % len(cuts)
+                k = following if alive[following] else partner[following]
+        if k == start or not len(cuts):
+            loops.append(loop)
+    return loops
+
+
+def _choose(chain, cuts, loops, interior, material):
+    """The loop that winds around the interior point: the smallest for material inside, the largest for material outside."""
+    around = []
+    for loop in loops:
+        points = np.concatenate([chain.z[_samples_between(chain, *_interval(chain, cuts, k))] for k in loop])
+        arms = points - interior
+        winding = np.sum(np.angle(np.roll(arms, -1) / arms)) / (2 * np.pi)
+        if abs(winding) > 0.5:
+            around.append((abs(np.sum(np.imag(np.conj(arms) * np.roll(arms, -1)))), loop))
+    if not around:
+        raise SolverError(
+            f"trim: {len(loops)} closed loops survive of {max(len(cuts), 1)} parts of the envelope, none around the interior point "
+            f"({interior.real:.4g}, {interior.imag:.4g}) m. Raise `samples`, or check that the part is not cut through."
+        )
+    return (min if material == "inside" else max)(around)[1]
+
+
+def _interval(chain, cuts, k):
+    if not len(cuts):
+        return 0.0, float(len(chain.t))
+    return cuts[k], cuts[k + 1] if k + 1 < len(cuts) else cuts[0] + len(chain.t)
+
+
+def _samples_between(chain, start, stop):
+    return np.arange(int(np.ceil(start)), int(np.ceil(stop))) % len(chain.t)
+
+
+def _refuse_missed_cuts(chain, coverage, cuts, loop):
+    """A covered sample on a surviving interval means that a crossing was not seen."""
+    kept = np.concatenate([_samples_between(chain, *_interval(chain, cuts, k)) for k in loop])
+    gaps = coverage.coarse(chain.z[kept])
+    worst = int(np.argmin(gaps))
+    if gaps[worst] < -_UNSEEN * chain.size:
+        piece, t = chain.pieces[chain.index[kept[worst]]], chain.t[kept[worst]]
+        raise SolverError(
+            f"trim: piece '{piece.label}' at t = {t:.6g} is still covered by {-gaps[worst] * 1e3:.3g} mm; a self-intersection of the "
+            f"envelope was missed. Raise `samples` above {len(chain.t)}."
+        )
+
+
+def _spans(chain, cuts, partner, loop):
+    spans, corners = [], []
+    for number, k in enumerate(loop):
+        start, stop = _interval(chain, cuts, k)
+        spans += _split(chain, start, stop)
+        following = loop[(number + 1) % len(loop)]
+        end = (k + 1) % len(cuts) if len(cuts) else 0
+        if len(cuts) and following != end:
+            index, t = chain.locate(cuts[[end, following]])
+            corners.append(Corner(float(t[0]), float(t[1]), complex(gather(chain.pieces, index, t).d0[0])))
+    return tuple(spans), tuple(corners)
+
+
+def _split(chain, start, stop):
+    """Spans of the interval of places, one per piece."""
+    spans = []
+    for turn in (0, len(chain.t)):
+        for k, piece in enumerate(chain.pieces):
+            low, high = max(start, chain.first[k] + turn), min(stop, chain.first[k + 1] - 1 + turn)
+            if high > low:
+                _, t = chain.locate(np.array([low, high]))
+                spans.append(Span(piece, float(t[0]), float(t[1])))
+    return spans
+
+
+def _missing(piece, spans):
+    """Intervals of the piece that no span holds."""
+    at, end = sorted((piece.start, piece.stop))
+    for start, stop in sorted(sorted((span.start, span.stop)) for span in spans if span.piece is piece):
+        if start > at:
+            yield at, start
+        at = stop
+    if at < end:
+        yield at, end
+
+
+def _merged(intervals):
+    merged = []
+    for start, stop in sorted(intervals):
+        if merged and start <= merged[-1][1]:
+            merged[-1] = (merged[-1][0], max(stop, merged[-1][1]))
+        else:
+            merged.append((start, stop))
+    return merged
+
+
+def _gap_to_profile(trimmed, t, steps=6):
+    """Least gap between the members at t and the surviving profile."""
+    family, spans = trimmed.family, trimmed.spans
+    motion = family.envelope()
+    starts = np.array([piece.start for piece in motion if piece.source is not None])
+    members = family.values(family.members(np.clip(np.searchsorted(starts, t, side="right") - 1, 0, len(starts) - 1), t))
+    s = np.concatenate([np.linspace(span.start, span.stop, 65) for span in spans])
+    pieces = tuple(span.piece for span in spans)
+    index = np.repeat(np.arange(len(spans)), 65)
+    gaps = family.gap(members[..., None], gather(pieces, index, s).d0)
+    best = np.argmin(gaps, axis=-1)
+    least, at = np.min(gaps, axis=-1), s[best]
+    low = np.where(best % 65 > 0, s[best - 1], at)
+    high = np.where(best % 65 < 64, s[np.minimum(best + 1, len(s) - 1)], at)
+    low, high = np.minimum(low, high), np.maximum(low, high)
+    for _ in range(steps):
+        gap = family.gap(members, gather(pieces, index[best], at))
+        least = np.minimum(least, gap.d0)
+        at = newton_step(at, gap, low, high)
+    return least
