@@ -1,7 +1,7 @@
 """Where a chain of smooth pieces crosses itself.
 
-Chords of dense samples find the crossings, Newton's method on q(a) = q(b) makes them exact.  Swallowtails smaller than the
-chords show as pairs of cusps and are sought from there.
+Chords of dense samples find the crossings, Newton's method on q(a) = q(b) makes them exact.  Tails between a cusp and a joint may
+be thinner than the chords' error; they are sought from the joint.
 """
 
 from typing import NamedTuple
@@ -25,7 +25,7 @@ class Crossing(NamedTuple):
 
 def self_crossings(chain):
     """All crossings of the chain with itself, in order of their first place."""
-    seeds = np.concatenate([_from_chords(chain), _from_cusps(chain)])
+    seeds = np.concatenate([_from_chords(chain), _from_joints(chain)])
     if not len(seeds):
         return ()
     first, second, point = _refined(chain, seeds)
@@ -57,25 +57,50 @@ def _from_chords(chain):
     return np.stack([start[i[hit]] + s[hit], start[j[hit]] + r[hit]], axis=1)
 
 
-def _from_cusps(chain):
-    """Starting places for the small swallowtails between neighbouring cusps.
-
-    Near the middle m of two cusps 2 w apart q' is proportional to ((t - m)^2 - w^2)(1, t - m): the branches cross at m +- sqrt(3) w.
-    """
+def _cusps(chain):
+    """Places inside the pieces where the chain reverses."""
     start = chain.segments
     back = start[np.real(np.conj(chain.v[start]) * chain.v[start + 1]) < 0]
     speed = np.abs(chain.v)
-    cusps = back + speed[back] / (speed[back] + speed[back + 1])
-    middle, half = 0.5 * (cusps[1:] + cusps[:-1]), 0.5 * np.diff(cusps)
-    near = half < 20
-    return np.stack([middle - np.sqrt(3) * half, middle + np.sqrt(3) * half], axis=1)[near]
+    return back + speed[back] / (speed[back] + speed[back + 1])
+
+
+def _from_joints(chain):
+    """Starting places for the small tails between a cusp and a joint at which the chain reverses once more.
+
+    Such a tail has no one scale, so the branch beyond the cusp is tried in growing steps, each with the place on the other side of
+    the joint that is equally far from the joint.
+    """
+    cusps, seeds = _cusps(chain), []
+    for k in range(len(chain.pieces) if chain.closed else len(chain.pieces) - 1):
+        end, start = chain.first[k + 1] - 1, chain.first[k + 1] % len(chain.t)
+        if np.real(np.conj(chain.v[end]) * chain.v[start]) >= 0:
+            continue
+        last, following = chain.first[k], chain.first[(k + 1) % len(chain.pieces) + 1] - 1
+        before = cusps[(cusps > last) & (cusps < end)]
+        after = cusps[(cusps > start) & (cusps < following)]
+        if len(before):
+            seeds += _ladder(chain, end, before[-1], last, np.arange(start, following + 1))
+        if len(after):
+            seeds += _ladder(chain, start, after[0], following, np.arange(end, last - 1, -1))
+    return np.array(seeds).reshape(-1, 2)
+
+
+def _ladder(chain, joint, cusp, limit, other):
+    """Places beyond the cusp, at growing multiples of its distance from the joint, with their equals among the `other` samples."""
+    places = cusp + (cusp - joint) * 1.5 ** np.arange(24)
+    places = places[(places - limit) * (joint - limit) > 0]
+    far = np.abs(gather(chain.pieces, *chain.locate(places)).d0 - chain.z[joint])
+    distance = np.maximum.accumulate(np.abs(chain.z[other] - chain.z[joint]))
+    equal = other[0] + np.sign(other[-1] - other[0]) * np.interp(far, distance, np.arange(len(other)))
+    return list(zip(places, equal, strict=True))
 
 
 def _refined(chain, seeds, steps=15):
     """Newton on q(a) = q(b) for all seeds at once; those that meet nowhere or only themselves are dropped."""
     index, t = chain.locate(seeds.ravel())
     for _ in range(steps):
-        step = _step(gather(chain.pieces, index, t), index, t)
+        step = _step(gather(chain.pieces, index, t))
         index, t = _cross_joints(chain, index, t + step)
         low, high = _range(chain, index)
         t = np.clip(t, low, high)
@@ -90,16 +115,10 @@ def _refined(chain, seeds, steps=15):
     return u[::2][good], u[1::2][good], q[::2][good]
 
 
-def _step(q, index, t):
-    """Newton step for a and b in turn.
-
-    On one piece a = b is a root too, and near a cusp it attracts.  It is divided out: Newton on (q(b) - q(a))/(b - a) is Newton
-    on q(b) - q(a) with the chord's slope (q(b) - q(a))/(b - a) taken off both derivatives.
-    """
-    miss, between = q.d0[1::2] - q.d0[::2], t[1::2] - t[::2]
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        chord = np.where((index[::2] == index[1::2]) & (between != 0), miss / between, 0.0)
-        from_a, from_b = q.d1[::2] - chord, q.d1[1::2] - chord
+def _step(q):
+    """Newton step for a and b in turn."""
+    miss, from_a, from_b = q.d0[1::2] - q.d0[::2], q.d1[::2], q.d1[1::2]
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):  # tangent branches: no step
         area = _cross(from_a, from_b)
         step = np.stack([_cross(miss, from_b) / area, _cross(miss, from_a) / area], axis=1).ravel()
     return np.where(np.isfinite(step), step, 0.0)

@@ -113,14 +113,15 @@ def sample(pieces, count=1440, least=96, closed=True):
     lengths = [_running_length(piece, t) for piece, t in zip(pieces, coarse, strict=True)]
     total = sum(length[-1] for length in lengths)
     spans = np.array([abs(piece.stop - piece.start) for piece in pieces])
-    parameters = []
-    for t, length, span in zip(coarse, lengths, spans / spans.sum(), strict=True):
+    parameters, jets = [], []
+    for piece, t, length, span in zip(pieces, coarse, lengths, spans / spans.sum(), strict=True):
         share = 0.5 * span * np.linspace(0, 1, 33) + 0.5 * length / total
         number = max(least, int(np.ceil(count * share[-1])))
-        parameters.append(_ends_exact(np.interp(np.linspace(0, share[-1], number), share, t), t))
-    parameters = [_crowded(piece, t) for piece, t in zip(pieces, parameters, strict=True)]
+        t, jet = _crowded(piece, _ends_exact(np.interp(np.linspace(0, share[-1], number), share, t), t))
+        parameters.append(t)
+        jets.append(jet)
     index = np.repeat(np.arange(len(pieces)), [len(t) for t in parameters])
-    jets = _joined([_spread(piece.at(t), t.shape) for piece, t in zip(pieces, parameters, strict=True)])
+    jets = _joined(jets)
     senses = np.array([piece.sense for piece in pieces])[index]
     chain = Chain(tuple(pieces), closed, index, np.concatenate(parameters), jets.d0, jets.d1 * senses)
     _refuse_gaps(chain)
@@ -128,15 +129,16 @@ def sample(pieces, count=1440, least=96, closed=True):
 
 
 def _crowded(piece, t, parts=16):
-    """Parameters t with `parts` times as many about the places where the curve is slow: cusps come in narrow pairs."""
-    speed = np.abs(_spread(piece.at(t), t.shape).d1)
+    """Parameters t, `parts` times as many about the places where the curve is slow (cusps come in narrow pairs), and the jet there."""
+    jet = _spread(piece.at(t), t.shape)
+    speed = np.abs(jet.d1)
     slow = np.flatnonzero((speed[1:-1] <= speed[:-2]) & (speed[1:-1] <= speed[2:]) & (speed[1:-1] < _SLOW * np.max(speed))) + 1
     if not len(slow):
-        return t
+        return t, jet
     steps = np.unique(np.clip(slow[:, None] + np.arange(-3, 3), 0, len(t) - 2))
     between = t[steps, None] + (t[steps + 1] - t[steps])[:, None] * np.arange(1, parts) / parts
-    merged = np.sort(np.concatenate([t, between.ravel()]))
-    return merged if piece.sense > 0 else merged[::-1]
+    merged = np.sort(np.concatenate([t, between.ravel()]))[:: int(piece.sense)]
+    return merged, _spread(piece.at(merged), merged.shape)
 
 
 def _running_length(piece, t):

@@ -5,7 +5,7 @@ local curvature misses those made by distant members, so trimming is global: the
 a part survives when no member of the whole family covers it, and the survivors are chained into the loop around the part.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
@@ -50,7 +50,7 @@ class Trimmed:
     crossings: tuple
     area: float
     perimeter: float
-    chain: Chain
+    chain: Chain = field(repr=False)
 
     @property
     def undercut(self):
@@ -210,14 +210,30 @@ def _refuse_missed_cuts(chain, coverage, cuts, loop):
 def _spans(chain, cuts, partner, loop):
     spans, corners = [], []
     for number, k in enumerate(loop):
-        start, stop = _interval(chain, cuts, k)
-        spans += _split(chain, start, stop)
+        spans += _split(chain, *_interval(chain, cuts, k))
         following = loop[(number + 1) % len(loop)]
         end = (k + 1) % len(cuts) if len(cuts) else 0
         if len(cuts) and following != end:
             index, t = chain.locate(cuts[[end, following]])
             corners.append(Corner(float(t[0]), float(t[1]), complex(gather(chain.pieces, index, t).d0[0])))
-    return tuple(spans), tuple(corners)
+    return tuple(_rejoined(spans)), tuple(corners)
+
+
+def _rejoined(spans):
+    """Spans with those put together that a crossing split without ending them."""
+    joined = []
+    for span in spans:
+        if joined and _continues(joined[-1], span):
+            joined[-1] = joined[-1]._replace(stop=span.stop)
+        else:
+            joined.append(span)
+    if len(joined) > 1 and _continues(joined[-1], joined[0]):
+        joined[0] = joined.pop()._replace(stop=joined[0].stop)
+    return joined
+
+
+def _continues(span, other):
+    return span.piece is other.piece and abs(other.start - span.stop) <= 1e-12 * max(abs(span.stop), abs(other.stop - other.start))
 
 
 def _split(chain, start, stop):
