@@ -14,29 +14,39 @@ def build(spec):
     return registry.mechanism(spec.mechanism).build(spec)
 
 
-def scene(spec):
+def scene(spec, model=None):
     """The Scene of a spec, or None where the kind has none."""
     make = registry.mechanism(spec.mechanism).scene
-    return make(build(spec)) if make else None
+    return make(model or build(spec)) if make else None
 
 
-def run(spec, only=(), everything=False, progress=None):
+def drawings(spec, model=None):
+    """The flat parts of a spec for manufacture; none where the kind has none."""
+    make = registry.mechanism(spec.mechanism).drawings
+    return make(model or build(spec)) if make else ()
+
+
+def run(spec, only=(), everything=False, progress=None, model=None):
     """Result of the default analyses of a spec, of exactly those named in `only` and what they need, or of all.
 
     `progress(done, total, name)` is called before each analysis.  What is left out is listed in the findings.
+    `model` is the spec's own, where it has been built already.
     """
     started = time.perf_counter()
     mechanism = registry.mechanism(spec.mechanism)
     wanted = selection(mechanism.analyses, only, everything)
-    model = mechanism.build(spec)
+    model = model or mechanism.build(spec)
     answers, findings = {}, list(getattr(model, "findings", ()))
     for number, analysis in enumerate(wanted):
         if progress:
             progress(number, len(wanted), analysis.name)
         answers[analysis.name] = answer = _answer(analysis, spec, model, answers)
         findings += answer.findings
-    findings += [f"analysis '{a.name}' ({a.meaning}) runs on request: --only {a.name}" for a in mechanism.analyses
-                 if not only and not everything and not a.default]
+    findings += [
+        f"analysis '{a.name}' ({a.meaning}) runs on request: --only {a.name}"
+        for a in mechanism.analyses
+        if not only and not everything and not a.default
+    ]
     return _result(spec, mechanism, answers, findings, time.perf_counter() - started)
 
 
@@ -62,7 +72,9 @@ def selection(analyses, only=(), everything=False):
 
 def _answer(analysis, spec, model, answers):
     """The analysis' answer; an empty one with a finding where its input or its extra is missing."""
-    reason = analysis.missing(spec) or next((f"it needs '{n}', which is left out" for n in analysis.needs if answers[n].outcome == "left out"), None)
+    reason = analysis.missing(spec) or next(
+        (f"it needs '{n}', which is left out" for n in analysis.needs if answers[n].outcome == "left out"), None
+    )
     if reason is None:
         try:
             return analysis.answer(model, answers)
@@ -74,14 +86,24 @@ def _answer(analysis, spec, model, answers):
 def _result(spec, mechanism, answers, findings, seconds):
     values = {k: v for a in answers.values() for k, v in a.values.items()}
     return Result(
-        spec=spec, mechanism=mechanism.kind, title=spec.title or mechanism.summary, digest=spec.digest(), values=values,
+        spec=spec,
+        mechanism=mechanism.kind,
+        title=spec.title or mechanism.summary,
+        digest=spec.digest(),
+        values=values,
         arrays={k: v for a in answers.values() for k, v in a.arrays.items()},
         tables={t.name: t for a in answers.values() for t in a.tables},
         checks=tuple(c for a in answers.values() for c in a.checks),
         findings=tuple(findings),
         outcome="partial" if any(a.outcome == "partial" for a in answers.values()) else "complete",
-        provenance={"seed": spec.optimise.seed if spec.optimise else 0, "seconds": round(seconds, 4), "analyses": list(answers),
-                    "versions": versions(), "sources": list(mechanism.sources)})
+        provenance={
+            "seed": spec.optimise.seed if spec.optimise else 0,
+            "seconds": round(seconds, 4),
+            "analyses": list(answers),
+            "versions": versions(),
+            "sources": list(mechanism.sources),
+        },
+    )
 
 
 def versions():

@@ -168,12 +168,13 @@ class Scene:
 
 @dataclass(frozen=True)
 class Drawing:
-    """One flat part for manufacture: shapes on layers; `thickness` [m]."""
+    """One flat part for manufacture: shapes on layers; `thickness` [m]; `milled` where an end mill can go round its profile."""
 
     name: str
     title: str
     shapes: tuple
     thickness: float = 0.0
+    milled: bool = True
 
     def on(self, layer):
         return tuple(shape.outline for shape in self.shapes if shape.layer == layer)

@@ -1,0 +1,87 @@
+"""Rice transplanter's planting arm: three-elliptic-gear planetary train and conjugate-cam seedling pusher."""
+
+from pathlib import Path
+
+from drivewright.mechanisms.seedling_pusher import analyse, dynamics, manufacture, planting, scene
+from drivewright.mechanisms.seedling_pusher.build import build
+from drivewright.mechanisms.seedling_pusher.designs import batch
+from drivewright.mechanisms.seedling_pusher.spec import SeedlingPusherSpec
+from drivewright.mechanisms.seedling_pusher.verify import verify
+from drivewright.registry import Analysis, Mechanism
+from drivewright.result import Plot
+
+ANALYSES = (
+    Analysis("train", planting.train, "elliptic train, tip track, arm rotation"),
+    Analysis("planting", planting.planting, "needle angles and the requirements of planting"),
+    Analysis("cams", analyse.cams, "pressure angles, curvature, real profiles and lost motion of both cams"),
+    Analysis("load", analyse.load, "rod dynamics, normal forces, Hertz pressure, torque"),
+    Analysis("contact", dynamics.contact, "lever between the cams with play: forces, separation, rod error"),
+    Analysis("teeth", manufacture.teeth, "teeth of the elliptic gears", default=False),
+    Analysis("inspection", manufacture.inspection, "radius and angle of both profiles with tolerance", default=False),
+    Analysis("clearance", dynamics.clearance_study, "peak force and rod error over clearance and speed", default=False),
+)
+
+PLOTS = (
+    Plot("rod", "Pusher rod over one carrier turn", "cycle", "carrier_angle", ("rod",)),
+    Plot("rod_velocity", "Rod velocity", "cycle", "carrier_angle", ("rod_velocity",)),
+    Plot("rod_acceleration", "Rod acceleration", "cycle", "carrier_angle", ("rod_acceleration",)),
+    Plot("planet", "Planet relative to the carrier", "cycle", "carrier_angle", ("planet_angle", "arm_rotation")),
+    Plot("ratio", "Planet speed over carrier speed", "cycle", "carrier_angle", ("planet_ratio",)),
+    Plot("needle", "Needle below the horizontal", "cycle", "carrier_angle", ("needle_angle",)),
+    Plot(
+        "pressure_angle",
+        "Pressure angle of both cams",
+        "cams",
+        "carrier_angle",
+        ("main.pressure_angle", "return.pressure_angle"),
+        ((0.6981317007977318, "40 deg"), (-0.6981317007977318, "-40 deg")),
+    ),
+    Plot(
+        "convexity",
+        "Roller radius times curvature of the pitch curve",
+        "cams",
+        "carrier_angle",
+        ("main.convex_ratio", "return.convex_ratio"),
+        ((1.0, "undercut"),),
+    ),
+    Plot("force", "Normal force without play", "load", "carrier_angle", ("main.force", "return.force")),
+    Plot("hertz", "Hertz pressure on the intended profile", "load", "carrier_angle", ("main.pressure", "return.pressure")),
+    Plot("contact_force", "Contact force with play, last turn", "contact", "carrier_angle", ("main.force", "return.force")),
+    Plot("rod_error", "Rod ahead of its programme, last turn", "contact", "carrier_angle", ("rod_error",)),
+    Plot("track", "Needle tip and planet axis, machine frame", "cycle", "tip_x", ("tip_y",), equal=True),
+    Plot("field_track", "Needle tip over the field", "cycle", "field_x", ("tip_y",), equal=True),
+)
+
+mechanism = Mechanism(
+    kind="seedling-pusher",
+    summary="seedling pusher: conjugate cams on a three-elliptic-gear planetary train",
+    spec=SeedlingPusherSpec,
+    build=build,
+    analyses=ANALYSES,
+    folder=Path(__file__).parent,
+    scene=scene.scene,
+    plots=PLOTS,
+    drawings=scene.drawings,
+    parts=scene.parts,
+    verify=verify,
+    batch=batch,
+    sources=(
+        "Chen Jianneng, Wang Ying, Zhao Xiong, Zhao Yun: Reverse design and simulation of walking-type rice transplanter's "
+        "seedling-pushing device based on conjugate cam. Transactions of the CSAM 42(12), 2011, 78-82 (in Chinese).",
+    ),
+    headline=(
+        "tip.track_height",
+        "tip.track_width",
+        "needle.take_angle",
+        "needle.push_angle",
+        "needle.angle_difference",
+        "cam.main.max_pressure_angle.rise",
+        "cam.return.max_pressure_angle.return",
+        "cam.main.min_convex_radius",
+        "cam.return.min_convex_radius",
+        "cam.return.lost_motion",
+        "lever.swing",
+        "contact.peak_force",
+        "contact.rod_error.max",
+    ),
+)

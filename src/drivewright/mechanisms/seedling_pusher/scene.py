@@ -1,0 +1,277 @@
+"""The seedling pusher as shapes, drawings and solids.
+
+World: sun axis at the origin, carrier turning clockwise.  The rod runs along the needle's direction d, the lever pivot lies
+beside the planet axis at right angles to it: on the needle's side where the pivot orbits the cams counter-clockwise, as the
+train turns the arm; on the far side, everything mirrored, where the spec says clockwise.
+"""
+
+from functools import partial
+
+import numpy as np
+
+from drivewright.mechanisms.seedling_pusher.build import TURN
+from drivewright.mechanisms.seedling_pusher.planting import advance
+from drivewright.scene import Bar, Body, Drawing, Frame, Line, Outline, Part, Prism, Scene, Shape, Trace, capsule, circle, polygon
+
+FRAMES = 361
+GEAR_THICKNESS, LEVER_THICKNESS, PIN, GAP = 10e-3, 4e-3, 2.5e-3, 0.5e-3
+
+
+def scene(model):
+    """One carrier turn: train, arm with lever and rod, cams; machine, field, carrier and arm frames."""
+    t = np.linspace(0, TURN, FRAMES)
+    spec, trimmed = model.spec, model.trimmed
+    axis, rotation, swing = model.planet_axis(t).d0, model.arm_rotation(t).d0, model.swing(t).d0
+    carrier = 2 * spec.train.semi_major * np.exp(1j * (spec.train.carrier_angle - t))
+    wheel = gear_outline(model)
+    arm_pose, lever_pivot = _poses(axis, rotation), axis + np.exp(1j * rotation) * pivot(model)
+    bodies = (
+        _gear("sun", "sun gear (fixed)", wheel, _poses(0 * axis, 0 * t + sun_angle(model)), "ground"),
+        _gear("intermediate", "intermediate gear", wheel, _poses(carrier, intermediate_angle(model, t)), "steel"),
+        _gear("planet", "planet gear", wheel, _poses(axis, planet_angle(model, t)), "steel"),
+        Body("carrier", "carrier", (Shape("body", _carrier_shape(model)),), _poses(0 * axis, -t), "blue"),
+        *(
+            Body(f"cam.{cam.name}", f"{cam.name} cam", tuple(cam_shapes(model, cam, trimmed[cam.name])), _poses(axis, -t), colour)
+            for cam, colour in zip(model.cams, ("orange", "violet"), strict=True)
+        ),
+        Body("arm", "planting arm with needle", tuple(_arm_shapes(model)), arm_pose, "green"),
+        Body("lever", "lever with rollers", tuple(_lever_shapes(model)), _poses(lever_pivot, rotation - side(model) * swing), "blue"),
+        Body(
+            "rod",
+            "pusher rod",
+            (Shape("body", _rod_shape(model)),),
+            _poses(axis + np.exp(1j * rotation) * model.rod(t).d0 * needle(model), rotation),
+            "orange",
+        ),
+    )
+    tip_in_arm = spec.arm.tip_distance * np.exp(1j * model.tip_start)
+    traces = (Trace("tip", "needle tip", "arm", _xy(tip_in_arm)), Trace("axis", "planet axis", "arm", (0.0, 0.0)))
+    marks = ((model.highest, "top"), (model.lowest, "lowest"), (model.push_start % TURN, "push"))
+    return Scene(t, "carrier angle", "rad", TURN / spec.drive.speed, bodies, _frames(model, t, axis, rotation), traces, "cycle", marks)
+
+
+def _poses(position, angle):
+    position, angle = np.broadcast_arrays(position, angle)
+    return np.stack([position.real, position.imag, angle.astype(float)], axis=1)
+
+
+def _xy(z):
+    return (float(z.real), float(z.imag))
+
+
+def _gear(name, label, outline, poses, colour):
+    return Body(name, label, (Shape("body", outline), Shape("hole", circle((0, 0), 4e-3))), poses, colour)
+
+
+def _frames(model, t, axis, rotation):
+    """Observers: the machine, the field that it drives over, the carrier, the arm."""
+    still = np.zeros((len(t), 3))
+    field = np.stack([-advance(model) * t / TURN, 0 * t, 0 * t], axis=1)
+    return (
+        Frame("machine", "machine", still),
+        Frame("field", "field", field, (-advance(model), 0.0), tuple(_field_shapes(model))),
+        Frame("cams", "cams (carrier)", _poses(axis, -t)),
+        Frame("arm", "planting arm", _poses(axis, rotation)),
+    )
+
+
+def _field_shapes(model):
+    """Soil line and the plants of neighbouring turns, where the tip was lowest."""
+    field, lowest = model.spec.field, model.tip(model.lowest).d0
+    ground, step = float(lowest.imag) + field.mouth_height, advance(model)
+    foot = float(lowest.real) + step * model.lowest / TURN
+    yield Shape("ground", Outline((Line((foot - 4 * field.spacing, ground), (foot + 4 * field.spacing, ground)),), closed=False))
+    for turn in range(-3, 1):
+        x = foot + turn * step
+        yield Shape("axis", Outline((Line((x, ground - field.mouth_height), (x, ground + field.seedling_height)),), closed=False))
+
+
+# -- train -----------------------------------------------------------------------------------------------------------------------
+
+
+def gear_outline(model):
+    """Toothed outline of the three congruent gears, axis (focus) at the origin, the short focal radius along +x."""
+    return model.gear.outline(model.spec.manufacture.chord_tolerance)
+
+
+def sun_angle(model):
+    """Direction of the sun's short focal radius: towards the intermediate gear in a near start, away from it in a far start."""
+    return model.spec.train.carrier_angle + (0.0 if model.spec.train.start == "near" else np.pi)
+
+
+def intermediate_angle(model, t):
+    """Direction of the intermediate gear's short focal radius, in the world: clockwise by theta in the carrier, which turns by -t."""
+    return sun_angle(model) - t - model.train.angles(t)[1].d0
+
+
+def planet_angle(model, t):
+    """Direction of the planet's short focal radius: at phase p = 0 its long radius points at the intermediate gear (near start)."""
+    return sun_angle(model) + model.bend - t + model.train.phase + model.planet(t).d0
+
+
+def _carrier_shape(model):
+    arm, start = 2 * model.spec.train.semi_major, model.spec.train.carrier_angle
+    middle = arm * np.exp(1j * start)
+    end = middle + arm * np.exp(1j * (start + model.bend))
+    return polygon([(0.0, 0.0), _xy(middle), _xy(end)], closed=False)
+
+
+# -- arm, lever, rod: all in the frame of the arm at t = 0, origin on the planet axis ------------------------------------------------
+
+
+def side(model):
+    """+1 where the lever stands on the needle's side of the planet axis, -1 where mirrored."""
+    return model.orbit
+
+
+def needle(model):
+    """Direction of needle and rod."""
+    return np.exp(1j * (model.tip_start - model.spec.arm.needle_angle))
+
+
+def pivot(model):
+    """Lever pivot."""
+    return model.spec.lever.pivot_distance * _outwards(model)
+
+
+def _outwards(model):
+    return side(model) * 1j * needle(model)
+
+
+def rollers(model):
+    """Roller centres with the rod in, relative to the lever pivot, by cam name."""
+    return {cam.name: -cam.arm * np.exp(-1j * side(model) * cam.side * cam.rest_angle) * _outwards(model) for cam in model.cams}
+
+
+def _arm_shapes(model):
+    spec, tip = model.spec, model.spec.arm.tip_distance * np.exp(1j * model.tip_start)
+    back = tip - 60e-3 * needle(model)
+    reach = max(cam.prime_radius for cam in model.cams) + spec.cams.roller_radius + 4e-3
+    yield Shape("body", circle((0, 0), reach))
+    yield Shape("axis", polygon([(0.0, 0.0), _xy(back), _xy(tip)], closed=False))
+    yield Shape("body", capsule(_xy(back), _xy(tip), 1.2e-3))
+
+
+def _lever_shapes(model):
+    radius = model.spec.cams.roller_radius
+    for centre in rollers(model).values():
+        yield Shape("body", capsule((0.0, 0.0), _xy(centre), 3.5e-3))
+        yield Shape("roller", circle(_xy(centre), radius))
+    yield Shape("body", capsule((0.0, 0.0), _xy(model.spec.lever.output_arm * _outwards(model)), 3.5e-3))
+
+
+def _rod_ends(model):
+    """Ends of the rod with the rod in: its front is one stroke behind the needle's tip."""
+    spec = model.spec
+    line = (spec.lever.pivot_distance + spec.lever.output_arm) * _outwards(model)
+    tip = spec.arm.tip_distance * np.exp(1j * model.tip_start)
+    front = line + ((tip * np.conj(needle(model))).real - spec.push.stroke) * needle(model)
+    return front - spec.lever.rod_length * needle(model), front
+
+
+def _rod_shape(model):
+    back, front = _rod_ends(model)
+    return capsule(_xy(back), _xy(front), 2e-3)
+
+
+# -- cams ------------------------------------------------------------------------------------------------------------------------
+
+
+def in_carrier(model):
+    """(pose, mirror) that carry a cam from the frame of its formulas to the carrier's frame at t = 0, origin on the planet axis."""
+    angle = float(np.angle(_outwards(model)))
+    return (0.0, 0.0, angle + side(model) * np.pi / 2), side(model) < 0
+
+
+def cam_shapes(model, cam, trimmed):
+    """Profile, pitch curve, largest and least pitch circle, bore of a cam, in the carrier's frame."""
+    pose, mirror = in_carrier(model)
+    t = model.push_start + np.linspace(0, TURN, 721)[:-1]
+    pitch = model.pitch(cam, t).d0
+    yield Shape("profile", trimmed.outline(model.spec.manufacture.chord_tolerance).moved(pose, mirror))
+    yield Shape("pitch", polygon(np.stack([pitch.real, pitch.imag], axis=1)).moved(pose, mirror))
+    yield Shape("base", circle((0.0, 0.0), cam.prime_radius))
+    yield Shape("hole", circle((0.0, 0.0), model.spec.cams.bore / 2))
+
+
+def drawings(model):
+    """One drawing per cam, and one of the toothed gear."""
+    trimmed = model.trimmed
+    width = model.spec.cams.face_width
+    cams = tuple(
+        Drawing(
+            f"cam_{cam.name}",
+            f"{cam.name} cam, roller radius {1e3 * cam.roller_radius:.3f} mm",
+            tuple(cam_shapes(model, cam, trimmed[cam.name])),
+            width,
+        )
+        for cam in model.cams
+    )
+    gear = Drawing(
+        "elliptic_gear",
+        f"elliptic gear, {model.spec.train.teeth} teeth, bore on the focus",
+        (Shape("profile", gear_outline(model)), Shape("hole", circle((0, 0), 4e-3))),
+        GEAR_THICKNESS,
+    )
+    return (*cams, gear)
+
+
+# -- solids at the start position ------------------------------------------------------------------------------------------------
+
+
+def parts(model):
+    """Both cams on their hub, lever with rollers, rod, and the three gears, in their start position."""
+    axis = complex(model.planet_axis(np.array(0.0)).d0)
+    width = model.spec.cams.face_width
+    level = {"main": 0.0, "return": width + 2 * GAP + LEVER_THICKNESS}
+    here = (*_xy(axis), 0.0)
+    return (*_cam_parts(model, level, here), *_lever_parts(model, level, axis), _rod_part(model, level, here), *_gear_parts(model, level))
+
+
+def _cam_parts(model, level, here):
+    spec, trimmed, (pose, mirror) = model.spec, model.trimmed, in_carrier(model)
+    bore = (circle((0, 0), spec.cams.bore / 2),)
+    top = level["return"] + spec.cams.face_width
+    for cam, colour in zip(model.cams, ("orange", "violet"), strict=True):
+        profile = trimmed[cam.name].outline(spec.manufacture.chord_tolerance).moved(pose, mirror)
+        yield Part(f"cam_{cam.name}", (Prism(profile, bore, level[cam.name], spec.cams.face_width),), here, colour)
+    hub = Prism(circle((0, 0), spec.cams.hub_diameter / 2), bore, spec.cams.face_width, level["return"] - spec.cams.face_width)
+    collar = Prism(circle((0, 0), spec.cams.hub_diameter / 2), bore, top, 4e-3)
+    yield Part("hub", (hub,), here, "steel")
+    yield Part("collar", (collar,), here, "steel")
+
+
+def _lever_parts(model, level, axis):
+    spec, here = model.spec, (*_xy(axis + pivot(model)), 0.0)
+    plate = spec.cams.face_width + GAP
+    slot_end = spec.lever.output_arm * _outwards(model)
+    boss = partial(capsule, (0.0, 0.0))
+    along = slot_end / abs(slot_end)
+    slot = capsule(_xy(slot_end - 4e-3 * along), _xy(slot_end + 4e-3 * along), 2.1e-3)
+    solids = [Prism(boss(_xy(slot_end + 4e-3 * along), 4.5e-3), (slot, circle((0, 0), 2.5e-3)), plate, LEVER_THICKNESS)]
+    for name, centre in rollers(model).items():
+        solids.append(Prism(boss(_xy(centre), 4e-3), (circle((0, 0), 2.5e-3),), plate, LEVER_THICKNESS))
+        low, high = sorted((level[name], plate)) if name == "main" else (plate + LEVER_THICKNESS, level[name] + spec.cams.face_width)
+        solids.append(Prism(circle(_xy(centre), PIN), (), low, high - low))
+    yield Part("lever", tuple(solids), here, "blue")
+    for name, centre in rollers(model).items():
+        ring = Prism(circle(_xy(centre), spec.cams.roller_radius), (circle(_xy(centre), PIN),), level[name], spec.cams.face_width)
+        yield Part(f"roller_{name}", (ring,), here, "steel")
+
+
+def _rod_part(model, level, here):
+    back, front = _rod_ends(model)
+    return Part("rod", (Bar(_xy(back), _xy(front), model.spec.cams.face_width + GAP + LEVER_THICKNESS / 2, 4e-3),), here, "orange")
+
+
+def _gear_parts(model, level):
+    outline, bore = gear_outline(model), (circle((0, 0), 4e-3),)
+    zero = np.array(0.0)
+    carrier = 2 * model.spec.train.semi_major * np.exp(1j * model.spec.train.carrier_angle)
+    places = {
+        "gear_sun": (0j, sun_angle(model)),
+        "gear_intermediate": (carrier, intermediate_angle(model, zero)),
+        "gear_planet": (complex(model.planet_axis(zero).d0), planet_angle(model, zero)),
+    }
+    for name, (centre, angle) in places.items():
+        yield Part(name, (Prism(outline, bore, -GEAR_THICKNESS - 3e-3, GEAR_THICKNESS),), (*_xy(centre), float(angle)), "steel")
