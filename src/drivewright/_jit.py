@@ -86,10 +86,11 @@ def formula_of(dispatch, kind, error=InputError):
 @functools.cache
 def plain(compiled):
     """The kernel in plain Python, together with the kernels that it calls by name."""
-    function = compiled.py_func
+    function = getattr(compiled, "py_func", compiled)  # under NUMBA_DISABLE_JIT=1 kernels are plain already
     names = {name: function.__globals__.get(name) for name in function.__code__.co_names}
     callees = {name: plain(value) for name, value in names.items() if hasattr(value, "py_func")}
-    return types.FunctionType(function.__code__, function.__globals__ | callees, function.__name__, function.__defaults__)
+    scope = function.__globals__ | callees
+    return types.FunctionType(function.__code__, scope, function.__name__, function.__defaults__, function.__closure__)
 
 
 def warmer(function):

@@ -16,12 +16,23 @@ no error: it is a failed check of the result.
 """
 
 import difflib
+import reprlib
 
 
 class DrivewrightError(Exception):
     """Root of the tree; the command line turns it into one message and `exit_code`."""
 
     exit_code = 2
+
+    def __reduce__(self):
+        # A pool of processes sends errors back pickled; Exception itself would call __init__ with the finished message.
+        return _restored, (type(self), self.args, self.__dict__)
+
+
+def _restored(kind, args, state):
+    error = kind.__new__(kind, *args)
+    error.__dict__.update(state)
+    return error
 
 
 class InputError(DrivewrightError, ValueError):
@@ -78,6 +89,23 @@ class SolverError(DrivewrightError, RuntimeError):
 
 
 def nearest(name, known):
-    """Hint ' (did you mean ...?)' when a known name is close, else ''."""
-    close = difflib.get_close_matches(str(name), list(known), n=1, cutoff=0.6)
-    return f" (did you mean {close[0]!r}?)" if close else ""
+    """Hint ' (did you mean ...?)' when a known name is close, capitals aside, else ''."""
+    by_lower = {str(k).lower(): k for k in known}
+    close = difflib.get_close_matches(str(name).lower()[:80], list(by_lower), n=1, cutoff=0.65)
+    return f" (did you mean {by_lower[close[0]]!r}?)" if close else ""
+
+
+def brief(value):
+    """A value as the user may have written it, on one short line whatever it is."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if hasattr(value, "isoformat"):  # TOML knows dates and times
+        return value.isoformat()
+    try:
+        return _BRIEF.repr(value)
+    except ValueError:  # Python refuses to print integers of more than 4300 digits
+        return "a huge integer"
+
+
+_BRIEF = reprlib.Repr()
+_BRIEF.maxlevel, _BRIEF.maxstring, _BRIEF.maxlong, _BRIEF.maxother = 3, 80, 60, 80

@@ -12,7 +12,9 @@ from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any
 
-from drivewright.errors import UnknownName
+from drivewright.errors import InputError, UnknownName
+
+OURS = "drivewright"
 
 
 @dataclass(frozen=True)
@@ -63,8 +65,13 @@ class Mechanism:
 
 @cache
 def plugins(group):
-    """Name -> entry point of everything installed under `group`."""
-    return {point.name: point for point in entry_points(group=group)}
+    """Name -> entry point of everything installed under `group`; InputError where two packages claim one name."""
+    found = {}
+    for point in entry_points(group=group):
+        other = found.setdefault(point.name, point)
+        if other.value != point.value:
+            raise InputError(f"{group}: {point.name!r} is claimed by {other.value} and by {point.value}; uninstall one of the packages")
+    return found
 
 
 @cache
@@ -73,7 +80,13 @@ def load(group, name, what="plug-in"):
     known = plugins(group)
     if name not in known:
         raise UnknownName(what, name, known)
-    return known[name].load()
+    try:
+        return known[name].load()
+    except ImportError as error:
+        owner = getattr(getattr(known[name], "dist", None), "name", OURS)
+        if owner == OURS:
+            raise
+        raise InputError(f"{what} {name!r} of the package {owner!r} does not load: {error}; repair or uninstall the package") from error
 
 
 def kinds():

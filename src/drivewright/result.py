@@ -81,12 +81,13 @@ class Check(NamedTuple):
 
     @property
     def ok(self):
-        return self.margin >= 0
+        """Whether the limit is kept."""
+        return bool(self.margin >= 0)  # numpy's own bool is none for JSON
 
     def record(self):
         """Plain dictionary as in result.json."""
-        keep = {"name": self.name, "value": self.value, "limit": self.limit, "sense": self.sense, "margin": self.margin}
-        return {**keep, "unit": self.unit, "ok": self.ok, "message": self.message, "parts": list(self.parts)}
+        numbers = {"value": float(self.value), "limit": float(self.limit), "sense": self.sense, "margin": float(self.margin)}
+        return {"name": self.name, **numbers, "unit": self.unit, "ok": self.ok, "message": self.message, "parts": list(self.parts)}
 
 
 class Plot(NamedTuple):
@@ -162,9 +163,16 @@ class Result:
         """The content of result.json; non-finite values are left out (a finding says why)."""
         from drivewright import __version__
 
-        values = {k: v._asdict() for k, v in self.values.items() if math.isfinite(v.value)}
-        arrays = {k: {"unit": a.unit, "axes": list(a.axes), "labels": [list(x) for x in a.labels], "values": np.asarray(a.values).tolist()}
+        values = {k: {**v._asdict(), "value": float(v.value)} for k, v in self.values.items() if math.isfinite(v.value)}
+        arrays = {k: {"unit": a.unit, "axes": list(a.axes), "labels": [list(x) for x in a.labels], "values": _listed(a.values)}
                   for k, a in self.arrays.items()}
+        checks = [check.record() for check in self.checks if math.isfinite(check.value) and math.isfinite(check.limit)]
         return {"format": 1, "drivewright": __version__, "mechanism": self.mechanism, "title": self.title, "digest": self.digest,
-                "values": values, "arrays": arrays, "checks": [c.record() for c in self.checks if math.isfinite(c.value)],
+                "values": values, "arrays": arrays, "checks": checks,
                 "findings": list(self.findings), "outcome": self.outcome, "provenance": dict(self.provenance)}
+
+
+def _listed(values):
+    """Nested lists of an array; an entry that does not exist is null."""
+    values = np.asarray(values)
+    return np.where(np.isfinite(values), values, None).tolist() if values.dtype.kind == "f" else values.tolist()

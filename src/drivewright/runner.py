@@ -1,11 +1,13 @@
 """One run: spec -> model -> analyses -> result.  The data goes one way; nothing is filled in later."""
 
+import math
 import platform
 import time
+from dataclasses import replace
 from importlib.metadata import PackageNotFoundError, version
 
 from drivewright import registry
-from drivewright.errors import MissingExtra, UnknownName
+from drivewright.errors import MissingExtra, SolverError, UnknownName
 from drivewright.result import Answer, Result
 
 
@@ -30,12 +32,12 @@ def run(spec, only=(), everything=False, progress=None, model=None):
     """Result of the default analyses of a spec, of exactly those named in `only` and what they need, or of all.
 
     `progress(done, total, name)` is called before each analysis.  What is left out is listed in the findings.
-    `model` is the spec's own, where it has been built already.
+    `model` is the spec's own, where it has been built already.  A solver that gives up makes the outcome "partial".
     """
     started = time.perf_counter()
     mechanism = registry.mechanism(spec.mechanism)
     wanted = selection(mechanism.analyses, only, everything)
-    model = model or mechanism.build(spec)
+    model = mechanism.build(spec) if model is None else model
     answers, findings = {}, list(getattr(model, "findings", ()))
     for number, analysis in enumerate(wanted):
         if progress:
@@ -53,6 +55,7 @@ def run(spec, only=(), everything=False, progress=None, model=None):
 def selection(analyses, only=(), everything=False):
     """The analyses to do, each after those that it needs; UnknownName for a name that is none."""
     by_name = {a.name: a for a in analyses}
+    only = (only,) if isinstance(only, str) else only
     for name in only:
         if name not in by_name:
             raise UnknownName("analysis", name, by_name)
@@ -71,26 +74,41 @@ def selection(analyses, only=(), everything=False):
 
 
 def _answer(analysis, spec, model, answers):
-    """The analysis' answer; an empty one with a finding where its input or its extra is missing."""
-    reason = analysis.missing(spec) or next(
-        (f"it needs '{n}', which is left out" for n in analysis.needs if answers[n].outcome == "left out"), None
-    )
+    """The analysis' answer; an empty one with a finding where its input or its extra is missing, or its solver gives up."""
+    unmet = (f"it needs '{name}', which is {answers[name].outcome}" for name in analysis.needs if not _usable(answers[name]))
+    reason = analysis.missing(spec) or next(unmet, None)
     if reason is None:
         try:
             return analysis.answer(model, answers)
         except MissingExtra as error:
             reason = str(error)
+        except SolverError as error:
+            return _given_up(analysis, error)
     return Answer(findings=(f"analysis '{analysis.name}' ({analysis.meaning}) is left out: {reason}",), outcome="left out")
+
+
+def _usable(answer):
+    """Whether an analysis that needs this answer can go on from it."""
+    return answer.outcome == "complete" or (answer.outcome == "partial" and answer.data is not None)
+
+
+def _given_up(analysis, error):
+    """What a solver had when it gave up, with a finding that says why."""
+    had = error.partial if isinstance(error.partial, Answer) else Answer()
+    finding = f"analysis '{analysis.name}' ({analysis.meaning}) gave up: {error}"
+    return replace(had, outcome="partial", findings=(*had.findings, finding))
 
 
 def _result(spec, mechanism, answers, findings, seconds):
     values = {k: v for a in answers.values() for k, v in a.values.items()}
+    absent = {k: v for k, v in values.items() if not math.isfinite(v.value)}
+    findings = [*findings, *(f"value '{name}' ({v.meaning}) does not exist for this design: it is {v.value}" for name, v in absent.items())]
     return Result(
         spec=spec,
         mechanism=mechanism.kind,
         title=spec.title or mechanism.summary,
         digest=spec.digest(),
-        values=values,
+        values={k: v for k, v in values.items() if k not in absent},
         arrays={k: v for a in answers.values() for k, v in a.arrays.items()},
         tables={t.name: t for a in answers.values() for t in a.tables},
         checks=tuple(c for a in answers.values() for c in a.checks),

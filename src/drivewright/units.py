@@ -2,17 +2,25 @@
 
 A registry of our own, in which **angle is a base dimension**: `rev` and `rpm` exist, "8 Hz" is no angular speed, and
 `N m` (torque) is not `N m/rad` (rotational stiffness).  The registry is built when the first quantity is parsed.
+
+Factors are exact fractions and a quantity is rounded once, at the end: "1.27 cm", "12.7 mm" and "0.0127 m" are the same float.
 """
 
 import math
 import re
 from dataclasses import dataclass
-from functools import cache
+from decimal import Context, Decimal
+from fractions import Fraction
+from functools import cache, lru_cache
+from numbers import Real
 from typing import Annotated, Any
 
-from drivewright.errors import UnitError, nearest
+from drivewright.errors import UnitError, brief, nearest
 
-DEFINITIONS = """
+# To 50 digits: as good as exact beside the 16 of a float.
+PI = "3.14159265358979323846264338327950288419716939937511"
+
+DEFINITIONS = f"""
 milli- = 1e-3 = m-
 micro- = 1e-6 = µ- = μ- = u-
 kilo- = 1e3 = k-
@@ -35,10 +43,10 @@ pound = 0.45359237 * kilogram = lb
 minute = 60 * second = min
 hour = 3600 * second = h
 day = 86400 * second = d
-degree = 0.017453292519943295 * radian = deg = °
-arcminute = 0.017453292519943295 / 60 * radian = arcmin
-arcsecond = 0.017453292519943295 / 3600 * radian = arcsec
-revolution = 6.283185307179586 * radian = rev = turn
+degree = {PI} / 180 * radian = deg = °
+arcminute = degree / 60 = arcmin
+arcsecond = degree / 3600 = arcsec
+revolution = 360 * degree = rev = turn
 rpm = revolution / minute
 rps = revolution / second
 hertz = 1 / second = Hz
@@ -49,12 +57,18 @@ pascal = newton / metre ** 2 = Pa
 bar = 1e5 * pascal
 psi = pound_force / inch ** 2
 joule = newton * metre = J
+newton_metre = newton * metre = Nm
 watt = joule / second = W
 horsepower = 735.49875 * watt = PS
 litre = 1e-3 * metre ** 3 = l = L
 """
 
-NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*$", re.DOTALL)
+NUMBER = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,9})?)\s*(.*?)\s*$", re.DOTALL)
+WORD = "[A-Za-z\u00b5\u03bc\u00b0]+"  # letters, both micro signs, degree sign
+PATTERN = r"^\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*[^\s0-9].*$"  # the same for editors: a number and a unit
+# What may reach pint's parser: units, one-digit powers of units, products, quotients, and 1 as in 1/min.
+EXPRESSION = re.compile(rf"(?:{WORD}(?:\^[+-]?[0-9](?:\.[0-9])?)?|1(?![0-9.])|[\s*/()])+")
+LONGEST = 100  # characters of a quantity; nobody writes more, and a parser needs an end
 
 
 class SI(float):
@@ -65,66 +79,71 @@ class SI(float):
 def _registry():
     import pint
 
-    return pint.UnitRegistry(DEFINITIONS.strip().splitlines())
+    return pint.UnitRegistry(DEFINITIONS.strip().splitlines(), non_int_type=Fraction)
 
 
-@cache
+@lru_cache(maxsize=4096)
 def _unit(text):
-    """(factor to SI, dimensionality as a frozenset of (base, exponent)) of a unit text."""
-    import pint
-
-    # A blank between two units is a product; pint reads "N m" so, but not "N  m" or "kg·m".
-    expression = re.sub(r"\s*[·*]\s*|\s+(?=[A-Za-zµμ°])", "*", text.strip().replace("^", "**"))
+    """(exact factor to SI, dimensionality as a frozenset of (base, exponent)) of a unit text."""
+    expression = re.sub(r"\s*[\u00b7\u22c5*]\s*", "*", text.strip().replace("**", "^").replace("\u00b2", "^2").replace("\u00b3", "^3"))
+    if not EXPRESSION.fullmatch(expression):
+        raise UnitError(f"{brief(text)} is no unit known here")
+    # A blank between two units is a product; pint reads "N m" so, but not "N  m" or "mm s^2".
+    expression = re.sub(rf"(?<=[\w)])\s+(?=[(]|{WORD})", "*", expression).replace("^", "**")
     try:
-        quantity = (1.0 * _registry().parse_units(expression)).to_base_units()
-    except (pint.UndefinedUnitError, pint.DefinitionSyntaxError, AttributeError):
-        words = [w for w in re.findall(r"[A-Za-zµμ°]+", text) if w not in _registry()]
-        hint = nearest(words[0], UNITS_PEOPLE_WRITE) if words else ""
-        raise UnitError(f"{text!r} is no unit known here{hint}") from None
-    except Exception:  # pint's parser raises whatever Python's tokeniser does on garbage
-        raise UnitError(f"{text!r} is no unit known here") from None
-    return float(quantity.magnitude), frozenset((k, float(v)) for k, v in quantity.dimensionality.items())
+        quantity = _registry().Quantity(Fraction(1), _registry().parse_units(expression)).to_base_units()
+        return Fraction(quantity.magnitude), frozenset((k, float(v)) for k, v in quantity.dimensionality.items())
+    except Exception:  # pint raises a dozen kinds, its parser whatever Python's tokeniser does on garbage
+        words = [word for word in re.findall(WORD, text) if word not in _registry()]
+        raise UnitError(f"{brief(text)} is no unit known here{nearest(words[0], UNITS_PEOPLE_WRITE) if words else ''}") from None
 
 
-UNITS_PEOPLE_WRITE = ("mm", "um", "cm", "m", "in", "deg", "rad", "rev", "rpm", "arcmin", "N", "kN", "MPa", "GPa", "Pa", "kg", "g", "ms", "s",
-                      "min", "h", "Hz", "J", "W", "kW")
+UNITS_PEOPLE_WRITE = ("mm", "um", "cm", "m", "in", "deg", "rad", "rev", "rpm", "arcmin", "N", "kN", "MPa", "GPa", "Pa", "kg", "g", "ms",
+                      "s", "min", "h", "Hz", "J", "W", "kW", "Nm", "millimetre", "millimeter", "degree", "radian", "newton")
 
 
 @dataclass(frozen=True)
 class Dimension:
-    """A kind of quantity: its SI unit and the unit people read.  Also the pydantic field type of that quantity."""
+    """A kind of quantity: its SI unit, the unit people read, others they `also` use.  And the pydantic field type of that quantity."""
 
     name: str
     unit: str
     shown: str
+    also: tuple = ()
 
     def parse(self, value):
         """SI float of a text such as "9.525 mm"; UnitError says what was wanted and what came."""
-        if isinstance(value, SI):
+        if isinstance(value, SI) and math.isfinite(value):
             return float(value)
-        if isinstance(value, bool) or not isinstance(value, (str, int, float)):
-            raise UnitError(f"wants {self.described}, got {value!r}")
-        if not isinstance(value, str):
-            raise UnitError(f'a bare number; {self.described} wants its unit, e.g. "{value} {self.shown}"')
-        number, unit = split(value)
+        if isinstance(value, bool) or not isinstance(value, (str, Real)):
+            raise UnitError(f"wants {self.described}, got {brief(value)}")
+        if not isinstance(value, str) and (value != value or abs(value) == math.inf):
+            raise UnitError(f"{brief(value)} is not finite")
+        number, unit = split(value) if isinstance(value, str) else (value, "")
         if not unit:
-            raise UnitError(f'a bare number; {self.described} wants its unit, e.g. "{value.strip()} {self.shown}"')
-        return number * self.factor(unit, value)
+            bare = value.strip() if isinstance(value, str) else brief(value)
+            raise UnitError(f'a bare number; {self.described} wants its unit, e.g. "{bare} {self.shown}"')
+        return _rounded(number * self._exact(unit, value), value)
 
-    def factor(self, unit, whole=None):
+    def factor(self, unit):
         """Factor from `unit` to SI; UnitError where it belongs to another kind of quantity."""
+        return float(self._exact(unit, unit))
+
+    def _exact(self, unit, whole):
         factor, dimensionality = _unit(unit)
         if dimensionality != _unit(self.unit)[1]:
-            raise UnitError(f"wants {self.described}, got {whole or unit!r}{_other_name(dimensionality)}{self._remedy(dimensionality)}")
+            raise UnitError(f"wants {self.described}, got {brief(whole)}{_other_name(dimensionality)}{self._remedy(dimensionality)}")
         return factor
 
     def text(self, value):
-        """The shortest text in the shown unit that parses back to exactly `value`; SI where none does."""
-        shown = value / _unit(self.shown)[0]
-        for digits in (6, 9, 12, 15, 16, 17):
-            if (text := f"{_plain(shown, digits)} {self.shown}") and self.parse(text) == value:
-                return text
-        return f"{value!r} {self.unit}"
+        """A text that parses back to exactly `value`, in the unit people read or another that makes it shorter."""
+        exact = Fraction(float(value))
+        for digits, units in ((6, [self.shown]), (12, [self.shown, *self.also]), (15, [self.shown]), (16, [self.shown])):
+            for unit in units:
+                text = f"{_decimal(exact / _unit(unit)[0], digits)} {unit}"
+                if _reads_as(text, value, self):
+                    return text
+        return f"{_decimal(exact / _unit(self.shown)[0], 17)} {self.shown}"  # 17 digits always do
 
     @property
     def described(self):
@@ -151,34 +170,60 @@ class Dimension:
     def __get_pydantic_json_schema__(self, schema, handler):
         # Limits are given in SI beside the unit; JSON schema itself cannot compare quantities.
         limits = {f"x-{name}": schema["schema"][name] for name in ("gt", "ge", "lt", "le") if name in schema.get("schema", {})}
-        return {"type": "string", "examples": [f"1 {self.shown}"], "x-dimension": self.name, "x-unit": self.shown, "x-si-unit": self.unit, **limits}
+        about = {"x-dimension": self.name, "x-unit": self.shown, "x-si-unit": self.unit}
+        return {"type": "string", "pattern": PATTERN, "examples": [f"1 {self.shown}"], **about, **limits}
 
 
 def split(text):
-    """(number, unit text) of "9.525 mm"; UnitError where there is no finite number in front."""
-    match = NUMBER.match(text)
+    """(exact number, unit text) of "9.525 mm"; UnitError where there is no finite number in front."""
+    match = NUMBER.match(text) if len(text) <= LONGEST else None
     if not match:
         reason = "is not finite" if re.match(r"\s*[+-]?(nan|inf)", text, re.IGNORECASE) else 'is not "number unit"'
-        raise UnitError(f"{text!r} {reason}; write e.g. \"9.5 mm\"")
-    number = float(match[1])
-    if not math.isfinite(number):
-        raise UnitError(f"{text!r} is not finite")
-    return number, match[2]
+        raise UnitError(f'{brief(text)} {reason}; write e.g. "9.5 mm"')
+    if match[2].startswith(","):
+        raise UnitError(f"{brief(text)} has a comma; write a decimal point and no thousands separator")
+    number = Decimal(match[1])
+    if abs(number.adjusted()) > 400:  # beyond any float in any unit; its fraction would not fit into the memory
+        number = Decimal(0) if number.adjusted() < 0 or not number else Decimal("1e400")
+    return Fraction(number), match[2]
 
 
-def _plain(value, digits):
-    """`value` to so many digits, without an exponent where that reads well."""
-    if value == int(value) and abs(value) < 1e6:
-        return str(int(value)) if value else "0"
-    return f"{value:.{digits}g}"
+def any_quantity(text):
+    """(SI float, dimensionality) of a quantity of any kind; UnitError where the text is none."""
+    number, unit = split(text)
+    factor, dimensionality = _unit(unit)
+    return _rounded(number * factor, text), tuple(sorted(dimensionality))
+
+
+def _reads_as(text, value, dimension):
+    try:
+        return dimension.parse(text) == value
+    except UnitError:  # rounded up beyond the largest float
+        return False
+
+
+def _rounded(exact, whole):
+    """The float nearest to a fraction."""
+    try:
+        return float(exact)
+    except OverflowError:
+        raise UnitError(f"{brief(whole)} is not finite: beyond the largest number") from None
+
+
+def _decimal(exact, digits):
+    """A fraction to so many digits, without an exponent where that reads well."""
+    number = Context(prec=digits).divide(Decimal(exact.numerator), Decimal(exact.denominator)).normalize()
+    return f"{number:f}" if -5 <= number.adjusted() < 7 or not number else f"{number:e}"
 
 
 DIMENSIONS = tuple(Dimension(*row) for row in (
-    ("length", "m", "mm"), ("angle", "rad", "deg"), ("angular speed", "rad/s", "rpm"), ("angular acceleration", "rad/s^2", "rad/s^2"),
-    ("velocity", "m/s", "m/s"), ("acceleration", "m/s^2", "m/s^2"), ("time", "s", "s"), ("frequency", "Hz", "Hz"), ("mass", "kg", "kg"),
-    ("moment of inertia", "kg m^2", "kg m^2"), ("force", "N", "N"), ("torque", "N m", "N m"), ("stiffness", "N/m", "N/mm"),
-    ("rotational stiffness", "N m/rad", "N m/rad"), ("damping", "N s/m", "N s/m"), ("pressure", "Pa", "MPa"), ("area", "m^2", "mm^2"),
-    ("curvature", "1/m", "1/mm"), ("power", "W", "W"), ("density", "kg/m^3", "kg/m^3"), ("volume", "m^3", "mm^3")))
+    ("length", "m", "mm", ("um", "in")), ("angle", "rad", "deg", ("arcmin", "arcsec", "rad")),
+    ("angular speed", "rad/s", "rpm", ("rad/s", "rev/h")), ("angular acceleration", "rad/s^2", "rad/s^2"),
+    ("velocity", "m/s", "m/s", ("mm/min", "mm/s")), ("acceleration", "m/s^2", "m/s^2"), ("time", "s", "s", ("min", "h")),
+    ("frequency", "Hz", "Hz"), ("mass", "kg", "kg"), ("moment of inertia", "kg m^2", "kg m^2"), ("force", "N", "N"),
+    ("torque", "N m", "N m"), ("stiffness", "N/m", "N/mm"), ("rotational stiffness", "N m/rad", "N m/rad"), ("damping", "N s/m", "N s/m"),
+    ("pressure", "Pa", "MPa"), ("area", "m^2", "mm^2"), ("curvature", "1/m", "1/mm"), ("power", "W", "W"), ("density", "kg/m^3", "kg/m^3"),
+    ("volume", "m^3", "mm^3")))
 BY_NAME = {dimension.name: dimension for dimension in DIMENSIONS}
 BY_UNIT = {dimension.unit: dimension for dimension in DIMENSIONS}
 
@@ -192,7 +237,7 @@ def _name_of(dimensionality):
 
 
 def _other_name(dimensionality):
-    name = _name_of(dimensionality)
+    name = _name_of(dimensionality) if dimensionality else "a pure number"
     return f" ({name})" if name else ""
 
 

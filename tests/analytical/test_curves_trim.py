@@ -59,6 +59,17 @@ def test_lost_motion_at_a_square_corner():
     assert most == pytest.approx((np.sqrt(2) - 1) * radius, rel=1e-9)
 
 
+def test_the_largest_lost_motion_is_found_off_the_samples():
+    """A rectangle whose sides take equal parameter steps: the removed interval is not symmetric about the corner."""
+    a, b, radius = 0.03, 0.011, 0.003
+    corners = np.array([a - 1j * b, a + 1j * b, -a + 1j * b, -a - 1j * b])
+    sides = tuple(curves.Piece(float(k), k + 1.0, lambda t, k=k: corners[k] + (corners[(k + 1) % 4] - corners[k]) * (variable(t) - k),
+                               f"side {k}", "line") for k in range(4))
+    place, most = curves.largest_lost_motion(curves.trim(curves.CircleFamily(sides, radius)))
+    assert most == pytest.approx((np.sqrt(2) - 1) * radius, rel=2e-5)
+    assert min(abs(place - corner) for corner in range(5)) < 1e-5
+
+
 def ellipse_path(a, b):
     return (curves.Piece(0.0, 2 * PI, lambda t: a * cos(variable(t)) + 1j * b * sin(variable(t)), "ellipse"),)
 
@@ -77,8 +88,8 @@ def test_undercut_of_an_ellipse_begins_at_its_least_radius_of_curvature():
         np.testing.assert_allclose([corner.point.imag for corner in left.corners], 0, atol=1e-15)
 
 
-def test_the_smallest_swallowtail_is_found_from_its_cusps():
-    """3e-5 beyond the limit the tail is shorter than a chord between samples; the corner is exact all the same."""
+def test_the_smallest_swallowtail_is_found():
+    """3e-5 beyond the limit the tail is shorter than the usual chord; the corner is exact all the same."""
     a, b = 0.05, 0.03
     radius = b**2 / a * (1 + 3e-5)
     left = curves.trim(curves.CircleFamily((curves.Piece(0.1, 0.1 + 2 * PI, ellipse_path(a, b)[0].at, "ellipse"),), radius))
@@ -87,6 +98,29 @@ def test_the_smallest_swallowtail_is_found_from_its_cusps():
     for corner in left.corners:
         assert abs(np.cos(corner.leaves)) == pytest.approx(np.sqrt(c2), rel=1e-9)
         assert abs(np.cos(corner.resumes)) == pytest.approx(np.sqrt(c2), rel=1e-9)
+
+
+def test_a_crossing_at_a_joint_counts_once():
+    """The path is cut exactly where its envelope crosses itself."""
+    a, b, radius = 0.05, 0.03, 0.021
+    cut = np.arccos(np.sqrt(((radius * a) ** 2 / b**2 - a**2) / (b**2 - a**2)))
+    at = ellipse_path(a, b)[0].at
+    whole = curves.trim(curves.CircleFamily(ellipse_path(a, b), radius))
+    for ends in ([-cut, cut, 2 * PI - cut], [-cut, 2.0, 2 * PI - cut], [cut, PI - cut, PI + cut, 2 * PI + cut]):
+        pieces = tuple(curves.Piece(low, high, at, f"{low:.2f}") for low, high in zip(ends, ends[1:], strict=False))
+        left = curves.trim(curves.CircleFamily(pieces, radius))
+        assert len(left.crossings) == 2 and len(left.corners) == 2
+        assert left.area == pytest.approx(whole.area, rel=1e-12)
+
+
+def test_an_interval_is_not_lost_for_a_tail_too_small_to_see():
+    """Beside the cut tip at t = 0 an invisible tail sits in the middle of the one surviving interval."""
+    a, b, c = 0.05, 0.03, 2e-4
+    at = lambda t: a * cos(variable(t)) + 1j * b * sin(variable(t)) + c * exp(2j * variable(t))  # noqa: E731
+    least = 1 / curves.curvature(at(np.array([PI])))[0]
+    for excess in np.geomspace(1e-7, 1e-6, 12):
+        left = curves.trim(curves.CircleFamily((curves.Piece(0.0, 2 * PI, at, "egg"),), least * (1 + excess)))
+        assert any(abs(corner.point - corner.point.real) < 1e-12 and corner.point.real > 0 for corner in left.corners)
 
 
 def flat(support, shape="smooth"):

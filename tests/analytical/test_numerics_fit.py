@@ -23,6 +23,8 @@ def test_covariance_of_a_line_is_the_textbook_one():
     theirs, covariance = np.polyfit(T, y, 1, cov=True)
     np.testing.assert_allclose(found.parameters, theirs[::-1], rtol=1e-8)
     np.testing.assert_allclose(found.covariance, covariance[::-1, ::-1], rtol=1e-6)
+    assert found.rms == pytest.approx(np.sqrt(np.mean((np.polyval(theirs, T) - y) ** 2)), rel=1e-9)
+    np.testing.assert_allclose(found.residuals, np.polyval(theirs, T) - y, atol=1e-8)
 
 
 def test_covariance_predicts_the_scatter():

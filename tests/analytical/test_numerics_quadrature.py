@@ -30,6 +30,10 @@ def test_periodic_integral_is_spectral_wherever_it_starts():
     assert errors[1] < 1e-2 * errors[0] and errors[2] < 1e-6 * errors[1] and errors[3] < 1e-13
 
 
+def test_one_piece_is_enough():
+    assert integrate_pieces(np.exp, [0.3, 0.9]) == pytest.approx(np.exp(0.9) - np.exp(0.3), rel=1e-15)
+
+
 def test_constants_are_functions():
     assert integrate_periodic(lambda x: 3.0, 2.0) == 6.0
     np.testing.assert_allclose(cumulative_integral(lambda x: 3.0, [0, 1, 4]), [0, 3, 12], rtol=1e-15)

@@ -24,10 +24,15 @@ def test_poles_and_touching_roots_are_no_roots():
     assert bracketed_roots(lambda x: (x - 0.31) ** 2, np.linspace(0, 1, 20)).size == 0
 
 
-def test_few_calls():
+@pytest.mark.parametrize("f, grid, root, most", [
+    (lambda x: np.exp(x) - 2, [-3.0, 4.0], np.log(2), 9), (lambda x: np.arctan(x - 0.1234), [-10.0, 30.0], 0.1234, 10),
+    (lambda x: np.expm1(40 * (x - 0.7)), [0.0, 1.0], 0.7, 12), (lambda x: x**2 - 2, [1.0, 2.0], np.sqrt(2), 7),
+    (lambda x: (x - 0.3) ** 9, [0.0, 1.0], 0.3, 52), (lambda x: np.cbrt(x - 0.3), [0.0, 1.0], 0.3, 52),
+])
+def test_few_calls_where_f_is_smooth_and_never_many_more_than_bisection(f, grid, root, most):
     calls = []
-    bracketed_roots(lambda x: calls.append(1) or np.exp(x) - 2, np.linspace(-3, 4, 3))
-    assert len(calls) < 16
+    assert bracketed_roots(lambda x: calls.append(1) or f(x), grid) == pytest.approx([root], rel=3e-16)
+    assert len(calls) <= most
 
 
 @pytest.mark.parametrize("grid, word", [([0.0, 2.0, 1.0], "increasing"), ([0.0, 0.0], "increasing"), ([0.0, np.nan, 2.0], "not finite")])
@@ -42,6 +47,12 @@ def circle_and_hyperbola(x):
 
 def test_newton_finds_the_closed_form():
     np.testing.assert_allclose(newton(circle_and_hyperbola, [2.0, 0.3]), np.sqrt(2 + np.array([1, -1]) * np.sqrt(3)), rtol=1e-15)
+
+
+def test_newton_converges_quadratically():
+    calls = []
+    newton(lambda x: calls.append(1) or circle_and_hyperbola(x), [2.0, 0.3])
+    assert len(calls) <= 5
 
 
 def test_newton_is_damped_where_full_steps_diverge():

@@ -54,6 +54,22 @@ def test_a_periodic_spline_goes_on_for_ever():
     np.testing.assert_allclose(spline(X[2] + 3 * X[-1]), y[2], rtol=1e-12)
 
 
+@pytest.mark.parametrize("ends", ["natural", "clamped", "periodic"])
+def test_a_point_in_the_plane_is_two_splines(ends):
+    y = np.column_stack([np.cos(X), Y**2])
+    y[-1] = y[0]
+    both = interpolating_spline(X, y, 5, ends)
+    for column in (0, 1):
+        np.testing.assert_allclose(both(1.23)[column], interpolating_spline(X, y[:, column], 5, ends)(1.23), rtol=1e-13)
+
+
+def test_rounding_does_not_open_a_period_but_a_micrometre_does():
+    y = 1e-3 * np.cos(np.pi / 2 * X)
+    interpolating_spline(X, np.append(y[:-1], y[0] + 1e-14), 3, "periodic")
+    with pytest.raises(InputError, match="differs from the first by 1e-07"):
+        interpolating_spline(X, np.append(y[:-1], y[0] + 1e-7), 3, "periodic")
+
+
 def test_smoothing_removes_ripple_and_keeps_the_shape():
     x = np.linspace(0, 2 * np.pi, 361)
     shape, ripple = 1e-3 * np.sin(x), 1e-6 * np.cos(45 * x)
@@ -76,7 +92,7 @@ def test_smoothing_does_not_see_units():
     (lambda: interpolating_spline(X, Y, 4), "degree must be 3 or 5, got 4"),
     (lambda: interpolating_spline(X, Y, 3, "free"), "'natural', got 'free'"),
     (lambda: interpolating_spline(X, Y, 3, "periodic"), "Repeat the first value"),
-    (lambda: interpolating_spline(X[::-1], Y), r"x\[1\] = 3.3 follows 4"),
+    (lambda: interpolating_spline(np.where(X == 1.2, 0.5, X), Y), r"x\[3\] = 0.5 follows 0.9"),
     (lambda: interpolating_spline(X[:5], Y[:5], 5), "at least 6 points, got 5"),
     (lambda: interpolating_spline(X, Y[:-1]), r"shapes \(9,\) and \(8,\)"),
     (lambda: smoothing_spline(X, Y, 0.0), "tolerance must be above 0"),

@@ -7,8 +7,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from drivewright.report.content import Views
 from drivewright.result import Array, Check, Column, Plot, Result, Table, Value
-from drivewright.scene import Arc, Body, Drawing, Frame, Line, Outline, Scene, Shape, Spline, Trace, circle, polygon
+from drivewright.scene import Arc, Body, Drawing, Frame, Line, Outline, Scene, Shape, Spline, Trace, capsule, circle, polygon
 
 GROUND, CRANK, COUPLER, ROCKER = 0.100, 0.032, 0.096, 0.072
 POINT = (0.060, 0.046)
@@ -29,12 +30,6 @@ def solve(angle):
     return coupler, np.arctan2(tip[..., 1], tip[..., 0] - GROUND), pin
 
 
-def capsule(length, width):
-    """Outline of a bar with round ends between (0, 0) and (length, 0), with true arcs."""
-    r = width / 2
-    return Outline((Line((0, -r), (length, -r)), Arc((length, 0), r, -np.pi / 2, np.pi), Line((length, r), (0, r)), Arc((0, 0), r, np.pi / 2, np.pi)))
-
-
 def plate():
     """The coupler: rounded triangle over its two pins and the tracing point."""
     corners, r = np.array([(0, 0), (COUPLER, 0), POINT]), 0.0055
@@ -52,6 +47,11 @@ def poses(x, y, angle):
     return np.stack(np.broadcast_arrays(x, y, angle), axis=1).astype(float)
 
 
+def bar(length):
+    """A link with round ends along +x."""
+    return Shape("body", capsule((0.0, 0.0), (length, 0.0), 0.005))
+
+
 def support(x):
     """Triangle and base line of a fixed pin."""
     return (Shape("ground", polygon([(x - 0.006, -0.010), (x, 0.0), (x + 0.006, -0.010)])),
@@ -64,14 +64,15 @@ def four_bar_scene():
     coupler, rocker, pin = solve(angle)
     still = poses(np.zeros(FRAMES), 0.0, 0.0)
     wrapped = np.arctan2(np.sin(coupler), np.cos(coupler))
+    hole, far = Shape("hole", circle((0, 0), 0.0016)), Shape("hole", circle((COUPLER, 0), 0.0016))
     bodies = (
         Body("frame", "frame", (*support(0.0), *support(GROUND)), still, "ground"),
-        Body("coupler", "coupler", (Shape("body", plate()), Shape("hole", circle((0, 0), 0.0016)), Shape("hole", circle((COUPLER, 0), 0.0016))),
-             poses(pin[:, 0], pin[:, 1], wrapped), "blue"),
-        Body("crank", "crank", (Shape("body", capsule(CRANK, 0.010)), Shape("hole", circle((0, 0), 0.0016))), poses(0.0, 0.0, angle), "orange"),
-        Body("rocker", "rocker", (Shape("body", capsule(ROCKER, 0.010)), Shape("pitch", circle((0, 0), 0.02))), poses(GROUND, 0.0, rocker), "green"))
+        Body("coupler", "coupler", (Shape("body", plate()), hole, far), poses(pin[:, 0], pin[:, 1], wrapped), "blue"),
+        Body("crank", "crank", (bar(CRANK), hole), poses(0.0, 0.0, angle), "orange"),
+        Body("rocker", "rocker", (bar(ROCKER), Shape("pitch", circle((0, 0), 0.02))), poses(GROUND, 0.0, rocker), "green"))
     soil = (Shape("ground", polygon([(-0.08, -0.03), (0.30, -0.03)], closed=False)),)
-    frames = (Frame("machine", "machine frame", still), Frame("field", "field frame", poses(-0.14 * angle / (2 * np.pi), 0.0, 0.0), (-0.14, 0.0), soil),
+    field = poses(-0.14 * angle / (2 * np.pi), 0.0, 0.0)
+    frames = (Frame("machine", "machine frame", still), Frame("field", "field frame", field, (-0.14, 0.0), soil),
               Frame("coupler", "seen from the coupler", poses(pin[:, 0], pin[:, 1], wrapped)))
     marks = ((0.0, "forward"), (2.6, "return"), (5.0, "dwell"))
     return Scene(angle, "crank angle", "rad", 0.3, bodies, frames, (Trace("tip", "coupler point", "coupler", POINT),), "motion", marks)
@@ -84,12 +85,14 @@ def four_bar_result(title="Four-bar sample"):
     speed = np.gradient(rocker, angle) * SPEED
     transmission = np.abs(rocker - coupler)
     radius = 0.02 / np.where(np.abs(np.sin(3 * angle)) < 1e-9, np.nan, np.sin(3 * angle))
+    x = pin[:, 0] + POINT[0] * np.cos(coupler) - POINT[1] * np.sin(coupler)
+    y = pin[:, 1] + POINT[0] * np.sin(coupler) + POINT[1] * np.cos(coupler)
     motion = Table("motion", "Motion over one turn", (
-        Column("angle", "rad", "crank angle", angle), Column("rocker", "rad", "rocker angle", rocker), Column("coupler", "rad", "coupler angle", coupler),
-        Column("rocker_speed", "rad/s", "rocker speed", speed), Column("acceleration", "rad/s^2", "rocker acceleration", np.gradient(speed, angle) * SPEED),
+        Column("angle", "rad", "crank angle", angle), Column("rocker", "rad", "rocker angle", rocker),
+        Column("coupler", "rad", "coupler angle", coupler), Column("rocker_speed", "rad/s", "rocker speed", speed),
+        Column("acceleration", "rad/s^2", "rocker acceleration", np.gradient(speed, angle) * SPEED),
         Column("transmission", "rad", "transmission angle", transmission), Column("radius", "m", "radius of curvature", radius),
-        Column("x", "m", "coupler point, x", pin[:, 0] + POINT[0] * np.cos(coupler) - POINT[1] * np.sin(coupler)),
-        Column("y", "m", "coupler point, y", pin[:, 1] + POINT[0] * np.sin(coupler) + POINT[1] * np.cos(coupler))))
+        Column("x", "m", "coupler point, x", x), Column("y", "m", "coupler point, y", y)))
     links = Table("links", "Links", (Column("link", "-", "link", np.array(["crank", "coupler", "rocker"])),
                                      Column("length", "m", "length", np.array([CRANK, COUPLER, ROCKER]))))
     least = float(transmission.min())
@@ -98,21 +101,23 @@ def four_bar_result(title="Four-bar sample"):
                     "the rocker shakes <its> frame: use a longer rocker", ("rocker", "frame")),
               Check("min_radius", np.inf, 0.006, ">=", "m", "no convex arc: nothing to undercut"))
     values = {"rocker.swing": Value(float(np.ptp(rocker)), "rad", "angle swept by the rocker"),
-              "transmission.least": Value(least, "rad", "least transmission angle"), "stress.peak": Value(512.3e6, "Pa", "peak contact pressure"),
-              "deviation": Value(2.4669517247e-06, "m", "pitch deviation"), "ratio": Value(3.125, "-", "length ratio")}
-    arrays = {"flexibility": Array("m/N", ("station", "station"), (("m1", "m2"), ("m1", "m2")), np.array([[1.5e-8, 0.2e-8], [0.2e-8, 2.5e-8]]))}
+              "transmission.least": Value(least, "rad", "least transmission angle"),
+              "stress.peak": Value(512.3e6, "Pa", "peak contact pressure"), "deviation": Value(2.4669517247e-06, "m", "pitch deviation"),
+              "ratio": Value(3.125, "-", "length ratio")}
+    stations = (("m1", "m2"), ("m1", "m2"))
+    arrays = {"flexibility": Array("m/N", ("station", "station"), stations, np.array([[1.5e-8, 0.2e-8], [0.2e-8, 2.5e-8]]))}
+    provenance = {"seed": 0, "seconds": 0.412, "analyses": ["motion"], "versions": {"python": "3.11", "numpy": "2"},
+                  "sources": ["Norton, Design of Machinery (recalled)"]}
     return Result(SimpleNamespace(to_toml=lambda: SPEC_TEXT), "four-bar-sample", title, "5d41402abc4b2a76b9719d911017c592ae2f", values,
-                  {"motion": motion, "links": links}, checks, ("analysis 'forces' is left out: no [load] & no mass",),
-                  {"seed": 0, "seconds": 0.412, "analyses": ["motion"], "versions": {"python": "3.11", "numpy": "2"}, "sources": ["Norton, Design of Machinery (recalled)"]},
-                  arrays)
+                  {"motion": motion, "links": links}, checks, ("analysis 'forces' is left out: no [load] & no mass",), provenance, arrays)
 
 
 PLOTS = (Plot("rocker", "Rocker angle", "motion", "angle", ("rocker",)),
          Plot("speed", "Rocker speed and acceleration", "motion", "angle", ("rocker_speed", "acceleration"), ()),
          Plot("transmission", "Angles at the rocker pin", "motion", "angle", ("transmission", "coupler"), ((np.radians(40), "least"),)),
          Plot("radius", "Radius of curvature", "motion", "angle", ("radius",), ((0.006, "roller"),)),
-         Plot("track", "Coupler curve", "motion", "x", ("y",), (), True), Plot("links", "Lengths of the links", "links", "link", ("length",)),
-         Plot("forces", "Forces", "forces", "angle", ("force",)))
+         Plot("track", "Coupler curve", "motion", "x", ("y",), (), True),
+         Plot("links", "Lengths of the links", "links", "link", ("length",)), Plot("forces", "Forces", "forces", "angle", ("force",)))
 
 
 def eccentric_drawing():
@@ -121,6 +126,11 @@ def eccentric_drawing():
     radius = 0.030 + 0.006 * (1 - np.cos(angle)) / 2
     profile = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
     pitch = profile * (1 + 0.006 / radius[:, None])
-    return Drawing("cam", "cam disc", (Shape("profile", Outline((Spline(profile, (0, 1), (0, 1)),))), Shape("pitch", Outline((Spline(pitch, (0, 1), (0, 1)),))),
-                                       Shape("base", circle((0, 0), 0.030)), Shape("hole", circle((0, 0), 0.008)),
-                                       Shape("axis", polygon([(-0.045, 0), (0.045, 0)], closed=False))), 0.008)
+    outlines = {"profile": Outline((Spline(profile, (0, 1), (0, 1)),)), "pitch": Outline((Spline(pitch, (0, 1), (0, 1)),)),
+                "base": circle((0, 0), 0.030), "hole": circle((0, 0), 0.008), "axis": polygon([(-0.045, 0), (0.045, 0)], closed=False)}
+    return Drawing("cam", "cam disc", tuple(Shape(layer, outline) for layer, outline in outlines.items()), 0.008)
+
+
+def all_views():
+    """Everything there is to see of the four-bar."""
+    return Views(four_bar_scene(), PLOTS, (eccentric_drawing(),))

@@ -5,6 +5,7 @@ import pytest
 import shapely
 
 from drivewright import curves
+from drivewright.errors import SolverError
 from drivewright.numerics.jets import cos, exp, sin, variable
 
 PI = np.pi
@@ -109,6 +110,34 @@ def test_distant_members_cut_the_neck_through(interior):
     assert left.area == pytest.approx(expected, rel=1e-5)
     assert left.corners and polygon(left).contains(shapely.Point(interior.real, interior.imag))
     assert not polygon(left).contains(shapely.Point(-interior.real, interior.imag))
+
+
+@pytest.mark.parametrize("material", ["inside", "outside"])
+def test_of_two_rings_the_nearer_one_counts(material):
+    """A path that goes round twice leaves two loops around the axis: the part is in the inner one, or outside the outer one."""
+    at = lambda t: (0.03 + 0.012 * cos(0.5 * variable(t))) * exp(1j * variable(t))  # noqa: E731
+    left = curves.trim(curves.CircleFamily((curves.Piece(0.1, 0.1 + 4 * PI, at, "twice"),), 0.002, material))
+    ring = swept(left.family)
+    hole = min((shapely.Polygon(hole) for hole in ring.interiors if shapely.Polygon(hole).contains(shapely.Point(0, 0))), key=lambda p: p.area)
+    assert left.area == pytest.approx(hole.area if material == "inside" else shapely.Polygon(ring.exterior).area, rel=1e-5)
+
+
+def test_lost_motion_under_an_overhanging_loop():
+    """Path with outward loops: above the profile the roller may be nearest to a smooth place and not to a corner."""
+    at = lambda t: 0.03 * exp(1j * variable(t)) + 0.012 * exp(-3j * variable(t))  # noqa: E731
+    family = curves.CircleFamily((curves.Piece(0.1, 0.1 + 2 * PI, at, "loops"),), 0.003)
+    left = curves.trim(family)
+    points = np.concatenate([span.piece.at(np.linspace(span.start, span.stop, 40001)).d0 for span in left.spans])
+    t = np.linspace(0.1, 0.1 + 2 * PI, 97)
+    nearest = [np.min(np.abs(points - centre)) for centre in at(t).d0]
+    np.testing.assert_allclose(curves.lost_motion(left, t), np.array(nearest) - 0.003, atol=1e-9)
+
+
+def test_a_path_whose_other_side_bounds_the_part_is_refused():
+    """Inward loops reach into the part with the wrong side of the path: no answer rather than a wrong one."""
+    at = lambda t: 0.03 * exp(1j * variable(t)) + 0.010 * exp(5j * variable(t))  # noqa: E731
+    with pytest.raises(SolverError, match="the other side of its path bounds the part"):
+        curves.trim(curves.CircleFamily((curves.Piece(0.1, 0.1 + 2 * PI, at, "loops"),), 0.003))
 
 
 @pytest.mark.parametrize("seed", [1, 4, 7])

@@ -47,7 +47,7 @@ def _from_chords(chain):
     middle = 0.5 * (a + b)
     pairs = cKDTree(np.stack([middle.real, middle.imag], axis=1)).query_pairs(1.0001 * np.max(np.abs(b - a)), output_type="ndarray")
     i, j = np.sort(pairs, axis=1).T
-    apart = (j - i > 1) & (j - i < len(start) - 1 if chain.closed else True)
+    apart = (j - i > 1) & (j - i < len(start) - 1)
     i, j = i[apart], j[apart]
     along_i, along_j, between = b[i] - a[i], b[j] - a[j], a[j] - a[i]
     with np.errstate(divide="ignore", invalid="ignore"):  # parallel chords: nan or inf, and no crossing
@@ -72,7 +72,7 @@ def _from_joints(chain):
     the joint that is equally far from the joint.
     """
     cusps, seeds = _cusps(chain), []
-    for k in range(len(chain.pieces) if chain.closed else len(chain.pieces) - 1):
+    for k in range(len(chain.pieces)):
         end, start = chain.first[k + 1] - 1, chain.first[k + 1] % len(chain.t)
         if np.real(np.conj(chain.v[end]) * chain.v[start]) >= 0:
             continue
@@ -107,12 +107,17 @@ def _refined(chain, seeds, steps=15):
         if np.all(np.abs(step) <= 1e-12 * np.maximum(np.abs(low), np.abs(high))):  # the step made leaves its square
             break
     q = gather(chain.pieces, index, t).d0
-    u = chain.place(index, t)
+    u = _one_place_per_joint(chain, chain.place(index, t))
     apart = np.abs(u[1::2] - u[::2])
-    if chain.closed:
-        apart = np.minimum(apart, len(chain.t) - apart)
+    apart = np.minimum(apart, len(chain.t) - apart)
     good = (np.abs(q[1::2] - q[::2]) <= _TOLERANCE * chain.size) & (apart > _TAIL)
     return u[::2][good], u[1::2][good], q[::2][good]
+
+
+def _one_place_per_joint(chain, u):
+    """The end of a piece counts as the start of the next, so that a crossing found from both sides of a joint is one."""
+    following = chain.first[np.searchsorted(chain.first, u, side="right")]
+    return np.where(following - 1 - u < _SAME, following % len(chain.t), u)
 
 
 def _step(q):
@@ -135,8 +140,6 @@ def _cross_joints(chain, index, t):
     starts, stops = (np.array([getattr(piece, end) for piece in chain.pieces]) for end in ("start", "stop"))
     sense = np.array([piece.sense for piece in chain.pieces])[index]
     over, under = sense * (t - stops[index]) > 0, sense * (t - starts[index]) < 0
-    if not chain.closed:
-        over, under = over & (index < count - 1), under & (index > 0)
     following, previous = (index + 1) % count, (index - 1) % count
     return (np.where(over, following, np.where(under, previous, index)),
             np.where(over, starts[following], np.where(under, stops[previous], t)))

@@ -63,15 +63,11 @@ class CircleFamily:
         yield Piece(0.0, turn, lambda angle: before.d0 + arm * exp(1j * variable(angle)), f"{piece.label} corner", "arc")
 
     def members(self, index, t):
-        """The centre, as a jet of the motion's parameter."""
-        return gather(self.path, index, t)
-
-    def values(self, members):
-        """The members without their derivatives."""
-        return members.d0
+        """The centres at parameters t of the pieces `index`."""
+        return gather(self.path, index, t).d0
 
     def gap(self, centre, point):
-        """|point - centre| - radius; jets or arrays."""
+        """|point - centre| - radius; the point may be a jet."""
         apart = point - centre
         return (sqrt(apart.abs2()) if isinstance(apart, Jet) else np.abs(apart)) - self.radius
 
@@ -116,16 +112,12 @@ class LineFamily:
             yield Piece(0.0, 1.0, lambda u: before + (after - before) * variable(u), f"{piece.label} corner", "line")
 
     def members(self, index, t):
-        """Unit normal and support, as jets of the motion's parameter."""
+        """Rows of unit normal and support at parameters t of the pieces `index`."""
         direction, support = gather(self.motion, index, t)
-        return exp(1j * direction), support
-
-    def values(self, members):
-        """The members without their derivatives, one row each of normal and support."""
-        return np.stack([members[0].d0, members[1].d0 + 0j])
+        return np.stack([np.exp(1j * direction.d0), support.d0 + 0j])
 
     def gap(self, member, point):
-        """p - Re(conj(n) z); jets or arrays."""
+        """p - Re(conj(n) z); the point may be a jet."""
         normal, support = member
         return support.real - (normal.conj() * point).real
 

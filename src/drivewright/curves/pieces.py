@@ -62,13 +62,12 @@ def _joined(jets):
 
 @dataclass(frozen=True)
 class Chain:
-    """Pieces joined end to end with sample points: piece index, parameter, point z, velocity v in the direction of the chain.
+    """Pieces joined end to end into a closed curve, with samples: piece index, parameter, point z, velocity v along the chain.
 
     A place on the chain is a float u: the sample number, fractions in between.
     """
 
     pieces: tuple
-    closed: bool
     index: np.ndarray
     t: np.ndarray
     z: np.ndarray
@@ -91,7 +90,7 @@ class Chain:
 
     def locate(self, u):
         """Piece index and parameter at the places u."""
-        u = np.mod(u, len(self.t)) if self.closed else np.clip(u, 0, len(self.t) - 1)
+        u = np.mod(u, len(self.t))
         index = np.clip(np.searchsorted(self.first, u, side="right") - 1, 0, len(self.pieces) - 1)
         u = np.minimum(u, self.first[index + 1] - 1)
         below = np.minimum(np.floor(u).astype(int), self.first[index + 1] - 2)
@@ -107,7 +106,7 @@ class Chain:
         return u
 
 
-def sample(pieces, count=1440, least=96, closed=True):
+def sample(pieces, count=1440, least=96):
     """Chain of the pieces with about `count` samples, spread half by parameter, half by arc length; at least `least` per piece."""
     coarse = [np.linspace(piece.start, piece.stop, 33) for piece in pieces]
     lengths = [_running_length(piece, t) for piece, t in zip(pieces, coarse, strict=True)]
@@ -123,7 +122,7 @@ def sample(pieces, count=1440, least=96, closed=True):
     index = np.repeat(np.arange(len(pieces)), [len(t) for t in parameters])
     jets = _joined(jets)
     senses = np.array([piece.sense for piece in pieces])[index]
-    chain = Chain(tuple(pieces), closed, index, np.concatenate(parameters), jets.d0, jets.d1 * senses)
+    chain = Chain(tuple(pieces), index, np.concatenate(parameters), jets.d0, jets.d1 * senses)
     _refuse_gaps(chain)
     return chain
 
@@ -153,11 +152,9 @@ def _ends_exact(t, like):
 
 def _refuse_gaps(chain):
     ends, starts = chain.first[1:] - 1, np.append(chain.first[1:-1], 0)
-    if not chain.closed:
-        ends, starts = ends[:-1], starts[:-1]
     miss = np.abs(chain.z[ends] - chain.z[starts])
-    worst = int(np.argmax(miss)) if len(miss) else 0
-    if len(miss) and miss[worst] > _JOINT * chain.size:
+    worst = int(np.argmax(miss))
+    if miss[worst] > _JOINT * chain.size:
         here, there = chain.pieces[worst], chain.pieces[(worst + 1) % len(chain.pieces)]
         raise InputError(
             f"curve: piece '{here.label}' ends at t = {here.stop:.6g} and piece '{there.label}' starts at t = {there.start:.6g}, "

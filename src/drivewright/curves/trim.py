@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.curves.coverage import Coverage, newton_step
+from drivewright.curves.coverage import Coverage
 from drivewright.curves.crossings import self_crossings
 from drivewright.curves.outlines import outline_of_spans, span_measures
 from drivewright.curves.pieces import Chain, Piece, gather, sample
@@ -83,7 +83,7 @@ def trim(family, interior=0j, samples=1440, least=96):
     alive = _alive(chain, coverage, cuts)
     loop = _choose(chain, cuts, _loops(cuts, partner, alive), interior, family.material)
     _refuse_missed_cuts(chain, coverage, cuts, loop)
-    spans, corners = _spans(chain, cuts, partner, loop)
+    spans, corners = _spans(chain, cuts, loop)
     area, perimeter = span_measures(spans)
     return Trimmed(family, spans, corners, crossings, abs(area), perimeter, chain)
 
@@ -119,7 +119,7 @@ def largest_lost_motion(trimmed):
 
 
 def _refuse_swept(coverage, interior):
-    gap = float(coverage.coarse(np.array([complex(interior)]))[0])
+    gap = float(coverage.least(np.array([complex(interior)]))[0])
     if gap <= 0:
         raise InputError(
             f"trim: the cutter passes {-gap * 1e3:.4g} mm over the interior point ({interior.real:.4g}, {interior.imag:.4g}) m, so no part "
@@ -150,7 +150,7 @@ def _alive(chain, coverage, cuts):
 
 
 def _loops(cuts, partner, alive):
-    """Closed sequences of surviving intervals; at each cut the next interval, or the one that starts at the partner."""
+    """Closed sequences of surviving intervals: at a cut the profile turns into the interval that starts at the partner."""
     left = set(np.flatnonzero(alive))
     loops = []
     while left:
@@ -160,9 +160,8 @@ def _loops(cuts, partner, alive):
             left.remove(k)
             loop.append(int(k))
             if len(cuts):
-                following = (k + 1) % len(cuts)
-                k = following if alive[following] else partner[following]
-        if k == start or not len(cuts):
+                k = partner[(k + 1) % len(cuts)]
+        if k == start:
             loops.append(loop)
     return loops
 
@@ -197,43 +196,25 @@ def _samples_between(chain, start, stop):
 def _refuse_missed_cuts(chain, coverage, cuts, loop):
     """A covered sample on a surviving interval means that a crossing was not seen."""
     kept = np.concatenate([_samples_between(chain, *_interval(chain, cuts, k)) for k in loop])
-    gaps = coverage.coarse(chain.z[kept])
+    gaps = coverage.least(chain.z[kept])
     worst = int(np.argmin(gaps))
     if gaps[worst] < -_UNSEEN * chain.size:
         piece, t = chain.pieces[chain.index[kept[worst]]], chain.t[kept[worst]]
         raise SolverError(
-            f"trim: piece '{piece.label}' at t = {t:.6g} is still covered by {-gaps[worst] * 1e3:.3g} mm; a self-intersection of the "
-            f"envelope was missed. Raise `samples` above {len(chain.t)}."
+            f"trim: piece '{piece.label}' at t = {t:.6g} is still covered by {-gaps[worst] * 1e3:.3g} mm: either a self-intersection of the "
+            f"envelope was missed (raise `samples` above {len(chain.t)}), or the motion turns back so far in a loop that the other side "
+            "of its path bounds the part (smooth the motion)."
         )
 
 
-def _spans(chain, cuts, partner, loop):
+def _spans(chain, cuts, loop):
     spans, corners = [], []
     for number, k in enumerate(loop):
         spans += _split(chain, *_interval(chain, cuts, k))
-        following = loop[(number + 1) % len(loop)]
-        end = (k + 1) % len(cuts) if len(cuts) else 0
-        if len(cuts) and following != end:
-            index, t = chain.locate(cuts[[end, following]])
+        if len(cuts):
+            index, t = chain.locate(cuts[[(k + 1) % len(cuts), loop[(number + 1) % len(loop)]]])
             corners.append(Corner(float(t[0]), float(t[1]), complex(gather(chain.pieces, index, t).d0[0])))
-    return tuple(_rejoined(spans)), tuple(corners)
-
-
-def _rejoined(spans):
-    """Spans with those put together that a crossing split without ending them."""
-    joined = []
-    for span in spans:
-        if joined and _continues(joined[-1], span):
-            joined[-1] = joined[-1]._replace(stop=span.stop)
-        else:
-            joined.append(span)
-    if len(joined) > 1 and _continues(joined[-1], joined[0]):
-        joined[0] = joined.pop()._replace(stop=joined[0].stop)
-    return joined
-
-
-def _continues(span, other):
-    return span.piece is other.piece and abs(other.start - span.stop) <= 1e-12 * max(abs(span.stop), abs(other.stop - other.start))
+    return tuple(spans), tuple(corners)
 
 
 def _split(chain, start, stop):
@@ -274,7 +255,7 @@ def _gap_to_profile(trimmed, t, steps=6):
     family, spans = trimmed.family, trimmed.spans
     motion = family.envelope()
     starts = np.array([piece.start for piece in motion if piece.source is not None])
-    members = family.values(family.members(np.clip(np.searchsorted(starts, t, side="right") - 1, 0, len(starts) - 1), t))
+    members = family.members(np.clip(np.searchsorted(starts, t, side="right") - 1, 0, len(starts) - 1), t)
     s = np.concatenate([np.linspace(span.start, span.stop, 65) for span in spans])
     pieces = tuple(span.piece for span in spans)
     index = np.repeat(np.arange(len(spans)), 65)
@@ -287,5 +268,12 @@ def _gap_to_profile(trimmed, t, steps=6):
     for _ in range(steps):
         gap = family.gap(members, gather(pieces, index[best], at))
         least = np.minimum(least, gap.d0)
-        at = newton_step(at, gap, low, high)
+        at = _downhill(at, gap, low, high)
     return least
+
+
+def _downhill(t, gap, low, high):
+    """One Newton step towards gap' = 0 inside [low, high]; none where that would be a maximum."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        step = np.where(gap.d2 > 0, -gap.d1 / gap.d2, 0.0)
+    return np.clip(t + np.where(np.isfinite(step), step, 0.0), low, high)

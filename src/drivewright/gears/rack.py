@@ -205,21 +205,11 @@ class RackFamily:
     # -- the cutting family, as `curves.trim` asks for it ----------------------------------------------------------------------
 
     def members(self, index, t):
-        """The frame at driver angles t."""
-        return self.frame(t)
-
-    def values(self, members):
-        """Rows z, T, N, s."""
-        return np.stack([member.d0 + 0j for member in members])
+        """Rows z, T, N, s of the frame at driver angles t."""
+        return np.stack([part.d0 + 0j for part in self.frame(t)])
 
     def gap(self, member, point):
-        """Distance [m] of a point from the rack in the given frame, negative inside a cutter tooth.
-
-        Of jets only the value is given (its derivatives are nan): the distance from a polygon has no smooth ones.
-        """
-        if isinstance(member[0], Jet):
-            distance = self.gap(self.values(member), point)
-            return Jet(distance, *[np.full_like(distance, np.nan)] * 3)
+        """Distance [m] of a point from the rack in the given frame, negative inside a cutter tooth."""
         z, along, outward, rolled = member
         away, height = np.real(np.conj(along) * (point - z)), np.real(np.conj(outward) * (point - z))
         pitch = np.pi * self.module

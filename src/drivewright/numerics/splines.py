@@ -1,5 +1,7 @@
 """Splines through and near points, as piecewise polynomials (scipy's PPoly: coefficients .c, breaks .x, .derivative())."""
 
+from math import factorial
+
 import numpy as np
 from scipy.interpolate import BSpline, PPoly, make_interp_spline, splrep
 
@@ -69,7 +71,9 @@ def _check_period(y):
 
 
 def _pieces(spline, breaks, extrapolate):
-    """The polynomial of each interval between breaks: scipy's own also lists empty and outlying intervals."""
-    pieces = PPoly.from_spline(spline)
-    row = np.searchsorted(pieces.x, breaks[:-1], side="right") - 1
-    return PPoly(pieces.c[:, row], breaks, extrapolate=extrapolate)
+    """The polynomial of each interval between breaks, by Taylor's formula at its left end.
+
+    PPoly.from_spline would list empty and outlying intervals too, and takes scalar splines only.
+    """
+    taylor = [spline(breaks[:-1], nu=order) / factorial(order) for order in range(spline.k, -1, -1)]
+    return PPoly(np.stack(taylor), breaks, extrapolate=extrapolate)

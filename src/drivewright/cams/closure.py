@@ -1,0 +1,42 @@
+"""What keeps a follower on its cam where no spring does: a yoke, a groove, a second cam."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.numerics.jets import cos
+
+
+class Breadth(NamedTuple):
+    """Mean of s(theta) + s(theta + pi) [m] and the largest departure from it [m]: the play or interference of a yoke."""
+
+    mean: float
+    error: float
+
+
+def breadth(cycle):
+    """`Breadth` of the lift over a turn.  A yoke between two faces or rollers wants error = 0."""
+    def total(angle, lift):
+        return lift + cycle.after(np.pi, angle)
+
+    least, greatest = cycle.least(total).value, cycle.greatest(total).value
+    return Breadth(0.5 * (least + greatest), 0.5 * (greatest - least))
+
+
+def opposite_contact(cycle, follower, angle, lift):
+    """`Contact` of the second face of a yoke: that of the first half a turn later, driving the return."""
+    later = follower.contact(angle + np.pi, cycle.after(np.pi, angle))
+    return replace(later, leverage=-later.leverage)
+
+
+def crossovers(cycle, required):
+    """How often per turn the force that the follower asks for changes its sign, so that the other flank or cam takes over."""
+    signs = np.sign(required(*cycle.at(*cycle.samples())).d0)
+    signs = signs[signs != 0]
+    return int(np.sum(signs != np.roll(signs, 1)))
+
+
+def play(cycle, contact, clearance):
+    """Greatest travel [m] of the follower through a clearance [m] between two flanks: clearance/cos alpha."""
+    return clearance * cycle.greatest(lambda angle, lift: 1 / cos(contact(angle, lift).pressure_angle)).value

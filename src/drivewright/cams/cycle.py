@@ -1,0 +1,83 @@
+"""One turn of a cam in smooth pieces: every quantity has a value on either side of a joint, and its extremes are exact."""
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from drivewright.numerics.jets import Jet, variable
+from drivewright.numerics.roots import bracketed_roots
+
+STEP = np.radians(0.5)
+EQUAL = 1e-12  # values closer than this, relative to the largest, are one; the first of them is named
+
+
+class Extreme(NamedTuple):
+    """A greatest or least value, the angle [rad] and the smooth piece where it stands."""
+
+    value: float
+    angle: float
+    piece: int
+
+
+@dataclass(frozen=True, eq=False)
+class Cycle:
+    """The motion over one turn: `motion.breaks` (n+1,) [rad] and `motion.on_piece(k, angle)` -> (s, s', s'', s''') on piece k.
+
+    `chosen` restricts everything to some of the pieces, such as those of one phase.  A *quantity* below is a function of the
+    two jets angle and lift that returns a jet with a valid slope.
+    """
+
+    motion: Any
+    chosen: tuple | None = None
+
+    @property
+    def pieces(self):
+        """Numbers of the smooth pieces that count."""
+        return np.arange(len(self.motion.breaks) - 1) if self.chosen is None else np.array(self.chosen)
+
+    def at(self, piece, angle):
+        """(angle, lift): the jets at these angles by the formulas of these pieces."""
+        return variable(angle), Jet(*self.motion.on_piece(piece, angle))
+
+    def after(self, shift, angle):
+        """The jet of the lift a fixed angle later in the turn."""
+        breaks = self.motion.breaks
+        later = np.mod(angle.d0 + shift, breaks[-1])
+        return self.at(np.clip(np.searchsorted(breaks, later, side="right") - 1, 0, len(breaks) - 2), later)[1]
+
+    def samples(self, step=STEP, least=8):
+        """(piece, angle): places at most `step` apart with both ends of every piece, so that each joint stands twice."""
+        pieces, breaks = self.pieces, self.motion.breaks
+        counts = np.maximum(np.ceil(np.diff(breaks)[pieces] / step).astype(int), least) + 1
+        # linspace gives both ends exactly.
+        angle = np.concatenate([np.linspace(breaks[k], breaks[k + 1], count) for k, count in zip(pieces, counts, strict=True)])
+        return np.repeat(pieces, counts), angle
+
+    def greatest(self, quantity, step=STEP):
+        """`Extreme` of a quantity; of equal ones the first.  The angle is exact to rounding."""
+        piece, angle = self.samples(step)
+        found = quantity(*self.at(piece, angle))
+        values, slope = np.broadcast_to(found.d0, angle.shape), np.broadcast_to(found.d1, angle.shape)
+        piece, angle, values = np.append([piece, angle, values], self._tops(quantity, piece, angle, values, slope), axis=1)
+        close = np.flatnonzero(values >= values.max() - EQUAL * np.max(np.abs(values)))
+        first = close[np.argmin(angle[close])]
+        return Extreme(float(values[first]), float(angle[first]), int(piece[first]))
+
+    def least(self, quantity, step=STEP):
+        """`Extreme` of the least value of a quantity; of equal ones the first."""
+        found = self.greatest(lambda angle, lift: -quantity(angle, lift), step)
+        return found._replace(value=-found.value)
+
+    def _tops(self, quantity, piece, angle, value, slope):
+        """(piece, angle, value) where the slope passes through zero between two samples that may be as high as the highest."""
+        inside = (piece[:-1] == piece[1:]) & (slope[:-1] > 0) & (slope[1:] < 0)
+        reach = np.maximum(value[:-1] + slope[:-1] * np.diff(angle), value[1:] - slope[1:] * np.diff(angle))
+        worth = inside & (reach > value.max() + EQUAL * np.max(np.abs(value)))
+        tops = [top for k in np.flatnonzero(worth) for top in self._between(quantity, piece[k], angle[k:k + 2])]
+        return np.array(tops).reshape(-1, 3).T
+
+    def _between(self, quantity, piece, ends):
+        """(piece, angle, value) of the hill between two angles of a piece; none where the slope jumps over zero at a pole."""
+        for top in bracketed_roots(lambda x: quantity(*self.at(np.full(x.shape, piece), x)).d1, ends):
+            yield piece, top, quantity(*self.at(piece, top)).d0

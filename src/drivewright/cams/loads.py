@@ -1,0 +1,97 @@
+"""Forces of a cam drive: what the follower asks for, what the contact carries, what the shaft feels, what the spring must do.
+
+Everything that acts on the follower is reduced to one coordinate x [m], its travel; x = reach * lift.  No friction.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.curves import derivative
+from drivewright.errors import SolverError
+
+STEPS = 60
+
+
+class Load(NamedTuple):
+    """What acts along the travel x; `force` and the spring press the follower onto the cam."""
+
+    mass: float = 0.0  # kg
+    damping: float = 0.0  # N s/m
+    stiffness: float = 0.0  # N/m
+    preload: float = 0.0  # N, of the spring at x = 0
+    force: float = 0.0  # N
+
+
+def follower_force(travel, load, speed):
+    """Q = m w^2 x'' + c w x' + k x + P + F [N]: the force that the cam must exert along the travel, a jet of the cam angle.
+
+    Where Q < 0 a one-sided contact is lost, and a second flank or cam takes over.
+    """
+    velocity = derivative(travel)
+    inertia = load.mass * speed**2 * derivative(velocity)
+    return inertia + load.damping * speed * velocity + load.stiffness * travel + (load.preload + load.force)
+
+
+def normal_force(required, contact):
+    """N = Q/leverage [N]: force between the surfaces from the force along the travel; both jets."""
+    return required / contact.leverage
+
+
+def drive_torque(travel, required):
+    """T = Q dx/dtheta [N m] that the cam shaft must be given, from the power balance T w = Q v."""
+    return required * derivative(travel)
+
+
+def needed_preload(cycle, reach, load, speed):
+    """Least preload [N] of the spring that keeps the contact closed with the stiffness as it is; 0 where none is needed."""
+    lowest = cycle.least(lambda _, lift: follower_force(reach * lift, load._replace(preload=0.0), speed))
+    return max(-lowest.value, 0.0)
+
+
+def needed_stiffness(cycle, reach, load, speed):
+    """Least stiffness [N/m] of the spring that keeps the contact closed with the preload as it is; inf where no stiffness does.
+
+    The greatest -Q0/x over the cycle, Q0 the force without the spring's stiffness, by Dinkelbach's iteration (recalled): the
+    place where Q0 + k x is least gives the next k.
+    """
+    stiffness = 0.0
+    for _ in range(STEPS):
+        tried = load._replace(stiffness=stiffness)
+        lowest = cycle.least(lambda _, lift, tried=tried: follower_force(reach * lift, tried, speed))
+        x = reach * cycle.at(lowest.piece, lowest.angle)[1].d0
+        if lowest.value >= -1e-13 * stiffness * abs(x):
+            return stiffness
+        if x <= 0:
+            return np.inf
+        stiffness -= lowest.value / x
+    raise SolverError("cam spring: the stiffness did not settle; give a preload and let the stiffness be.", partial=stiffness)
+
+
+def jump_speed(cycle, reach, load):
+    """Least speed [rad/s] of the cam at which the follower loses contact; 0 where it does at rest, inf where it never does.
+
+    m x'' w^2 + c x' w + (k x + P + F) = 0 gives a speed at every place; the place where the force at that speed is least gives the next.
+    """
+    if cycle.least(lambda _, lift: follower_force(reach * lift, load, 0.0)).value <= 0:
+        return 0.0
+    speed = np.min(_separating_speed(cycle, reach, load, *cycle.samples()))
+    for _ in range(STEPS):
+        if not np.isfinite(speed):
+            return np.inf
+        lowest = cycle.least(lambda _, lift, speed=speed: follower_force(reach * lift, load, speed))
+        lower = float(_separating_speed(cycle, reach, load, lowest.piece, lowest.angle))
+        if not lower < speed * (1 - 1e-14):
+            return float(speed)
+        speed = lower
+    raise SolverError(f"cam spring: the jump speed did not settle; it is below {speed:.6g} rad/s.", partial=speed)
+
+
+def _separating_speed(cycle, reach, load, piece, angle):
+    """Least positive root w of m x'' w^2 + c x' w + (k x + P + F) = 0 at each place; inf where there is none."""
+    _, lift = cycle.at(piece, angle)
+    a, b, c = load.mass * reach * lift.d2, load.damping * reach * lift.d1, load.stiffness * reach * lift.d0 + load.preload + load.force
+    with np.errstate(divide="ignore", invalid="ignore"):
+        root = np.sqrt(b**2 - 4 * a * c)
+        both = np.stack([2 * c / (-b + root), 2 * c / (-b - root)])  # this form does not cancel for small a
+    return np.min(np.where(both > 0, both, np.inf), axis=0)

@@ -1,0 +1,49 @@
+"""How large a flat-faced follower and its cam must be."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from drivewright.cams.followers import TranslatingFlat, flat_radius
+from drivewright.curves import derivative
+
+
+def least_base_radius(cycle, follower):
+    """Base radius [m] below which a flat face undercuts the profile: 0 where none is too small, None where none is large enough.
+
+    Translating: max(0, -min(s + s'') cos tilt), exact, as the radius of curvature is R + (s + s'') cos tilt.  Oscillating: the
+    base radius at which the least radius of curvature is zero.
+    """
+    def sharpest(radius):
+        changed = replace(follower, base_radius=radius)
+        return cycle.least(lambda angle, lift: flat_radius(*changed.face(angle, lift))).value
+
+    if isinstance(follower, TranslatingFlat):
+        return max(0.0, follower.base_radius - sharpest(follower.base_radius))
+    highest = cycle.greatest(lambda _, lift: lift).value
+    # The lever is short of its dead point at the greatest lift.
+    low, high = 1e-6 * follower.pivot_distance, follower.face_offset + follower.pivot_distance * np.cos(highest) * (1 - 1e-9)
+    low = max(low, follower.face_offset - follower.pivot_distance * (1 - 1e-9))
+    if sharpest(low) >= 0:
+        return 0.0
+    if sharpest(high) < 0:
+        return None
+    from scipy.optimize import brentq
+
+    return float(brentq(sharpest, low, high, xtol=1e-15 * high, rtol=1e-14))
+
+
+def face_ends(cycle, follower):
+    """(least, greatest) place of the contact along a flat face [m].
+
+    Translating: from where the follower's line meets the face, positive on the side that the cam surface moves to on a rise;
+    oscillating: from the foot of the pivot.
+    """
+    def along(angle, lift):
+        if not isinstance(follower, TranslatingFlat):
+            return follower.reach * follower.contact(angle, lift).leverage
+        cos, sin = np.cos(follower.tilt), np.sin(follower.tilt)
+        foot = (follower.base_radius + follower.offset * sin) / cos + lift
+        return cos * derivative(lift) - follower.offset * cos - sin * foot
+
+    return cycle.least(along).value, cycle.greatest(along).value

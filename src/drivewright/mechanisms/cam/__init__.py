@@ -1,0 +1,26 @@
+"""The kind `cam`: a disc cam with a translating or oscillating follower."""
+
+from pathlib import Path
+
+from drivewright.mechanisms.cam import analyse, finish, loads
+from drivewright.mechanisms.cam.build import build
+from drivewright.mechanisms.cam.scene import PLOTS, drawings, parts, scene
+from drivewright.mechanisms.cam.spec import CamSpec
+from drivewright.registry import Analysis, Mechanism
+
+ANALYSES = (
+    Analysis("motion", analyse.motion, "the programme and its derivatives"),
+    Analysis("geometry", analyse.geometry, "pressure angle, curvature, closure"),
+    Analysis("profile", finish.finished, "the finished profile: undercut, walls, inspection"),
+    Analysis("forces", loads.forces, "contact force and pressure, torque, sliding", missing=loads.no_forces),
+    Analysis("spring", loads.spring, "what the spring must do, and the jump speed", missing=loads.no_spring),
+    Analysis("vibration", loads.vibration, "steady vibration of the follower", missing=loads.no_vibration),
+)
+
+mechanism = Mechanism(
+    kind="cam", summary="disc cam with a translating or oscillating follower", spec=CamSpec, build=build, analyses=ANALYSES,
+    folder=Path(__file__).parent, scene=scene, plots=PLOTS, drawings=drawings, parts=parts,
+    sources=("Norton, Cam Design and Manufacturing Handbook (recalled; verified by closed forms)",
+             "Rothbart, Cam Design Handbook (recalled; verified by closed forms)"),
+    headline=("lift", "max_pressure_angle", "min_pressure_angle", "min_convex_radius", "min_base_radius", "min_half_face", "lost_motion",
+              "yoke.breadth", "max_contact_force", "max_contact_pressure", "max_torque", "spring.jump_speed", "vibration.residual"))

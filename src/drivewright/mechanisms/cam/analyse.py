@@ -1,0 +1,203 @@
+"""What is asked of a cam's geometry: motion, pressure angle, curvature, size of the face, closure."""
+
+import numpy as np
+
+from drivewright import cams, curves
+from drivewright.mechanisms.cam.spec import TURN
+from drivewright.result import Answer, Check, Column, Table, Value
+
+
+def motion(model, done):
+    """The programme over one turn, its jumps at the joints, and with a speed its velocities."""
+    piece, angle = model.cycle.samples()
+    lift = [np.broadcast_to(part, angle.shape) for part in model.cycle.at(piece, angle)[1]]
+    unit, function = "rad" if model.oscillating else "m", model.programme.function
+    peaks = function.peaks()
+    names = ("lift", "slope", "bend", "third")
+    meanings = ("lift of the follower", *(f"{n} derivative of the lift by the cam angle" for n in ("first", "second", "third")))
+    units = (unit, f"{unit}/rad", f"{unit}/rad^2", f"{unit}/rad^3")
+    columns = (Column("angle", "rad", "cam angle", angle), *map(Column, names, units, meanings, lift))
+    values = {"lift": Value(float(np.ptp(lift[0])), unit, "stroke of the follower"),
+              "continuity": Value(float(model.programme.continuity), "-", "order of the highest derivative of the lift that does not jump")}
+    timed = _kinematics(model, angle, lift, peaks, unit) if model.speed else Answer()
+    tables = (Table("motion", "Motion of the follower", columns), *timed.tables)
+    return Answer(values | timed.values, tables, _continuity_checks(model, function), _infinite(peaks))
+
+
+def _kinematics(model, angle, lift, peaks, unit):
+    """Velocity, acceleration and jerk at the cam's speed."""
+    kind = "angular " if model.oscillating else ""
+    columns, values = [Column("angle", "rad", "cam angle", angle)], {}
+    for order, (name, peak) in enumerate((("velocity", peaks.Vm), ("acceleration", peaks.Am), ("jerk", peaks.Jm)), start=1):
+        per_time = f"{unit}/s^{order}".removesuffix("^1")
+        columns.append(Column(name, per_time, f"{kind}{name} of the follower", lift[order] * model.speed**order))
+        if np.isfinite(peak):
+            values[f"max_{name}"] = Value(float(peak * model.speed**order), per_time, f"largest {kind}{name} of the follower, magnitude")
+    return Answer(values, (Table("kinematics", "Velocity, acceleration and jerk", tuple(columns)),))
+
+
+def _continuity_checks(model, function):
+    """Jumps of velocity and acceleration over their own peaks, laws and joints alike."""
+    limits, found = model.spec.limits, []
+    for order, name, limit in ((1, "velocity", limits.velocity_jump), (2, "acceleration", limits.acceleration_jump)):
+        slope = function.derivative(order)
+        peak = max(map(abs, slope.extremes(lambda k, x, f=slope: f.on_piece(k, x)[:2])))
+        jump = float(np.max(np.abs(function.jumps(order)))) / peak if peak else 0.0
+        found.append(Check(f"continuity.{name}", jump, limit, "<=", "-", f"largest jump of the {name} over its peak", ("follower",)))
+    return tuple(found)
+
+
+def _infinite(peaks):
+    names = [name for name, peak in (("acceleration", peaks.Am), ("jerk", peaks.Jm)) if not np.isfinite(peak)]
+    return (f"the largest {' and the largest '.join(names)} are infinite: at a joint a lower derivative jumps",) if names else ()
+
+
+# -- geometry ------------------------------------------------------------------------------------------------------------------
+
+
+def geometry(model, done):
+    """Pressure angles per phase and surface, curvature of the pitch curve, size of a flat face, closure."""
+    cut = [track for track in model.tracks if track.cut]
+    answers = [_closure(model), *(part for track in cut for part in (_pressure(model, track), _curvature(model, track)))]
+    if model.tracks[0].flat:
+        answers.append(_face(model))
+    values = {name: value for answer in answers for name, value in answer.values.items()}
+    checks, findings = (tuple(x for answer in answers for x in getattr(answer, name)) for name in ("checks", "findings"))
+    tables = tuple(table for track in cut for table in _tables(model, track))
+    return Answer(values, tables, checks, findings)
+
+
+def _tables(model, track):
+    yield _geometry_table(model, track)
+    if track.radius and not track.flat:
+        yield _undercut_table(model, track)
+
+
+def _extreme_values(name, place, unit, meaning):
+    """A value and the cam angle where it stands."""
+    return {name: Value(place.value, unit, meaning),
+            f"{name}.at": Value(place.angle % TURN, "rad", f"cam angle of {name}, from the start of the programme")}
+
+
+def _pressure(model, track):
+    """Extremes of the pressure angle over the turn, signed, and its largest magnitude in every phase."""
+    def angle_of(angle, lift):
+        return track.contact(angle, lift).pressure_angle
+
+    high, low = model.cycle.greatest(angle_of), model.cycle.least(angle_of)
+    values = _extreme_values(f"{track.prefix}max_pressure_angle", high, "rad", "largest pressure angle, positive where it opposes the rise")
+    values |= _extreme_values(f"{track.prefix}min_pressure_angle", low, "rad", "least pressure angle, positive where it opposes the rise")
+    for phase in ("rise", "return"):
+        if cycle := model.phase(phase):
+            size = max(cycle.greatest(angle_of).value, -cycle.least(angle_of).value)
+            values[f"{track.prefix}max_pressure_angle.{phase}"] = Value(size, "rad", f"largest pressure angle in the {phase}, magnitude")
+    if track.flank < 0:  # the walls of a groove share their normals
+        return Answer(values)
+    limit = model.spec.limits.pressure_angle or np.radians(45 if model.oscillating else 30)
+    size = max(high.value, -low.value)
+    check = Check(f"pressure_angle{track.suffix}", size, limit, "<=", "rad", "largest pressure angle, magnitude", (track.name,))
+    return Answer(values, (), (check,))
+
+
+def _curvature(model, track):
+    """Sharpest convex and concave places of the pitch curve (of the profile under a flat face), and undercut."""
+    if track.flat:
+        least = flat_least(model, track)
+        places = {"convex": least if least.value > 0 else None}
+    else:
+        places = {"convex": _sharpest(model, track, 1), "concave": _sharpest(model, track, -1)}
+    values = {}
+    for name, place in places.items():
+        if place:
+            meaning = f"least radius of curvature of the {track.curve} where it is {name} seen from outside"
+            values |= _extreme_values(f"{track.prefix}min_{name}_radius", place, "m", meaning)
+    absent = f"{track.prefix}min_convex_radius is absent: the radius of the {track.curve} passes through zero"
+    checks = _flat_undercut(least) if track.flat else _undercut(model, track, places["convex" if track.flank > 0 else "concave"])
+    return Answer(values, (), checks, () if places["convex"] else (absent,))
+
+
+def flat_least(model, track):
+    """The least radius of curvature of the profile under a flat face, negative where it is undercut."""
+    return model.cycle.least(lambda angle, lift: cams.flat_radius(*track.follower.face(angle, lift)))
+
+
+def _sharpest(model, track, way):
+    """Least radius of the pitch curve where it is convex (+1) or concave (-1); None where it is nowhere so."""
+    found = model.cycle.greatest(lambda angle, lift: way * track.contact(angle, lift).bend)
+    return found._replace(value=1 / found.value) if found.value > 0 else None
+
+
+def _flat_undercut(least):
+    message = "least radius of curvature of the profile: below 0 the face cuts it away"
+    return (Check("undercut", least.value, 0.0, ">=", "m", message, ("cam",), True),)
+
+
+def _undercut(model, track, place):
+    """Radius of the pitch curve over that of the face, where the face is inside the bend."""
+    if not track.radius or place is None:
+        return ()
+    ratio, recommended, parts = place.value / track.radius, model.spec.limits.curvature_ratio, (track.name,)
+    message = "least radius of the pitch curve over that of the face: below 1 the profile cuts itself away"
+    return (Check(f"undercut{track.suffix}", ratio, 1.0, ">=", "-", message, parts, True),
+            Check(f"curvature_margin{track.suffix}", ratio, recommended, ">=", "-", "the same, with the recommended margin", parts))
+
+
+def _face(model):
+    """How large a flat-faced cam and its face must be."""
+    low, high = cams.face_ends(model.cycle, model.follower)
+    slope = [extreme(lambda _, lift: curves.derivative(lift)).value for extreme in (model.cycle.least, model.cycle.greatest)]
+    half = 0.5 * (high - low) if model.oscillating else max(-slope[0], slope[1])
+    about = "" if model.oscillating else ", about the cam's axis: max |ds/dtheta|"
+    origin = "the foot of the pivot" if model.oscillating else "the follower's line"
+    values = {"face.start": Value(low, "m", f"least place of the contact on the face, from {origin}"),
+              "face.end": Value(high, "m", f"greatest place of the contact on the face, from {origin}"),
+              "min_half_face": Value(half, "m", f"half the length of face that is used{about}")}
+    base, findings = cams.least_base_radius(model.cycle, model.follower), ()
+    if base is None:
+        findings = ("min_base_radius is absent: no base radius is free of undercut; move the pivot away or reduce the swing",)
+    else:
+        values["min_base_radius"] = Value(base, "m", "least base radius without undercut")
+    given = model.spec.follower
+    middle = given.arm_length if model.oscillating else given.face_offset
+    used = max(high - middle, middle - low)
+    message = "the contact stays on the flat face, measured from its middle"
+    checks = (Check("half_face", used, given.half_face, "<=", "m", message, ("follower",)),) if given.half_face else ()
+    return Answer(values, (), checks, findings)
+
+
+def _closure(model):
+    """What the chosen closure asks of the shape."""
+    limits = model.spec.limits
+    if model.spec.closure == "yoke":
+        error, meaning = cams.breadth(model.cycle).error, "largest play or interference of the yoke: departure of s(theta) + s(theta + pi)"
+        values = {"yoke.breadth": Value(model.yoke_breadth, "m", "distance of the two faces, or roller centres, of the yoke"),
+                  "yoke.breadth_error": Value(error, "m", meaning)}
+        message = "the yoke fits at every angle: s(theta) + s(theta + pi) is constant"
+        return Answer(values, (), (Check("closure.breadth", error, limits.breadth_error, "<=", "m", message, ("follower", "cam"), True),))
+    if model.spec.closure == "groove":
+        travel, meaning = cams.play(model.cycle, model.tracks[0].contact, model.clearance), "travel through the clearance of the groove"
+        check = Check("groove.play", travel, limits.play, "<=", "m", meaning, ("follower",))
+        return Answer({"groove.play": Value(travel, "m", meaning)}, (), (check,))
+    return Answer()
+
+
+def _geometry_table(model, track):
+    """Pressure angle, curvature and profile of one surface over the turn, one-sided at the joints."""
+    piece, angle = model.cycle.samples()
+    contact = track.contact(*model.cycle.at(piece, angle))
+    return Table(f"geometry{track.suffix}", f"Pressure angle and curvature{track.of}", (
+        Column("angle", "rad", "cam angle", angle),
+        Column("pressure_angle", "rad", f"pressure angle{track.of}", contact.pressure_angle.d0 + 0 * angle),
+        Column("curvature", "1/m", f"curvature of the {track.curve}{track.of}, convex positive", contact.bend.d0 + 0 * angle),
+        Column("pitch_radius", "m", f"distance of the {track.curve}{track.of} from the cam's centre", np.abs(contact.pitch.d0)),
+        Column("profile_x", "m", f"profile{track.of}, x at cam angle 0", contact.point.d0.real),
+        Column("profile_y", "m", f"profile{track.of}, y at cam angle 0", contact.point.d0.imag)))
+
+
+def _undercut_table(model, track):
+    """Curvature of the pitch curve against that of the face: above 1 the profile cuts itself away."""
+    piece, angle = model.cycle.samples()
+    ratio = track.flank * track.radius * track.contact(*model.cycle.at(piece, angle)).bend.d0
+    return Table(f"undercut{track.suffix}", f"Undercut{track.of}", (
+        Column("angle", "rad", "cam angle", angle),
+        Column("ratio", "-", f"face radius times curvature of the pitch curve{track.of}", ratio + 0 * angle)))

@@ -1,0 +1,288 @@
+"""Spec -> model: the programme over one turn and the surfaces that touch: cam and follower, second cam, outer wall, second face."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache, partial
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright import cams, curves, materials, motion
+from drivewright.errors import DoesNotAssemble, InputError, SolverError, SpecError
+from drivewright.mechanisms.cam.spec import CamSpec, Groove, Swing
+from drivewright.scene import Outline
+
+LAW_KEYS = ("file", "b", "c", "d", "start", "end", "interior", "points", "degree", "ends")
+USED = {  # keys of the follower that each motion and face reads
+    "translating": ("offset",), "oscillating": ("pivot_distance", "arm_length"),
+    "roller": ("roller_radius",), "knife": (), "shoe": ("face_radius", "face_offset"), "flat": ("face_offset", "face_angle", "half_face")}
+
+
+@dataclass(frozen=True)
+class Track:
+    """A surface of a cam and what runs on it: `contact(angle, lift)` gives the `cams.Contact`.
+
+    `prefix` stands before the names of its values; flank -1 is the outer wall of a groove; `cut`: it needs a profile of its own.
+    """
+
+    name: str
+    prefix: str
+    follower: object
+    contact: Callable
+    flank: int = 1
+    cut: bool = True
+
+    @property
+    def flat(self):
+        """Whether the face is flat."""
+        return hasattr(self.follower, "face")
+
+    @property
+    def suffix(self):
+        """What stands behind the names of its tables and checks."""
+        return f".{self.prefix[:-1]}" if self.prefix else ""
+
+    @property
+    def of(self):
+        """What stands behind the meaning of its values, to tell it from the cam."""
+        return f" ({self.name})" if self.prefix else ""
+
+    @property
+    def curve(self):
+        """The curve whose curvature counts."""
+        return "profile" if self.flat else "pitch curve"
+
+    @property
+    def radius(self):
+        """Radius of the face [m]; 0 for a knife edge, inf for a flat face."""
+        return np.inf if self.flat else self.follower.radius
+
+
+@dataclass(frozen=True, eq=False)
+class CamModel:
+    """The model: the motion over one turn and the tracks, the first of which is the cam's own."""
+
+    spec: CamSpec
+    programme: motion.Programme
+    tracks: tuple
+    material: materials.Material
+    findings: tuple = field(default=())
+
+    @cached_property
+    def cycle(self):
+        """The turn in smooth pieces."""
+        return cams.Cycle(self.programme.function)
+
+    def phase(self, name):
+        """The pieces of the turn in a phase, "rise", "return" or "dwell"; None where there are none."""
+        chosen = tuple(k for k, piece in enumerate(self.programme.pieces) if piece.phase == name)
+        return replace(self.cycle, chosen=chosen) if chosen else None
+
+    @property
+    def follower(self):
+        """The follower on its first track."""
+        return self.tracks[0].follower
+
+    @property
+    def oscillating(self):
+        """Whether the follower swings."""
+        return self.spec.follower.motion == "oscillating"
+
+    @property
+    def speed(self):
+        """Speed of the cam [rad/s], None where it is not said."""
+        return self.spec.drive.speed if self.spec.drive else None
+
+    @property
+    def yoke_breadth(self):
+        """Distance of the two faces, or roller centres, of a yoke [m]."""
+        radius = self.follower.base_radius if self.tracks[0].flat else self.follower.prime_radius
+        return 2 * radius + cams.breadth(self.cycle).mean
+
+    @property
+    def clearance(self):
+        """Width of a groove less the diameter of its roller [m]."""
+        return (self.spec.groove or Groove()).clearance
+
+    @property
+    def load(self):
+        """What acts along the follower's travel."""
+        load, spring = self.spec.load, self.spec.spring
+        held = (spring.stiffness, spring.preload) if spring else (0.0, 0.0)
+        return cams.Load(load.mass, load.damping, *held, load.force)
+
+    def required(self, angle, lift):
+        """Force that the cam must exert along the travel [N]; a jet."""
+        return cams.follower_force(self.follower.reach * lift, self.load, self.speed)
+
+
+def build(spec):
+    """The `CamModel` of a spec."""
+    programme = motion.Programme(tuple(_segment(spec, number) for number in range(len(spec.programme))))
+    follower = _follower(spec)
+    tracks = (Track("cam", "", follower, follower.contact), *_closing_tracks(spec, follower, programme))
+    model = CamModel(spec, programme, tracks, _material(spec), tuple(_findings(spec, programme)))
+    for track in tracks:  # lever past its dead point, lift through the cam's centre: said here, not in the middle of an analysis
+        track.contact(*model.cycle.at(*model.cycle.samples()))
+    return model
+
+
+# -- programme -----------------------------------------------------------------------------------------------------------------
+
+
+def _segment(spec, number):
+    """The motion of one [[programme]] table; errors name the table."""
+    segment, key = spec.programme[number], f"programme.{number}"
+    parameters = {name: getattr(segment, name) for name in LAW_KEYS if getattr(segment, name) is not None}
+    if segment.law == "dwell" and parameters:
+        raise SpecError("a dwell has no parameters; leave it out or name another law", key=f"{key}.{next(iter(parameters))}")
+    try:
+        law = "dwell" if segment.law == "dwell" else motion.law(segment.law, **parameters)
+        _refuse_rise(spec, segment, law, key)
+        return motion.Segment(segment.angle, law, 0.0 if segment.rise is None else float(segment.rise))
+    except SpecError:
+        raise
+    except InputError as error:
+        raise SpecError(str(error), key=f"{key}.law") from None
+
+
+def _refuse_rise(spec, segment, law, key):
+    """The rise, or the lift of a table, must be a length for a translating follower and an angle for an oscillating one."""
+    swings = spec.follower.motion == "oscillating"
+    wanted = "an angle, as the follower oscillates" if swings else "a length, as the follower translates"
+    if segment.rise is not None and segment.rise != 0 and isinstance(segment.rise, Swing) != swings:
+        raise SpecError(f"must be {wanted}", key=f"{key}.rise")
+    if (getattr(law, "lift_unit", None) or "") == ("m" if swings else "rad"):
+        raise SpecError(f"the lift in its table must be {wanted}", key=f"{key}.file")
+
+
+def _findings(spec, programme):
+    """What the reader of the result should know before anything is computed."""
+    used = {"motion", "face", "prime_radius", "base_radius", *USED[spec.follower.motion], *USED[spec.follower.face]}
+    kind = f"{spec.follower.motion} follower with a {spec.follower.face} face"
+    for name in sorted(name for name in spec.follower.model_fields_set - used if getattr(spec.follower, name)):
+        yield f"follower.{name} has no meaning for a {kind}; it is not used"
+    for segment in programme.segments:
+        message = segment.law.ripple.message if isinstance(segment.law, motion.TableLaw) else ""
+        if message:
+            yield message
+    for name in ("groove", "conjugate"):
+        if getattr(spec, name) is not None and spec.closure != name:
+            yield f"[{name}] is given, but closure = \"{spec.closure}\"; it is not used"
+
+
+def _material(spec):
+    try:
+        return materials.material(spec.material)
+    except InputError as error:
+        raise SpecError(str(error), key="material") from None
+
+
+# -- follower and tracks ---------------------------------------------------------------------------------------------------------
+
+
+def _follower(spec):
+    """The follower on the cam."""
+    given, sense = spec.follower, 1 if spec.rotation == "counter-clockwise" else -1
+    radius = {"roller": given.roller_radius, "shoe": given.face_radius}.get(given.face, 0.0)
+    if radius is None:
+        name = "roller_radius" if given.face == "roller" else "face_radius"
+        raise SpecError(f"is missing: a {given.face} has a radius", key=f"follower.{name}")
+    prime, aside = _prime_radius(given, radius), given.face_offset if given.face == "shoe" else 0.0
+    if given.motion == "translating":
+        if given.face == "flat":
+            return cams.TranslatingFlat(prime, given.face_angle, given.offset, sense)
+        return cams.TranslatingRound(prime, radius, given.offset + aside, sense)
+    pivot, arm = (_needed(given, name) for name in ("pivot_distance", "arm_length"))
+    if given.face == "flat":
+        return cams.OscillatingFlat(prime, pivot, arm, given.face_offset, sense)
+    return cams.OscillatingRound(prime, radius, pivot, float(np.hypot(arm, aside)), sense)
+
+
+def _prime_radius(given, radius):
+    """Radius of the pitch curve at zero lift: said so, or that of the base circle and the face."""
+    if (given.prime_radius is None) == (given.base_radius is None):
+        reason = "is missing" if given.prime_radius is None else "and follower.base_radius are both given; leave one out"
+        raise SpecError(reason, key="follower.prime_radius")
+    prime = given.prime_radius or given.base_radius + radius
+    if prime <= radius:
+        raise SpecError(f"{1e3 * prime:.6g} mm leaves no cam under a {given.face} of radius {1e3 * radius:.6g} mm; make it larger",
+                        key="follower.prime_radius")
+    return prime
+
+
+def _needed(given, name):
+    value = getattr(given, name)
+    if value is None:
+        raise SpecError("is missing: an oscillating follower needs pivot_distance and arm_length", key=f"follower.{name}")
+    return value
+
+
+def _closing_tracks(spec, follower, programme):
+    """What takes the force where the cam itself cannot pull."""
+    if spec.closure == "force":
+        return ()
+    if spec.closure == "conjugate":
+        second = _conjugate(spec, follower)
+        return (Track("conjugate", "conjugate.", second, second.contact),)
+    if spec.closure == "groove":
+        if spec.follower.face != "roller":
+            raise SpecError(f"\"groove\" wants a roller, not a {spec.follower.face} face", key="closure")
+        return (Track("outer wall", "outer.", follower, partial(follower.contact, flank=-1), flank=-1),)
+    if spec.follower.motion != "translating" or spec.follower.face not in ("flat", "roller") or spec.follower.offset:
+        raise SpecError("\"yoke\" wants a translating follower without offset, with flat faces or rollers", key="closure")
+    opposite = partial(cams.opposite_contact, cams.Cycle(programme.function), follower)
+    return (Track("second face", "opposite.", follower, opposite, cut=False),)
+
+
+def _conjugate(spec, follower):
+    """The follower on its second cam."""
+    given = spec.conjugate
+    if given is None:
+        raise SpecError("is missing: closure = \"conjugate\" needs the second cam", key="conjugate")
+    if spec.follower.face != "roller":
+        raise SpecError(f"\"conjugate\" wants rollers, not a {spec.follower.face} face", key="closure")
+    changes = {"prime_radius": given.prime_radius, "radius": given.roller_radius or follower.radius, "side": -1}
+    guide = {"arm_length": given.arm_length or follower.arm_length} if spec.follower.motion == "oscillating" else {"offset": given.offset}
+    second = replace(follower, **changes, **guide)
+    if given.prime_radius <= second.radius:
+        raise SpecError(f"{1e3 * given.prime_radius:.6g} mm leaves no cam under a roller of radius {1e3 * second.radius:.6g} mm; make it "
+                        "larger", key="conjugate.prime_radius")
+    return second
+
+
+# -- profile -------------------------------------------------------------------------------------------------------------------
+
+
+class Profile(NamedTuple):
+    """What is left of a cam: its outline, the trimmed envelope (None for a knife edge), and a finding where trimming failed."""
+
+    outline: Outline
+    trimmed: curves.Trimmed | None
+    finding: str = ""
+
+
+@lru_cache(maxsize=16)
+def profile(model, number=0):
+    """The `Profile` of a track by its number."""
+    track = model.tracks[number]
+    if track.radius == 0:
+        return Profile(_outline(cams.path(model.programme, track.follower.pitch)), None)
+    family = cams.family(track.follower, model.programme, track.flank)
+    try:
+        trimmed = curves.trim(family)
+    except SolverError as error:
+        finding = f"{track.name}: the undercut profile could not be trimmed ({error}); it is drawn untrimmed"
+        return Profile(_outline(family.envelope()), None, finding)
+    except InputError as error:
+        raise DoesNotAssemble(f"cam: nothing is left of the {track.name}. {error}") from None
+    return Profile(trimmed.outline(), trimmed)
+
+
+def pitch_outline(model, number=0):
+    """The pitch curve of a track with a round face as an outline."""
+    return _outline(cams.path(model.programme, model.tracks[number].follower.pitch))
+
+
+def _outline(pieces):
+    return curves.outline_of_spans(cams.spans(pieces), 1e-6)

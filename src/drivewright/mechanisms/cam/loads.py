@@ -1,0 +1,169 @@
+"""Forces of the drive: contact, torque, Hertz pressure, sliding, spring, vibration."""
+
+from functools import partial
+
+import numpy as np
+
+from drivewright import cams
+from drivewright.contact import hertz
+from drivewright.mechanisms.cam.analyse import flat_least
+from drivewright.result import Answer, Check, Column, Table, Value
+
+NO_SPEED = "no [drive] speed"
+
+
+def no_forces(spec):
+    """Why there are no forces to compute, or None."""
+    if spec.drive is None:
+        return NO_SPEED
+    loaded = spec.load.mass or spec.load.force or spec.load.damping or (spec.spring and (spec.spring.stiffness or spec.spring.preload))
+    return None if loaded else "no [load] and no [spring]"
+
+
+def no_spring(spec):
+    """Why there is no spring to size, or None."""
+    return f"closure = \"{spec.closure}\" needs no spring" if spec.closure != "force" else no_forces(spec)
+
+
+def no_vibration(spec):
+    """Why there is no vibration to compute, or None."""
+    return "no [vibration] natural_frequency" if spec.vibration is None else NO_SPEED if spec.drive is None else None
+
+
+def forces(model, done):
+    """Force along the travel, normal force and Hertz pressure on every surface, torque, sliding and rolling speeds."""
+    piece, angle = model.cycle.samples()
+    state = model.cycle.at(piece, angle)
+    required = model.required(*state)
+    table = Table("load", "Force and torque over the turn", (
+        Column("angle", "rad", "cam angle", angle),
+        Column("required_force", "N", "force on the follower along its travel", required.d0 + 0 * angle),
+        Column("torque", "N m", "torque on the cam shaft", _torque(model, *state).d0 + 0 * angle)))
+    answers = [part for track in model.tracks for part in (_contact(model, track, state), _pressure(model, track, state))]
+    values = {"max_torque": Value(model.cycle.greatest(partial(_torque, model)).value, "N m", "largest torque on the cam shaft"),
+              "min_torque": Value(model.cycle.least(partial(_torque, model)).value, "N m",
+                                  "least torque on the cam shaft, negative where the follower drives the cam")}
+    values |= {name: value for answer in answers for name, value in answer.values.items()}
+    if len(model.tracks) > 1:
+        changes = float(cams.crossovers(model.cycle, model.required))
+        values["crossovers"] = Value(changes, "-", "changes of the surface that drives, per turn")
+    tables, checks, findings = (tuple(x for answer in answers for x in getattr(answer, name)) for name in ("tables", "checks", "findings"))
+    return Answer(values, (table, *tables), checks, findings)
+
+
+def _torque(model, angle, lift):
+    return cams.drive_torque(model.follower.reach * lift, model.required(angle, lift))
+
+
+def _contact(model, track, state):
+    """Normal force of one surface, which pushes only and carries what falls to it, and the speeds there."""
+    contact, angle = track.contact(*state), state[0].d0
+    force = np.maximum(cams.normal_force(model.required(*state), contact).d0 + 0 * angle, 0.0)
+    greatest = model.cycle.greatest(lambda a, lift: cams.normal_force(model.required(a, lift), track.contact(a, lift)))
+    values = {f"{track.prefix}max_contact_force": Value(max(greatest.value, 0.0), "N", f"largest normal force{track.of}")}
+    rolls = model.spec.follower.face == "roller"
+    ends = [extreme(lambda a, lift: track.contact(a, lift).sliding).value for extreme in (model.cycle.greatest, model.cycle.least)]
+    body = max(map(abs, ends)) * model.speed
+    if rolls and track.cut:
+        spin = body / track.radius
+        values[f"{track.prefix}max_roller_speed"] = Value(spin, "rad/s", f"largest speed of the roller on its pin{track.of}")
+    if not rolls and track.cut:
+        values[f"{track.prefix}max_sliding_speed"] = Value(body, "m/s", f"largest sliding speed{track.of}")
+    table = Table(f"contact{track.suffix}", f"Contact of cam and follower{track.of}", (
+        Column("angle", "rad", "cam angle", angle), Column("contact_force", "N", f"normal force{track.of}", force),
+        Column("surface_speed", "m/s", f"{'circumferential speed of the roller' if rolls else 'sliding speed'}{track.of}",
+               np.abs(contact.sliding.d0) * model.speed + 0 * angle),
+        Column("rolling_speed", "m/s", f"speed of the contact along the profile{track.of}", contact.rolling.d0 * model.speed + 0 * angle)))
+    return Answer(values, (table,))
+
+
+def _pressure(model, track, state):
+    """Hertz pressure of one surface, where it has a meaning."""
+    if reason := _no_pressure(model, track):
+        return Answer(findings=(f"{track.prefix}max_contact_pressure is absent: {reason}",))
+    contact, angle = track.contact(*state), state[0].d0
+    force = np.maximum(cams.normal_force(model.required(*state), contact).d0 + 0 * angle, 0.0)
+    pressure = hertz.line_contact(force, model.spec.face.width, 1 / _relative_curvature(track, contact).d0, _modulus(model)).pressure
+    table = Table(f"pressure{track.suffix}", f"Contact pressure{track.of}", (
+        Column("angle", "rad", "cam angle", angle), Column("contact_pressure", "Pa", f"peak Hertz pressure{track.of}", pressure)))
+    peak, allowed = _peak_pressure(model, track), model.spec.limits.contact_pressure or model.material.hertz_limit
+    values = {f"{track.prefix}max_contact_pressure": Value(peak, "Pa", f"largest Hertz pressure{track.of}, steady contact")}
+    if allowed is None:
+        return Answer(values, (table,), (), (f"check contact_pressure{track.suffix} is left out: no allowable pressure is known for "
+                                             f"{model.material.name}; give limits.contact_pressure",))
+    name, parts = f"contact_pressure{track.suffix}", (track.name, "follower")
+    return Answer(values, (table,), (Check(name, peak, allowed, "<=", "Pa", "Hertz line contact of follower and cam", parts),))
+
+
+def _relative_curvature(track, contact):
+    return contact.curvature + 1 / track.radius
+
+
+def _no_pressure(model, track):
+    """Why a Hertz pressure has no meaning, or None."""
+    if track.radius == 0:
+        return "a knife edge has no contact pressure"
+    if track.flat:
+        return "the profile is undercut" if flat_least(model, track).value <= 0 else None
+    sharpest = model.cycle.greatest(lambda angle, lift: track.flank * track.contact(angle, lift).bend).value
+    return "the profile is undercut" if sharpest * track.radius >= 1 else None
+
+
+def _peak_pressure(model, track):
+    """Largest pressure over the turn: it goes with force times relative curvature."""
+    def product(angle, lift):
+        contact = track.contact(angle, lift)
+        return cams.normal_force(model.required(angle, lift), contact) * _relative_curvature(track, contact)
+
+    worst = max(model.cycle.greatest(product).value, 0.0)
+    return float(hertz.line_contact(worst, model.spec.face.width, 1.0, _modulus(model)).pressure)
+
+
+def _modulus(model):
+    card = model.material
+    return hertz.effective_modulus(card.modulus, card.poisson, card.modulus, card.poisson)
+
+
+def spring(model, done):
+    """Does the spring hold the follower on the cam; what preload, stiffness and speed are the limits."""
+    cycle, reach, load, speed = model.cycle, model.follower.reach, model.load, model.speed
+    least, needed, findings = cycle.least(model.required), cams.needed_preload(cycle, reach, load, speed), []
+    values = {"min_required_force": Value(least.value, "N", "least force on the follower along its travel; below 0 it leaves the cam"),
+              "min_required_force.at": Value(least.angle % (2 * np.pi), "rad", "cam angle of it, from the start of the programme"),
+              "spring.needed_preload": Value(needed, "N", "least preload at this speed and stiffness")}
+    stiffness, jump = cams.needed_stiffness(cycle, reach, load, speed), cams.jump_speed(cycle, reach, load)
+    for name, value, unit, meaning, absent in (
+            ("spring.needed_stiffness", stiffness, "N/m", "least stiffness at this speed and preload",
+             "none holds the follower at zero lift; give preload"),
+            ("spring.jump_speed", jump, "rad/s", "cam speed at which the follower leaves the cam",
+             "the follower leaves the cam at no speed")):
+        if np.isfinite(value):
+            values[name] = Value(float(value), unit, meaning)
+        else:
+            findings.append(f"{name} is absent: {absent}")
+    message = "the follower stays on the cam: least force along the travel"
+    check = Check("separation", least.value, model.spec.limits.contact_force, ">=", "N", message, ("follower",))
+    return Answer(values, (), (check,), tuple(findings))
+
+
+def vibration(model, done):
+    """Steady vibration of the follower as one mass on a damped spring."""
+    given, reach, speed = model.spec.vibration, model.follower.reach, model.speed
+    frequency = 2 * np.pi * given.natural_frequency
+    found = cams.periodic(model.cycle, reach, speed, frequency, given.damping_ratio)
+    lift = reach * model.cycle.at(found.piece, found.angle)[1].d0
+    swing, actual = cams.amplitude(found, frequency, given.damping_ratio), cams.acceleration(found, frequency, given.damping_ratio)
+    error, shock = (cams.peak(found, speed, quantity) for quantity in (found.error, actual))
+    values = {"vibration.max_error": Value(error, "m", "largest deviation of the follower from its programme"),
+              "vibration.max_acceleration": Value(shock, "m/s^2", "largest acceleration of the follower, vibration included")}
+    rests = [k for k, piece in enumerate(model.programme.pieces) if piece.phase == "dwell"]
+    if rests:
+        residual = max(float(swing[found.piece == k][0]) for k in rests)
+        values["vibration.residual"] = Value(residual, "m", "amplitude that is left at the start of a dwell, the largest")
+    table = Table("vibration", "Vibration of the follower", (
+        Column("angle", "rad", "cam angle", found.angle), Column("travel", "m", "planned travel", lift),
+        Column("actual", "m", "travel with vibration", lift + found.error.d0),
+        Column("error", "m", "deviation from the programme", found.error.d0),
+        Column("acceleration", "m/s^2", "acceleration of the follower, vibration included", actual.d0)))
+    limit, message = model.spec.limits.vibration, "deviation of the follower from its programme"
+    return Answer(values, (table,), (Check("vibration", error, limit, "<=", "m", message, ("follower",)),) if limit else ())

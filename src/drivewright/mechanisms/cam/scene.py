@@ -1,0 +1,154 @@
+"""The cam on screen and for manufacture: scene, plots, drawings, parts."""
+
+import numpy as np
+
+from drivewright.mechanisms.cam import sketch
+from drivewright.mechanisms.cam.build import pitch_outline, profile
+from drivewright.mechanisms.cam.spec import TURN
+from drivewright.result import Plot
+from drivewright.scene import Body, Drawing, Frame, Part, Prism, Scene, Shape, Trace, circle, polygon
+
+FRAMES = 181
+SURFACES = (("", ""), (".conjugate", ", second cam"), (".outer", ", outer wall"), (".opposite", ", second face"))
+
+PLOTS = (
+    Plot("motion", "Lift and its derivatives by the cam angle", "motion", "angle", ("lift", "slope", "bend", "third")),
+    Plot("kinematics", "Velocity, acceleration and jerk of the follower", "kinematics", "angle", ("velocity", "acceleration", "jerk")),
+    *(plot for suffix, words in SURFACES for plot in (
+        Plot(f"pressure_angle{suffix}", f"Pressure angle{words}", f"geometry{suffix}", "angle", ("pressure_angle",)),
+        Plot(f"curvature{suffix}", f"Curvature{words}", f"geometry{suffix}", "angle", ("curvature",)),
+        Plot(f"undercut{suffix}", f"Face radius over radius of the pitch curve{words}", f"undercut{suffix}", "angle", ("ratio",),
+             ((1.0, "undercut above"),)))),
+    Plot("load", "Force on the follower and torque", "load", "angle", ("required_force", "torque")),
+    *(plot for suffix, words in SURFACES for plot in (
+        Plot(f"contact{suffix}", f"Contact{words}", f"contact{suffix}", "angle", ("contact_force", "surface_speed", "rolling_speed")),
+        Plot(f"pressure{suffix}", f"Contact pressure{words}", f"pressure{suffix}", "angle", ("contact_pressure",)))),
+    Plot("vibration", "Vibration of the follower", "vibration", "angle", ("error", "acceleration")),
+)
+
+
+# -- the moving picture ----------------------------------------------------------------------------------------------------------
+
+
+def scene(model):
+    """Cam and follower over one turn, seen from the machine and from the cam."""
+    angle = np.linspace(0, TURN, FRAMES)
+    lift = model.programme(angle).s
+    turning, still = _poses(0.0, 0.0, model.follower.sense * angle), _poses(0.0, 0.0, 0.0 * angle)
+    moving = _poses(sketch.origin(model).real, 0.0, -lift) if model.oscillating else _poses(0.0, lift, 0.0)
+    colours = {"cam": "blue", "outer wall": "blue", "conjugate": "green"}
+    bodies = [Body(track.name, track.name, tuple(_cam_shapes(model, number)), turning, colours[track.name])
+              for number, track in enumerate(model.tracks) if track.cut]
+    bodies += [Body("follower", "follower", tuple(sketch.follower_shapes(model)), moving, "orange"),
+               Body("frame", "frame", tuple(_ground(model)), still, "ground")]
+    frames = (Frame("machine", "machine frame", still), Frame("cam", "seen from the cam", turning))
+    traces = () if model.tracks[0].flat else (
+        Trace("center", "centre of the follower's face", "follower", sketch.pair(sketch.centers(model)[0])),)
+    programme = model.programme
+    marks = tuple((float(start), segment.law.name) for start, segment in zip(programme.starts, programme.segments, strict=False))
+    period = TURN / model.speed if model.speed else 2.0
+    return Scene(angle, "cam angle", "rad", period, tuple(bodies), frames, traces, "motion", marks)
+
+
+def _poses(x, y, angle):
+    return np.stack(np.broadcast_arrays(np.full(FRAMES, x), y, angle), axis=1)
+
+
+def _cam_shapes(model, number):
+    """Profile, pitch curve, base circle, bore and what was trimmed away of a track's cam, at cam angle 0."""
+    track, found = model.tracks[number], profile(model, number)
+    yield Shape("profile", found.outline)
+    if track.flank > 0:
+        yield Shape("base", circle((0, 0), float(np.min(np.hypot(*found.outline.points(1e-6).T)))))
+        if not track.flat and track.radius:
+            yield Shape("pitch", pitch_outline(model, number))
+        if model.spec.manufacture.bore:
+            yield Shape("hole", circle((0, 0), model.spec.manufacture.bore / 2))
+    else:
+        yield Shape("body", circle((0, 0), _disc_radius(model)))
+    for start, stop in found.trimmed.removed if found.trimmed else ():
+        angle = np.linspace(start, stop, 33)
+        piece = np.clip(np.searchsorted(model.cycle.motion.breaks, angle, side="right") - 1, 0, len(model.cycle.motion.breaks) - 2)
+        point = track.contact(*model.cycle.at(piece, angle)).point.d0
+        yield Shape("defect", polygon(np.stack([point.real, point.imag], axis=1), closed=False))
+
+
+def _disc_radius(model):
+    """Edge of the disc that a groove is cut into."""
+    return float(np.max(np.hypot(*profile(model, 1).outline.points(1e-6).T))) + model.spec.limits.wall
+
+
+def _ground(model):
+    """Bearing of the cam; pivot of a lever or guide of a slide."""
+    size = sketch.size(model)
+    yield Shape("ground", circle((0, 0), 0.05 * size))
+    if model.oscillating:
+        yield Shape("ground", circle((model.follower.pivot_distance, 0), 0.05 * size))
+        return
+    x, gap = model.follower.sense * model.spec.follower.offset, 0.6 * sketch.SLIM * size
+    low = size + 0.35 * size
+    for side in (x - gap, x + gap):
+        yield Shape("ground", polygon([(side, low), (side, low + 0.4 * size)], closed=False))
+
+
+# -- drawings and parts ------------------------------------------------------------------------------------------------------------
+
+
+def drawings(model):
+    """One drawing for each cam; the two walls of a groove share one."""
+    found = []
+    for number, track in enumerate(model.tracks):
+        if track.cut and track.flank > 0:
+            shapes = [shape for shape in _cam_shapes(model, number) if shape.layer != "defect"]
+            if model.spec.closure == "groove":
+                shapes += [shape for shape in _cam_shapes(model, 1) if shape.layer != "defect"]
+            reach = 1.1 * sketch.size(model)
+            ends = (((-reach, 0), (reach, 0)), ((0, -reach), (0, reach)))
+            shapes += [Shape("axis", polygon(pair, closed=False)) for pair in ends]
+            found.append(Drawing(track.name, _title(model, track), tuple(shapes), model.spec.face.width, model.spec.closure != "groove"))
+    return tuple(found)
+
+
+def _title(model, track):
+    return f"{model.spec.title or 'disc cam'}: {'second cam' if track.name == 'conjugate' else 'cam'}"
+
+
+def parts(model):
+    """The cams with bore and hub, and what runs on them, at the start position."""
+    width, found = model.spec.face.width, []
+    for number, track in enumerate(model.tracks):
+        if track.cut and track.flank > 0:
+            z = -1.5 * width if track.name == "conjugate" else 0.0
+            found.append(Part(track.name, tuple(_cam_solids(model, number, z)), (0.0, 0.0, 0.0), "green" if number else "blue"))
+    return (*found, *_follower_parts(model, width))
+
+
+def _cam_solids(model, number, z):
+    """The disc with its bore, and the hub on the side away from the other cam."""
+    make, width = model.spec.manufacture, model.spec.face.width
+    bore = (circle((0, 0), make.bore / 2),) if make.bore else ()
+    if model.spec.closure == "groove":
+        disc = circle((0, 0), _disc_radius(model))
+        yield Prism(disc, bore, z - width, width)
+        yield Prism(disc, (profile(model, 1).outline,), z, width)
+    yield Prism(profile(model, number).outline, bore, z, width)
+    if make.hub_diameter:
+        below = z < 0 or model.spec.closure == "groove"
+        start = z - make.hub_length - (width if model.spec.closure == "groove" else 0.0) if below else z + width
+        yield Prism(circle((0, 0), make.hub_diameter / 2), bore, start, make.hub_length)
+
+
+def _follower_parts(model, width):
+    """Rollers, or the flat or curved face as a block, at the start position."""
+    lift = float(model.programme(0.0).s)
+    pose = (model.follower.pivot_distance, 0.0, -lift) if model.oscillating else (0.0, lift, 0.0)
+    if model.spec.follower.face == "roller":
+        for number, center in enumerate(sketch.centers(model)):
+            track = model.tracks[number] if model.spec.closure == "conjugate" else model.tracks[0]
+            z = -1.5 * width if number and model.spec.closure == "conjugate" else 0.0
+            outline = circle(sketch.pair(center), track.radius)
+            pin = circle(sketch.pair(center), 0.3 * track.radius)
+            yield Part("roller" if not number else "second roller", (Prism(outline, (pin,), z, width),), pose, "orange")
+        return
+    bodies = [shape.outline for shape in sketch.follower_shapes(model) if shape.layer == "body" and shape.outline.closed]
+    yield Part("follower", tuple(Prism(outline, (), 0.0, width) for outline in bodies), pose, "orange")

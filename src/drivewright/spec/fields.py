@@ -1,0 +1,138 @@
+"""Types of the keys of a spec, and how to look a key up in a tree of tables."""
+
+import sys
+from pathlib import Path
+from typing import Annotated, Any, Literal, get_args, get_origin
+
+from pydantic import BaseModel, BeforeValidator, Field, PlainValidator, Strict, ValidationInfo, WithJsonSchema
+
+from drivewright.errors import UnitError, brief
+from drivewright.units import Dimension, any_quantity
+
+Number = Annotated[float, Strict()]
+Integer = Annotated[int, Strict()]
+Flag = Annotated[bool, Strict()]
+Text = Annotated[str, Strict(), Field(max_length=400)]
+
+
+def _existing_file(value: Any, info: ValidationInfo):
+    """A path relative to the spec's folder, made absolute; it must be there."""
+    if not isinstance(value, (str, Path)) or not str(value).strip() or "\0" in str(value):
+        raise ValueError(f"wants the path of a file, got {brief(value)}")
+    folder = Path((info.context or {}).get("folder", "."))
+    try:
+        path = (folder / value).resolve()
+        found = path.is_file()
+    except (OSError, RuntimeError) as error:  # a name that is too long, a loop of links
+        raise ValueError(f"{brief(str(value))} cannot be a file: {getattr(error, 'strerror', None) or error}") from None
+    if not found:
+        raise ValueError(f"there is no file {str(path)!r}; a path is relative to the spec")
+    return path
+
+
+DataFile = Annotated[Path, BeforeValidator(_existing_file)]
+
+
+class AnyUnit:
+    """Marks a key whose unit depends on what another key names: a number, or a quantity of any kind."""
+
+
+def _number_or_quantity(value: Any):
+    if isinstance(value, str):
+        try:
+            any_quantity(value)
+        except UnitError as error:
+            raise ValueError(error.message) from None
+    elif isinstance(value, bool) or not _is_finite(value):
+        raise ValueError(f'wants a finite number, or a quantity such as "9.5 mm", got {brief(value)}')
+    return value
+
+
+def _plain_value(value: Any):
+    if not isinstance(value, str) and not _is_finite(value):
+        raise ValueError(f"wants a finite number, a quantity, a text or true/false, got {brief(value)}")
+    return value
+
+
+def _is_finite(value):
+    return isinstance(value, (int, float)) and abs(value) <= sys.float_info.max
+
+
+Bound = Annotated[Any, PlainValidator(_number_or_quantity), WithJsonSchema({"type": ["string", "number"]}), AnyUnit()]
+PlainValue = Annotated[Any, PlainValidator(_plain_value), WithJsonSchema({"type": ["string", "number", "boolean"]}), AnyUnit()]
+
+
+# -- reading annotations -------------------------------------------------------------------------------------------------------
+
+
+def table_of(annotation):
+    """The table class inside an annotation such as `Spec | None` or `tuple[Spec, ...]`, else None."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    return next((found for arg in get_args(annotation) if (found := table_of(arg))), None)
+
+
+def list_depth(annotation):
+    """How many lists an annotation nests: 0 for `Spec | None`, 1 for `tuple[Spec, ...]`."""
+    origin, inner = get_origin(annotation), get_args(annotation)
+    deepest = max(map(list_depth, inner if origin is not Annotated else inner[:1]), default=0) if origin is not Literal else 0
+    return deepest + (origin in (tuple, list))
+
+
+def type_of(annotation):
+    """The plain class of a value, lists and None left aside: int for `tuple[Integer, ...] | None`."""
+    if isinstance(annotation, type) and annotation is not type(None) and not get_args(annotation):
+        return annotation
+    return next((found for arg in get_args(annotation) if (found := type_of(arg))), None)
+
+
+def choices_of(annotation):
+    """The values of the Literals inside an annotation."""
+    if get_origin(annotation) is Literal:
+        return get_args(annotation)
+    return tuple(choice for arg in get_args(annotation) for choice in choices_of(arg))
+
+
+def mark_of(field, kind):
+    """The first annotation of a class on a field, or inside its type (of its list, of its optional value), else None."""
+    found = (mark for mark in getattr(field, "metadata", ()) if isinstance(mark, kind))
+    return next(found, None) or _mark_inside(getattr(field, "annotation", None), kind)
+
+
+def _mark_inside(annotation, kind):
+    if get_origin(annotation) is Annotated:
+        return next((mark for mark in annotation.__metadata__ if isinstance(mark, kind)), None)
+    return next((mark for arg in get_args(annotation) if (mark := _mark_inside(arg, kind))), None)
+
+
+def dimension_of(field):
+    """The Dimension of a quantity field (also of its list), else None."""
+    return mark_of(field, Dimension)
+
+
+# -- looking keys up -----------------------------------------------------------------------------------------------------------
+
+
+def field_at(model, steps):
+    """The field at a path of keys; after a list comes one step (name or number) for each of its levels.  None where there is none."""
+    field = None
+    steps = list(steps)
+    while steps:
+        field = model.model_fields.get(steps.pop(0)) if model else None
+        if field is None:
+            return None
+        model = table_of(field.annotation)
+        del steps[: list_depth(field.annotation)]
+    return field
+
+
+def table_at(model, steps):
+    """The table class at a path of keys, else None."""
+    field = field_at(model, steps) if steps else None
+    return model if not steps else table_of(field.annotation) if field else None
+
+
+def dimension_at(model, key):
+    """(exists, Dimension or None) of a dotted key below a table class; a list's elements go by name or number."""
+    field = field_at(model, key.split("."))
+    return field is not None, dimension_of(field) if field else None

@@ -1,0 +1,96 @@
+"""What pydantic has to complain of, in the user's words: the dotted key, the value, what would be right."""
+
+from drivewright.errors import SpecError, brief, nearest
+from drivewright.spec.fields import choices_of, dimension_of, field_at, list_depth, table_at
+from drivewright.spec.writing import toml_value
+
+COMPARISONS = {"greater_than": ("gt", "greater than"), "greater_than_equal": ("ge", "at least"), "less_than": ("lt", "less than"),
+               "less_than_equal": ("le", "at most")}
+WANTED = {"string_type": "a text in quotes", "float_type": "a number", "int_type": "a whole number", "bool_type": "true or false",
+          "tuple_type": "a list [...]", "finite_number": "a finite number", "int_from_float": "a whole number", "model_type": "a table",
+          "model_attributes_type": "a table", "dict_type": "a table", "string_unicode": "a text of valid characters"}
+SHOWN = 6  # complaints in one message
+
+
+def translated(error, model):
+    """One SpecError naming the first wrong key; the others follow in the message."""
+    # Unknown keys first: a misspelt one explains a missing one.
+    found = sorted(error.errors(include_url=False), key=lambda item: item["type"] != "extra_forbidden")
+    items = [_complaint(item, model) for item in found]
+    short = [(key, message.partition("; known here")[0]) for key, message in items[1:SHOWN]]
+    rest = "".join(f"\n  {key}: {message}" if key else f"\n  {message}" for key, message in short)
+    more = f"\n  ... and {len(items) - SHOWN} more" if len(items) > SHOWN else ""
+    return SpecError(items[0][1] + rest + more, key=items[0][0] or None)
+
+
+def shown(value, field):
+    """A number of a field as people read it, with its unit."""
+    dimension = dimension_of(field)
+    return dimension.text(float(value)) if dimension else f"{value:g}" if isinstance(value, float) else brief(value)
+
+
+def _complaint(item, model):
+    """(dotted key, message) of one pydantic error."""
+    place = _place(item, model)
+    field, kind = field_at(model, place), item["type"]
+    return ".".join(place), SPECIAL.get(kind, _other)(item, field, model, place)
+
+
+def _place(item, model):
+    """The path of keys and indices, as text, without the names pydantic puts in for the members of a union."""
+    place, levels = [], 0
+    for number, step in enumerate(item["loc"]):
+        unknown = item["type"] == "extra_forbidden" and number == len(item["loc"]) - 1
+        if isinstance(step, int):
+            place.append(str(step))
+            levels -= 1
+        elif unknown or (levels <= 0 and (table := table_at(model, place)) is not None and step in table.model_fields):
+            place.append(step)
+            levels = 0 if unknown else list_depth(table.model_fields[step].annotation)
+    return place
+
+
+def _unknown(item, field, model, place):
+    known = list(table_at(model, place[:-1]).model_fields)
+    return f"unknown key{nearest(place[-1], known)}; known here: {', '.join(known)}"
+
+
+def _missing(item, field, model, place):
+    if field is None:
+        return "is missing"
+    example = f"; e.g. {toml_value(field.examples[0])}" if field.examples else ""
+    return f"is missing{f' ({field.description})' if field.description else ''}{example}"
+
+
+def _compared(item, field, model, place):
+    name, words = COMPARISONS[item["type"]]
+    given = brief(item["input"]) if isinstance(item["input"], str) else shown(item["input"], field)
+    return f"must be {words} {shown(item['ctx'][name], field)}, got {given}"
+
+
+def _chosen(item, field, model, place):
+    choices = choices_of(field.annotation) if field else ()
+    if not choices:
+        return _other(item, field, model, place)
+    return f"must be one of {', '.join(map(toml_value, choices))}, got {brief(item['input'])}{nearest(item['input'], map(str, choices))}"
+
+
+def _counted(item, field, model, place):
+    wanted = item["ctx"].get("min_length", item["ctx"].get("max_length"))
+    what = "characters" if item["type"].startswith("string") else "entries"
+    given = item["ctx"].get("actual_length", len(item["input"]))
+    return f"must have {'at least' if item['type'].endswith('short') else 'at most'} {wanted} {what}, got {given}"
+
+
+def _own(item, field, model, place):
+    return str(item["ctx"]["error"])
+
+
+def _other(item, field, model, place):
+    wanted = WANTED.get(item["type"])
+    message = f"must be {wanted}" if wanted else f"{item['msg'][:1].lower()}{item['msg'][1:]}"
+    return f"{message}, got {'a table' if isinstance(item['input'], dict) else brief(item['input'])}"
+
+
+SPECIAL = {"extra_forbidden": _unknown, "missing": _missing, "literal_error": _chosen, "value_error": _own, "too_short": _counted,
+           "too_long": _counted, "string_too_short": _counted, "string_too_long": _counted, **dict.fromkeys(COMPARISONS, _compared)}

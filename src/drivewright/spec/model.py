@@ -1,0 +1,47 @@
+"""The whole spec of one drive: what all kinds have in common."""
+
+import hashlib
+import shutil
+from pathlib import Path
+
+from pydantic import Field
+
+from drivewright.spec.fields import Integer, Text
+from drivewright.spec.searching import Optimise
+from drivewright.spec.table import Spec
+from drivewright.spec.writing import canonical_text, document, files, places_beside, toml_text
+
+
+class MechanismSpec(Spec):
+    """The whole spec of one drive."""
+
+    format: Integer = Field(1, ge=1, le=1, description="version of the file format")
+    mechanism: Text = Field(description="kind of drive")
+    title: Text = Field("", description="a name for people")
+    optimise: Optimise | None = Field(None, description="unknowns, requirements and objectives for `drivewright optimise`")
+
+    def to_toml(self):
+        """The effective spec as TOML text with units; reads back to an equal spec on this machine."""
+        return toml_text(self._tables())
+
+    def write(self, path):
+        """The effective spec as a file, with copies of its data files in `data/` beside it: together they can move to another machine."""
+        path = Path(path)
+        places = places_beside(self.data_files())
+        for source, place in places.items():
+            (path.parent / place).parent.mkdir(exist_ok=True)
+            shutil.copyfile(source, path.parent / place)
+        path.write_text(toml_text(self._tables(places)), encoding="utf-8", newline="\n")
+
+    def _tables(self, places=None):
+        tables = document(self, places)
+        search = {"optimise": tables.pop("optimise")} if "optimise" in tables else {}
+        return tables | search  # what all kinds share reads best at the end
+
+    def digest(self):
+        """SHA-256 of the canonical effective spec in SI; data files by content, the title left out."""
+        return hashlib.sha256(canonical_text(self, leave_out=("title",)).encode()).hexdigest()
+
+    def data_files(self):
+        """Absolute paths of all data files the spec names."""
+        return sorted(set(files(self)))

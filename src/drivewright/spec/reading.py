@@ -1,0 +1,133 @@
+"""Into the house: TOML files and "key=value" texts -> raw tables -> a spec."""
+
+import re
+import tomllib
+from pathlib import Path
+
+from drivewright import registry
+from drivewright.errors import SpecError, UnknownName, brief, nearest
+from drivewright.spec.table import validated
+
+LARGEST = 10_000_000  # characters of a spec file
+
+
+def load(path, changes=()):
+    """Spec of a TOML file, `changes` being "key=value" texts as on the command line."""
+    tables = read_document(path)
+    try:
+        for change in changes:
+            change_key(tables, change)
+        return from_document(tables, folder=Path(path).resolve().parent)
+    except SpecError as error:
+        raise error.located(file=str(path)) from None
+
+
+def from_document(tables, model=None, folder="."):
+    """Spec from raw tables; the kind comes from `mechanism` unless `model` is given.  Paths are relative to `folder`."""
+    return validated(model or _model_of(tables), tables, folder)
+
+
+def read_document(path):
+    """The raw tables of a TOML spec file; SpecError where it is missing or is not TOML."""
+    text = _text_of(Path(path))
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise SpecError("is not valid TOML: nested too deeply", file=str(path)) from None
+    except ValueError as error:  # TOMLDecodeError, and integers of more than 4300 digits
+        raise SpecError(f"is not valid TOML: {_explained(str(error), text)}", file=str(path)) from None
+
+
+def _explained(complaint, text):
+    """What tomllib says, in plain words, with the line it is about and a remedy for the commonest slip."""
+    if complaint.startswith("Exceeds the limit"):
+        return "a number has more than 4300 digits"
+    complaint = complaint.replace("Cannot overwrite a value", "the key is there twice")
+    place = re.search(r"at line (\d+)", complaint)
+    line = text.splitlines()[int(place[1]) - 1].strip() if place and int(place[1]) <= len(text.splitlines()) else ""
+    bare = re.fullmatch(r"([\w.-]+\s*=)\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?\s*[A-Za-z\u00b0\u00b5].*)", line)
+    remedy = f'; a quantity is text in quotes: {bare[1]} "{bare[2]}"' if bare else ""
+    return f"{complaint}{f': {line:.80}' if line.isprintable() and line else ''}{remedy}"
+
+
+def _text_of(path):
+    try:
+        with path.open(encoding="utf-8-sig") as stream:  # Windows editors put a byte-order mark in front
+            text = stream.read(LARGEST + 1)
+    except FileNotFoundError:
+        raise SpecError(f"there is no such file; `drivewright new KIND {path.name}` writes one", file=str(path)) from None
+    except IsADirectoryError:
+        raise SpecError("is a folder; a spec is a TOML file", file=str(path)) from None
+    except UnicodeDecodeError as error:
+        byte = f"byte {error.start} is {error.object[error.start]:#04x}"
+        raise SpecError(f"is not text in UTF-8 ({byte}); save it as UTF-8", file=str(path)) from None
+    except (OSError, ValueError) as error:
+        raise SpecError(f"cannot be read: {getattr(error, 'strerror', None) or error}", file=str(path)) from None
+    if len(text) > LARGEST:
+        raise SpecError(f"has more than {LARGEST} characters; that is no spec. Put long tables into data files", file=str(path))
+    return text
+
+
+def _model_of(tables):
+    kind = tables.get("mechanism")
+    if not isinstance(kind, str):
+        complaint = f"is missing{nearest('mechanism', tables)}" if kind is None else f"must be a text, got {brief(kind)}"
+        raise SpecError(f"{complaint}; one of {', '.join(registry.kinds())}", key="mechanism")
+    try:
+        return registry.mechanism(kind).spec
+    except UnknownName as error:
+        raise SpecError(str(error), key="mechanism") from None
+
+
+# -- changing keys -------------------------------------------------------------------------------------------------------------
+
+
+def change_key(tables, change):
+    """Apply "dotted.key=value" as from the command line to raw tables.  The value is TOML, or else text."""
+    key, equals, text = change.partition("=")
+    if not equals or not all(step.strip() for step in key.split(".")):
+        raise SpecError(f"--set wants key=value with a dotted key, got {brief(change)}")
+    return set_key(tables, ".".join(step.strip() for step in key.split(".")), read_value(text))
+
+
+def set_key(tables, key, value):
+    """Set a dotted key of raw tables, in place; list elements go by their `name` or number."""
+    *path, last = key.split(".")
+    place = tables
+    for number, step in enumerate(path):
+        place = _enter(place, step, ".".join(path[: number + 1]))
+    if isinstance(place, list):
+        place[_index(place, last, key)] = value
+    elif isinstance(place, dict):
+        place[last] = value
+    else:
+        raise SpecError(f"is no table, so it has no key {last!r}", key=".".join(path))
+    return tables
+
+
+def read_value(text):
+    """A `--set` value: TOML where it parses, text otherwise."""
+    try:
+        tables = tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
+        return text.strip()
+    return tables["value"] if list(tables) == ["value"] else text.strip()
+
+
+def _enter(place, step, key):
+    if isinstance(place, list):
+        return place[_index(place, step, key)]
+    if not isinstance(place, dict):
+        raise SpecError("is no table", key=key)
+    return place.setdefault(step, {})
+
+
+def _index(elements, step, key):
+    """Number of the list element that a step names."""
+    names = {e["name"]: i for i, e in enumerate(elements) if isinstance(e, dict) and isinstance(e.get("name"), str)}
+    if step in names:
+        return names[step]
+    if step in map(str, range(len(elements))):
+        return int(step)
+    inside = f"named {', '.join(names)}" if names else f"numbered from 0 to {len(elements) - 1}" if elements else "none at all"
+    raise SpecError(f"the list has no element {brief(step)}{nearest(step, names)}; it has {len(elements)}, {inside}", key=key)

@@ -1,0 +1,52 @@
+"""The [optimise] table: what may change, what is required, what is wanted.  The same for every kind of drive."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from drivewright.spec.fields import Bound, Integer, PlainValue, Text
+from drivewright.spec.table import Spec
+
+
+class Unknown(Spec):
+    """An unknown of the optimiser: a key of this spec and its bounds."""
+
+    key: Text = Field(description="dotted key of this spec that may change")
+    lower: Bound = Field(description="lower bound, in the key's own unit")
+    upper: Bound = Field(description="upper bound, in the key's own unit")
+
+
+class Setting(Spec):
+    """A key that has another value during the search and in its outcome."""
+
+    key: Text = Field(description="dotted key of this spec")
+    value: PlainValue = Field(description="its value during the search")
+
+
+class Objective(Spec):
+    """A value of the result to be made small or large."""
+
+    value: Text = Field(description="name of a value of the result")
+    goal: Literal["minimise", "maximise"] = Field("minimise", description="direction")
+
+
+class Requirement(Spec):
+    """A value of the result that must stay within limits."""
+
+    value: Text = Field(description="name of a value of the result")
+    at_least: Bound | None = Field(None, description="lower limit, in the value's own unit")
+    at_most: Bound | None = Field(None, description="upper limit, in the value's own unit")
+
+
+class Optimise(Spec):
+    """What may change, what is required, what is wanted."""
+
+    method: Literal["auto", "differential-evolution", "nsga2"] = Field(
+        "auto", description="auto takes differential evolution for one objective and NSGA-II for several")
+    seed: Integer = Field(1, ge=0, le=2**31 - 1, description="seed of the random numbers; same seed, same answer")
+    population: Integer = Field(60, ge=8, le=10_000, description="designs per generation")
+    generations: Integer = Field(400, ge=1, le=100_000, description="generations at most")
+    settings: tuple[Setting, ...] = Field((), description="keys set differently for the search")
+    unknowns: tuple[Unknown, ...] = Field(min_length=1, description="what may change")
+    objectives: tuple[Objective, ...] = Field(min_length=1, description="what is wanted")
+    requirements: tuple[Requirement, ...] = Field((), description="what is required")

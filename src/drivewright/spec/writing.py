@@ -1,0 +1,123 @@
+"""Out of the house: a spec as raw tables, as TOML text, as the canonical text under its digest."""
+
+import hashlib
+import json
+from pathlib import Path
+
+from pydantic import BaseModel
+
+from drivewright.errors import SpecError, UnitError
+from drivewright.spec.fields import AnyUnit, dimension_of, mark_of
+from drivewright.units import any_quantity
+
+
+def document(spec, places=None):
+    """Raw tables of a spec, quantities as text with unit; what is None or an empty default is left out.
+
+    `places` gives a data file another path than its own.
+    """
+    fields = [(name, field, getattr(spec, name)) for name, field in type(spec).model_fields.items()]
+    return {name: raw(value, dimension_of(field), places) for name, field, value in fields
+            if value is not None and not (value == () and field.default == ())}
+
+
+def raw(value, dimension=None, places=None):
+    """A value of a spec as TOML has it: quantities as text, tables as dictionaries."""
+    if isinstance(value, BaseModel):
+        return document(value, places)
+    if isinstance(value, (tuple, list)):
+        return [raw(v, dimension, places) for v in value]
+    if isinstance(value, Path):
+        return str((places or {}).get(value, value))
+    return dimension.text(value) if dimension and isinstance(value, float) else value
+
+
+def files(value):
+    """Every data file a spec names."""
+    if isinstance(value, BaseModel):
+        value = [getattr(value, name) for name in type(value).model_fields]
+    if isinstance(value, (tuple, list)):
+        return [path for v in value for path in files(v)]
+    return [value] if isinstance(value, Path) else []
+
+
+def places_beside(paths):
+    """Path -> "data/name", names kept apart where two files of different folders share one."""
+    places, taken = {}, set()
+    for path in paths:
+        number, name = 1, path.name
+        while name.lower() in taken:
+            number += 1
+            name = f"{path.stem}-{number}{path.suffix}"
+        taken.add(name.lower())
+        places[path] = f"data/{name}"
+    return places
+
+
+# -- TOML ----------------------------------------------------------------------------------------------------------------------
+
+
+def toml_text(tables, path=""):
+    """TOML text of raw tables: the values of each table first, then its sub-tables."""
+    lines = [f"{key} = {toml_value(value)}" for key, value in tables.items() if not _is_table(value)]
+    text = "".join(f"{line}\n" for line in lines)
+    for key, value in tables.items():
+        if _is_table(value):
+            heading = f"[[{path}{key}]]" if isinstance(value, list) else f"[{path}{key}]"
+            for table in value if isinstance(value, list) else [value]:
+                text += f"\n{heading}\n{toml_text(table, f'{path}{key}.')}"
+    return text
+
+
+def _is_table(value):
+    return isinstance(value, dict) or (isinstance(value, list) and bool(value) and isinstance(value[0], dict))
+
+
+def toml_value(value):
+    """A value as TOML text on one line."""
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(toml_value, value)) + "]"
+    return repr(value)
+
+
+# -- digest --------------------------------------------------------------------------------------------------------------------
+
+
+def canonical_text(spec, leave_out=()):
+    """One text for all ways to say the same: SI, keys sorted, data files by content."""
+    tables = {name: value for name, value in _canonical(spec).items() if name not in leave_out}
+    return json.dumps(tables, sort_keys=True, separators=(",", ":"))
+
+
+def _canonical(value, field=None):
+    if isinstance(value, BaseModel):
+        return {name: _canonical(getattr(value, name), field) for name, field in type(value).model_fields.items()}
+    if isinstance(value, (tuple, list)):
+        return [_canonical(v, field) for v in value]
+    if isinstance(value, Path):
+        return _content(value)
+    if mark_of(field, AnyUnit) and not isinstance(value, bool):
+        return _canonical_quantity(value)
+    return (value + 0.0).hex() if isinstance(value, float) else value  # + 0.0: -0.0 is 0.0
+
+
+def _canonical_quantity(value):
+    """The same for "30 mm" and "3 cm", whatever kind of quantity it is; other text as it stands."""
+    if value is None:
+        return None
+    try:
+        number, dimensionality = any_quantity(value) if isinstance(value, str) else (float(value), ())
+    except UnitError:
+        return value
+    return [(number + 0.0).hex(), dimensionality]
+
+
+def _content(path):
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError as error:
+        raise SpecError(f"data file {str(path)!r} cannot be read: {error.strerror}") from None
