@@ -1,0 +1,5 @@
+"""python -m drivewright."""
+
+from drivewright.cli import main
+
+main()

@@ -1,0 +1,208 @@
+"""Commands.  They know the registry, the schema and the result; no kind of drive by name."""
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from drivewright import registry
+from drivewright.cli import show
+from drivewright.errors import InputError, UnknownName
+
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    help="Design, simulate and verify mechanical drives.",
+)
+
+SpecFile = Annotated[Path, typer.Argument(help="spec file (TOML)")]
+Set = Annotated[list[str] | None, typer.Option("--set", help="key=value, repeatable; replaces a key of the spec")]
+Only = Annotated[str, typer.Option("--only", help="analyses to run, comma separated, with what they need")]
+All = Annotated[bool, typer.Option("--all", help="every analysis")]
+Out = Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the spec>")]
+Strict = Annotated[bool, typer.Option("--strict", help="exit 3 when a design check fails")]
+
+
+def _load(path, changes):
+    from drivewright.spec import load
+
+    return load(path, changes or ())
+
+
+def _names(text):
+    return tuple(name.strip() for name in text.split(",") if name.strip())
+
+
+def _folder(path, out, several=False):
+    if out is None:
+        return Path("out") / path.stem
+    return out / path.stem if several else out
+
+
+@app.command()
+def new(
+    kind: Annotated[str, typer.Argument(help="kind of drive")],
+    file: Annotated[Path | None, typer.Argument(help="file to write; default KIND.toml")] = None,
+    preset: Annotated[str | None, typer.Option(help="start from this preset")] = None,
+):
+    """Write a commented spec with every key, its unit, default and limits."""
+    from drivewright.spec import template
+
+    path = file or Path(f"{kind}.toml")
+    text = template(kind, preset)
+    show.refuse_existing(path)
+    show.write_text(path, text)
+    show.copy_data_files(kind, preset, path)
+    presets = ", ".join(registry.mechanism(kind).presets())
+    show.note(f"wrote {path} (presets of {kind}: {presets}); next: drivewright run {path}")
+
+
+@app.command()
+def run(
+    specs: Annotated[list[Path], typer.Argument(help="spec files")],
+    out: Out = None,
+    set_: Set = None,
+    only: Only = "",
+    all_: All = False,
+    figures: Annotated[bool, typer.Option("--figures/--no-figures", help="draw the figures")] = True,
+    as_json: Annotated[bool, typer.Option("--json", help="print the result as JSON to stdout")] = False,
+    strict: Strict = False,
+):
+    """Validate, analyse and write a run folder per spec."""
+    from drivewright import runner
+    from drivewright.report.folder import write_run_folder
+
+    stems = [path.stem for path in specs]
+    if len(set(stems)) < len(stems):
+        raise InputError("two specs have the same file name and would share a run folder; run them one by one with --out")
+    results = []
+    for path in specs:
+        spec = _load(path, set_)
+        with show.progress(path.name) as step, show.located(path):
+            model = runner.build(spec)
+            result = runner.run(spec, _names(only), all_, step, model)
+            folder = write_run_folder(result, _folder(path, out, len(specs) > 1), figures)
+        results.append(result)
+        show.note(f"wrote {folder}/")
+        if not as_json:
+            show.result(result)
+    if as_json:
+        records = [result.record() for result in results]
+        json.dump(records[0] if len(records) == 1 else records, sys.stdout, indent=1)
+        print()
+    if any(result.outcome == "partial" for result in results):
+        raise typer.Exit(4)
+    if strict and not all(result.ok for result in results):
+        raise typer.Exit(3)
+
+
+@app.command()
+def export(
+    spec: SpecFile,
+    to: Annotated[str, typer.Option("--to", help="formats, comma separated: dxf, svg, csv, step, stl, gcode, pdf")],
+    out: Out = None,
+    set_: Set = None,
+    anyway: Annotated[bool, typer.Option("--anyway", help="also with a failed geometry check")] = False,
+):
+    """Write manufacturing files and the PDF report."""
+    from drivewright.report.export import export as write
+
+    loaded = _load(spec, set_)
+    with show.progress(spec.name) as step, show.located(spec):
+        files = write(loaded, _names(to), _folder(spec, out) / "cad", anyway, step)
+    for file in files:
+        print(file)
+
+
+@app.command()
+def optimise(spec: SpecFile, out: Out = None, set_: Set = None):
+    """Optimise the unknowns of the spec's [optimise] table; exit 4 when nothing feasible was found."""
+    from drivewright.report.optimised import write_optimised
+    from drivewright.studies.optimise import optimise as search
+
+    loaded = _load(spec, set_)
+    with show.progress(spec.name) as step, show.located(spec):
+        found = search(loaded, progress=step)
+        folder = write_optimised(found, out or Path("out") / f"{spec.stem}-optimised")
+    show.note(f"wrote {folder}/ (best.toml, history.parquet, best/)")
+    show.optimised(found)
+    if not found.feasible:
+        raise typer.Exit(4)
+
+
+@app.command()
+def verify(spec: SpecFile, set_: Set = None):
+    """Compute the case again on an independent route and print the differences."""
+    from drivewright.studies.verify import verify as compare
+
+    with show.located(spec):
+        comparison = compare(_load(spec, set_))
+    show.comparison(comparison)
+    if not all(row.ok for row in comparison):
+        raise typer.Exit(1)
+
+
+@app.command()
+def validate(name: Annotated[str | None, typer.Argument(help="a source; default all")] = None):
+    """Published numbers beside ours, with a verdict each; exit 1 when a pinned verdict changes."""
+    from drivewright import validation
+
+    changed = 0
+    for source in validation.sources(name):
+        rows = source.rows()
+        show.source(source, rows)
+        changed += sum(row.verdict != row.pinned for row in rows)
+    if changed:
+        show.note(f"{changed} verdict(s) differ from the pinned ones")
+        raise typer.Exit(1)
+
+
+@app.command()
+def examples(
+    name: Annotated[str | None, typer.Argument(help="example to copy into this folder")] = None,
+    run_: Annotated[str | None, typer.Option("--run", help="'all', or the name of an example to run")] = None,
+    out: Annotated[Path, typer.Option("--out", help="folder of the runs")] = Path("out"),
+):
+    """List, copy or run the worked examples."""
+    from drivewright.cli import gallery
+
+    known = gallery.examples()
+    for chosen in (name, run_ if run_ != "all" else None):
+        if chosen is not None and chosen not in known:
+            raise UnknownName("example", chosen, known)
+    if run_:
+        gallery.run_examples(known if run_ == "all" else {run_: known[run_]}, out)
+    elif name:
+        show.note("wrote " + ", ".join(str(path) for path in gallery.copy(known[name], Path("."))))
+    else:
+        gallery.listing(known)
+
+
+@app.command()
+def schema(kind: Annotated[str, typer.Argument(help="kind of drive")]):
+    """The JSON schema of a kind's spec files."""
+    from drivewright.spec import schema as of
+
+    print(json.dumps(of(kind), indent=1))
+
+
+@app.command()
+def doctor(warm: Annotated[bool, typer.Option("--warm", help="compile every kernel now")] = False):
+    """What is installed, what each extra adds, the state of the cache, a self-test."""
+    from drivewright.cli import doctor as examine
+
+    if not examine.report(warm):
+        raise typer.Exit(1)
+
+
+@app.callback(invoke_without_command=True)
+def _root(version: Annotated[bool, typer.Option("--version", help="print the version")] = False):
+    if version:
+        from drivewright import __version__
+
+        print(__version__)
+        raise typer.Exit

@@ -1,0 +1,80 @@
+"""`drivewright doctor`: what is installed, what each extra adds, the kernel cache, a self-test."""
+
+import time
+from importlib import import_module
+from importlib.metadata import PackageNotFoundError, version
+
+from drivewright import registry, units
+from drivewright.cli import show
+from drivewright.runner import versions
+
+EXTRAS = (
+    ("fe", "ngsolve", "STEP and STL of solids, solid check by finite elements"),
+    ("pdf", "typst", "PDF report"),
+    ("optimise", "pymoo", "NSGA-II for several objectives"),
+    ("peers", "exudyn", "independent engines for `verify` and the benchmarks"),
+)
+
+
+def report(warm):
+    """Print everything; returns whether the self-test passed."""
+    show.table("installed", (("what", "left"), ("version", "left")), versions().items())
+    show.table("extras", (("extra", "left"), ("state", "left"), ("adds", "left")), [_extra(*row) for row in EXTRAS])
+    show.table("mechanisms", (("kind", "left"), ("what", "left")), [(k, registry.mechanism(k).summary) for k in registry.kinds()])
+    if warm:
+        _warm()
+    _cache()
+    return _self_test()
+
+
+def _extra(name, module, adds):
+    try:
+        import_module(module)
+    except ImportError as error:
+        hint = "make system (libquadmath0)" if name == "fe" else f"pip install 'drivewright[{name}]'"
+        return name, f"missing ({str(error)[:60]}); {hint}", adds
+    try:
+        return name, version(module), adds
+    except PackageNotFoundError:
+        return name, "installed", adds
+
+
+def _warm():
+    from drivewright import _jit
+
+    show.note("compiling every kernel ...")
+    for name, seconds in _jit.warm():
+        show.note(f"  {name}: {seconds:.1f} s")
+
+
+def _cache():
+    from drivewright import _jit
+
+    folder = _jit.cache_folder()
+    files = [path for path in folder.rglob("*") if path.is_file()]
+    size = sum(path.stat().st_size for path in files)
+    show.table("kernel cache", (("folder", "left"), ("files", "right"), ("size", "right")), [(folder, len(files), f"{size / 1e6:.1f} MB")])
+
+
+def _self_test():
+    """A few closed forms through the layers; a line each."""
+    from drivewright import gears, motion
+    from drivewright.numerics.roots import bracketed_roots
+
+    started = time.perf_counter()
+    peaks = motion.law("modified-sine").peaks()
+    driven = gears.EllipticGearPair(eccentricity=0.3).driven(3.141592653589793)
+    rows = (
+        ("9.525 mm in metres", units.to_si("9.525 mm", "length"), 9.525e-3),
+        ("modified sine, peak acceleration", peaks.Am, 5.527957),
+        ("elliptic pair after half a turn", driven, 3.141592653589793),
+        ("root of x^2 - 2", bracketed_roots(lambda x: x * x - 2, [1.0, 2.0])[0], 2**0.5),
+    )
+    good = [abs(found - wanted) < 1e-6 for _, found, wanted in rows]
+    show.table(
+        "self-test",
+        (("what", "left"), ("found", "right"), ("expected", "right"), ("", "left")),
+        [(what, f"{found:.7g}", f"{wanted:.7g}", "ok" if ok else "WRONG") for (what, found, wanted), ok in zip(rows, good, strict=True)],
+    )
+    show.note(f"self-test: {sum(good)} of {len(good)} in {time.perf_counter() - started:.1f} s")
+    return all(good)

@@ -1,0 +1,81 @@
+"""The worked examples: listed, copied, run.  They are packed into the wheel; in a checkout they lie beside the sources."""
+
+import shutil
+import time
+from pathlib import Path
+
+from drivewright import registry, runner
+from drivewright.cli import show
+from drivewright.errors import DrivewrightError
+from drivewright.spec import load, read_document
+
+PACKED = Path(__file__).parent.parent / "examples"
+CHECKOUT = Path(__file__).parents[3] / "examples"
+
+
+def examples():
+    """Name -> path of every example spec."""
+    folder = PACKED if PACKED.is_dir() else CHECKOUT
+    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
+
+
+def listing(known):
+    """Print name, kind and title of each."""
+    rows = []
+    for name, path in known.items():
+        data = read_document(path)
+        rows.append((name, data.get("mechanism", ""), data.get("title", "")))
+    show.table(
+        "worked examples (drivewright examples NAME copies one, --run NAME runs it)",
+        (("name", "left"), ("kind", "left"), ("what it shows", "left")),
+        rows,
+    )
+
+
+def copy(path, folder):
+    """Copy an example and the data files it names; nothing is written over."""
+    sources = [path, *load(path).data_files()]
+    targets = [folder / source.name for source in sources]
+    for target in targets:
+        show.refuse_existing(target)
+    for source, target in zip(sources, targets, strict=True):
+        shutil.copyfile(source, target)
+    return targets
+
+
+def run_examples(chosen, out):
+    """Run examples, print their key numbers, write out/index.html; a failed design check is part of the show."""
+    from drivewright.report.folder import write_run_folder
+    from drivewright.report.index import write_index
+
+    folders = []
+    for number, (name, path) in enumerate(chosen.items(), 1):
+        started = time.perf_counter()
+        show.note(f"[{number}/{len(chosen)}] {name} ...")
+        try:
+            spec = load(path)
+            with show.progress(name) as step:
+                model = runner.build(spec)
+                result = runner.run(spec, progress=step, model=model)
+                folders.append(write_run_folder(result, out / name))
+        except DrivewrightError as error:
+            show.note(f"    {error}")
+            raise
+        _print(result, time.perf_counter() - started)
+    show.note(f"wrote {write_index(folders, out / 'index.html')}: open it in a browser")
+
+
+def _print(result, seconds):
+    """Key numbers of one run, on stdout."""
+    failed = [check for check in result.checks if not check.ok]
+    print(f"\n{result.title}   ({seconds:.1f} s)")
+    names = [n for n in registry.mechanism(result.mechanism).headline if n in result.values][:6]
+    for name in names:
+        value = result.values[name]
+        print(f"  {name:40s} {show.number(value.value, value.unit):>14s}   {value.meaning}")
+    for check in failed:
+        print(
+            f"  check fails: {check.name} = {show.number(check.value, check.unit)}, limit {check.sense} {show.number(check.limit, check.unit)}"
+        )
+    if not failed:
+        print(f"  all {len(result.checks)} checks pass")

@@ -1,0 +1,165 @@
+"""What the command line prints: results to stdout, everything else to stderr."""
+
+import shutil
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+from drivewright import registry, units
+from drivewright.errors import InputError, MissingExtra, SpecError
+
+
+def note(text):
+    """One line for the person at the terminal."""
+    print(text, file=sys.stderr)
+
+
+@contextmanager
+def located(path):
+    """Names the spec file in an error that does not know where it came from."""
+    try:
+        yield
+    except MissingExtra:
+        raise
+    except SpecError as error:
+        raise error.located(file=str(path)) if error.file is None else error from None
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    except OSError as error:
+        raise _from_disk(error) from None
+
+
+def _from_disk(error):
+    """A full disk or a missing right is no bug of ours: said in one line."""
+    return InputError(f"{error.filename or 'the output'}: {error.strerror or error}; nothing was written over")
+
+
+@contextmanager
+def progress(title):
+    """A callable step(done, total, what) that moves a bar; silent where stderr is no terminal."""
+    if not sys.stderr.isatty():
+        yield lambda done, total, what: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("{task.fields[what]}"),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(title, total=None, what="")
+        yield lambda done, total, what: bar.update(task, completed=done, total=total, what=what)
+
+
+def table(title, header, rows):
+    """A table on stdout; plain where stdout is no terminal, so that it can be piped and diffed."""
+    from rich.box import SIMPLE_HEAD
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    grid = Table(title=title, box=SIMPLE_HEAD, title_justify="left", title_style="bold")
+    for name, justify in header:
+        grid.add_column(name, justify=justify, overflow="fold")
+    for row in rows:
+        grid.add_row(*(cell if isinstance(cell, Text) else Text(str(cell)) for cell in row))
+    Console(file=sys.stdout, width=None if sys.stdout.isatty() else 140, highlight=False).print(grid)
+
+
+def number(value, unit):
+    """A number in the unit people read, with the unit."""
+    factor, shown = units.display(unit)
+    return f"{value * factor:.6g}{'' if shown in ('-', '') else ' ' + shown}"
+
+
+def result(found):
+    """Headline values, checks and findings of a run."""
+    mechanism = registry.mechanism(found.mechanism)
+    headline = [name for name in mechanism.headline if name in found.values] or list(found.values)[:12]
+    rows = [(name, number(found.values[name].value, found.values[name].unit), found.values[name].meaning) for name in headline]
+    table(found.title, (("value", "left"), ("", "right"), ("meaning", "left")), rows)
+    checks(found.checks)
+    for finding in found.findings:
+        note(f"note: {finding}")
+
+
+def checks(found):
+    """Every design check with value, limit and margin."""
+    from rich.text import Text
+
+    def verdict(check):
+        return Text("ok", style="green") if check.ok else Text("FAILS", style="bold red")
+
+    rows = [
+        (verdict(c), c.name, number(c.value, c.unit), f"{c.sense} {number(c.limit, c.unit)}", number(c.margin, c.unit), c.message)
+        for c in sorted(found, key=lambda c: c.ok)
+    ]
+    if rows:
+        table(
+            "design checks",
+            (("", "left"), ("check", "left"), ("value", "right"), ("limit", "right"), ("margin", "right"), ("", "left")),
+            rows,
+        )
+
+
+def optimised(found):
+    """The best design(s) of a search and the requirements it met or missed."""
+    table("unknowns", (("key", "left"), ("best", "right"), ("lower", "right"), ("upper", "right")), found.unknown_rows())
+    checks(found.requirements)
+    note(f"{found.evaluations} evaluations, {found.seconds:.1f} s, seed {found.seed}")
+    for line in found.findings:
+        note(f"note: {line}")
+
+
+def comparison(rows):
+    """Our numbers beside those of the independent route."""
+    table(
+        "independent route",
+        (("quantity", "left"), ("ours", "right"), ("other", "right"), ("difference", "right"), ("allowed", "right"), ("route", "left")),
+        [
+            (r.name, number(r.ours, r.unit), number(r.other, r.unit), number(r.other - r.ours, r.unit), number(r.allowed, r.unit), r.route)
+            for r in rows
+        ],
+    )
+
+
+def source(found, rows):
+    """One published source: its numbers beside ours."""
+    header = (("quantity", "left"), ("printed", "right"), ("ours", "right"), ("deviation", "right"), ("verdict", "left"), ("why", "left"))
+    table(found.citation, header, [(r.name, r.printed, number(r.ours, r.unit), r.deviation_text(), r.verdict, r.why) for r in rows])
+
+
+def write_text(path, text):
+    """A text file, written whole or not at all."""
+    from drivewright.report import atomic
+
+    if not Path(path).parent.is_dir():
+        raise InputError(f"{path}: there is no folder {str(Path(path).parent)!r}; make it first")
+    try:
+        atomic.write_text(path, text)
+    except OSError as error:
+        raise _from_disk(error) from None
+
+
+def copy_data_files(kind, preset, path):
+    """Data files that a preset names go beside the new spec; one that is there already is left alone."""
+    from drivewright.spec import load, preset_path
+
+    preset_file = preset_path(kind, preset)
+    for source in load(preset_file).data_files() if preset_file else ():
+        target = Path(path).parent / source.relative_to(preset_file.parent)
+        if target.exists() and target.read_bytes() != source.read_bytes():
+            note(f"note: {target} exists and is left alone, so the new spec reads it instead of the preset's")
+        elif not target.exists():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(source, target)
+
+
+def refuse_existing(path):
+    """Nothing of the user's is written over."""
+    if Path(path).exists():
+        raise InputError(f"{path} exists and is left alone; name another file or move it away")

@@ -1,0 +1,50 @@
+"""STEP and STL files of parts, in millimetres; the bytes depend on the parts alone.
+
+STEP, and STL of parts that are fused of several solids, need the extra `fe`.
+"""
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from drivewright.errors import InputError
+from drivewright.report.atomic import replacing, write_text
+from drivewright.solids import cad, facets
+
+FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+
+
+def write_step(parts, path, tolerance=cad.TOLERANCE):
+    """STEP file (AP214, millimetres) of parts as one assembly of named, coloured solids; splines within `tolerance` [m] of their knots."""
+    shape = cad.assembly(list(parts), tolerance)
+    with replacing(path) as temporary:
+        shape.WriteStep(str(temporary))
+        if not temporary.is_file():
+            raise InputError(f"the CAD kernel could not write {path}; is the folder writable and the name plain?")
+        text = temporary.read_text(encoding="utf-8", errors="replace")
+    write_text(path, _reproducible(text, Path(path).name))
+
+
+def write_stl(parts, path, tolerance=1e-5):
+    """Binary STL [mm] of parts, every one a closed surface with outward normals, chords within about `tolerance` [m] of the surface."""
+    surface = np.concatenate([_facets(*facets.triangles(part, tolerance)) for part in parts])
+    with replacing(path) as temporary:
+        temporary.write_bytes(b"drivewright: millimetres".ljust(80) + np.uint32(len(surface)).tobytes() + surface.tobytes())
+
+
+def _facets(points, corners):
+    triangle = cad.MM * points[corners]
+    normal = np.cross(triangle[:, 1] - triangle[:, 0], triangle[:, 2] - triangle[:, 0])
+    surface = np.zeros(len(corners), FACET)
+    surface["normal"], surface["corners"] = normal / np.linalg.norm(normal, axis=1, keepdims=True), triangle
+    return surface
+
+
+def _reproducible(text, name):
+    """STEP text without time stamp, placeholder author and the writer's running number, in ASCII as the format wants it."""
+    plain = name.replace("'", "''")
+    header = f"FILE_NAME('{plain}','',(''),(''),'Open CASCADE','drivewright','');"
+    text = re.sub(r"FILE_NAME\(.*?\);", lambda _: header, text, count=1, flags=re.S)
+    text = re.sub(r"PRODUCT\('Open CASCADE[^']*',\s*'Open CASCADE[^']*'", lambda _: f"PRODUCT('{plain}','{plain}'", text)
+    return re.sub(r"[^\x00-\x7f]+", lambda found: f"\\X2\\{found.group().encode('utf-16-be').hex().upper()}\\X0\\", text)

@@ -1,0 +1,168 @@
+"""What a report says, as plain text in plain dictionaries: the page and the PDF both print this and nothing else."""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from drivewright import registry
+from drivewright.errors import DrivewrightError
+from drivewright.runner import versions
+from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_thumbnail, svg
+from drivewright.view.motion import fractions
+from drivewright.view.panels import drawable, panels
+from drivewright.view.text import number, quantity, sentence, shown, unit_text, with_unit
+
+GHOSTS = tuple(n / 6 for n in range(6))
+SIGNS = {"<=": "≤", ">=": "≥"}
+LARGEST_ARRAY = 400  # entries: a larger one is only named; result.json has it
+
+
+class Picture(NamedTuple):
+    """A figure as SVG text, under the file name it gets."""
+
+    name: str
+    title: str
+    svg: str
+
+
+class Views(NamedTuple):
+    """What there is to see of a run besides its numbers; `remarks` say what could not be drawn."""
+
+    scene: Any = None
+    plots: tuple = ()
+    drawings: tuple = ()
+    remarks: tuple = ()
+
+
+def views(result):
+    """What the result's mechanism shows of its spec; a design that cannot be drawn still gets its report, with a remark."""
+    if result.mechanism not in registry.kinds():
+        return Views(remarks=(f"mechanism {result.mechanism!r} is not installed here: neither motion nor drawings",))
+    mechanism = registry.mechanism(result.mechanism)
+    model = mechanism.build(result.spec)
+    scene, no_scene = _shown("motion", mechanism.scene, model, None)
+    drawings, no_drawings = _shown("drawings", mechanism.drawings, model, ())
+    return Views(scene, tuple(mechanism.plots), tuple(drawings), no_scene + no_drawings)
+
+
+def _shown(what, make, model, nothing):
+    """(what was made, remarks)."""
+    try:
+        return (make(model) if make else nothing), ()
+    except DrivewrightError as error:
+        return nothing, (f"no {what} to show: {error}",)
+
+
+def pictures(result, seen):
+    """Every figure of a run: the scene for each observer, the plots, the drawings."""
+    scene = seen.scene
+    frames = [Picture(f"scene-{frame.name}", sentence(frame.label), svg(draw_scene(scene, frame.name, [_telling_phase(scene)], GHOSTS)))
+             for frame in (scene.frames if scene else ())]
+    curves = [Picture(f"plot-{plot.name}", plot.title, svg(draw_panels(panels(result, plot), _marks(result, plot, scene))))
+              for plot in drawable(result, seen.plots)]
+    parts = [Picture(f"drawing-{drawing.name}", sentence(drawing.title), svg(draw_drawing(drawing))) for drawing in seen.drawings]
+    return (*frames, *curves, *parts)
+
+
+def thumbnail(scene):
+    """The picture of a scene for a gallery."""
+    return Picture("thumbnail", "thumbnail", svg(draw_thumbnail(scene, _telling_phase(scene))))
+
+
+def _telling_phase(scene):
+    """The first mark behind the start of the cycle, else 0.3: a machine at its start often shows nothing."""
+    marked = np.interp([value for value, _ in scene.marks], *_rising(scene.cycle)) if scene.marks else np.array([])
+    return float(next((phase for phase in sorted(marked) if phase > 0), 0.3))
+
+
+def _rising(cycle):
+    order = np.argsort(cycle)
+    return np.asarray(cycle)[order], fractions(cycle)[order]
+
+
+def _marks(result, plot, scene):
+    """The scene's marks in the unit of the x axis, for a plot over the scene's cycle."""
+    if scene is None or plot.table != scene.table or plot.x != result.tables[plot.table].columns[0].name:
+        return ()
+    factor = shown(scene.cycle_unit)[0]
+    return tuple((value * factor, label) for value, label in scene.marks)
+
+
+def content(result, remarks=()):
+    """Title, verdict, headline, checks, values, arrays, tables, findings, sources and provenance of a result."""
+    return {
+        "title": result.title, "mechanism": result.mechanism, "version": program(), "digest": result.digest,
+        "verdict": verdict([bool(check.ok) for check in result.checks], result.outcome),
+        "headline": headline(result), "checks": [_check(c) for c in sorted(result.checks, key=lambda c: c.ok)],
+        "values": [_value(name, value) for name, value in result.values.items() if math.isfinite(value.value)],
+        "arrays": [_array(name, array) for name, array in result.arrays.items()],
+        "tables": [_table(table) for table in result.tables.values()],
+        "findings": [*result.findings, *remarks], "spec": result.spec.to_toml(),
+        "sources": [str(source) for source in result.provenance.get("sources", ())], "provenance": provenance(result),
+        "cite": f"Drivewright {program()}, {result.mechanism}: {result.title}, digest {result.digest[:12]}."}
+
+
+def program():
+    """Our own version."""
+    return versions()["drivewright"]
+
+
+def verdict(passed, outcome):
+    """{'state': 'good' | 'bad' | 'warn', 'text'} of checks as booleans; an unfinished or unchecked run is never good."""
+    failed, count = passed.count(False), len(passed)
+    if failed:
+        return {"state": "bad", "text": f"{failed} of {count} checks {'fails' if failed == 1 else 'fail'}"}
+    if outcome != "complete":
+        return {"state": "warn", "text": f"{outcome} result"}
+    if not passed:
+        return {"state": "warn", "text": "no checks"}
+    return {"state": "good", "text": "1 check passes" if count == 1 else f"all {count} checks pass"}
+
+
+def headline(result):
+    """The mechanism's headline values, or the first six; those that the run has."""
+    registered = registry.mechanism(result.mechanism).headline if result.mechanism in registry.kinds() else ()
+    names = [name for name in registered or tuple(result.values)[:6] if name in result.values]
+    return [_value(name, result.values[name]) for name in names]
+
+
+def _value(name, value):
+    factor, unit = shown(value.unit)
+    return {"name": name, "meaning": sentence(value.meaning or name), "shown": quantity(value.value, value.unit),
+            "number": number(value.value * factor), "unit": unit, "si": with_unit(repr(float(value.value)), unit_text(value.unit))}
+
+
+def _check(check):
+    factor, unit = shown(check.unit)
+    limit = with_unit(number(check.limit * factor), unit)
+    margin = ("+" if check.margin >= 0 else "−") + number(abs(check.margin) * factor, 4) if math.isfinite(check.margin) else ""
+    return {"name": check.name, "label": sentence(check.name.replace("_", " ").replace(".", " · ")), "ok": bool(check.ok),
+            "value": with_unit(number(check.value * factor), unit), "limit": f"{SIGNS[check.sense]} {limit}",
+            "margin": with_unit(margin, unit) if margin else "", "message": sentence(check.message), "parts": list(check.parts)}
+
+
+def _array(name, array):
+    values = np.atleast_1d(np.asarray(array.values))
+    small = values.ndim <= 2 and values.size <= LARGEST_ARRAY
+    rows = [[number(v) for v in row] for row in np.atleast_2d(values)] if small else []
+    return {"name": name, "unit": unit_text(array.unit), "axes": " × ".join(array.axes), "shape": " × ".join(map(str, values.shape)),
+            "head": [str(x) for x in array.labels[-1]] if array.labels else [],
+            "side": [str(x) for x in array.labels[0]] if len(array.labels) == 2 else [], "rows": rows}
+
+
+def _table(table):
+    return {"name": table.name, "title": table.title, "rows": len(table.columns[0].data),
+            "columns": [{"name": c.name, "unit": unit_text(c.unit), "meaning": sentence(c.meaning)} for c in table.columns]}
+
+
+def provenance(result):
+    """Rows (what, text) of where the numbers came from; lists and mappings on one line."""
+    rows = [("outcome", result.outcome), ("digest", result.digest)]
+    return rows + [(key, _flat(value)) for key, value in result.provenance.items() if key != "sources"]
+
+
+def _flat(value):
+    if isinstance(value, dict):
+        return ", ".join(f"{key} {item}" for key, item in value.items())
+    return ", ".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)

@@ -1,0 +1,114 @@
+"""Manufacturing files of a design: everything that `drivewright export` can write."""
+
+from pathlib import Path
+
+from drivewright import registry, runner
+from drivewright.errors import InputError, UnknownName
+from drivewright.report import dxf, gcode, svgout, tabular
+from drivewright.report.folder import file_name
+
+FORMATS = ("dxf", "svg", "csv", "step", "stl", "gcode", "pdf")
+
+
+def export(spec, formats, folder, anyway=False, progress=None):
+    """Write the formats of a design into `folder`; returns the paths.
+
+    InputError where a geometry check fails, unless `anyway`; a solid format needs the extra 'fe', the PDF the extra 'pdf'.
+    """
+    _refuse_unknown(formats)
+    mechanism = registry.mechanism(spec.mechanism)
+    model = mechanism.build(spec)
+    result = runner.run(spec, everything=True, model=model)
+    if not anyway:
+        _refuse_bad_geometry(result)
+    step = progress or (lambda done, total, what: None)
+    folder = Path(folder)
+    files = []
+    for number, name in enumerate(formats):
+        step(number, len(formats), name)
+        files += WRITERS[name](mechanism, model, result, folder)
+    return files
+
+
+def _refuse_unknown(formats):
+    if not formats:
+        raise InputError(f"export wants at least one format of {', '.join(FORMATS)}")
+    for name in formats:
+        if name not in FORMATS:
+            raise UnknownName("export format", name, FORMATS)
+
+
+def _refuse_bad_geometry(result):
+    failed = [check for check in result.checks if check.geometry and not check.ok]
+    if failed:
+        reasons = "; ".join(f"{c.name} = {c.value:.4g}, limit {c.sense} {c.limit:.4g} ({c.message})" for c in failed)
+        raise InputError(f"this design fails a geometry check and is not exported: {reasons}. Mend the design, or export it with --anyway")
+
+
+def _drawings(mechanism, model):
+    drawings = tuple(mechanism.drawings(model)) if mechanism.drawings else ()
+    if not drawings:
+        raise InputError(f"{mechanism.kind} has no flat parts to draw; try step or csv")
+    return drawings
+
+
+def _parts(mechanism, model):
+    parts = tuple(mechanism.parts(model)) if mechanism.parts else ()
+    if not parts:
+        raise InputError(f"{mechanism.kind} has no solids; try dxf or csv")
+    return parts
+
+
+def _dxf(mechanism, model, result, folder):
+    return [_written(dxf.write_dxf, d, folder / f"{file_name(d.name)}.dxf") for d in _drawings(mechanism, model)]
+
+
+def _svg(mechanism, model, result, folder):
+    return [_written(svgout.write_svg, d, folder / f"{file_name(d.name)}.svg") for d in _drawings(mechanism, model)]
+
+
+def _csv(mechanism, model, result, folder):
+    return [_written(tabular.write_csv, t, folder / f"{file_name(t.name)}.csv") for t in result.tables.values()]
+
+
+def _step(mechanism, model, result, folder):
+    from drivewright.report import cad
+
+    return [_written(cad.write_step, _parts(mechanism, model), folder / "assembly.step")]
+
+
+def _stl(mechanism, model, result, folder):
+    from drivewright.report import cad
+
+    return [_written(cad.write_stl, [part], folder / f"{file_name(part.name)}.stl") for part in _parts(mechanism, model)]
+
+
+def _gcode(mechanism, model, result, folder):
+    make = model.spec.manufacture
+    settings = {
+        "cutter_diameter": make.cutter_diameter,
+        "feed": make.feed,
+        "plunge": make.plunge,
+        "step_down": make.step_down,
+        "spindle_speed": make.spindle_speed,
+        "tolerance": make.chord_tolerance,
+    }
+    return [
+        _written(lambda d, path: gcode.write_gcode(d, path, **settings), d, folder / f"{file_name(d.name)}.nc")
+        for d in _drawings(mechanism, model)
+        if d.milled
+    ]
+
+
+def _pdf(mechanism, model, result, folder):
+    from drivewright.report import pdf
+
+    return [_written(pdf.write_pdf, result, folder / "report.pdf")]
+
+
+def _written(write, what, path):
+    write(what, path)
+    return path
+
+
+WRITERS = {"dxf": _dxf, "svg": _svg, "csv": _csv, "step": _step, "stl": _stl, "gcode": _gcode, "pdf": _pdf}

@@ -1,0 +1,110 @@
+"""The run folder: written beside its place, then moved in whole, so that there is always a complete one or none."""
+
+import json
+import os
+import re
+import shutil
+from pathlib import Path
+
+from drivewright.errors import InputError
+from drivewright.report.content import pictures, thumbnail, views
+from drivewright.report.html import write_report
+
+
+def write_run_folder(result, out, figures=True, seen=None):
+    """Write the run folder of a result to `out` and return its path.
+
+    result.json, report.html, figures/*.svg, tables/*.parquet, spec.toml.  `seen` is a `Views`; None takes what the result's
+    mechanism shows.  An existing run folder is replaced; InputError for a folder that holds anything else.
+    """
+    out = Path(out).resolve()
+    refuse_foreign(out)
+    fresh = _sibling(out, "tmp")
+    _remove(fresh)
+    try:
+        fresh.mkdir(parents=True)
+        _fill(fresh, result, views(result) if seen is None else seen, figures)
+        _move_in(fresh, out)
+    finally:
+        _remove(fresh)
+    return out
+
+
+def is_run_folder(path):
+    """Whether `path` holds the result.json of a run."""
+    try:
+        return "drivewright" in json.loads((Path(path) / "result.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError, TypeError):
+        return False
+
+
+def refuse_foreign(out):
+    """InputError where writing to `out` would take the place of something that is no run folder."""
+    if out.is_dir() and any(out.iterdir()) and not is_run_folder(out):
+        first = sorted(path.name for path in out.iterdir())[:3]
+        raise InputError(f"{out}: is not empty and is no run folder (it holds {', '.join(first)} ... but no result.json of a run); "
+                         "nothing was written. Choose another --out, or empty it first")
+    if out.exists() and not out.is_dir():
+        raise InputError(f"{out}: is a file, a run folder cannot take its place; choose another --out")
+
+
+def record_text(result):
+    """The text of result.json."""
+    return json.dumps(result.record(), indent=1, ensure_ascii=False, allow_nan=False, default=_plain) + "\n"
+
+
+def _plain(number):
+    """A numpy scalar as Python's own: a check compared with a numpy limit is a numpy bool."""
+    return number.item()
+
+
+def file_name(name):
+    """A name as part of a file name: what no file system minds."""
+    return re.sub(r"[^\w.-]+", "-", name).strip(".-") or "unnamed"
+
+
+def _fill(folder, result, seen, figures):
+    """Everything of one run, the result first: it is what makes a folder a run folder."""
+    (folder / "result.json").write_text(record_text(result), encoding="utf-8")
+    (folder / "spec.toml").write_text(result.spec.to_toml(), encoding="utf-8")
+    named = [picture._replace(name=file_name(picture.name)) for picture in pictures(result, seen)] if figures else []
+    write_report(result, seen, folder, named)
+    _write_tables(folder, result.tables.values())
+    _write_figures(folder, [*named, thumbnail(seen.scene)] if figures and seen.scene else named)
+
+
+def _write_figures(folder, named):
+    for picture in named:
+        (folder / "figures").mkdir(exist_ok=True)
+        (folder / "figures" / f"{picture.name}.svg").write_text(picture.svg, encoding="utf-8")
+
+
+def _write_tables(folder, tables):
+    from pyarrow import parquet
+
+    for table in tables:
+        (folder / "tables").mkdir(exist_ok=True)
+        parquet.write_table(table.arrow(), folder / "tables" / f"{file_name(table.name)}.parquet")
+
+
+def _move_in(fresh, out):
+    """Put the finished folder in its place; the old one goes back where that fails."""
+    old = _sibling(out, "old")
+    _remove(old)
+    if out.exists():
+        out.rename(old)
+    try:
+        fresh.rename(out)
+    except BaseException:
+        if old.exists() and not out.exists():
+            old.rename(out)
+        raise
+    _remove(old)
+
+
+def _sibling(out, role):
+    return out.with_name(f"{out.name}.{role}-{os.getpid()}")
+
+
+def _remove(path):
+    shutil.rmtree(path, ignore_errors=True)

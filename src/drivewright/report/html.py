@@ -1,0 +1,72 @@
+"""The self-contained report page: no request leaves it, and nothing of the user's text is taken as markup."""
+
+import json
+import re
+from functools import cache
+from pathlib import Path
+
+from drivewright.report.atomic import write_text
+from drivewright.report.content import content
+from drivewright.report.pack import pack_plots, pack_scene
+from drivewright.view.palette import style_sheet
+
+HERE = Path(__file__).parent
+
+
+def write_report(result, seen, folder, pictures=()):
+    """Write `folder`/report.html: numbers, checks, motion player with linked plots, pictures, sources.  `seen` is a `Views`."""
+    text = page("report.html.j2", content(result, seen.remarks), player=player_data(result, seen),
+                pictures=[_embedded(picture) for picture in pictures])
+    path = Path(folder) / "report.html"
+    write_text(path, text)
+    return path
+
+
+def player_data(result, seen):
+    """The player's and the plots' data as JSON that cannot end a script element; None without a scene."""
+    if seen.scene is None:
+        return None
+    data = {"scene": pack_scene(seen.scene), "plots": pack_plots(result, seen.scene, seen.plots)}
+    return json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
+
+
+def page(template, values, **more):
+    """A template filled in; every value is escaped unless the template marks it safe."""
+    look = _text("templates/report.css") + _text("player.css")
+    return environment().get_template(template).render(**values, **more, colours=style_sheet(), style=look, script=scripts())
+
+
+@cache
+def environment():
+    import jinja2
+
+    found = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE / "templates"), autoescape=True, trim_blocks=True, lstrip_blocks=True,
+                               undefined=jinja2.StrictUndefined)
+    found.filters["breakable"] = _breakable
+    return found
+
+
+def _breakable(name):
+    """A dotted name that may be broken behind its dots and underscores."""
+    from markupsafe import Markup, escape
+
+    return Markup(re.sub(r"([._])", r"\1<wbr>", str(escape(name))))
+
+
+@cache
+def scripts():
+    """player.js and plots.js as one module: the import between them goes, the rest stays as it is."""
+    return "\n".join(re.sub(r"^import .*$", "", _text(name), flags=re.MULTILINE) for name in ("player.js", "plots.js"))
+
+
+@cache
+def _text(name):
+    return (HERE / name).read_text(encoding="utf-8")
+
+
+def _embedded(picture):
+    """A picture as an image of its own, so that the ids inside several SVGs cannot meet; as text, a quarter smaller than base64."""
+    from markupsafe import Markup
+
+    data = re.sub(r"\s+", " ", picture.svg).replace("%", "%25").replace("#", "%23").replace("&", "&amp;").replace('"', "%22")
+    return {"name": picture.name, "title": picture.title, "source": Markup(f"data:image/svg+xml;charset=utf-8,{data}")}

@@ -1,0 +1,48 @@
+"""A gallery page over several run folders: verdict, headline numbers and a thumbnail of each, linked to its report."""
+
+import json
+import os
+from pathlib import Path
+from urllib.parse import quote
+
+from drivewright import registry
+from drivewright.report.atomic import write_text
+from drivewright.report.content import program, verdict
+from drivewright.report.html import page
+from drivewright.view.text import number, quantity, sentence
+
+MOST = 4  # headline numbers on a card
+
+
+def write_index(folders, path):
+    """Write the gallery of some run folders to `path`; links are relative, so that the whole tree can be moved."""
+    path = Path(path)
+    cards = [_card(Path(folder), path.parent) for folder in folders]
+    failed = sum(card["verdict"]["state"] == "bad" for card in cards)
+    write_text(path, page("index.html.j2", {"cards": cards, "failed": failed, "version": program()}))
+    return path
+
+
+def _card(folder, base):
+    record = json.loads((folder / "result.json").read_text(encoding="utf-8"))
+    return {"title": record["title"], "mechanism": record["mechanism"], "report": _link(folder / "report.html", base),
+            "picture": _thumbnail(folder, base), "values": _headline(record),
+            "verdict": verdict([check["ok"] for check in record["checks"]], record["outcome"]),
+            "seconds": number(record["provenance"].get("seconds", 0.0), 2)}
+
+
+def _link(target, base):
+    return quote(os.path.relpath(target, base).replace(os.sep, "/"))
+
+
+def _thumbnail(folder, base):
+    """The scene's thumbnail, else the first drawing or plot; None for a run without figures."""
+    found = sorted((folder / "figures").glob("*.svg"), key=lambda f: (f.name != "thumbnail.svg", f.name))
+    return _link(found[0], base) if found else None
+
+
+def _headline(record):
+    kind, values = record["mechanism"], record["values"]
+    registered = registry.mechanism(kind).headline if kind in registry.kinds() else ()
+    names = [name for name in registered or values if name in values][:MOST]
+    return [{"meaning": sentence(values[n]["meaning"] or n), "shown": quantity(values[n]["value"], values[n]["unit"])} for n in names]

@@ -1,0 +1,108 @@
+"""A scene and the linked plots as JSON for the browser: arrays as base64 of little-endian float32, equal ones once."""
+
+import base64
+
+import numpy as np
+
+from drivewright.view.motion import fractions
+from drivewright.view.panels import decimals, drawable, panels
+from drivewright.view.text import shown
+
+FINENESS = 2e-5  # arcs become chords within this part of the scene's size: under a pixel at twenty-fold zoom
+MOST_ROWS = 2000  # a longer table is thinned: more points than a plot is wide
+
+
+def floats(array):
+    """base64 of an array as float32, row by row."""
+    return base64.b64encode(np.ascontiguousarray(array, "<f4").tobytes()).decode()
+
+
+def pack_scene(scene):
+    """Plain dictionary of a scene for `createPlayer`.
+
+    `motions` holds every different set of poses once, as (frames or 1) x (x, y, angle) with continuous angles; bodies and
+    observers point into it.  `u` is the driving quantity as 0 ... 1.
+    """
+    motions, size = [], _size(scene)
+    bodies = [{"name": b.name, "label": b.label, "colour": b.colour, "motion": _pooled(b.poses, motions), "shapes": _shapes(b.shapes, size)}
+              for b in scene.bodies]
+    observers = [{"name": f.name, "label": f.label, "motion": _pooled(f.poses, motions), "advance": [float(a) for a in f.advance],
+                  "shapes": _shapes(f.shapes, size)} for f in scene.frames]
+    order = [b.name for b in scene.bodies]
+    traces = [{"label": t.label, "body": order.index(t.body), "point": [float(p) for p in t.point]} for t in scene.traces]
+    period = float(scene.period) if np.isfinite(scene.period) and scene.period > 0 else None
+    return {"cycle": _cycle(scene), "period": period, "bodies": bodies, "observers": observers, "traces": traces, "motions": motions,
+            "frames": len(scene.cycle), "u": floats(fractions(scene.cycle))}
+
+
+def _cycle(scene):
+    """The driving quantity in the unit people read, with its marks as (0 ... 1, label)."""
+    factor, unit = shown(scene.cycle_unit)
+    start, span = float(scene.cycle[0]), float(scene.cycle[-1] - scene.cycle[0])
+    marks = sorted([(value - start) / span, label] for value, label in scene.marks)
+    return {"label": scene.cycle_label, "unit": unit, "start": start * factor, "span": span * factor, "marks": marks}
+
+
+def _size(scene):
+    """A length that stands for the whole: the spread of the bodies' origins and of the largest shape."""
+    spots = np.concatenate([np.asarray(body.poses)[:, :2] for body in scene.bodies])
+    shapes = [shape.outline.points(1e-3) for body in scene.bodies for shape in body.shapes]
+    return max(float(np.ptp(spots, axis=0).max()), *(float(np.ptp(points, axis=0).max()) for points in shapes), 1e-9)
+
+
+def _pooled(poses, motions):
+    """Number of these poses in the pool, which takes them in when they are new; poses that never change are one row."""
+    poses = np.asarray(poses, float)
+    turned = np.column_stack([poses[:, :2], np.unwrap(poses[:, 2])])
+    text = floats(turned[:1] if np.array_equal(turned, np.broadcast_to(turned[0], turned.shape)) else turned)
+    if text not in motions:
+        motions.append(text)
+    return motions.index(text)
+
+
+def _shapes(shapes, size):
+    return [{"layer": s.layer, "closed": bool(s.outline.closed), "points": floats(s.outline.points(FINENESS * size))} for s in shapes]
+
+
+def pack_plots(result, scene, plots):
+    """Plain dictionary for `createPlots`: the panels over the scene's cycle; None where there are none.
+
+    A plot is linked when its x column is the one that leads the scene's table and covers one cycle at most, whichever table it is in.
+    """
+    main = result.tables.get(scene.table)
+    chosen = [(plot, _along(result.tables[plot.table][plot.x].data, scene)) for plot in drawable(result, plots)
+              if main and plot.x == main.columns[0].name and not plot.equal]
+    packed = [panel for plot, u in chosen if u is not None for panel in _panels(panels(result, plot), u)]
+    return {"cycle": _cycle(scene), "panels": packed} if packed else None
+
+
+def _along(x, scene):
+    """x as 0 ... 1 along the scene's closed cycle, wherever on it x starts; None where x covers more than one cycle."""
+    u = (np.asarray(x, float) - scene.cycle[0]) / (scene.cycle[-1] - scene.cycle[0])
+    if not np.all(np.isfinite(u)) or np.ptp(u) > 1 + 1e-6:
+        return None
+    return u if u.min() > -1e-6 and u.max() < 1 + 1e-6 else u % 1.0
+
+
+def _panels(found, u):
+    """The panels of one plot; where there are several, one with a single line is named after it."""
+    order = np.argsort(u, kind="stable")
+    for panel in found:
+        rows = order[telling_rows([s.data[order] for s in panel.series])]
+        title = panel.title if len(found) == 1 or len(panel.series) > 1 else panel.series[0].label
+        yield {"title": title, "low": panel.low, "high": panel.high, "decimals": int(decimals(panel.low, panel.high)), "u": floats(u[rows]),
+               "limits": [[float(value), text] for value, text in panel.limits],
+               "series": [{"label": s.label, "unit": s.unit, "role": s.role, "data": floats(s.data[rows])} for s in panel.series]}
+
+
+def telling_rows(lines, most=MOST_ROWS):
+    """Rows that draw the same picture: all of a short table; of a long one the lowest and highest of each line in equal stretches."""
+    count = len(lines[0])
+    if count <= most:
+        return np.arange(count)
+    stretches = np.array_split(np.arange(count), most // (2 * len(lines)))
+    chosen = [{0, count - 1}]
+    for line in lines:
+        line = np.where(np.isfinite(line), line, 0.0)
+        chosen += [{rows[line[rows].argmin()], rows[line[rows].argmax()]} for rows in stretches]
+    return np.array(sorted(set().union(*chosen)))

@@ -1,0 +1,155 @@
+// Plots over the cycle, with one cursor on all of them.  Dragging in one moves the clock, and so the player.
+//
+//   createPlots(host, plots, {clock});                       // plots: the dictionary of pack_plots
+
+import { element, fitCanvas, fixed, floats, locate, watchTheme, watchVisible } from "./player.js";
+
+const MARGIN = {left: 52, right: 14, top: 6, bottom: 36};
+const FONT = "11px system-ui, sans-serif";
+
+/** Ticks at round values, about `count` of them; angles at 10, 15, 30, 45, 90 ... degrees. */
+export function ticks(low, high, count, unit) {
+  const width = Math.max(high - low, 1e-300), rough = width / count, power = 10 ** Math.floor(Math.log10(rough));
+  const turn = unit === "°" && width >= 60;
+  const step = turn ? [10, 15, 30, 45, 60, 90, 180, 360].find(s => s >= rough) || 360 * Math.ceil(rough / 360) : [1, 2, 5, 10].find(s => s * power >= rough * 0.999) * power;
+  const found = [];
+  for (let n = Math.ceil(low / step - 1e-9); n * step <= high + step * 1e-9; n++) found.push(n * step);
+  return {values: found, decimals: Math.min(9, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)))};
+}
+
+const tickText = (value, decimals) => Math.abs(value) >= 1e5 || (value !== 0 && decimals > 5)
+  ? value.toExponential(1).replace("e+", "e").replace("-", "−") : fixed(value, decimals);
+const unitText = unit => unit.startsWith("°") || !unit ? unit : ` ${unit}`;
+
+/** One panel: title, running values, curves with limit lines, cursor.  {draw(), show(), node} */
+function createPanel(panel, cycle, clock, theme) {
+  const u = floats(panel.u);
+  const lines = panel.series.map(series => ({...series, values: floats(series.data)}));
+  const numbers = lines.map(series => element("b", {}, "–"));
+  const readouts = lines.map((series, n) => element("span", {class: "dw-now", title: series.label, style: `--chip: var(--${series.role})`},
+    ...(lines.length > 1 ? [element("i", {}), element("em", {}, series.label)] : []), numbers[n], unitText(series.unit)));
+  const canvas = element("canvas", {class: "dw-plot-canvas"}), cursor = element("div", {class: "dw-cursor"}), cover = element("div", {class: "dw-cover"}, cursor);
+  const dots = lines.map(series => element("div", {class: "dw-dot", style: `--chip: var(--${series.role})`}));
+  cover.append(...dots);
+  const node = element("div", {class: "dw-plot"}, element("div", {class: "dw-plot-head"}, element("span", {class: "dw-plot-title", title: panel.title}, panel.title),
+    element("span", {class: "dw-plot-values"}, ...readouts)), element("div", {class: "dw-plot-area"}, canvas, cover));
+  const surface = fitCanvas(canvas, () => { draw(); show(); });
+  const inner = () => ({w: surface.width - MARGIN.left - MARGIN.right, h: surface.height - MARGIN.top - MARGIN.bottom});
+  const toX = part => MARGIN.left + part * inner().w;
+  const toY = value => MARGIN.top + (panel.high - value) / (panel.high - panel.low) * inner().h;
+
+  function axes(context, colours) {
+    const {w, h} = inner(), end = cycle.start + cycle.span, [low, high] = [Math.min(cycle.start, end), Math.max(cycle.start, end)];
+    const across = ticks(low, high, Math.max(2, Math.min(8, w / 62)), cycle.unit), up = ticks(panel.low, panel.high, Math.max(2, h / 23), panel.series[0].unit);
+    context.font = FONT; context.lineWidth = 1;
+    phases(context, colours);
+    context.strokeStyle = colours.line; context.fillStyle = colours.muted;
+    context.textAlign = "right"; context.textBaseline = "middle";
+    for (const value of up.values) {
+      rule(context, MARGIN.left, toY(value), MARGIN.left + w, toY(value), value === 0 ? colours["grid-strong"] : colours.grid);
+      context.fillText(tickText(value, up.decimals), MARGIN.left - 7, toY(value));
+    }
+    context.textBaseline = "top";
+    for (const value of across.values) {
+      const x = toX((value - cycle.start) / cycle.span), text = tickText(value, across.decimals) + (cycle.unit === "°" ? "°" : "");
+      rule(context, x, MARGIN.top, x, MARGIN.top + h, colours.grid);
+      context.textAlign = x > MARGIN.left + w - 12 ? "right" : "center";
+      context.fillText(text, x > MARGIN.left + w - 12 ? MARGIN.left + w + 12 : x, MARGIN.top + h + 5);
+    }
+    context.textAlign = "center";
+    context.fillText(cycle.label + (cycle.unit && cycle.unit !== "°" ? ` [${cycle.unit}]` : ""), MARGIN.left + w / 2, MARGIN.top + h + 20);
+  }
+
+  function phases(context, colours) {
+    const {h} = inner();
+    context.fillStyle = colours.raised; context.globalAlpha = 0.6;
+    if (cycle.marks.length > 1) cycle.marks.forEach(([start], n) => {
+      const stop = n + 1 < cycle.marks.length ? cycle.marks[n + 1][0] : 1;
+      if (n % 2 === 0) context.fillRect(toX(start), MARGIN.top, toX(stop) - toX(start), h);
+    });
+    context.globalAlpha = 1;
+  }
+
+  function rule(context, x0, y0, x1, y1, colour) {
+    context.strokeStyle = colour;
+    context.beginPath(); context.moveTo(Math.round(x0) + 0.5, Math.round(y0) + 0.5); context.lineTo(Math.round(x1) + 0.5, Math.round(y1) + 0.5); context.stroke();
+  }
+
+  function limits(context, colours) {
+    const {w} = inner();
+    context.font = FONT; context.textAlign = "right";
+    for (const [value, text] of panel.limits) {
+      const y = toY(value), above = y > MARGIN.top + 18;
+      context.setLineDash([6, 4]); context.lineWidth = 1.2;
+      rule(context, MARGIN.left, y, MARGIN.left + w, y, colours.bad);
+      context.setLineDash([]);
+      const wide = context.measureText(text).width;
+      context.fillStyle = colours.surface; context.globalAlpha = 0.75;
+      context.fillRect(MARGIN.left + w - wide - 6, y + (above ? -16 : 3), wide + 6, 13);
+      context.fillStyle = colours.bad; context.globalAlpha = 1; context.textBaseline = above ? "bottom" : "top";
+      context.fillText(text, MARGIN.left + w - 3, y + (above ? -3 : 4));
+    }
+  }
+
+  function curves(context, colours) {
+    const {w, h} = inner();
+    context.save();
+    context.beginPath(); context.rect(MARGIN.left, MARGIN.top, w, h); context.clip();
+    context.lineJoin = "round"; context.lineWidth = 1.8;
+    for (const {values, role} of lines) {
+      context.strokeStyle = colours[role];
+      context.beginPath();
+      let pen = false;
+      for (let i = 0; i < u.length; i++) {
+        if (!Number.isFinite(values[i])) { pen = false; continue; }
+        const x = toX(u[i]), y = Math.max(-1e4, Math.min(1e4, toY(values[i])));
+        pen ? context.lineTo(x, y) : context.moveTo(x, y);
+        pen = true;
+      }
+      context.stroke();
+    }
+    context.restore();
+  }
+
+  function draw() {
+    const {context, ratio, width, height} = surface;
+    if (width < 2) return;
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, width, height);
+    axes(context, theme.colours);
+    curves(context, theme.colours);
+    limits(context, theme.colours);
+  }
+
+  function show() {
+    const [low, part] = locate(u, clock.phase), x = Math.round(toX(clock.phase));
+    cursor.style.transform = `translateX(${x}px)`;
+    lines.forEach(({values}, n) => {
+      const here = clock.phase >= u[0] - 1e-3 && clock.phase <= u[u.length - 1] + 1e-3;
+      const value = here ? values[low] + part * (values[low + 1] - values[low]) : NaN, y = toY(value), inside = value >= panel.low && value <= panel.high;
+      numbers[n].textContent = fixed(value, panel.decimals);
+      dots[n].style.transform = `translate(${x}px, ${inside ? y : -99}px)`;
+    });
+  }
+
+  function drag(event) {
+    const box = cover.getBoundingClientRect();
+    clock.pause();
+    clock.set((event.clientX - box.left - MARGIN.left) / inner().w);
+  }
+  cover.addEventListener("pointerdown", event => { cover.setPointerCapture(event.pointerId); drag(event); });
+  cover.addEventListener("pointermove", event => { if (cover.hasPointerCapture(event.pointerId)) drag(event); });
+  return {node, draw, show, stop: surface.stop};
+}
+
+/** Plots inside `host` that follow `options.clock`.  Returns {destroy()}. */
+export function createPlots(host, packed, {clock}) {
+  const theme = watchTheme(host, () => panels.forEach(panel => panel.draw()));
+  const panels = packed.panels.map(panel => createPanel(panel, packed.cycle, clock, theme));
+  const plots = {destroy() { stop(); unwatch(); theme.stop(); clock.see(plots, false); panels.forEach(panel => panel.stop()); host.replaceChildren(); }};
+  host.classList.add("dw-plots");
+  host.replaceChildren(...panels.map(panel => panel.node));
+  const unwatch = watchVisible(host, visible => clock.see(plots, visible));
+  const stop = clock.subscribe(() => panels.forEach(panel => panel.show()));
+  return plots;
+}

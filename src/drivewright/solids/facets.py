@@ -1,0 +1,50 @@
+"""Closed triangle surfaces of parts: a single prism or bar directly, several fused ones with the CAD kernel (extra `fe`)."""
+
+import numpy as np
+
+from drivewright.scene import Prism, circle, place
+from drivewright.solids import cad, chain
+
+
+def triangles(part, tolerance=1e-5):
+    """Surface of a part, outward counter-clockwise: points (n, 3) [m] and corners (m, 3); chords within about `tolerance` [m] of it."""
+    if len(part.solids) != 1:
+        return cad.triangles(part, tolerance)
+    (solid,) = part.solids
+    points, corners = _prism(solid, f"part {part.name!r}", tolerance) if isinstance(solid, Prism) else _bar(solid, tolerance)
+    return np.column_stack([place(points[:, :2], part.pose), points[:, 2]]), corners
+
+
+def _prism(prism, name, tolerance):
+    return _extruded(chain.region(prism, name, tolerance), prism.z, prism.z + prism.thickness)
+
+
+def _bar(bar, tolerance):
+    """A disc pushed along the bar: its axes u, v, w become the bar's left, up and forward."""
+    from shapely import Polygon
+
+    along = np.subtract(bar.end, bar.start)
+    length = np.hypot(*along)
+    forward = along / length
+    disc = Polygon(circle((0.0, 0.0), bar.diameter / 2).points(tolerance))
+    points, corners = _extruded(disc, 0.0, length)
+    flat = np.asarray(bar.start) + points[:, :1] * [-forward[1], forward[0]] + points[:, 2:] * forward
+    return np.column_stack([flat, bar.z + points[:, 1]]), corners
+
+
+def _extruded(region, low, high):
+    """Triangles of a polygon with holes between two heights; caps and walls share the corners of the polygon."""
+    import shapely
+
+    region = shapely.orient_polygons(region)
+    caps = shapely.get_coordinates(shapely.constrained_delaunay_triangles(region)).reshape(-1, 4, 2)[:, :3]
+    plan, index = np.unique(caps.reshape(-1, 2), axis=0, return_inverse=True)
+    top, count = index.reshape(-1, 3), len(plan)
+    (ax, ay), (bx, by) = (np.moveaxis(plan[top[:, k]] - plan[top[:, 0]], 1, 0) for k in (1, 2))
+    top = np.where((ax * by - ay * bx > 0)[:, None], top, top[:, ::-1])
+    numbers = {tuple(point): i for i, point in enumerate(plan.tolist())}
+    rings = [[numbers[tuple(point)] for point in ring.coords] for ring in (region.exterior, *region.interiors)]
+    a, b = np.array([edge for ring in rings for edge in zip(ring[:-1], ring[1:], strict=True)]).T
+    walls = np.concatenate([np.stack([a, b, b + count], axis=1), np.stack([a, b + count, a + count], axis=1)])
+    points = np.concatenate([np.column_stack([plan, np.full(count, z)]) for z in (low, high)])
+    return points, np.concatenate([top[:, ::-1], top + count, walls])

@@ -1,0 +1,105 @@
+"""The pieces of an outline (`scene.Line`, `Arc`, `Spline`): ends, headings, thrifty sampling and sparse fits.
+
+Everything in metres and radians; a spline is the C2 cubic through its knots over the chord length, with its end tangents.
+"""
+
+import numpy as np
+from scipy.interpolate import PPoly, make_interp_spline
+
+from drivewright.curves import outlines
+from drivewright.scene import Arc, Line, Spline
+
+
+def start(piece):
+    """First point (2,) of a piece."""
+    return _end(piece, 0)
+
+
+def end(piece):
+    """Last point (2,) of a piece."""
+    return _end(piece, 1)
+
+
+def headings(piece):
+    """Unit tangents (2,), (2,) at the start and at the end, in the direction of travel."""
+    if isinstance(piece, Line):
+        direction = end(piece) - start(piece)
+        return (direction / np.hypot(*direction),) * 2
+    if isinstance(piece, Arc):
+        turn = np.sign(piece.sweep)
+        return tuple(turn * np.array([-np.sin(a), np.cos(a)]) for a in (piece.start, piece.start + piece.sweep))
+    return tuple(np.asarray(t, float) / np.hypot(*t) for t in (piece.start_tangent, piece.end_tangent))
+
+
+def reverse(piece):
+    """The same piece travelled backwards."""
+    if isinstance(piece, Line):
+        return Line(piece.end, piece.start)
+    if isinstance(piece, Arc):
+        return Arc(piece.center, piece.radius, piece.start + piece.sweep, -piece.sweep)
+    back = [tuple(-np.asarray(t, float)) for t in (piece.end_tangent, piece.start_tangent)]
+    return Spline(np.asarray(piece.knots, float)[::-1], *back)
+
+
+def length(piece):
+    """Arc length [m]; of a spline the length of its chords."""
+    if isinstance(piece, Arc):
+        return piece.radius * abs(piece.sweep)
+    return float(np.hypot(*np.diff(piece.points(0.0), axis=0).T).sum())
+
+
+def interpolant(spline):
+    """The curve of a `Spline`: clamped C2 cubic over the chord length s [m], as a vectorised function s -> (n, 2)."""
+    curve, distance = outlines.interpolant(spline)
+    return PPoly(np.stack([curve.c.real, curve.c.imag], axis=-1), distance)
+
+
+def fit(spline, tolerance):
+    """Clamped cubic BSpline with few spans that stays within `tolerance` [m] of the curve through all the knots.
+
+    It interpolates the curve at its breaks, has the same end tangents, and is C2; spans that miss a knot are halved until none is left.
+    """
+    curve = interpolant(spline)
+    probe = np.union1d(curve.x, (curve.x[1:] + curve.x[:-1]) / 2)
+    target, clamp = curve(probe), [[(1, t)] for t in headings(spline)]
+    breaks = np.array([curve.x[0], curve.x[-1]])
+    while True:
+        sparse = make_interp_spline(breaks, curve(breaks), k=3, bc_type=tuple(clamp))
+        missed = probe[np.hypot(*(sparse(probe) - target).T) > tolerance]
+        if not len(missed):
+            return sparse
+        spans = np.unique(np.clip(np.searchsorted(breaks, missed) - 1, 0, len(breaks) - 2))
+        breaks = np.union1d(breaks, (breaks[spans] + breaks[spans + 1]) / 2)
+
+
+def polyline(piece, tolerance):
+    """Points (n, 2) on the piece, as few as keep its chords within `tolerance` [m] of it."""
+    if not isinstance(piece, Spline):
+        return piece.points(tolerance)
+    from shapely import LineString
+
+    curve = interpolant(piece)
+    bend = np.hypot(*np.moveaxis(curve(curve.x, 2), 1, 0))  # |r''| is piecewise linear at most, so the ends of a span bound it
+    step = np.diff(curve.x)
+    parts = np.maximum(1, np.ceil(step * np.sqrt(np.maximum(bend[1:], bend[:-1]) / (8 * tolerance / 10)))).astype(int)
+    fine = np.concatenate([curve.x[i] + step[i] * np.arange(n) / n for i, n in enumerate(parts)] + [curve.x[-1:]])
+    return np.array(LineString(curve(fine)).simplify(0.9 * tolerance).coords)
+
+
+def halves(piece):
+    """The piece as two, cut in the middle."""
+    if isinstance(piece, Arc):
+        half = piece.sweep / 2
+        return Arc(piece.center, piece.radius, piece.start, half), Arc(piece.center, piece.radius, piece.start + half, half)
+    knots, middle = np.asarray(piece.knots, float), len(piece.knots) // 2
+    curve = interpolant(piece)
+    tangent = curve(curve.x[middle], 1)
+    tangent = tuple(tangent / np.hypot(*tangent))
+    return Spline(knots[: middle + 1], piece.start_tangent, tangent), Spline(knots[middle:], tangent, piece.end_tangent)
+
+
+def _end(piece, which):
+    if isinstance(piece, Arc):
+        angle = piece.start + which * piece.sweep
+        return np.asarray(piece.center) + piece.radius * np.array([np.cos(angle), np.sin(angle)])
+    return np.asarray((piece.knots if isinstance(piece, Spline) else piece)[-which], float)

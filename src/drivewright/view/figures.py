@@ -1,0 +1,107 @@
+"""Tables and plots as printable figures: labelled axes in the units people read, limits as labelled dashed lines."""
+
+import numpy as np
+
+from drivewright.view.palette import colour
+from drivewright.view.panels import find_plot, panels
+from drivewright.view.style import MUTED, angle_ticks, legend_columns, new_figure, styled
+from drivewright.view.text import axis_label
+
+FEW = 25  # up to so many points each one is marked
+
+
+def plot_table(result, name, marks=()):
+    """Figure of a plot of the result's mechanism, or of a whole table over its first column, by name.
+
+    `marks` are (x in SI, label): a phase begins at each; phases are shaded in turn.
+    """
+    return draw_panels(panels(result, find_plot(result, name)), marks=marks)
+
+
+def draw_panels(shown, marks=()):
+    """Figure of panels, one under the other over a common x; `marks` as in `plot_table` but in the unit of the x axis."""
+    with styled():
+        equal = shown[0].equal
+        figure = new_figure(4.6 if equal else 3.1 if len(shown) == 1 else 0.9 + 1.7 * len(shown), shown[0].title)
+        axes = figure.subplots(len(shown), 1, squeeze=False, sharex=not equal)[:, 0]
+        for axis, panel in zip(axes, shown, strict=True):
+            _draw(axis, panel)
+            _shade(axis, panel, marks, named=axis is axes[0])
+        axes[-1].set_xlabel(axis_label(shown[0].x.label, shown[0].x.unit))
+        figure.align_ylabels(list(axes))
+    return figure
+
+
+def _draw(axis, panel):
+    x, ticks = _positions(panel.x.data)
+    look = {"ls": "none", "marker": "D", "ms": 5} if ticks else {"lw": 1.5, "marker": "o" if len(x) <= FEW else None, "ms": 3.5}
+    for series in panel.series:
+        axis.plot(x, np.where(np.isfinite(series.data), series.data, np.nan), color=colour(series.role), label=series.label, **look)
+    if ticks:
+        axis.set_xticks(x, ticks)
+    axis.set_ylabel(axis_label(*_split(panel.label), width=26 if not panel.equal else 60))
+    if panel.equal:
+        axis.set_aspect("equal", adjustable="datalim")
+    else:
+        _scale(axis, panel, x)
+    for value, text in panel.limits:
+        _limit(axis, value, text)
+    if len(panel.series) > 1:
+        axis.legend(loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncols=legend_columns([s.label for s in panel.series], 84),
+                    borderaxespad=0.1, handlelength=1.4, columnspacing=1.2)
+
+
+def _split(label):
+    """(meaning, unit) of an axis label, so that it can be wrapped anew."""
+    meaning, bracket, unit = label.partition(" [")
+    return (meaning, unit.rstrip("]")) if bracket else (label, "")
+
+
+def _positions(data):
+    """x as numbers, with tick texts where the column holds names."""
+    return (data, None) if data.dtype.kind in "fiub" else (np.arange(len(data)), [str(text) for text in data])
+
+
+def _scale(axis, panel, x):
+    """The range of both axes, and ticks at round angles."""
+    axis.set_ylim(panel.low, panel.high)
+    if len(x) > 1 and np.ptp(x) > 0 and len(x) > FEW:
+        axis.set_xlim(np.min(x), np.max(x))
+    if panel.x.unit == "°":
+        angle_ticks(axis.xaxis, np.min(x), np.max(x))
+    if panel.series[0].unit == "°" and panel.high - panel.low > 100:
+        angle_ticks(axis.yaxis, panel.low, panel.high, most=6)
+
+
+def _limit(axis, value, text):
+    """A dashed line across the panel with its name and value on it."""
+    axis.axhline(value, color=colour("bad"), lw=1.0, ls=(0, (5, 3)))
+    above = value < sum(axis.get_ylim()) / 2
+    axis.annotate(text, (1.0, value), xycoords=("axes fraction", "data"), xytext=(-2, 2 if above else -2),
+                  textcoords="offset points", ha="right", va="bottom" if above else "top", fontsize=8, color=colour("bad"),
+                  bbox={"boxstyle": "square,pad=0.1", "fc": (1, 1, 1, 0.75), "ec": "none"})
+
+
+def _shade(axis, panel, marks, named):
+    """Every other phase lightly grey where there are several; the first panel names them in a strip kept free for it."""
+    low, high = axis.get_xlim()
+    inside = sorted((float(x), label) for x, label in marks if low <= x <= high)
+    ends = [x for x, _ in inside[1:]] + [high]
+    for (start, _), end in list(zip(inside, ends, strict=False))[::2] if len(inside) > 1 else ():
+        axis.axvspan(start, end, color=colour("raised"), zorder=0, lw=0)
+    if named and inside:
+        rows = _rows(inside, (high - low) / 84)
+        axis.set_ylim(panel.low, panel.high + (0.02 + 0.07 * max(rows)) * (panel.high - panel.low))
+        for (start, label), row in zip(inside, rows, strict=True):
+            axis.annotate(label, (start, 1.0), xycoords=("data", "axes fraction"), xytext=(2, 8 - 10 * row), textcoords="offset points",
+                          va="top", fontsize=7.5, color=MUTED, bbox={"boxstyle": "square,pad=0.05", "fc": (1, 1, 1, 0.6), "ec": "none"})
+
+
+def _rows(inside, letter):
+    """The row, from 1, of each phase's name: the first row where it does not touch the name before; `letter` is a letter's width."""
+    ends, rows = {}, []
+    for start, label in inside:
+        row = next(r for r in range(1, len(inside) + 1) if ends.get(r, -np.inf) <= start)
+        ends[row] = start + letter * (len(label) + 1)
+        rows.append(row)
+    return rows

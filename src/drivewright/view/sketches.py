@@ -1,0 +1,198 @@
+"""Scenes and drawings as figures, to scale."""
+
+import numpy as np
+
+from drivewright.errors import UnknownName
+from drivewright.scene import place
+from drivewright.view.motion import path, pose_at, seen_from, step_back
+from drivewright.view.palette import TRACES, colour
+from drivewright.view.style import MUTED, arrange, figure_to_scale, legend_columns, nice_length, styled
+from drivewright.view.text import number, quantity, sentence, shown, with_unit
+
+PAST = 2  # cycles before this one whose traces an advancing observer still sees
+LAYERS = {  # layer -> line width, dashes, filled; colour is the body's
+    "profile": (1.4, "-", True), "body": (1.2, "-", True), "roller": (1.2, "-", True), "hole": (1.0, "-", False),
+    "pitch": (0.9, (0, (7, 2, 1.5, 2)), False), "base": (0.8, (0, (2, 2)), False), "axis": (0.7, (0, (9, 2, 2, 2)), False),
+    "ground": (1.6, "-", False), "defect": (2.2, "-", False),
+}
+DRAWN = {"profile": "blue", "body": "blue", "hole": "ink", "pitch": "orange", "base": "green", "roller": "violet", "axis": "muted",
+         "ground": "ground", "defect": "bad"}
+NAMES = {"profile": "profile", "body": "body", "hole": "hole", "pitch": "pitch curve (roller centre)", "base": "base circle",
+         "roller": "roller", "axis": "axis", "ground": "ground", "defect": "defect"}
+
+
+def draw_scene(scene, frame=None, at=(0.0,), ghosts=()):
+    """Figure of a scene for one observer (the first one by default).
+
+    A panel for each phase 0 ... 1 of the cycle in `at`; the bodies' edges at the phases in `ghosts` lie faintly behind.
+    """
+    observer = _observer(scene, frame)
+    with styled():
+        figure, axes = figure_to_scale(len(at), sentence(observer.label))
+        for axis, phase in zip(axes, at, strict=True):
+            _draw_state(axis, scene, observer, phase, ghosts)
+        axes[0].set_ylabel(f"y [{_length()[1]}]")
+        rows = _legend(figure, scene)
+        arrange(figure, axes, *_extent(axes), bottom=0.55 + 0.19 * rows)
+    return figure
+
+
+def draw_thumbnail(scene, phase=0.3):
+    """Small figure of a scene for its first observer: no axes, no names."""
+    with styled():
+        figure, axes = figure_to_scale(1)
+        _draw_state(axes[0], scene, scene.frames[0], phase, ())
+        axes[0].set_title("")
+        axes[0].set_axis_off()
+        arrange(figure, axes, *_extent(axes), left=0.1, right=0.1, top=0.1, bottom=0.1)
+    return figure
+
+
+def _observer(scene, name):
+    frames = {frame.name: frame for frame in scene.frames}
+    if name is not None and name not in frames:
+        raise UnknownName("frame of the scene", name, frames)
+    return frames[name] if name is not None else scene.frames[0]
+
+
+def _length():
+    return shown("m")
+
+
+def _draw_state(axis, scene, observer, phase, ghosts):
+    """One moment with its traces; ghosts behind, the frame's own shapes as far as they lie near."""
+    _draw_ghosts(axis, scene, observer, ghosts)
+    _draw_traces(axis, scene, observer)
+    for body, pose in _seen_bodies(scene, observer, phase):
+        for shape in body.shapes:
+            _draw_shape(axis, shape, pose, body.colour)
+    near = _around(axis.dataLim.get_points(), 0.25)
+    for shape in observer.shapes:
+        _draw_shape(axis, shape, (0.0, 0.0, 0.0), "ground", near)
+    value = scene.cycle[0] + phase * (scene.cycle[-1] - scene.cycle[0])
+    axis.set_title(f"{sentence(scene.cycle_label)} {quantity(value, scene.cycle_unit, 4)}", fontweight="normal", fontsize=9, color=MUTED)
+    axis.set_xlabel(f"x [{_length()[1]}]")
+
+
+def _seen_bodies(scene, observer, phase):
+    """(body, its pose relative to the observer) at a phase."""
+    eye = pose_at(observer.poses, scene.cycle, phase)
+    return [(body, seen_from(pose_at(body.poses, scene.cycle, phase)[None], eye[None])[0]) for body in scene.bodies]
+
+
+def _around(box, share):
+    """The box (low, high) with a margin of so much of its larger side."""
+    margin = share * np.ptp(box, axis=0).max()
+    return box[0] - margin, box[1] + margin
+
+
+def _extent(axes):
+    """The box (low, high) around everything drawn in any of the axes, with a little air."""
+    boxes = np.array([axis.dataLim.get_points() for axis in axes])
+    return _around(np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)]), 0.04)
+
+
+def _draw_shape(axis, shape, pose, role, near=None):
+    """One outline: filled where it is material, dashed where it is a construction line.  What lies beyond `near` counts for no extent."""
+    width, dashes, filled = LAYERS.get(shape.layer, LAYERS["body"])
+    points = place(_outline(shape.outline), pose) * _length()[0]
+    edge = {"defect": colour("bad"), "hole": colour("ink"), "axis": MUTED}.get(shape.layer, colour(role))
+    face = (edge, 0.22) if filled and shape.outline.closed else "white" if shape.layer == "hole" else "none"
+    _add(axis, points, shape.outline.closed, near, ec=edge, fc=face, lw=width, ls=dashes)
+
+
+def _draw_ghosts(axis, scene, observer, phases):
+    """Edges of the material at other phases, faint."""
+    from matplotlib.collections import LineCollection
+
+    lines = {}
+    for phase in phases:
+        for body, pose in _seen_bodies(scene, observer, phase):
+            for shape in body.shapes:
+                if LAYERS.get(shape.layer, LAYERS["body"])[2]:
+                    points = place(_outline(shape.outline, 400), pose) * _length()[0]
+                    lines.setdefault(body.colour, []).append(points[[*range(len(points)), 0]] if shape.outline.closed else points)
+    for role, found in lines.items():
+        axis.add_artist(LineCollection(found, colors=colour(role), linewidths=0.6, alpha=0.25))
+        axis.update_datalim(np.concatenate(found))
+
+
+def _outline(outline, fineness=2000):
+    """Points of an outline, as few as its picture needs: within its size over `fineness`."""
+    import shapely
+
+    points = outline.points()
+    size = float(np.ptp(points, axis=0).max())
+    if not size:
+        return points
+    return shapely.get_coordinates(shapely.simplify(shapely.linestrings(points), size / fineness, preserve_topology=False))
+
+
+def _add(axis, points, closed, near=None, **look):
+    """A polygon or chain; its points, held within the box `near`, widen the extent of the axes."""
+    from matplotlib.patches import Polygon
+
+    axis.add_artist(Polygon(points, closed=closed, joinstyle="round", **look))
+    axis.update_datalim(points if near is None else np.clip(points, *near))
+
+
+def _draw_traces(axis, scene, observer):
+    """Every trace over the whole cycle; an advancing observer also sees the last cycles'."""
+    bodies = {body.name: body for body in scene.bodies}
+    for number_, trace in enumerate(scene.traces):
+        points = path(trace.point, seen_from(bodies[trace.body].poses, observer.poses)) * _length()[0]
+        role = colour(TRACES[number_ % len(TRACES)])
+        axis.plot(*points.T, color=role, lw=1.1, ls=(0, (4, 2)))
+        for past in range(1, PAST + 1 if any(observer.advance) else 1):
+            axis.plot(*(points + past * step_back(observer) * _length()[0]).T, color=role, lw=0.9, alpha=0.45)
+
+
+def _legend(figure, scene):
+    """Names of bodies and traces along the lower edge; the number of rows they take."""
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    labels = {body.label: body.colour for body in reversed(scene.bodies)}
+    keys = [Patch(fc=(colour(role), 0.3), ec=colour(role), label=sentence(label)) for label, role in reversed(labels.items())]
+    keys += [Line2D([], [], color=colour(TRACES[n % len(TRACES)]), ls=(0, (4, 2)), lw=1.2, label=sentence(trace.label))
+             for n, trace in enumerate(scene.traces)]
+    columns = legend_columns([key.get_label() for key in keys])
+    figure.legend(handles=keys, loc="lower left", ncols=columns, handlelength=1.6, borderaxespad=0.3)
+    return -(-len(keys) // columns)
+
+
+def draw_drawing(drawing):
+    """Figure of a flat part: its layers to one scale, a scale bar, its overall size."""
+    factor, unit = _length()
+    with styled():
+        figure, (axis,) = figure_to_scale(1, sentence(drawing.title))
+        for layer, role in DRAWN.items():
+            for number_, outline in enumerate(drawing.on(layer)):
+                width, dashes, filled = LAYERS[layer]
+                face = (colour(role), 0.14) if filled and outline.closed else "white" if layer == "hole" else "none"
+                _add(axis, _outline(outline) * factor, outline.closed, ec=colour(role), fc=face, lw=width, ls=dashes,
+                     label=NAMES[layer] if number_ == 0 else None)
+        arrange(figure, [axis], *_extent([axis]), right=2.2)
+        axis.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
+        axis.set_title(_size(drawing, factor, unit), fontweight="normal", fontsize=9, color=MUTED)
+        _scale_bar(axis, unit)
+        axis.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0))
+    return figure
+
+
+def _size(drawing, factor, unit):
+    """'62.4 × 58.1 mm, 8 mm thick' of the profile, or of everything where there is none."""
+    outlines = drawing.on("profile") or tuple(shape.outline for shape in drawing.shapes)
+    wide, high = np.ptp(np.concatenate([outline.points() for outline in outlines]), axis=0) * factor
+    thick = f", {with_unit(number(drawing.thickness * factor, 4), unit)} thick" if drawing.thickness else ""
+    return f"{number(wide, 4)} × {with_unit(number(high, 4), unit)}{thick}"
+
+
+def _scale_bar(axis, unit):
+    """A bar of 1, 2 or 5 times a power of ten in the lower left corner."""
+    low, high = axis.get_xlim()
+    length = nice_length(0.22 * (high - low))
+    start, height = low + 0.03 * (high - low), axis.get_ylim()[0] + 0.03 * np.ptp(axis.get_ylim())
+    axis.plot([start, start + length], [height, height], color=colour("ink"), lw=2, solid_capstyle="butt")
+    axis.annotate(with_unit(number(length), unit), (start + length / 2, height), xytext=(0, 3), textcoords="offset points", ha="center",
+                  fontsize=8)

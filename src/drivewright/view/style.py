@@ -1,0 +1,104 @@
+"""The look of every figure: fonts, lines, spacing.  The only place that sets matplotlib's parameters."""
+
+import io
+import math
+import re
+from contextlib import contextmanager
+
+import numpy as np
+
+from drivewright.view.palette import colour
+
+WIDTH = 7.2  # inches: the text width of an A4 page with normal margins
+TITLE = {"ha": "left", "fontsize": 11, "fontweight": "bold"}
+TALLEST = 4.4  # inches: the tallest picture to scale
+INK, MUTED, LINE, GRID = colour("ink"), colour("muted"), colour("line"), colour("grid")
+PARAMETERS = {
+    "font.family": ["DejaVu Sans"], "font.size": 9, "axes.titlesize": 10, "axes.labelsize": 9, "legend.fontsize": 8.5,
+    "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "text.color": INK, "axes.labelcolor": INK, "xtick.color": MUTED, "ytick.color": MUTED,
+    "axes.edgecolor": MUTED, "axes.linewidth": 0.7, "axes.grid": True, "grid.color": GRID, "grid.linewidth": 0.7, "axes.axisbelow": True,
+    "axes.spines.top": False, "axes.spines.right": False, "xtick.major.size": 3, "ytick.major.size": 3,
+    "xtick.major.width": 0.7, "ytick.major.width": 0.7, "axes.titlelocation": "left", "axes.titleweight": "bold", "figure.dpi": 100,
+    "figure.facecolor": "white", "axes.facecolor": "white", "legend.frameon": False, "lines.solid_joinstyle": "round",
+    "axes.formatter.useoffset": False, "svg.fonttype": "none", "path.simplify_threshold": 0.2, "svg.hashsalt": "drivewright",
+}
+
+
+@contextmanager
+def styled():
+    """Context in which figures are made and written: our parameters over matplotlib's own defaults, whatever the user set elsewhere."""
+    import matplotlib.style
+
+    with matplotlib.style.context(PARAMETERS, after_reset=True):
+        yield
+
+
+def new_figure(height, title=""):
+    """An empty figure of the common width, laid out by itself; it belongs to no window and no global list."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(WIDTH, height), layout="constrained")
+    figure.get_layout_engine().set(w_pad=0.06, h_pad=0.05, hspace=0.02)
+    figure.suptitle(title, x=0.012, **TITLE)
+    return figure
+
+
+def figure_to_scale(count, title=""):
+    """(figure, axes side by side) for pictures of one scale; `arrange` gives them their place when the extent is known."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(WIDTH, 4.0))
+    figure.suptitle(title, **TITLE)
+    return figure, [figure.add_axes((0, 0, 1, 1), label=str(n)) for n in range(count)]
+
+
+def arrange(figure, axes, low, high, left=0.8, right=0.15, top=0.6, bottom=0.55):
+    """Show the box low ... high (x, y) in all axes at one scale, in a figure as high as that needs; margins in inches.
+
+    matplotlib's own layouts lose the room of a legend where the aspect of the axes is fixed.
+    """
+    wide, tall = np.subtract(high, low)
+    gap, room = left - 0.1, WIDTH - left - right
+    width = (room - gap * (len(axes) - 1)) / len(axes)
+    scale = min(width / wide, TALLEST / tall)
+    height = top + scale * tall + bottom
+    figure.set_figheight(height)
+    for n, axis in enumerate(axes):
+        axis.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
+        axis.set_position(((left + n * (width + gap)) / WIDTH, bottom / height, scale * wide / WIDTH, scale * tall / height))
+    figure.suptitle(figure.get_suptitle(), x=0.012, y=1 - 0.06 / height, va="top", **TITLE)
+
+
+def svg(figure):
+    """The figure as SVG text: the same input, the same bytes.
+
+    Letters stay text (selectable, a third of the size) in DejaVu Sans, for which the figure is laid out; the fonts named after it
+    are no wider, so nothing is cut off where it is missing.  Paths keep two decimals of a point, a hundredth of what a printer shows.
+    """
+    sink = io.StringIO()
+    with styled():
+        figure.savefig(sink, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+    text = sink.getvalue().replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, Arial, sans-serif")
+    return re.sub(r' d="[^"]+"', lambda path: re.sub(r"(\.\d\d)\d+", r"\1", path[0]), text)
+
+
+def angle_ticks(axis, low, high, most=9):
+    """Ticks of an angle in degrees at 5, 15, 30, 45, 90 ... where the range is a good part of a turn."""
+    from matplotlib.ticker import MultipleLocator
+
+    width = abs(high - low)
+    if width >= 20:
+        step = next((step for step in (5, 10, 15, 30, 45, 60, 90, 180) if width / step <= most), 360 * math.ceil(width / 360 / most))
+        axis.set_major_locator(MultipleLocator(step))
+
+
+def legend_columns(labels, room=92):
+    """Columns of a legend so that its rows, even in length, stay within `room` letters: the figure's width at the legend's size."""
+    rows = max(1, math.ceil(sum(len(label) + 6 for label in labels) / room))
+    return max(1, math.ceil(len(labels) / rows))
+
+
+def nice_length(largest):
+    """The largest of 1, 2, 5 times a power of ten up to `largest`."""
+    power = 10.0 ** math.floor(math.log10(largest))
+    return next(step * power for step in (5, 2, 1) if step * power <= largest * (1 + 1e-12))

@@ -1,0 +1,69 @@
+"""Numbers and units as people read them: '48.183°', '26.469 mm', '2.4670×10⁻⁶ m'."""
+
+import math
+import re
+import textwrap
+
+from drivewright.units import BY_UNIT, display
+
+SUPERSCRIPT = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+THIN, SOLID = "\u202f", "\u00a0"
+
+
+def number(value, digits=5):
+    """`value` to `digits` significant digits: thin spaces from 10 000 on, powers of ten outside 0.001 ... 1e6."""
+    value = float(value)
+    if not math.isfinite(value):
+        return "n/a" if math.isnan(value) else "∞" if value > 0 else "−∞"
+    if value == 0:
+        return "0"
+    exponent = math.floor(math.log10(abs(float(f"{value:.{digits - 1}e}"))))
+    if -3 <= exponent < 6:
+        text = f"{value:,.{max(digits - 1 - exponent, 0)}f}"
+        text = (text.rstrip("0").rstrip(".") if "." in text else text).replace(",", THIN if exponent >= 4 else "")
+    else:
+        mantissa = f"{value / 10.0**exponent:.{digits - 1}f}".rstrip("0").rstrip(".")
+        text = f"{mantissa}×10{str(exponent).translate(SUPERSCRIPT)}"
+    return text.replace("-", "−", 1) if text.startswith("-") else text
+
+
+def unit_text(unit):
+    """A unit as printed: 'm/s^2' -> 'm/s²', 'deg' -> '°', none for a pure number."""
+    if unit in ("-", "", "1"):
+        return ""
+    raised = re.sub(r"\^(-?\d+)", lambda match: match[1].translate(SUPERSCRIPT), unit)
+    return re.sub(r"\bdeg\b", "°", raised).replace(" ", SOLID)
+
+
+def shown(unit):
+    """(factor, printed unit) that turn an SI number into the one people read."""
+    factor, text = display(unit)
+    return factor, unit_text(text)
+
+
+def with_unit(text, unit):
+    """A number's text and its printed unit; a degree sign stands close, and infinity has no unit."""
+    if text in ("n/a", "∞", "−∞"):
+        return text
+    return f"{text}{unit}" if unit.startswith("°") or not unit else f"{text}{SOLID}{unit}"
+
+
+def quantity(value, unit, digits=5):
+    """An SI number in the unit people read."""
+    factor, text = shown(unit)
+    return with_unit(number(value * factor, digits), text)
+
+
+def sentence(text):
+    """First letter large, the rest untouched."""
+    return text[:1].upper() + text[1:]
+
+
+def axis_label(meaning, unit, width=60):
+    """'Lift of the roller [mm]', wrapped; `unit` as printed."""
+    return textwrap.fill(sentence(meaning) + (f" [{unit}]" if unit else ""), width)
+
+
+def dimension(unit):
+    """Name of what an SI unit measures: 'm' -> 'length'; 'value' where it has no name."""
+    return BY_UNIT[unit].name if unit in BY_UNIT else "value"
