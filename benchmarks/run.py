@@ -1,0 +1,209 @@
+"""Side by side, in one run: our speed, a peer's, accuracy beside time.  Writes docs/benchmarks.md; asserts nothing."""
+
+import os
+import platform
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).parent.parent
+EXAMPLE = ROOT / "examples" / "seedling_pusher.toml"
+
+
+def best(function, repeat=5):
+    """(shortest, median) seconds of a call, after one warm-up."""
+    function()
+    times = []
+    for _ in range(repeat):
+        started = time.perf_counter()
+        function()
+        times.append(time.perf_counter() - started)
+    return min(times), statistics.median(times)
+
+
+def command(code, repeat=5):
+    """(shortest, median) wall seconds of a whole Python process."""
+    return best(lambda: subprocess.run([sys.executable, *code], check=True, capture_output=True), repeat)
+
+
+def start_up():
+    """Import and command line, as whole processes; the bare interpreter beside them."""
+    bare = command(["-c", "pass"])
+    yield "python -c pass (floor)", bare, ""
+    yield "import drivewright", command(["-c", "import drivewright"]), "wanted under 0.3 s"
+    yield "drivewright --help", command(["-m", "drivewright", "--help"]), "wanted under 0.5 s"
+
+
+def designs():
+    """Whole trains and cam pairs per second on one core, and the peer's cam follower for as many positions."""
+    from drivewright import load
+    from drivewright._jit import kernel
+    from drivewright.mechanisms.seedling_pusher import designs as d
+
+    spec = load(EXAMPLE)
+    rows = np.tile(np.array([d._at(spec, key) for key in d.KEYS]), (20_000, 1))
+    rows[:, 1] = np.linspace(0.97, 0.99, len(rows))
+    flags, out = np.array([0, 0, 0, 0, 1, 0, 0, 0, 1]), np.empty((len(rows), len(d.NAMES)))
+    half, law = d.half_angles(), d.law_table(spec.push.law)
+    train, cams = d.evaluate_train, d.evaluate_cams
+
+    @kernel
+    def trains(rows, flags, c, s, out):
+        for n in range(rows.shape[0]):
+            train(rows[n], flags, c, s, out[n])
+
+    @kernel
+    def pairs(rows, flags, s, v, a, out):
+        for n in range(rows.shape[0]):
+            cams(rows[n], flags, 1.5, s, v, a, out[n])
+
+    for name, call, wanted in (
+        ("train designs", lambda: trains(rows, flags, *half, out), 20_000),
+        ("cam-pair designs", lambda: pairs(rows, flags, *law, out), 15_000),
+    ):
+        seconds = best(call)
+        yield (
+            f"{name}: {len(rows) / seconds[0]:,.0f} per second and core",
+            seconds,
+            f"wanted {wanted:,}; {len(rows) / seconds[0] / wanted:.1f} times that",
+        )
+
+
+def peer():
+    """pylinkage's cam follower stepped through as many positions as one of our cam-pair designs has, per position."""
+    try:
+        from pylinkage.actuators import Crank
+        from pylinkage.cam import CycloidalMotionLaw, FunctionProfile
+        from pylinkage.components import Ground
+        from pylinkage.dyads import TranslatingCamFollower
+        from pylinkage.simulation import Linkage
+    except ImportError as error:
+        yield "pylinkage", None, f"not available: {error}"
+        return
+    positions = 4 * 91
+    centre = Ground(0.0, 0.0, name="centre")
+    crank = Crank(anchor=centre, radius=0.1, angular_velocity=2 * np.pi / positions)
+    profile = FunctionProfile(motion_law=CycloidalMotionLaw(), base_radius=1.0, total_lift=0.4)
+    guide = Ground(0.0, 0.0, name="guide")
+    linkage = Linkage([centre, guide, crank, TranslatingCamFollower(crank, profile, guide, np.pi / 2)])
+    seconds = best(lambda: list(linkage.step(iterations=positions)))
+    rate = f"{positions / seconds[0]:,.0f} positions per second"
+    yield f"pylinkage: cam follower, {positions} positions ({rate})", seconds, "position only: no pressure angle, no curvature"
+
+
+def ours_per_position():
+    """The same number of positions by our general path (exact derivatives) and by the batch."""
+    from drivewright import load
+    from drivewright.mechanisms.seedling_pusher import designs as d
+    from drivewright.mechanisms.seedling_pusher.build import build
+
+    spec = load(EXAMPLE)
+    model = build(spec)
+    t = np.linspace(0, 2 * np.pi, 4 * 91)
+    general = best(lambda: [model.pitch(cam, t) for cam in model.cams])
+    yield f"ours, general path, both cams with three derivatives ({len(t) / general[0]:,.0f} positions per second)", general, ""
+    evaluate = d.batch(spec, ("train.axis_ratio",), d.NAMES)
+    x = np.linspace(0.98, 0.99, 2000)[:, None]
+    seconds = best(lambda: evaluate(x))
+    yield (
+        f"ours, batch, train and both cams ({2000 * len(t) / seconds[0]:,.0f} cam positions per second)",
+        seconds,
+        "pressure angle, curvature and track included",
+    )
+
+
+def optimiser():
+    """The reverse design of the example."""
+    from drivewright import load, optimise
+
+    spec = load(EXAMPLE)
+    optimise(spec)
+    started = time.perf_counter()
+    found = optimise(spec)
+    seconds = time.perf_counter() - started
+    angle = np.degrees(found.best["cam.max_pressure_angle"])
+    yield (
+        f"optimise: {found.evaluations:,} designs ({33_000 * seconds / found.evaluations:.2f} s for 33 000)",
+        (seconds, seconds),
+        f"wanted under 5 s for 33 000; {'feasible' if found.feasible else 'not feasible'}, {angle:.2f} deg",
+    )
+
+
+def report():
+    """The example's run and report, warm."""
+    from drivewright import load, runner
+    from drivewright.report.folder import write_run_folder
+
+    def everything():
+        write_run_folder(runner.run(load(EXAMPLE)), Path(folder) / "run")
+
+    with tempfile.TemporaryDirectory() as folder:
+        yield "run of the example", best(lambda: runner.run(load(EXAMPLE)), 3), ""
+        yield "run and report of the example, in one process", best(everything, 3), "wanted under 5 s"
+        yield (
+            "drivewright run, whole process",
+            command(["-m", "drivewright", "run", str(EXAMPLE), "--out", f"{folder}/cli"], 3),
+            "wanted under 5 s warm",
+        )
+
+
+def integrator():
+    """Dormand-Prince against SciPy at the same tolerance: Arenstorf-like nonlinear oscillator, work and precision."""
+    from benchmarks_systems import VanDerPol, rate_of
+    from scipy.integrate import solve_ivp
+
+    from drivewright.numerics.ode import integrate
+
+    exact = solve_ivp(rate_of(3.0), (0, 20), [2.0, 0.0], method="DOP853", rtol=1e-13, atol=1e-14).y[:, -1]
+    for tolerance in (1e-6, 1e-9):
+        ours = integrate(VanDerPol(3.0), 0.0, 20.0, [2.0, 0.0], tolerance, tolerance).y_end
+        seconds = best(lambda tolerance=tolerance: integrate(VanDerPol(3.0), 0.0, 20.0, [2.0, 0.0], tolerance, tolerance))
+        yield f"DOPRI5, ours, tolerance {tolerance:.0e}", seconds, f"error {np.abs(ours - exact).max():.1e}"
+        theirs = solve_ivp(rate_of(3.0), (0, 20), [2.0, 0.0], method="RK45", rtol=tolerance, atol=tolerance).y[:, -1]
+        other = best(
+            lambda tolerance=tolerance: solve_ivp(rate_of(3.0), (0, 20), [2.0, 0.0], method="RK45", rtol=tolerance, atol=tolerance)
+        )
+        yield (
+            f"RK45, SciPy, tolerance {tolerance:.0e}",
+            other,
+            f"error {np.abs(theirs - exact).max():.1e}; ours is {other[0] / seconds[0]:.0f} times faster",
+        )
+
+
+SECTIONS = (
+    ("Start", start_up),
+    ("Designs per second", designs),
+    ("Peer: a cam follower", peer),
+    ("Ours for as many positions", ours_per_position),
+    ("Reverse design", optimiser),
+    ("Report", report),
+    ("Integrator", integrator),
+)
+
+
+def main():
+    lines = [
+        "# Benchmarks",
+        "",
+        f"Python {platform.python_version()}, {os.cpu_count()} cores, {platform.machine()}. One run, everything side by side; the shortest "
+        "of the repeats and the median. Compile time is not included. Nothing here is asserted by a test.",
+        "",
+    ]
+    for title, section in SECTIONS:
+        lines += [f"## {title}", "", "| what | shortest | median | remark |", "|---|---|---|---|"]
+        for name, seconds, remark in section():
+            shown = ("", "") if seconds is None else tuple(f"{1e3 * s:.3g} ms" for s in seconds)
+            lines.append(f"| {name} | {shown[0]} | {shown[1]} | {remark} |")
+            print(lines[-1], flush=True)
+        lines.append("")
+    (ROOT / "docs" / "benchmarks.md").write_text("\n".join(lines), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, str(Path(__file__).parent))
+    main()
