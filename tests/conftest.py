@@ -1,11 +1,20 @@
-"""Shared by all tests: numpy errors raised, our own warnings as errors, and an honest word about what was skipped."""
+"""Shared by all tests: numpy errors raised, our own warnings as errors, fixed seeds, and an honest word about what was skipped."""
 
 import importlib
 import os
 import shutil
+from functools import cache
 
 import numpy as np
 import pytest
+
+try:
+    from hypothesis import settings
+except ImportError:  # its tests say so themselves
+    pass
+else:
+    settings.register_profile("house", deadline=None, derandomize=True)  # the same cases every time; a loaded machine is no failure
+    settings.load_profile("house")
 
 EXTRAS = {
     "needs_fe": (("ngsolve",), "fe"),
@@ -17,12 +26,17 @@ EXTRAS = {
 BROWSER = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
 
 
+def pytest_configure(config):
+    config.addinivalue_line("filterwarnings", r"error:::drivewright(\..*)?")
+
+
 @pytest.fixture(autouse=True)
 def _numpy_errors_raise():
     with np.errstate(divide="raise", over="raise", invalid="raise"):
         yield
 
 
+@cache
 def missing(marker):
     """(why, the command that helps) for a marker whose requirement is not met, else None."""
     modules, extra = EXTRAS[marker]
@@ -36,20 +50,22 @@ def missing(marker):
     return None
 
 
-def pytest_collection_modifyitems(config, items):
-    used = {m for item in items for m in EXTRAS if item.get_closest_marker(m)}
-    config.left_out = {m: reason for m in sorted(used) if (reason := missing(m))}
-    for item in items:
-        for marker, (why, _) in config.left_out.items():
-            if item.get_closest_marker(marker):
-                if os.environ.get("DRIVEWRIGHT_REQUIRE") == "all":
-                    pytest.fail(f"DRIVEWRIGHT_REQUIRE=all, but {marker}: {why}", pytrace=False)
-                item.add_marker(pytest.mark.skip(reason=f"{marker}: {why}"))
+def pytest_runtest_setup(item):
+    """Skips, or under DRIVEWRIGHT_REQUIRE=all fails, a test whose extra or system library is missing."""
+    for marker in EXTRAS:
+        if item.get_closest_marker(marker) and (found := missing(marker)):
+            if os.environ.get("DRIVEWRIGHT_REQUIRE") == "all":
+                pytest.fail(f"DRIVEWRIGHT_REQUIRE=all, but {marker}: {found[0]}", pytrace=False)
+            pytest.skip(f"{marker}: {found[0]}")
 
 
-def pytest_terminal_summary(terminalreporter, config):
-    for marker, (why, remedy) in getattr(config, "left_out", {}).items():
-        terminalreporter.write_line(f"skipped: tests marked {marker} ({why}); what helps: {remedy}")
+def pytest_terminal_summary(terminalreporter):
+    """The last lines: which tests were skipped, why, what helps.  Read off the reports, which also come from parallel workers."""
+    reasons = [report.longrepr[2] for report in terminalreporter.stats.get("skipped", ()) if isinstance(report.longrepr, tuple)]
+    for marker in EXTRAS:
+        if number := sum(f"{marker}: " in reason for reason in reasons):
+            why, remedy = missing(marker) or ("?", "run it again")
+            terminalreporter.write_line(f"skipped: {number} test(s) marked {marker} ({why}); what helps: {remedy}")
 
 
 @pytest.fixture(scope="session")

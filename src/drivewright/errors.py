@@ -91,7 +91,8 @@ class SolverError(DrivewrightError, RuntimeError):
 def nearest(name, known):
     """Hint ' (did you mean ...?)' when a known name is close, capitals aside, else ''."""
     by_lower = {str(k).lower(): k for k in known}
-    close = difflib.get_close_matches(str(name).lower()[:80], list(by_lower), n=1, cutoff=0.65)
+    text = (name if isinstance(name, str) else brief(name)).lower()[:80]
+    close = difflib.get_close_matches(text, list(by_lower), n=1, cutoff=0.65)
     return f" (did you mean {by_lower[close[0]]!r}?)" if close else ""
 
 

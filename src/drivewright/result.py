@@ -91,7 +91,10 @@ class Check(NamedTuple):
 
 
 class Plot(NamedTuple):
-    """How to look at a table: y columns over an x column.  `limits` are (value, label) lines; `equal` for geometry."""
+    """How to look at a table: y columns over an x column; `equal` for geometry.
+
+    `limits` are (value, label) lines; a value that is text names a check whose limit is drawn, with "-" in front its negative.
+    """
 
     name: str
     title: str

@@ -88,6 +88,8 @@ def test_curvature_of_a_slide():
     assert result["min_concave_radius"] == pytest.approx(1 / value, rel=1e-9)
     assert result.check("undercut").value == pytest.approx(result["min_convex_radius"] / 0.008, rel=1e-14)
     assert result.check("cutter").value == pytest.approx(result["min_concave_radius"] + 0.008, rel=1e-12)
+    assert result["profile.min_convex_radius"] == pytest.approx(result["min_convex_radius"] - 0.008, rel=1e-12)
+    assert result["profile.min_concave_radius"] == pytest.approx(result["min_concave_radius"] + 0.008, rel=1e-12)
 
 
 @pytest.mark.parametrize(("rotation", "sense"), [("counter-clockwise", 1), ("clockwise", -1)])

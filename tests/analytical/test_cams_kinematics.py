@@ -36,21 +36,22 @@ def asin(x):
     return atan2(x, sqrt(1 - x * x))
 
 
-def translating_roller(sense, offset):
+def translating_roller(sense, offset, side=1):
     e, z = sense * offset, centre(sense)
-    height = z.imag + sqrt((RHO + R) ** 2 - (e - z.real) * (e - z.real))
-    follower = cams.TranslatingRound(0.04, R, offset, sense)
-    return follower, variable(THETA), height - translating.rest_height(0.04, offset)
+    height = z.imag + side * sqrt((RHO + R) ** 2 - (e - z.real) * (e - z.real))
+    follower = cams.TranslatingRound(0.04, R, offset, sense, side)
+    return follower, variable(THETA), height - side * translating.rest_height(0.04, offset)
 
 
-def oscillating_roller(sense):
-    follower = cams.OscillatingRound(0.04, R, C, L, sense)
+def oscillating_roller(sense, side=1):
+    follower = cams.OscillatingRound(0.04, R, C, L, sense, side)
 
     def psi(gap, d):
         """Cosine rule in the triangle pivot, centre of the circle, roller; the line of centres itself is turned by arg(C - z)."""
-        return acos((d * d + L**2 - (RHO + R) ** 2) / (2 * L * d)) - angle_of(gap)
+        return acos((d * d + L**2 - (RHO + R) ** 2) / (2 * L * d)) - side * angle_of(gap)
 
-    return follower, *lever_lift(sense, psi, follower.rest_angle)
+    angle, opening = lever_lift(sense, psi, follower.rest_angle)
+    return follower, angle, side * opening
 
 
 def oscillating_flat(sense, beyond):
@@ -66,8 +67,8 @@ def translating_flat(sense, tilt):
 
 
 FOLLOWERS = [case(sense, *more) for sense in (1, -1) for case, *more in (
-    (translating_roller, 0.0), (translating_roller, 0.009), (oscillating_roller,), (oscillating_flat, 0.005), (oscillating_flat, -0.004),
-    (translating_flat, 0.0), (translating_flat, 0.12))]
+    (translating_roller, 0.0), (translating_roller, 0.009), (translating_roller, -0.006, -1), (oscillating_roller,),
+    (oscillating_roller, -1), (oscillating_flat, 0.005), (oscillating_flat, -0.004), (translating_flat, 0.0), (translating_flat, 0.12))]
 NAMES = [f"{type(case[0]).__name__}-{number}" for number, case in enumerate(FOLLOWERS)]
 
 
@@ -99,7 +100,7 @@ def test_pressure_angle_is_the_angle_between_normal_and_path(case):
     normal = contact.normal * np.exp(1j * follower.sense * angle.d0)
     moving = np.abs(lift.d1) > 1e-3
     speed, _ = velocity(follower, contact, lift, angle)
-    path = speed[moving] / lift.d1[moving]
+    path = getattr(follower, "side", 1) * speed[moving] / lift.d1[moving]  # out of the cam
     signed = follower.sense * np.angle(normal[moving] / path)
     assert np.allclose(contact.pressure_angle.d0[moving], signed, atol=1e-12)
 

@@ -14,7 +14,7 @@ PI = np.pi
 
 def ellipse(a=0.05, b=0.03):
     piece = curves.Piece(0.0, 2 * PI, lambda t: a * cos(variable(t)) + 1j * b * sin(variable(t)), "ellipse")
-    return curves.outline_of_spans([curves.Span(piece, 0.0, 2.2), curves.Span(piece, 2.2, 2 * PI)], 1e-7)
+    return curves.outline_of_spans([curves.Span(piece, 0.0, 2.2), curves.Span(piece, 2.2, 2 * PI)], 1e-6)
 
 
 def slot(length=0.04, radius=0.01):

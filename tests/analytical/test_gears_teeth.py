@@ -82,6 +82,15 @@ def test_undercut_begins_at_the_exact_limit(rack, clean):
     assert len(under.undercut) == 2 * (clean - 1) and len(under.profile.corners) == 2 * (clean - 1)
 
 
+def test_the_slightest_undercut_is_seen():
+    """Pressure angle 0.05 % of sin^2 below the limit of 12 teeth: a tail thinner than the chords between samples."""
+    alpha = np.arcsin(np.sqrt(2 * 0.8 / 12 * (1 - 5e-4)))
+    rack = gears.Rack(alpha, dedendum=1.0, rounding=0.2 / (1 - np.sin(alpha)))  # straight to 0.8
+    under = cut(12, rack=rack).undercut
+    assert len(under) == 24
+    assert all(5e-4 < flank.lost / flank.straight < 1e-3 for flank in under)
+
+
 def test_undercut_data_and_message():
     """Ten teeth: the flank starts above the base circle, where it leaves the trochoid; the lost depth follows from that radius."""
     gear, r = cut(10), 0.02

@@ -172,6 +172,14 @@ def test_the_first_step_is_careful_and_max_step_is_kept():
     assert steps[0] < 0.02 and steps.max() <= 0.05 * (1 + 1e-12)
 
 
+def test_the_first_step_is_a_hundredth_of_the_time_in_which_y_changes():
+    grows = Functions(lambda t, y: y * np.array([-0.5, 3.0]))
+    first = np.diff(integrate(grows, 0, 1, [3.0, 0.1], 1e-6, 1e-30).t)[0]
+    assert first == pytest.approx(0.01 * np.sqrt(2 / (0.25 + 9)), rel=1e-12)
+    from_rest = integrate(Functions(lambda t, y: np.ones(1)), 1, 5, [0.0])
+    assert np.diff(from_rest.t)[:2] == pytest.approx([4e-6, 2e-5], rel=1e-9)  # and at most five times the one before
+
+
 def test_rescaling_time_and_length_changes_nothing():
     metres = integrate(FALL, 0, 2, [1.0, 3.0], 1e-6, [1e-9, 1e-8], watch=[Event(-1)])
     falls = Functions(lambda t, y: np.array([y[1], -G * 1e3 / 1e6]), FALL.events)  # mm, ms

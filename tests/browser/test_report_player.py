@@ -121,20 +121,45 @@ def test_where_a_column_has_no_value_the_reader_sees_a_dash(open_page, report):
     assert page.locator(".dw-plot").nth(4).locator("b").inner_text() == "–"
 
 
-def test_a_body_is_drawn_where_its_pose_says(open_page, report):
-    """The crank alone at a quarter turn: a bar 10 mm wide with round ends, from the pivot 32 mm straight up."""
-    page = open_page(report)
+def crank_alone(page):
     for other in ("frame", "coupler", "rocker"):
         page.locator(".dw-chip", has_text=other).click()
-    still(page, 0.25)
+    return page
 
-    def orange(x, y):
-        spot = page.evaluate(f"[drivewright.player.view.toX({x}), drivewright.player.view.toY({y})]")
-        red, _, blue, _ = colour_at(page, *spot)
-        return red - blue > 25
 
-    assert all(orange(x, y) for x, y in ((0.003, 0.016), (-0.003, 0.016), (0.0, 0.0355), (0.0, -0.0035)))
-    assert not any(orange(x, y) for x, y in ((0.007, 0.016), (-0.007, 0.016), (0.0, 0.039), (0.0, -0.007), (0.016, 0.0)))
+def orange(page, x, y):
+    """Whether the crank covers a point of the plane [m]."""
+    spot = page.evaluate(f"[drivewright.player.view.toX({x}), drivewright.player.view.toY({y})]")
+    red, _, blue, _ = colour_at(page, *spot)
+    return red - blue > 25
+
+
+def test_a_body_is_drawn_where_its_pose_says(open_page, report):
+    """The crank at a quarter turn: a bar 10 mm wide with round ends, from the pivot 32 mm straight up."""
+    page = still(crank_alone(open_page(report)), 0.25)
+    assert all(orange(page, x, y) for x, y in ((0.003, 0.016), (-0.003, 0.016), (0.0, 0.0355), (0.0, -0.0035)))
+    assert not any(orange(page, x, y) for x, y in ((0.007, 0.016), (-0.007, 0.016), (0.0, 0.039), (0.0, -0.007), (0.016, 0.0)))
+
+
+def test_a_turning_observer_sees_the_common_pin_at_rest(open_page, report):
+    """Seen from the coupler, whose origin is the crank pin, the crank's end stays there while its other end goes round."""
+    page = crank_alone(open_page(report))
+    page.evaluate("() => drivewright.player.setFrame('coupler')")
+    for phase in (0.1, 0.45, 0.8):
+        still(page, phase)
+        assert orange(page, 0.0, 0.0)
+    from sample_designs import CRANK, solve
+
+    coupler, _, _ = solve(np.array([0.8 * 2 * np.pi]))
+    along = CRANK * np.exp(1j * (0.8 * 2 * np.pi - coupler[0]))
+    assert orange(page, -0.5 * along.real, -0.5 * along.imag) and not orange(page, 0.5 * along.real, 0.5 * along.imag)
+
+
+def test_the_clock_counts_turns_both_ways(open_page, report):
+    page = still(open_page(report), 0.9)
+    forth = page.evaluate("() => { const c = drivewright.clock; c.turn = 3; c.step(0.2); return [c.turn, c.phase]; }")
+    back = page.evaluate("() => { const c = drivewright.clock; c.step(-1.3); return [c.turn, c.phase]; }")
+    assert forth == [4, pytest.approx(0.1)] and back == [2, pytest.approx(0.8)]
 
 
 def test_frames_switch(open_page, report):

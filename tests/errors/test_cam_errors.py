@@ -56,6 +56,7 @@ def test_follower(follower, words):
     ({**LEVER, "prime_radius": "140 mm"}, "18 deg", ("20 to 140 mm", "not between")),
     (LEVER, "160 deg", ("lever swings", "180 deg", "Reduce the rise")),
     (LEVER, "-40 deg", ("lever swings", "0 and 180 deg")),
+    ({**ROLLER, "face": "flat"}, "-41 mm", ("face 1 mm beyond the cam's centre", "base radius")),
     (ROLLER, "-60 mm", ("takes the roller's centre to -20 mm", "prime_radius")),
     ({**LEVER, "face": "flat", "pivot_distance": "38 mm"}, "5 deg", ("base radius 40 mm", "pivot_distance 38 mm", "pivot away")),
     ({**LEVER, "face": "flat"}, "-85 deg", ("turns as fast as the cam", "Spread the motion")),

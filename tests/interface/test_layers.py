@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 SOURCE = Path(__file__).parents[2] / "src" / "drivewright"
-ROWS = ["cli studio", "validation studies report view", "mechanisms", "indexing chains cams gears multibody shafts bearings solids fatigue",
+ROWS = ["__main__ cli studio", "validation studies report view", "mechanisms", "indexing chains cams gears multibody shafts bearings solids fatigue",
         "motion curves contact materials", "numerics", "runner result spec scene registry", "units _jit errors"]
 PLACE = {name: (row, column) for row, names in enumerate(ROWS) for column, name in enumerate(names.split())}
 # runner reads the version for the provenance; result asks the registry for a view; __init__ has lazy names.

@@ -93,8 +93,8 @@ def test_a_scene_is_drawn_where_its_poses_say():
     """The crank's round end at a quarter of the cycle: its bounding box by hand."""
     figure = draw_scene(SCENE, "machine", [0.25])
     boxes = [patch.get_path().vertices for patch in figure.axes[0].findobj(matplotlib.patches.Polygon)]
-    crank = next(box for box in boxes if np.ptp(box, axis=0) == pytest.approx([10, 42], abs=0.02))
-    assert crank.mean(axis=0)[0] == pytest.approx(0.0, abs=0.3) and crank[:, 1].max() == pytest.approx(37, abs=0.01)
+    crank = next(box for box in boxes if np.ptp(box, axis=0) == pytest.approx([10, 42], abs=0.12))
+    assert crank.mean(axis=0)[0] == pytest.approx(0.0, abs=0.3) and crank[:, 1].max() == pytest.approx(37, abs=0.06)
 
 
 def test_the_field_sees_the_cycles_before_one_advance_back():
@@ -102,6 +102,12 @@ def test_the_field_sees_the_cycles_before_one_advance_back():
     now, past, older = (np.asarray(line.get_xydata()) for line in lines[:3])
     assert past - now == pytest.approx(np.broadcast_to([-140, 0], now.shape))
     assert older - now == pytest.approx(np.broadcast_to([-280, 0], now.shape))
+
+
+def test_a_thumbnail_is_trimmed_to_its_picture():
+    axes = FIGURES["thumbnail"]().axes[0]
+    box, frame = axes.get_position(), axes.figure.get_size_inches()
+    assert [box.x0 * frame[0], (1 - box.x1) * frame[0], box.y0 * frame[1], (1 - box.y1) * frame[1]] == pytest.approx([0.1] * 4, abs=1e-9)
 
 
 def test_scenes_and_drawings_are_to_scale():

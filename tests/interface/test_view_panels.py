@@ -27,6 +27,8 @@ def test_other_units_get_a_panel_of_their_own_and_go_on_in_colour():
     speed, acceleration = panels(RESULT, BY_NAME["speed"])
     assert (speed.label, acceleration.label) == ("Rocker speed [rpm]", "Rocker acceleration [rad/s²]")
     assert (speed.series[0].role, acceleration.series[0].role) == ("blue", "orange")
+    limited = panels(RESULT, BY_NAME["speed"]._replace(limits=((3.0, "limit"),)))
+    assert [len(panel.limits) for panel in limited] == [1, 0]
 
 
 def test_many_columns_of_one_unit_are_split_so_that_every_line_has_its_colour():
@@ -49,7 +51,7 @@ def test_the_range_shows_data_and_limits_and_cuts_poles():
     assert low == pytest.approx(1 - 0.12) and high == pytest.approx(3 + 0.12)
     low, high = span([[1.0, 3.0]], [6.0])
     assert low < 1 and 6 < high < 7
-    low, high = span([[1.0, -1e9, 1e9]], [2.0])
+    low, high = span([[1.0, -1e9, 1e9]], [2.0, -0.1])
     assert -low == pytest.approx(REACH * 2 * 1.12) and high == pytest.approx(REACH * 2 * 1.12)
 
 

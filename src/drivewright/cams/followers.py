@@ -157,7 +157,9 @@ class TranslatingFlat:
 
     def face(self, angle, lift):
         """(direction, support): of the normal of the face [rad] and the distance from the cam's centre [m], in the cam frame."""
-        return np.pi / 2 + self.sense * (self.tilt - angle), self.base_radius + np.cos(self.tilt) * lift
+        support = self.base_radius + np.cos(self.tilt) * lift
+        _refuse_crossing(support.d0)
+        return np.pi / 2 + self.sense * (self.tilt - angle), support
 
     def contact(self, angle, lift):
         """`Contact` from the jets of the cam angle and of the lift [m]."""
@@ -202,7 +204,9 @@ class OscillatingFlat:
             raise DoesNotAssemble(
                 f"oscillating flat follower: the lever turns as fast as the cam (d swing/d angle reaches {-self.sense}), and no profile "
                 "does that. Spread the motion over a larger cam angle or reduce the rise.")
-        return np.pi / 2 - psi - self.sense * angle, self.pivot_distance * sin(psi) + self.face_offset
+        support = self.pivot_distance * sin(psi) + self.face_offset
+        _refuse_crossing(support.d0)
+        return np.pi / 2 - psi - self.sense * angle, support
 
     def contact(self, angle, lift):
         """`Contact` from the jets of the cam angle and of the swing [rad]."""
@@ -210,6 +214,14 @@ class OscillatingFlat:
         lever = self.pivot_distance * cos(self.rest_angle + lift) / (1 + self.sense * derivative(lift) / derivative(angle))
         pivot = self.pivot_distance * exp(-1j * self.sense * angle)
         return _flat_contact(*self.face(angle, lift), pivot, self.sense * atan(self.face_offset / lever), lever / self.arm_length)
+
+
+def _refuse_crossing(support):
+    """A flat face must stay on its side of the cam's centre."""
+    low = np.min(support)
+    if low <= 0:
+        raise DoesNotAssemble(f"flat follower: the lift takes the face {-1e3 * low:.6g} mm beyond the cam's centre and nothing is left "
+                              "of the cam; enlarge the base radius (prime_radius) by more than that or reduce the fall.")
 
 
 def _refuse_swing(psi, low, high):

@@ -11,8 +11,8 @@ import numpy as np
 from drivewright.curves.pieces import gather
 
 _TOLERANCE = 1e-12  # two branches meet when they are this close, relative to the size of the curve
-_TAIL = 0.5  # branches nearer than this [sample numbers] are one branch meeting itself
-_SAME = 1e-6  # places [sample numbers] closer than this are one
+_TAIL, _JOINT_TAIL = 0.5, 5e-3  # a tail shorter than this [samples], on one piece or across a joint, is one branch meeting itself
+_SAME = 1e-3  # crossings nearer than this [samples] on both branches are one
 
 
 class Crossing(NamedTuple):
@@ -28,14 +28,18 @@ def self_crossings(chain):
     seeds = np.concatenate([_from_chords(chain), _from_joints(chain)])
     if not len(seeds):
         return ()
-    first, second, point = _refined(chain, seeds)
-    order = np.lexsort((np.maximum(first, second), np.minimum(first, second)))
-    kept = []
-    for a, b, z in zip(first[order], second[order], point[order], strict=True):
-        crossing = Crossing(float(min(a, b)), float(max(a, b)), complex(z))
-        if not any(abs(crossing.first - other.first) < _SAME and abs(crossing.second - other.second) < _SAME for other in kept):
-            kept.append(crossing)
+    places, steps, points = _refined(chain, seeds)
+    kept, at = [], []
+    for k in np.lexsort((places[:, 1], places[:, 0])):
+        if not any(np.all(_apart(chain, steps[k], other) < _SAME) for other in at):
+            kept.append(Crossing(float(places[k, 0]), float(places[k, 1]), complex(points[k])))
+            at.append(steps[k])
     return tuple(kept)
+
+
+def _apart(chain, a, b):
+    """Distance along the closed chain in samples, where the end of a piece and the start of the next are one place."""
+    return np.abs((a - b + 0.5 * len(chain.segments)) % len(chain.segments) - 0.5 * len(chain.segments))
 
 
 def _from_chords(chain):
@@ -97,7 +101,10 @@ def _ladder(chain, joint, cusp, limit, other):
 
 
 def _refined(chain, seeds, steps=15):
-    """Newton on q(a) = q(b) for all seeds at once; those that meet nowhere or only themselves are dropped."""
+    """Newton on q(a) = q(b) for all seeds at once: places (n, 2) in order, the same without the joints, points.
+
+    Seeds that meet nowhere or only themselves are dropped.
+    """
     index, t = chain.locate(seeds.ravel())
     for _ in range(steps):
         step = _step(gather(chain.pieces, index, t))
@@ -107,17 +114,12 @@ def _refined(chain, seeds, steps=15):
         if np.all(np.abs(step) <= 1e-12 * np.maximum(np.abs(low), np.abs(high))):  # the step made leaves its square
             break
     q = gather(chain.pieces, index, t).d0
-    u = _one_place_per_joint(chain, chain.place(index, t))
-    apart = np.abs(u[1::2] - u[::2])
-    apart = np.minimum(apart, len(chain.t) - apart)
-    good = (np.abs(q[1::2] - q[::2]) <= _TOLERANCE * chain.size) & (apart > _TAIL)
-    return u[::2][good], u[1::2][good], q[::2][good]
-
-
-def _one_place_per_joint(chain, u):
-    """The end of a piece counts as the start of the next, so that a crossing found from both sides of a joint is one."""
-    following = chain.first[np.searchsorted(chain.first, u, side="right")]
-    return np.where(following - 1 - u < _SAME, following % len(chain.t), u)
+    u = chain.place(index, t).reshape(-1, 2)
+    u, index = np.take_along_axis(u, order := np.argsort(u, axis=1), 1), np.take_along_axis(index.reshape(-1, 2), order, 1)
+    steps = u - index
+    least = np.where(index[:, 0] == index[:, 1], _TAIL, _JOINT_TAIL)
+    good = (np.abs(q[1::2] - q[::2]) <= _TOLERANCE * chain.size) & (_apart(chain, *steps.T) > least)
+    return u[good], steps[good], q[::2][good]
 
 
 def _step(q):

@@ -137,16 +137,12 @@ def _cuts(crossings):
 
 
 def _alive(chain, coverage, cuts):
-    """Whether the interval that starts at each cut survives: no member covers it.
-
-    One uncovered point of three is enough: the others may have fallen into a swallowtail too small to be seen.
-    """
+    """Whether the interval that starts at each cut survives: no member covers the middle of it."""
     if not len(cuts):
         return np.ones(1, dtype=bool)
-    widths = np.diff(np.append(cuts, cuts[0] + len(chain.t)))
-    places = cuts + widths * np.array([[0.5], [0.37], [0.71]])
-    points = gather(chain.pieces, *chain.locate(places.ravel())).d0
-    return np.any(coverage.least(points).reshape(places.shape) >= -coverage.depth, axis=0)
+    ends = np.append(cuts[1:], cuts[0] + len(chain.t))
+    points = gather(chain.pieces, *chain.locate(0.5 * (cuts + ends))).d0
+    return coverage.least(points) >= -coverage.depth
 
 
 def _loops(cuts, partner, alive):
@@ -201,9 +197,9 @@ def _refuse_missed_cuts(chain, coverage, cuts, loop):
     if gaps[worst] < -_UNSEEN * chain.size:
         piece, t = chain.pieces[chain.index[kept[worst]]], chain.t[kept[worst]]
         raise SolverError(
-            f"trim: piece '{piece.label}' at t = {t:.6g} is still covered by {-gaps[worst] * 1e3:.3g} mm: either a self-intersection of the "
-            f"envelope was missed (raise `samples` above {len(chain.t)}), or the motion turns back so far in a loop that the other side "
-            "of its path bounds the part (smooth the motion)."
+            f"trim: piece '{piece.label}' at t = {t:.6g} is still covered by {-gaps[worst] * 1e3:.3g} mm: either a self-intersection of "
+            f"the envelope was missed (raise `samples` above {len(chain.t)}), or the motion turns back so far in a loop that the "
+            "other side of its path bounds the part (smooth the motion)."
         )
 
 
@@ -230,14 +226,14 @@ def _split(chain, start, stop):
 
 
 def _missing(piece, spans):
-    """Intervals of the piece that no span holds."""
-    at, end = sorted((piece.start, piece.stop))
-    for start, stop in sorted(sorted((span.start, span.stop)) for span in spans if span.piece is piece):
+    """Intervals of a piece, one that runs forwards, that no span holds."""
+    at = piece.start
+    for start, stop in sorted((span.start, span.stop) for span in spans if span.piece is piece):
         if start > at:
             yield at, start
         at = stop
-    if at < end:
-        yield at, end
+    if at < piece.stop:
+        yield at, piece.stop
 
 
 def _merged(intervals):

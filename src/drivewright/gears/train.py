@@ -1,6 +1,7 @@
 """Gears in a row on a carrier, each pair non-circular: the planetary train of a transplanter."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -45,9 +46,9 @@ class GearTrain:
         zero=0 counts from the start; zero=train.collinear_angles()[-1] from the later collinear position.
         """
         phase = self.angles(t)[-1]
-        return phase - float(self.angles(zero)[-1].d0)
+        return phase - (self.phase if zero == 0.0 else float(self.angles(zero)[-1].d0))
 
-    @property
+    @cached_property
     def phase(self):
         """Phase of the planet at t = 0 [rad]: what `planet` leaves out."""
         return float(self.angles(0.0)[-1].d0)

@@ -7,8 +7,6 @@ import numpy as np
 
 from drivewright.errors import InputError, SolverError
 
-_GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0
-
 
 def bracketed_roots(f, grid):
     """All x where the continuous f changes sign between neighbours of `grid`, or is exactly 0 on it, ascending.
@@ -125,23 +123,23 @@ def _least(f, x):
         raise InputError(f"extremes: f is not finite at {x[~np.isfinite(values)][0]:.6g}. Shorten the interval to where f exists.")
     inner = np.flatnonzero((values[1:-1] <= values[:-2]) & (values[1:-1] <= values[2:])) + 1
     best = inner[np.argsort(values[inner], kind="stable")[:8]]
-    refined = _golden_section(f, x[best - 1], x[best + 1])
+    refined = _zoom(f, x[best - 1], x[best + 1])
     x, values = np.append(x, refined), np.append(values, _values(f, refined))
     least = np.argmin(values)
     return float(x[least]), float(values[least])
 
 
-def _golden_section(f, a, b, steps=40):
-    """The least point of each interval [a, b] in which f has one valley."""
-    left, right = b - _GOLDEN * (b - a), a + _GOLDEN * (b - a)
-    f_left, f_right = _values(f, left), _values(f, right)
-    for _ in range(steps):
-        lower = f_left <= f_right
-        a, b = np.where(lower, a, left), np.where(lower, right, b)
-        fresh = np.where(lower, b - _GOLDEN * (b - a), a + _GOLDEN * (b - a))
-        left, right = np.where(lower, fresh, right), np.where(lower, left, fresh)
-        f_fresh = _values(f, fresh)
-        f_left, f_right = np.where(lower, f_fresh, f_right), np.where(lower, f_left, f_fresh)
+def _zoom(f, a, b, points=33, passes=6):
+    """The least point of each interval [a, b] in which f has one valley: sample, keep the neighbourhood of the best, repeat.
+
+    Each pass narrows by half the number of points, so few calls of f, each on many places, reach the limit set by rounding.
+    """
+    share = np.linspace(0.0, 1.0, points)[:, None]
+    for _ in range(passes):
+        x = a + share * (b - a)
+        best = np.argmin(_values(f, x.ravel()).reshape(x.shape), axis=0)
+        rows = np.arange(x.shape[1])
+        a, b = x[np.maximum(best - 1, 0), rows], x[np.minimum(best + 1, points - 1), rows]
     return 0.5 * (a + b)
 
 

@@ -13,7 +13,7 @@ from drivewright.view.motion import fractions
 from drivewright.view.panels import drawable, panels
 from drivewright.view.text import number, quantity, sentence, shown, unit_text, with_unit
 
-GHOSTS = tuple(n / 6 for n in range(6))
+GHOSTS = tuple(n / 5 for n in range(5))
 SIGNS = {"<=": "≤", ">=": "≥"}
 LARGEST_ARRAY = 400  # entries: a larger one is only named; result.json has it
 

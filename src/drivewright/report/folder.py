@@ -50,12 +50,7 @@ def refuse_foreign(out):
 
 def record_text(result):
     """The text of result.json."""
-    return json.dumps(result.record(), indent=1, ensure_ascii=False, allow_nan=False, default=_plain) + "\n"
-
-
-def _plain(number):
-    """A numpy scalar as Python's own: a check compared with a numpy limit is a numpy bool."""
-    return number.item()
+    return json.dumps(result.record(), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def file_name(name):

@@ -5,10 +5,11 @@ import base64
 import numpy as np
 
 from drivewright.view.motion import fractions
+from drivewright.view.outlines import overall_size, thinned
 from drivewright.view.panels import decimals, drawable, panels
 from drivewright.view.text import shown
 
-FINENESS = 2e-5  # arcs become chords within this part of the scene's size: under a pixel at twenty-fold zoom
+FINENESS = 3e-5  # curves become chords within this part of the scene's size: under a pixel at twenty-fold zoom
 MOST_ROWS = 2000  # a longer table is thinned: more points than a plot is wide
 
 
@@ -23,7 +24,7 @@ def pack_scene(scene):
     `motions` holds every different set of poses once, as (frames or 1) x (x, y, angle) with continuous angles; bodies and
     observers point into it.  `u` is the driving quantity as 0 ... 1.
     """
-    motions, size = [], _size(scene)
+    motions, size = [], overall_size(scene)
     bodies = [{"name": b.name, "label": b.label, "colour": b.colour, "motion": _pooled(b.poses, motions), "shapes": _shapes(b.shapes, size)}
               for b in scene.bodies]
     observers = [{"name": f.name, "label": f.label, "motion": _pooled(f.poses, motions), "advance": [float(a) for a in f.advance],
@@ -43,13 +44,6 @@ def _cycle(scene):
     return {"label": scene.cycle_label, "unit": unit, "start": start * factor, "span": span * factor, "marks": marks}
 
 
-def _size(scene):
-    """A length that stands for the whole: the spread of the bodies' origins and of the largest shape."""
-    spots = np.concatenate([np.asarray(body.poses)[:, :2] for body in scene.bodies])
-    shapes = [shape.outline.points(1e-3) for body in scene.bodies for shape in body.shapes]
-    return max(float(np.ptp(spots, axis=0).max()), *(float(np.ptp(points, axis=0).max()) for points in shapes), 1e-9)
-
-
 def _pooled(poses, motions):
     """Number of these poses in the pool, which takes them in when they are new; poses that never change are one row."""
     poses = np.asarray(poses, float)
@@ -61,7 +55,7 @@ def _pooled(poses, motions):
 
 
 def _shapes(shapes, size):
-    return [{"layer": s.layer, "closed": bool(s.outline.closed), "points": floats(s.outline.points(FINENESS * size))} for s in shapes]
+    return [{"layer": s.layer, "closed": bool(s.outline.closed), "points": floats(thinned(s.outline, FINENESS * size))} for s in shapes]
 
 
 def pack_plots(result, scene, plots):

@@ -57,23 +57,20 @@ def triangles(part, tolerance=1e-5):
     shape = solid(part)
     low, high = (np.array([corner[i] for i in range(3)]) for corner in shape.bounding_box)
     with _kernel(f"part {part.name!r}", "triangulating its surface"):
-        _limit_edges(shape, MM * tolerance)
+        _limit_faces(shape, MM * tolerance)
         mesh = occ.OCCGeometry(shape).GenerateMesh(maxh=float((high - low).max() / 4), curvaturesafety=0.3, grading=0.5,
                                                    perfstepsend=meshing.MeshingStep.MESHSURFACE)
         corners = np.array([[vertex.nr - 1 for vertex in element.vertices] for element in mesh.Elements2D()])
     return np.array(mesh.Coordinates()) / MM, corners
 
 
-def _limit_edges(shape, tolerance):
-    """Mesh size on every curved edge, and on every face that is not plane the smallest of its edges; lengths in mm."""
+def _limit_faces(shape, tolerance):
+    """Mesh size on every face that is not plane: what the sharpest of its edges needs; lengths in mm."""
     for face in shape.faces:
-        points = [_along(edge, 33) for edge in face.edges]
-        sizes = [np.sqrt(8 * tolerance * _smallest_radius(p)) for p in points]
-        for edge, size in zip(face.edges, sizes, strict=True):
-            edge.maxh = min(edge.maxh, size)
-        cloud = np.concatenate(points)
+        edges = [_along(edge, 33) for edge in face.edges]
+        cloud = np.concatenate(edges)
         if np.linalg.svd(cloud - cloud.mean(axis=0), compute_uv=False)[2] > 1e-6:
-            face.maxh = min(sizes)
+            face.maxh = np.sqrt(8 * tolerance * min(map(_smallest_radius, edges)))
 
 
 def _along(edge, count):
@@ -136,37 +133,36 @@ def _edge(occ, piece, a, b, tolerance, name):
         if 2 * piece.radius * np.sin(piece.sweep / 4) ** 2 < chain.SNAP:  # nearly straight: three points on a line crash the kernel
             return occ.Segment(_point(occ, a), _point(occ, b))
         return occ.ArcOfCircle(_point(occ, a), _point(occ, pieces.end(pieces.halves(piece)[0])), _point(occ, b))
-    aim = tolerance
-    for _ in range(6):
-        edge, miss = _spline_edge(occ, piece, a, b, aim)
-        if miss <= tolerance:
-            return edge
-        aim /= 4
-    raise InputError(f"{name}: a spline misses its knots by {MM * miss:.3g} mm; give knots on a smooth curve, or a wider tolerance than "
-                     f"{MM * tolerance:.3g} mm")
+    return _spline_edge(occ, piece, a, b, tolerance, name)
 
 
-def _spline_edge(occ, spline, a, b, tolerance):
-    """(B-spline edge, its largest distance [m] from the curve through the knots).
+def _spline_edge(occ, spline, a, b, tolerance, name):
+    """B-spline edge within `tolerance` [m] of the curve through the knots; spans are halved until the kernel's own curve is.
 
     OpenCASCADE mis-scales a last tangent that it is given (by 2.2 for unevenly spaced points), so no tangent is given: two extra
     points near either end let its own four-point estimate find the tangent.
     """
     curve, sparse = pieces.interpolant(spline), pieces.fit(spline, tolerance / 2)
-    at = np.unique(sparse.t)
-    graded = [at[0] + (at[1] - at[0]) * f for f in (1 / 16, 1 / 4)] + [at[-1] - (at[-1] - at[-2]) * f for f in (1 / 4, 1 / 16)]
-    at = np.union1d(at, graded)
-    points = sparse(at)
-    points[0], points[-1] = a, b
-    edge = occ.SplineInterpolation([_point(occ, p) for p in points])
-    return edge, _distance(edge, at, points, curve)
+    breaks = np.unique(sparse.t)
+    for _ in range(8):
+        first, last = breaks[1] - breaks[0], breaks[-1] - breaks[-2]
+        at = np.union1d(breaks, breaks[[0, 0, -1, -1]] + [first / 16, first / 4, -last / 4, -last / 16])
+        points = sparse(at)
+        points[0], points[-1] = a, b
+        edge = occ.SplineInterpolation([_point(occ, p) for p in points])
+        miss = _distance(edge, at, points, curve)
+        if miss <= tolerance:
+            return edge
+        breaks = np.union1d(breaks, (breaks[1:] + breaks[:-1]) / 2)
+    raise InputError(f"{name}: a spline misses its knots by {MM * miss:.3g} mm; give knots on a smooth curve, or a wider tolerance than "
+                     f"{MM * tolerance:.3g} mm")
 
 
 def _distance(edge, at, points, curve):
-    """Largest distance [m], across the curve, between an edge and the curve at its knots and half-way."""
+    """Largest distance [m], across the curve, between an edge and the curve at and between the knots of both."""
     chord = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
     low, high = edge.parameter_interval
-    s = np.union1d(curve.x, (curve.x[1:] + curve.x[:-1]) / 2)
+    s = np.union1d(pieces.between(curve.x), pieces.between(at))
     parameter = low + (high - low) * np.interp(s, at, chord) / chord[-1]
     found = np.array([[p.x, p.y] for p in map(edge.Value, parameter.tolist())]) / MM
     tangent = curve(s, 1)

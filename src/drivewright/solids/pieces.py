@@ -60,7 +60,7 @@ def fit(spline, tolerance):
     It interpolates the curve at its breaks, has the same end tangents, and is C2; spans that miss a knot are halved until none is left.
     """
     curve = interpolant(spline)
-    probe = np.union1d(curve.x, (curve.x[1:] + curve.x[:-1]) / 2)
+    probe = between(curve.x)
     target, clamp = curve(probe), [[(1, t)] for t in headings(spline)]
     breaks = np.array([curve.x[0], curve.x[-1]])
     while True:
@@ -70,6 +70,11 @@ def fit(spline, tolerance):
             return sparse
         spans = np.unique(np.clip(np.searchsorted(breaks, missed) - 1, 0, len(breaks) - 2))
         breaks = np.union1d(breaks, (breaks[spans] + breaks[spans + 1]) / 2)
+
+
+def between(breaks, parts=4):
+    """The breaks (n,) of a curve with every span divided into `parts`: where two curves are compared."""
+    return np.interp(np.arange(parts * (len(breaks) - 1) + 1) / parts, np.arange(len(breaks)), breaks)
 
 
 def polyline(piece, tolerance):

@@ -29,7 +29,7 @@ def from_document(tables, model=None, folder="."):
 
 def read_document(path):
     """The raw tables of a TOML spec file; SpecError where it is missing or is not TOML."""
-    text = _text_of(Path(path))
+    text = _text_of(Path(path)) + "\n"  # so that tomllib knows the line of a slip at the very end
     try:
         return tomllib.loads(text)
     except RecursionError:

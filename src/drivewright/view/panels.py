@@ -77,7 +77,17 @@ def panels(result, plot):
     chunks = [group[i:i + len(SERIES)] for group in groups.values() for i in range(0, len(group), len(SERIES))]
     roles = itertools.cycle(SERIES)  # running on from panel to panel, so that one colour means one line as long as there are enough
     return tuple(_panel(plot, _series(table[plot.x]), _told_apart([_series(c, next(roles)) for c in chunk]), chunk[0].unit,
-                        () if n else plot.limits) for n, chunk in enumerate(chunks))
+                        () if n else _limits(result, plot)) for n, chunk in enumerate(chunks))
+
+
+def _limits(result, plot):
+    """(value, label) of every limit line; those of a check that this run did not make are left out."""
+    known = {check.name: check.limit for check in result.checks}
+    for value, label in plot.limits:
+        if not isinstance(value, str):
+            yield value, label
+        elif (name := value.removeprefix("-")) in known:
+            yield (-known[name] if value.startswith("-") else known[name]), label
 
 
 def _panel(plot, x, series, unit, limits):

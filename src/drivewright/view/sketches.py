@@ -5,10 +5,12 @@ import numpy as np
 from drivewright.errors import UnknownName
 from drivewright.scene import place
 from drivewright.view.motion import path, pose_at, seen_from, step_back
+from drivewright.view.outlines import overall_size, thinned
 from drivewright.view.palette import TRACES, colour
 from drivewright.view.style import MUTED, arrange, figure_to_scale, legend_columns, nice_length, styled
 from drivewright.view.text import number, quantity, sentence, shown, with_unit
 
+FINENESS = 4e-4  # curves become chords within this part of the whole picture: a twentieth of a millimetre on paper
 PAST = 2  # cycles before this one whose traces an advancing observer still sees
 LAYERS = {  # layer -> line width, dashes, filled; colour is the body's
     "profile": (1.4, "-", True), "body": (1.2, "-", True), "roller": (1.2, "-", True), "hole": (1.0, "-", False),
@@ -44,7 +46,7 @@ def draw_thumbnail(scene, phase=0.3):
         _draw_state(axes[0], scene, scene.frames[0], phase, ())
         axes[0].set_title("")
         axes[0].set_axis_off()
-        arrange(figure, axes, *_extent(axes), left=0.1, right=0.1, top=0.1, bottom=0.1)
+        arrange(figure, axes, *_extent(axes), left=0.1, right=0.1, top=0.1, bottom=0.1, trim=True)
     return figure
 
 
@@ -61,14 +63,15 @@ def _length():
 
 def _draw_state(axis, scene, observer, phase, ghosts):
     """One moment with its traces; ghosts behind, the frame's own shapes as far as they lie near."""
-    _draw_ghosts(axis, scene, observer, ghosts)
+    tolerance = FINENESS * overall_size(scene)
+    _draw_ghosts(axis, scene, observer, ghosts, 4 * tolerance)
     _draw_traces(axis, scene, observer)
     for body, pose in _seen_bodies(scene, observer, phase):
         for shape in body.shapes:
-            _draw_shape(axis, shape, pose, body.colour)
+            _draw_shape(axis, shape, pose, body.colour, tolerance)
     near = _around(axis.dataLim.get_points(), 0.25)
     for shape in observer.shapes:
-        _draw_shape(axis, shape, (0.0, 0.0, 0.0), "ground", near)
+        _draw_shape(axis, shape, (0.0, 0.0, 0.0), "ground", tolerance, near)
     value = scene.cycle[0] + phase * (scene.cycle[-1] - scene.cycle[0])
     axis.set_title(f"{sentence(scene.cycle_label)} {quantity(value, scene.cycle_unit, 4)}", fontweight="normal", fontsize=9, color=MUTED)
     axis.set_xlabel(f"x [{_length()[1]}]")
@@ -92,16 +95,16 @@ def _extent(axes):
     return _around(np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)]), 0.04)
 
 
-def _draw_shape(axis, shape, pose, role, near=None):
+def _draw_shape(axis, shape, pose, role, tolerance, near=None):
     """One outline: filled where it is material, dashed where it is a construction line.  What lies beyond `near` counts for no extent."""
     width, dashes, filled = LAYERS.get(shape.layer, LAYERS["body"])
-    points = place(_outline(shape.outline), pose) * _length()[0]
+    points = place(thinned(shape.outline, tolerance), pose) * _length()[0]
     edge = {"defect": colour("bad"), "hole": colour("ink"), "axis": MUTED}.get(shape.layer, colour(role))
     face = (edge, 0.22) if filled and shape.outline.closed else "white" if shape.layer == "hole" else "none"
     _add(axis, points, shape.outline.closed, near, ec=edge, fc=face, lw=width, ls=dashes)
 
 
-def _draw_ghosts(axis, scene, observer, phases):
+def _draw_ghosts(axis, scene, observer, phases, tolerance):
     """Edges of the material at other phases, faint."""
     from matplotlib.collections import LineCollection
 
@@ -110,22 +113,11 @@ def _draw_ghosts(axis, scene, observer, phases):
         for body, pose in _seen_bodies(scene, observer, phase):
             for shape in body.shapes:
                 if LAYERS.get(shape.layer, LAYERS["body"])[2]:
-                    points = place(_outline(shape.outline, 400), pose) * _length()[0]
+                    points = place(thinned(shape.outline, tolerance), pose) * _length()[0]
                     lines.setdefault(body.colour, []).append(points[[*range(len(points)), 0]] if shape.outline.closed else points)
     for role, found in lines.items():
         axis.add_artist(LineCollection(found, colors=colour(role), linewidths=0.6, alpha=0.25))
         axis.update_datalim(np.concatenate(found))
-
-
-def _outline(outline, fineness=2000):
-    """Points of an outline, as few as its picture needs: within its size over `fineness`."""
-    import shapely
-
-    points = outline.points()
-    size = float(np.ptp(points, axis=0).max())
-    if not size:
-        return points
-    return shapely.get_coordinates(shapely.simplify(shapely.linestrings(points), size / fineness, preserve_topology=False))
 
 
 def _add(axis, points, closed, near=None, **look):
@@ -164,13 +156,14 @@ def _legend(figure, scene):
 def draw_drawing(drawing):
     """Figure of a flat part: its layers to one scale, a scale bar, its overall size."""
     factor, unit = _length()
+    tolerance = FINENESS * float(np.ptp(_points(drawing), axis=0).max())
     with styled():
         figure, (axis,) = figure_to_scale(1, sentence(drawing.title))
         for layer, role in DRAWN.items():
             for number_, outline in enumerate(drawing.on(layer)):
                 width, dashes, filled = LAYERS[layer]
                 face = (colour(role), 0.14) if filled and outline.closed else "white" if layer == "hole" else "none"
-                _add(axis, _outline(outline) * factor, outline.closed, ec=colour(role), fc=face, lw=width, ls=dashes,
+                _add(axis, thinned(outline, tolerance) * factor, outline.closed, ec=colour(role), fc=face, lw=width, ls=dashes,
                      label=NAMES[layer] if number_ == 0 else None)
         arrange(figure, [axis], *_extent([axis]), right=2.2)
         axis.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
@@ -182,10 +175,15 @@ def draw_drawing(drawing):
 
 def _size(drawing, factor, unit):
     """'62.4 × 58.1 mm, 8 mm thick' of the profile, or of everything where there is none."""
-    outlines = drawing.on("profile") or tuple(shape.outline for shape in drawing.shapes)
-    wide, high = np.ptp(np.concatenate([outline.points() for outline in outlines]), axis=0) * factor
+    wide, high = np.ptp(_points(drawing), axis=0) * factor
     thick = f", {with_unit(number(drawing.thickness * factor, 4), unit)} thick" if drawing.thickness else ""
     return f"{number(wide, 4)} × {with_unit(number(high, 4), unit)}{thick}"
+
+
+def _points(drawing):
+    """Points of the profile, or of everything where there is none."""
+    outlines = drawing.on("profile") or tuple(shape.outline for shape in drawing.shapes)
+    return np.concatenate([outline.points() for outline in outlines])
 
 
 def _scale_bar(axis, unit):

@@ -52,20 +52,20 @@ def figure_to_scale(count, title=""):
     return figure, [figure.add_axes((0, 0, 1, 1), label=str(n)) for n in range(count)]
 
 
-def arrange(figure, axes, low, high, left=0.8, right=0.15, top=0.6, bottom=0.55):
+def arrange(figure, axes, low, high, left=0.8, right=0.15, top=0.6, bottom=0.55, trim=False):
     """Show the box low ... high (x, y) in all axes at one scale, in a figure as high as that needs; margins in inches.
 
-    matplotlib's own layouts lose the room of a legend where the aspect of the axes is fixed.
+    `trim` also makes it as narrow as that needs.  matplotlib's own layouts lose the room of a legend where the aspect is fixed.
     """
     wide, tall = np.subtract(high, low)
     gap, room = left - 0.1, WIDTH - left - right
     width = (room - gap * (len(axes) - 1)) / len(axes)
     scale = min(width / wide, TALLEST / tall)
-    height = top + scale * tall + bottom
-    figure.set_figheight(height)
+    height, whole = top + scale * tall + bottom, left + scale * wide + right if trim else WIDTH
+    figure.set_size_inches(whole, height)
     for n, axis in enumerate(axes):
         axis.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
-        axis.set_position(((left + n * (width + gap)) / WIDTH, bottom / height, scale * wide / WIDTH, scale * tall / height))
+        axis.set_position(((left + n * (width + gap)) / whole, bottom / height, scale * wide / whole, scale * tall / height))
     figure.suptitle(figure.get_suptitle(), x=0.012, y=1 - 0.06 / height, va="top", **TITLE)
 
 
@@ -79,7 +79,12 @@ def svg(figure):
     with styled():
         figure.savefig(sink, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
     text = sink.getvalue().replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, Arial, sans-serif")
-    return re.sub(r' d="[^"]+"', lambda path: re.sub(r"(\.\d\d)\d+", r"\1", path[0]), text)
+    return re.sub(r' d="([^"]+)"', lambda path: f' d="{_short(path[1])}"', text)
+
+
+def _short(path):
+    """The commands of an SVG path with two decimals and no needless blanks."""
+    return re.sub(r"\s*([MLCQz])\s*", r"\1", re.sub(r"(\.\d\d)\d+", r"\1", path)).strip()
 
 
 def angle_ticks(axis, low, high, most=9):

@@ -6,6 +6,7 @@ from drivewright.mechanisms.cam import analyse, finish, loads
 from drivewright.mechanisms.cam.build import build
 from drivewright.mechanisms.cam.scene import PLOTS, drawings, parts, scene
 from drivewright.mechanisms.cam.spec import CamSpec
+from drivewright.mechanisms.cam.verify import verify
 from drivewright.registry import Analysis, Mechanism
 
 ANALYSES = (
@@ -19,7 +20,7 @@ ANALYSES = (
 
 mechanism = Mechanism(
     kind="cam", summary="disc cam with a translating or oscillating follower", spec=CamSpec, build=build, analyses=ANALYSES,
-    folder=Path(__file__).parent, scene=scene, plots=PLOTS, drawings=drawings, parts=parts,
+    folder=Path(__file__).parent, scene=scene, plots=PLOTS, drawings=drawings, parts=parts, verify=verify,
     sources=("Norton, Cam Design and Manufacturing Handbook (recalled; verified by closed forms)",
              "Rothbart, Cam Design Handbook (recalled; verified by closed forms)"),
     headline=("lift", "max_pressure_angle", "min_pressure_angle", "min_convex_radius", "min_base_radius", "min_half_face", "lost_motion",

@@ -111,9 +111,19 @@ def _curvature(model, track):
         if place:
             meaning = f"least radius of curvature of the {track.curve} where it is {name} seen from outside"
             values |= _extreme_values(f"{track.prefix}min_{name}_radius", place, "m", meaning)
+            values |= _profile_radius(track, name, place)
     absent = f"{track.prefix}min_convex_radius is absent: the radius of the {track.curve} passes through zero"
     checks = _flat_undercut(least) if track.flat else _undercut(model, track, places["convex" if track.flank > 0 else "concave"])
     return Answer(values, (), checks, () if places["convex"] else (absent,))
+
+
+def _profile_radius(track, name, place):
+    """The same of the profile that a round face leaves on the outside of a cam: the face takes its radius from a convex bend."""
+    radius = place.value + (track.radius if name == "concave" else -track.radius)
+    if track.flat or track.flank < 0 or radius <= 0:
+        return {}
+    meaning = f"least radius of curvature of the profile where it is {name} seen from outside"
+    return {f"{track.prefix}profile.min_{name}_radius": Value(radius, "m", meaning)}
 
 
 def flat_least(model, track):

@@ -159,6 +159,7 @@ def _refuse_rise(spec, segment, law, key):
 def _findings(spec, programme):
     """What the reader of the result should know before anything is computed."""
     used = {"motion", "face", "prime_radius", "base_radius", *USED[spec.follower.motion], *USED[spec.follower.face]}
+    used -= {"face_angle"} if spec.follower.motion == "oscillating" else set()
     kind = f"{spec.follower.motion} follower with a {spec.follower.face} face"
     for name in sorted(name for name in spec.follower.model_fields_set - used if getattr(spec.follower, name)):
         yield f"follower.{name} has no meaning for a {kind}; it is not used"

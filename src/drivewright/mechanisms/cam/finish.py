@@ -19,17 +19,31 @@ def finished(model, done):
 def _one_profile(model, number):
     track, found = model.tracks[number], profile(model, number)
     prefix = track.prefix
-    radii = np.hypot(*found.outline.points(1e-7).T)
-    least, greatest = float(radii.min()), float(radii.max())
+    least, greatest = _radii(model, track, found)
+    area, length = curves.outline_area(found.outline), curves.perimeter(found.outline)
+    if found.trimmed:
+        area, length = found.trimmed.area, found.trimmed.perimeter
     values = {f"{prefix}profile.min_radius": Value(least, "m", f"least distance of the profile from the cam's centre{track.of}"),
               f"{prefix}profile.max_radius": Value(greatest, "m", f"greatest distance of the profile from the cam's centre{track.of}"),
-              f"{prefix}profile.area": Value(curves.outline_area(found.outline), "m^2", f"area within the profile{track.of}"),
-              f"{prefix}profile.perimeter": Value(curves.perimeter(found.outline), "m", f"length of the profile{track.of}")}
+              f"{prefix}profile.area": Value(area, "m^2", f"area within the profile{track.of}"),
+              f"{prefix}profile.perimeter": Value(length, "m", f"length of the profile{track.of}")}
     lost = _lost_motion(model, track, found) if found.trimmed else Answer()
     checks = (*_wall_checks(model, track, least), *lost.checks)
     findings = (*lost.findings, *([found.finding] if found.finding else []))
     outcome = "partial" if found.finding else "complete"
     return Answer(values | lost.values, (_inspection(model, track, found),), checks, findings, outcome=outcome)
+
+
+def _radii(model, track, found):
+    """Least and greatest distance of the profile from the cam's centre [m]."""
+    if found.trimmed and found.trimmed.undercut:
+        radii = np.hypot(*found.trimmed.outline(1e-9).points(1e-9).T)
+        return float(radii.min()), float(radii.max())
+
+    def square(angle, lift):
+        return track.contact(angle, lift).point.abs2()
+
+    return tuple(np.sqrt(extreme(square).value) for extreme in (model.cycle.least, model.cycle.greatest))
 
 
 def _lost_motion(model, track, found):

@@ -34,7 +34,7 @@ PLOTS = (
         "cams",
         "carrier_angle",
         ("main.pressure_angle", "return.pressure_angle"),
-        ((0.6981317007977318, "40 deg"), (-0.6981317007977318, "-40 deg")),
+        (("pressure_angle.main", "allowed"), ("-pressure_angle.main", "allowed")),
     ),
     Plot(
         "convexity",
@@ -42,7 +42,7 @@ PLOTS = (
         "cams",
         "carrier_angle",
         ("main.convex_ratio", "return.convex_ratio"),
-        ((1.0, "undercut"),),
+        (("undercut.main", "undercut"),),
     ),
     Plot("force", "Normal force without play", "load", "carrier_angle", ("main.force", "return.force")),
     Plot("hertz", "Hertz pressure on the intended profile", "load", "carrier_angle", ("main.pressure", "return.pressure")),

@@ -175,11 +175,18 @@ def build(spec):
     """The model of a spec.  SpecError names the key where the numbers have no solution."""
     _refuse_even_teeth(spec)
     bend = _signed_bend(spec)
-    pair = EllipticGearPair(np.sqrt(1 - spec.train.axis_ratio**2), spec.train.semi_major, spec.train.start)
-    train = GearTrain((pair, pair), (bend,))
+    train = _train(spec, bend)
     still = Pusher(spec, train, bend, _tip_start(spec, bend), None, 0.0, ())
     end = still.lowest if spec.push.end_event == "lowest" else spec.push.end
     return Pusher(spec, train, bend, still.tip_start, _programme(spec), end - spec.push.rise, _cams(spec))
+
+
+def _train(spec, bend):
+    try:
+        pair = EllipticGearPair(np.sqrt(1 - spec.train.axis_ratio**2), spec.train.semi_major, spec.train.start)
+    except InputError as error:  # so flat that the eccentricity rounds to 1
+        raise SpecError(str(error), "train.axis_ratio") from None
+    return GearTrain((pair, pair), (bend,))
 
 
 def _refuse_even_teeth(spec):
@@ -210,13 +217,13 @@ def _programme(spec):
         raise SpecError(
             f"rise, hold and retraction sum to {np.degrees(TURN - rest):.6g} deg; they must leave a rest within one turn of 360 deg", "push"
         )
-    segments = [
-        motion.Segment(push.rise, push.law, push.stroke),
-        motion.Segment(push.hold, "dwell") if push.hold else None,
-        motion.Segment(push.retraction, push.law, -push.stroke),
-        motion.Segment(rest, "dwell"),
-    ]
     try:
+        segments = [
+            motion.Segment(push.rise, push.law, push.stroke),
+            motion.Segment(push.hold, "dwell") if push.hold else None,
+            motion.Segment(push.retraction, push.law, -push.stroke),
+            motion.Segment(rest, "dwell"),
+        ]
         return motion.Programme([segment for segment in segments if segment])
     except InputError as error:
         raise SpecError(str(error), "push.law") from None
@@ -246,6 +253,13 @@ def _refuse_out_of_reach(cam, swing):
             f"{np.degrees(end):.4g} deg against the line of centres, past its dead point; lengthen lever.output_arm or shorten "
             "push.stroke",
             f"cams.prime_radius_{cam.name}",
+        )
+    nearest = float(np.sqrt(cam.pivot_distance**2 + cam.arm**2 - 2 * cam.pivot_distance * cam.arm * np.cos(min(rest, end))))
+    if cam.roller_radius >= nearest:
+        raise SpecError(
+            f"{1e3 * cam.roller_radius:.6g} mm leaves nothing of the {cam.name} cam: the roller's centre comes as near as "
+            f"{1e3 * nearest:.6g} mm to the axis. Take smaller rollers or a larger cams.prime_radius_{cam.name}",
+            "cams.roller_radius",
         )
 
 

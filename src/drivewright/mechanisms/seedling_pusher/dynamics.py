@@ -150,7 +150,7 @@ def contact(model, done):
         "contact",
         "Contact over the last simulated turn",
         (
-            Column("carrier_angle", "rad", "turn of the carrier since the push started", angle),
+            Column("carrier_angle", "rad", "turn of the carrier", model.push_start + angle),
             Column("main.force", "N", "normal force on the main cam", main),
             Column("return.force", "N", "normal force on the return cam", back),
             Column("rod_error", "m", "rod ahead of its programme", error),

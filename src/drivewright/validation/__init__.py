@@ -1,0 +1,27 @@
+"""Published sources, one file each: the world's numbers beside ours.
+
+A plug-in adds a `Source` of its own under the entry point group `drivewright.validation`.
+"""
+
+from drivewright import registry
+from drivewright.errors import InputError, UnknownName
+from drivewright.validation import elliptic_gears, modified_sine_help, motion_factors, pusher_paper
+from drivewright.validation.page import page
+from drivewright.validation.source import AGREES, EXPLAINED, KINDS, OPEN, Explanation, Printed, Row, Source, rounded
+
+OURS = (pusher_paper.source, motion_factors.source, modified_sine_help.source, elliptic_gears.source)
+
+__all__ = ["AGREES", "EXPLAINED", "Explanation", "KINDS", "OPEN", "Printed", "Row", "Source", "page", "rounded", "sources"]
+
+
+def sources(name=None):
+    """All sources, ours first, or the one of that name; UnknownName where there is none."""
+    group = "drivewright.validation"
+    known = {}
+    for source in (*OURS, *(registry.load(group, point) for point in sorted(registry.plugins(group)))):
+        if source.name in known:
+            raise InputError(f"two validation sources are called {source.name!r}; rename or uninstall one of the plug-ins of {group}")
+        known[source.name] = source
+    if name is not None and name not in known:
+        raise UnknownName("validation source", name, known)
+    return tuple(known.values()) if name is None else (known[name],)

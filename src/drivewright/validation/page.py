@@ -1,0 +1,42 @@
+"""The sources as one page of Markdown, for the documentation."""
+
+from drivewright import units
+
+HEADER = """# Validation
+
+The numbers that others have published beside ours. `drivewright validate` computes this page; it exits with 1 when a verdict
+differs from the one pinned in the repository. A verdict is computed: *agrees* when our number rounds to the printed one or meets
+the printed limit; *differs, explained* when another reading that the source leaves open gives the printed number, or the print
+is shown to be wrong; *differs, open* otherwise.
+"""
+
+
+def page(sources):
+    """Markdown with a table per source, its assumptions and its errata."""
+    return "\n".join([HEADER, *(line for source in sources for line in _section(source))])
+
+
+def _section(source):
+    rows = source.rows()
+    remarks = list(dict.fromkeys(row.why for row in rows if row.why))
+    yield from (f"## {source.name}", "", source.citation, "", "| quantity | where | kind | printed | ours | deviation | verdict |")
+    yield "|---|---|---|---|---|---|---|"
+    for row in rows:
+        verdict = f"{row.verdict} [{remarks.index(row.why) + 1}]" if row.why else row.verdict
+        cells = (row.name, row.where, row.kind, str(row.printed), _number(row), row.deviation_text(), verdict)
+        yield f"| {' | '.join(cells)} |"
+    yield ""
+    yield from _listed(f"[{number}] {remark}" for number, remark in enumerate(remarks, 1))
+    yield from _listed(dict.fromkeys(f"Inputs as printed: {row.inputs}." for row in rows if row.inputs))
+    yield from _listed(dict.fromkeys(f"Assumed: {row.assumed}." for row in rows if row.assumed))
+    yield from _listed(f"Erratum: {text}" for text in source.errata)
+
+
+def _listed(lines):
+    lines = [f"- {line}" for line in lines]
+    return [*lines, ""] if lines else []
+
+
+def _number(row):
+    factor, shown = units.display(row.unit)
+    return f"{row.ours * factor:.6g}{'' if shown == '-' else ' ' + shown}"
