@@ -62,7 +62,8 @@ def test_no_two_rows_share_a_name(sources, rows):
     ("pressure angle, return cam, bend interior", "30.74 deg", 30.757, OPEN),
     ("pressure angle, main cam, other law and sense", "38.67 deg", 38.48, OPEN),
     ("lever swing", "eq. (1): 17.8189 deg", 17.819, AGREES),
-    ("rest angle phi01", "88.64 deg, literally in mm", 48.53, EXPLAINED), ("rest angle phi02", "88.88 deg, literally in mm", 63.08, EXPLAINED)])
+    ("rest angle phi01", "88.64 deg, literally in mm", 48.53, EXPLAINED),
+    ("rest angle phi02", "88.88 deg, literally in mm", 63.08, EXPLAINED)])
 def test_numbers_of_the_pusher_paper(paper, name, printed, ours, verdict):
     row = paper[name]
     assert (str(row.printed), row.verdict) == (printed, verdict)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from drivewright import registry
+from drivewright import curves, registry
 from drivewright.cli import main
 from drivewright.mechanisms.seedling_pusher import dynamics
 from drivewright.mechanisms.seedling_pusher.second_route import SecondRoute
@@ -43,18 +43,15 @@ def test_a_cam_for_another_stroke_is_seen():
     assert -0.6e-3 < error.min() < -0.4e-3
 
 
-def test_an_undercut_cam_lets_the_rod_leave_its_programme_by_what_it_has_lost():
-    """Where the main cam is undercut the rod falls behind: by the lost motion over leverage, times travel per swing."""
+def test_an_undercut_cam_lets_the_rod_fall_behind_by_what_it_has_lost():
+    """Main cam undercut: lost motion over leverage is a swing, times l / cos^2(swing) a travel of the rod."""
     model = model_of("default", "train.start=far")
-    angle, error, _ = rod_error(model)
-    main = model.cams[0]
-    t = model.push_start + angle
-    from drivewright import curves
-
-    lost = curves.lost_motion(model.trimmed["main"], t) / (main.arm * np.cos(model.pressure_angle(main, t).d0))
-    predicted = -np.max(lost * model.spec.lever.output_arm / np.cos(model.swing(t).d0) ** 2)
-    assert predicted == pytest.approx(-1.36e-3, abs=0.02e-3)
-    assert error.min() == pytest.approx(predicted, abs=0.06e-3)
+    main, error = model.cams[0], rod_error(model)[1]
+    t = np.linspace(model.push_start, model.push_start + 2 * np.pi, 4001)
+    swing = curves.lost_motion(model.trimmed["main"], t) / (main.arm * np.cos(model.pressure_angle(main, t).d0))
+    behind = np.max(swing * model.spec.lever.output_arm / np.cos(model.swing(t).d0) ** 2)
+    assert behind > 1e-3
+    assert -error.min() == pytest.approx(behind, abs=0.1e-3)
 
 
 def test_our_own_contact_model_agrees():
@@ -68,7 +65,7 @@ def test_our_own_contact_model_agrees():
 def test_verify_prints_the_rod_error(capsys):
     with pytest.raises(SystemExit) as left:
         main(["verify", str(PUSHER.presets()["design-b"])])
-    out = capsys.readouterr().out
+    out = " ".join(capsys.readouterr().out.split())
     assert left.value.code == 0
-    for words in ("independent route", "rod, stroke", "rod, furthest ahead of its programme", "rod, furthest behind", "lever.swing", "0.2 mm"):
+    for words in ("independent route", "rod, stroke", "rod, furthest ahead", "rod, furthest behind", "lever.swing", "0.2 mm", "Exudyn"):
         assert words in out

@@ -6,7 +6,7 @@ from pydantic import Field, model_validator
 from pydantic_core import core_schema
 
 from drivewright.errors import UnitError
-from drivewright.spec import DataFile, Integer, MechanismSpec, Number, Spec, Text
+from drivewright.spec import DataFile, Integer, Machining, MechanismSpec, Number, Spec, Text
 from drivewright.units import BY_NAME, Angle, Damping, Dimension, Force, Frequency, Length, Mass, Pressure, Speed, Stiffness, Velocity
 
 TURN = 6.283185307179586
@@ -134,19 +134,12 @@ class Vibration(Spec):
     damping_ratio: Number = Field(0.05, ge=0, lt=1, description="damping over critical damping")
 
 
-class Manufacture(Spec):
+class Manufacture(Machining):
     """For the exported files."""
 
     bore: Length | None = Field(None, gt=0, description="bore of the cam", examples=["16 mm"])
     hub_diameter: Length | None = Field(None, gt=0, description="hub on one side of the cam")
     hub_length: Length = Field("10 mm", gt=0, description="how far the hub stands out")
-    cutter_diameter: Length = Field("10 mm", gt=0, description="milling cutter of the G-code")
-    feed: Velocity = Field("300 mm/min", gt=0, description="feed of the cutter along the profile")
-    plunge: Velocity = Field("100 mm/min", gt=0, description="feed of the cutter into the plate")
-    step_down: Length = Field("2 mm", gt=0, description="depth of one milling pass")
-    spindle_speed: Speed = Field("4000 rpm", gt=0, description="spindle speed of the G-code")
-    chord_tolerance: Length = Field("0.002 mm", gt=0, description="largest distance between polyline and curve")
-    profile_tolerance: Length = Field("0.02 mm", gt=0, description="tolerance of the profile in the inspection table")
 
 
 class Limits(Spec):

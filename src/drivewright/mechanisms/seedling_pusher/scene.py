@@ -212,6 +212,7 @@ def drawings(model):
         f"elliptic gear, {model.spec.train.teeth} teeth, bore on the focus",
         (Shape("profile", gear_outline(model)), Shape("hole", circle((0, 0), 4e-3))),
         GEAR_THICKNESS,
+        milled=False,  # an end mill does not fit into the tooth spaces
     )
     return (*cams, gear)
 

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from drivewright.spec import Flag, Integer, MechanismSpec, Number, Spec, Text
+from drivewright.spec import Flag, Integer, Machining, MechanismSpec, Number, Spec, Text
 from drivewright.units import Angle, Damping, Force, Length, Mass, Pressure, Speed, Stiffness
 
 TURN = 6.283185307179586
@@ -126,17 +126,6 @@ class Contact(Spec):
     material: Text = Field("16MnCr5", description="cam and roller material")
 
 
-class Manufacture(Spec):
-    """For the exported files."""
-
-    cutter_diameter: Length = Field("10 mm", gt=0, description="milling cutter of the G-code")
-    feed: Number = Field(300.0, gt=0, description="cutter feed, mm/min")
-    spindle_speed: Speed = Field("4000 rpm", gt=0, description="spindle speed of the G-code")
-    depth_per_pass: Length = Field("2 mm", gt=0, description="depth of one milling pass")
-    chord_tolerance: Length = Field("2 um", gt=0, description="largest distance between polyline and curve")
-    profile_tolerance: Length = Field("20 um", gt=0, description="tolerance of the profile in the inspection table")
-
-
 class Limits(Spec):
     """Requirements of planting and of cam design; each becomes a check."""
 
@@ -170,5 +159,5 @@ class SeedlingPusherSpec(MechanismSpec):
     drive: Drive = Field(Drive(), description="drive")
     load: Load = Field(Load(), description="load on the rod")
     contact: Contact = Field(Contact(), description="contacts with play, for the dynamics")
-    manufacture: Manufacture = Field(Manufacture(), description="exports")
+    manufacture: Machining = Field(Machining(), description="exports")
     limits: Limits = Field(Limits(), description="requirements")

@@ -86,14 +86,13 @@ def _farthest(values, ours):
 
 
 def _profile(model, result, second, cam):
-    from shapely import LinearRing, Polygon, distance, points, prepare
+    from shapely import LinearRing, Polygon, distance, points
 
     prefix, centres = f"cam.{cam.name}", _pairs(second.roller(cam, second.cycle))
     shape = Polygon(LinearRing(centres).buffer(cam.roller_radius, quad_segs=256).interiors[0])
     ours = LinearRing(model.trimmed[cam.name].outline(1e-8).points(1e-8))
-    prepare((shape, ours))
     area, perimeter, lost = (result[f"{prefix}.{name}"] for name in ("profile_area", "profile_perimeter", "lost_motion"))
-    sunk, gap = (distance(curve, points(centres)) - cam.roller_radius for curve in (shape.exterior, ours))
+    sunk, gap = (distance(curve, points(centres[::3])) - cam.roller_radius for curve in (shape.exterior, ours))
     yield f"{prefix}.profile_area", area, shape.area, "m^2", 2e-5 * area, ERODED
     yield f"{prefix}.profile_perimeter", perimeter, shape.length, "m", 2e-5 * perimeter, ERODED
     yield f"{prefix}.lost_motion", lost, float(sunk.max()), "m", 1e-6, ERODED
