@@ -55,7 +55,7 @@ def search(function, low, high):
     return -found.fun, found.x
 
 
-@pytest.mark.parametrize("offset", [0.0, 0.006, -0.004])
+@pytest.mark.parametrize("offset", [0.0, 0.006, -0.004, 0.014])
 def test_pressure_angle_of_a_slide(offset):
     result = run({**ROLLER, "offset": f"{1e3 * offset} mm"}, SEGMENTS)
 
@@ -66,7 +66,7 @@ def test_pressure_angle_of_a_slide(offset):
     value, at = search(alpha, 0, np.pi / 2)
     assert result["max_pressure_angle"] == pytest.approx(value, abs=1e-12)
     assert result["max_pressure_angle.at"] == pytest.approx(at, abs=1e-6)
-    value, at = search(lambda t: -alpha(t), np.pi / 2, 3 * np.pi / 2)
+    value, at = search(lambda t: -alpha(t), 0, 3 * np.pi / 2)
     assert result["min_pressure_angle"] == pytest.approx(-value, abs=1e-12)
     assert result["min_pressure_angle.at"] == pytest.approx(at, abs=1e-6)
     steepest = max(result["max_pressure_angle"], -result["min_pressure_angle"])
@@ -128,6 +128,31 @@ def test_flat_face(key):
     assert result.check("undercut").ok
     assert (result["max_pressure_angle"], result["min_pressure_angle"]) == (0, 0)
     assert (result["max_pressure_angle.at"], result["face.end"]) == (0, result["min_half_face"])
+
+
+@pytest.mark.parametrize(("face", "same"), [
+    ({"face": "shoe", "face_radius": "12 mm", "prime_radius": "50 mm", "offset": "3 mm", "face_offset": "2 mm"},
+     {"face": "roller", "roller_radius": "12 mm", "prime_radius": "50 mm", "offset": "5 mm"}),
+    ({**ROLLER}, {"face": "roller", "roller_radius": "8 mm", "base_radius": "32 mm"})])
+def test_the_same_slide_said_otherwise(face, same):
+    one, other = run(face, SEGMENTS), run(same, SEGMENTS)
+    assert {name: value.value for name, value in one.values.items()} == {name: value.value for name, value in other.values.items()}
+
+
+def test_shoe_on_a_lever_sits_beside_its_arm():
+    """An arc whose centre is 11 mm off the arm is a roller on the straight line from the pivot."""
+    shoe = run({**LEVER, "face": "shoe", "face_radius": "8 mm", "face_offset": "11 mm"}, SWINGS)
+    straight = run({**LEVER, "arm_length": f"{float(np.hypot(60, 11))!r} mm"}, SWINGS)
+    for name in ("max_pressure_angle", "min_pressure_angle", "min_convex_radius", "profile.area"):
+        assert shoe[name] == pytest.approx(straight[name], rel=1e-12)
+
+
+def test_walls_of_the_blank():
+    result = run(ROLLER, SEGMENTS, manufacture={"bore": "18 mm", "hub_diameter": "30 mm"})
+    assert result["profile.min_radius"] == pytest.approx(0.032, rel=1e-14)
+    assert result["profile.max_radius"] == pytest.approx(0.052, rel=1e-14)
+    walls = [result.check(name).value for name in ("bore_wall", "hub_wall", "hub_clearance")]
+    assert walls == pytest.approx([0.032 - 0.009, 0.015 - 0.009, 0.032 - 0.015], rel=1e-12)
 
 
 def test_flat_face_that_is_undercut_is_computed_in_full():

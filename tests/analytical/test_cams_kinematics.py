@@ -223,6 +223,15 @@ def test_extreme_inside_a_piece_is_found_to_rounding():
     assert lowest.angle == pytest.approx(2 * np.pi - b / 2, abs=1e-12)
 
 
+def test_lift_later_in_the_turn():
+    b = 1.3
+    programme = Programme((Segment(b, "cycloidal", 0.01), Segment(2 * np.pi - 2 * b, "dwell"), Segment(b, "cycloidal", -0.01)))
+    angle = variable(np.array([0.2, 5.5]))
+    later = cams.Cycle(programme.function).after(1.0, angle)
+    assert np.allclose(later.d0, programme(np.array([1.2, 6.5 - 2 * np.pi])).s, atol=1e-16)
+    assert np.allclose(later.d1, programme(np.array([1.2, 6.5 - 2 * np.pi])).v, atol=1e-15)
+
+
 def test_restricted_to_some_pieces():
     b = 1.3
     programme = Programme((Segment(b, "cycloidal", 0.01), Segment(2 * np.pi - 2 * b, "dwell"), Segment(b, "cycloidal", -0.01)))

@@ -173,6 +173,31 @@ def test_peaks_between_the_steps(ratio):
     assert cams.peak(found, speed, cams.acceleration(found, w, damping)) == pytest.approx(shock, rel=1e-9)
 
 
+def test_a_dwell_leaves_a_decaying_swing():
+    speed, damping = 12.0, 0.1
+    w = 9.0 * speed
+    found = cams.transient(cycloidal(1.4), 1.0, speed, w, damping)
+    rest = found.piece == 1
+    left = cams.amplitude(found, w, damping)[rest] * np.exp(damping * w * found.angle[rest] / speed)
+    assert np.ptp(left) < 1e-9 * left[0]
+
+
+def test_acceleration_of_the_mass_is_that_of_its_path():
+    speed, damping = 12.0, 0.1
+    cycle = cycloidal(1.4)
+    found = cams.periodic(cycle, 0.5, speed, 4.0 * speed, damping)
+    planned = 0.5 * speed**2 * cycle.at(found.piece, found.angle)[1].d2
+    assert np.allclose(cams.acceleration(found, 4.0 * speed, damping).d0, found.error.d2 + planned, atol=1e-12)
+
+
+def test_strong_damping_jumps_on_the_way_down():
+    """Without mass c w s' + k s + P + F = 0 is linear in w: the least of -(k s + P + F)/(c s') over the return."""
+    load = cams.Load(0.0, DAMPING, K, P, F)
+    theta = np.linspace(np.pi, 2 * np.pi, 200001)[1:-1]
+    static, slope = K * H / 2 * (1 - np.cos(theta)) + P + F, H / 2 * np.sin(theta)
+    assert cams.jump_speed(HARMONIC, 1.0, load) == pytest.approx(np.min(-static / (DAMPING * slope)), rel=1e-9)
+
+
 def test_quick_swings_are_peaked_between_coarse_steps():
     """A free swing behind a rise: its envelope is reached although a step is half a radian of it."""
     speed, w = 12.0, 19.7 * 12.0

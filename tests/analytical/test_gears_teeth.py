@@ -82,13 +82,23 @@ def test_undercut_begins_at_the_exact_limit(rack, clean):
     assert len(under.undercut) == 2 * (clean - 1) and len(under.profile.corners) == 2 * (clean - 1)
 
 
-def test_the_slightest_undercut_is_seen():
-    """Pressure angle 0.05 % of sin^2 below the limit of 12 teeth: a tail thinner than the chords between samples."""
-    alpha = np.arcsin(np.sqrt(2 * 0.8 / 12 * (1 - 5e-4)))
-    rack = gears.Rack(alpha, dedendum=1.0, rounding=0.2 / (1 - np.sin(alpha)))  # straight to 0.8
-    under = cut(12, rack=rack).undercut
-    assert len(under) == 24
-    assert all(5e-4 < flank.lost / flank.straight < 1e-3 for flank in under)
+def at_the_limit(teeth, shortage):
+    """A rack with the straight depth of one module whose pressure angle falls short of the limit by this part of sin^2."""
+    alpha = np.arcsin(np.sqrt(2 / teeth * (1 - shortage)))
+    return gears.Rack(alpha, rounding=0.25 / (1 - np.sin(alpha)))
+
+
+@pytest.mark.parametrize("shortage", [3e-4, 1e-2])
+def test_the_slightest_undercut_is_seen(shortage):
+    """The tail between flank and fillet is far thinner than the chords between samples; the lost depth is 1.5 times the shortage."""
+    under = cut(17, rack=at_the_limit(17, shortage)).undercut
+    assert len(under) == 34
+    np.testing.assert_allclose([flank.lost / flank.straight for flank in under], 1.5 * shortage, rtol=2e-3)
+
+
+def test_what_rounding_makes_of_the_limit_is_no_undercut():
+    gear = cut(17, rack=at_the_limit(17, 1e-5))
+    assert not gear.undercut and not gear.profile.crossings
 
 
 def test_undercut_data_and_message():

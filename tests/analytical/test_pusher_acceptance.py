@@ -19,22 +19,47 @@ def result():
     return dw.run(dw.load(EXAMPLE), only=FAST)
 
 
-@pytest.mark.parametrize(("name", "degrees", "tolerance"), [
-    ("train.collinear_angle", 251.36, 0.01), ("train.collinear_angle.first", 110.5, 0.05), ("tip.lowest_angle", 87.7, 0.1),
-    ("tip.highest_angle", 251.2, 0.1), ("needle.angle_difference", 48.18, 0.02), ("needle.take_angle", 19.64, 0.01), ("needle.push_angle", 67.82, 0.01),
-    ("cam.main.max_pressure_angle.rise", 31.03, 0.01), ("cam.return.max_pressure_angle.return", 30.80, 0.01),
-    ("cam.main.max_pressure_angle.return", 26.54, 0.01), ("cam.return.max_pressure_angle.rise", 30.03, 0.01),
-    ("cam.main.pressure_angle.rest", 17.04, 0.01), ("cam.return.pressure_angle.rest", 1.30, 0.01), ("cam.main.rest_angle", 48.53, 0.01),
-    ("cam.return.rest_angle", 63.08, 0.01), ("lever.swing", 17.82, 0.005), ("train.swing", 56.94, 0.01)])
+@pytest.mark.parametrize(
+    ("name", "degrees", "tolerance"),
+    [
+        ("train.collinear_angle", 251.36, 0.01),
+        ("train.collinear_angle.first", 110.5, 0.05),
+        ("tip.lowest_angle", 87.7, 0.1),
+        ("tip.highest_angle", 251.2, 0.1),
+        ("needle.angle_difference", 48.18, 0.02),
+        ("needle.take_angle", 19.64, 0.01),
+        ("needle.push_angle", 67.82, 0.01),
+        ("cam.main.max_pressure_angle.rise", 31.03, 0.01),
+        ("cam.return.max_pressure_angle.return", 30.80, 0.01),
+        ("cam.main.max_pressure_angle.return", 26.54, 0.01),
+        ("cam.return.max_pressure_angle.rise", 30.03, 0.01),
+        ("cam.main.pressure_angle.rest", 17.04, 0.01),
+        ("cam.return.pressure_angle.rest", 1.30, 0.01),
+        ("cam.main.rest_angle", 48.53, 0.01),
+        ("cam.return.rest_angle", 63.08, 0.01),
+        ("lever.swing", 17.82, 0.005),
+        ("train.swing", 56.94, 0.01),
+    ],
+)
 def test_angles(result, name, degrees, tolerance):
     assert np.degrees(result[name]) == pytest.approx(degrees, abs=tolerance)
 
 
-@pytest.mark.parametrize(("name", "millimetres", "tolerance"), [
-    ("tip.track_height", 182.32, 0.02), ("tip.track_width", 62.41, 0.02), ("cam.main.min_convex_radius", 6.73, 0.01),
-    ("cam.return.min_convex_radius", 5.17, 0.01), ("cam.roller_distance", 26.4694, 1e-4), ("cam.main.max_pitch_radius", 33.913, 1e-3),
-    ("cam.return.min_pitch_radius", 28.136, 1e-3), ("cam.main.profile_perimeter", 149.72, 0.01), ("tip.height_at_push_start", 8.66, 0.01),
-    ("planting.mouth_width", 28.1, 0.05)])
+@pytest.mark.parametrize(
+    ("name", "millimetres", "tolerance"),
+    [
+        ("tip.track_height", 182.32, 0.02),
+        ("tip.track_width", 62.41, 0.02),
+        ("cam.main.min_convex_radius", 6.73, 0.01),
+        ("cam.return.min_convex_radius", 5.17, 0.01),
+        ("cam.roller_distance", 26.4694, 1e-4),
+        ("cam.main.max_pitch_radius", 33.913, 1e-3),
+        ("cam.return.min_pitch_radius", 28.136, 1e-3),
+        ("cam.main.profile_perimeter", 149.72, 0.01),
+        ("tip.height_at_push_start", 8.66, 0.01),
+        ("planting.mouth_width", 28.1, 0.05),
+    ],
+)
 def test_lengths(result, name, millimetres, tolerance):
     assert 1e3 * result[name] == pytest.approx(millimetres, abs=tolerance)
 
@@ -66,8 +91,14 @@ def test_undercut_is_said_and_the_design_computed(result):
     assert any("undercut" in finding for finding in result.findings)
 
 
-@pytest.mark.parametrize(("preset", "lowest", "highest", "height", "width", "difference"), [
-    ("default", 87.7, 251.2, 182.32, 62.41, 48.18), ("paper-104", 87.0, 251.7, 184.02, 71.30, 48.24), ("paper-interior", 86.9, 250.7, 176.69, 60.28, 47.20)])
+@pytest.mark.parametrize(
+    ("preset", "lowest", "highest", "height", "width", "difference"),
+    [
+        ("default", 87.7, 251.2, 182.32, 62.41, 48.18),
+        ("paper-104", 87.0, 251.7, 184.02, 71.30, 48.24),
+        ("paper-interior", 86.9, 250.7, 176.69, 60.28, 47.20),
+    ],
+)
 def test_readings_of_the_paper(preset, lowest, highest, height, width, difference):
     found = dw.run(dw.load(PRESETS[preset]), only=("train", "planting"))
     assert np.degrees([found["tip.lowest_angle"], found["tip.highest_angle"]]) == pytest.approx([lowest, highest], abs=0.06)
@@ -84,11 +115,18 @@ def test_interior_reading_of_the_104_degree_set():
     assert 1e3 * found["cam.return.min_convex_radius"] == pytest.approx(5.25, abs=5e-3)
 
 
-@pytest.mark.parametrize(("law", "orbit", "rise", "retraction", "main", "back"), [
-    ("polynomial-345", "counter-clockwise", 42.03, 20.91, 6.70, 5.42), ("modified-sine", "clockwise", 29.13, 30.18, 7.08, 5.03),
-    ("cycloidal", "clockwise", 33.00, 31.49, 6.29, 4.99), ("polynomial-4567", "clockwise", 35.81, 32.73, 5.52, 4.42),
-    ("simple-harmonic", "clockwise", 25.89, 29.06, 7.96, 5.18), ("simple-harmonic", "counter-clockwise", 38.48, 20.90, 7.88, 5.18),
-    ("parabolic", "clockwise", 33.00, 29.51, 7.46, 6.16)])
+@pytest.mark.parametrize(
+    ("law", "orbit", "rise", "retraction", "main", "back"),
+    [
+        ("polynomial-345", "counter-clockwise", 42.03, 20.91, 6.70, 5.42),
+        ("modified-sine", "clockwise", 29.13, 30.18, 7.08, 5.03),
+        ("cycloidal", "clockwise", 33.00, 31.49, 6.29, 4.99),
+        ("polynomial-4567", "clockwise", 35.81, 32.73, 5.52, 4.42),
+        ("simple-harmonic", "clockwise", 25.89, 29.06, 7.96, 5.18),
+        ("simple-harmonic", "counter-clockwise", 38.48, 20.90, 7.88, 5.18),
+        ("parabolic", "clockwise", 33.00, 29.51, 7.46, 6.16),
+    ],
+)
 def test_other_laws_and_senses(law, orbit, rise, retraction, main, back):
     found = dw.run(dw.load(EXAMPLE, [f"push.law={law}", f"cams.orbit={orbit}"]), only=("cams",))
     angles = [found["cam.main.max_pressure_angle.rise"], found["cam.return.max_pressure_angle.return"]]
@@ -96,11 +134,15 @@ def test_other_laws_and_senses(law, orbit, rise, retraction, main, back):
     assert [1e3 * found["cam.main.min_convex_radius"], 1e3 * found["cam.return.min_convex_radius"]] == pytest.approx([main, back], abs=0.01)
 
 
-@pytest.mark.parametrize(("preset", "difference", "pressure", "ratio", "reach"), [
-    ("design-a", 48.2, 18.5, 1.72, 36.0), ("design-b", 55.1, 20.1, 1.575, 35.9), ("design-c", 48.2, 38.3, 1.20, 34.3)])
+@pytest.mark.parametrize(
+    ("preset", "difference", "pressure", "ratio", "reach"),
+    [("design-a", 48.2, 18.5, 1.72, 36.0), ("design-b", 55.1, 20.1, 1.575, 35.9), ("design-c", 48.2, 38.3, 1.20, 34.3)],
+)
 def test_repaired_designs(preset, difference, pressure, ratio, reach):
     found = dw.run(dw.load(PRESETS[preset]), only=("planting", "cams"))
-    assert np.degrees([found["needle.angle_difference"], found["cam.max_pressure_angle"]]) == pytest.approx([difference, pressure], abs=0.06)
+    assert np.degrees([found["needle.angle_difference"], found["cam.max_pressure_angle"]]) == pytest.approx(
+        [difference, pressure], abs=0.06
+    )
     assert [found["cam.curvature_ratio"], 1e3 * found["cam.max_pitch_radius"]] == pytest.approx([ratio, reach], abs=6e-3)
 
 
@@ -124,7 +166,9 @@ def test_difference_of_the_needle_angles_over_the_axis_ratio(axis_ratio, differe
 
 
 def test_difference_of_needle_angles_does_not_know_the_needle_offset():
-    found = [dw.run(dw.load(EXAMPLE, [f"arm.needle_angle={angle} deg"]), only=("planting",))["needle.angle_difference"] for angle in (10, 40)]
+    found = [
+        dw.run(dw.load(EXAMPLE, [f"arm.needle_angle={angle} deg"]), only=("planting",))["needle.angle_difference"] for angle in (10, 40)
+    ]
     assert found[0] == pytest.approx(found[1], abs=1e-14)
 
 
@@ -138,6 +182,10 @@ def test_gate_line_event():
     """A vertical gate through the top of the track is crossed at the top."""
     model = build(dw.load(EXAMPLE))
     top = model.tip(model.highest).d0
-    change = [f'events.gate_point=["{1e3 * top.real:.9f} mm", "{1e3 * top.imag:.9f} mm"]', "events.take=gate", "events.gate_direction=90 deg"]
+    change = [
+        f'events.gate_point=["{1e3 * top.real:.9f} mm", "{1e3 * top.imag:.9f} mm"]',
+        "events.take=gate",
+        "events.gate_direction=90 deg",
+    ]
     found = dw.run(dw.load(EXAMPLE, change), only=("planting",))
     assert found["needle.take_event"] == pytest.approx(model.highest, abs=1e-6)

@@ -85,7 +85,8 @@ def test_every_piece_of_a_toothed_wheel_is_there(tmp_path):
 
 
 def test_notes_name_the_part_its_thickness_and_its_overall_size(tmp_path):
-    plate = Drawing("plate", "Plate", (Shape("profile", polygon([(-0.01, 0.002), (0.0234567, 0.002), (0.0234567, 0.052)])),), 0.0045)
+    triangle = polygon([(-0.01, 0.002), (0.0234567, 0.002), (0.0234567, 0.052)])
+    plate = Drawing("plate", "Plate", (Shape("profile", triangle), Shape("pitch", circle((0, 0), 0.08))), 0.0045)
     write_dxf(plate, tmp_path / "p.dxf")
     document = read(tmp_path / "p.dxf")
     assert document.modelspace().query('TEXT[layer=="notes"]').first.dxf.text == "Plate, thickness 4.5 mm"
@@ -102,6 +103,8 @@ def test_second_drawing_stands_clear_of_the_first_and_the_first_keeps_its_origin
     first_box, second_box = (bbox.extents(document.modelspace().query(f'*[layer=="{layer}"]')) for layer in ("axis", "body"))
     assert second_box.extmin.x > first_box.extmax.x + 5 and second_box.size.x == pytest.approx(20.0, rel=1e-3)
     assert document.modelspace().query('CIRCLE[layer=="base"]').first.dxf.center.x == 0.0
+    feet = sorted(d.dxf.defpoint2.x for d in document.modelspace().query("DIMENSION"))  # where the measured lengths begin
+    assert feet[:2] == pytest.approx([ring(document).bounds[0]] * 2) and feet[2:] == pytest.approx([second_box.extmin.x] * 2, rel=1e-3)
 
 
 def test_a_sampled_curve_is_one_polyline_and_a_plate_stays_lines(tmp_path):

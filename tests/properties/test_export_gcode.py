@@ -183,6 +183,32 @@ def test_header_says_units_plane_cutter_and_speed():
     assert all("." in number for line in lines if re.match(r"G[0123] ", line) for number in re.findall(r"[XYZIJF](\S+)", line))
 
 
+def test_bore_is_left_on_a_half_circle_to_its_middle():
+    bore = passes(run(gcode(drawing(), **SETTINGS)))[0]
+    wall, off = bore[-2:]
+    assert heading(off, 0) == pytest.approx(heading(wall, -1), abs=0.02)
+    assert off.points[-1] == pytest.approx((2.0, -1.0, -12.0))
+
+
+def test_corner_too_flat_to_see_does_not_become_a_full_turn():
+    # the arc about it is 0.02 micrometres long: its ends print alike, and a control would mill a whole circle of the cutter's radius
+    bent = [(0.0, 0.0), (0.015, -1e-7), (0.03, 0.0), (0.03, 0.02), (0.0, 0.02)]
+    moves, settings = milled(polygon(bent))
+    assert sum(move.code == 2 for move in moves) == 4
+    left = part_left(moves, settings, 4.0, (10.0, 8.0))
+    assert left.symmetric_difference(shapely.Polygon(1e3 * np.array(bent))).area < 0.02
+
+
+def test_lead_in_finds_room_or_says_that_there_is_none():
+    # both joints of the closed spline lie in a valley between lobes
+    valley = lobed(depth=-0.3, lobes=2)
+    moves, settings = milled(valley, lead_radius=0.003)
+    left = part_left(moves, settings, 4.0, (0.0, 0.0))
+    assert left.exterior.hausdorff_distance(shapely.Polygon(1e3 * lobed(-0.3, 2, knots=6000).points(1e-9)).exterior) < 2.3e-3
+    with pytest.raises(ValueError, match="no joint of the profile leaves room for a lead-in of radius 40 mm; give a smaller lead_radius"):
+        milled(valley, lead_radius=0.040)
+
+
 def test_wide_bore_names_its_loose_core_and_a_square_hole_is_left_out():
     square = polygon([(0.012, -0.002), (0.016, -0.002), (0.016, 0.002), (0.012, 0.002)])
     part = Drawing("cam", "Cam", (Shape("profile", cam()), Shape("hole", circle((0.0, 0.0), 0.010)), Shape("hole", square)), 0.012)

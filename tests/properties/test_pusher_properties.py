@@ -12,11 +12,21 @@ from drivewright.mechanisms.seedling_pusher.build import build
 from drivewright.spec import from_document
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "seedling_pusher.toml"
-CHANGES = ["train.axis_ratio=0.979", "train.bend=97 deg", "train.carrier_angle=-11 deg", "arm.tip_angle=47 deg", "push.end=93 deg", "push.rise=24 deg",
-           "lever.arm_main=14.7 mm", "cams.prime_radius_main=30.5 mm"]
+CHANGES = [
+    "train.axis_ratio=0.979",
+    "train.bend=97 deg",
+    "train.carrier_angle=-11 deg",
+    "arm.tip_angle=47 deg",
+    "push.end=93 deg",
+    "push.rise=24 deg",
+    "lever.arm_main=14.7 mm",
+    "cams.prime_radius_main=30.5 mm",
+]
 
 
-@pytest.fixture(scope="module", params=[[], CHANGES, ["train.start=far"], ["cams.orbit=counter-clockwise"]], ids=["paper", "other", "far", "orbit"])
+@pytest.fixture(
+    scope="module", params=[[], CHANGES, ["train.start=far"], ["cams.orbit=counter-clockwise"]], ids=["paper", "other", "far", "orbit"]
+)
 def model(request):
     return build(dw.load(EXAMPLE, request.param))
 
@@ -77,19 +87,32 @@ def test_power_of_the_rod_comes_from_the_cams(model):
     table = dw.run(model.spec, only=("load",)).tables["load"]
     t = table["carrier_angle"].data
     assert table["torque"].data * model.planet(t).d1 * model.spec.drive.speed == pytest.approx(
-        table["rod_force"].data * table["velocity"].data, abs=1e-9 * np.abs(table["rod_force"].data).max())
+        table["rod_force"].data * table["velocity"].data, abs=1e-9 * np.abs(table["rod_force"].data).max()
+    )
 
 
 def test_needle_angle_is_the_direction_of_the_tip_line_and_the_offset(model):
     t = np.linspace(0, 2 * np.pi, 50)
     line = model.tip(t).d0 - model.planet_axis(t).d0
-    assert np.exp(-1j * (model.needle_angle(t) - model.spec.arm.needle_angle)) == pytest.approx(line / model.spec.arm.tip_distance, abs=1e-12)
+    assert np.exp(-1j * (model.needle_angle(t) - model.spec.arm.needle_angle)) == pytest.approx(
+        line / model.spec.arm.tip_distance, abs=1e-12
+    )
 
 
 def test_scaling_the_world_leaves_pure_numbers(model):
     data = tomllib.loads(model.spec.to_toml())
-    for table, key in [("train", "semi_major"), ("arm", "tip_distance"), ("push", "stroke"), ("lever", "pivot_distance"), ("lever", "arm_main"),
-                       ("lever", "arm_return"), ("lever", "output_arm"), ("cams", "prime_radius_main"), ("cams", "prime_radius_return"), ("cams", "roller_radius")]:
+    for table, key in [
+        ("train", "semi_major"),
+        ("arm", "tip_distance"),
+        ("push", "stroke"),
+        ("lever", "pivot_distance"),
+        ("lever", "arm_main"),
+        ("lever", "arm_return"),
+        ("lever", "output_arm"),
+        ("cams", "prime_radius_main"),
+        ("cams", "prime_radius_return"),
+        ("cams", "roller_radius"),
+    ]:
         number, unit = data[table][key].split()
         data[table][key] = f"{3.7 * float(number):.17g} {unit}"
     small, large = dw.run(model.spec, only=("train", "planting", "cams")), dw.run(from_document(data), only=("train", "planting", "cams"))
@@ -99,13 +122,39 @@ def test_scaling_the_world_leaves_pure_numbers(model):
         assert large[name] == pytest.approx(3.7 * small[name], rel=1e-6, abs=1e-12)
 
 
-KEYS = ("train.axis_ratio", "train.bend", "train.carrier_angle", "arm.tip_angle", "arm.tip_distance", "arm.needle_angle", "push.rise", "push.retraction",
-        "lever.output_arm", "lever.pivot_distance", "lever.arm_main", "lever.arm_return", "cams.prime_radius_main", "cams.prime_radius_return", "cams.roller_radius")
+KEYS = (
+    "train.axis_ratio",
+    "train.bend",
+    "train.carrier_angle",
+    "arm.tip_angle",
+    "arm.tip_distance",
+    "arm.needle_angle",
+    "push.rise",
+    "push.retraction",
+    "lever.output_arm",
+    "lever.pivot_distance",
+    "lever.arm_main",
+    "lever.arm_return",
+    "cams.prime_radius_main",
+    "cams.prime_radius_return",
+    "cams.roller_radius",
+)
 
 
-@pytest.mark.parametrize("changes", [[], ["push.end_event=lowest"], ["train.start=far"], ["cams.orbit=counter-clockwise"], ["train.bend_reading=interior"],
-                                     ["arm.tip_reference=planet"], ["events.push=push-start"], ["events.take=angle", "events.take_angle=244 deg"],
-                                     ["push.law=cycloidal", "events.push=push-end", "field.travel=-x"]])
+@pytest.mark.parametrize(
+    "changes",
+    [
+        [],
+        ["push.end_event=lowest"],
+        ["train.start=far"],
+        ["cams.orbit=counter-clockwise"],
+        ["train.bend_reading=interior"],
+        ["arm.tip_reference=planet"],
+        ["events.push=push-start"],
+        ["events.take=angle", "events.take_angle=244 deg"],
+        ["push.law=cycloidal", "events.push=push-end", "field.travel=-x"],
+    ],
+)
 def test_the_batch_gives_the_numbers_of_a_run(changes):
     spec = dw.load(EXAMPLE, changes)
     lower = np.array([[0.97, 1.4, -0.2, 0.3, 0.165, 0.45, 0.32, 0.55, 0.050, 0.034, 0.014, 0.014, 0.027, 0.030, 0.005]])
@@ -116,7 +165,11 @@ def test_the_batch_gives_the_numbers_of_a_run(changes):
         data = tomllib.loads(spec.to_toml())
         for key, value in zip(KEYS, row, strict=True):
             table, name = key.split(".")
-            unit = "" if name == "axis_ratio" else (" rad" if name in ("bend", "carrier_angle", "tip_angle", "needle_angle", "rise", "retraction") else " m")
+            unit = (
+                ""
+                if name == "axis_ratio"
+                else (" rad" if name in ("bend", "carrier_angle", "tip_angle", "needle_angle", "rise", "retraction") else " m")
+            )
             data[table][name] = f"{value:.17g}{unit}" if unit else float(value)
         result = dw.run(from_document(data), only=("train", "planting", "cams"))
         for name in designs.NAMES:
@@ -138,7 +191,9 @@ def test_the_batch_runs_uncompiled_to_the_same_numbers():
 
 
 def test_an_impossible_design_of_a_batch_is_nan():
-    found = designs.batch(dw.load(EXAMPLE), ("cams.prime_radius_main",), ("cam.max_pressure_angle", "tip.track_height"))(np.array([[0.060], [0.029]]))
+    found = designs.batch(dw.load(EXAMPLE), ("cams.prime_radius_main",), ("cam.max_pressure_angle", "tip.track_height"))(
+        np.array([[0.060], [0.029]])
+    )
     assert np.isnan(found["cam.max_pressure_angle"][0]) and np.isfinite(found["cam.max_pressure_angle"][1])
     assert np.isfinite(found["tip.track_height"]).all()
 

@@ -8,6 +8,7 @@ from drivewright.contact import KelvinVoigt
 from drivewright.mechanisms.seedling_pusher import dynamics
 from drivewright.mechanisms.seedling_pusher.dynamics import LeverBetweenCams
 from drivewright.numerics.ode import integrate
+from drivewright.runner import run
 from drivewright.spec import load
 from drivewright.units import SI
 
@@ -45,15 +46,16 @@ def quarter(leverage):
 
 
 def test_a_free_lever_swings_with_the_period_of_its_two_contacts():
-    t, delta, _ = fly(still(), 9 * (2 * quarter(LEVER) + 2 * quarter(BACK)))
-    crossings = t[:-1][np.diff(np.sign(delta[1:]), prepend=0) != 0]
-    assert np.mean(np.diff(crossings)[::2] + np.diff(crossings)[1::2][: len(np.diff(crossings)[::2])]) == pytest.approx(
-        2 * quarter(LEVER) + 2 * quarter(BACK), rel=2e-3)
+    period = 2 * quarter(LEVER) + 2 * quarter(BACK)
+    t, delta, _ = fly(still(), 9.2 * period)
+    k = np.flatnonzero((delta[:-1] < 0) & (delta[1:] >= 0))
+    upwards = t[k] - delta[k] * (t[k + 1] - t[k]) / (delta[k + 1] - delta[k])
+    assert upwards == pytest.approx(period * np.arange(1, 10), rel=1e-4)
     amplitude = AHEAD * np.sqrt(MASS / STIFFNESS) * PER_SWING
     assert (delta.max(), -delta.min()) == pytest.approx((amplitude / BACK, amplitude / LEVER), rel=1e-4)
 
 
-@pytest.mark.parametrize("clearance", [0.0, 2e-6])
+@pytest.mark.parametrize("clearance", [0.0, 2e-7])
 def test_a_contact_without_damping_keeps_the_energy(clearance):
     system = still(clearance=clearance)
     t, delta, rate = fly(system, 0.05)
@@ -62,13 +64,13 @@ def test_a_contact_without_damping_keeps_the_energy(clearance):
     assert total == pytest.approx(np.full(len(t), total[0]), rel=1e-5)
 
 
-@pytest.mark.parametrize("clearance", [0.0, 2e-6])
+@pytest.mark.parametrize("clearance", [0.0, 2e-7])
 def test_a_contact_with_damping_only_takes_energy(clearance):
     system = still(damping=100.0, clearance=clearance)
     _, delta, rate = fly(system, 0.05)
     total = energy(system, delta, rate)
     assert np.max(np.diff(total)) < 1e-7 * total[0]
-    assert total[-1] < 0.9 * total[0]
+    assert total[-1] < 0.95 * total[0]
 
 
 def test_play_lets_the_lever_fly_that_far_before_it_touches():
@@ -83,7 +85,7 @@ def test_play_lets_the_lever_fly_that_far_before_it_touches():
 
 
 def test_what_undercut_has_taken_is_play_on_that_side_only():
-    main, back = dynamics.forces(still(lost=(3e-6, 0.0)), 0.0, -2e-6 / LEVER, 0.0), dynamics.forces(still(lost=(3e-6, 0.0)), 0.0, 2e-6 / BACK, 0.0)
+    main, back = (dynamics.forces(still(lost=(3e-6, 0.0)), 0.0, delta, 0.0) for delta in (-2e-6 / LEVER, 2e-6 / BACK))
     assert main == (0.0, 0.0)
     assert back == pytest.approx((0.0, STIFFNESS * 2e-6), rel=1e-9)
 
@@ -137,8 +139,6 @@ def test_play_makes_the_rod_error_grow(preset):
 
 
 def test_separation_and_rod_error_are_reported():
-    from drivewright.runner import run
-
     result = run(load(PUSHER.presets()["default"], ["contact.clearance=0.1 mm"]), ("contact",))
     assert 0.5 < result["contact.separation"] < 0.9
     assert result["contact.peak_force"] == max(result["contact.main.peak_force"], result["contact.return.peak_force"])

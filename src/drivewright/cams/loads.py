@@ -92,6 +92,5 @@ def _separating_speed(cycle, reach, load, piece, angle):
     _, lift = cycle.at(piece, angle)
     a, b, c = load.mass * reach * lift.d2, load.damping * reach * lift.d1, load.stiffness * reach * lift.d0 + load.preload + load.force
     with np.errstate(divide="ignore", invalid="ignore"):
-        root = np.sqrt(b**2 - 4 * a * c)
-        both = np.stack([2 * c / (-b + root), 2 * c / (-b - root)])  # this form does not cancel for small a
-    return np.min(np.where(both > 0, both, np.inf), axis=0)
+        speed = 2 * c / (np.sqrt(b**2 - 4 * a * c) - b)  # this form does not cancel for small a; the other root is larger or negative
+    return np.where(speed > 0, speed, np.inf)

@@ -1,6 +1,5 @@
 """DXF drawings of flat parts: true arcs and circles, lines, splines; millimetres; one layer per role of a shape."""
 
-import re
 from contextlib import contextmanager
 from itertools import groupby
 
@@ -16,7 +15,6 @@ LAYERS = {  # colour index, line type
     "profile": (7, "CONTINUOUS"), "hole": (7, "CONTINUOUS"), "body": (8, "CONTINUOUS"), "roller": (3, "CONTINUOUS"), "pitch": (4, "CENTER"),
     "base": (5, "DASHED"), "axis": (1, "CENTER"), "ground": (9, "CONTINUOUS"), "defect": (6, "CONTINUOUS"), "notes": (2, "CONTINUOUS")}
 LONG_RUN = 8  # more lines than this in a row stand for a curve (a sampled pitch curve) and become one polyline
-STAMPS = re.compile(rb"[\w.]+ @ \d{4}-\d\d-\d\dT[\d:.+]+")  # "1.4.5 @ 2025-01-01T..." of ezdxf's own notes
 
 
 def write_dxf(drawings, path, tolerance=1e-6, splines=True):
@@ -37,7 +35,6 @@ def write_dxf(drawings, path, tolerance=1e-6, splines=True):
             document.layers.add(name, color=colour, linetype=linetype)
         _lay_out(document.modelspace(), drawings, tolerance, splines)
         document.saveas(temporary)
-        temporary.write_bytes(STAMPS.sub(b"drivewright", temporary.read_bytes()))
 
 
 def extent(drawing, layer=None):

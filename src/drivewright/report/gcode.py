@@ -102,14 +102,12 @@ def _climbing(profile, radius, name):
 
 
 def _with_leads(path, profile, radius, lead_radius, name):
-    """The closed path begun at a joint where quarter circles in and out clear the profile; joints far from the middle first."""
+    """The closed path begun at the first joint where quarter circles in and out clear the profile."""
     import shapely
 
     body = chain.polygon(profile, name)
     shapely.prepare(body)
-    middle = np.array(body.centroid.coords[0])
-    starts = sorted(range(len(path)), key=lambda i: -np.hypot(*(pieces.start(path[i]) - middle)))
-    for first in starts:
+    for first in range(len(path)):
         entry, leave = _leads(path[first], lead_radius)
         clear = min(body.distance(shapely.LineString(lead.points(1e-6))) for lead in (entry, leave))
         if clear > radius - 1e-4 * radius:

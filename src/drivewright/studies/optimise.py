@@ -204,9 +204,19 @@ class Evaluator:
 
     def _one(self, row):
         try:
-            return {name: value.value for name, value in run(self.problem.design(row)).values.items()}
+            return {name: value.value for name, value in run(self.problem.design(row), self._analyses).values.items()}
         except InputError:
             return {}
+
+    @cached_property
+    def _analyses(self):
+        """The analyses that give the values looked at; the others need not run for every design."""
+        wanted, chosen = set(self.problem.names), []
+        for analysis in registry.mechanism(self.problem.spec.mechanism).analyses:
+            if analysis.default and (given := wanted & set(run(self.problem.spec, (analysis.name,)).values)):
+                wanted -= given
+                chosen.append(analysis.name)
+        return tuple(chosen)
 
     @property
     def count(self):
