@@ -82,7 +82,6 @@ def trim(family, interior=0j, samples=1440, least=96):
         _refuse_swept(coverage, interior)
     alive = _alive(chain, coverage, cuts)
     loop = _choose(chain, cuts, _loops(cuts, partner, alive), interior, family.material)
-    _refuse_missed_cuts(chain, coverage, cuts, loop)
     spans, corners = _spans(chain, cuts, loop)
     area, perimeter = span_measures(spans)
     return Trimmed(family, spans, corners, crossings, abs(area), perimeter, chain)
@@ -137,12 +136,15 @@ def _cuts(crossings):
 
 
 def _alive(chain, coverage, cuts):
-    """Whether the interval that starts at each cut survives: no member covers the middle of it."""
-    if not len(cuts):
-        return np.ones(1, dtype=bool)
-    ends = np.append(cuts[1:], cuts[0] + len(chain.t))
-    points = gather(chain.pieces, *chain.locate(0.5 * (cuts + ends))).d0
-    return coverage.least(points) >= -coverage.depth
+    """Whether the interval that starts at each cut survives: no member covers its middle or a sample on it.
+
+    The middle decides about tails without samples; a sample may lie in a tail too small to have been seen.
+    """
+    gaps = coverage.least(chain.z)
+    intervals = [_interval(chain, cuts, k) for k in range(max(len(cuts), 1))]
+    covered = [np.min(gaps[_samples_between(chain, *ends)], initial=0.0) < -_UNSEEN * chain.size for ends in intervals]
+    middle = gather(chain.pieces, *chain.locate(np.mean(intervals, axis=1))).d0
+    return ~np.array(covered) & (coverage.least(middle) >= (-coverage.depth if len(cuts) else -_UNSEEN * chain.size))
 
 
 def _loops(cuts, partner, alive):
@@ -174,7 +176,8 @@ def _choose(chain, cuts, loops, interior, material):
     if not around:
         raise SolverError(
             f"trim: {len(loops)} closed loops survive of {max(len(cuts), 1)} parts of the envelope, none around the interior point "
-            f"({interior.real:.4g}, {interior.imag:.4g}) m. Raise `samples`, or check that the part is not cut through."
+            f"({interior.real:.4g}, {interior.imag:.4g}) m: either a self-intersection was missed (raise `samples` above {len(chain.t)}), "
+            "or the motion turns back so far in a loop that the other side of its path bounds the part (smooth the motion)."
         )
     return (min if material == "inside" else max)(around)[1]
 
@@ -187,20 +190,6 @@ def _interval(chain, cuts, k):
 
 def _samples_between(chain, start, stop):
     return np.arange(int(np.ceil(start)), int(np.ceil(stop))) % len(chain.t)
-
-
-def _refuse_missed_cuts(chain, coverage, cuts, loop):
-    """A covered sample on a surviving interval means that a crossing was not seen."""
-    kept = np.concatenate([_samples_between(chain, *_interval(chain, cuts, k)) for k in loop])
-    gaps = coverage.least(chain.z[kept])
-    worst = int(np.argmin(gaps))
-    if gaps[worst] < -_UNSEEN * chain.size:
-        piece, t = chain.pieces[chain.index[kept[worst]]], chain.t[kept[worst]]
-        raise SolverError(
-            f"trim: piece '{piece.label}' at t = {t:.6g} is still covered by {-gaps[worst] * 1e3:.3g} mm: either a self-intersection of "
-            f"the envelope was missed (raise `samples` above {len(chain.t)}), or the motion turns back so far in a loop that the "
-            "other side of its path bounds the part (smooth the motion)."
-        )
 
 
 def _spans(chain, cuts, loop):

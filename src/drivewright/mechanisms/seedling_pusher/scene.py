@@ -11,7 +11,24 @@ import numpy as np
 
 from drivewright.mechanisms.seedling_pusher.build import TURN
 from drivewright.mechanisms.seedling_pusher.planting import advance
-from drivewright.scene import Bar, Body, Drawing, Frame, Line, Outline, Part, Prism, Scene, Shape, Trace, capsule, circle, polygon
+from drivewright.scene import (
+    Arc,
+    Bar,
+    Body,
+    Drawing,
+    Frame,
+    Line,
+    Outline,
+    Part,
+    Prism,
+    Scene,
+    Shape,
+    Spline,
+    Trace,
+    capsule,
+    circle,
+    polygon,
+)
 
 FRAMES = 361
 GEAR_THICKNESS, LEVER_THICKNESS, PIN, GAP = 10e-3, 4e-3, 2.5e-3, 0.5e-3
@@ -186,12 +203,22 @@ def in_carrier(model):
 def cam_shapes(model, cam, trimmed):
     """Profile, pitch curve, largest and least pitch circle, bore of a cam, in the carrier's frame."""
     pose, mirror = in_carrier(model)
-    t = model.push_start + np.linspace(0, TURN, 721)[:-1]
-    pitch = model.pitch(cam, t).d0
     yield Shape("profile", trimmed.outline(model.spec.manufacture.chord_tolerance).moved(pose, mirror))
-    yield Shape("pitch", polygon(np.stack([pitch.real, pitch.imag], axis=1)).moved(pose, mirror))
+    yield Shape("pitch", Outline(tuple(_pitch_pieces(model, cam))).moved(pose, mirror))
     yield Shape("base", circle((0.0, 0.0), cam.prime_radius))
     yield Shape("hole", circle((0.0, 0.0), model.spec.cams.bore / 2))
+
+
+def _pitch_pieces(model, cam):
+    """The pitch curve once round: true arcs while the lever rests, splines with exact end tangents while it swings."""
+    for low, high, phase, k in model.pieces():
+        jet = model.pitch(cam, np.linspace(low, high, 181), k)
+        if phase == "dwell":
+            sweep = model.orbit * float(np.diff(model.planet(np.array([low, high])).d0)[0])
+            yield Arc((0.0, 0.0), float(abs(jet.d0[0])), float(np.angle(jet.d0[0])), sweep)
+        else:
+            tangents = jet.d1 / np.abs(jet.d1)
+            yield Spline(np.stack([jet.d0.real, jet.d0.imag], axis=1), _xy(tangents[0]), _xy(tangents[-1]))
 
 
 def drawings(model):
