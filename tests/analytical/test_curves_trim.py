@@ -60,14 +60,14 @@ def test_lost_motion_at_a_square_corner():
 
 
 def test_the_largest_lost_motion_is_found_off_the_samples():
-    """A rectangle whose sides take equal parameter steps: the removed interval is not symmetric about the corner."""
+    """A rectangle, started in the middle of a side, whose sides take equal parameter steps: its corners lie off every sample."""
     a, b, radius = 0.03, 0.011, 0.003
-    corners = np.array([a - 1j * b, a + 1j * b, -a + 1j * b, -a - 1j * b])
-    sides = tuple(curves.Piece(float(k), k + 1.0, lambda t, k=k: corners[k] + (corners[(k + 1) % 4] - corners[k]) * (variable(t) - k),
-                               f"side {k}", "line") for k in range(4))
+    corners = np.array([-1j * b, a - 1j * b, a + 1j * b, -a + 1j * b, -a - 1j * b])
+    sides = tuple(curves.Piece(float(k), k + 1.0, lambda t, k=k: corners[k] + (corners[(k + 1) % 5] - corners[k]) * (variable(t) - k),
+                               f"side {k}", "line") for k in range(5))
     place, most = curves.largest_lost_motion(curves.trim(curves.CircleFamily(sides, radius)))
-    assert most == pytest.approx((np.sqrt(2) - 1) * radius, rel=2e-5)
-    assert min(abs(place - corner) for corner in range(5)) < 1e-5
+    assert most == pytest.approx((np.sqrt(2) - 1) * radius, rel=1e-3)
+    assert min(abs(place - corner) for corner in range(5)) < 1e-4
 
 
 def ellipse_path(a, b):

@@ -117,6 +117,14 @@ def test_resonance_without_damping():
     assert "5 times the cam's speed" in message(only=("vibration",), **tables)
 
 
+def test_a_stiff_follower_is_left_out_of_the_vibration():
+    data = {"mechanism": "cam", "follower": ROLLER, "programme": segments(), "drive": {"speed": "1 rpm"},
+            "vibration": {"natural_frequency": "400 Hz"}}
+    result = dw.run(from_document(data, CamSpec))
+    assert any("as good as rigid" in finding for finding in result.findings)
+    assert "max_pressure_angle" in result.values
+
+
 def test_left_out_keys_and_analyses_are_findings():
     data = {"mechanism": "cam", "follower": {**ROLLER, "face_radius": "10 mm", "pivot_distance": "80 mm"}, "programme": segments(),
             "groove": {"clearance": "0.1 mm"}}

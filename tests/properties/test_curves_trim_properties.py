@@ -122,15 +122,25 @@ def test_of_two_rings_the_nearer_one_counts(material):
     assert left.area == pytest.approx(inner if material == "inside" else shapely.Polygon(ring.exterior).area, rel=1e-5)
 
 
-def test_lost_motion_under_an_overhanging_loop():
-    """Path with outward loops: above the profile the roller may be nearest to a smooth place and not to a corner."""
-    at = lambda t: 0.03 * exp(1j * variable(t)) + 0.012 * exp(-3j * variable(t))  # noqa: E731
-    family = curves.CircleFamily((curves.Piece(0.1, 0.1 + 2 * PI, at, "loops"),), 0.003)
-    left = curves.trim(family)
+def test_lost_motion_under_an_overhang():
+    """Where the path turns back above a smooth part of the profile the roller is nearest to that part and not to the corner."""
+    at = lambda t: (0.03 + 0.002 * (1 + cos(variable(t)))) * exp(1j * (variable(t) - 1.5 * sin(variable(t))))  # noqa: E731
+    left = curves.trim(curves.CircleFamily((curves.Piece(0.1, 0.1 + 2 * PI, at, "overhang"),), 0.002))
     points = np.concatenate([span.piece.at(np.linspace(span.start, span.stop, 40001)).d0 for span in left.spans])
     t = np.linspace(0.1, 0.1 + 2 * PI, 97)
-    nearest = [np.min(np.abs(points - centre)) for centre in at(t).d0]
-    np.testing.assert_allclose(curves.lost_motion(left, t), np.array(nearest) - 0.003, atol=1e-9)
+    nearest = np.array([np.min(np.abs(points - centre)) for centre in at(t).d0])
+    np.testing.assert_allclose(curves.lost_motion(left, t), nearest - 0.002, atol=3e-9)
+    assert nearest.max() > 0.0035
+
+
+@pytest.mark.parametrize(("size", "waves", "radius"), [(0.012, 3, 0.003), (0.016, 5, 0.002), (0.02, 2, 0.005)])
+def test_outward_loops_are_cut_off(size, waves, radius):
+    """Loops cross one another and enclose more area, with the other sign, than the path around the axis."""
+    at = lambda t: 0.03 * exp(1j * variable(t)) + size * exp(-1j * waves * variable(t))  # noqa: E731
+    left = curves.trim(curves.CircleFamily((curves.Piece(0.1, 0.1 + 2 * PI, at, "loops"),), radius))
+    expected = seen_from(0.0, at(np.linspace(0, 2 * PI, 8001)[:-1]).d0, radius)
+    assert left.area == pytest.approx(expected, rel=5e-5)
+    assert len(left.corners) == waves + 1
 
 
 def test_a_path_whose_other_side_bounds_the_part_is_refused():

@@ -74,6 +74,7 @@ def run(
 ):
     """Validate, analyse and write a run folder per spec."""
     from drivewright import runner
+    from drivewright.report.content import views
     from drivewright.report.folder import write_run_folder
 
     stems = [path.stem for path in specs]
@@ -85,7 +86,7 @@ def run(
         with show.progress(path.name) as step, show.located(path):
             model = runner.build(spec)
             result = runner.run(spec, _names(only), all_, step, model)
-            folder = write_run_folder(result, _folder(path, out, len(specs) > 1), figures)
+            folder = write_run_folder(result, _folder(path, out, len(specs) > 1), figures, views(result, model))
         results.append(result)
         show.note(f"wrote {folder}/")
         if not as_json:

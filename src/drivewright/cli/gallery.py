@@ -45,6 +45,7 @@ def copy(path, folder):
 
 def run_examples(chosen, out):
     """Run examples, print their key numbers, write out/index.html; a failed design check is part of the show."""
+    from drivewright.report.content import views
     from drivewright.report.folder import write_run_folder
     from drivewright.report.index import write_index
 
@@ -57,7 +58,7 @@ def run_examples(chosen, out):
             with show.progress(name) as step:
                 model = runner.build(spec)
                 result = runner.run(spec, progress=step, model=model)
-                folders.append(write_run_folder(result, out / name))
+                folders.append(write_run_folder(result, out / name, seen=views(result, model)))
         except DrivewrightError as error:
             show.note(f"    {error}")
             raise

@@ -38,9 +38,14 @@ class CircleFamily:
 
     @cached_property
     def side(self):
-        """+1 when the profile lies to the left of the centre's travel, -1 to the right."""
+        """+1 when the profile lies to the left of the centre's travel, -1 to the right.
+
+        The sense is that in which the path goes round the axis (the origin); if it does not, that in which it encloses its area.
+        """
         points = np.concatenate([piece.at(np.linspace(piece.start, piece.stop, 65)).d0 for piece in self.path])
-        turn = np.sign(np.sum(np.imag(np.conj(points) * np.roll(points, -1))))
+        step = np.conj(points) * np.roll(points, -1)
+        turns = np.round(np.sum(np.angle(step)) / (2 * np.pi))
+        turn = np.sign(turns if turns else np.sum(step.imag))
         return turn if self.material == "inside" else -turn
 
     def envelope(self):

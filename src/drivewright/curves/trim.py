@@ -235,21 +235,19 @@ def _merged(intervals):
     return merged
 
 
-def _gap_to_profile(trimmed, t, steps=6):
-    """Least gap between the members at t and the surviving profile."""
+def _gap_to_profile(trimmed, t, count=257, steps=6):
+    """Least gap between the members at t and the surviving profile: the nearest of `count` points per span, refined by Newton."""
     family, spans = trimmed.family, trimmed.spans
-    motion = family.envelope()
-    starts = np.array([piece.start for piece in motion if piece.source is not None])
+    starts = np.array([piece.start for piece in trimmed.chain.pieces if piece.source is not None])
     members = family.members(np.clip(np.searchsorted(starts, t, side="right") - 1, 0, len(starts) - 1), t)
-    s = np.concatenate([np.linspace(span.start, span.stop, 65) for span in spans])
+    s = np.concatenate([np.linspace(span.start, span.stop, count) for span in spans])
     pieces = tuple(span.piece for span in spans)
-    index = np.repeat(np.arange(len(spans)), 65)
+    index = np.repeat(np.arange(len(spans)), count)
     gaps = family.gap(members[..., None], gather(pieces, index, s).d0)
     best = np.argmin(gaps, axis=-1)
     least, at = np.min(gaps, axis=-1), s[best]
-    low = np.where(best % 65 > 0, s[best - 1], at)
-    high = np.where(best % 65 < 64, s[np.minimum(best + 1, len(s) - 1)], at)
-    low, high = np.minimum(low, high), np.maximum(low, high)
+    low = np.where(best % count > 0, s[best - 1], at)
+    high = np.where(best % count < count - 1, s[np.minimum(best + 1, len(s) - 1)], at)
     for _ in range(steps):
         gap = family.gap(members, gather(pieces, index[best], at))
         least = np.minimum(least, gap.d0)

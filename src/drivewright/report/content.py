@@ -35,12 +35,15 @@ class Views(NamedTuple):
     remarks: tuple = ()
 
 
-def views(result):
-    """What the result's mechanism shows of its spec; a design that cannot be drawn still gets its report, with a remark."""
+def views(result, model=None):
+    """What the result's mechanism shows of its spec; a design that cannot be drawn still gets its report, with a remark.
+
+    `model` is the spec's own, where it has been built already.
+    """
     if result.mechanism not in registry.kinds():
         return Views(remarks=(f"mechanism {result.mechanism!r} is not installed here: neither motion nor drawings",))
     mechanism = registry.mechanism(result.mechanism)
-    model = mechanism.build(result.spec)
+    model = model or mechanism.build(result.spec)
     scene, no_scene = _shown("motion", mechanism.scene, model, None)
     drawings, no_drawings = _shown("drawings", mechanism.drawings, model, ())
     return Views(scene, tuple(mechanism.plots), tuple(drawings), no_scene + no_drawings)

@@ -27,7 +27,10 @@ def no_spring(spec):
 
 def no_vibration(spec):
     """Why there is no vibration to compute, or None."""
-    return "no [vibration] natural_frequency" if spec.vibration is None else NO_SPEED if spec.drive is None else None
+    if spec.vibration is None or spec.drive is None:
+        return NO_SPEED if spec.vibration else "no [vibration] natural_frequency"
+    ratio = 2 * np.pi * spec.vibration.natural_frequency / spec.drive.speed
+    return f"the natural frequency is {ratio:.3g} times the cam's speed, which is as good as rigid" if ratio > cams.STIFFEST else None
 
 
 def forces(model, done):

@@ -7,7 +7,7 @@ from pydantic_core import core_schema
 
 from drivewright.errors import UnitError
 from drivewright.spec import DataFile, Integer, Machining, MechanismSpec, Number, Spec, Text
-from drivewright.units import BY_NAME, Angle, Damping, Dimension, Force, Frequency, Length, Mass, Pressure, Speed, Stiffness, Velocity
+from drivewright.units import BY_NAME, Angle, Damping, Dimension, Force, Frequency, Length, Mass, Pressure, Speed, Stiffness
 
 TURN = 6.283185307179586
 

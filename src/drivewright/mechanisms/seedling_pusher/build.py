@@ -112,6 +112,11 @@ class Pusher:
         return cut_gear(pair, 1, self.spec.train.teeth)
 
     @cached_property
+    def gear_outline(self):
+        """Toothed outline of the gear."""
+        return self.gear.outline(self.spec.manufacture.chord_tolerance)
+
+    @cached_property
     def lowest(self):
         """Carrier angle in [0, 2 pi) where the tip is lowest."""
         return _extreme(lambda t: self.tip(t).imag, -1)
@@ -156,6 +161,11 @@ class Pusher:
     def trimmed(self):
         """Real profile of each cam by name."""
         return {cam.name: curves.trim(self.family(cam)) for cam in self.cams}
+
+    @cached_property
+    def profiles(self):
+        """Outline of the real profile of each cam by name, in the frame of its formulas."""
+        return {name: trimmed.outline(self.spec.manufacture.chord_tolerance) for name, trimmed in self.trimmed.items()}
 
     def family(self, cam):
         """The roller's motion around its cam, for enveloping."""

@@ -7,11 +7,11 @@ from drivewright.result import Answer, Check, Column, Table, Value
 
 def inspection(model, done):
     """Polar coordinates of both finished profiles at whole degrees, with the tolerance."""
-    return Answer(tables=tuple(_polar(model, name, trimmed) for name, trimmed in model.trimmed.items()))
+    return Answer(tables=tuple(_polar(model, name, outline) for name, outline in model.profiles.items()))
 
 
-def _polar(model, name, trimmed):
-    points = trimmed.outline(model.spec.manufacture.chord_tolerance).points(model.spec.manufacture.chord_tolerance)
+def _polar(model, name, outline):
+    points = outline.points(model.spec.manufacture.chord_tolerance)
     z = points[:, 0] + 1j * points[:, 1]
     order = np.argsort(np.angle(z))
     angle, radius = np.angle(z)[order], np.abs(z)[order]

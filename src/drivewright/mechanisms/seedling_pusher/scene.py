@@ -37,10 +37,10 @@ GEAR_THICKNESS, LEVER_THICKNESS, PIN, GAP = 10e-3, 4e-3, 2.5e-3, 0.5e-3
 def scene(model):
     """One carrier turn: train, arm with lever and rod, cams; machine, field, carrier and arm frames."""
     t = np.linspace(0, TURN, FRAMES)
-    spec, trimmed = model.spec, model.trimmed
+    spec = model.spec
     axis, rotation, swing = model.planet_axis(t).d0, model.arm_rotation(t).d0, model.swing(t).d0
     carrier = 2 * spec.train.semi_major * np.exp(1j * (spec.train.carrier_angle - t))
-    wheel = gear_outline(model)
+    wheel = model.gear_outline
     arm_pose, lever_pivot = _poses(axis, rotation), axis + np.exp(1j * rotation) * pivot(model)
     bodies = (
         _gear("sun", "sun gear (fixed)", wheel, _poses(0 * axis, 0 * t + sun_angle(model)), "ground"),
@@ -48,7 +48,7 @@ def scene(model):
         _gear("planet", "planet gear", wheel, _poses(axis, planet_angle(model, t)), "steel"),
         Body("carrier", "carrier", (Shape("body", _carrier_shape(model)),), _poses(0 * axis, -t), "blue"),
         *(
-            Body(f"cam.{cam.name}", f"{cam.name} cam", tuple(cam_shapes(model, cam, trimmed[cam.name])), _poses(axis, -t), colour)
+            Body(f"cam.{cam.name}", f"{cam.name} cam", tuple(cam_shapes(model, cam)), _poses(axis, -t), colour)
             for cam, colour in zip(model.cams, ("orange", "violet"), strict=True)
         ),
         Body("arm", "planting arm with needle", tuple(_arm_shapes(model)), arm_pose, "green"),
@@ -104,11 +104,6 @@ def _field_shapes(model):
 
 
 # -- train -----------------------------------------------------------------------------------------------------------------------
-
-
-def gear_outline(model):
-    """Toothed outline of the three congruent gears, axis (focus) at the origin, the short focal radius along +x."""
-    return model.gear.outline(model.spec.manufacture.chord_tolerance)
 
 
 def sun_angle(model):
@@ -200,10 +195,10 @@ def in_carrier(model):
     return (0.0, 0.0, angle + side(model) * np.pi / 2), side(model) < 0
 
 
-def cam_shapes(model, cam, trimmed):
+def cam_shapes(model, cam):
     """Profile, pitch curve, largest and least pitch circle, bore of a cam, in the carrier's frame."""
     pose, mirror = in_carrier(model)
-    yield Shape("profile", trimmed.outline(model.spec.manufacture.chord_tolerance).moved(pose, mirror))
+    yield Shape("profile", model.profiles[cam.name].moved(pose, mirror))
     yield Shape("pitch", Outline(tuple(_pitch_pieces(model, cam))).moved(pose, mirror))
     yield Shape("base", circle((0.0, 0.0), cam.prime_radius))
     yield Shape("hole", circle((0.0, 0.0), model.spec.cams.bore / 2))
@@ -223,13 +218,12 @@ def _pitch_pieces(model, cam):
 
 def drawings(model):
     """One drawing per cam, and one of the toothed gear."""
-    trimmed = model.trimmed
     width = model.spec.cams.face_width
     cams = tuple(
         Drawing(
             f"cam_{cam.name}",
             f"{cam.name} cam, roller radius {1e3 * cam.roller_radius:.3f} mm",
-            tuple(cam_shapes(model, cam, trimmed[cam.name])),
+            tuple(cam_shapes(model, cam)),
             width,
         )
         for cam in model.cams
@@ -237,7 +231,7 @@ def drawings(model):
     gear = Drawing(
         "elliptic_gear",
         f"elliptic gear, {model.spec.train.teeth} teeth, bore on the focus",
-        (Shape("profile", gear_outline(model)), Shape("hole", circle((0, 0), 4e-3))),
+        (Shape("profile", model.gear_outline), Shape("hole", circle((0, 0), 4e-3))),
         GEAR_THICKNESS,
         milled=False,  # an end mill does not fit into the tooth spaces
     )
@@ -257,11 +251,11 @@ def parts(model):
 
 
 def _cam_parts(model, level, here):
-    spec, trimmed, (pose, mirror) = model.spec, model.trimmed, in_carrier(model)
+    spec, (pose, mirror) = model.spec, in_carrier(model)
     bore = (circle((0, 0), spec.cams.bore / 2),)
     top = level["return"] + spec.cams.face_width
     for cam, colour in zip(model.cams, ("orange", "violet"), strict=True):
-        profile = trimmed[cam.name].outline(spec.manufacture.chord_tolerance).moved(pose, mirror)
+        profile = model.profiles[cam.name].moved(pose, mirror)
         yield Part(f"cam_{cam.name}", (Prism(profile, bore, level[cam.name], spec.cams.face_width),), here, colour)
     hub = Prism(circle((0, 0), spec.cams.hub_diameter / 2), bore, spec.cams.face_width, level["return"] - spec.cams.face_width)
     collar = Prism(circle((0, 0), spec.cams.hub_diameter / 2), bore, top, 4e-3)
@@ -293,7 +287,7 @@ def _rod_part(model, level, here):
 
 
 def _gear_parts(model, level):
-    outline, bore = gear_outline(model), (circle((0, 0), 4e-3),)
+    outline, bore = model.gear_outline, (circle((0, 0), 4e-3),)
     zero = np.array(0.0)
     carrier = 2 * model.spec.train.semi_major * np.exp(1j * model.spec.train.carrier_angle)
     places = {
