@@ -50,9 +50,9 @@ def test_deviation_is_from_the_number_or_beyond_the_limit():
     assert row(48.176 * DEGREE).deviation_text() == "-2.04 deg"
     assert row(50.22 * DEGREE * (1 + 1e-15)).deviation_text() == "+0 deg"
     limit = Printed(">= 1", 1.0, math.inf)
-    below, above = (Row("ratio", limit, value, "-", AGREES, "closed form", "here") for value in (0.86, 1.12))
+    below, just, above = (Row("ratio", limit, value, "-", AGREES, "closed form", "here") for value in (0.86, 1.0, 1.12))
     assert (below.deviation_text(), below.verdict) == ("-0.14", OPEN)
-    assert (above.deviation_text(), above.verdict) == ("+0", AGREES)
+    assert (above.deviation_text(), above.verdict) == (just.deviation_text(), just.verdict) == ("+0", AGREES)
 
 
 def test_an_unknown_source_is_named_with_its_neighbour():

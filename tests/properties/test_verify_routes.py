@@ -88,6 +88,19 @@ def test_rolling_by_arc_length_is_the_closed_form(eccentricity, start):
     assert rolled_pair(eccentricity, start)(angle) == pytest.approx(EllipticGearPair(eccentricity, start=start).driven(angle), abs=1e-10)
 
 
+@pytest.mark.parametrize("e", [-0.45, 0.0, 0.7])
+def test_arc_length_of_the_ellipse(e):
+    from scipy.special import ellipe
+
+    x = np.linspace(0, 2 * np.pi, 400, endpoint=False)
+    assert 2 * np.pi * np.mean(arc_speed(e)(x)) == pytest.approx(4 * ellipe(e**2), rel=1e-12)
+
+
+def test_vertex_of_a_parabola_is_exact_between_the_samples():
+    x = np.linspace(0, 1, 12)
+    assert routes._vertex(x, 3.0 - 7 * (x - 0.417) ** 2) == pytest.approx((0.417, 3.0), abs=1e-13)
+
+
 def test_rolled_ellipses_touch_on_the_line_of_centres():
     e, angle = 0.45, np.linspace(0, 6.2, 40)
     short = (1 - e**2) / (1 + e * np.cos(angle))

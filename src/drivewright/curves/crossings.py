@@ -94,6 +94,8 @@ def _ladder(chain, joint, cusp, limit, other):
     """Places beyond the cusp, at growing multiples of its distance from the joint, with their equals among the `other` samples."""
     places = cusp + (cusp - joint) * 1.5 ** np.arange(24)
     places = places[(places - limit) * (joint - limit) > 0]
+    if not len(places):  # the cusp sits at the end of its piece
+        return []
     far = np.abs(gather(chain.pieces, *chain.locate(places)).d0 - chain.z[joint])
     distance = np.maximum.accumulate(np.abs(chain.z[other] - chain.z[joint]))
     equal = other[0] + np.sign(other[-1] - other[0]) * np.interp(far, distance, np.arange(len(other)))
