@@ -1,0 +1,35 @@
+"""Ourselves against accidents: every worked example runs, and a few of its numbers have not moved.
+
+These numbers are our own.  When one moves for a good reason, print the new one with `drivewright run examples/NAME.toml --json`,
+say in the commit why it moved, and change it here.
+"""
+
+from pathlib import Path
+
+import pytest
+
+import drivewright as dw
+
+FOLDER = Path(__file__).parents[2] / "examples"
+PINNED = {
+    "disc_cam": {"max_pressure_angle": 0.47777217340123485, "min_convex_radius": 0.031610820401744206, "max_contact_force": 206.6133},
+    "oscillating_cam": {"max_pressure_angle": 0.42140923293097693, "min_convex_radius": 0.03150449711976596},
+    "yoke_cam": {"min_convex_radius": 0.042, "min_half_face": 0.01613085562113285},
+    "seedling_pusher": {"tip.track_height": 0.18232325075379263, "cam.max_pressure_angle": 0.5415328447258717, "contact.peak_force": 602.777},
+    "seedling_pusher_improved": {"needle.angle_difference": 0.953388, "cam.max_pressure_angle": 0.310305, "cam.curvature_ratio": 1.680426},
+}
+
+
+def test_every_example_is_pinned():
+    assert {path.stem for path in FOLDER.glob("*.toml")} == set(PINNED)
+
+
+@pytest.mark.parametrize("name", PINNED)
+def test_an_example_runs_to_the_same_numbers(name):
+    result = dw.run(dw.load(FOLDER / f"{name}.toml"))
+    assert result.outcome == "complete"
+    assert {key: result[key] for key in PINNED[name]} == pytest.approx(PINNED[name], rel=2e-5)
+
+
+def test_the_improved_pusher_meets_every_requirement():
+    assert dw.run(dw.load(FOLDER / "seedling_pusher_improved.toml")).ok
