@@ -123,6 +123,26 @@ def test_an_interval_is_not_lost_for_a_tail_too_small_to_see():
         assert any(abs(corner.point - corner.point.real) < 1e-12 and corner.point.real > 0 for corner in left.corners)
 
 
+def test_a_tail_below_the_resolution_is_none():
+    a, b = 0.05, 0.03
+    left = curves.trim(curves.CircleFamily((curves.Piece(0.1, 0.1 + 2 * PI, ellipse_path(a, b)[0].at, "ellipse"),), b**2 / a * (1 + 1e-7)))
+    assert not left.crossings and not left.undercut
+
+
+@pytest.mark.parametrize("tip", [0.012, 0.0149])
+def test_measures_follow_a_very_sharp_place(tip):
+    """Outer parallel of a path whose three tips turn within a few degrees: area A + L r + pi r^2, length L + 2 pi r (Steiner)."""
+    big, radius = 0.03, 0.005
+    at = lambda t: big * exp(1j * variable(t)) + tip * exp(-2j * variable(t))  # noqa: E731
+    left = curves.trim(curves.CircleFamily((curves.Piece(0.1, 0.1 + 2 * PI, at, "tips"),), radius, "outside"))
+    length = np.sum(np.abs(at(np.linspace(0, 2 * PI, 200001)[:-1]).d1)) * 2 * PI / 200000  # trapezoidal: spectral accuracy
+    area = PI * (big**2 - 2 * tip**2)
+    assert left.area == pytest.approx(area + length * radius + PI * radius**2, rel=1e-11)
+    assert left.perimeter == pytest.approx(length + 2 * PI * radius, rel=1e-11)
+    outline = left.outline(1e-6)
+    assert curves.outline_area(outline) == pytest.approx(left.area, rel=2e-7)
+
+
 def flat(support, shape="smooth"):
     return (curves.Piece(0.0, 2 * PI, lambda t: (variable(t), support(variable(t))), "flat", shape),)
 

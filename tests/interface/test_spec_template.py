@@ -45,7 +45,7 @@ def test_a_template_reads_back_as_its_preset(kind, preset):
 
 @pytest.mark.parametrize("kind", registry.kinds())
 def test_every_preset_and_every_kind_has_a_default_and_names_itself(kind):
-    assert "default" in registry.mechanism(kind).presets() and f'(preset "default")' in template(kind)
+    assert "default" in registry.mechanism(kind).presets() and '(preset "default")' in template(kind)
     assert template(kind) == template(kind, "default")
 
 
@@ -85,13 +85,15 @@ def test_all_switched_on_at_once_is_a_complete_spec(kind, preset):
 
 
 def test_limits_units_defaults_and_choices_are_in_words(toy):
-    text = template("toy")
-    for wanted in ('length = "40 mm"   # length  [0 < length < 2000 mm]', "#sense", '[-1 rad <= angle <= 1 rad; default "0 deg"]', "[1 <= whole number <= 9; default 3]",
-                   "[0 < number <= 1; default 0.5]", "[true or false; default false]", "[list of number; default [1.0, 2.0]]",
-                   '["forward" or "backward"; default "forward"]', "[angular speed > 0; default", "[list of list of number; no default]", "[file; no default]",
-                   "[list of 2 x length; no default]", "[length >= 0; default", "[number or quantity]", "# A toy (preset \"full\")."):
-        assert wanted.replace("   #", "") .split("  # ")[-1] in text or wanted in text, wanted
-    assert text.count("[[joints]]") == 2 and text.index("[optimise]") > text.index("[[joints]]")
+    text = " ".join(line.strip().removeprefix("#   ") for line in template("toy").splitlines())  # wrapped comments in one
+    for wanted in (
+        '# A toy (preset "full").', 'length = "40 mm"', "# length  [0 < length < 2000 mm]", '# tilt  [-1 rad <= angle <= 1 rad; default "0 deg"]',
+        "# turns  [1 <= whole number <= 9; default 3]", "# ratio  [0 < number <= 1; default 0.5]", "# mirrored  [true or false; default false]",
+        "# weights  [list of number; default [1.0, 2.0]]", '# sense  ["forward" or "backward"; default "forward"]', "# version of the file format  [1; default]",
+        '# speed  [angular speed > 0; default "100 rpm"]', "# points  [list of list of number; no default]", "# second table  [file; no default]",
+        "# place  [list of 2 x length; no default]", "# radial play  [length >= 0; default]", "# lower bound, in the key's own unit  [number or quantity]"):
+        assert wanted in text, wanted
+    assert text.count("[[joints]]") == 2 and text.index("[optimise]") > text.rindex("[[joints]]")
 
 
 def test_without_a_preset_the_template_is_made_of_samples(monkeypatch, tmp_path):

@@ -84,10 +84,14 @@ def test_play_lets_the_lever_fly_that_far_before_it_touches():
     assert np.all(force >= 0) and not np.any((force[:, 0] > 0) & (force[:, 1] > 0))
 
 
-def test_what_undercut_has_taken_is_play_on_that_side_only():
-    main, back = (dynamics.forces(still(lost=(3e-6, 0.0)), 0.0, delta, 0.0) for delta in (-2e-6 / LEVER, 2e-6 / BACK))
-    assert main == (0.0, 0.0)
-    assert back == pytest.approx((0.0, STIFFNESS * 2e-6), rel=1e-9)
+@pytest.mark.parametrize(("side", "taken"), [(0, (3e-6, 0.0)), (1, (0.0, 3e-6))])
+def test_what_undercut_has_taken_is_play_on_that_side_only(side, taken):
+    system = still(lost=taken)
+    pressed = [dynamics.forces(system, 0.0, delta, 0.0) for delta in (-2e-6 / LEVER, 2e-6 / BACK)]
+    assert pressed[side] == (0.0, 0.0)
+    assert pressed[1 - side][1 - side] == pytest.approx(STIFFNESS * 2e-6, rel=1e-9)
+    deeper = [dynamics.forces(system, 0.0, delta, 0.0) for delta in (-5e-6 / LEVER, 5e-6 / BACK)]
+    assert deeper[side][side] == pytest.approx(STIFFNESS * 2e-6, rel=1e-9)
 
 
 # -- the drive -------------------------------------------------------------------------------------------------------------------
@@ -106,6 +110,13 @@ def test_without_play_the_rod_follows_and_the_rollers_stay():
         force, error, apart = simulate(preset=preset)
         assert error < 0.2e-3 and apart < 0.02
         assert 500 < force < 800  # 417 N (470 N) without elasticity, and the shock of the resistance at the end of the push
+
+
+def test_rod_error_is_the_travel_beyond_the_programme():
+    model = PUSHER.build(load(PUSHER.presets()["design-b"], ["contact.clearance=0.1 mm"]))
+    angle, _, _, error, run = dynamics.simulate(model, dynamics.lever_system(model))
+    rod, arm = model.rod(model.push_start + angle).d0, model.spec.lever.output_arm
+    assert error == pytest.approx(arm * np.tan(np.arctan2(rod, arm) + run.y[:, 0]) - rod, abs=1e-12)
 
 
 def test_peak_force_grows_with_speed():

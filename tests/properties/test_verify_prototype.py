@@ -33,6 +33,7 @@ def test_the_rod_follows_its_programme(preset, changes):
     assert np.max(np.abs(error)) < 0.06e-3
     assert np.ptp(run.travel) == pytest.approx(model.spec.push.stroke, abs=0.1e-3)
     assert np.ptp(run.swing) == pytest.approx(np.arctan(18 / (1e3 * model.spec.lever.output_arm)), abs=2e-3)
+    assert run.travel == pytest.approx(model.spec.lever.output_arm * np.tan(run.swing), abs=1e-9)
     assert angle[-1] == pytest.approx(2 * np.pi, rel=1e-9)
 
 

@@ -3,6 +3,7 @@
 import importlib
 import sys
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from drivewright import registry
 from drivewright.errors import InputError, MissingExtra
 from drivewright.gears import EllipticGearPair
-from drivewright.mechanisms.seedling_pusher.second_route import SecondRoute, rolled_pair, roller_at_rest
+from drivewright.mechanisms.seedling_pusher.second_route import SecondRoute, arc_speed, rolled_pair, roller_at_rest
 from drivewright.runner import run
 from drivewright.spec import load
 from drivewright.studies.verify import Comparison, verify
@@ -115,6 +116,23 @@ def test_roller_at_rest_has_the_sides_of_its_triangle(case):
         sides = abs(z), abs(z + 1j * cam.pivot_distance)
         assert sides == pytest.approx((cam.prime_radius, cam.arm), rel=1e-14)
         assert np.sign(z.real) == cam.side
+
+
+def test_rows_of_a_motion(case):
+    model, result = case
+    angle = np.linspace(0, 2 * np.pi, 721)
+    programme = model.rod(model.push_start + angle).d0
+    wrong = np.where(programme > 0.017, 0.11e-3, np.where(programme > 0.001, 0.0, -0.07e-3))
+    made = SimpleNamespace(angle=angle, travel=programme + wrong, swing=np.arctan(programme / model.spec.lever.output_arm))
+    found = {row.name: row for row in (Comparison(*row) for row in routes.motion(model, result, made))}
+    assert found["rod, furthest ahead of its programme"].other == pytest.approx(0.11e-3, rel=1e-9)
+    assert found["rod, furthest behind its programme"].other == pytest.approx(-0.07e-3, rel=1e-9)
+    assert found["rod, stroke"].other - found["rod, stroke"].ours == pytest.approx(0.18e-3, rel=1e-6)
+    assert found["lever.swing"].other == pytest.approx(found["lever.swing"].ours, rel=1e-9)
+    assert all(row.ok for row in found.values())
+    undercut = result["cam.main.lost_motion"] > 0, result["cam.return.lost_motion"] > 0
+    behind, ahead = (found[f"rod, furthest {side} its programme"].allowed for side in ("behind", "ahead of"))
+    assert (behind > 0.2e-3, ahead > 0.2e-3) == undercut
 
 
 def test_rows_know_whether_they_agree():

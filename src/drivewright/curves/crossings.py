@@ -92,7 +92,7 @@ def _from_joints(chain):
 
 def _ladder(chain, joint, cusp, limit, other):
     """Places beyond the cusp, at growing multiples of its distance from the joint, with their equals among the `other` samples."""
-    places = cusp + (cusp - joint) * 1.5 ** np.arange(24)
+    places = cusp + (cusp - joint) * 2.0 ** np.arange(12)
     places = places[(places - limit) * (joint - limit) > 0]
     if not len(places):  # the cusp sits at the end of its piece
         return []

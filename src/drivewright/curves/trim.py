@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.curves.coverage import Coverage
 from drivewright.curves.crossings import self_crossings
 from drivewright.curves.outlines import outline_of_spans, span_measures
 from drivewright.curves.pieces import Chain, Piece, gather, sample
@@ -77,10 +76,9 @@ def trim(family, interior=0j, samples=1440, least=96):
     chain = sample(family.envelope(), samples, least)
     crossings = self_crossings(chain)
     cuts, partner = _cuts(crossings)
-    coverage = Coverage(family, chain, crossings)
     if family.material == "inside":
-        _refuse_swept(coverage, interior)
-    alive = _alive(chain, coverage, cuts)
+        _refuse_swept(family, chain, interior)
+    alive = _alive(family, chain, cuts)
     loop = _choose(chain, cuts, _loops(cuts, partner, alive), interior, family.material)
     spans, corners = _spans(chain, cuts, loop)
     area, perimeter = span_measures(spans)
@@ -117,8 +115,8 @@ def largest_lost_motion(trimmed):
     return best
 
 
-def _refuse_swept(coverage, interior):
-    gap = float(coverage.least(np.array([complex(interior)]))[0])
+def _refuse_swept(family, chain, interior):
+    gap = float(_least_gap(family, chain, np.array([complex(interior)]))[0])
     if gap <= 0:
         raise InputError(
             f"trim: the cutter passes {-gap * 1e3:.4g} mm over the interior point ({interior.real:.4g}, {interior.imag:.4g}) m, so no part "
@@ -135,16 +133,20 @@ def _cuts(crossings):
     return places[order], rank[order ^ 1]
 
 
-def _alive(chain, coverage, cuts):
-    """Whether the interval that starts at each cut survives: no member covers its middle or a sample on it.
+def _alive(family, chain, cuts):
+    """Whether the interval that starts at each cut survives: no member covers its middle or a sample on it."""
+    intervals = np.array([_interval(chain, cuts, k) for k in range(max(len(cuts), 1))])
+    middles = gather(chain.pieces, *chain.locate(np.mean(intervals, axis=1))).d0
+    gaps = _least_gap(family, chain, np.append(chain.z, middles))
+    least = [min(np.min(gaps[_samples_between(chain, *ends)], initial=np.inf), gaps[len(chain.z) + k]) for k, ends in enumerate(intervals)]
+    return np.array(least) >= -_UNSEEN * chain.size
 
-    The middle decides about tails without samples; a sample may lie in a tail too small to have been seen.
-    """
-    gaps = coverage.least(chain.z)
-    intervals = [_interval(chain, cuts, k) for k in range(max(len(cuts), 1))]
-    covered = [np.min(gaps[_samples_between(chain, *ends)], initial=0.0) < -_UNSEEN * chain.size for ends in intervals]
-    middle = gather(chain.pieces, *chain.locate(np.mean(intervals, axis=1))).d0
-    return ~np.array(covered) & (coverage.least(middle) >= (-coverage.depth if len(cuts) else -_UNSEEN * chain.size))
+
+def _least_gap(family, chain, points):
+    """Least gap [m] between each point and the family's members at the samples; a negative one means covered."""
+    source = np.array([-1 if piece.source is None else piece.source for piece in chain.pieces])[chain.index]
+    members = family.members(source[source >= 0], chain.t[source >= 0])
+    return family.gap(members[..., family.deepest(members, points)], points)
 
 
 def _loops(cuts, partner, alive):

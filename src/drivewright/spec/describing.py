@@ -102,7 +102,9 @@ def _limits(field):
         return " or ".join(map(toml_value, choices))
     what = dimension.name if dimension else ANY_UNIT if mark_of(field, AnyUnit) else KINDS.get(type_of(field.annotation), "value")
     low, high = _limit(field, gt="<", ge="<="), _limit(field, lt="<", le="<=")
-    if low and not high:
+    if low and high and low[1] == high[1]:
+        bounded = low[1]
+    elif low and not high:
         bounded = f"{what} {low[0].replace('<', '>')} {low[1]}"
     else:
         bounded = (f"{low[1]} {low[0]} " if low else "") + what + (f" {high[0]} {high[1]}" if high else "")
@@ -158,9 +160,9 @@ def _nested_sample(annotation, one):
     inner = [arg for arg in get_args(annotation) if arg not in (Ellipsis, type(None))]
     if get_origin(annotation) in (tuple, list):
         return [_nested_sample(arg, one) for arg in inner]
-    if one is not None or list_depth(annotation) == 0:
-        return one if one is not None else next(iter(choices_of(annotation)), SAMPLES.get(type_of(annotation), "..."))
-    return _nested_sample(inner[0], one)
+    if list_depth(annotation):
+        return _nested_sample(inner[0], one)
+    return one if one is not None else next(iter(choices_of(annotation)), SAMPLES.get(type_of(annotation), "..."))
 
 
 def _length(annotation):

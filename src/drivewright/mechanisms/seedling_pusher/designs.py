@@ -10,6 +10,8 @@ import numpy as np
 
 from drivewright import motion
 from drivewright._jit import kernel, warmer
+from drivewright.cams.rapid import convexity, peak, rest
+from drivewright.gears.rational import phase, planet, planet_at
 
 TURN = 2 * np.pi
 TRACK, CAM = 360, 91  # points over the turn, and over each of push and retraction
@@ -132,30 +134,6 @@ def shape(row, flags):
 
 
 @kernel
-def phase(half, r):
-    """e^{ip} of the planet, from the unit number e^{i x/2} of its input: tan(p/2) = r tan(x/2)."""
-    c, d = half.real, r * half.imag
-    return complex(c * c - d * d, 2 * c * d) / (c * c + d * d)
-
-
-@kernel
-def planet(t, half, r):
-    """(e^{ip}, p', p'') at the carrier angle t."""
-    c, d = np.cos(t / 2), np.sin(t / 2)
-    return planet_at(c, d, half, r)
-
-
-@kernel
-def planet_at(c, d, half, r):
-    """The same from cos(t/2), sin(t/2).  With (c, r d) turned by half the bend to (x, y): p' = r^2/Q, Q = x^2 + r^2 y^2."""
-    x, y = half.real * c - half.imag * r * d, half.imag * c + half.real * r * d
-    x1, y1 = 0.5 * (-half.real * d - half.imag * r * c), 0.5 * (-half.imag * d + half.real * r * c)
-    q = x * x + r * r * y * y
-    q1 = 2 * (x * x1 + r * r * y * y1)
-    return complex(x * x - r * r * y * y, 2 * r * x * y) / q, r * r / q, -r * r * q1 / (q * q)
-
-
-@kernel
 def tip(t, half, r, carrier, arm):
     """(z, z', z'') of the needle tip."""
     e, p1, p2 = planet(t, half, r)
@@ -255,12 +233,6 @@ def mouth_width(row, flags, t_low):
 
 
 @kernel
-def rest(prime, pivot, arm):
-    """cos of the arm's angle with the rod in."""
-    return (pivot**2 + arm**2 - prime**2) / (2 * pivot * arm)
-
-
-@kernel
 def evaluate_cams(row, flags, end, s, v, a, out):
     """Largest pressure angle of both cams, least convex radius over roller radius, largest pitch radius."""
     cos_main, cos_return = rest(row[16], row[12], row[13]), rest(row[17], row[12], row[14])
@@ -307,26 +279,6 @@ def stretch(row, flags, t0, width, way, main, back, s, v, a):
         steep_main[i] = abs((row[13] * (1 - f / q1) - pivot * psi_main.real) / (pivot * psi_main.imag))
         steep_back[i] = abs((row[14] * (1 - f / q1) - pivot * psi_back.real) / (pivot * psi_back.imag))
     return max(peak(steep_main), peak(steep_back)), max(peak(bend_main), peak(bend_back))
-
-
-@kernel
-def convexity(pivot, arm, q1, q2, w1, w2, u):
-    """Im(conj(B') B'')/|B'|^3 of B = -i a' e^{iq} + i l e^{iw}, u = e^{i(w - q)}, seen in the frame that turns with q."""
-    first = pivot * q1 - arm * w1 * u
-    second = pivot * complex(q2, q1 * q1) - arm * complex(w2, w1 * w1) * u
-    size = first.real**2 + first.imag**2
-    return (np.conj(first) * second).imag / (size * np.sqrt(size))
-
-
-@kernel
-def peak(values):
-    """Greatest value of a sampled function, by the parabola through its top three samples."""
-    top = np.argmax(values)
-    if top == 0 or top == values.shape[0] - 1:
-        return values[top]
-    before, here, after = values[top - 1], values[top], values[top + 1]
-    bend = before - 2 * here + after
-    return here - (after - before) ** 2 / (8 * bend) if bend < 0 else here
 
 
 @warmer
