@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 from drivewright._jit import implements
 from drivewright.errors import InputError, SolverError
-from drivewright.numerics import ode
+from drivewright.numerics import dopri5, ode
 from drivewright.numerics.ode import Event, Functions, events, integrate, rate
 
 G = 9.81
@@ -170,6 +170,39 @@ def test_a_rate_that_is_no_number_is_told_from_a_stiff_one(start):
 def test_the_first_step_is_careful_and_max_step_is_kept():
     steps = np.diff(integrate(HARD, 0, 20, [1.0, -0.2], max_step=0.05, watch=BOTH).t)
     assert steps[0] < 0.02 and steps.max() <= 0.05 * (1 + 1e-12)
+
+
+def test_events_may_look_at_the_time():
+    late = Functions(lambda t, y: np.cos([t]), lambda t, y: np.array([(t - 2.4321) * (1 + y[0] ** 2), y[0] - np.sin(0.7)]))
+    run = integrate(late, 0.3, 4, [np.sin(0.3)], 1e-11, 1e-12, watch=[Event(1), Event(1)])
+    np.testing.assert_allclose([(e.t, e.index) for e in run.events], [(0.7, 1), (2.4321, 0)], rtol=1e-10)
+
+
+def test_kernels_and_samples_use_one_interpolant():
+    dense = np.random.default_rng(3).normal(size=(5, 2))
+    for theta in (0.0, 0.3, 0.77, 1.0):
+        assert dopri5._point(dense, 1, theta) == pytest.approx(ode._polynomial(dense, theta)[1], rel=1e-15)
+
+
+def test_work_is_counted():
+    calls = []
+    run = integrate(Functions(lambda t, y: calls.append(t) or uncompiled(HARD).rate(t, y)), 0, 20, [1.0, -0.2], first_step=1.0)
+    assert run.rejected > 0 and len(calls) == 1 + 6 * (run.steps + run.rejected)
+
+
+def test_a_system_beside_its_copy_takes_the_same_steps():
+    rate_of_one = uncompiled(HARD).rate
+    one = integrate(Functions(rate_of_one), 0, 20, [1.0, -0.2])
+    two = integrate(Functions(lambda t, y: np.concatenate([rate_of_one(t, y[:2]), rate_of_one(t, y[2:])])), 0, 20, [1.0, -0.2] * 2)
+    np.testing.assert_allclose(two.t, one.t, rtol=1e-6)
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-7, 1e-10])
+def test_step_control_is_as_good_as_that_of_another_code_with_the_same_method(tolerance):
+    ours = integrate(HARD, 0, 20, [1.0, -0.2], tolerance, tolerance, watch=BOTH)
+    theirs = solve_ivp(uncompiled(HARD).rate, (0, 20), [1.0, -0.2], "RK45", rtol=tolerance, atol=tolerance)
+    assert 0.85 < (ours.steps + ours.rejected) / ((theirs.nfev - 2) / 6) < 1.15
+    assert ours.rejected < 0.3 * ours.steps
 
 
 def test_the_first_step_is_a_hundredth_of_the_time_in_which_y_changes():

@@ -189,3 +189,11 @@ def test_gate_line_event():
     ]
     found = dw.run(dw.load(EXAMPLE, change), only=("planting",))
     assert found["needle.take_event"] == pytest.approx(model.highest, abs=1e-6)
+
+
+@pytest.mark.parametrize(("law", "loss"), [("polynomial-345", 0.0796), ("polynomial-4567", 0.2976)])
+def test_the_intended_contact_lies_off_the_undercut_profile(law, loss):
+    """The sheet's 0.08 and 0.30 mm; the rod feels less, the lost motion of the roller."""
+    found = dw.run(dw.load(EXAMPLE, [f"push.law={law}"]), only=("cams",))
+    assert 1e3 * found["cam.return.profile_loss"] == pytest.approx(loss, abs=2e-4)
+    assert 0 < found["cam.return.lost_motion"] < 0.4 * found["cam.return.profile_loss"]

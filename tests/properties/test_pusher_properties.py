@@ -159,7 +159,7 @@ def test_the_batch_gives_the_numbers_of_a_run(changes):
     spec = dw.load(EXAMPLE, changes)
     lower = np.array([[0.97, 1.4, -0.2, 0.3, 0.165, 0.45, 0.32, 0.55, 0.050, 0.034, 0.014, 0.014, 0.027, 0.030, 0.005]])
     upper = np.array([[0.99, 1.7, 0.4, 0.9, 0.185, 0.65, 0.45, 1.0, 0.060, 0.037, 0.017, 0.017, 0.030, 0.034, 0.006]])
-    x = lower + np.random.default_rng(5).random((3, len(KEYS))) * (upper - lower)
+    x = lower + np.random.default_rng(5).random((2, len(KEYS))) * (upper - lower)
     found = designs.batch(spec, KEYS, designs.NAMES)(x)
     for n, row in enumerate(x):
         data = tomllib.loads(spec.to_toml())

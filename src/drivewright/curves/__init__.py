@@ -15,7 +15,7 @@ from drivewright.curves.plane import (
     tangent,
 )
 from drivewright.curves.toolpath import offset_outline
-from drivewright.curves.trim import Corner, Span, Trimmed, largest_lost_motion, lost_motion, trim
+from drivewright.curves.trim import Corner, Span, Trimmed, largest_lost_motion, lost_motion, profile_loss, trim
 
 __all__ = [
     "CircleFamily",
@@ -38,6 +38,7 @@ __all__ = [
     "outline_area",
     "outline_of_spans",
     "perimeter",
+    "profile_loss",
     "tangent",
     "trim",
 ]

@@ -262,3 +262,23 @@ def _downhill(t, gap, low, high):
     with np.errstate(divide="ignore", invalid="ignore"):
         step = np.where(gap.d2 > 0, -gap.d1 / gap.d2, 0.0)
     return np.clip(t + np.where(np.isfinite(step), step, 0.0), low, high)
+
+
+def profile_loss(trimmed, samples=20_001):
+    """Greatest distance [m] of an intended point of contact from the real profile; 0.0 for an untrimmed one.
+
+    Not the lost motion: the follower sinks until it touches elsewhere, while the intended point lies off the profile altogether.
+    `samples` per stretch of the profile set the error, about (spacing)^2 / (8 loss).
+    """
+    from scipy.spatial import cKDTree
+
+    cut = np.zeros(len(trimmed.chain.t), dtype=bool)
+    moving = np.array([piece.source is not None for piece in trimmed.chain.pieces])[trimmed.chain.index]
+    for start, stop in trimmed.removed:
+        cut |= moving & (trimmed.chain.t > start) & (trimmed.chain.t < stop)
+    if not cut.any():
+        return 0.0
+    points = np.concatenate([np.broadcast_to(span.piece.at(np.linspace(span.start, span.stop, samples)).d0, samples) for span in trimmed.spans])
+    flat = np.stack([points.real, points.imag], axis=1)
+    lost = trimmed.chain.z[cut]
+    return float(cKDTree(flat).query(np.stack([lost.real, lost.imag], axis=1))[0].max())

@@ -1,5 +1,7 @@
 """What pydantic has to complain of, in the user's words: the dotted key, the value, what would be right."""
 
+import re
+
 from drivewright.errors import SpecError, brief, nearest
 from drivewright.spec.fields import choices_of, dimension_of, field_at, list_depth, table_at
 from drivewright.spec.writing import toml_value
@@ -33,7 +35,12 @@ def _complaint(item, model):
     """(dotted key, message) of one pydantic error."""
     place = _place(item, model)
     field, kind = field_at(model, place), item["type"]
-    return ".".join(place), SPECIAL.get(kind, _other)(item, field, model, place)
+    return ".".join(map(_key, place)), SPECIAL.get(kind, _other)(item, field, model, place)
+
+
+def _key(step):
+    """A step of a key as TOML writes it: in quotes where it is empty or has odd characters."""
+    return step if re.fullmatch(r"[A-Za-z0-9_-]{1,60}", step) else toml_value(step[:60])
 
 
 def _place(item, model):

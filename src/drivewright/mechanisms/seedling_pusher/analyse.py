@@ -100,6 +100,7 @@ def _one_cam(model, cam):
         f"{prefix}.min_pitch_radius": Value(reach[1], "m", "least radius of the pitch curve"),
         f"{prefix}.max_pitch_radius": Value(reach[3], "m", "largest radius of the pitch curve"),
         f"{prefix}.lost_motion": Value(lost, "m", "how far the roller can sink beyond its programme where the cam is undercut"),
+        f"{prefix}.profile_loss": Value(curves.profile_loss(trimmed), "m", "how far the intended contact lies off the real profile where undercut"),
         f"{prefix}.profile_area": Value(trimmed.area, "m^2", "area of the finished profile"),
         f"{prefix}.profile_perimeter": Value(trimmed.perimeter, "m", "perimeter of the finished profile"),
     }
