@@ -81,8 +81,8 @@ class Check(NamedTuple):
 
     @property
     def ok(self):
-        """Whether the limit is kept."""
-        return bool(self.margin >= 0)  # numpy's own bool is none for JSON
+        """Whether the limit is kept; rounding in the ninth digit does not decide."""
+        return bool(self.margin >= -1e-9 * max(abs(self.limit), abs(self.value)))  # numpy's own bool is none for JSON
 
     def record(self):
         """Plain dictionary as in result.json."""
@@ -156,6 +156,12 @@ class Result:
     def plot(self, name):
         """A matplotlib Figure of a table or of one of the mechanism's plots."""
         return registry.load("drivewright.views", "matplotlib", "view")(self, name)
+
+    def __repr__(self):
+        """One line; the numbers are in `values`, `tables`, `checks`."""
+        failed = [check.name for check in self.checks if not check.ok]
+        verdict = f"{len(failed)} of {len(self.checks)} checks fail ({', '.join(failed)})" if failed else f"all {len(self.checks)} checks pass"
+        return f"<Result {self.mechanism!r} {self.title!r}: {len(self.values)} values, {len(self.tables)} tables, {verdict}>"
 
     @property
     def ok(self):

@@ -265,6 +265,8 @@ def unit_factor(unit: str, dimension: str):
 def display(si_unit):
     """(factor, unit) that turn an SI number of `si_unit` into the one people read: 'm' -> (1e3, 'mm')."""
     dimension = BY_UNIT.get(si_unit)
+    if dimension is None and si_unit.startswith("m/rad"):  # a lift's derivatives by an angle
+        return 1e3, f"m{si_unit}"
     if dimension is None:
         return 1.0, si_unit
     return 1 / _SHOWN_FACTOR.get(dimension.shown, 1.0), dimension.shown

@@ -138,7 +138,9 @@ def test_samples_at_both_ends_and_twice():
     np.testing.assert_allclose(run.y[:, 0], 1 + 3 * np.array(t) - G / 2 * np.square(t), rtol=1e-13)
 
 
-def test_max_steps_gives_what_there_is_and_advice():
+@pytest.mark.parametrize("batch", [7, 500])
+def test_max_steps_gives_what_there_is_and_advice(batch, monkeypatch):
+    monkeypatch.setattr(ode, "_BATCH", batch)
     run = integrate(FREE, 0, 200, [1.0, 0.0], max_steps=40, watch=BOTH)
     assert run.outcome == "max_steps" and run.steps == 40 and run.t.size == 41 and 0 < run.t_end < 200
     np.testing.assert_allclose(run.y_end, [np.cos(run.t_end), -np.sin(run.t_end)], atol=1e-7)

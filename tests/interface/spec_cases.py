@@ -49,9 +49,9 @@ class ToySpec(MechanismSpec):
     joints: tuple[Joint, ...] = Field((), description="joints")
 
 
-def install(monkeypatch, folder):
+def install(monkeypatch, folder, *analyses, build=lambda spec: spec):
     """Make the kind "toy" known for one test, with `folder/presets`."""
-    toy = registry.Mechanism("toy", "a toy", ToySpec, build=lambda spec: spec, analyses=(), folder=folder)
+    toy = registry.Mechanism("toy", "a toy", ToySpec, build, analyses, folder)
     kinds, find = registry.kinds, registry.mechanism
     monkeypatch.setattr(registry, "kinds", lambda: sorted([*kinds(), "toy"]))
     monkeypatch.setattr(registry, "mechanism", lambda kind: toy if kind == "toy" else find(kind))

@@ -2,23 +2,38 @@
 
 import sys
 
+INTERRUPTED = 130
+
 
 def main(arguments=None):
     """Run the command line; exits with 0 done, 1 failed check, 2 bad input, 3 strict, 4 solver gave up, 130 interrupted."""
     from drivewright.errors import DrivewrightError
 
     try:
-        from drivewright.cli.app import app
+        from drivewright.cli.app import app, usage_errors
 
-        app(args=arguments, prog_name="drivewright")
+        try:
+            code = app(args=arguments, prog_name="drivewright", standalone_mode=False) or 0
+        except usage_errors as error:
+            error.show()
+            sys.exit(error.exit_code)
+        if code == INTERRUPTED:  # some versions of the library swallow Ctrl-C and answer with its exit code
+            raise KeyboardInterrupt
+        sys.exit(code)
     except DrivewrightError as error:
         sys.exit(_complain(error))
-    except KeyboardInterrupt:
-        print("interrupted; what was finished is on disk, the same command starts again", file=sys.stderr)
-        sys.exit(130)
+    except (KeyboardInterrupt, *_aborts()):
+        print("interrupted; what was finished before is on disk, the same command starts again", file=sys.stderr)
+        sys.exit(INTERRUPTED)
     except BrokenPipeError:
         sys.stderr.close()
         sys.exit(0)
+
+
+def _aborts():
+    """What the command-line library makes of Ctrl-C."""
+    typer = sys.modules.get("typer")
+    return (typer.Abort,) if typer else ()
 
 
 def _complain(error):

@@ -2,6 +2,7 @@
 
 import json
 import sys
+from collections import Counter
 from pathlib import Path
 from typing import Annotated
 
@@ -18,6 +19,9 @@ app = typer.Typer(
     rich_markup_mode=None,
     help="Design, simulate and verify mechanical drives.",
 )
+
+# The root of the complaints about the command line itself; where it stands depends on the version of the library.
+usage_errors = next(base for base in typer.BadParameter.__mro__ if base.__name__ == "ClickException")
 
 SpecFile = Annotated[Path, typer.Argument(help="spec file (TOML)")]
 Set = Annotated[list[str] | None, typer.Option("--set", help="key=value, repeatable; replaces a key of the spec")]
@@ -131,6 +135,8 @@ def optimise(spec: SpecFile, out: Out = None, set_: Set = None):
         folder = write_optimised(found, out or Path("out") / f"{spec.stem}-optimised")
     show.note(f"wrote {folder}/ (best.toml, history.parquet, best/)")
     show.optimised(found)
+    if found.interrupted:
+        raise KeyboardInterrupt
     if not found.feasible:
         raise typer.Exit(4)
 
@@ -152,11 +158,13 @@ def validate(name: Annotated[str | None, typer.Argument(help="a source; default 
     """Published numbers beside ours, with a verdict each; exit 1 when a pinned verdict changes."""
     from drivewright import validation
 
-    changed = 0
+    changed, verdicts = 0, Counter()
     for source in validation.sources(name):
         rows = source.rows()
         show.source(source, rows)
         changed += sum(row.verdict != row.pinned for row in rows)
+        verdicts.update(row.verdict for row in rows)
+    print(", ".join(f"{count} {verdict}" for verdict, count in sorted(verdicts.items())))
     if changed:
         show.note(f"{changed} verdict(s) differ from the pinned ones")
         raise typer.Exit(1)

@@ -108,6 +108,7 @@ def checks(found):
 
 def optimised(found):
     """The best design(s) of a search and the requirements it met or missed."""
+    table("objectives", (("value", "left"), ("best", "right"), ("wanted", "left")), found.objective_rows())
     table("unknowns", (("key", "left"), ("best", "right"), ("lower", "right"), ("upper", "right")), found.unknown_rows())
     checks(found.requirements)
     note(f"{found.evaluations} evaluations, {found.seconds:.1f} s, seed {found.seed}")

@@ -6,6 +6,7 @@ from drivewright import registry, runner
 from drivewright.errors import InputError, UnknownName
 from drivewright.report import dxf, gcode, svgout, tabular
 from drivewright.report.folder import file_name
+from drivewright.view.text import quantity
 
 FORMATS = ("dxf", "svg", "csv", "step", "stl", "gcode", "pdf")
 
@@ -21,8 +22,8 @@ def export(spec, formats, folder, anyway=False, progress=None):
     result = runner.run(spec, everything=True, model=model)
     if not anyway:
         _refuse_bad_geometry(result)
-    step = progress or (lambda done, total, what: None)
     folder = Path(folder)
+    step = progress or (lambda done, total, what: None)
     files = []
     for number, name in enumerate(formats):
         step(number, len(formats), name)
@@ -39,10 +40,17 @@ def _refuse_unknown(formats):
 
 
 def _refuse_bad_geometry(result):
-    failed = [check for check in result.checks if check.geometry and not check.ok]
-    if failed:
-        reasons = "; ".join(f"{c.name} = {c.value:.4g}, limit {c.sense} {c.limit:.4g} ({c.message})" for c in failed)
-        raise InputError(f"this design fails a geometry check and is not exported: {reasons}. Mend the design, or export it with --anyway")
+    if failed := _failures(result):
+        raise InputError(f"this design fails a geometry check and is not exported: {'; '.join(failed)}. Mend the design, or export it with --anyway")
+
+
+def _failures(result):
+    """The failed geometry checks in words."""
+    return [
+        f"{check.name} = {quantity(check.value, check.unit)}, limit {check.sense} {quantity(check.limit, check.unit)} ({check.message})"
+        for check in result.checks
+        if check.geometry and not check.ok
+    ]
 
 
 def _drawings(mechanism, model):
@@ -92,6 +100,7 @@ def _gcode(mechanism, model, result, folder):
         "step_down": make.step_down,
         "spindle_speed": make.spindle_speed,
         "tolerance": make.chord_tolerance,
+        "warnings": _failures(result),
     }
     return [
         _written(lambda d, path: gcode.write_gcode(d, path, **settings), d, folder / f"{file_name(d.name)}.nc")

@@ -11,11 +11,15 @@ from drivewright.report.content import pictures, thumbnail, views
 from drivewright.report.html import write_report
 
 
+OURS = {"result.json", "report.html", "spec.toml", "figures", "tables", "data"}  # what a run writes, and the next one replaces
+
+
 def write_run_folder(result, out, figures=True, seen=None):
     """Write the run folder of a result to `out` and return its path.
 
     result.json, report.html, figures/*.svg, tables/*.parquet, spec.toml.  `seen` is a `Views`; None takes what the result's
-    mechanism shows.  An existing run folder is replaced; InputError for a folder that holds anything else.
+    mechanism shows.  What an earlier run wrote is replaced, everything else in the folder stays; InputError for a folder that is
+    not empty and no run folder.
     """
     out = Path(out).resolve()
     refuse_foreign(out)
@@ -40,8 +44,9 @@ def is_run_folder(path):
 
 def refuse_foreign(out):
     """InputError where writing to `out` would take the place of something that is no run folder."""
-    if out.is_dir() and any(out.iterdir()) and not is_run_folder(out):
-        first = sorted(path.name for path in out.iterdir())[:3]
+    inside = sorted(path.name for path in out.iterdir()) if out.is_dir() else []
+    if inside and inside != ["cad"] and not is_run_folder(out):
+        first = inside[:3]
         raise InputError(f"{out}: is not empty and is no run folder (it holds {', '.join(first)} ... but no result.json of a run); "
                          "nothing was written. Choose another --out, or empty it first")
     if out.exists() and not out.is_dir():
@@ -94,7 +99,15 @@ def _move_in(fresh, out):
         if old.exists() and not out.exists():
             old.rename(out)
         raise
+    _keep_what_is_not_ours(old, out)
     _remove(old)
+
+
+def _keep_what_is_not_ours(old, out):
+    """Exports and whatever a person put into the run folder go over into the new one."""
+    for entry in sorted(old.iterdir()) if old.is_dir() else ():
+        if entry.name not in OURS and not (out / entry.name).exists():
+            entry.rename(out / entry.name)
 
 
 def _sibling(out, role):

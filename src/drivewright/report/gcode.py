@@ -23,12 +23,12 @@ def write_gcode(drawing, path, **settings):
 
 
 def gcode(drawing, *, cutter_diameter, feed, plunge, step_down, spindle_speed, depth=None, safe_height=5e-3, lead_radius=None,
-          tolerance=2e-6, bores=True):
+          tolerance=2e-6, bores=True, warnings=()):
     """Program text: round holes by a helix (with `bores`), then the profile in passes, with tangential quarter circles in and out.
 
     `cutter_diameter`, `depth` (default: the drawing's thickness), `step_down`, `safe_height` above the plate, `lead_radius`
     (default: the cutter's radius) and the chord `tolerance` of splines in metres, `feed` and `plunge` in m/s,
-    `spindle_speed` in rad/s.  Raises InputError where a concave radius or a hole is too small for the cutter.
+    `spindle_speed` in rad/s; `warnings` are put first, as comments.  Raises InputError where a concave radius or a hole is too small for the cutter.
     """
     depth = drawing.thickness if depth is None else depth
     lead_radius = cutter_diameter / 2 if lead_radius is None else lead_radius
@@ -39,7 +39,7 @@ def gcode(drawing, *, cutter_diameter, feed, plunge, step_down, spindle_speed, d
     levels = -depth * np.arange(1, math.ceil(depth / step_down - 1e-9) + 1) / math.ceil(depth / step_down - 1e-9)
     write = _Writer(feed, plunge, safe_height, tolerance)
     holes = [chain.joined(hole, f"hole of drawing {drawing.name!r}") for hole in drawing.on("hole")]
-    lines = _header(drawing, cutter_diameter, tolerance, levels, spindle_speed) + [f"G0 Z{_mm(safe_height)}"]
+    lines = _header(drawing, cutter_diameter, tolerance, levels, spindle_speed, warnings) + [f"G0 Z{_mm(safe_height)}"]
     for hole in holes:
         lines += _bore(write, hole, radius, levels, drawing.name) if bores else [_left_out(hole, "bores are not asked for")]
     cut = _with_leads(path, profile, radius, lead_radius, drawing.name)
@@ -155,8 +155,8 @@ def _left_out(hole, reason):
     return f"(HOLE NEAR X{_mm(x)} Y{_mm(y)} IS LEFT OUT: {reason.upper()})"
 
 
-def _header(drawing, cutter_diameter, tolerance, levels, spindle_speed):
-    return ["%", "O0001", f"({_plain(drawing.title or drawing.name)})",
+def _header(drawing, cutter_diameter, tolerance, levels, spindle_speed, warnings):
+    return ["%", "O0001", f"({_plain(drawing.title or drawing.name)})", *(f"(WARNING: {_plain(warning)})" for warning in warnings),
             f"(CUTTER DIAMETER {_mm(cutter_diameter)}, CLIMB MILLING, ITS RADIUS IS IN THE PATH: NO G41 OR G42)",
             f"(DEPTH {_mm(-levels[-1])} IN {len(levels)} PASSES, SPLINES WITHIN {_mm(tolerance)}; MILLIMETRES AND MILLIMETRES PER MINUTE)",
             "(X0 Y0 IS THE ORIGIN OF THE DRAWING, Z0 THE TOP OF THE PLATE; HOLD THE PART: THE LAST PASS FREES IT)",

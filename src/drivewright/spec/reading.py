@@ -55,7 +55,9 @@ def _text_of(path):
         with path.open(encoding="utf-8-sig") as stream:  # Windows editors put a byte-order mark in front
             text = stream.read(LARGEST + 1)
     except FileNotFoundError:
-        raise SpecError(f"there is no such file; `drivewright new KIND {path.name}` writes one", file=str(path)) from None
+        kinds = ", ".join(registry.kinds())
+        hint = f"`drivewright examples {path.stem}` copies an example, `drivewright new KIND {path.name}` writes a spec (kinds: {kinds})"
+        raise SpecError(f"there is no such file; {hint}", file=str(path)) from None
     except IsADirectoryError:
         raise SpecError("is a folder; a spec is a TOML file", file=str(path)) from None
     except UnicodeDecodeError as error:

@@ -85,6 +85,22 @@ class Optimised:
     seed: int
     method: str
     findings: tuple
+    interrupted: bool = False
+
+    def objective_rows(self):
+        """(value, reached, direction) as text."""
+        rows = []
+        for name, sign in self.problem.objectives:
+            value = self.best.values[name]
+            factor, shown = units.display(value.unit)
+            rows.append(
+                (
+                    name,
+                    f"{value.value * factor:.6g} {shown}".removesuffix(" -"),
+                    "as small as possible" if sign > 0 else "as large as possible",
+                )
+            )
+        return rows
 
     def unknown_rows(self):
         """(key, best, lower, upper) as text."""
@@ -105,13 +121,16 @@ def optimise(spec, progress=None):
     search = spec.optimise
     method = search.method if search.method != "auto" else ("nsga2" if len(problem.objectives) > 1 else "differential-evolution")
     evaluator = Evaluator(problem, search.generations, progress or (lambda done, total, what: None))
-    if method == "nsga2":
-        front = _nsga2(problem, search, evaluator)
-    elif len(problem.objectives) > 1:
+    if method == "differential-evolution" and len(problem.objectives) > 1:
         raise SpecError("differential-evolution takes one objective; take nsga2 for several", "optimise.method")
-    else:
-        front = _differential_evolution(problem, search, evaluator)
-    return _outcome(problem, front, evaluator, method, time.perf_counter() - started)
+    interrupted = False
+    try:
+        front = (_nsga2 if method == "nsga2" else _differential_evolution)(problem, search, evaluator)
+    except KeyboardInterrupt:
+        if not evaluator.designs:
+            raise
+        front, interrupted = _best_so_far(problem, evaluator), True
+    return _outcome(problem, front, evaluator, method, time.perf_counter() - started, interrupted)
 
 
 # -- reading the table ---------------------------------------------------------------------------------------------------------
@@ -193,8 +212,9 @@ class Evaluator:
     def __call__(self, x):
         if self.designs and x.shape == self.designs[-1].shape and np.array_equal(x, self.designs[-1]):
             return self.values[-1]  # objective and constraints ask for the same generation
+        values = self.many(x)  # an interrupted generation leaves no trace
         self.designs.append(x.copy())
-        self.values.append(self.many(x))
+        self.values.append(values)
         self.progress(min(len(self.designs), self.generations), self.generations, f"{self.count} designs")
         return self.values[-1]
 
@@ -231,6 +251,10 @@ class Evaluator:
         return {"generation": generation, **dict(zip(self.problem.keys, x.T, strict=True)), **values, "violation": violation}
 
 
+def _population(search):
+    return search.population or max(16, 8 * len(search.unknowns))
+
+
 def _differential_evolution(problem, search, evaluator):
     """Best design (1, d) by SciPy's differential evolution, a whole generation per call, Lampinen's rule for the constraints."""
     from scipy.optimize import NonlinearConstraint, differential_evolution
@@ -246,14 +270,14 @@ def _differential_evolution(problem, search, evaluator):
         lambda u: problem.objective_values(evaluator(low + u.T * (high - low)))[0],
         [(0.0, 1.0)] * len(low),
         maxiter=search.generations,
-        popsize=max(1, -(-search.population // len(low))),
+        popsize=max(1, -(-_population(search) // len(low))),
         rng=np.random.default_rng(search.seed),
         polish=False,
         vectorized=True,
         updating="deferred",
         mutation=(0.4, 0.9),
         recombination=0.9,
-        tol=1e-10,
+        tol=1e-6,
         atol=0.0,
         init="sobol",
         constraints=constraint if problem.limits else (),
@@ -282,7 +306,7 @@ def _nsga2(problem, search, evaluator):
         xl=problem.bounds[:, 0],
         xu=problem.bounds[:, 1],
     )
-    found = minimize(task, NSGA2(pop_size=search.population), ("n_gen", search.generations), seed=search.seed, verbose=False)
+    found = minimize(task, NSGA2(pop_size=_population(search)), ("n_gen", search.generations), seed=search.seed, verbose=False)
     front = found.X if found.X is not None else np.atleast_2d(_least_violating(problem, evaluator))
     front = np.atleast_2d(front)
     return front[np.argsort(problem.objective_values(evaluator.many(front))[0], kind="stable")]
@@ -296,7 +320,15 @@ def _least_violating(problem, evaluator):
 # -- outcome -------------------------------------------------------------------------------------------------------------------
 
 
-def _outcome(problem, front, evaluator, method, seconds):
+def _best_so_far(problem, evaluator):
+    """The design to keep when a search is interrupted: the best that meets every requirement, else the least violating one."""
+    history = evaluator.history()
+    objective = problem.objective_values({name: history[name] for name in problem.names})[0]
+    order = np.lexsort((objective, np.maximum(history["violation"], 0.0)))
+    return np.concatenate(evaluator.designs)[order[:1]]
+
+
+def _outcome(problem, front, evaluator, method, seconds, interrupted=False):
     values = evaluator.many(front)
     feasible = bool(np.all(problem.violations(values)[:, 0] <= 0))
     best = run(problem.design(front[0]))
@@ -327,6 +359,7 @@ def _outcome(problem, front, evaluator, method, seconds):
         problem.spec.optimise.seed,
         method,
         findings,
+        interrupted,
     )
 
 
@@ -350,5 +383,5 @@ def _on_bounds(problem, x):
     low, high = problem.bounds.T
     share = (x - low) / (high - low)
     for key, u in zip(problem.keys, share, strict=True):
-        if u < 1e-3 or u > 1 - 1e-3:
+        if u < 0.01 or u > 0.99:
             yield f"{key} sits on its {'lower' if u < 0.5 else 'upper'} bound; a wider bound may give a better design"

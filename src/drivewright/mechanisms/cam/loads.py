@@ -51,11 +51,23 @@ def forces(model, done):
         changes = float(cams.crossovers(model.cycle, model.required))
         values["crossovers"] = Value(changes, "-", "changes of the surface that drives, per turn")
     tables, checks, findings = (tuple(x for answer in answers for x in getattr(answer, name)) for name in ("tables", "checks", "findings"))
-    return Answer(values, (table, *tables), checks, findings)
+    return Answer(values, (table, *tables), checks, (*_flight(model, required.d0 + 0 * angle), *findings))
 
 
 def _torque(model, angle, lift):
-    return cams.drive_torque(model.follower.reach * lift, model.required(angle, lift))
+    """Torque of the contact force; where a follower closed by force has left the cam there is none."""
+    required = model.required(angle, lift)
+    held = required * (required.d0 > 0) if model.spec.closure == "force" else required
+    return cams.drive_torque(model.follower.reach * lift, held)
+
+
+def _flight(model, required):
+    """What to say where a follower closed by force would have to be pulled."""
+    if model.spec.closure != "force" or not np.any(required < 0):
+        return ()
+    share = 100 * float(np.mean(required < 0))
+    return (f"the follower leaves the cam over about {share:.0f} % of the turn: there the cam carries neither force nor torque; its flight and "
+            "landing are not computed, and the forces after a landing are larger than those given",)
 
 
 def _contact(model, track, state):

@@ -135,7 +135,7 @@ def _cam_checks(model, cam, radius, reach, driving):
             True,
         ),
         Check(
-            f"curvature_margin.{cam.name}", ratio, spec.limits.curvature_ratio, ">=", "-", "the same, with the recommended margin", parts
+            f"curvature_margin.{cam.name}", ratio, spec.limits.curvature_ratio, ">=", "-", "least convex radius over roller radius, with the recommended margin", parts
         ),
         Check(
             f"pressure_angle.{cam.name}", driving, spec.limits.pressure_angle, "<=", "rad", "pressure angle while this cam drives", parts
