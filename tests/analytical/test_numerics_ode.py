@@ -128,6 +128,13 @@ def test_only_what_happens_before_the_end_is_reported():
     np.testing.assert_allclose([(e.t, e.index) for e in both.events], [(0.75, 1), (1.0, 0)], atol=1e-14)
 
 
+@pytest.mark.parametrize("sign", [1, -1])
+def test_an_event_exactly_at_the_end_of_a_step_happens_once(sign):
+    ramp = Functions(lambda t, y: np.array([sign]), lambda t, y: np.round(y, 9))
+    run = integrate(ramp, 0, 2, [-sign], first_step=1.0, max_step=1.0, watch=[Event(sign)])
+    assert 0.0 in np.round(run.y, 9) and [e.t for e in run.events] == pytest.approx([1.0], abs=1e-8)
+
+
 def test_watching_in_the_wrong_direction_sees_nothing():
     assert integrate(FALL, 0, 2, [1.0, 0.0], watch=[Event(1, terminal=True)]).events == ()
 

@@ -62,7 +62,8 @@ def computed(*changes, only=("cams",)):
     ("lever.output_arm=0 mm", None, "must be greater than 0 mm"),
     ("lever.output_arm=-56 mm", None, "must be greater than 0 mm"),
     ("lever.pivot_distance=0 mm", None, "must be greater than 0 mm"),
-    ("cams.prime_radius_main=21 mm", None, "reaches radii from 21 to 53 mm"),
+    ("cams.prime_radius_main=21 mm", None, "onto or past its dead point"),
+    ("cams.prime_radius_main=53 mm", None, "reaches radii from 21 to 53 mm"),
     ("cams.prime_radius_main=20.9 mm", None, "with pivot_distance 37 mm and arm_length 16 mm the roller reaches radii from 21 to 53 mm"),
     ("cams.prime_radius_main=53.1 mm", None, "prime_radius 53.1 mm is not between them"),
     ("cams.prime_radius_return=20 mm", None, "prime_radius 20 mm is not between them"),
@@ -81,7 +82,7 @@ def computed(*changes, only=("cams",)):
 def test_what_has_no_meaning_is_refused_by_its_key(change, key, words):
     named, message = refusal(change)
     wanted = key or change.partition("=")[0]
-    assert named == wanted and message.startswith(f"{EXAMPLE}: {wanted}: " if "leaves" not in message and "sum to" not in message else "") and words in message
+    assert named == wanted and f"{wanted}: " in message and words in message and "\n" not in message
 
 
 def test_roots_of_the_arms_are_refused_exactly_where_the_triangle_ends():
@@ -90,7 +91,7 @@ def test_roots_of_the_arms_are_refused_exactly_where_the_triangle_ends():
         try:
             dw.build(load(EXAMPLE, [f"cams.prime_radius_main={radius} mm"]))
         except SpecError as error:  # at the far end the swing takes the arm past 180 deg
-            assert radius > 50 and "past its dead point" in str(error)
+            assert radius > 50 and "dead point" in str(error)
 
 
 NUMERIC = [f"{table}.{key}" for table, keys in tomllib.loads(EXAMPLE.read_text()).items() if isinstance(keys, dict) and table != "optimise"

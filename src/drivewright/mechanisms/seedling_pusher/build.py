@@ -257,10 +257,10 @@ def _refuse_out_of_reach(cam, swing):
     except InputError as error:
         raise SpecError(str(error), f"cams.prime_radius_{cam.name}") from None
     end = rest + cam.side * swing
-    if not 0 < end < np.pi:
+    if not 1e-6 < min(rest, end) <= max(rest, end) < np.pi - 1e-6:  # rad: exactly there, rounding decides
         raise SpecError(
             f"the lever swings {np.degrees(swing):.4g} deg, which takes the {cam.name} arm from {np.degrees(rest):.4g} to "
-            f"{np.degrees(end):.4g} deg against the line of centres, past its dead point; lengthen lever.output_arm or shorten "
+            f"{np.degrees(end):.4g} deg against the line of centres, onto or past its dead point; lengthen lever.output_arm or shorten "
             "push.stroke",
             f"cams.prime_radius_{cam.name}",
         )
