@@ -72,7 +72,7 @@ def test_loads(result):
     assert result["cam.main.profile_area"] == pytest.approx(1733.2e-6, abs=0.05e-6)
 
 
-def test_hertz_pressure_of_the_sheet_at_its_modulus(result):
+def test_hertz_pressure_at_another_modulus(result):
     """509 and 273 MPa belong to E = 206 GPa, Poisson 0.3; the pressure goes with the root of the modulus."""
     from drivewright import contact, materials
 
@@ -193,7 +193,7 @@ def test_gate_line_event():
 
 @pytest.mark.parametrize(("law", "loss"), [("polynomial-345", 0.0796), ("polynomial-4567", 0.2976)])
 def test_the_intended_contact_lies_off_the_undercut_profile(law, loss):
-    """The sheet's 0.08 and 0.30 mm; the rod feels less, the lost motion of the roller."""
+    """0.08 and 0.30 mm in an earlier, separate computation; the rod feels less, the lost motion of the roller."""
     found = dw.run(dw.load(EXAMPLE, [f"push.law={law}"]), only=("cams",))
     assert 1e3 * found["cam.return.profile_loss"] == pytest.approx(loss, abs=2e-4)
     assert 0 < found["cam.return.lost_motion"] < 0.4 * found["cam.return.profile_loss"]

@@ -50,6 +50,7 @@ def toy(monkeypatch, tmp_path):
 @pytest.fixture
 def drivewright(capsys):
     """Runs a command line: (exit code, stdout, stderr)."""
+
     def call(*arguments):
         with pytest.raises(SystemExit) as left:
             cli.main(list(arguments))
@@ -116,16 +117,22 @@ def test_a_solver_that_gives_up_exits_with_4_and_leaves_a_partial_result(drivewr
     assert "analysis 'reach' (how far) gave up: no convergence; raise `max_steps`" in err and "Traceback" not in err
 
 
-@pytest.mark.parametrize(("arguments", "wanted"), [
-    (["nope.toml"], "nope.toml: there is no such file; `drivewright examples nope` copies an example, `drivewright new KIND nope.toml` writes a spec (kinds: cam,"),
-    (["."], ".: is a folder; a spec is a TOML file"),
-    (["toy.toml", "--set", "lenght=3 mm"], "toy.toml: lenght: unknown key (did you mean 'length'?)"),
-    (["toy.toml", "--set", "length=3"], 'toy.toml: length: a bare number; a length wants its unit, e.g. "3 mm"'),
-    (["toy.toml", "--set", "length"], "toy.toml: --set wants key=value"),
-    (["toy.toml", "--only", "raech"], "toy.toml: no analysis is called 'raech' (did you mean 'reach'?)"),
-    (["toy.toml", "--out", "toy.toml"], "toy.toml: is a file, a run folder cannot take its place"),
-    (["toy.toml", "--out", "full"], "full: is not empty and is no run folder"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "wanted"),
+    [
+        (
+            ["nope.toml"],
+            "nope.toml: there is no such file; `drivewright examples nope` copies an example, `drivewright new KIND nope.toml` writes a spec (kinds: cam,",
+        ),
+        (["."], ".: is a folder; a spec is a TOML file"),
+        (["toy.toml", "--set", "lenght=3 mm"], "toy.toml: lenght: unknown key (did you mean 'length'?)"),
+        (["toy.toml", "--set", "length=3"], 'toy.toml: length: a bare number; a length wants its unit, e.g. "3 mm"'),
+        (["toy.toml", "--set", "length"], "toy.toml: --set wants key=value"),
+        (["toy.toml", "--only", "raech"], "toy.toml: no analysis is called 'raech' (did you mean 'reach'?)"),
+        (["toy.toml", "--out", "toy.toml"], "toy.toml: is a file, a run folder cannot take its place"),
+        (["toy.toml", "--out", "full"], "full: is not empty and is no run folder"),
+    ],
+)
 def test_a_mistake_is_one_message_and_nothing_is_written(drivewright, toy, arguments, wanted):
     (toy / "full").mkdir()
     (toy / "full" / "thesis.txt").write_text("years of work")
@@ -133,9 +140,14 @@ def test_a_mistake_is_one_message_and_nothing_is_written(drivewright, toy, argum
     assert wanted in refused(drivewright("run", "--no-figures", *arguments)) and snapshot(toy) == before
 
 
-@pytest.mark.parametrize(("mode", "code", "wanted"), [
-    ("cannot be built", 2, "toy.toml: no such toy can be built"), ("refuses", 2, "toy.toml: the loop does not close"),
-    ("solver gives up in build", 4, "no start position; turn the crank")])
+@pytest.mark.parametrize(
+    ("mode", "code", "wanted"),
+    [
+        ("cannot be built", 2, "toy.toml: no such toy can be built"),
+        ("refuses", 2, "toy.toml: the loop does not close"),
+        ("solver gives up in build", 4, "no start position; turn the crank"),
+    ],
+)
 def test_a_failing_run_leaves_the_old_run_folder_as_it_was(drivewright, toy, monkeypatch, mode, code, wanted):
     assert drivewright("run", "toy.toml", "--no-figures")[0] == 0
     before = snapshot(toy)
@@ -185,22 +197,27 @@ def test_new_writes_a_spec_that_runs_and_refuses_to_write_over_it(drivewright, t
     assert (toy / "lift.csv").read_text().endswith("1,1\n")
 
 
-@pytest.mark.parametrize(("arguments", "wanted"), [
-    (["new", "camm"], "no mechanism is called 'camm' (did you mean 'cam'?)"),
-    (["new", "cam", "--preset", "groves"], "no preset of cam is called 'groves' (did you mean 'groove'?)"),
-    (["new", "cam", "no/such/folder/x.toml"], "no/such/folder/x.toml: there is no folder 'no/such/folder'"),
-    (["schema", "camm"], "no mechanism is called 'camm'"),
-    (["examples", "yoke"], "no example is called 'yoke' (did you mean 'yoke_cam'?)"),
-    (["export", "nope.toml", "--to", "dxf"], "nope.toml: there is no such file"),
-    (["optimise", "nope.toml"], "nope.toml: there is no such file"),
-    (["verify", "nope.toml"], "nope.toml: there is no such file"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "wanted"),
+    [
+        (["new", "camm"], "no mechanism is called 'camm' (did you mean 'cam'?)"),
+        (["new", "cam", "--preset", "groves"], "no preset of cam is called 'groves' (did you mean 'groove'?)"),
+        (["new", "cam", "no/such/folder/x.toml"], "no/such/folder/x.toml: there is no folder 'no/such/folder'"),
+        (["schema", "camm"], "no mechanism is called 'camm'"),
+        (["examples", "yoke"], "no example is called 'yoke' (did you mean 'yoke_cam'?)"),
+        (["export", "nope.toml", "--to", "dxf"], "nope.toml: there is no such file"),
+        (["optimise", "nope.toml"], "nope.toml: there is no such file"),
+        (["verify", "nope.toml"], "nope.toml: there is no such file"),
+    ],
+)
 def test_other_commands_refuse_the_same_way(drivewright, toy, arguments, wanted):
     before = snapshot(toy)
     assert wanted in refused(drivewright(*arguments)) and snapshot(toy) == before
 
 
-@pytest.mark.parametrize("arguments", [["run"], ["run", "toy.toml", "--bogus"], ["fly"], ["new"], ["export", "toy.toml"], ["run", "toy.toml", "--out"]])
+@pytest.mark.parametrize(
+    "arguments", [["run"], ["run", "toy.toml", "--bogus"], ["fly"], ["new"], ["export", "toy.toml"], ["run", "toy.toml", "--out"]]
+)
 def test_a_command_line_that_is_none_exits_with_2(drivewright, toy, arguments):
     before = snapshot(toy)
     code, out, err = drivewright(*arguments)
@@ -226,7 +243,9 @@ def test_help_lists_every_command(drivewright):
 
 
 def process(*arguments, cwd=None):
-    return subprocess.run([sys.executable, "-c", "from drivewright.cli import main; main()", *arguments], capture_output=True, text=True, cwd=cwd)
+    return subprocess.run(
+        [sys.executable, "-c", "from drivewright.cli import main; main()", *arguments], capture_output=True, text=True, cwd=cwd
+    )
 
 
 def test_a_mistake_in_a_real_process_has_no_traceback(tmp_path):
@@ -235,12 +254,24 @@ def test_a_mistake_in_a_real_process_has_no_traceback(tmp_path):
 
 
 def test_help_starts_fast_and_loads_nothing_heavy(tmp_path):
-    code = ("import sys\nfrom drivewright.cli import main\ntry: main(['--help'])\nexcept SystemExit: pass\n"
-            "print('LOADED', *sorted({m.split('.')[0] for m in sys.modules}))")
+    code = (
+        "import sys\nfrom drivewright.cli import main\ntry: main(['--help'])\nexcept SystemExit: pass\n"
+        "print('LOADED', *sorted({m.split('.')[0] for m in sys.modules}))"
+    )
     started = time.perf_counter()
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path, check=True)
     assert time.perf_counter() - started < 5  # the benchmark shows the real number; this only catches a wrong import on a loaded machine
-    assert not set(done.stdout.split("LOADED")[1].split()) & {"numpy", "scipy", "numba", "matplotlib", "pyarrow", "pint", "pydantic", "rich", "tomlkit"}
+    assert not set(done.stdout.split("LOADED")[1].split()) & {
+        "numpy",
+        "scipy",
+        "numba",
+        "matplotlib",
+        "pyarrow",
+        "pint",
+        "pydantic",
+        "rich",
+        "tomlkit",
+    }
 
 
 def test_a_reader_that_goes_away_is_no_traceback(tmp_path):

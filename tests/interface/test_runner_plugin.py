@@ -20,7 +20,19 @@ PACKAGE = Path(__file__).parent / "plugin"
 def installed(tmp_path_factory):
     """Environment of a Python that has the package as well."""
     target = tmp_path_factory.mktemp("site")
-    pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-build-isolation", "--no-index", "--target", str(target), str(PACKAGE)]
+    pip = [
+        sys.executable,
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        "--no-deps",
+        "--no-build-isolation",
+        "--no-index",
+        "--target",
+        str(target),
+        str(PACKAGE),
+    ]
     done = subprocess.run(pip, capture_output=True, text=True)
     if done.returncode:
         _install_by_hand(target)
@@ -37,7 +49,10 @@ def _install_by_hand(target):
     about = target / f"pendulum_drive-{project['version']}.dist-info"
     about.mkdir(exist_ok=True)
     (about / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {project['version']}\n")
-    lines = [f"[{group}]\n" + "".join(f"{name} = {place}\n" for name, place in points.items()) for group, points in project["entry-points"].items()]
+    lines = [
+        f"[{group}]\n" + "".join(f"{name} = {place}\n" for name, place in points.items())
+        for group, points in project["entry-points"].items()
+    ]
     (about / "entry_points.txt").write_text("\n".join(lines))
 
 
@@ -52,7 +67,9 @@ def test_a_drive_of_another_package_is_made_run_and_reported(installed, tmp_path
     run = drivewright(installed, tmp_path, "run", "pendulum.toml", "--json", "--set", "bob.length=1 m")
     assert run.returncode == 0, run.stderr
     record = json.loads(run.stdout)
-    assert record["mechanism"] == "pendulum" and record["values"]["period"]["value"] == pytest.approx(2 * math.pi / math.sqrt(9.80665), rel=1e-14)
+    assert record["mechanism"] == "pendulum" and record["values"]["period"]["value"] == pytest.approx(
+        2 * math.pi / math.sqrt(9.80665), rel=1e-14
+    )
     assert record["values"]["rise"]["value"] == pytest.approx(1 - math.cos(math.radians(20)), rel=1e-12) and record["checks"][0]["ok"]
     assert {"result.json", "report.html", "spec.toml", "tables"} <= {path.name for path in (tmp_path / "out" / "pendulum").iterdir()}
 
@@ -66,8 +83,10 @@ def test_it_is_refused_strictly_and_by_key_like_ours(installed, tmp_path):
 
 
 def test_the_house_lists_it_and_finds_its_law(installed, tmp_path):
-    code = ("import drivewright as dw; from drivewright import registry, motion; print(registry.kinds()); "
-            "print(dw.motion.law('half-cosine').peaks().Am, 'half-cosine' in motion.names())")
+    code = (
+        "import drivewright as dw; from drivewright import registry, motion; print(registry.kinds()); "
+        "print(dw.motion.law('half-cosine').peaks().Am, 'half-cosine' in motion.names())"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=installed, cwd=tmp_path)
     kinds, law = done.stdout.splitlines()
     assert kinds == "['cam', 'pendulum', 'seedling-pusher']" and law.endswith(" True")
@@ -90,7 +109,9 @@ def points(monkeypatch):
 
 
 def test_an_unknown_kind_is_refused_with_the_nearest_known():
-    with pytest.raises(UnknownName, match="no mechanism is called 'seedling_pusher' .did you mean 'seedling-pusher'.*; known: cam, seedling-pusher"):
+    with pytest.raises(
+        UnknownName, match="no mechanism is called 'seedling_pusher' .did you mean 'seedling-pusher'.*; known: cam, seedling-pusher"
+    ):
         registry.mechanism("seedling_pusher")
 
 
@@ -109,7 +130,9 @@ def test_a_plug_in_that_does_not_load_is_named_with_its_package(points):
 
     points.append(EntryPoint("broken", "no_such_module_at_all:mechanism", "drivewright.mechanisms"))
     vars(points[-1]).update(dist=Distribution())
-    with pytest.raises(InputError, match="mechanism 'broken' of the package 'broken-drives' does not load: No module named 'no_such_module_at_all'"):
+    with pytest.raises(
+        InputError, match="mechanism 'broken' of the package 'broken-drives' does not load: No module named 'no_such_module_at_all'"
+    ):
         registry.mechanism("broken")
 
 

@@ -12,31 +12,83 @@ import drivewright as dw
 from drivewright.errors import UnknownName
 from drivewright.result import Array, Check, Column, Result, Table, Value
 
-TABLE = Table("force", "Force over the turn", (Column("angle", "rad", "cam angle", np.linspace(0, 1, 3)), Column("force", "N", "normal force", np.arange(3.0))))
-CHECKS = (Check("low", np.float64(0.5), 1.0, ">=", "-", "too low", ("cam",)), Check("high", 3.0, np.float64(4.0), "<=", "m", "fine"),
-          Check("unknown", float("nan"), 1.0, "<=", "-", "not computed"), Check("free", 1.0, float("inf"), "<=", "-", "no limit"))
+TABLE = Table(
+    "force",
+    "Force over the turn",
+    (Column("angle", "rad", "cam angle", np.linspace(0, 1, 3)), Column("force", "N", "normal force", np.arange(3.0))),
+)
+CHECKS = (
+    Check("low", np.float64(0.5), 1.0, ">=", "-", "too low", ("cam",)),
+    Check("high", 3.0, np.float64(4.0), "<=", "m", "fine"),
+    Check("unknown", float("nan"), 1.0, "<=", "-", "not computed"),
+    Check("free", 1.0, float("inf"), "<=", "-", "no limit"),
+)
 
 
 def sample(**changes):
-    given = {"spec": ToySpec(length="1 mm"), "mechanism": "toy", "title": "a toy", "digest": "0" * 64,
-             "values": {"lift": Value(np.float64(0.02), "m", "stroke"), "peak": Value(np.float32(0.5), "-", "peak"), "jerk": Value(float("inf"), "m", "none")},
-             "tables": {"force": TABLE}, "checks": CHECKS, "findings": ("one",), "provenance": MappingProxyType({"seed": 0}),
-             "arrays": {"flexibility": Array("m/N", ("station", "station"), (("a", "b"), ("a", "b")), np.array([[1.0, np.nan], [np.inf, 4.0]])),
-                        "count": Array("-", ("n",), (("a", "b"),), np.array([1, 2]))}}
+    given = {
+        "spec": ToySpec(length="1 mm"),
+        "mechanism": "toy",
+        "title": "a toy",
+        "digest": "0" * 64,
+        "values": {
+            "lift": Value(np.float64(0.02), "m", "stroke"),
+            "peak": Value(np.float32(0.5), "-", "peak"),
+            "jerk": Value(float("inf"), "m", "none"),
+        },
+        "tables": {"force": TABLE},
+        "checks": CHECKS,
+        "findings": ("one",),
+        "provenance": MappingProxyType({"seed": 0}),
+        "arrays": {
+            "flexibility": Array("m/N", ("station", "station"), (("a", "b"), ("a", "b")), np.array([[1.0, np.nan], [np.inf, 4.0]])),
+            "count": Array("-", ("n",), (("a", "b"),), np.array([1, 2])),
+        },
+    }
     return Result(**given | changes)
 
 
 def test_the_record_is_strict_json_as_product_documents_it():
     record = json.loads(json.dumps(sample().record(), allow_nan=False))
-    assert list(record) == ["format", "drivewright", "mechanism", "title", "digest", "values", "arrays", "checks", "findings", "outcome", "provenance"]
+    assert list(record) == [
+        "format",
+        "drivewright",
+        "mechanism",
+        "title",
+        "digest",
+        "values",
+        "arrays",
+        "checks",
+        "findings",
+        "outcome",
+        "provenance",
+    ]
     assert (record["format"], record["drivewright"], record["outcome"]) == (1, dw.__version__, "complete")
-    assert record["values"] == {"lift": {"value": 0.02, "unit": "m", "meaning": "stroke"}, "peak": {"value": 0.5, "unit": "-", "meaning": "peak"}}
-    assert record["arrays"]["flexibility"] == {"unit": "m/N", "axes": ["station", "station"], "labels": [["a", "b"], ["a", "b"]],
-                                               "values": [[1.0, None], [None, 4.0]]}
+    assert record["values"] == {
+        "lift": {"value": 0.02, "unit": "m", "meaning": "stroke"},
+        "peak": {"value": 0.5, "unit": "-", "meaning": "peak"},
+    }
+    assert record["arrays"]["flexibility"] == {
+        "unit": "m/N",
+        "axes": ["station", "station"],
+        "labels": [["a", "b"], ["a", "b"]],
+        "values": [[1.0, None], [None, 4.0]],
+    }
     assert record["arrays"]["count"]["values"] == [1, 2]
     assert record["checks"] == [
-        {"name": "low", "value": 0.5, "limit": 1.0, "sense": ">=", "margin": -0.5, "unit": "-", "ok": False, "message": "too low", "parts": ["cam"]},
-        {"name": "high", "value": 3.0, "limit": 4.0, "sense": "<=", "margin": 1.0, "unit": "m", "ok": True, "message": "fine", "parts": []}]
+        {
+            "name": "low",
+            "value": 0.5,
+            "limit": 1.0,
+            "sense": ">=",
+            "margin": -0.5,
+            "unit": "-",
+            "ok": False,
+            "message": "too low",
+            "parts": ["cam"],
+        },
+        {"name": "high", "value": 3.0, "limit": 4.0, "sense": "<=", "margin": 1.0, "unit": "m", "ok": True, "message": "fine", "parts": []},
+    ]
 
 
 def test_values_keep_every_digit():
@@ -45,8 +97,17 @@ def test_values_keep_every_digit():
     assert record["values"]["x"]["value"] == value
 
 
-@pytest.mark.parametrize(("value", "sense", "margin", "ok"), [(0.5, ">=", -0.5, False), (1.0, ">=", 0.0, True), (1.5, ">=", 0.5, True),
-                                                           (0.5, "<=", 0.5, True), (1.0, "<=", 0.0, True), (1.5, "<=", -0.5, False)])
+@pytest.mark.parametrize(
+    ("value", "sense", "margin", "ok"),
+    [
+        (0.5, ">=", -0.5, False),
+        (1.0, ">=", 0.0, True),
+        (1.5, ">=", 0.5, True),
+        (0.5, "<=", 0.5, True),
+        (1.0, "<=", 0.0, True),
+        (1.5, "<=", -0.5, False),
+    ],
+)
 def test_a_check_has_its_margin_on_the_good_side(value, sense, margin, ok):
     check = Check("c", np.float64(value), 1.0, sense, "-", "")
     assert check.margin == margin and check.ok is ok
@@ -59,8 +120,12 @@ def test_a_check_that_could_not_be_computed_is_not_passed():
 def test_names_that_are_none_are_refused_with_the_nearest():
     result = sample()
     assert result["lift"] == 0.02 and result.check("low") is CHECKS[0] and TABLE["force"].unit == "N"
-    for ask, message in ((lambda: result["lifd"], "no value is called 'lifd' .did you mean 'lift'"), (lambda: result.check("lo"), "no check is called 'lo'"),
-                         (lambda: result.table("farce"), "did you mean 'force'"), (lambda: TABLE["farce"], "no column of table 'force' is called 'farce'")):
+    for ask, message in (
+        (lambda: result["lifd"], "no value is called 'lifd' .did you mean 'lift'"),
+        (lambda: result.check("lo"), "no check is called 'lo'"),
+        (lambda: result.table("farce"), "did you mean 'force'"),
+        (lambda: TABLE["farce"], "no column of table 'force' is called 'farce'"),
+    ):
         with pytest.raises(UnknownName, match=message):
             ask()
 

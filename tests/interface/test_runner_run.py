@@ -58,8 +58,12 @@ def needs_extra(model, done):
 
 
 def test_defaults_run_in_the_order_of_their_needs_and_only_once(kind):
-    log = kind(Analysis("c", says(c=3.0), "third", needs=("b",)), Analysis("a", says(a=1.0), "first"),
-               Analysis("b", says(b=2.0), "second", default=False, needs=("a",)), Analysis("d", says(d=4.0), "asked", default=False))
+    log = kind(
+        Analysis("c", says(c=3.0), "third", needs=("b",)),
+        Analysis("a", says(a=1.0), "first"),
+        Analysis("b", says(b=2.0), "second", default=False, needs=("a",)),
+        Analysis("d", says(d=4.0), "asked", default=False),
+    )
     result = runner.run(SPEC)
     assert log == ["a", "b", "c"] and {name: v.value for name, v in result.values.items()} == {"a": 1.0, "b": 2.0, "c": 3.0}
     assert result["b"] == 2.0 and result.provenance["analyses"] == log and result.outcome == "complete"
@@ -67,13 +71,24 @@ def test_defaults_run_in_the_order_of_their_needs_and_only_once(kind):
 
 
 def test_a_later_analysis_sees_the_answers_it_needs(kind):
-    kind(Analysis("a", says(a=1.0), "first"), Analysis("b", lambda model, done: says(b=done["a"].data["a"] + 1)(model, done), "second", needs=("a",)))
+    kind(
+        Analysis("a", says(a=1.0), "first"),
+        Analysis("b", lambda model, done: says(b=done["a"].data["a"] + 1)(model, done), "second", needs=("a",)),
+    )
     assert runner.run(SPEC)["b"] == 2.0
 
 
-@pytest.mark.parametrize(("only", "everything", "names"), [
-    ((), False, ["a"]), ((), True, ["a", "b", "c"]), (("c",), False, ["b", "c"]), (("b", "a"), False, ["a", "b"]), ("b", False, ["b"]),
-    (("c",), True, ["b", "c"])])
+@pytest.mark.parametrize(
+    ("only", "everything", "names"),
+    [
+        ((), False, ["a"]),
+        ((), True, ["a", "b", "c"]),
+        (("c",), False, ["b", "c"]),
+        (("b", "a"), False, ["a", "b"]),
+        ("b", False, ["b"]),
+        (("c",), True, ["b", "c"]),
+    ],
+)
 def test_only_does_exactly_those_named_and_what_they_need(kind, only, everything, names):
     log = kind(Analysis("a", says(), ""), Analysis("b", says(), "", default=False), Analysis("c", says(), "", default=False, needs=("b",)))
     result = runner.run(SPEC, only=only, everything=everything)
@@ -88,13 +103,22 @@ def test_an_unknown_analysis_is_refused_before_anything_is_built(kind):
 
 
 def test_what_is_left_out_says_why_and_takes_its_dependants_along(kind):
-    log = kind(Analysis("a", needs_extra, "solid"), Analysis("b", says(b=1.0), "on top", needs=("a",)), Analysis("c", says(c=1.0), "apart"),
-               Analysis("d", says(d=1.0), "forces", missing=lambda spec: f"[drive] is not given for {spec.title}"))
+    log = kind(
+        Analysis("a", needs_extra, "solid"),
+        Analysis("b", says(b=1.0), "on top", needs=("a",)),
+        Analysis("c", says(c=1.0), "apart"),
+        Analysis("d", says(d=1.0), "forces", missing=lambda spec: f"[drive] is not given for {spec.title}"),
+    )
     result = runner.run(SPEC)
     assert log == ["a", "c"] and set(result.values) == {"c"} and result.outcome == "complete"
-    assert result.findings[1].startswith("analysis 'a' (solid) is left out: the solid check needs the extra 'fe'") and "pip install" in result.findings[1]
-    assert result.findings[2:] == ("analysis 'b' (on top) is left out: it needs 'a', which is left out",
-                                   "analysis 'd' (forces) is left out: [drive] is not given for a toy")
+    assert (
+        result.findings[1].startswith("analysis 'a' (solid) is left out: the solid check needs the extra 'fe'")
+        and "pip install" in result.findings[1]
+    )
+    assert result.findings[2:] == (
+        "analysis 'b' (on top) is left out: it needs 'a', which is left out",
+        "analysis 'd' (forces) is left out: [drive] is not given for a toy",
+    )
 
 
 def test_a_solver_that_gives_up_leaves_a_partial_result_with_what_it_had(kind):
@@ -106,8 +130,10 @@ def test_a_solver_that_gives_up_leaves_a_partial_result_with_what_it_had(kind):
 
 
 def test_a_partial_answer_with_data_can_be_built_on(kind):
-    kind(Analysis("a", lambda model, done: Answer(outcome="partial", data=7.0), "most of it"),
-         Analysis("b", lambda model, done: says(b=done["a"].data)(model, done), "on top", needs=("a",)))
+    kind(
+        Analysis("a", lambda model, done: Answer(outcome="partial", data=7.0), "most of it"),
+        Analysis("b", lambda model, done: says(b=done["a"].data)(model, done), "on top", needs=("a",)),
+    )
     result = runner.run(SPEC)
     assert result.outcome == "partial" and result["b"] == 7.0
 
@@ -125,8 +151,10 @@ def test_a_value_that_does_not_exist_is_absent_and_a_finding_says_so(kind):
     kind(Analysis("a", says(good=1.0, jerk=math.inf, hole=np.float64("nan")), ""))
     result = runner.run(SPEC)
     assert set(result.values) == {"good"}
-    assert result.findings[1:] == ("value 'jerk' (meaning of jerk) does not exist for this design: it is inf",
-                                   "value 'hole' (meaning of hole) does not exist for this design: it is nan")
+    assert result.findings[1:] == (
+        "value 'jerk' (meaning of jerk) does not exist for this design: it is inf",
+        "value 'hole' (meaning of hole) does not exist for this design: it is nan",
+    )
 
 
 def test_a_model_built_before_is_used_even_when_it_is_false(kind):
@@ -153,9 +181,17 @@ def test_a_result_remembers_where_it_came_from(kind):
 # -- errors travel -------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("error", [
-    UnknownName("value", "forse", ["force", "mass"]), MissingExtra("STEP", "fe", "no libGL"), SpecError("is wrong", "drive.speed", "x.toml"),
-    SolverError("gave up", partial={"x": 1}), InputError("plain")], ids=lambda e: type(e).__name__)
+@pytest.mark.parametrize(
+    "error",
+    [
+        UnknownName("value", "forse", ["force", "mass"]),
+        MissingExtra("STEP", "fe", "no libGL"),
+        SpecError("is wrong", "drive.speed", "x.toml"),
+        SolverError("gave up", partial={"x": 1}),
+        InputError("plain"),
+    ],
+    ids=lambda e: type(e).__name__,
+)
 def test_an_error_survives_the_way_through_a_pool_of_processes(error):
     again = pickle.loads(pickle.dumps(error))
     assert type(again) is type(error) and str(again) == str(error) and vars(again) == vars(error) and isinstance(again, DrivewrightError)

@@ -26,10 +26,27 @@ def test_a_quantity_needs_no_quotes(tables, text):
     assert spec_with(tables, text).length == 0.00635
 
 
-@pytest.mark.parametrize(("text", "value"), [
-    ("7", 7), ("7.5", 7.5), ("true", True), ("[1, 2]", [1, 2]), ('"7"', "7"), ("{a = 1}", {"a": 1}), ("hello world", "hello world"), ("", ""),
-    ("08", "08"), ("2 rev/s", "2 rev/s"), ('"a" # b', "a"), ("1\nformat = 2", "1\nformat = 2"), ("[" * 5000, "[" * 5000), ("9" * 5000, "9" * 5000),
-    ("[1,", "[1,"), ("x=y", "x=y")])
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("7", 7),
+        ("7.5", 7.5),
+        ("true", True),
+        ("[1, 2]", [1, 2]),
+        ('"7"', "7"),
+        ("{a = 1}", {"a": 1}),
+        ("hello world", "hello world"),
+        ("", ""),
+        ("08", "08"),
+        ("2 rev/s", "2 rev/s"),
+        ('"a" # b', "a"),
+        ("1\nformat = 2", "1\nformat = 2"),
+        ("[" * 5000, "[" * 5000),
+        ("9" * 5000, "9" * 5000),
+        ("[1,", "[1,"),
+        ("x=y", "x=y"),
+    ],
+)
 def test_a_value_is_toml_or_else_text(text, value):
     assert read_value(text) == value
 
@@ -41,29 +58,42 @@ def test_later_changes_win_and_tables_come_into_being(tables):
 
 
 def test_list_elements_go_by_name_or_by_number(tables):
-    spec = spec_with(tables, "joints.rocker.clearance=7 um", "joints.0.at=['3 mm', '4 mm']", "points.1.0=0.75", "weights.0=9",
-                     "optimise.unknowns.0.upper=0.2 mm")
+    spec = spec_with(
+        tables,
+        "joints.rocker.clearance=7 um",
+        "joints.0.at=['3 mm', '4 mm']",
+        "points.1.0=0.75",
+        "weights.0=9",
+        "optimise.unknowns.0.upper=0.2 mm",
+    )
     assert [j.clearance for j in spec.joints] == pytest.approx([2e-5, 7e-6], rel=1e-15) and spec.joints[0].at == (0.003, 0.004)
     assert spec.points[1] == (0.75, 0.25) and spec.weights == (9.0,) and spec.optimise.unknowns[0].upper == "0.2 mm"
 
 
-@pytest.mark.parametrize(("change", "key", "wanted"), [
-    ("length", None, "--set wants key=value with a dotted key, got 'length'"),
-    ("=3", None, "--set wants key=value with a dotted key, got '=3'"),
-    ("a..b=3", None, "--set wants key=value"),
-    ("drive.=3", None, "--set wants key=value"),
-    ("joints.x.clearance=1 mm", "joints.x", "the list has no element 'x'; it has 2, named crank, rocker"),
-    ("joints.rokcer.clearance=1 mm", "joints.rokcer", "the list has no element 'rokcer' (did you mean 'rocker'?); it has 2, named crank, rocker"),
-    ("joints.2=1", "joints.2", "the list has no element '2'"),
-    ("joints.-1=1", "joints.-1", "the list has no element '-1'"),
-    ("weights.²=1", "weights.²", "the list has no element '²'; it has 1, numbered from 0 to 0"),
-    ("points.0.9=1", "points.0.9", "the list has no element '9'; it has 2, numbered from 0 to 1"),
-    ("title.a=1", "title", "is no table, so it has no key 'a'"),
-    ("title.a.b=1", "title.a", "is no table"),
-    ("length=7", "length", 'a bare number; a length wants its unit, e.g. "7 mm"'),
-    ("drvie.speed=1 rpm", "drvie", "unknown key (did you mean 'drive'?)"),
-    ("turns=" + "9" * 5000, "turns", "must be a whole number, got '999"),
-])
+@pytest.mark.parametrize(
+    ("change", "key", "wanted"),
+    [
+        ("length", None, "--set wants key=value with a dotted key, got 'length'"),
+        ("=3", None, "--set wants key=value with a dotted key, got '=3'"),
+        ("a..b=3", None, "--set wants key=value"),
+        ("drive.=3", None, "--set wants key=value"),
+        ("joints.x.clearance=1 mm", "joints.x", "the list has no element 'x'; it has 2, named crank, rocker"),
+        (
+            "joints.rokcer.clearance=1 mm",
+            "joints.rokcer",
+            "the list has no element 'rokcer' (did you mean 'rocker'?); it has 2, named crank, rocker",
+        ),
+        ("joints.2=1", "joints.2", "the list has no element '2'"),
+        ("joints.-1=1", "joints.-1", "the list has no element '-1'"),
+        ("weights.²=1", "weights.²", "the list has no element '²'; it has 1, numbered from 0 to 0"),
+        ("points.0.9=1", "points.0.9", "the list has no element '9'; it has 2, numbered from 0 to 1"),
+        ("title.a=1", "title", "is no table, so it has no key 'a'"),
+        ("title.a.b=1", "title.a", "is no table"),
+        ("length=7", "length", 'a bare number; a length wants its unit, e.g. "7 mm"'),
+        ("drvie.speed=1 rpm", "drvie", "unknown key (did you mean 'drive'?)"),
+        ("turns=" + "9" * 5000, "turns", "must be a whole number, got '999"),
+    ],
+)
 def test_a_change_that_cannot_be_made_says_why(tables, change, key, wanted):
     with pytest.raises(SpecError) as caught:
         spec_with(tables, change)
@@ -76,10 +106,23 @@ def test_changing_keys_changes_the_tables_in_place():
     assert set_key(tables, "c.d.e", 1)["c"] == {"d": {"e": 1}}
 
 
-@pytest.mark.parametrize(("key", "name"), [
-    ("length", "length"), ("drive.speed", "angular speed"), ("joints.0.clearance", "length"), ("joints.crank.clearance", "length"),
-    ("joints.crank.at.1", "length"), ("joints.3.at", "length"), ("turns", None), ("weights.0", None), ("points.0.1", None), ("spring", None),
-    ("spring.rate", None), ("optimise.unknowns.0.lower", None)])
+@pytest.mark.parametrize(
+    ("key", "name"),
+    [
+        ("length", "length"),
+        ("drive.speed", "angular speed"),
+        ("joints.0.clearance", "length"),
+        ("joints.crank.clearance", "length"),
+        ("joints.crank.at.1", "length"),
+        ("joints.3.at", "length"),
+        ("turns", None),
+        ("weights.0", None),
+        ("points.0.1", None),
+        ("spring", None),
+        ("spring.rate", None),
+        ("optimise.unknowns.0.lower", None),
+    ],
+)
 def test_the_dimension_of_a_key(key, name):
     exists, dimension = dimension_at(ToySpec, key)
     assert exists and (dimension.name if dimension else None) == name

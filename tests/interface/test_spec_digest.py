@@ -76,7 +76,9 @@ def test_every_key_but_the_title_changes_it(tables):
 
 
 def test_leaving_something_out_or_in_changes_it(tables):
-    found = {digest(tables)} | {digest({k: v for k, v in tables.items() if k != name}) for name in ("spring", "points", "table", "joints", "optimise")}
+    found = {digest(tables)} | {
+        digest({k: v for k, v in tables.items() if k != name}) for name in ("spring", "points", "table", "joints", "optimise")
+    }
     assert len(found) == 6
     other = copy.deepcopy(tables)
     other["joints"].reverse()

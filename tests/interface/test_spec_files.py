@@ -113,7 +113,7 @@ def test_a_spec_is_frozen_and_can_be_a_key(folder):
 
 
 def test_a_table_built_in_python_complains_like_a_file():
-    with pytest.raises(SpecError, match="^length: a bare number; a length wants its unit, e.g. \"1.2 mm\"$") as caught:
+    with pytest.raises(SpecError, match='^length: a bare number; a length wants its unit, e.g. "1.2 mm"$') as caught:
         ToySpec(length=1.2)
     assert caught.value.key == "length" and caught.value.file is None
     with pytest.raises(SpecError, match="^joints.0.clearance: wants a length, got '1 kg' .mass"):
@@ -123,38 +123,54 @@ def test_a_table_built_in_python_complains_like_a_file():
 # -- files that are no spec ----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("content", "wanted"), [
-    (b"", "mechanism: is missing; one of cam, seedling-pusher, toy"),
-    (b"# nothing\n", "mechanism: is missing; one of cam, seedling-pusher, toy"),
-    (b'mechansim = "toy"', "mechanism: is missing (did you mean 'mechansim'?); one of cam, seedling-pusher, toy"),
-    (b'mechanism = "seeding-pusher"', "mechanism: no mechanism is called 'seeding-pusher' (did you mean 'seedling-pusher'?); known: cam, seedling-"),
-    (b"mechanism = 3", "mechanism: must be a text, got 3; one of cam, seedling-pusher, toy"),
-    (b'mechanism = ["toy"]', "mechanism: must be a text, got ['toy']; one of cam, seedling-pusher, toy"),
-    (b'title = "\xe9"', "is not text in UTF-8 (byte 9 is 0xe9); save it as UTF-8"),
-    (FULL.encode("utf-16"), "is not text in UTF-8 (byte 0 is 0xff); save it as UTF-8"),
-    (bytes(range(256)), "is not text in UTF-8 (byte 128 is 0x80); save it as UTF-8"),
-    (b"\x00\x01\x02", "is not valid TOML: Invalid statement (at line 1, column 1)"),
-    (b"length = 40 mm", 'is not valid TOML: Expected newline or end of document after a statement (at line 1, column 13): length = 40 mm; '
-                        'a quantity is text in quotes: length = "40 mm"'),
-    (b'a = 1\nlength = "4 mm"\nlength = "5 mm"', 'is not valid TOML: the key is there twice (at line 3, column 16): length = "5 mm"'),
-    (b"[drive]\n[spring]\n[drive]", "is not valid TOML: Cannot declare ('drive',) twice (at line 3, column 7): [drive]"),
-    (b"a = [1, 2", "is not valid TOML: Unclosed array (at end of document)"),
-    (b"a = " + b"[" * 5000, "is not valid TOML: nested too deeply"),
-    (b"a = " + b"9" * 5000, "is not valid TOML: a number has more than 4300 digits"),
-])
+@pytest.mark.parametrize(
+    ("content", "wanted"),
+    [
+        (b"", "mechanism: is missing; one of cam, seedling-pusher, toy"),
+        (b"# nothing\n", "mechanism: is missing; one of cam, seedling-pusher, toy"),
+        (b'mechansim = "toy"', "mechanism: is missing (did you mean 'mechansim'?); one of cam, seedling-pusher, toy"),
+        (
+            b'mechanism = "seeding-pusher"',
+            "mechanism: no mechanism is called 'seeding-pusher' (did you mean 'seedling-pusher'?); known: cam, seedling-",
+        ),
+        (b"mechanism = 3", "mechanism: must be a text, got 3; one of cam, seedling-pusher, toy"),
+        (b'mechanism = ["toy"]', "mechanism: must be a text, got ['toy']; one of cam, seedling-pusher, toy"),
+        (b'title = "\xe9"', "is not text in UTF-8 (byte 9 is 0xe9); save it as UTF-8"),
+        (FULL.encode("utf-16"), "is not text in UTF-8 (byte 0 is 0xff); save it as UTF-8"),
+        (bytes(range(256)), "is not text in UTF-8 (byte 128 is 0x80); save it as UTF-8"),
+        (b"\x00\x01\x02", "is not valid TOML: Invalid statement (at line 1, column 1)"),
+        (
+            b"length = 40 mm",
+            "is not valid TOML: Expected newline or end of document after a statement (at line 1, column 13): length = 40 mm; "
+            'a quantity is text in quotes: length = "40 mm"',
+        ),
+        (b'a = 1\nlength = "4 mm"\nlength = "5 mm"', 'is not valid TOML: the key is there twice (at line 3, column 16): length = "5 mm"'),
+        (b"[drive]\n[spring]\n[drive]", "is not valid TOML: Cannot declare ('drive',) twice (at line 3, column 7): [drive]"),
+        (b"a = [1, 2", "is not valid TOML: Unclosed array (at end of document)"),
+        (b"a = " + b"[" * 5000, "is not valid TOML: nested too deeply"),
+        (b"a = " + b"9" * 5000, "is not valid TOML: a number has more than 4300 digits"),
+    ],
+)
 def test_a_file_that_is_no_spec_is_refused_in_one_line(folder, monkeypatch, content, wanted):
     message, _ = complaint(folder, content)
     assert message.startswith(wanted) and "\n" not in message
 
 
 def test_a_missing_file_says_how_to_make_one(tmp_path):
-    with pytest.raises(SpecError, match=r"nope.toml: there is no such file; .*`drivewright new KIND nope.toml` writes a spec .kinds: cam, seedling-pusher.$"):
+    with pytest.raises(
+        SpecError,
+        match=r"nope.toml: there is no such file; .*`drivewright new KIND nope.toml` writes a spec .kinds: cam, seedling-pusher.$",
+    ):
         load(tmp_path / "nope.toml")
 
 
 def test_a_folder_a_name_too_long_and_an_endless_file_are_refused(tmp_path):
-    for path, reason in ((tmp_path, "is a folder"), ("x" * 5000, "cannot be read: File name too long"), ("x\0y", "cannot be read"),
-                         ("/dev/zero", "has more than 10000000 characters")):
+    for path, reason in (
+        (tmp_path, "is a folder"),
+        ("x" * 5000, "cannot be read: File name too long"),
+        ("x\0y", "cannot be read"),
+        ("/dev/zero", "has more than 10000000 characters"),
+    ):
         with pytest.raises(SpecError, match=reason) as caught:
             load(path)
         assert caught.value.file == str(path)
@@ -165,65 +181,80 @@ def test_a_folder_a_name_too_long_and_an_endless_file_are_refused(tmp_path):
 BASE = 'mechanism = "toy"\nlength = "40 mm"\n'
 
 
-@pytest.mark.parametrize(("text", "key", "wanted"), [
-    ("lenth = 1", "lenth", "unknown key (did you mean 'length'?); known here: format, mechanism, title, optimise, length, tilt,"),
-    ("DRIVE = {}", "DRIVE", "unknown key (did you mean 'drive'?)"),
-    ("zzz = 1", "zzz", "unknown key; known here: format,"),
-    ("drive.sped = 1", "drive.sped", "unknown key (did you mean 'speed'?); known here: speed, sense"),
-    ("drive.float = 1", "drive.float", "unknown key; known here: speed, sense"),
-    ("joints = [{name = 'a', x = 1}]", "joints.0.x", "unknown key; known here: name, clearance, at"),
-    ("joints = [{}]", "joints.0.name", 'is missing (name); e.g. "crank"'),
-    ("spring = {}", "spring.rate", "is missing (rate); e.g. 2.0"),
-    ("spring = 3", "spring", "must be a table, got 3"),
-    ("spring = []", "spring", "must be a table, got []"),
-    ("joints = 'a'", "joints", "must be a list [...], got 'a'"),
-    ("joints = [1]", "joints.0", "must be a table, got 1"),
-    ("tilt = '2 rad'", "tilt", "must be at most 1 rad, got 2 rad"),
-    ("tilt = '-90 deg'", "tilt", "must be at least -1 rad, got -90 deg"),
-    ("tilt = '30 mm'", "tilt", "wants an angle, got '30 mm' (length)"),
-    ("tilt = 30", "tilt", 'a bare number; an angle wants its unit, e.g. "30 deg"'),
-    ("tilt = nan", "tilt", "nan is not finite"),
-    ("tilt = 1979-05-27", "tilt", "wants an angle, got 1979-05-27"),
-    ("tilt = {a = 1}", "tilt", "wants an angle, got {'a': 1}"),
-    ("drive.speed = '0 rpm'", "drive.speed", "must be greater than 0 rpm, got 0 rpm"),
-    ("drive.speed = '8 Hz'", "drive.speed", "wants an angular speed, got '8 Hz' (frequency); a frequency counts events: write rev/s, rpm or rad/s"),
-    ("drive.sense = 'foreward'", "drive.sense", "must be one of \"forward\", \"backward\", got 'foreward' (did you mean 'forward'?)"),
-    ("drive.sense = 1", "drive.sense", 'must be one of "forward", "backward", got 1'),
-    ("turns = 0", "turns", "must be at least 1, got 0"),
-    ("turns = 3.0", "turns", "must be a whole number, got 3.0"),
-    ("turns = 2.5", "turns", "must be a whole number, got 2.5"),
-    ("turns = true", "turns", "must be a whole number, got true"),
-    ("turns = '3'", "turns", "must be a whole number, got '3'"),
-    ("turns = 1" + 400 * "0", "turns", "must be at most 9, got 1000"),
-    ("ratio = nan", "ratio", "must be a finite number, got nan"),
-    ("ratio = -inf", "ratio", "must be a finite number, got -inf"),
-    ("ratio = '0.5'", "ratio", "must be a number, got '0.5'"),
-    ("ratio = true", "ratio", "must be a number, got true"),
-    ("ratio = 1.5", "ratio", "must be at most 1, got 1.5"),
-    ("ratio = 1" + 400 * "0", "ratio", "must be a number, got 1000"),
-    ("mirrored = 1", "mirrored", "must be true or false, got 1"),
-    ("mirrored = 'true'", "mirrored", "must be true or false, got 'true'"),
-    ("title = 3", "title", "must be a text in quotes, got 3"),
-    (f"title = '{'x' * 401}'", "title", "must have at most 400 characters, got 401"),
-    ("weights = [1, 'a']", "weights.1", "must be a number, got 'a'"),
-    ("weights = [1, 2, 3, 4, 5]", "weights", "must have at most 4 entries, got 5"),
-    ("points = [[1, 2], [1]]", "points.1.1", "is missing (points)"),
-    ("points = [[1, 2], [1, nan]]", "points.1.1", "must be a finite number, got nan"),
-    ("joints = [{name = 'a', at = ['1 mm', 'inf mm']}]", "joints.0.at.1", "'inf mm' is not finite; write e.g. \"9.5 mm\""),
-    ("format = 2", "format", "must be at most 1, got 2"),
-    ("format = true", "format", "must be a whole number, got true"),
-    ("optimise = {}", "optimise.unknowns", "is missing (what may change)"),
-    ("optimise = {unknowns = []}", "optimise.unknowns", "must have at least 1 entries, got 0"),
-    ("optimise = {unknowns = [{key = 'a', lower = true}]}", "optimise.unknowns.0.lower", 'wants a finite number, or a quantity such as "9.5 mm", got true'),
-    ("optimise = {unknowns = [{key = 'a', lower = '1 zz'}]}", "optimise.unknowns.0.lower", "'zz' is no unit known here"),
-    ("optimise = {settings = [{key = 'a', value = [1]}]}", "optimise.settings.0.value", "wants a finite number, a quantity, a text or true/false, got [1]"),
-    ("table = 3", "table", "wants the path of a file, got 3"),
-    ("table = ''", "table", "wants the path of a file, got ''"),
-    ('table = "a\\u0000"', "table", "wants the path of a file, got 'a\\x00'"),
-    ("table = 'gone.csv'", "table", "there is no file '{folder}/gone.csv'; a path is relative to the spec"),
-    ("table = '.'", "table", "there is no file '{folder}'; a path is relative to the spec"),
-    (f"table = '{'x' * 5000}'", "table", "'xxx"),
-])
+@pytest.mark.parametrize(
+    ("text", "key", "wanted"),
+    [
+        ("lenth = 1", "lenth", "unknown key (did you mean 'length'?); known here: format, mechanism, title, optimise, length, tilt,"),
+        ("DRIVE = {}", "DRIVE", "unknown key (did you mean 'drive'?)"),
+        ("zzz = 1", "zzz", "unknown key; known here: format,"),
+        ("drive.sped = 1", "drive.sped", "unknown key (did you mean 'speed'?); known here: speed, sense"),
+        ("drive.float = 1", "drive.float", "unknown key; known here: speed, sense"),
+        ("joints = [{name = 'a', x = 1}]", "joints.0.x", "unknown key; known here: name, clearance, at"),
+        ("joints = [{}]", "joints.0.name", 'is missing (name); e.g. "crank"'),
+        ("spring = {}", "spring.rate", "is missing (rate); e.g. 2.0"),
+        ("spring = 3", "spring", "must be a table, got 3"),
+        ("spring = []", "spring", "must be a table, got []"),
+        ("joints = 'a'", "joints", "must be a list [...], got 'a'"),
+        ("joints = [1]", "joints.0", "must be a table, got 1"),
+        ("tilt = '2 rad'", "tilt", "must be at most 1 rad, got 2 rad"),
+        ("tilt = '-90 deg'", "tilt", "must be at least -1 rad, got -90 deg"),
+        ("tilt = '30 mm'", "tilt", "wants an angle, got '30 mm' (length)"),
+        ("tilt = 30", "tilt", 'a bare number; an angle wants its unit, e.g. "30 deg"'),
+        ("tilt = nan", "tilt", "nan is not finite"),
+        ("tilt = 1979-05-27", "tilt", "wants an angle, got 1979-05-27"),
+        ("tilt = {a = 1}", "tilt", "wants an angle, got {'a': 1}"),
+        ("drive.speed = '0 rpm'", "drive.speed", "must be greater than 0 rpm, got 0 rpm"),
+        (
+            "drive.speed = '8 Hz'",
+            "drive.speed",
+            "wants an angular speed, got '8 Hz' (frequency); a frequency counts events: write rev/s, rpm or rad/s",
+        ),
+        ("drive.sense = 'foreward'", "drive.sense", "must be one of \"forward\", \"backward\", got 'foreward' (did you mean 'forward'?)"),
+        ("drive.sense = 1", "drive.sense", 'must be one of "forward", "backward", got 1'),
+        ("turns = 0", "turns", "must be at least 1, got 0"),
+        ("turns = 3.0", "turns", "must be a whole number, got 3.0"),
+        ("turns = 2.5", "turns", "must be a whole number, got 2.5"),
+        ("turns = true", "turns", "must be a whole number, got true"),
+        ("turns = '3'", "turns", "must be a whole number, got '3'"),
+        ("turns = 1" + 400 * "0", "turns", "must be at most 9, got 1000"),
+        ("ratio = nan", "ratio", "must be a finite number, got nan"),
+        ("ratio = -inf", "ratio", "must be a finite number, got -inf"),
+        ("ratio = '0.5'", "ratio", "must be a number, got '0.5'"),
+        ("ratio = true", "ratio", "must be a number, got true"),
+        ("ratio = 1.5", "ratio", "must be at most 1, got 1.5"),
+        ("ratio = 1" + 400 * "0", "ratio", "must be a number, got 1000"),
+        ("mirrored = 1", "mirrored", "must be true or false, got 1"),
+        ("mirrored = 'true'", "mirrored", "must be true or false, got 'true'"),
+        ("title = 3", "title", "must be a text in quotes, got 3"),
+        (f"title = '{'x' * 401}'", "title", "must have at most 400 characters, got 401"),
+        ("weights = [1, 'a']", "weights.1", "must be a number, got 'a'"),
+        ("weights = [1, 2, 3, 4, 5]", "weights", "must have at most 4 entries, got 5"),
+        ("points = [[1, 2], [1]]", "points.1.1", "is missing (points)"),
+        ("points = [[1, 2], [1, nan]]", "points.1.1", "must be a finite number, got nan"),
+        ("joints = [{name = 'a', at = ['1 mm', 'inf mm']}]", "joints.0.at.1", "'inf mm' is not finite; write e.g. \"9.5 mm\""),
+        ("format = 2", "format", "must be at most 1, got 2"),
+        ("format = true", "format", "must be a whole number, got true"),
+        ("optimise = {}", "optimise.unknowns", "is missing (what may change)"),
+        ("optimise = {unknowns = []}", "optimise.unknowns", "must have at least 1 entries, got 0"),
+        (
+            "optimise = {unknowns = [{key = 'a', lower = true}]}",
+            "optimise.unknowns.0.lower",
+            'wants a finite number, or a quantity such as "9.5 mm", got true',
+        ),
+        ("optimise = {unknowns = [{key = 'a', lower = '1 zz'}]}", "optimise.unknowns.0.lower", "'zz' is no unit known here"),
+        (
+            "optimise = {settings = [{key = 'a', value = [1]}]}",
+            "optimise.settings.0.value",
+            "wants a finite number, a quantity, a text or true/false, got [1]",
+        ),
+        ("table = 3", "table", "wants the path of a file, got 3"),
+        ("table = ''", "table", "wants the path of a file, got ''"),
+        ('table = "a\\u0000"', "table", "wants the path of a file, got 'a\\x00'"),
+        ("table = 'gone.csv'", "table", "there is no file '{folder}/gone.csv'; a path is relative to the spec"),
+        ("table = '.'", "table", "there is no file '{folder}'; a path is relative to the spec"),
+        (f"table = '{'x' * 5000}'", "table", "'xxx"),
+    ],
+)
 def test_a_wrong_key_is_named_with_what_would_be_right(folder, text, key, wanted):
     message, named = complaint(folder, BASE + text)
     assert named == key and message.startswith(f"{key}: {wanted.replace('{folder}', str(folder))}")
@@ -233,7 +264,10 @@ def test_a_wrong_key_is_named_with_what_would_be_right(folder, text, key, wanted
 def test_all_complaints_come_at_once_unknown_keys_first(folder):
     message, key = complaint(folder, 'mechanism = "toy"\nlenght = "40 mm"\ntilt = 3\nratio = "x"')
     assert key == "lenght" and message.splitlines()[1:] == [
-        '  length: is missing (length); e.g. "40 mm"', '  tilt: a bare number; an angle wants its unit, e.g. "3 deg"', "  ratio: must be a number, got 'x'"]
+        '  length: is missing (length); e.g. "40 mm"',
+        '  tilt: a bare number; an angle wants its unit, e.g. "3 deg"',
+        "  ratio: must be a number, got 'x'",
+    ]
     message, _ = complaint(folder, BASE + "\n".join(f"x{n} = 1" for n in range(20)))
     assert len(message.splitlines()) == 7 and message.splitlines()[-1] == "  ... and 14 more" and message.count("known here") == 1
 

@@ -19,7 +19,9 @@ SPECS = [(path.parent, read_document(path)) for path in [*EXAMPLES, *PRESETS]]
 WORDS = sorted({word for path in EXAMPLES for word in path.read_text().replace('"', " ").split() if word.isidentifier()})
 
 NUMBERS = st.one_of(st.integers(), st.floats(), st.sampled_from([0, -1, 10**400, 2**63, -0.0, 5e-324, 1.7e308]))
-UNITS = st.sampled_from(["mm", "m", "deg", "rad", "rpm", "rev/h", "Hz", "N", "N m", "N/m", "N m/rad", "kg", "MPa", "mm/min", "", "^", "mm^-9"])
+UNITS = st.sampled_from(
+    ["mm", "m", "deg", "rad", "rpm", "rev/h", "Hz", "N", "N m", "N/m", "N m/rad", "kg", "MPa", "mm/min", "", "^", "mm^-9"]
+)
 QUANTITIES = st.builds(lambda number, unit: f"{number} {unit}", st.floats(), UNITS)
 TEXTS = st.one_of(st.text(max_size=20), QUANTITIES, st.sampled_from(WORDS))
 SCALARS = st.one_of(NUMBERS, TEXTS, st.booleans(), st.dates(), st.times(), st.datetimes())
@@ -89,12 +91,19 @@ def scratch(tmp_path_factory):
     return tmp_path_factory.mktemp("nonsense") / "spec.toml"
 
 
-TOKENS = st.sampled_from(["[", "]", "[[", "]]", "{", "}", "=", ".", ",", '"', "'''", "\n", "#", "mechanism", '"cam"', "follower", "1e9", "nan", "0x", "89 deg"])
+TOKENS = st.sampled_from(
+    ["[", "]", "[[", "]]", "{", "}", "=", ".", ",", '"', "'''", "\n", "#", "mechanism", '"cam"', "follower", "1e9", "nan", "0x", "89 deg"]
+)
 
 
 @settings(max_examples=150)
-@given(content=st.one_of(st.binary(max_size=60), st.text(max_size=60).map(lambda t: t.encode("utf-8", "replace")),
-                         st.lists(TOKENS, max_size=15).map(lambda t: " ".join(t).encode())))
+@given(
+    content=st.one_of(
+        st.binary(max_size=60),
+        st.text(max_size=60).map(lambda t: t.encode("utf-8", "replace")),
+        st.lists(TOKENS, max_size=15).map(lambda t: " ".join(t).encode()),
+    )
+)
 def test_a_file_of_nonsense_is_refused_by_name(scratch, content):
     scratch.write_bytes(content)
     with pytest.raises(SpecError) as caught:
@@ -107,7 +116,7 @@ def test_a_file_of_nonsense_is_refused_by_name(scratch, content):
 def test_a_spec_file_with_a_hole_is_read_or_refused_by_name(scratch, data):
     text = data.draw(st.sampled_from(EXAMPLES)).read_bytes()
     start = data.draw(st.integers(0, len(text)))
-    scratch.write_bytes(text[:start] + data.draw(st.binary(max_size=4)) + text[data.draw(st.integers(start, min(start + 40, len(text)))):])
+    scratch.write_bytes(text[:start] + data.draw(st.binary(max_size=4)) + text[data.draw(st.integers(start, min(start + 40, len(text)))) :])
     try:
         load(scratch)
     except SpecError as error:
@@ -115,7 +124,11 @@ def test_a_spec_file_with_a_hole_is_read_or_refused_by_name(scratch, data):
 
 
 @settings(max_examples=80)
-@given(st.sampled_from(SPECS), st.lists(st.sampled_from([*WORDS, "0", "1", "-1", "", " ", "²"]), max_size=4), st.one_of(TEXTS, NUMBERS.map(str)))
+@given(
+    st.sampled_from(SPECS),
+    st.lists(st.sampled_from([*WORDS, "0", "1", "-1", "", " ", "²"]), max_size=4),
+    st.one_of(TEXTS, NUMBERS.map(str)),
+)
 def test_any_change_is_made_or_refused(case, steps, value):
     folder, tables = case
     tables = copy.deepcopy(tables)

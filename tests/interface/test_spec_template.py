@@ -67,13 +67,13 @@ def test_a_switched_off_key_can_be_switched_on(kind, preset):
     off = [n for n, line in enumerate(lines) if line.startswith("#") and " = " in code(line)]
     table_off = next((n for n, line in enumerate(lines) if line.startswith("#[")), len(lines))
     for number in [n for n in off if n < table_off]:
-        text = "\n".join([*lines[:number], lines[number].removeprefix("#"), *lines[number + 1:]])
+        text = "\n".join([*lines[:number], lines[number].removeprefix("#"), *lines[number + 1 :]])
         try:
             spec = from_document(tomllib.loads(text), folder=path.parent)
         except SpecError as error:
             assert "data.csv" in str(error), lines[number]
             continue
-        comment = " ".join(line.strip() for line in lines[number:number + 3])
+        comment = " ".join(line.strip() for line in lines[number : number + 3])
         assert spec == plain or "no default]" in comment, lines[number]
 
 
@@ -87,11 +87,23 @@ def test_all_switched_on_at_once_is_a_complete_spec(kind, preset):
 def test_limits_units_defaults_and_choices_are_in_words(toy):
     text = " ".join(line.strip().removeprefix("#   ") for line in template("toy").splitlines())  # wrapped comments in one
     for wanted in (
-        '# A toy (preset "full").', 'length = "40 mm"', "# length  [0 < length < 2000 mm]", '# tilt  [-1 rad <= angle <= 1 rad; default "0 deg"]',
-        "# turns  [1 <= whole number <= 9; default 3]", "# ratio  [0 < number <= 1; default 0.5]", "# mirrored  [true or false; default false]",
-        "# weights  [list of number; default [1.0, 2.0]]", '# sense  ["forward" or "backward"; default "forward"]', "# version of the file format  [1; default]",
-        '# speed  [angular speed > 0; default "100 rpm"]', "# points  [list of list of number; no default]", "# second table  [file; no default]",
-        "# place  [list of 2 x length; no default]", "# radial play  [length >= 0; default]", "# lower bound, in the key's own unit  [number or quantity]"):
+        '# A toy (preset "full").',
+        'length = "40 mm"',
+        "# length  [0 < length < 2000 mm]",
+        '# tilt  [-1 rad <= angle <= 1 rad; default "0 deg"]',
+        "# turns  [1 <= whole number <= 9; default 3]",
+        "# ratio  [0 < number <= 1; default 0.5]",
+        "# mirrored  [true or false; default false]",
+        "# weights  [list of number; default [1.0, 2.0]]",
+        '# sense  ["forward" or "backward"; default "forward"]',
+        "# version of the file format  [1; default]",
+        '# speed  [angular speed > 0; default "100 rpm"]',
+        "# points  [list of list of number; no default]",
+        "# second table  [file; no default]",
+        "# place  [list of 2 x length; no default]",
+        "# radial play  [length >= 0; default]",
+        "# lower bound, in the key's own unit  [number or quantity]",
+    ):
         assert wanted in text, wanted
     assert text.count("[[joints]]") == 2 and text.index("[optimise]") > text.rindex("[[joints]]")
 
@@ -140,7 +152,16 @@ def test_the_schema_says_units_limits_and_defaults_as_a_file_has_them(toy):
     found = schema("toy")
     length, drive = found["properties"]["length"], found["$defs"]["Drive"]
     assert (length["type"], length["x-dimension"], length["x-unit"], length["x-si-unit"], length["x-gt"], length["x-lt"]) == (
-        "string", "length", "mm", "m", 0, 2)
-    assert found["properties"]["drive"]["default"] == {"speed": "100 rpm", "sense": "forward"} and drive["properties"]["speed"]["default"] == "100 rpm"
+        "string",
+        "length",
+        "mm",
+        "m",
+        0,
+        2,
+    )
+    assert (
+        found["properties"]["drive"]["default"] == {"speed": "100 rpm", "sense": "forward"}
+        and drive["properties"]["speed"]["default"] == "100 rpm"
+    )
     assert found["required"] == ["length"] and dimension_of(ToySpec.model_fields["tilt"]).name == "angle"
     assert found["$defs"]["Unknown"]["properties"]["lower"]["type"] == ["string", "number"]

@@ -11,10 +11,31 @@ from drivewright import units
 from drivewright.errors import UnitError
 
 READ = {
-    "length": {"9.525 mm": 0.009525, "1 in": 0.0254, "2 ft": 0.6096, "1.5 um": 1.5e-6, "1.5 µm": 1.5e-6, "1.5 μm": 1.5e-6, "3 micron": 3e-6,
-               "2 km": 2000.0, "1 nm": 1e-9, "3 dm": 0.3, " 7cm ": 0.07, "+.5 m": 0.5, "-2.e1 m": -20.0},
-    "angle": {"180 deg": math.pi, "1 rev": 2 * math.pi, "0.25 turn": math.pi / 2, "10800 arcmin": math.pi, "648000 arcsec": math.pi, "90 °": math.pi / 2,
-              "1 rad": 1.0, "2 mrad": 0.002},
+    "length": {
+        "9.525 mm": 0.009525,
+        "1 in": 0.0254,
+        "2 ft": 0.6096,
+        "1.5 um": 1.5e-6,
+        "1.5 µm": 1.5e-6,
+        "1.5 μm": 1.5e-6,
+        "3 micron": 3e-6,
+        "2 km": 2000.0,
+        "1 nm": 1e-9,
+        "3 dm": 0.3,
+        " 7cm ": 0.07,
+        "+.5 m": 0.5,
+        "-2.e1 m": -20.0,
+    },
+    "angle": {
+        "180 deg": math.pi,
+        "1 rev": 2 * math.pi,
+        "0.25 turn": math.pi / 2,
+        "10800 arcmin": math.pi,
+        "648000 arcsec": math.pi,
+        "90 °": math.pi / 2,
+        "1 rad": 1.0,
+        "2 mrad": 0.002,
+    },
     "angular speed": {"60 rpm": 2 * math.pi, "28800 rev/h": 16 * math.pi, "1 rps": 2 * math.pi, "180 deg/s": math.pi, "3 rad/s": 3.0},
     "angular acceleration": {"1 rev/s^2": 2 * math.pi, "2 rad/s**2": 2.0, "3 rad/s²": 3.0},
     "velocity": {"60 mm/min": 0.001, "3.6 km/h": 1.0},
@@ -87,42 +108,68 @@ def test_an_si_unit_nobody_registered_is_shown_as_it_is():
     assert units.display("m/N") == (1.0, "m/N") and units.display("-") == (1.0, "-")
 
 
-@pytest.mark.parametrize(("text", "name", "remedy"), [
-    ("8 Hz", "angular speed", "wants an angular speed, got '8 Hz' (frequency); a frequency counts events: write rev/s, rpm or rad/s"),
-    ("8 rad/s", "frequency", "wants a frequency, got '8 rad/s' (angular speed); write Hz or 1/s"),
-    ("5 N m", "rotational stiffness", "wants a rotational stiffness, got '5 N m' (torque); write N m/rad or N m/deg"),
-    ("5 N m/rad", "torque", "wants a torque, got '5 N m/rad' (rotational stiffness); write N m"),
-    ("1.2 kg", "length", "wants a length, got '1.2 kg' (mass)"),
-    ("3 deg/deg", "angle", "wants an angle, got '3 deg/deg' (a pure number)"),
-    ("3 m^5", "length", "wants a length, got '3 m^5'"),
-    ("1.2", "length", 'a bare number; a length wants its unit, e.g. "1.2 mm"'),
-    (1.2, "length", 'a bare number; a length wants its unit, e.g. "1.2 mm"'),
-    (3, "angular speed", 'a bare number; an angular speed wants its unit, e.g. "3 rpm"'),
-    pytest.param(10**5000, "length", 'a bare number; a length wants its unit, e.g. "a huge integer mm"', id="huge"),
-    (True, "length", "wants a length, got true"),
-    (None, "angle", "wants an angle, got None"),
-    (["1 mm"], "length", "wants a length, got ['1 mm']"),
-    ("5 MM", "length", "'MM' is no unit known here (did you mean 'mm'?)"),
-    ("5 rmp", "angular speed", "'rmp' is no unit known here (did you mean 'rpm'?)"),
-    ("1,5 mm", "length", "'1,5 mm' has a comma; write a decimal point and no thousands separator"),
-    ("mm", "length", "'mm' is not \"number unit\"; write e.g. \"9.5 mm\""),
-    ("", "length", "'' is not \"number unit\"; write e.g. \"9.5 mm\""),
-    ("nan mm", "length", "'nan mm' is not finite; write e.g. \"9.5 mm\""),
-    ("-inf mm", "length", "'-inf mm' is not finite; write e.g. \"9.5 mm\""),
-    (math.nan, "length", "nan is not finite"),
-    (-math.inf, "length", "-inf is not finite"),
-    ("1e400 mm", "length", "'1e400 mm' is not finite: beyond the largest number"),
-    ("1e307 km", "length", "'1e307 km' is not finite: beyond the largest number"),
-    ("1e999999999 m", "length", "'1e999999999 m' is not finite: beyond the largest number"),
-])
+@pytest.mark.parametrize(
+    ("text", "name", "remedy"),
+    [
+        ("8 Hz", "angular speed", "wants an angular speed, got '8 Hz' (frequency); a frequency counts events: write rev/s, rpm or rad/s"),
+        ("8 rad/s", "frequency", "wants a frequency, got '8 rad/s' (angular speed); write Hz or 1/s"),
+        ("5 N m", "rotational stiffness", "wants a rotational stiffness, got '5 N m' (torque); write N m/rad or N m/deg"),
+        ("5 N m/rad", "torque", "wants a torque, got '5 N m/rad' (rotational stiffness); write N m"),
+        ("1.2 kg", "length", "wants a length, got '1.2 kg' (mass)"),
+        ("3 deg/deg", "angle", "wants an angle, got '3 deg/deg' (a pure number)"),
+        ("3 m^5", "length", "wants a length, got '3 m^5'"),
+        ("1.2", "length", 'a bare number; a length wants its unit, e.g. "1.2 mm"'),
+        (1.2, "length", 'a bare number; a length wants its unit, e.g. "1.2 mm"'),
+        (3, "angular speed", 'a bare number; an angular speed wants its unit, e.g. "3 rpm"'),
+        pytest.param(10**5000, "length", 'a bare number; a length wants its unit, e.g. "a huge integer mm"', id="huge"),
+        (True, "length", "wants a length, got true"),
+        (None, "angle", "wants an angle, got None"),
+        (["1 mm"], "length", "wants a length, got ['1 mm']"),
+        ("5 MM", "length", "'MM' is no unit known here (did you mean 'mm'?)"),
+        ("5 rmp", "angular speed", "'rmp' is no unit known here (did you mean 'rpm'?)"),
+        ("1,5 mm", "length", "'1,5 mm' has a comma; write a decimal point and no thousands separator"),
+        ("mm", "length", '\'mm\' is not "number unit"; write e.g. "9.5 mm"'),
+        ("", "length", '\'\' is not "number unit"; write e.g. "9.5 mm"'),
+        ("nan mm", "length", "'nan mm' is not finite; write e.g. \"9.5 mm\""),
+        ("-inf mm", "length", "'-inf mm' is not finite; write e.g. \"9.5 mm\""),
+        (math.nan, "length", "nan is not finite"),
+        (-math.inf, "length", "-inf is not finite"),
+        ("1e400 mm", "length", "'1e400 mm' is not finite: beyond the largest number"),
+        ("1e307 km", "length", "'1e307 km' is not finite: beyond the largest number"),
+        ("1e999999999 m", "length", "'1e999999999 m' is not finite: beyond the largest number"),
+    ],
+)
 def test_what_is_refused_says_why_and_what_to_write(text, name, remedy):
     assert complaint(text, name) == remedy
 
 
-@pytest.mark.parametrize("unit", ["m^^2", "m^", "m (", "()", "m # x", "(m^9)^9", "m^99999999", "__class__", "__import__('os')", "lambda: 1", "m.m", "2 mm",
-                                  "mm;", "m" * 200, "m/", "³", "\x00", "mm\nkg%"])
+@pytest.mark.parametrize(
+    "unit",
+    [
+        "m^^2",
+        "m^",
+        "m (",
+        "()",
+        "m # x",
+        "(m^9)^9",
+        "m^99999999",
+        "__class__",
+        "__import__('os')",
+        "lambda: 1",
+        "m.m",
+        "2 mm",
+        "mm;",
+        "m" * 200,
+        "m/",
+        "³",
+        "\x00",
+        "mm\nkg%",
+    ],
+)
 def test_nonsense_instead_of_a_unit_is_refused_at_once(unit):
-    assert "no unit known here" in complaint(f"3 {unit}", "length") or "wants a length" in complaint(f"3 {unit}", "length") or len(unit) > 99
+    assert (
+        "no unit known here" in complaint(f"3 {unit}", "length") or "wants a length" in complaint(f"3 {unit}", "length") or len(unit) > 99
+    )
 
 
 @given(st.text(max_size=30), st.sampled_from(units.DIMENSIONS))
@@ -159,10 +206,24 @@ def test_what_was_said_in_the_common_unit_is_written_so(digits, power, dimension
     assert Decimal(dimension.text(dimension.parse(text)).split(" ", 1)[0]) == number
 
 
-@pytest.mark.parametrize(("name", "said", "written"), [
-    ("length", "9.525 mm", "9.525 mm"), ("length", "1e6 m", "1e+9 mm"), ("length", "-0 m", "0 mm"), ("length", "0.1 um", "0.0001 mm"),
-    ("length", "1.23456789 um", "0.00123456789 mm"), ("angle", "-0.125 rev", "-45 deg"), ("angle", "1 arcmin", "1 arcmin"), ("angle", "0.1 rad", "0.1 rad"),
-    ("angular speed", "200 rpm", "200 rpm"), ("angular speed", "1 rad/s", "1 rad/s"), ("velocity", "100 mm/min", "100 mm/min"),
-    ("stiffness", "2e7 N/m", "20000 N/mm"), ("pressure", "1.5 GPa", "1500 MPa"), ("time", "7 min", "420 s")])
+@pytest.mark.parametrize(
+    ("name", "said", "written"),
+    [
+        ("length", "9.525 mm", "9.525 mm"),
+        ("length", "1e6 m", "1e+9 mm"),
+        ("length", "-0 m", "0 mm"),
+        ("length", "0.1 um", "0.0001 mm"),
+        ("length", "1.23456789 um", "0.00123456789 mm"),
+        ("angle", "-0.125 rev", "-45 deg"),
+        ("angle", "1 arcmin", "1 arcmin"),
+        ("angle", "0.1 rad", "0.1 rad"),
+        ("angular speed", "200 rpm", "200 rpm"),
+        ("angular speed", "1 rad/s", "1 rad/s"),
+        ("velocity", "100 mm/min", "100 mm/min"),
+        ("stiffness", "2e7 N/m", "20000 N/mm"),
+        ("pressure", "1.5 GPa", "1500 MPa"),
+        ("time", "7 min", "420 s"),
+    ],
+)
 def test_quantities_are_written_as_people_read_them(name, said, written):
     assert units.BY_NAME[name].text(units.to_si(said, name)) == written

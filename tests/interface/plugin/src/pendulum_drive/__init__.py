@@ -51,11 +51,20 @@ def path(model, done):
     angle = spec.swing * (law(u).s - 0.5)
     rise = spec.bob.length * (1 - float(np.cos(spec.swing / 2)))
     table = Table("swing", "The swing", (Column("u", "-", "part of the stroke", u), Column("angle", "rad", "from the vertical", angle)))
-    return Answer(values={"rise": Value(rise, "m", "rise of the bob")}, tables=(table,),
-                  checks=(Check("rise", rise, spec.bob.length / 2, "<=", "m", "the bob stays low", ("bob",)),))
+    return Answer(
+        values={"rise": Value(rise, "m", "rise of the bob")},
+        tables=(table,),
+        checks=(Check("rise", rise, spec.bob.length / 2, "<=", "m", "the bob stays low", ("bob",)),),
+    )
 
 
 mechanism = Mechanism(
-    kind="pendulum", summary="driven pendulum", spec=PendulumSpec, build=build, folder=Path(__file__).parent,
+    kind="pendulum",
+    summary="driven pendulum",
+    spec=PendulumSpec,
+    build=build,
+    folder=Path(__file__).parent,
     analyses=(Analysis("period", period, "free period"), Analysis("path", path, "the swing")),
-    plots=(Plot("swing", "The swing", "swing", "u", ("angle",)),), headline=("period", "rise"))
+    plots=(Plot("swing", "The swing", "swing", "u", ("angle",)),),
+    headline=("period", "rise"),
+)
