@@ -88,6 +88,13 @@ def test_the_written_spec_moves_to_another_machine_with_its_data(folder):
     assert document(moved) | {"table": 0, "second": 0} == document(spec) | {"table": 0, "second": 0}
 
 
+def test_a_spec_is_written_over_itself(folder):
+    load(written(folder, FULL)).write(folder / "spec.toml")
+    again = load(folder / "spec.toml")
+    again.write(folder / "spec.toml")
+    assert load(folder / "spec.toml") == again and [path.name for path in (folder / "data").iterdir()] == ["lift.csv"]
+
+
 def test_a_spec_without_data_is_written_alone(tmp_path):
     spec = ToySpec(length="1 mm")
     spec.write(tmp_path / "spec.toml")

@@ -12,5 +12,5 @@ from drivewright.spec.reading import change_key, from_document, load, read_docum
 from drivewright.spec.searching import Optimise
 from drivewright.spec.writing import document
 
-__all__ = ["DataFile", "Flag", "Integer", "Machining", "MechanismSpec", "Number", "Optimise", "Spec", "Text", "change_key", "dimension_at", "document",
-           "from_document", "load", "preset_path", "read_document", "read_value", "schema", "set_key", "template"]
+__all__ = ["DataFile", "Flag", "Integer", "Machining", "MechanismSpec", "Number", "Optimise", "Spec", "Text", "change_key", "dimension_at",
+           "document", "from_document", "load", "preset_path", "read_document", "read_value", "schema", "set_key", "template"]

@@ -29,8 +29,10 @@ class MechanismSpec(Spec):
         path = Path(path)
         places = places_beside(self.data_files())
         for source, place in places.items():
-            (path.parent / place).parent.mkdir(exist_ok=True)
-            shutil.copyfile(source, path.parent / place)
+            target = path.parent / place
+            target.parent.mkdir(exist_ok=True)
+            if not (target.exists() and target.samefile(source)):  # the spec of a run folder, run again into it
+                shutil.copyfile(source, target)
         path.write_text(toml_text(self._tables(places)), encoding="utf-8", newline="\n")
 
     def _tables(self, places=None):
