@@ -40,7 +40,9 @@ def main():
     text = (DOCS / "theory" / "motion.in.md").read_text(encoding="utf-8").replace("{{ motion_peaks }}", peaks())
     (DOCS / "theory" / "motion.md").write_text(text, encoding="utf-8")
     (DOCS / "gallery.md").write_text(gallery(), encoding="utf-8")
-    (DOCS / "reference.md").write_text("# Reference\n\n" + "\n\n".join(f"::: drivewright.{name}" for name in PAGES) + "\n", encoding="utf-8")
+    (DOCS / "reference.md").write_text(
+        "# Reference\n\n" + "\n\n".join(f"::: drivewright.{name}" for name in PAGES) + "\n", encoding="utf-8"
+    )
 
 
 if __name__ == "__main__":

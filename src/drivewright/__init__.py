@@ -8,12 +8,27 @@ from importlib import import_module
 __version__ = "0.1.0"
 
 _WHERE = {
-    "DrivewrightError": "errors", "InputError": "errors", "MissingExtra": "errors", "SolverError": "errors", "SpecError": "errors",
-    "Cam": "mechanisms.cam.spec:CamSpec", "SeedlingPusher": "mechanisms.seedling_pusher.spec:SeedlingPusherSpec",
-    "Result": "result", "Scene": "scene",
-    "build": "runner", "load": "spec", "run": "runner",
-    "optimise": "studies.optimise", "verify": "studies.verify",
-    "cams": "cams:", "contact": "contact:", "curves": "curves:", "gears": "gears:", "materials": "materials:", "motion": "motion:", "units": "units:",
+    "DrivewrightError": "errors",
+    "InputError": "errors",
+    "MissingExtra": "errors",
+    "SolverError": "errors",
+    "SpecError": "errors",
+    "Cam": "mechanisms.cam.spec:CamSpec",
+    "SeedlingPusher": "mechanisms.seedling_pusher.spec:SeedlingPusherSpec",
+    "Result": "result",
+    "Scene": "scene",
+    "build": "runner",
+    "load": "spec",
+    "run": "runner",
+    "optimise": "studies.optimise",
+    "verify": "studies.verify",
+    "cams": "cams:",
+    "contact": "contact:",
+    "curves": "curves:",
+    "gears": "gears:",
+    "materials": "materials:",
+    "motion": "motion:",
+    "units": "units:",
 }
 
 __all__ = ["__version__", *sorted(_WHERE)]

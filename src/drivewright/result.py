@@ -160,7 +160,7 @@ class Result:
     def __repr__(self):
         """One line; the numbers are in `values`, `tables`, `checks`."""
         failed = [check.name for check in self.checks if not check.ok]
-        verdict = f"{len(failed)} of {len(self.checks)} checks fail ({', '.join(failed)})" if failed else f"all {len(self.checks)} checks pass"
+        verdict = f"{len(failed)} of {len(self.checks)} checks fail: {', '.join(failed)}" if failed else "all checks pass"
         return f"<Result {self.mechanism!r} {self.title!r}: {len(self.values)} values, {len(self.tables)} tables, {verdict}>"
 
     @property

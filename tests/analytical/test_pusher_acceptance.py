@@ -197,3 +197,18 @@ def test_the_intended_contact_lies_off_the_undercut_profile(law, loss):
     found = dw.run(dw.load(EXAMPLE, [f"push.law={law}"]), only=("cams",))
     assert 1e3 * found["cam.return.profile_loss"] == pytest.approx(loss, abs=2e-4)
     assert 0 < found["cam.return.lost_motion"] < 0.4 * found["cam.return.profile_loss"]
+
+
+def test_walls_and_clearances_by_hand():
+    """Hub wall = least pitch radius - roller - hub; the planet axis over the nearest plant, from the definition."""
+    model = build(dw.load(EXAMPLE))
+    found = dw.run(model.spec, only=("cams", "planting"), model=model)
+    assert 1e3 * found.check("hub_wall.main").value == pytest.approx(29.0 - 6.0 - 15.0, abs=1e-6)
+    assert 1e3 * found.check("hub_wall.return").value == pytest.approx(28.136 - 6.0 - 15.0, abs=1e-3)
+    t = np.linspace(0, 2 * np.pi, 20001)
+    axis = model.planet_axis(t).d0 + 0.140 * t / (2 * np.pi)
+    low = model.tip(model.lowest).d0
+    feet = low.real + 0.140 * (model.lowest / (2 * np.pi) - np.arange(4))
+    above = axis.imag - (low.imag + 0.030 + 0.060)
+    distance = min(np.hypot(axis.real - foot, np.maximum(above, 0)).min() for foot in feet)
+    assert found["planting.axis_clearance"] == pytest.approx(distance, abs=2e-6)

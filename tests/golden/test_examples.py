@@ -15,7 +15,11 @@ PINNED = {
     "disc_cam": {"max_pressure_angle": 0.47777217340123485, "min_convex_radius": 0.031610820401744206, "max_contact_force": 206.6133},
     "oscillating_cam": {"max_pressure_angle": 0.42140923293097693, "min_convex_radius": 0.03150449711976596},
     "yoke_cam": {"min_convex_radius": 0.042, "min_half_face": 0.01613085562113285},
-    "seedling_pusher": {"tip.track_height": 0.18232325075379263, "cam.max_pressure_angle": 0.5415328447258717, "contact.peak_force": 602.777},
+    "seedling_pusher": {
+        "tip.track_height": 0.18232325075379263,
+        "cam.max_pressure_angle": 0.5415328447258717,
+        "contact.peak_force": 602.777,
+    },
     "seedling_pusher_improved": {"needle.angle_difference": 0.953388, "cam.max_pressure_angle": 0.310305, "cam.curvature_ratio": 1.680426},
 }
 

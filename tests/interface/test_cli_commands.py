@@ -122,7 +122,7 @@ def test_a_solver_that_gives_up_exits_with_4_and_leaves_a_partial_result(drivewr
     [
         (
             ["nope.toml"],
-            "nope.toml: there is no such file; `drivewright examples nope` copies an example, `drivewright new KIND nope.toml` writes a spec (kin",
+            "nope.toml: there is no such file; `drivewright examples nope` copies an example, `drivewright new KIND nope.toml` writes a",
         ),
         (["."], ".: is a folder; a spec is a TOML file"),
         (["toy.toml", "--set", "lenght=3 mm"], "toy.toml: lenght: unknown key (did you mean 'length'?)"),

@@ -6,8 +6,16 @@ from pathlib import Path
 import pytest
 
 SOURCE = Path(__file__).parents[2] / "src" / "drivewright"
-ROWS = ["__main__ cli studio", "validation studies report view", "mechanisms", "indexing chains cams gears multibody shafts bearings solids fatigue",
-        "motion curves contact materials", "numerics", "runner result spec scene registry", "units _jit errors"]
+ROWS = [
+    "__main__ cli studio",
+    "validation studies report view",
+    "mechanisms",
+    "indexing chains cams gears multibody shafts bearings solids fatigue",
+    "motion curves contact materials",
+    "numerics",
+    "runner result spec scene registry",
+    "units _jit errors",
+]
 PLACE = {name: (row, column) for row, names in enumerate(ROWS) for column, name in enumerate(names.split())}
 # runner reads the version for the provenance; result asks the registry for a view; __init__ has lazy names.
 VERSION_READERS = {"result.py", "runner.py", "cli/app.py", "cli/doctor.py"}
@@ -78,12 +86,18 @@ def test_the_rule_can_fail(tmp_path):
 
 def test_only_the_jit_room_imports_numba():
     for path in files():
-        names = {n.split(".")[0] for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, (ast.Import, ast.ImportFrom))
-                 for n in ([a.name for a in node.names] if isinstance(node, ast.Import) else [node.module or ""])}
+        names = {
+            n.split(".")[0]
+            for node in ast.walk(ast.parse(path.read_text()))
+            if isinstance(node, (ast.Import, ast.ImportFrom))
+            for n in ([a.name for a in node.names] if isinstance(node, ast.Import) else [node.module or ""])
+        }
         assert "numba" not in names or path.name == "_jit.py", path
 
 
-@pytest.mark.parametrize("path", [p for p in files() if room(p) in ("cli", "studio", "studies", "report", "view")], ids=lambda p: str(p.relative_to(SOURCE)))
+@pytest.mark.parametrize(
+    "path", [p for p in files() if room(p) in ("cli", "studio", "studies", "report", "view")], ids=lambda p: str(p.relative_to(SOURCE))
+)
 def test_the_house_knows_no_kind_by_name(path):
     from drivewright import registry
 

@@ -66,4 +66,4 @@ def test_ctrl_c_keeps_the_best_design_so_far(monkeypatch):
     found = dw.optimise(spec)
     assert found.interrupted and found.evaluations == sum(len(x) for x in [found.history["generation"]])
     violation = found.history["violation"]
-    assert found.problem.violations({n: v for n, v in found.front_values.items()}).clip(0).sum() <= violation.min() + 1e-12
+    assert found.problem.violations(found.front_values).clip(0).sum() <= violation.min() + 1e-12

@@ -81,6 +81,8 @@ def run(
     from drivewright.report.content import views
     from drivewright.report.folder import write_run_folder
 
+    if only and all_:
+        raise InputError("--only and --all contradict each other; give one of them")
     stems = [path.stem for path in specs]
     if len(set(stems)) < len(stems):
         raise InputError("two specs have the same file name and would share a run folder; run them one by one with --out")

@@ -76,7 +76,8 @@ def _print(result, seconds):
         print(f"  {name:40s} {show.number(value.value, value.unit):>14s}   {value.meaning}")
     for check in failed:
         print(
-            f"  check fails: {check.name} = {show.number(check.value, check.unit)}, limit {check.sense} {show.number(check.limit, check.unit)}"
+            f"  check fails: {check.name} = {show.number(check.value, check.unit)}, "
+            f"limit {check.sense} {show.number(check.limit, check.unit)}"
         )
     if not failed:
         print(f"  all {len(result.checks)} checks pass")

@@ -278,7 +278,8 @@ def profile_loss(trimmed, samples=20_001):
         cut |= moving & (trimmed.chain.t > start) & (trimmed.chain.t < stop)
     if not cut.any():
         return 0.0
-    points = np.concatenate([np.broadcast_to(span.piece.at(np.linspace(span.start, span.stop, samples)).d0, samples) for span in trimmed.spans])
+    along = (span.piece.at(np.linspace(span.start, span.stop, samples)).d0 for span in trimmed.spans)
+    points = np.concatenate([np.broadcast_to(stretch, samples) for stretch in along])
     flat = np.stack([points.real, points.imag], axis=1)
     lost = trimmed.chain.z[cut]
     return float(cKDTree(flat).query(np.stack([lost.real, lost.imag], axis=1))[0].max())

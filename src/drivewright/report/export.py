@@ -41,7 +41,8 @@ def _refuse_unknown(formats):
 
 def _refuse_bad_geometry(result):
     if failed := _failures(result):
-        raise InputError(f"this design fails a geometry check and is not exported: {'; '.join(failed)}. Mend the design, or export it with --anyway")
+        raise InputError(f"this design fails a geometry check and is not exported: {'; '.join(failed)}. "
+                         "Mend the design, or export it with --anyway")
 
 
 def _failures(result):

@@ -10,7 +10,6 @@ from drivewright.errors import InputError
 from drivewright.report.content import pictures, thumbnail, views
 from drivewright.report.html import write_report
 
-
 OURS = {"result.json", "report.html", "spec.toml", "figures", "tables", "data"}  # what a run writes, and the next one replaces
 
 

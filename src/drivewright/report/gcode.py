@@ -28,7 +28,8 @@ def gcode(drawing, *, cutter_diameter, feed, plunge, step_down, spindle_speed, d
 
     `cutter_diameter`, `depth` (default: the drawing's thickness), `step_down`, `safe_height` above the plate, `lead_radius`
     (default: the cutter's radius) and the chord `tolerance` of splines in metres, `feed` and `plunge` in m/s,
-    `spindle_speed` in rad/s; `warnings` are put first, as comments.  Raises InputError where a concave radius or a hole is too small for the cutter.
+    `spindle_speed` in rad/s; `warnings` are put first, as comments.
+    Raises InputError where a concave radius or a hole is too small for the cutter.
     """
     depth = drawing.thickness if depth is None else depth
     lead_radius = cutter_diameter / 2 if lead_radius is None else lead_radius

@@ -74,7 +74,16 @@ def _table(path, field, given, off, sample):
     off = off or (not given and not field.is_required() and not field.default)
     heading = f"{'#' if off else ''}{'[[' if several else '['}{path}{']]' if several else ']'}  # {field.description or inner.__doc__}"
     tables = given if several and given else [given or {}] if not off or given else [sample or _skeleton(inner)]
-    return [line for table in tables for line in ["", heading, *_lines(inner, table, f"{path}.", off)]]
+    first, *others = tables
+    explained = ["", heading, *_lines(inner, first, f"{path}.", off)]
+    return explained + [line for table in others for line in _again(path, table, lambda t: _lines(inner, t, f"{path}.", off))]
+
+
+def _again(path, table, explained):
+    """A further table of a list: the keys given, which the first one has explained; in full where it holds tables itself."""
+    if any(isinstance(value, dict) for value in table.values()):
+        return ["", f"[[{path}]]", *explained(table)]
+    return ["", f"[[{path}]]", *(f"{key} = {toml_value(value)}" for key, value in table.items())]
 
 
 def _key(name, field, given, off):

@@ -149,7 +149,8 @@ def _undercut(model, track, place):
     ratio, recommended, parts = place.value / track.radius, model.spec.limits.curvature_ratio, (track.name,)
     message = "least radius of the pitch curve over that of the face: below 1 the profile cuts itself away"
     return (Check(f"undercut{track.suffix}", ratio, 1.0, ">=", "-", message, parts, True),
-            Check(f"curvature_margin{track.suffix}", ratio, recommended, ">=", "-", "least convex radius over roller radius, with the recommended margin", parts))
+            Check(f"curvature_margin{track.suffix}", ratio, recommended, ">=", "-", "least convex radius over roller radius, recommended",
+                       parts))
 
 
 def _face(model):

@@ -66,8 +66,8 @@ def _flight(model, required):
     if model.spec.closure != "force" or not np.any(required < 0):
         return ()
     share = 100 * float(np.mean(required < 0))
-    return (f"the follower leaves the cam over about {share:.0f} % of the turn: there the cam carries neither force nor torque; its flight and "
-            "landing are not computed, and the forces after a landing are larger than those given",)
+    return (f"the follower leaves the cam over about {share:.0f} % of the turn: there the cam carries neither force nor torque; its "
+            "flight and landing are not computed, and the forces after a landing are larger than those given",)
 
 
 def _contact(model, track, state):

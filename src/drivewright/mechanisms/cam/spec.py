@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import core_schema
 
+from drivewright import materials, motion
 from drivewright.errors import UnitError
 from drivewright.spec import DataFile, Integer, Machining, MechanismSpec, Number, Spec, Text
 from drivewright.units import BY_NAME, Angle, Damping, Dimension, Force, Frequency, Length, Mass, Pressure, Speed, Stiffness
@@ -71,7 +72,7 @@ class Segment(Spec):
     """A stretch of the cam's turn."""
 
     angle: Angle = Field(gt=0, description="cam angle of the segment", examples=["90 deg"])
-    law: Text = Field(description="motion law by name, or dwell", examples=["cycloidal"])
+    law: Text = Field(description=f"motion law, or dwell: {', '.join(motion.names())}", examples=["cycloidal"])
     rise: Rise | None = Field(None, description="rise, negative for a return; an angle for an oscillating follower", examples=["20 mm"])
     file: DataFile | None = Field(None, description="CSV of law = \"table\": angle [deg],lift [mm] from the start of the segment")
     b: Number | None = Field(None, description="part of the sine ramps, for law = \"scca\"")
@@ -165,7 +166,7 @@ class CamSpec(MechanismSpec):
     mechanism: Literal["cam"] = Field("cam", description="kind of drive")
     rotation: Sense = Field("counter-clockwise", description="sense in which the cam turns")
     closure: Literal["force", "groove", "conjugate", "yoke"] = Field("force", description="what holds the follower on the cam")
-    material: Text = Field("16MnCr5", description="material of cam and follower")
+    material: Text = Field("16MnCr5", description=f"material of cam and follower: {', '.join(materials.names())}")
     follower: Follower = Field(description="follower")
     programme: tuple[Segment, ...] = Field(min_length=1, description="segments of one turn of the cam, in order")
     groove: Groove | None = Field(None, description="for closure = \"groove\"")

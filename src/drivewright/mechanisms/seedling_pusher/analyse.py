@@ -100,7 +100,9 @@ def _one_cam(model, cam):
         f"{prefix}.min_pitch_radius": Value(reach[1], "m", "least radius of the pitch curve"),
         f"{prefix}.max_pitch_radius": Value(reach[3], "m", "largest radius of the pitch curve"),
         f"{prefix}.lost_motion": Value(lost, "m", "how far the roller can sink beyond its programme where the cam is undercut"),
-        f"{prefix}.profile_loss": Value(curves.profile_loss(trimmed), "m", "how far the intended contact lies off the real profile where undercut"),
+        f"{prefix}.profile_loss": Value(
+            curves.profile_loss(trimmed), "m", "intended contact off the real profile where undercut"
+        ),
         f"{prefix}.profile_area": Value(trimmed.area, "m^2", "area of the finished profile"),
         f"{prefix}.profile_perimeter": Value(trimmed.perimeter, "m", "perimeter of the finished profile"),
     }
@@ -135,7 +137,13 @@ def _cam_checks(model, cam, radius, reach, driving):
             True,
         ),
         Check(
-            f"curvature_margin.{cam.name}", ratio, spec.limits.curvature_ratio, ">=", "-", "least convex radius over roller radius, with the recommended margin", parts
+            f"curvature_margin.{cam.name}",
+            ratio,
+            spec.limits.curvature_ratio,
+            ">=",
+            "-",
+            "least convex radius over roller radius, recommended",
+            parts,
         ),
         Check(
             f"pressure_angle.{cam.name}", driving, spec.limits.pressure_angle, "<=", "rad", "pressure angle while this cam drives", parts

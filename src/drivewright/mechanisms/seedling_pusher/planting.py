@@ -99,8 +99,8 @@ def _rod_findings(model):
     if model.orbit > 0:
         return ()
     return (
-        "cams.orbit = \"clockwise\": this train turns the arm counter-clockwise on the carrier, so the lever pivot can orbit the cams clockwise "
-        "only with everything mirrored, the rod on the far side of the planet axis from the needle; "
+        "cams.orbit = \"clockwise\": this train turns the arm counter-clockwise on the carrier, so the lever pivot can orbit the cams "
+        "clockwise only with everything mirrored, the rod on the far side of the planet axis from the needle; "
         "\"counter-clockwise\" puts rod and needle together",
     )
 

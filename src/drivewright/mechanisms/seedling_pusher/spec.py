@@ -4,9 +4,11 @@ from typing import Literal
 
 from pydantic import Field
 
+from drivewright import materials, motion
 from drivewright.spec import Flag, Integer, Machining, MechanismSpec, Number, Spec, Text
 from drivewright.units import Angle, Damping, Force, Length, Mass, Pressure, Speed, Stiffness
 
+LAWS = [name for name in motion.names() if name not in ("mcv", "polynomial", "scca", "spline", "table")]  # those without parameters
 TURN = 6.283185307179586
 
 
@@ -50,7 +52,7 @@ class Push(Spec):
     rise: Angle = Field("21 deg", gt=0, lt=TURN, description="carrier turn of the push")
     hold: Angle = Field("1 deg", ge=0, lt=TURN, description="carrier turn with the rod fully out")
     retraction: Angle = Field("36 deg", gt=0, lt=TURN, description="carrier turn of the retraction")
-    law: Text = Field("polynomial-345", description="motion law of push and retraction")
+    law: Text = Field("polynomial-345", description=f"motion law of push and retraction: {', '.join(LAWS)}")
 
 
 class Lever(Spec):
@@ -123,7 +125,7 @@ class Contact(Spec):
     damping: Damping = Field("100 N s/m", ge=0, description="normal damping of each roller contact")
     clearance: Length = Field("0 mm", ge=0, description="normal play of each roller on its cam")
     turns: Integer = Field(3, ge=1, le=1000, description="carrier turns to simulate; the last one counts")
-    material: Text = Field("16MnCr5", description="cam and roller material")
+    material: Text = Field("16MnCr5", description=f"cam and roller material: {', '.join(materials.names())}")
 
 
 class Limits(Spec):
