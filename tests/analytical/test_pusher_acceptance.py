@@ -212,3 +212,17 @@ def test_walls_and_clearances_by_hand():
     above = axis.imag - (low.imag + 0.030 + 0.060)
     distance = min(np.hypot(axis.real - foot, np.maximum(above, 0)).min() for foot in feet)
     assert found["planting.axis_clearance"] == pytest.approx(distance, abs=2e-6)
+
+
+def test_the_inspection_table_lies_on_the_profile():
+    import shapely
+
+    model = build(dw.load(EXAMPLE))
+    found = dw.run(model.spec, only=("inspection",), model=model)
+    for name, outline in model.profiles.items():
+        table = found.tables[f"inspection_{name}"]
+        angle, radius = table["angle"].data, table["radius"].data
+        assert np.degrees(angle) == pytest.approx(np.arange(360))
+        points = shapely.points(radius * np.cos(angle), radius * np.sin(angle))
+        assert shapely.distance(points, shapely.Polygon(outline.points(1e-7)).exterior).max() < 2.1e-6, "within the chord tolerance of the outline"
+        assert np.all(table["tolerance"].data == 2e-5)

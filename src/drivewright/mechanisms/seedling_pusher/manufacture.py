@@ -7,12 +7,15 @@ from drivewright.result import Answer, Check, Column, Table, Value
 
 def inspection(model, done):
     """Polar coordinates of both finished profiles at whole degrees, with the tolerance."""
-    return Answer(tables=tuple(_polar(model, name, outline) for name, outline in model.profiles.items()))
+    return Answer(tables=tuple(_polar(model, name, trimmed) for name, trimmed in model.trimmed.items()))
 
 
-def _polar(model, name, outline):
-    points = outline.points(model.spec.manufacture.chord_tolerance)
-    z = points[:, 0] + 1j * points[:, 1]
+DENSE = 20_001  # points on each stretch of the profile: chords so short that the radius between two of them is exact to 1 nm
+
+
+def _polar(model, name, trimmed):
+    stretches = (span.piece.at(np.linspace(span.start, span.stop, DENSE)).d0 for span in trimmed.spans)
+    z = np.concatenate([np.broadcast_to(stretch, DENSE) for stretch in stretches])
     order = np.argsort(np.angle(z))
     angle, radius = np.angle(z)[order], np.abs(z)[order]
     at = np.radians(np.arange(0, 360))
