@@ -64,6 +64,14 @@ def test_lengths(result, name, millimetres, tolerance):
     assert 1e3 * result[name] == pytest.approx(millimetres, abs=tolerance)
 
 
+def test_the_push_force_acts_in_the_push_only(result):
+    load = result.tables["load"]
+    after = load["carrier_angle"].data > np.radians(86.01)
+    assert load["rod_force"].data[after].max() == pytest.approx(0.2 * load["acceleration"].data[after].max())
+    still = load["acceleration"].data == 0
+    assert np.all(load["main.force"].data[after & still] == 0)
+
+
 def test_loads(result):
     assert result["rod.max_velocity"] == pytest.approx(1.929, abs=1e-3)
     assert result["rod.max_acceleration"] == pytest.approx(339.3, abs=0.1)

@@ -96,6 +96,12 @@ def test_only_does_exactly_those_named_and_what_they_need(kind, only, everything
     assert not [f for f in result.findings if "on request" in f] or (not only and not everything)
 
 
+def test_one_analysis_may_be_named_without_a_list(kind):
+    log = kind(Analysis("motion", says(), ""), Analysis("forces", says(), ""))
+    runner.run(SPEC, only="forces")
+    assert log == ["forces"]
+
+
 def test_an_unknown_analysis_is_refused_before_anything_is_built(kind):
     kind(Analysis("motion", says(), ""), build=lambda spec: pytest.fail("built"))
     with pytest.raises(UnknownName, match="no analysis is called 'moton' .did you mean 'motion'.*; known: motion"):

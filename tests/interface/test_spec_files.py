@@ -194,6 +194,8 @@ BASE = 'mechanism = "toy"\nlength = "40 mm"\n'
         ("lenth = 1", "lenth", "unknown key (did you mean 'length'?); known here: format, mechanism, title, optimise, length, tilt,"),
         ("DRIVE = {}", "DRIVE", "unknown key (did you mean 'drive'?)"),
         ("zzz = 1", "zzz", "unknown key; known here: format,"),
+        ('"" = 1', '""', "unknown key; known here: format,"),
+        ('"a.b\\n" = 1', '"a.b\\n"', "unknown key; known here: format,"),
         ("drive.sped = 1", "drive.sped", "unknown key (did you mean 'speed'?); known here: speed, sense"),
         ("drive.float = 1", "drive.float", "unknown key; known here: speed, sense"),
         ("joints = [{name = 'a', x = 1}]", "joints.0.x", "unknown key; known here: name, clearance, at"),

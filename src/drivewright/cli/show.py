@@ -152,10 +152,10 @@ def copy_data_files(kind, preset, path):
 
     preset_file = preset_path(kind, preset)
     for source in load(preset_file).data_files() if preset_file else ():
-        target = Path(path).parent / source.relative_to(preset_file.parent)
+        target = Path(path).parent / source.relative_to(preset_file.resolve().parent)
         if target.exists() and target.read_bytes() != source.read_bytes():
             note(f"note: {target} exists and is left alone, so the new spec reads it instead of the preset's")
-        elif not target.exists():
+        else:
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(source, target)
 

@@ -9,7 +9,7 @@ from drivewright.spec.writing import toml_value
 COMPARISONS = {"greater_than": ("gt", "greater than"), "greater_than_equal": ("ge", "at least"), "less_than": ("lt", "less than"),
                "less_than_equal": ("le", "at most")}
 WANTED = {"string_type": "a text in quotes", "float_type": "a number", "int_type": "a whole number", "bool_type": "true or false",
-          "tuple_type": "a list [...]", "finite_number": "a finite number", "int_from_float": "a whole number", "model_type": "a table",
+          "tuple_type": "a list [...]", "finite_number": "a finite number", "model_type": "a table",
           "model_attributes_type": "a table", "dict_type": "a table", "string_unicode": "a text of valid characters"}
 SHOWN = 6  # complaints in one message
 

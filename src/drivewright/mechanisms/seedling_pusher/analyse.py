@@ -184,8 +184,8 @@ def cam_table(model):
 
 def load(model, done):
     """Rod dynamics at the given speed, quasi-static normal forces, Hertz pressure, torque."""
-    parts = [(np.linspace(low, high, SAMPLES), k) for low, high, _, k in model.pieces()]
-    rows = [_forces(model, t, k) for t, k in parts]
+    parts = [(np.linspace(low, high, SAMPLES), phase, k) for low, high, phase, k in model.pieces()]
+    rows = [_forces(model, t, phase, k) for t, phase, k in parts]
     joined = {name: np.concatenate([row[name] for row in rows]) for name in rows[0]}
     material = materials.material(model.spec.contact.material)
     allowed = model.spec.limits.contact_pressure or material.hertz_limit
@@ -237,12 +237,12 @@ MEANINGS = {
 }
 
 
-def _forces(model, t, piece):
+def _forces(model, t, phase, piece):
     """Forces on one smooth piece: the rod needs m a + push force; the main cam gives the positive part, the return cam the rest."""
     spec = model.spec
     rod, swing, planet = model.rod(t, piece), model.swing(t, piece), model.planet(t)
     acceleration = rod.d2 * spec.drive.speed**2
-    needed = spec.load.mass * acceleration + np.where(rod.d1 > 0, spec.load.push_force, 0.0)
+    needed = spec.load.mass * acceleration + (spec.load.push_force if phase == "rise" else 0.0)
     # Virtual work: rod force times travel = lever torque times swing; travel per swing is dg/dphi = l / cos^2(phi).
     lever = needed * spec.lever.output_arm / np.cos(swing.d0) ** 2
     row = {
