@@ -232,5 +232,7 @@ def test_the_inspection_table_lies_on_the_profile():
         angle, radius = table["angle"].data, table["radius"].data
         assert np.degrees(angle) == pytest.approx(np.arange(360))
         points = shapely.points(radius * np.cos(angle), radius * np.sin(angle))
-        assert shapely.distance(points, shapely.Polygon(outline.points(1e-7)).exterior).max() < 2.1e-6, "within the chord tolerance of the outline"
+        assert shapely.distance(points, shapely.Polygon(outline.points(1e-7)).exterior).max() < 2.1e-6, (
+            "within the chord tolerance of the outline"
+        )
         assert np.all(table["tolerance"].data == 2e-5)

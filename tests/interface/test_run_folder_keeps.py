@@ -29,6 +29,17 @@ def test_exports_and_own_notes_survive_the_next_run(tmp_path):
     assert not list(tmp_path.glob("*.tmp-*")) and not list(tmp_path.glob("*.old-*"))
 
 
+def test_the_spec_of_a_run_folder_can_move_to_another_machine(tmp_path):
+    """The oscillating cam's lift table goes along; the moved spec gives the same digest."""
+    import drivewright as dw
+
+    example = DISC.with_name("oscillating_cam.toml")
+    assert command("run", example, "--out", tmp_path / "run", "--no-figures") == 0
+    (tmp_path / "run").rename(tmp_path / "elsewhere")
+    assert (tmp_path / "elsewhere" / "data" / "lift.csv").is_file()
+    assert dw.load(tmp_path / "elsewhere" / "spec.toml").digest() == dw.load(example).digest()
+
+
 def test_gcode_of_a_rejected_design_says_so(tmp_path):
     bad = ["--set", "follower.prime_radius=12 mm", "--set", "follower.roller_radius=11 mm", "--set", "manufacture.bore=1 mm"]
     assert command("export", DISC, "--to", "gcode", "--out", tmp_path, *bad) == 2

@@ -65,7 +65,7 @@ def file_name(name):
 def _fill(folder, result, seen, figures):
     """Everything of one run, the result first: it is what makes a folder a run folder."""
     (folder / "result.json").write_text(record_text(result), encoding="utf-8")
-    (folder / "spec.toml").write_text(result.spec.to_toml(), encoding="utf-8")
+    result.spec.write(folder / "spec.toml")
     named = [picture._replace(name=file_name(picture.name)) for picture in pictures(result, seen)] if figures else []
     write_report(result, seen, folder, named)
     _write_tables(folder, result.tables.values())

@@ -17,7 +17,7 @@ def write_optimised(found, folder):
     shutil.rmtree(fresh, ignore_errors=True)
     try:
         fresh.mkdir(parents=True)
-        (fresh / "best.toml").write_text(found.best.spec.to_toml(), encoding="utf-8")
+        found.best.spec.write(fresh / "best.toml")
         write_run_folder(found.best, fresh / "best")
         _write_columns(fresh / MARK, found.history, found.problem)
         _write_columns(fresh / "front.parquet", _front(found), found.problem)
