@@ -14,7 +14,7 @@ def motion(model, done):
     unit, function = "rad" if model.oscillating else "m", model.programme.function
     peaks = function.peaks()
     names = ("lift", "slope", "bend", "third")
-    meanings = ("lift of the follower", *(f"{n} derivative of the lift by the cam angle" for n in ("first", "second", "third")))
+    meanings = ("lift of the follower", *(f"{n} derivative of the lift" for n in ("first", "second", "third")))
     units = (unit, f"{unit}/rad", f"{unit}/rad^2", f"{unit}/rad^3")
     columns = (Column("angle", "rad", "cam angle", angle), *map(Column, names, units, meanings, lift))
     values = {"lift": Value(float(np.ptp(lift[0])), unit, "stroke of the follower"),

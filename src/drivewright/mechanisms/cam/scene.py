@@ -17,7 +17,7 @@ PLOTS = (
     *(plot for suffix, words in SURFACES for plot in (
         Plot(f"pressure_angle{suffix}", f"Pressure angle{words}", f"geometry{suffix}", "angle", ("pressure_angle",)),
         Plot(f"curvature{suffix}", f"Curvature{words}", f"geometry{suffix}", "angle", ("curvature",)),
-        Plot(f"undercut{suffix}", f"Face radius over radius of the pitch curve{words}", f"undercut{suffix}", "angle", ("ratio",),
+        Plot(f"undercut{suffix}", f"Face over pitch radius{words}", f"undercut{suffix}", "angle", ("ratio",),
              ((1.0, "undercut above"),)))),
     Plot("load", "Force on the follower and torque", "load", "angle", ("required_force", "torque")),
     *(plot for suffix, words in SURFACES for plot in (

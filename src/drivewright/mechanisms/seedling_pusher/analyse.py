@@ -167,12 +167,12 @@ def cam_table(model):
             Column(
                 f"{cam.name}.pressure_angle",
                 "rad",
-                f"pressure angle of the {cam.name} cam, signed",
+                f"{cam.name} cam, signed",
                 np.concatenate([model.pressure_angle(cam, x, k).d0 for x, k in parts]),
             ),
             Column(f"{cam.name}.curvature", "1/m", f"curvature of the {cam.name} pitch curve, convex positive", kappa),
             Column(
-                f"{cam.name}.convex_ratio", "-", "roller radius times curvature: above 1 the cam is undercut", kappa * cam.roller_radius
+                f"{cam.name}.convex_ratio", "-", f"{cam.name} cam: undercut above 1", kappa * cam.roller_radius
             ),
             Column(f"{cam.name}.pitch_radius", "m", f"radius of the {cam.name} pitch curve", np.abs(pitch)),
         ]

@@ -39,7 +39,7 @@ def _cycle_table(model):
         "One turn of the carrier",
         (
             Column("carrier_angle", "rad", "turn of the carrier", GRID),
-            Column("planet_angle", "rad", "planet relative to the carrier, 0 at the start", planet.d0),
+            Column("planet_angle", "rad", "planet on the carrier", planet.d0),
             Column(
                 "planet_phase",
                 "rad",
@@ -47,7 +47,7 @@ def _cycle_table(model):
                 planet.d0 + model.train.phase,
             ),
             Column("planet_ratio", "-", "planet speed relative to the carrier, over carrier speed", planet.d1),
-            Column("arm_rotation", "rad", "planting arm in the world", model.arm_rotation(GRID).d0),
+            Column("arm_rotation", "rad", "arm in the world", model.arm_rotation(GRID).d0),
             Column("needle_angle", "rad", "needle below the horizontal", model.needle_angle(GRID)),
             Column("tip_x", "m", "needle tip, machine frame", tip.d0.real),
             Column("tip_y", "m", "needle tip, machine frame", tip.d0.imag),
