@@ -6,7 +6,7 @@ A third-party package declares the same groups in its own pyproject.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import entry_points
 from pathlib import Path
@@ -56,7 +56,6 @@ class Mechanism:
     batch: Callable | None = None
     sources: tuple = ()
     headline: tuple = ()  # value names shown first
-    commands: Mapping[str, Callable] = field(default_factory=dict)
 
     def presets(self):
         """Name -> path of the spec files that come with the kind."""

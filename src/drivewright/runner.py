@@ -16,18 +16,6 @@ def build(spec):
     return registry.mechanism(spec.mechanism).build(spec)
 
 
-def scene(spec, model=None):
-    """The Scene of a spec, or None where the kind has none."""
-    make = registry.mechanism(spec.mechanism).scene
-    return make(model or build(spec)) if make else None
-
-
-def drawings(spec, model=None):
-    """The flat parts of a spec for manufacture; none where the kind has none."""
-    make = registry.mechanism(spec.mechanism).drawings
-    return make(model or build(spec)) if make else ()
-
-
 def run(spec, only=(), everything=False, progress=None, model=None):
     """Result of the default analyses of a spec, of exactly those named in `only` and what they need, or of all.
 

@@ -181,7 +181,6 @@ def test_a_result_remembers_where_it_came_from(kind):
     assert (result.spec, result.mechanism, result.title, result.digest) == (SPEC, "toy", "a toy", SPEC.digest())
     assert result.provenance["sources"] == ["a book"] and {"python", "numpy", "drivewright"} <= set(result.provenance["versions"])
     assert runner.run(SPEC.replace(title="")).title == "a toy that runs" and result.provenance["seed"] == 0
-    assert runner.scene(SPEC) is None and runner.drawings(SPEC) == ()
 
 
 # -- errors travel -------------------------------------------------------------------------------------------------------------

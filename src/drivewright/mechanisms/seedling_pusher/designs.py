@@ -130,7 +130,7 @@ def shape(row, flags):
     start = row[3] + bend / 2 + np.pi + row[5] if flags[2] else row[3] - row[5]
     half = np.exp(0.5j * bend)
     carrier = 2 * row[0] * np.exp(1j * row[3]) * (1 + half * half)
-    return half, r, carrier, row[4] * np.exp(1j * start) * np.conj(phase(half, r)), start
+    return half, r, carrier, row[4] * np.exp(1j * start) * np.conj(phase(half, r))
 
 
 @kernel
@@ -159,7 +159,7 @@ def refine(t, axis, half, r, carrier, arm):
 @kernel
 def evaluate_train(row, flags, cos_half, sin_half, out):
     """Lowest and highest carrier angle, height and width of the tip track."""
-    half, r, carrier, arm, _ = shape(row, flags)
+    half, r, carrier, arm = shape(row, flags)
     low = high = left = right = 0
     y_low = x_low = np.inf
     y_high = x_high = -np.inf
@@ -191,7 +191,7 @@ def evaluate_train(row, flags, cos_half, sin_half, out):
 @kernel
 def needle(row, flags, t):
     """Needle below the horizontal [rad] at the carrier angle t."""
-    half, r, _, arm, _ = shape(row, flags)
+    half, r, _, arm = shape(row, flags)
     return -np.angle(arm * planet(t, half, r)[0] * np.exp(-1j * t)) + row[6]
 
 
@@ -203,14 +203,14 @@ def finish_needle(row, flags, end, out):
     out[4], out[5] = needle(row, flags, take), needle(row, flags, push)
     out[6] = out[5] - out[4]
     out[11] = abs((1.0 if flags[6] else -1.0) * (row[12] + row[15]) - row[4] * np.sin(row[6]))
-    half, r, carrier, arm, _ = shape(row, flags)
+    half, r, carrier, arm = shape(row, flags)
     out[7] = (tip(end - row[9], half, r, carrier, arm)[0] - tip(out[0], half, r, carrier, arm)[0]).imag
 
 
 @kernel
 def mouth_width(row, flags, t_low):
     """Width of the hole at the soil surface, field frame [m]; 0 where the tip never leaves the soil."""
-    half, r, carrier, arm, _ = shape(row, flags)
+    half, r, carrier, arm = shape(row, flags)
     surface = tip(t_low, half, r, carrier, arm)[0].imag + row[20]
     advance = row[21] / (2 * np.pi) * (1.0 if flags[8] else -1.0)
     edges = np.zeros(2)
@@ -255,7 +255,7 @@ def evaluate_cams(row, flags, end, s, v, a, out):
 @kernel
 def stretch(row, flags, t0, width, way, main, back, s, v, a):
     """(greatest tan of the pressure angle, greatest convex curvature) of both cams over one push (`way` +1) or retraction (-1)."""
-    half, r, _, _, _ = shape(row, flags)
+    half, r, _, _ = shape(row, flags)
     orbit = 1.0 if flags[6] else -1.0
     stroke, lever, pivot = row[7], row[15], row[12]
     n = s.shape[0]

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright import curves
-from drivewright._jit import generic, implements, kernel, warmer  # noqa: F401
+from drivewright._jit import implements, kernel, warmer
 from drivewright.contact import KelvinVoigt, normal_force
 from drivewright.mechanisms.seedling_pusher.build import TURN
 from drivewright.numerics.jets import cos
@@ -86,6 +86,16 @@ def _(system, t, y, dy):
     acceleration = (moment / (system.mass * first) - second * phi_rate**2) / first
     dy[0] = y[1]
     dy[1] = acceleration - swing_2 * system.speed**2
+
+
+@warmer
+def warm_lever():
+    """Compile for `doctor --warm`: a lever at rest between two cams of unit leverage."""
+    tables = np.zeros((7, 3, 2))
+    tables[3:5, :, 0] = 1.0
+    system = LeverBetweenCams(KelvinVoigt(1.0, 1.0), tables, 0.0, 1.0, 1.0, 1.0, 0.0, 1.0, 0.0)
+    integrate(system, 0.0, 1.0, [0.0, 0.0])
+    forces(system, 0.0, 0.0, 0.0)
 
 
 def lever_system(model, clearance=None, speed=None):
