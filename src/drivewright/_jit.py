@@ -1,6 +1,7 @@
 """Compiled kernels: the one place that imports numba, and only when the first kernel is decorated.
 
 `kernel`      compiles a function of numbers and arrays; cached on disk, runs without the interpreter lock.
+`inner`, `outer`  the same for code that allocates nothing: no reference counts, which is what an inner loop over many arrays needs.
 `generic`     declares a formula with one version per type of its first argument, a NamedTuple of parameters;
 `implements`  states the version of one type.  The call works in plain Python and inside kernels alike, and a new type
               touches no kernel.  What a formula calls must be numpy, a kernel or a generic itself.
@@ -8,8 +9,8 @@
 `warmer`      marks a function that calls kernels once, so that `warm` can compile everything ahead of time.
 
 numba's disk cache watches the file of the kernel alone and would answer with old numbers after an edit anywhere else.
-Therefore each compiled kernel is filed under a hash of all sources it may depend on: this package, and the packages that
-bring the types of its arguments and their formulas.
+Therefore each compiled kernel is filed under a hash of all sources it may depend on: its layer of this package and those below,
+and the packages that bring the types of its arguments and their formulas.
 """
 
 import atexit
@@ -27,6 +28,8 @@ from pathlib import Path
 from drivewright.errors import InputError
 
 _UNUSED_DAYS = 30
+# Nothing below may import these, so that kernels below do not depend on them.
+ABOVE = tuple(f"{__package__}.{name}" for name in ("mechanisms", "validation", "studies", "report", "view", "cli", "studio"))
 _generics = []
 _told_numba = []  # the generics numba knows of
 _warmers = []
@@ -37,9 +40,26 @@ def kernel(function):
 
     The original stays reachable as `.py_func`.
     """
+    return _compiled(function)
+
+
+def inner(function):
+    """A kernel for the innermost loops: it allocates nothing, and is inlined into its callers.
+
+    Without reference counts a call with twenty arrays in its tuples costs nothing; with them it costs microseconds.
+    """
+    return _compiled(function, forceinline=True, _nrt=False)
+
+
+def outer(function):
+    """A kernel that allocates nothing and is called from Python: as `inner`, but not inlined."""
+    return _compiled(function, _nrt=False)
+
+
+def _compiled(function, **options):
     import numba
 
-    compiled = numba.njit(nogil=True, error_model="numpy")(function)
+    compiled = numba.njit(nogil=True, error_model="numpy", **options)(function)
     compiled._cache = _KernelCache(function)
     for dispatch in _generics:
         _tell_numba(dispatch)
@@ -198,7 +218,8 @@ def _folder_of(modules):
     packages = {__package__}.union(module.partition(".")[0] for module in modules)
     digest = hashlib.sha256(" ".join(sorted(modules)).encode())
     for package in sorted(packages):
-        digest.update(_hash_of(package))
+        whole = package != __package__ or any(module.startswith(ABOVE) for module in modules)
+        digest.update(_hash_of(package, whole))
     folder = cache_folder() / digest.hexdigest()[:20]
     folder.mkdir(exist_ok=True)
     (folder / "last-used").touch()
@@ -214,18 +235,22 @@ def _remove_unused(root):
 
 
 @functools.cache
-def _hash_of(package):
+def _hash_of(package, whole=True):
     digest = hashlib.sha256()
-    for path in _sources(package):
+    for path in _sources(package, whole):
         digest.update(path.as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.digest()
 
 
-def _sources(package):
-    """The Python files of a package, or the one file of a module, in a fixed order."""
+def _sources(package, whole=True):
+    """The Python files of a package, or the one file of a module, in a fixed order; unless `whole`, without the layers ABOVE."""
     module = sys.modules[package]
     folders = getattr(module, "__path__", None)
-    return [Path(module.__file__)] if folders is None else sorted(file for folder in folders for file in Path(folder).rglob("*.py"))
+    if folders is None:
+        return [Path(module.__file__)]
+    files = ((Path(folder), file) for folder in folders for file in Path(folder).rglob("*.py"))
+    above = {name.partition(".")[2] for name in ABOVE}
+    return sorted(file for folder, file in files if whole or file.relative_to(folder).parts[0] not in above)
 
 
 def _modules_with(text):

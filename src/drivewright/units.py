@@ -154,7 +154,7 @@ class Dimension:
         mixups = {("angular speed", "frequency"): "; a frequency counts events: write rev/s, rpm or rad/s",
                   ("frequency", "angular speed"): "; write Hz or 1/s", ("rotational stiffness", "torque"): "; write N m/rad or N m/deg",
                   ("torque", "rotational stiffness"): "; write N m"}
-        return mixups.get((self.name, _name_of(dimensionality)), "")
+        return mixups.get((self.name, _name_of(dimensionality)), REMEDIES.get(self.name, ""))
 
     def __get_pydantic_core_schema__(self, source, handler):
         from pydantic_core import core_schema
@@ -223,7 +223,10 @@ DIMENSIONS = tuple(Dimension(*row) for row in (
     ("frequency", "Hz", "Hz"), ("mass", "kg", "kg"), ("moment of inertia", "kg m^2", "kg m^2"), ("force", "N", "N"),
     ("torque", "N m", "N m"), ("stiffness", "N/m", "N/mm"), ("rotational stiffness", "N m/rad", "N m/rad"), ("damping", "N s/m", "N s/m"),
     ("pressure", "Pa", "MPa"), ("area", "m^2", "mm^2"), ("curvature", "1/m", "1/mm"), ("power", "W", "W"), ("density", "kg/m^3", "kg/m^3"),
-    ("volume", "m^3", "mm^3")))
+    ("volume", "m^3", "mm^3"), ("rotational damping", "N m s/rad", "N m s/rad"), ("viscosity", "Pa s", "Pa s"),
+    ("wear coefficient", "m^2/N", "mm^3/(N m)"), ("slowness", "s/m", "s/m")))
+REMEDIES = {"rotational damping": "; write N m s/rad, a torque per angular speed", "viscosity": "; write Pa s, the dynamic viscosity",
+            "wear coefficient": "; write mm^3/(N m), volume per force and sliding distance", "slowness": "; write s/m"}
 BY_NAME = {dimension.name: dimension for dimension in DIMENSIONS}
 BY_UNIT = {dimension.unit: dimension for dimension in DIMENSIONS}
 
@@ -250,6 +253,8 @@ Length, Angle, Speed, Velocity = field("length"), field("angle"), field("angular
 Acceleration, Time, Frequency, Mass = field("acceleration"), field("time"), field("frequency"), field("mass")
 Inertia, Force, Torque, Stiffness = field("moment of inertia"), field("force"), field("torque"), field("stiffness")
 RotationalStiffness, Damping, Pressure = field("rotational stiffness"), field("damping"), field("pressure")
+RotationalDamping, Viscosity, WearCoefficient = field("rotational damping"), field("viscosity"), field("wear coefficient")
+Slowness = field("slowness")
 
 
 def to_si(value: Any, dimension: str):
@@ -273,4 +278,5 @@ def display(si_unit):
 
 
 # Typed apart from the registry so that drawing a figure does not import pint; a test holds the two together.
-_SHOWN_FACTOR = {"mm": 1e-3, "deg": math.pi / 180, "rpm": math.pi / 30, "N/mm": 1e3, "MPa": 1e6, "mm^2": 1e-6, "1/mm": 1e3, "mm^3": 1e-9}
+_SHOWN_FACTOR = {"mm": 1e-3, "deg": math.pi / 180, "rpm": math.pi / 30, "N/mm": 1e3, "MPa": 1e6, "mm^2": 1e-6, "1/mm": 1e3, "mm^3": 1e-9,
+                 "mm^3/(N m)": 1e-9}

@@ -13,7 +13,7 @@ ROWS = [
     "indexing chains cams gears multibody shafts bearings solids fatigue",
     "motion curves contact materials",
     "numerics",
-    "runner result spec scene registry",
+    "runner result spec scene registry cases",
     "units _jit errors",
 ]
 PLACE = {name: (row, column) for row, names in enumerate(ROWS) for column, name in enumerate(names.split())}

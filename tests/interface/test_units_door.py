@@ -55,6 +55,10 @@ READ = {
     "power": {"1 kW": 1000.0, "1 PS": 735.49875},
     "density": {"7.85 g/cm^3": 7850.0, "1 kg/l": 1000.0},
     "volume": {"1 l": 0.001, "1 L": 0.001, "1 cm^3": 1e-6},
+    "rotational damping": {"0.1 N m s/rad": 0.1, "1 N mm s/rad": 1e-3, "1 N m/(rad/s)": 1.0, "2 N m/rpm": 60 / math.pi},
+    "viscosity": {"40 mPa s": 0.04, "1 Pa*s": 1.0, "1 N s/m^2": 1.0},
+    "wear coefficient": {"1 m^2/N": 1.0, "2 mm^3/(N m)": 2e-9, "3 1/Pa": 3.0},
+    "slowness": {"2 s/m": 2.0, "1 s/mm": 1000.0},
 }
 CASES = [(name, text, value) for name, texts in READ.items() for text, value in texts.items()]
 DIMENSIONS = pytest.mark.parametrize("dimension", units.DIMENSIONS, ids=lambda d: d.name)

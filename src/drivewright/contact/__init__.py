@@ -1,4 +1,6 @@
-"""Laws of touching: Hertz line and point contact, and normal forces as functions of gap and gap rate."""
+"""Laws of touching: Hertz contact, impact and its losses, friction, oil film, wear."""
+
+from importlib import import_module
 
 from drivewright.contact.hertz import (
     LineContact,
@@ -15,8 +17,25 @@ from drivewright.contact.hertz import (
 )
 from drivewright.contact.normal import HuntCrossley, KelvinVoigt, Spring, hunt_crossley_chi, normal_force
 
+# Their modules hold kernels, and the first kernel imports numba: loaded when first used.
+_WHERE = {
+    "impact": ("ImpactLaw", "cylinder_depth", "cylinder_force", "delivered_restitution", "impact_law", "impact_law_names",
+               "journal_stiffness", "kelvin_voigt_damping", "kelvin_voigt_restitution"),
+    "friction": ("ambrosio", "coulomb", "lugre", "lugre_rate", "stribeck"),
+    "film": ("long_bearing", "short_bearing"),
+    "reynolds": ("Film", "FilmMap", "closed_form_map", "film_deviation", "film_map", "solve_film"),
+    "wear": ("deposit", "wear_at", "wear_volume", "worn"),
+}
+_MODULE = {name: module for module, names in _WHERE.items() for name in names}
+
 __all__ = [
     "HuntCrossley", "KelvinVoigt", "LineContact", "PointContact", "Spring", "cylinder_compression", "effective_modulus",
     "effective_radius", "hunt_crossley_chi", "line_contact", "line_greatest_shear", "line_shear", "normal_force", "point_constant",
-    "point_contact", "relative_radii",
+    "point_contact", "relative_radii", *_MODULE,
 ]
+
+
+def __getattr__(name):
+    if name not in _MODULE:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_MODULE[name]}"), name)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import generic, implements, kernel
+from drivewright._jit import generic, implements, inner, outer
 
 _C = np.array([0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1, 1])
 _A = np.array([
@@ -39,6 +39,11 @@ def events(system, t, y, values):
     """Write the event functions at (t, y) into `values`; an event happens where one of them changes sign."""
 
 
+@generic
+def switch(system, index, t, y):
+    """Event number `index` has happened at (t, y): change y, where the system starts anew from here."""
+
+
 class Unwatched(NamedTuple):
     """Stands for the system where nobody watches for events."""
 
@@ -48,6 +53,22 @@ class Unwatched(NamedTuple):
 @implements(events, Unwatched)
 def _(system, t, y, values):
     pass
+
+
+@implements(switch, Unwatched)
+def _(system, index, t, y):
+    pass
+
+
+class Watch(NamedTuple):
+    """What to do about each event function: sign change that counts (+1, -1, 0 any), and NOTE, STOP or SWITCH."""
+
+    directions: np.ndarray
+    effects: np.ndarray
+
+
+NOTE, STOP, SWITCH = range(3)
+AFTER_SWITCH = 0.1  # of the step before: what begins at a switch is often faster than what went before
 
 
 class Settings(NamedTuple):
@@ -64,13 +85,23 @@ class Batch(NamedTuple):
     steps: np.ndarray  # (m, 2): start, size
     dense: np.ndarray  # (m, 5, n): coefficients of the interpolant
     hits: np.ndarray  # (m * events, 3): row of the step, number of the event function, fraction of the step
+    found: np.ndarray  # (m * events, n): states at the hits, switched where they switched
+    trial: np.ndarray  # scratch: a state
+    after: np.ndarray  # and two rows of event values
+    between: np.ndarray
 
 
-@kernel
-def begin(system, watched, settings, clock, y, k, values):
-    """Rates and event functions at the start, and a first step: a hundredth of the time in which y changes by its size."""
+@outer
+def refresh(system, watched, clock, y, k, values):
+    """Rates and event functions at a new state."""
     rate(system, clock[0], y, k[0])
     events(watched, clock[0], y, values)
+
+
+@outer
+def begin(system, watched, settings, clock, y, k, values):
+    """Rates and event functions at the start, and a first step: a hundredth of the time in which y changes by its size."""
+    refresh(system, watched, clock, y, k, values)
     size = change = 0.0
     for i in range(y.size):
         scale = settings.atol[i] + settings.rtol * abs(y[i])
@@ -83,13 +114,14 @@ def begin(system, watched, settings, clock, y, k, values):
     return GOES_ON
 
 
-@kernel
-def advance(system, watched, settings, directions, terminal, clock, y, k, values, batch):
+@outer
+def advance(system, watched, switched, settings, watch, clock, y, k, values, batch):
     """Step until the batch is full or the run ends; returns (code, accepted steps, rejected steps, event hits).
 
     clock = (time, next step, last error); clock, y, k and the event values are carried from batch to batch.
+    A step ends at the first event that stops the run or switches the system; what would come after it is not seen.
     """
-    trial, after = np.empty_like(y), np.empty_like(values)
+    trial, after = batch.trial, batch.after
     accepted = rejected = hits = 0
     most = 5.0
     while accepted < len(batch.steps):
@@ -112,24 +144,30 @@ def advance(system, watched, settings, directions, terminal, clock, y, k, values
         _copy(trial, y)
         _copy(k[6], k[0])
         events(watched, clock[0], y, after)
-        hits, stop = _watch(watched, directions, terminal, values, after, trial, accepted, batch, hits)
+        hits, ender = _watch(watched, watch, values, after, trial, accepted, batch, hits)
         _copy(after, values)
         accepted += 1
-        if stop:
-            return EVENT, accepted, rejected, hits
-        if last:
+        if ender >= 0:
+            _go_back(clock, y, batch, ender)
+            index = int(batch.hits[ender, 1])
+            if watch.effects[index] == STOP:
+                return EVENT, accepted, rejected, hits
+            switch(switched, index, clock[0], y)
+            _copy(y, batch.found[ender])
+            refresh(system, watched, clock, y, k, values)
+        elif last:
             return FINISHED, accepted, rejected, hits
     return GOES_ON, accepted, rejected, hits
 
 
-@kernel
+@inner
 def _copy(source, target):
     # target[:] = source would cost three seconds of compiling, for the message on unequal shapes.
     for i in range(source.size):
         target[i] = source[i]
 
 
-@kernel
+@inner
 def _stages(system, t, h, y, k, trial):
     """Rates k[1..6] of the step from (t, y), k[0] being known, and its result in `trial`."""
     for stage in range(1, 7):
@@ -141,7 +179,7 @@ def _stages(system, t, h, y, k, trial):
         rate(system, t + _C[stage] * h, trial, k[stage])
 
 
-@kernel
+@inner
 def _error(h, y, trial, k, settings):
     """Root mean square of the estimated error over its tolerance."""
     total = 0.0
@@ -153,7 +191,7 @@ def _error(h, y, trial, k, settings):
     return np.sqrt(total / y.size)
 
 
-@kernel
+@inner
 def _growth(error, clock, most):
     """Factor on the step: proportional-integral control, which settles where pure error control would hunt."""
     if not np.isfinite(error):
@@ -167,7 +205,7 @@ def _growth(error, clock, most):
     return min(most, max(0.2, 0.9 * max(error, 1e-8) ** -0.17 * previous**0.04))
 
 
-@kernel
+@inner
 def _interpolant(h, y, trial, k, dense):
     """Coefficients of the polynomial through both ends of the step, with their slopes, and of order 4 between."""
     for i in range(y.size):
@@ -182,22 +220,41 @@ def _interpolant(h, y, trial, k, dense):
         dense[4, i] = h * bend
 
 
-@kernel
-def _watch(watched, directions, terminal, before, after, y, row, batch, hits):
-    """Record the events within step `row`; returns the number of hits and whether the run must stop.  y is scratch."""
-    stop = False
-    values = np.empty_like(after)
+@inner
+def _watch(watched, watch, before, after, y, row, batch, hits):
+    """Record the events within step `row`, up to the first that ends it: (number of hits, which of them ends it or -1).  y is scratch."""
+    values = batch.between
+    found, ender, first = hits, -1, 2.0
     for index in range(after.size):
         rises, falls = before[index] < 0.0 <= after[index], before[index] > 0.0 >= after[index]
-        if (rises and directions[index] >= 0) or (falls and directions[index] <= 0):
-            batch.hits[hits, 0], batch.hits[hits, 1] = row, index
-            batch.hits[hits, 2] = _locate(watched, index, before[index], batch.steps[row], batch.dense[row], y, values)
+        if (rises and watch.directions[index] >= 0) or (falls and watch.directions[index] <= 0):
+            theta = _locate(watched, index, before[index], batch.steps[row], batch.dense[row], y, values)
+            batch.hits[found, 0], batch.hits[found, 1], batch.hits[found, 2] = row, index, theta
+            if watch.effects[index] != NOTE and theta < first:
+                first = theta
+            found += 1
+    for n in range(hits, found):
+        if batch.hits[n, 2] <= first:
+            for column in range(3):
+                batch.hits[hits, column] = batch.hits[n, column]
+            if batch.hits[hits, 2] == first and watch.effects[int(batch.hits[hits, 1])] != NOTE:
+                ender = hits
+            for i in range(y.size):
+                batch.found[hits, i] = _point(batch.dense[row], i, batch.hits[hits, 2])
             hits += 1
-            stop = stop or terminal[index] != 0
-    return hits, stop
+    return hits, ender
 
 
-@kernel
+@inner
+def _go_back(clock, y, batch, hit):
+    """To the event within the step just done; the next step is a careful one."""
+    row, theta = int(batch.hits[hit, 0]), batch.hits[hit, 2]
+    _copy(batch.found[hit], y)
+    clock[0] = batch.steps[row, 0] + theta * batch.steps[row, 1]
+    clock[1] = AFTER_SWITCH * batch.steps[row, 1]
+
+
+@outer
 def _locate(watched, index, before, step, dense, y, values):
     """Fraction of the step just after the sign change.
 
@@ -216,7 +273,7 @@ def _locate(watched, index, before, step, dense, y, values):
     return high
 
 
-@kernel
+@inner
 def _point(dense, i, theta):
     """`_polynomial` of one component."""
     return dense[0, i] + theta * (dense[1, i] + (1 - theta) * (dense[2, i] + theta * (dense[3, i] + (1 - theta) * dense[4, i])))

@@ -8,15 +8,16 @@ from pydantic.json_schema import GenerateJsonSchema
 
 from drivewright import registry
 from drivewright.errors import UnknownName
-from drivewright.spec.fields import AnyUnit, choices_of, dimension_of, field_at, list_depth, mark_of, table_of, type_of
+from drivewright.spec.fields import AnyUnit, choices_of, dimension_of, field_at, has_names, levels, list_depth, mark_of, table_of, type_of
 from drivewright.spec.messages import shown
 from drivewright.spec.model import MechanismSpec
 from drivewright.spec.reading import read_document
-from drivewright.spec.writing import raw, toml_value
+from drivewright.spec.writing import raw, toml_key, toml_value
 from drivewright.units import split
 
 WIDTH, WIDEST_KEY = 118, 44  # of a line; of the part before the comment, where comments still stand in one column
 ANY_UNIT = "number or quantity"
+SOME_NAME = "a"  # of a sample table
 KINDS = {bool: "true or false", int: "whole number", float: "number", str: "text", Path: "file"}
 SAMPLES = {bool: False, int: 1, float: 1.0, str: "...", Path: "data.csv"}
 
@@ -70,20 +71,28 @@ def _lines(model, given, path="", off=False, samples=None):
 
 def _table(path, field, given, off, sample):
     """Lines of a sub-table or of a list of them, switched off where it is optional and not given."""
-    inner, several = table_of(field.annotation), list_depth(field.annotation) > 0
-    off = off or (not given and not field.is_required() and not field.default)
-    heading = f"{'#' if off else ''}{'[[' if several else '['}{path}{']]' if several else ']'}  # {field.description or inner.__doc__}"
-    tables = given if several and given else [given or {}] if not off or given else [sample or _skeleton(inner)]
-    first, *others = tables
-    explained = ["", heading, *_lines(inner, first, f"{path}.", off)]
-    return explained + [line for table in others for line in _again(path, table, lambda t: _lines(inner, t, f"{path}.", off))]
+    inner, off = table_of(field.annotation), off or (not given and not field.is_required() and not field.default)
+    first, *others = _tables(path, field, given or ({} if not off else sample or _skeleton(inner)))
+    place, heading, table = first
+    explained = ["", f"{'#' if off else ''}{heading}  # {field.description or inner.__doc__}", *_lines(inner, table, f"{place}.", off)]
+    return explained + [line for other in others for line in _again(inner, *other, off)]
 
 
-def _again(path, table, explained):
-    """A further table of a list: the keys given, which the first one has explained; in full where it holds tables itself."""
-    if any(isinstance(value, dict) for value in table.values()):
-        return ["", f"[[{path}]]", *explained(table)]
-    return ["", f"[[{path}]]", *(f"{key} = {toml_value(value)}" for key, value in table.items())]
+def _tables(path, field, given):
+    """(path, heading, keys) of each table that a field holds."""
+    if has_names(field.annotation):
+        tables = given if given and all(isinstance(table, dict) for table in given.values()) else {SOME_NAME: given}
+        return [(f"{path}.{toml_key(name)}", f"[{path}.{toml_key(name)}]", table) for name, table in tables.items()]
+    if list_depth(field.annotation):
+        return [(path, f"[[{path}]]", table) for table in (given if isinstance(given, list) else [given])]
+    return [(path, f"[{path}]", given)]
+
+
+def _again(inner, place, heading, table, off):
+    """A further table of several: the keys given, which the first one has explained; in full where it holds tables itself."""
+    if any(name in table and table_of(field.annotation) for name, field in inner.model_fields.items()):
+        return ["", heading, *_lines(inner, table, f"{place}.", off)]
+    return ["", heading, *(f"{key} = {toml_value(value)}" for key, value in table.items())]
 
 
 def _key(name, field, given, off):
@@ -118,7 +127,8 @@ def _limits(field):
     else:
         bounded = (f"{low[1]} {low[0]} " if low else "") + what + (f" {high[0]} {high[1]}" if high else "")
     length, depth = _length(field.annotation), list_depth(field.annotation)
-    return f"list of {length} x {bounded}" if length and depth == 1 else "list of " * depth + bounded
+    listed = f"list of {length} x {bounded}" if length and depth == 1 else "list of " * depth + bounded
+    return f"table of {listed}" if has_names(field.annotation) else listed
 
 
 def _limit(field, **signs):
@@ -135,8 +145,9 @@ def _in_columns(rows):
         words, bracket, allowed = comment.partition("  [")
         glued = allowed.replace(" ", "\0") if len(allowed) < (WIDTH - column) / 2 else allowed  # kept on one line where that is no waste
         wrapped = textwrap.wrap(words + bracket + glued, WIDTH - column - 4, break_long_words=False)
+        wrapped = ([""] if len(code) > column - 2 else []) + wrapped  # beside code that is too long stands nothing
         first, *rest = (line.replace("\0", " ") for line in wrapped)
-        lines.append(f"{code.ljust(column - 2)}  # {first}")
+        lines.append(f"{code.ljust(column - 2)}  # {first}" if first else code)
         lines += [f"{' ' * column}#   {more}" for more in rest]
     return lines
 
@@ -151,7 +162,8 @@ def _skeleton(model):
         if field.is_required():
             inner = table_of(field.annotation)
             table = _skeleton(inner) if inner else None
-            tables[name] = _sample(field) if inner is None else [table] if list_depth(field.annotation) else table
+            several = {SOME_NAME: table} if has_names(field.annotation) else [table] if list_depth(field.annotation) else table
+            tables[name] = _sample(field) if inner is None else several
     return tables
 
 
@@ -167,9 +179,11 @@ def _sample(field):
 def _nested_sample(annotation, one):
     """A sample of a type, `one` standing for each quantity in its lists."""
     inner = [arg for arg in get_args(annotation) if arg not in (Ellipsis, type(None))]
+    if get_origin(annotation) is dict:
+        return {SOME_NAME: _nested_sample(inner[1], one)}
     if get_origin(annotation) in (tuple, list):
         return [_nested_sample(arg, one) for arg in inner]
-    if list_depth(annotation):
+    if levels(annotation):
         return _nested_sample(inner[0], one)
     return one if one is not None else next(iter(choices_of(annotation)), SAMPLES.get(type_of(annotation), "..."))
 
@@ -185,7 +199,8 @@ def _length(annotation):
 def _search_sample(mechanism, given):
     """An [optimise] table that fits the kind: its first quantity as the unknown, a headline value as the objective."""
     keys = [(f"{table}.{key}", value) for table, keys in given.items() if isinstance(keys, dict) for key, value in keys.items()]
-    quantities = [(key, value) for key, value in keys if (field := field_at(mechanism.spec, key.split("."))) and dimension_of(field)]
+    quantities = [(key, value) for key, value in keys
+                  if isinstance(value, str) and (field := field_at(mechanism.spec, key.split("."))) and dimension_of(field)]
     if not quantities or not mechanism.headline:
         return None
     key, value = quantities[0]

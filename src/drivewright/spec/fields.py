@@ -1,10 +1,11 @@
 """Types of the keys of a spec, and how to look a key up in a tree of tables."""
 
+import re
 import sys
 from pathlib import Path
-from typing import Annotated, Any, Literal, get_args, get_origin
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
 
-from pydantic import BaseModel, BeforeValidator, Field, PlainValidator, Strict, ValidationInfo, WithJsonSchema
+from pydantic import AfterValidator, BaseModel, BeforeValidator, Field, PlainValidator, Strict, ValidationInfo, WithJsonSchema
 
 from drivewright.errors import UnitError, brief
 from drivewright.units import Dimension, any_quantity
@@ -13,6 +14,35 @@ Number = Annotated[float, Strict()]
 Integer = Annotated[int, Strict()]
 Flag = Annotated[bool, Strict()]
 Text = Annotated[str, Strict(), Field(max_length=400)]
+
+
+def _one_word(value: str):
+    if not re.fullmatch(r"\w[\w-]{0,59}", value):
+        raise ValueError(f"{brief(value)} is no name here: letters, digits, _ and - only, at most 60 (a dot parts the steps of a key)")
+    return value
+
+
+Name = Annotated[Text, AfterValidator(_one_word)]
+
+
+class Frozen(dict):
+    """A dictionary that does not change and can be hashed."""
+
+    def __hash__(self):
+        return hash(frozenset(self.items()))
+
+    def _refuse(self, *args, **kwargs):
+        raise TypeError("a spec is frozen: `replace` gives a changed copy")
+
+    __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refuse
+
+    def __reduce__(self):
+        return Frozen, (dict(self),)
+
+
+# A table whose keys the user chooses: Named[Body] is read from [bodies.crank], [bodies.rocker] ...
+Entry = TypeVar("Entry")
+Named = Annotated[dict[Name, Entry], AfterValidator(Frozen)]
 
 
 def _existing_file(value: Any, info: ValidationInfo):
@@ -65,32 +95,49 @@ PlainValue = Annotated[Any, PlainValidator(_plain_value), WithJsonSchema({"type"
 # -- reading annotations -------------------------------------------------------------------------------------------------------
 
 
-def table_of(annotation):
-    """The table class inside an annotation such as `Spec | None` or `tuple[Spec, ...]`, else None."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return annotation
-    return next((found for arg in get_args(annotation) if (found := table_of(arg))), None)
+def levels(annotation):
+    """What an annotation nests, outermost first: () for `Spec | None`, (tuple,) for `tuple[Spec, ...]`, (dict, tuple) for
+    `Named[tuple[Length, Length]]`."""
+    origin = get_origin(annotation)
+    deepest = max(map(levels, _inside(annotation)), key=len, default=())
+    return (origin, *deepest) if origin in (tuple, list, dict) else deepest
 
 
 def list_depth(annotation):
-    """How many lists an annotation nests: 0 for `Spec | None`, 1 for `tuple[Spec, ...]`."""
-    origin, inner = get_origin(annotation), get_args(annotation)
-    deepest = max(map(list_depth, inner if origin is not Annotated else inner[:1]), default=0) if origin is not Literal else 0
-    return deepest + (origin in (tuple, list))
+    """How many lists an annotation nests."""
+    return sum(kind is not dict for kind in levels(annotation))
+
+
+def has_names(annotation):
+    """Whether the user chooses the keys: a `Named[...]`."""
+    return levels(annotation)[:1] == (dict,)
+
+
+def _inside(annotation):
+    """The parts of an annotation that say what its values are."""
+    origin, parts = get_origin(annotation), get_args(annotation)
+    return () if origin is Literal else parts[:1] if origin is Annotated else parts[1:] if origin is dict else parts
+
+
+def table_of(annotation):
+    """The table class inside an annotation such as `Spec | None` or `tuple[Spec, ...]`, else None."""
+    if isinstance(annotation, type) and not get_args(annotation) and issubclass(annotation, BaseModel):
+        return annotation
+    return next((found for part in _inside(annotation) if (found := table_of(part))), None)
 
 
 def type_of(annotation):
     """The plain class of a value, lists and None left aside: int for `tuple[Integer, ...] | None`."""
     if isinstance(annotation, type) and annotation is not type(None) and not get_args(annotation):
         return annotation
-    return next((found for arg in get_args(annotation) if (found := type_of(arg))), None)
+    return next((found for part in _inside(annotation) if (found := type_of(part))), None)
 
 
 def choices_of(annotation):
     """The values of the Literals inside an annotation."""
     if get_origin(annotation) is Literal:
         return get_args(annotation)
-    return tuple(choice for arg in get_args(annotation) for choice in choices_of(arg))
+    return tuple(choice for part in _inside(annotation) for choice in choices_of(part))
 
 
 def mark_of(field, kind):
@@ -100,9 +147,9 @@ def mark_of(field, kind):
 
 
 def _mark_inside(annotation, kind):
-    if get_origin(annotation) is Annotated:
-        return next((mark for mark in annotation.__metadata__ if isinstance(mark, kind)), None)
-    return next((mark for arg in get_args(annotation) if (mark := _mark_inside(arg, kind))), None)
+    if found := next((mark for mark in getattr(annotation, "__metadata__", ()) if isinstance(mark, kind)), None):
+        return found
+    return next((mark for part in _inside(annotation) if (mark := _mark_inside(part, kind))), None)
 
 
 def dimension_of(field):
@@ -114,7 +161,7 @@ def dimension_of(field):
 
 
 def field_at(model, steps):
-    """The field at a path of keys; after a list comes one step (name or number) for each of its levels.  None where there is none."""
+    """The field at a path of keys; below a list or a `Named` comes one step (name or number) a level.  None where there is none."""
     field = None
     steps = list(steps)
     while steps:
@@ -122,7 +169,7 @@ def field_at(model, steps):
         if field is None:
             return None
         model = table_of(field.annotation)
-        del steps[: list_depth(field.annotation)]
+        del steps[: len(levels(field.annotation))]
     return field
 
 

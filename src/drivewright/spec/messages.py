@@ -1,10 +1,8 @@
 """What pydantic has to complain of, in the user's words: the dotted key, the value, what would be right."""
 
-import re
-
 from drivewright.errors import SpecError, brief, nearest
-from drivewright.spec.fields import choices_of, dimension_of, field_at, list_depth, table_at
-from drivewright.spec.writing import toml_value
+from drivewright.spec.fields import choices_of, dimension_of, field_at, levels, table_at
+from drivewright.spec.writing import toml_key, toml_value
 
 COMPARISONS = {"greater_than": ("gt", "greater than"), "greater_than_equal": ("ge", "at least"), "less_than": ("lt", "less than"),
                "less_than_equal": ("le", "at most")}
@@ -35,25 +33,26 @@ def _complaint(item, model):
     """(dotted key, message) of one pydantic error."""
     place = _place(item, model)
     field, kind = field_at(model, place), item["type"]
-    return ".".join(map(_key, place)), SPECIAL.get(kind, _other)(item, field, model, place)
-
-
-def _key(step):
-    """A step of a key as TOML writes it: in quotes where it is empty or has odd characters."""
-    return step if re.fullmatch(r"[A-Za-z0-9_-]{1,60}", step) else toml_value(step[:60])
+    key, own = [toml_key(step[:60]) for step in place], item.get("ctx", {}).get("error")
+    if isinstance(own, SpecError) and own.key:  # a rule between several keys, which knows whose fault it is
+        return ".".join([*key, own.key]), own.message
+    return ".".join(key), SPECIAL.get(kind, _other)(item, field, model, place)
 
 
 def _place(item, model):
     """The path of keys and indices, as text, without the names pydantic puts in for the members of a union."""
-    place, levels = [], 0
+    place, open_levels = [], []
     for number, step in enumerate(item["loc"]):
         unknown = item["type"] == "extra_forbidden" and number == len(item["loc"]) - 1
         if isinstance(step, int):
             place.append(str(step))
-            levels -= 1
-        elif unknown or (levels <= 0 and (table := table_at(model, place)) is not None and step in table.model_fields):
+            del open_levels[:1]
+        elif open_levels[:1] == [dict]:
             place.append(step)
-            levels = 0 if unknown else list_depth(table.model_fields[step].annotation)
+            del open_levels[:1]
+        elif unknown or (not open_levels and (table := table_at(model, place)) is not None and step in table.model_fields):
+            place.append(step)
+            open_levels = [] if unknown else list(levels(table.model_fields[step].annotation))
     return place
 
 

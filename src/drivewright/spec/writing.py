@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import re
 from pathlib import Path
 
 from pydantic import BaseModel
@@ -18,7 +19,7 @@ def document(spec, places=None):
     """
     fields = [(name, field, getattr(spec, name)) for name, field in type(spec).model_fields.items()]
     return {name: raw(value, dimension_of(field), places) for name, field, value in fields
-            if value is not None and not (value == () and field.default == ())}
+            if value is not None and not (value in ((), {}) and not field.default)}
 
 
 def raw(value, dimension=None, places=None):
@@ -27,6 +28,8 @@ def raw(value, dimension=None, places=None):
         return document(value, places)
     if isinstance(value, (tuple, list)):
         return [raw(v, dimension, places) for v in value]
+    if isinstance(value, dict):
+        return {name: raw(v, dimension, places) for name, v in value.items()}
     if isinstance(value, Path):
         return str((places or {}).get(value, value))
     return dimension.text(value) if dimension and isinstance(value, float) else value
@@ -36,6 +39,8 @@ def files(value):
     """Every data file a spec names."""
     if isinstance(value, BaseModel):
         value = [getattr(value, name) for name in type(value).model_fields]
+    if isinstance(value, dict):
+        value = list(value.values())
     if isinstance(value, (tuple, list)):
         return [path for v in value for path in files(v)]
     return [value] if isinstance(value, Path) else []
@@ -59,14 +64,21 @@ def places_beside(paths):
 
 def toml_text(tables, path=""):
     """TOML text of raw tables: the values of each table first, then its sub-tables."""
-    lines = [f"{key} = {toml_value(value)}" for key, value in tables.items() if not _is_table(value)]
+    lines = [f"{toml_key(key)} = {toml_value(value)}" for key, value in tables.items() if not _is_table(value)]
     text = "".join(f"{line}\n" for line in lines)
     for key, value in tables.items():
         if _is_table(value):
-            heading = f"[[{path}{key}]]" if isinstance(value, list) else f"[{path}{key}]"
-            for table in value if isinstance(value, list) else [value]:
-                text += f"\n{heading}\n{toml_text(table, f'{path}{key}.')}"
+            place, several = f"{path}{toml_key(key)}", isinstance(value, list)
+            for table in value if several else [value]:
+                text += f"{_heading(place, table, several)}{toml_text(table, f'{place}.')}"
     return text
+
+
+def _heading(place, table, several):
+    """The line that opens a table; a table of nothing but tables needs none."""
+    if several:
+        return f"\n[[{place}]]\n"
+    return "" if table and all(isinstance(value, dict) for value in table.values()) else f"\n[{place}]\n"
 
 
 def _is_table(value):
@@ -81,7 +93,14 @@ def toml_value(value):
         return str(value).lower()
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(map(toml_value, value)) + "]"
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{toml_key(key)} = {toml_value(v)}" for key, v in value.items()) + " }" if value else "{}"
     return repr(value)
+
+
+def toml_key(step):
+    """One step of a key: in quotes where it is empty or has odd characters."""
+    return step if re.fullmatch(r"[A-Za-z0-9_-]+", step) else toml_value(step)
 
 
 # -- digest --------------------------------------------------------------------------------------------------------------------
@@ -98,6 +117,8 @@ def _canonical(value, field=None):
         return {name: _canonical(getattr(value, name), field) for name, field in type(value).model_fields.items()}
     if isinstance(value, (tuple, list)):
         return [_canonical(v, field) for v in value]
+    if isinstance(value, dict):
+        return {name: _canonical(v, field) for name, v in value.items()}
     if isinstance(value, Path):
         return _content(value)
     if mark_of(field, AnyUnit) and not isinstance(value, bool):

@@ -1,0 +1,63 @@
+"""Wear of a journal bearing by Archard's law, on angular bins of the bearing's wall.
+
+The wear depth is a periodic, piecewise linear function of the angle on the bearing: node k of n stands at 2 pi k/n.  `deposit` shares what
+is worn off between the two nodes next to the contact, by the weights with which `wear_at` reads them, so that no volume is lost.
+The journal keeps its shape.
+"""
+
+import numpy as np
+
+from drivewright._jit import kernel
+from drivewright.errors import InputError
+
+
+def wear_volume(coefficient, force, sliding):
+    """V = k F s  [m^3]: k [m^3/(N m)] the specific wear rate, F [N], s [m] the length of sliding.
+
+    Archard, J. Applied Physics 24 (1953), recalled; there k is a pure number over the hardness.
+    """
+    return coefficient * np.asarray(force) * sliding
+
+
+def deposit(time, angle, force, slip, coefficient, radius, length, bins):
+    """Wear depth (bins,) [m] of one cycle from its history: depth = k/(R dphi L) * integral of F |v| dt at each place.
+
+    time [s] ascending, angle [rad] of the contact in the bearing's frame, normal force [N] (0 where there is no contact, the angle is
+    then ignored), slip [m/s]: arrays (m,).  Bearing radius R and length L [m].  Trapezoidal in time.
+    """
+    time, angle, force, slip = (np.asarray(each, dtype=float) for each in (time, angle, force, slip))
+    _check_history(time, angle, force, slip, bins)
+    share = 0.5 * (np.diff(time, prepend=time[0]) + np.diff(time, append=time[-1]))  # trapezoidal weights
+    worn_off = wear_volume(coefficient, force, np.abs(slip) * share)[force > 0]
+    place = np.mod(angle[force > 0], 2 * np.pi) * bins / (2 * np.pi)
+    node, part = np.floor(place).astype(int), place % 1.0
+    volume = np.bincount(node % bins, worn_off * (1 - part), bins) + np.bincount((node + 1) % bins, worn_off * part, bins)
+    return volume * bins / (2 * np.pi * radius * length)
+
+
+def _check_history(time, angle, force, slip, bins):
+    if not (time.ndim == 1 and time.shape == angle.shape == force.shape == slip.shape and time.size >= 2):
+        raise InputError(f"wear: time, angle, force and slip must be rows of the same two or more samples, got the shapes "
+                         f"{time.shape}, {angle.shape}, {force.shape}, {slip.shape}.")
+    if np.any(np.diff(time) < 0):
+        raise InputError(f"wear: time falls back after {time[np.argmax(np.diff(time) < 0)]:g} s; sort the samples.")
+    if not (np.all(force >= 0) and np.all(np.isfinite(force)) and np.all(np.isfinite(slip)) and np.all(np.isfinite(angle[force > 0]))):
+        raise InputError("wear: forces must be finite and not below 0, slip and the angles of loaded samples finite; use 0 N where the "
+                         "bodies are apart.")
+    if bins < 3:
+        raise InputError(f"wear: {bins} bins do not tell one side of the bearing from the other; take at least 3, better 72 or more.")
+
+
+def worn(depths, depth_per_cycle, cycles):
+    """The depths after `cycles` more cycles that each take off `depth_per_cycle` [m]: the jump over cycles that are all alike."""
+    return np.asarray(depths) + cycles * np.asarray(depth_per_cycle)
+
+
+@kernel
+def wear_at(depths, angle):
+    """Wear depth [m] at the angle [rad] on the bearing; periodic, linear between the nodes."""
+    n = depths.shape[0]
+    place = angle / (2.0 * np.pi) * n
+    below = np.floor(place)
+    part, node = place - below, int(below) % n
+    return (1.0 - part) * depths[node] + part * depths[(node + 1) % n]

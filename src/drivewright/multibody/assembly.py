@@ -1,0 +1,354 @@
+"""Assembly: a start pose in which every loop is closed, the split of the coordinates, and start rates.
+
+The start angles of the bodies are guesses.  Driven rotations start exactly there.  Of the others the later bodies give way first, so
+that a mechanism stated from its crank on starts with the crank where it was said to be.  Pins with play start concentric.
+"""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import null_space, qr
+
+from drivewright.errors import DoesNotAssemble
+from drivewright.multibody import system as arrays
+from drivewright.multibody.kinematics import placed
+from drivewright.multibody.lower import lower, rows_of
+from drivewright.multibody.model import GROUND, Ideal, Model, Revolute
+from drivewright.multibody.system import System, scratch
+from drivewright.multibody.tree import Tree, expanded, grow
+
+CLOSED = 1e-12  # largest miss of an assembled loop [m], [rad]
+WEAK = 0.05  # a coordinate that moves the loops less than this part of its own size is no good dependent one
+RANK = 1e-9  # rows that depend on one another to this accuracy are redundant
+FIRM = 0.02  # part of its firmness to which a split may fall before another one is made
+NUDGE = 1e-3  # how far a mechanism is moved to see whether rows depend on one another everywhere [rad]
+
+
+class Start(NamedTuple):
+    """Coordinates and their rates at the start."""
+
+    q: np.ndarray
+    v: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Assembly:
+    """A system ready to move: `model` as given, `wide` with its massless links as bodies, the tree, the start, and findings."""
+
+    model: Model
+    wide: Model
+    tree: Tree
+    system: System
+    start: Start
+    findings: tuple = ()
+
+    @property
+    def freedom(self):
+        """Degrees of freedom that are not driven."""
+        return len(self.system.independent)
+
+    @property
+    def names(self):
+        """Names of the bodies in the order of the arrays, the ground first."""
+        return (GROUND, *(link.body.name for link in self.tree.links))
+
+    @property
+    def state(self):
+        """The start as a state for the integrator."""
+        return pack(self.system, self.start.q, self.start.v)
+
+
+def pack(system, q, v):
+    """Coordinates and rates as a state, nothing remembered."""
+    memory = len(system.contacts) + int(np.sum(system.contacts.law == arrays.LUGRE))
+    return np.concatenate([q[system.stored], v[system.independent], np.zeros(memory)])
+
+
+def idealised(model):
+    """The same mechanism with every pin ideal."""
+    return replace(model, joints=tuple(replace(j, model=Ideal()) if isinstance(j, Revolute) else j for j in model.joints))
+
+
+def assemble(model):
+    """The `Assembly` of a model.  Raises DoesNotAssemble naming the joint that cannot be closed."""
+    ideal = idealised(model)
+    tree = grow(ideal)
+    system = lower(ideal, tree)
+    found = _assemble(ideal, ideal, tree, system, _guess(tree, system))
+    if ideal == model:
+        return found
+    wide = expanded(model)
+    tree = grow(wide)
+    system = lower(wide, tree)
+    return _assemble(model, wide, tree, system, _from_poses(tree, system, found))
+
+
+def _assemble(model, wide, tree, system, q):
+    system, q = _close(wide, tree, system, q)
+    system, findings = _without_redundant_rows(wide, tree, system, q)
+    system = split(system, q)
+    return Assembly(model, wide, tree, system, Start(q, start_rates(model, wide, tree, system, q)), findings)
+
+
+# ---------------------------------------------------------------------------------------------------------------- position
+
+
+def at(system, q, t=0.0, v=None):
+    """`Work` with driven coordinates set, bodies placed and rows measured at the coordinates q."""
+    work = scratch(system)
+    work.coordinates.q = q
+    if v is not None:
+        work.coordinates.v = v
+    placed(system, work, t)
+    return work
+
+
+def _guess(tree, system):
+    """Coordinates as the bodies' start angles have it; slides and free places zero."""
+    angles = {GROUND: 0.0} | {link.body.name: link.body.angle for link in tree.links}
+    q = np.zeros(tree.size)
+    for link in tree.links:
+        if link.turn >= 0:
+            q[link.turn] = angles[link.body.name] - (angles[link.parent] if link.inherits else 0.0)
+    return at(system, q).coordinates.q
+
+
+def _from_poses(tree, system, found):
+    """Coordinates in which the bodies are where another assembly of the same mechanism has them."""
+    other = at(found.system, found.start.q)
+    number = {name: k for k, name in enumerate(found.names)}
+    q = np.zeros(tree.size)
+    angles, records = {GROUND: 0.0}, {link.body.name: system.bodies[k] for k, link in enumerate(tree.links, start=1)}
+    for link in tree.links:
+        k = number.get(link.body.name)
+        angles[link.body.name] = link.body.angle if k is None else other.poses.angle[k]
+        if link.turn >= 0:
+            q[link.turn] = angles[link.body.name] - (angles[link.parent] if link.inherits else 0.0)
+        if link.slide >= 0:
+            q[link.slide] = _slide(records[link.body.name], other, k, number[link.parent])
+        if link.free >= 0:
+            q[link.free : link.free + 2] = (other.poses.x[k], other.poses.y[k]) if k is not None else (0.0, 0.0)
+    return at(system, q).coordinates.q
+
+
+def _slide(body, work, i, p):
+    """Displacement along a slide between two placed bodies."""
+    def world(k, x, y):
+        return np.array([poses.c[k] * x - poses.s[k] * y, poses.s[k] * x + poses.c[k] * y])
+
+    poses = work.poses
+    apart = np.array([poses.x[i] - poses.x[p], poses.y[i] - poses.y[p]]) + world(i, body.bx, body.by) - world(p, body.ax, body.ay)
+    return float(apart @ (world(p, body.ex, body.ey) - world(i, body.fx, body.fy)))
+
+
+def _close(wide, tree, system, q):
+    """(system with the constants of gears and rolling wheels, closed coordinates)."""
+    phase = np.isnan(system.rows.constant)
+    loops = system._replace(rows=system.rows[~phase])
+    linear = [k for link in tree.links for k in _places(link)]
+    links = {link.turn for link in tree.links if link.body.name.startswith("link:")}
+    free = [k for k in system.stored if k not in links]
+    q = _step(loops, q, linear) if linear else q
+    for columns in (_giving_way(wide, tree, loops, q, free), free, list(system.stored)):
+        closed, miss = _newton(loops, q, columns)
+        if miss < CLOSED:
+            break
+    else:
+        raise DoesNotAssemble(_does_not_close(wide, loops, closed))
+    rows = system.rows.copy()
+    rows.constant[phase] = 0.0
+    rows.constant[phase] = at(system._replace(rows=rows), closed).columns[0, phase]
+    return system._replace(rows=rows), closed
+
+
+def _places(link):
+    """Coordinates of a link that move it without turning it."""
+    return [k for k in (link.slide, link.free, link.free + 1 if link.free >= 0 else -1) if k >= 0]
+
+
+def _step(system, q, columns):
+    work = at(system, q)
+    q = q.copy()
+    if len(system.rows):
+        q[columns] -= np.linalg.lstsq(work.jacobian[:, columns], work.columns[0], rcond=1e-10)[0]
+    return q
+
+
+def _newton(system, q, columns):
+    """(coordinates, largest miss) by Newton's method on some coordinates: least change, damped, at most half a radian a step."""
+    work = at(system, q)
+    for _ in range(60):
+        size = np.max(np.abs(work.columns[0]), initial=0.0)
+        if size < 0.01 * CLOSED or not columns:
+            break
+        step = np.linalg.lstsq(work.jacobian[:, columns], work.columns[0], rcond=1e-12)[0]
+        step *= min(1.0, 0.5 / np.max(np.abs(step), initial=1e-300))
+        for _ in range(10):
+            trial = work.coordinates.q.copy()
+            trial[columns] -= step
+            better = at(system, trial)
+            if np.linalg.norm(better.columns[0]) < np.linalg.norm(work.columns[0]):
+                break
+            step *= 0.5
+        else:
+            break
+        work = better
+    return work.coordinates.q, np.max(np.abs(work.columns[0]), initial=0.0)
+
+
+def _giving_way(wide, tree, system, q, free):
+    """As many coordinates as there are rows to close, those of the later bodies first, each able to move what the others cannot."""
+    order = {body.name: k for k, body in enumerate(wide.bodies)}
+    links = sorted(tree.links, key=lambda link: -order[link.body.name])
+    ranked = [k for link in links for k in _places(link)] + [link.turn for link in links]
+    jacobian = at(system, q).jacobian
+    chosen, basis = [], np.zeros((len(system.rows), 0))
+    for k in (k for k in ranked if k in free):
+        column = jacobian[:, k]
+        rest = column - basis @ (basis.T @ column)
+        if np.linalg.norm(rest) > max(WEAK * np.linalg.norm(column), 1e-12):
+            chosen.append(k)
+            basis = np.column_stack([basis, rest / np.linalg.norm(rest)])
+    return chosen
+
+
+def _does_not_close(wide, system, q):
+    work = at(system, q)
+    worst = int(np.argmax(np.abs(work.columns[0])))
+    row = system.rows[worst]
+    joint = wide.joints[row.joint]
+    pair = [k for k in range(len(system.rows)) if system.rows[k].joint == row.joint]
+    miss = np.linalg.norm(work.columns[0][pair])
+    bodies = " and ".join(repr(name) for name in dict.fromkeys(_bodies_of(joint)))
+    how = f"{1e3 * miss:.4g} mm" if row.ex or row.ey or row.kind == arrays.DISTANCE else f"{np.degrees(miss):.4g} deg"
+    return (f"joint {joint.name!r} does not close: bodies {bodies} miss each other by {how} at best. Check the lengths and axes, or give "
+            "start angles nearer to the assembly that is meant")
+
+
+def _bodies_of(joint):
+    ends = (joint.first, joint.second) if hasattr(joint, "first") else (joint.cam, joint.follower)
+    return [end if isinstance(end, str) else end.body for end in ends]
+
+
+# ------------------------------------------------------------------------------------------------------ redundancy and split
+
+
+def _without_redundant_rows(wide, tree, system, q):
+    """The system without rows that others imply, with a finding for each joint concerned."""
+    kept = _independent_rows(at(system, q).jacobian[:, system.stored])
+    if len(kept) == len(system.rows):
+        return system, ()
+    nudged, t = _nudge(system, q)
+    again = _independent_rows(at(system, nudged, t).jacobian[:, system.stored])
+    if len(again) > len(kept):
+        missing = wide.joints[system.rows[next(k for k in again if k not in kept)].joint].name
+        raise DoesNotAssemble(f"the mechanism starts in a dead point: joint {missing!r} has no unique way on from there. "
+                              "Start a few degrees away from it, or drive another joint")
+    dropped = [k for k in range(len(system.rows)) if k not in kept]
+    names = list(dict.fromkeys(wide.joints[system.rows[k].joint].name for k in dropped))
+    whole = at(system, q).jacobian
+    for k in dropped:
+        if np.linalg.matrix_rank(whole[[*kept, k]], RANK) > np.linalg.matrix_rank(whole[kept], RANK):
+            raise DoesNotAssemble(f"the drive cannot move: joint {wide.joints[system.rows[k].joint].name!r} holds the mechanism fast. "
+                                  "Remove a joint or a drive, or free a direction (pin-slot instead of prismatic)")
+    findings = tuple(f"joint '{name}' repeats a constraint that the joints before it impose already; its share of the forces is not "
+                     "determined by rigid bodies" for name in names)
+    return system._replace(rows=system.rows[kept]), findings
+
+
+def _independent_rows(jacobian):
+    """Numbers of the rows that do not depend on the rows before them."""
+    kept, basis = [], np.zeros((jacobian.shape[1], 0))
+    for k, row in enumerate(jacobian):
+        rest = row - basis @ (basis.T @ row)
+        rest -= basis @ (basis.T @ rest)
+        if np.linalg.norm(rest) > RANK * max(np.linalg.norm(row), 1e-12):
+            kept.append(k)
+            basis = np.column_stack([basis, rest / np.linalg.norm(rest)])
+    return kept
+
+
+def _nudge(system, q):
+    """Coordinates and time of the mechanism moved on a little."""
+    v = np.zeros(len(q))
+    work = at(system, q)
+    fastest = np.max(np.abs(work.coordinates.v), initial=0.0)
+    if fastest > 0:
+        closed, _ = _newton_at(system, q, NUDGE / fastest)
+        return closed, NUDGE / fastest
+    free = null_space(work.jacobian[:, system.stored])
+    v[system.stored] = free @ np.ones(free.shape[1]) if free.size else 0.0
+    return _newton(system, q + NUDGE * v, list(system.stored))[0], 0.0
+
+
+def _newton_at(system, q, t):
+    """`_newton` on all stored coordinates at another time."""
+    values = at(system, q, t)
+    frozen = system._replace(driven=system.driven[:0])
+    return _newton(frozen, values.coordinates.q, list(system.stored))
+
+
+def split(system, q, t=0.0):
+    """The system with its coordinates split at q so that the dependent ones follow as firmly as possible."""
+    jacobian = at(system, q, t).jacobian[:, system.stored]
+    rows = len(system.rows)
+    pivots = qr(jacobian, mode="r", pivoting=True)[1] if rows else np.zeros(0, dtype=int)
+    dependent = np.sort(system.stored[pivots[:rows]])
+    independent = np.array([k for k in system.stored if k not in dependent], dtype=np.int64)
+    contacts, place = system.contacts.copy(), len(system.stored) + len(independent)
+    for contact in contacts:
+        contact.memory, place = place, place + 1
+    for contact in contacts:
+        if contact.law == arrays.LUGRE:
+            contact.bristle, place = place, place + 1
+        else:
+            contact.bristle = contact.memory
+    pivots = np.abs(np.diag(qr(jacobian[:, pivots[:rows]], mode="r")[0])) if rows else np.ones(1)
+    least = FIRM * float(np.min(pivots) / np.max(pivots)) if len(independent) else -1.0
+    return system._replace(dependent=dependent.astype(np.int64), independent=independent, contacts=contacts, least_firmness=least)
+
+
+# ------------------------------------------------------------------------------------------------------------------- rates
+
+
+def start_rates(model, wide, tree, system, q):
+    """Rates of all coordinates: driven ones as driven, loops closed, then as near as possible to the rates given for the bodies, then pins
+    with play and links as if they were ideal, and nothing that moves without need."""
+    work = at(system, q)
+    size = len(q)
+    pick = np.eye(size)
+    driven = system.driven.coordinate
+    given, together = _given_rates(wide, tree, system, work), _concentric(model, wide, tree, system, q)
+    stages = [(pick[driven], work.coordinates.v[driven]), (work.jacobian, np.zeros(len(system.rows))), given, together]
+    x, free = np.zeros(size), np.eye(size)
+    for matrix, wanted in stages:
+        if len(wanted) and free.shape[1]:
+            x = x + free @ np.linalg.lstsq(matrix @ free, wanted - matrix @ x, rcond=1e-10)[0]
+            free = free @ null_space(matrix @ free, rcond=1e-10)
+    return x
+
+
+def _given_rates(wide, tree, system, work):
+    rows, wanted = [], []
+    for k, link in enumerate(tree.links, start=1):
+        if link.body.velocity is not None:
+            rows += [work.levers.x[k], work.levers.y[k]]
+            wanted += list(link.body.velocity)
+        if link.body.angular_velocity is not None:
+            rows.append(work.levers.t[k])
+            wanted.append(link.body.angular_velocity)
+    return np.array(rows).reshape(-1, len(work.coordinates)), np.array(wanted)
+
+
+def _concentric(model, wide, tree, system, q):
+    """Rows that hold pins with play together, and massless links still."""
+    from drivewright.multibody.lower import Places, _table
+
+    numbers = {GROUND: 0} | {link.body.name: k for k, link in enumerate(tree.links, start=1)}
+    places = Places(numbers, {}, {GROUND: (0.0, 0.0)} | {b.name: b.centroid for b in wide.bodies}, [])
+    pins = [j for j in wide.joints if isinstance(j, Revolute) and not isinstance(j.model, Ideal)]
+    rows = _table(arrays.ROW, [row for pin in pins for row in rows_of(pin, places)])
+    links = np.eye(len(q))[[link.turn for link in tree.links if link.body.name.startswith("link:")]].reshape(-1, len(q))
+    jacobian = np.concatenate([at(system._replace(rows=rows), q).jacobian, links])
+    return jacobian, np.zeros(len(jacobian))

@@ -1,0 +1,144 @@
+"""Kernels: the equations of motion in the independent coordinates, for the integrators of `numerics`.
+
+State y: the stored coordinates, the rates of the independent ones, and what the elements remember.  The dependent coordinates in
+the state only start Newton's method: the loops are closed anew, exactly, at every evaluation.
+"""
+
+import numpy as np
+
+from drivewright._jit import implements, inner
+from drivewright.multibody.kinematics import bend, close, drive, move
+from drivewright.multibody.loads import SLOWEST, apart, gap_of, load
+from drivewright.multibody.system import DRIFT, LUGRE, Motion
+from drivewright.numerics.ode import events, rate, switch
+from drivewright.numerics.small import cholesky_solve
+
+
+@implements(rate, Motion)
+def _(motion, t, y, dy):
+    accelerations(motion.system, motion.work, t, y, dy)
+
+
+@implements(events, Motion)
+def _(motion, t, y, values):
+    depths(motion.system, motion.work, t, y, values)
+
+
+@implements(switch, Motion)
+def _(motion, index, t, y):
+    touch_or_let_go(motion.system, motion.work, index, t, y)
+
+
+@inner
+def accelerations(system, work, t, y, dy):
+    """dy of the state y: rates of the stored coordinates, accelerations of the independent ones, rates of what elements remember."""
+    closed = pose(system, work, t, y)
+    move(system, work)
+    bend(system, work)
+    load(system, work, t, y, dy)
+    accelerate(system, work)
+    for k in range(system.stored.size):
+        dy[k] = work.coordinates[system.stored[k]].v
+    for m in range(system.independent.size):
+        dy[system.stored.size + m] = work.force[m] if closed else np.nan
+
+
+@inner
+def depths(system, work, t, y, values):
+    """How firmly the dependent coordinates follow, less the least that is allowed; then the depth of every pin with play: it touches where
+    this rises through 0 and lets go where it falls."""
+    pose(system, work, t, y)
+    values[0] = firmness(work) - system.least_firmness
+    for n in range(system.contacts.size):
+        values[n + 1] = gap_of(work, system.contacts[n])
+
+
+@inner
+def firmness(work):
+    """Least over greatest pivot of the decomposed Jacobian: 1 at best, 0 where the mechanism stands in a dead point of this split."""
+    least, greatest = 1.0, 1.0
+    for r in range(work.pivots.size):
+        pivot = abs(work.lu[r, r])
+        least, greatest = (pivot, pivot) if r == 0 else (min(least, pivot), max(greatest, pivot))
+    return least / greatest
+
+
+@inner
+def touch_or_let_go(system, work, index, t, y):
+    """A pin touches: remember the speed of approach.  It lets go: forget it."""
+    contact = system.contacts[index - 1]
+    if y[contact.memory] > 0.0:
+        y[contact.memory] = 0.0
+    else:
+        pose(system, work, t, y)
+        move(system, work)
+        dx, dy, vx, vy, _, _, _, _ = apart(work, contact)
+        y[contact.memory] = max((dx * vx + dy * vy) / np.hypot(dx, dy), SLOWEST)
+    if contact.law == LUGRE:
+        y[contact.bristle] = 0.0
+
+
+@inner
+def pose(system, work, t, y):
+    """Coordinates of the state, loops closed, bodies placed; False where the loops cannot be closed."""
+    for k in range(system.stored.size):
+        work.coordinates[system.stored[k]].q = y[k]
+    for m in range(system.independent.size):
+        work.coordinates[system.independent[m]].v = y[system.stored.size + m]
+    drive(system, work, t)
+    return close(system, work)
+
+
+@inner
+def accelerate(system, work):
+    """Solve  sum R^T M R a = sum R^T (F - M b)  for the independent accelerations (in work.force), R = d(body)/d(independent)."""
+    free = system.independent.size
+    for m in range(free):
+        work.force[m] = 0.0
+        for n in range(free):
+            work.mass[m, n] = 0.0
+    for i in range(1, system.bodies.size):
+        body, forces = system.bodies[i], work.poses[i]
+        if body.mass == 0.0 and body.inertia == 0.0 and forces.fx == 0.0 and forces.fy == 0.0 and forces.ft == 0.0:
+            continue
+        reduce_body(system, work, i)
+        bx, by, bt = residual_bend(system, work, i)
+        fx = forces.fx + body.mass * (system.gravity_x - bx)
+        fy = forces.fy + body.mass * (system.gravity_y - by)
+        ft = forces.ft - body.inertia * bt
+        for m in range(free):
+            one = work.reduced[m]
+            work.force[m] += one.x * fx + one.y * fy + one.t * ft
+            for n in range(m + 1):
+                two = work.reduced[n]
+                work.mass[m, n] += body.mass * (one.x * two.x + one.y * two.y) + body.inertia * one.t * two.t
+    cholesky_solve(work.mass, work.force)
+
+
+@inner
+def reduce_body(system, work, i):
+    """Levers of body i by the independent coordinates, the dependent ones following."""
+    for m in range(system.independent.size):
+        lever = work.levers[i, system.independent[m]]
+        x, y, t = lever.x, lever.y, lever.t
+        for r in range(system.rows.size):
+            held = work.levers[i, system.dependent[r]]
+            x += held.x * work.follow[r, m]
+            y += held.y * work.follow[r, m]
+            t += held.t * work.follow[r, m]
+        reduced = work.reduced[m]
+        reduced.x, reduced.y, reduced.t = x, y, t
+
+
+@inner
+def residual_bend(system, work, i):
+    """Acceleration of body i with the independent accelerations zero."""
+    bx, by, bt = work.poses[i].bx, work.poses[i].by, 0.0
+    for d in range(system.driven.size):
+        k = system.driven[d].coordinate
+        lever, a = work.levers[i, k], work.coordinates[k].a
+        bx, by, bt = bx + lever.x * a, by + lever.y * a, bt + lever.t * a
+    for r in range(system.rows.size):
+        lever, a = work.levers[i, system.dependent[r]], work.columns[DRIFT, r]
+        bx, by, bt = bx + lever.x * a, by + lever.y * a, bt + lever.t * a
+    return bx, by, bt

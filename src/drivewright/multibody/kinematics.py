@@ -1,0 +1,251 @@
+"""Kernels: where the bodies are, how fast they move, and how the dependent coordinates follow the independent ones."""
+
+import numpy as np
+
+from drivewright._jit import inner, outer
+from drivewright.multibody.system import COLUMN, DISTANCE, DRIFT, LINEAR, MISS
+from drivewright.numerics.small import lu_factor, lu_solve
+
+CLOSED = 1e-7  # Newton's correction below which one more evaluation is exact to rounding, convergence being quadratic
+TRIES = 12
+
+
+@inner
+def curve_at(system, index, x):
+    """(f, f', f'') of a piecewise polynomial."""
+    curve = system.curves[index]
+    low, high = curve.first, curve.first + curve.count - 1
+    start = system.pieces[low].start
+    if curve.period > 0.0:
+        x = start + (x - start) % curve.period
+    while low < high:
+        middle = (low + high + 1) // 2
+        if system.pieces[middle].start <= x:
+            low = middle
+        else:
+            high = middle - 1
+    p = system.pieces[low]
+    u = x - p.start
+    value = p.c0 + u * (p.c1 + u * (p.c2 + u * (p.c3 + u * (p.c4 + u * p.c5))))
+    slope = p.c1 + u * (2 * p.c2 + u * (3 * p.c3 + u * (4 * p.c4 + u * 5 * p.c5)))
+    return value, slope, 2 * p.c2 + u * (6 * p.c3 + u * (12 * p.c4 + u * 20 * p.c5))
+
+
+@inner
+def turned(pose, x, y):
+    """A vector of the body's frame in the directions of the world."""
+    return pose.c * x - pose.s * y, pose.s * x + pose.c * y
+
+
+@inner
+def drive(system, work, t):
+    """Coordinates that are given functions of time, with their rates and accelerations."""
+    for d in range(system.driven.size):
+        driven = system.driven[d]
+        value, slope, second = curve_at(system, driven.curve, t)
+        coordinate = work.coordinates[driven.coordinate]
+        coordinate.q = driven.sign * (driven.start + value)
+        coordinate.v = driven.sign * slope
+        coordinate.a = driven.sign * second
+
+
+@inner
+def place(system, work):
+    """Pose of every body, and its levers, from the coordinates."""
+    for i in range(1, system.bodies.size):
+        body, here, base = system.bodies[i], work.poses[i], work.poses[system.bodies[i].parent]
+        here.angle = body.inherits * base.angle + body.offset
+        if body.turn >= 0:
+            here.angle += work.coordinates[body.turn].q
+        here.c, here.s = np.cos(here.angle), np.sin(here.angle)
+        if body.free >= 0:
+            here.x, here.y = work.coordinates[body.free].q, work.coordinates[body.free + 1].q
+            work.levers[i, body.free].x = work.levers[i, body.free + 1].y = 1.0
+            continue
+        slide = work.coordinates[body.slide].q if body.slide >= 0 else 0.0
+        ax, ay = turned(base, body.ax + slide * body.ex, body.ay + slide * body.ey)
+        bx, by = turned(here, body.bx + slide * body.fx, body.by + slide * body.fy)
+        here.x, here.y = base.x + ax - bx, base.y + ay - by
+        for k in range(work.coordinates.size):
+            lever, held = work.levers[i, k], work.levers[body.parent, k]
+            lever.x = held.x - ay * held.t + by * lever.t
+            lever.y = held.y + ax * held.t - bx * lever.t
+        if body.slide >= 0:
+            ex, ey = turned(base, body.ex, body.ey)
+            fx, fy = turned(here, body.fx, body.fy)
+            work.levers[i, body.slide].x += ex - fx
+            work.levers[i, body.slide].y += ey - fy
+
+
+@inner
+def measure(system, work):
+    """Residual of every constraint row and its Jacobian."""
+    for r in range(system.rows.size):
+        row = system.rows[r]
+        first, second, third = work.poses[row.i], work.poses[row.j], work.poses[row.k]
+        pix, piy = turned(first, row.ax, row.ay)
+        pjx, pjy = turned(second, row.bx, row.by)
+        dx, dy = first.x + pix - second.x - pjx, first.y + piy - second.y - pjy
+        gi, gj, gk, gl = row.gi, row.gj, row.gk, 0.0
+        if row.kind == LINEAR:
+            ux, uy = turned(third, row.ex, row.ey)
+            miss = ux * dx + uy * dy + gi * first.angle + gj * second.angle + gk * third.angle - row.constant
+            gk += ux * dy - uy * dx
+            if row.lift >= 0:
+                lift, slope, _ = curve_at(system, row.lift, work.poses[row.l].angle - third.angle)
+                miss -= lift
+                gl -= slope
+                gk += slope
+        else:
+            distance = np.hypot(dx, dy)
+            ux, uy = dx / distance, dy / distance
+            if row.kind == DISTANCE:
+                miss = distance - row.constant
+            else:
+                rolled, reach = gi * first.angle + gj * second.angle + row.constant, gi + gj
+                phi = np.arctan2(dy, dx)
+                phi += 2 * np.pi * np.round((rolled / reach - phi) / (2 * np.pi))  # the turn on which the wheel is
+                miss = reach * phi - rolled
+                ux, uy = -reach * uy / distance, reach * ux / distance
+                gi, gj = -gi, -gj
+        work.columns[MISS, r] = miss
+        gi += ux * -piy + uy * pix
+        gj -= ux * -pjy + uy * pjx
+        for k in range(work.coordinates.size):
+            one, two = work.levers[row.i, k], work.levers[row.j, k]
+            work.jacobian[r, k] = (ux * (one.x - two.x) + uy * (one.y - two.y) + gi * one.t + gj * two.t
+                                   + gk * work.levers[row.k, k].t + gl * work.levers[row.l, k].t)
+
+
+@inner
+def close(system, work):
+    """Move the dependent coordinates, by Newton's method, until every loop is closed; False where they cannot be."""
+    settled = system.rows.size == 0
+    for _ in range(TRIES):
+        place(system, work)
+        measure(system, work)
+        if not factor(system, work):
+            return False
+        if settled:
+            return True
+        lu_solve(work.lu, work.pivots, work.columns[MISS])
+        largest = 0.0
+        for r in range(system.rows.size):
+            step = work.columns[MISS, r]
+            work.coordinates[system.dependent[r]].q -= step
+            largest = max(largest, abs(step))
+        settled = largest < CLOSED
+    return False
+
+
+@inner
+def factor(system, work):
+    """LU decomposition of the rows' Jacobian by the dependent coordinates; False where it is singular."""
+    for r in range(system.rows.size):
+        for m in range(system.rows.size):
+            work.lu[r, m] = work.jacobian[r, system.dependent[m]]
+    return lu_factor(work.lu, work.pivots)
+
+
+@inner
+def move(system, work):
+    """Rates of the dependent coordinates, and velocities of all bodies, from the rates of the independent and driven coordinates."""
+    if system.rows.size > 0:
+        _follow(system, work)
+    for i in range(1, system.bodies.size):
+        vx = vy = w = 0.0
+        for k in range(work.coordinates.size):
+            lever, v = work.levers[i, k], work.coordinates[k].v
+            vx += lever.x * v
+            vy += lever.y * v
+            w += lever.t * v
+        pose = work.poses[i]
+        pose.vx, pose.vy, pose.w = vx, vy, w
+
+
+@inner
+def _follow(system, work):
+    """d(dependent)/d(independent), and the dependent rates."""
+    column = work.columns[COLUMN]
+    for m in range(-1, system.independent.size):  # -1: the driven coordinates together
+        for r in range(system.rows.size):
+            if m >= 0:
+                column[r] = -work.jacobian[r, system.independent[m]]
+            else:
+                column[r] = _driven_part(system, work, r, False)
+        lu_solve(work.lu, work.pivots, column)
+        for r in range(system.rows.size):
+            dependent = work.coordinates[system.dependent[r]]
+            if m >= 0:
+                work.follow[r, m] = column[r]
+                dependent.v += column[r] * work.coordinates[system.independent[m]].v
+            else:
+                dependent.v = column[r]
+
+
+@inner
+def _driven_part(system, work, r, acceleration):
+    """What the driven coordinates' rates, or accelerations, do to a row, with the opposite sign."""
+    total = 0.0
+    for d in range(system.driven.size):
+        k = system.driven[d].coordinate
+        coordinate = work.coordinates[k]
+        total -= work.jacobian[r, k] * (coordinate.a if acceleration else coordinate.v)
+    return total
+
+
+@inner
+def bend(system, work):
+    """Accelerations that the velocities alone cause: of the bodies (bx, by), and of the dependent coordinates (DRIFT)."""
+    for i in range(1, system.bodies.size):
+        body, here, base = system.bodies[i], work.poses[i], work.poses[system.bodies[i].parent]
+        if body.free >= 0:
+            continue
+        slide, slip = 0.0, 0.0
+        if body.slide >= 0:
+            slide, slip = work.coordinates[body.slide].q, work.coordinates[body.slide].v
+        # d2/dt2 of R (a + s e) at zero accelerations: R (-w^2 (a + s e) + 2 s' w (e turned by 90 deg))
+        wp, w = base.w, here.w
+        ax, ay = turned(base, wp * wp * (body.ax + slide * body.ex) + 2 * slip * wp * body.ey,
+                        wp * wp * (body.ay + slide * body.ey) - 2 * slip * wp * body.ex)
+        bx, by = turned(here, w * w * (body.bx + slide * body.fx) + 2 * slip * w * body.fy,
+                        w * w * (body.by + slide * body.fy) - 2 * slip * w * body.fx)
+        here.bx, here.by = base.bx - ax + bx, base.by - ay + by
+    if system.rows.size > 0:
+        for r in range(system.rows.size):
+            work.columns[DRIFT, r] = _driven_part(system, work, r, True) - _row_bend(system, work, system.rows[r])
+        lu_solve(work.lu, work.pivots, work.columns[DRIFT])
+
+
+@inner
+def _row_bend(system, work, row):
+    """Second derivative of a row's residual with all coordinates' accelerations zero."""
+    first, second, third = work.poses[row.i], work.poses[row.j], work.poses[row.k]
+    pix, piy = turned(first, row.ax, row.ay)
+    pjx, pjy = turned(second, row.bx, row.by)
+    wi, wj, wk = first.w, second.w, third.w
+    dx, dy = first.x + pix - second.x - pjx, first.y + piy - second.y - pjy
+    vx, vy = first.vx - wi * piy - second.vx + wj * pjy, first.vy + wi * pix - second.vy - wj * pjx
+    ax, ay = first.bx - wi * wi * pix - second.bx + wj * wj * pjx, first.by - wi * wi * piy - second.by + wj * wj * pjy
+    if row.kind == LINEAR:
+        ux, uy = turned(third, row.ex, row.ey)
+        total = ux * ax + uy * ay + 2 * wk * (ux * vy - uy * vx) - wk * wk * (ux * dx + uy * dy)
+        if row.lift >= 0:
+            cam = work.poses[row.l]
+            _, _, curvature = curve_at(system, row.lift, cam.angle - third.angle)
+            total -= curvature * (cam.w - wk) ** 2
+        return total
+    distance = np.hypot(dx, dy)
+    ux, uy = dx / distance, dy / distance
+    along, across = ux * vx + uy * vy, ux * vy - uy * vx
+    if row.kind == DISTANCE:
+        return ux * ax + uy * ay + across * across / distance
+    return (row.gi + row.gj) * (ux * ay - uy * ax - 2 * along * across / distance) / distance
+
+
+@outer
+def placed(system, work, t):
+    """Driven coordinates set, bodies placed and rows measured at the coordinates in `work`; the loops stay as they are."""
+    drive(system, work, t)
+    place(system, work)
+    measure(system, work)

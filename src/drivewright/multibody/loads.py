@@ -1,0 +1,224 @@
+"""Kernels: forces on the bodies, element by element, at a known state."""
+
+import numpy as np
+
+from drivewright._jit import inner
+from drivewright.contact.film import long_bearing, short_bearing
+from drivewright.contact.friction import ambrosio, coulomb, lugre, lugre_rate
+from drivewright.contact.impact import cylinder_force
+from drivewright.multibody.kinematics import curve_at, turned
+from drivewright.multibody.system import AMBROSIO, ANGLE, COULOMB, LONG_FILM, LUGRE, NO_FILM, TIME
+
+SLOWEST = 1e-4  # approach speed that counts at least, where a law divides by it [m/s]
+THINNEST = 1e-4  # least film thickness over clearance that the film formulas see
+
+
+@inner
+def load(system, work, t, y, dy):
+    """All forces and torques on the bodies; the rates of the elements' own states go into dy."""
+    unload(work)
+    hold(system, work)
+    apply(system, work, t)
+    for n in range(system.contacts.size):
+        _contact(system.contacts[n], work, y, dy)
+
+
+@inner
+def unload(work):
+    for i in range(work.poses.size):
+        pose = work.poses[i]
+        pose.fx = pose.fy = pose.ft = 0.0
+
+
+@inner
+def hold(system, work):
+    """Springs, dampers and bushings."""
+    for n in range(system.springs.size):
+        _spring(work, system.springs[n])
+    for n in range(system.twists.size):
+        twist = system.twists[n]
+        angle, rate = turn(work, twist)
+        wring(work, twist, -twist.stiffness * (angle - twist.rest) - twist.damping * rate)
+    for n in range(system.bushings.size):
+        _bushing(work, system.bushings[n])
+
+
+@inner
+def apply(system, work, t):
+    """Torques and forces from outside."""
+    for n in range(system.torques.size):
+        torque = system.torques[n]
+        value, _, _ = curve_at(system, torque.curve, _argument(work, t, torque.over, torque.i, torque.j))
+        wring(work, torque, value)
+    for n in range(system.forces.size):
+        force = system.forces[n]
+        value, _, _ = curve_at(system, force.curve, _argument(work, t, force.over, force.i, 0))
+        fx, fy = turned(work.poses[force.k], force.ex, force.ey)
+        px, py = turned(work.poses[force.i], force.ax, force.ay)
+        push(work.poses[force.i], px, py, value * fx, value * fy)
+
+
+@inner
+def push(pose, px, py, fx, fy):
+    """Apply a force at the arm (px, py) of a body."""
+    pose.fx += fx
+    pose.fy += fy
+    pose.ft += px * fy - py * fx
+
+
+@inner
+def wring(work, pair, torque):
+    """Apply a torque to body i and its opposite to body j."""
+    work.poses[pair.i].ft += torque
+    work.poses[pair.j].ft -= torque
+
+
+@inner
+def turn(work, pair):
+    """Angle and angular velocity of body i relative to body j."""
+    return work.poses[pair.i].angle - work.poses[pair.j].angle, work.poses[pair.i].w - work.poses[pair.j].w
+
+
+@inner
+def _argument(work, t, over, i, j):
+    if over == TIME:
+        return t
+    return work.poses[i].angle - work.poses[j].angle if over == ANGLE else work.poses[i].w - work.poses[j].w
+
+
+@inner
+def apart(work, pair):
+    """Point of body i minus point of body j, its rate, and the arms of both points."""
+    one, two = work.poses[pair.i], work.poses[pair.j]
+    px, py = turned(one, pair.ax, pair.ay)
+    qx, qy = turned(two, pair.bx, pair.by)
+    dx, dy = one.x + px - two.x - qx, one.y + py - two.y - qy
+    vx, vy = one.vx - one.w * py - two.vx + two.w * qy, one.vy + one.w * px - two.vy - two.w * qx
+    return dx, dy, vx, vy, px, py, qx, qy
+
+
+@inner
+def _spring(work, spring):
+    """Tension k (L - L0) + c L' along the line between the points."""
+    dx, dy, vx, vy, px, py, qx, qy = apart(work, spring)
+    length = np.hypot(dx, dy)
+    if length == 0.0:  # no direction
+        return
+    ux, uy = dx / length, dy / length
+    tension = spring.stiffness * (length - spring.free_length) + spring.damping * (ux * vx + uy * vy)
+    push(work.poses[spring.i], px, py, -tension * ux, -tension * uy)
+    push(work.poses[spring.j], qx, qy, tension * ux, tension * uy)
+
+
+@inner
+def _bushing(work, bush):
+    """Both points and both angles are pulled together; the force acts at the point of j on both, so that it has no arm of its own."""
+    dx, dy, vx, vy, px, py, qx, qy = apart(work, bush)
+    fx, fy = bush.stiffness * dx + bush.damping * vx, bush.stiffness * dy + bush.damping * vy
+    push(work.poses[bush.i], px - dx, py - dy, -fx, -fy)
+    push(work.poses[bush.j], qx, qy, fx, fy)
+    angle, rate = turn(work, bush)
+    wring(work, bush, -bush.rotational_stiffness * (angle - bush.rest) - bush.rotational_damping * rate)
+
+
+# ------------------------------------------------------------------------------------------------------------- pins with play
+
+
+@inner
+def gap_of(work, contact):
+    """How deep the journal is in the bearing's wall: |e| - clearance, e from the journal's centre (j) to the bearing's (i)."""
+    one, two = work.poses[contact.i], work.poses[contact.j]
+    px, py = turned(one, contact.ax, contact.ay)
+    qx, qy = turned(two, contact.bx, contact.by)
+    return np.hypot(one.x + px - two.x - qx, one.y + py - two.y - qy) - contact.clearance
+
+
+@inner
+def normal_of(contact, depth, rate, onset):
+    """F = K d^n (1 + h d'/d0') + c d', or the cylinder law instead of K d^n; a contact never pulls."""
+    if contact.cylinder:
+        elastic = cylinder_force(depth, contact.clearance, contact.bearing_radius, contact.bearing_radius - contact.clearance,
+                                 contact.stiffness, contact.length)
+    elif contact.exponent == 1.5:
+        elastic = contact.stiffness * depth * np.sqrt(depth)
+    else:
+        elastic = contact.stiffness * depth**contact.exponent
+    return max(elastic * (1.0 + contact.hysteresis * rate / onset) + contact.damping * rate, 0.0)
+
+
+@inner
+def friction_of(contact, normal, slip, bristle):
+    """(friction force against the slip, rate of the bristle)."""
+    if normal <= 0.0 or contact.law == 0:
+        return 0.0, 0.0
+    if contact.law == COULOMB:
+        return coulomb(contact.friction, normal, slip, contact.slip_speed), 0.0
+    if contact.law == AMBROSIO:
+        return ambrosio(contact.friction, normal, slip, contact.dead_speed, contact.slip_speed), 0.0
+    rate = lugre_rate(bristle, slip, contact.bristle_stiffness, contact.friction, contact.static_friction, contact.slip_speed)
+    return lugre(bristle, rate, slip, normal, contact.bristle_stiffness, contact.bristle_damping, contact.viscous), rate
+
+
+@inner
+def touch(contact, work, y):
+    """(depth, normal, friction, slip, bristle rate, nx, ny) of a pin with play; n points from the journal to the bearing's centre.
+
+    Contact lies at -R n from the bearing's centre.  Slip is the bearing's wall against the journal along t = (-ny, nx).
+    """
+    dx, dy, vx, vy, _, _, _, _ = apart(work, contact)
+    distance = np.hypot(dx, dy)
+    depth = distance - contact.clearance
+    if distance == 0.0:
+        return depth, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0
+    nx, ny = dx / distance, dy / distance
+    # The wall's point is at -R n from the bearing's centre, and at d - R n = -(R - |d|) n from the journal's.
+    radius = contact.bearing_radius
+    slip = nx * vy - ny * vx - radius * work.poses[contact.i].w + (radius - distance) * work.poses[contact.j].w
+    onset = y[contact.memory]
+    if onset <= 0.0 or depth <= 0.0:
+        return depth, 0.0, 0.0, slip, 0.0, nx, ny
+    normal = normal_of(contact, depth, nx * vx + ny * vy, onset)
+    rubbing, rate = friction_of(contact, normal, slip, y[contact.bristle])
+    return depth, normal, rubbing, slip, rate, nx, ny
+
+
+@inner
+def film_of(contact, work):
+    """Force (x, y) of the oil on the bearing, and the torque-free arm is its centre; it fades where the walls touch."""
+    dx, dy, vx, vy, _, _, _, _ = apart(work, contact)
+    distance, clearance = np.hypot(dx, dy), contact.clearance
+    excess = (distance - clearance) / contact.roughness
+    if excess >= 1.0:
+        return 0.0, 0.0
+    weight = 1.0 if excess <= 0.0 else 1.0 - excess * excess * (3.0 - 2.0 * excess)
+    most = clearance - max(contact.roughness, THINNEST * clearance)
+    scale = most / distance if distance > most else 1.0
+    spin = work.poses[contact.i].w + work.poses[contact.j].w
+    ex, ey, radius = -dx * scale, -dy * scale, contact.bearing_radius
+    if contact.film == LONG_FILM:
+        fx, fy = long_bearing(ex, ey, -vx, -vy, spin, contact.viscosity, contact.length, radius, clearance)
+    else:
+        fx, fy = short_bearing(ex, ey, -vx, -vy, spin, contact.viscosity, contact.length, radius, clearance)
+    return -weight * fx, -weight * fy
+
+
+@inner
+def _contact(contact, work, y, dy):
+    """Forces of a pin with play on both bodies, at the point where they touch."""
+    one, two = work.poses[contact.i], work.poses[contact.j]
+    _, normal, rubbing, _, bristle_rate, nx, ny = touch(contact, work, y)
+    dy[contact.memory] = 0.0
+    if contact.law == LUGRE:
+        dy[contact.bristle] = bristle_rate
+    if normal > 0.0:
+        # On the bearing: -N n - T t, t = (-ny, nx), at -R n from its centre.
+        fx, fy = -normal * nx + rubbing * ny, -normal * ny - rubbing * nx
+        px, py = turned(one, contact.ax, contact.ay)
+        px, py = px - contact.bearing_radius * nx, py - contact.bearing_radius * ny
+        push(one, px, py, fx, fy)
+        push(two, px + one.x - two.x, py + one.y - two.y, -fx, -fy)
+    if contact.film != NO_FILM:
+        fx, fy = film_of(contact, work)
+        qx, qy = turned(two, contact.bx, contact.by)
+        push(one, qx + two.x - one.x, qy + two.y - one.y, fx, fy)
+        push(two, qx, qy, -fx, -fy)

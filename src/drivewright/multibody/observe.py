@@ -1,0 +1,151 @@
+"""What a moving system does at given states: poses, rates, accelerations, forces, powers, pins with play."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright._jit import inner, outer
+from drivewright.multibody.dynamics import accelerate, pose
+from drivewright.multibody.kinematics import bend, move
+from drivewright.multibody.loads import apply, film_of, hold, load, touch, unload
+from drivewright.multibody.system import COLUMN, DRIFT, NO_FILM, motion
+from drivewright.numerics.small import lu_solve
+
+FIELDS = ("x", "y", "angle", "vx", "vy", "w", "ax", "ay", "alpha", "fx", "fy", "torque")
+PIN_FIELDS = ("depth", "normal", "friction", "slip", "nx", "ny", "fx", "fy")
+POWER_FIELDS = ("springs", "applied", "pins", "drives")
+
+
+class Observed(NamedTuple):
+    """Arrays over the times t (m,).
+
+    bodies (m, bodies, FIELDS): centroid, rates, accelerations, and the force and torque of all elements on the body, gravity left out;
+    pins (m, pins with play, PIN_FIELDS): depth below 0 in flight, n from the journal to the bearing's centre, force on the bearing;
+    powers (m, POWER_FIELDS) that the elements give to the bodies [W]; drives (m, drives): torque or force of each drive.
+    """
+
+    t: np.ndarray
+    bodies: np.ndarray
+    pins: np.ndarray
+    powers: np.ndarray
+    drives: np.ndarray
+
+    def body(self, number, field):
+        return self.bodies[:, number, FIELDS.index(field)]
+
+    def pin(self, number, field):
+        return self.pins[:, number, PIN_FIELDS.index(field)]
+
+
+def observe(system, t, y):
+    """`Observed` of states y (m, n) at times t (m,)."""
+    t, y = np.ascontiguousarray(t, float), np.ascontiguousarray(y, float)
+    counts = (len(system.bodies), len(FIELDS)), (len(system.contacts), len(PIN_FIELDS)), (len(POWER_FIELDS),), (len(system.driven),)
+    seen = Observed(t, *(np.zeros((len(t), *count)) for count in counts))
+    observe_all(motion(system), t, y, np.zeros(y.shape[1]), *seen[1:])
+    return seen
+
+
+@outer
+def observe_all(motion, t, y, dy, bodies, pins, powers, drives):
+    """Fill the arrays of `Observed`; dy is scratch."""
+    system, work = motion.system, motion.work
+    for n in range(t.size):
+        _powers(system, work, t[n], y[n], dy, powers[n])
+        settle(system, work, t[n], y[n], dy)
+        for i in range(system.bodies.size):
+            _body(work, i, bodies[n, i])
+        for k in range(system.contacts.size):
+            _pin(system.contacts[k], work, y[n], pins[n, k])
+        for d in range(system.driven.size):
+            drives[n, d] = _drive(system, work, d)
+            powers[n, 3] += drives[n, d] * work.coordinates[system.driven[d].coordinate].v
+            drives[n, d] *= system.driven[d].sign
+
+
+@inner
+def settle(system, work, t, y, dy):
+    """Everything about the system at a state: poses, rates, loads, and the accelerations of all coordinates."""
+    pose(system, work, t, y)
+    move(system, work)
+    bend(system, work)
+    load(system, work, t, y, dy)
+    accelerate(system, work)
+    for m in range(system.independent.size):
+        work.coordinates[system.independent[m]].a = work.force[m]
+    for r in range(system.rows.size):
+        a = work.columns[DRIFT, r]
+        for m in range(system.independent.size):
+            a += work.follow[r, m] * work.force[m]
+        work.coordinates[system.dependent[r]].a = a
+
+
+@inner
+def _body(work, i, out):
+    here = work.poses[i]
+    ax, ay, alpha = here.bx, here.by, 0.0
+    for k in range(work.coordinates.size):
+        lever, a = work.levers[i, k], work.coordinates[k].a
+        ax, ay, alpha = ax + lever.x * a, ay + lever.y * a, alpha + lever.t * a
+    out[0], out[1], out[2] = here.x, here.y, here.angle
+    out[3], out[4], out[5] = here.vx, here.vy, here.w
+    out[6], out[7], out[8] = ax, ay, alpha
+    out[9], out[10], out[11] = here.fx, here.fy, here.ft
+
+
+@inner
+def _pin(contact, work, y, out):
+    depth, normal, rubbing, slip, _, nx, ny = touch(contact, work, y)
+    out[0], out[1], out[2], out[3], out[4], out[5] = depth, normal, rubbing, slip, nx, ny
+    out[6], out[7] = -normal * nx + rubbing * ny, -normal * ny - rubbing * nx
+    if contact.film != NO_FILM:
+        fx, fy = film_of(contact, work)
+        out[6], out[7] = out[6] + fx, out[7] + fy
+
+
+@inner
+def _powers(system, work, t, y, dy, out):
+    """Power of springs and dampers, of applied loads, and of pins with play."""
+    pose(system, work, t, y)
+    move(system, work)
+    unload(work)
+    hold(system, work)
+    out[0] = _power(work)
+    apply(system, work, t)
+    out[1] = _power(work) - out[0]
+    load(system, work, t, y, dy)
+    out[2] = _power(work) - out[0] - out[1]
+
+
+@inner
+def _power(work):
+    total = 0.0
+    for i in range(work.poses.size):
+        here = work.poses[i]
+        total += here.fx * here.vx + here.fy * here.vy + here.ft * here.w
+    return total
+
+
+@inner
+def _drive(system, work, d):
+    """Generalised force of a driven coordinate: what inertia and loads of all bodies that follow it ask for."""
+    k = system.driven[d].coordinate
+    column = work.columns[COLUMN]
+    for r in range(system.rows.size):
+        column[r] = -work.jacobian[r, k]
+    if system.rows.size > 0:
+        lu_solve(work.lu, work.pivots, column)
+    total = 0.0
+    for i in range(1, system.bodies.size):
+        body, here = system.bodies[i], work.poses[i]
+        x, y, t = work.levers[i, k].x, work.levers[i, k].y, work.levers[i, k].t
+        for r in range(system.rows.size):
+            held = work.levers[i, system.dependent[r]]
+            x, y, t = x + held.x * column[r], y + held.y * column[r], t + held.t * column[r]
+        ax, ay, alpha = here.bx, here.by, 0.0
+        for m in range(work.coordinates.size):
+            lever, a = work.levers[i, m], work.coordinates[m].a
+            ax, ay, alpha = ax + lever.x * a, ay + lever.y * a, alpha + lever.t * a
+        total += x * (body.mass * (ax - system.gravity_x) - here.fx) + y * (body.mass * (ay - system.gravity_y) - here.fy)
+        total += t * (body.inertia * alpha - here.ft)
+    return total

@@ -1,0 +1,101 @@
+"""The record of a run: motion of chosen points, pins with play, energy and powers, over all recorded states.
+
+A run of a hundred turns has a million states; they are observed in chunks and only what is asked for is kept.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from drivewright.multibody.observe import FIELDS, observe
+
+CHUNK = 20_000
+POINT_FIELDS = ("angle", "w", "alpha", "x", "y", "vx", "vy", "ax", "ay")
+
+
+@dataclass(frozen=True)
+class Record:
+    """Over the times t (m,): points {name: (m, POINT_FIELDS)}, pins (m, pins, PIN_FIELDS), powers (m, POWER_FIELDS), drives (m, drives),
+    energy (m,) kinetic and of gravity; last (bodies, FIELDS) at the end."""
+
+    t: np.ndarray
+    points: dict
+    pins: np.ndarray
+    powers: np.ndarray
+    drives: np.ndarray
+    energy: np.ndarray
+    last: np.ndarray
+
+    def point(self, name, field):
+        return self.points[name][:, POINT_FIELDS.index(field)]
+
+    def after(self, time):
+        """The part from a time on."""
+        keep = self.t >= time
+        return Record(self.t[keep], {k: v[keep] for k, v in self.points.items()}, self.pins[keep], self.powers[keep], self.drives[keep],
+                      self.energy[keep], self.last)
+
+
+def record(run, markers):
+    """The `Record` of a run for markers {name: Marker}."""
+    parts = [part for stretch in run.stretches for part in _parts(run.assembly, stretch, markers)]
+    t, points, pins, powers, drives, energy = zip(*parts, strict=True)
+    system, time, state = run.end
+    return Record(
+        np.concatenate(t), {name: np.concatenate([p[name] for p in points]) for name in markers}, np.concatenate(pins),
+        np.concatenate(powers), np.concatenate(drives), np.concatenate(energy), observe(system, [time], state[None]).bodies[0])
+
+
+def _parts(assembly, stretch, markers):
+    for first in range(0, len(stretch.t), CHUNK):
+        seen = observe(stretch.system, stretch.t[first : first + CHUNK], stretch.y[first : first + CHUNK])
+        points = {name: moved(assembly, seen, marker) for name, marker in markers.items()}
+        yield seen.t, points, seen.pins, seen.powers, seen.drives, energy_of(stretch.system, seen)
+
+
+def moved(assembly, seen, marker):
+    """POINT_FIELDS (m, 9) of a marker's motion: angle of its body with rates, place with rates."""
+    number = assembly.names.index(marker.body)
+    x, y, angle, vx, vy, w, ax, ay, alpha = np.moveaxis(seen.bodies[:, number, :9], 1, 0)
+    cx, cy = next((body.centroid for body in assembly.wide.bodies if body.name == marker.body), (0.0, 0.0))
+    dx, dy = marker.x - cx, marker.y - cy
+    px, py = np.cos(angle) * dx - np.sin(angle) * dy, np.sin(angle) * dx + np.cos(angle) * dy
+    return np.stack([angle, w, alpha, x + px, y + py, vx - w * py, vy + w * px,
+                     ax - alpha * py - w * w * px, ay + alpha * px - w * w * py], axis=1)
+
+
+def energy_of(system, seen):
+    """Kinetic energy and energy of gravity [J]."""
+    x, y, _, vx, vy, w = np.moveaxis(seen.bodies[:, :, : FIELDS.index("ax")], 2, 0)
+    mass, inertia = system.bodies.mass, system.bodies.inertia
+    return np.sum(0.5 * mass * (vx**2 + vy**2) + 0.5 * inertia * w**2 - mass * (system.gravity_x * x + system.gravity_y * y), axis=1)
+
+
+# ------------------------------------------------------------------------------------------------------------ energy audit
+
+
+@dataclass(frozen=True)
+class Audit:
+    """Work [J] of each kind of element from the start, over t (m,): works (m, POWER_FIELDS); gap (m,) between all work and the change of
+    energy; exchanged: all power, either way, over time."""
+
+    t: np.ndarray
+    works: np.ndarray
+    gap: np.ndarray
+    exchanged: float
+
+    @property
+    def error(self):
+        """Largest gap over the energy exchanged."""
+        return float(np.max(np.abs(self.gap)) / self.exchanged) if self.exchanged > 0 else 0.0
+
+
+def audit(seen):
+    """The `Audit` of a record taken with two points per step: Simpson's rule over each step."""
+    t, power = seen.t[::2], seen.powers
+    steps = np.diff(t)[:, None]
+    begin, middle, end = power[:-2:2], power[1:-1:2], power[2::2]
+    works = np.concatenate([np.zeros((1, power.shape[1])), np.cumsum(steps / 6 * (begin + 4 * middle + end), axis=0)])
+    exchanged = float(np.sum(steps / 6 * (np.abs(begin) + 4 * np.abs(middle) + np.abs(end))))
+    energy = seen.energy[::2]
+    return Audit(t, works, energy - energy[0] - np.sum(works, axis=1), exchanged)

@@ -1,0 +1,123 @@
+"""A planar system as plain arrays for the compiled kernels.
+
+Bodies hang in a tree; body 0 is the ground.  Every frame has its origin in the centroid.  A coordinate is the rotation of a body
+(against the world, or against its parent where the joint is driven), the slide of a joint, or x and y of a body that hangs on
+nothing.  Joints that close loops are constraint rows.  Of the coordinates some are driven (given functions of time), the rest is
+split into independent and dependent ones; the rows make the dependent ones follow.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+_INT, _REAL = np.int64, np.float64
+
+
+def _record(integers, reals):
+    return np.dtype([(name, _INT) for name in integers.split()] + [(name, _REAL) for name in reals.split()])
+
+
+# r = r_parent + R_parent (a + s e) - R (b + s f), s the slide: one of e and f is 0.  `free`: x, y are coordinates free, free + 1.
+BODY = _record("parent turn slide free", "inherits offset ax ay bx by ex ey fx fy mass inertia")
+
+# LINEAR   (R_k e).(P_i - P_j) + gi theta_i + gj theta_j + gk theta_k - lift(theta_l - theta_k) - constant = 0
+# DISTANCE |P_i - P_j| - constant = 0
+# CIRCLE   (gi + gj) phi - gi theta_i - gj theta_j - constant = 0, phi the direction from P_j to P_i
+LINEAR, DISTANCE, CIRCLE = range(3)
+ROW = _record("kind i j k l lift joint", "ax ay bx by ex ey gi gj gk constant")
+
+DRIVEN = _record("coordinate curve", "sign start")
+CURVE = _record("first count", "period")
+PIECE = _record("", "start c0 c1 c2 c3 c4 c5")
+
+SPRING = _record("i j", "ax ay bx by stiffness free_length damping")
+TWIST = _record("i j", "stiffness rest damping")
+TIME, ANGLE, SPEED = range(3)
+TORQUE = _record("i j over curve", "")
+FORCE = _record("i over curve follows k", "ax ay ex ey")
+BUSHING = _record("i j", "ax ay bx by stiffness damping rotational_stiffness rotational_damping rest")
+
+NO_FRICTION, COULOMB, AMBROSIO, LUGRE = range(4)
+NO_FILM, LONG_FILM, SHORT_FILM = range(3)
+CONTACT = _record(
+    "i j memory bristle law film cylinder",
+    "ax ay bx by clearance bearing_radius stiffness exponent hysteresis damping friction slip_speed dead_speed static_friction "
+    "bristle_stiffness bristle_damping viscous viscosity length roughness")
+
+
+# What a run finds at the state it was last asked about.
+COORDINATE = _record("", "q v a")  # value, rate, acceleration
+POSE = _record("", "x y c s angle vx vy w bx by fx fy ft")  # place, rates, acceleration at zero q'', force through the centroid, torque
+LEVER = _record("", "x y t")  # d(place, angle)/d(coordinate)
+MISS, DRIFT, COLUMN = range(3)  # residual of the rows; q'' of the dependent coordinates at zero q'' of the independent ones; scratch
+
+
+class System(NamedTuple):
+    """Frozen arrays of records; `stored` are the coordinates in the state, dependent and independent ones."""
+
+    bodies: np.ndarray
+    rows: np.ndarray
+    driven: np.ndarray
+    stored: np.ndarray
+    independent: np.ndarray
+    dependent: np.ndarray
+    springs: np.ndarray
+    twists: np.ndarray
+    torques: np.ndarray
+    forces: np.ndarray
+    bushings: np.ndarray
+    contacts: np.ndarray
+    curves: np.ndarray
+    pieces: np.ndarray
+    gravity_x: float
+    gravity_y: float
+    least_firmness: float  # of the split of the coordinates; below it another one is better
+
+
+class Work(NamedTuple):
+    """Scratch of one run."""
+
+    coordinates: np.ndarray
+    poses: np.ndarray  # (bodies,)
+    levers: np.ndarray  # (bodies, coordinates)
+    jacobian: np.ndarray  # (rows, coordinates)
+    lu: np.ndarray  # (rows, rows): decomposition of the Jacobian by the dependent coordinates
+    pivots: np.ndarray
+    columns: np.ndarray  # (3, rows)
+    follow: np.ndarray  # (rows, independent): d(dependent)/d(independent)
+    reduced: np.ndarray  # (independent,): levers of one body, the dependent coordinates following
+    mass: np.ndarray  # (independent, independent)
+    force: np.ndarray  # (independent,)
+
+
+class Motion(NamedTuple):
+    """A system that moves: what the integrator integrates."""
+
+    system: System
+    work: Work
+
+
+def turning(bodies, size):
+    """(bodies, coordinates): d(angle)/d(coordinate), which never changes."""
+    turns = np.zeros((len(bodies), size))
+    for i, body in enumerate(bodies[1:], start=1):
+        turns[i] = body.inherits * turns[body.parent]
+        if body.turn >= 0:
+            turns[i, body.turn] = 1.0
+    return turns
+
+
+def scratch(system):
+    """Fresh `Work` for a system; every thread needs its own."""
+    bodies, n, rows, free = len(system.bodies), len(system.stored) + len(system.driven), len(system.rows), len(system.independent)
+    poses, levers = np.zeros(bodies, POSE).view(np.recarray), np.zeros((bodies, n), LEVER).view(np.recarray)
+    poses.c[0] = 1.0
+    levers.t = turning(system.bodies, n)
+    return Work(
+        np.zeros(n, COORDINATE).view(np.recarray), poses, levers, np.zeros((rows, n)), np.zeros((rows, rows)), np.zeros(rows, np.int64),
+        np.zeros((3, rows)), np.zeros((rows, free)), np.zeros(free, LEVER).view(np.recarray), np.zeros((free, free)), np.zeros(free))
+
+
+def motion(system):
+    """The `Motion` of a system with scratch of its own."""
+    return Motion(system, scratch(system))

@@ -1,0 +1,181 @@
+"""Sampled signals x(t) with uneven steps: maxima, averages over time, spectra in orders of a period, stretches of a condition.
+
+Averages are those of the polygon, the straight lines between the samples: exact for it, and for a smooth signal with steps h in
+error by at most h^2 max|x''|/8.  Times may repeat there (both sides of a jump); elsewhere they must increase.
+"""
+
+import numpy as np
+from scipy.fft import next_fast_len, rfft
+from scipy.interpolate import CubicSpline
+
+from drivewright.errors import InputError
+
+
+def local_maxima(t, x):
+    """(times, values) of the inner maxima of x, each at the vertex of the parabola through its three samples.
+
+    t, x (m,).  Exact for a parabola; for a smooth signal with steps up to h the value is off by at most h^3 max|x'''|/(9 sqrt 3).
+    Two equal samples side by side are the shoulders of one maximum, more are a plateau, counted once at its middle.  The ends
+    never count.  After a sharp rise within a step h the vertex may lie (rise) k^2/(4 h (h + k)) above the samples where a step
+    k follows: sample evenly what has jumps.
+    """
+    t, x = _signal(t, x, jumps=False)
+    first = np.flatnonzero(np.append(True, np.diff(x) != 0))  # where each run of equal samples begins ...
+    last = np.append(first[1:], x.size) - 1  # ... and ends
+    level = x[first]
+    top = 1 + np.flatnonzero((level[1:-1] > level[:-2]) & (level[1:-1] > level[2:]))
+    first, last = first[top], last[top]
+    before, after = (_vertex(t, x, first - 1, first, first + 1), _vertex(t, x, last - 1, last, last + 1))
+    flat = last - first > 1
+    return tuple(np.where(flat, plateau, 0.5 * (a + b)) for a, b, plateau in
+                 zip(before, after, (0.5 * (t[first] + t[last]), x[first]), strict=True))
+
+
+def _vertex(t, x, i, j, k):
+    """(time, value) of the vertex of the parabola through the samples i, j, k, by divided differences about sample j."""
+    left, right = (x[j] - x[i]) / (t[j] - t[i]), (x[k] - x[j]) / (t[k] - t[j])
+    curvature = (right - left) / (t[k] - t[i])
+    slope = (left * (t[k] - t[j]) + right * (t[j] - t[i])) / (t[k] - t[i])
+    return t[j] - slope / (2 * curvature), x[j] - slope**2 / (4 * curvature)
+
+
+def mean_of_largest(values, count):
+    """Mean of the `count` largest of the values (m,); InputError where there are fewer."""
+    values = np.asarray(values, dtype=float)
+    if not 1 <= count <= values.size:
+        raise InputError(f"mean_of_largest: the {count} largest of {values.size} values do not exist; lengthen the run or lower the count.")
+    return float(np.mean(np.sort(values)[-count:]))
+
+
+def time_mean(t, x):
+    """Integral of x over the duration, divided by it (trapezoidal rule)."""
+    t, x = _signal(t, x)
+    return float(np.sum(np.diff(t) * 0.5 * (x[1:] + x[:-1])) / (t[-1] - t[0]))
+
+
+def root_mean_square(t, x):
+    """Square root of the time mean of x^2; from a to b in a straight line that is (a^2 + a b + b^2)/3."""
+    t, x = _signal(t, x)
+    a, b = x[:-1], x[1:]
+    return float(np.sqrt(np.sum(np.diff(t) * (a * a + a * b + b * b) / 3) / (t[-1] - t[0])))
+
+
+def percentile(t, x, q):
+    """The level that x stays at or below for q % of the time; 0 gives the least value, 100 the largest."""
+    t, x = _signal(t, x)
+    if not 0 <= q <= 100:
+        raise InputError(f"percentile: q must lie in 0 .. 100, got {q:g}.")
+    levels, wanted = np.unique(x), q / 100 * (t[-1] - t[0])
+    low, high = -1, levels.size - 1  # up to `low` too little time, up to `high` enough
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if _time_below(t, x, levels[middle])[1] >= wanted else (middle, high)
+    if low < 0:
+        return float(levels[0])
+    start, end = _time_below(t, x, levels[low])[1], _time_below(t, x, levels[high])[0]
+    share = min((wanted - start) / (end - start), 1.0) if end > start else 1.0
+    return float(levels[low] + share * (levels[high] - levels[low]))
+
+
+def _time_below(t, x, level):
+    """Time for which the polygon is (below, at or below) the level."""
+    h, low, high = np.diff(t), np.minimum(x[:-1], x[1:]), np.maximum(x[:-1], x[1:])
+    flat = high == low
+    share = np.clip((level - low) / np.where(flat, 1.0, high - low), 0.0, 1.0)
+    below = float(np.sum(h * np.where(flat, level > low, share)))
+    return below, below + float(np.sum(h[flat & (low == level)]))
+
+
+def order_spectrum(t, x, period, orders):
+    """Amplitude of x at each order: of the harmonic with that many oscillations per period; at order 0 the size of the mean.
+
+    t, x (m,) from start to end of a whole number N of periods; orders (k,) multiples of 1/N, so that 1/2 shows a doubled period.
+    The samples are joined by a cubic spline, whose averages over even cells are transformed: exact for the spline but for
+    oscillations faster than the samples, of which at most 1/15 folds back.  The spline is in error by about
+    (5/384) h^4 max|x''''| for steps h: an amplitude by 2e-4 of itself with 33 scattered samples per oscillation, 1e-6 with 133.
+    It overshoots where long steps follow a jump within a short one: sample jumps evenly.
+    """
+    t, x = _signal(t, x, jumps=False)
+    turns = _turns(t, period)
+    if abs(turns - round(turns)) > 1e-6 or turns < 0.5:
+        raise InputError(
+            f"order_spectrum: the signal covers {turns:.7g} periods, but must cover a whole number of them. "
+            "Cut it there and keep the samples at both ends.")
+    turns = round(turns)
+    bins = _bins(orders, turns, t.size - 1)
+    return _amplitudes(CubicSpline(t, x).antiderivative(), t[0], t[-1], bins, t.size)
+
+
+def spectrogram(t, x, period, orders, turns=1):
+    """(times, amplitudes): `order_spectrum` of windows of `turns` whole periods, each one period later; times of their middles.
+
+    t, x (m,) over any time, the rest behind the last whole period is left out; orders (k,) multiples of 1/turns;
+    amplitudes (windows, k).  A window has sharp ends: what does not repeat within it spreads over the orders.
+    """
+    t, x = _signal(t, x, jumps=False)
+    count = int(_turns(t, period) + 1e-6) - turns + 1
+    if turns < 1 or count < 1:
+        raise InputError(f"spectrogram: no window of {turns} periods fits into a signal of {_turns(t, period):.4g}; lengthen the run.")
+    samples = int(t.size * turns * period / (t[-1] - t[0]))
+    bins, integral = _bins(orders, turns, samples), CubicSpline(t, x).antiderivative()
+    start = t[0] + period * np.arange(count)
+    rows = [_amplitudes(integral, a, min(a + turns * period, t[-1]), bins, samples) for a in start]
+    return start + 0.5 * turns * period, np.array(rows)
+
+
+def _turns(t, period):
+    if not period > 0:
+        raise InputError(f"spectrum: the period must be above 0, got {period:g}.")
+    return (t[-1] - t[0]) / period
+
+
+def _bins(orders, turns, samples):
+    """Oscillations of each order within the window of so many turns."""
+    orders = np.atleast_1d(np.asarray(orders, dtype=float))
+    bins = np.round(orders * turns)
+    if np.any(np.abs(orders * turns - bins) > 1e-6) or np.any(bins < 0):
+        worst = orders[np.argmax(np.abs(orders * turns - bins) + (bins < 0))]
+        raise InputError(f"spectrum: order {worst:g} is no multiple of 1/{turns}, the resolution of {turns} periods; lengthen the window.")
+    if 2 * np.max(bins) >= samples:
+        raise InputError(
+            f"spectrum: order {np.max(orders):g} oscillates {np.max(bins):.0f} times among {samples} samples; "
+            "it takes more than 2 samples each, better 20. Sample more finely.")
+    return bins.astype(int)
+
+
+def _amplitudes(integral, start, end, bins, samples):
+    """Amplitudes over [start, end] from averages over even cells, whose own damping sin(c)/c, c = pi bin/cells, is taken out."""
+    cells = next_fast_len(max(2 * samples, 16 * int(np.max(bins))), real=True)
+    edges = np.linspace(start, end, cells + 1)
+    averages = np.diff(integral(edges)) * cells / (end - start)
+    transform = np.abs(rfft(averages))[bins] / cells / np.sinc(bins / cells)
+    return np.where(bins == 0, transform, 2 * transform)
+
+
+def intervals(t, mask):
+    """(starts, ends) of the stretches in which the boolean mask (m,) of the samples holds.
+
+    A change is set half way between the two samples that show it, so each inner end is known to half a step; the stretches of
+    mask and ~mask share out the whole time.  What holds at an end of t begins or ends there.
+    """
+    t, mask = _signal(t, mask)
+    mask = mask.astype(bool)
+    edge = np.concatenate([t[:1], 0.5 * (t[1:] + t[:-1]), t[-1:]])  # edge[i] lies before sample i
+    change = np.diff(np.concatenate([[0], mask, [0]]).astype(int))
+    return edge[change == 1], edge[change == -1]
+
+
+def _signal(t, x, jumps=True):
+    """t and x as floats; InputError unless they are finite, of one length, and t ascends over some time."""
+    t, x = np.asarray(t, dtype=float), np.asarray(x, dtype=float)
+    if t.ndim != 1 or x.shape != t.shape or t.size < 3:
+        raise InputError(f"signal: t and x must be rows of one length, 3 samples or more; got shapes {t.shape} and {x.shape}.")
+    if not (np.all(np.isfinite(t)) and np.all(np.isfinite(x))):
+        bad = int(np.argmin(np.isfinite(t) & np.isfinite(x)))
+        raise InputError(f"signal: sample {bad} is not finite (t = {t[bad]:g}, x = {x[bad]:g}); cut the run before it.")
+    step = np.diff(t)
+    wrong = step < 0 if jumps else step <= 0
+    if np.any(wrong) or t[-1] == t[0]:
+        bad = int(np.argmax(wrong))
+        raise InputError(f"signal: t must increase, but t[{bad + 1}] = {t[bad + 1]:g} follows {t[bad]:g}; sort and drop repeats.")
+    return t, x
