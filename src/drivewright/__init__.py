@@ -14,6 +14,7 @@ _WHERE = {
     "SolverError": "errors",
     "SpecError": "errors",
     "Cam": "mechanisms.cam.spec:CamSpec",
+    "Linkage": "mechanisms.linkage.spec:LinkageSpec",
     "SeedlingPusher": "mechanisms.seedling_pusher.spec:SeedlingPusherSpec",
     "Result": "result",
     "Scene": "scene",
@@ -28,6 +29,7 @@ _WHERE = {
     "gears": "gears:",
     "materials": "materials:",
     "motion": "motion:",
+    "multibody": "multibody:",
     "units": "units:",
 }
 

@@ -37,7 +37,8 @@ class Analysis:
 class Mechanism:
     """All that the house knows of a kind of drive.
 
-    `build(spec)` gives the model; `analyses` ask it; `scene(model)`, `plots`, `drawings(model)` and `parts(model)` show it;
+    `build(spec)` gives the model; `analyses` ask it; `scene(model)`, `plots` (or `plots(result)`, where they depend on it),
+    `drawings(model)` and `parts(model)` show it;
     `verify(model, result)` re-computes it on an independent route; `batch(spec, names)` compiles a fast evaluation of many designs.
     `folder` holds `presets/*.toml` and `theory.md`.
     """
@@ -49,7 +50,7 @@ class Mechanism:
     analyses: tuple
     folder: Path
     scene: Callable | None = None
-    plots: tuple = ()
+    plots: tuple | Callable = ()
     drawings: Callable | None = None
     parts: Callable | None = None
     verify: Callable | None = None

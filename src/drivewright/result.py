@@ -94,6 +94,7 @@ class Plot(NamedTuple):
     """How to look at a table: y columns over an x column; `equal` for geometry.
 
     `limits` are (value, label) lines; a value that is text names a check whose limit is drawn, with "-" in front its negative.
+    `reference` names the columns that the y columns are compared with, in the same order; they are dashed.
     """
 
     name: str
@@ -103,6 +104,12 @@ class Plot(NamedTuple):
     y: tuple
     limits: tuple = ()
     equal: bool = False
+    style: str = "line"  # line, points or stems
+    log: bool = False  # y axis in powers of ten
+    reference: tuple = ()
+    by: str = ""  # a column: one line for each of its values
+    shade: str = ""  # a column: the ground is shaded where it is above 0
+    rings: tuple = ()  # (radius, label) of circles about the origin, in the unit of x
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,10 @@ class Record:
 
     def after(self, time):
         """The part from a time on."""
-        keep = self.t >= time
+        return self.take(self.t >= time)
+
+    def take(self, keep):
+        """The chosen rows."""
         return Record(self.t[keep], {k: v[keep] for k, v in self.points.items()}, self.pins[keep], self.powers[keep], self.drives[keep],
                       self.energy[keep], self.last)
 

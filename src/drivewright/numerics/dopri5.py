@@ -68,6 +68,7 @@ class Watch(NamedTuple):
 
 
 NOTE, STOP, SWITCH = range(3)
+NEARLY = 0.25  # a parabola whose vertex comes so near to 0, against its ends, is worth a look
 AFTER_SWITCH = 0.1  # of the step before: what begins at a switch is often faster than what went before
 
 
@@ -87,7 +88,8 @@ class Batch(NamedTuple):
     hits: np.ndarray  # (m * events, 3): row of the step, number of the event function, fraction of the step
     found: np.ndarray  # (m * events, n): states at the hits, switched where they switched
     trial: np.ndarray  # scratch: a state
-    after: np.ndarray  # and two rows of event values
+    after: np.ndarray  # and three rows of event values
+    middle: np.ndarray
     between: np.ndarray
 
 
@@ -223,16 +225,59 @@ def _interpolant(h, y, trial, k, dense):
 @inner
 def _watch(watched, watch, before, after, y, row, batch, hits):
     """Record the events within step `row`, up to the first that ends it: (number of hits, which of them ends it or -1).  y is scratch."""
-    values = batch.between
-    found, ender, first = hits, -1, 2.0
+    if after.size == 0:
+        return hits, -1
+    found, first = hits, 2.0
+    values_at(watched, 0.5, batch, row, y, batch.middle)
     for index in range(after.size):
-        rises, falls = before[index] < 0.0 <= after[index], before[index] > 0.0 >= after[index]
-        if (rises and watch.directions[index] >= 0) or (falls and watch.directions[index] <= 0):
-            theta = _locate(watched, index, before[index], batch.steps[row], batch.dense[row], y, values)
-            batch.hits[found, 0], batch.hits[found, 1], batch.hits[found, 2] = row, index, theta
-            if watch.effects[index] != NOTE and theta < first:
-                first = theta
-            found += 1
+        inside = _excursion(watched, index, before[index], batch.middle[index], after[index], batch, row, y)
+        low, start = 0.0, before[index]
+        for high in (inside, 1.0):  # into an excursion and back; or, inside being 1, to the end of the step
+            crosses = high > low and (high < 1.0 or start < 0.0 <= after[index] or start > 0.0 >= after[index])
+            if crosses and ((start < 0.0 and watch.directions[index] >= 0) or (start > 0.0 and watch.directions[index] <= 0)):
+                theta = _locate(watched, index, start, low, high, batch, row, y)
+                batch.hits[found, 0], batch.hits[found, 1], batch.hits[found, 2] = row, index, theta
+                if watch.effects[index] != NOTE and theta < first:
+                    first = theta
+                found += 1
+            low, start = high, -start
+    return _cut(watch, first, found, y, row, batch, hits)
+
+
+@inner
+def _excursion(watched, index, before, middle, after, batch, row, y):
+    """Fraction of the step where an event function has the other sign although both ends have the same; 1 where it has not.
+
+    Looked for in the middle, and at the vertex of the parabola through both ends and the middle.
+    """
+    if not before * after > 0.0:
+        return 1.0
+    if middle * before < 0.0:
+        return 0.5
+    bend = 2.0 * (before - 2.0 * middle + after)
+    slope = after - before - bend
+    if bend * before > 0.0 and slope * bend < 0.0 and abs(slope) < 2.0 * abs(bend):
+        extreme = before - 0.25 * slope * slope / bend
+        if extreme * before < NEARLY * before * before or extreme * before < NEARLY * after * before:
+            vertex = -0.5 * slope / bend
+            values_at(watched, vertex, batch, row, y, batch.between)
+            if batch.between[index] * before < 0.0:
+                return vertex
+    return 1.0
+
+
+@outer
+def values_at(watched, theta, batch, row, y, values):
+    """Event functions at a fraction of a step; y is scratch."""
+    for i in range(y.size):
+        y[i] = _point(batch.dense[row], i, theta)
+    events(watched, batch.steps[row, 0] + theta * batch.steps[row, 1], y, values)
+
+
+@inner
+def _cut(watch, first, found, y, row, batch, hits):
+    """Keep of the new hits those up to the fraction `first`: (number of hits, which of them ends the step or -1)."""
+    ender = -1
     for n in range(hits, found):
         if batch.hits[n, 2] <= first:
             for column in range(3):
@@ -255,18 +300,15 @@ def _go_back(clock, y, batch, hit):
 
 
 @outer
-def _locate(watched, index, before, step, dense, y, values):
-    """Fraction of the step just after the sign change.
+def _locate(watched, index, before, low, high, batch, row, y):
+    """Fraction of the step just after the sign change between two fractions.
 
     Bisection, for it ends on the far side: a run that starts again from there does not meet the same event at once.
     """
-    low, high = 0.0, 1.0
     for _ in range(53):
         theta = 0.5 * (low + high)
-        for i in range(y.size):
-            y[i] = _point(dense, i, theta)
-        events(watched, step[0] + theta * step[1], y, values)
-        if values[index] * before > 0.0:
+        values_at(watched, theta, batch, row, y, batch.between)
+        if batch.between[index] * before > 0.0:
             low = theta
         else:
             high = theta

@@ -135,8 +135,8 @@ def integrate(system, t0, t1, y0, rtol=1e-8, atol=1e-10, *, samples=None, watch=
 
     The error of a step, over atol + rtol |y| (atol a number or one per component), is kept below 1 in the root mean square.
     `samples`: ascending times in [t0, t1] at which y is wanted; without them, `per_step` points of every step, its start first.
-    `watch`: one Event per value that `events` writes.  Two sign changes of one event function within a step cancel and stay unseen:
-    limit max_step.
+    `watch`: one Event per value that `events` writes.  Two sign changes of one event function within a step are found where they
+    show in the step's middle or at the vertex of the parabola through it; else limit max_step.
     Without `first_step` a careful one is chosen.
     """
     y = np.array(y0, dtype=float)
@@ -152,12 +152,12 @@ def integrate(system, t0, t1, y0, rtol=1e-8, atol=1e-10, *, samples=None, watch=
     clock, k, values = np.array([t0, 0.0, 1e-4]), np.empty((7, y.size)), np.empty(len(watch))
     code = start(system, watched, settings, clock, y, k, values)
     clock[1] = first_step or clock[1]
-    scratch = np.empty(y.size), np.empty(len(watch)), np.empty(len(watch))
+    scratch = np.empty(y.size), *np.empty((3, len(watch)))
     parts, crossings, steps, rejected = [], [], 0, 0
     while code == GOES_ON and steps < max_steps:
         size = min(_BATCH, max_steps - steps)
-        batch = Batch(np.empty((size, 2)), np.empty((size, 5, y.size)), np.empty((size * len(watch), 3)),
-                      np.empty((size * len(watch), y.size)), *scratch)
+        batch = Batch(np.empty((size, 2)), np.empty((size, 5, y.size)), np.empty((2 * size * len(watch), 3)),
+                      np.empty((2 * size * len(watch), y.size)), *scratch)
         code, done, refused, hits = go_on(system, watched, switched, settings, what, clock, y, k, values, batch)
         crossings.append(_crossings(batch, hits))
         parts.append(_pick(batch, done, clock[0], per_step) if samples is None else _sample(batch, done, samples, clock[0]))

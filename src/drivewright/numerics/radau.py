@@ -162,12 +162,12 @@ def integrate_stiff(system, t0, t1, y0, rtol=1e-8, atol=1e-10, *, samples=None, 
     clock, work, values = np.array([t0, 0.0, 1e-4, 0, MISSING, 0, 1.0, 0, 0]), _work(y.size), np.empty(len(watch))
     code = start(system, watched, settings, clock, y, work.f, values)
     clock[STEP] = first_step or clock[STEP]
-    sloped, scratch = _sloped(system, settings), (np.empty(y.size), np.empty(len(watch)), np.empty(len(watch)))
+    sloped, scratch = _sloped(system, settings), (np.empty(y.size), *np.empty((3, len(watch))))
     parts, crossings, steps, rejected = [], [], 0, 0
     while code == GOES_ON and steps < max_steps:
         size = min(ode._BATCH, max_steps - steps)
-        batch = Batch(np.empty((size, 2)), np.empty((size, 5, y.size)), np.empty((size * len(watch), 3)),
-                      np.empty((size * len(watch), y.size)), *scratch)
+        batch = Batch(np.empty((size, 2)), np.empty((size, 5, y.size)), np.empty((2 * size * len(watch), 3)),
+                      np.empty((2 * size * len(watch), y.size)), *scratch)
         code, done, refused, hits = go_on(sloped, watched, switched, settings, what, clock, y, work, values, batch)
         crossings.append(ode._crossings(batch, hits))
         picked = ode._pick(batch, done, clock[T], per_step) if samples is None else ode._sample(batch, done, samples, clock[T])

@@ -10,7 +10,7 @@ from drivewright.errors import DrivewrightError
 from drivewright.runner import versions
 from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_thumbnail, svg
 from drivewright.view.motion import fractions
-from drivewright.view.panels import drawable, panels
+from drivewright.view.panels import drawable, known_plots, panels
 from drivewright.view.text import number, quantity, sentence, shown, unit_text, with_unit
 
 GHOSTS = tuple(n / 5 for n in range(5))
@@ -46,7 +46,7 @@ def views(result, model=None):
     model = model or mechanism.build(result.spec)
     scene, no_scene = _shown("motion", mechanism.scene, model, None)
     drawings, no_drawings = _shown("drawings", mechanism.drawings, model, ())
-    return Views(scene, tuple(mechanism.plots), tuple(drawings), no_scene + no_drawings)
+    return Views(scene, tuple(known_plots(result).values()), tuple(drawings), no_scene + no_drawings)
 
 
 def _shown(what, make, model, nothing):

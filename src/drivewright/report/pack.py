@@ -66,7 +66,7 @@ def pack_plots(result, scene, plots):
     main = result.tables.get(scene.table)
     chosen = [(plot, _along(result.tables[plot.table][plot.x].data, scene)) for plot in drawable(result, plots)
               if main and plot.x == main.columns[0].name and not plot.equal]
-    packed = [panel for plot, u in chosen if u is not None for panel in _panels(panels(result, plot), u)]
+    packed = [panel for plot, u in chosen if u is not None for panel in _panels(panels(result, plot), u, scene)]
     return {"cycle": _cycle(scene), "panels": packed} if packed else None
 
 
@@ -78,15 +78,24 @@ def _along(x, scene):
     return u if u.min() > -1e-6 and u.max() < 1 + 1e-6 else u % 1.0
 
 
-def _panels(found, u):
+def _panels(found, u, scene):
     """The panels of one plot; where there are several, one with a single line is named after it."""
     order = np.argsort(u, kind="stable")
     for panel in found:
         rows = order[telling_rows([s.data[order] for s in panel.series])]
         title = panel.title if len(found) == 1 or len(panel.series) > 1 else panel.series[0].label
         yield {"title": title, "low": panel.low, "high": panel.high, "decimals": int(decimals(panel.low, panel.high)), "u": floats(u[rows]),
+               "style": panel.style, "log": panel.log, "shade": _shade(panel, scene),
                "limits": [[float(value), text] for value, text in panel.limits],
-               "series": [{"label": s.label, "unit": s.unit, "role": s.role, "data": floats(s.data[rows])} for s in panel.series]}
+               "series": [{"label": s.label, "unit": s.unit, "role": s.role, "dashed": s.dashed, "data": floats(s.data[rows])}
+                          for s in panel.series]}
+
+
+def _shade(panel, scene):
+    """Shaded stretches as [from, to] in 0 ... 1 along the scene's cycle."""
+    start, span = scene.cycle[0], scene.cycle[-1] - scene.cycle[0]
+    factor = shown(scene.cycle_unit)[0]
+    return [[(edge / factor - start) / span for edge in stretch] for stretch in panel.shade]
 
 
 def telling_rows(lines, most=MOST_ROWS):

@@ -17,6 +17,13 @@ export function ticks(low, high, count, unit) {
   return {values: found, decimals: Math.min(9, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)))};
 }
 
+/** Ticks at the powers of ten. */
+function powers(low, high) {
+  const values = [];
+  for (let n = Math.ceil(Math.log10(low)); 10 ** n <= high; n++) values.push(10 ** n);
+  return {values};
+}
+
 const tickText = (value, decimals) => Math.abs(value) >= 1e5 || (value !== 0 && decimals > 5)
   ? value.toExponential(1).replace("e+", "e").replace("-", "−") : fixed(value, decimals);
 const unitText = unit => unit.startsWith("°") || !unit ? unit : ` ${unit}`;
@@ -36,18 +43,22 @@ function createPanel(panel, cycle, clock, theme) {
   const surface = fitCanvas(canvas, () => { draw(); show(); });
   const inner = () => ({w: surface.width - MARGIN.left - MARGIN.right, h: surface.height - MARGIN.top - MARGIN.bottom});
   const toX = part => MARGIN.left + part * inner().w;
-  const toY = value => MARGIN.top + (panel.high - value) / (panel.high - panel.low) * inner().h;
+  const height = panel.log ? value => value > 0 ? Math.log10(value) : NaN : value => value;  // where a value stands on the axis
+  const [low, high] = [height(panel.low), height(panel.high)];
+  const toY = value => MARGIN.top + (high - height(value)) / (high - low) * inner().h;
 
   function axes(context, colours) {
-    const {w, h} = inner(), end = cycle.start + cycle.span, [low, high] = [Math.min(cycle.start, end), Math.max(cycle.start, end)];
-    const across = ticks(low, high, Math.max(2, Math.min(8, w / 62)), cycle.unit), up = ticks(panel.low, panel.high, Math.max(2, h / 23), panel.series[0].unit);
+    const {w, h} = inner(), end = cycle.start + cycle.span;
+    const across = ticks(Math.min(cycle.start, end), Math.max(cycle.start, end), Math.max(2, Math.min(8, w / 62)), cycle.unit);
+    const up = panel.log ? powers(panel.low, panel.high) : ticks(low, high, Math.max(2, h / 23), panel.series[0].unit);
     context.font = FONT; context.lineWidth = 1;
     phases(context, colours);
+    stretches(context, colours);
     context.strokeStyle = colours.line; context.fillStyle = colours.muted;
     context.textAlign = "right"; context.textBaseline = "middle";
     for (const value of up.values) {
       rule(context, MARGIN.left, toY(value), MARGIN.left + w, toY(value), value === 0 ? colours["grid-strong"] : colours.grid);
-      context.fillText(tickText(value, up.decimals), MARGIN.left - 7, toY(value));
+      context.fillText(panel.log ? value.toExponential(0).replace("e+", "e").replace("-", "−") : tickText(value, up.decimals), MARGIN.left - 7, toY(value));
     }
     context.textBaseline = "top";
     for (const value of across.values) {
@@ -68,6 +79,11 @@ function createPanel(panel, cycle, clock, theme) {
       if (n % 2 === 0) context.fillRect(toX(start), MARGIN.top, toX(stop) - toX(start), h);
     });
     context.globalAlpha = 1;
+  }
+
+  function stretches(context, colours) {
+    context.fillStyle = colours.line;
+    for (const [start, stop] of panel.shade) context.fillRect(toX(start), MARGIN.top, Math.max(toX(stop) - toX(start), 0.5), inner().h);
   }
 
   function rule(context, x0, y0, x1, y1, colour) {
@@ -91,23 +107,42 @@ function createPanel(panel, cycle, clock, theme) {
     }
   }
 
+  const place = (values, i) => [toX(u[i]), Math.max(-1e4, Math.min(1e4, toY(values[i])))];
+
+  function curve(context, values) {
+    context.beginPath();
+    let pen = false;
+    for (let i = 0; i < u.length; i++) {
+      const [x, y] = place(values, i);
+      if (!Number.isFinite(y)) { pen = false; continue; }
+      pen ? context.lineTo(x, y) : context.moveTo(x, y);
+      pen = true;
+    }
+    context.stroke();
+  }
+
+  /** Points, and below them the stems that they stand on. */
+  function marks(context, values) {
+    const foot = toY(panel.log ? panel.low : 0);
+    for (let i = 0; i < u.length; i++) {
+      const [x, y] = place(values, i);
+      if (!Number.isFinite(y)) continue;
+      context.beginPath(); context.arc(x, y, 1.8, 0, 2 * Math.PI); context.fill();
+      if (panel.style === "stems") { context.beginPath(); context.moveTo(x, foot); context.lineTo(x, y); context.stroke(); }
+    }
+  }
+
   function curves(context, colours) {
     const {w, h} = inner();
     context.save();
     context.beginPath(); context.rect(MARGIN.left, MARGIN.top, w, h); context.clip();
     context.lineJoin = "round"; context.lineWidth = 1.8;
-    for (const {values, role} of lines) {
-      context.strokeStyle = colours[role];
-      context.beginPath();
-      let pen = false;
-      for (let i = 0; i < u.length; i++) {
-        if (!Number.isFinite(values[i])) { pen = false; continue; }
-        const x = toX(u[i]), y = Math.max(-1e4, Math.min(1e4, toY(values[i])));
-        pen ? context.lineTo(x, y) : context.moveTo(x, y);
-        pen = true;
-      }
-      context.stroke();
+    for (const {values, role, dashed} of lines) {
+      context.strokeStyle = context.fillStyle = colours[role];
+      context.setLineDash(dashed ? [5, 3] : []); context.lineWidth = dashed ? 1.2 : 1.8;
+      (panel.style === "line" || dashed ? curve : marks)(context, values);
     }
+    context.setLineDash([]);
     context.restore();
   }
 

@@ -8,6 +8,7 @@ from drivewright.view.style import MUTED, angle_ticks, legend_columns, new_figur
 from drivewright.view.text import axis_label
 
 FEW = 25  # up to so many points each one is marked
+MANY = 1500  # from so many points on lines are thinner and points smaller
 
 
 def plot_table(result, name, marks=()):
@@ -34,9 +35,12 @@ def draw_panels(shown, marks=()):
 
 def _draw(axis, panel):
     x, ticks = _positions(panel.x.data)
-    look = {"ls": "none", "marker": "D", "ms": 5} if ticks else {"lw": 1.5, "marker": "o" if len(x) <= FEW else None, "ms": 3.5}
     for series in panel.series:
-        axis.plot(x, np.where(np.isfinite(series.data), series.data, np.nan), color=colour(series.role), label=series.label, **look)
+        _draw_series(axis, panel, series, x, ticks)
+    for start, end in panel.shade:
+        axis.axvspan(start, end, color=colour("line"), zorder=0, lw=0)
+    for radius, text in panel.rings:
+        _ring(axis, radius, text)
     if ticks:
         axis.set_xticks(x, ticks)
     axis.set_ylabel(axis_label(*_split(panel.label), width=26 if not panel.equal else 60))
@@ -49,6 +53,34 @@ def _draw(axis, panel):
     if len(panel.series) > 1:
         axis.legend(loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncols=legend_columns([s.label for s in panel.series], 84),
                     borderaxespad=0.1, handlelength=1.4, columnspacing=1.2)
+
+
+def _draw_series(axis, panel, series, x, ticks):
+    """One line, cloud of points or row of stems."""
+    data = np.where(np.isfinite(series.data), series.data, np.nan)
+    hue, finite = colour(series.role), np.isfinite(data)
+    if panel.style == "points":
+        # A cloud is drawn as an image: as outlines ten thousand points are megabytes.
+        axis.plot(x, data, ls="none", marker=".", ms=4 if len(x) <= MANY else 1.5, mew=0, color=hue, label=series.label,
+                  rasterized=len(x) > MANY)
+    elif panel.style == "stems" and not series.dashed:
+        axis.vlines(x[finite], panel.low if panel.log else 0.0, data[finite], color=hue, lw=1.0)
+        axis.plot(x, data, ls="none", marker="o", ms=3, color=hue, label=series.label)
+    elif ticks:
+        axis.plot(x, data, ls="none", marker="D", ms=5, color=hue, label=series.label)
+    elif series.dashed:
+        # A light line below the dashes keeps them visible on a line of the same colour.
+        axis.plot(x, data, lw=2.6, color="white", alpha=0.7, zorder=2.5)
+        axis.plot(x, data, lw=1.2, ls=(0, (4, 2)), color=hue, label=series.label, zorder=2.6)
+    else:
+        axis.plot(x, data, lw=1.5 if len(x) <= MANY else 0.9, marker="o" if len(x) <= FEW else None, ms=3.5, color=hue, label=series.label)
+
+
+def _ring(axis, radius, text):
+    """A circle about the origin with its name at its top."""
+    turn = np.linspace(0, 2 * np.pi, 181)
+    axis.plot(radius * np.cos(turn), radius * np.sin(turn), color=colour("bad"), lw=1.0, ls=(0, (5, 3)))
+    axis.annotate(text, (0, radius), xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=8, color=colour("bad"))
 
 
 def _split(label):
@@ -65,6 +97,8 @@ def _positions(data):
 def _scale(axis, panel, x):
     """The range of both axes, and ticks at round angles."""
     axis.set_ylim(panel.low, panel.high)
+    if panel.log:
+        axis.set_yscale("log")
     if len(x) > 1 and np.ptp(x) > 0 and len(x) > FEW:
         axis.set_xlim(np.min(x), np.max(x))
     if panel.x.unit == "°":

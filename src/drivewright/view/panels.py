@@ -12,23 +12,28 @@ from drivewright import registry
 from drivewright.errors import UnknownName
 from drivewright.result import Plot
 from drivewright.view.palette import SERIES
-from drivewright.view.text import axis_label, dimension, number, sentence, shown, with_unit
+from drivewright.view.text import axis_label, dimension, number, quantity, sentence, shown, with_unit
 
 REACH = 8.0  # a panel with a limit shows at most so many times the limit: beyond it (a pole of a radius) the line leaves the panel
+DECADES = 6  # powers of ten that a logarithmic axis shows at most
 
 
 class Series(NamedTuple):
-    """One column in the unit people read; `unit` as printed, `role` its colour."""
+    """One column in the unit people read; `unit` as printed, `role` its colour, `dashed` where it is a reference."""
 
     name: str
     label: str
     unit: str
     data: np.ndarray
     role: str = "ink"
+    dashed: bool = False
 
 
 class Panel(NamedTuple):
-    """Series of one unit over x, with limit lines (value, text) and the range [low, high] to show."""
+    """Series of one unit over x, with limit lines (value, text) and the range [low, high] to show.
+
+    style: line, points or stems; `log`: y axis in powers of ten; `shade`: stretches (from, to) of x; `rings`: circles (radius, text).
+    """
 
     title: str
     label: str
@@ -38,12 +43,18 @@ class Panel(NamedTuple):
     low: float
     high: float
     equal: bool
+    style: str = "line"
+    log: bool = False
+    shade: tuple = ()
+    rings: tuple = ()
 
 
 def known_plots(result):
     """Name -> Plot of the result's mechanism; none where the kind is not installed here."""
-    kinds = registry.kinds()
-    return {plot.name: plot for plot in registry.mechanism(result.mechanism).plots} if result.mechanism in kinds else {}
+    if result.mechanism not in registry.kinds():
+        return {}
+    plots = registry.mechanism(result.mechanism).plots
+    return {plot.name: plot for plot in (plots(result) if callable(plots) else plots)}
 
 
 def find_plot(result, name):
@@ -71,13 +82,55 @@ def drawable(result, plots):
 def panels(result, plot):
     """The panels of a plot, one for each unit among its y columns (at most as many lines in one as there are colours)."""
     table = result.tables[plot.table]
+    x, lines = _grouped(table, plot) if plot.by else _compared(table, plot)
     groups = {}
-    for name in plot.y:
-        groups.setdefault(table[name].unit, []).append(table[name])
+    for line in lines:
+        groups.setdefault(line[0].unit, []).append(line)
     chunks = [group[i:i + len(SERIES)] for group in groups.values() for i in range(0, len(group), len(SERIES))]
     roles = itertools.cycle(SERIES)  # running on from panel to panel, so that one colour means one line as long as there are enough
-    return tuple(_panel(plot, _series(table[plot.x]), _told_apart([_series(c, next(roles)) for c in chunk]), chunk[0].unit,
-                        () if n else _limits(result, plot)) for n, chunk in enumerate(chunks))
+    shade = _shaded(x, table[plot.shade]) if plot.shade else ()
+    return tuple(_panel(plot, _series(x), _coloured(chunk, roles), chunk[0][0].unit, () if n else _limits(result, plot), shade)
+                 for n, chunk in enumerate(chunks))
+
+
+def _compared(table, plot):
+    """(x column, lines): every line a column, with its reference behind it where there is one."""
+    references = [(table[name],) for name in plot.reference]
+    references += [()] * (len(plot.y) - len(references))
+    return table[plot.x], [(table[name], *reference) for name, reference in zip(plot.y, references, strict=True)]
+
+
+def _grouped(table, plot):
+    """(x column, lines): for every y column a line for each value of the column `by`, over all values of x; gaps are nan."""
+    by, x = table[plot.by], table[plot.x]
+    values, group = np.unique(by.data, return_inverse=True)
+    places, place = np.unique(x.data, return_inverse=True)
+    lines = []
+    for column in (table[name] for name in plot.y):
+        data = np.full((len(values), len(places)), np.nan)
+        data[group, place] = column.data
+        told = [str(v) if values.dtype.kind not in "fiub" else quantity(v, by.unit, 4) for v in values]
+        lines += [(column._replace(name=f"{column.name}.{text}", meaning=f"{plot.by} {text}", data=row),)
+                  for text, row in zip(told, data, strict=True)]
+    return x._replace(data=places), lines
+
+
+def _coloured(chunk, roles):
+    """Series of some lines, each line in its colour."""
+    found = []
+    for line in chunk:
+        role = next(roles)
+        found += [_series(column, "ink" if n else role, dashed=n > 0) for n, column in enumerate(line)]
+    return _told_apart(found)
+
+
+def _shaded(x, column):
+    """Stretches (from, to) of x, as shown, in which a column is above 0; each sample stands for half the way to its neighbours."""
+    place = np.asarray(x.data) * shown(x.unit)[0]
+    edges = np.concatenate([place[:1], (place[1:] + place[:-1]) / 2, place[-1:]])
+    on = np.concatenate([[0], np.asarray(column.data) > 0, [0]])
+    starts, ends = np.flatnonzero(np.diff(on) == 1), np.flatnonzero(np.diff(on) == -1)
+    return tuple((float(edges[a]), float(edges[b])) for a, b in zip(starts, ends, strict=True))
 
 
 def _limits(result, plot):
@@ -90,18 +143,22 @@ def _limits(result, plot):
             yield (-known[name] if value.startswith("-") else known[name]), label
 
 
-def _panel(plot, x, series, unit, limits):
+def _panel(plot, x, series, unit, limits, shade):
     factor, text = shown(unit)
     limits = tuple((value * factor, limit_text(value * factor, label, text)) for value, label in limits)
-    label = series[0].label if len(series) == 1 else sentence(dimension(unit))
-    low, high = span([s.data for s in series], [value for value, _ in limits])
-    return Panel(plot.title, axis_label(label, text), x, tuple(series), limits, low, high, plot.equal)
+    rings = tuple((radius * factor, limit_text(radius * factor, label, text)) for radius, label in plot.rings)
+    only = next((s.label for s in series), "") if sum(not s.dashed for s in series) == 1 and not plot.by else ""
+    label = only or sentence(dimension(unit))
+    lines, values = [s.data for s in series], [value for value, _ in limits]
+    low, high = log_span(lines, values) if plot.log else span(lines, values + [0.0] * (plot.style == "stems"))
+    return Panel(plot.title, axis_label(label, text), x, tuple(series), limits, low, high, plot.equal, plot.style, plot.log, shade, rings)
 
 
-def _series(column, role="ink"):
+def _series(column, role="ink", dashed=False):
     factor, text = shown(column.unit)
     data = np.asarray(column.data)
-    return Series(column.name, sentence(column.meaning or column.name), text, data * factor if data.dtype.kind in "fiub" else data, role)
+    data = data * factor if data.dtype.kind in "fiub" else data
+    return Series(column.name, sentence(column.meaning or column.name), text, data, role, dashed)
 
 
 def limit_text(value, label, unit):
@@ -133,6 +190,18 @@ def span(lines, limits=()):
     low, high = float(data.min()), float(data.max())
     air = 0.06 * (high - low) or 0.1 * abs(high) or 1.0
     return low - air, high + air
+
+
+def log_span(lines, limits=()):
+    """(low, high) of the positive part of all lines and the limits, with a little air, over `DECADES` powers of ten at most."""
+    data = np.concatenate([*(np.ravel(line) for line in lines), limits]).astype(float)
+    data = data[np.isfinite(data) & (data > 0)]
+    if not len(data):
+        return 0.1, 1.0
+    high = float(data.max())
+    low = max(float(data.min()), high / 10.0**DECADES)
+    air = (high / low) ** 0.06 if high > low else 2.0
+    return low / air, high * air
 
 
 def decimals(low, high, digits=4):

@@ -11,6 +11,7 @@ from drivewright.view.palette import colour
 
 WIDTH = 7.2  # inches: the text width of an A4 page with normal margins
 TITLE = {"ha": "left", "fontsize": 11, "fontweight": "bold"}
+RASTER = 220  # dots per inch of what is drawn as an image
 TALLEST = 4.4  # inches: the tallest picture to scale
 INK, MUTED, LINE, GRID = colour("ink"), colour("muted"), colour("line"), colour("grid")
 PARAMETERS = {
@@ -77,7 +78,7 @@ def svg(figure):
     """
     sink = io.StringIO()
     with styled():
-        figure.savefig(sink, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+        figure.savefig(sink, format="svg", dpi=RASTER, metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
     text = sink.getvalue().replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, Arial, sans-serif")
     return re.sub(r' d="([^"]+)"', lambda path: f' d="{_short(path[1])}"', text)
 

@@ -1,0 +1,38 @@
+"""The kind `linkage`: planar linkages with ideal joints or joints with play."""
+
+from pathlib import Path
+
+from drivewright.mechanisms.linkage import analyse, energy, nonlinear
+from drivewright.mechanisms.linkage.build import build
+from drivewright.mechanisms.linkage.plates import drawings, parts
+from drivewright.mechanisms.linkage.plots import plots
+from drivewright.mechanisms.linkage.scene import scene
+from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.registry import Analysis, Mechanism
+
+
+def _asked(table, also=None):
+    return lambda spec: nonlinear.no_period(spec, table) or (also(spec) if also else None)
+
+
+def _no_turns(spec):
+    return analyse.no_outputs(spec) or (None if spec.period and spec.simulate else "there are no turns of a drive at constant speed")
+
+
+ANALYSES = (
+    Analysis("motion", analyse.motion, "outputs over the run", missing=analyse.no_run),
+    Analysis("impact", analyse.impact, "impact load coefficient of every output", missing=analyse.no_play),
+    Analysis("pins", analyse.pins, "forces, impacts and orbits of pins with play", missing=analyse.no_pins),
+    Analysis("energy", energy.energy, "energy audit and drive torque", missing=analyse.no_run),
+    Analysis("spectrum", nonlinear.spectrum, "accelerations in orders of the drive", missing=_no_turns),
+    Analysis("poincare", nonlinear.poincare, "Poincare section", missing=_asked("poincare")),
+    Analysis("lyapunov", nonlinear.lyapunov, "largest Lyapunov exponent", missing=_asked("lyapunov")),
+    Analysis("end", analyse.end, "bodies at the end of the run", missing=analyse.no_run),
+    Analysis("bifurcation", nonlinear.bifurcation, "bifurcation diagram", default=False, missing=_asked("bifurcation")),
+    Analysis("load_table", nonlinear.load_table, "impact load over speed and clearance", default=False,
+             missing=_asked("table", analyse.no_play)),
+)
+
+mechanism = Mechanism(
+    kind="linkage", summary="planar linkage with ideal joints or joints with play", spec=LinkageSpec, build=build, analyses=ANALYSES,
+    folder=Path(__file__).parent, scene=scene, plots=plots, drawings=drawings, parts=parts)

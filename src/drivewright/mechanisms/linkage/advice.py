@@ -1,0 +1,84 @@
+"""What can be computed and should be looked at: checks that need nothing but the spec."""
+
+import itertools
+import math
+
+import numpy as np
+
+from drivewright.mechanisms.linkage.refusals import central_inertia, ends_on, points_of
+from drivewright.result import Check
+
+BOUNCY = ("lankarani-nikravesh", "hunt-crossley")  # deliver more restitution than asked, the more the less is asked
+
+
+def advice(spec):
+    """All checks of a LinkageSpec before anything is computed."""
+    return (*clearance_share(spec), *restitution(spec), *inertia_extent(spec), *window(spec))
+
+
+def shortest_link(spec):
+    """(length [m], body) of the shortest distance between two joints on one body; (inf, None) where no body has two apart."""
+    found = [(math.inf, None)]
+    for name in spec.bodies:
+        places = {points_of(spec, name)[point] for joint, point in ends_on(spec, name) if point}
+        found += [(math.dist(a, b), name) for a, b in itertools.combinations(sorted(places), 2)]
+    return min(found, key=lambda link: link[0])
+
+
+def clearance_share(spec):
+    """The largest clearance over the shortest link: beyond some percent the linkage is another one."""
+    played = [joint for joint in spec.joints if joint.pin in ("massless-link", "dry", "lubricated")]
+    length, body = shortest_link(spec)
+    if not played or body is None:
+        return ()
+    joint = max(played, key=lambda joint: joint.clearance)
+    message = f"clearance of joint {joint.name!r} over the shortest link, {length * 1e3:.4g} mm of {body!r}"
+    return (Check("clearance_share", joint.clearance / length, spec.limits.clearance_share, "<=", "-", message, (joint.name, body)),)
+
+
+def restitution(spec):
+    """Laws that bounce too well where little restitution is asked."""
+    return tuple(
+        Check(f"restitution.{joint.name}", joint.restitution, spec.limits.least_restitution, ">=", "-",
+              f"{joint.normal} delivers clearly more restitution than is asked below; take flores-2011 or gonthier", (joint.name,))
+        for joint in spec.joints if joint.pin in ("dry", "lubricated") and joint.normal in BOUNCY)
+
+
+def inertia_extent(spec):
+    """Radius of gyration of each body against the largest that mass within its named points can have."""
+    checks = []
+    for name, body in spec.bodies.items():
+        widest = widest_gyration(list(body.points.values()), body.centroid)
+        if body.mass > 0 and widest is not None:
+            gyration = math.sqrt(max(central_inertia(body), 0.0) / body.mass)
+            message = f"radius of gyration of {name!r}, which mass between its points cannot exceed; is its inertia about a pivot?"
+            checks.append(Check(f"inertia.{name}", gyration, widest, "<=", "m", message, (name,)))
+    return tuple(checks)
+
+
+def widest_gyration(points, centroid):
+    """Largest radius of gyration about the centroid [m] of mass within the hull of some points.
+
+    None where the centroid is outside, or in a corner.
+
+    The largest of sum w r^2 over shares w >= 0 with sum w = 1 and sum w (p - c) = 0.  It is linear in w, so three points at most carry
+    mass; of a bar with the ends a and b off its centroid it is sqrt(a b).
+    """
+    arms = np.asarray(points, dtype=float).reshape(-1, 2) - centroid
+    size = np.max(np.abs(arms), initial=0.0)
+    best = -1.0
+    for corners in itertools.combinations_with_replacement(range(len(arms)), 3):
+        equations = np.vstack([arms[list(corners)].T / (size or 1.0), np.ones(3)])
+        shares = np.linalg.lstsq(equations, np.array([0.0, 0.0, 1.0]), rcond=None)[0]
+        if np.min(shares) > -1e-9 and np.allclose(equations @ shares, [0.0, 0.0, 1.0], atol=1e-9):
+            best = max(best, float(shares @ np.sum(arms[list(corners)] ** 2, axis=1)))
+    return math.sqrt(best) if best > (1e-6 * size) ** 2 else None
+
+
+def window(spec):
+    """Turns that are left for peaks and means."""
+    if spec.simulate is None or spec.period is None:
+        return ()
+    turns = (spec.duration - spec.start_of_window) / spec.period
+    message = "turns after discard; the five largest peaks of fewer are not all main peaks"
+    return (Check("window", turns, spec.limits.least_turns, ">=", "-", message),)

@@ -1,0 +1,211 @@
+"""The motion of the outputs, of pins with play and of the bodies, beside the ideal mechanism."""
+
+import numpy as np
+
+from drivewright.mechanisms.linkage.advice import advice
+from drivewright.mechanisms.linkage.build import TURN, ideal_at, ideal_record, record_of, run_of
+from drivewright.multibody.measures import impact_load, largest
+from drivewright.multibody.observe import FIELDS, PIN_FIELDS
+from drivewright.multibody.record import POINT_FIELDS
+from drivewright.result import Answer, Check, Column, Table, Value
+
+ROWS = 4000  # of a table of the last turn, at most
+
+
+def no_run(spec):
+    """Why there is nothing to simulate."""
+    if spec.simulate is None and spec.period is None:
+        return "there is no [simulate] table, and no drive at constant speed whose turn could stand for it"
+    return None
+
+
+def no_outputs(spec):
+    return no_run(spec) or (None if spec.outputs else "the spec declares no [[outputs]]")
+
+
+def partial(model):
+    """(findings, outcome) of the run."""
+    run = run_of(model)
+    if not run.advice:
+        return (), "complete"
+    return (f"the run ends at t = {run.end[1]:.6g} s of {model.duration:.6g} s: {run.advice}",), "partial"
+
+
+def window(model):
+    """The record after the discarded turns; all of it where the run did not get so far."""
+    seen, start = record_of(model), model.spec.start_of_window if model.spec.simulate else 0.0
+    start = start if seen.t[-1] > start else 0.0
+    return seen.after(start * (1 - 1e-12))
+
+
+def acceleration(seen, output):
+    """(samples, unit, word) of an output's acceleration: the point's where one is given, else that of the angle."""
+    if output.point is None:
+        return seen.point(output.name, "alpha"), "rad/s^2", "angular acceleration"
+    return np.hypot(seen.point(output.name, "ax"), seen.point(output.name, "ay")), "m/s^2", "acceleration"
+
+
+# -- bodies and outputs --------------------------------------------------------------------------------------------------------
+
+
+def motion(model, done):
+    """Swing and peaks of the outputs, and the last turn as a table."""
+    findings, outcome = partial(model)
+    seen, values = window(model), {}
+    for output in model.spec.outputs:
+        angle, name = seen.point(output.name, "angle"), output.name
+        values[f"{name}.swing"] = Value(float(np.ptp(angle)), "rad", f"range of the angle of {output.body!r} in the window")
+        values[f"{name}.max_angular_acceleration"] = Value(
+            largest(seen.t, seen.point(name, "alpha")), "rad/s^2", f"largest angular acceleration of {output.body!r}, magnitude")
+        if output.point:
+            values[f"{name}.max_acceleration"] = Value(
+                largest(seen.t, acceleration(seen, output)[0]), "m/s^2", f"largest acceleration of point {output.point!r}, magnitude")
+    tables = (_motion_table(model),) if model.spec.outputs else ()
+    return Answer(values, tables, advice(model.spec), findings, outcome=outcome)
+
+
+def end(model, done):
+    """Pose and rates of every body at the end of the run."""
+    last, values = record_of(model).last, {}
+    told = (("x", "x", "m", "centroid, x"), ("y", "y", "m", "centroid, y"), ("angle", "angle", "rad", "angle, not wrapped"),
+            ("vx", "vx", "m/s", "velocity of the centroid, x"), ("vy", "vy", "m/s", "velocity of the centroid, y"),
+            ("angular_velocity", "w", "rad/s", "angular velocity"))
+    for number, name in enumerate(model.assembly.names):
+        if name in model.spec.bodies:
+            for key, field, unit, meaning in told:
+                values[f"bodies.{name}.{key}"] = Value(float(last[number, FIELDS.index(field)]), unit, f"{meaning}, at the end of the run")
+    return Answer(values)
+
+
+def last_turn(model):
+    """The record of the last whole turn (of the whole run without turns), thinned to at most ROWS rows."""
+    seen = record_of(model)
+    turns = np.floor(seen.t[-1] / model.period + 1e-9) if model.period else 0
+    start = (turns - 1) * model.period if turns >= 1 else 0.0
+    end = turns * model.period if turns >= 1 else seen.t[-1]
+    rows = np.flatnonzero((seen.t >= start * (1 - 1e-12)) & (seen.t <= end * (1 + 1e-12)))
+    stride = max(1, -(-len(rows) // ROWS))
+    return seen.take(rows[::stride])
+
+
+def cycle_columns(model, t):
+    """Time, and the angle of a drive at constant speed."""
+    columns = (Column("time", "s", "time", t),)
+    if model.period:
+        turn = np.floor(t[0] / model.period + 1e-9)
+        angle = (t - turn * model.period) * TURN / model.period
+        columns = (Column("crank_angle", "rad", "angle of the drive since the start of the turn", angle), *columns)
+    return columns
+
+
+def _motion_table(model):
+    seen = last_turn(model)
+    columns, ideal = list(cycle_columns(model, seen.t)), ideal_at(model, seen.t) if model.played else None
+    for output in model.spec.outputs:
+        for field, unit, meaning in _told(output):
+            data = seen.point(output.name, field)
+            columns.append(Column(f"{output.name}.{field}", unit, f"{meaning} of {output.name!r}", data))
+            if ideal is not None:
+                same = ideal[output.name][:, POINT_FIELDS.index(field)]
+                columns.append(Column(f"{output.name}.ideal_{field}", unit, f"{meaning} of {output.name!r}, without play", same))
+    return Table("motion", "Motion of the outputs over the last turn" if model.period else "Motion of the outputs", tuple(columns))
+
+
+def _told(output):
+    if output.point is None:
+        return (("angle", "rad", "angle"), ("w", "rad/s", "angular velocity"), ("alpha", "rad/s^2", "angular acceleration"))
+    return (("x", "m", "x"), ("y", "m", "y"), ("vx", "m/s", "velocity, x,"), ("vy", "m/s", "velocity, y,"),
+            ("ax", "m/s^2", "acceleration, x,"), ("ay", "m/s^2", "acceleration, y,"))
+
+
+# -- impact load coefficient ---------------------------------------------------------------------------------------------------
+
+
+def no_play(spec):
+    if no_outputs(spec):
+        return no_outputs(spec)
+    return None if any(joint.pin not in (None, "ideal") for joint in spec.joints) else "no joint has play"
+
+
+def impact(model, done):
+    """K_d of every output with its window and robust companions."""
+    seen, ideal, values, checks = window(model), ideal_record(model), {}, []
+    for output in model.spec.outputs:
+        data, unit, word = acceleration(seen, output)
+        peak = largest(ideal.t, acceleration(ideal, output)[0])
+        load, name = impact_load(seen.t, data, peak, model.period), output.name
+        told = {
+            "ideal_peak": Value(peak, unit, f"largest {word} of {name!r} without play"),
+            "peak_acceleration_ratio": Value(largest(seen.t, data) / peak if peak else np.nan, "-",
+                                             f"largest {word} over that without play"),
+            "impact_load_coefficient": Value(load.coefficient, "-", f"mean of the five largest peaks of the {word} over the ideal peak"),
+            "percentile_ratio": Value(load.percentile, "-", f"level that the {word} keeps below 95 % of the time, over the ideal peak"),
+            "rms_ratio": Value(load.rms, "-", f"root mean square of the {word} over the ideal peak"),
+            "turn_peak_mean": Value(load.turn_mean, "-", f"mean over the turns of the largest {word}, over the ideal peak"),
+            "turn_peak_spread": Value(load.turn_spread, "-", "standard deviation of the same"),
+        }
+        values |= {f"{name}.{key}": value for key, value in told.items() if np.isfinite(value.value)}
+        limit = model.spec.limits.impact_load_coefficient
+        if limit and np.isfinite(load.coefficient):
+            checks.append(Check(f"impact_load.{name}", load.coefficient, limit, "<=", "-", "impact load coefficient", (output.body,)))
+    values["window.start"] = Value(float(seen.t[0]), "s", "start of the window of peaks and means")
+    values["window.end"] = Value(float(seen.t[-1]), "s", "its end")
+    return Answer(values, (), tuple(checks))
+
+
+# -- pins with play ------------------------------------------------------------------------------------------------------------
+
+
+def no_pins(spec):
+    return no_run(spec) or (None if any(j.pin in ("dry", "lubricated") for j in spec.joints) else "no joint is dry or lubricated")
+
+
+def pins(model, done):
+    """Largest force and penetration, impacts and contact share of every pin with play; orbit and force over the last turn."""
+    run, seen, turn = run_of(model), window(model), last_turn(model)
+    start, end = seen.t[0], seen.t[-1]
+    values, tables, checks = {}, [_impact_table(model, run)], []
+    for number, name in enumerate(model.pins):
+        pin = dict(zip(PIN_FIELDS, np.moveaxis(seen.pins[:, number], 1, 0), strict=True))
+        force, depth = float(np.max(np.hypot(pin["fx"], pin["fy"]))), max(float(np.max(pin["depth"])), 0.0)
+        hits = np.sum((run.impacts[:, 1] == number) & (run.impacts[:, 0] >= start) & (run.impacts[:, 0] <= end))
+        touching = np.trapezoid(pin["depth"] > 0, seen.t) / (end - start)
+        lost = np.trapezoid(np.abs(pin["friction"] * pin["slip"]), seen.t) / (end - start)
+        values[f"joints.{name}.max_force"] = Value(force, "N", f"largest force in joint {name!r}")
+        values[f"joints.{name}.max_penetration"] = Value(depth, "m", f"largest penetration in joint {name!r}")
+        if model.period:
+            values[f"joints.{name}.impacts_per_turn"] = Value(float(hits * model.period / (end - start)), "-", f"impacts of joint {name!r}")
+        values[f"joints.{name}.contact_share"] = Value(float(touching), "-", f"share of the time in which joint {name!r} touches")
+        values[f"joints.{name}.friction_power"] = Value(float(lost), "W", f"mean power lost by friction in joint {name!r}")
+        tables.append(_pin_table(model, turn, number, name))
+        for limit, key, value, unit in ((model.spec.limits.joint_force, "force", force, "N"),
+                                        (model.spec.limits.penetration, "penetration", depth, "m")):
+            if limit:
+                checks.append(Check(f"{key}.{name}", value, limit, "<=", unit, f"largest {key} in joint {name!r}", (name,)))
+    return Answer(values, tuple(tables), tuple(checks))
+
+
+def _impact_table(model, run):
+    t, pin, speed = run.impacts.T
+    return Table("impacts", "Impacts", (
+        Column("time", "s", "time of the impact", t), Column("joint", "-", f"number of the joint: {_numbered(model.pins)}", pin),
+        Column("speed", "m/s", "speed of approach", speed)))
+
+
+def _numbered(names):
+    return ", ".join(f"{number} {name}" for number, name in enumerate(names))
+
+
+def _pin_table(model, seen, number, name):
+    pin = dict(zip(PIN_FIELDS, np.moveaxis(seen.pins[:, number], 1, 0), strict=True))
+    clearance = model.assembly.system.contacts[number].clearance
+    away = clearance + pin["depth"]  # distance of the centres
+    return Table(f"pin.{name}", f"Joint {name!r} over the last turn" if model.period else f"Joint {name!r}", (
+        *cycle_columns(model, seen.t),
+        Column("x", "m", "journal's centre from the bearing's, x", -away * pin["nx"]),
+        Column("y", "m", "journal's centre from the bearing's, y", -away * pin["ny"]),
+        Column("depth", "m", "penetration, below 0 in flight", pin["depth"]),
+        Column("force", "N", "force between journal and bearing", np.hypot(pin["fx"], pin["fy"])),
+        Column("force_x", "N", "force on the journal's body, x", -pin["fx"]), Column("force_y", "N", "the same, y", -pin["fy"]),
+        Column("slip", "m/s", "sliding speed", pin["slip"]),
+        Column("contact", "-", "1 in contact, 0 in flight", (pin["depth"] > 0).astype(float))))

@@ -1,0 +1,188 @@
+"""From what the user says to the frozen description that the multibody kernel reads."""
+
+import math
+
+from drivewright.contact.hertz import effective_modulus
+from drivewright.contact.impact import impact_law, journal_stiffness, kelvin_voigt_damping
+from drivewright.errors import SpecError
+from drivewright.mechanisms.linkage.curves import PURE, lift_curve, load_curve, profile_curve
+from drivewright.mechanisms.linkage.refusals import CENTROID, GROUND, central_inertia, place, points_of
+from drivewright.multibody import model
+
+CYLINDER_LOSS = "flores-2011"  # the cylinder law says nothing of losses
+
+
+def describe(spec, ideal=False):
+    """The multibody `Model` of a LinkageSpec; `ideal` takes the play out of every joint."""
+    bodies = tuple(_body(name, body) for name, body in spec.bodies.items())
+    joints = tuple(JOINTS[joint.kind](spec, joint, ideal) for joint in spec.joints)
+    drives, motors = _drive(spec)
+    return model.Model(bodies, joints, (*_forces(spec), *motors), drives, spec.gravity)
+
+
+def _body(name, body):
+    inertia = max(central_inertia(body), 0.0)  # the spec allows for rounding only
+    return model.Body(name, body.mass, inertia, body.centroid, body.angle, body.velocity, body.angular_velocity)
+
+
+def marker(spec, text):
+    """The Marker of "BODY.POINT"."""
+    body, point = place(text)
+    return model.Marker(body, *points_of(spec, body)[point])
+
+
+# -- joints --------------------------------------------------------------------------------------------------------------------
+
+
+def _markers(spec, joint):
+    return [marker(spec, text) for text in joint.connects]
+
+
+def _revolute(spec, joint, ideal):
+    return model.Revolute(joint.name, *_markers(spec, joint), model.Ideal() if ideal else PINS[joint.pin](spec, joint))
+
+
+def _prismatic(spec, joint, ideal):
+    return model.Prismatic(joint.name, *_markers(spec, joint), _unit(joint.axis))
+
+
+def _pin_slot(spec, joint, ideal):
+    return model.PinSlot(joint.name, *_markers(spec, joint), _unit(joint.axis))
+
+
+def _rolling(spec, joint, ideal):
+    return model.Rolling(joint.name, *_markers(spec, joint), joint.radius, _unit(joint.axis), joint.track_radius)
+
+
+def _gear(spec, joint, ideal):
+    return model.Gear(joint.name, *joint.connects, joint.ratio, place(joint.carrier)[0])
+
+
+def _cam(spec, joint, ideal):
+    lift, turns = lift_curve(joint.lift)
+    carrier, point = place(joint.carrier)
+    origin = points_of(spec, carrier)[point] if point else (0.0, 0.0)
+    cam, follower = joint.connects
+    return model.CamPair(joint.name, cam, marker(spec, follower), lift, carrier, origin, None if turns else _unit(joint.axis))
+
+
+def _unit(axis):
+    length = math.hypot(*axis)
+    return (axis[0] / length, axis[1] / length)
+
+
+JOINTS = {"revolute": _revolute, "prismatic": _prismatic, "pin-slot": _pin_slot, "rolling": _rolling, "gear": _gear, "cam": _cam}
+
+
+# -- play ----------------------------------------------------------------------------------------------------------------------
+
+
+def _ideal(spec, joint):
+    return model.Ideal()
+
+
+def _link(spec, joint):
+    return model.MasslessLink(joint.clearance, joint.link_damping, joint.link_angle)
+
+
+def dry(spec, joint):
+    """The dry contact of a joint: stiffness from radii and material, loss from the restitution."""
+    linear, cylinder = joint.normal == "kelvin-voigt", joint.normal == "cylinder"
+    if linear:
+        stiffness, exponent, hysteresis, damping = joint.stiffness, 1.0, 0.0, _linear_damping(spec, joint)
+    else:
+        law = impact_law(CYLINDER_LOSS if cylinder else joint.normal)
+        stiffness, exponent, hysteresis, damping = _elastic(joint), 1.5, law.factor(joint.restitution), 0.0
+    return model.Dry(joint.clearance, joint.bearing_radius, stiffness, exponent, hysteresis, damping, cylinder, joint.length,
+                     _friction(joint))
+
+
+def _elastic(joint):
+    """K of K d^1.5, or the effective modulus of the cylinder law."""
+    modulus = effective_modulus(joint.modulus, joint.poisson, joint.modulus, joint.poisson)
+    if joint.normal == "cylinder":
+        return float(modulus)
+    return float(journal_stiffness(joint.bearing_radius, joint.bearing_radius - joint.clearance, modulus))
+
+
+def _linear_damping(spec, joint):
+    """As given, or what gives the restitution in a free impact of the two bodies; the ground does not move."""
+    if joint.damping is not None:
+        return joint.damping
+    bodies = [place(text)[0] for text in joint.connects]
+    masses = [spec.bodies[body].mass for body in bodies if body != GROUND]
+    if min(masses) == 0:
+        raise SpecError(f"is missing: {bodies[masses.index(0.0)]!r} has no mass, so no damping follows from the restitution",
+                        key=f"joints.{joint.name}.damping")
+    return kelvin_voigt_damping(joint.restitution, joint.stiffness, 1 / sum(1 / mass for mass in masses))
+
+
+def _friction(joint):
+    if joint.friction == 0 and not (joint.friction_law == "lugre" and (joint.static_friction or joint.viscous_friction)):
+        return model.Friction("none")
+    if joint.friction_law != "lugre":
+        dead = joint.friction_dead_speed if joint.friction_law == "ambrosio" else 0.0
+        return model.Friction(joint.friction_law, joint.friction, joint.friction_speed, dead)
+    static = joint.friction if joint.static_friction is None else joint.static_friction
+    return model.Friction("lugre", joint.friction, joint.friction_speed, 0.0, static, 1 / joint.bristle_deflection, joint.bristle_damping,
+                          joint.viscous_friction)
+
+
+def _lubricated(spec, joint):
+    return model.Lubricated(dry(spec, joint), joint.viscosity, joint.film, joint.roughness)
+
+
+def _bushing(spec, joint):
+    return model.Bushing(joint.stiffness, joint.damping or 0.0, joint.rotational_stiffness, joint.rotational_damping)
+
+
+PINS = {"ideal": _ideal, "massless-link": _link, "dry": dry, "lubricated": _lubricated, "bushing": _bushing}
+
+
+# -- forces and drive ----------------------------------------------------------------------------------------------------------
+
+
+def _forces(spec):
+    """Springs, torques and forces, each with a name."""
+    for number, item in enumerate(spec.springs, 1):
+        yield model.Spring(item.name or f"spring {number}", *_markers(spec, item), item.stiffness, item.free_length, item.damping)
+    for number, item in enumerate(spec.rotational_springs, 1):
+        name = item.name or f"rotational spring {number}"
+        yield model.RotationalSpring(name, item.body, item.on, item.stiffness, item.rest, item.damping)
+    for number, item in enumerate(spec.torques, 1):
+        yield model.Torque(item.name or f"torque {number}", item.body, _load(item, item.torque, "torque", "torque"), item.on)
+    for number, item in enumerate(spec.forces, 1):
+        point = marker(spec, f"{item.body}.{item.point}")
+        yield model.Force(item.name or f"force {number}", point, item.force, _load(item, 1.0, "factor", PURE), item.follows)
+
+
+def _load(item, steady, what, dimension):
+    return load_curve(item.file, what, dimension, item.periodic) if item.file else model.Load(model.line(steady, 0.0))
+
+
+def _drive(spec):
+    """(prescribed motions, motors) of the drive."""
+    drive = spec.drive
+    if drive is None:
+        return (), ()
+    if drive.motor:
+        body, on = driven_bodies(spec)
+        return (), (model.Torque("motor", body, load_curve(drive.motor, "torque", "torque"), on),)
+    motion = model.line(0.0, drive.speed) if drive.speed else profile_curve(drive.profile, drive.ends, driven_joint(spec).kind)
+    return (model.Drive(drive.joint, motion),), ()
+
+
+def driven_bodies(spec):
+    """(the body that the drive turns, the one it turns it from): first and second of the joint, the ground never first."""
+    first, second = (place(text)[0] for text in driven_joint(spec).connects)
+    return (second, first) if first == GROUND else (first, second)
+
+
+def driven_joint(spec):
+    """The Joint of the drive."""
+    return next(joint for joint in spec.joints if joint.name == spec.drive.joint)
+
+
+def output_marker(spec, output):
+    """The Marker of an output's point; of its centroid where it names none."""
+    return marker(spec, f"{output.body}.{output.point or CENTROID}")

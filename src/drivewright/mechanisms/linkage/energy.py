@@ -1,0 +1,45 @@
+"""Energy audit and drive torque of a linkage's run."""
+
+import numpy as np
+
+from drivewright.mechanisms.linkage.analyse import ROWS, cycle_columns, last_turn, window
+from drivewright.mechanisms.linkage.build import record_of
+from drivewright.multibody.observe import POWER_FIELDS
+from drivewright.multibody.record import audit
+from drivewright.result import Answer, Check, Column, Table, Value
+
+MEANING = {"springs": "springs, dampers and bushings", "applied": "applied torques and forces", "pins": "pins with play",
+           "drives": "drives"}
+
+
+def energy(model, done):
+    """Work of every kind of element against the change of energy; torque of the drive."""
+    if model.assembly.freedom == 0:  # kinematics: samples, not steps
+        return _torque(model)
+    found = audit(record_of(model))
+    rows = slice(None, None, max(1, len(found.t) // ROWS))
+    columns = (Column("time", "s", "time", found.t[rows]), Column("stored", "J", "kinetic energy and energy of gravity, from the start",
+                                                                  (found.gap + np.sum(found.works, axis=1))[rows]))
+    columns += tuple(Column(f"work_{name}", "J", f"work of {MEANING[name]}", found.works[rows, k]) for k, name in enumerate(POWER_FIELDS))
+    columns += (Column("gap", "J", "change of energy less all work: the audit's error", found.gap[rows]),)
+    values = {f"energy.{name}": Value(float(found.works[-1, k]), "J", f"work of {MEANING[name]} over the run")
+              for k, name in enumerate(POWER_FIELDS)}
+    values["energy.gap"] = Value(float(np.max(np.abs(found.gap))), "J", "largest gap of the energy audit")
+    values["energy.error"] = Value(found.error, "-", "largest gap over the energy exchanged")
+    check = Check("energy_audit", found.error, model.spec.limits.energy_error, "<=", "-", values["energy.error"].meaning)
+    torque = _torque(model)
+    return Answer(values | torque.values, (Table("energy", "Energy audit", columns), *torque.tables), (check, *torque.checks))
+
+
+def _torque(model):
+    """Torque (force) of the drives over the last turn, and the largest in the window."""
+    if not model.assembly.model.drives:
+        return Answer()
+    seen, turn = window(model), last_turn(model)
+    names = [drive.joint for drive in model.assembly.model.drives]
+    values = {"drive.max_torque": Value(float(np.max(np.abs(seen.drives))), "N m", "largest torque of the drive, either way")}
+    columns = (*cycle_columns(model, turn.t), *(Column(f"torque_{name}", "N m", f"torque of the drive at joint {name!r}", turn.drives[:, k])
+                                                for k, name in enumerate(names)))
+    limit = model.spec.limits.drive_torque
+    checks = (Check("drive_torque", values["drive.max_torque"].value, limit, "<=", "N m", "largest torque of the drive"),) if limit else ()
+    return Answer(values, (Table("drive", "Torque of the drive over the last turn", columns),), checks)

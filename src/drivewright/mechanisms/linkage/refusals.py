@@ -1,0 +1,275 @@
+"""What has no meaning in a linkage: names that nobody has, numbers that contradict each other.  Each is a SpecError with its key."""
+
+import math
+
+from drivewright.errors import SpecError, nearest
+from drivewright.spec import dimension_at
+
+GROUND, CENTROID = "ground", "centroid"
+PLAYS = ("massless-link", "dry", "lubricated")
+NO_PERIOD = "wants a drive at constant speed, which gives the turn its length"
+
+
+def refuse_nonsense(spec):
+    """Raise SpecError for the first thing in a LinkageSpec that has no meaning."""
+    for rule in (_bodies, _names, _places, _joints, _zero_links, _massless_chains, _loads, _drive, _run, _studies):
+        rule(spec)
+
+
+def points_of(spec, body):
+    """Name -> (x, y) [m] of all points of a body or of the ground, in its frame."""
+    return dict(spec.ground.points) if body == GROUND else {**spec.bodies[body].points, CENTROID: spec.bodies[body].centroid}
+
+
+def place(text):
+    """(body, point) of a "BODY.POINT"; the point of "BODY" alone is None."""
+    body, _, point = text.partition(".")
+    return body, point or None
+
+
+def central_inertia(body):
+    """Moment of inertia about the centroid [kg m^2]: Steiner's share m d^2 taken off where it was given about a point."""
+    return body.inertia - body.mass * _distance(body) ** 2
+
+
+def _distance(body):
+    if body.inertia_about == CENTROID:
+        return 0.0
+    return math.dist(body.points[body.inertia_about], body.centroid)
+
+
+def _known(name, known, what, key):
+    if name not in known:
+        raise SpecError(f"no {what} is called {name!r}{nearest(name, known)}; there are: {', '.join(map(str, known)) or 'none'}", key=key)
+
+
+# -- bodies --------------------------------------------------------------------------------------------------------------------
+
+
+def _bodies(spec):
+    if GROUND in spec.bodies:
+        raise SpecError("this name is kept for what stands still; its points go into [ground.points]", key="bodies.ground")
+    for name, body in spec.bodies.items():
+        key = f"bodies.{name}"
+        if CENTROID in body.points:
+            raise SpecError("every body has a point of this name, at its `centroid`; choose another", key=f"{key}.points.centroid")
+        _known(body.inertia_about, [CENTROID, *body.points], f"point of {name!r}", f"{key}.inertia_about")
+        share = body.mass * _distance(body) ** 2
+        if body.inertia < share * (1 - 1e-12):
+            raise SpecError(
+                f"{body.inertia:.6g} kg m^2 about {body.inertia_about!r} is less than the mass in the centroid alone has there: m d^2 = "
+                f"{body.mass:.6g} kg x ({_distance(body) * 1e3:.6g} mm)^2 = {share:.6g} kg m^2. If it was meant about the centroid, "
+                'leave inertia_about out', key=f"{key}.inertia")
+
+
+def _names(spec):
+    for kind in ("joints", "springs", "rotational_springs", "torques", "forces", "outputs"):
+        taken = set()
+        for number, item in enumerate(getattr(spec, kind)):
+            if item.name is not None and item.name in taken:
+                raise SpecError(f"{item.name!r} is there twice among {kind}; give each a name of its own", key=f"{kind}.{number}.name")
+            taken.add(item.name)
+
+
+def _items(spec, kind):
+    """(key, item) of a list of tables, by name where an item has one."""
+    return [(f"{kind}.{item.name or number}", item) for number, item in enumerate(getattr(spec, kind))]
+
+
+def _places(spec):
+    """Every body and every point that is named must be there."""
+    for key, joint in _items(spec, "joints"):
+        _two_ends(spec, joint, key, [_wants_point(joint, 0), _wants_point(joint, 1)])
+        if joint.kind in ("gear", "cam"):
+            _refuse_place(spec, joint.carrier, f"{key}.carrier", None)
+    for key, spring in _items(spec, "springs"):
+        _two_ends(spec, spring, key, [True, True])
+    for key, item in _items(spec, "rotational_springs") + _items(spec, "torques"):
+        _known(item.body, spec.bodies, "body", f"{key}.body")
+        _known(item.on, [GROUND, *spec.bodies], "body", f"{key}.on")
+        if item.body == item.on:
+            raise SpecError(f"acts on {item.body!r} from {item.on!r} itself; name two bodies", key=f"{key}.on")
+    for key, item in _items(spec, "forces") + _items(spec, "outputs"):
+        _known(item.body, spec.bodies, "body", f"{key}.body")
+        if item.point is not None:
+            _known(item.point, points_of(spec, item.body), f"point of {item.body!r}", f"{key}.point")
+
+
+def _two_ends(spec, item, key, wants):
+    for end, text in enumerate(item.connects):
+        _refuse_place(spec, text, f"{key}.connects.{end}", wants[end])
+    first, second = (place(text)[0] for text in item.connects)
+    if first == second:
+        raise SpecError(f"connects {first!r} with itself; name two bodies", key=f"{key}.connects")
+
+
+def _wants_point(joint, end):
+    return not (joint.kind == "gear" or (joint.kind == "cam" and end == 0))
+
+
+def _refuse_place(spec, text, key, wants_point):
+    """`wants_point`: True, False, or None where a point may be named or not."""
+    body, point = place(text)
+    _known(body, [GROUND, *spec.bodies], "body", key)
+    if point is not None:
+        _known(point, points_of(spec, body), f"point of {body!r}", key)
+    if wants_point and point is None:
+        example = next(iter(points_of(spec, body)), "A")
+        raise SpecError(f"names the body {body!r} but no point of it; write e.g. \"{body}.{example}\"", key=key)
+    if wants_point is False and point is not None:
+        raise SpecError(f"wants a body only, got {text!r}; write {body!r}", key=key)
+
+
+# -- joints --------------------------------------------------------------------------------------------------------------------
+
+
+def _joints(spec):
+    for joint in spec.joints:
+        for rule in (_axis, _model, _missing, _play):
+            rule(joint, f"joints.{joint.name}")
+
+
+def _axis(joint, key):
+    if joint.axis == (0.0, 0.0):
+        raise SpecError("a direction [0, 0] points nowhere; write e.g. [1, 0]", key=f"{key}.axis")
+    if joint.axis != (1.0, 0.0) and joint.kind in ("revolute", "gear"):
+        raise SpecError(f"a {joint.kind} joint has no axis in the plane; leave it out, or take kind = \"prismatic\" or \"pin-slot\"",
+                        key=f"{key}.axis")
+
+
+def _model(joint, key):
+    if joint.kind != "revolute" and joint.model != "ideal":
+        raise SpecError(f"a {joint.kind} joint has no model {joint.model!r}; play is for kind = \"revolute\"", key=f"{key}.model")
+
+
+MISSING = {
+    "massless-link": ("clearance",), "dry": ("clearance",), "lubricated": ("clearance",), "bushing": ("stiffness",),
+    "rolling": ("radius",), "gear": ("ratio",), "cam": ("lift",)}
+
+
+def _missing(joint, key):
+    for said in (joint.kind, joint.model):
+        for name in MISSING.get(said, ()):
+            if getattr(joint, name) is None:
+                meaning = type(joint).model_fields[name].description
+                raise SpecError(f"is missing: {said!r} wants it ({meaning})", key=f"{key}.{name}")
+    if joint.ratio == 0:
+        raise SpecError("a gear with the ratio 0 does not turn; give teeth of the first over teeth of the second", key=f"{key}.ratio")
+
+
+def _play(joint, key):
+    if joint.pin not in ("dry", "lubricated"):
+        return
+    if joint.clearance >= joint.bearing_radius:
+        raise SpecError(f"{joint.clearance * 1e3:.6g} mm leaves no journal in a bearing of radius {joint.bearing_radius * 1e3:.6g} mm: "
+                        "the clearance is the difference of the radii and must be smaller", key=f"{key}.clearance")
+    if joint.normal == "kelvin-voigt" and joint.stiffness is None:
+        raise SpecError("is missing: normal = \"kelvin-voigt\" wants a linear stiffness of the contact, e.g. \"5e7 N/m\"",
+                        key=f"{key}.stiffness")
+    if joint.friction_law == "ambrosio" and joint.friction_dead_speed >= joint.friction_speed:
+        raise SpecError(f"the ramp must end above its start: friction_speed {joint.friction_speed:.4g} m/s, friction_dead_speed "
+                        f"{joint.friction_dead_speed:.4g} m/s", key=f"{key}.friction_dead_speed")
+
+
+def ends_on(spec, body):
+    """[(joint, point)] where joints hold a body."""
+    found = [(joint, place(text)) for joint in spec.joints for text in joint.connects]
+    return [(joint, point) for joint, (name, point) in found if name == body]
+
+
+def _zero_links(spec):
+    for name in spec.bodies:
+        ends = ends_on(spec, name)
+        places = {points_of(spec, name)[point] for joint, point in ends if point}
+        if len(ends) > 1 and len(places) == 1 and all(joint.kind == "revolute" for joint, _ in ends):
+            pins = " and ".join(repr(joint.name) for joint, _ in ends)
+            raise SpecError(f"its joints {pins} are at one place: a link of zero length. Move a point, or pin the other bodies together",
+                            key=f"bodies.{name}.points")
+
+
+def _massless_chains(spec):
+    """Two rigid links without mass at a body without mass have no equation of motion wherever they are in line."""
+    for name, body in spec.bodies.items():
+        links = [joint.name for joint, _ in ends_on(spec, name) if joint.pin == "massless-link"]
+        if len(links) > 1 and body.mass == 0 and central_inertia(body) <= 0:
+            raise SpecError(
+                f"{name!r} has neither mass nor inertia and massless links at {' and '.join(map(repr, links))}: two clearances in series. "
+                "Where the links are in line nothing says how the play is shared, and the equations of motion are singular. Give the body "
+                "a mass, or make one of the joints ideal", key=f"bodies.{name}.mass")
+
+
+# -- loads and drive -----------------------------------------------------------------------------------------------------------
+
+
+def _loads(spec):
+    for key, item in _items(spec, "torques"):
+        if (item.torque is None) == (item.file is None):
+            raise SpecError("give either torque or file", key=f"{key}.torque")
+
+
+def _drive(spec):
+    if spec.drive is None:
+        return
+    names = {joint.name: joint for joint in spec.joints}
+    _known(spec.drive.joint, names, "joint", "drive.joint")
+    joint, ways = names[spec.drive.joint], [way for way in ("speed", "profile", "motor") if getattr(spec.drive, way) is not None]
+    if joint.kind not in ("revolute", "prismatic"):
+        raise SpecError(f"{joint.name!r} is a {joint.kind} joint; a drive turns a revolute or pushes a prismatic one", key="drive.joint")
+    if joint.pin not in (None, "ideal"):
+        raise SpecError(f"{joint.name!r} has play (model = {joint.model!r}); drive an ideal joint", key="drive.joint")
+    if len(ways) != 1:
+        raise SpecError(f"give one of speed, profile and motor, got {' and '.join(ways) or 'none'}", key="drive.speed")
+    if joint.kind == "prismatic" and ways != ["profile"]:
+        raise SpecError(f"{joint.name!r} is prismatic: give a profile of its travel over time", key=f"drive.{ways[0]}")
+    if spec.drive.speed == 0:
+        raise SpecError("a drive at speed 0 never turns; leave [drive] out, or hold the body by a profile", key="drive.speed")
+
+
+# -- the run and the studies ---------------------------------------------------------------------------------------------------
+
+
+def _run(spec):
+    run = spec.simulate
+    if run is None:
+        return
+    if run.turns is None and run.duration is None:
+        raise SpecError("is missing: give turns, or duration = \"0.5 s\"", key="simulate.turns")
+    for name in ("turns", "discard"):
+        if getattr(run, name) and spec.period is None:
+            remedy = "give duration instead" if name == "turns" else "leave it out"
+            raise SpecError(f"counts turns and so {NO_PERIOD}; {remedy}", key=f"simulate.{name}")
+    if run.discard and spec.start_of_window >= spec.duration * (1 - 1e-12):
+        raise SpecError(f"{run.discard:g} turns are all of the run of {spec.duration / spec.period:g}: nothing is left to look at",
+                        key="simulate.discard")
+
+
+def _studies(spec):
+    outputs = [output.name for output in spec.outputs]
+    for name in ("poincare", "bifurcation", "table"):
+        if (study := getattr(spec, name)) is not None:
+            _known(study.output, outputs, "output", f"{name}.output")
+    for name in ("poincare", "lyapunov", "bifurcation", "table", "wear"):
+        if getattr(spec, name) is not None and spec.period is None:
+            raise SpecError(NO_PERIOD, key=name)
+    if spec.wear is not None:
+        _known(spec.wear.joint, [joint.name for joint in spec.joints], "joint", "wear.joint")
+    if spec.bifurcation is not None:
+        _refuse_sweep(spec)
+    for number, item in enumerate(spec.tolerances.dimensions if spec.tolerances else ()):
+        _refuse_place(spec, item.at, f"tolerances.dimensions.{number}.at", True)
+        if item.axis == (0.0, 0.0):
+            raise SpecError("a direction [0, 0] points nowhere; write e.g. [1, 0]", key=f"tolerances.dimensions.{number}.axis")
+
+
+def _refuse_sweep(spec):
+    """The key of a bifurcation diagram is there and holds one number."""
+    study, (exists, _) = spec.bifurcation, dimension_at(type(spec), spec.bifurcation.over)
+    if not exists:
+        raise SpecError(f"{study.over!r} is no key of this spec; e.g. \"joints.NAME.clearance\", \"drive.speed\"", key="bifurcation.over")
+    table, _, name = study.over.partition(".")
+    if table in ("joints", "bodies"):
+        known = [joint.name for joint in spec.joints] if table == "joints" else list(spec.bodies)
+        if not name.split(".")[0].isdigit():
+            _known(name.split(".")[0], known, table[:-1].replace("bodie", "body"), "bifurcation.over")
+    if study.discard >= study.turns:
+        raise SpecError(f"{study.discard} turns are all of the {study.turns} of a run: nothing is left to show", key="bifurcation.discard")
