@@ -1,6 +1,7 @@
 """What can be plugged in, by entry point.
 
 Groups: `drivewright.mechanisms` (a `Mechanism`), `drivewright.motion_laws` (a function returning a motion law),
+`drivewright.impact_laws` (a `contact.ImpactLaw`),
 `drivewright.views` (a function that draws a table), `drivewright.validation` (a published source beside ours).
 A third-party package declares the same groups in its own pyproject.
 """

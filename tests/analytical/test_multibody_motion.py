@@ -424,7 +424,8 @@ def test_driven_cylinder_lifts_a_boom(piston_first):
 def test_driven_slide_against_the_ground(ground_first):
     """The displacement counts for the body that moves, whichever end of the joint it is, and the drive's force with it."""
     ends = (Marker(GROUND, 0.1, 0.2), Marker("block")) if ground_first else (Marker("block"), Marker(GROUND, 0.1, 0.2))
-    model = Model((Body("block", 2.0, 0.1),), (Prismatic("guide", *ends, (0.6, 0.8)),), drives=(Drive("guide", polynomial(0.03, 0.5, 1.0)),))
+    model = Model((Body("block", 2.0, 0.1),), (Prismatic("guide", *ends, (0.6, 0.8)),),
+                  drives=(Drive("guide", polynomial(0.03, 0.5, 1.0)),))
     t = np.linspace(0, 1, 5)
     seen = Seen(model, t)
     near(seen("block", "x"), 0.1 + 0.6 * (0.03 + 0.5 * t + t**2))
@@ -497,7 +498,8 @@ def test_periodic_curve_repeats():
 
 
 def rotor(load, **more):
-    return Model((Body("rotor", 1.0, 0.05, **more),), (Revolute("O", Marker(GROUND), Marker("rotor")),), forces=(Torque("m", "rotor", load),))
+    return Model((Body("rotor", 1.0, 0.05, **more),), (Revolute("O", Marker(GROUND), Marker("rotor")),),
+                 forces=(Torque("m", "rotor", load),))
 
 
 def test_torque_over_time():

@@ -260,10 +260,11 @@ def _without_redundant_rows(wide, tree, system, q):
 def _independent_rows(jacobian):
     """Numbers of the rows that do not depend on the rows before them."""
     kept, basis = [], np.zeros((jacobian.shape[1], 0))
+    least = 1e-3 * np.max(np.linalg.norm(jacobian, axis=1), initial=0.01)  # a row of mere rounding is none
     for k, row in enumerate(jacobian):
         rest = row - basis @ (basis.T @ row)
         rest -= basis @ (basis.T @ rest)
-        if np.linalg.norm(rest) > RANK * max(np.linalg.norm(row), 1e-12):
+        if np.linalg.norm(rest) > RANK * max(np.linalg.norm(row), least):
             kept.append(k)
             basis = np.column_stack([basis, rest / np.linalg.norm(rest)])
     return kept

@@ -101,7 +101,8 @@ def accelerate(system, work):
         body, forces = system.bodies[i], work.poses[i]
         if body.mass == 0.0 and body.inertia == 0.0 and forces.fx == 0.0 and forces.fy == 0.0 and forces.ft == 0.0:
             continue
-        reduce_body(system, work, i)
+        if not reduce_body(system, work, i):
+            continue
         bx, by, bt = residual_bend(system, work, i)
         fx = forces.fx + body.mass * (system.gravity_x - bx)
         fy = forces.fy + body.mass * (system.gravity_y - by)
@@ -117,7 +118,8 @@ def accelerate(system, work):
 
 @inner
 def reduce_body(system, work, i):
-    """Levers of body i by the independent coordinates, the dependent ones following."""
+    """Levers of body i by the independent coordinates, the dependent ones following; False where it does not follow them at all."""
+    follows = False
     for m in range(system.independent.size):
         lever = work.levers[i, system.independent[m]]
         x, y, t = lever.x, lever.y, lever.t
@@ -128,6 +130,8 @@ def reduce_body(system, work, i):
             t += held.t * work.follow[r, m]
         reduced = work.reduced[m]
         reduced.x, reduced.y, reduced.t = x, y, t
+        follows = follows or x != 0.0 or y != 0.0 or t != 0.0
+    return follows
 
 
 @inner

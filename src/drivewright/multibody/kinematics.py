@@ -153,14 +153,17 @@ def move(system, work):
     if system.rows.size > 0:
         _follow(system, work)
     for i in range(1, system.bodies.size):
-        vx = vy = w = 0.0
-        for k in range(work.coordinates.size):
-            lever, v = work.levers[i, k], work.coordinates[k].v
-            vx += lever.x * v
-            vy += lever.y * v
-            w += lever.t * v
-        pose = work.poses[i]
-        pose.vx, pose.vy, pose.w = vx, vy, w
+        body, here, base = system.bodies[i], work.poses[i], work.poses[system.bodies[i].parent]
+        here.w = body.inherits * base.w
+        if body.turn >= 0:
+            here.w += work.coordinates[body.turn].v
+        if body.free >= 0:
+            here.vx, here.vy = work.coordinates[body.free].v, work.coordinates[body.free + 1].v
+            continue
+        slide, slip = slide_of(work, body)
+        ax, ay = turned(base, slip * body.ex - base.w * (body.ay + slide * body.ey), slip * body.ey + base.w * (body.ax + slide * body.ex))
+        bx, by = turned(here, slip * body.fx - here.w * (body.by + slide * body.fy), slip * body.fy + here.w * (body.bx + slide * body.fx))
+        here.vx, here.vy = base.vx + ax - bx, base.vy + ay - by
 
 
 @inner
@@ -184,6 +187,14 @@ def _follow(system, work):
 
 
 @inner
+def slide_of(work, body):
+    """Displacement and speed along the slide by which a body hangs; zero where it has none."""
+    if body.slide < 0:
+        return 0.0, 0.0
+    return work.coordinates[body.slide].q, work.coordinates[body.slide].v
+
+
+@inner
 def _driven_part(system, work, r, acceleration):
     """What the driven coordinates' rates, or accelerations, do to a row, with the opposite sign."""
     total = 0.0
@@ -201,9 +212,7 @@ def bend(system, work):
         body, here, base = system.bodies[i], work.poses[i], work.poses[system.bodies[i].parent]
         if body.free >= 0:
             continue
-        slide, slip = 0.0, 0.0
-        if body.slide >= 0:
-            slide, slip = work.coordinates[body.slide].q, work.coordinates[body.slide].v
+        slide, slip = slide_of(work, body)
         # d2/dt2 of R (a + s e) at zero accelerations: R (-w^2 (a + s e) + 2 s' w (e turned by 90 deg))
         wp, w = base.w, here.w
         ax, ay = turned(base, wp * wp * (body.ax + slide * body.ex) + 2 * slip * wp * body.ey,

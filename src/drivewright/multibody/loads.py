@@ -19,6 +19,12 @@ def load(system, work, t, y, dy):
     unload(work)
     hold(system, work)
     apply(system, work, t)
+    press(system, work, y, dy)
+
+
+@inner
+def press(system, work, y, dy):
+    """Pins with play."""
     for n in range(system.contacts.size):
         _contact(system.contacts[n], work, y, dy)
 

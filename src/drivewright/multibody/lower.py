@@ -80,7 +80,7 @@ def lower(model, tree):
         curves=curves, pieces=pieces, gravity_x=float(model.gravity[0]), gravity_y=float(model.gravity[1]), least_firmness=0.0)
 
 
-def _record(kind, **values):
+def _record(kind, /, **values):
     record = np.zeros((), kind)
     for name, value in values.items():
         record[name] = value
@@ -175,7 +175,7 @@ def _driven(drive, model, tree, places):
     if link is None or (isinstance(joint, Revolute) and link.body.mass == 0 and link.body.name.startswith("link:")):
         link = _turning_alone(joint, mover, base, tree)
     if isinstance(joint, Prismatic):
-        return {"coordinate": link.slide, "sign": 1.0, "start": 0.0, "curve": places.curve(drive.motion)}
+        return {"coordinate": link.slide, "sign": -1.0 if first == GROUND else 1.0, "start": 0.0, "curve": places.curve(drive.motion)}
     start = places.angles[mover] - places.angles[base]
     sign = 1.0 if link.body.name == mover else -1.0
     return {"coordinate": link.turn, "sign": sign, "start": start, "curve": places.curve(drive.motion)}

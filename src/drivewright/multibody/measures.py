@@ -43,6 +43,12 @@ def largest(t, x):
     return float(max(np.max(size), np.max(inner, initial=0.0)))
 
 
+def span(t, x):
+    """Largest less least value of samples (m,), vertices between them included."""
+    inner = [peaks(t, part)[1] for part in (x, -x)] if len(t) > 2 else [np.empty(0)] * 2
+    return float(max(np.max(x), np.max(inner[0], initial=-np.inf)) + max(np.max(-x), np.max(inner[1], initial=-np.inf)))
+
+
 def impact_load(t, x, ideal_peak, period):
     """`ImpactLoad` of |x| over the window t; nan where the window has fewer than five peaks, or the ideal mechanism none."""
     size = np.abs(x)

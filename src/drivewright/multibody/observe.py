@@ -7,7 +7,7 @@ import numpy as np
 from drivewright._jit import inner, outer
 from drivewright.multibody.dynamics import accelerate, pose
 from drivewright.multibody.kinematics import bend, move
-from drivewright.multibody.loads import apply, film_of, hold, load, touch, unload
+from drivewright.multibody.loads import apply, film_of, hold, press, touch, unload
 from drivewright.multibody.system import COLUMN, DRIFT, NO_FILM, motion
 from drivewright.numerics.small import lu_solve
 
@@ -51,8 +51,7 @@ def observe_all(motion, t, y, dy, bodies, pins, powers, drives):
     """Fill the arrays of `Observed`; dy is scratch."""
     system, work = motion.system, motion.work
     for n in range(t.size):
-        _powers(system, work, t[n], y[n], dy, powers[n])
-        settle(system, work, t[n], y[n], dy)
+        settle(system, work, t[n], y[n], dy, powers[n])
         for i in range(system.bodies.size):
             _body(work, i, bodies[n, i])
         for k in range(system.contacts.size):
@@ -64,12 +63,18 @@ def observe_all(motion, t, y, dy, bodies, pins, powers, drives):
 
 
 @inner
-def settle(system, work, t, y, dy):
-    """Everything about the system at a state: poses, rates, loads, and the accelerations of all coordinates."""
+def settle(system, work, t, y, dy, powers):
+    """Everything about the system at a state: poses, rates, loads with their powers, and the accelerations of all coordinates."""
     pose(system, work, t, y)
     move(system, work)
     bend(system, work)
-    load(system, work, t, y, dy)
+    unload(work)
+    hold(system, work)
+    powers[0] = _power(work)
+    apply(system, work, t)
+    powers[1] = _power(work) - powers[0]
+    press(system, work, y, dy)
+    powers[2] = _power(work) - powers[0] - powers[1]
     accelerate(system, work)
     for m in range(system.independent.size):
         work.coordinates[system.independent[m]].a = work.force[m]
@@ -101,20 +106,6 @@ def _pin(contact, work, y, out):
     if contact.film != NO_FILM:
         fx, fy = film_of(contact, work)
         out[6], out[7] = out[6] + fx, out[7] + fy
-
-
-@inner
-def _powers(system, work, t, y, dy, out):
-    """Power of springs and dampers, of applied loads, and of pins with play."""
-    pose(system, work, t, y)
-    move(system, work)
-    unload(work)
-    hold(system, work)
-    out[0] = _power(work)
-    apply(system, work, t)
-    out[1] = _power(work) - out[0]
-    load(system, work, t, y, dy)
-    out[2] = _power(work) - out[0] - out[1]
 
 
 @inner

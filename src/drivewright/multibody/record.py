@@ -39,9 +39,9 @@ class Record:
                       self.energy[keep], self.last)
 
 
-def record(run, markers):
-    """The `Record` of a run for markers {name: Marker}."""
-    parts = [part for stretch in run.stretches for part in _parts(run.assembly, stretch, markers)]
+def record(run, markers, start=-np.inf):
+    """The `Record` of a run for markers {name: Marker}, from a time on."""
+    parts = [part for stretch in run.stretches for part in _parts(run.assembly, stretch, markers, start)]
     t, points, pins, powers, drives, energy = zip(*parts, strict=True)
     system, time, state = run.end
     return Record(
@@ -49,8 +49,8 @@ def record(run, markers):
         np.concatenate(powers), np.concatenate(drives), np.concatenate(energy), observe(system, [time], state[None]).bodies[0])
 
 
-def _parts(assembly, stretch, markers):
-    for first in range(0, len(stretch.t), CHUNK):
+def _parts(assembly, stretch, markers, start):
+    for first in range(int(np.searchsorted(stretch.t, start)), len(stretch.t), CHUNK):
         seen = observe(stretch.system, stretch.t[first : first + CHUNK], stretch.y[first : first + CHUNK])
         points = {name: moved(assembly, seen, marker) for name, marker in markers.items()}
         yield seen.t, points, seen.pins, seen.powers, seen.drives, energy_of(stretch.system, seen)

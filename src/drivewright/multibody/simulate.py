@@ -1,10 +1,11 @@
 """Motion over time: kinematics of a mechanism whose drives leave it no freedom, dynamics of any other."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from drivewright._jit import outer
+from drivewright._jit import inner, outer
 from drivewright.errors import DoesNotAssemble
 from drivewright.multibody.assembly import Assembly, at, split
 from drivewright.multibody.dynamics import pose
@@ -14,6 +15,7 @@ from drivewright.numerics.ode import Event, integrate
 from drivewright.numerics.radau import integrate_stiff
 
 GEAR = 1e-3  # absolute over relative tolerance, at lengths and angles of the size of 1
+GRID = 720  # samples of a turn where the drives leave no freedom and so no steps to report
 NEAR = 0.2  # a coordinate that is farther from where its rate led to is on another assembly [m], [rad]
 SHORTEST = 1e-9  # part of the way below which a drive that finds no way on is stuck
 
@@ -69,7 +71,8 @@ def simulate(assembly, duration, settings=Settings(), *, samples=None, state=Non
     `samples`: the times at which states are wanted; without them every accepted step, `settings.per_step` points of each.
     """
     if assembly.freedom == 0:
-        times = np.linspace(start, start + duration, 721) if samples is None else np.asarray(samples, float)
+        turns = duration * speed_of(assembly) / (2 * np.pi)
+        times = np.linspace(start, start + duration, 1 + math.ceil(GRID * max(turns, 1.0))) if samples is None else np.asarray(samples, float)
         return _follow(assembly, times, start + duration)
     system = assembly.system
     y = assembly.state if state is None else np.array(state, float)
@@ -130,17 +133,23 @@ def resplit(system, t, y):
 def at_state(system, t, y):
     """`Work` of a state: loops closed, rates of all coordinates."""
     moving = motion(system)
-    if not settled(moving.system, moving.work, t, y):
+    if not settle_at(moving.system, moving.work, t, y):
         raise DoesNotAssemble(f"the loops do not close at t = {t:.6g} s")
     return moving.work
 
 
-@outer
+@inner
 def settled(system, work, t, y):
     """Coordinates and rates of a state in `work`; False where the loops cannot be closed."""
     closed = pose(system, work, t, y)
     move(system, work)
     return closed
+
+
+@outer
+def settle_at(system, work, t, y):
+    """`settled`, to be called from Python."""
+    return settled(system, work, t, y)
 
 
 # -------------------------------------------------------------------------------------------------------------- no freedom
@@ -149,20 +158,31 @@ def settled(system, work, t, y):
 def _follow(assembly, times, end):
     """Kinematics: the dependent coordinates at the times, each from the one before."""
     system = assembly.system
-    y, t = assembly.state.copy(), 0.0
-    states = np.empty((len(times), len(y)))
-    moving = motion(system)
-    for n, time in enumerate(times):
-        done = follow(moving.system, moving.work, t, time, y, np.empty_like(y))
-        if done < time:
-            raise DoesNotAssemble(_stuck(assembly, y, done, end))
-        t, states[n] = time, y
-    last = states[-1] if len(times) else y
-    stretch = Stretch(system, times, states, float(times[-1]) if len(times) else 0.0, last)
+    y, moving = assembly.state.copy(), motion(system)
+    ways = np.append(times, end)
+    states = np.empty((len(ways), len(y)))
+    done = follow_all(moving.system, moving.work, ways, y, np.empty_like(y), states)
+    if done < end:
+        raise DoesNotAssemble(_stuck(assembly, y, done, end))
+    stretch = Stretch(system, times, states[:-1], end, states[-1])
     return Run(assembly, (stretch,), np.zeros((0, 3)), "", len(times))
 
 
 @outer
+def follow_all(system, work, times, y, trial, states):
+    """`follow` from time 0 through all times, filling `states`; the time reached."""
+    t = 0.0
+    for n in range(times.size):
+        done = follow(system, work, t, times[n], y, trial)
+        if done < times[n]:
+            return done
+        t = times[n]
+        for k in range(y.size):
+            states[n, k] = y[k]
+    return t
+
+
+@inner
 def follow(system, work, t, end, y, trial):
     """Carry the dependent coordinates in y on to the time `end`, in steps small enough to stay on the same assembly; the time reached.
 

@@ -65,6 +65,7 @@ class Watch(NamedTuple):
 
     directions: np.ndarray
     effects: np.ndarray
+    inside: bool  # look inside the steps for what crosses and comes back: for events that switch
 
 
 NOTE, STOP, SWITCH = range(3)
@@ -228,9 +229,12 @@ def _watch(watched, watch, before, after, y, row, batch, hits):
     if after.size == 0:
         return hits, -1
     found, first = hits, 2.0
-    values_at(watched, 0.5, batch, row, y, batch.middle)
+    if watch.inside:
+        values_at(watched, 0.5, batch, row, y, batch.middle)
     for index in range(after.size):
-        inside = _excursion(watched, index, before[index], batch.middle[index], after[index], batch, row, y)
+        inside = 1.0
+        if watch.inside:
+            inside = _excursion(watched, index, before[index], batch.middle[index], after[index], batch, row, y)
         low, start = 0.0, before[index]
         for high in (inside, 1.0):  # into an excursion and back; or, inside being 1, to the end of the step
             crosses = high > low and (high < 1.0 or start < 0.0 <= after[index] or start > 0.0 >= after[index])

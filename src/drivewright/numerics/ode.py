@@ -148,7 +148,7 @@ def integrate(system, t0, t1, y0, rtol=1e-8, atol=1e-10, *, samples=None, watch=
     settings = Settings(
         float(t1), float(rtol), np.broadcast_to(np.asarray(atol, dtype=float), y.shape).copy(), float(max_step),
         max(min_step, 16 * np.finfo(float).eps * max(abs(t0), abs(t1))))
-    what = Watch(*np.array([[e.direction, e.effect] for e in watch], dtype=np.int64).reshape(-1, 2).T.copy())
+    what = _watched(watch)
     clock, k, values = np.array([t0, 0.0, 1e-4]), np.empty((7, y.size)), np.empty(len(watch))
     code = start(system, watched, settings, clock, y, k, values)
     clock[1] = first_step or clock[1]
@@ -179,6 +179,11 @@ def _check(system, t0, t1, y, samples, watch, rtol, atol):
         raise InputError(f"integrate: the start y0 must be one row of finite numbers, got {y}.")
     if samples is not None and samples.size and (np.any(np.diff(samples) < 0) or samples[0] < t0 or samples[-1] > t1):
         raise InputError(f"integrate: samples {samples[0]:g} .. {samples[-1]:g} must ascend within [{t0:g}, {t1:g}]; sort and clip them.")
+
+
+def _watched(watch):
+    directions, effects = np.array([[e.direction, e.effect] for e in watch], dtype=np.int64).reshape(-1, 2).T.copy()
+    return Watch(directions, effects, any(event.switches for event in watch))
 
 
 def _crossings(batch, hits):

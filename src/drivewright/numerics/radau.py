@@ -24,7 +24,6 @@ from drivewright.numerics.dopri5 import (
     Batch,
     Settings,
     Unwatched,
-    Watch,
     _copy,
     _go_back,
     _point,
@@ -158,7 +157,7 @@ def integrate_stiff(system, t0, t1, y0, rtol=1e-8, atol=1e-10, *, samples=None, 
     settings = Settings(
         float(t1), float(rtol), np.broadcast_to(np.asarray(atol, dtype=float), y.shape).copy(), float(max_step),
         max(min_step, 16 * _EPS * max(abs(t0), abs(t1))))
-    what = Watch(*np.array([[e.direction, e.effect] for e in watch], dtype=np.int64).reshape(-1, 2).T.copy())
+    what = ode._watched(watch)
     clock, work, values = np.array([t0, 0.0, 1e-4, 0, MISSING, 0, 1.0, 0, 0]), _work(y.size), np.empty(len(watch))
     code = start(system, watched, settings, clock, y, work.f, values)
     clock[STEP] = first_step or clock[STEP]

@@ -60,18 +60,16 @@ def _draw_series(axis, panel, series, x, ticks):
     data = np.where(np.isfinite(series.data), series.data, np.nan)
     hue, finite = colour(series.role), np.isfinite(data)
     if panel.style == "points":
+        size = 7 if len(x) <= FEW else 4 if len(x) <= MANY else 1.5
         # A cloud is drawn as an image: as outlines ten thousand points are megabytes.
-        axis.plot(x, data, ls="none", marker=".", ms=4 if len(x) <= MANY else 1.5, mew=0, color=hue, label=series.label,
-                  rasterized=len(x) > MANY)
+        axis.plot(x, data, ls="none", marker=".", ms=size, mew=0, color=hue, label=series.label, rasterized=len(x) > MANY)
     elif panel.style == "stems" and not series.dashed:
         axis.vlines(x[finite], panel.low if panel.log else 0.0, data[finite], color=hue, lw=1.0)
         axis.plot(x, data, ls="none", marker="o", ms=3, color=hue, label=series.label)
     elif ticks:
         axis.plot(x, data, ls="none", marker="D", ms=5, color=hue, label=series.label)
     elif series.dashed:
-        # A light line below the dashes keeps them visible on a line of the same colour.
-        axis.plot(x, data, lw=2.6, color="white", alpha=0.7, zorder=2.5)
-        axis.plot(x, data, lw=1.2, ls=(0, (4, 2)), color=hue, label=series.label, zorder=2.6)
+        axis.plot(x, data, lw=1.0, ls=(0, (4, 3)), color=hue, label=series.label, zorder=2.5)
     else:
         axis.plot(x, data, lw=1.5 if len(x) <= MANY else 0.9, marker="o" if len(x) <= FEW else None, ms=3.5, color=hue, label=series.label)
 
@@ -80,7 +78,8 @@ def _ring(axis, radius, text):
     """A circle about the origin with its name at its top."""
     turn = np.linspace(0, 2 * np.pi, 181)
     axis.plot(radius * np.cos(turn), radius * np.sin(turn), color=colour("bad"), lw=1.0, ls=(0, (5, 3)))
-    axis.annotate(text, (0, radius), xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=8, color=colour("bad"))
+    axis.annotate(text, (0, radius), xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=8, color=colour("bad"),
+                  bbox={"boxstyle": "square,pad=0.1", "fc": (1, 1, 1, 0.75), "ec": "none"})
 
 
 def _split(label):

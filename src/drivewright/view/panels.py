@@ -89,8 +89,14 @@ def panels(result, plot):
     chunks = [group[i:i + len(SERIES)] for group in groups.values() for i in range(0, len(group), len(SERIES))]
     roles = itertools.cycle(SERIES)  # running on from panel to panel, so that one colour means one line as long as there are enough
     shade = _shaded(x, table[plot.shade]) if plot.shade else ()
-    return tuple(_panel(plot, _series(x), _coloured(chunk, roles), chunk[0][0].unit, () if n else _limits(result, plot), shade)
+    return tuple(_panel(plot, _series(x), _coloured(chunk, roles), _label(table, plot, chunk), () if n else _limits(result, plot), shade)
                  for n, chunk in enumerate(chunks))
+
+
+def _label(table, plot, chunk):
+    """(meaning, SI unit) of the y axis: that of the only line, or of the column that another one splits into lines; else the dimension."""
+    column = chunk[0][0] if len(chunk) == 1 else table[plot.y[0]] if plot.by and len(plot.y) == 1 else None
+    return (column.meaning or column.name if column else dimension(chunk[0][0].unit)), chunk[0][0].unit
 
 
 def _compared(table, plot):
@@ -143,15 +149,14 @@ def _limits(result, plot):
             yield (-known[name] if value.startswith("-") else known[name]), label
 
 
-def _panel(plot, x, series, unit, limits, shade):
-    factor, text = shown(unit)
+def _panel(plot, x, series, label, limits, shade):
+    factor, text = shown(label[1])
     limits = tuple((value * factor, limit_text(value * factor, label, text)) for value, label in limits)
     rings = tuple((radius * factor, limit_text(radius * factor, label, text)) for radius, label in plot.rings)
-    only = next((s.label for s in series), "") if sum(not s.dashed for s in series) == 1 and not plot.by else ""
-    label = only or sentence(dimension(unit))
     lines, values = [s.data for s in series], [value for value, _ in limits]
     low, high = log_span(lines, values) if plot.log else span(lines, values + [0.0] * (plot.style == "stems"))
-    return Panel(plot.title, axis_label(label, text), x, tuple(series), limits, low, high, plot.equal, plot.style, plot.log, shade, rings)
+    return Panel(plot.title, axis_label(sentence(label[0]), text), x, tuple(series), limits, low, high, plot.equal, plot.style, plot.log,
+                 shade, rings)
 
 
 def _series(column, role="ink", dashed=False):

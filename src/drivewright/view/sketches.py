@@ -11,6 +11,7 @@ from drivewright.view.style import MUTED, arrange, figure_to_scale, legend_colum
 from drivewright.view.text import number, quantity, sentence, shown, with_unit
 
 FINENESS = 4e-4  # curves become chords within this part of the whole picture: a twentieth of a millimetre on paper
+BAR_ROOM = 0.07  # room for the scale bar below a drawing, over its larger side
 PAST = 2  # cycles before this one whose traces an advancing observer still sees
 LAYERS = {  # layer -> line width, dashes, filled; colour is the body's
     "profile": (1.4, "-", True), "body": (1.2, "-", True), "roller": (1.2, "-", True), "hole": (1.0, "-", False),
@@ -165,7 +166,8 @@ def draw_drawing(drawing):
                 face = (colour(role), 0.14) if filled and outline.closed else "white" if layer == "hole" else "none"
                 _add(axis, thinned(outline, tolerance) * factor, outline.closed, ec=colour(role), fc=face, lw=width, ls=dashes,
                      label=NAMES[layer] if number_ == 0 else None)
-        arrange(figure, [axis], *_extent([axis]), right=2.2)
+        low, high = _extent([axis])
+        arrange(figure, [axis], low - (0.0, BAR_ROOM * (high - low).max()), high, right=2.2)
         axis.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
         axis.set_title(_size(drawing, factor, unit), fontweight="normal", fontsize=9, color=MUTED)
         _scale_bar(axis, unit)

@@ -7,6 +7,7 @@ import textwrap
 from drivewright.units import BY_UNIT, display
 
 SUPERSCRIPT = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+UNSPOKEN = {"J": "energy"}  # what results have and nobody writes into a spec
 THIN, SOLID = "\u202f", "\u00a0"
 
 
@@ -66,4 +67,4 @@ def axis_label(meaning, unit, width=60):
 
 def dimension(unit):
     """Name of what an SI unit measures: 'm' -> 'length'; 'value' where it has no name."""
-    return BY_UNIT[unit].name if unit in BY_UNIT else "value"
+    return BY_UNIT[unit].name if unit in BY_UNIT else UNSPOKEN.get(unit, "value")

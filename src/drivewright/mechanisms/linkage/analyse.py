@@ -4,7 +4,7 @@ import numpy as np
 
 from drivewright.mechanisms.linkage.advice import advice
 from drivewright.mechanisms.linkage.build import TURN, ideal_at, ideal_record, record_of, run_of
-from drivewright.multibody.measures import impact_load, largest
+from drivewright.multibody.measures import impact_load, largest, span
 from drivewright.multibody.observe import FIELDS, PIN_FIELDS
 from drivewright.multibody.record import POINT_FIELDS
 from drivewright.result import Answer, Check, Column, Table, Value
@@ -54,7 +54,7 @@ def motion(model, done):
     seen, values = window(model), {}
     for output in model.spec.outputs:
         angle, name = seen.point(output.name, "angle"), output.name
-        values[f"{name}.swing"] = Value(float(np.ptp(angle)), "rad", f"range of the angle of {output.body!r} in the window")
+        values[f"{name}.swing"] = Value(span(seen.t, angle), "rad", f"range of the angle of {output.body!r} in the window")
         values[f"{name}.max_angular_acceleration"] = Value(
             largest(seen.t, seen.point(name, "alpha")), "rad/s^2", f"largest angular acceleration of {output.body!r}, magnitude")
         if output.point:

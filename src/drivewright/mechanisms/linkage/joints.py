@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from drivewright.registry import plugins
 from drivewright.spec import DataFile, Name, Number, Spec, Text
 from drivewright.units import (
     Angle,
@@ -22,8 +23,8 @@ from drivewright.units import (
 Direction = tuple[Number, Number]
 Kind = Literal["revolute", "prismatic", "pin-slot", "rolling", "gear", "cam"]
 Model = Literal["ideal", "massless-link", "dry", "lubricated", "bushing"]
-Normal = Literal["flores-2011", "lankarani-nikravesh", "hunt-crossley", "gonthier", "herbert-mcwhannell", "kelvin-voigt", "elastic",
-                 "cylinder"]
+NORMALS = ("flores-2011", "lankarani-nikravesh", "hunt-crossley", "gonthier", "herbert-mcwhannell", "kelvin-voigt", "elastic", "cylinder")
+Normal = Literal[(*NORMALS, *sorted(plugins("drivewright.impact_laws")))]
 
 
 class Joint(Spec):

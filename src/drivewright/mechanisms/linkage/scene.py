@@ -73,7 +73,10 @@ def _guide(joint, seen, slim):
     origin, ground = np.array(joint.second[1:]), joint.second.body == GROUND
     layer = "ground" if ground else "body"
     if isinstance(joint, PinSlot):
-        yield Shape("hole", rounded([origin + low * along, origin + high * along], 1.3 * PIN * slim))
+        slot = [origin + low * along, origin + high * along]
+        if not ground:
+            yield Shape("body", rounded([*slot, origin], slim))
+        yield Shape("hole", rounded(slot, 1.3 * PIN * slim))
     elif isinstance(joint, Prismatic):
         ends = low - 4 * slim, high + 4 * slim
         for side, (a, b) in ((-1, ends), (1, ends[::-1])):  # ground is hatched on the right of a line

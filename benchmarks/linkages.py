@@ -1,0 +1,178 @@
+"""Linkages with play: work against precision beside Exudyn and SciPy, the impact load table, a bifurcation diagram."""
+
+import time
+
+import numpy as np
+
+TURN = 2 * np.pi
+SPEED, CRANK, ROD, HALF, ROD_MASS, ROD_INERTIA, SLIDER_MASS = 5000 / 60 * TURN, 0.05, 0.12, 0.06, 0.21, 2.5e-4, 0.14
+BEARING, LOSS = 0.01, 0.15  # bearing radius [m]; h of F = K d^1.5 (1 + h d'/d0'), which Exudyn has as Hunt and Crossley's e = 0.9
+OFFSET = -1e-4  # of the slider at the start: Exudyn's contact cannot start centred
+PERIOD = TURN / SPEED
+
+
+def slider_crank(clearance=0.5e-3):
+    """The Model of the field's common slider-crank with a dry wrist pin."""
+    from drivewright import contact, multibody as mb
+
+    modulus = contact.effective_modulus(207e9, 0.3, 207e9, 0.3)
+    dry = mb.Dry(clearance, BEARING, float(contact.journal_stiffness(BEARING, BEARING - clearance, modulus)), 1.5, LOSS)
+    bodies = (mb.Body("crank", 0.3, 1e-4, (CRANK / 2, 0.0)), mb.Body("rod", ROD_MASS, ROD_INERTIA, (HALF, 0.0)),
+              mb.Body("slider", SLIDER_MASS, 1e-4))
+    joints = (mb.Revolute("main", mb.Marker("ground"), mb.Marker("crank")),
+              mb.Revolute("crank_pin", mb.Marker("crank", CRANK), mb.Marker("rod")),
+              mb.Revolute("wrist", mb.Marker("rod", ROD), mb.Marker("slider"), dry),
+              mb.Prismatic("guide", mb.Marker("slider"), mb.Marker("ground")))
+    return mb.Model(bodies, joints, drives=(mb.Drive("main", mb.line(0.0, SPEED)),))
+
+
+def started(model):
+    """(assembly, state) with the slider off the centre of its play."""
+    from drivewright import multibody as mb
+
+    assembly = mb.assemble(model)
+    state = assembly.state
+    slide = assembly.tree.link("slider").slide
+    state[list(assembly.system.stored).index(slide)] += OFFSET
+    return assembly, state
+
+
+def ours(rtol, turns):
+    """(slider position at the end, seconds, steps)."""
+    from drivewright import multibody as mb
+
+    assembly, state = started(slider_crank())
+    began = time.perf_counter()
+    run = mb.simulate(assembly, turns * PERIOD, mb.Settings(rtol), samples=np.empty(0), state=state)
+    seconds = time.perf_counter() - began
+    slide = list(assembly.system.stored).index(assembly.tree.link("slider").slide)
+    return run.end[2][slide], seconds, run.steps
+
+
+def scipys(method, rtol, turns):
+    """The same for a method of SciPy on equations written for this mechanism alone, compiled, stopped at every touch and release."""
+    from scipy.integrate import solve_ivp
+
+    right_side, gap = _by_hand(slider_crank().joints[2].model)
+    state, t, memory, steps = np.array([CRANK + ROD + OFFSET, 0.0, 0.0, -SPEED * CRANK / ROD]), 0.0, 0.0, 0
+    began = time.perf_counter()
+    while t < turns * PERIOD:
+        def event(t, y, memory):
+            return gap(t, y)[0]
+
+        event.terminal, event.direction = True, 1.0 if memory == 0.0 else -1.0
+        run = solve_ivp(right_side, (t, turns * PERIOD), state, method, events=event, rtol=rtol, atol=1e-3 * rtol, args=(memory,))
+        steps, t, state = steps + len(run.t), run.t[-1], run.y[:, -1]
+        if run.status == 1:
+            memory = max(gap(t, state)[1], 1e-4) if memory == 0.0 else 0.0
+    return state[0], time.perf_counter() - began, steps
+
+
+def _by_hand(dry):
+    """(rates(t, y, memory), gap(t, y) -> depth and its rate) of y = slider, rod angle and their rates."""
+    from drivewright._jit import kernel
+
+    stiffness, loss, clearance = dry.stiffness, dry.hysteresis, dry.clearance
+
+    @kernel
+    def gap(t, y):
+        c, s, cr, sr = np.cos(SPEED * t), np.sin(SPEED * t), np.cos(y[1]), np.sin(y[1])
+        ex, ey = CRANK * c + ROD * cr - y[0], CRANK * s + ROD * sr
+        vx, vy = -CRANK * SPEED * s - ROD * sr * y[3] - y[2], CRANK * SPEED * c + ROD * cr * y[3]
+        distance = np.hypot(ex, ey)
+        return distance - clearance, (ex * vx + ey * vy) / distance, ex / distance, ey / distance
+
+    @kernel
+    def rates(t, y, memory):
+        depth, rate, nx, ny = gap(t, y)
+        force = max(stiffness * depth * np.sqrt(depth) * (1 + loss * rate / memory), 0.0) if memory > 0.0 and depth > 0.0 else 0.0
+        cr, sr, square = np.cos(y[1]), np.sin(y[1]), SPEED * SPEED * CRANK
+        ax, ay = -square * np.cos(SPEED * t), -square * np.sin(SPEED * t)
+        turning = -ROD * force * (cr * ny - sr * nx) - ROD_MASS * HALF * (cr * ay - sr * ax)
+        return np.array([y[2], y[3], force * nx / SLIDER_MASS, turning / (ROD_INERTIA + ROD_MASS * HALF * HALF)])
+
+    return rates, gap
+
+
+def exudyns(step, turns):
+    """The same for Exudyn's hollow contact, trapezoidal rule."""
+    from drivewright.mechanisms.linkage import prototype
+    from drivewright.multibody import observe
+
+    assembly, state = started(slider_crank())
+    seen = observe(assembly.system, [0.0], state[None]).bodies[0]
+    start = {name: tuple(seen[k, :6]) for k, name in enumerate(assembly.names) if k}
+    began = time.perf_counter()
+    run = prototype.run(slider_crank(), start, turns * PERIOD, step, samples=2)
+    return run.bodies["slider"][-1, 0], time.perf_counter() - began, round(turns * PERIOD / step)
+
+
+def work_precision():
+    """Time per turn, and error of the slider after a fifth of a turn, three impacts, before chaos takes over."""
+    exact = ours(1e-12, 0.2)[0]
+    rows = [(f"ours, rtol {rtol:g}", lambda turns, rtol=rtol: ours(rtol, turns)) for rtol in (1e-6, 1e-8, 1e-10)]
+    rows += [(f"SciPy {method}, rtol {rtol:g}", lambda turns, method=method, rtol=rtol: scipys(method, rtol, turns))
+             for rtol in (1e-6, 1e-8) for method in ("LSODA", "DOP853", "RK45")]
+    try:
+        import exudyn  # noqa: F401
+
+        rows += [(f"Exudyn, step {step:g} s", lambda turns, step=step: exudyns(step, turns)) for step in (1e-6, 2e-7)]
+    except ImportError:
+        pass
+    for name, run in rows:
+        run(0.2)
+        error = abs(run(0.2)[0] - exact)
+        turns = 20 if name.startswith("ours") else 1
+        seconds = min(run(turns)[1] for _ in range(3 if turns > 1 else 1)) / turns
+        steps = run(turns)[2] / turns if turns > 1 else run(turns)[2]
+        yield name, (seconds, seconds), f"a turn; error after 0.2 turn {error:.1e} m; {steps:.0f} steps"
+
+
+# -- studies -------------------------------------------------------------------------------------------------------------------
+
+SPEEDS = (10_800, 14_400, 18_000, 21_600, 25_200, 28_800, 32_400, 36_000, 37_800, 39_600, 41_400)  # turns an hour
+CALIBRATED = {0.01e-3: 1.49e-7, 0.05e-3: 5.55e-6, 0.1e-3: 2.71e-5, 0.2e-3: 8.89e-5, 0.4e-3: 1.95e-4}  # N m s/rad at 28 800
+
+
+def table():
+    """The 55 cases of the folder's table, 16 turns each, coefficients included, on all cores."""
+    from pathlib import Path
+
+    from drivewright import cases, load
+    from drivewright.mechanisms.linkage.build import build
+    from drivewright.mechanisms.linkage.nonlinear import load_of, varied
+
+    spec = load(Path(__file__).parent.parent / "examples" / "knife_folder.toml")
+
+    def one(case):
+        speed, clearance = case
+        damping = CALIBRATED[clearance] * speed / 28_800
+        changes = {"drive.speed": speed / 3600 * TURN, "simulate.relative_tolerance": 1e-6}
+        for name in ("A", "B", "O4"):
+            changes |= {f"joints.{name}.clearance": clearance, f"joints.{name}.link_damping": damping}
+        return load_of(build(varied(spec, changes)), spec.outputs[0])[0]
+
+    one((28_800, 0.2e-3))
+    began = time.perf_counter()
+    found = cases.run(one, [(speed, clearance) for speed in SPEEDS for clearance in CALIBRATED], workers=None)
+    seconds = time.perf_counter() - began
+    middle = [f"{row.value:.3f}" for row in found.rows if row.case[0] == 28_800]
+    yield "55 cases x 16 turns", (seconds, seconds), f"wanted under 3 s; coefficients at 28 800 an hour: {', '.join(middle)}"
+
+
+def bifurcation(clearances=200, turns=300):
+    """Points once a turn for many clearances, on all cores."""
+    from drivewright import cases, multibody as mb
+
+    def one(clearance):
+        assembly, state = started(slider_crank(clearance))
+        times = PERIOD * np.arange(turns // 2, turns + 1)
+        return mb.simulate(assembly, turns * PERIOD, mb.Settings(1e-6), samples=times, state=state).steps
+
+    one(0.3e-3) if turns <= 10 else bifurcation(2, 10).__next__()
+    began = time.perf_counter()
+    found = cases.run(one, np.linspace(0.1e-3, 0.6e-3, clearances).tolist(), workers=None)
+    seconds = time.perf_counter() - began
+    steps = sum(row.value for row in found.rows)
+    yield f"{clearances} clearances x {turns} turns", (seconds, seconds), (
+        f"wanted under 180 s; {steps / clearances / turns:.0f} steps a turn, {1e6 * seconds / steps:.2f} us a step")

@@ -1,0 +1,195 @@
+"""The linkage once more, by routes that share no equation with the motion of the multibody kernel.
+
+Every linkage: joints closed and Newton's and Euler's equations met in absolute coordinates.  Without freedom: differences of the
+angles.  Four-bars: the closed form of the loop.  What Exudyn knows: the same mechanism as a multibody model with constraints.
+Rows are tuples (name, ours, other, unit, allowed difference, route) in SI.
+"""
+
+import numpy as np
+
+from drivewright.errors import MissingExtra
+from drivewright.mechanisms.linkage.build import ideal_record, run_of
+from drivewright.mechanisms.linkage.four_bar import closed_form
+from drivewright.multibody.model import GROUND, Dry, Ideal, PinSlot, Prismatic, Revolute
+from drivewright.multibody.observe import FIELDS, PIN_FIELDS, observe
+from drivewright.multibody.reactions import reactions
+from drivewright.multibody.simulate import Settings, simulate
+
+SHOWN = 400  # states at which joints are looked at
+POSE = slice(0, 6)  # of FIELDS: place, angle, and their rates
+FREE = (0.05, 0.95)  # a pin in flight lies that far off its centre, over the play
+STEPS = {"smooth": 4000, "dry": 12000}  # of Exudyn, per turn; a second run takes half (a quarter of) the step
+PART = {"smooth": 1.0, "dry": 0.12}  # of a turn that is compared: after impacts two motions part exponentially
+LONGEST = 0.5  # of a mechanism without turns [s]
+ABSOLUTE = "equations of the bodies in absolute coordinates, reactions of the joints by least squares"
+EXUDYN = "Exudyn: absolute coordinates, trapezoidal rule; allowed is five times what its own answer still changes with the step"
+TIMES = 5  # a halved step shows the error of the second order and less of that of an impact
+
+
+def verify(model, result):
+    """All rows; MissingExtra without Exudyn where it has a part in this."""
+    seen = list(_seen(model))
+    rows = [*_closed_joints(model, seen), *_newton_euler(model, seen), *_differences(model), *closed_form(model)]
+    if _known_to_exudyn(model):
+        rows += _exudyn(model)
+    return tuple(rows)
+
+
+# -- joints and equations ------------------------------------------------------------------------------------------------------
+
+
+def _closed_joints(model, seen):
+    """How far the two halves of every joint without play part, in place and across its line."""
+    names, wide = model.assembly.names, model.assembly.wide
+    places = _Places(wide, names, np.concatenate([observed.bodies[:, :, POSE] for _, observed in seen]))
+    misses = {Revolute: [], Prismatic: [], PinSlot: []}
+    for joint in wide.joints:
+        if isinstance(joint, (Prismatic, PinSlot)):
+            across = places.of(joint.first) - places.of(joint.second)
+            misses[type(joint)].append(np.abs((across * np.conj(complex(*joint.axis) * places.turned(joint.second.body))).imag))
+        elif isinstance(joint, Revolute) and isinstance(joint.model, Ideal):
+            misses[Revolute].append(np.abs(places.of(joint.first) - places.of(joint.second)))
+    for kind, found in misses.items():
+        if found:
+            yield (f"joints without play, {kind.__name__.lower()}: largest gap", 0.0, float(np.max(found)), "m", 1e-9 * places.size,
+                   "places of both halves from the bodies' poses")
+
+
+class _Places:
+    """World places of markers over states, from the poses of the bodies."""
+
+    def __init__(self, model, names, poses):
+        self.names, self.poses = names, poses
+        self.centroids = {GROUND: (0.0, 0.0), **{body.name: body.centroid for body in model.bodies}}
+        self.size = float(np.ptp(poses[:, :, :2], axis=(0, 1)).max())
+
+    def turned(self, body):
+        return np.exp(1j * self.poses[:, self.names.index(body), 2])
+
+    def of(self, marker):
+        x, y = self.poses[:, self.names.index(marker.body), :2].T
+        cx, cy = self.centroids[marker.body]
+        return x + 1j * y + complex(marker.x - cx, marker.y - cy) * self.turned(marker.body)
+
+
+def _seen(model):
+    """(system, `Observed`) of states spread over each stretch of the run."""
+    for stretch in run_of(model).stretches:
+        rows = slice(None, None, max(1, len(stretch.t) // SHOWN))
+        yield stretch.system, observe(stretch.system, stretch.t[rows], stretch.y[rows])
+
+
+def _newton_euler(model, seen):
+    """What no reactions of the joints could make up for in the equations of every body; the drives' torques by these equations."""
+    solved = [reactions(model.assembly, system, observed) for system, observed in seen]
+    left = max(float(np.max(found.residual)) for found in solved)
+    yield "Newton and Euler for every body: largest remainder, over the largest force", 0.0, left, "-", 1e-8, ABSOLUTE
+    ours, other = (np.concatenate(parts) for parts in ([observed.drives for _, observed in seen], [found.drives for found in solved]))
+    for k, drive in enumerate(model.assembly.model.drives):
+        worst, size = np.argmax(np.abs(ours[:, k] - other[:, k])), float(np.max(np.abs(ours[:, k])))
+        unit = "N" if isinstance(next(j for j in model.assembly.model.joints if j.name == drive.joint), Prismatic) else "N m"
+        name = f"drive of {drive.joint!r}, where it is farthest from the other"
+        yield name, float(ours[worst, k]), float(other[worst, k]), unit, 1e-8 * size + 1e-12, ABSOLUTE
+
+
+def _differences(model):
+    """Without freedom: the outputs' accelerations by differences over a turn."""
+    if model.assembly.freedom:
+        return
+    seen = ideal_record(model)
+    step = seen.t[1] - seen.t[0]
+    for output in model.spec.outputs:
+        angle, alpha = seen.point(output.name, "angle"), seen.point(output.name, "alpha")[1:-1]
+        bent = (angle[2:] - 2 * angle[1:-1] + angle[:-2]) / step**2
+        worst, size = np.argmax(np.abs(bent - alpha)), float(np.max(np.abs(alpha)))
+        yield (f"{output.name}, angular acceleration where it is farthest", float(alpha[worst]), float(bent[worst]), "rad/s^2",
+               1e-4 * size + 1e-14 / step**2, "differences of the angle")
+
+
+# -- Exudyn ----------------------------------------------------------------------------------------------------------------------
+
+
+def _known_to_exudyn(model):
+    """Whether Exudyn's twin has everything that the mechanism consists of."""
+    wide, spec = model.assembly.model, model.spec
+    pins = [joint.model for joint in wide.joints if isinstance(joint, Revolute)]
+    smooth = all(isinstance(pin, Ideal) or (isinstance(pin, Dry) and _plain(pin)) for pin in pins)
+    joints = all(isinstance(joint, (Revolute, Prismatic, PinSlot)) for joint in wide.joints)
+    tables = any(item.file for item in (*spec.torques, *spec.forces))
+    steady = spec.drive is None or spec.drive.speed is not None
+    massive = all(body.mass > 0 and body.inertia > 0 for body in wide.bodies)
+    return smooth and joints and steady and massive and not tables
+
+
+def _plain(dry):
+    """Whether Exudyn's contact law is that of a dry pin."""
+    ramp = dry.friction.law == "ambrosio" and dry.friction.dead_speed == 0
+    return not dry.cylinder and dry.hysteresis < 1.5 and dry.damping == 0 and (dry.friction.coefficient == 0 or ramp)
+
+
+def _exudyn(model):
+    """Poses after a part of a turn by Exudyn, at two steps."""
+    try:
+        from drivewright.mechanisms.linkage import prototype
+    except ImportError as error:
+        raise MissingExtra("verify, which runs the linkage in Exudyn,", "peers", error) from None
+    kind = "dry" if model.pins else "smooth"
+    found = _start(model)
+    if found is None:
+        return
+    system, t, y, start = found
+    length = min(PART[kind] * (model.period or LONGEST), model.duration)
+    ours = _ours(model, system, t, y, length)
+    step, finer = (model.period or LONGEST) / STEPS[kind], 4 if kind == "dry" else 2
+    coarse, fine = (prototype.run(model.assembly.model, start, length, h, samples=2) for h in (step, step / finer))
+    yield from _apart(model, ours, coarse, fine, kind)
+
+
+def _start(model):
+    """(system, time, state, {body: pose and rates}) from which both start: the model's own, or one with every dry pin in flight."""
+    if not model.pins:
+        run = simulate(model.assembly, 0.0, Settings(), samples=np.zeros(1))
+        stretch, row = run.stretches[0], 0
+    else:
+        stretch = run_of(model).stretches[0]
+        row = _in_flight(model, stretch)
+        if row is None:
+            return None
+    bodies = observe(stretch.system, stretch.t[row : row + 1], stretch.y[row : row + 1]).bodies[0]
+    poses = {body.name: bodies[model.assembly.names.index(body.name), POSE] for body in model.assembly.model.bodies}
+    return stretch.system, float(stretch.t[row]), stretch.y[row], poses
+
+
+def _in_flight(model, stretch):
+    """First recorded state in which every pin lies between centre and contact; None without one."""
+    plays = np.array([joint.model.clearance for joint in model.assembly.model.joints if joint.name in model.pins])
+    seen = observe(stretch.system, stretch.t[: 20 * SHOWN], stretch.y[: 20 * SHOWN])
+    off = 1 + seen.pins[:, :, PIN_FIELDS.index("depth")] / plays
+    rows = np.flatnonzero(np.all((off > FREE[0]) & (off < FREE[1]), axis=1))
+    return int(rows[0]) if len(rows) else None
+
+
+def _ours(model, system, t, y, length):
+    """{body: pose and rates} after `length` [s], from a state."""
+    if model.assembly.freedom == 0:
+        done = simulate(model.assembly, length, Settings(), samples=np.array([length]))
+    else:
+        done = simulate(model.assembly, length, Settings(1e-10), samples=np.empty(0), state=y, start=t)
+    system, t, y = done.end
+    bodies = observe(system, [t], y[None]).bodies[0]
+    return {body.name: bodies[model.assembly.names.index(body.name), POSE] for body in model.assembly.model.bodies}
+
+
+def _apart(model, ours, coarse, fine, kind):
+    """Rows of every moving body: place and angle."""
+    size = max(float(np.max(np.abs(pose[:2]))) for pose in ours.values())
+    still = 1e-7 * size if kind == "smooth" else 0.02 * min(j.model.clearance for j in model.assembly.model.joints if j.name in model.pins)
+    changes = {name: np.abs(coarse.bodies[name][-1] - fine.bodies[name][-1]) for name in ours}
+    place, angle = (max(float(np.max(change[part])) for change in changes.values()) for part in (slice(0, 2), slice(2, 3)))
+    after = f"after {PART[kind]:g} turns" if model.period else "at the end"
+    for name, pose in ours.items():
+        for k, field in enumerate(FIELDS[:3]):
+            allowed, unit = (place, "m") if k < 2 else (angle, "rad")
+            limit = still if k < 2 else still / size
+            other = float(fine.bodies[name][-1, k])
+            yield f"bodies.{name}.{field} {after}", float(pose[k]), other, unit, min(TIMES * allowed + 1e-12, limit), EXUDYN

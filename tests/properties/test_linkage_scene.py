@@ -1,0 +1,259 @@
+"""The drawn linkage is the computed one: poses, bar lengths, magnified play, plots, plates and pins."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+
+import drivewright as dw
+from drivewright import registry
+from drivewright.errors import InputError
+from drivewright.mechanisms.linkage.build import build, record_of
+from drivewright.mechanisms.linkage.film import FINE
+from drivewright.mechanisms.linkage.sketch import block, rounded
+from drivewright.multibody.model import Marker
+from drivewright.multibody.record import record
+from drivewright.multibody.simulate import simulate
+from drivewright.report.content import pictures, views
+from drivewright.scene import place
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+NAMES = ("four_bar", "slider_crank_clearance", "knife_folder", "jansen_leg")
+LINKAGE = registry.mechanism("linkage")
+FREE = """
+format = 1
+mechanism = "linkage"
+gravity = ["0 m/s^2", "-9.81 m/s^2"]
+[ground.points]
+O = ["10 mm", "20 mm"]
+[bodies.arm]
+mass = "1 kg"
+inertia = "0.01 kg m^2"
+centroid = ["150 mm", "30 mm"]
+points = { O = ["0 mm", "0 mm"], E = ["400 mm", "0 mm"] }
+angle = "10 deg"
+[[joints]]
+name = "O"
+connects = ["ground.O", "arm.O"]
+"""
+
+
+@pytest.fixture(scope="module", params=NAMES)
+def drawn(request):
+    """(model, scene, {body: Body}); two turns do."""
+    spec = dw.load(EXAMPLES / f"{request.param}.toml", ["simulate.turns=2", "simulate.discard=0"])
+    model = build(spec)
+    made = LINKAGE.scene(model)
+    return model, made, {body.name: body for body in made.bodies}
+
+
+@pytest.fixture
+def written(tmp_path):
+    def write(text):
+        path = tmp_path / "spec.toml"
+        path.write_text(text, encoding="utf-8")
+        return dw.load(path)
+
+    return write
+
+
+def path(body, point):
+    return np.array([place(np.array([point]), pose)[0] for pose in body.poses])
+
+
+def test_the_scene_is_the_last_turn(drawn):
+    model, made, _ = drawn
+    assert made.cycle == pytest.approx(np.linspace(0, 2 * np.pi, 181)) and made.cycle_unit == "rad"
+    assert made.period == pytest.approx(model.period) and made.table == "motion"
+    assert all(body.poses.shape == (181, 3) for body in made.bodies)
+
+
+def test_every_point_is_where_the_kernel_has_it(drawn):
+    model, made, bodies = drawn
+    times = np.linspace(model.period, 2 * model.period, 180 * FINE + 1)
+    markers = {(name, key): Marker(name, *point) for name, body in model.spec.bodies.items() for key, point in body.points.items()}
+    seen = record(simulate(model.assembly, 2 * model.period, model.settings, samples=times), markers)
+    for (name, key), marker in markers.items():
+        where = np.stack([seen.point((name, key), "x"), seen.point((name, key), "y")], axis=1)[::FINE]
+        assert path(bodies[name], marker[1:]) == pytest.approx(where, abs=1e-12), f"{name}.{key}"
+
+
+def test_bars_keep_their_length_and_pins_hold(drawn):
+    model, _, bodies = drawn
+    give = {"dry": 1.1, "massless-link": 1.0 + 1e-9}  # steel gives way a little
+    play = {joint.name: joint.clearance * give[joint.pin] for joint in model.spec.joints if joint.pin in give}
+    for joint in model.assembly.model.joints:
+        if hasattr(joint, "model"):
+            one, other = (path(bodies[m.body], m[1:]) for m in (joint.first, joint.second))
+            gap = np.hypot(*(other - one).T)
+            assert gap.max() <= play.get(joint.name, 1e-9), joint.name
+            if joint.name in play:
+                assert gap.max() > 0.5 * play[joint.name]
+    for name, body in model.spec.bodies.items():
+        points = list(body.points.values())
+        for a, b in zip(points, points[1:], strict=False):
+            length = np.hypot(*(path(bodies[name], b) - path(bodies[name], a)).T)
+            assert length == pytest.approx(np.full(181, np.hypot(*np.subtract(b, a))), abs=1e-12)
+
+
+def test_the_outline_of_a_body_holds_its_points(drawn):
+    model, _, bodies = drawn
+    for name, body in model.spec.bodies.items():
+        shape = next(s for s in bodies[name].shapes if s.layer == "body")
+        area = shapely.Polygon(shape.outline.points(1e-6))
+        assert area.is_valid and all(area.contains(shapely.Point(p)) for p in body.points.values()), name
+
+
+def test_the_journal_stays_inside_its_bearing_and_shows_the_play(drawn):
+    model, _, bodies = drawn
+    for joint in model.assembly.model.joints:
+        journal = bodies.get(f"journal {joint.name}")
+        if journal is None:
+            assert model.spec.joints[[j.name for j in model.spec.joints].index(joint.name)].pin in (None, "ideal")
+            continue
+        play = joint.model.clearance
+        factor = float(journal.label.rpartition("×")[2])
+        centre, carrier = joint.first[1:], bodies[joint.first.body]
+        holes = [s.outline for s in carrier.shapes if s.layer == "hole" and np.allclose(s.outline.points().mean(axis=0), centre)]
+        bearing = max(np.hypot(*(hole.points(1e-7) - centre).T).mean() for hole in holes)
+        radius = np.hypot(*journal.shapes[0].outline.points(1e-7).T).mean()
+        assert bearing - radius == pytest.approx(factor * play, rel=1e-6) and factor * play > 0.2 * bearing
+        away = journal.poses[:, :2] - path(carrier, centre)
+        assert np.all(np.hypot(*away.T) + radius <= bearing * (1 + 1e-9))
+        real = path(bodies[joint.second.body], joint.second[1:]) - path(carrier, centre)
+        inside = np.hypot(*real.T) <= play
+        assert away[inside] == pytest.approx(factor * real[inside], abs=1e-9)
+        orbits = [s.outline.points() for s in carrier.shapes if s.layer == "pitch"]
+        orbit = next(points for points in orbits if np.hypot(*(points - centre).T).max() < bearing)
+        for frame in (7, 100):
+            there = place(away[frame : frame + 1], (0, 0, -carrier.poses[frame, 2]))[0] + centre
+            assert orbit[FINE * frame] == pytest.approx(there, abs=1e-9)
+
+
+def test_traces_are_the_paths_of_the_outputs(drawn):
+    model, made, bodies = drawn
+    seen = record_of(model)
+    for trace in made.traces:
+        end = path(bodies[trace.body], trace.point)[-1]
+        assert end == pytest.approx([seen.point(trace.name, "x")[-1], seen.point(trace.name, "y")[-1]], abs=1e-7)
+    assert {trace.name for trace in made.traces} == {output.name for output in model.spec.outputs if output.point}
+
+
+def test_every_picture_of_every_example_can_be_drawn(drawn):
+    model, _, _ = drawn
+    result = dw.run(model.spec.replace(lyapunov=None))
+    seen = views(result, model)
+    assert not seen.remarks
+    found = {picture.name for picture in pictures(result, seen)}
+    assert {"scene-machine", "plot-drive"} <= found
+    for output in model.spec.outputs:
+        assert {f"plot-motion.{output.name}", f"plot-spectrum.{output.name}"} <= found
+    for joint in model.spec.joints:
+        if joint.pin == "dry":
+            assert {f"plot-orbit.{joint.name}", f"plot-force.{joint.name}", f"plot-polar.{joint.name}"} <= found
+
+
+def test_a_slider_moves_between_rails_that_are_as_long_as_its_way():
+    model = build(dw.load(EXAMPLES / "slider_crank_clearance.toml", ["simulate.turns=2", "simulate.discard=0"]))
+    bodies = {body.name: body for body in LINKAGE.scene(model).bodies}
+    rails = [s.outline.points() for s in bodies["ground"].shapes if s.layer == "ground" and not s.outline.closed][-2:]
+    shoe = bodies["slider"].shapes[0].outline.points()
+    for frame in (0, 44, 90, 133):
+        moved = place(shoe, bodies["slider"].poses[frame])
+        for rail in rails:
+            assert rail[:, 0].min() < moved[:, 0].min() and moved[:, 0].max() < rail[:, 0].max()
+        assert sorted(np.unique(moved[:, 1].round(9))) == pytest.approx(sorted(rail[0, 1] for rail in rails), abs=1e-8)
+
+
+def test_a_free_mechanism_shows_its_whole_run_in_time(written):
+    spec = written(FREE + '[simulate]\nduration = "0.7 s"\n')
+    made = LINKAGE.scene(build(spec))
+    assert (made.cycle[0], made.cycle[-1], made.cycle_label, made.period) == (0.0, pytest.approx(0.7), "time", pytest.approx(0.7))
+    arm = next(body for body in made.bodies if body.name == "arm")
+    assert path(arm, (0, 0)) == pytest.approx(np.broadcast_to([0.01, 0.02], (len(made.cycle), 2)), abs=1e-12)
+    assert np.ptp(arm.poses[:, 2]) > 1.0
+
+
+def test_without_a_run_the_start_is_shown(written):
+    made = LINKAGE.scene(build(written(FREE)))
+    arm = next(body for body in made.bodies if body.name == "arm")
+    assert arm.poses == pytest.approx(np.array([[0.01, 0.02, np.radians(10)]] * 2)) and made.period == 0.0 and "start" in made.cycle_label
+
+
+# -- plates --------------------------------------------------------------------------------------------------------------------
+
+
+def centres(drawing):
+    return np.array([outline.points(1e-7).mean(axis=0) for outline in drawing.on("hole")])
+
+
+def radii(drawing):
+    return [float(np.hypot(*(outline.points(1e-7) - outline.points(1e-7).mean(axis=0)).T).mean()) for outline in drawing.on("hole")]
+
+
+def test_plates_have_their_holes_where_the_pins_are(drawn):
+    model, _, _ = drawn
+    plates = {drawing.name: drawing for drawing in LINKAGE.drawings(model)}
+    assert set(plates) == {name for name, body in model.spec.bodies.items() if len(body.points) > 1}
+    for name, drawing in plates.items():
+        pins = {tuple(model.spec.bodies[name].points[text.split(".")[1]]) for joint in model.spec.joints for text in joint.connects
+                if text.split(".")[0] == name}
+        assert sorted(map(tuple, centres(drawing).round(9))) == pytest.approx(sorted(pins), abs=1e-9)
+        edge = shapely.Polygon(drawing.on("profile")[0].points(1e-7))
+        for hole in drawing.on("hole"):
+            assert edge.buffer(-1e-4).contains(shapely.Polygon(hole.points(1e-7)))
+        assert "proposal" in drawing.title and drawing.thickness > 0
+
+
+def test_a_bearing_has_its_radius_and_the_journal_that_less_the_play():
+    knife = {d.name: d for d in LINKAGE.drawings(build(dw.load(EXAMPLES / "knife_folder.toml")))}
+    assert radii(knife["crank"]) == pytest.approx([5e-3, 15e-3], abs=1e-6)  # a default pin, a bearing
+    assert radii(knife["coupler"]) == pytest.approx([14.8e-3, 15e-3], abs=1e-6)  # a journal's seat, a bearing
+    assert np.hypot(*np.diff(centres(knife["coupler"]), axis=0)[0]) == pytest.approx(0.158, abs=1e-9)
+    leg = LINKAGE.drawings(build(dw.load(EXAMPLES / "jansen_leg.toml")))
+    assert {round(r, 7) for drawing in leg for r in radii(drawing)} == {1.5e-3}  # a tenth of the crank, the shortest link
+
+
+def test_solids_are_the_plates_at_the_start_one_above_the_other(drawn):
+    model, made, _ = drawn
+    parts = {part.name: part for part in LINKAGE.parts(model)}
+    plates = {drawing.name: drawing for drawing in LINKAGE.drawings(model)}
+    tops = -np.inf
+    for name, drawing in plates.items():
+        solid, = parts[name].solids
+        assert solid.outline.points() == pytest.approx(drawing.on("profile")[0].points()) and solid.thickness == drawing.thickness
+        assert solid.z > tops
+        tops = solid.z + solid.thickness
+    for name, part in parts.items():
+        if name.startswith("pin "):
+            joint = next(j for j in model.spec.joints if j.name == name[4:])
+            body, point = joint.connects[1].split(".")
+            pin = part.solids[0].outline.points(1e-7).mean(axis=0)
+            if body in plates:
+                assert pin == pytest.approx(place(np.array([model.spec.bodies[body].points[point]]), parts[body].pose)[0], abs=1e-6)
+                low, high = part.solids[0].z, part.solids[0].z + part.solids[0].thickness
+                assert low <= parts[body].solids[0].z and parts[body].solids[0].z + plates[body].thickness <= high
+
+
+def test_holes_that_meet_are_refused():
+    spec = dw.load(EXAMPLES / "slider_crank_clearance.toml", ["joints.wrist.bearing_radius=115 mm"])
+    told = r"holes of link 'rod' meet: radii of 5 and 115 mm at a distance of 120 mm.*smaller bearing_radius"
+    with pytest.raises(InputError, match=told):
+        LINKAGE.drawings(build(spec))
+
+
+# -- outlines ------------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("points", [[(1, 2)], [(0, 0), (3, 1)], [(0, 0), (2, 2), (1, 1)], [(0, 0), (4, 1), (2, 5), (2, 2)],
+                                    [(2, 5), (4, 1), (0, 0)]])
+def test_a_rounded_outline_is_the_hull_grown_by_its_radius(points):
+    grown = shapely.convex_hull(shapely.MultiPoint(points)).buffer(0.3, quad_segs=400)
+    made = shapely.Polygon(rounded(points, 0.3).points(1e-6))
+    assert made.is_valid and made.symmetric_difference(grown).area < 1e-4
+
+
+def test_a_block_lies_along_its_angle():
+    corners = block((1, 2), np.pi / 2, 3, 1).points()
+    assert (corners.min(axis=0), corners.max(axis=0)) == (pytest.approx([0, -1]), pytest.approx([2, 5]))
