@@ -5,8 +5,9 @@ import sys
 
 import drivewright as dw
 
-NAMES = ["Cam", "DrivewrightError", "InputError", "Linkage", "MissingExtra", "Result", "Scene", "SeedlingPusher", "SolverError", "SpecError",
-         "build", "cams", "contact", "curves", "gears", "load", "materials", "motion", "multibody", "optimise", "run", "units", "verify"]
+NAMES = ["Cam", "DrivewrightError", "InputError", "Linkage", "MissingExtra", "Result", "Scene", "SeedlingPusher", "SolverError",
+         "SpecError", "build", "cams", "contact", "curves", "gears", "load", "materials", "motion", "multibody", "optimise", "run", "units",
+         "verify"]
 HEAVY = {"numba", "scipy", "matplotlib", "pyarrow", "pint", "pydantic", "numpy", "typer", "rich"}
 
 

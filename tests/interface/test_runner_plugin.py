@@ -109,9 +109,8 @@ def points(monkeypatch):
 
 
 def test_an_unknown_kind_is_refused_with_the_nearest_known():
-    with pytest.raises(
-        UnknownName, match="no mechanism is called 'seedling_pusher' .did you mean 'seedling-pusher'.*; known: cam, linkage, seedling-pusher"
-    ):
+    known = "known: cam, linkage, seedling-pusher"
+    with pytest.raises(UnknownName, match=f"no mechanism is called 'seedling_pusher' .did you mean 'seedling-pusher'.*; {known}"):
         registry.mechanism("seedling_pusher")
 
 

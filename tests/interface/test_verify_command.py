@@ -34,7 +34,8 @@ def test_validate_shows_a_source(capsys):
 def test_validate_knows_its_sources(capsys):
     code, out, err = run(capsys, "validate", "nobody")
     assert (code, out) == (2, "")
-    assert "no validation source is called 'nobody'; known: elliptic-gears, modified-sine-help, motion-laws, pusher-paper" in err
+    known = "clearance-joints, elliptic-gears, folding-linkage, modified-sine-help, motion-laws, pusher-paper"
+    assert f"no validation source is called 'nobody'; known: {known}" in err
 
 
 def test_validate_ends_well_while_the_verdicts_are_the_pinned_ones(capsys, monkeypatch):

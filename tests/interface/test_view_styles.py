@@ -20,7 +20,8 @@ TABLE = Table("wave", "Wave", (
 RESULT = replace(four_bar_result(), tables={"wave": TABLE})
 GRID = Table("grid", "Grid", (
     Column("speed", "rad/s", "speed", np.array([2.0, 1.0, 1.0, 2.0, 3.0])),
-    Column("play", "m", "radial play", np.array([1, 1, 2, 2, 2]) * 1e-3), Column("load", "-", "load of the pin", np.array([12.0, 11, 21, 22, 23])),
+    Column("play", "m", "radial play", np.array([1, 1, 2, 2, 2]) * 1e-3),
+    Column("load", "-", "load of the pin", np.array([12.0, 11, 21, 22, 23])),
     Column("who", "-", "pin", np.array(list("aabbb")))))
 
 

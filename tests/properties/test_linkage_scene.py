@@ -38,6 +38,59 @@ name = "O"
 connects = ["ground.O", "arm.O"]
 """
 
+GEARS = """
+format = 1
+mechanism = "linkage"
+ground = { points = { A = ["0 mm", "0 mm"], B = ["90 mm", "0 mm"] } }
+bodies.one = { mass = "1 kg", inertia = "1e-3 kg m^2", points = { M = ["5 mm", "0 mm"] } }
+bodies.two = { mass = "1 kg", inertia = "1e-3 kg m^2", points = { M = ["0 mm", "0 mm"] } }
+drive = { joint = "A", speed = "60 rpm" }
+[[joints]]
+name = "A"
+connects = ["one.M", "ground.A"]
+[[joints]]
+name = "B"
+connects = ["ground.B", "two.M"]
+[[joints]]
+name = "mesh"
+kind = "gear"
+connects = ["one", "two"]
+ratio = RATIO
+"""
+YOKE = """
+format = 1
+mechanism = "linkage"
+ground = { points = { O = ["0 mm", "0 mm"] } }
+bodies.crank = { mass = "1 kg", points = { O = ["0 mm", "0 mm"], A = ["40 mm", "0 mm"] } }
+bodies.yoke = { mass = "1 kg", inertia = "1e-3 kg m^2", points = { C = ["0 mm", "0 mm"] } }
+drive = { joint = "O", speed = "60 rpm" }
+[[joints]]
+name = "O"
+connects = ["ground.O", "crank.O"]
+[[joints]]
+name = "pin"
+kind = "pin-slot"
+connects = ["crank.A", "yoke.C"]
+axis = [0, 1]
+[[joints]]
+name = "guide"
+kind = "prismatic"
+connects = ["yoke.C", "ground.O"]
+"""
+WHEEL = """
+format = 1
+mechanism = "linkage"
+gravity = ["1 m/s^2", "-9.81 m/s^2"]
+ground = { points = { T = ["10 mm", "-80 mm"] } }
+bodies.wheel = { mass = "1 kg", inertia = "1e-3 kg m^2", points = { M = ["0 mm", "0 mm"] } }
+simulate = { duration = "0.5 s" }
+[[joints]]
+name = "roll"
+kind = "rolling"
+connects = ["wheel.M", "ground.T"]
+radius = "30 mm"
+"""
+
 
 @pytest.fixture(scope="module", params=NAMES)
 def drawn(request):
@@ -166,6 +219,55 @@ def test_a_slider_moves_between_rails_that_are_as_long_as_its_way():
         assert sorted(np.unique(moved[:, 1].round(9))) == pytest.approx(sorted(rail[0, 1] for rail in rails), abs=1e-8)
 
 
+def test_a_spring_is_drawn_from_end_to_end():
+    model = build(dw.load(EXAMPLES / "four_bar.toml"))
+    bodies = {body.name: body for body in LINKAGE.scene(model).bodies}
+    coil, rod = bodies["coil return"], bodies["rod return"]
+    assert path(coil, (0, 0)) == pytest.approx(path(bodies["rocker"], (0.045, 0)), abs=1e-12)
+    assert path(rod, (0, 0)) == pytest.approx(np.zeros((181, 2)), abs=1e-12)
+    length = np.hypot(*path(coil, (0, 0)).T)
+    ends = [body.shapes[0].outline.points() for body in (coil, rod)]
+    reach = [np.ptp(points[:, 0]) for points in ends]
+    assert np.all(reach[0] <= length) and np.all(reach[1] <= length) and sum(reach) >= length.max()
+    for frame in (0, 50, 120):  # the rod points at the rocker's end, the coil at the ground's
+        (a, b), (c, d) = place(ends[1], rod.poses[frame])[-1], path(coil, (0, 0))[frame]
+        assert a * d - b * c == pytest.approx(0, abs=1e-12)
+        assert np.hypot(*place(ends[0], coil.poses[frame])[-1]) == pytest.approx(length[frame] - reach[0], abs=1e-12)
+        assert np.hypot(*place(ends[1], rod.poses[frame])[-1]) == pytest.approx(reach[1], abs=1e-12)
+        assert place(ends[1], rod.poses[frame])[-1] @ path(coil, (0, 0))[frame] > 0
+
+
+@pytest.mark.parametrize(("ratio", "radii"), [(-2.0, (60, 30)), (3.0, (135, 45)), (0.25, (30, 120)), (-0.5, (30, 60))])
+def test_pitch_circles_of_gears_touch_and_have_the_ratio(written, ratio, radii):
+    """Outer gears touch from outside, r1 + r2 = a; a ring from inside, |r1 - r2| = a = 90 mm."""
+    spec = written(GEARS.replace("RATIO", str(ratio)))
+    made = LINKAGE.scene(build(spec))
+    circles = {b.name: s.outline.points(1e-7) for b in made.bodies for s in b.shapes if s.layer == "pitch"}
+    found = [np.hypot(*(circles[name] - circles[name].mean(axis=0)).T).mean() for name in ("one", "two")]
+    assert found == pytest.approx([r * 1e-3 for r in radii], abs=1e-6)
+    one = circles["one"].mean(axis=0)
+    assert one == pytest.approx([0.005, 0.0], abs=1e-9)  # the pin is not at the body's origin
+
+
+def test_a_slot_is_as_long_as_the_way_of_its_pin(written):
+    """Scotch yoke: the pin on a crank of 40 mm slides 80 mm in the slot and the yoke moves by as much."""
+    bodies = {body.name: body for body in LINKAGE.scene(build(written(YOKE))).bodies}
+    slot = next(s.outline.points(1e-7) for s in bodies["yoke"].shapes if s.layer == "hole")
+    wide, high = np.ptp(slot, axis=0)
+    assert high - wide == pytest.approx(0.08, abs=1e-5) and slot[:, 1].mean() == pytest.approx(0.0, abs=1e-5)
+    assert np.ptp(bodies["yoke"].poses[:, 0]) == pytest.approx(0.08, abs=1e-5)
+
+
+def test_a_wheel_rolls_on_its_track(written):
+    bodies = {body.name: body for body in LINKAGE.scene(build(written(WHEEL))).bodies}
+    rim, wheel = bodies["wheel"].shapes[0].outline.points(1e-7), bodies["wheel"].poses
+    track = bodies["ground"].shapes[0].outline.points()
+    for frame in (0, 300, 720):
+        assert place(rim, wheel[frame])[:, 1].min() == pytest.approx(track[0, 1], abs=1e-6)
+    assert np.ptp(wheel[:, 0]) > 0.02 and np.ptp(wheel[:, 0]) == pytest.approx(0.03 * np.ptp(wheel[:, 2]), rel=1e-9)
+    assert np.ptp(track[:, 0]) == pytest.approx(np.ptp(wheel[:, 0]) + 2 * 0.03)
+
+
 def test_a_free_mechanism_shows_its_whole_run_in_time(written):
     spec = written(FREE + '[simulate]\nduration = "0.7 s"\n')
     made = LINKAGE.scene(build(spec))
@@ -199,7 +301,8 @@ def test_plates_have_their_holes_where_the_pins_are(drawn):
     for name, drawing in plates.items():
         pins = {tuple(model.spec.bodies[name].points[text.split(".")[1]]) for joint in model.spec.joints for text in joint.connects
                 if text.split(".")[0] == name}
-        assert sorted(map(tuple, centres(drawing).round(9))) == pytest.approx(sorted(pins), abs=1e-9)
+        found = centres(drawing)
+        assert len(found) == len(pins) and all(np.hypot(*(found - pin).T).min() < 1e-9 for pin in pins)
         edge = shapely.Polygon(drawing.on("profile")[0].points(1e-7))
         for hole in drawing.on("hole"):
             assert edge.buffer(-1e-4).contains(shapely.Polygon(hole.points(1e-7)))
@@ -233,7 +336,7 @@ def test_solids_are_the_plates_at_the_start_one_above_the_other(drawn):
             if body in plates:
                 assert pin == pytest.approx(place(np.array([model.spec.bodies[body].points[point]]), parts[body].pose)[0], abs=1e-6)
                 low, high = part.solids[0].z, part.solids[0].z + part.solids[0].thickness
-                assert low <= parts[body].solids[0].z and parts[body].solids[0].z + plates[body].thickness <= high
+                assert low <= parts[body].solids[0].z and parts[body].solids[0].z + plates[body].thickness <= high + 1e-12
 
 
 def test_holes_that_meet_are_refused():

@@ -175,9 +175,9 @@ def _step(system, q, columns):
     return q
 
 
-def _newton(system, q, columns):
+def _newton(system, q, columns, t=0.0):
     """(coordinates, largest miss) by Newton's method on some coordinates: least change, damped, at most half a radian a step."""
-    work = at(system, q)
+    work = at(system, q, t)
     for _ in range(60):
         size = np.max(np.abs(work.columns[0]), initial=0.0)
         if size < 0.01 * CLOSED or not columns:
@@ -187,7 +187,7 @@ def _newton(system, q, columns):
         for _ in range(10):
             trial = work.coordinates.q.copy()
             trial[columns] -= step
-            better = at(system, trial)
+            better = at(system, trial, t)
             if np.linalg.norm(better.columns[0]) < np.linalg.norm(work.columns[0]):
                 break
             step *= 0.5
@@ -271,23 +271,13 @@ def _independent_rows(jacobian):
 
 
 def _nudge(system, q):
-    """Coordinates and time of the mechanism moved on a little."""
-    v = np.zeros(len(q))
-    work = at(system, q)
+    """Coordinates and time of the mechanism moved on a little: its drives, and what is free of them at the moment (in a dead point)."""
+    work, q = at(system, q), q.copy()
     fastest = np.max(np.abs(work.coordinates.v), initial=0.0)
-    if fastest > 0:
-        closed, _ = _newton_at(system, q, NUDGE / fastest)
-        return closed, NUDGE / fastest
+    t = NUDGE / fastest if fastest > 0 else 0.0
     free = null_space(work.jacobian[:, system.stored])
-    v[system.stored] = free @ np.ones(free.shape[1]) if free.size else 0.0
-    return _newton(system, q + NUDGE * v, list(system.stored))[0], 0.0
-
-
-def _newton_at(system, q, t):
-    """`_newton` on all stored coordinates at another time."""
-    values = at(system, q, t)
-    frozen = system._replace(driven=system.driven[:0])
-    return _newton(frozen, values.coordinates.q, list(system.stored))
+    q[system.stored] += NUDGE * np.sum(free, axis=1)
+    return _newton(system, q, list(system.stored), t)[0], t
 
 
 def split(system, q, t=0.0):
@@ -305,8 +295,7 @@ def split(system, q, t=0.0):
             contact.bristle, place = place, place + 1
         else:
             contact.bristle = contact.memory
-    pivots = np.abs(np.diag(qr(jacobian[:, pivots[:rows]], mode="r")[0])) if rows else np.ones(1)
-    least = FIRM * float(np.min(pivots) / np.max(pivots)) if len(independent) else -1.0
+    least = FIRM * float(abs(np.linalg.det(jacobian[:, pivots[:rows]]))) if len(independent) else -1.0
     return system._replace(dependent=dependent.astype(np.int64), independent=independent, contacts=contacts, least_firmness=least)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from drivewright._jit import implements, inner
 from drivewright.multibody.kinematics import bend, close, drive, move
-from drivewright.multibody.loads import SLOWEST, apart, gap_of, load
+from drivewright.multibody.loads import SLOWEST, apart, gap_of, load, worn_off
 from drivewright.multibody.system import DRIFT, LUGRE, Motion
 from drivewright.numerics.ode import events, rate, switch
 from drivewright.numerics.small import cholesky_solve
@@ -50,17 +50,17 @@ def depths(system, work, t, y, values):
     pose(system, work, t, y)
     values[0] = firmness(work) - system.least_firmness
     for n in range(system.contacts.size):
-        values[n + 1] = gap_of(work, system.contacts[n])
+        values[n + 1] = gap_of(system, work, n)
 
 
 @inner
 def firmness(work):
-    """Least over greatest pivot of the decomposed Jacobian: 1 at best, 0 where the mechanism stands in a dead point of this split."""
-    least, greatest = 1.0, 1.0
+    """Determinant of the dependent coordinates' Jacobian: 0 where the mechanism stands in a dead point of this split.  Its ratio to that
+    at another pose does not depend on the units nor on the sizes of the loops."""
+    volume = 1.0
     for r in range(work.pivots.size):
-        pivot = abs(work.lu[r, r])
-        least, greatest = (pivot, pivot) if r == 0 else (min(least, pivot), max(greatest, pivot))
-    return least / greatest
+        volume *= work.lu[r, r]
+    return abs(volume)
 
 
 @inner
@@ -73,7 +73,9 @@ def touch_or_let_go(system, work, index, t, y):
         pose(system, work, t, y)
         move(system, work)
         dx, dy, vx, vy, _, _, _, _ = apart(work, contact)
-        y[contact.memory] = max((dx * vx + dy * vy) / np.hypot(dx, dy), SLOWEST)
+        _, lean = worn_off(system, work, index - 1, dx, dy)
+        across = (dx * vy - dy * vx) / np.hypot(dx, dy) - np.hypot(dx, dy) * work.poses[contact.i].w
+        y[contact.memory] = max((dx * vx + dy * vy) / np.hypot(dx, dy) - lean * across, SLOWEST)
     if contact.law == LUGRE:
         y[contact.bristle] = 0.0
 

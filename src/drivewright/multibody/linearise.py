@@ -126,7 +126,8 @@ def _place(assembly, state, time, running):
 
 def _step(here, length):
     """Step of the scaled coordinates: small beside the mechanism, the clearances of its pins and how deep their walls are pressed."""
-    pins = [(contact.clearance, abs(plain(gap_of)(here.work, contact))) for contact in here.system.contacts]
+    pins = [(contact.clearance, abs(plain(gap_of)(here.system, here.work, n)))
+            for n, contact in enumerate(here.system.contacts)]
     return min([STEP * length, *(SHARE * min(clearance, max(depth, LEAST * clearance)) for clearance, depth in pins)])
 
 

@@ -26,7 +26,7 @@ def load(system, work, t, y, dy):
 def press(system, work, y, dy):
     """Pins with play."""
     for n in range(system.contacts.size):
-        _contact(system.contacts[n], work, y, dy)
+        _contact(system, n, work, y, dy)
 
 
 @inner
@@ -131,12 +131,35 @@ def _bushing(work, bush):
 
 
 @inner
-def gap_of(work, contact):
-    """How deep the journal is in the bearing's wall: |e| - clearance, e from the journal's centre (j) to the bearing's (i)."""
+def gap_of(system, work, n):
+    """How deep the journal is in the bearing's wall: |e| - clearance - wear, e from the journal's centre (j) to the bearing's (i)."""
+    contact = system.contacts[n]
     one, two = work.poses[contact.i], work.poses[contact.j]
     px, py = turned(one, contact.ax, contact.ay)
     qx, qy = turned(two, contact.bx, contact.by)
-    return np.hypot(one.x + px - two.x - qx, one.y + py - two.y - qy) - contact.clearance
+    dx, dy = one.x + px - two.x - qx, one.y + py - two.y - qy
+    worn, _ = worn_off(system, work, n, dx, dy)
+    return np.hypot(dx, dy) - contact.clearance - worn
+
+
+@inner
+def worn_off(system, work, n, dx, dy):
+    """(depth worn off the bearing on the side where the journal is, opposite to e = (dx, dy); its slope by the angle over |e|).
+
+    The journal is taken to touch where its centre points, so that depth = |e| - clearance - h(angle); the force is that law's gradient,
+    which keeps the energy.  It holds while the profile is flat: its slope by the angle well below the clearance.
+    h is a quadratic B-spline over the bins: its integral is that of the bins, and its slope has no jumps in which a journal would rattle.
+    """
+    bins = system.wear.shape[1]
+    if bins == 0:
+        return 0.0, 0.0
+    place = (np.arctan2(-dy, -dx) - work.poses[system.contacts[n].i].angle) * bins / (2 * np.pi)
+    node = np.floor(place + 0.5)
+    u, k, depths = place - node, int(node) % bins, system.wear[n]
+    before, here, after = depths[k - 1], depths[k], depths[(k + 1) % bins]  # k - 1 may be -1: the last one
+    depth = 0.5 * (0.5 - u) ** 2 * before + (0.75 - u * u) * here + 0.5 * (0.5 + u) ** 2 * after
+    slope = (u - 0.5) * before - 2 * u * here + (u + 0.5) * after
+    return depth, slope * bins / (2 * np.pi) / np.hypot(dx, dy)
 
 
 @inner
@@ -166,26 +189,30 @@ def friction_of(contact, normal, slip, bristle):
 
 
 @inner
-def touch(contact, work, y):
-    """(depth, normal, friction, slip, bristle rate, nx, ny) of a pin with play; n points from the journal to the bearing's centre.
+def touch(system, n, work, y):
+    """(depth, normal, friction, slip, bristle rate, nx, ny, lean) of a pin with play; n points from the journal to the bearing's centre.
 
-    Contact lies at -R n from the bearing's centre.  Slip is the bearing's wall against the journal along t = (-ny, nx).
+    Contact lies at -R n from the bearing's centre.  A worn wall leans: beside -N n the bearing gets N lean t at the journal's centre,
+    through which the normal of a round journal always goes.  Slip is the bearing's wall against the journal along t = (-ny, nx).
     """
+    contact = system.contacts[n]
     dx, dy, vx, vy, _, _, _, _ = apart(work, contact)
     distance = np.hypot(dx, dy)
-    depth = distance - contact.clearance
+    worn, lean = worn_off(system, work, n, dx, dy)
+    depth = distance - contact.clearance - worn
     if distance == 0.0:
-        return depth, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0
+        return depth, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0
     nx, ny = dx / distance, dy / distance
     # The wall's point is at -R n from the bearing's centre, and at d - R n = -(R - |d|) n from the journal's.
     radius = contact.bearing_radius
     slip = nx * vy - ny * vx - radius * work.poses[contact.i].w + (radius - distance) * work.poses[contact.j].w
     onset = y[contact.memory]
     if onset <= 0.0 or depth <= 0.0:
-        return depth, 0.0, 0.0, slip, 0.0, nx, ny
-    normal = normal_of(contact, depth, nx * vx + ny * vy, onset)
+        return depth, 0.0, 0.0, slip, 0.0, nx, ny, lean
+    across = nx * vy - ny * vx - distance * work.poses[contact.i].w
+    normal = normal_of(contact, depth, nx * vx + ny * vy - lean * across, onset)
     rubbing, rate = friction_of(contact, normal, slip, y[contact.bristle])
-    return depth, normal, rubbing, slip, rate, nx, ny
+    return depth, normal, rubbing, slip, rate, nx, ny, lean
 
 
 @inner
@@ -209,10 +236,11 @@ def film_of(contact, work):
 
 
 @inner
-def _contact(contact, work, y, dy):
+def _contact(system, n, work, y, dy):
     """Forces of a pin with play on both bodies, at the point where they touch."""
+    contact = system.contacts[n]
     one, two = work.poses[contact.i], work.poses[contact.j]
-    _, normal, rubbing, _, bristle_rate, nx, ny = touch(contact, work, y)
+    _, normal, rubbing, _, bristle_rate, nx, ny, lean = touch(system, n, work, y)
     dy[contact.memory] = 0.0
     if contact.law == LUGRE:
         dy[contact.bristle] = bristle_rate
@@ -223,6 +251,11 @@ def _contact(contact, work, y, dy):
         px, py = px - contact.bearing_radius * nx, py - contact.bearing_radius * ny
         push(one, px, py, fx, fy)
         push(two, px + one.x - two.x, py + one.y - two.y, -fx, -fy)
+        if lean != 0.0:
+            fx, fy = -normal * lean * ny, normal * lean * nx
+            qx, qy = turned(two, contact.bx, contact.by)
+            push(one, qx + two.x - one.x, qy + two.y - one.y, fx, fy)
+            push(two, qx, qy, -fx, -fy)
     if contact.film != NO_FILM:
         fx, fy = film_of(contact, work)
         qx, qy = turned(two, contact.bx, contact.by)

@@ -23,6 +23,7 @@ from drivewright.multibody.model import (
     Spring,
     Torque,
 )
+from drivewright.multibody.tree import far_end
 
 _FRICTION = {"none": arrays.NO_FRICTION, "coulomb": arrays.COULOMB, "ambrosio": arrays.AMBROSIO, "lugre": arrays.LUGRE}
 _FILM = {"long": arrays.LONG_FILM, "short": arrays.SHORT_FILM}
@@ -72,11 +73,14 @@ def lower(model, tree):
         "contacts": _table(arrays.CONTACT, (_contact(j, places) for j in pins if isinstance(j.model, (Dry, Lubricated)))),
     }
     given = [d["coordinate"] for d in driven]
+    if twice := [drive.joint for k, drive in enumerate(model.drives) if given[k] in given[:k]]:
+        raise InputError(f"joint {twice[0]!r} is driven twice, or with another joint about the same axis; keep one drive")
     stored = np.array([k for k in range(tree.size) if k not in given], dtype=np.int64)
     curves, pieces = _curves(places.curves)
     return arrays.System(
         bodies=np.array(bodies).view(np.recarray), rows=_table(arrays.ROW, rows),
         driven=_table(arrays.DRIVEN, driven), stored=stored, independent=stored, dependent=np.zeros(0, np.int64), **records,
+        wear=np.zeros((len(records["contacts"]), 0)),
         curves=curves, pieces=pieces, gravity_x=float(model.gravity[0]), gravity_y=float(model.gravity[1]), least_firmness=0.0)
 
 
@@ -169,10 +173,11 @@ def _driven(drive, model, tree, places):
         raise UnknownName("driven joint", drive.joint, [j.name for j in model.joints])
     if not isinstance(joint, (Revolute, Prismatic)):
         raise InputError(f"joint {joint.name!r} cannot be driven; drive a revolute or a prismatic joint")
-    first, second = joint.first.body, joint.second.body
+    far = far_end(model, joint)
+    first, second = joint.first.body, (far or joint).second.body
     mover, base = (second, first) if first == GROUND else (first, second)
-    link = next((one for one in tree.links if one.joint is not None and one.joint.name == joint.name), None)
-    if link is None or (isinstance(joint, Revolute) and link.body.mass == 0 and link.body.name.startswith("link:")):
+    link = None if far else next((one for one in tree.links if one.joint is not None and one.joint.name == joint.name), None)
+    if link is None:
         link = _turning_alone(joint, mover, base, tree)
     if isinstance(joint, Prismatic):
         return {"coordinate": link.slide, "sign": -1.0 if first == GROUND else 1.0, "start": 0.0, "curve": places.curve(drive.motion)}

@@ -55,7 +55,7 @@ def observe_all(motion, t, y, dy, bodies, pins, powers, drives):
         for i in range(system.bodies.size):
             _body(work, i, bodies[n, i])
         for k in range(system.contacts.size):
-            _pin(system.contacts[k], work, y[n], pins[n, k])
+            _pin(system, k, work, y[n], pins[n, k])
         for d in range(system.driven.size):
             drives[n, d] = _drive(system, work, d)
             powers[n, 3] += drives[n, d] * work.coordinates[system.driven[d].coordinate].v
@@ -99,10 +99,12 @@ def _body(work, i, out):
 
 
 @inner
-def _pin(contact, work, y, out):
-    depth, normal, rubbing, slip, _, nx, ny = touch(contact, work, y)
+def _pin(system, number, work, y, out):
+    contact = system.contacts[number]
+    depth, normal, rubbing, slip, _, nx, ny, lean = touch(system, number, work, y)
     out[0], out[1], out[2], out[3], out[4], out[5] = depth, normal, rubbing, slip, nx, ny
-    out[6], out[7] = -normal * nx + rubbing * ny, -normal * ny - rubbing * nx
+    across = normal * lean - rubbing  # along (-ny, nx)
+    out[6], out[7] = -normal * nx - across * ny, -normal * ny + across * nx
     if contact.film != NO_FILM:
         fx, fy = film_of(contact, work)
         out[6], out[7] = out[6] + fx, out[7] + fy

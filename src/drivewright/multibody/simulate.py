@@ -5,11 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drivewright._jit import inner, outer
+from drivewright._jit import inner, outer, plain
 from drivewright.errors import DoesNotAssemble
 from drivewright.multibody.assembly import Assembly, at, split
 from drivewright.multibody.dynamics import pose
 from drivewright.multibody.kinematics import move
+from drivewright.multibody.loads import SLOWEST, gap_of
 from drivewright.multibody.system import System, motion
 from drivewright.numerics.ode import Event, integrate
 from drivewright.numerics.radau import integrate_stiff
@@ -71,11 +72,12 @@ def simulate(assembly, duration, settings=Settings(), *, samples=None, state=Non
     `samples`: the times at which states are wanted; without them every accepted step, `settings.per_step` points of each.
     """
     if assembly.freedom == 0:
-        turns = duration * speed_of(assembly) / (2 * np.pi)
-        times = np.linspace(start, start + duration, 1 + math.ceil(GRID * max(turns, 1.0))) if samples is None else np.asarray(samples, float)
+        turns = max(duration * speed_of(assembly) / (2 * np.pi), 1.0)
+        grid = np.linspace(start, start + duration, 1 + math.ceil(GRID * turns))
+        times = grid if samples is None else np.asarray(samples, float)
         return _follow(assembly, times, start + duration)
     system = assembly.system
-    y = assembly.state if state is None else np.array(state, float)
+    y = assembly.state if state is None else touching(system, start, np.array(state, float))
     t, stretches, impacts, steps, advice = start, [], [np.zeros((0, 3))], 0, ""
     while True:
         inside = None if samples is None else samples[(samples > t) | (t == start)]
@@ -86,6 +88,15 @@ def simulate(assembly, duration, settings=Settings(), *, samples=None, state=Non
         if run.outcome != "event":
             return Run(assembly, tuple(stretches), np.concatenate(impacts), advice, steps)
         system, y = resplit(system, t, y)
+
+
+def touching(system, t, y):
+    """A state in which every pin that begins within its wall remembers an approach, the slowest: without one the wall would not hold it."""
+    work = at_state(system, t, y)
+    for n, contact in enumerate(system.contacts):
+        if y[contact.memory] <= 0.0 <= plain(gap_of)(system, work, n):
+            y[contact.memory] = SLOWEST
+    return y
 
 
 def _integrate(system, t, t1, y, settings, steps, samples, speed):
@@ -191,15 +202,15 @@ def follow(system, work, t, end, y, trial):
     step = end - t
     settled(system, work, t, y)
     while t != end:
-        for k in range(y.size):
+        for k in range(system.stored.size):
             trial[k] = y[k] + step * work.coordinates[system.stored[k]].v
         closed = settled(system, work, t + step, trial)
         far = 0.0
-        for k in range(y.size):
+        for k in range(system.stored.size):
             far = max(far, abs(work.coordinates[system.stored[k]].q - trial[k]))
         if closed and far < NEAR:
             t = end if abs(end - t - step) <= 1e-15 * abs(end) else t + step
-            for k in range(y.size):
+            for k in range(system.stored.size):
                 y[k] = work.coordinates[system.stored[k]].q
             step = end - t
         elif abs(step) < SHORTEST * max(abs(end), 1e-9):

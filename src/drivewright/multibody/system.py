@@ -67,6 +67,7 @@ class System(NamedTuple):
     forces: np.ndarray
     bushings: np.ndarray
     contacts: np.ndarray
+    wear: np.ndarray  # (contacts, bins): depth worn off each bearing, over the angle in its body's frame; no bins without wear
     curves: np.ndarray
     pieces: np.ndarray
     gravity_x: float

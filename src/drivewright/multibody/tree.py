@@ -53,6 +53,11 @@ def expanded(model):
     return replace(model, bodies=tuple(bodies), joints=tuple(joints), forces=tuple(forces))
 
 
+def far_end(model, joint):
+    """The other pin of the massless link that a joint of an expanded model holds, or None."""
+    return next((other for other in model.joints if other.name == f"{joint.name} (link)"), None)
+
+
 def carries(joint):
     """Whether a joint can hold a body: ideal ones can."""
     return isinstance(joint, (Prismatic, PinSlot)) or (isinstance(joint, Revolute) and isinstance(joint.model, Ideal))
@@ -70,7 +75,8 @@ def ends(joint):
 
 def grow(model):
     """The `Tree` of an expanded model."""
-    driven = {drive.joint for drive in model.drives}
+    linked = {joint.name for joint in model.joints if far_end(model, joint)}  # a link stands between the drive's two bodies
+    driven = {drive.joint for drive in model.drives} - linked
     chosen = _chosen(model, driven)
     neighbours = {body.name: [] for body in model.bodies} | {GROUND: []}
     for joint in chosen:

@@ -147,16 +147,14 @@ def advance(system, watched, switched, settings, watch, clock, y, k, values, bat
         _copy(trial, y)
         _copy(k[6], k[0])
         events(watched, clock[0], y, after)
+        known = hits
         hits, ender = _watch(watched, watch, values, after, trial, accepted, batch, hits)
         _copy(after, values)
         accepted += 1
         if ender >= 0:
             _go_back(clock, y, batch, ender)
-            index = int(batch.hits[ender, 1])
-            if watch.effects[index] == STOP:
+            if _happen(switched, watch, clock[0], y, batch, known, hits, ender):
                 return EVENT, accepted, rejected, hits
-            switch(switched, index, clock[0], y)
-            _copy(y, batch.found[ender])
             refresh(system, watched, clock, y, k, values)
         elif last:
             return FINISHED, accepted, rejected, hits
@@ -301,6 +299,22 @@ def _go_back(clock, y, batch, hit):
     _copy(batch.found[hit], y)
     clock[0] = batch.steps[row, 0] + theta * batch.steps[row, 1]
     clock[1] = AFTER_SWITCH * batch.steps[row, 1]
+
+
+@inner
+def _happen(switched, watch, t, y, batch, known, hits, ender):
+    """Switch the system at every event at the end of the step, for several may coincide; whether one of them stops the run."""
+    stops, theta = False, batch.hits[ender, 2]
+    for n in range(known, hits):
+        index = int(batch.hits[n, 1])
+        if batch.hits[n, 2] == theta and watch.effects[index] == STOP:
+            stops = True
+        elif batch.hits[n, 2] == theta and watch.effects[index] == SWITCH:
+            switch(switched, index, t, y)
+    for n in range(known, hits):
+        if batch.hits[n, 2] == theta and watch.effects[int(batch.hits[n, 1])] == SWITCH:
+            _copy(y, batch.found[n])
+    return stops
 
 
 @outer

@@ -16,7 +16,7 @@ from drivewright.multibody.record import record
 from drivewright.multibody.simulate import Settings, simulate
 from drivewright.spec import document, from_document, load
 from drivewright.validation.folding_linkage import CASE, digits, folder
-from drivewright.validation.source import AGREES, EXPLAINED, Explanation, Printed, Row, Source, rounded
+from drivewright.validation.source import AGREES, EXPLAINED, OPEN, Explanation, Printed, Row, Source, rounded
 
 DELIVERED = {  # e asked: delivered by each law in a free impact of two bodies
     "0.9": ("0.9132", "0.9090", "0.8939"), "0.7": ("0.7960", "0.7680", "0.6832"), "0.5": ("0.7252", "0.6630", "0.4704"),
@@ -32,6 +32,7 @@ PLAYS_OF_STEPS = (5e-5, 1e-4, 2e-4, 3e-4, 4e-4, 5e-4)
 EXPONENTS = ((1e-5, -2.2), (5e-4, 6.6))  # (play [m], exponent per turn)
 EARLIER = {"kind": "other code", "where": "earlier program"}
 FOLDER = "28 800 r/h, knife folder, massless links in A, B and O4, c_theta = 0.1 N m s/rad, 16 turns of which 5 are discarded"
+TWO_ROUTES = "The multibody kernel and the closed form of the four-bar agree on 19.16 with the other program's samples, at every tolerance."
 LAW = "hysteresis of Lankarani and Nikravesh, restitution 0.9, no friction"
 SIGN = "Estimates of 40 turns with an error of a fifth and more: the sign is compared."
 SLIDER = "crank 50 mm, rod 120 mm, 0.21 kg, 2.5e-4 kg m^2, slider 0.14 kg, 5000 rpm, bearing 10 mm, play 0.5 mm, steel"
@@ -82,7 +83,9 @@ def _links():
         yield Row(f"root mean square, {name}", rounded(rms, "-"), level, pinned=AGREES, **about)
     found = cases.run(lambda speed: _loads(build(folder(speed, "0.40", 1e-4)))["coefficient"], SPEEDS, workers=None).rows
     for (speed, text), row in zip(SPEEDS.items(), found, strict=True):
-        yield Row(f"K_d at {speed} r/h, r = 0.40 mm, 1e-4 N m s/rad", rounded(text, "-"), digits(row.value), pinned=AGREES, **about)
+        odd = speed == 41400
+        yield Row(f"K_d at {speed} r/h, r = 0.40 mm, 1e-4 N m s/rad", rounded(text, "-"), digits(row.value), pinned=OPEN if odd else AGREES,
+                  note=TWO_ROUTES if odd else "", **about)
 
 
 def _link_loads(case):

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from drivewright.mechanisms.linkage import analyse, energy, nonlinear
+from drivewright.mechanisms.linkage import analyse, energy, forces, nonlinear, tolerance, verify, wear
 from drivewright.mechanisms.linkage.build import build
 from drivewright.mechanisms.linkage.plates import drawings, parts
 from drivewright.mechanisms.linkage.plots import plots
@@ -23,6 +23,7 @@ ANALYSES = (
     Analysis("motion", analyse.motion, "outputs over the run", missing=analyse.no_run),
     Analysis("impact", analyse.impact, "impact load coefficient of every output", missing=analyse.no_play),
     Analysis("pins", analyse.pins, "forces, impacts and orbits of pins with play", missing=analyse.no_pins),
+    Analysis("forces", forces.forces, "forces in all joints over the last turn", missing=analyse.no_run),
     Analysis("energy", energy.energy, "energy audit and drive torque", missing=analyse.no_run),
     Analysis("spectrum", nonlinear.spectrum, "accelerations in orders of the drive", missing=_no_turns),
     Analysis("poincare", nonlinear.poincare, "Poincare section", missing=_asked("poincare")),
@@ -31,8 +32,11 @@ ANALYSES = (
     Analysis("bifurcation", nonlinear.bifurcation, "bifurcation diagram", default=False, missing=_asked("bifurcation")),
     Analysis("load_table", nonlinear.load_table, "impact load over speed and clearance", default=False,
              missing=_asked("table", analyse.no_play)),
+    Analysis("tolerances", tolerance.tolerances, "outputs under clearances and random dimensions", missing=tolerance.no_tolerances),
+    Analysis("wear", wear.wear, "wear of a bearing, fed back into its contact", default=False, missing=wear.no_wear),
 )
 
 mechanism = Mechanism(
     kind="linkage", summary="planar linkage with ideal joints or joints with play", spec=LinkageSpec, build=build, analyses=ANALYSES,
-    folder=Path(__file__).parent, scene=scene, plots=plots, drawings=drawings, parts=parts)
+    folder=Path(__file__).parent, scene=scene, plots=plots, drawings=drawings, parts=parts,
+    verify=verify.verify)

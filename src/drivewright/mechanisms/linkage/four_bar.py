@@ -4,7 +4,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.mechanisms.linkage.second_route import COUPLER_TURN, ROCKER_TURN, FourBar, LinkMotion, ideal_motion, positions, velocities
+from drivewright.mechanisms.linkage.second_route import (
+    COUPLER_TURN,
+    ROCKER_TURN,
+    FourBar,
+    LinkMotion,
+    ideal_motion,
+    link_accelerations,
+    positions,
+    velocities,
+)
 from drivewright.multibody.model import GROUND, Ideal, Marker, MasslessLink, Revolute, RotationalSpring
 from drivewright.multibody.observe import observe
 from drivewright.multibody.simulate import Settings, simulate
@@ -123,6 +132,7 @@ def _links(model, chain):
     e = _directions(model, chain, start)[:, 0]
     crank = float(np.angle(e[0]))
     bar = _branch(bar, crank, alphas, e)
+    link_accelerations(bar, crank, speed, alphas, rates)  # it allocates, so it must be compiled before the integrator's kernels call it
     y = integrate(LinkMotion(bar, speed), crank / speed, crank / speed + length, np.concatenate([alphas, rates]), 1e-11,
                   1e-13 * np.repeat([1.0, 10 * abs(speed)], 4), max_steps=5_000_000).checked().y_end
     other = positions(bar, crank + speed * length, y[:4])
@@ -130,9 +140,9 @@ def _links(model, chain):
     for k, row in ((1, COUPLER_TURN), (2, ROCKER_TURN)):
         name = chain.bodies[k]
         ours = _directions(model, chain, end)[k, 0]
-        yield f"{name}, direction after {PART:g} turns", float(np.angle(ours)), float(np.angle(other[k])), "rad", 1e-8, ROUTE
+        yield f"{name}, direction after {PART:g} turns", float(np.angle(ours)), float(np.angle(other[k])), "rad", 1e-9, ROUTE
         rate = float(end.body(model.assembly.names.index(name), "w")[0])
-        yield f"{name}, angular velocity after {PART:g} turns", rate, float(turning[row].real), "rad/s", 1e-6 * abs(speed), ROUTE
+        yield f"{name}, angular velocity after {PART:g} turns", rate, float(turning[row].real), "rad/s", 1e-8 * abs(speed), ROUTE
 
 
 def _link_angles(model, chain, seen):
@@ -162,4 +172,5 @@ def _loaded(model, chain):
         return None
     plays = np.array([getattr(step.joint.model, "clearance", 0.0) for step in chain.steps])
     masses, inertias = np.array([body.mass for body in bodies]), np.array([body.inertia for body in bodies[1:]])
-    return FourBar(np.abs(chain.bars), masses, inertias, arms.real.copy(), plays, drag[chain.bodies[1]], held.pop(), float(-weight.imag))
+    return FourBar(np.abs(chain.bars), masses, inertias, arms.real.copy(), plays, body_damping=drag[chain.bodies[1]],
+                   link_damping=held.pop(), gravity=float(-weight.imag))

@@ -1,0 +1,44 @@
+"""Forces in all joints over the last turn, from the equations of every body in absolute coordinates: a second route to the motion."""
+
+import numpy as np
+
+from drivewright.mechanisms.linkage.analyse import ROWS, cycle_columns
+from drivewright.mechanisms.linkage.build import run_of
+from drivewright.multibody.observe import observe
+from drivewright.multibody.reactions import reactions
+from drivewright.result import Answer, Check, Column, Table, Value
+
+
+def last_states(model):
+    """(system, times, states) of the last whole turn, or of the run; of its last split of the coordinates, thinned to ROWS."""
+    last = run_of(model).stretches[-1]
+    turns = np.floor(last.t_end / model.period + 1e-9) if model.period else 0
+    start = (turns - 1) * model.period if turns >= 1 else 0.0
+    rows = np.flatnonzero(last.t >= start * (1 - 1e-12))
+    rows = rows[:: max(1, -(-len(rows) // ROWS))]
+    return last.system, last.t[rows], last.y[rows]
+
+
+def forces(model, done):
+    """Largest force of every joint in the last turn, the forces over it, and what Newton's and Euler's equations leave over."""
+    system, t, y = last_states(model)
+    found = reactions(model.assembly, system, observe(system, t, y))
+    values, checks, columns = {}, [], list(cycle_columns(model, t))
+    for name, joint in found.joints.items():
+        size = np.hypot(*joint.force.T)
+        if name.endswith(" (link)"):  # the other end of a link without mass: the same force
+            continue
+        if name not in model.pins:  # of those the whole window is known
+            values[f"joints.{name}.max_force"] = Value(float(size.max()), "N", f"largest force in joint {name!r} in the last turn")
+        columns += [Column(f"{name}.force", "N", f"force in joint {name!r}", size),
+                    Column(f"{name}.force_x", "N", f"force of joint {name!r} on its first body, x", joint.force[:, 0]),
+                    Column(f"{name}.force_y", "N", f"force of joint {name!r} on its first body, y", joint.force[:, 1])]
+    for name, tension in found.tensions.items():
+        columns.append(Column(f"{name}.tension", "N", f"tension of the massless link of joint {name!r}; below 0 contact is lost", tension))
+        share = float(np.trapezoid(tension < -model.spec.limits.link_compression, t) / (t[-1] - t[0]))
+        values[f"joints.{name}.pushed_share"] = Value(share, "-", f"share of the last turn in which the link of joint {name!r} is pushed")
+        checks.append(Check(f"contact.{name}", float(tension.min()), -model.spec.limits.link_compression, ">=", "N",
+                            f"least tension of the massless link of joint {name!r}: a pin that is pushed has lost contact", (name,)))
+    words = "what Newton's and Euler's equations of the bodies leave over, as a part of the largest force"
+    values["forces.residual"] = Value(float(found.residual.max()), "-", words)
+    return Answer(values, (Table("forces", "Forces in the joints over the last turn", tuple(columns)),), tuple(checks))

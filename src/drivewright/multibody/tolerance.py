@@ -1,0 +1,316 @@
+"""Kinematic tolerances: where a mechanism without freedom is when its points are a little off and its journals off their centres.
+
+A `Source` displaces markers of joints, in the frame of their body.  `scatter` closes every random mechanism exactly; `gradient` is the
+linear theory beside it, from the Jacobian of the closed loops.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright import cases
+from drivewright._jit import inner, outer
+from drivewright.errors import DoesNotAssemble, InputError, UnknownName
+from drivewright.multibody.kinematics import close, turned
+from drivewright.multibody.simulate import at_state, follow
+from drivewright.multibody.system import CURVE, DISTANCE, LINEAR, PIECE, System, Work, motion, scratch
+
+CHUNK = 10_000  # samples between two looks at the keyboard
+CIRCLE, UNIFORM, NORMAL = "circle", "uniform", "normal"
+# Standard deviation of a displacement along a fixed direction, over its largest value: r cos(phi); even; three sigma.
+SIGMAS = {CIRCLE: np.sqrt(0.5), UNIFORM: np.sqrt(1 / 3), NORMAL: 1 / 3}
+
+PARENT, OWN, FIRST, SECOND, MARK = range(5)  # an arm of a body (a, b), of a row (a, b), or a watched point
+SHIFT = np.dtype([(name, np.int64) for name in ("source", "what", "number")])
+WATCHED = np.dtype([("body", np.int64), ("x", np.float64), ("y", np.float64)])
+READINGS = ("angle", "x", "y")
+
+
+class Source(NamedTuple):
+    """A random displacement of points.
+
+    law "circle": anywhere on a circle of radius `reach` [m]; "uniform": within +-reach along `direction`; "normal": along it, reach being
+    three standard deviations.  `ends`: (name of a joint, 0 or 1) of the markers that it moves, first or second; `marks`: names of the
+    watched markers that it moves.
+    """
+
+    name: str
+    reach: float
+    law: str
+    ends: tuple
+    direction: tuple = (1.0, 0.0)
+    marks: tuple = ()
+
+
+def play(joint, clearance):
+    """The journal of a pin with a radial clearance [m], in touch with its bearing in any direction, seen from the bearing's body."""
+    return Source(joint, clearance, CIRCLE, ((joint, 0),))
+
+
+class Posture(NamedTuple):
+    """A mechanism that is held still, coordinates q; the markers watched (marks,), and which arms the sources move."""
+
+    system: System
+    work: Work
+    q: np.ndarray
+    marks: np.ndarray
+    shifts: np.ndarray
+
+
+# ------------------------------------------------------------------------------------------------------------------ posture
+
+
+def posture(assembly, markers, sources, angle=None):
+    """The `Posture` of an assembly with its first drive at `angle` [rad] (None: where it starts), watching {name: Marker}.
+
+    Raises InputError where the drives leave a freedom, DoesNotAssemble where the drive does not get there.
+    """
+    if assembly.freedom:
+        raise InputError(f"tolerances: the drives leave the mechanism {assembly.freedom} degrees of freedom, so that its place is not a "
+                         "matter of its dimensions alone; drive them, or hold them by joints")
+    system, work = _brought(assembly, angle)
+    return Posture(system, work, work.coordinates.q.copy(), _watched(assembly, markers), _shifts(assembly, system, list(markers), sources))
+
+
+def _brought(assembly, angle):
+    """(system, work) with the drive brought from its start to an angle, always on the same assembly."""
+    system, y = assembly.system, assembly.state.copy()
+    if angle is not None:
+        system = _led(system, angle)
+        moving = motion(system)
+        reached = follow(moving.system, moving.work, 0.0, 1.0, y, np.empty_like(y))
+        if reached < 1.0:
+            start = system.driven[0].start
+            stop = np.degrees(start + reached * (angle - start))
+            raise DoesNotAssemble(f"tolerances: the mechanism does not close beyond {stop:.2f} deg of the drive, on the way from "
+                                  f"{np.degrees(start):.2f} to {np.degrees(angle):.2f} deg. Give an angle that it reaches")
+    return system, at_state(system, 0.0 if angle is None else 1.0, y)
+
+
+def _led(system, angle):
+    """The system with its first drive led evenly from its start, at time 0, to an angle at time 1."""
+    driven = system.driven.copy()
+    driven.curve[0] = len(system.curves)
+    curve = np.array([(len(system.pieces), 1, 0.0)], CURVE)
+    piece = np.zeros(1, PIECE)
+    piece["c1"] = angle - driven.start[0]
+    joined = {"curves": np.concatenate([system.curves, curve]), "pieces": np.concatenate([system.pieces, piece])}
+    return system._replace(driven=driven, **{name: array.view(np.recarray) for name, array in joined.items()})
+
+
+def _watched(assembly, markers):
+    centroids = {body.name: body.centroid for body in assembly.wide.bodies}
+    rows = []
+    for marker in markers.values():
+        cx, cy = centroids.get(marker.body, (0.0, 0.0))
+        rows.append((assembly.names.index(marker.body), marker.x - cx, marker.y - cy))
+    return np.array(rows, WATCHED).view(np.recarray)
+
+
+def _shifts(assembly, system, marks, sources):
+    """Which arms each source moves."""
+    rows = []
+    for number, source in enumerate(sources):
+        rows += [(number, *arm) for joint, end in source.ends for arm in _arms(assembly, system, joint, end)]
+        rows += [(number, MARK, marks.index(name)) for name in source.marks]
+    return np.array(rows, SHIFT).view(np.recarray)
+
+
+def _arms(assembly, system, name, end):
+    """[(what, number)] of the arms that hold one marker of a joint."""
+    for number, link in enumerate(assembly.tree.links, 1):
+        if link.joint is not None and link.joint.name == name:
+            own = link.joint.first.body == link.body.name
+            return [(OWN if own == (end == 0) else PARENT, number)]
+    names = [joint.name for joint in assembly.wide.joints]
+    if name not in names:
+        raise UnknownName("joint with a tolerance", name, names)
+    return [((FIRST, SECOND)[end], number) for number, row in enumerate(system.rows) if row.joint == names.index(name)]
+
+
+# -------------------------------------------------------------------------------------------------------------- Monte Carlo
+
+
+class Sampled(NamedTuple):
+    """deviations (samples, marks, READINGS) from the nominal mechanism, nan where one does not close; whether Ctrl-C cut it short."""
+
+    deviations: np.ndarray
+    interrupted: bool
+
+
+def sample(held, sources, samples, seed):
+    """`Sampled` of so many random mechanisms; the same seed gives the same ones on any number of cores."""
+    sizes = [min(CHUNK, samples - first) for first in range(0, samples, CHUNK)]
+
+    def task(chunk):
+        number, size = chunk
+        return deviations(held, draw(sources, size, np.random.default_rng([seed, number])))
+
+    rows = cases.run(task, list(enumerate(sizes)), workers=None if len(sizes) > 1 else 1)
+    return Sampled(np.concatenate([row.value for row in rows.rows]), rows.interrupted)
+
+
+def draw(sources, samples, rng):
+    """Random displacements (samples, sources, 2) [m], each in the frame of its body."""
+    moves = np.empty((samples, len(sources), 2))
+    for number, source in enumerate(sources):
+        if source.law == CIRCLE:
+            angle = rng.uniform(0.0, 2 * np.pi, samples)
+            unit = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        else:
+            along = rng.uniform(-1.0, 1.0, samples) if source.law == UNIFORM else rng.normal(0.0, SIGMAS[NORMAL], samples)
+            unit = along[:, None] * np.asarray(source.direction)
+        moves[:, number] = source.reach * unit
+    return moves
+
+
+def deviations(held, moves):
+    """What the displacements moves (m, sources, 2) do to the watched markers: (m, marks, READINGS), nan where a loop does not close."""
+    own = held.system._replace(bodies=held.system.bodies.copy(), rows=held.system.rows.copy())  # each caller overwrites its own arms
+    everything = np.concatenate([np.zeros((1, *moves.shape[1:])), moves])
+    out = np.empty((len(everything), len(held.marks), len(READINGS)))
+    scatter(own, held.system, scratch(own), held.q, held.shifts, everything, held.marks.copy(), held.marks, out)
+    return out[1:] - out[0]
+
+
+@outer
+def scatter(system, nominal, work, q, shifts, moves, marks, nominal_marks, out):
+    """Readings out (m, marks, READINGS) of the mechanism displaced by each of moves (m, sources, 2).
+
+    The arms of `system`, and `marks`, are scratch; what they are without displacement is in `nominal` and `nominal_marks`.
+    """
+    for n in range(moves.shape[0]):
+        _restore(system, nominal, marks, nominal_marks)
+        for k in range(shifts.size):
+            shift = shifts[k]
+            _displace(system, marks, shift, moves[n, shift.source, 0], moves[n, shift.source, 1])
+        for k in range(q.size):
+            work.coordinates[k].q = q[k]
+        closed = close(system, work)
+        for k in range(marks.size):
+            here = work.poses[marks[k].body]
+            px, py = turned(here, marks[k].x, marks[k].y)
+            out[n, k, 0], out[n, k, 1], out[n, k, 2] = here.angle, here.x + px, here.y + py
+            if not closed:
+                out[n, k, 0] = out[n, k, 1] = out[n, k, 2] = np.nan
+
+
+@inner
+def _restore(system, nominal, marks, nominal_marks):
+    """All arms as they are nominally: adding and taking off again would let rounding pile up."""
+    for i in range(system.bodies.size):
+        here, there = system.bodies[i], nominal.bodies[i]
+        here.ax, here.ay, here.bx, here.by = there.ax, there.ay, there.bx, there.by
+    for r in range(system.rows.size):
+        row, same = system.rows[r], nominal.rows[r]
+        row.ax, row.ay, row.bx, row.by = same.ax, same.ay, same.bx, same.by
+    for k in range(marks.size):
+        mark, point = marks[k], nominal_marks[k]
+        mark.x, mark.y = point.x, point.y
+
+
+@inner
+def _displace(system, marks, shift, dx, dy):
+    if shift.what == MARK:
+        mark = marks[shift.number]
+        mark.x, mark.y = mark.x + dx, mark.y + dy
+    elif shift.what == PARENT or shift.what == OWN:
+        body = system.bodies[shift.number]
+        if shift.what == PARENT:
+            body.ax, body.ay = body.ax + dx, body.ay + dy
+        else:
+            body.bx, body.by = body.bx + dx, body.by + dy
+    else:
+        row = system.rows[shift.number]
+        if shift.what == FIRST:
+            row.ax, row.ay = row.ax + dx, row.ay + dy
+        else:
+            row.bx, row.by = row.bx + dx, row.by + dy
+
+
+# ------------------------------------------------------------------------------------------------------------ linear theory
+
+
+class Shares(NamedTuple):
+    """Linear theory: what each source does to each reading, arrays (marks, READINGS, sources): largest deviation and standard deviation."""
+
+    worst: np.ndarray
+    sigma: np.ndarray
+
+
+def shares(sources, slopes):
+    """`Shares` from the gradient (marks, READINGS, sources, 2): along a circle |g| r, along a direction |g . d| t."""
+    worst = np.empty(slopes.shape[:-1])
+    for number, source in enumerate(sources):
+        slope = slopes[:, :, number]
+        steep = np.hypot(slope[..., 0], slope[..., 1]) if source.law == CIRCLE else np.abs(slope @ np.asarray(source.direction))
+        worst[:, :, number] = source.reach * steep
+    return Shares(worst, worst * np.array([SIGMAS[source.law] for source in sources]))
+
+
+def gradient(held, count):
+    """d(reading)/d(displacement) (marks, READINGS, count, 2) for `count` sources, in the frames of the bodies whose points they move.
+
+    From the closed loops r(q, p) = 0:  dq/dp = -(dr/dq)^-1 dr/dp  for the dependent coordinates q, the driven ones held.
+    """
+    system, work = held.system, held.work
+    total = np.zeros((len(held.marks), len(READINGS), count, 2))
+    normals, dependent = _normals(system, work), system.dependent
+    for shift in held.shifts:
+        carried, rows, points = _moved(held, shift)
+        misses = np.einsum("rx,rxd->rd", normals, carried[system.rows.i] - carried[system.rows.j] + rows)
+        steps = -np.linalg.solve(work.jacobian[:, dependent], misses)
+        for k, mark in enumerate(held.marks):
+            lever = work.levers[mark.body, dependent]
+            arm = _rotation(work.poses[mark.body]) @ (mark.x, mark.y)
+            levers = np.stack([lever.t, lever.x - arm[1] * lever.t, lever.y + arm[0] * lever.t])
+            total[k, :, shift.source] += levers @ steps
+            total[k, 1:, shift.source] += carried[mark.body] + points[k]
+    return total
+
+
+def _moved(held, shift):
+    """What a displacement moves while the coordinates stand still, d(place)/d(displacement): bodies (n, 2, 2), rows' points of the first
+    body less those of the second (rows, 2, 2), and watched points (marks, 2, 2)."""
+    system, poses, number = held.system, held.work.poses, shift.number
+    bodies, rows, marks = (np.zeros((size, 2, 2)) for size in (len(system.bodies), len(system.rows), len(held.marks)))
+    if shift.what == PARENT:
+        bodies[_followers(system, number)] = _rotation(poses[system.bodies[number].parent])
+    elif shift.what == OWN:
+        bodies[_followers(system, number)] = -_rotation(poses[number])
+    elif shift.what == FIRST:
+        rows[number] = _rotation(poses[system.rows[number].i])
+    elif shift.what == SECOND:
+        rows[number] = -_rotation(poses[system.rows[number].j])
+    else:
+        marks[number] = _rotation(poses[held.marks[number].body])
+    return bodies, rows, marks
+
+
+def _followers(system, number):
+    """A body and all that hang on it in the tree."""
+    found = [number]
+    for k in range(number + 1, len(system.bodies)):
+        if system.bodies[k].parent in found:
+            found.append(k)
+    return found
+
+
+def _rotation(pose):
+    return np.array([[pose.c, -pose.s], [pose.s, pose.c]])
+
+
+def _normals(system, work):
+    """d(residual)/d(point of the first body) of every row, (rows, 2)."""
+    normals = np.empty((len(system.rows), 2))
+    for r, row in enumerate(system.rows):
+        if row.kind == LINEAR:
+            normals[r] = _rotation(work.poses[row.k]) @ (row.ex, row.ey)
+            continue
+        first, second = work.poses[row.i], work.poses[row.j]
+        apart = np.array([first.x, first.y]) + _rotation(first) @ (row.ax, row.ay)
+        apart -= np.array([second.x, second.y]) + _rotation(second) @ (row.bx, row.by)
+        distance = np.hypot(*apart)
+        along = apart / distance
+        normals[r] = along if row.kind == DISTANCE else (row.gi + row.gj) / distance * np.array([-along[1], along[0]])
+    return normals
