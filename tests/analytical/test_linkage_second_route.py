@@ -3,7 +3,6 @@
 import json
 import subprocess
 import sys
-from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -245,7 +244,6 @@ def test_impact_load_between_the_samples():
 
 
 @pytest.mark.needs_peers
-@pytest.mark.skipif(find_spec("jax") is None, reason="needs_peers: jax")
 def test_lagrange_by_automatic_differentiation():
     bars = [uneven(), uneven(branch=-1.0), folder(damping=1e-4)]
     cases = [{"bar": {name: np.asarray(value).tolist() for name, value in bar._asdict().items()}, "speed": SPEED,

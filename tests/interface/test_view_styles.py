@@ -43,6 +43,7 @@ def test_lines_are_told_apart_by_another_column():
     assert panel.series[0].data == pytest.approx([11, 12, np.nan], nan_ok=True) and panel.series[1].data == pytest.approx([21, 22, 23])
     named, = panels(result, Plot("g", "G", "grid", "speed", ("load",), by="who", style="stems"))
     assert [s.label for s in named.series] == ["Who a", "Who b"]
+    assert named.low < 0, "stems from 11 to 23 still stand on zero"
     assert "Who b" in svg(draw_panels((named,)))
 
 

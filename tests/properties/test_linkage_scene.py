@@ -10,7 +10,7 @@ import drivewright as dw
 from drivewright import registry
 from drivewright.errors import InputError
 from drivewright.mechanisms.linkage.build import build, record_of
-from drivewright.mechanisms.linkage.film import FINE
+from drivewright.mechanisms.linkage.frames import FINE
 from drivewright.mechanisms.linkage.sketch import block, rounded
 from drivewright.multibody.model import Marker
 from drivewright.multibody.record import record

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from drivewright.mechanisms.linkage import analyse, energy, forces, nonlinear, tolerance, verify, wear
+from drivewright.mechanisms.linkage import analyse, energy, forces, nonlinear, rest, tolerance, verify, wear
 from drivewright.mechanisms.linkage.build import build
 from drivewright.mechanisms.linkage.plates import drawings, parts
 from drivewright.mechanisms.linkage.plots import plots
@@ -20,8 +20,8 @@ def _no_turns(spec):
 
 
 ANALYSES = (
-    Analysis("motion", analyse.motion, "outputs over the run", missing=analyse.no_run),
     Analysis("impact", analyse.impact, "impact load coefficient of every output", missing=analyse.no_play),
+    Analysis("motion", analyse.motion, "outputs over the run", missing=analyse.no_run),
     Analysis("pins", analyse.pins, "forces, impacts and orbits of pins with play", missing=analyse.no_pins),
     Analysis("forces", forces.forces, "forces in all joints over the last turn", missing=analyse.no_run),
     Analysis("energy", energy.energy, "energy audit and drive torque", missing=analyse.no_run),
@@ -29,6 +29,8 @@ ANALYSES = (
     Analysis("poincare", nonlinear.poincare, "Poincare section", missing=_asked("poincare")),
     Analysis("lyapunov", nonlinear.lyapunov, "largest Lyapunov exponent", missing=_asked("lyapunov")),
     Analysis("end", analyse.end, "bodies at the end of the run", missing=analyse.no_run),
+    Analysis("oil", rest.oil, "closed form of each oil film beside Reynolds' equation", missing=rest.no_oil),
+    Analysis("rest", rest.rest, "equilibrium, holding torques, natural frequencies", default=False),
     Analysis("bifurcation", nonlinear.bifurcation, "bifurcation diagram", default=False, missing=_asked("bifurcation")),
     Analysis("load_table", nonlinear.load_table, "impact load over speed and clearance", default=False,
              missing=_asked("table", analyse.no_play)),

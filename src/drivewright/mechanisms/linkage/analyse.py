@@ -54,9 +54,9 @@ def motion(model, done):
     seen, values = window(model), {}
     for output in model.spec.outputs:
         angle, name = seen.point(output.name, "angle"), output.name
-        values[f"{name}.swing"] = Value(span(seen.t, angle), "rad", f"range of the angle of {output.body!r} in the window")
         values[f"{name}.max_angular_acceleration"] = Value(
             largest(seen.t, seen.point(name, "alpha")), "rad/s^2", f"largest angular acceleration of {output.body!r}, magnitude")
+        values[f"{name}.swing"] = Value(span(seen.t, angle), "rad", f"range of the angle of {output.body!r} in the window")
         if output.point:
             values[f"{name}.max_acceleration"] = Value(
                 largest(seen.t, acceleration(seen, output)[0]), "m/s^2", f"largest acceleration of point {output.point!r}, magnitude")
@@ -188,12 +188,8 @@ def pins(model, done):
 def _impact_table(model, run):
     t, pin, speed = run.impacts.T
     return Table("impacts", "Impacts", (
-        Column("time", "s", "time of the impact", t), Column("joint", "-", f"number of the joint: {_numbered(model.pins)}", pin),
+        Column("time", "s", "time of the impact", t), Column("joint", "-", "joint", np.array(model.pins)[pin.astype(int)]),
         Column("speed", "m/s", "speed of approach", speed)))
-
-
-def _numbered(names):
-    return ", ".join(f"{number} {name}" for number, name in enumerate(names))
 
 
 def _pin_table(model, seen, number, name):
@@ -206,6 +202,6 @@ def _pin_table(model, seen, number, name):
         Column("y", "m", "journal's centre from the bearing's, y", -away * pin["ny"]),
         Column("depth", "m", "penetration, below 0 in flight", pin["depth"]),
         Column("force", "N", "force between journal and bearing", np.hypot(pin["fx"], pin["fy"])),
-        Column("force_x", "N", "force on the journal's body, x", -pin["fx"]), Column("force_y", "N", "the same, y", -pin["fy"]),
+        Column("force_x", "N", "force on the journal's body, x", -pin["fx"]), Column("force_y", "N", "force on the journal's body, y", -pin["fy"]),
         Column("slip", "m/s", "sliding speed", pin["slip"]),
         Column("contact", "-", "1 in contact, 0 in flight", (pin["depth"] > 0).astype(float))))

@@ -9,7 +9,7 @@ import numpy as np
 from drivewright.errors import DoesNotAssemble
 from drivewright.mechanisms.linkage.describe import describe, output_marker
 from drivewright.multibody.assembly import Assembly, assemble
-from drivewright.multibody.model import Dry, Lubricated, MasslessLink, Revolute
+from drivewright.multibody.model import Dry, Ideal, Lubricated, MasslessLink, Revolute
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import Settings, simulate
 
@@ -32,7 +32,7 @@ class LinkageModel:
     @property
     def played(self):
         """Whether a joint has play or gives way."""
-        return self.assembly.model != self.ideal.model
+        return _played(self.assembly.model)
 
     @property
     def period(self):
@@ -72,12 +72,16 @@ class LinkageModel:
         return driven.sign * driven.start + self.spec.drive.speed * np.asarray(t)
 
 
+def _played(model):
+    return any(isinstance(joint, Revolute) and not isinstance(joint.model, Ideal) for joint in model.joints)
+
+
 def build(spec):
     """The `LinkageModel` of a LinkageSpec."""
     try:
         ideal = assemble(describe(spec, ideal=True))
         whole = describe(spec)
-        return LinkageModel(spec, ideal if whole == ideal.model else assemble(whole), ideal)
+        return LinkageModel(spec, assemble(whole) if _played(whole) else ideal, ideal)
     except DoesNotAssemble as error:
         raise DoesNotAssemble(f"linkage: {error}") from None
 

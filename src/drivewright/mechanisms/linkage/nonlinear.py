@@ -18,6 +18,7 @@ from drivewright.result import Answer, Column, Table, Value
 from drivewright.spec import dimension_at, document, from_document, set_key
 
 SAME = 1e-3  # of the cloud's size: visits nearer to each other count as one point of the orbit
+STILL = 1e-5  # of the range of the motion: a cloud smaller than this is one point
 ORDERS = 60
 
 
@@ -82,13 +83,21 @@ def poincare(model, done):
               "poincare.velocity": Value(float(velocity[-1]), rate, f"velocity {words} after the last whole turn")}
     points = np.stack([position[kept], velocity[kept]], axis=1)
     if len(points) >= 6:
-        size = np.ptp(points, axis=0)
-        period = orbit_period(points / np.where(size > 0, size, 1.0), SAME)
+        period = orbit_period(points / np.maximum(np.ptp(points, axis=0), STILL * _spans(model, output)), SAME)
         values["poincare.period"] = Value(float(period), "-", "turns after which the motion repeats itself; 0: it does not")
     table = Table("poincare", f"Poincare section of {output.name!r}", (
         Column("position", where, f"position {words}", position[kept]), Column("velocity", rate, f"velocity {words}", velocity[kept]),
         Column("turn", "-", "turn of the drive", np.round(t[kept] / model.period))))
     return Answer(values, (table,))
+
+
+def _spans(model, output):
+    """Range of position and velocity of an output over the ideal mechanism's turn."""
+    seen, axis = ideal_record(model), path_axis(model.spec, output)
+    if output.point is None:
+        return np.array([np.ptp(seen.point(output.name, "angle")), np.ptp(seen.point(output.name, "w"))])
+    along = (axis[0] * seen.point(output.name, x) + axis[1] * seen.point(output.name, y) for x, y in (("x", "y"), ("vx", "vy")))
+    return np.array([np.ptp(part) for part in along])
 
 
 # -- Lyapunov exponent ---------------------------------------------------------------------------------------------------------
@@ -97,6 +106,8 @@ def poincare(model, done):
 def lyapunov(model, done):
     """Largest Lyapunov exponent per turn of the drive, by Benettin's method, with its convergence."""
     asked, system = model.spec.lyapunov, model.assembly.system
+    if model.assembly.freedom == 0:
+        return Answer(findings=("the Lyapunov exponent does not exist: the drive leaves the mechanism no freedom",))
     free = len(system.stored) + len(system.independent)
     scales = tolerances(system, model.settings, TURN / model.period) / model.settings.rtol
     inside = np.arange(len(scales)) < free
@@ -118,11 +129,15 @@ class Turn:
     def __init__(self, model):
         self.model = model
         self.settings = Settings(model.settings.rtol, model.settings.atol, max_steps=model.settings.max_steps)
+        stored, tree = list(model.assembly.system.stored), model.assembly.tree
+        self.spinning = [stored.index(tree.link(f"link:{joint.name}").turn) for joint in model.links]
 
     def __call__(self, state):
         # Every turn is run from time 0: the drive's angle is the same, and the state carries all that pins remember.
         run = simulate(self.model.assembly, self.model.period, self.settings, samples=np.empty(0), state=state)
-        return run.end[2]
+        end = run.end[2].copy()
+        end[self.spinning] %= TURN  # a link that spins would drown the separation in the rounding of its angle
+        return end
 
 
 # -- spectrum ------------------------------------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from drivewright.errors import InputError
-from drivewright.mechanisms.linkage.film import start_poses
+from drivewright.mechanisms.linkage.frames import start_poses
 from drivewright.mechanisms.linkage.refusals import GROUND, place, points_of
 from drivewright.mechanisms.linkage.scene import COLOURS
 from drivewright.mechanisms.linkage.sketch import carried, nodes, rounded

@@ -62,7 +62,14 @@ def _of_joint(result, joint):
 
 
 def _of_run(result):
-    """Impacts, drive, energy, Poincare section, Lyapunov exponent."""
+    """Forces in all joints, impacts, drive, energy, Poincare section, Lyapunov exponent."""
+    forces = result.tables.get("forces")
+    if forces:
+        names = [joint.name for joint in result.spec.joints if f"{joint.name}.force" in {c.name for c in forces.columns}]
+        yield Plot("forces", "Forces in the joints", "forces", forces.columns[0].name, tuple(f"{name}.force" for name in names))
+        tensions = tuple(c.name for c in forces.columns if c.name.endswith(".tension"))
+        if tensions:
+            yield Plot("tension", "Tension of the massless links", "forces", forces.columns[0].name, tensions, ((0.0, "contact lost below"),))
     impacts, drive, energy = (result.tables.get(name) for name in ("impacts", "drive", "energy"))
     if impacts and len(impacts["time"].data):
         several = len(set(np.asarray(impacts["joint"].data).tolist())) > 1
@@ -80,7 +87,15 @@ def _of_run(result):
 
 
 def _of_many_runs(result):
-    """Bifurcation diagram, impact load over speed."""
+    """Tolerances, wear, bifurcation diagram, impact load over speed."""
+    for name in result.tables:
+        if name.startswith("tolerances."):
+            yield Plot(name, f"Deviation of {_said(name[11:])}, dashed by linear theory", name, "deviation", ("share",),
+                       reference=("linear_share",))
+        if name.startswith("wear.") and name.endswith(".cycles"):
+            yield Plot(name, f"Wear of pin {_said(name[5:-7])}", name, "cycles", ("max_depth", "volume"))
+        elif name.startswith("wear."):
+            yield Plot(name, f"Depth of wear of pin {_said(name[5:])}", name, "angle", ("first", "middle", "last"))
     bifurcation = result.tables.get("bifurcation")
     if bifurcation and len(bifurcation["parameter"].data):
         over = bifurcation["parameter"].meaning

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright.mechanisms.linkage.describe import marker, output_marker
-from drivewright.mechanisms.linkage.film import FINE, film
+from drivewright.mechanisms.linkage.frames import FINE, film
 from drivewright.mechanisms.linkage.refusals import GROUND
 from drivewright.mechanisms.linkage.sketch import block, carried, half_width, nodes, rounded, turned
 from drivewright.multibody.model import Bushing, Dry, Gear, Ideal, Lubricated, MasslessLink, PinSlot, Prismatic, Revolute, Rolling

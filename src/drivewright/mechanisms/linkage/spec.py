@@ -140,7 +140,7 @@ class Poincare(Spec):
 class Lyapunov(Spec):
     """The largest Lyapunov exponent: how fast neighbouring motions part."""
 
-    turns: Integer = Field(60, ge=2, le=1_000_000, description="turns that count")
+    turns: Integer = Field(60, ge=32, le=1_000_000, description="turns that count; the error bar takes 32")
     discard: Integer = Field(20, ge=0, le=1_000_000, description="turns before them")
 
 
