@@ -40,7 +40,7 @@ def kernel(function):
 
     The original stays reachable as `.py_func`.
     """
-    return _compiled(function)
+    return _compiled(function, _nrt=True)  # said, for a callee inherits the caller's options otherwise
 
 
 def inner(function):

@@ -19,7 +19,8 @@ from drivewright.view.panels import panels
 
 X = np.linspace(0, 2 * np.pi, 41)
 TABLE = Table("motion", "Motion", (
-    Column("angle", "rad", "crank angle", X), Column("up", "N", "force", 10 + np.sin(X)), Column("ideal", "N", "ideal force", 10 + np.cos(X)),
+    Column("angle", "rad", "crank angle", X), Column("up", "N", "force", 10 + np.sin(X)),
+    Column("ideal", "N", "ideal force", 10 + np.cos(X)),
     Column("wide", "-", "size", np.exp(X)), Column("on", "-", "contact", (X < 3.0).astype(float))))
 RESULT = replace(four_bar_result(), tables={"motion": TABLE})
 LINE = Plot("line", "Line", "motion", "angle", ("up",))

@@ -7,7 +7,7 @@ the state only start Newton's method: the loops are closed anew, exactly, at eve
 import numpy as np
 
 from drivewright._jit import implements, inner
-from drivewright.multibody.kinematics import bend, close, drive, move
+from drivewright.multibody.kinematics import bend, close, curve_at, drive, move
 from drivewright.multibody.loads import SLOWEST, apart, gap_of, load, worn_off
 from drivewright.multibody.system import DRIFT, LUGRE, Motion
 from drivewright.numerics.ode import events, rate, switch
@@ -47,10 +47,28 @@ def accelerations(system, work, t, y, dy):
 def depths(system, work, t, y, values):
     """How firmly the dependent coordinates follow, less the least that is allowed; then the depth of every pin with play: it touches where
     this rises through 0 and lets go where it falls."""
-    pose(system, work, t, y)
+    if not stands(system, work, t, y):  # at the end of a step the last rates were those of this very state
+        pose(system, work, t, y)
     values[0] = firmness(work) - system.least_firmness
     for n in range(system.contacts.size):
         values[n + 1] = gap_of(system, work, n)
+
+
+@inner
+def stands(system, work, t, y):
+    """Whether the bodies are placed for this state already: driven and independent coordinates are the same."""
+    for d in range(system.driven.size):
+        driven = system.driven[d]
+        value, _, _ = curve_at(system, driven.curve, t)
+        if work.coordinates[driven.coordinate].q != driven.sign * (driven.start + value):
+            return False
+    m = 0
+    for k in range(system.stored.size):
+        if m < system.independent.size and system.stored[k] == system.independent[m]:  # both ascend
+            m += 1
+            if work.coordinates[system.stored[k]].q != y[k]:
+                return False
+    return True
 
 
 @inner
@@ -101,27 +119,28 @@ def accelerate(system, work):
             work.mass[m, n] = 0.0
     for i in range(1, system.bodies.size):
         body, forces = system.bodies[i], work.poses[i]
-        if body.mass == 0.0 and body.inertia == 0.0 and forces.fx == 0.0 and forces.fy == 0.0 and forces.ft == 0.0:
+        if body.driven or (body.mass == 0.0 and body.inertia == 0.0 and forces.fx == 0.0 and forces.fy == 0.0 and forces.ft == 0.0):
             continue
-        if not reduce_body(system, work, i):
-            continue
-        bx, by, bt = residual_bend(system, work, i)
-        fx = forces.fx + body.mass * (system.gravity_x - bx)
-        fy = forces.fy + body.mass * (system.gravity_y - by)
-        ft = forces.ft - body.inertia * bt
+        reduce_body(system, work, i)
+        fx, fy, ft = forces.fx, forces.fy, forces.ft
+        if body.mass != 0.0 or body.inertia != 0.0:
+            bx, by, bt = residual_bend(system, work, i)
+            fx += body.mass * (system.gravity_x - bx)
+            fy += body.mass * (system.gravity_y - by)
+            ft -= body.inertia * bt
+            for m in range(free):
+                one = work.reduced[m]
+                for n in range(m + 1):
+                    two = work.reduced[n]
+                    work.mass[m, n] += body.mass * (one.x * two.x + one.y * two.y) + body.inertia * one.t * two.t
         for m in range(free):
-            one = work.reduced[m]
-            work.force[m] += one.x * fx + one.y * fy + one.t * ft
-            for n in range(m + 1):
-                two = work.reduced[n]
-                work.mass[m, n] += body.mass * (one.x * two.x + one.y * two.y) + body.inertia * one.t * two.t
+            work.force[m] += work.reduced[m].x * fx + work.reduced[m].y * fy + work.reduced[m].t * ft
     cholesky_solve(work.mass, work.force)
 
 
 @inner
 def reduce_body(system, work, i):
-    """Levers of body i by the independent coordinates, the dependent ones following; False where it does not follow them at all."""
-    follows = False
+    """Levers of body i by the independent coordinates, the dependent ones following."""
     for m in range(system.independent.size):
         lever = work.levers[i, system.independent[m]]
         x, y, t = lever.x, lever.y, lever.t
@@ -132,8 +151,6 @@ def reduce_body(system, work, i):
             t += held.t * work.follow[r, m]
         reduced = work.reduced[m]
         reduced.x, reduced.y, reduced.t = x, y, t
-        follows = follows or x != 0.0 or y != 0.0 or t != 0.0
-    return follows
 
 
 @inner

@@ -8,6 +8,7 @@ from drivewright.numerics.small import lu_factor, lu_solve
 
 CLOSED = 1e-7  # Newton's correction below which one more evaluation is exact to rounding, convergence being quadratic
 TRIES = 12
+SMALL = 1e-6  # [rad]: the next term of the series is below 2e-19
 
 
 @inner
@@ -54,10 +55,10 @@ def place(system, work):
     """Pose of every body, and its levers, from the coordinates."""
     for i in range(1, system.bodies.size):
         body, here, base = system.bodies[i], work.poses[i], work.poses[system.bodies[i].parent]
-        here.angle = body.inherits * base.angle + body.offset
+        angle = body.inherits * base.angle + body.offset
         if body.turn >= 0:
-            here.angle += work.coordinates[body.turn].q
-        here.c, here.s = np.cos(here.angle), np.sin(here.angle)
+            angle += work.coordinates[body.turn].q
+        _turn_to(here, angle)
         if body.free >= 0:
             here.x, here.y = work.coordinates[body.free].q, work.coordinates[body.free + 1].q
             work.levers[i, body.free].x = work.levers[i, body.free + 1].y = 1.0
@@ -75,6 +76,19 @@ def place(system, work):
             fx, fy = turned(here, body.fx, body.fy)
             work.levers[i, body.slide].x += ex - fx
             work.levers[i, body.slide].y += ey - fy
+
+
+@inner
+def _turn_to(pose, angle):
+    """Set a body's angle; a change as small as Newton's corrections turns its cosine and sine by the first terms of their series."""
+    change = angle - pose.angle
+    pose.angle = angle
+    if abs(change) > SMALL:
+        pose.c, pose.s = np.cos(angle), np.sin(angle)
+    elif change != 0.0:
+        c, square = pose.c, 1.0 - 0.5 * change * change
+        pose.c = square * c - change * pose.s
+        pose.s = square * pose.s + change * c
 
 
 @inner

@@ -76,6 +76,9 @@ def lower(model, tree):
     if twice := [drive.joint for k, drive in enumerate(model.drives) if given[k] in given[:k]]:
         raise InputError(f"joint {twice[0]!r} is driven twice, or with another joint about the same axis; keep one drive")
     stored = np.array([k for k in range(tree.size) if k not in given], dtype=np.int64)
+    for number, body in enumerate(bodies[1:], start=1):  # parents come first
+        own = [k for k in (body["turn"], body["slide"], body["free"]) if k >= 0]
+        bodies[number]["driven"] = bool(bodies[int(body["parent"])]["driven"] or not body["parent"]) and all(k in given for k in own)
     curves, pieces = _curves(places.curves)
     return arrays.System(
         bodies=np.array(bodies).view(np.recarray), rows=_table(arrays.ROW, rows),

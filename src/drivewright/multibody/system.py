@@ -18,7 +18,8 @@ def _record(integers, reals):
 
 
 # r = r_parent + R_parent (a + s e) - R (b + s f), s the slide: one of e and f is 0.  `free`: x, y are coordinates free, free + 1.
-BODY = _record("parent turn slide free", "inherits offset ax ay bx by ex ey fx fy mass inertia")
+# `driven`: it follows the drives alone.
+BODY = _record("parent turn slide free driven", "inherits offset ax ay bx by ex ey fx fy mass inertia")
 
 # LINEAR   (R_k e).(P_i - P_j) + gi theta_i + gj theta_j + gk theta_k - lift(theta_l - theta_k) - constant = 0
 # DISTANCE |P_i - P_j| - constant = 0
@@ -112,7 +113,7 @@ def scratch(system):
     """Fresh `Work` for a system; every thread needs its own."""
     bodies, n, rows, free = len(system.bodies), len(system.stored) + len(system.driven), len(system.rows), len(system.independent)
     poses, levers = np.zeros(bodies, POSE).view(np.recarray), np.zeros((bodies, n), LEVER).view(np.recarray)
-    poses.c[0] = 1.0
+    poses.c = 1.0  # of the angle 0
     levers.t = turning(system.bodies, n)
     return Work(
         np.zeros(n, COORDINATE).view(np.recarray), poses, levers, np.zeros((rows, n)), np.zeros((rows, rows)), np.zeros(rows, np.int64),

@@ -172,11 +172,11 @@ def _copy(source, target):
 def _stages(system, t, h, y, k, trial):
     """Rates k[1..6] of the step from (t, y), k[0] being known, and its result in `trial`."""
     for stage in range(1, 7):
-        for i in range(y.size):
-            total = 0.0
-            for j in range(stage):
-                total += _A[stage, j] * k[j, i]
-            trial[i] = y[i] + h * total
+        _copy(y, trial)
+        for j in range(stage):
+            weight = h * _A[stage, j]
+            for i in range(y.size):
+                trial[i] += weight * k[j, i]
         rate(system, t + _C[stage] * h, trial, k[stage])
 
 

@@ -197,6 +197,8 @@ def _crossings(batch, hits):
 def _pick(batch, done, end, count):
     """(t, y) of a batch of steps at `count` evenly spaced points of each, the start being the first and the end left out."""
     start, size = batch.steps[:done].T
+    if count == 1:
+        return start.copy(), batch.dense[:done, 0].copy()
     length = np.append(start[1:], end)[:done] - start  # shorter than the size where a switch cut the step
     theta = (length / size)[:, None] * np.arange(count) / count
     y = _polynomial(np.moveaxis(batch.dense[:done], 1, 0)[:, :, None], theta[:, :, None])

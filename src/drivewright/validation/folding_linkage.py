@@ -48,8 +48,8 @@ NO_DAMPING = (
     "The damping that was used is not known: 0.1 N s/rad has the unit of no rotary damping, and read as 0.1 N m s/rad it freezes the "
     "links. Neither that nor any other constant gives the table.")
 NOT_A_TARGET = (
-    "Damping of the links calibrated for each play at 28 800 r/h and proportional to the speed. This brings growth with the play, order of "
-    "size and near independence of the speed, not the cells: a comparison, no evidence.")
+    "Damping of the links calibrated for each play at 28 800 r/h and proportional to the speed. This brings growth from 0.05 mm on, order "
+    "of size and near independence of the speed, not the cells: a comparison, no evidence.")
 
 
 def rows():

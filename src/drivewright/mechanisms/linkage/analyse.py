@@ -202,6 +202,7 @@ def _pin_table(model, seen, number, name):
         Column("y", "m", "journal's centre from the bearing's, y", -away * pin["ny"]),
         Column("depth", "m", "penetration, below 0 in flight", pin["depth"]),
         Column("force", "N", "force between journal and bearing", np.hypot(pin["fx"], pin["fy"])),
-        Column("force_x", "N", "force on the journal's body, x", -pin["fx"]), Column("force_y", "N", "force on the journal's body, y", -pin["fy"]),
+        Column("force_x", "N", "force on the journal's body, x", -pin["fx"]),
+        Column("force_y", "N", "force on the journal's body, y", -pin["fy"]),
         Column("slip", "m/s", "sliding speed", pin["slip"]),
         Column("contact", "-", "1 in contact, 0 in flight", (pin["depth"] > 0).astype(float))))

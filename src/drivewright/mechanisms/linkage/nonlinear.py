@@ -9,13 +9,15 @@ from drivewright.errors import SolverError, UnknownName
 from drivewright.mechanisms.linkage.analyse import acceleration
 from drivewright.mechanisms.linkage.build import TURN, build, ideal_record, record_of
 from drivewright.mechanisms.linkage.describe import output_marker
+from drivewright.mechanisms.linkage.refusals import refuse_nonsense
 from drivewright.multibody.measures import impact_load, largest
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import Settings, simulate, tolerances
 from drivewright.numerics.chaos import largest_exponent, orbit_period
 from drivewright.numerics.signals import order_spectrum
 from drivewright.result import Answer, Column, Table, Value
-from drivewright.spec import dimension_at, document, from_document, set_key
+from drivewright.spec import dimension_at
+from drivewright.units import SI
 
 SAME = 1e-3  # of the cloud's size: visits nearer to each other count as one point of the orbit
 STILL = 1e-5  # of the range of the motion: a cloud smaller than this is one point
@@ -168,12 +170,21 @@ def spectrum(model, done):
 
 
 def varied(spec, changes):
-    """The spec with keys {dotted key: SI value} changed."""
-    tables = document(spec)
+    """The spec with keys {dotted key: SI value} changed; the changed tables and the whole are checked as on reading."""
     for key, value in changes.items():
-        dimension = dimension_at(type(spec), key)[1]
-        set_key(tables, key, dimension.text(value) if dimension else value)
-    return from_document(tables)
+        spec = _changed(spec, key.split("."), SI(value) if dimension_at(type(spec), key)[1] else value)
+    refuse_nonsense(spec)
+    return spec
+
+
+def _changed(node, path, value):
+    """A copy of a table, a list of named tables or a table of tables with the value at the path changed."""
+    step, *rest = path
+    if isinstance(node, tuple):
+        return tuple(_changed(one, rest, value) if step in (getattr(one, "name", None), str(n)) else one for n, one in enumerate(node))
+    if isinstance(node, dict):
+        return type(node)({**node, step: _changed(node[step], rest, value)})
+    return node.model_copy(update={step: _changed(getattr(node, step), rest, value)}) if rest else node.replace(**{step: value})
 
 
 def bifurcation(model, done):
@@ -214,8 +225,9 @@ def load_table(model, done):
 
     def task(point):
         changes = {"drive.speed": point[0]} | {f"joints.{name}.clearance": point[1] for name in played}
-        return load_of(build(varied(spec, changes)), output)
+        return load_of(build(varied(spec, changes)), output, ideal[point[0]])
 
+    ideal = {speed: ideal_peak(build(varied(spec, {"drive.speed": speed})), output) for speed in asked.speeds}
     rows = cases.run(task, points, workers=None)
     good = [row for row in rows.rows if row.ok]
     failed = tuple(f"table: {row.case[0]:.6g} rad/s, {1e3 * row.case[1]:.4g} mm is left out: {row.reason}" for row in rows.failed)
@@ -242,12 +254,17 @@ def acceleration_unit(output):
     return "rad/s^2" if output.point is None else "m/s^2"
 
 
-def load_of(model, output):
-    """(*ImpactLoad, ideal peak) of one output of a model."""
+def ideal_peak(model, output):
+    """Largest acceleration of an output without play."""
+    seen = ideal_record.__wrapped__(model)
+    return largest(seen.t, acceleration(seen, output)[0])
+
+
+def load_of(model, output, peak=None):
+    """(*ImpactLoad, ideal peak) of one output of a model, whose ideal peak may be known already; only the window is observed."""
+    peak = ideal_peak(model, output) if peak is None else peak
     run = simulate(model.assembly, model.duration, replace(model.settings, per_step=1))
     if run.advice:
         raise SolverError(run.advice)
     seen = record(run, {output.name: output_marker(model.spec, output)}, model.spec.start_of_window * (1 - 1e-12))
-    ideal = ideal_record.__wrapped__(model)
-    peak = largest(ideal.t, acceleration(ideal, output)[0])
     return (*impact_load(seen.t, acceleration(seen, output)[0], peak, model.period), peak)

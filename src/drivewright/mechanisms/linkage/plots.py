@@ -69,7 +69,8 @@ def _of_run(result):
         yield Plot("forces", "Forces in the joints", "forces", forces.columns[0].name, tuple(f"{name}.force" for name in names))
         tensions = tuple(c.name for c in forces.columns if c.name.endswith(".tension"))
         if tensions:
-            yield Plot("tension", "Tension of the massless links", "forces", forces.columns[0].name, tensions, ((0.0, "contact lost below"),))
+            yield Plot("tension", "Tension of the massless links", "forces", forces.columns[0].name, tensions,
+                       ((0.0, "contact lost below"),))
     impacts, drive, energy = (result.tables.get(name) for name in ("impacts", "drive", "energy"))
     if impacts and len(impacts["time"].data):
         several = len(set(np.asarray(impacts["joint"].data).tolist())) > 1
