@@ -9,6 +9,7 @@ SPEED, CRANK, ROD, HALF, ROD_MASS, ROD_INERTIA, SLIDER_MASS = 5000 / 60 * TURN, 
 BEARING, LOSS = 0.01, 0.15  # bearing radius [m]; h of F = K d^1.5 (1 + h d'/d0'), which Exudyn has as Hunt and Crossley's e = 0.9
 OFFSET = -1e-4  # of the slider at the start: Exudyn's contact cannot start centred
 PERIOD = TURN / SPEED
+APART = 1e-13  # [m]
 
 
 def slider_crank(clearance=0.5e-3):
@@ -58,7 +59,7 @@ def scipys(method, rtol, turns):
     began = time.perf_counter()
     while t < turns * PERIOD:
         def event(t, y, memory):
-            return gap(t, y)[0]
+            return gap(t, y)[0] + (APART if memory > 0.0 else -APART)  # lest SciPy meets the same event again at once
 
         event.terminal, event.direction = True, 1.0 if memory == 0.0 else -1.0
         run = solve_ivp(right_side, (t, turns * PERIOD), state, method, events=event, rtol=rtol, atol=1e-3 * rtol, args=(memory,))

@@ -9,6 +9,7 @@ import tempfile
 import time
 from pathlib import Path
 
+import linkages
 import numpy as np
 
 ROOT = Path(__file__).parent.parent
@@ -183,6 +184,9 @@ SECTIONS = (
     ("Reverse design", optimiser),
     ("Report", report),
     ("Integrator", integrator),
+    ("Slider-crank with play: work and precision", linkages.work_precision),
+    ("Folder: table of impact load coefficients", linkages.table),
+    ("Slider-crank with play: bifurcation diagram", linkages.bifurcation),
 )
 
 

@@ -52,7 +52,7 @@ def inner(function):
 
 
 def outer(function):
-    """A kernel that allocates nothing and is called from Python: as `inner`, but not inlined."""
+    """A kernel that allocates nothing, called from Python or with few arguments: as `inner`, but inlined only where that pays."""
     return _compiled(function, _nrt=False)
 
 

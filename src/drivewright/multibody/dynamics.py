@@ -59,7 +59,7 @@ def stands(system, work, t, y):
     """Whether the bodies are placed for this state already: driven and independent coordinates are the same."""
     for d in range(system.driven.size):
         driven = system.driven[d]
-        value, _, _ = curve_at(system, driven.curve, t)
+        value, _, _ = curve_at(system.curves, system.pieces, driven.curve, t)
         if work.coordinates[driven.coordinate].q != driven.sign * (driven.start + value):
             return False
     m = 0
@@ -90,8 +90,8 @@ def touch_or_let_go(system, work, index, t, y):
     else:
         pose(system, work, t, y)
         move(system, work)
-        dx, dy, vx, vy, _, _, _, _ = apart(work, contact)
-        _, lean = worn_off(system, work, index - 1, dx, dy)
+        dx, dy, vx, vy, _, _, _, _ = apart(work.poses, contact)
+        _, lean = worn_off(system.wear[index - 1], work.poses[contact.i].angle, dx, dy)
         across = (dx * vy - dy * vx) / np.hypot(dx, dy) - np.hypot(dx, dy) * work.poses[contact.i].w
         y[contact.memory] = max((dx * vx + dy * vy) / np.hypot(dx, dy) - lean * across, SLOWEST)
     if contact.law == LUGRE:

@@ -8,24 +8,23 @@ from drivewright.numerics.small import lu_factor, lu_solve
 
 CLOSED = 1e-7  # Newton's correction below which one more evaluation is exact to rounding, convergence being quadratic
 TRIES = 12
-SMALL = 1e-6  # [rad]: the next term of the series is below 2e-19
 
 
-@inner
-def curve_at(system, index, x):
+@outer
+def curve_at(curves, pieces, index, x):
     """(f, f', f'') of a piecewise polynomial."""
-    curve = system.curves[index]
+    curve = curves[index]
     low, high = curve.first, curve.first + curve.count - 1
-    start = system.pieces[low].start
+    start = pieces[low].start
     if curve.period > 0.0:
         x = start + (x - start) % curve.period
     while low < high:
         middle = (low + high + 1) // 2
-        if system.pieces[middle].start <= x:
+        if pieces[middle].start <= x:
             low = middle
         else:
             high = middle - 1
-    p = system.pieces[low]
+    p = pieces[low]
     u = x - p.start
     value = p.c0 + u * (p.c1 + u * (p.c2 + u * (p.c3 + u * (p.c4 + u * p.c5))))
     slope = p.c1 + u * (2 * p.c2 + u * (3 * p.c3 + u * (4 * p.c4 + u * 5 * p.c5)))
@@ -43,7 +42,7 @@ def drive(system, work, t):
     """Coordinates that are given functions of time, with their rates and accelerations."""
     for d in range(system.driven.size):
         driven = system.driven[d]
-        value, slope, second = curve_at(system, driven.curve, t)
+        value, slope, second = curve_at(system.curves, system.pieces, driven.curve, t)
         coordinate = work.coordinates[driven.coordinate]
         coordinate.q = driven.sign * (driven.start + value)
         coordinate.v = driven.sign * slope
@@ -58,7 +57,8 @@ def place(system, work):
         angle = body.inherits * base.angle + body.offset
         if body.turn >= 0:
             angle += work.coordinates[body.turn].q
-        _turn_to(here, angle)
+        if angle != here.angle:  # Newton's corrections leave most angles as they are
+            here.angle, here.c, here.s = angle, np.cos(angle), np.sin(angle)
         if body.free >= 0:
             here.x, here.y = work.coordinates[body.free].q, work.coordinates[body.free + 1].q
             work.levers[i, body.free].x = work.levers[i, body.free + 1].y = 1.0
@@ -79,19 +79,6 @@ def place(system, work):
 
 
 @inner
-def _turn_to(pose, angle):
-    """Set a body's angle; a change as small as Newton's corrections turns its cosine and sine by the first terms of their series."""
-    change = angle - pose.angle
-    pose.angle = angle
-    if abs(change) > SMALL:
-        pose.c, pose.s = np.cos(angle), np.sin(angle)
-    elif change != 0.0:
-        c, square = pose.c, 1.0 - 0.5 * change * change
-        pose.c = square * c - change * pose.s
-        pose.s = square * pose.s + change * c
-
-
-@inner
 def measure(system, work):
     """Residual of every constraint row and its Jacobian."""
     for r in range(system.rows.size):
@@ -106,7 +93,7 @@ def measure(system, work):
             miss = ux * dx + uy * dy + gi * first.angle + gj * second.angle + gk * third.angle - row.constant
             gk += ux * dy - uy * dx
             if row.lift >= 0:
-                lift, slope, _ = curve_at(system, row.lift, work.poses[row.l].angle - third.angle)
+                lift, slope, _ = curve_at(system.curves, system.pieces, row.lift, work.poses[row.l].angle - third.angle)
                 miss -= lift
                 gl -= slope
                 gk += slope
@@ -255,7 +242,7 @@ def _row_bend(system, work, row):
         total = ux * ax + uy * ay + 2 * wk * (ux * vy - uy * vx) - wk * wk * (ux * dx + uy * dy)
         if row.lift >= 0:
             cam = work.poses[row.l]
-            _, _, curvature = curve_at(system, row.lift, cam.angle - third.angle)
+            _, _, curvature = curve_at(system.curves, system.pieces, row.lift, cam.angle - third.angle)
             total -= curvature * (cam.w - wk) ** 2
         return total
     distance = np.hypot(dx, dy)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from drivewright._jit import inner
+from drivewright._jit import inner, outer
 from drivewright.contact.film import long_bearing, short_bearing
 from drivewright.contact.friction import ambrosio, coulomb, lugre, lugre_rate
 from drivewright.contact.impact import cylinder_force
@@ -40,13 +40,13 @@ def unload(work):
 def hold(system, work):
     """Springs, dampers and bushings."""
     for n in range(system.springs.size):
-        _spring(work, system.springs[n])
+        _spring(work.poses, system.springs[n])
     for n in range(system.twists.size):
         twist = system.twists[n]
-        angle, rate = turn(work, twist)
-        wring(work, twist, -twist.stiffness * (angle - twist.rest) - twist.damping * rate)
+        angle, rate = turn(work.poses, twist)
+        wring(work.poses, twist, -twist.stiffness * (angle - twist.rest) - twist.damping * rate)
     for n in range(system.bushings.size):
-        _bushing(work, system.bushings[n])
+        _bushing(work.poses, system.bushings[n])
 
 
 @inner
@@ -54,11 +54,11 @@ def apply(system, work, t):
     """Torques and forces from outside."""
     for n in range(system.torques.size):
         torque = system.torques[n]
-        value, _, _ = curve_at(system, torque.curve, _argument(work, t, torque.over, torque.i, torque.j))
-        wring(work, torque, value)
+        value, _, _ = curve_at(system.curves, system.pieces, torque.curve, _argument(work, t, torque.over, torque.i, torque.j))
+        wring(work.poses, torque, value)
     for n in range(system.forces.size):
         force = system.forces[n]
-        value, _, _ = curve_at(system, force.curve, _argument(work, t, force.over, force.i, 0))
+        value, _, _ = curve_at(system.curves, system.pieces, force.curve, _argument(work, t, force.over, force.i, 0))
         fx, fy = turned(work.poses[force.k], force.ex, force.ey)
         px, py = turned(work.poses[force.i], force.ax, force.ay)
         push(work.poses[force.i], px, py, value * fx, value * fy)
@@ -73,16 +73,16 @@ def push(pose, px, py, fx, fy):
 
 
 @inner
-def wring(work, pair, torque):
+def wring(poses, pair, torque):
     """Apply a torque to body i and its opposite to body j."""
-    work.poses[pair.i].ft += torque
-    work.poses[pair.j].ft -= torque
+    poses[pair.i].ft += torque
+    poses[pair.j].ft -= torque
 
 
 @inner
-def turn(work, pair):
+def turn(poses, pair):
     """Angle and angular velocity of body i relative to body j."""
-    return work.poses[pair.i].angle - work.poses[pair.j].angle, work.poses[pair.i].w - work.poses[pair.j].w
+    return poses[pair.i].angle - poses[pair.j].angle, poses[pair.i].w - poses[pair.j].w
 
 
 @inner
@@ -93,9 +93,9 @@ def _argument(work, t, over, i, j):
 
 
 @inner
-def apart(work, pair):
+def apart(poses, pair):
     """Point of body i minus point of body j, its rate, and the arms of both points."""
-    one, two = work.poses[pair.i], work.poses[pair.j]
+    one, two = poses[pair.i], poses[pair.j]
     px, py = turned(one, pair.ax, pair.ay)
     qx, qy = turned(two, pair.bx, pair.by)
     dx, dy = one.x + px - two.x - qx, one.y + py - two.y - qy
@@ -103,28 +103,28 @@ def apart(work, pair):
     return dx, dy, vx, vy, px, py, qx, qy
 
 
-@inner
-def _spring(work, spring):
+@outer
+def _spring(poses, spring):
     """Tension k (L - L0) + c L' along the line between the points."""
-    dx, dy, vx, vy, px, py, qx, qy = apart(work, spring)
+    dx, dy, vx, vy, px, py, qx, qy = apart(poses, spring)
     length = np.hypot(dx, dy)
     if length == 0.0:  # no direction
         return
     ux, uy = dx / length, dy / length
     tension = spring.stiffness * (length - spring.free_length) + spring.damping * (ux * vx + uy * vy)
-    push(work.poses[spring.i], px, py, -tension * ux, -tension * uy)
-    push(work.poses[spring.j], qx, qy, tension * ux, tension * uy)
+    push(poses[spring.i], px, py, -tension * ux, -tension * uy)
+    push(poses[spring.j], qx, qy, tension * ux, tension * uy)
 
 
-@inner
-def _bushing(work, bush):
+@outer
+def _bushing(poses, bush):
     """Both points and both angles are pulled together; the force acts at the point of j on both, so that it has no arm of its own."""
-    dx, dy, vx, vy, px, py, qx, qy = apart(work, bush)
+    dx, dy, vx, vy, px, py, qx, qy = apart(poses, bush)
     fx, fy = bush.stiffness * dx + bush.damping * vx, bush.stiffness * dy + bush.damping * vy
-    push(work.poses[bush.i], px - dx, py - dy, -fx, -fy)
-    push(work.poses[bush.j], qx, qy, fx, fy)
-    angle, rate = turn(work, bush)
-    wring(work, bush, -bush.rotational_stiffness * (angle - bush.rest) - bush.rotational_damping * rate)
+    push(poses[bush.i], px - dx, py - dy, -fx, -fy)
+    push(poses[bush.j], qx, qy, fx, fy)
+    angle, rate = turn(poses, bush)
+    wring(poses, bush, -bush.rotational_stiffness * (angle - bush.rest) - bush.rotational_damping * rate)
 
 
 # ------------------------------------------------------------------------------------------------------------- pins with play
@@ -138,31 +138,31 @@ def gap_of(system, work, n):
     px, py = turned(one, contact.ax, contact.ay)
     qx, qy = turned(two, contact.bx, contact.by)
     dx, dy = one.x + px - two.x - qx, one.y + py - two.y - qy
-    worn, _ = worn_off(system, work, n, dx, dy)
+    worn, _ = worn_off(system.wear[n], work.poses[contact.i].angle, dx, dy)
     return np.hypot(dx, dy) - contact.clearance - worn
 
 
-@inner
-def worn_off(system, work, n, dx, dy):
-    """(depth worn off the bearing on the side where the journal is, opposite to e = (dx, dy); its slope by the angle over |e|).
+@outer
+def worn_off(wear, turned_by, dx, dy):
+    """(depth worn off the bearing on the side where the journal is, opposite to e = (dx, dy); its slope by the angle over |e|).  wear (bins,) in the bearing's frame.
 
     The journal is taken to touch where its centre points, so that depth = |e| - clearance - h(angle); the force is that law's gradient,
     which keeps the energy.  It holds while the profile is flat: its slope by the angle well below the clearance.
     h is a quadratic B-spline over the bins: its integral is that of the bins, and its slope has no jumps in which a journal would rattle.
     """
-    bins = system.wear.shape[1]
+    bins = wear.size
     if bins == 0:
         return 0.0, 0.0
-    place = (np.arctan2(-dy, -dx) - work.poses[system.contacts[n].i].angle) * bins / (2 * np.pi)
+    place = (np.arctan2(-dy, -dx) - turned_by) * bins / (2 * np.pi)
     node = np.floor(place + 0.5)
-    u, k, depths = place - node, int(node) % bins, system.wear[n]
-    before, here, after = depths[k - 1], depths[k], depths[(k + 1) % bins]  # k - 1 may be -1: the last one
+    u, k = place - node, int(node) % bins
+    before, here, after = wear[k - 1], wear[k], wear[(k + 1) % bins]  # k - 1 may be -1: the last one
     depth = 0.5 * (0.5 - u) ** 2 * before + (0.75 - u * u) * here + 0.5 * (0.5 + u) ** 2 * after
     slope = (u - 0.5) * before - 2 * u * here + (u + 0.5) * after
     return depth, slope * bins / (2 * np.pi) / np.hypot(dx, dy)
 
 
-@inner
+@outer
 def normal_of(contact, depth, rate, onset):
     """F = K d^n (1 + h d'/d0') + c d', or the cylinder law instead of K d^n; a contact never pulls."""
     if contact.cylinder:
@@ -175,7 +175,7 @@ def normal_of(contact, depth, rate, onset):
     return max(elastic * (1.0 + contact.hysteresis * rate / onset) + contact.damping * rate, 0.0)
 
 
-@inner
+@outer
 def friction_of(contact, normal, slip, bristle):
     """(friction force against the slip, rate of the bristle)."""
     if normal <= 0.0 or contact.law == 0:
@@ -196,9 +196,9 @@ def touch(system, n, work, y):
     through which the normal of a round journal always goes.  Slip is the bearing's wall against the journal along t = (-ny, nx).
     """
     contact = system.contacts[n]
-    dx, dy, vx, vy, _, _, _, _ = apart(work, contact)
+    dx, dy, vx, vy, _, _, _, _ = apart(work.poses, contact)
     distance = np.hypot(dx, dy)
-    worn, lean = worn_off(system, work, n, dx, dy)
+    worn, lean = worn_off(system.wear[n], work.poses[contact.i].angle, dx, dy)
     depth = distance - contact.clearance - worn
     if distance == 0.0:
         return depth, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0
@@ -215,10 +215,10 @@ def touch(system, n, work, y):
     return depth, normal, rubbing, slip, rate, nx, ny, lean
 
 
-@inner
-def film_of(contact, work):
+@outer
+def film_of(contact, poses):
     """Force (x, y) of the oil on the bearing, and the torque-free arm is its centre; it fades where the walls touch."""
-    dx, dy, vx, vy, _, _, _, _ = apart(work, contact)
+    dx, dy, vx, vy, _, _, _, _ = apart(poses, contact)
     distance, clearance = np.hypot(dx, dy), contact.clearance
     excess = (distance - clearance) / contact.roughness
     if excess >= 1.0:
@@ -226,7 +226,7 @@ def film_of(contact, work):
     weight = 1.0 if excess <= 0.0 else 1.0 - excess * excess * (3.0 - 2.0 * excess)
     most = clearance - max(contact.roughness, THINNEST * clearance)
     scale = most / distance if distance > most else 1.0
-    spin = work.poses[contact.i].w + work.poses[contact.j].w
+    spin = poses[contact.i].w + poses[contact.j].w
     ex, ey, radius = -dx * scale, -dy * scale, contact.bearing_radius
     if contact.film == LONG_FILM:
         fx, fy = long_bearing(ex, ey, -vx, -vy, spin, contact.viscosity, contact.length, radius, clearance)
@@ -257,7 +257,7 @@ def _contact(system, n, work, y, dy):
             push(one, qx + two.x - one.x, qy + two.y - one.y, fx, fy)
             push(two, qx, qy, -fx, -fy)
     if contact.film != NO_FILM:
-        fx, fy = film_of(contact, work)
+        fx, fy = film_of(contact, work.poses)
         qx, qy = turned(two, contact.bx, contact.by)
         push(one, qx + two.x - one.x, qy + two.y - one.y, fx, fy)
         push(two, qx, qy, -fx, -fy)

@@ -106,7 +106,7 @@ def _pin(system, number, work, y, out):
     across = normal * lean - rubbing  # along (-ny, nx)
     out[6], out[7] = -normal * nx - across * ny, -normal * ny + across * nx
     if contact.film != NO_FILM:
-        fx, fy = film_of(contact, work)
+        fx, fy = film_of(contact, work.poses)
         out[6], out[7] = out[6] + fx, out[7] + fy
 
 

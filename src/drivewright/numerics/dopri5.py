@@ -97,8 +97,26 @@ class Batch(NamedTuple):
 @outer
 def refresh(system, watched, clock, y, k, values):
     """Rates and event functions at a new state."""
-    rate(system, clock[0], y, k[0])
-    events(watched, clock[0], y, values)
+    rate_at(system, clock[0], y, k[0])
+    events_at(watched, clock[0], y, values)
+
+
+@outer
+def rate_at(system, t, y, dy):
+    """`rate`, compiled once for the places where it is not called often."""
+    rate(system, t, y, dy)
+
+
+@outer
+def events_at(watched, t, y, values):
+    """`events`, likewise."""
+    events(watched, t, y, values)
+
+
+@outer
+def switch_at(switched, index, t, y):
+    """`switch`, likewise."""
+    switch(switched, index, t, y)
 
 
 @outer
@@ -146,7 +164,7 @@ def advance(system, watched, switched, settings, watch, clock, y, k, values, bat
         clock[0] = settings.t1 if last else t + h
         _copy(trial, y)
         _copy(k[6], k[0])
-        events(watched, clock[0], y, after)
+        events_at(watched, clock[0], y, after)
         known = hits
         hits, ender = _watch(watched, watch, values, after, trial, accepted, batch, hits)
         _copy(after, values)
@@ -273,7 +291,7 @@ def values_at(watched, theta, batch, row, y, values):
     """Event functions at a fraction of a step; y is scratch."""
     for i in range(y.size):
         y[i] = _point(batch.dense[row], i, theta)
-    events(watched, batch.steps[row, 0] + theta * batch.steps[row, 1], y, values)
+    events_at(watched, batch.steps[row, 0] + theta * batch.steps[row, 1], y, values)
 
 
 @inner
@@ -310,7 +328,7 @@ def _happen(switched, watch, t, y, batch, known, hits, ender):
         if batch.hits[n, 2] == theta and watch.effects[index] == STOP:
             stops = True
         elif batch.hits[n, 2] == theta and watch.effects[index] == SWITCH:
-            switch(switched, index, t, y)
+            switch_at(switched, index, t, y)
     for n in range(known, hits):
         if batch.hits[n, 2] == theta and watch.effects[int(batch.hits[n, 1])] == SWITCH:
             _copy(y, batch.found[n])

@@ -29,10 +29,11 @@ from drivewright.numerics.dopri5 import (
     _point,
     _watch,
     begin,
-    events,
+    events_at,
     rate,
+    rate_at,
     refresh,
-    switch,
+    switch_at,
 )
 
 _EPS = np.finfo(float).eps
@@ -195,8 +196,8 @@ def advance(system, watched, switched, settings, watch, clock, y, work, values, 
         batch.steps[accepted, 0], batch.steps[accepted, 1] = t, h
         clock[T] = settings.t1 if last else t + h
         _copy(work.trial, y)
-        rate(system, clock[T], y, work.f[0])
-        events(watched, clock[T], y, batch.after)
+        rate_at(system, clock[T], y, work.f[0])
+        events_at(watched, clock[T], y, batch.after)
         hits, ender = _watch(watched, watch, values, batch.after, batch.trial, accepted, batch, hits)
         _copy(batch.after, values)
         accepted += 1
@@ -205,7 +206,7 @@ def advance(system, watched, switched, settings, watch, clock, y, work, values, 
             index = int(batch.hits[ender, 1])
             if watch.effects[index] == STOP:
                 return EVENT, accepted, rejected, hits
-            switch(switched, index, clock[T], y)
+            switch_at(switched, index, clock[T], y)
             _copy(y, batch.found[ender])
             refresh(system, watched, clock, y, work.f, values)
             clock[JACOBIAN], clock[OLD_STEP] = MISSING, 0.0
@@ -295,7 +296,7 @@ def _improve(system, t, h, y, work):
     for stage in range(3):
         for i in range(y.size):
             work.trial[i] = y[i] + work.z[stage, i]
-        rate(system, t + _C[stage] * h, work.trial, work.rates[stage])
+        rate_at(system, t + _C[stage] * h, work.trial, work.rates[stage])
     for i in range(y.size):
         along = complex(_sum(_T_INVERSE, 1, work.rates, i), _sum(_T_INVERSE, 2, work.rates, i))
         work.real_rest[i] = _sum(_T_INVERSE, 0, work.rates, i) - _REAL / h * work.w[0, i]
@@ -330,7 +331,7 @@ def _error(system, t, h, y, work, settings, doubtful):
     if doubtful and error > 1.0:
         for i in range(y.size):
             work.trial[i] = y[i] + work.real_rest[i]
-        rate(system, t, work.trial, work.rates[0])
+        rate_at(system, t, work.trial, work.rates[0])
         error = _filtered(h, y, work, work.rates[0], settings)
     for i in range(y.size):
         work.trial[i] = y[i] + work.z[2, i]

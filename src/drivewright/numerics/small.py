@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from drivewright._jit import inner
+from drivewright._jit import outer
 
 SINGULAR = 1e-13  # a pivot below this part of the matrix' largest entry
 
 
-@inner
+@outer
 def lu_factor(a, pivots):
     """Overwrite the square matrix a with L and U, rows exchanged as told by `pivots`; False where it is singular."""
     n = a.shape[0]
@@ -33,7 +33,7 @@ def lu_factor(a, pivots):
     return True
 
 
-@inner
+@outer
 def lu_solve(lu, pivots, b):
     """Overwrite b with the solution x of a x = b."""
     n = lu.shape[0]
@@ -50,7 +50,7 @@ def lu_solve(lu, pivots, b):
         b[i] /= lu[i, i]
 
 
-@inner
+@outer
 def cholesky_solve(a, b):
     """Overwrite b with x of a x = b, a symmetric and positive definite (its lower half is used up); nan in b where it is not."""
     n = a.shape[0]
