@@ -14,7 +14,8 @@ APART = 1e-13  # [m]
 
 def slider_crank(clearance=0.5e-3):
     """The Model of the field's common slider-crank with a dry wrist pin."""
-    from drivewright import contact, multibody as mb
+    from drivewright import contact
+    from drivewright import multibody as mb
 
     modulus = contact.effective_modulus(207e9, 0.3, 207e9, 0.3)
     dry = mb.Dry(clearance, BEARING, float(contact.journal_stiffness(BEARING, BEARING - clearance, modulus)), 1.5, LOSS)
@@ -166,7 +167,8 @@ def table():
 
 def bifurcation(clearances=200, turns=300):
     """Points once a turn for many clearances, on all cores."""
-    from drivewright import cases, multibody as mb
+    from drivewright import cases
+    from drivewright import multibody as mb
 
     def one(clearance):
         assembly, state = started(slider_crank(clearance))

@@ -8,6 +8,7 @@ A third-party package declares the same groups in its own pyproject.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from functools import cache
 from importlib.metadata import entry_points
 from pathlib import Path
@@ -57,7 +58,12 @@ class Mechanism:
     verify: Callable | None = None
     batch: Callable | None = None
     sources: tuple = ()
-    headline: tuple = ()  # value names shown first
+    headline: tuple = ()  # value names shown first; "*" stands for what users name
+
+    def headlines(self, values):
+        """Those of the values that are shown first, in the order of the headline; the first ones where it names none."""
+        named = dict.fromkeys(name for pattern in self.headline for name in values if fnmatchcase(name, pattern))
+        return list(named) or list(values)[:12]
 
     def presets(self):
         """Name -> path of the spec files that come with the kind."""

@@ -79,9 +79,11 @@ def number(value, unit):
 def result(found):
     """Headline values, checks and findings of a run."""
     mechanism = registry.mechanism(found.mechanism)
-    headline = [name for name in mechanism.headline if name in found.values] or list(found.values)[:12]
+    headline = mechanism.headlines(found.values)
     rows = [(name, number(found.values[name].value, found.values[name].unit), found.values[name].meaning) for name in headline]
     table(found.title, (("value", "left"), ("", "right"), ("meaning", "left")), rows)
+    if len(found.values) > len(headline):
+        note(f"{len(found.values) - len(headline)} more values in result.json")
     checks(found.checks)
     for finding in found.findings:
         note(f"note: {finding}")

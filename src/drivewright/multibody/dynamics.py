@@ -85,15 +85,15 @@ def firmness(work):
 def touch_or_let_go(system, work, index, t, y):
     """A pin touches: remember the speed of approach.  It lets go: forget it."""
     contact = system.contacts[index - 1]
-    if y[contact.memory] > 0.0:
-        y[contact.memory] = 0.0
-    else:
-        pose(system, work, t, y)
-        move(system, work)
-        dx, dy, vx, vy, _, _, _, _ = apart(work.poses, contact)
-        _, lean = worn_off(system.wear[index - 1], work.poses[contact.i].angle, dx, dy)
-        across = (dx * vy - dy * vx) / np.hypot(dx, dy) - np.hypot(dx, dy) * work.poses[contact.i].w
-        y[contact.memory] = max((dx * vx + dy * vy) / np.hypot(dx, dy) - lean * across, SLOWEST)
+    pose(system, work, t, y)
+    move(system, work)
+    dx, dy, vx, vy, _, _, _, _ = apart(work.poses, contact)
+    _, lean = worn_off(system.wear[index - 1], work.poses[contact.i].angle, dx, dy)
+    across = (dx * vy - dy * vx) / np.hypot(dx, dy) - np.hypot(dx, dy) * work.poses[contact.i].w
+    approach = (dx * vx + dy * vy) / np.hypot(dx, dy) - lean * across
+    if y[contact.memory] > 0.0 and approach > 0.0:  # a touch, seen twice by rounding
+        return
+    y[contact.memory] = 0.0 if y[contact.memory] > 0.0 else max(approach, SLOWEST)
     if contact.law == LUGRE:
         y[contact.bristle] = 0.0
 

@@ -144,8 +144,9 @@ def gap_of(system, work, n):
 
 @outer
 def worn_off(wear, turned_by, dx, dy):
-    """(depth worn off the bearing on the side where the journal is, opposite to e = (dx, dy); its slope by the angle over |e|).  wear (bins,) in the bearing's frame.
+    """(depth worn off the bearing on the side where the journal is, opposite to e = (dx, dy); its slope by the angle over |e|).
 
+    wear (bins,) is in the bearing's frame, which has turned by an angle.
     The journal is taken to touch where its centre points, so that depth = |e| - clearance - h(angle); the force is that law's gradient,
     which keeps the energy.  It holds while the profile is flat: its slope by the angle well below the clearance.
     h is a quadratic B-spline over the bins: its integral is that of the bins, and its slope has no jumps in which a journal would rattle.

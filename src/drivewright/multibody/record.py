@@ -16,7 +16,7 @@ POINT_FIELDS = ("angle", "w", "alpha", "x", "y", "vx", "vy", "ax", "ay")
 @dataclass(frozen=True)
 class Record:
     """Over the times t (m,): points {name: (m, POINT_FIELDS)}, pins (m, pins, PIN_FIELDS), powers (m, POWER_FIELDS), drives (m, drives),
-    energy (m,) kinetic and of gravity; last (bodies, FIELDS) at the end."""
+    energy (m,) kinetic and of gravity, kinetic (m,) alone; last (bodies, FIELDS) at the end."""
 
     t: np.ndarray
     points: dict
@@ -24,6 +24,7 @@ class Record:
     powers: np.ndarray
     drives: np.ndarray
     energy: np.ndarray
+    kinetic: np.ndarray
     last: np.ndarray
 
     def point(self, name, field):
@@ -36,24 +37,25 @@ class Record:
     def take(self, keep):
         """The chosen rows."""
         return Record(self.t[keep], {k: v[keep] for k, v in self.points.items()}, self.pins[keep], self.powers[keep], self.drives[keep],
-                      self.energy[keep], self.last)
+                      self.energy[keep], self.kinetic[keep], self.last)
 
 
 def record(run, markers, start=-np.inf):
     """The `Record` of a run for markers {name: Marker}, from a time on."""
     parts = [part for stretch in run.stretches for part in _parts(run.assembly, stretch, markers, start)]
-    t, points, pins, powers, drives, energy = zip(*parts, strict=True)
+    t, points, pins, powers, drives, energy, kinetic = zip(*parts, strict=True)
     system, time, state = run.end
     return Record(
         np.concatenate(t), {name: np.concatenate([p[name] for p in points]) for name in markers}, np.concatenate(pins),
-        np.concatenate(powers), np.concatenate(drives), np.concatenate(energy), observe(system, [time], state[None]).bodies[0])
+        np.concatenate(powers), np.concatenate(drives), np.concatenate(energy), np.concatenate(kinetic),
+        observe(system, [time], state[None]).bodies[0])
 
 
 def _parts(assembly, stretch, markers, start):
     for first in range(int(np.searchsorted(stretch.t, start)), len(stretch.t), CHUNK):
         seen = observe(stretch.system, stretch.t[first : first + CHUNK], stretch.y[first : first + CHUNK])
         points = {name: moved(assembly, seen, marker) for name, marker in markers.items()}
-        yield seen.t, points, seen.pins, seen.powers, seen.drives, energy_of(stretch.system, seen)
+        yield seen.t, points, seen.pins, seen.powers, seen.drives, *energy_of(stretch.system, seen)
 
 
 def moved(assembly, seen, marker):
@@ -68,10 +70,11 @@ def moved(assembly, seen, marker):
 
 
 def energy_of(system, seen):
-    """Kinetic energy and energy of gravity [J]."""
+    """(kinetic energy and energy of gravity, kinetic energy alone) [J]."""
     x, y, _, vx, vy, w = np.moveaxis(seen.bodies[:, :, : FIELDS.index("ax")], 2, 0)
     mass, inertia = system.bodies.mass, system.bodies.inertia
-    return np.sum(0.5 * mass * (vx**2 + vy**2) + 0.5 * inertia * w**2 - mass * (system.gravity_x * x + system.gravity_y * y), axis=1)
+    kinetic = np.sum(0.5 * mass * (vx**2 + vy**2) + 0.5 * inertia * w**2, axis=1)
+    return kinetic - (system.gravity_x * x + system.gravity_y * y) @ mass, kinetic
 
 
 # ------------------------------------------------------------------------------------------------------------ energy audit
@@ -80,7 +83,7 @@ def energy_of(system, seen):
 @dataclass(frozen=True)
 class Audit:
     """Work [J] of each kind of element from the start, over t (m,): works (m, POWER_FIELDS); gap (m,) between all work and the change of
-    energy; exchanged: all power, either way, over time."""
+    energy; exchanged: all power, either way, over time, and all that the kinetic energy rises and falls."""
 
     t: np.ndarray
     works: np.ndarray
@@ -100,5 +103,6 @@ def audit(seen):
     begin, middle, end = power[:-2:2], power[1:-1:2], power[2::2]
     works = np.concatenate([np.zeros((1, power.shape[1])), np.cumsum(steps / 6 * (begin + 4 * middle + end), axis=0)])
     exchanged = float(np.sum(steps / 6 * (np.abs(begin) + 4 * np.abs(middle) + np.abs(end))))
+    exchanged += float(np.sum(np.abs(np.diff(seen.kinetic[::2]))))
     energy = seen.energy[::2]
     return Audit(t, works, energy - energy[0] - np.sum(works, axis=1), exchanged)

@@ -78,6 +78,8 @@ def simulate(assembly, duration, settings=Settings(), *, samples=None, state=Non
         return _follow(assembly, times, start + duration)
     system = assembly.system
     y = assembly.state if state is None else touching(system, start, np.array(state, float))
+    if duration == 0:
+        return Run(assembly, (Stretch(system, np.array([start]), y[None], start, y),), np.zeros((0, 3)), "", 0)
     t, stretches, impacts, steps, advice = start, [], [np.zeros((0, 3))], 0, ""
     while True:
         inside = None if samples is None else samples[(samples > t) | (t == start)]
@@ -128,8 +130,14 @@ def tolerances(system, settings, speed):
 def _impacts(system, run):
     """Touches among the events: those after which a pin remembers its speed of approach."""
     t, index, y = run.crossings
-    pins = [(time, pin - 1, state[system.contacts[pin - 1].memory]) for time, pin, state in zip(t, index, y, strict=True) if pin > 0]
-    return np.array([row for row in pins if row[2] > 0.0]).reshape(-1, 3)
+    rows, last = [], np.zeros(len(system.contacts))
+    for time, pin, state in zip(t, index - 1, y, strict=True):
+        if pin >= 0:
+            memory = state[system.contacts[pin].memory]
+            if memory > 0.0 and memory != last[pin]:
+                rows.append((time, pin, memory))
+            last[pin] = memory
+    return np.array(rows).reshape(-1, 3)
 
 
 def resplit(system, t, y):

@@ -125,8 +125,8 @@ def verdict(passed, outcome):
 
 def headline(result):
     """The mechanism's headline values, or the first six; those that the run has."""
-    registered = registry.mechanism(result.mechanism).headline if result.mechanism in registry.kinds() else ()
-    names = [name for name in registered or tuple(result.values)[:6] if name in result.values]
+    known = result.mechanism in registry.kinds()
+    names = registry.mechanism(result.mechanism).headlines(result.values) if known else list(result.values)[:6]
     return [_value(name, result.values[name]) for name in names]
 
 

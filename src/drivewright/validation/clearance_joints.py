@@ -141,7 +141,7 @@ def _chaos(about):
     steps = float(np.mean([each[0] for each in found]))
     yield Row("slider-crank, steps per turn at a relative tolerance of 1e-6, mean over plays of 0.05 to 0.5 mm",
               Printed("about 1100", 990.0, 1210.0), digits(steps), **about)
-    yield Row("slider-crank, impacts per turn", Printed("12 to 15", 11.5, 15.5), digits(found[-1][1]), **about)
+    yield Row("slider-crank, impacts per turn", Printed("12 to 15", 11.5, 15.5), digits(found[-1][1], 2), **about)
     found = [row.value for row in cases.run(_exponent, EXPONENTS, workers=None).rows]
     for (play, printed), value in zip(EXPONENTS, found, strict=True):
         low, high = (0.0, np.inf) if printed > 0 else (-np.inf, 0.0)

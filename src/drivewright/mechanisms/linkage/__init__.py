@@ -38,7 +38,17 @@ ANALYSES = (
     Analysis("wear", wear.wear, "wear of a bearing, fed back into its contact", default=False, missing=wear.no_wear),
 )
 
+HEADLINE = ("output.max_acceleration", "*.impact_load_coefficient", "*.peak_acceleration_ratio", "*.max_acceleration",
+            "*.max_angular_acceleration", "joints.*.max_force", "joints.*.impacts_per_turn", "joints.*.max_penetration", "drive.max_torque",
+            "lyapunov_exponent.per_turn", "tolerances.*.sigma", "wear.*.max_depth", "modes.*.frequency", "*.swing", "output.swing")
+
+SOURCES = (
+    "Yuan Yingcai, Liu Yilun, Wang Yiming: Nonlinear dynamic response of offset press' fold mechanism with clearances. Journal of Central "
+    "South University (Science and Technology) 42(4), 2011, 972 ff. (in Chinese).",
+    "Flores, Machado, Silva, Martins 2011; Lankarani, Nikravesh 1990; Hunt, Crossley 1975: impact laws (recalled, verified by closed form)",
+)
+
 mechanism = Mechanism(
     kind="linkage", summary="planar linkage with ideal joints or joints with play", spec=LinkageSpec, build=build, analyses=ANALYSES,
-    folder=Path(__file__).parent, scene=scene, plots=plots, drawings=drawings, parts=parts,
+    folder=Path(__file__).parent, headline=HEADLINE, sources=SOURCES, scene=scene, plots=plots, drawings=drawings, parts=parts,
     verify=verify.verify)

@@ -180,6 +180,7 @@ def pins(model, done):
         tables.append(_pin_table(model, turn, number, name))
         for limit, key, value, unit in ((model.spec.limits.joint_force, "force", force, "N"),
                                         (model.spec.limits.penetration, "penetration", depth, "m")):
+            limit = model.assembly.system.contacts[number].clearance if key == "penetration" and not limit else limit
             if limit:
                 checks.append(Check(f"{key}.{name}", value, limit, "<=", unit, f"largest {key} in joint {name!r}", (name,)))
     return Answer(values, tuple(tables), tuple(checks))

@@ -183,7 +183,7 @@ def _ours(model, system, t, y, length):
 def _apart(model, ours, coarse, fine, kind):
     """Rows of every moving body: place and angle."""
     size = max(float(np.max(np.abs(pose[:2]))) for pose in ours.values())
-    still = 1e-7 * size if kind == "smooth" else 0.02 * min(j.model.clearance for j in model.assembly.model.joints if j.name in model.pins)
+    still = 3e-7 * size if kind == "smooth" else 0.02 * min(j.model.clearance for j in model.assembly.model.joints if j.name in model.pins)
     changes = {name: np.abs(coarse.bodies[name][-1] - fine.bodies[name][-1]) for name in ours}
     place, angle = (max(float(np.max(change[part])) for change in changes.values()) for part in (slice(0, 2), slice(2, 3)))
     after = f"after {PART[kind]:g} turns" if model.period else "at the end"
