@@ -1,6 +1,6 @@
 """The knife-folding four-bar with play of Yuan, Liu and Wang 2011: its Table 2 as a documented comparison, and what is wrong in it.
 
-The motions run on the multibody kernel, through the mechanism `linkage`.  `validate` runs 16 of the 55 cells.
+The motions run on the multibody kernel, through the mechanism `linkage`.  `validate` runs 9 of the 55 cells.
 """
 
 import numpy as np

@@ -54,6 +54,6 @@ def oil(model, done):
             off = film_deviation(closed_form_map(form, slenderness, eccentricities, directions), solved)
             values[f"joints.{joint.name}.film_error"] = Value(
                 float(np.median(off)), "-", f"median deviation of the closed form, {joint.film} bearing, from Reynolds' equation")
-            findings.append(f"joint {joint.name!r}: film = \"{joint.film}\" is off by {np.median(off):.0%} in the median, {off.max():.0%} at "
-                            f"worst, from Reynolds' equation for length/diameter = {slenderness:.3g}")
+            findings.append(f"joint {joint.name!r}: film = \"{joint.film}\" is off by {np.median(off):.0%} in the median, {off.max():.0%} "
+                            f"at worst, from Reynolds' equation for length/diameter = {slenderness:.3g}")
     return Answer(values, findings=tuple(findings))
