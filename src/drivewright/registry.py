@@ -60,11 +60,6 @@ class Mechanism:
     sources: tuple = ()
     headline: tuple = ()  # value names shown first; "*" stands for what users name
 
-    def headlines(self, values):
-        """Those of the values that are shown first, in the order of the headline; the first ones where it names none."""
-        named = dict.fromkeys(name for pattern in self.headline for name in values if fnmatchcase(name, pattern))
-        return list(named) or list(values)[:12]
-
     def presets(self):
         """Name -> path of the spec files that come with the kind."""
         return {path.stem: path for path in sorted((self.folder / "presets").glob("*.toml"))}
@@ -104,3 +99,9 @@ def kinds():
 def mechanism(kind):
     """The `Mechanism` of a kind."""
     return load("drivewright.mechanisms", kind, "mechanism")
+
+
+def headlines(mechanism, values):
+    """Names of the values that are shown first, in the order of the mechanism's headline; the first ones where it names none."""
+    named = dict.fromkeys(name for pattern in mechanism.headline for name in values if fnmatchcase(name, pattern))
+    return list(named) or list(values)[:12]

@@ -79,7 +79,7 @@ def number(value, unit):
 def result(found):
     """Headline values, checks and findings of a run."""
     mechanism = registry.mechanism(found.mechanism)
-    headline = mechanism.headlines(found.values)
+    headline = registry.headlines(mechanism, found.values)
     rows = [(name, number(found.values[name].value, found.values[name].unit), found.values[name].meaning) for name in headline]
     table(found.title, (("value", "left"), ("", "right"), ("meaning", "left")), rows)
     if len(found.values) > len(headline):

@@ -144,9 +144,14 @@ def resplit(system, t, y):
     """(system, state) with the coordinates split anew at a state."""
     work = at_state(system, t, y)
     fresh = split(system, work.coordinates.q, t)
+    return fresh, restated(system, t, y, fresh)
+
+
+def restated(system, t, y, other):
+    """A state of one split of the coordinates as a state of another one."""
+    work = at_state(system, t, y)
     memory = y[len(system.stored) + len(system.independent):]
-    v = work.coordinates.v
-    return fresh, np.concatenate([work.coordinates.q[system.stored], v[fresh.independent], memory])
+    return np.concatenate([work.coordinates.q[system.stored], work.coordinates.v[other.independent], memory])
 
 
 def at_state(system, t, y):

@@ -126,7 +126,7 @@ def verdict(passed, outcome):
 def headline(result):
     """The mechanism's headline values, or the first six; those that the run has."""
     known = result.mechanism in registry.kinds()
-    names = registry.mechanism(result.mechanism).headlines(result.values) if known else list(result.values)[:6]
+    names = registry.headlines(registry.mechanism(result.mechanism), result.values) if known else list(result.values)[:6]
     return [_value(name, result.values[name]) for name in names]
 
 

@@ -12,7 +12,7 @@ from drivewright.mechanisms.linkage.describe import output_marker
 from drivewright.mechanisms.linkage.refusals import refuse_nonsense
 from drivewright.multibody.measures import impact_load, largest
 from drivewright.multibody.record import record
-from drivewright.multibody.simulate import Settings, simulate, tolerances
+from drivewright.multibody.simulate import Settings, restated, simulate, tolerances
 from drivewright.numerics.chaos import largest_exponent, orbit_period
 from drivewright.numerics.signals import order_spectrum
 from drivewright.result import Answer, Column, Table, Value
@@ -137,7 +137,7 @@ class Turn:
     def __call__(self, state):
         # Every turn is run from time 0: the drive's angle is the same, and the state carries all that pins remember.
         run = simulate(self.model.assembly, self.model.period, self.settings, samples=np.empty(0), state=state)
-        end = run.end[2].copy()
+        end = restated(*run.end, self.model.assembly.system)  # the coordinates may have been split anew on the way
         end[self.spinning] %= TURN  # a link that spins would drown the separation in the rounding of its angle
         return end
 
