@@ -153,7 +153,7 @@ def table():
             changes |= {f"joints.{name}.clearance": clearance, f"joints.{name}.link_damping": CALIBRATED[clearance] * speed / 28_800}
         return build(varied(spec, changes))
 
-    load_of(model(28_800, 0.2e-3, 1e-4), output, 1.0)
+    load_of(model(28_800, 0.2e-3, 1e-4), output)
     for rtol in (1e-5, 1e-6, 1e-8):
         began = time.perf_counter()
         peaks = {speed: ideal_peak(model(speed, 0.2e-3, rtol), output) for speed in SPEEDS}
