@@ -13,7 +13,7 @@ from scipy.linalg import null_space, qr
 from drivewright.errors import DoesNotAssemble
 from drivewright.multibody import system as arrays
 from drivewright.multibody.kinematics import placed
-from drivewright.multibody.lower import lower, rows_of
+from drivewright.multibody.lower import Places, lower, rows_of, table
 from drivewright.multibody.model import GROUND, Ideal, Model, Revolute
 from drivewright.multibody.system import System, scratch
 from drivewright.multibody.tree import Tree, expanded, grow
@@ -333,12 +333,10 @@ def _given_rates(wide, tree, system, work):
 
 def _concentric(model, wide, tree, system, q):
     """Rows that hold pins with play together, and massless links still."""
-    from drivewright.multibody.lower import Places, _table
-
     numbers = {GROUND: 0} | {link.body.name: k for k, link in enumerate(tree.links, start=1)}
     places = Places(numbers, {}, {GROUND: (0.0, 0.0)} | {b.name: b.centroid for b in wide.bodies}, [])
     pins = [j for j in wide.joints if isinstance(j, Revolute) and not isinstance(j.model, Ideal)]
-    rows = _table(arrays.ROW, [row for pin in pins for row in rows_of(pin, places)])
+    rows = table(arrays.ROW, [row for pin in pins for row in rows_of(pin, places)])
     links = np.eye(len(q))[[link.turn for link in tree.links if link.body.name.startswith("link:")]].reshape(-1, len(q))
     jacobian = np.concatenate([at(system._replace(rows=rows), q).jacobian, links])
     return jacobian, np.zeros(len(jacobian))

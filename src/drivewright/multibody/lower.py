@@ -65,12 +65,12 @@ def lower(model, tree):
     kinds = {kind: [f for f in model.forces if isinstance(f, kind)] for kind in (Spring, RotationalSpring, Torque, Force)}
     pins = [joint for joint in model.joints if isinstance(joint, Revolute)]
     records = {
-        "springs": _table(arrays.SPRING, (_spring(f, places) for f in kinds[Spring])),
-        "twists": _table(arrays.TWIST, (_twist(f, places) for f in kinds[RotationalSpring])),
-        "torques": _table(arrays.TORQUE, (_torque(f, places) for f in kinds[Torque])),
-        "forces": _table(arrays.FORCE, (_force(f, places) for f in kinds[Force])),
-        "bushings": _table(arrays.BUSHING, (_bushing(j, places) for j in pins if isinstance(j.model, Bushing))),
-        "contacts": _table(arrays.CONTACT, (_contact(j, places) for j in pins if isinstance(j.model, (Dry, Lubricated)))),
+        "springs": table(arrays.SPRING, (_spring(f, places) for f in kinds[Spring])),
+        "twists": table(arrays.TWIST, (_twist(f, places) for f in kinds[RotationalSpring])),
+        "torques": table(arrays.TORQUE, (_torque(f, places) for f in kinds[Torque])),
+        "forces": table(arrays.FORCE, (_force(f, places) for f in kinds[Force])),
+        "bushings": table(arrays.BUSHING, (_bushing(j, places) for j in pins if isinstance(j.model, Bushing))),
+        "contacts": table(arrays.CONTACT, (_contact(j, places) for j in pins if isinstance(j.model, (Dry, Lubricated)))),
     }
     given = [d["coordinate"] for d in driven]
     if twice := [drive.joint for k, drive in enumerate(model.drives) if given[k] in given[:k]]:
@@ -81,8 +81,8 @@ def lower(model, tree):
         bodies[number]["driven"] = bool(bodies[int(body["parent"])]["driven"] or not body["parent"]) and all(k in given for k in own)
     curves, pieces = _curves(places.curves)
     return arrays.System(
-        bodies=np.array(bodies).view(np.recarray), rows=_table(arrays.ROW, rows),
-        driven=_table(arrays.DRIVEN, driven), stored=stored, independent=stored, dependent=np.zeros(0, np.int64), **records,
+        bodies=np.array(bodies).view(np.recarray), rows=table(arrays.ROW, rows),
+        driven=table(arrays.DRIVEN, driven), stored=stored, independent=stored, dependent=np.zeros(0, np.int64), **records,
         wear=np.zeros((len(records["contacts"]), 0)),
         curves=curves, pieces=pieces, gravity_x=float(model.gravity[0]), gravity_y=float(model.gravity[1]), least_firmness=0.0)
 
@@ -94,7 +94,8 @@ def _record(kind, /, **values):
     return record
 
 
-def _table(kind, rows):
+def table(kind, rows):
+    """Records of a kind, from dictionaries of their fields."""
     return np.array([_record(kind, **row) for row in rows], dtype=kind).view(np.recarray)
 
 
@@ -105,7 +106,7 @@ def _curves(curves):
         records.append({"first": len(pieces), "count": len(curve.coefficients), "period": curve.period})
         for start, row in zip(curve.breaks, curve.coefficients, strict=False):
             pieces.append({"start": start, **{f"c{k}": c for k, c in enumerate(row)}})
-    return _table(arrays.CURVE, records), _table(arrays.PIECE, pieces)
+    return table(arrays.CURVE, records), table(arrays.PIECE, pieces)
 
 
 def _unit(axis, joint):

@@ -7,6 +7,7 @@ from drivewright.mechanisms.linkage.build import TURN, ideal_at, ideal_record, r
 from drivewright.multibody.measures import impact_load, largest, span
 from drivewright.multibody.observe import FIELDS, PIN_FIELDS
 from drivewright.multibody.record import POINT_FIELDS
+from drivewright.numerics.signals import time_mean
 from drivewright.result import Answer, Check, Column, Table, Value
 
 ROWS = 4000  # of a table of the last turn, at most
@@ -169,8 +170,8 @@ def pins(model, done):
         pin = dict(zip(PIN_FIELDS, np.moveaxis(seen.pins[:, number], 1, 0), strict=True))
         force, depth = float(np.max(np.hypot(pin["fx"], pin["fy"]))), max(float(np.max(pin["depth"])), 0.0)
         hits = np.sum((run.impacts[:, 1] == number) & (run.impacts[:, 0] >= start) & (run.impacts[:, 0] <= end))
-        touching = np.trapezoid(pin["depth"] > 0, seen.t) / (end - start)
-        lost = np.trapezoid(np.abs(pin["friction"] * pin["slip"]), seen.t) / (end - start)
+        touching = time_mean(seen.t, pin["depth"] > 0)
+        lost = time_mean(seen.t, np.abs(pin["friction"] * pin["slip"]))
         values[f"joints.{name}.max_force"] = Value(force, "N", f"largest force in joint {name!r}")
         values[f"joints.{name}.max_penetration"] = Value(depth, "m", f"largest penetration in joint {name!r}")
         if model.period:

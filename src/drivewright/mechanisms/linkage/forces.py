@@ -6,6 +6,7 @@ from drivewright.mechanisms.linkage.analyse import ROWS, cycle_columns
 from drivewright.mechanisms.linkage.build import run_of
 from drivewright.multibody.observe import observe
 from drivewright.multibody.reactions import reactions
+from drivewright.numerics.signals import time_mean
 from drivewright.result import Answer, Check, Column, Table, Value
 
 
@@ -35,7 +36,7 @@ def forces(model, done):
                     Column(f"{name}.force_y", "N", f"force of joint {name!r} on its first body, y", joint.force[:, 1])]
     for name, tension in found.tensions.items():
         columns.append(Column(f"{name}.tension", "N", f"tension of the massless link of joint {name!r}; below 0 contact is lost", tension))
-        share = float(np.trapezoid(tension < -model.spec.limits.link_compression, t) / (t[-1] - t[0]))
+        share = time_mean(t, tension < -model.spec.limits.link_compression)
         values[f"joints.{name}.pushed_share"] = Value(share, "-", f"share of the last turn in which the link of joint {name!r} is pushed")
         checks.append(Check(f"contact.{name}", float(tension.min()), -model.spec.limits.link_compression, ">=", "N",
                             f"least tension of the massless link of joint {name!r}: a pin that is pushed has lost contact", (name,)))
