@@ -11,6 +11,7 @@ from pathlib import Path
 
 import linkages
 import numpy as np
+import shafts
 
 ROOT = Path(__file__).parent.parent
 EXAMPLE = ROOT / "examples" / "seedling_pusher.toml"
@@ -187,6 +188,7 @@ SECTIONS = (
     ("Slider-crank with play: work and precision", linkages.work_precision),
     ("Folder: table of impact load coefficients", linkages.table),
     ("Slider-crank with play: bifurcation diagram", linkages.bifurcation),
+    *shafts.SECTIONS,
 )
 
 

@@ -20,7 +20,7 @@ EXTRAS = {
     "needs_fe": (("ngsolve",), "fe"),
     "needs_pdf": (("typst",), "pdf"),
     "needs_optimise": (("pymoo",), "optimise"),
-    "needs_peers": (("exudyn", "pylinkage", "mpmath", "jax"), "peers"),
+    "needs_peers": (("exudyn", "pylinkage", "mpmath", "jax", "Pynite"), "peers"),
     "needs_browser": (("playwright",), "dev"),
 }
 BROWSER = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")

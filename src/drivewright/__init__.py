@@ -15,6 +15,7 @@ _WHERE = {
     "SpecError": "errors",
     "Cam": "mechanisms.cam.spec:CamSpec",
     "Linkage": "mechanisms.linkage.spec:LinkageSpec",
+    "Shaft": "mechanisms.shaft.spec:ShaftSpec",
     "SeedlingPusher": "mechanisms.seedling_pusher.spec:SeedlingPusherSpec",
     "Result": "result",
     "Scene": "scene",
@@ -23,6 +24,7 @@ _WHERE = {
     "run": "runner",
     "optimise": "studies.optimise",
     "verify": "studies.verify",
+    "bearings": "bearings:",
     "cams": "cams:",
     "contact": "contact:",
     "curves": "curves:",
@@ -30,6 +32,7 @@ _WHERE = {
     "materials": "materials:",
     "motion": "motion:",
     "multibody": "multibody:",
+    "shafts": "shafts:",
     "units": "units:",
 }
 

@@ -95,6 +95,9 @@ class Plot(NamedTuple):
 
     `limits` are (value, label) lines; a value that is text names a check whose limit is drawn, with "-" in front its negative.
     `reference` names the columns that the y columns are compared with, in the same order; they are dashed.
+    Style "mesh" (with `equal`) draws a surface seen from the side, three rows of the table a triangle, corners counter-clockwise as seen
+    from outside: x to the right; y names the columns (up, away from the viewer, length that the colour shows); reference names
+    (right, up) of the same surface before, whose silhouette is dashed.
     """
 
     name: str
@@ -104,7 +107,7 @@ class Plot(NamedTuple):
     y: tuple
     limits: tuple = ()
     equal: bool = False
-    style: str = "line"  # line, points or stems
+    style: str = "line"  # line, points, stems, bars (stacked), polar or mesh
     log: bool = False  # y axis in powers of ten
     reference: tuple = ()
     by: str = ""  # a column: one line for each of its values

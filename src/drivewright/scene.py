@@ -1,7 +1,7 @@
 """Plain data for everything that draws: figures, the motion player, DXF, STEP, the studio.
 
 A `Scene` is labelled planar shapes that move rigidly through one cycle; a `Drawing` is one flat part on named layers;
-a `Part` is a set of prisms and bars at its start position.  Lengths in metres, angles in radians, y up,
+a `Part` is a set of prisms, bars and turned bodies at its start position.  Lengths in metres, angles in radians, y up,
 counter-clockwise positive.  Nothing here computes mechanics or knows a file format.
 """
 
@@ -198,9 +198,20 @@ class Bar(NamedTuple):
     diameter: float
 
 
+class Turned(NamedTuple):
+    """Body of revolution about a line in the plane: from `start` (x, y) at height z in the x direction, ring after ring.
+
+    Each of `rings` is (length, outer diameter at its start, outer diameter at its end, bore diameter); a solid one has the bore 0.
+    """
+
+    start: tuple
+    z: float
+    rings: tuple
+
+
 @dataclass(frozen=True)
 class Part:
-    """A named solid of an assembly: prisms and bars fused together, placed at `pose` (x, y, angle)."""
+    """A named solid of an assembly: prisms, bars and turned bodies fused together, placed at `pose` (x, y, angle)."""
 
     name: str
     solids: tuple

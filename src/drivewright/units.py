@@ -224,7 +224,8 @@ DIMENSIONS = tuple(Dimension(*row) for row in (
     ("torque", "N m", "N m"), ("stiffness", "N/m", "N/mm"), ("rotational stiffness", "N m/rad", "N m/rad"), ("damping", "N s/m", "N s/m"),
     ("pressure", "Pa", "MPa"), ("area", "m^2", "mm^2"), ("curvature", "1/m", "1/mm"), ("power", "W", "W"), ("density", "kg/m^3", "kg/m^3"),
     ("volume", "m^3", "mm^3"), ("rotational damping", "N m s/rad", "N m s/rad"), ("viscosity", "Pa s", "Pa s"),
-    ("wear coefficient", "m^2/N", "mm^3/(N m)"), ("slowness", "s/m", "s/m")))
+    ("wear coefficient", "m^2/N", "mm^3/(N m)"), ("slowness", "s/m", "s/m"),
+    ("flexibility", "m/N", "um/kN")))
 REMEDIES = {"rotational damping": "; write N m s/rad, a torque per angular speed", "viscosity": "; write Pa s, the dynamic viscosity",
             "wear coefficient": "; write mm^3/(N m), volume per force and sliding distance", "slowness": "; write s/m"}
 BY_NAME = {dimension.name: dimension for dimension in DIMENSIONS}
@@ -254,7 +255,8 @@ Acceleration, Time, Frequency, Mass = field("acceleration"), field("time"), fiel
 Inertia, Force, Torque, Stiffness = field("moment of inertia"), field("force"), field("torque"), field("stiffness")
 RotationalStiffness, Damping, Pressure = field("rotational stiffness"), field("damping"), field("pressure")
 RotationalDamping, Viscosity, WearCoefficient = field("rotational damping"), field("viscosity"), field("wear coefficient")
-Slowness = field("slowness")
+Slowness, Density = field("slowness"), field("density")
+LineForce = Annotated[float, Dimension("force per length", "N/m", "N/mm")]  # of the same kind as a stiffness
 
 
 def to_si(value: Any, dimension: str):
@@ -279,4 +281,4 @@ def display(si_unit):
 
 # Typed apart from the registry so that drawing a figure does not import pint; a test holds the two together.
 _SHOWN_FACTOR = {"mm": 1e-3, "deg": math.pi / 180, "rpm": math.pi / 30, "N/mm": 1e3, "MPa": 1e6, "mm^2": 1e-6, "1/mm": 1e3, "mm^3": 1e-9,
-                 "mm^3/(N m)": 1e-9}
+                 "mm^3/(N m)": 1e-9, "um/kN": 1e-9}

@@ -5,9 +5,34 @@ import sys
 
 import drivewright as dw
 
-NAMES = ["Cam", "DrivewrightError", "InputError", "Linkage", "MissingExtra", "Result", "Scene", "SeedlingPusher", "SolverError",
-         "SpecError", "build", "cams", "contact", "curves", "gears", "load", "materials", "motion", "multibody", "optimise", "run", "units",
-         "verify"]
+NAMES = [
+    "Cam",
+    "DrivewrightError",
+    "InputError",
+    "Linkage",
+    "MissingExtra",
+    "Result",
+    "Scene",
+    "SeedlingPusher",
+    "Shaft",
+    "SolverError",
+    "SpecError",
+    "bearings",
+    "build",
+    "cams",
+    "contact",
+    "curves",
+    "gears",
+    "load",
+    "materials",
+    "motion",
+    "multibody",
+    "optimise",
+    "run",
+    "shafts",
+    "units",
+    "verify",
+]
 HEAVY = {"numba", "scipy", "matplotlib", "pyarrow", "pint", "pydantic", "numpy", "typer", "rich"}
 
 

@@ -86,3 +86,38 @@ def test_a_plot_is_found_by_name_before_a_table(monkeypatch):
 
 def test_plots_of_analyses_left_out_are_left_out():
     assert [plot.name for plot in drawable(RESULT, PLOTS)] == [plot.name for plot in PLOTS if plot.name != "forces"]
+
+
+def test_stacked_bars_show_the_whole_stack(monkeypatch):
+    """The range holds the sums of what is above and below zero, and a mark stands at their sum."""
+    import numpy as np
+
+    from drivewright.result import Column, Plot, Result, Table
+    from drivewright.view import figures, panels
+
+    table = Table("t", "T", (Column("part", "-", "entry", np.array(["a", "b"])), Column("one", "m", "one", np.array([2e-3, 3e-3])),
+                             Column("two", "m", "two", np.array([1e-3, -4e-3]))))
+    plot = Plot("t", "T", "t", "part", ("one", "two"), style="bars")
+    result = Result(None, "nothing", "t", "", {}, {"t": table}, (), (), {})
+    (panel,) = panels.panels(result, plot)
+    assert panel.low < -4 and panel.high > 3
+    figure = figures.draw_panels((panel,))
+    sums = figure.axes[0].lines[0].get_ydata()
+    assert list(np.round(sums, 9)) == [3.0, -1.0]
+    heights = sorted(round(bar.get_y() + bar.get_height(), 9) for bar in figure.axes[0].patches if bar.get_height())
+    assert heights == [-4.0, 2.0, 3.0, 3.0]
+
+
+def test_a_polar_plot_turns_with_the_angle():
+    import numpy as np
+
+    from drivewright.result import Column, Plot, Result, Table
+    from drivewright.view import figures, panels
+
+    angle = np.linspace(0, 2 * np.pi, 9)
+    table = Table("t", "T", (Column("angle", "rad", "angle", angle), Column("load", "N", "load", np.arange(9.0))))
+    result = Result(None, "nothing", "t", "", {}, {"t": table}, (), (), {})
+    figure = figures.draw_panels(panels.panels(result, Plot("t", "T", "t", "angle", ("load",), style="polar")))
+    line = next(line for line in figure.axes[0].lines)
+    assert figure.axes[0].name == "polar" and list(line.get_ydata()) == list(range(9))
+    assert np.allclose(line.get_xdata(), angle)

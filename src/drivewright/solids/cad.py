@@ -1,4 +1,4 @@
-"""CAD solids of parts with Netgen's OpenCASCADE kernel (extra `fe`): prisms of true arcs, lines and splines, and round bars.
+"""CAD solids of parts with Netgen's OpenCASCADE kernel (extra `fe`): prisms of true arcs, lines and splines, round bars, turned bodies.
 
 A `scene.Part` is in metres; the shapes made here are in millimetres, the unit of STEP and STL files.
 """
@@ -9,8 +9,8 @@ import numpy as np
 
 from drivewright.curves import outline_area
 from drivewright.errors import InputError
-from drivewright.scene import Arc, Line, Prism
-from drivewright.solids import chain, pieces
+from drivewright.scene import Arc, Bar, Line, Prism, Turned
+from drivewright.solids import chain, pieces, turning
 from drivewright.solids.loading import load
 
 MM = 1e3
@@ -20,15 +20,15 @@ COLOURS = {"steel": (0.62, 0.65, 0.70), "blue": (0.16, 0.38, 0.75), "orange": (0
 
 
 def solid(part, tolerance=TOLERANCE):
-    """OCC shape [mm] of a part: its prisms and bars fused, placed at its pose, named and coloured.
+    """OCC shape [mm] of a part: its prisms, bars and turned bodies fused, placed at its pose, named and coloured.
 
     Splines become C2 B-splines with few poles, within `tolerance` [m] of the knots; arcs stay circles.
     """
     occ = load("netgen.occ", "a CAD solid")
     if not part.solids:
         raise InputError(f"part {part.name!r} is empty; give it a prism or a bar")
-    shapes = [_prism(occ, item, part.name, tolerance) if isinstance(item, Prism) else _bar(occ, item, part.name) for item in part.solids]
-    with _kernel(f"part {part.name!r}", "fusing its prisms and bars"):
+    shapes = [MAKERS[type(item)](occ, item, part.name, tolerance) for item in part.solids]
+    with _kernel(f"part {part.name!r}", "fusing its solids"):
         shape = occ.Fuse(shapes).UnifySameDomain(True, True, False) if len(shapes) > 1 else shapes[0]
         x, y, angle = map(float, part.pose)
         shape = shape.Rotate(occ.Axis((0, 0, 0), occ.Z), np.degrees(angle)).Move(occ.Vec(MM * x, MM * y, 0.0))
@@ -101,7 +101,7 @@ def _prism(occ, prism, name, tolerance):
         return face.Move(occ.Vec(0, 0, MM * prism.z)).Extrude(occ.Vec(0, 0, MM * prism.thickness)).solids[0]
 
 
-def _bar(occ, bar, name):
+def _bar(occ, bar, name, tolerance):
     along = np.subtract(bar.end, bar.start)
     if not (np.hypot(*along) > 0 and bar.diameter > 0):
         raise InputError(f"part {name!r}: a bar of length {MM * np.hypot(*along):g} mm and diameter {MM * bar.diameter:g} mm; "
@@ -109,6 +109,21 @@ def _bar(occ, bar, name):
     with _kernel(f"part {name!r}", "making a bar"):
         foot = occ.Pnt(*(MM * float(c) for c in (*bar.start, bar.z)))
         return occ.Cylinder(foot, occ.Vec(*map(float, along), 0.0), r=MM * bar.diameter / 2, h=MM * float(np.hypot(*along))).solids[0]
+
+
+def _turned(occ, turned, name, tolerance):
+    """Half-section turned about its axis."""
+    corners = turning.profile(turned.rings, f"part {name!r}")
+    with _kernel(f"part {name!r}", "turning its profile"):
+        foot = occ.Pnt(*(MM * float(c) for c in (*turned.start, turned.z)))
+        return revolved(occ, corners, foot, occ.X, occ.Y).solids[0]
+
+
+def revolved(occ, corners, foot, along, up, angle=360.0):
+    """OCC solid [mm] of the half-section `corners` (n, 2) [m], (along the axis, radius), turned from `up` about `along` through `foot`."""
+    points = [foot + (MM * float(s) * along + MM * float(r) * up) for s, r in corners]
+    edges = [occ.Segment(a, b) for a, b in zip(points, points[1:] + points[:1], strict=True)]
+    return occ.Face(occ.Wire(edges)).Revolve(occ.Axis(foot, along), angle)
 
 
 def _face(occ, outline, name, tolerance):
@@ -168,6 +183,9 @@ def _distance(edge, at, points, curve):
     tangent = curve(s, 1)
     offset = found - curve(s)
     return float(np.abs(tangent[:, 0] * offset[:, 1] - tangent[:, 1] * offset[:, 0]).max() / np.hypot(*tangent.T).min())
+
+
+MAKERS = {Prism: _prism, Bar: _bar, Turned: _turned}
 
 
 def _point(occ, p):

@@ -1,9 +1,9 @@
-"""Closed triangle surfaces of parts: a single prism or bar directly, several fused ones with the CAD kernel (extra `fe`)."""
+"""Closed triangle surfaces of parts: a single prism, bar or turned body directly, several fused ones with the CAD kernel (extra `fe`)."""
 
 import numpy as np
 
-from drivewright.scene import Prism, circle, place
-from drivewright.solids import cad, chain
+from drivewright.scene import Bar, Prism, Turned, circle, place
+from drivewright.solids import cad, chain, turning
 
 
 def triangles(part, tolerance=1e-5):
@@ -11,7 +11,7 @@ def triangles(part, tolerance=1e-5):
     if len(part.solids) != 1:
         return cad.triangles(part, tolerance)
     (solid,) = part.solids
-    points, corners = _prism(solid, f"part {part.name!r}", tolerance) if isinstance(solid, Prism) else _bar(solid, tolerance)
+    points, corners = MAKERS[type(solid)](solid, f"part {part.name!r}", tolerance)
     return np.column_stack([place(points[:, :2], part.pose), points[:, 2]]), corners
 
 
@@ -19,7 +19,7 @@ def _prism(prism, name, tolerance):
     return _extruded(chain.region(prism, name, tolerance), prism.z, prism.z + prism.thickness)
 
 
-def _bar(bar, tolerance):
+def _bar(bar, name, tolerance):
     """A disc pushed along the bar: its axes u, v, w become the bar's left, up and forward."""
     from shapely import Polygon
 
@@ -48,3 +48,6 @@ def _extruded(region, low, high):
     walls = np.concatenate([np.stack([a, b, b + count], axis=1), np.stack([a, b + count, a + count], axis=1)])
     points = np.concatenate([np.column_stack([plan, np.full(count, z)]) for z in (low, high)])
     return points, np.concatenate([top[:, ::-1], top + count, walls])
+
+
+MAKERS = {Prism: _prism, Bar: _bar, Turned: turning.triangles}

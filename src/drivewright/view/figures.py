@@ -2,8 +2,10 @@
 
 import numpy as np
 
-from drivewright.view.palette import colour
+from drivewright.view.meshes import draw_mesh
+from drivewright.view.palette import SERIES, colour
 from drivewright.view.panels import find_plot, panels
+from drivewright.view.rounds import draw_round
 from drivewright.view.style import MUTED, angle_ticks, legend_columns, new_figure, styled
 from drivewright.view.text import axis_label
 
@@ -21,6 +23,10 @@ def plot_table(result, name, marks=()):
 
 def draw_panels(shown, marks=()):
     """Figure of panels, one under the other over a common x; `marks` as in `plot_table` but in the unit of the x axis."""
+    if shown[0].style == "mesh":
+        return draw_mesh(shown[0])
+    if shown[0].style == "polar":
+        return draw_round(shown[0])
     with styled():
         equal = shown[0].equal
         figure = new_figure(4.6 if equal else 3.1 if len(shown) == 1 else 0.9 + 1.7 * len(shown), shown[0].title)
@@ -35,7 +41,9 @@ def draw_panels(shown, marks=()):
 
 def _draw(axis, panel):
     x, ticks = _positions(panel.x.data)
-    for series in panel.series:
+    if panel.style == "bars":
+        _draw_bars(axis, panel.series, x)
+    for series in panel.series if panel.style != "bars" else ():
         _draw_series(axis, panel, series, x, ticks)
     for start, end in panel.shade:
         axis.axvspan(start, end, color=colour("line"), zorder=0, lw=0)
@@ -72,6 +80,19 @@ def _draw_series(axis, panel, series, x, ticks):
         axis.plot(x, data, lw=1.0, ls=(0, (4, 3)), color=hue, label=series.label, zorder=2.5)
     else:
         axis.plot(x, data, lw=1.5 if len(x) <= MANY else 0.9, marker="o" if len(x) <= FEW else None, ms=3.5, color=hue, label=series.label)
+
+
+def _draw_bars(axis, lines, x):
+    """Stacked bars, what is negative below zero; a diamond marks the sum."""
+    above, below = np.zeros(len(x)), np.zeros(len(x))
+    for number, series in enumerate(lines):
+        up, down = np.maximum(series.data, 0.0), np.minimum(series.data, 0.0)
+        look = {"width": 0.6, "color": colour(series.role), "edgecolor": "white", "lw": 0.4, "hatch": "//" * (number // len(SERIES))}
+        axis.bar(x, up, bottom=above, label=series.label, **look)
+        axis.bar(x, down, bottom=below, **look)
+        above, below = above + up, below + down
+    axis.plot(x, above + below, ls="none", marker="D", ms=6, mfc="white", mec=colour("ink"), label="Sum")
+    axis.axhline(0.0, color=colour("muted"), lw=0.8)
 
 
 def _ring(axis, radius, text):

@@ -32,7 +32,8 @@ class Series(NamedTuple):
 class Panel(NamedTuple):
     """Series of one unit over x, with limit lines (value, text) and the range [low, high] to show.
 
-    style: line, points or stems; `log`: y axis in powers of ten; `shade`: stretches (from, to) of x; `rings`: circles (radius, text).
+    style: line, points, stems, bars (stacked), polar (over the angle x) or mesh (series: up, depth, colour, then right and up of the shape before); `log`: y axis in powers of ten;
+    `shade`: stretches (from, to) of x; `rings`: circles (radius, text).
     """
 
     title: str
@@ -82,11 +83,14 @@ def drawable(result, plots):
 def panels(result, plot):
     """The panels of a plot, one for each unit among its y columns (at most as many lines in one as there are colours)."""
     table = result.tables[plot.table]
+    if plot.style == "mesh":
+        return (_mesh_panel(plot, table),)
     x, lines = _grouped(table, plot) if plot.by else _compared(table, plot)
     groups = {}
     for line in lines:
         groups.setdefault(line[0].unit, []).append(line)
-    chunks = [group[i:i + len(SERIES)] for group in groups.values() for i in range(0, len(group), len(SERIES))]
+    most = len(lines) if plot.style == "bars" else len(SERIES)
+    chunks = [group[i:i + most] for group in groups.values() for i in range(0, len(group), most)]
     roles = itertools.cycle(SERIES)  # running on from panel to panel, so that one colour means one line as long as there are enough
     shade = _shaded(x, table[plot.shade]) if plot.shade else ()
     return tuple(_panel(plot, _series(x), _coloured(chunk, roles), _label(table, plot, chunk), () if n else _limits(result, plot), shade)
@@ -154,9 +158,20 @@ def _panel(plot, x, series, label, limits, shade):
     limits = tuple((value * factor, limit_text(value * factor, label, text)) for value, label in limits)
     rings = tuple((radius * factor, limit_text(radius * factor, label, text)) for radius, label in plot.rings)
     lines, values = [s.data for s in series], [value for value, _ in limits]
+    if plot.style == "bars":
+        lines = [np.maximum(lines, 0.0).sum(axis=0), np.minimum(lines, 0.0).sum(axis=0)]
     low, high = log_span(lines, values) if plot.log else span(lines, values + [0.0] * (plot.style == "stems"))
     return Panel(plot.title, axis_label(sentence(label[0]), text), x, tuple(series), limits, low, high, plot.equal, plot.style, plot.log,
                  shade, rings)
+
+
+def _mesh_panel(plot, table):
+    """The panel of a surface: series up, depth and colour [um], then the dashed right and up of the surface before."""
+    up, depth, colour = (_series(table[name]) for name in plot.y)
+    colour = colour._replace(unit="µm", data=np.asarray(table[plot.y[2]].data) * 1e6)
+    before = tuple(_series(table[name], dashed=True) for name in plot.reference)
+    label = axis_label(up.label, up.unit)
+    return Panel(plot.title, label, _series(table[plot.x]), (up, depth, colour, *before), (), *span([up.data]), True, "mesh")
 
 
 def _series(column, role="ink", dashed=False):

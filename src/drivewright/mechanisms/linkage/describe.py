@@ -5,9 +5,10 @@ import math
 from drivewright.contact.hertz import effective_modulus
 from drivewright.contact.impact import impact_law, journal_stiffness, kelvin_voigt_damping
 from drivewright.errors import SpecError
-from drivewright.mechanisms.linkage.curves import PURE, lift_curve, load_curve, profile_curve
+from drivewright.mechanisms.linkage.curves import lift_curve, load_curve, profile_curve
 from drivewright.mechanisms.linkage.refusals import CENTROID, GROUND, central_inertia, place, points_of
 from drivewright.multibody import model
+from drivewright.spec.columns import PURE
 
 CYLINDER_LOSS = "flores-2011"  # the cylinder law says nothing of losses
 

@@ -1,0 +1,25 @@
+"""Rolling bearings as force elements: inner geometry, load distribution, stiffness matrix, contact pressure, life."""
+
+from importlib import import_module
+
+# Their modules hold kernels, and the first kernel imports numba: loaded when first used.
+_WHERE = {
+    "response": ("FREEDOMS", "respond"),  # the formula itself has the name of its module
+    "newton": ("Measures", "equilibria", "equilibrium", "measures"),
+    "solving": ("Equilibrium", "elements", "law_of", "life_of", "solve"),
+    "ball": ("BallBearing", "BallLaw"),
+    "life": ("basic_dynamic_rating", "basic_life", "basic_static_rating"),
+    "roller": ("RollerBearing", "RollerLaw", "roller_reference_life", "roller_static_rating"),
+    "catalogue": ("Entry", "bearing", "entry", "load_catalogue", "names"),
+    "quick": ("gargiulo_ball", "gargiulo_roller", "kraemer_ball", "kraemer_roller", "liu_ball", "liu_roller", "palmgren_ball",
+              "palmgren_roller", "Stiffness"),
+}
+_MODULE = {name: module for module, names in _WHERE.items() for name in names}
+
+__all__ = [*_MODULE]
+
+
+def __getattr__(name):
+    if name not in _MODULE:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_MODULE[name]}"), name)

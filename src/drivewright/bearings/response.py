@@ -1,0 +1,32 @@
+"""What every elastic support says of itself: the energy, force and stiffness that belong to a displacement.
+
+A rolling bearing, a linear spring and a table are the same kind of thing: a NamedTuple of parameters with one formula under
+@implements(response, ...).  Under a shaft, in a multibody system or alone, only this is asked of it.
+"""
+
+import numpy as np
+
+from drivewright._jit import generic, kernel
+
+FREEDOMS = ("x", "y", "z", "tilt_x", "tilt_y")
+
+
+@generic
+def response(law, displacement, force, stiffness):
+    """Energy [J] at `displacement` (5,); writes `force` (5,) = dV/du and `stiffness` (5, 5) = d2V/du2, both whole.
+
+    displacement: of the inner ring against the outer, x, y, z [m] and rotations about x, y [rad], right-handed, z the axis;
+    force: what the shaft must do to the inner ring to hold it there [N, N m].
+    """
+
+
+def respond(law, displacement):
+    """(energy [J], force (5,), stiffness (5, 5)) of a law at a displacement (5,)."""
+    force, stiffness = np.zeros(5), np.zeros((5, 5))
+    energy = _respond(law, np.asarray(displacement, dtype=float), force, stiffness)
+    return energy, force, stiffness
+
+
+@kernel
+def _respond(law, displacement, force, stiffness):
+    return response(law, displacement, force, stiffness)

@@ -1,0 +1,165 @@
+"""Equilibrium of one rolling bearing: displacement to force, force to displacement, and what each rolling element carries.
+
+A kind of bearing is a spec class with an entry in `law_of` and `life_of`, and a NamedTuple of numbers, its law, with a formula
+under each of `response`, `measures` and `elements`.  Nothing here knows their names.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property, singledispatch
+from typing import Any
+
+import numpy as np
+
+from drivewright._jit import generic, kernel
+from drivewright.bearings.newton import (
+    MOST_STEPS,
+    NOT_CONVERGED,
+    UNRESISTED,
+    Measures,
+    begin,
+    equilibria,
+    equilibrium,
+    measures,
+)
+from drivewright.bearings.response import FREEDOMS, response
+from drivewright.errors import InputError, SolverError, UnknownName, brief
+
+__all__ = ["Equilibrium", "Measures", "elements", "equilibria", "equilibrium", "law_of", "life_of", "measures", "solve"]
+
+
+@singledispatch
+def law_of(bearing):
+    """The law of a bearing: the NamedTuple of numbers that its formulas take."""
+    raise InputError(f"bearing: {brief(bearing)} is no bearing; build one, e.g. BallBearing(balls=9, ball_diameter=\"8 mm\", ...).")
+
+
+@singledispatch
+def life_of(bearing, state):
+    """Reference life [revolutions] of a bearing in an `Equilibrium`; None without a dynamic rating."""
+    raise InputError(f"bearing: no reference life is known for a {type(bearing).__name__}.")
+
+
+@generic
+def elements(law, displacement, loads, angles, pressures, laminae):
+    """Writes what each rolling element carries at a displacement (5,): load [N] and contact angle [rad] (n,), peak pressure [Pa] at
+    the inner and outer race (n, 2), load of each lamina [N] (n, laminae).  The load and pressure of an unloaded element are 0."""
+
+
+@kernel
+def _state(law, displacement, force, stiffness, loads, angles, pressures, laminae):
+    """Everything at a displacement; returns the energy."""
+    elements(law, displacement, loads, angles, pressures, laminae)
+    return response(law, displacement, force, stiffness)
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """A bearing under load.  Five freedoms: x, y, z [m, N] and rotations about x and y [rad, N m], z the axis.
+
+    force: what is applied to the inner ring; displacement: of the inner ring against the outer; stiffness (5, 5): the tangent;
+    element_loads [N] and contact_angles [rad] (n,): of the rolling elements, from the first one towards +y; an unloaded one has the
+    angle at which its grooves stand; pressures [Pa] (n, 2): peak at the inner and outer race; lamina_loads [N] (n, laminae);
+    energy [J]; steps: of Newton's method, 0 where the displacement was given.
+    """
+
+    bearing: Any
+    displacement: np.ndarray
+    force: np.ndarray
+    stiffness: np.ndarray
+    element_loads: np.ndarray
+    contact_angles: np.ndarray
+    pressures: np.ndarray
+    lamina_loads: np.ndarray
+    energy: float
+    steps: int
+
+    @cached_property
+    def reference_life(self):
+        """L10r [revolutions]; inf where nothing is loaded, None where the bearing has no dynamic rating."""
+        return life_of(self.bearing, self)
+
+    @property
+    def reversed_elements(self):
+        """How many loaded elements bear on the side that an angular-contact bearing does not have."""
+        return int(np.sum((self.element_loads > 0) & (self.contact_angles < 0)))
+
+
+def solve(bearing, *, force=None, displacement=None, held=(), start=None):
+    """The `Equilibrium` of a bearing at one of: `force` [Fx, Fy, Fz, Mx, My] [N, N m] or `displacement` of its five freedoms [m, rad].
+
+    held: names from FREEDOMS that a given force does not move; they stay at their `start` (0 unless given), and the force found
+    there is the reaction.  start (5,): where the search begins, and where what nothing resists remains.
+    """
+    if (force is None) == (displacement is None):
+        raise InputError("bearing: give either force=[Fx, Fy, Fz, Mx, My] or displacement=[x, y, z, tilt_x, tilt_y], one of the two.")
+    law = law_of(bearing)
+    if displacement is not None:
+        if len(held) or start is not None:
+            raise InputError("bearing: held and start belong to a given force; at a given displacement nothing is left to find.")
+        return _state_of(bearing, law, _five(displacement, "displacement", "m, m, m, rad, rad"), 0)
+    return _state_of(bearing, law, *_found(law, _five(force, "force", "N, N, N, N m, N m"), held, start))
+
+
+def _found(law, force, held, start):
+    """(displacement, steps) at a force, or our error."""
+    kept = _kept(held, force)
+    place = np.zeros(5) if start is None else _five(start, "start", "m, m, m, rad, rad")
+    if start is None:
+        begin(law, force, kept, place)
+    place, steps = equilibrium(law, force, kept, place)
+    if steps == UNRESISTED:
+        _refuse(law, force, place)
+    if steps == NOT_CONVERGED:
+        raise SolverError(
+            f"bearing: no equilibrium with the force {_listed(force)} after {MOST_STEPS} Newton steps. "
+            "Begin nearer with start=, or with less load.", partial={"displacement": place})
+    return place, steps
+
+
+def _refuse(law, force, place):
+    """Name the freedom that ran away."""
+    sizes = measures(law)
+    way = int(np.argmax(np.abs(place) * ([1.0] * 3 + [sizes.arm] * 2)))
+    name, unit, sign = FREEDOMS[way], "N" if way < 3 else "N m", "-" if place[way] < 0 else "+"
+    raise InputError(
+        f"bearing: nothing resists {sign}{name}, where {force[way]:.6g} {unit} of the force {_listed(force)} pushes: the inner ring moves "
+        f"without end. Push it the other way, hold it with held=({name!r},), or take a bearing that carries such a load.")
+
+
+def _kept(held, force):
+    """Which freedoms are held, (5,) of bool."""
+    names = (held,) if isinstance(held, str) else tuple(held)
+    for name in names:
+        if name not in FREEDOMS:
+            raise UnknownName("freedom of a bearing", name, FREEDOMS)
+        if force[FREEDOMS.index(name)] != 0.0:
+            raise InputError(
+                f"bearing: {name} is held, so its force is a reaction to be found, but {force[FREEDOMS.index(name)]:.6g} is given; "
+                f"set it to 0, or do not hold {name}.")
+    return np.array([name in names for name in FREEDOMS])
+
+
+def _state_of(bearing, law, displacement, steps):
+    sizes = measures(law)
+    force, stiffness = np.empty(5), np.empty((5, 5))
+    loads, angles = np.empty(sizes.elements), np.empty(sizes.elements)
+    pressures, laminae = np.empty((sizes.elements, 2)), np.empty((sizes.elements, sizes.laminae))
+    energy = _state(law, displacement, force, stiffness, loads, angles, pressures, laminae)
+    if not np.isfinite(energy + loads.sum()):
+        raise InputError(f"bearing: the displacement {_listed(displacement)} is beyond all numbers; it counts in m and rad.")
+    return Equilibrium(bearing, displacement, force, stiffness, loads, angles, pressures, laminae, energy, int(steps))
+
+
+def _five(values, name, units):
+    """Five finite floats, a copy."""
+    try:
+        array = np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        array = np.empty(0)
+    if array.shape != (5,) or not np.all(np.isfinite(array)):
+        raise InputError(f"bearing: {name} wants five finite numbers [{units}], got {brief(values)}.")
+    return array
+
+
+def _listed(values):
+    return f"[{', '.join(f'{value:.6g}' for value in values)}]"

@@ -1,0 +1,54 @@
+"""The kind `shaft`: a shaft on elastic, rigid and rolling bearings."""
+
+from pathlib import Path
+
+from drivewright.mechanisms.shaft import frequencies, influence, rolling, sensitivity, solid, statics
+from drivewright.mechanisms.shaft.build import build
+from drivewright.mechanisms.shaft.designs import batch
+from drivewright.mechanisms.shaft.plots import plots
+from drivewright.mechanisms.shaft.scene import drawings, parts, scene
+from drivewright.mechanisms.shaft.spec import ShaftSpec
+from drivewright.mechanisms.shaft.verify import verify
+from drivewright.registry import Analysis, Mechanism
+
+ANALYSES = (
+    Analysis("statics", statics.statics, "deflection, reactions, moments and stress under the loads"),
+    Analysis(
+        "rolling", rolling.rolling, "rolling bearings: stiffness, load distribution, life", needs=("statics",), missing=rolling.no_rolling
+    ),
+    Analysis(
+        "flexibility",
+        influence.flexibility,
+        "flexibility and stiffness at the stations, and who contributes what",
+        needs=("statics",),
+        missing=influence.no_stations,
+    ),
+    Analysis("failure", influence.failure, "what fails first", needs=("statics", "flexibility"), missing=influence.no_strength),
+    Analysis(
+        "modes", frequencies.frequencies, "natural frequencies and critical speeds", needs=("statics",), missing=frequencies.no_modes
+    ),
+    Analysis(
+        "sensitivities",
+        sensitivity.sensitivities,
+        "sensitivities of the flexibility",
+        needs=("statics", "flexibility"),
+        missing=influence.no_stations,
+    ),
+    Analysis("solid", solid.solid, "the shaft as a solid of finite elements", default=False, needs=("statics",), missing=solid.no_solid),
+)
+
+HEADLINE = ("stations.*.deflection", "bearings.*.reaction", "bearings.*.stiffness.tangent", "bearings.*.stiffness.secant", "flexibility.*",
+            "stiffness.*", "modes.*.frequency", "critical_speeds.forward.*", "shaft.max_stress", "stations.*.limit_load",
+            "bearings.*.max_pressure", "bearings.*.reference_life", "solid.deviation")
+
+SOURCES = (
+    "Li Yanqi, Zhang, Chen: Transverse Stiffness Analysis of the Shaft System in the Drive Mechanism of Mobile-Head Spiral Winding "
+    "Equipment.",
+    "Cowper, The shear coefficient in Timoshenko's beam theory, 1966 (recalled, verified against the solid)",
+    "ISO/TS 16281, ISO 281, ISO 76 (recalled, verified by closed forms and published results)",
+)
+
+mechanism = Mechanism(
+    kind="shaft", summary="shaft on elastic, rigid and rolling bearings", spec=ShaftSpec, build=build, analyses=ANALYSES,
+    folder=Path(__file__).parent, headline=HEADLINE, sources=SOURCES, scene=scene, plots=plots, drawings=drawings, parts=parts,
+    verify=verify, batch=batch)

@@ -1,0 +1,89 @@
+"""Natural frequencies and critical speeds."""
+
+import numpy as np
+
+from drivewright import shafts
+from drivewright.errors import InputError
+from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.shafts.beam import FREEDOMS
+
+ELEMENTS = 40  # along the shaft, at least
+
+
+def no_modes(spec):
+    return None if spec.analysis.modes else "no modes are asked for (analysis.modes = 0)"
+
+
+def frequencies(model, done):
+    """Modes and critical speeds about the equilibrium of the loads, and what a massless shaft would make of them."""
+    count, fine = model.spec.analysis.modes, refined(model, done["statics"].data.equilibrium)
+    try:
+        (found, axial), critical = shafts.modes(fine, count), shafts.critical_speeds(fine, count)
+    except InputError as error:
+        return Answer(findings=(f"modes are absent: {error}",), outcome="left out")
+    values = {f"{kind}.{n}.frequency": Value(float(f), "Hz", f"natural frequency {n} {words}, at rest")
+              for kind, words, some in (("modes", "of bending", found), ("axial_modes", "along the axis", axial))
+              for n, f in enumerate(some.frequencies, 1)}
+    values |= {f"critical_speeds.{way}.{n}": Value(float(s), "rad/s", f"critical speed {n}, whirling {words} the shaft")
+               for way, words, speeds in (("forward", "with", critical.forward), ("backward", "against", critical.backward))
+               for n, s in enumerate(speeds, 1)}
+    values |= {f"torsional_modes.{n}.frequency": Value(float(f), "Hz", f"natural frequency {n} of torsion of the free shaft")
+               for n, f in enumerate(shafts.torsional(fine, min(count, 3)).frequencies, 1)}
+    massless, findings = _massless(model, done, found.frequencies)
+    return Answer(values | massless, (_shape_table(model, fine, found),), tuple(_speed_check(model, critical)), findings)
+
+
+def refined(model, at_rest):
+    """The same equilibrium on a mesh that is fine enough for the shapes of the modes; bearings keep their tangents."""
+    step = model.spec.analysis.element_length or model.shaft.length / ELEMENTS
+    z = at_rest.model.beam.z
+    places = np.concatenate([np.linspace(a, b, int(np.ceil((b - a) / step - 1e-9)) + 1) for a, b in zip(z[:-1], z[1:], strict=True)])
+    fine = shafts.assemble(tangent_shaft(model.shaft, at_rest), places)
+    return shafts.solve(fine, 0 * shafts.work(fine, ()))
+
+
+def tangent_shaft(shaft, at_rest):
+    """The shaft on linear supports: those of the equilibrium, each with its tangent stiffness there."""
+    supports = []
+    for support, tangent in zip(shaft.supports, at_rest.tangent, strict=True):
+        if support.law is not None:
+            support = support._replace(stiffness=(0.0,) * 5, law=shafts.Tangent(np.ascontiguousarray(tangent)), mirrored=False)
+        supports.append(support._replace(offset=(0.0,) * 5, push=(0.0,) * 5))
+    return shaft._replace(supports=tuple(supports))
+
+
+def _massless(model, done, frequencies):
+    """Frequencies of the stations' masses alone on the flexibility, and the error of leaving out the shaft's own mass."""
+    found = done["flexibility"].data if "flexibility" in done else None
+    masses = np.array([station.mass for station in model.shaft.stations])
+    if found is None or not len(masses) or np.any(masses == 0) or not len(frequencies):
+        return {}, ()
+    root = np.sqrt(masses)
+    inverse = np.linalg.eigvalsh(root[:, None] * found.delta * root)[::-1]
+    squares = 1 / inverse[inverse > 1e-12 * inverse[0]]  # a station on a rigid bearing does not move
+    values = {
+        f"massless_modes.{n}.frequency": Value(
+            float(np.sqrt(s) / (2 * np.pi)), "Hz", f"natural frequency {n} of the stations' masses on a massless shaft"
+        )
+        for n, s in enumerate(squares, 1)
+    }
+    error = np.sqrt(squares[0]) / (2 * np.pi) / frequencies[0] - 1
+    return values, (f"leaving out the shaft's own mass (K = inverse of the flexibility) puts mode 1 off by {100 * error:+.1f} %",)
+
+
+def _speed_check(model, critical):
+    drive = model.spec.drive
+    if drive is not None and len(critical.forward):
+        yield Check("critical_speed", float(critical.forward[0]) / drive.speed, model.spec.limits.critical_speed, ">=", "-",
+                    "first critical speed over the speed of the shaft", ("shaft",))
+
+
+def _shape_table(model, fine, found):
+    z, n = fine.model.beam.z, fine.model.beam.size
+    columns = [Column("z", "m", "distance from the left end", z)]
+    for number, shape in enumerate(found.shapes.T, 1):
+        x, y = shape[0:n:FREEDOMS], shape[1:n:FREEDOMS]
+        way = x if np.abs(x).max() > np.abs(y).max() else y
+        largest = way[np.argmax(np.abs(way))]
+        columns.append(Column(f"mode_{number}", "-", f"mode {number}, {found.frequencies[number - 1]:.4g} Hz", way / largest))
+    return Table("modes", "Shapes of the natural modes", tuple(columns))

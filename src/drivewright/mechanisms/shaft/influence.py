@@ -1,0 +1,156 @@
+"""Flexibility and stiffness at the stations, who contributes what, and what fails first."""
+
+import numpy as np
+
+from drivewright import shafts
+from drivewright.errors import InputError
+from drivewright.result import Answer, Array, Column, Table, Value
+from drivewright.shafts.beam import line
+from drivewright.shafts.sections import second_moment
+
+SAMPLES = 181
+
+
+def no_stations(spec):
+    return None if spec.stations else "the spec declares no [[stations]]"
+
+
+def flexibility(model, done):
+    """Flexibility, its shares, stiffness, reactions per unit load, at the equilibrium of the loads; `data` is the `Flexibility`."""
+    at_rest = done["statics"].data.equilibrium
+    try:
+        found = shafts.flexibility(at_rest, model.places, model.direction)
+    except InputError as error:
+        return Answer(findings=(f"flexibility and stiffness are absent: {error}",), outcome="left out")
+    labels, bearings = model.names, tuple(support.name for support in model.shaft.supports)
+    arrays = {"flexibility": Array("m/N", ("station", "station"), (labels, labels), found.delta),
+              "flexibility.shares": Array("m/N", ("part", "station", "station"), (found.names, labels, labels), found.shares),
+              "reactions.unit_load": Array("-", ("bearing", "station"), (bearings, labels), found.reactions)}
+    values = {f"flexibility.{a}.{b}": Value(float(found.delta[i, j]), "m/N", f"displacement of {a!r} by a unit force at {b!r}")
+              for i, a in enumerate(labels) for j, b in enumerate(labels) if j >= i}
+    findings, rigid = [], None
+    try:
+        stiff = shafts.stiffness(found.delta, labels)
+        arrays["stiffness"] = Array("N/m", ("station", "station"), (labels, labels), stiff)
+        values |= {f"stiffness.{a}.{b}": Value(float(stiff[i, j]), "N/m", f"force at {a!r} by a unit displacement of {b!r}, others held")
+                   for i, a in enumerate(labels) for j, b in enumerate(labels) if j >= i}
+        values["condition_number"] = Value(found.condition, "-", "condition number of flexibility and stiffness")
+    except InputError as error:
+        findings.append(f"array 'stiffness' is absent: {error}")
+    if any(support.law is not None for support in model.shaft.supports):
+        findings.append("bearings are not linear: flexibility and stiffness are tangents at the equilibrium of the given loads")
+    rigid = stiffened(model)
+    return Answer(values, (_unit_table(model, found, at_rest, rigid), _share_table(model, found)), (), tuple(findings), arrays, data=found)
+
+
+def stiffened(model):
+    """(equilibrium, flexibility) of the same shaft on rigid bearings, for the comparison."""
+    supports = tuple(shafts.Support(s.name, s.position, (np.inf, np.inf, 0.0, *_tilts(s)), width=s.width) for s in model.shaft.supports)
+    system = shafts.assemble(model.shaft._replace(supports=supports))
+    at_rest = shafts.solve(system, shafts.work(system, ()))
+    return at_rest, shafts.flexibility(at_rest, model.places, model.direction)
+
+
+def _tilts(support):
+    return support.stiffness[3:] if support.law is None else (0.0, 0.0)
+
+
+def _unit_table(model, found, at_rest, rigid):
+    """Deflection along the shaft under a unit force at each station, with the bearings as they are and rigid."""
+    z = np.linspace(0.0, model.shaft.length, SAMPLES)
+    columns = [Column("z", "m", "distance from the left end", z)]
+    for words, suffix, (rest, answer) in (("", "", (at_rest, found)), (", bearings rigid", ".rigid", rigid)):
+        for name, u in zip(model.names, answer.displacement.T, strict=True):
+            columns.append(Column(f"{name}{suffix}", "m/N", f"force at {name!r}{words}", _deflection(model, rest, u, z)))
+    return Table("unit_load", "Deflection by a unit force at a station", tuple(columns))
+
+
+def _deflection(model, rest, u, z):
+    return sum(way * line(rest.model.beam, plane, u, z).deflection for plane, way in enumerate(model.direction))
+
+
+def _share_table(model, found):
+    """One row for every flexibility entry and part."""
+    pairs = [(i, j) for i in range(len(model.names)) for j in range(i, len(model.names))]
+    entries = np.array([f"{model.names[i]}, {model.names[j]}" for i, j in pairs])
+    columns = [Column("entry", "-", "stations", entries), Column("total", "m/N", "flexibility", np.array([found.delta[p] for p in pairs]))]
+    columns += [
+        Column(name, "m/N", name if number < 2 else f"bearing {name}" if name != "tension" else name, np.array([share[p] for p in pairs]))
+        for number, (name, share) in enumerate(zip(found.names, found.shares, strict=True))
+    ]
+    return Table("shares", "Who contributes what to the flexibility", tuple(columns))
+
+
+# -- what fails first ----------------------------------------------------------------------------------------------------------
+
+
+def no_strength(spec):
+    if no_stations(spec):
+        return no_stations(spec)
+    rated = any(b.static_rating or b.bearing or _own(b) for b in spec.bearings)
+    known = spec.material.yield_strength or spec.material.card
+    return None if rated or known else "neither a static rating of a bearing nor a yield strength is given"
+
+
+def _own(bearing):
+    geometry = bearing.geometry or bearing.roller_geometry
+    return geometry is not None and geometry.static_rating
+
+
+def failure(model, done):
+    """For a force at each station alone: at which size a bearing reaches its static rating, and the shaft its yield strength."""
+    found, at_rest = done["flexibility"].data, done["statics"].data.equilibrium
+    shock, rows, values = model.spec.limits.shock_factor, [], {}
+    for number, name in enumerate(model.names):
+        limits = list(_limits(model, found, at_rest, number))
+        if not limits:
+            return Answer(findings=("what fails first is absent: no bearing has a static rating, and no yield strength is given",))
+        what, least = min(limits, key=lambda row: row[1])
+        values |= {f"stations.{name}.limit_load": Value(least, "N", f"force at {name!r} alone at which {what} is at its limit"),
+                   f"stations.{name}.allowed_load": Value(least / shock, "N", f"the same over the shock factor {shock:g}")}
+        rows += [(name, part, load, load / shock, load == least) for part, load in limits]
+    names, parts, loads, steady, first = zip(*rows, strict=True)
+    return Answer(
+        values,
+        (
+            Table(
+                "failure",
+                "What fails first",
+                (
+                    Column("station", "-", "station of the force", np.array(names)),
+                    Column("part", "-", "what reaches its limit", np.array(parts)),
+                    Column("load", "N", "force at which it does", np.array(loads)),
+                    Column("steady_load", "N", "the same over the shock factor", np.array(steady)),
+                    Column("first", "-", "1 where it is the first", np.array(first, float)),
+                ),
+            ),
+        ),
+    )
+
+
+def static_rating(model, bearing):
+    """C0 of a bearing [N], None where it has none."""
+    rolling = model.rolling.get(bearing.name)
+    return rolling.static_rating if rolling is not None else bearing.static_rating
+
+
+def _limits(model, found, at_rest, station):
+    """(what, force at the station) of every bearing with a rating and of the shaft."""
+    for number, bearing in enumerate(model.spec.bearings):
+        share = abs(found.reactions[number, station])
+        if static_rating(model, bearing) and share > 1e-12:
+            yield f"bearing {bearing.name}", static_rating(model, bearing) / share
+    if model.yield_strength:
+        yield "shaft, yield", model.yield_strength / _unit_stress(model, found, at_rest, station)
+
+
+def _unit_stress(model, found, at_rest, station):
+    """Largest bending stress per unit force at a station [Pa/N]."""
+    beam, u = at_rest.model.beam, found.displacement[:, station]
+    tiny = 1e-9 * model.shaft.length
+    z = np.sort(np.concatenate([np.linspace(0, model.shaft.length, SAMPLES), beam.z[:-1], beam.z[1:] - tiny]))
+    moment = sum(way * line(beam, plane, u, z).moment for plane, way in enumerate(model.direction))
+    element = np.clip(np.searchsorted(beam.z, z, side="right") - 1, 0, len(beam.pieces) - 1)
+    length, start, end, bore = beam.pieces[element].T
+    diameter = start + (end - start) * (z - beam.z[element]) / length
+    return float(np.max(np.abs(moment) * diameter / 2 / second_moment(diameter, bore)))

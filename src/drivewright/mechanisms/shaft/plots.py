@@ -1,0 +1,39 @@
+"""The plots of a shaft; they depend on its stations and bearings."""
+
+from drivewright.result import Plot
+
+
+def plots(result):
+    """All plots whose table the result has."""
+    return tuple(plot for plot in _all(result) if plot.table in result.tables)
+
+
+def _all(result):
+    stations = result.arrays["flexibility"].labels[0] if "flexibility" in result.arrays else ()
+    yield Plot("diagram", "Deflection, slope, shear force and bending moment", "diagram", "z", ("deflection", "slope", "shear", "moment"))
+    yield Plot("stress", "Stress along the shaft", "diagram", "z", ("stress",))
+    yield Plot("unit_load", "Deflection by a unit force; dashed: bearings rigid", "unit_load", "z", tuple(stations),
+               reference=tuple(f"{name}.rigid" for name in stations))
+    parts = result.arrays["flexibility.shares"].labels[0] if "flexibility.shares" in result.arrays else ()
+    yield Plot("shares", "Who contributes what to the flexibility", "shares", "entry", tuple(parts), style="bars")
+    if "modes" in result.tables:
+        shapes = tuple(column.name for column in result.tables["modes"].columns[1:])
+        yield Plot("modes", "Natural modes of bending", "modes", "z", shapes)
+    for name in result.tables:
+        if name.startswith("elements."):
+            bearing = name.partition(".")[2]
+            yield Plot(name, f"Load on the rolling elements of bearing {bearing}", name, "angle", ("load",), style="polar")
+            yield Plot(f"contact.{bearing}", f"Contact angle and pressure in bearing {bearing}", name, "angle",
+                       ("contact_angle", "inner_pressure", "outer_pressure"))
+        if name.startswith("curve."):
+            yield Plot(name, f"Bearing {name.partition('.')[2]} over its load", name, "load", ("displacement", "tangent", "secant"))
+    yield Plot(
+        "solid_surface",
+        "Shaft as a solid of finite elements",
+        "solid_surface",
+        "z",
+        ("y", "x", "displacement"),
+        equal=True,
+        style="mesh",
+        reference=("rest_z", "rest_y"),
+    )

@@ -1,0 +1,109 @@
+"""What has no meaning, refused by name; what can be computed is left to the checks."""
+
+from drivewright.errors import SpecError, nearest
+
+NEAR = 1e-9  # of the shaft's length: the same place
+SPRINGS = ("radial_stiffness", "table", "bearing", "geometry", "roller_geometry")
+ROLLING = ("bearing", "geometry", "roller_geometry")
+
+
+def refuse_nonsense(spec):
+    """SpecError for the first thing that has no meaning."""
+    for check in (_names, _places, _stations_of_loads, _analysis):
+        check(spec)
+
+
+def refuse_contradictions(spec):
+    """SpecError for the first two keys that contradict each other, or one that lacks another."""
+    for check in (_segments, _bearings, _places_of_loads):
+        check(spec)
+
+
+def is_rolling(bearing):
+    """Whether a bearing is a rolling bearing with an inner geometry."""
+    return any(getattr(bearing, key) is not None for key in ROLLING)
+
+
+def _segments(spec):
+    for number, segment in enumerate(spec.segments):
+        least = min(segment.diameter, segment.end_diameter or segment.diameter)
+        if segment.bore >= least:
+            raise SpecError(f"{_mm(segment.bore)} is as wide as the shaft there ({_mm(least)}); leave a wall", f"segments.{number}.bore")
+
+
+def _names(spec):
+    for table in ("bearings", "stations", "gears"):
+        names = [entry.name for entry in getattr(spec, table)]
+        for number, name in enumerate(names):
+            if name in names[:number]:
+                raise SpecError(f"the name {name!r} comes twice; names in {table} must differ", f"{table}.{number}.name")
+
+
+def _places(spec):
+    """Everything stands on the shaft; no two bearings and no two stations at one place."""
+    far = spec.length
+    wanted = [(f"{table}.{entry.name}.position", entry.position) for table in ("bearings", "stations", "gears")
+              for entry in getattr(spec, table)]
+    wanted += [(f"loads.{number}.position", load.position) for number, load in enumerate(spec.loads) if load.position is not None]
+    wanted += [
+        (f"line_loads.{number}.{end}", getattr(load, end)) for number, load in enumerate(spec.line_loads) for end in ("start", "end")
+    ]
+    wanted += [(f"bearings.{b.name}.width", b.position + side * b.width / 2) for b in spec.bearings if b.width for side in (-1, 1)]
+    for key, place in wanted:
+        if not -NEAR * far <= place <= far * (1 + NEAR):
+            raise SpecError(f"{_mm(place)} is off the shaft, which runs from 0 to {_mm(far)}; move it, or make a segment longer", key)
+    for table in ("bearings", "stations"):
+        entries = sorted(getattr(spec, table), key=lambda entry: entry.position)
+        for one, two in zip(entries, entries[1:], strict=False):
+            if two.position - one.position <= NEAR * far:
+                raise SpecError(f"stands at {_mm(two.position)}, where {one.name!r} stands already; {table} need different places",
+                                f"{table}.{two.name}.position")
+
+
+def _bearings(spec):
+    for bearing in spec.bearings:
+        given = [key for key in SPRINGS if getattr(bearing, key) is not None]
+        where = f"bearings.{bearing.name}"
+        if len(given) != 1 and not (not given and (bearing.axial_stiffness or bearing.tilt_stiffness)):
+            told = f"has {' and '.join(given)}" if given else "has no stiffness"
+            raise SpecError(f"{told}; give one of {', '.join(SPRINGS)}", where)
+        if is_rolling(bearing):
+            for key in ("axial_stiffness", "tilt_stiffness"):
+                if getattr(bearing, key) is not None:
+                    raise SpecError(
+                        f"a rolling bearing has its own; leave it out, or give radial_stiffness instead of {given[0]}", f"{where}.{key}"
+                    )
+            continue
+        for key in ("preload", "free"):
+            if getattr(bearing, key):
+                raise SpecError(f"belongs to a rolling bearing ({', '.join(ROLLING)})", f"{where}.{key}")
+        if bearing.radial_clearance is not None and (bearing.radial_stiffness in (None, float("inf")) or bearing.radial_clearance < 0):
+            raise SpecError("a clearance above 0 goes with a rolling bearing or with a radial_stiffness that is not rigid",
+                            f"{where}.radial_clearance")
+
+
+def _places_of_loads(spec):
+    for number, load in enumerate(spec.loads):
+        if (load.station is None) == (load.position is None):
+            raise SpecError("give the station or the position, one of the two", f"loads.{number}")
+
+
+def _stations_of_loads(spec):
+    names = [station.name for station in spec.stations]
+    for number, load in enumerate(spec.loads):
+        if load.station is not None and load.station not in names:
+            raise SpecError(f"there is no station {load.station!r}{nearest(load.station, names)}; known: {', '.join(names) or 'none'}",
+                            f"loads.{number}.station")
+    for number, load in enumerate(spec.line_loads):
+        if not load.end > load.start:
+            raise SpecError(f"ends at {_mm(load.end)}, not right of its start at {_mm(load.start)}", f"line_loads.{number}.end")
+
+
+def _analysis(spec):
+    given = spec.analysis.shear_coefficient
+    if not isinstance(given, str) and not 0 < given <= 1:
+        raise SpecError(f'must lie above 0 and at most 1, got {given:g}; or write "cowper"', "analysis.shear_coefficient")
+
+
+def _mm(length):
+    return f"{1e3 * length:.6g} mm"

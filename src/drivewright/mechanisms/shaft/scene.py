@@ -1,0 +1,101 @@
+"""The shaft on screen and for manufacture: the load grows and fades, the shaft bends, much exaggerated; its drawing and its solid.
+
+The picture looks along the plane of the unit loads: z to the right, against the load up.
+"""
+
+from math import floor, log10
+
+import numpy as np
+
+from drivewright import shafts
+from drivewright.mechanisms.shaft import sketch
+from drivewright.mechanisms.shaft.influence import flexibility
+from drivewright.result import Answer
+from drivewright.scene import Body, Drawing, Frame, Part, Scene, Shape, Turned, polygon
+from drivewright.shafts.beam import line
+
+FRAMES, SLICES = 61, 90
+SHOWN = 0.06  # the largest deflection is drawn as about this part of the shaft's length
+
+
+def scene(model):
+    """The shaft under its loads; without loads under a force at the last station."""
+    phase = np.linspace(0.0, 2 * np.pi, FRAMES)
+    part = 0.5 * (1 - np.cos(phase))
+    still = np.zeros((FRAMES, 3))
+    z = _cuts(model)
+    up, turn, words = _bent(model, z)
+    factor = exaggeration(np.abs(up).max(), model.shaft.length)
+    name = f"shaft, {words} × {factor:g}" if factor else "shaft"
+    bodies = [Body("rest", "shaft at rest", tuple(sketch.silhouette(model.shaft)), still, "ground")]
+    bodies += [Body(f"bearing.{s.name}", "bearing", tuple(sketch.bearing(model, s)), still, "green") for s in model.shaft.supports]
+    bodies += [
+        Body(f"shaft.{n}", name, tuple(shapes), _poses(middle, factor * part * u, np.arctan(factor * part * t)), "blue")
+        for n, (middle, shapes, u, t) in enumerate(zip(0.5 * (z[1:] + z[:-1]), sketch.slices(model.shaft, z), up, turn, strict=True))
+    ]
+    bodies += [
+        Body(
+            f"load.{n}",
+            "load",
+            tuple(sketch.arrow(model, load)),
+            _poses(load.position, factor * part * np.interp(load.position, 0.5 * (z[1:] + z[:-1]), up), 0.0),
+            "orange",
+        )
+        for n, load in enumerate(model.loads.points)
+        if abs(np.dot(model.direction, load.force[:2])) > 1e-9 * np.hypot(*load.force[:2])
+    ]
+    return Scene(phase, "phase of the load", "rad", 2.0, tuple(bodies), (Frame("side", "seen from the side", still),))
+
+
+def _poses(x, y, angle):
+    return np.stack(np.broadcast_arrays(np.full(FRAMES, float(x)), y, angle), axis=1)
+
+
+def _cuts(model):
+    return np.unique(np.concatenate([np.linspace(0.0, model.shaft.length, SLICES + 1), model.shaft.ends]))
+
+
+def _bent(model, z):
+    """(upward deflection, its slope, words) at the middles of the slices."""
+    middles = 0.5 * (z[1:] + z[:-1])
+    loaded = shafts.load(model.shaft, model.loads)
+    if model.loaded or not model.names:
+        drawn = [line(loaded.equilibrium.model.beam, plane, loaded.equilibrium.u, middles, loaded.spread[plane]) for plane in (0, 1)]
+        words = "deflection"
+    else:
+        found = flexibility(model, {"statics": Answer(data=loaded)}).data
+        if found is None:
+            return np.zeros(len(middles)), np.zeros(len(middles)), "unloaded"
+        drawn = [line(loaded.equilibrium.model.beam, plane, found.displacement[:, -1], middles) for plane in (0, 1)]
+        words = f"force at {model.names[-1]}, deflection"
+    up = -np.stack([each.deflection for each in drawn], axis=1) @ model.direction
+    return up, -np.stack([each.slope for each in drawn], axis=1) @ model.direction, words
+
+
+def exaggeration(largest, length):
+    """1, 2 or 5 times a power of ten that draws the largest deflection at about SHOWN of the length; 0 without deflection."""
+    if not largest > 1e-15 * length:
+        return 0
+    wanted = SHOWN * length / largest
+    power = 10.0 ** floor(log10(wanted))
+    return next(step * power for step in (5, 2, 1) if step * power <= wanted)
+
+
+def drawings(model):
+    """The turned part along its axis."""
+    shaft, ends = model.shaft, model.shaft.ends
+    upper = [(z, radius) for section, a, b in zip(shaft.sections, ends[:-1], ends[1:], strict=True)
+             for z, radius in ((a, section.start / 2), (b, section.end / 2))]
+    upper = [point for n, point in enumerate(upper) if n == 0 or np.hypot(*np.subtract(point, upper[n - 1])) > 1e-9]
+    outline = polygon([(z, -r) for z, r in upper] + [(z, r) for z, r in reversed(upper)])
+    over = 0.03 * shaft.length
+    shapes = [Shape("profile", outline), Shape("axis", polygon([(-over, 0.0), (shaft.length + over, 0.0)], closed=False))]
+    shapes += [Shape("hole", sketch.box(0.5 * (a + b), 0.0, b - a, section.bore))
+               for section, a, b in zip(shaft.sections, ends[:-1], ends[1:], strict=True) if section.bore]
+    return (Drawing("shaft", "Shaft, turned part along its axis", tuple(shapes), milled=False),)
+
+
+def parts(model):
+    """The shaft as a solid of revolution about x."""
+    rings = tuple((float(s.length), float(s.start), float(s.end), float(s.bore)) for s in model.shaft.sections)
+    return (Part("shaft", (Turned((0.0, 0.0), 0.0, rings),)),)

@@ -1,0 +1,157 @@
+"""The loaded shaft: deflections, reactions, forces and stresses along it."""
+
+import numpy as np
+
+from drivewright import shafts
+from drivewright.mechanisms.shaft.refusals import is_rolling
+from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.shafts.beam import FREEDOMS
+
+SAMPLES = 241  # along the shaft, besides the nodes
+
+
+def statics(model, done):
+    """Equilibrium under all loads; `data` is the `Loaded` shaft for the analyses that start from it."""
+    loaded = shafts.load(model.shaft, model.loads)
+    checks = (*_slenderness(model),)
+    values = {f"bearings.{m.support.name}.{key}": value for m, b in zip(loaded.equilibrium.model.mounts, model.spec.bearings, strict=True)
+              if not is_rolling(b) and b.radial_stiffness not in (None, np.inf) and not b.radial_clearance
+              for key, value in _linear_stiffness(m.support).items()}
+    if not model.loaded:
+        return Answer(values, (), checks, ("there are no loads: deflections and stresses are absent, flexibility is that of the "
+                                           "unloaded shaft",), data=loaded)
+    drawn = shafts.diagram(loaded, SAMPLES)
+    values |= _stations(model, loaded) | _bearings(model, loaded) | _extremes(model, drawn)
+    return Answer(values, (_diagram_table(model, drawn), _reaction_table(model, loaded)), (*checks, *_checks(model, loaded, drawn)),
+                  data=loaded)
+
+
+def _linear_stiffness(support):
+    radial = support.stiffness[0]
+    return {"stiffness.tangent": Value(radial, "N/m", f"change of radial force over displacement of bearing {support.name!r}, at any load"),
+            "stiffness.secant": Value(radial, "N/m", f"radial force over displacement of bearing {support.name!r}, at any load")}
+
+
+def with_load(model, vector):
+    """Component of a vector (x, y) along the unit loads."""
+    return float(np.dot(model.direction, vector))
+
+
+def _stations(model, loaded):
+    found, u = loaded.equilibrium.model.beam, loaded.equilibrium.u
+    values = {}
+    for station in model.shaft.stations:
+        at, name = FREEDOMS * found.node(station.position), f"stations.{station.name}"
+        move, slope = u[at : at + 2], np.array([u[at + 4], -u[at + 3]])
+        place = f"of station {station.name!r}"
+        values |= {f"{name}.deflection": Value(with_load(model, move), "m", f"deflection {place}, positive with the load"),
+                   f"{name}.deflection_x": Value(float(move[0]), "m", f"deflection {place} along x"),
+                   f"{name}.deflection_y": Value(float(move[1]), "m", f"deflection {place} along y (up)"),
+                   f"{name}.slope": Value(with_load(model, slope), "rad", f"slope {place}, positive where the deflection grows with z")}
+    return values
+
+
+def _bearings(model, loaded):
+    values = {}
+    for mount, reaction, moved in zip(
+        loaded.equilibrium.model.mounts, loaded.equilibrium.reactions, loaded.equilibrium.relative, strict=True
+    ):
+        name, at = f"bearings.{mount.support.name}", f"of bearing {mount.support.name!r}"
+        slope = slope_at(loaded, mount.support.position)
+        values |= {
+            f"{name}.reaction": Value(
+                -with_load(model, reaction[:2]), "N", f"radial reaction {at} on the shaft, positive against the load"
+            ),
+            f"{name}.reaction_x": Value(reaction[0], "N", f"reaction {at} on the shaft along x"),
+            f"{name}.reaction_y": Value(reaction[1], "N", f"reaction {at} on the shaft along y"),
+            f"{name}.radial_force": Value(float(np.hypot(*reaction[:2])), "N", f"radial force {at}, magnitude"),
+            f"{name}.displacement": Value(
+                with_load(model, moved[:2]), "m", f"displacement of the shaft in bearing {mount.support.name!r}, positive with the load"
+            ),
+            f"{name}.slope": Value(float(np.hypot(*slope)), "rad", f"slope of the shaft in bearing {mount.support.name!r}, magnitude"),
+        }
+        if abs(reaction[2]) > 0:
+            values[f"{name}.axial_force"] = Value(reaction[2], "N", f"axial reaction {at} on the shaft, positive to the right")
+        if np.any(np.abs(reaction[3:]) > 1e-12 * (1 + np.abs(reaction[:2]).max())):
+            values[f"{name}.moment"] = Value(float(np.hypot(*reaction[3:])), "N m", f"moment {at} on the shaft, magnitude")
+    return values
+
+
+def slope_at(loaded, position):
+    """Slope (x, y) of the shaft at a place with a node."""
+    at = FREEDOMS * loaded.equilibrium.model.beam.node(position)
+    return np.array([loaded.equilibrium.u[at + 4], -loaded.equilibrium.u[at + 3]])
+
+
+def _extremes(model, drawn):
+    told = (("max_deflection", np.hypot(*drawn.deflection.T), "m", "largest deflection along the shaft"),
+            ("max_moment", np.hypot(*drawn.moment.T), "N m", "largest bending moment"),
+            ("max_stress", drawn.von_mises, "Pa", "largest von Mises stress, nominal: without notches"))
+    values = {}
+    for name, data, unit, meaning in told:
+        at = int(np.argmax(data))
+        values |= {
+            f"shaft.{name}": Value(float(data[at]), unit, meaning),
+            f"shaft.{name}.at": Value(float(drawn.z[at]), "m", f"where {name} is"),
+        }
+    return values
+
+
+def _checks(model, loaded, drawn):
+    limits = model.spec.limits
+    if model.yield_strength:
+        safety = model.yield_strength / max(float(drawn.von_mises.max()), 1e-300)
+        yield Check("yield_safety", safety, limits.yield_safety, ">=", "-", "yield strength over the largest nominal stress", ("shaft",))
+    for station in model.shaft.stations if limits.deflection else ():
+        at = FREEDOMS * loaded.equilibrium.model.beam.node(station.position)
+        size = float(np.hypot(*loaded.equilibrium.u[at : at + 2]))
+        yield Check(f"deflection.{station.name}", size, limits.deflection, "<=", "m", f"deflection of station {station.name!r}", ("shaft",))
+    for bearing, reaction in zip(model.spec.bearings, loaded.equilibrium.reactions, strict=True):
+        if limits.slope:
+            slope = float(np.hypot(*slope_at(loaded, bearing.position)))
+            yield Check(f"slope.{bearing.name}", slope, limits.slope, "<=", "rad", f"slope of the shaft in bearing {bearing.name!r}",
+                        (bearing.name,))
+        if bearing.static_rating and bearing.name not in model.rolling and np.hypot(*reaction[:2]) > 0:
+            yield Check(
+                f"static_safety.{bearing.name}",
+                bearing.static_rating / float(np.hypot(*reaction[:2])),
+                limits.static_safety,
+                ">=",
+                "-",
+                f"static rating of bearing {bearing.name!r} over its radial force",
+                (bearing.name,),
+            )
+
+
+def _slenderness(model):
+    """Whether a length may have been given in a wrong unit."""
+    ratio = model.shaft.length / min(min(s.start, s.end) for s in model.shaft.sections)
+    limits, message = model.spec.limits, "length of the shaft over its least diameter; far off, a unit may have slipped"
+    yield Check("slenderness", ratio, limits.slenderness, "<=", "-", message, ("shaft",))
+    yield Check("stockiness", ratio, limits.stockiness, ">=", "-", message, ("shaft",))
+
+
+def _diagram_table(model, drawn):
+    pairs = (("deflection", drawn.deflection, "m", "deflection"), ("slope", drawn.slope, "rad", "slope"),
+             ("shear", drawn.shear, "N", "shear force"), ("moment", drawn.moment, "N m", "bending moment"))
+    columns = [Column("z", "m", "distance from the left end", drawn.z)]
+    for name, data, unit, meaning in pairs:
+        columns += [Column(name, unit, f"{meaning}, in the direction of the unit loads", data @ model.direction),
+                    Column(f"{name}_across", unit, f"{meaning}, square to it", data @ [model.direction[1], -model.direction[0]])]
+    columns += [Column("axial", "N", "axial force, tension positive", drawn.axial), Column("torque", "N m", "torque", drawn.torque),
+                Column("bending_stress", "Pa", "nominal stress by bending and tension", drawn.bending),
+                Column("torsion_stress", "Pa", "nominal shear stress by torsion", drawn.torsion),
+                Column("stress", "Pa", "von Mises stress, nominal", drawn.von_mises)]
+    return Table("diagram", "The loaded shaft along its length", tuple(columns))
+
+
+def _reaction_table(model, loaded):
+    reactions, moved = loaded.equilibrium.reactions, loaded.equilibrium.relative
+    names = np.array([bearing.name for bearing in model.spec.bearings])
+    units, told = ("N", "N", "N", "N m", "N m"), ("along x", "along y", "along z", "moment about x", "moment about y")
+    columns = [Column("bearing", "-", "bearing", names)]
+    columns += [Column(f"reaction_{key}", unit, f"reaction on the shaft, {words}", reactions[:, i])
+                for i, (key, unit, words) in enumerate(zip(("x", "y", "z", "tilt_x", "tilt_y"), units, told, strict=True))]
+    columns += [Column(f"displacement_{key}", unit, f"of the shaft against the seat, {key}", moved[:, i])
+                for i, (key, unit) in enumerate(zip(("x", "y", "z", "tilt_x", "tilt_y"), ("m", "m", "m", "rad", "rad"), strict=True))]
+    return Table("reactions", "Bearings under load", tuple(columns))

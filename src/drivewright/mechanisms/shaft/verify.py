@@ -1,0 +1,104 @@
+"""The shaft once more: by integrals that share no formula with the elements, its bearings alone, and as a solid of finite elements.
+
+Rows are tuples (name, ours, other, unit, allowed difference, route) in SI.
+"""
+
+import numpy as np
+
+from drivewright import bearings, shafts
+from drivewright.mechanisms.shaft import second_route, solid
+
+INTEGRAL = "integrals of M^2/EI, redundant reactions"
+GIVEN = "integral of the moments of loads and reactions"
+ALONE = "rolling bearing alone, at the force found"
+SOLID = "solid of second-order finite elements"
+
+
+def verify(model, result):
+    """All rows."""
+    loaded = shafts.load(model.shaft, model.loads)
+    yield from _flexibility(model, result)
+    yield from _balance(loaded)
+    yield from _deflections(model, loaded)
+    yield from _bearings(model, loaded)
+    if "flexibility" in result.arrays:
+        yield from _solid(model, loaded.equilibrium)
+
+
+def _flexibility(model, result):
+    """Where the bearings are springs across the shaft alone."""
+    if "flexibility" not in result.arrays or not all(_is_spring(support) for support in model.shaft.supports):
+        return
+    ours = result.arrays["flexibility"].values
+    other = second_route.flexibility(
+        model.shaft, [(s.position, s.stiffness[0]) for s in model.shaft.supports if s.stiffness[0]], model.places
+    )
+    for name, i, j in _pairs(model):
+        yield f"flexibility {name}", ours[i, j], other[i, j], "m/N", 1e-8 * np.sqrt(ours[i, i] * ours[j, j]) + 1e-16, INTEGRAL
+
+
+def _is_spring(support):
+    return support.law is None and not support.width and not any(support.stiffness[3:])
+
+
+def _pairs(model):
+    return [(f"{a}, {b}", i, j) for i, a in enumerate(model.names) for j, b in enumerate(model.names) if j >= i]
+
+
+def _balance(loaded):
+    """Reactions against loads."""
+    equilibrium, n = loaded.equilibrium, loaded.equilibrium.model.beam.size
+    force = loaded.force[:n].reshape(-1, 6)
+    if not np.abs(force).max() > 0:
+        return
+    z, places = equilibrium.model.beam.z, np.array([mount.support.position for mount in equilibrium.model.mounts])
+    size = np.abs(force[:, :3]).max() + np.abs(equilibrium.reactions).max()
+    for axis, name in enumerate("xy"):
+        yield (f"sum of the reactions along {name}", equilibrium.reactions[:, axis].sum(), -force[:, axis].sum(), "N", 1e-8 * size,
+               "sum of the loads")
+        across, sign = 4 - axis, 1 - 2 * axis
+        ours = equilibrium.reactions[:, axis] @ places + sign * equilibrium.reactions[:, across].sum()
+        loads = force[:, axis] @ z + sign * force[:, across].sum()
+        yield f"moment of the reactions, {name}", ours, -loads, "N m", 1e-8 * size * z[-1], "moment of the loads"
+
+
+def _deflections(model, loaded):
+    """Deflection of the stations from the loads and reactions alone, between the first and the last bearing."""
+    equilibrium = loaded.equilibrium
+    if len(equilibrium.model.mounts) < 2 or not model.loaded or any(mount.support.width for mount in equilibrium.model.mounts):
+        return
+    beam = equilibrium.model.beam
+    for axis, name in enumerate("xy"):
+        forces, couples = second_route.acting(loaded, axis)
+        ends = sorted(mount.support.position for mount in equilibrium.model.mounts)
+        first, last = (equilibrium.u[6 * beam.node(place) + axis] for place in (ends[0], ends[-1]))
+        found = second_route.through(model.shaft, (ends[0], first), (ends[-1], last), forces, couples, model.places)
+        size = np.abs(equilibrium.u[:beam.size].reshape(-1, 6)[:, :2]).max()
+        for station, other in zip(model.shaft.stations, found, strict=True):
+            ours = equilibrium.u[6 * beam.node(station.position) + axis]
+            if size > 0 and max(abs(ours), abs(other)) > 1e-9 * size:
+                yield f"stations.{station.name}.deflection_{name}", ours, other, "m", 1e-6 * size, GIVEN
+
+
+def _bearings(model, loaded):
+    """Each rolling bearing on its own finds the displacement under the force that the shaft puts on it."""
+    for mount in loaded.equilibrium.model.mounts:
+        inner = model.rolling.get(mount.support.name)
+        if inner is None:
+            continue
+        own = mount.rows @ loaded.equilibrium.u - mount.support.offset
+        force = bearings.solve(inner, displacement=own).force
+        if np.hypot(*force[:2]) > 0:
+            free = np.abs(force) > 1e-9 * np.abs(force[:2]).max() * np.array([1, 1, 1, inner.pitch_diameter, inner.pitch_diameter])
+            found = bearings.solve(inner, force=np.where(free, force, 0.0), start=np.where(free, 0.0, own),
+                                   held=tuple(name for name, is_free in zip(bearings.FREEDOMS, free, strict=True) if not is_free))
+            size = float(np.hypot(*own[:2]))
+            for axis, name in enumerate("xy"):
+                yield f"bearings.{mount.support.name}, displacement {name}", own[axis], found.displacement[axis], "m", 1e-6 * size, ALONE
+
+
+def _solid(model, at_rest):
+    _, found, beam = solid.compared(model, at_rest)
+    for name, i, j in _pairs(model):
+        allowed = solid.allowed(model.shaft) * np.sqrt(found.flexibility[i, i] * found.flexibility[j, j])
+        yield f"flexibility {name}, on bands", beam[i, j], found.flexibility[i, j], "m/N", float(allowed), SOLID

@@ -1,0 +1,24 @@
+"""Shafts on elastic, rolling and rigid bearings: deflection, flexibility at stations, modes; one by one and by the million."""
+
+from importlib import import_module
+
+from drivewright.shafts.model import COWPER, EULER_BERNOULLI, LineLoad, Load, Section, Shaft, Station, Support
+
+# Their modules hold kernels, and the first kernel imports numba: loaded when first used.
+_WHERE = {
+    "equilibrium": ("Equilibrium", "assemble", "refuse_mechanism", "solve", "work"),
+    "influence": ("Flexibility", "flexibility", "stiffness"),
+    "loaded": ("Diagram", "Loaded", "Loads", "diagram", "load"),
+    "vibration": ("Critical", "Modes", "critical_speeds", "modes", "torsional"),
+    "curves": ("Tangent", "tabulated", "with_play"),
+    "batch": ("flexibilities",),
+}
+_MODULE = {name: module for module, names in _WHERE.items() for name in names}
+
+__all__ = ["COWPER", "EULER_BERNOULLI", "LineLoad", "Load", "Section", "Shaft", "Station", "Support", *_MODULE]
+
+
+def __getattr__(name):
+    if name not in _MODULE:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_MODULE[name]}"), name)

@@ -1,0 +1,88 @@
+"""Many shafts at once: flexibility at the stations, and reactions, of a million stepped shafts in one call."""
+
+import numpy as np
+
+from drivewright import cases
+from drivewright._jit import warmer
+from drivewright.errors import InputError
+from drivewright.shafts.model import COWPER
+from drivewright.shafts.sweep import Column, Designs, fill, workspace
+
+CHUNK = 1_000_000  # sections and pairs of points per chunk: a few hundredths of a second
+PER_DESIGN = ("youngs_modulus", "poisson", "shear")
+
+
+def flexibilities(lengths, diameters, supports, radial_stiffness, stations, youngs_modulus, poisson, shear=COWPER, *, bores=0.0,
+                  end_diameters=None, reactions=False, workers=None, progress=None):
+    """(N, M, M) flexibility [m/N] of N shafts at M stations each; with `reactions` also (N, B, M): what each support carries of a
+    unit force at each station [N/N].
+
+    lengths, diameters, bores (N, S): sections from left to right [m]; end_diameters (N, S) makes cones; supports, radial_stiffness (N, B):
+    places [m] and N/m, inf is rigid, 0 is absent; stations (N, M): places [m].  youngs_modulus [Pa], poisson, shear (N,): as in
+    `shafts.model`, shear > 0 is kappa, COWPER or EULER_BERNOULLI.  What all designs share needs no axis of designs, or one of 1, and
+    a single number serves all sections; nothing is copied for it.
+    An impossible design is a row of nan, and no error: a size that is not positive, a bore as wide as the shaft, a place off it, fewer than
+    two places that carry, two rigid supports at one.  The number of `workers` (None: one per core) changes no digit.
+    """
+    designs, (count, sections, bearings, measured) = _designs(
+        lengths, diameters, diameters if end_diameters is None else end_diameters, bores, supports, radial_stiffness, stations,
+        youngs_modulus, poisson, shear)
+    delta = np.empty((count, measured, measured))
+    carried = np.empty((count if reactions else 0, bearings, measured))
+    points = bearings + measured
+    per_chunk = max(1, CHUNK // (points * points + sections))
+
+    def chunk(begin):
+        fill(designs, sections, begin, min(begin + per_chunk, count), workspace(points), delta, carried)
+
+    if workers is None and count <= per_chunk:
+        workers = 1  # starting a thread costs more than a few designs
+    if cases.run(chunk, range(0, count, per_chunk), workers, progress).interrupted:
+        raise KeyboardInterrupt
+    return (delta, carried) if reactions else delta
+
+
+# -- arguments -----------------------------------------------------------------------------------------------------------------
+
+
+def _designs(*arguments):
+    """(Designs, (N, S, B, M))."""
+    tables = [_table(name, value, name in PER_DESIGN) for name, value in zip(Designs._fields, arguments, strict=True)]
+    named = dict(zip(Designs._fields, tables, strict=True))
+    widths = {name: named[name].shape[1] for name in ("lengths", "supports", "stations")}
+    wanted = dict.fromkeys(("diameters", "end_diameters", "bores"), "lengths") | {"radial_stiffness": "supports"}
+    rows = {len(table) for table in tables} - {1} or {1}
+    for name, table in named.items():
+        width = widths.get(wanted.get(name, name), 1)
+        if table.shape[1] not in (1, width):
+            raise InputError(f"flexibilities: {name} has {table.shape[1]} entries a design where {wanted[name]} has {width}; "
+                             "give one for each, or a single number.")
+    if len(rows) > 1:
+        told = ", ".join(f"{name} {len(table)}" for name, table in named.items() if len(table) > 1)
+        raise InputError(f"flexibilities: the arguments disagree in the number of designs ({told}); each must have that many rows, or one.")
+    columns = [Column(table.reshape(-1), *(step if size > 1 else 0 for step, size in zip((table.shape[1], 1), table.shape, strict=True)))
+               for table in tables]
+    return Designs(*columns), (rows.pop(), *widths.values())
+
+
+def _table(name, value, one_a_design):
+    """The argument as (designs or 1, width or 1), contiguous; copied only where it is not already."""
+    try:
+        table = np.asarray(value, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"flexibilities: {name} must be numbers, one row per design; {error}.") from None
+    table = table.reshape(-1, 1) if one_a_design and table.ndim < 2 else np.atleast_2d(table)
+    if table.ndim != 2 or not table.shape[1] or (one_a_design and table.shape[1] > 1):
+        raise InputError(f"flexibilities: {name} must have the shape {'(designs,)' if one_a_design else '(designs, entries)'}; "
+                         f"got {np.shape(value)}.")
+    for axis in (0, 1):
+        if table.size and table.strides[axis] == 0 and table.shape[axis] > 1:
+            table = table.take([0], axis)  # broadcast already: one row or entry is all there is
+    return np.require(table, float, ["C", "W"])
+
+
+@warmer
+def warm_batch():
+    """A uniform and a stepped shaft."""
+    for diameters in ((0.02,), (0.02, 0.03)):
+        flexibilities((0.1, 0.1), diameters, (0.02, 0.18), 1e8, (0.0, 0.1), 206e9, 0.3)

@@ -1,0 +1,225 @@
+"""The shaft as a beam in space: exact two-node elements that bend, shear, stretch and twist, and what is known between the nodes.
+
+An element is stated by its flexibility, so cones are as exact as cylinders.  In one plane, with deflection w, slope t of the
+section, the element's start clamped and the force F and moment M at its end, M(x) = F (L - x) + M:
+
+    w2 - w1 - L t1 = F (int (L-x)^2/EI + int 1/(kappa G A)) + M int (L-x)/EI,    t2 - t1 = F int (L-x)/EI + M int 1/EI.
+
+Plane x: w = x, t = tilt_y.  Plane y: w = y, t = -tilt_x.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.errors import InputError
+from drivewright.shafts.sections import NODES, WEIGHTS, area, second_moment, softness_of
+
+FREEDOMS = 6  # a node: x, y, z, rotations about x, y, z
+PLANES = ((0, 4, 1.0), (1, 3, -1.0))  # (deflection, rotation, its sign as a slope)
+BAND = 4  # elements over the width of a support
+
+
+class Beam(NamedTuple):
+    """Nodes z (n,), pieces (n-1, 4) of (length, start, end, bore) between them, and the shaft they belong to."""
+
+    shaft: object
+    z: np.ndarray
+    pieces: np.ndarray
+    flexibility: np.ndarray  # (n-1, 2, 2) of the clamped piece; [0, 0] with shear
+    slip: np.ndarray  # (n-1,) the part of shear in it
+
+    @property
+    def size(self):
+        return FREEDOMS * len(self.z)
+
+    def node(self, position):
+        """Number of the node at a position."""
+        return int(np.argmin(np.abs(self.z - position)))
+
+
+def beam(shaft, places=()):
+    """The `Beam` of a shaft with nodes at every step, support, station and at the further `places`."""
+    z = _nodes(shaft, places)
+    pieces = _pieces(shaft, z[:-1], z[1:])
+    flexibility, slip = clamped(pieces, shaft)
+    return Beam(shaft, z, pieces, flexibility, slip)
+
+
+def _nodes(shaft, places):
+    bands = [np.linspace(s.position - s.width / 2, s.position + s.width / 2, BAND + 1) for s in shaft.supports if s.width]
+    wanted = np.concatenate([shaft.ends, [s.position for s in (*shaft.supports, *shaft.stations)], *bands, np.asarray(places, float)])
+    near = 1e-9 * shaft.length
+    if wanted.min() < -near or wanted.max() > shaft.length + near:
+        off = wanted.min() if wanted.min() < -near else wanted.max()
+        raise InputError(f"shaft: a place at {1e3 * off:.6g} mm is off the shaft, which runs from 0 to {1e3 * shaft.length:.6g} mm; "
+                         "move it, or make the shaft longer")
+    z = np.unique(np.clip(wanted, 0.0, shaft.length))
+    return z[np.concatenate([[True], np.diff(z) > near])]
+
+
+def _pieces(shaft, left, right):
+    """(n, 4) pieces between places that have no step between them."""
+    ends, table = shaft.ends, np.array([section[:4] for section in shaft.sections], float)
+    at = np.clip(np.searchsorted(ends, 0.5 * (left + right)) - 1, 0, len(table) - 1)
+    length, start, end, bore = table[at].T
+    share = [(place - ends[at]) / length for place in (left, right)]
+    first, last = (np.where(start == end, start, start + (end - start) * s) for s in share)
+    return np.stack([right - left, first, last, bore], axis=1)
+
+
+def clamped(pieces, shaft):
+    """(flexibility (n, 2, 2) of clamped pieces for force and moment at the end, its part of shear (n,))."""
+    zero, first, second, slip = softness_of(pieces, shaft.modulus, shaft.poisson, shaft.shear).T
+    length = pieces[:, 0]
+    force, mixed = length**2 * zero - 2 * length * first + second + slip, length * zero - first
+    return np.moveaxis(np.array([[force, mixed], [mixed, zero]]), -1, 0), slip
+
+
+def strain(length):
+    """T (n, 2, 4): (w2 - w1 - L t1, t2 - t1) of the ends (w1, t1, w2, t2)."""
+    one, none = np.ones_like(length), np.zeros_like(length)
+    return np.moveaxis(np.array([[-one, -length, one, none], [none, -one, none, one]]), -1, 0)
+
+
+def places_of(element, plane):
+    """Numbers of the four freedoms of an element in a plane, and their signs."""
+    w, t, sign = PLANES[plane]
+    at = FREEDOMS * element
+    return np.array([at + w, at + t, at + FREEDOMS + w, at + FREEDOMS + t]), np.array([1.0, sign, 1.0, sign])
+
+
+def stiffness(found):
+    """K (6n, 6n) of the shaft without its supports."""
+    whole = np.zeros((found.size, found.size))
+    ends = strain(found.pieces[:, 0])
+    bending = np.swapaxes(ends, 1, 2) @ np.linalg.solve(found.flexibility, ends)
+    stretch, twist = _rods(found)
+    for element in range(len(found.pieces)):
+        for plane in (0, 1):
+            at, sign = places_of(element, plane)
+            whole[np.ix_(at, at)] += sign[:, None] * bending[element] * sign
+        for freedom, value in ((2, stretch[element]), (5, twist[element])):
+            at = FREEDOMS * element + freedom + np.array([0, FREEDOMS])
+            whole[np.ix_(at, at)] += value * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    return whole
+
+
+def _rods(found):
+    """(EA, GI_p) over the length of every piece: 1 / int dx/EA."""
+    length, start, end, bore = found.pieces.T[:, :, None]
+    diameter = start + (end - start) * NODES
+    e, g = found.shaft.modulus, 0.5 * found.shaft.modulus / (1 + found.shaft.poisson)
+    soft = [np.sum(WEIGHTS * length / stiff, axis=1) for stiff in (e * area(diameter, bore), 2 * g * second_moment(diameter, bore))]
+    return 1 / soft[0], 1 / soft[1]
+
+
+def stretch_energy(found, displacement):
+    """(s, s): int N_i N_j/EA over the shaft, for the displacements (>= 6n, s) of several loads."""
+    pulled = np.diff(displacement[2 : found.size : FREEDOMS], axis=0)
+    return pulled.T @ (_rods(found)[0][:, None] * pulled)
+
+
+def tension_and_torque(found, displacement):
+    """(n-1, 2): axial force, positive in tension, and torque in every piece."""
+    nodes = displacement[: found.size].reshape(-1, FREEDOMS)
+    stretch, twist = _rods(found)
+    return np.stack([stretch * np.diff(nodes[:, 2]), twist * np.diff(nodes[:, 5])], axis=1)
+
+
+# -- distributed loads ---------------------------------------------------------------------------------------------------------
+# A load per length over a piece is a + b x + c x^2, its coefficients (..., 3): exact for linear loads and for the weight of a cone.
+
+
+def beyond(coefficients, length, x):
+    """(shear force, moment) that the load between x and the end of the piece exerts at x."""
+    a, b, c = np.moveaxis(coefficients, -1, 0)
+    shear = a * (length - x) + b * (length**2 - x**2) / 2 + c * (length**3 - x**3) / 3
+    moment = (a * (length - x) ** 2 / 2 + b * (2 * length**3 - 3 * length**2 * x + x**3) / 6
+              + c * (3 * length**4 - 4 * length**3 * x + x**4) / 12)
+    return shear, moment
+
+
+def sagging(pieces, coefficients, shaft):
+    """(n, 2): deflection and slope at the free end of clamped pieces under a load per length (n, 3)."""
+    length, start, end, bore = pieces.T[:, :, None]
+    x, weight = length * NODES, length * WEIGHTS
+    shear, moment = beyond(coefficients[:, None, :], length, x)
+    table = np.stack(np.broadcast_arrays(weight, start + (end - start) * NODES, start + (end - start) * NODES, bore), axis=-1)
+    zero, _, _, slip = np.moveaxis(softness_of(table.reshape(-1, 4), shaft.modulus, shaft.poisson, shaft.shear).reshape(*x.shape, 4), -1, 0)
+    return np.stack([np.sum((length - x) * moment * zero + shear * slip, axis=1), np.sum(moment * zero, axis=1)], axis=1)
+
+
+def nodal(found, plane, coefficients):
+    """(6n,) forces and moments on the nodes that do the same as a load per length (n-1, 3) in a plane."""
+    length, total = found.pieces[:, 0], np.zeros(found.size)
+    sag = sagging(found.pieces, coefficients, found.shaft)
+    shear, moment = beyond(coefficients, length, np.zeros_like(length))
+    held = np.einsum("nij,ni->nj", strain(length), np.linalg.solve(found.flexibility, sag[:, :, None])[:, :, 0])
+    held[:, 0] += shear
+    held[:, 1] += moment
+    for element, four in enumerate(held):
+        at, sign = places_of(element, plane)
+        total[at] += sign * four
+    return total
+
+
+def uniform(found, start, end, value=1.0):
+    """Coefficients (n-1, 3) of a constant load per length between two nodes."""
+    middle = 0.5 * (found.z[1:] + found.z[:-1])
+    found_at = (middle > start) & (middle < end)
+    return np.stack([np.where(found_at, value, 0.0), np.zeros(len(middle)), np.zeros(len(middle))], axis=1)
+
+
+def linear(found, start, end, first, last):
+    """The same of a load from `first` at `start` to `last` at `end`, both nodes."""
+    inside = uniform(found, start, end)[:, 0]
+    slope = (last - first) / (end - start)
+    return np.stack([inside * (first + slope * (found.z[:-1] - start)), inside * slope, 0 * inside], axis=1)
+
+
+def weight(found):
+    """Mass per length (n-1, 3): rho A(x), a parabola over a cone."""
+    length, start, end, bore = found.pieces.T
+    grow = (end - start) / length
+    scale = 0.25 * np.pi * found.shaft.density
+    return scale * np.stack([start**2 - bore**2, 2 * start * grow, grow**2], axis=1)
+
+
+# -- between the nodes ---------------------------------------------------------------------------------------------------------
+
+
+class Line(NamedTuple):
+    """Along z (m,), in a plane: deflection, slope of the section, shear force V and bending moment M = EI dt/dz."""
+
+    deflection: np.ndarray
+    slope: np.ndarray
+    shear: np.ndarray
+    moment: np.ndarray
+
+
+def end_forces(found, plane, displacement, coefficients=None):
+    """(n-1, 2): force and moment at the end of every piece."""
+    four = np.stack([displacement[at] * sign for at, sign in (places_of(e, plane) for e in range(len(found.pieces)))])
+    bent = np.einsum("nij,nj->ni", strain(found.pieces[:, 0]), four)
+    if coefficients is not None:
+        bent = bent - sagging(found.pieces, coefficients, found.shaft)
+    return np.linalg.solve(found.flexibility, bent[:, :, None])[:, :, 0]
+
+
+def line(found, plane, displacement, z, coefficients=None):
+    """The `Line` at places z: the piece from the node before to z is a clamped piece itself, so this is exact anywhere."""
+    w, t, sign = PLANES[plane]
+    element = np.clip(np.searchsorted(found.z, z, side="right") - 1, 0, len(found.pieces) - 1)
+    length, x = found.pieces[element, 0], z - found.z[element]
+    force, moment = end_forces(found, plane, displacement, coefficients)[element].T
+    load = np.zeros((len(z), 3)) if coefficients is None else coefficients[element]
+    carried = beyond(load, length, x)
+    shear, moment = force + carried[0], moment + force * (length - x) + carried[1]
+    part = _pieces(found.shaft, found.z[element], np.maximum(z, found.z[element] + 1e-12 * found.shaft.length))
+    part[:, 0] = x
+    flexibility, _ = clamped(part, found.shaft)
+    sag = sagging(part, load, found.shaft)
+    first, slope = displacement[FREEDOMS * element + w], sign * displacement[FREEDOMS * element + t]
+    return Line(first + slope * x + flexibility[:, 0, 0] * shear + flexibility[:, 0, 1] * moment + sag[:, 0],
+                slope + flexibility[:, 1, 0] * shear + flexibility[:, 1, 1] * moment + sag[:, 1], shear, moment)

@@ -1,0 +1,115 @@
+"""A shaft under all its loads: points, lines, weight - at rest, and what it carries along its length."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.shafts import beam as beams
+from drivewright.shafts.beam import FREEDOMS
+from drivewright.shafts.equilibrium import assemble, solve, work
+from drivewright.shafts.model import Load
+from drivewright.shafts.sections import area, second_moment
+
+
+class Loads(NamedTuple):
+    """Point loads, line loads, and the acceleration of free fall (x, y, z) [m/s^2] that acts on the shaft and its stations."""
+
+    points: tuple = ()
+    lines: tuple = ()
+    gravity: tuple = (0.0, 0.0, 0.0)
+
+    @property
+    def places(self):
+        return [load.position for load in self.points] + [end for load in self.lines for end in (load.start, load.end)]
+
+
+class Loaded(NamedTuple):
+    """An `Equilibrium`, and what loads it: per length in both planes, coefficients (2, n-1, 3) over the pieces; at points (6n,);
+    and all as forces (size,) on the unknowns."""
+
+    equilibrium: object
+    spread: np.ndarray
+    points: np.ndarray
+    force: np.ndarray
+
+
+class Diagram(NamedTuple):
+    """Along z (m,), vectors (m, 2) in x and y: deflection [m], slope [rad], shear force [N], bending moment [N m]; and what follows.
+
+    axial [N], torque [N m]; bending [Pa], torsion [Pa] and von Mises stress [Pa] at the surface, nominal: without notches.
+    """
+
+    z: np.ndarray
+    deflection: np.ndarray
+    slope: np.ndarray
+    shear: np.ndarray
+    moment: np.ndarray
+    axial: np.ndarray
+    torque: np.ndarray
+    bending: np.ndarray
+    torsion: np.ndarray
+    von_mises: np.ndarray
+
+
+def load(shaft, loads):
+    """The `Loaded` shaft."""
+    model = assemble(shaft, loads.places)
+    spread, force = _spread(model, loads), work(model, [*loads.points, *_weights(shaft, loads)])
+    points = force[: model.beam.size].copy()
+    for plane in (0, 1):
+        force[: model.beam.size] += beams.nodal(model.beam, plane, spread[plane])
+    force[: model.beam.size] += _axial_weight(model.beam, loads.gravity[2])
+    return Loaded(solve(model, force), spread, points, force)
+
+
+def _weights(shaft, loads):
+    return [Load(s.position, tuple(s.mass * g for g in loads.gravity)) for s in shaft.stations if s.mass and any(loads.gravity)]
+
+
+def _spread(model, loads):
+    """(2, n-1, 3): load per length in x and y."""
+    weight = beams.weight(model.beam)
+    total = np.stack([weight * loads.gravity[plane] for plane in (0, 1)])
+    for each in loads.lines:
+        for plane in (0, 1):
+            total[plane] += beams.linear(model.beam, each.start, each.end, each.first[plane], each.last[plane])
+    return total
+
+
+def _axial_weight(found, gravity):
+    """Half the weight of every piece on each of its ends, along the axis."""
+    total = np.zeros(found.size)
+    mass, moment = beams.beyond(beams.weight(found), found.pieces[:, 0], np.zeros(len(found.pieces)))
+    second = moment / found.pieces[:, 0]
+    total[2 : found.size : FREEDOMS][:-1] += gravity * (mass - second)
+    total[2 : found.size : FREEDOMS][1:] += gravity * second
+    return total
+
+
+def diagram(loaded, count=201):
+    """The `Diagram` at about `count` places, twice at every node: just left and just right of it, for forces jump there."""
+    found, u = loaded.equilibrium.model.beam, loaded.equilibrium.u
+    z = _places(found, count)
+    lines = [beams.line(found, plane, u, z, loaded.spread[plane]) for plane in (0, 1)]
+    deflection, slope, shear, moment = (np.stack(each, axis=1) for each in zip(*lines, strict=True))
+    element = np.clip(np.searchsorted(found.z, z, side="right") - 1, 0, len(found.pieces) - 1)
+    axial, torque = beams.tension_and_torque(found, u)[element].T
+    return Diagram(z, deflection, slope, shear, moment, axial, torque, *_stresses(found, element, z, moment, axial, torque))
+
+
+def _places(found, count):
+    """Even places and both sides of every node, rising."""
+    tiny = 1e-9 * found.shaft.length
+    even = np.linspace(0.0, found.shaft.length, count)
+    even = even[np.abs(even[:, None] - found.z).min(axis=1) > 10 * tiny]
+    return np.sort(np.concatenate([even, found.z[1:] - tiny, found.z[:-1]]))
+
+
+def _stresses(found, element, z, moment, axial, torque):
+    """(bending and tension, torsion, von Mises) [Pa] at the surface."""
+    length, start, end, bore = found.pieces[element].T
+    diameter = start + (end - start) * (z - found.z[element]) / length
+    second = second_moment(diameter, bore)
+    bending = np.hypot(*moment.T) * diameter / 2 / second + np.abs(axial) / area(diameter, bore)
+    torsion = np.abs(torque) * diameter / 4 / second
+    return bending, torsion, np.sqrt(bending**2 + 3 * torsion**2)

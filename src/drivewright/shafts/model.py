@@ -1,0 +1,89 @@
+"""A shaft on its supports as plain data: it knows no solver.
+
+z runs along the axis from the left end, y is up, x completes the right-handed frame.  Six displacements a place: x, y, z and the
+rotations about x, y, z; all lengths in metres.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+COWPER, EULER_BERNOULLI = 0.0, -1.0  # special values of the shear coefficient
+RIGID = (np.inf,) * 5
+
+
+class Section(NamedTuple):
+    """A piece of shaft: length, outer diameter at either end, bore."""
+
+    length: float
+    start: float
+    end: float
+    bore: float = 0.0
+
+
+class Support(NamedTuple):
+    """What carries the shaft at a place.
+
+    Five stiffnesses (x, y, z, tilt_x, tilt_y; inf is rigid, 0 is free) and beside them a `law`, a NamedTuple with a formula under
+    `bearings.response`.  `mirrored`: the law's own axis points to the left.  `offset` (5,): where the seat stands, of a law in the
+    law's own axes.  `seat` (5,): stiffness of the seat under the law, in series (inf is none, 0 slides freely), with the forces
+    `push` (5,) on the ring that sits there.  The reaction is spread evenly over `width`.
+    """
+
+    name: str
+    position: float
+    stiffness: tuple = (0.0, 0.0, 0.0, 0.0, 0.0)
+    law: Any = None
+    mirrored: bool = False
+    offset: tuple = (0.0, 0.0, 0.0, 0.0, 0.0)
+    seat: tuple = RIGID
+    push: tuple = (0.0, 0.0, 0.0, 0.0, 0.0)
+    width: float = 0.0
+
+
+class Station(NamedTuple):
+    """A place of interest, with what sits on it: mass [kg], moments of inertia about the axis and about a diameter [kg m^2]."""
+
+    name: str
+    position: float
+    mass: float = 0.0
+    polar: float = 0.0
+    diametral: float = 0.0
+
+
+class Load(NamedTuple):
+    """Force (x, y, z) [N] and moment (x, y, z) [N m] on the shaft at a place."""
+
+    position: float
+    force: tuple = (0.0, 0.0, 0.0)
+    moment: tuple = (0.0, 0.0, 0.0)
+
+
+class LineLoad(NamedTuple):
+    """Force per length (x, y) [N/m] between two places, linear from one to the other."""
+
+    start: float
+    end: float
+    first: tuple
+    last: tuple
+
+
+class Shaft(NamedTuple):
+    """Sections from left to right, one material, supports and stations in any order.  `shear`: kappa, COWPER or EULER_BERNOULLI."""
+
+    sections: tuple
+    modulus: float
+    poisson: float
+    density: float
+    supports: tuple
+    stations: tuple = ()
+    shear: float = COWPER
+
+    @property
+    def length(self):
+        return float(sum(section.length for section in self.sections))
+
+    @property
+    def ends(self):
+        """Places of the ends of the sections, from 0."""
+        return np.concatenate([[0.0], np.cumsum([section.length for section in self.sections])])

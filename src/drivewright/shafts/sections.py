@@ -1,0 +1,69 @@
+"""Round cross-sections, and how a piece of shaft bends and shears: the integrals that every route to its deflection shares.
+
+Kernels of plain numbers; a solid section has the bore 0.
+"""
+
+import numpy as np
+
+from drivewright._jit import kernel
+
+# Gauss-Legendre on 0 ... 1: exact to rounding for every taper that turns into a shaft (diameters up to 1 : 4 within one piece).
+NODES, WEIGHTS = (0.5 * (part + shift) for part, shift in zip(np.polynomial.legendre.leggauss(24), (1.0, 0.0), strict=True))
+
+
+@kernel
+def area(diameter, bore):
+    """A = pi/4 (D^2 - d^2)  [m^2]."""
+    return 0.25 * np.pi * (diameter**2 - bore**2)
+
+
+@kernel
+def second_moment(diameter, bore):
+    """I = pi/64 (D^4 - d^4)  [m^4] about a diameter; twice that about the axis."""
+    return np.pi / 64.0 * (diameter**4 - bore**4)
+
+
+@kernel
+def cowper(diameter, bore, poisson):
+    """Shear coefficient kappa of a round section, m = d/D  (Cowper 1966, recalled; checked against the solid):
+
+    kappa = 6 (1 + nu) (1 + m^2)^2 / [(7 + 6 nu) (1 + m^2)^2 + (20 + 12 nu) m^2].
+    """
+    m2 = (bore / diameter) ** 2
+    whole = (1.0 + m2) ** 2
+    return 6.0 * (1.0 + poisson) * whole / ((7.0 + 6.0 * poisson) * whole + (20.0 + 12.0 * poisson) * m2)
+
+
+@kernel
+def softness(length, start, end, bore, modulus, poisson, shear):
+    """(int dx/EI, int x dx/EI, int x^2 dx/EI, int dx/(kappa G A)) over a piece of `length`, x from its start.
+
+    start, end: outer diameters [m], the cone between them straight; bore [m]; modulus E [Pa]; poisson nu.
+    shear: a positive number is kappa, 0 means Cowper's, below 0 no shear deformation (Euler-Bernoulli).
+    """
+    g = 0.5 * modulus / (1.0 + poisson)
+    if start == end:
+        e = 1.0 / (modulus * second_moment(start, bore))
+        kappa = shear if shear > 0.0 else cowper(start, bore, poisson)
+        slip = 0.0 if shear < 0.0 else length / (kappa * g * area(start, bore))
+        return e * length, 0.5 * e * length**2, e * length**3 / 3.0, slip
+    zero, first, second, slip = 0.0, 0.0, 0.0, 0.0
+    for i in range(len(NODES)):
+        diameter = start + (end - start) * NODES[i]
+        x, weight = length * NODES[i], length * WEIGHTS[i]
+        e = weight / (modulus * second_moment(diameter, bore))
+        zero, first, second = zero + e, first + e * x, second + e * x**2
+        kappa = shear if shear > 0.0 else cowper(diameter, bore, poisson)
+        slip += 0.0 if shear < 0.0 else weight / (kappa * g * area(diameter, bore))
+    return zero, first, second, slip
+
+
+@kernel
+def softness_of(pieces, modulus, poisson, shear):
+    """`softness` of many pieces (n, 4) of (length, start, end, bore): (n, 4)."""
+    found = np.zeros((len(pieces), 4))
+    for i in range(len(pieces)):
+        length, start, end, bore = pieces[i]
+        if length > 0.0:
+            found[i, 0], found[i, 1], found[i, 2], found[i, 3] = softness(length, start, end, bore, modulus, poisson, shear)
+    return found

@@ -1,0 +1,275 @@
+"""The compiled loop over the shafts of a batch.
+
+A uniform shaft on two bearings takes the closed form.  Every other is swept from both ends: all that lies on one side of a place acts
+there, whatever it is, as one spring of compliance u on a lever, c away, and one tilt spring q:  2 V = (w - c theta)^2/u + q theta^2.
+In this form nothing cancels, nothing is inverted and rigid (u = 0), free (u = inf) and single supports (q = 0) are no special cases:
+
+    a support beside it     u' = u v/(u + v),  c' = c v/(u + v),  q' = q + c^2/(u + v)           v = 1/k
+    a piece of shaft        c += l;  n = 1 + q f;  u' = u + r + f (c - g)^2/n,  c' = (c + q f g)/n,  q' = q/n
+
+with f = int dx/EI of the piece, g how far back its elastic centre lies from the new end, and r = int (x - g)^2 dx/EI + int dx/(kappa G A).
+(The piece is a hinge of compliance f at its elastic centre and a slide of compliance r: its flexibility matrix, diagonal about there.)
+Where the two sides meet at a station, the deflection under a unit force is u + c^2/q of both together; it is then carried outwards.
+The exact solution of Timoshenko's beam, as the two-node shear-flexible elements give it, without their loss of digits in short elements.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright._jit import inner, outer
+from drivewright.shafts.closed_form import flexibility_entry, shares
+from drivewright.shafts.sections import softness
+
+OFF = 1e-9  # part of the shaft's length by which a place may lie beyond its end: sums of lengths are rounded
+
+
+class Column(NamedTuple):
+    """A table (designs, width) as its numbers in a row and the steps to the next design and entry, 0 where one serves all."""
+
+    values: np.ndarray
+    row: int
+    entry: int
+
+
+class Designs(NamedTuple):
+    """The shafts of a batch."""
+
+    lengths: Column
+    diameters: Column
+    end_diameters: Column
+    bores: Column
+    supports: Column
+    radial_stiffness: Column
+    stations: Column
+    youngs_modulus: Column
+    poisson: Column
+    shear: Column
+
+
+class Work(NamedTuple):
+    """What a design needs on its way, by point: a support or a station; supports are numbered first."""
+
+    order: np.ndarray  # (P,) number of each point, from left to right
+    place: np.ndarray  # (P,)
+    pieces: np.ndarray  # (P, 4): length, f, g from its left end, r of the shaft to the next point
+    sides: np.ndarray  # (2, P, 3): u, c, q of all that lies left and right of a point
+
+
+def workspace(points):
+    """The `Work` for so many points."""
+    return Work(np.empty(points, np.int64), np.empty(points), np.empty((points, 4)), np.empty((2, points, 3)))
+
+
+@inner
+def at(column, design, entry):
+    return column.values[design * column.row + entry * column.entry]
+
+
+@outer
+def fill(designs, sections, begin, end, work, delta, carried):
+    """The rows begin ... end of delta and, where it has rows, carried."""
+    bearings, stations = carried.shape[1], carried.shape[2]
+    wanted = carried.shape[0] > 0
+    for n in range(begin, end):
+        total = np.nan
+        row = n if wanted else 0
+        if _possible(designs, sections, bearings, stations, n):
+            if bearings == 2 and _uniform(designs, sections, n):
+                _closed_form(designs, n, delta, carried, wanted)
+            else:
+                _swept(designs, sections, n, work, delta, carried, wanted)
+            total = 0.0
+            for i in range(stations):
+                for j in range(stations):
+                    total += delta[n, i, j]
+                for b in range(bearings if wanted else 0):
+                    total += carried[row, b, i]
+        if not np.isfinite(total):
+            for i in range(stations):
+                for j in range(stations):
+                    delta[n, i, j] = np.nan
+                for b in range(bearings if wanted else 0):
+                    carried[row, b, i] = np.nan
+
+
+@inner
+def _possible(designs, sections, bearings, stations, n):
+    """Whether sizes, material and places make a shaft; comparisons are turned so that nan fails."""
+    good = at(designs.youngs_modulus, n, 0) > 0.0 and -1.0 < at(designs.poisson, n, 0) < 0.5 and np.isfinite(at(designs.shear, n, 0))
+    length = 0.0
+    for s in range(sections):
+        part, bore = at(designs.lengths, n, s), at(designs.bores, n, s)
+        good = good and part > 0.0 and bore >= 0.0 and at(designs.diameters, n, s) > bore and at(designs.end_diameters, n, s) > bore
+        length += part
+    low, high = -OFF * length, (1.0 + OFF) * length
+    for b in range(bearings):
+        good = good and low <= at(designs.supports, n, b) <= high and at(designs.radial_stiffness, n, b) >= 0.0
+    for i in range(stations):
+        good = good and low <= at(designs.stations, n, i) <= high
+    return good
+
+
+@inner
+def _uniform(designs, sections, n):
+    diameter, bore = at(designs.diameters, n, 0), at(designs.bores, n, 0)
+    same = True
+    for s in range(sections):
+        same = same and at(designs.diameters, n, s) == diameter and at(designs.end_diameters, n, s) == diameter
+        same = same and at(designs.bores, n, s) == bore
+    return same
+
+
+@inner
+def _closed_form(designs, n, delta, carried, wanted):
+    diameter, bore = at(designs.diameters, n, 0), at(designs.bores, n, 0)
+    modulus, poisson, shear = at(designs.youngs_modulus, n, 0), at(designs.poisson, n, 0), at(designs.shear, n, 0)
+    bend, _, _, slip = softness(1.0, diameter, diameter, bore, modulus, poisson, shear)
+    first = 0 if at(designs.supports, n, 0) <= at(designs.supports, n, 1) else 1
+    start, end = at(designs.supports, n, first), at(designs.supports, n, 1 - first)
+    span = end - start
+    gives = 1.0 / at(designs.radial_stiffness, n, first), 1.0 / at(designs.radial_stiffness, n, 1 - first)
+    for i in range(delta.shape[1]):
+        x = at(designs.stations, n, i) - start
+        for j in range(i + 1):
+            entry = flexibility_entry(x, at(designs.stations, n, j) - start, span, bend, slip, *gives)
+            delta[n, i, j], delta[n, j, i] = entry, entry
+        if wanted:
+            carried[n, first, i], carried[n, 1 - first, i] = shares(x, span)
+
+
+@inner
+def _swept(designs, sections, n, work, delta, carried, wanted):
+    bearings, points = carried.shape[1], work.order.size
+    _sort(designs, n, bearings, work)
+    _cut(designs, sections, n, work)
+    _sweep(designs, n, bearings, work, 1)
+    _sweep(designs, n, bearings, work, -1)
+    for p in range(points):
+        i = work.order[p] - bearings
+        if i < 0:
+            continue
+        u1, c1, q1 = work.sides[0, p]
+        u2, c2, q2 = work.sides[1, p]
+        u, c, q = _beside(u1, c1, q1, u2, -c2, q2)
+        turn = c / q if q > 0.0 else np.nan
+        w = u + c * turn
+        delta[n, i, i] = w
+        # The unit force parts between the sides; a side next to rigid has its share from the other's, for w of its own is nearly 0.
+        right = (w + c2 * turn) / u2 if u2 > u1 else 1.0 - (w - c1 * turn) / u1
+        _walk(designs, n, bearings, work, p, 1, w, turn, right, delta, carried, wanted)
+        if wanted:
+            _walk(designs, n, bearings, work, p, -1, w, -turn, 1.0 - right, delta, carried, wanted)
+
+
+@inner
+def _sort(designs, n, bearings, work):
+    """Points from left to right, supports before stations at the same place."""
+    for k in range(work.order.size):
+        x = at(designs.supports, n, k) if k < bearings else at(designs.stations, n, k - bearings)
+        p = k
+        while p > 0 and work.place[p - 1] > x:
+            work.place[p], work.order[p] = work.place[p - 1], work.order[p - 1]
+            p -= 1
+        work.place[p], work.order[p] = x, k
+
+
+@inner
+def _cut(designs, sections, n, work):
+    """f, g, r of the shaft between neighbouring points, joined from the parts that the sections make of it."""
+    modulus, poisson, shear = at(designs.youngs_modulus, n, 0), at(designs.poisson, n, 0), at(designs.shear, n, 0)
+    s, begin, length, fresh = 0, 0.0, at(designs.lengths, n, 0), True
+    start, end, bore, bend, slip = 0.0, 0.0, 0.0, 0.0, 0.0
+    for p in range(work.order.size - 1):
+        x, stop = work.place[p], work.place[p + 1]
+        f, g, r = 0.0, 0.0, 0.0
+        while x < stop:
+            while s < sections - 1 and begin + length <= x:
+                s, begin, fresh = s + 1, begin + length, True
+                length = at(designs.lengths, n, s)
+            if fresh:
+                start, end, bore, fresh = at(designs.diameters, n, s), at(designs.end_diameters, n, s), at(designs.bores, n, s), False
+                if start == end:
+                    bend, _, _, slip = softness(1.0, start, end, bore, modulus, poisson, shear)
+            to = min(stop, begin + length) if s < sections - 1 else stop
+            part = to - x
+            if start == end:
+                f2, g2, r2 = bend * part, 0.5 * part, part * (bend * part * part / 12.0 + slip)
+            else:
+                slope = (end - start) / length
+                f2, first, second, slide = softness(part, start + slope * (x - begin), start + slope * (to - begin), bore, modulus,
+                                                    poisson, shear)
+                g2 = first / f2
+                r2 = second - g2 * first + slide
+            g2 += x - work.place[p]
+            if f > 0.0:
+                r += r2 + f * f2 / (f + f2) * (g2 - g) ** 2
+                g += f2 / (f + f2) * (g2 - g)
+            else:
+                g, r = g2, r2
+            f, x = f + f2, to
+        work.pieces[p, 0], work.pieces[p, 1], work.pieces[p, 2], work.pieces[p, 3] = stop - work.place[p], f, g, r
+
+
+@inner
+def _sweep(designs, n, bearings, work, step):
+    """u, c, q of all that lies behind each point, walking right (step 1) or left (-1); c is the distance back."""
+    points, side = work.order.size, (1 - step) // 2
+    u, c, q = np.inf, 0.0, 0.0
+    p = 0 if step > 0 else points - 1
+    for _ in range(points):
+        work.sides[side, p, 0], work.sides[side, p, 1], work.sides[side, p, 2] = u, c, q
+        if work.order[p] < bearings:
+            u, c, q = _beside(u, c, q, _give(designs, n, work.order[p]), 0.0, 0.0)
+        k = p if step > 0 else p - 1
+        if 0 <= k < points - 1:
+            length, f, r = work.pieces[k, 0], work.pieces[k, 1], work.pieces[k, 3]
+            g = length - work.pieces[k, 2] if step > 0 else work.pieces[k, 2]
+            c += length
+            soft = 1.0 / (1.0 + q * f)
+            u, c, q = u + r + f * soft * (c - g) ** 2, (c + q * f * g) * soft, q * soft
+        p += step
+
+
+@inner
+def _walk(designs, n, bearings, work, p, step, w, turn, force, delta, carried, wanted):
+    """Carry deflection, turn (positive: rising ahead) and the force into what lies ahead from the loaded station p outwards."""
+    loaded, points, side = work.order[p] - bearings, work.order.size, (1 + step) // 2
+    while 0 <= p + step < points:
+        k = p if step > 0 else p - 1
+        length, f, r = work.pieces[k, 0], work.pieces[k, 1], work.pieces[k, 3]
+        g = work.pieces[k, 2] if step > 0 else length - work.pieces[k, 2]
+        moment = work.sides[side, p, 2] * turn + force * (work.sides[side, p, 1] - g)
+        w += length * turn - f * moment * (length - g) - force * r
+        turn -= f * moment
+        p += step
+        point = work.order[p]
+        if point >= bearings:
+            if step > 0:
+                delta[n, loaded, point - bearings], delta[n, point - bearings, loaded] = w, w
+            continue
+        give, ahead = _give(designs, n, point), work.sides[side, p, 0]
+        if give == 0.0:
+            w = 0.0  # but for rounding it is
+        # The stiffer of the two has what the softer leaves, as above.
+        on = (w + work.sides[side, p, 1] * turn) / ahead if give < ahead else force - w / give
+        if wanted:
+            carried[n, point, loaded] = force - on if give < ahead else w / give
+        force = on
+
+
+@inner
+def _give(designs, n, bearing):
+    stiffness = at(designs.radial_stiffness, n, bearing)
+    return 1.0 / stiffness if stiffness > 0.0 else np.inf
+
+
+@inner
+def _beside(u1, c1, q1, u2, c2, q2):
+    """Two sets of springs on one cross-section, both levers measured the same way; a free one (u = inf) has no tilt spring either."""
+    if u1 == np.inf:
+        return u2, c2, q2
+    if u2 == np.inf:
+        return u1, c1, q1
+    part = 1.0 / (u1 + u2)
+    return u1 * u2 * part, (c1 * u2 + c2 * u1) * part, q1 + q2 + (c1 - c2) ** 2 * part

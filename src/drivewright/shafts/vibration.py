@@ -1,0 +1,214 @@
+"""Natural frequencies and critical speeds: consistent mass with the shapes that the exact elements have at rest."""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import eigh
+
+from drivewright.errors import InputError
+from drivewright.shafts import beam as beams
+from drivewright.shafts.beam import FREEDOMS, PLANES
+from drivewright.shafts.equilibrium import AXIAL, TWIST
+from drivewright.shafts.model import EULER_BERNOULLI
+from drivewright.shafts.sections import area, second_moment
+
+HELD = 1e-13  # least eigenvalue of the scaled stiffness of a shaft that is held
+POINTS = 8  # over an element: its shapes are cubic on a cylinder
+SHARE, WEIGHT = (0.5 * (part + shift) for part, shift in zip(np.polynomial.legendre.leggauss(POINTS), (1.0, 0.0), strict=True))
+
+
+class Modes(NamedTuple):
+    """Natural frequencies [Hz] (m,), rising, and shapes (size, m)."""
+
+    frequencies: np.ndarray
+    shapes: np.ndarray
+
+    def where(self, chosen):
+        """Some of them."""
+        return Modes(self.frequencies[chosen], self.shapes[:, chosen])
+
+
+class Critical(NamedTuple):
+    """Speeds [rad/s] at which the unbalance meets a natural frequency, whirling with the shaft or against it."""
+
+    forward: np.ndarray
+    backward: np.ndarray
+
+
+def shapes(found):
+    """Deflection (n, p, 4) and slope (n, p, 4) at p places in every piece by unit displacements (w1, t1, w2, t2) of its ends."""
+    length = found.pieces[:, 0]
+    forces = np.linalg.solve(found.flexibility, beams.strain(length))  # (n, 2, 4) at the end
+    x = length[:, None] * SHARE
+    part = found.pieces[:, None, :].repeat(POINTS, axis=1)
+    part[:, :, 0], part[:, :, 2] = x, part[:, :, 1] + (part[:, :, 2] - part[:, :, 1]) * SHARE
+    flexibility, _ = beams.clamped(part.reshape(-1, 4), found.shaft)
+    flexibility = flexibility.reshape(*x.shape, 2, 2)
+    force = forces[:, None, 0, :].repeat(POINTS, axis=1)
+    moment = force * (length[:, None] - x)[:, :, None] + forces[:, None, 1, :]
+    bent = np.einsum("npab,bnpk->anpk", flexibility, np.stack([force, moment]))
+    start = np.eye(4)
+    return bent[0] + start[0] + x[:, :, None] * start[1], bent[1] + start[1]
+
+
+def mass(found, rotary=True):
+    """(M (6n, 6n), G (6n, 6n)): consistent mass of the shaft with its stations, and polar moments of inertia that couple the tilts.
+
+    At the speed s of the shaft the gyroscopic moments are  s G q',  G skew.
+    """
+    whole, gyroscopic = np.zeros((found.size,) * 2), np.zeros((found.size,) * 2)
+    deflection, slope = shapes(found)
+    length, start, end, bore = found.pieces.T[:, :, None]
+    diameter, density = start + (end - start) * SHARE, found.shaft.density
+    per_length = density * area(diameter, bore) * WEIGHT * length
+    diametral = density * second_moment(diameter, bore) * WEIGHT * length
+    lateral = np.einsum("np,npi,npj->nij", per_length, deflection, deflection)
+    turning = np.einsum("np,npi,npj->nij", diametral, slope, slope)
+    rods = np.array([[1 - SHARE, SHARE]])[0]
+    for e in range(len(found.pieces)):
+        places = [beams.places_of(e, plane) for plane in (0, 1)]
+        for at, sign in places:
+            whole[np.ix_(at, at)] += sign[:, None] * (lateral[e] + rotary * turning[e]) * sign
+        _couple(gyroscopic, places, 2 * turning[e] * rotary)
+        for freedom, spread in ((2, per_length[e]), (5, 2 * diametral[e])):
+            at = FREEDOMS * e + freedom + np.array([0, FREEDOMS])
+            whole[np.ix_(at, at)] += np.einsum("p,ip,jp->ij", spread, rods, rods)
+    _add_stations(found, whole, gyroscopic)
+    return whole, gyroscopic
+
+
+def _couple(gyroscopic, places, polar):
+    """Gyroscopic moments of an element: about y +I_p s tilt_x' and about x -I_p s tilt_y', on the left side of the equation."""
+    (at_x, sign_x), (at_y, sign_y) = places
+    block = sign_x[:, None] * polar * sign_y
+    gyroscopic[np.ix_(at_x, at_y)] += block
+    gyroscopic[np.ix_(at_y, at_x)] -= block.T
+
+
+def _add_stations(found, whole, gyroscopic):
+    for station in found.shaft.stations:
+        at = FREEDOMS * found.node(station.position)
+        whole[range(at, at + 3), range(at, at + 3)] += station.mass
+        whole[range(at + 3, at + 6), range(at + 3, at + 6)] += (station.diametral, station.diametral, station.polar)
+        gyroscopic[at + 4, at + 3] -= station.polar
+        gyroscopic[at + 3, at + 4] += station.polar
+
+
+def is_round(equilibrium):
+    """Whether the supports are the same in both planes, which then do not feel each other."""
+    for mount, tangent in zip(equilibrium.model.mounts, equilibrium.tangent, strict=True):
+        finite = np.where(np.isfinite(tangent), tangent, 1e300)
+        size = np.abs(np.where(np.isfinite(tangent), tangent, 0.0)).max(initial=1.0)
+        cross = np.abs(np.where(np.eye(5, dtype=bool), 0.0, np.where(np.isfinite(tangent), tangent, 0.0)))
+        if mount.ring_freedoms or cross.max() > 1e-9 * size:
+            return False
+        if abs(finite[0, 0] - finite[1, 1]) > 1e-9 * size or abs(finite[3, 3] - finite[4, 4]) > 1e-9 * size:
+            return False
+    return True
+
+
+def in_plane(found, plane=1):
+    """Numbers of the freedoms of a plane: deflection and slope of every node."""
+    w, t, _ = PLANES[plane]
+    return np.sort(np.concatenate([FREEDOMS * np.arange(len(found.z)) + w, FREEDOMS * np.arange(len(found.z)) + t]))
+
+
+def free_of(rigid, size):
+    """Basis (size, r) of the displacements that the rigid supports allow."""
+    if not len(rigid):
+        return np.eye(size)
+    _, singular, right = np.linalg.svd(rigid)
+    rank = int(np.sum(singular > 1e-12 * singular[0])) if len(singular) else 0
+    return right[rank:].T
+
+
+def modes(equilibrium, count):
+    """(bending, axial): the lowest `Modes` at rest, told apart by where most of the mass moves.
+
+    In one plane where the supports are round: every mode of bending then comes twice, and there are no axial ones.
+    """
+    stiff, inertia, _, chosen = _lateral(equilibrium)
+    values, vectors = _lowest(stiff, inertia, equilibrium, chosen, 2 * count + 2)
+    whole = np.zeros((equilibrium.model.size, len(values)))
+    whole[chosen] = vectors
+    found = Modes(np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi), whole)
+    axial = _axial_share(whole, inertia) > 0.5
+    return found.where(np.flatnonzero(~axial)[:count]), found.where(np.flatnonzero(axial)[:count])
+
+
+def _axial_share(shapes, inertia):
+    """Part of the kinetic energy along the axis, for each column."""
+    moved = inertia @ shapes
+    along = np.zeros(len(shapes), bool)
+    along[AXIAL::FREEDOMS] = True
+    return np.sum(shapes[along] * moved[along], axis=0) / np.sum(shapes * moved, axis=0)
+
+
+def _lateral(equilibrium):
+    """(K, M, G, numbers of the freedoms) of the vibration across the shaft; rings have no mass of their own."""
+    model = equilibrium.model
+    found = model.beam
+    small, gyro = mass(found, found.shaft.shear != EULER_BERNOULLI)
+    inertia, gyroscopic = np.zeros((model.size,) * 2), np.zeros((model.size,) * 2)
+    inertia[: found.size, : found.size], gyroscopic[: found.size, : found.size] = small, gyro
+    twist = FREEDOMS * np.arange(len(found.z)) + TWIST
+    chosen = in_plane(found) if is_round(equilibrium) else np.setdiff1d(np.arange(model.size), twist)
+    return equilibrium.hessian, inertia, gyroscopic, chosen
+
+
+def _lowest(stiff, inertia, equilibrium, chosen, count):
+    """Lowest eigenvalues w^2 of K q = w^2 M q among the chosen freedoms, and vectors; rigid supports hold."""
+    basis = free_of(equilibrium.model.rigid[:, chosen], len(chosen))
+    k, m = (basis.T @ whole[np.ix_(chosen, chosen)] @ basis for whole in (stiff, inertia))
+    inverse, vectors = _eigen(m, k)  # M may be singular (massless rings, no rotary inertia) or indefinite, K is positive
+    order = np.argsort(inverse)[::-1]
+    order = order[inverse[order] > 1e-12 * inverse.max()][:count]
+    return 1 / inverse[order], basis @ vectors[:, order]
+
+
+def _eigen(m, k):
+    scale = 1 / np.sqrt(np.maximum(np.diag(k), 1e-300))
+    if eigh(scale[:, None] * k * scale, eigvals_only=True, subset_by_index=[0, 0])[0] < HELD:
+        raise InputError("shaft: at rest its bearings do not resist a small motion, so it has no natural frequencies; "
+                         "give a load, a preload or no clearance")
+    return eigh(m, k)
+
+
+def critical_speeds(equilibrium, count):
+    """The lowest `Critical` speeds: the gyroscopic moments s G q' of a whirl at the speed s act like a mass.
+
+    Round supports: K z = s^2 (M -+ P) z for z = x + iy, P the polar moments of inertia.  Others: q = phi e^(i s t) in space,
+    K phi = s^2 (M - i G) phi; a whirl that is a line counts as one with the shaft.
+    """
+    if is_round(equilibrium):
+        return Critical(*(_whirl(equilibrium, way, count) for way in (1, -1)))
+    stiff, inertia, gyroscopic, chosen = _lateral(equilibrium)
+    squares, vectors = _lowest(stiff, inertia - 1j * gyroscopic, equilibrium, chosen, 4 * count)
+    whole = np.zeros((equilibrium.model.size, len(squares)), complex)
+    whole[chosen] = vectors
+    nodes = whole[: equilibrium.model.beam.size].reshape(-1, FREEDOMS, len(squares))
+    across = np.sum(np.abs(nodes[:, :2]) ** 2, axis=(0, 1))
+    lateral = across > np.sum(np.abs(nodes[:, AXIAL]) ** 2, axis=0)
+    backward = np.sum(np.conj(nodes[:, 0]) * nodes[:, 1], axis=0).imag > 1e-9 * across
+    return Critical(*(np.sqrt(squares[lateral & (backward == way)][:count]) for way in (False, True)))
+
+
+def _whirl(equilibrium, way, count):
+    """Critical speeds of a shaft on round supports, whirling with it (way 1) or against it (-1)."""
+    stiff, inertia, gyroscopic, _ = _lateral(equilibrium)
+    x, y = (in_plane(equilibrium.model.beam, plane) for plane in (0, 1))
+    polar = np.zeros_like(inertia)
+    polar[np.ix_(x, x)] = gyroscopic[np.ix_(x, y)] * np.where(np.isin(y % FREEDOMS, 3), -1.0, 1.0)  # tilt_x is the slope in y turned round
+    return np.sqrt(_lowest(stiff, inertia - way * polar, equilibrium, x, count)[0])
+
+
+def torsional(equilibrium, count):
+    """The lowest torsional `Modes` of the free shaft, with the moments of inertia of its stations."""
+    found = equilibrium.model.beam
+    chosen = FREEDOMS * np.arange(len(found.z)) + TWIST
+    stiff, inertia = beams.stiffness(found)[np.ix_(chosen, chosen)], mass(found)[0][np.ix_(chosen, chosen)]
+    values, vectors = eigh(stiff, inertia)
+    whole = np.zeros((equilibrium.model.size, count))
+    vectors = vectors[:, 1 : count + 1]  # the first one turns the whole shaft
+    whole[chosen, : vectors.shape[1]] = vectors
+    return Modes(np.sqrt(values[1 : count + 1]) / (2 * np.pi), whole[:, : vectors.shape[1]])

@@ -1,0 +1,223 @@
+"""Flexibility of an elastic solid that nothing holds, and then of the same solid on springs (extra `fe`).
+
+The free body answers each load functional (say, a unit force spread evenly over a face) with an elastic displacement; a load that is not
+in balance is balanced by spread-out body forces, which cancel as soon as springs complete the equilibrium.  Springs, rigid ones too, are
+then a small dense system over the functionals and the rigid motions: one factorisation serves every set of springs.
+
+Meshes are in millimetres; stresses in MPa inside; every number that comes out is SI.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.errors import InputError
+from drivewright.solids.loading import load
+
+MM = 1e-3
+LOOSE = 1e-4  # a rigid motion with so small a part in what the springs feel is not held: meshes are symmetric to about 1e-7 only
+
+
+class Response(NamedTuple):
+    """What a free body answers to n functionals.
+
+    flexibility (n, n) [m/N]: symmetric, displacement measured by one under a unit load of another, rigid motion apart.
+    resultants (m, n): what each unit load does on the m rigid motions that the body can make.
+    fields: for each functional the coefficients of its displacement [mm/N].
+    """
+
+    flexibility: np.ndarray
+    resultants: np.ndarray
+    fields: tuple
+
+
+class Held(NamedTuple):
+    """A body on springs under L unit loads: flexibility (L, L) [m/N], forces of the S springs on it (S, L), rigid motions (m, L) [m/N]."""
+
+    flexibility: np.ndarray
+    reactions: np.ndarray
+    motions: np.ndarray
+
+
+class FreeBody:
+    """A homogeneous elastic body on a curved second-order NGSolve mesh in millimetres; modulus [Pa].
+
+    Half and quarter models: `symmetry` names the faces on which a displacement is 0, as dirichletx="...", dirichletz="...".  The body
+    then has only those rigid motions that leave these faces in place.
+
+    As many vertex displacements, chosen where they fix the rigid motions best, are pinned in the factorisation.  All loads being
+    balanced the pins feel no force, and the rigid part of what they leave is taken out: no result depends on them.
+    """
+
+    def __init__(self, mesh, modulus, poisson, **symmetry):
+        self.ng = ng = load("ngsolve", "a solid check")
+        ng.SetNumThreads(1)  # the same bits every time; a second thread gains nothing at this size
+        self.mesh, self.space = mesh, ng.VectorH1(mesh, order=2, **symmetry)
+        corners = np.array(mesh.ngmesh.Coordinates())
+        self.middle, self.size = (corners.max(axis=0) + corners.min(axis=0)) / 2, float(np.ptp(corners, axis=0).max())
+        stiffness = _stiffness(ng, self.space, modulus * MM**2, poisson)
+        motions = _rigid_motions(ng, self.middle, self.size)
+        self.basis = self._allowed(motions)
+        motions = [_combination(ng, parts, motions) for parts in self.basis.T]
+        self._modes = [self._interpolated(motion) for motion in motions]
+        self._masses = [ng.LinearForm(ng.InnerProduct(motion, self.space.TestFunction()) * ng.dx).Assemble().vec for motion in motions]
+        self._gram = np.array([[ng.InnerProduct(a, b) for b in self._masses] for a in self._modes])
+        with ng.TaskManager():
+            self._inverse = stiffness.mat.Inverse(self._unpinned(), inverse="sparsecholesky")
+
+    @property
+    def unknowns(self):
+        return self.space.ndof
+
+    def mean(self, region, direction):
+        """Functional: mean displacement along `direction` (3,) over the faces whose names match `region`, a regular expression."""
+        return self.weighted(region, self.ng.CF(tuple(map(float, direction))) / self.area(region))
+
+    def weighted(self, region, weight):
+        """Functional: integral over named faces [mm^2] of the displacement times `weight`, a vector coefficient function of (x, y, z)."""
+        ng = self.ng
+        self.area(region)
+        return ng.LinearForm(ng.InnerProduct(weight, self.space.TestFunction()) * ng.ds(region)).Assemble().vec
+
+    def area(self, region):
+        """Area [mm^2] of the faces whose names match `region`; InputError where there are none (NGSolve would integrate over nothing)."""
+        area = self.ng.Integrate(self.ng.CF(1) * self.ng.ds(region), self.mesh)
+        if not area > 0:
+            raise InputError(f"no face of the mesh is called {region!r}; there are {', '.join(sorted(set(self.mesh.GetBoundaries())))}")
+        return area
+
+    def response(self, functionals):
+        """The `Response` to functionals made by `mean` or `weighted`."""
+        with self.ng.TaskManager():
+            fields = [self._elastic(g) for g in functionals]
+            product = self.ng.InnerProduct
+            flexibility = MM * np.array([[product(g, w) for w in fields] for g in functionals])
+            resultants = np.array([[product(mode, g) for g in functionals] for mode in self._modes])
+        return Response(flexibility, resultants, tuple(fields))
+
+    def surface(self, region, fields, motions, parts=2):
+        """Points (n, 3) [m], triangles (m, 3), displacements (L, n, 3) [m/N] on named faces, each curved triangle in parts^2 flat ones.
+
+        fields: L vectors of coefficients [mm/N]; motions (m, L) [m/N]: rigid motion to add to each.
+        """
+        ng = self.ng
+        grid, local = _subdivision(parts)
+        rule = ng.IntegrationRule(points=[tuple(p) for p in grid / parts], weights=[0.0] * len(grid))
+        at = self.mesh.MapToAllElements({ng.ET.TRIG: rule}, self.mesh.Boundaries(region))
+        points = ng.CF((ng.x, ng.y, ng.z))(at)
+        corners = (np.arange(len(points) // len(grid))[:, None, None] * len(grid) + local).reshape(-1, 3)
+        shape = ng.GridFunction(self.space)
+        found = []
+        for field, motion in zip(fields, (self.basis @ motions).T, strict=True):
+            shape.vec.data = field
+            found.append(MM * np.asarray(shape(at)) + _carried(points, motion, self.middle, self.size))
+        return MM * points, corners, np.array(found)
+
+    def _interpolated(self, function):
+        shape = self.ng.GridFunction(self.space)
+        shape.Set(function)
+        return shape.vec
+
+    def _allowed(self, motions):
+        """Orthonormal combinations (6, m) of the six rigid motions that are 0 wherever the symmetry wants it."""
+        fixed = ~np.array(list(self.space.FreeDofs()))
+        table = np.array([np.array(self._interpolated(motion))[fixed] for motion in motions])
+        axes, sizes, _ = np.linalg.svd(table @ table.T)
+        return axes[:, sizes <= 1e-12 * max(sizes[0], 1.0)]
+
+    def _unpinned(self):
+        """The unknowns but a few: those vertex displacements whose values under rigid motions are furthest from depending on each other."""
+        from scipy.linalg import qr
+
+        free = self.ng.BitArray(self.space.FreeDofs())
+        vertices = np.concatenate([self.space.Range(i).start + np.arange(self.mesh.nv) for i in range(3)])
+        vertices = vertices[np.array(list(free))[vertices]]
+        table = np.array([np.array(mode)[vertices] for mode in self._modes])
+        for number in vertices[qr(table, mode="r", pivoting=True)[1][:len(table)]]:
+            free.Clear(int(number))
+        return free
+
+    def _elastic(self, functional):
+        """Displacement under a balanced unit load, without rigid part."""
+        balanced, shape = functional.CreateVector(), functional.CreateVector()
+        balanced.data = functional
+        self._subtract(balanced, self._modes, self._masses)
+        shape.data = self._inverse * balanced
+        self._subtract(shape, self._masses, self._modes)
+        return shape
+
+    def _subtract(self, vector, measures, parts):
+        """Take from a vector as much of the parts as makes its product with every measure 0."""
+        amounts = np.linalg.solve(self._gram, [self.ng.InnerProduct(measure, vector) for measure in measures])
+        for amount, part in zip(amounts, parts, strict=True):
+            vector.data -= float(amount) * part
+
+
+def held(response, stiffness):
+    """A `Held` of a free body's `Response`: its first functionals are springs of `stiffness` (S,) [N/m] (inf is rigid), the rest loads.
+
+    With R the forces of the springs on the body, a the rigid motions that they hold and H the resultants,
+
+        [G_ss + 1/k  H_s'] [R]     [G_sl]
+        [H_s         0   ] [a] = - [H_l ]     and     D = G_ll + G_ls R + H_l' a.
+
+    InputError where a load drives a rigid motion that no spring holds.
+    """
+    count = len(stiffness)
+    flexibility, resultants = response.flexibility, response.resultants
+    basis = _held_motions(resultants[:, :count], resultants[:, count:])
+    kept = basis.T @ resultants
+    springs = flexibility[:count, :count] + np.diag(1.0 / np.asarray(stiffness, float))
+    scale = np.abs(springs).max()  # brings the balance rows to the size of the others
+    matrix = np.block([[springs, scale * kept[:, :count].T], [scale * kept[:, :count], np.zeros((len(kept), len(kept)))]])
+    right = np.vstack([flexibility[:count, count:], scale * kept[:, count:]])
+    solution = -np.linalg.solve(matrix, right)
+    return Held(flexibility[count:, count:] + right.T @ solution, solution[:count], scale * basis @ solution[count:])
+
+
+def _held_motions(springs, loads):
+    """Orthonormal rigid motions (m, h) that the springs' resultants (m, S) feel; refuses loads (m, L) on the others."""
+    axes, sizes, _ = np.linalg.svd(springs)
+    sizes = np.concatenate([sizes, np.zeros(len(axes) - len(sizes))])
+    kept = sizes > LOOSE * sizes[0]
+    loose = np.abs(axes[:, ~kept].T @ loads).max(axis=0, initial=0.0)
+    if loose.max(initial=0.0) > LOOSE:
+        raise InputError(f"load {int(loose.argmax())} pushes the body where no spring holds it (a share of {loose.max():.3g} of the load "
+                         "acts on a free rigid motion); add a support in that direction")
+    return axes[:, kept]
+
+
+def _stiffness(ng, space, modulus, poisson):
+    """Bilinear form int 2 mu e(u) : e(v) + lambda div u div v."""
+    u, v = space.TnT()
+    shear, volume = modulus / 2 / (1 + poisson), modulus * poisson / (1 + poisson) / (1 - 2 * poisson)
+    form = ng.BilinearForm(space, symmetric=True)
+    form += (2 * shear * ng.InnerProduct(ng.Sym(ng.Grad(u)), ng.Sym(ng.Grad(v))) + volume * ng.div(u) * ng.div(v)) * ng.dx
+    with ng.TaskManager():
+        form.Assemble()
+    return form
+
+
+def _rigid_motions(ng, middle, size):
+    """Three shifts, three turns about the middle with size 1 at the distance `size`."""
+    x, y, z = (c - float(m) for c, m in zip((ng.x, ng.y, ng.z), middle, strict=True))
+    return [ng.CF(c) for c in ((1, 0, 0), (0, 1, 0), (0, 0, 1))] + [ng.CF(c) / size for c in ((0, -z, y), (z, 0, -x), (-y, x, 0))]
+
+
+def _combination(ng, parts, functions):
+    """Coefficient function sum of parts times functions."""
+    return sum((float(part) * function for part, function in zip(parts, functions, strict=True)), ng.CF((0, 0, 0)))
+
+
+def _carried(points, motion, middle, size):
+    """Displacement (n, 3) of points (n, 3) by amounts (6,) of the rigid motions."""
+    return motion[:3] + np.cross(motion[3:], (points - middle) / size)
+
+
+def _subdivision(parts):
+    """Corners (n, 2) of a triangle divided parts x parts, as whole numbers, and its small triangles (m, 3)."""
+    grid = [(i, j) for i in range(parts + 1) for j in range(parts + 1 - i)]
+    number = {spot: n for n, spot in enumerate(grid)}
+    upright = [[(i, j), (i + 1, j), (i, j + 1)] for i, j in grid if i + j < parts]
+    inverted = [[(i + 1, j), (i + 1, j + 1), (i, j + 1)] for i, j in grid if i + j < parts - 1]
+    return np.array(grid), np.array([[number[spot] for spot in corners] for corners in upright + inverted])

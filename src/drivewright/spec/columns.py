@@ -1,0 +1,76 @@
+"""Two columns of a CSV file by name, each with its unit in brackets in the header: "displacement [um],force [N]"."""
+
+import csv
+import math
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.errors import SpecError, UnitError
+from drivewright.units import unit_factor
+
+PURE = "a pure number"
+
+
+class Rows(NamedTuple):
+    """Two columns of a file by name, SI."""
+
+    over: str
+    x: np.ndarray
+    what: str
+    y: np.ndarray
+
+
+def read_rows(file, over, what):
+    """The `Rows` of a CSV file with one column of `over` and one of `what`, each name -> dimension; x must increase."""
+    try:
+        lines = Path(file).read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise SpecError(f"cannot be read: {getattr(error, 'strerror', None) or error}", file=str(file)) from None
+    reader = csv.reader(lines)
+    header = next(reader, [])
+    columns = [_column(header, names, file) for names in (over, what)]
+    numbers = [[_number(cells, index, f"line {reader.line_num}", name, file) for index, name, _ in columns] for cells in reader if cells]
+    table = np.array(numbers, dtype=float).reshape(-1, 2) * [factor for _, _, factor in columns]
+    _refuse_disorder(table, columns[0][1], file)
+    return Rows(columns[0][1], table[:, 0], columns[1][1], table[:, 1])
+
+
+def _column(header, names, file):
+    """(index, name, factor to SI) of the first column that has one of the names."""
+    for index, cell in enumerate(header):
+        match = re.fullmatch(r"\s*([a-z]+)\s*(?:\[(.+)\])?\s*", cell, re.IGNORECASE)
+        if match and match[1].lower() in names:
+            return index, match[1].lower(), _factor(match[2], names[match[1].lower()], match[1], file)
+    wanted = " or ".join(repr(name if dimension == PURE else f"{name} [unit]") for name, dimension in names.items())
+    raise SpecError(f"no column {wanted} in the first line {','.join(header)!r}", file=str(file))
+
+
+def _factor(unit, dimension, name, file):
+    if dimension == PURE:
+        return 1.0
+    try:
+        return unit_factor(unit or "", dimension)
+    except UnitError as error:
+        raise error.located(key=f"column '{name}'", file=str(file)) from None
+
+
+def _number(cells, index, place, name, file):
+    try:
+        number = float(cells[index])
+    except (ValueError, IndexError):
+        number = math.nan
+    if not math.isfinite(number):
+        got = repr(cells[index]) if index < len(cells) else "nothing"
+        raise SpecError(f"{place}: the {name} is {got}, not a finite number", file=str(file))
+    return number
+
+
+def _refuse_disorder(table, name, file):
+    if len(table) < 2:
+        raise SpecError(f"{len(table)} rows are too few; give at least 2", file=str(file))
+    if np.any(np.diff(table[:, 0]) <= 0):
+        row = int(np.argmax(np.diff(table[:, 0]) <= 0)) + 2
+        raise SpecError(f"row {row}: the {name} must increase from row to row; sort the rows and drop repeats", file=str(file))

@@ -1,0 +1,71 @@
+"""A closed triangle surface seen from the side: nearest triangles last, coloured by a length, lightly shaded, its shape before dashed."""
+
+import numpy as np
+
+from drivewright.view.palette import colour
+from drivewright.view.style import WIDTH, new_figure, styled
+from drivewright.view.text import axis_label
+
+LIGHT = np.array([-0.35, 0.75, 0.56])  # from the upper left, in front: right, up, towards the viewer
+DARKEST = 0.72  # brightness of what the light does not reach
+
+
+def draw_mesh(panel):
+    """Figure of a panel of style "mesh"; axes in the panel's units at one scale, a colour bar below."""
+    from matplotlib import colormaps
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    up, depth, size, *before = panel.series
+    corners = np.stack([panel.x.data, up.data, -depth.data], axis=1).reshape(-1, 3, 3)
+    seen, order, bright = facing(corners)
+    tint = size.data.reshape(-1, 3).mean(axis=1)[seen][order]
+    scale = ScalarMappable(Normalize(0.0, float(size.data.max()) or 1.0), colormaps["viridis"])
+    with styled():
+        figure = new_figure(_height(corners), panel.title)
+        axis = figure.subplots()
+        _paint(axis, corners[seen][order][:, :, :2], scale.to_rgba(tint)[:, :3] * bright[order, None])
+        for ring in silhouette(*(series.data for series in before)) if before else ():
+            axis.plot(*ring.T, color=colour("ink"), lw=0.8, ls=(0, (5, 3)))
+        axis.set_aspect("equal", adjustable="datalim")
+        axis.autoscale_view()
+        axis.set(xlabel=axis_label(panel.x.label, panel.x.unit), ylabel=axis_label(*_parts(panel.label), width=30))
+        figure.colorbar(scale, ax=axis, orientation="horizontal", aspect=45, pad=0.02, shrink=0.7,
+                        label=axis_label(size.label, size.unit)).outline.set_visible(False)
+    return figure
+
+
+def facing(corners):
+    """Of triangles (m, 3, 3), z towards the viewer: (which face the viewer (m,), their order from far to near, their brightness)."""
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    seen = normal[:, 2] > 0
+    normal = normal[seen] / np.linalg.norm(normal[seen], axis=1, keepdims=True)
+    bright = DARKEST + (1 - DARKEST) * np.clip(normal @ LIGHT, 0.0, 1.0)
+    return seen, np.argsort(corners[seen, :, 2].mean(axis=1), kind="stable"), bright
+
+
+def silhouette(right, up):
+    """Rings (n, 2) around the picture of triangles, three rows each."""
+    import shapely
+
+    triangles = np.stack([right, up], axis=1).reshape(-1, 3, 2)
+    shape = shapely.union_all(shapely.buffer(shapely.polygons(triangles), 1e-9 * np.ptp(right)))
+    return [shapely.get_coordinates(shapely.simplify(ring, 1e-4 * np.ptp(right))) for ring in shapely.get_parts(shapely.boundary(shape))]
+
+
+def _paint(axis, triangles, colours):
+    """Triangles as an image: as outlines they would be megabytes."""
+    from matplotlib.collections import PolyCollection
+
+    axis.add_collection(PolyCollection(triangles, facecolors=colours, linewidths=0, antialiaseds=False, rasterized=True, zorder=2))
+
+
+def _height(corners):
+    """Inches: room for the picture at full width, between a flat strip and a square."""
+    wide, tall = np.ptp(corners.reshape(-1, 3), axis=0)[:2]
+    return float(np.clip(1.9 + 0.85 * WIDTH * tall / wide, 2.7, 6.0))
+
+
+def _parts(label):
+    meaning, bracket, unit = label.partition(" [")
+    return (meaning, unit.rstrip("]")) if bracket else (label, "")

@@ -1,0 +1,27 @@
+"""A quantity round a circle: what each place around a bearing carries."""
+
+import numpy as np
+
+from drivewright.view.palette import colour
+from drivewright.view.style import new_figure, styled
+from drivewright.view.text import axis_label
+
+
+def draw_round(panel):
+    """Figure of a panel of style "polar": angles counter-clockwise from the right, x up and down as in the drawing."""
+    angle = np.deg2rad(panel.x.data)
+    with styled():
+        figure = new_figure(4.2, panel.title)
+        axis = figure.add_subplot(projection="polar")
+        for series in panel.series:
+            axis.vlines(angle, 0.0, series.data, color=colour(series.role), lw=1.2)
+            axis.plot(angle, series.data, color=colour(series.role), lw=1.0, marker="o", ms=4, label=series.label)
+        axis.set_ylim(0.0, max(1.05 * max(float(series.data.max()) for series in panel.series), 1e-12))
+        axis.set_rlabel_position(22.5)
+        axis.set_xlabel(axis_label(*_parts(panel.label)))
+    return figure
+
+
+def _parts(label):
+    meaning, bracket, unit = label.partition(" [")
+    return (meaning, unit.rstrip("]")) if bracket else (label, "")
