@@ -5,13 +5,21 @@ A plug-in adds a `Source` of its own under the entry point group `drivewright.va
 
 from drivewright import registry
 from drivewright.errors import InputError, UnknownName
-from drivewright.validation import clearance_joints, elliptic_gears, folding_linkage, modified_sine_help, motion_factors, pusher_paper
+from drivewright.validation import (
+    clearance_joints,
+    elliptic_gears,
+    folding_linkage,
+    modified_sine_help,
+    motion_factors,
+    pusher_paper,
+    shaft_paper,
+)
 from drivewright.validation.page import page
 from drivewright.validation.source import AGREES, EXPLAINED, KINDS, OPEN, Explanation, Printed, Row, Source, rounded
 
 OURS = (
     pusher_paper.source, motion_factors.source, modified_sine_help.source, elliptic_gears.source, folding_linkage.source,
-    clearance_joints.source)
+    clearance_joints.source, shaft_paper.source)
 
 __all__ = ["AGREES", "EXPLAINED", "Explanation", "KINDS", "OPEN", "Printed", "Row", "Source", "page", "rounded", "sources"]
 
