@@ -106,3 +106,10 @@ def test_static_rating_is_the_load_at_which_the_fullest_ball_reaches_its_pressur
     state = solve(bearing, force=[0, 0, push, 0, 0])
     widened = np.sin(np.radians(35)) / np.sin(state.contact_angles[0])
     assert_allclose(state.pressures.max(), 4.2e9 * np.cbrt(widened), rtol=1e-9)
+
+
+def test_basic_life_of_rollers_has_its_own_exponent():
+    from drivewright.bearings import RollerBearing
+
+    rollers = RollerBearing(rollers=16, roller_diameter="3.5 mm", roller_length="3.2 mm", pitch_diameter="26 mm", dynamic_rating="8 kN")
+    assert_allclose(basic_life(rollers, 800), 1e6 * 10 ** (10 / 3), rtol=1e-12)

@@ -342,3 +342,15 @@ def test_drawing_and_solid_have_the_volume_of_the_shaft():
     assert volume(part) == pytest.approx(wanted, rel=1e-9)
     assert outline_area(drawing.on("profile")[0]) == pytest.approx(sum(1e-3 * length * (a + b) / 2 for length, a, b, _ in cones), rel=1e-9)
     assert isinstance(part.solids[0], scene.Turned)
+
+
+def test_basic_life_is_there_only_under_a_radial_load():
+    rated = {"dynamic_rating": "4.03 kN"}
+    places = (("A", "56.5 mm"), ("B", "136.5 mm"))
+    free = [{"name": n, "position": z, "geometry": BALLS | rated, "free": ["axial", "tilt"]} for n, z in places]
+    result = dw.run(on_balls(bearings=free))
+    assert result["bearings.B.basic_life"] == pytest.approx(1e6 * (4030 / 1178.125) ** 3, rel=1e-6)
+    assert result["bearings.B.reference_life"] == pytest.approx(result["bearings.B.basic_life"], rel=0.05)
+    pushed = dw.run(on_balls(bearings=[{"name": n, "position": z, "geometry": BALLS | rated} for n, z in places],
+                             loads=[{"station": "m2", "force": "500 N", "axial_force": "600 N"}]))
+    assert "bearings.A.basic_life" not in pushed.values and "bearings.A.reference_life" in pushed.values

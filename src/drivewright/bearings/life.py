@@ -6,6 +6,7 @@ compare the reference life with another program and the two lives with each othe
 
 import numpy as np
 
+from drivewright.bearings.newton import measures
 from drivewright.bearings.solving import law_of
 from drivewright.errors import InputError
 
@@ -64,7 +65,7 @@ def basic_static_rating(bearing):
 
 
 def basic_life(bearing, load):
-    """L10 [revolutions] of ISO 281: 1e6 (C/P)^3; None without a dynamic rating.
+    """L10 [revolutions] of ISO 281: 1e6 (C/P)^p, p = 3 of balls and 10/3 of rollers; None without a dynamic rating.
 
     P [N] is the load itself where it is radial.  The factors X and Y for a combined load are not stated here: those recalled differ
     from the reference life of this geometry by up to 30 % of the load.  Take `Equilibrium.reference_life` there.
@@ -73,4 +74,5 @@ def basic_life(bearing, load):
         raise InputError(f"bearing: the life wants a load above 0 N, got {load:g}.")
     if bearing.dynamic_rating is None:
         return None
-    return REVOLUTIONS * (bearing.dynamic_rating / load) ** 3
+    power = 10 / 3 if measures(law_of(bearing)).laminae else 3
+    return REVOLUTIONS * (bearing.dynamic_rating / load) ** power

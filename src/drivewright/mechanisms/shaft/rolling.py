@@ -8,6 +8,7 @@ from drivewright.mechanisms.shaft.refusals import is_rolling
 from drivewright.result import Answer, Check, Column, Table, Value
 
 STATIC_PRESSURE = {"point": (4200e6, 3.0), "line": (4000e6, 2.0)}  # ISO 76, recalled: pressure at C0, and load ~ pressure to the power
+LEAST_E = 0.19  # axial over radial force up to which P = Fr in every deep-groove bearing (ISO 281, recalled)
 LOADS = np.geomspace(0.02, 4.0, 25)  # of the curve of stiffness, over the bearing's load
 
 
@@ -71,14 +72,24 @@ def _elements(model, name, inner, state):
         values[f"{unit}.static_safety"] = Value(
             static_safety(inner, state), "-", f"load at the permissible static pressure over the load {about}"
         )
+    values |= _basic_life(name, inner, state)
     life = state.reference_life
     if life is not None and np.isfinite(life):
-        values[f"{unit}.reference_life"] = Value(float(life), "rev", f"reference life L10r {about}, revolutions")
+        values[f"{unit}.reference_life"] = Value(float(life), "-", f"reference life L10r {about}, revolutions")
         if model.spec.drive:
             values[f"{unit}.reference_life.time"] = Value(
                 float(life) * 2 * np.pi / model.spec.drive.speed, "s", f"the same {about} at the shaft's speed"
             )
     return values
+
+
+def _basic_life(name, inner, state):
+    """L10 of ISO 281 where the equivalent load is the radial one: no axial force that counts, no contact angle."""
+    radial, axial = float(np.hypot(*state.force[:2])), abs(state.force[2])
+    if inner.dynamic_rating is None or inner.contact_angle or not radial > 0 or axial > LEAST_E * radial:
+        return {}
+    return {f"bearings.{name}.basic_life": Value(float(bearings.basic_life(inner, radial)), "-",
+                                                 f"basic life L10 (ISO 281) of bearing {name!r}, revolutions, at P = its radial force")}
 
 
 def static_safety(inner, state):

@@ -102,8 +102,8 @@ class Bearing(Spec):
     roller_geometry: RollerBearing | None = Field(None, description="inner geometry of a roller bearing instead")
     radial_clearance: Length | None = Field(None, description="play across the diameter, counted as for rolling bearings: of a rolling "
                                                               "bearing instead of its own, of a spring twice the gap", examples=["10 um"])
-    preload: Force = Field("0 N", ge=0, description="axial force in a rolling bearing when the shaft is mounted; on a bearing that is "
-                                                    "free to slide, that of the spring behind it")
+    preload: Force = Field("0 N", ge=0, description="axial force that a rolling bearing is mounted with, on a shaft that does not yield; "
+                                                    "where it is free to slide, that of the spring behind it")
     carries: Literal["right", "left"] = Field("right", description="which axial force on the shaft an angular-contact or tapered bearing "
                                                                    "takes")
     free: tuple[Literal["axial", "tilt"], ...] = Field(
