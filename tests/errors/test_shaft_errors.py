@@ -1,5 +1,7 @@
 """What a shaft refuses, in which words; and what it computes with a failed check instead."""
 
+import copy
+
 import numpy as np
 import pytest
 
@@ -18,8 +20,6 @@ BALLS = {"balls": 12, "ball_diameter": "3.572 mm", "pitch_diameter": "26 mm"}
 
 def changed(path, value):
     """BASE with one key replaced, by a dotted path; None removes it."""
-    import copy
-
     tables = copy.deepcopy(BASE)
     *steps, last = (int(step) if step.isdigit() else step for step in path.split("."))
     place = tables
@@ -154,3 +154,32 @@ def test_a_bearing_table_that_does_not_rise(tmp_path):
     tables = changed("bearings.0", {"name": "A", "position": "56.5 mm", "table": str(tmp_path / "k.csv")})
     with pytest.raises(InputError, match="rise from row to row"):
         dw.build(dw.Shaft(**tables))
+
+
+@pytest.mark.parametrize("force", ["1 mN", "1 N", "10 N", "1 kN"])
+@pytest.mark.parametrize("free", [[], ["axial"], ["axial", "tilt"]])
+def test_light_loads_in_a_clearance_are_computed_or_left_out_with_a_reason(force, free):
+    tables = changed("loads.0.force", force)
+    tables["bearings"] = [{"name": n, "position": z, "bearing": "61804", "radial_clearance": "12 um", "free": free}
+                          for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))]
+    result = dw.run(dw.Shaft(**tables))
+    assert result["bearings.B.reaction"] == pytest.approx(
+        2.35625 * float(force.split()[0]) * {"mN": 1e-3, "N": 1, "kN": 1e3}[force.split()[1]], rel=0.05
+    )
+    assert "flexibility" in result.arrays or any("do not resist" in finding for finding in result.findings)
+
+
+def test_one_rolling_bearing_alone_holds_a_shaft_by_its_tilting_stiffness():
+    tables = changed("bearings", [{"name": "A", "position": "56.5 mm", "bearing": "61804"}])
+    tables["loads"][0] |= {"station": "m1", "force": "20 N"}
+    result = dw.run(dw.Shaft(**tables))
+    assert result["bearings.A.moment"] == pytest.approx(20 * 0.0565, rel=1e-6) and "flexibility" in result.arrays
+
+
+def test_tapered_bearings_that_both_push_the_same_way():
+    tables = copy.deepcopy(BASE)
+    tables["bearings"] = [
+        {"name": n, "position": z, "bearing": "hypothetical-TRB-20x32x7"} for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))
+    ]
+    with pytest.raises(InputError, match="push it to the left, and none of them takes an axial force to the left.*carries"):
+        dw.run(dw.Shaft(**tables))

@@ -15,11 +15,16 @@ from drivewright.mechanisms.shaft.scene import exaggeration
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 STEPPED = {
-    "segments": [{"length": "90 mm", "diameter": "25 mm", "bore": "8 mm"}, {"length": "120 mm", "diameter": "30 mm", "end_diameter": "40 mm"},
-                 {"length": "110 mm", "diameter": "28 mm"}],
-    "bearings": [{"name": "A", "position": "40 mm", "radial_stiffness": "4e7 N/m"},
-                 {"name": "B", "position": "170 mm", "radial_stiffness": "9e7 N/m"},
-                 {"name": "C", "position": "290 mm", "radial_stiffness": "2e7 N/m", "tilt_stiffness": "4e3 N m/rad"}],
+    "segments": [
+        {"length": "90 mm", "diameter": "25 mm", "bore": "8 mm"},
+        {"length": "120 mm", "diameter": "30 mm", "end_diameter": "40 mm"},
+        {"length": "110 mm", "diameter": "28 mm"},
+    ],
+    "bearings": [
+        {"name": "A", "position": "40 mm", "radial_stiffness": "4e7 N/m"},
+        {"name": "B", "position": "170 mm", "radial_stiffness": "9e7 N/m"},
+        {"name": "C", "position": "290 mm", "radial_stiffness": "2e7 N/m", "tilt_stiffness": "4e3 N m/rad"},
+    ],
     "stations": [{"name": "p", "position": "0 mm", "mass": "2 kg"}, {"name": "q", "position": "230 mm", "mass": "5 kg"}],
     "loads": [{"station": "p", "force": "700 N"}, {"position": "120 mm", "force": "300 N", "angle": "20 deg"}],
 }
@@ -32,9 +37,12 @@ def shaft(**changes):
 
 def on_balls(free=(), **changes):
     """The pressure-roller shaft on two deep-groove bearings."""
-    tables = {"segments": [{"length": "340 mm", "diameter": "20 mm"}],
-              "bearings": [{"name": n, "position": z, "geometry": BALLS, "free": list(free)} for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))],
-              "stations": [{"name": "m2", "position": "245 mm"}], "loads": [{"station": "m2", "force": "500 N"}]}
+    tables = {
+        "segments": [{"length": "340 mm", "diameter": "20 mm"}],
+        "bearings": [{"name": n, "position": z, "geometry": BALLS, "free": list(free)} for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))],
+        "stations": [{"name": "m2", "position": "245 mm"}],
+        "loads": [{"station": "m2", "force": "500 N"}],
+    }
     return dw.Shaft(**(tables | changes))
 
 
@@ -51,7 +59,13 @@ def test_a_mirrored_shaft_has_the_mirrored_answer():
     turned["loads"][1]["position"] = "200 mm"
     theirs = dw.run(dw.Shaft(**turned))
     assert theirs.arrays["flexibility"].values == pytest.approx(ours.arrays["flexibility"].values, rel=1e-9)
-    for name in ("stations.p.deflection_x", "stations.q.deflection", "bearings.B.reaction_y", "modes.2.frequency", "critical_speeds.forward.1"):
+    for name in (
+        "stations.p.deflection_x",
+        "stations.q.deflection",
+        "bearings.B.reaction_y",
+        "modes.2.frequency",
+        "critical_speeds.forward.1",
+    ):
         assert theirs[name] == pytest.approx(ours[name], rel=1e-7)
     assert theirs["stations.q.slope"] == pytest.approx(-ours["stations.q.slope"], rel=1e-9) and length == dw.build(shaft()).shaft.length
 
@@ -113,7 +127,9 @@ def test_sensitivities_of_a_homogeneous_function_add_up():
         assert soft[f"sensitivity.{pair}.youngs_modulus"] + soft[f"sensitivity.{pair}.bearings.stiffness"] == pytest.approx(-1, abs=1e-7)
         each = [soft[f"sensitivity.{pair}.bearings.{name}.stiffness"] for name in "ABC"]
         assert sum(each) == pytest.approx(soft[f"sensitivity.{pair}.bearings.stiffness"], abs=1e-7)
-        total = sum(v.value for k, v in rigid.values.items() if k.startswith(f"sensitivity.{pair}.") and ("distance." in k or "diameter" in k))
+        total = sum(
+            v.value for k, v in rigid.values.items() if k.startswith(f"sensitivity.{pair}.") and ("distance." in k or "diameter" in k)
+        )
         assert total == pytest.approx(-1, abs=1e-6)
 
 
@@ -165,7 +181,11 @@ def test_the_batch_is_the_run_for_every_design():
         changed = copy.deepcopy(spec.model_dump())
         one = dw.build(spec)
         del changed
-        sections = (one.shaft.sections[0]._replace(start=row[1], end=row[1]), one.shaft.sections[1], one.shaft.sections[2]._replace(length=row[2]))
+        sections = (
+            one.shaft.sections[0]._replace(start=row[1], end=row[1]),
+            one.shaft.sections[1],
+            one.shaft.sections[2]._replace(length=row[2]),
+        )
         supports = (one.shaft.supports[0]._replace(stiffness=(row[3], row[3], 0, 0, 0)), one.shaft.supports[1]._replace(position=row[0]),
                     one.shaft.supports[2])
         stations = (one.shaft.stations[0], one.shaft.stations[1]._replace(position=row[4]))
@@ -186,7 +206,9 @@ def test_a_bearing_alone_finds_the_displacement_that_it_has_under_the_shaft():
     assert result["bearings.B.displacement"] == pytest.approx(-state.displacement[1], rel=1e-7)
     assert result["bearings.B.max_pressure"] == pytest.approx(state.pressures.max(), rel=1e-7)
     assert result["bearings.B.stiffness.tangent"] == pytest.approx(state.stiffness[1, 1], rel=1e-6)
-    assert result["bearings.B.stiffness.secant"] == pytest.approx(result["bearings.B.reaction"] / result["bearings.B.displacement"], rel=1e-12)
+    assert result["bearings.B.stiffness.secant"] == pytest.approx(
+        result["bearings.B.reaction"] / result["bearings.B.displacement"], rel=1e-12
+    )
     assert result["bearings.B.stiffness.load"] == pytest.approx(result["bearings.B.reaction"], rel=1e-12)
     ratio = result["bearings.B.stiffness.secant"] / result["bearings.B.stiffness.tangent"]
     assert ratio == pytest.approx(2 / 3, rel=1e-3)  # no clearance: F ~ d^1.5
@@ -213,10 +235,15 @@ ANGULAR = {"balls": 14, "ball_diameter": "5 mm", "pitch_diameter": "30 mm", "con
 
 
 def pair(preload, carries=("right", "left"), **more):
-    return dw.Shaft(segments=[{"length": "200 mm", "diameter": "20 mm"}],
-                    bearings=[{"name": n, "position": z, "geometry": ANGULAR, "preload": f"{preload} N", "carries": way, **more}
-                              for n, z, way in zip("AB", ("50 mm", "150 mm"), carries, strict=True)],
-                    stations=[{"name": "m", "position": "180 mm", "mass": "1 kg"}], loads=[{"station": "m", "axial_force": "0 N", "force": "1 N"}])
+    return dw.Shaft(
+        segments=[{"length": "200 mm", "diameter": "20 mm"}],
+        bearings=[
+            {"name": n, "position": z, "geometry": ANGULAR, "preload": f"{preload} N", "carries": way, **more}
+            for n, z, way in zip("AB", ("50 mm", "150 mm"), carries, strict=True)
+        ],
+        stations=[{"name": "m", "position": "180 mm", "mass": "1 kg"}],
+        loads=[{"station": "m", "axial_force": "0 N", "force": "1 N"}],
+    )
 
 
 def test_preload_is_there_when_the_shaft_is_mounted_and_stiffens_it():
@@ -232,27 +259,57 @@ def test_preload_is_there_when_the_shaft_is_mounted_and_stiffens_it():
 
 def test_a_spring_behind_a_sliding_ring_keeps_its_preload():
     tables = pair(200).model_dump()
-    spec = dw.Shaft(segments=[{"length": "200 mm", "diameter": "20 mm"}],
-                    bearings=[{"name": "A", "position": "50 mm", "geometry": ANGULAR, "carries": "right"},
-                              {"name": "B", "position": "150 mm", "geometry": ANGULAR, "carries": "left", "preload": "200 N", "free": ["axial"]}],
-                    loads=[{"position": "180 mm", "force": "300 N"}])
+    spec = dw.Shaft(
+        segments=[{"length": "200 mm", "diameter": "20 mm"}],
+        bearings=[
+            {"name": "A", "position": "50 mm", "geometry": ANGULAR, "carries": "right"},
+            {"name": "B", "position": "150 mm", "geometry": ANGULAR, "carries": "left", "preload": "200 N", "free": ["axial"]},
+        ],
+        loads=[{"position": "180 mm", "force": "300 N"}],
+    )
     assert dw.run(spec).tables["reactions"]["reaction_z"].data == pytest.approx([-200.0, 200.0], rel=1e-6) and tables
 
 
 def test_bearings_the_wrong_way_round_leave_an_axial_force_to_nobody():
     spec = pair(0, carries=("right", "right"))
-    loaded = dw.Shaft(**{k: getattr(spec, k) for k in ()} | {
-        "segments": [{"length": "200 mm", "diameter": "20 mm"}],
-        "bearings": [{"name": n, "position": z, "roller_geometry": {"rollers": 15, "roller_diameter": "4 mm", "roller_length": "8 mm",
-                      "pitch_diameter": "30 mm", "contact_angle": "14 deg"}, "carries": "right"} for n, z in (("A", "50 mm"), ("B", "150 mm"))],
-        "loads": [{"position": "180 mm", "axial_force": "-100 N"}]})
+    loaded = dw.Shaft(
+        **{k: getattr(spec, k) for k in ()}
+        | {
+            "segments": [{"length": "200 mm", "diameter": "20 mm"}],
+            "bearings": [
+                {
+                    "name": n,
+                    "position": z,
+                    "roller_geometry": {
+                        "rollers": 15,
+                        "roller_diameter": "4 mm",
+                        "roller_length": "8 mm",
+                        "pitch_diameter": "30 mm",
+                        "contact_angle": "14 deg",
+                    },
+                    "carries": "right",
+                }
+                for n, z in (("A", "50 mm"), ("B", "150 mm"))
+            ],
+            "loads": [{"position": "180 mm", "axial_force": "-100 N"}],
+        }
+    )
     with pytest.raises(dw.InputError, match="no bearing that takes a force to the left"):
         dw.run(loaded)
 
 
 def test_a_clearance_in_the_spec_goes_before_the_bearings_own():
-    snug, loose = (dw.run(on_balls(bearings=[{"name": n, "position": z, "bearing": "61804", "radial_clearance": c, "free": ["axial", "tilt"]}
-                                             for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))])) for c in ("0 um", "20 um"))
+    snug, loose = (
+        dw.run(
+            on_balls(
+                bearings=[
+                    {"name": n, "position": z, "bearing": "61804", "radial_clearance": c, "free": ["axial", "tilt"]}
+                    for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))
+                ]
+            )
+        )
+        for c in ("0 um", "20 um")
+    )
     # the overhung end swings through half the clearance at either bearing
     assert loose["bearings.B.displacement"] - snug["bearings.B.displacement"] > 9e-6
     inner = bearings.bearing("61804")
@@ -295,7 +352,9 @@ keys = ["bore", "outer_diameter", "width", "balls", "ball_diameter", "pitch_diam
 flag = "read"
 text = "drawing"
 """)
-    spec = on_balls(catalogue=str(own), bearings=[{"name": n, "position": z, "bearing": "X1"} for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))])
+    spec = on_balls(
+        catalogue=str(own), bearings=[{"name": n, "position": z, "bearing": "X1"} for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))]
+    )
     assert dw.run(spec)["bearings.B.reaction"] > 1000
 
 
@@ -309,7 +368,9 @@ def test_tooth_forces_make_the_torque_and_push_the_gear_away():
     r = 0.03 * np.array([np.cos(np.pi / 6), np.sin(np.pi / 6), 0.0])
     assert np.cross(r, load.force) == pytest.approx(load.moment, abs=1e-9) and load.moment[2] == pytest.approx(30.0)
     radial, axial = np.dot(load.force, r) / 0.03, load.force[2]
-    assert radial == pytest.approx(-1000 * np.tan(np.radians(20)) / np.cos(np.radians(15))) and axial == pytest.approx(1000 * np.tan(np.radians(15)))
+    assert radial == pytest.approx(-1000 * np.tan(np.radians(20)) / np.cos(np.radians(15))) and axial == pytest.approx(
+        1000 * np.tan(np.radians(15))
+    )
 
 
 def test_the_scene_bends_the_shaft_as_computed_and_back():

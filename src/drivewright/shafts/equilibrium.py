@@ -195,8 +195,18 @@ def solve(model, force):
         u = u + _length(model, u, change, gradient - force, force) * change
         if _at_rest(model, u, force, multipliers):
             return _equilibrium(model, u, multipliers, step)
+        _refuse_runaway(model, u)
     raise SolverError(f"shaft: no equilibrium after {MAX_STEPS} steps of Newton's method; the last one moved the shaft by "
                       f"{1e3 * np.abs(change[: model.beam.size]).max():.3g} mm. Look at clearances, and for loads far beyond the bearings")
+
+
+def _refuse_runaway(model, u):
+    """InputError where bearings under radial load push the shaft out along its axis."""
+    axial = u[AXIAL : model.beam.size : FREEDOMS]
+    if np.abs(axial).max() > 10 * model.beam.shaft.length:
+        way = "right" if axial.sum() > 0 else "left"
+        raise InputError(f"shaft: its bearings push it to the {way}, and none of them takes an axial force to the {way}; "
+                         "turn one of two round (carries), or give a bearing an axial_stiffness")
 
 
 def _pull(model, u):
@@ -215,14 +225,18 @@ def _newton_step(model, u, slope, hessian):
 
     What a law does not resist at the moment is held to where it is by a trifle, `FLOOR`, that leaves the equilibrium alone.
     """
-    held = hessian.copy()
+    found = saddle(hessian + floor(model), model.rigid, np.concatenate([-slope, model.given - model.rigid @ u]))
+    return found[: model.size], found[model.size :]
+
+
+def floor(model):
+    """(size, size): the trifle `FLOOR` under every law and every ring."""
+    total = np.zeros((model.size, model.size))
     for mount in model.mounts:
         if mount.support.law is not None:
-            held += mount.rows.T @ FLOOR @ mount.rows
-    for mount in model.mounts:
-        held[mount.ring, mount.ring] += [FLOOR[i, i] for i in mount.ring_freedoms]
-    found = saddle(held, model.rigid, np.concatenate([-slope, model.given - model.rigid @ u]))
-    return found[: model.size], found[model.size :]
+            total += mount.rows.T @ FLOOR @ mount.rows
+        total[mount.ring, mount.ring] += [FLOOR[i, i] for i in mount.ring_freedoms]
+    return total
 
 
 def saddle(hessian, rigid, right):

@@ -12,9 +12,10 @@ import numpy as np
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.beam import FREEDOMS
-from drivewright.shafts.equilibrium import saddle
+from drivewright.shafts.equilibrium import floor, saddle
 
-SOFT = 1e3  # a flexibility in m/N that nothing real has: the shaft is not held
+FLOOR = 1e-2  # of the solver's trifle under what a law does not resist: it makes the matrix regular and carries nothing
+HELD = 1e-3  # part of a flexibility that this trifle may carry: beyond it the shaft is not held
 
 
 class Flexibility(NamedTuple):
@@ -42,23 +43,21 @@ def flexibility(found, positions, direction):
     for column, position in enumerate(positions):
         at = FREEDOMS * model.beam.node(position)
         unit[at : at + 2, column] = direction
-    answer = _solved(found, unit)
-    delta = unit.T @ answer[: model.size]
-    if (
-        not np.all(np.isfinite(delta))
-        or np.abs(delta).max(initial=0) > SOFT
-        or np.diag(delta).min(initial=0) < -1e-9 * np.abs(delta).max(initial=0)
-    ):
+    trifle = FLOOR * floor(model)
+    answer = _solved(found, trifle, unit)
+    u = answer[: model.size]
+    delta = unit.T @ u
+    if not np.all(np.isfinite(delta)) or np.any(np.sum(u * (trifle @ u), axis=0) > HELD * np.diag(delta)):
         raise InputError("shaft: at rest its bearings do not resist a small force; give a load, a preload or no clearance")
     delta = 0.5 * (delta + delta.T)
     names, shares = _shares(found, answer)
-    return Flexibility(delta, names, shares, _reactions(found, answer, direction), answer[: model.size])
+    return Flexibility(delta, names, shares, _reactions(found, answer, direction), u)
 
 
-def _solved(found, unit):
+def _solved(found, trifle, unit):
     try:
         with np.errstate(all="ignore"):
-            return saddle(found.hessian, found.model.rigid, np.vstack([unit, np.zeros((len(found.model.given), unit.shape[1]))]))
+            return saddle(found.hessian + trifle, found.model.rigid, np.vstack([unit, np.zeros((len(found.model.given), unit.shape[1]))]))
     except np.linalg.LinAlgError:
         return np.full((found.model.size + len(found.model.given), unit.shape[1]), np.inf)
 

@@ -8,11 +8,13 @@ from scipy.linalg import eigh
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.beam import FREEDOMS, PLANES
-from drivewright.shafts.equilibrium import AXIAL, TWIST
+from drivewright.shafts.equilibrium import AXIAL, TWIST, floor
+from drivewright.shafts.influence import FLOOR, HELD
 from drivewright.shafts.model import EULER_BERNOULLI
 from drivewright.shafts.sections import area, second_moment
 
-HELD = 1e-13  # least eigenvalue of the scaled stiffness of a shaft that is held
+UNHELD = ("shaft: at rest its bearings do not resist a small motion, so it has no natural frequencies; give a load, a preload or no "
+          "clearance")
 POINTS = 8  # over an element: its shapes are cubic on a cylinder
 SHARE, WEIGHT = (0.5 * (part + shift) for part, shift in zip(np.polynomial.legendre.leggauss(POINTS), (1.0, 0.0), strict=True))
 
@@ -139,8 +141,7 @@ def modes(equilibrium, count):
 def _axial_share(shapes, inertia):
     """Part of the kinetic energy along the axis, for each column."""
     moved = inertia @ shapes
-    along = np.zeros(len(shapes), bool)
-    along[AXIAL::FREEDOMS] = True
+    along = np.arange(len(shapes)) % FREEDOMS == AXIAL  # rings, beyond the nodes, have no mass
     return np.sum(shapes[along] * moved[along], axis=0) / np.sum(shapes * moved, axis=0)
 
 
@@ -157,21 +158,33 @@ def _lateral(equilibrium):
 
 
 def _lowest(stiff, inertia, equilibrium, chosen, count):
-    """Lowest eigenvalues w^2 of K q = w^2 M q among the chosen freedoms, and vectors; rigid supports hold."""
+    """Lowest eigenvalues w^2 of K q = w^2 M q among the chosen freedoms, and vectors; rigid supports hold.
+
+    A trifle keeps K regular.  What it alone holds has no frequency: along the axis it is left out, across it is an error.
+    """
+    trifle = (FLOOR * floor(equilibrium.model))[np.ix_(chosen, chosen)]
     basis = free_of(equilibrium.model.rigid[:, chosen], len(chosen))
-    k, m = (basis.T @ whole[np.ix_(chosen, chosen)] @ basis for whole in (stiff, inertia))
+    k, m = (basis.T @ whole @ basis for whole in (stiff[np.ix_(chosen, chosen)] + trifle, inertia[np.ix_(chosen, chosen)]))
     inverse, vectors = _eigen(m, k)  # M may be singular (massless rings, no rotary inertia) or indefinite, K is positive
+    vectors = basis @ vectors  # q'Kq = 1 for each
+    held = np.sum(np.conj(vectors) * (trifle @ vectors), axis=0).real < HELD
+    moving = inverse > 1e-9 * inverse[held].max(initial=0)
+    across = np.isin(chosen % FREEDOMS, (0, 1)) & (chosen < equilibrium.model.beam.size)
+    along = (chosen % FREEDOMS == AXIAL) & (chosen < equilibrium.model.beam.size)
+    sideways = np.sum(np.abs(vectors[across]) ** 2, axis=0) > np.sum(np.abs(vectors[along]) ** 2, axis=0)
+    if not held.any() or np.any(~held & moving & sideways):
+        raise InputError(UNHELD)
     order = np.argsort(inverse)[::-1]
-    order = order[inverse[order] > 1e-12 * inverse.max()][:count]
-    return 1 / inverse[order], basis @ vectors[:, order]
+    order = order[(held & (inverse > 1e-12 * inverse[held].max()))[order]][:count]
+    return 1 / inverse[order], vectors[:, order]
 
 
 def _eigen(m, k):
-    scale = 1 / np.sqrt(np.maximum(np.diag(k), 1e-300))
-    if eigh(scale[:, None] * k * scale, eigvals_only=True, subset_by_index=[0, 0])[0] < HELD:
-        raise InputError("shaft: at rest its bearings do not resist a small motion, so it has no natural frequencies; "
-                         "give a load, a preload or no clearance")
-    return eigh(m, k)
+    """(1/w^2, vectors with q'Kq = 1)."""
+    try:
+        return eigh(m, k)
+    except np.linalg.LinAlgError:
+        raise InputError(UNHELD) from None
 
 
 def critical_speeds(equilibrium, count):

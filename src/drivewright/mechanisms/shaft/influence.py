@@ -45,14 +45,19 @@ def flexibility(model, done):
 
 def stiffened(model):
     """(equilibrium, flexibility) of the same shaft on rigid bearings, for the comparison."""
-    supports = tuple(shafts.Support(s.name, s.position, (np.inf, np.inf, 0.0, *_tilts(s)), width=s.width) for s in model.shaft.supports)
+    alone = len(model.shaft.supports) == 1
+    supports = tuple(
+        shafts.Support(s.name, s.position, (np.inf, np.inf, 0.0, *_tilts(s, alone)), width=s.width) for s in model.shaft.supports
+    )
     system = shafts.assemble(model.shaft._replace(supports=supports))
     at_rest = shafts.solve(system, shafts.work(system, ()))
     return at_rest, shafts.flexibility(at_rest, model.places, model.direction)
 
 
-def _tilts(support):
-    return support.stiffness[3:] if support.law is None else (0.0, 0.0)
+def _tilts(support, alone):
+    """Springs against tilting stay as they are; a rolling bearing tilts freely, unless it alone holds the shaft."""
+    free = (np.inf, np.inf) if alone else (0.0, 0.0)
+    return support.stiffness[3:] if any(support.stiffness[3:]) else free
 
 
 def _unit_table(model, found, at_rest, rigid):

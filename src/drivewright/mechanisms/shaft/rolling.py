@@ -117,7 +117,7 @@ def _findings(name, inner, state):
             "it needs more preload or axial load, or turn it round (carries)"
         )
     if not state.element_loads.max() > 0:
-        yield f"bearing {name!r} carries nothing: the shaft stands in its clearance"
+        yield f"bearing {name!r} carries nothing under these loads"
 
 
 def _element_table(name, state):
