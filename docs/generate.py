@@ -9,7 +9,8 @@ from drivewright.spec import read_document
 
 DOCS = Path(__file__).parent
 PAGES = ("motion", "curves", "gears", "cams", "contact", "bearings.ball", "bearings.roller", "bearings.solving", "bearings.quick",
-         "bearings.catalogue", "shafts.model", "shafts.equilibrium", "shafts.influence", "shafts.vibration", "shafts.batch", "materials", "units", "spec", "result", "scene", "errors")
+         "bearings.catalogue", "shafts.model", "shafts.equilibrium", "shafts.influence", "shafts.vibration", "shafts.batch", "materials",
+         "units", "spec", "result", "scene", "errors")
 
 
 def peaks():

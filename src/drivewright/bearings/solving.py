@@ -85,7 +85,7 @@ class Equilibrium:
 
 
 def solve(bearing, *, force=None, displacement=None, held=(), start=None):
-    """The `Equilibrium` of a bearing at one of: `force` [Fx, Fy, Fz, Mx, My] [N, N m] or `displacement` of its five freedoms [m, rad].
+    """The `Equilibrium` of a bearing at one of: `force` (Fx, Fy, Fz, Mx, My) in N and N m, or `displacement` of its five freedoms [m, rad].
 
     held: names from FREEDOMS that a given force does not move; they stay at their `start` (0 unless given), and the force found
     there is the reaction.  start (5,): where the search begins, and where what nothing resists remains.

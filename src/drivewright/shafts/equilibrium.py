@@ -240,7 +240,7 @@ def floor(model):
 
 
 def saddle(hessian, rigid, right):
-    """Solution (size + c, ...) of [[H, R'], [R, 0]] [u, multipliers] = right; rows are scaled, for rotations are no lengths."""
+    """(size + c, ...): u and multipliers of  H u + R' m = right,  R u = right below;  rows are scaled, for rotations are no lengths."""
     whole = np.block([[hessian, rigid.T], [rigid, np.zeros((len(rigid),) * 2)]])
     scale = 1 / np.sqrt(np.concatenate([np.abs(np.diag(hessian)), np.ones(len(rigid))]))
     size = len(hessian)

@@ -32,8 +32,8 @@ class Series(NamedTuple):
 class Panel(NamedTuple):
     """Series of one unit over x, with limit lines (value, text) and the range [low, high] to show.
 
-    style: line, points, stems, bars (stacked), polar (over the angle x) or mesh (series: up, depth, colour, then right and up of the shape before); `log`: y axis in powers of ten;
-    `shade`: stretches (from, to) of x; `rings`: circles (radius, text).
+    style: line, points, stems, bars (stacked), polar (over the angle x) or mesh (series: up, depth, colour, then right and up of the shape
+    before); `log`: y axis in powers of ten; `shade`: stretches (from, to) of x; `rings`: circles (radius, text).
     """
 
     title: str
