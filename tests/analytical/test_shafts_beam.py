@@ -45,7 +45,7 @@ def test_between_the_nodes_the_curve_is_exact():
     q, z = 1500.0, np.linspace(0.01, 0.39, 7)
     loaded = shafts.load(simple(), shafts.Loads(lines=(shafts.LineLoad(0.0, L, (0, -q), (0, -q)),)))
     found = loaded.equilibrium
-    curve = shafts.beam.line(found.model.beam, 1, found.u, z, loaded.spread[1])
+    curve = shafts.beam.line(found.model.beam, 1, found.unknowns, z, loaded.spread[1])
     assert curve.deflection == pytest.approx(-q * z * (L**3 - 2 * L * z**2 + z**3) / (24 * E * I), rel=1e-9)
     assert curve.slope == pytest.approx(-q * (L**3 - 6 * L * z**2 + 4 * z**3) / (24 * E * I), rel=1e-9)
     assert np.abs(curve.moment) == pytest.approx(q * z * (L - z) / 2, rel=1e-9)
@@ -123,7 +123,7 @@ def test_shear_is_the_slope_of_the_moment():
     loaded = shafts.load(simple(), loads)
     z = np.linspace(0.16, 0.34, 2001)
     for plane in (0, 1):
-        curve = shafts.beam.line(loaded.equilibrium.model.beam, plane, loaded.equilibrium.u, z, loaded.spread[plane])
+        curve = shafts.beam.line(loaded.equilibrium.model.beam, plane, loaded.equilibrium.unknowns, z, loaded.spread[plane])
         assert np.gradient(curve.moment, z)[2:-2] == pytest.approx(-curve.shear[2:-2], abs=1e-4 * np.abs(curve.shear).max())
         assert np.gradient(curve.deflection, z)[2:-2] == pytest.approx(curve.slope[2:-2], abs=1e-6 * np.abs(curve.slope).max())
         assert E * I * np.gradient(curve.slope, z)[2:-2] == pytest.approx(curve.moment[2:-2], abs=1e-4 * np.abs(curve.moment).max())
@@ -197,7 +197,7 @@ def test_spreading_a_reaction_over_a_width_keeps_it_and_takes_the_mean():
     wide = [support("A", 0.1, 3e7, width=0.02), support("B", 0.3, width=0.02)]
     found = shafts.load(shaft(wide, shear=shafts.COWPER), shafts.Loads((shafts.Load(0.0, (0, -400.0, 0)),)))
     assert found.equilibrium.reactions[:, 1] == pytest.approx([600.0, -200.0], rel=1e-9)
-    beam, u = found.equilibrium.model.beam, found.equilibrium.u
+    beam, u = found.equilibrium.model.beam, found.equilibrium.unknowns
     for start, mean in ((0.09, found.equilibrium.relative[0, 1]), (0.29, 0.0)):
         z = start + 0.02 * (np.polynomial.legendre.leggauss(40)[0] + 1) / 2
         line = shafts.beam.line(beam, 1, u, z).deflection

@@ -6,7 +6,8 @@ from drivewright.shafts.model import COWPER, EULER_BERNOULLI, LineLoad, Load, Se
 
 # Their modules hold kernels, and the first kernel imports numba: loaded when first used.
 _WHERE = {
-    "equilibrium": ("Equilibrium", "assemble", "refuse_mechanism", "solve", "work"),
+    "assembly": ("Model", "assemble", "refuse_mechanism", "work"),
+    "equilibrium": ("Equilibrium", "solve"),
     "influence": ("Flexibility", "flexibility", "stiffness"),
     "loaded": ("Diagram", "Loaded", "Loads", "diagram", "load"),
     "vibration": ("Critical", "Modes", "critical_speeds", "modes", "torsional"),

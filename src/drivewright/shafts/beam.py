@@ -89,19 +89,36 @@ def places_of(element, plane):
     return np.array([at + w, at + t, at + FREEDOMS + w, at + FREEDOMS + t]), np.array([1.0, sign, 1.0, sign])
 
 
-def stiffness(found):
-    """K (6n, 6n) of the shaft without its supports."""
+# -- unknowns ------------------------------------------------------------------------------------------------------------------
+# Six of the first node, then six of every piece: how far its end has moved from where its start alone would carry it.  Forces follow
+# from these strains without the difference of two nearly equal displacements, however short a piece is.
+
+
+def basis(found):
+    """S (6n, 6n): displacements of all nodes = S v, of the unknowns v."""
     whole = np.zeros((found.size, found.size))
-    ends = strain(found.pieces[:, 0])
-    bending = np.swapaxes(ends, 1, 2) @ np.linalg.solve(found.flexibility, ends)
+    whole[:FREEDOMS, :FREEDOMS] = np.eye(FREEDOMS)
+    for element, length in enumerate(found.pieces[:, 0]):
+        at = FREEDOMS * element
+        carried = np.eye(FREEDOMS)
+        for w, t, sign in PLANES:
+            carried[w, t] = sign * length
+        whole[at + FREEDOMS : at + 2 * FREEDOMS] = carried @ whole[at : at + FREEDOMS]
+        whole[at + FREEDOMS : at + 2 * FREEDOMS, at + FREEDOMS : at + 2 * FREEDOMS] += np.eye(FREEDOMS)
+    return whole
+
+
+def stiffness(found):
+    """K (6n, 6n) of the shaft without its supports, in the unknowns: a block for every piece, none for the first node."""
+    whole = np.zeros((found.size, found.size))
+    bending = np.linalg.inv(found.flexibility)
     stretch, twist = _rods(found)
     for element in range(len(found.pieces)):
-        for plane in (0, 1):
-            at, sign = places_of(element, plane)
-            whole[np.ix_(at, at)] += sign[:, None] * bending[element] * sign
-        for freedom, value in ((2, stretch[element]), (5, twist[element])):
-            at = FREEDOMS * element + freedom + np.array([0, FREEDOMS])
-            whole[np.ix_(at, at)] += value * np.array([[1.0, -1.0], [-1.0, 1.0]])
+        at = FREEDOMS * (element + 1)
+        for w, t, sign in PLANES:
+            signs = np.array([1.0, sign])
+            whole[np.ix_((at + w, at + t), (at + w, at + t))] = signs[:, None] * bending[element] * signs
+        whole[at + 2, at + 2], whole[at + 5, at + 5] = stretch[element], twist[element]
     return whole
 
 
@@ -114,17 +131,21 @@ def _rods(found):
     return 1 / soft[0], 1 / soft[1]
 
 
-def stretch_energy(found, displacement):
-    """(s, s): int N_i N_j/EA over the shaft, for the displacements (>= 6n, s) of several loads."""
-    pulled = np.diff(displacement[2 : found.size : FREEDOMS], axis=0)
+def strains(found, unknowns):
+    """(n-1, 6): the strains of the pieces among the unknowns."""
+    return unknowns[FREEDOMS : found.size].reshape(-1, FREEDOMS)
+
+
+def stretch_energy(found, unknowns):
+    """(s, s): int N_i N_j/EA over the shaft, for the unknowns (>= 6n, s) of several loads."""
+    pulled = unknowns[FREEDOMS + 2 : found.size : FREEDOMS]
     return pulled.T @ (_rods(found)[0][:, None] * pulled)
 
 
-def tension_and_torque(found, displacement):
+def tension_and_torque(found, unknowns):
     """(n-1, 2): axial force, positive in tension, and torque in every piece."""
-    nodes = displacement[: found.size].reshape(-1, FREEDOMS)
     stretch, twist = _rods(found)
-    return np.stack([stretch * np.diff(nodes[:, 2]), twist * np.diff(nodes[:, 5])], axis=1)
+    return strains(found, unknowns)[:, [2, 5]] * np.stack([stretch, twist], axis=1)
 
 
 # -- distributed loads ---------------------------------------------------------------------------------------------------------
@@ -198,21 +219,22 @@ class Line(NamedTuple):
     moment: np.ndarray
 
 
-def end_forces(found, plane, displacement, coefficients=None):
+def end_forces(found, plane, unknowns, coefficients=None):
     """(n-1, 2): force and moment at the end of every piece."""
-    four = np.stack([displacement[at] * sign for at, sign in (places_of(e, plane) for e in range(len(found.pieces)))])
-    bent = np.einsum("nij,nj->ni", strain(found.pieces[:, 0]), four)
+    w, t, sign = PLANES[plane]
+    bent = strains(found, unknowns)[:, [w, t]] * (1.0, sign)
     if coefficients is not None:
         bent = bent - sagging(found.pieces, coefficients, found.shaft)
     return np.linalg.solve(found.flexibility, bent[:, :, None])[:, :, 0]
 
 
-def line(found, plane, displacement, z, coefficients=None):
+def line(found, plane, unknowns, z, coefficients=None):
     """The `Line` at places z: the piece from the node before to z is a clamped piece itself, so this is exact anywhere."""
     w, t, sign = PLANES[plane]
     element = np.clip(np.searchsorted(found.z, z, side="right") - 1, 0, len(found.pieces) - 1)
     length, x = found.pieces[element, 0], z - found.z[element]
-    force, moment = end_forces(found, plane, displacement, coefficients)[element].T
+    force, moment = end_forces(found, plane, unknowns, coefficients)[element].T
+    displacement = basis(found) @ unknowns[: found.size]
     load = np.zeros((len(z), 3)) if coefficients is None else coefficients[element]
     carried = beyond(load, length, x)
     shear, moment = force + carried[0], moment + force * (length - x) + carried[1]

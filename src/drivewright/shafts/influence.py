@@ -11,10 +11,12 @@ import numpy as np
 
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
+from drivewright.shafts.assembly import floor
 from drivewright.shafts.beam import FREEDOMS
-from drivewright.shafts.equilibrium import floor, saddle
+from drivewright.shafts.equilibrium import saddle
 
 FLOOR = 1e-2  # of the solver's trifle under what a law does not resist: it makes the matrix regular and carries nothing
+ROUNDING = 1e-12
 HELD = 1e-3  # part of a flexibility that this trifle may carry: beyond it the shaft is not held
 
 
@@ -25,7 +27,7 @@ class Flexibility(NamedTuple):
     names: tuple
     shares: np.ndarray
     reactions: np.ndarray
-    displacement: np.ndarray  # (size, s): all unknowns under each unit force
+    unknowns: np.ndarray  # (size, s): under each unit force
 
     @property
     def condition(self):
@@ -43,15 +45,19 @@ def flexibility(found, positions, direction):
     for column, position in enumerate(positions):
         at = FREEDOMS * model.beam.node(position)
         unit[at : at + 2, column] = direction
+    unit = model.basis.T @ unit
     trifle = FLOOR * floor(model)
     answer = _solved(found, trifle, unit)
-    u = answer[: model.size]
-    delta = unit.T @ u
-    if not np.all(np.isfinite(delta)) or np.any(np.sum(u * (trifle @ u), axis=0) > HELD * np.diag(delta)):
-        raise InputError("shaft: at rest its bearings do not resist a small force; give a load, a preload or no clearance")
+    v = answer[: model.size]
+    delta = unit.T @ v
     delta = 0.5 * (delta + delta.T)
-    names, shares = _shares(found, answer)
-    return Flexibility(delta, names, shares, _reactions(found, answer, direction), u)
+    size = np.abs(delta).max(initial=0)
+    with np.errstate(invalid="ignore"):
+        carried = np.sum(v * (trifle @ v), axis=0)
+    if not np.all(np.isfinite(delta)) or np.any(carried > HELD * (np.abs(np.diag(delta)) + ROUNDING * size)):
+        raise InputError("shaft: at rest its bearings do not resist a small force; give a load, a preload or no clearance")
+    names, shares = _shares(found, v)
+    return Flexibility(delta, names, shares, _reactions(found, answer, direction), v)
 
 
 def _solved(found, trifle, unit):
@@ -62,33 +68,34 @@ def _solved(found, trifle, unit):
         return np.full((found.model.size + len(found.model.given), unit.shape[1]), np.inf)
 
 
-def _shares(found, answer):
+def _shares(found, v):
     """(names, parts (p, s, s)): bending, shear, tension where there is any, then one for every support."""
-    model, u = found.model, answer[: found.model.size]
-    bending, shear = np.zeros((2, u.shape[1], u.shape[1]))
+    model = found.model
+    bending, shear = np.zeros((2, v.shape[1], v.shape[1]))
     for plane in (0, 1):
-        forces = np.array([beams.end_forces(model.beam, plane, column) for column in u.T])  # (s, pieces, 2)
+        forces = np.array([beams.end_forces(model.beam, plane, column) for column in v.T])  # (s, pieces, 2)
         shear += np.einsum("in,n,jn->ij", forces[:, :, 0], model.beam.slip, forces[:, :, 0])
         bending += np.einsum("ina,nab,jnb->ij", forces, model.beam.flexibility, forces)
-    parts = {"bending": bending - shear, "shear": shear}
+    names, parts = ["bending", "shear"], [bending - shear, shear]
+    stretched = beams.stretch_energy(model.beam, v)
+    if np.abs(stretched).max(initial=0) > ROUNDING * np.abs(bending).max(initial=0):
+        names, parts = [*names, "tension"], [*parts, stretched]
     for mount, tangent in zip(model.mounts, found.tangent, strict=True):
-        felt = mount.turn[:, None] * (mount.rows @ u)
+        felt = mount.turn[:, None] * (mount.rows @ v)
         finite = np.where(np.isfinite(tangent), tangent, 0.0)
-        yielded = u[mount.ring]
+        yielded = v[mount.ring]
         seat = np.array([mount.support.seat[i] for i in mount.ring_freedoms])
-        parts[mount.support.name] = felt.T @ finite @ felt + yielded.T @ (seat[:, None] * yielded)
-    stretched = beams.stretch_energy(model.beam, u)
-    if np.abs(stretched).max(initial=0) > 1e-12 * np.abs(bending).max(initial=0):
-        parts["tension"] = stretched
-    return tuple(parts), np.array(list(parts.values()))
+        names.append(mount.support.name)
+        parts.append(felt.T @ finite @ felt + yielded.T @ (seat[:, None] * yielded))
+    return tuple(names), np.array(parts)
 
 
 def _reactions(found, answer, direction):
     """(supports, s): force of each support on the shaft against the unit force."""
-    model, u, number = found.model, answer[: found.model.size], 0
+    model, v, number = found.model, answer[: found.model.size], 0
     rows = []
     for mount, tangent in zip(model.mounts, found.tangent, strict=True):
-        felt = mount.turn[:, None] * (mount.rows @ u)
+        felt = mount.turn[:, None] * (mount.rows @ v)
         rigid = np.isinf(np.diag(tangent))
         force = np.where(np.isfinite(tangent), tangent, 0.0) @ felt
         force[rigid] = answer[model.size + number : model.size + number + rigid.sum()]

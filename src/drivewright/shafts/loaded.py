@@ -6,7 +6,8 @@ import numpy as np
 
 from drivewright.shafts import beam as beams
 from drivewright.shafts.beam import FREEDOMS
-from drivewright.shafts.equilibrium import assemble, solve, work
+from drivewright.shafts.assembly import assemble, work
+from drivewright.shafts.equilibrium import solve
 from drivewright.shafts.model import Load
 from drivewright.shafts.sections import area, second_moment
 
@@ -88,12 +89,12 @@ def _axial_weight(found, gravity):
 
 def diagram(loaded, count=201):
     """The `Diagram` at about `count` places, twice at every node: just left and just right of it, for forces jump there."""
-    found, u = loaded.equilibrium.model.beam, loaded.equilibrium.u
+    found, v = loaded.equilibrium.model.beam, loaded.equilibrium.unknowns
     z = _places(found, count)
-    lines = [beams.line(found, plane, u, z, loaded.spread[plane]) for plane in (0, 1)]
+    lines = [beams.line(found, plane, v, z, loaded.spread[plane]) for plane in (0, 1)]
     deflection, slope, shear, moment = (np.stack(each, axis=1) for each in zip(*lines, strict=True))
     element = np.clip(np.searchsorted(found.z, z, side="right") - 1, 0, len(found.pieces) - 1)
-    axial, torque = beams.tension_and_torque(found, u)[element].T
+    axial, torque = beams.tension_and_torque(found, v)[element].T
     return Diagram(z, deflection, slope, shear, moment, axial, torque, *_stresses(found, element, z, moment, axial, torque))
 
 

@@ -8,7 +8,7 @@ from scipy.linalg import eigh
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.beam import FREEDOMS, PLANES
-from drivewright.shafts.equilibrium import AXIAL, TWIST, floor
+from drivewright.shafts.assembly import AXIAL, TWIST, floor
 from drivewright.shafts.influence import FLOOR, HELD
 from drivewright.shafts.model import EULER_BERNOULLI
 from drivewright.shafts.sections import area, second_moment
@@ -133,7 +133,7 @@ def modes(equilibrium, count):
     values, vectors = _lowest(stiff, inertia, equilibrium, chosen, 2 * count + 2)
     whole = np.zeros((equilibrium.model.size, len(values)))
     whole[chosen] = vectors
-    found = Modes(np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi), whole)
+    found = Modes(np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi), equilibrium.model.basis @ whole)
     axial = _axial_share(whole, inertia) > 0.5
     return found.where(np.flatnonzero(~axial)[:count]), found.where(np.flatnonzero(axial)[:count])
 
@@ -152,6 +152,7 @@ def _lateral(equilibrium):
     small, gyro = mass(found, found.shaft.shear != EULER_BERNOULLI)
     inertia, gyroscopic = np.zeros((model.size,) * 2), np.zeros((model.size,) * 2)
     inertia[: found.size, : found.size], gyroscopic[: found.size, : found.size] = small, gyro
+    inertia, gyroscopic = (model.basis.T @ whole @ model.basis for whole in (inertia, gyroscopic))
     twist = FREEDOMS * np.arange(len(found.z)) + TWIST
     chosen = in_plane(found) if is_round(equilibrium) else np.setdiff1d(np.arange(model.size), twist)
     return equilibrium.hessian, inertia, gyroscopic, chosen
@@ -169,9 +170,8 @@ def _lowest(stiff, inertia, equilibrium, chosen, count):
     vectors = basis @ vectors  # q'Kq = 1 for each
     held = np.sum(np.conj(vectors) * (trifle @ vectors), axis=0).real < HELD
     moving = inverse > 1e-9 * inverse[held].max(initial=0)
-    across = np.isin(chosen % FREEDOMS, (0, 1)) & (chosen < equilibrium.model.beam.size)
-    along = (chosen % FREEDOMS == AXIAL) & (chosen < equilibrium.model.beam.size)
-    sideways = np.sum(np.abs(vectors[across]) ** 2, axis=0) > np.sum(np.abs(vectors[along]) ** 2, axis=0)
+    nodes = (equilibrium.model.basis[:, chosen] @ vectors)[: equilibrium.model.beam.size].reshape(-1, FREEDOMS, len(inverse))
+    sideways = np.sum(np.abs(nodes[:, :2]) ** 2, axis=(0, 1)) > np.sum(np.abs(nodes[:, AXIAL]) ** 2, axis=0)
     if not held.any() or np.any(~held & moving & sideways):
         raise InputError(UNHELD)
     order = np.argsort(inverse)[::-1]
@@ -199,7 +199,7 @@ def critical_speeds(equilibrium, count):
     squares, vectors = _lowest(stiff, inertia - 1j * gyroscopic, equilibrium, chosen, 4 * count)
     whole = np.zeros((equilibrium.model.size, len(squares)), complex)
     whole[chosen] = vectors
-    nodes = whole[: equilibrium.model.beam.size].reshape(-1, FREEDOMS, len(squares))
+    nodes = (equilibrium.model.basis @ whole)[: equilibrium.model.beam.size].reshape(-1, FREEDOMS, len(squares))
     across = np.sum(np.abs(nodes[:, :2]) ** 2, axis=(0, 1))
     lateral = across > np.sum(np.abs(nodes[:, AXIAL]) ** 2, axis=0)
     backward = np.sum(np.conj(nodes[:, 0]) * nodes[:, 1], axis=0).imag > 1e-9 * across
@@ -219,9 +219,9 @@ def torsional(equilibrium, count):
     """The lowest torsional `Modes` of the free shaft, with the moments of inertia of its stations."""
     found = equilibrium.model.beam
     chosen = FREEDOMS * np.arange(len(found.z)) + TWIST
-    stiff, inertia = beams.stiffness(found)[np.ix_(chosen, chosen)], mass(found)[0][np.ix_(chosen, chosen)]
-    values, vectors = eigh(stiff, inertia)
-    whole = np.zeros((equilibrium.model.size, count))
-    vectors = vectors[:, 1 : count + 1]  # the first one turns the whole shaft
-    whole[chosen, : vectors.shape[1]] = vectors
-    return Modes(np.sqrt(values[1 : count + 1]) / (2 * np.pi), whole[:, : vectors.shape[1]])
+    carried = beams.basis(found)[np.ix_(chosen, chosen)]
+    stiff, inertia = beams.stiffness(found)[np.ix_(chosen, chosen)], carried.T @ mass(found)[0][np.ix_(chosen, chosen)] @ carried
+    values, vectors = eigh(stiff, inertia, subset_by_index=[1, min(count, len(chosen) - 1)])  # the first one turns the whole shaft
+    whole = np.zeros((equilibrium.model.size, len(values)))
+    whole[chosen] = carried @ vectors
+    return Modes(np.sqrt(values) / (2 * np.pi), whole)

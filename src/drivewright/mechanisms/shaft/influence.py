@@ -65,7 +65,7 @@ def _unit_table(model, found, at_rest, rigid):
     z = np.linspace(0.0, model.shaft.length, SAMPLES)
     columns = [Column("z", "m", "distance from the left end", z)]
     for words, suffix, (rest, answer) in (("", "", (at_rest, found)), (", bearings rigid", ".rigid", rigid)):
-        for name, u in zip(model.names, answer.displacement.T, strict=True):
+        for name, u in zip(model.names, answer.unknowns.T, strict=True):
             columns.append(Column(f"{name}{suffix}", "m/N", f"force at {name!r}{words}", _deflection(model, rest, u, z)))
     return Table("unit_load", "Deflection by a unit force at a station", tuple(columns))
 
@@ -151,7 +151,7 @@ def _limits(model, found, at_rest, station):
 
 def _unit_stress(model, found, at_rest, station):
     """Largest bending stress per unit force at a station [Pa/N]."""
-    beam, u = at_rest.model.beam, found.displacement[:, station]
+    beam, u = at_rest.model.beam, found.unknowns[:, station]
     tiny = 1e-9 * model.shaft.length
     z = np.sort(np.concatenate([np.linspace(0, model.shaft.length, SAMPLES), beam.z[:-1], beam.z[1:] - tiny]))
     moment = sum(way * line(beam, plane, u, z).moment for plane, way in enumerate(model.direction))

@@ -29,7 +29,7 @@ def rolling(model, done):
             findings.append(f"stiffness of bearing {mount.support.name!r} is absent: nothing loads it")
         inner = model.rolling.get(mount.support.name)
         if inner is not None:
-            state = bearings.solve(inner, displacement=mount.rows @ at_rest.u - mount.support.offset)
+            state = bearings.solve(inner, displacement=mount.rows @ at_rest.unknowns - mount.support.offset)
             values |= _elements(model, mount.support.name, inner, state)
             tables += [_element_table(mount.support.name, state), *_curve(model, mount.support.name, inner, state)]
             checks += _checks(model, mount.support.name, inner, state)

@@ -60,13 +60,13 @@ def _bent(model, z):
     middles = 0.5 * (z[1:] + z[:-1])
     loaded = shafts.load(model.shaft, model.loads)
     if model.loaded or not model.names:
-        drawn = [line(loaded.equilibrium.model.beam, plane, loaded.equilibrium.u, middles, loaded.spread[plane]) for plane in (0, 1)]
+        drawn = [line(loaded.equilibrium.model.beam, plane, loaded.equilibrium.unknowns, middles, loaded.spread[plane]) for plane in (0, 1)]
         words = "deflection"
     else:
         found = flexibility(model, {"statics": Answer(data=loaded)}).data
         if found is None:
             return np.zeros(len(middles)), np.zeros(len(middles)), "unloaded"
-        drawn = [line(loaded.equilibrium.model.beam, plane, found.displacement[:, -1], middles) for plane in (0, 1)]
+        drawn = [line(loaded.equilibrium.model.beam, plane, found.unknowns[:, -1], middles) for plane in (0, 1)]
         words = f"force at {model.names[-1]}, deflection"
     up = -np.stack([each.deflection for each in drawn], axis=1) @ model.direction
     return up, -np.stack([each.slope for each in drawn], axis=1) @ model.direction, words

@@ -86,7 +86,7 @@ def _bearings(model, loaded):
         inner = model.rolling.get(mount.support.name)
         if inner is None:
             continue
-        own = mount.rows @ loaded.equilibrium.u - mount.support.offset
+        own = mount.rows @ loaded.equilibrium.unknowns - mount.support.offset
         force = bearings.solve(inner, displacement=own).force
         if np.hypot(*force[:2]) > 0:
             free = np.abs(force) > 1e-9 * np.abs(force[:2]).max() * np.array([1, 1, 1, inner.pitch_diameter, inner.pitch_diameter])

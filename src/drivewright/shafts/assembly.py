@@ -1,0 +1,180 @@
+"""A shaft with its supports as one system of unknowns: what holds it, what carries it along its axis, what loads it."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.bearings.newton import measures
+from drivewright.bearings.response import respond
+from drivewright.errors import InputError
+from drivewright.shafts import beam as beams
+from drivewright.shafts.beam import FREEDOMS
+
+MIRROR = np.array([1.0, 1.0, -1.0, -1.0, -1.0])
+SHAFT_FREEDOMS = (0, 1, 2, 3, 4)  # of a node, that a support feels: x, y, z, rotations about x and y
+AXIAL, TWIST = 2, 5
+FAR, TURNED = 1e-3, 0.05  # m, rad
+FLOOR = np.diag([1.0, 1.0, 1.0, 1e-4, 1e-4])  # N/m, N m/rad
+
+
+class Mount(NamedTuple):
+    """A support in the unknowns: rows (5, size) of the displacement that its springs and its law feel, in its own axes."""
+
+    support: object
+    rows: np.ndarray
+    ring: np.ndarray  # unknowns of the ring on a seat that yields (at most 5), in the order of `ring_freedoms`
+    ring_freedoms: tuple
+
+    @property
+    def turn(self):
+        """Signs (5,) from the support's axes to the shaft's."""
+        return MIRROR if self.support.mirrored else np.ones(5)
+
+
+class Model(NamedTuple):
+    """Beam and mounts; unknowns: those of the beam, then rings.  Shaft, springs and seats pull with the forces linear v - rest.
+
+    Displacements of nodes and rings are basis v.  The combinations `rigid` (c, size) of the unknowns have the values `given` (c,).
+    """
+
+    beam: object
+    mounts: tuple
+    basis: np.ndarray
+    linear: np.ndarray
+    rest: np.ndarray
+    rigid: np.ndarray
+    given: np.ndarray
+    pinned: tuple  # freedoms (AXIAL, TWIST) of the first node that the last of them hold, for nothing else does: without force
+
+    @property
+    def size(self):
+        return len(self.linear)
+
+    @property
+    def nonlinear(self):
+        return any(mount.support.law is not None for mount in self.mounts)
+
+
+def assemble(shaft, places=()):
+    """The `Model` of a shaft with nodes also at `places`; InputError where the supports leave it free to move sideways."""
+    found = beams.beam(shaft, places)
+    refuse_mechanism(shaft)
+    size = found.size + sum(len(_yielding(support)) for support in shaft.supports)
+    linear, rest, basis = np.zeros((size, size)), np.zeros(size), np.eye(size)
+    basis[: found.size, : found.size] = beams.basis(found)
+    linear[: found.size, : found.size] = beams.stiffness(found)
+    mounts, rigid, given, start = [], [], [], found.size
+    for support in shaft.supports:
+        mount = _mount(found, support, basis, start)
+        start += len(mount.ring)
+        mounts.append(mount)
+        for row, stiff, value in zip(mount.rows, support.stiffness, support.offset, strict=True):
+            if np.isinf(stiff):
+                rigid.append(row)
+                given.append(value)
+            else:
+                linear += stiff * np.outer(row, row)
+                rest += stiff * value * row
+        linear[mount.ring, mount.ring] += [support.seat[i] for i in mount.ring_freedoms]
+    free = not any(carries_axially(support, way) for support in shaft.supports for way in (1, -1))
+    pinned = (AXIAL, TWIST) if free else (TWIST,)
+    rigid += [np.eye(1, size, freedom)[0] for freedom in pinned]
+    given += [0.0] * len(pinned)
+    return Model(found, tuple(mounts), basis, linear, rest, np.array(rigid), np.array(given), pinned)
+
+
+def _yielding(support):
+    """The freedoms of its ring: where the seat yields, unless it slides freely under a bearing that does not resist either."""
+    return tuple(i for i in range(5) if np.isfinite(support.seat[i]) and (support.seat[i] > 0 or _holds(support, i)))
+
+
+def _holds(support, freedom):
+    return support.stiffness[freedom] > 0 or any(_resists(support, freedom, way) for way in (1, -1))
+
+
+def _mount(found, support, basis, start):
+    """x, y averaged over the support's width, z and the tilts at its middle; less the ring's where the seat yields."""
+    rows, node, freedoms = np.zeros((5, len(basis))), found.node(support.position), _yielding(support)
+    rows[range(5), FREEDOMS * node + np.array(SHAFT_FREEDOMS)] = 1.0
+    if support.width:
+        ends = support.position - support.width / 2, support.position + support.width / 2
+        for plane in (0, 1):
+            rows[plane, : found.size] = beams.nodal(found, plane, beams.uniform(found, *ends, 1 / support.width))
+    rows *= (MIRROR if support.mirrored else np.ones(5))[:, None]
+    ring = start + np.arange(len(freedoms))
+    rows[list(freedoms), ring] -= 1.0
+    return Mount(support, rows @ basis, ring, freedoms)
+
+
+def refuse_mechanism(shaft):
+    """InputError unless the supports hold the shaft sideways and against tilting."""
+    held = []
+    for support in shaft.supports:
+        real = support.law is not None
+        if real or support.stiffness[1] > 0:
+            held.append((1.0, support.position / shaft.length))
+        if support.seat[3] > 0 and _holds(support, 3):
+            held.append((0.0, 1.0))
+    if np.linalg.matrix_rank(np.array(held).reshape(-1, 2), tol=1e-9) < 2:
+        names = ", ".join(repr(support.name) for support in shaft.supports) or "none"
+        raise InputError(f"shaft: its bearings ({names}) leave it free to swing: a mechanism, not a beam. "
+                         "Give it a second bearing at another place, or a tilt_stiffness to the one it has")
+
+
+def carries_axially(support, way):
+    """Whether a support can take a force on the shaft to the right (way +1) or to the left (-1)."""
+    if support.stiffness[AXIAL] > 0:
+        return support.seat[AXIAL] > 0
+    return support.seat[AXIAL] > 0 and _resists(support, AXIAL, -way if support.mirrored else way)
+
+
+def _resists(support, freedom, way):
+    """Whether a support's law resists a displacement in one freedom alone, far beyond any clearance."""
+    if support.law is None:
+        return False
+    displacement = np.zeros(5)
+    displacement[freedom] = way * (FAR if freedom <= AXIAL else TURNED)
+    if type(support.law) in measures.formulas:
+        sizes = measures(support.law)
+        play = 2 * abs(sizes.centre) + sizes.length
+        displacement[freedom] += way * (play if freedom <= AXIAL else play / sizes.arm)
+    return bool(abs(respond(support.law, displacement)[1][freedom]) > 0)
+
+
+# -- loads ---------------------------------------------------------------------------------------------------------------------
+
+
+def work(model, loads):
+    """(size,) the forces on nodes and rings by point loads, and by the pushes on the rings."""
+    total = np.zeros(model.size)
+    for load in loads:
+        at = FREEDOMS * model.beam.node(load.position)
+        total[at : at + FREEDOMS] += (*load.force, *load.moment)
+    for mount in model.mounts:
+        total[mount.ring] += [mount.support.push[i] for i in mount.ring_freedoms]
+    return total
+
+
+def refuse_unbalanced(model, force):
+    """InputError where a load drives what nothing holds: the shaft along its axis, or its turning."""
+    nodes = force[: model.beam.size].reshape(-1, FREEDOMS)
+    axial, torque = nodes[:, AXIAL].sum(), nodes[:, TWIST].sum()
+    way = np.sign(axial)
+    if abs(axial) > 1e-9 * np.abs(nodes[:, :3]).sum() and not any(carries_axially(m.support, way) for m in model.mounts):
+        raise InputError(f"shaft: an axial force of {axial:.6g} N, and no bearing that takes a force to the "
+                         f"{'right' if way > 0 else 'left'}; give a bearing an axial_stiffness, or turn a real one round (carries)")
+    if abs(torque) > 1e-9 * np.abs(nodes[:, TWIST]).sum():
+        raise InputError(f"shaft: the torques do not balance: their sum is {torque:.6g} N m; add the torque of the driven or driving end")
+
+
+# -- a trifle -----------------------------------------------------------------------------------------------------------------
+
+
+def floor(model):
+    """(size, size): the trifle `FLOOR` under every law and every ring."""
+    total = np.zeros((model.size, model.size))
+    for mount in model.mounts:
+        if mount.support.law is not None:
+            total += mount.rows.T @ FLOOR @ mount.rows
+        total[mount.ring, mount.ring] += [FLOOR[i, i] for i in mount.ring_freedoms]
+    return total
