@@ -1,4 +1,4 @@
-"""Quick formulas for the stiffness of a bearing: the tables of the groundwork sheets, their units, and the five-freedom model."""
+"""Quick formulas for the stiffness of a bearing: worked tables, their units, and the five-freedom model."""
 
 import numpy as np
 import pytest
@@ -52,7 +52,7 @@ def test_exponents_are_those_of_the_fullest_element(formulas, count, size, angle
 
 
 def test_imperial_and_metric_constants_agree():
-    """3402 and 1178 N/mm by the sheet, beside 3400 and 1180 of the paper; Palmgren's approaches 3399 and 1177 with 7.68e-5, 4.36e-4."""
+    """3402 and 1178 N/mm by exact conversion, beside 3400 and 1180 of the paper; Palmgren's approaches 3399 and 1177 with 7.68e-5, 4.36e-4."""
     unit = {"force": 1.0, "contact_angle": 0.0}
     assert quick.gargiulo_roller(rollers=1, roller_length=1e-3, **unit).value / 1e3 == pytest.approx(3402, abs=0.6)
     assert quick.gargiulo_ball(balls=1, ball_diameter=1e-3, **unit).value / 1e3 == pytest.approx(1178, abs=1)
@@ -63,7 +63,7 @@ def test_imperial_and_metric_constants_agree():
 
 
 def test_beside_the_five_freedom_model_of_a_61804():
-    """Kraemer 10 % high, the others within 2 %, at the loads of the sheet."""
+    """Kraemer 10 % high, the others within 2 %, at usual loads."""
     bearing = BallBearing(balls=12, ball_diameter="3.572 mm", pitch_diameter="26 mm", inner_conformity=0.52, outer_conformity=0.53,
                           youngs_modulus="206 GPa")
     for force, expected in zip((50, 100, 200, 500, 1000, 2000), (3.49e7, 4.40e7, 5.55e7, 7.53e7, 9.48e7, 11.95e7), strict=True):

@@ -1,4 +1,4 @@
-"""Roller bearings: exact properties of the lamina model, closed forms, the numbers of the groundwork sheets, life and ratings."""
+"""Roller bearings: exact properties of the lamina model, closed forms, worked numbers, life and ratings."""
 
 import numpy as np
 import pytest

@@ -60,7 +60,7 @@ REFUSED = [
     ("bearings.0.preload", "10 N", "bearings.A.preload", "rolling bearing"),
     ("bearings.0.free", ["tilt"], "bearings.A.free", "rolling bearing"),
     ("bearings.0.radial_clearance", "-1 um", "bearings.A.radial_clearance", "clearance above 0"),
-    ("bearings.0.width", "200 mm", "bearings.A.width", "off the shaft"),
+    ("bearings.0.width", "200 mm", "bearings.A.width", "overhangs the end of the shaft"),
     ("stations.1.name", "m1", "stations.1.name", "comes twice"),
     ("stations.1.position", "0 mm", "stations.m2.position", "different places"),
     ("stations.0.mass", "-1 kg", "stations.0.mass", "must be at least 0"),

@@ -71,8 +71,8 @@ def test_numbers_of_the_papers_bearing():
     assert solve(bearing("61804"), force=[1000.0, 0, 0, 0, 0]).displacement[0] == pytest.approx(15.82e-6, abs=0.006e-6)
 
 
-def test_bearings_of_the_sheets_have_their_stiffness():
-    """Tangents at the loads of the groundwork sheets, on a shaft that does not tilt."""
+def test_bearings_of_the_catalogue_have_their_stiffness():
+    """Tangents at given loads, on a shaft that does not tilt."""
     cases = [("61904", 500, 0, 81783e3), ("61904", 10000, 0, 221994e3), ("hypothetical-ACBB15-20x32x7", 500, 400, 1.12e8),
              ("hypothetical-ACBB25-20x32x7", 500, 400, 7.35e7), ("hypothetical-CRB-20x32x7", 500, 0, 1.911e8)]
     for name, radial, axial, expected in cases:
@@ -126,3 +126,13 @@ def test_an_entry_is_one_bearing(own):
 def test_a_missing_file_is_named(tmp_path):
     with pytest.raises(InputError, match=r"catalogue: there is no file '.*none\.toml'; a catalogue is a TOML file"):
         names(tmp_path / "none.toml")
+
+
+def test_a_file_of_ones_own_needs_no_sources(tmp_path):
+    path = tmp_path / "own.toml"
+    path.write_text('[bearings.X1.ball]\nballs = 9\nball_diameter = "8 mm"\npitch_diameter = "40 mm"\n')
+    assert bearing("X1", path).balls == 9 and entry("X1", path).sources == ()
+
+
+def test_ours_has_a_source_for_every_number():
+    assert all(entry(name).sources for name in names())

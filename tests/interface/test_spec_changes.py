@@ -131,3 +131,16 @@ def test_the_dimension_of_a_key(key, name):
 @pytest.mark.parametrize("key", ["lenght", "drive.sped", "joints.clearance.x", "length.x", "spring.rate.x", "", "joints.0.0.clearance"])
 def test_a_key_that_is_none_has_no_dimension(key):
     assert dimension_at(ToySpec, key) == (False, None)
+
+
+def test_nothing_after_the_equals_sign_removes_a_key():
+    from drivewright.spec import change_key
+
+    tables = {"a": {"b": 1, "c": 2}, "list": [{"name": "x", "k": 1}]}
+    change_key(tables, "a.b=")
+    change_key(tables, "list.x.k= ")
+    assert tables == {"a": {"c": 2}, "list": [{"name": "x"}]}
+    change_key(tables, 'a.c=""')
+    assert tables["a"] == {"c": ""}
+    with pytest.raises(SpecError, match="a.zz: is not there, so it cannot be removed"):
+        change_key(tables, "a.zz=")

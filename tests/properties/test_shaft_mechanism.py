@@ -50,7 +50,7 @@ def on_balls(free=(), **changes):
 
 
 def test_a_mirrored_shaft_has_the_mirrored_answer():
-    ours, length = dw.run(shaft()), 0.32
+    ours = dw.run(shaft())
     turned = copy.deepcopy(STEPPED)
     turned["segments"] = [dict(s) for s in reversed(turned["segments"])]
     turned["segments"][1] |= {"diameter": "40 mm", "end_diameter": "30 mm"}
@@ -67,7 +67,7 @@ def test_a_mirrored_shaft_has_the_mirrored_answer():
         "critical_speeds.forward.1",
     ):
         assert theirs[name] == pytest.approx(ours[name], rel=1e-7)
-    assert theirs["stations.q.slope"] == pytest.approx(-ours["stations.q.slope"], rel=1e-9) and length == dw.build(shaft()).shaft.length
+    assert theirs["stations.q.slope"] == pytest.approx(-ours["stations.q.slope"], rel=1e-9)
 
 
 def test_other_units_change_nothing():
@@ -178,9 +178,7 @@ def test_the_batch_is_the_run_for_every_design():
     rows = np.array([0.17, 0.025, 0.11, 4e7, 0.23]) * rng.uniform(0.95, 1.05, (4, 5))
     found = batch(spec, keys, names)(rows)
     for row, *values in zip(rows, *found.values(), strict=True):
-        changed = copy.deepcopy(spec.model_dump())
         one = dw.build(spec)
-        del changed
         sections = (
             one.shaft.sections[0]._replace(start=row[1], end=row[1]),
             one.shaft.sections[1],
@@ -222,9 +220,7 @@ def test_flexibility_on_real_bearings_is_the_tangent_of_the_loaded_deflection():
 
 
 def test_a_seat_that_slides_carries_no_axial_force_and_one_that_turns_no_moment():
-    free = dw.run(on_balls(free=("axial", "tilt")))
-    assert abs(free.values.get("bearings.A.axial_force", free.values["bearings.A.reaction"])[0] * 0) == 0
-    table = free.tables["reactions"]
+    table = dw.run(on_balls(free=("axial", "tilt"))).tables["reactions"]
     assert np.abs(table["reaction_z"].data).max() < 1e-6 and np.abs(table["reaction_tilt_x"].data).max() < 1e-9
     held = dw.run(on_balls()).tables["reactions"]
     assert np.abs(held["reaction_z"].data).max() > 1.0 and np.abs(held["reaction_tilt_x"].data).max() > 0.1
@@ -258,7 +254,6 @@ def test_preload_is_there_when_the_shaft_is_mounted_and_stiffens_it():
 
 
 def test_a_spring_behind_a_sliding_ring_keeps_its_preload():
-    tables = pair(200).model_dump()
     spec = dw.Shaft(
         segments=[{"length": "200 mm", "diameter": "20 mm"}],
         bearings=[
@@ -267,35 +262,16 @@ def test_a_spring_behind_a_sliding_ring_keeps_its_preload():
         ],
         loads=[{"position": "180 mm", "force": "300 N"}],
     )
-    assert dw.run(spec).tables["reactions"]["reaction_z"].data == pytest.approx([-200.0, 200.0], rel=1e-6) and tables
+    assert dw.run(spec).tables["reactions"]["reaction_z"].data == pytest.approx([-200.0, 200.0], rel=1e-6)
 
 
 def test_bearings_the_wrong_way_round_leave_an_axial_force_to_nobody():
-    spec = pair(0, carries=("right", "right"))
-    loaded = dw.Shaft(
-        **{k: getattr(spec, k) for k in ()}
-        | {
-            "segments": [{"length": "200 mm", "diameter": "20 mm"}],
-            "bearings": [
-                {
-                    "name": n,
-                    "position": z,
-                    "roller_geometry": {
-                        "rollers": 15,
-                        "roller_diameter": "4 mm",
-                        "roller_length": "8 mm",
-                        "pitch_diameter": "30 mm",
-                        "contact_angle": "14 deg",
-                    },
-                    "carries": "right",
-                }
-                for n, z in (("A", "50 mm"), ("B", "150 mm"))
-            ],
-            "loads": [{"position": "180 mm", "axial_force": "-100 N"}],
-        }
-    )
+    tapered = {"rollers": 15, "roller_diameter": "4 mm", "roller_length": "8 mm", "pitch_diameter": "30 mm", "contact_angle": "14 deg"}
+    spec = dw.Shaft(segments=[{"length": "200 mm", "diameter": "20 mm"}],
+                    bearings=[{"name": n, "position": z, "roller_geometry": tapered} for n, z in (("A", "50 mm"), ("B", "150 mm"))],
+                    loads=[{"position": "180 mm", "axial_force": "-100 N"}])
     with pytest.raises(dw.InputError, match="no bearing that takes a force to the left"):
-        dw.run(loaded)
+        dw.run(spec)
 
 
 def test_a_clearance_in_the_spec_goes_before_the_bearings_own():
@@ -322,10 +298,11 @@ def test_life_in_time_and_the_checks_of_ratings():
                     drive={"speed": "600 rpm"}, limits={"life": "1e5 h", "shock_factor": 5})
     result = dw.run(spec)
     assert result["bearings.B.reference_life.time"] == pytest.approx(result["bearings.B.reference_life"] / 10, rel=1e-9)
-    assert not result.check("life.B").ok and result.check("static_safety.B").ok
+    assert not result.check("life.B").ok
+    assert result.check("static_safety.B").value == pytest.approx(result["bearings.B.static_safety"] / 5)
     assert result["stations.m2.allowed_load"] == pytest.approx(result["stations.m2.limit_load"] / 5)
     assert result["stations.m2.limit_load"] == pytest.approx(2320 / result.arrays["reactions.unit_load"].values[1, 0], rel=1e-9)
-    assert result.check("critical_speed").value == pytest.approx(result["critical_speeds.forward.1"] / (20 * np.pi))
+    assert result.check("critical_speed").value == pytest.approx(result["critical_speeds.lowest"] / (20 * np.pi))
 
 
 def test_static_safety_by_pressure_is_the_rating_over_the_load():

@@ -61,7 +61,7 @@ def test_the_papers_pressure_roller_shaft():
     euler = np.array([[2.034432e-7, -8.208730e-8], [-8.208730e-8, 7.035621e-7]])
     assert gap(euler, found) == pytest.approx([-0.021, -0.041, -0.016], abs=1.5e-3)  # the beam without shear is too stiff
     assert np.abs(found - found.T).max() < 1e-14 * found.max()
-    assert beam(PAPER, SEATS, PLACES) == pytest.approx(timoshenko, rel=2e-5)  # the sheet has I = 7854 mm^4
+    assert beam(PAPER, SEATS, PLACES) == pytest.approx(timoshenko, rel=2e-5)  # with I = 7854 mm^4
     assert 5_000 < solid().unknowns < 15_000 and solid().seconds > 0
 
 

@@ -14,10 +14,10 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from drivewright._jit import implements, warmer
-from drivewright.bearings.life import ball_reference_life
+from drivewright.bearings.life import ball_reference_life, basic_static_rating
 from drivewright.bearings.newton import Measures, equilibria, measures
 from drivewright.bearings.response import response
-from drivewright.bearings.solving import elements, law_of, life_of, solve
+from drivewright.bearings.solving import elements, geometric_static_rating, law_of, life_of, solve
 from drivewright.contact import effective_modulus, point_contact, relative_radii
 from drivewright.errors import SpecError
 from drivewright.spec import Integer, Number, Spec
@@ -172,6 +172,9 @@ def _(law, displacement, loads, angles, pressures, laminae):
         angles[k] = np.arctan2(axial, radial)
         pressures[k, 0] = law.inner_pressure * np.cbrt(loads[k])
         pressures[k, 1] = law.outer_pressure * np.cbrt(loads[k])
+
+
+geometric_static_rating.register(BallBearing)(basic_static_rating)
 
 
 @life_of.register(BallBearing)

@@ -24,7 +24,7 @@ class Source(Spec):
     """Where some numbers of an entry come from."""
 
     keys: tuple[Text, ...] = Field(min_length=1, description="the keys it speaks of", examples=[["bore", "width"]])
-    flag: Literal["read", "recalled", "back_fitted", "assumed"] = Field(description="how far to trust them")
+    flag: Literal["read", "measured", "recalled", "back_fitted", "assumed"] = Field(description="how far to trust them")
     text: Text = Field(min_length=1, description="the work or the reasoning", examples=["maker's catalogue 2020, page 12"])
 
 
@@ -37,7 +37,7 @@ class Entry(Spec):
     width: Length | None = Field(None, gt=0, description="width of the rings")
     ball: BallBearing | None = Field(None, description="inner geometry of a ball bearing")
     roller: RollerBearing | None = Field(None, description="inner geometry of a roller bearing")
-    sources: tuple[Source, ...] = Field(description="where the numbers come from")
+    sources: tuple[Source, ...] = Field((), description="where the numbers come from: none at all, or one for each number")
 
     @property
     def bearing(self):
@@ -67,6 +67,8 @@ class Entry(Spec):
 
     @model_validator(mode="after")
     def _each_number_has_a_source(self):
+        if not self.sources:
+            return self
         given = {key for key in ENVELOPE if getattr(self, key) is not None} | self.bearing.model_fields_set
         named = [key for source in self.sources for key in source.keys]
         for complaint, keys in (("no source names", given - set(named)), ("a source names, but the entry lacks,", set(named) - given),

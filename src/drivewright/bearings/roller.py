@@ -14,7 +14,7 @@ from pydantic import Field, model_validator
 from drivewright._jit import implements, inner, warmer
 from drivewright.bearings.newton import Measures, equilibria, measures
 from drivewright.bearings.response import response
-from drivewright.bearings.solving import elements, law_of, life_of, solve
+from drivewright.bearings.solving import elements, geometric_static_rating, law_of, life_of, solve
 from drivewright.contact import effective_modulus, line_contact
 from drivewright.errors import SpecError
 from drivewright.spec import Integer, Number, Spec
@@ -263,6 +263,9 @@ def roller_static_rating(bearing):
     """
     fullest = STATIC_PRESSURE**2 * np.pi * bearing.roller_length * contact_radii(bearing)[0] / _modulus(bearing)
     return float(fullest * bearing.rollers * np.cos(bearing.contact_angle) / GREATEST_SHARE)
+
+
+geometric_static_rating.register(RollerBearing)(roller_static_rating)
 
 
 @life_of.register(RollerBearing)

@@ -39,6 +39,12 @@ def life_of(bearing, state):
     raise InputError(f"bearing: no reference life is known for a {type(bearing).__name__}.")
 
 
+@singledispatch
+def geometric_static_rating(bearing):
+    """C0 [N] by the inner geometry: the radial load at which the most loaded element, 5 F/(Z cos a), reaches the permissible pressure."""
+    raise InputError(f"bearing: no static rating is known for a {type(bearing).__name__}.")
+
+
 @generic
 def elements(law, displacement, loads, angles, pressures, laminae):
     """Writes what each rolling element carries at a displacement (5,): load [N] and contact angle [rad] (n,), peak pressure [Pa] at

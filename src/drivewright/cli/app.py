@@ -24,7 +24,7 @@ app = typer.Typer(
 usage_errors = next(base for base in typer.BadParameter.__mro__ if base.__name__ == "ClickException")
 
 SpecFile = Annotated[Path, typer.Argument(help="spec file (TOML)")]
-Set = Annotated[list[str] | None, typer.Option("--set", help="key=value, repeatable; replaces a key of the spec")]
+Set = Annotated[list[str] | None, typer.Option("--set", help="key=value, repeatable; replaces a key of the spec, key= removes it")]
 Only = Annotated[str, typer.Option("--only", help="analyses to run, comma separated, with what they need")]
 All = Annotated[bool, typer.Option("--all", help="every analysis")]
 Out = Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the spec>")]

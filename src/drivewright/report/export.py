@@ -93,6 +93,9 @@ def _stl(mechanism, model, result, folder):
 
 
 def _gcode(mechanism, model, result, folder):
+    milled = [drawing for drawing in _drawings(mechanism, model) if drawing.milled]
+    if not milled:
+        raise InputError(f"{mechanism.kind} has no milled parts; try dxf or step")
     make = model.spec.manufacture
     settings = {
         "cutter_diameter": make.cutter_diameter,
@@ -105,8 +108,7 @@ def _gcode(mechanism, model, result, folder):
     }
     return [
         _written(lambda d, path: gcode.write_gcode(d, path, **settings), d, folder / f"{file_name(d.name)}.nc")
-        for d in _drawings(mechanism, model)
-        if d.milled
+        for d in milled
     ]
 
 

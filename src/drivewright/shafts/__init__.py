@@ -10,7 +10,8 @@ _WHERE = {
     "equilibrium": ("Equilibrium", "solve"),
     "influence": ("Flexibility", "flexibility", "stiffness"),
     "loaded": ("Diagram", "Loaded", "Loads", "diagram", "load"),
-    "vibration": ("Critical", "Modes", "critical_speeds", "modes", "torsional"),
+    "vibration": ("Critical", "Modes", "critical_speeds", "lowest_excited", "modes", "torsional"),
+    "buckling": ("buckling_factor",),
     "curves": ("Tangent", "tabulated", "with_play"),
     "batch": ("flexibilities",),
 }

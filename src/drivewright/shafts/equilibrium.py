@@ -62,8 +62,10 @@ def _refuse_pinned(model, load, multipliers):
     for freedom, held in zip(model.pinned, multipliers[-len(model.pinned) :], strict=True):
         if abs(held) > LEFT * np.abs(load).max(initial=0):
             what = "axial forces" if freedom == AXIAL else "torques"
-            raise InputError(f"shaft: the {what} on it do not balance: {held:.6g} {'N' if freedom == AXIAL else 'N m'} are left that nothing "
-                             "takes; a preload by a spring needs a bearing that holds the shaft against it")
+            raise InputError(
+                f"shaft: the {what} on it do not balance: {held:.6g} {'N' if freedom == AXIAL else 'N m'} are left that nothing "
+                "takes; a preload by a spring needs a bearing that holds the shaft against it"
+            )
 
 
 def _refuse_runaway(model, v):

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright.shafts import beam as beams
-from drivewright.shafts.beam import FREEDOMS
 from drivewright.shafts.assembly import assemble, work
+from drivewright.shafts.beam import FREEDOMS
 from drivewright.shafts.equilibrium import solve
 from drivewright.shafts.model import Load
 from drivewright.shafts.sections import area, second_moment
@@ -52,9 +52,9 @@ class Diagram(NamedTuple):
     von_mises: np.ndarray
 
 
-def load(shaft, loads):
-    """The `Loaded` shaft."""
-    model = assemble(shaft, loads.places)
+def load(shaft, loads, places=()):
+    """The `Loaded` shaft, with nodes also at `places`."""
+    model = assemble(shaft, [*loads.places, *places])
     spread, force = _spread(model, loads), work(model, [*loads.points, *_weights(shaft, loads)])
     points = force[: model.beam.size].copy()
     for plane in (0, 1):

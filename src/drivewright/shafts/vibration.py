@@ -7,8 +7,8 @@ from scipy.linalg import eigh
 
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
-from drivewright.shafts.beam import FREEDOMS, PLANES
 from drivewright.shafts.assembly import AXIAL, TWIST, floor
+from drivewright.shafts.beam import FREEDOMS, PLANES
 from drivewright.shafts.influence import FLOOR, HELD
 from drivewright.shafts.model import EULER_BERNOULLI
 from drivewright.shafts.sections import area, second_moment
@@ -127,15 +127,27 @@ def free_of(rigid, size):
 def modes(equilibrium, count):
     """(bending, axial): the lowest `Modes` at rest, told apart by where most of the mass moves.
 
-    In one plane where the supports are round: every mode of bending then comes twice, and there are no axial ones.
+    Bending in one plane where the supports are round: every mode comes twice then.  A shaft that nothing holds along its axis has no
+    axial modes.
     """
     stiff, inertia, _, chosen = _lateral(equilibrium)
-    values, vectors = _lowest(stiff, inertia, equilibrium, chosen, 2 * count + 2)
+    found = _modes(equilibrium, stiff, inertia, chosen, 2 * count + 2)
+    if is_round(equilibrium):
+        along = FREEDOMS * np.arange(len(equilibrium.model.beam.z)) + AXIAL
+        free = AXIAL in equilibrium.model.pinned
+        axial = found.where(slice(0, 0)) if free else _modes(equilibrium, stiff, inertia, along, count)
+        bending = found.where(slice(0, count))
+    else:
+        along = _axial_share(found.shapes, inertia) > 0.5
+        bending, axial = found.where(np.flatnonzero(~along)[:count]), found.where(np.flatnonzero(along)[:count])
+    return tuple(Modes(each.frequencies, equilibrium.model.basis @ each.shapes) for each in (bending, axial))
+
+
+def _modes(equilibrium, stiff, inertia, chosen, count):
+    values, vectors = _lowest(stiff, inertia, equilibrium, chosen, count)
     whole = np.zeros((equilibrium.model.size, len(values)))
     whole[chosen] = vectors
-    found = Modes(np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi), equilibrium.model.basis @ whole)
-    axial = _axial_share(whole, inertia) > 0.5
-    return found.where(np.flatnonzero(~axial)[:count]), found.where(np.flatnonzero(axial)[:count])
+    return Modes(np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi), whole)
 
 
 def _axial_share(shapes, inertia):
@@ -154,7 +166,8 @@ def _lateral(equilibrium):
     inertia[: found.size, : found.size], gyroscopic[: found.size, : found.size] = small, gyro
     inertia, gyroscopic = (model.basis.T @ whole @ model.basis for whole in (inertia, gyroscopic))
     twist = FREEDOMS * np.arange(len(found.z)) + TWIST
-    chosen = in_plane(found) if is_round(equilibrium) else np.setdiff1d(np.arange(model.size), twist)
+    left_out = np.concatenate([twist, FREEDOMS * np.arange(len(found.z)) + AXIAL]) if AXIAL in model.pinned else twist
+    chosen = in_plane(found) if is_round(equilibrium) else np.setdiff1d(np.arange(model.size), left_out)
     return equilibrium.hessian, inertia, gyroscopic, chosen
 
 
@@ -204,6 +217,15 @@ def critical_speeds(equilibrium, count):
     lateral = across > np.sum(np.abs(nodes[:, AXIAL]) ** 2, axis=0)
     backward = np.sum(np.conj(nodes[:, 0]) * nodes[:, 1], axis=0).imag > 1e-9 * across
     return Critical(*(np.sqrt(squares[lateral & (backward == way)][:count]) for way in (False, True)))
+
+
+def lowest_excited(equilibrium, critical):
+    """The lowest critical speed [rad/s] that an unbalance excites; None where there is none.
+
+    The unbalance turns with the shaft: on round supports it does no work on a whirl against it, on others it does.
+    """
+    speeds = critical.forward if is_round(equilibrium) else np.concatenate([critical.forward, critical.backward])
+    return float(speeds.min()) if len(speeds) else None
 
 
 def _whirl(equilibrium, way, count):

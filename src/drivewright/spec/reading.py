@@ -85,11 +85,12 @@ def _model_of(tables):
 
 
 def change_key(tables, change):
-    """Apply "dotted.key=value" as from the command line to raw tables.  The value is TOML, or else text."""
+    """Apply "dotted.key=value" as from the command line to raw tables.  The value is TOML, or else text; none at all removes the key."""
     key, equals, text = change.partition("=")
     if not equals or not all(step.strip() for step in key.split(".")):
         raise SpecError(f"--set wants key=value with a dotted key, got {brief(change)}")
-    return set_key(tables, ".".join(step.strip() for step in key.split(".")), read_value(text))
+    key = ".".join(step.strip() for step in key.split("."))
+    return set_key(tables, key, read_value(text)) if text.strip() else remove_key(tables, key)
 
 
 def set_key(tables, key, value):
@@ -104,6 +105,21 @@ def set_key(tables, key, value):
         place[last] = value
     else:
         raise SpecError(f"is no table, so it has no key {last!r}", key=".".join(path))
+    return tables
+
+
+def remove_key(tables, key):
+    """Take a dotted key out of raw tables, in place; SpecError where it is not there."""
+    *path, last = key.split(".")
+    place = tables
+    for number, step in enumerate(path):
+        place = _enter(place, step, ".".join(path[: number + 1]))
+    if isinstance(place, list):
+        del place[_index(place, last, key)]
+    elif isinstance(place, dict) and last in place:
+        del place[last]
+    else:
+        raise SpecError(f"is not there, so it cannot be removed; for an empty text write --set {key}='\"\"'", key=key)
     return tables
 
 

@@ -37,9 +37,10 @@ ANALYSES = (
     Analysis("solid", solid.solid, "the shaft as a solid of finite elements", default=False, needs=("statics",), missing=solid.no_solid),
 )
 
-HEADLINE = ("stations.*.deflection", "bearings.*.reaction", "bearings.*.stiffness.tangent", "bearings.*.stiffness.secant", "flexibility.*",
-            "stiffness.*", "modes.*.frequency", "critical_speeds.forward.*", "shaft.max_stress", "stations.*.limit_load",
-            "bearings.*.max_pressure", "bearings.*.reference_life", "solid.deviation")
+HEADLINE = ("stations.*.deflection", "stations.*.displacement", "bearings.*.reaction", "bearings.*.radial_force",
+            "bearings.*.stiffness.tangent", "bearings.*.stiffness.secant", "flexibility.*", "stiffness.*", "modes.*.frequency",
+            "critical_speeds.lowest", "shaft.max_deflection", "shaft.max_stress", "stations.*.allowed_load", "bearings.*.max_pressure",
+            "bearings.*.reference_life", "solid.deviation")
 
 SOURCES = (
     "Li Yanqi, Zhang, Chen: Transverse Stiffness Analysis of the Shaft System in the Drive Mechanism of Mobile-Head Spiral Winding "

@@ -12,6 +12,7 @@ from drivewright.spec.columns import read_rows
 from drivewright.units import SI
 
 STEEL = {"youngs_modulus": 206e9, "poisson_ratio": 0.3, "density": 7850.0, "yield_strength": None}
+DOWN = np.array([0.0, -1.0])
 CARD = {"youngs_modulus": "modulus", "poisson_ratio": "poisson", "density": "density", "yield_strength": "yield_strength"}
 
 
@@ -28,8 +29,9 @@ class ShaftModel:
 
     @property
     def direction(self):
-        """Unit vector (x, y) of the unit loads."""
-        return across(self.spec.analysis.direction)
+        """Unit vector (x, y) of the unit loads: as asked for, else that of the loads where they have one, else down."""
+        asked = self.spec.analysis.direction
+        return common_direction(self.spec) if asked is None else across(asked)
 
     @property
     def names(self):
@@ -41,8 +43,9 @@ class ShaftModel:
 
     @property
     def loaded(self):
-        """Whether anything acts on the shaft."""
-        return bool(self.loads.points or self.loads.lines or any(self.loads.gravity) or any(b.preload for b in self.spec.bearings))
+        """Whether anything acts on the shaft: a load, a preload, a seat off the axis."""
+        pushed = any(b.preload or any(b.seat_offset) or any(b.seat_tilt) for b in self.spec.bearings)
+        return bool(self.loads.points or self.loads.lines or any(self.loads.gravity) or pushed)
 
 
 def build(spec):
@@ -83,6 +86,14 @@ def across(angle):
     """Unit vector (x, y), exact along the axes."""
     turn = np.exp(1j * angle)
     return np.where(np.abs([turn.real, turn.imag]) < 1e-15, 0.0, [turn.real, turn.imag])
+
+
+def common_direction(spec):
+    """Unit vector along the angle of the loads where all of them lie in one plane; down otherwise."""
+    ways = [across(load.angle) for load in (*spec.loads, *spec.line_loads) if load.force]
+    others = [np.asarray(spec.gravity[:2])] if any(spec.gravity[:2]) else []
+    flat = all(abs(ways[0][0] * way[1] - ways[0][1] * way[0]) < 1e-9 * np.hypot(*way) for way in (*ways, *others)) if ways else False
+    return ways[0] if flat and not spec.gears else DOWN
 
 
 # -- supports ------------------------------------------------------------------------------------------------------------------
@@ -141,10 +152,10 @@ def _rolling_support(bearing, rolling, about):
     place = 0.0 if rolling.contact_angle else bearings.measures(law).centre
     if "tilt" in bearing.free:
         seat[3:] = 0.0, 0.0
+    if bearing.preload:
+        place = _mounted(bearing, rolling)  # refuses a bearing that takes no axial force
     if "axial" in bearing.free:
-        seat[2], push[2] = 0.0, -bearing.preload
-    elif bearing.preload:
-        place = _mounted(bearing, rolling)
+        seat[2], push[2], place = 0.0, -bearing.preload, 0.0 if rolling.contact_angle else bearings.measures(law).centre
     x, y, _, tilt_x, tilt_y = about["offset"]
     turn = -1.0 if mirrored else 1.0
     offset = (x, y, -place, turn * tilt_x, turn * tilt_y)

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright.errors import UnknownName
 from drivewright.mechanisms.shaft.build import build
 from drivewright.shafts.batch import flexibilities
 
@@ -30,17 +31,18 @@ def batch(spec, keys, names):
     if not all(map(KEYS.fullmatch, keys)) or not all(map(VALUES.fullmatch, names)):
         return None
     model = build(spec)
-    if not all(_is_plain(support) for support in model.shaft.supports):
+    housed = any(np.isfinite(bearing.housing_stiffness) for bearing in spec.bearings)
+    if housed or not all(_is_plain(support) for support in model.shaft.supports):
         return None
-    pairs = {name: tuple(model.names.index(each) for each in VALUES.fullmatch(name).groups()) for name in names}
+    pairs = {name: tuple(_number(spec, "stations", each) for each in VALUES.fullmatch(name).groups()) for name in names}
     places = [_place(spec, *KEYS.fullmatch(key).groups()) for key in keys]
+    straight = [n for n, segment in enumerate(spec.segments) if segment.end_diameter is None and ("ends", n) not in places]
 
     def evaluate(x):
         tables = _tables(model.shaft, spec, len(x))
         for column, (table, number) in zip(np.asarray(x, float).T, places, strict=True):
             getattr(tables, table)[:, number] = column
-            if table == "diameters" and spec.segments[number].end_diameter is None:
-                tables.ends[:, number] = column
+        tables.ends[:, straight] = tables.diameters[:, straight]
         delta = flexibilities(tables.lengths, tables.diameters, tables.supports, tables.stiffness, tables.stations, model.shaft.modulus,
                               model.shaft.poisson, model.shaft.shear, bores=tables.bores, end_diameters=tables.ends)
         return {name: delta[:, i, j] for name, (i, j) in pairs.items()}
@@ -61,8 +63,17 @@ def _tables(shaft, spec, count):
 
 def _place(spec, table, entry, key):
     """(table of the batch, column) of a key."""
-    entries = getattr(spec, table)
-    number = int(entry) if entry.isdigit() else [each.name for each in entries].index(entry)
+    number = _number(spec, table, entry)
     if key == "position":
         return ("supports" if table == "bearings" else "stations"), number
     return TABLE[key], number
+
+
+def _number(spec, table, entry):
+    """Number of an entry of a list by its name or number; UnknownName otherwise."""
+    names = [getattr(each, "name", str(number)) for number, each in enumerate(getattr(spec, table))]
+    if entry.isdigit() and int(entry) < len(names):
+        return int(entry)
+    if entry not in names:
+        raise UnknownName(f"entry of {table}", entry, names)
+    return names.index(entry)

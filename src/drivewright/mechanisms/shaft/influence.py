@@ -2,13 +2,15 @@
 
 import numpy as np
 
-from drivewright import shafts
+from drivewright import bearings, shafts
 from drivewright.errors import InputError
+from drivewright.mechanisms.shaft.refusals import is_rolling
 from drivewright.result import Answer, Array, Column, Table, Value
 from drivewright.shafts.beam import line
 from drivewright.shafts.sections import second_moment
 
 SAMPLES = 181
+NO_STRESS = 1e-9  # of a force over the square of the shaft's length: that at a station on a bearing is rounding
 
 
 def no_stations(spec):
@@ -28,7 +30,7 @@ def flexibility(model, done):
               "reactions.unit_load": Array("-", ("bearing", "station"), (bearings, labels), found.reactions)}
     values = {f"flexibility.{a}.{b}": Value(float(found.delta[i, j]), "m/N", f"displacement of {a!r} by a unit force at {b!r}")
               for i, a in enumerate(labels) for j, b in enumerate(labels) if j >= i}
-    findings, rigid = [], None
+    findings = []
     try:
         stiff = shafts.stiffness(found.delta, labels)
         arrays["stiffness"] = Array("N/m", ("station", "station"), (labels, labels), stiff)
@@ -39,32 +41,37 @@ def flexibility(model, done):
         findings.append(f"array 'stiffness' is absent: {error}")
     if any(support.law is not None for support in model.shaft.supports):
         findings.append("bearings are not linear: flexibility and stiffness are tangents at the equilibrium of the given loads")
-    rigid = stiffened(model)
-    return Answer(values, (_unit_table(model, found, at_rest, rigid), _share_table(model, found)), (), tuple(findings), arrays, data=found)
+    return Answer(values, (_unit_table(model, found, at_rest), _share_table(model, found)), (), tuple(findings), arrays, data=found)
 
 
 def stiffened(model):
-    """(equilibrium, flexibility) of the same shaft on rigid bearings, for the comparison."""
-    alone = len(model.shaft.supports) == 1
-    supports = tuple(
-        shafts.Support(s.name, s.position, (np.inf, np.inf, 0.0, *_tilts(s, alone)), width=s.width) for s in model.shaft.supports
-    )
+    """(equilibrium, flexibility) of the same shaft on bearings that do not yield across it, for the comparison.
+
+    Springs against tilting stay as they are; a rolling bearing tilts freely, unless it alone holds the shaft.
+    """
+    alone = sum(_is_radial(support) for support in model.shaft.supports) == 1
+    supports = tuple(shafts.Support(s.name, s.position, _rigid(s, alone), width=s.width) for s in model.shaft.supports)
     system = shafts.assemble(model.shaft._replace(supports=supports))
     at_rest = shafts.solve(system, shafts.work(system, ()))
     return at_rest, shafts.flexibility(at_rest, model.places, model.direction)
 
 
-def _tilts(support, alone):
-    """Springs against tilting stay as they are; a rolling bearing tilts freely, unless it alone holds the shaft."""
-    free = (np.inf, np.inf) if alone else (0.0, 0.0)
-    return support.stiffness[3:] if any(support.stiffness[3:]) else free
+def _is_radial(support):
+    return support.law is not None or support.stiffness[0] > 0
 
 
-def _unit_table(model, found, at_rest, rigid):
+def _rigid(support, alone):
+    across = np.inf if _is_radial(support) else 0.0
+    tilt = (np.inf, np.inf) if alone and support.law is not None else (0.0, 0.0)
+    return (across, across, 0.0, *(support.stiffness[3:] if any(support.stiffness[3:]) else tilt))
+
+
+def _unit_table(model, found, at_rest):
     """Deflection along the shaft under a unit force at each station, with the bearings as they are and rigid."""
     z = np.linspace(0.0, model.shaft.length, SAMPLES)
     columns = [Column("z", "m", "distance from the left end", z)]
-    for words, suffix, (rest, answer) in (("", "", (at_rest, found)), (", bearings rigid", ".rigid", rigid)):
+    shown = [("", "", at_rest, found), (", bearings rigid", ".rigid", *stiffened(model))]
+    for words, suffix, rest, answer in shown:
         for name, u in zip(model.names, answer.unknowns.T, strict=True):
             columns.append(Column(f"{name}{suffix}", "m/N", f"force at {name!r}{words}", _deflection(model, rest, u, z)))
     return Table("unit_load", "Deflection by a unit force at a station", tuple(columns))
@@ -92,14 +99,9 @@ def _share_table(model, found):
 def no_strength(spec):
     if no_stations(spec):
         return no_stations(spec)
-    rated = any(b.static_rating or b.bearing or _own(b) for b in spec.bearings)
+    rated = any(b.static_rating or is_rolling(b) for b in spec.bearings)
     known = spec.material.yield_strength or spec.material.card
     return None if rated or known else "neither a static rating of a bearing nor a yield strength is given"
-
-
-def _own(bearing):
-    geometry = bearing.geometry or bearing.roller_geometry
-    return geometry is not None and geometry.static_rating
 
 
 def failure(model, done):
@@ -108,12 +110,14 @@ def failure(model, done):
     shock, rows, values = model.spec.limits.shock_factor, [], {}
     for number, name in enumerate(model.names):
         limits = list(_limits(model, found, at_rest, number))
-        if not limits:
-            return Answer(findings=("what fails first is absent: no bearing has a static rating, and no yield strength is given",))
+        if not limits:  # it stands on a bearing that has no rating
+            continue
         what, least = min(limits, key=lambda row: row[1])
         values |= {f"stations.{name}.limit_load": Value(least, "N", f"force at {name!r} alone at which {what} is at its limit"),
                    f"stations.{name}.allowed_load": Value(least / shock, "N", f"the same over the shock factor {shock:g}")}
         rows += [(name, part, load, load / shock, load == least) for part, load in limits]
+    if not rows:
+        return Answer(findings=("what fails first is absent: no bearing has a static rating, and no yield strength is given",))
     names, parts, loads, steady, first = zip(*rows, strict=True)
     return Answer(
         values,
@@ -134,9 +138,9 @@ def failure(model, done):
 
 
 def static_rating(model, bearing):
-    """C0 of a bearing [N], None where it has none."""
+    """C0 of a bearing [N]: as given, of a rolling bearing else by its inner geometry; None where neither is known."""
     rolling = model.rolling.get(bearing.name)
-    return rolling.static_rating if rolling is not None else bearing.static_rating
+    return bearing.static_rating if rolling is None else rolling.static_rating or bearings.geometric_static_rating(rolling)
 
 
 def _limits(model, found, at_rest, station):
@@ -145,8 +149,9 @@ def _limits(model, found, at_rest, station):
         share = abs(found.reactions[number, station])
         if static_rating(model, bearing) and share > 1e-12:
             yield f"bearing {bearing.name}", static_rating(model, bearing) / share
-    if model.yield_strength:
-        yield "shaft, yield", model.yield_strength / _unit_stress(model, found, at_rest, station)
+    stress = _unit_stress(model, found, at_rest, station)
+    if model.yield_strength and stress > NO_STRESS / model.shaft.length**2:
+        yield "shaft, yield", model.yield_strength / stress
 
 
 def _unit_stress(model, found, at_rest, station):

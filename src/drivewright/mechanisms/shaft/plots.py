@@ -10,7 +10,9 @@ def plots(result):
 
 def _all(result):
     stations = result.arrays["flexibility"].labels[0] if "flexibility" in result.arrays else ()
-    yield Plot("diagram", "Deflection, slope, shear force and bending moment", "diagram", "z", ("deflection", "slope", "shear", "moment"))
+    across = "_across" if "diagram" in result.tables and any(result.tables["diagram"]["moment_across"].data) else ""
+    columns = [name for each in ("deflection", "slope", "shear", "moment") for name in dict.fromkeys((each, each + across))]
+    yield Plot("diagram", "Deflection, slope, shear force and bending moment", "diagram", "z", tuple(columns))
     yield Plot("stress", "Stress along the shaft", "diagram", "z", ("stress",))
     yield Plot("unit_load", "Deflection by a unit force; dashed: bearings rigid", "unit_load", "z", tuple(stations),
                reference=tuple(f"{name}.rigid" for name in stations))
@@ -23,8 +25,9 @@ def _all(result):
         if name.startswith("elements."):
             bearing = name.partition(".")[2]
             yield Plot(name, f"Load on the rolling elements of bearing {bearing}", name, "angle", ("load",), style="polar")
+            angled = ("contact_angle",) if any(result.tables[name]["contact_angle"].data) else ()
             yield Plot(f"contact.{bearing}", f"Contact angle and pressure in bearing {bearing}", name, "angle",
-                       ("contact_angle", "inner_pressure", "outer_pressure"))
+                       (*angled, "inner_pressure", "outer_pressure"))
         if name.startswith("curve."):
             yield Plot(name, f"Bearing {name.partition('.')[2]} over its load", name, "load", ("displacement", "tangent", "secant"))
     yield Plot(

@@ -3,6 +3,7 @@
 from drivewright.errors import SpecError, nearest
 
 NEAR = 1e-9  # of the shaft's length: the same place
+TAKEN = {"bearings": ("bending", "shear", "tension", "total", "entry"), "stations": ("z",)}  # columns of our own
 SPRINGS = ("radial_stiffness", "table", "bearing", "geometry", "roller_geometry")
 ROLLING = ("bearing", "geometry", "roller_geometry")
 
@@ -35,6 +36,8 @@ def _names(spec):
     for table in ("bearings", "stations", "gears"):
         names = [entry.name for entry in getattr(spec, table)]
         for number, name in enumerate(names):
+            if name in TAKEN.get(table, ()):
+                raise SpecError(f"the name {name!r} is taken by a column of ours; choose another", f"{table}.{number}.name")
             if name in names[:number]:
                 raise SpecError(f"the name {name!r} comes twice; names in {table} must differ", f"{table}.{number}.name")
 
@@ -48,7 +51,7 @@ def _places(spec):
     wanted += [
         (f"line_loads.{number}.{end}", getattr(load, end)) for number, load in enumerate(spec.line_loads) for end in ("start", "end")
     ]
-    wanted += [(f"bearings.{b.name}.width", b.position + side * b.width / 2) for b in spec.bearings if b.width for side in (-1, 1)]
+    _widths(spec)
     for key, place in wanted:
         if not -NEAR * far <= place <= far * (1 + NEAR):
             raise SpecError(f"{_mm(place)} is off the shaft, which runs from 0 to {_mm(far)}; move it, or make a segment longer", key)
@@ -58,6 +61,17 @@ def _places(spec):
             if two.position - one.position <= NEAR * far:
                 raise SpecError(f"stands at {_mm(two.position)}, where {one.name!r} stands already; {table} need different places",
                                 f"{table}.{two.name}.position")
+
+
+def _widths(spec):
+    for bearing in spec.bearings:
+        room = 2 * min(bearing.position, spec.length - bearing.position)
+        if bearing.width and bearing.width > room + NEAR * spec.length:
+            raise SpecError(
+                f"its seat of {_mm(bearing.width)} about {_mm(bearing.position)} overhangs the end of the shaft; {_mm(max(room, 0.0))} "
+                "have room there",
+                f"bearings.{bearing.name}.width",
+            )
 
 
 def _bearings(spec):

@@ -24,27 +24,41 @@ def scene(model):
     part = 0.5 * (1 - np.cos(phase))
     still = np.zeros((FRAMES, 3))
     z = _cuts(model)
+    middles = 0.5 * (z[1:] + z[:-1])
     up, turn, words = _bent(model, z)
     factor = exaggeration(np.abs(up).max(), model.shaft.length)
     name = f"shaft, {words} × {factor:g}" if factor else "shaft"
+
+    def riding(place):
+        return _poses(place, factor * part * np.interp(place, middles, up), 0.0)
+
     bodies = [Body("rest", "shaft at rest", tuple(sketch.silhouette(model.shaft)), still, "ground")]
-    bodies += [Body(f"bearing.{s.name}", "bearing", tuple(sketch.bearing(model, s)), still, "green") for s in model.shaft.supports]
+    bodies += [Body(f"bearing.{support.name}", "bearing", tuple(sketch.bearing(model, support)),
+                    _poses(0.0, factor * _raised(model, bearing) + 0 * part, 0.0), "green")
+               for support, bearing in zip(model.shaft.supports, model.spec.bearings, strict=True)]
     bodies += [
-        Body(f"shaft.{n}", name, tuple(shapes), _poses(middle, factor * part * u, np.arctan(factor * part * t)), "blue")
-        for n, (middle, shapes, u, t) in enumerate(zip(0.5 * (z[1:] + z[:-1]), sketch.slices(model.shaft, z), up, turn, strict=True))
+        Body(f"gear.{gear.name}", "gear", tuple(sketch.gear(model, gear)), riding(gear.position), "violet") for gear in model.spec.gears
     ]
-    bodies += [
-        Body(
-            f"load.{n}",
-            "load",
-            tuple(sketch.arrow(model, load)),
-            _poses(load.position, factor * part * np.interp(load.position, 0.5 * (z[1:] + z[:-1]), up), 0.0),
-            "orange",
-        )
-        for n, load in enumerate(model.loads.points)
-        if abs(np.dot(model.direction, load.force[:2])) > 1e-9 * np.hypot(*load.force[:2])
-    ]
-    return Scene(phase, "phase of the load", "rad", 2.0, tuple(bodies), (Frame("side", "seen from the side", still),))
+    bodies += [Body(f"shaft.{n}", name, tuple(shapes), _poses(middle, factor * part * u, np.arctan(factor * part * t)), "blue")
+               for n, (middle, shapes, u, t) in enumerate(zip(middles, sketch.slices(model.shaft, z), up, turn, strict=True))]
+    bodies += [Body(f"load.{n}", "load", tuple(sketch.arrow(model, place, force)), riding(place), "orange")
+               for n, (place, force) in enumerate(_shown(model)) if abs(force) > 1e-9]
+    return Scene(phase, "load grows and fades", "rad", 2.0, tuple(bodies), (Frame("side", "seen from the side, exaggerated", still),))
+
+
+def _raised(model, bearing):
+    """How far a seat stands above the common axis, as seen from the side."""
+    return -float(np.dot(model.direction, bearing.seat_offset))
+
+
+def _shown(model):
+    """(place, force along the unit loads) of what can be seen from the side: points, and a line load by five of its forces."""
+    for load in model.loads.points:
+        yield load.position, float(np.dot(model.direction, load.force[:2]))
+    for load in model.loads.lines:
+        for share in np.linspace(0.0, 1.0, 5):
+            force = (1 - share) * np.asarray(load.first) + share * np.asarray(load.last)
+            yield load.start + share * (load.end - load.start), float(np.dot(model.direction, force))
 
 
 def _poses(x, y, angle):

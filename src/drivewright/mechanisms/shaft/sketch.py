@@ -70,12 +70,18 @@ def _element(inner, support, middle, element):
     return polygon(corners @ np.array([[c, s], [-s, c]]) + (support.position, middle))
 
 
-def arrow(model, load):
-    """An arrow onto the shaft in the direction of a force, as seen from the side."""
-    along = float(np.dot(model.direction, load.force[:2]))
+def gear(model, wheel):
+    """A gear as a ring about the shaft, seen from the side."""
+    inner, outer = float(radius_at(model.shaft, wheel.position)), wheel.pitch_diameter / 2
+    for way in (1, -1):
+        yield Shape("body", box(0.0, way * 0.5 * (inner + outer), 0.3 * wheel.pitch_diameter, max(outer - inner, 1e-6)))
+
+
+def arrow(model, place, along):
+    """An arrow onto the shaft at a place, in the direction of a force along the unit loads."""
     length = ARROW * model.shaft.length
-    way = np.sign(along) or 1.0  # the tail lies where the load comes from
-    tip = way * float(radius_at(model.shaft, min(load.position, model.shaft.length * (1 - 1e-12))))
+    way = np.sign(along)  # the tail lies where the load comes from
+    tip = way * float(radius_at(model.shaft, min(place, model.shaft.length * (1 - 1e-12))))
     head, half = 0.35 * length, 0.12 * length
     yield Shape("body", polygon([(0.0, tip), (-half, tip + way * head), (half, tip + way * head)]))
     yield Shape("body", Outline(polygon([(0.0, tip + way * head), (0.0, tip + way * length)], closed=False).pieces, False))

@@ -15,13 +15,16 @@ def no_solid(spec):
 
 
 def bands(model, at_rest):
-    """A `Band` for every bearing: its width, or the one of the analysis, and its radial tangent stiffness along the unit loads."""
+    """A `Band` for every bearing: its width, or the one of the analysis, and its radial tangent stiffness along the unit loads, its
+    housing in series.  At an end of the shaft the band lies inside it."""
     way = np.concatenate([model.direction, np.zeros(3)])
     for support, tangent in zip(model.shaft.supports, at_rest.tangent, strict=True):
         rigid = np.isinf(np.diag(tangent)) @ np.abs(way) > 0
         stiffness = np.inf if rigid else float(way @ np.where(np.isfinite(tangent), tangent, 0.0) @ way)
         if stiffness > 0:
-            yield shaft_check.Band(support.position, support.width or model.spec.analysis.solid_band, stiffness)
+            width = support.width or min(model.spec.analysis.solid_band, model.shaft.length / 10)
+            middle = float(np.clip(support.position, width / 2, model.shaft.length - width / 2))
+            yield shaft_check.Band(middle, width, 1 / (1 / stiffness + sum(model.direction**2 / np.array(support.seat[:2]))))
 
 
 def beam_on(model, seats):

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import core_schema
 
 from drivewright.bearings.ball import BallBearing
@@ -63,6 +63,10 @@ class _StiffnessOrRigid(Dimension):
 StiffnessOrRigid = Annotated[float, _StiffnessOrRigid('stiffness, or "rigid"', "N/m", "N/m")]
 
 
+# 61804 without quotes is a number in TOML
+Designation = Annotated[Text, BeforeValidator(lambda value: str(value) if type(value) is int else value)]
+
+
 class Material(Spec):
     """The shaft's material."""
 
@@ -97,7 +101,7 @@ class Bearing(Spec):
                                                        examples=["2e4 N m/rad"])
     table: DataFile | None = Field(None, description="CSV of the radial force over the radial displacement instead: "
                                                      "displacement [um],force [N] from 0, 0")
-    bearing: Text | None = Field(None, description="designation in the catalogue instead, e.g. 61804", examples=["61804"])
+    bearing: Designation | None = Field(None, description="designation in the catalogue instead, e.g. 61804", examples=["61804"])
     geometry: BallBearing | None = Field(None, description="inner geometry of a ball bearing instead")
     roller_geometry: RollerBearing | None = Field(None, description="inner geometry of a roller bearing instead")
     radial_clearance: Length | None = Field(None, description="play across the diameter, counted as for rolling bearings: of a rolling "
@@ -181,7 +185,8 @@ class Analysis(Spec):
 
     theory: Literal["timoshenko", "euler-bernoulli"] = Field("timoshenko", description="beam with or without shear and rotary inertia")
     shear_coefficient: Literal["cowper"] | Number = Field("cowper", description='"cowper", or a number for a section of your own')
-    direction: Angle = Field(DOWN, description="of the unit loads behind flexibility and stiffness, from x towards y")
+    direction: Angle | None = Field(None, description="of the unit loads behind flexibility and stiffness, from x towards y; that of the "
+                                                      "loads where they share a plane, else down", examples=["-90 deg"])
     modes: Integer = Field(3, ge=0, le=50, description="natural frequencies to find")
     element_length: Length | None = Field(None, gt=0, description="longest element for the modes; a fortieth of the shaft unless given",
                                           examples=["10 mm"])
@@ -198,9 +203,13 @@ class Limits(Spec):
         1.0, gt=0, description="static rating of a bearing over its load; of a rolling bearing by its contact pressure"
     )
     life: Time | None = Field(None, gt=0, description="reference life of every rolling bearing", examples=["20000 h"])
-    shock_factor: Number = Field(1.0, ge=1, description="shock over steady load, for the table of what fails first")
+    shock_factor: Number = Field(1.0, ge=1, description="shock over steady load, for yield, static safety and what fails first")
+    buckling: Number = Field(3.0, gt=0, description="axial force at which the shaft buckles over the axial force")
+    largest_slope: Angle = Field(
+        "0.1 rad", gt=0, description="anywhere along the shaft: beyond it the linear theory of beams does not hold"
+    )
     critical_speed: Number = Field(1.25, gt=0, description="first critical speed over the speed of the shaft")
-    slenderness: Number = Field(10000.0, gt=0, description="length of the shaft over its least diameter; beyond it a unit may have slipped")
+    slenderness: Number = Field(1000.0, gt=0, description="length of the shaft over its least diameter; beyond it a unit may have slipped")
     stockiness: Number = Field(0.1, gt=0, description="the same, at least")
 
 

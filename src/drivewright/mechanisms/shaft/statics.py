@@ -7,6 +7,8 @@ from drivewright.mechanisms.shaft.refusals import is_rolling
 from drivewright.result import Answer, Check, Column, Table, Value
 from drivewright.shafts.beam import FREEDOMS
 
+FINE = 21  # places along the shaft for its buckling
+NO_FORCE = 1e-9  # of the largest load
 SAMPLES = 241  # along the shaft, besides the nodes
 
 
@@ -44,10 +46,13 @@ def _stations(model, loaded):
         at, name = FREEDOMS * found.node(station.position), f"stations.{station.name}"
         move, slope = u[at : at + 2], np.array([u[at + 4], -u[at + 3]])
         place = f"of station {station.name!r}"
-        values |= {f"{name}.deflection": Value(with_load(model, move), "m", f"deflection {place}, positive with the load"),
-                   f"{name}.deflection_x": Value(float(move[0]), "m", f"deflection {place} along x"),
-                   f"{name}.deflection_y": Value(float(move[1]), "m", f"deflection {place} along y (up)"),
-                   f"{name}.slope": Value(with_load(model, slope), "rad", f"slope {place}, positive where the deflection grows with z")}
+        values |= {
+            f"{name}.deflection": Value(with_load(model, move), "m", f"deflection {place} along the unit loads: positive with the load"),
+            f"{name}.displacement": Value(float(np.hypot(*move)), "m", f"deflection {place}, magnitude"),
+            f"{name}.deflection_x": Value(float(move[0]), "m", f"deflection {place} along x"),
+            f"{name}.deflection_y": Value(float(move[1]), "m", f"deflection {place} along y (up)"),
+            f"{name}.slope": Value(with_load(model, slope), "rad", f"slope {place}, positive where the deflection grows with z"),
+        }
     return values
 
 
@@ -60,7 +65,7 @@ def _bearings(model, loaded):
         slope = slope_at(loaded, mount.support.position)
         values |= {
             f"{name}.reaction": Value(
-                -with_load(model, reaction[:2]), "N", f"radial reaction {at} on the shaft, positive against the load"
+                -with_load(model, reaction[:2]), "N", f"radial reaction {at} on the shaft along the unit loads, positive against the load"
             ),
             f"{name}.reaction_x": Value(reaction[0], "N", f"reaction {at} on the shaft along x"),
             f"{name}.reaction_y": Value(reaction[1], "N", f"reaction {at} on the shaft along y"),
@@ -98,29 +103,46 @@ def _extremes(model, drawn):
 
 
 def _checks(model, loaded, drawn):
-    limits = model.spec.limits
-    if model.yield_strength:
-        safety = model.yield_strength / max(float(drawn.von_mises.max()), 1e-300)
-        yield Check("yield_safety", safety, limits.yield_safety, ">=", "-", "yield strength over the largest nominal stress", ("shaft",))
+    limits, shock = model.spec.limits, model.spec.limits.shock_factor
+    stress, under = float(drawn.von_mises.max()), f", at {shock:g} times the load" if shock > 1 else ""
+    if model.yield_strength and stress > 0:
+        yield Check("yield_safety", model.yield_strength / (shock * stress), limits.yield_safety, ">=", "-",
+                    f"yield strength over the largest nominal stress{under}", ("shaft",))
+    slope = float(np.hypot(*drawn.slope.T).max())
+    yield Check(
+        "small_slopes", slope, limits.largest_slope, "<=", "rad", "largest slope: beyond it the linear theory does not hold", ("shaft",)
+    )
+    pressed = drawn.axial.min() < -NO_FORCE * np.abs(loaded.force).max(initial=0)
+    factor = shafts.buckling_factor(shafts.load(model.shaft, model.loads, np.linspace(0.0, model.shaft.length, FINE))) if pressed else None
+    if factor is not None:
+        yield Check(
+            "buckling",
+            factor / shock,
+            limits.buckling,
+            ">=",
+            "-",
+            f"axial force at which the shaft buckles over the axial force{under}",
+            ("shaft",),
+        )
     for station in model.shaft.stations if limits.deflection else ():
         at = FREEDOMS * loaded.equilibrium.model.beam.node(station.position)
         size = float(np.hypot(*loaded.equilibrium.u[at : at + 2]))
         yield Check(f"deflection.{station.name}", size, limits.deflection, "<=", "m", f"deflection of station {station.name!r}", ("shaft",))
     for bearing, reaction in zip(model.spec.bearings, loaded.equilibrium.reactions, strict=True):
-        if limits.slope:
-            slope = float(np.hypot(*slope_at(loaded, bearing.position)))
-            yield Check(f"slope.{bearing.name}", slope, limits.slope, "<=", "rad", f"slope of the shaft in bearing {bearing.name!r}",
-                        (bearing.name,))
-        if bearing.static_rating and bearing.name not in model.rolling and np.hypot(*reaction[:2]) > 0:
-            yield Check(
-                f"static_safety.{bearing.name}",
-                bearing.static_rating / float(np.hypot(*reaction[:2])),
-                limits.static_safety,
-                ">=",
-                "-",
-                f"static rating of bearing {bearing.name!r} over its radial force",
-                (bearing.name,),
-            )
+        yield from _bearing_checks(model, loaded, bearing, float(np.hypot(*reaction[:2])), under)
+
+
+def _bearing_checks(model, loaded, bearing, force, under):
+    limits = model.spec.limits
+    if limits.slope:
+        slope = float(np.hypot(*slope_at(loaded, bearing.position)))
+        yield Check(
+            f"slope.{bearing.name}", slope, limits.slope, "<=", "rad", f"slope of the shaft in bearing {bearing.name!r}", (bearing.name,)
+        )
+    if bearing.static_rating and force > 0:  # of a rolling bearing beside the check of its pressure
+        name = "static_rating" if bearing.name in model.rolling else "static_safety"
+        yield Check(f"{name}.{bearing.name}", bearing.static_rating / (limits.shock_factor * force), limits.static_safety, ">=", "-",
+                    f"static rating of bearing {bearing.name!r} over its radial force{under}", (bearing.name,))
 
 
 def _slenderness(model):

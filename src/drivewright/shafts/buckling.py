@@ -1,0 +1,37 @@
+"""Buckling of a shaft under its axial forces."""
+
+import numpy as np
+from scipy.linalg import eigh
+
+from drivewright.shafts import beam as beams
+from drivewright.shafts.vibration import WEIGHT, free_of, shapes
+
+
+def buckling_factor(loaded):
+    """The least factor on the axial forces at which the shaft buckles; None where none of them presses it.
+
+    det(K + f K_N) = 0 with K the stiffness at rest and K_N = int N t_i t_j dx, N the axial force (tension positive), t the slope of
+    the section; pi^2 EI/L^2 for a slender shaft on two supports.
+    """
+    equilibrium = loaded.equilibrium
+    model, found = equilibrium.model, equilibrium.model.beam
+    tension = beams.tension_and_torque(found, equilibrium.unknowns)[:, 0]
+    if not np.any(tension < 0):
+        return None
+    basis = model.basis @ free_of(model.rigid, model.size)
+    geometric = basis[: found.size].T @ _geometric(found, tension) @ basis[: found.size]
+    held = free_of(model.rigid, model.size)
+    factors = eigh(-geometric, held.T @ equilibrium.hessian @ held, eigvals_only=True)
+    return float(1 / factors[-1]) if factors[-1] > 0 else None
+
+
+def _geometric(found, tension):
+    """K_N (6n, 6n) on the displacements of the nodes."""
+    _, slope = shapes(found)
+    each = np.einsum("n,np,npi,npj->nij", tension, WEIGHT * found.pieces[:, :1], slope, slope)
+    whole = np.zeros((found.size, found.size))
+    for element, part in enumerate(each):
+        for plane in (0, 1):
+            at, sign = beams.places_of(element, plane)
+            whole[np.ix_(at, at)] += sign[:, None] * part * sign
+    return whole
