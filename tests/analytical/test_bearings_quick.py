@@ -52,7 +52,7 @@ def test_exponents_are_those_of_the_fullest_element(formulas, count, size, angle
 
 
 def test_imperial_and_metric_constants_agree():
-    """3402 and 1178 N/mm by exact conversion, beside 3400 and 1180 of the paper; Palmgren's approaches 3399 and 1177 with 7.68e-5, 4.36e-4."""
+    """3402 and 1178 N/mm by exact conversion, beside 3400 and 1180 of the paper; Palmgren's 3399 and 1177 with 7.68e-5, 4.36e-4."""
     unit = {"force": 1.0, "contact_angle": 0.0}
     assert quick.gargiulo_roller(rollers=1, roller_length=1e-3, **unit).value / 1e3 == pytest.approx(3402, abs=0.6)
     assert quick.gargiulo_ball(balls=1, ball_diameter=1e-3, **unit).value / 1e3 == pytest.approx(1178, abs=1)

@@ -179,11 +179,12 @@ def test_progress_can_stop_the_study(workers):
         time.sleep(0.01)
         return case
 
+    before = threading.active_count()  # a library loaded by another test may keep a thread of its own
     found = run(task, range(30), workers, stop(KeyboardInterrupt))
     assert found.interrupted and 2 <= len(found.rows) <= 5
     with pytest.raises(LookupError, match="full"):
         run(task, range(30), workers, stop(LookupError("full")))
-    assert threading.active_count() == 1
+    assert threading.active_count() == before
 
 
 @pytest.mark.parametrize("workers", WORKERS)

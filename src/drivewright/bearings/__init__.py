@@ -6,7 +6,7 @@ from importlib import import_module
 _WHERE = {
     "response": ("FREEDOMS", "respond"),  # the formula itself has the name of its module
     "newton": ("Measures", "equilibria", "equilibrium", "measures"),
-    "solving": ("Equilibrium", "elements", "geometric_static_rating", "law_of", "life_of", "solve"),
+    "solving": ("PERMISSIBLE", "Equilibrium", "contact_of", "elements", "geometric_static_rating", "law_of", "life_of", "solve"),
     "ball": ("BallBearing", "BallLaw"),
     "life": ("basic_dynamic_rating", "basic_life", "basic_static_rating"),
     "roller": ("RollerBearing", "RollerLaw", "roller_reference_life", "roller_static_rating"),

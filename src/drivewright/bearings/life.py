@@ -6,12 +6,10 @@ compare the reference life with another program and the two lives with each othe
 
 import numpy as np
 
-from drivewright.bearings.newton import measures
-from drivewright.bearings.solving import law_of
+from drivewright.bearings.solving import PERMISSIBLE, contact_of, law_of
 from drivewright.errors import InputError
 
 REVOLUTIONS = 1e6  # to which ratings refer
-STATIC_PRESSURE = 4.2e9  # Pa, at which a ball leaves 1e-4 of its diameter
 MATERIAL = 1.3  # b_m, today's steel against that of 1947
 
 
@@ -60,7 +58,7 @@ def basic_dynamic_rating(bearing):
 def basic_static_rating(bearing):
     """C0 [N]: the radial load F whose most loaded ball, Q = 5 F/(Z cos a), reaches 4200 MPa at one of its races."""
     law = law_of(bearing)
-    ball = (STATIC_PRESSURE / max(law.inner_pressure, law.outer_pressure)) ** 3
+    ball = (PERMISSIBLE["point"][0] / max(law.inner_pressure, law.outer_pressure)) ** 3
     return float(ball * bearing.balls * np.cos(bearing.contact_angle) / 5)
 
 
@@ -74,5 +72,5 @@ def basic_life(bearing, load):
         raise InputError(f"bearing: the life wants a load above 0 N, got {load:g}.")
     if bearing.dynamic_rating is None:
         return None
-    power = 10 / 3 if measures(law_of(bearing)).laminae else 3
+    power = 10 / 3 if contact_of(bearing) == "line" else 3
     return REVOLUTIONS * (bearing.dynamic_rating / load) ** power

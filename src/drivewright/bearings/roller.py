@@ -14,7 +14,7 @@ from pydantic import Field, model_validator
 from drivewright._jit import implements, inner, warmer
 from drivewright.bearings.newton import Measures, equilibria, measures
 from drivewright.bearings.response import response
-from drivewright.bearings.solving import elements, geometric_static_rating, law_of, life_of, solve
+from drivewright.bearings.solving import PERMISSIBLE, elements, geometric_static_rating, law_of, life_of, solve
 from drivewright.contact import effective_modulus, line_contact
 from drivewright.errors import SpecError
 from drivewright.spec import Integer, Number, Spec
@@ -25,7 +25,6 @@ EXPONENT = 10 / 9
 # Palmgren's constant of the two contacts of a steel roller, 35948 N/mm^2, over E* of steel (210 GPa, 0.3).  The dimensions leave
 # nothing but proportionality to E* once exponents of length and approach are 8/9 and 10/9.
 LINE_CONSTANT = 35948e6 / (210e9 / (2 * (1 - 0.3**2)))
-STATIC_PRESSURE = 4000e6  # of a roller bearing at its static rating, ISO 76, recalled
 GREATEST_SHARE = 5.0  # load of the fullest roller over the mean F/(Z cos a); with the usual clearance
 
 
@@ -261,7 +260,7 @@ def roller_static_rating(bearing):
 
     With E = 206 GPa it is 44 (1 - g) Z L Dw cos a (N, mm), the formula of ISO 76, recalled.
     """
-    fullest = STATIC_PRESSURE**2 * np.pi * bearing.roller_length * contact_radii(bearing)[0] / _modulus(bearing)
+    fullest = PERMISSIBLE["line"][0] ** 2 * np.pi * bearing.roller_length * contact_radii(bearing)[0] / _modulus(bearing)
     return float(fullest * bearing.rollers * np.cos(bearing.contact_angle) / GREATEST_SHARE)
 
 

@@ -39,6 +39,16 @@ def life_of(bearing, state):
     raise InputError(f"bearing: no reference life is known for a {type(bearing).__name__}.")
 
 
+# Peak pressure [Pa] at the static rating, which leaves 1e-4 of an element's diameter, and the power of it that the load is.  ISO 76,
+# recalled; the ratings that follow are those of the catalogues within a few per cent.
+PERMISSIBLE = {"point": (4.2e9, 3.0), "line": (4.0e9, 2.0)}
+
+
+def contact_of(bearing):
+    """"point" or "line": how its elements touch."""
+    return "line" if measures(law_of(bearing)).laminae else "point"
+
+
 @singledispatch
 def geometric_static_rating(bearing):
     """C0 [N] by the inner geometry: the radial load at which the most loaded element, 5 F/(Z cos a), reaches the permissible pressure."""

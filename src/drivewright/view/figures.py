@@ -7,7 +7,7 @@ from drivewright.view.palette import SERIES, colour
 from drivewright.view.panels import find_plot, panels
 from drivewright.view.rounds import draw_round
 from drivewright.view.style import MUTED, angle_ticks, legend_columns, new_figure, styled
-from drivewright.view.text import axis_label
+from drivewright.view.text import axis_label, parts_of_label
 
 FEW = 25  # up to so many points each one is marked
 MANY = 1500  # from so many points on lines are thinner and points smaller
@@ -51,7 +51,7 @@ def _draw(axis, panel):
         _ring(axis, radius, text)
     if ticks:
         axis.set_xticks(x, ticks)
-    axis.set_ylabel(axis_label(*_split(panel.label), width=26 if not panel.equal else 60))
+    axis.set_ylabel(axis_label(*parts_of_label(panel.label), width=26 if not panel.equal else 60))
     if panel.equal:
         axis.set_aspect("equal", adjustable="datalim")
     else:
@@ -101,12 +101,6 @@ def _ring(axis, radius, text):
     axis.plot(radius * np.cos(turn), radius * np.sin(turn), color=colour("bad"), lw=1.0, ls=(0, (5, 3)))
     axis.annotate(text, (0, radius), xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=8, color=colour("bad"),
                   bbox={"boxstyle": "square,pad=0.1", "fc": (1, 1, 1, 0.75), "ec": "none"})
-
-
-def _split(label):
-    """(meaning, unit) of an axis label, so that it can be wrapped anew."""
-    meaning, bracket, unit = label.partition(" [")
-    return (meaning, unit.rstrip("]")) if bracket else (label, "")
 
 
 def _positions(data):

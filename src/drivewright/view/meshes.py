@@ -4,7 +4,7 @@ import numpy as np
 
 from drivewright.view.palette import colour
 from drivewright.view.style import WIDTH, new_figure, styled
-from drivewright.view.text import axis_label
+from drivewright.view.text import axis_label, parts_of_label
 
 LIGHT = np.array([-0.35, 0.75, 0.56])  # from the upper left, in front: right, up, towards the viewer
 DARKEST = 0.72  # brightness of what the light does not reach
@@ -29,7 +29,7 @@ def draw_mesh(panel):
             axis.plot(*ring.T, color=colour("ink"), lw=0.8, ls=(0, (5, 3)))
         axis.set_aspect("equal", adjustable="datalim")
         axis.autoscale_view()
-        axis.set(xlabel=axis_label(panel.x.label, panel.x.unit), ylabel=axis_label(*_parts(panel.label), width=30))
+        axis.set(xlabel=axis_label(panel.x.label, panel.x.unit), ylabel=axis_label(*parts_of_label(panel.label), width=30))
         figure.colorbar(scale, ax=axis, orientation="horizontal", aspect=45, pad=0.02, shrink=0.7,
                         label=axis_label(size.label, size.unit)).outline.set_visible(False)
     return figure
@@ -64,8 +64,3 @@ def _height(corners):
     """Inches: room for the picture at full width, between a flat strip and a square."""
     wide, tall = np.ptp(corners.reshape(-1, 3), axis=0)[:2]
     return float(np.clip(1.9 + 0.85 * WIDTH * tall / wide, 2.7, 6.0))
-
-
-def _parts(label):
-    meaning, bracket, unit = label.partition(" [")
-    return (meaning, unit.rstrip("]")) if bracket else (label, "")

@@ -4,7 +4,7 @@ import numpy as np
 
 from drivewright.view.palette import colour
 from drivewright.view.style import new_figure, styled
-from drivewright.view.text import axis_label
+from drivewright.view.text import axis_label, parts_of_label
 
 
 def draw_round(panel):
@@ -18,10 +18,5 @@ def draw_round(panel):
             axis.plot(angle, series.data, color=colour(series.role), lw=1.0, marker="o", ms=4, label=series.label)
         axis.set_ylim(0.0, max(1.05 * max(float(series.data.max()) for series in panel.series), 1e-12))
         axis.set_rlabel_position(22.5)
-        axis.set_xlabel(axis_label(*_parts(panel.label)))
+        axis.set_xlabel(axis_label(*parts_of_label(panel.label)))
     return figure
-
-
-def _parts(label):
-    meaning, bracket, unit = label.partition(" [")
-    return (meaning, unit.rstrip("]")) if bracket else (label, "")

@@ -68,3 +68,9 @@ def axis_label(meaning, unit, width=60):
 def dimension(unit):
     """Name of what an SI unit measures: 'm' -> 'length'; 'value' where it has no name."""
     return BY_UNIT[unit].name if unit in BY_UNIT else UNSPOKEN.get(unit, "value")
+
+
+def parts_of_label(label):
+    """(meaning, unit) of an axis label, so that it can be wrapped anew."""
+    meaning, bracket, unit = label.partition(" [")
+    return (meaning, unit.rstrip("]")) if bracket else (label, "")

@@ -7,7 +7,6 @@ from drivewright.errors import InputError, SolverError
 from drivewright.mechanisms.shaft.refusals import is_rolling
 from drivewright.result import Answer, Check, Column, Table, Value
 
-STATIC_PRESSURE = {"point": (4200e6, 3.0), "line": (4000e6, 2.0)}  # ISO 76, recalled: pressure at C0, and load ~ pressure to the power
 LEAST_E = 0.19  # axial over radial force up to which P = Fr in every deep-groove bearing (ISO 281, recalled)
 LOADS = np.geomspace(0.02, 4.0, 25)  # of the curve of stiffness, over the bearing's load
 
@@ -68,11 +67,6 @@ def _stiffness(model, at_rest, number):
     return values if tangent > 0 else {}
 
 
-def contact(inner):
-    """"point" or "line"."""
-    return "line" if bearings.measures(bearings.law_of(inner)).laminae else "point"
-
-
 def _elements(model, name, inner, state):
     about, unit = f"of bearing {name!r}", f"bearings.{name}"
     loaded = int(np.sum(state.element_loads > 0))
@@ -105,7 +99,7 @@ def _basic_life(name, inner, state):
 
 def static_safety(inner, state):
     """(permissible pressure / pressure)^3 of balls, ^2 of rollers: how many times the load would reach the static rating."""
-    pressure, power = STATIC_PRESSURE[contact(inner)]
+    pressure, power = bearings.PERMISSIBLE[bearings.contact_of(inner)]
     return float((pressure / state.pressures.max()) ** power)
 
 
@@ -161,7 +155,7 @@ def _curve(model, name, inner, state):
     if not np.hypot(*force[:2]) > 0:
         return
     way, rows = force[:2] / np.hypot(*force[:2]), []
-    held = ("tilt_x", "tilt_y") + (() if contact(inner) == "point" or inner.contact_angle else ("z",))
+    held = ("tilt_x", "tilt_y") + (() if bearings.contact_of(inner) == "point" or inner.contact_angle else ("z",))
     for factor in LOADS:
         try:
             found = bearings.solve(inner, force=factor * np.where([True, True, "z" not in held, True, True], force, 0.0), held=held)

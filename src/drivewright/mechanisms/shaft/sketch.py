@@ -51,8 +51,8 @@ def bearing(model, support):
         yield Shape("body", polygon([(foot, -outer), (foot - 0.6 * size, -outer - size), (foot + 0.6 * size, -outer - size)]))
         yield Shape("body", polygon([(foot - size, -outer - 1.15 * size), (foot + size, -outer - 1.15 * size)], closed=False))
         return
-    element = inner.ball_diameter if hasattr(inner, "ball_diameter") else inner.roller_diameter
-    width = element * 1.9 if hasattr(inner, "ball_diameter") else inner.roller_length * 1.3
+    balls = bearings.contact_of(inner) == "point"
+    element, width = (inner.ball_diameter, 1.9 * inner.ball_diameter) if balls else (inner.roller_diameter, 1.3 * inner.roller_length)
     low, high = outer, inner.pitch_diameter - outer
     for way in (1, -1):
         middle = way * inner.pitch_diameter / 2
@@ -61,7 +61,7 @@ def bearing(model, support):
 
 
 def _element(inner, support, middle, element):
-    if bearings.measures(bearings.law_of(inner)).laminae == 0:
+    if bearings.contact_of(inner) == "point":
         return circle((support.position, middle), element / 2)
     turn = (1 if support.mirrored else -1) * np.sign(middle) * inner.contact_angle
     corners = 0.5 * np.array([(-inner.roller_length, -element), (inner.roller_length, -element), (inner.roller_length, element),

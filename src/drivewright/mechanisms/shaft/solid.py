@@ -22,9 +22,10 @@ def bands(model, at_rest):
         rigid = np.isinf(np.diag(tangent)) @ np.abs(way) > 0
         stiffness = np.inf if rigid else float(way @ np.where(np.isfinite(tangent), tangent, 0.0) @ way)
         if stiffness > 0:
+            yielding = 1 / stiffness + float(np.sum(model.direction**2 / np.array(support.seat[:2])))
             width = support.width or min(model.spec.analysis.solid_band, model.shaft.length / 10)
             middle = float(np.clip(support.position, width / 2, model.shaft.length - width / 2))
-            yield shaft_check.Band(middle, width, 1 / (1 / stiffness + sum(model.direction**2 / np.array(support.seat[:2]))))
+            yield shaft_check.Band(middle, width, 1 / yielding if yielding else np.inf)
 
 
 def beam_on(model, seats):

@@ -158,8 +158,15 @@ def _diagram_table(model, drawn):
              ("shear", drawn.shear, "N", "shear force"), ("moment", drawn.moment, "N m", "bending moment"))
     columns = [Column("z", "m", "distance from the left end", drawn.z)]
     for name, data, unit, meaning in pairs:
-        columns += [Column(name, unit, f"{meaning}, in the direction of the unit loads", data @ model.direction),
-                    Column(f"{name}_across", unit, f"{meaning}, square to it", data @ [model.direction[1], -model.direction[0]])]
+        columns += [
+            Column(name, unit, f"{meaning}, in the direction of the unit loads", data @ model.direction),
+            Column(
+                f"{name}_across",
+                unit,
+                f"{meaning}, square to it: a quarter of a turn clockwise",
+                data @ [model.direction[1], -model.direction[0]],
+            ),
+        ]
     columns += [Column("axial", "N", "axial force, tension positive", drawn.axial), Column("torque", "N m", "torque", drawn.torque),
                 Column("bending_stress", "Pa", "nominal stress by bending and tension", drawn.bending),
                 Column("torsion_stress", "Pa", "nominal shear stress by torsion", drawn.torsion),
