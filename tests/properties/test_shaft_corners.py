@@ -240,3 +240,10 @@ def test_the_solid_stands_on_its_housing_too():
     ]
     result = dw.run(shaft(bearings=soft), only=("flexibility", "solid"))
     assert result["solid.flexibility.m2.m2"] == pytest.approx(result["flexibility.m2.m2"], rel=0.01)
+
+
+def test_buckling_of_a_shaft_whose_bearings_stand_in_their_play():
+    """Pressed along its axis, and held across only by what the load leaves: a number or none, never a crash."""
+    bearings = [SPRINGS[0] | {"radial_clearance": "40 um", "axial_stiffness": "rigid"}, SPRINGS[1] | {"radial_clearance": "40 um"}]
+    result = dw.run(shaft(bearings=bearings, loads=[{"position": "340 mm", "axial_force": "-500 N"}]))
+    assert result["shaft.max_stress"] > 0

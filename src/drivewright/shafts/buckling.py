@@ -4,6 +4,8 @@ import numpy as np
 from scipy.linalg import eigh
 
 from drivewright.shafts import beam as beams
+from drivewright.shafts.assembly import floor
+from drivewright.shafts.influence import FLOOR
 from drivewright.shafts.vibration import WEIGHT, free_of, shapes
 
 
@@ -21,7 +23,7 @@ def buckling_factor(loaded):
     basis = model.basis @ free_of(model.rigid, model.size)
     geometric = basis[: found.size].T @ _geometric(found, tension) @ basis[: found.size]
     held = free_of(model.rigid, model.size)
-    factors = eigh(-geometric, held.T @ equilibrium.hessian @ held, eigvals_only=True)
+    factors = eigh(-geometric, held.T @ (equilibrium.hessian + FLOOR * floor(model)) @ held, eigvals_only=True)
     return float(1 / factors[-1]) if factors[-1] > 0 else None
 
 

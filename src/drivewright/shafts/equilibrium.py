@@ -14,7 +14,7 @@ from drivewright.shafts.assembly import AXIAL, Model, floor, refuse_unbalanced
 from drivewright.shafts.beam import FREEDOMS
 
 TOLERANCE = 1e-11  # of the residual over the forces at work
-MAX_STEPS = 100
+MAX_STEPS = 400  # a few as a rule; hundreds where a contact that carries next to nothing is left slowly
 LEFT = 1e-8  # of the forces at work: what a freedom that nothing holds may seem to carry
 
 
