@@ -110,6 +110,7 @@ class Dimension:
     unit: str
     shown: str
     also: tuple = ()
+    plain = False  # of a kind whose values are more than a float: what `parse` gives is final
 
     def parse(self, value):
         """SI float of a text such as "9.525 mm"; UnitError says what was wanted and what came."""
@@ -165,6 +166,8 @@ class Dimension:
             except UnitError as error:
                 raise ValueError(error.message) from None
 
+        if self.plain:
+            return core_schema.no_info_plain_validator_function(validate)
         return core_schema.no_info_before_validator_function(validate, handler(source))
 
     def __get_pydantic_json_schema__(self, schema, handler):

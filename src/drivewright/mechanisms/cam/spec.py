@@ -3,7 +3,6 @@
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import core_schema
 
 from drivewright import materials, motion
 from drivewright.errors import UnitError
@@ -20,6 +19,8 @@ class Swing(float):
 class _LengthOrAngle(Dimension):
     """A quantity that is a length [m], or an angle (then a `Swing`)."""
 
+    plain = True
+
     def parse(self, value):
         if isinstance(value, Swing):
             return value
@@ -33,15 +34,6 @@ class _LengthOrAngle(Dimension):
 
     def text(self, value):
         return BY_NAME["angle" if isinstance(value, Swing) else "length"].text(float(value))
-
-    def __get_pydantic_core_schema__(self, source, handler):
-        def validate(value):
-            try:
-                return self.parse(value)
-            except UnitError as error:
-                raise ValueError(error.message) from None
-
-        return core_schema.no_info_plain_validator_function(validate)
 
 
 Rise = Annotated[float, _LengthOrAngle("length, or an angle for an oscillating follower", "m", "mm")]
