@@ -113,8 +113,12 @@ def failure(model, done):
         if not limits:  # it stands on a bearing that has no rating
             continue
         what, least = min(limits, key=lambda row: row[1])
-        values |= {f"stations.{name}.limit_load": Value(least, "N", f"force at {name!r} alone at which {what} is at its limit"),
-                   f"stations.{name}.allowed_load": Value(least / shock, "N", f"the same over the shock factor {shock:g}")}
+        values |= {
+            f"stations.{name}.limit_load": Value(least, "N", f"force at {name!r} alone at which {what} is at its limit"),
+            f"stations.{name}.allowed_load": Value(
+                least / shock, "N", f"steady force at {name!r} alone that is allowed, with the shock factor {shock:g}"
+            ),
+        }
         rows += [(name, part, load, load / shock, load == least) for part, load in limits]
     if not rows:
         return Answer(findings=("what fails first is absent: no bearing has a static rating, and no yield strength is given",))
