@@ -25,6 +25,11 @@ PINNED = {
     "knife_folder": {"knife.impact_load_coefficient": 1.6599560257699812, "knife_tip.peak_acceleration_ratio": 1.508782965780165},
     "pressure_roller_shaft": {"stations.m2.deflection": 0.000357575392, "modes.1.frequency": 63.9497231},
     "rubber_roller_shaft": {
+        "stations.m3.deflection": 0.000312090678,
+        "flexibility.m3.m3": 6.24181357e-07,
+        "modes.1.frequency": 38.8348779,
+    },
+    "rubber_roller_61804": {
         "stations.m3.deflection": 0.000398758557,
         "bearings.C.reference_life": 34034277,
         "bearings.C.stiffness.tangent": 118615240,
