@@ -392,3 +392,9 @@ def test_basic_life_is_there_only_under_a_radial_load():
     pushed = dw.run(on_balls(bearings=[{"name": n, "position": z, "geometry": BALLS | rated} for n, z in places],
                              loads=[{"station": "m2", "force": "500 N", "axial_force": "600 N"}]))
     assert "bearings.A.basic_life" not in pushed.values and "bearings.A.reference_life" in pushed.values
+
+
+def test_one_bore_through_several_segments_is_drawn_as_one():
+    (drawing,) = registry.mechanism("shaft").drawings(dw.build(dw.load(EXAMPLES / "spindle.toml")))
+    (hole,) = drawing.on("hole")
+    assert np.ptp(hole.points(), axis=0) == pytest.approx([0.35, 0.03])

@@ -108,9 +108,19 @@ def drawings(model):
     outline = polygon([(z, -r) for z, r in upper] + [(z, r) for z, r in reversed(upper)])
     over = 0.03 * shaft.length
     shapes = [Shape("profile", outline), Shape("axis", polygon([(-over, 0.0), (shaft.length + over, 0.0)], closed=False))]
-    shapes += [Shape("hole", sketch.box(0.5 * (a + b), 0.0, b - a, section.bore))
-               for section, a, b in zip(shaft.sections, ends[:-1], ends[1:], strict=True) if section.bore]
+    shapes += [Shape("hole", sketch.box(0.5 * (start + end), 0.0, end - start, bore)) for start, end, bore in _bores(shaft)]
     return (Drawing("shaft", "Shaft, turned part along its axis", tuple(shapes), milled=False),)
+
+
+def _bores(shaft):
+    """(start, end, diameter) of every hole, neighbouring sections of one bore as one."""
+    found = []
+    for section, start, end in zip(shaft.sections, shaft.ends[:-1], shaft.ends[1:], strict=True):
+        if found and found[-1][2] == section.bore:
+            found[-1] = (found[-1][0], end, section.bore)
+        elif section.bore:
+            found.append((start, end, section.bore))
+    return found
 
 
 def parts(model):
