@@ -16,7 +16,7 @@ from pydantic import Field, model_validator
 from drivewright._jit import implements, warmer
 from drivewright.bearings.life import ball_reference_life, basic_static_rating
 from drivewright.bearings.newton import Measures, equilibria, measures
-from drivewright.bearings.response import response
+from drivewright.bearings.response import respond, response
 from drivewright.bearings.solving import elements, geometric_static_rating, law_of, life_of, solve
 from drivewright.contact import effective_modulus, point_contact, relative_radii
 from drivewright.errors import SpecError
@@ -188,3 +188,4 @@ def warm_ball_bearing():
     bearing = BallBearing(balls=3, ball_diameter=SI(1.0), pitch_diameter=SI(5.0))
     solve(bearing, force=[1.0, 0.0, 0.0, 0.0, 0.0])
     equilibria(law_of(bearing), np.ones((1, 5)), np.zeros(5, dtype=bool))
+    respond(law_of(bearing), np.zeros(5))

@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import implements
-from drivewright.bearings.response import response
+from drivewright._jit import implements, warmer
+from drivewright.bearings.response import respond, response
 from drivewright.errors import InputError
 
 
@@ -83,3 +83,10 @@ def _(law, displacement, force, stiffness):
             force[i] += law.k[i, j] * displacement[j]
         energy += 0.5 * force[i] * displacement[i]
     return energy
+
+
+@warmer
+def warm_supports():
+    """Compile for `doctor --warm`."""
+    respond(with_play(1.0, 1.0), np.zeros(5))
+    respond(Tangent(np.eye(5)), np.zeros(5))

@@ -5,7 +5,7 @@ Kernels of plain numbers; a solid section has the bore 0.
 
 import numpy as np
 
-from drivewright._jit import kernel
+from drivewright._jit import kernel, warmer
 
 # Gauss-Legendre on 0 ... 1: exact to rounding for every taper that turns into a shaft (diameters up to 1 : 4 within one piece).
 NODES, WEIGHTS = (0.5 * (part + shift) for part, shift in zip(np.polynomial.legendre.leggauss(24), (1.0, 0.0), strict=True))
@@ -67,3 +67,9 @@ def softness_of(pieces, modulus, poisson, shear):
         if length > 0.0:
             found[i, 0], found[i, 1], found[i, 2], found[i, 3] = softness(length, start, end, bore, modulus, poisson, shear)
     return found
+
+
+@warmer
+def warm_sections():
+    """Compile for `doctor --warm`."""
+    softness_of(np.array([[1.0, 1.0, 1.0, 0.0]]), 1.0, 0.3, 0.0)
