@@ -2,7 +2,6 @@
 
 import os
 import platform
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -12,20 +11,10 @@ from pathlib import Path
 import linkages
 import numpy as np
 import shafts
+from timing import best
 
 ROOT = Path(__file__).parent.parent
 EXAMPLE = ROOT / "examples" / "seedling_pusher.toml"
-
-
-def best(function, repeat=5):
-    """(shortest, median) seconds of a call, after one warm-up."""
-    function()
-    times = []
-    for _ in range(repeat):
-        started = time.perf_counter()
-        function()
-        times.append(time.perf_counter() - started)
-    return min(times), statistics.median(times)
 
 
 def command(code, repeat=5):

@@ -3,11 +3,11 @@
 import json
 import subprocess
 import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
+from timing import best
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "properties"))  # the peers' models are those of the tests
 MODULUS, POISSON, CORES = 206e9, 0.3, 2
@@ -17,17 +17,6 @@ STEPPED = {"sections": [[0.08, 0.03, 0.0], [0.12, 0.042, 0.0], [0.1, 0.05, 0.0],
            "supports": [0.05, 0.18, 0.37], "stiffness": [5e7, 2e8, 8e6], "stations": [0.0, 0.25]}
 # Counted in the source, divisions as one: closed form with two stations; the stepped shaft above.
 CLOSED_FLOPS, SWEPT_FLOPS = 300, 700
-
-
-def best(function, repeat=5):
-    """(shortest, median) seconds of a call, after one warm-up."""
-    function()
-    times = []
-    for _ in range(repeat):
-        started = time.perf_counter()
-        function()
-        times.append(time.perf_counter() - started)
-    return min(times), float(np.median(times))
 
 
 def designs(shaft, count):

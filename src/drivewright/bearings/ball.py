@@ -15,9 +15,9 @@ from pydantic import Field, model_validator
 
 from drivewright._jit import implements, warmer
 from drivewright.bearings.life import ball_reference_life, basic_static_rating
-from drivewright.bearings.newton import Measures, equilibria, measures
-from drivewright.bearings.response import respond, response
-from drivewright.bearings.solving import elements, geometric_static_rating, law_of, life_of, solve
+from drivewright.bearings.newton import Measures, measures
+from drivewright.bearings.response import response
+from drivewright.bearings.solving import elements, geometric_static_rating, law_of, life_of, warm
 from drivewright.contact import effective_modulus, point_contact, relative_radii
 from drivewright.errors import SpecError
 from drivewright.spec import Integer, Number, Spec
@@ -185,7 +185,4 @@ def _(bearing, state):
 @warmer
 def warm_ball_bearing():
     """Compile for `doctor --warm`."""
-    bearing = BallBearing(balls=3, ball_diameter=SI(1.0), pitch_diameter=SI(5.0))
-    solve(bearing, force=[1.0, 0.0, 0.0, 0.0, 0.0])
-    equilibria(law_of(bearing), np.ones((1, 5)), np.zeros(5, dtype=bool))
-    respond(law_of(bearing), np.zeros(5))
+    warm(BallBearing(balls=3, ball_diameter=SI(1.0), pitch_diameter=SI(5.0)))

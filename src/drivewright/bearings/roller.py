@@ -12,9 +12,9 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from drivewright._jit import implements, inner, warmer
-from drivewright.bearings.newton import Measures, equilibria, measures
-from drivewright.bearings.response import respond, response
-from drivewright.bearings.solving import PERMISSIBLE, elements, geometric_static_rating, law_of, life_of, solve
+from drivewright.bearings.newton import Measures, measures
+from drivewright.bearings.response import response
+from drivewright.bearings.solving import PERMISSIBLE, elements, geometric_static_rating, law_of, life_of, warm
 from drivewright.contact import effective_modulus, line_contact
 from drivewright.errors import SpecError
 from drivewright.spec import Integer, Number, Spec
@@ -275,7 +275,4 @@ def _(bearing, state):
 @warmer
 def warm_roller_bearing():
     """Compile for `doctor --warm`."""
-    bearing = RollerBearing(rollers=3, roller_diameter=SI(1.0), roller_length=SI(1.0), pitch_diameter=SI(5.0))
-    solve(bearing, force=[1.0, 0.0, 0.0, 0.0, 0.0])
-    equilibria(law_of(bearing), np.ones((1, 5)), np.array([False, False, True, False, False]))
-    respond(law_of(bearing), np.zeros(5))
+    warm(RollerBearing(rollers=3, roller_diameter=SI(1.0), roller_length=SI(1.0), pitch_diameter=SI(5.0)), held=("z",))

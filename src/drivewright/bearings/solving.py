@@ -21,10 +21,11 @@ from drivewright.bearings.newton import (
     equilibrium,
     measures,
 )
-from drivewright.bearings.response import FREEDOMS, response
+from drivewright.bearings.response import FREEDOMS, respond, response
 from drivewright.errors import InputError, SolverError, UnknownName, brief
 
-__all__ = ["Equilibrium", "Measures", "elements", "equilibria", "equilibrium", "law_of", "life_of", "measures", "solve"]
+__all__ = ["PERMISSIBLE", "Equilibrium", "Measures", "contact_of", "elements", "equilibria", "equilibrium", "geometric_static_rating",
+           "law_of", "life_of", "measures", "solve", "warm"]
 
 
 @singledispatch
@@ -164,6 +165,13 @@ def _state_of(bearing, law, displacement, steps):
     if not np.isfinite(energy + loads.sum()):
         raise InputError(f"bearing: the displacement {_listed(displacement)} is beyond all numbers; it counts in m and rad.")
     return Equilibrium(bearing, displacement, force, stiffness, loads, angles, pressures, laminae, energy, int(steps))
+
+
+def warm(bearing, held=()):
+    """Compile everything for a bearing's law."""
+    solve(bearing, force=[1.0, 0.0, 0.0, 0.0, 0.0])
+    equilibria(law_of(bearing), np.ones((1, 5)), np.array([name in held for name in FREEDOMS]))
+    respond(law_of(bearing), np.zeros(5))
 
 
 def _five(values, name, units):

@@ -11,7 +11,6 @@ from drivewright.shafts import beam as beams
 from drivewright.shafts.beam import FREEDOMS
 
 MIRROR = np.array([1.0, 1.0, -1.0, -1.0, -1.0])
-SHAFT_FREEDOMS = (0, 1, 2, 3, 4)  # of a node, that a support feels: x, y, z, rotations about x and y
 AXIAL, TWIST = 2, 5
 FAR, TURNED = 1e-3, 0.05  # m, rad
 FLOOR = np.diag([1.0, 1.0, 1.0, 1e-4, 1e-4])  # N/m, N m/rad
@@ -95,7 +94,7 @@ def _holds(support, freedom):
 def _mount(found, support, basis, start):
     """x, y averaged over the support's width, z and the tilts at its middle; less the ring's where the seat yields."""
     rows, node, freedoms = np.zeros((5, len(basis))), found.node(support.position), _yielding(support)
-    rows[range(5), FREEDOMS * node + np.array(SHAFT_FREEDOMS)] = 1.0
+    rows[range(5), FREEDOMS * node + np.arange(5)] = 1.0  # of six: nothing here feels the turning
     if support.width:
         ends = support.position - support.width / 2, support.position + support.width / 2
         for plane in (0, 1):

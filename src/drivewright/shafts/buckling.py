@@ -20,9 +20,9 @@ def buckling_factor(loaded):
     tension = beams.tension_and_torque(found, equilibrium.unknowns)[:, 0]
     if not np.any(tension < 0):
         return None
-    basis = model.basis @ free_of(model.rigid, model.size)
-    geometric = basis[: found.size].T @ _geometric(found, tension) @ basis[: found.size]
     held = free_of(model.rigid, model.size)
+    basis = model.basis @ held
+    geometric = basis[: found.size].T @ _geometric(found, tension) @ basis[: found.size]
     factors = eigh(-geometric, held.T @ (equilibrium.hessian + FLOOR * floor(model)) @ held, eigvals_only=True)
     return float(1 / factors[-1]) if factors[-1] > 0 else None
 

@@ -11,7 +11,7 @@ from drivewright.curves import outline_area
 from drivewright.errors import InputError
 from drivewright.scene import Arc, Bar, Line, Prism, Turned
 from drivewright.solids import chain, pieces, turning
-from drivewright.solids.loading import load
+from drivewright.solids.loading import failures, load
 
 MM = 1e3
 TOLERANCE = 1e-7  # m: a tenth of a micrometre in position keeps the curvature of a cam flank within a few per cent
@@ -195,9 +195,8 @@ def _point(occ, p):
 @contextmanager
 def _kernel(name, step):
     """Turns the kernel's poor messages into ours, with the part and the step."""
-    failures = (RuntimeError, load("netgen.meshing", "a CAD solid").NgException, load("netgen.occ", "a CAD solid").OCCException)
     try:
         yield
-    except failures as error:
+    except failures("a CAD solid") as error:
         raise InputError(f"{name}: the CAD kernel failed at {step} ({error}); "
                          "look for kinks, overlaps and tiny pieces, or fuse fewer solids") from error

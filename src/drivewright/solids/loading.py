@@ -16,3 +16,8 @@ def load(module, what):
         raise MissingExtra(what, "fe", error) from None
     except ImportError as error:  # installed, but a system library is not: "libopenblas.so.0: cannot open shared object file"
         raise MissingExtra(what, "fe", f"{error}. {QUADMATH}") from None
+
+
+def failures(what):
+    """The errors that the kernel and the mesher raise."""
+    return RuntimeError, load("netgen.meshing", what).NgException, load("netgen.occ", what).OCCException

@@ -19,7 +19,7 @@ from drivewright.result import Column, Table
 from drivewright.solids import turning
 from drivewright.solids.cad import MM, revolved
 from drivewright.solids.elastic import FreeBody, held
-from drivewright.solids.loading import load
+from drivewright.solids.loading import failures, load
 
 DOWN = (0.0, -1.0, 0.0)
 QUARTERS = 4
@@ -259,10 +259,9 @@ def _combined(fields, amounts):
 @contextmanager
 def _meshing(max_size):
     """Turns the mesher's poor messages into ours."""
-    failures = (RuntimeError, load("netgen.meshing", "a solid check").NgException, load("netgen.occ", "a solid check").OCCException)
     try:
         yield
-    except failures as error:
+    except failures("a solid check") as error:
         raise SolverError(f"solid check: the mesher gave up ({error}); try another max_size than {MM * max_size:g} mm, or move stations, "
                           "steps and the edges of bearings that lie close together further apart") from error
 

@@ -22,6 +22,7 @@ class _LengthOrAngle(Dimension):
     plain = True
 
     def parse(self, value):
+        """As `Dimension.parse`, of the wider kind."""
         if isinstance(value, Swing):
             return value
         try:

@@ -1,6 +1,6 @@
 """From the spec to a shaft on supports under loads, in SI and in plain data."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -25,7 +25,6 @@ class ShaftModel:
     loads: Any
     rolling: dict
     yield_strength: float | None
-    findings: tuple = field(default=())
 
     @property
     def direction(self):
@@ -60,9 +59,8 @@ def build(spec):
         tuple(shafts.Station(s.name, s.position, s.mass, s.polar_inertia, s.diametral_inertia) for s in spec.stations),
         shear(spec.analysis))
     loads = shafts.Loads(tuple(_points(spec)), tuple(_lines(spec)), tuple(spec.gravity))
-    model = ShaftModel(spec, shaft, loads, rolling, stuff["yield_strength"])
     shafts.refuse_mechanism(shaft)
-    return model
+    return ShaftModel(spec, shaft, loads, rolling, stuff["yield_strength"])
 
 
 def material(given):

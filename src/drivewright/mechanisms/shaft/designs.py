@@ -39,6 +39,7 @@ def batch(spec, keys, names):
     straight = [n for n, segment in enumerate(spec.segments) if segment.end_diameter is None and ("ends", n) not in places]
 
     def evaluate(x):
+        """{name: (n,)} of designs (n, d), NaN for an impossible one."""
         tables = _tables(model.shaft, spec, len(x))
         for column, (table, number) in zip(np.asarray(x, float).T, places, strict=True):
             getattr(tables, table)[:, number] = column

@@ -36,6 +36,7 @@ class _StiffnessOrRigid(Dimension):
     plain = True
 
     def parse(self, value):
+        """As `Dimension.parse`, of the wider kind."""
         if value == RIGID:
             return float("inf")
         found = BY_NAME["stiffness"].parse(value)
