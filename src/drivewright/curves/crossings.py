@@ -38,8 +38,11 @@ def self_crossings(chain):
 
 
 def _apart(chain, a, b):
-    """Distance along the closed chain in samples, where the end of a piece and the start of the next are one place."""
-    return np.abs((a - b + 0.5 * len(chain.segments)) % len(chain.segments) - 0.5 * len(chain.segments))
+    """Distance along the loop in samples, where the end of a piece and the start of the next are one place; inf between two loops."""
+    ends = chain.first[chain.loops] - chain.loops  # steps at which the loops begin
+    home, other = (np.clip(np.searchsorted(ends, place, side="right") - 1, 0, len(ends) - 2) for place in (a, b))
+    length = np.diff(ends)[home]
+    return np.where(home == other, np.abs((a - b + 0.5 * length) % length - 0.5 * length), np.inf)
 
 
 def _from_chords(chain):
@@ -51,7 +54,7 @@ def _from_chords(chain):
     middle = 0.5 * (a + b)
     pairs = cKDTree(np.stack([middle.real, middle.imag], axis=1)).query_pairs(1.0001 * np.max(np.abs(b - a)), output_type="ndarray")
     i, j = np.sort(pairs, axis=1).T
-    apart = (j - i > 1) & (j - i < len(start) - 1)
+    apart = _apart(chain, i, j) > 1  # chord number k runs from step k to k + 1
     i, j = i[apart], j[apart]
     along_i, along_j, between = b[i] - a[i], b[j] - a[j], a[j] - a[i]
     with np.errstate(divide="ignore", invalid="ignore"):  # parallel chords: nan or inf, and no crossing
@@ -77,10 +80,10 @@ def _from_joints(chain):
     """
     cusps, seeds = _cusps(chain), []
     for k in range(len(chain.pieces)):
-        end, start = chain.first[k + 1] - 1, chain.first[k + 1] % len(chain.t)
+        end, start = chain.first[k + 1] - 1, chain.first[chain.following[k]]
         if np.real(np.conj(chain.v[end]) * chain.v[start]) >= 0:
             continue
-        last, following = chain.first[k], chain.first[(k + 1) % len(chain.pieces) + 1] - 1
+        last, following = chain.first[k], chain.first[chain.following[k] + 1] - 1
         before = cusps[(cusps > last) & (cusps < end)]
         after = cusps[(cusps > start) & (cusps < following)]
         if len(before):
@@ -140,11 +143,10 @@ def _range(chain, index):
 
 def _cross_joints(chain, index, t):
     """A parameter that has run over the end of its piece moves to the neighbouring piece's end."""
-    count = len(chain.pieces)
     starts, stops = (np.array([getattr(piece, end) for piece in chain.pieces]) for end in ("start", "stop"))
     sense = np.array([piece.sense for piece in chain.pieces])[index]
     over, under = sense * (t - stops[index]) > 0, sense * (t - starts[index]) < 0
-    following, previous = (index + 1) % count, (index - 1) % count
+    following, previous = chain.following[index], chain.previous[index]
     return (np.where(over, following, np.where(under, previous, index)),
             np.where(over, starts[following], np.where(under, stops[previous], t)))
 

@@ -4,8 +4,8 @@ Each family gives the pieces of its envelope and the gap between one of its memb
 when no member's gap is negative.
 """
 
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -22,12 +22,14 @@ class CircleFamily:
     """A roller or cutter of `radius` whose centre runs once along the closed `path` (Pieces of complex jets).
 
     `material` is "inside" when the part lies within the ring that the circle sweeps (disc cam, inner flank of a groove) and
-    "outside" when it surrounds it (outer ring, outer flank).
+    "outside" when it surrounds it (outer ring, outer flank).  `both` takes the envelope on both sides of the path, which bounds the
+    part where the path turns back in loops (the pins of a wheel in its dwell); the second side is a loop of its own that runs backwards.
     """
 
     path: tuple
     radius: float
     material: str = "inside"
+    both: bool = False
 
     def __post_init__(self):
         if not (np.isfinite(self.radius) and self.radius > 0):
@@ -50,21 +52,22 @@ class CircleFamily:
 
     def envelope(self):
         """Pieces of the envelope in the order of the motion, an arc put in wherever the path has a corner."""
-        pieces = []
+        if not self.both:
+            return tuple(self._envelope(self.side))
+        other = [replace(piece, start=piece.stop, stop=piece.start, loop=1) for piece in reversed(list(self._envelope(-self.side)))]
+        return (*self._envelope(self.side), *other)
+
+    def _envelope(self, side):
         for number, (piece, following) in enumerate(_pairs(self.path)):
-            pieces.append(Piece(piece.start, piece.stop, self._branch(piece), piece.label, piece.shape, number))
-            pieces.extend(self._corner(piece, following))
-        return tuple(pieces)
+            yield Piece(piece.start, piece.stop, partial(_branch, piece, self.radius, side), piece.label, piece.shape, number)
+            yield from self._corner(piece, following, side)
 
-    def _branch(self, piece):
-        return lambda t: envelope_of_circle(piece.at(t), self.radius, self.side)
-
-    def _corner(self, piece, following):
+    def _corner(self, piece, following, side):
         before, after = _end(piece, piece.stop), _end(following, following.start)
         turn = float(np.angle(after.d1 / before.d1))
         if abs(turn) < _CORNER:
             return
-        arm = self.side * self.radius * 1j * before.d1 / abs(before.d1)
+        arm = side * self.radius * 1j * before.d1 / abs(before.d1)
         yield Piece(0.0, turn, lambda angle: before.d0 + arm * exp(1j * variable(angle)), f"{piece.label} corner", "arc")
 
     def members(self, index, t):
@@ -131,6 +134,10 @@ class LineFamily:
         normal, support = members
         reach = np.stack([points.real, points.imag], axis=1) @ np.stack([normal.real, normal.imag])
         return np.argmin(support.real - reach, axis=1)
+
+
+def _branch(piece, radius, side, t):
+    return envelope_of_circle(piece.at(t), radius, side)
 
 
 def _pairs(pieces):

@@ -21,6 +21,7 @@ class Piece:
     `at` maps an array of t to a complex Jet (a line family: to the two real Jets direction, support).
     `shape` is "smooth", "arc" for a true circular arc (a dwell), or "line" for a straight one.
     `stop` below `start` runs the piece backwards.  `source` tells pieces of the given motion from corners put between them.
+    Pieces of one `loop` follow one another and close; loops with other numbers are closed curves of their own.
     """
 
     start: float
@@ -29,6 +30,7 @@ class Piece:
     label: str = ""
     shape: str = "smooth"
     source: int | None = None
+    loop: int = 0
 
     @property
     def sense(self):
@@ -62,7 +64,7 @@ def _joined(jets):
 
 @dataclass(frozen=True)
 class Chain:
-    """Pieces joined end to end into a closed curve, with samples: piece index, parameter, point z, velocity v along the chain.
+    """Pieces joined end to end into closed loops, with samples: piece index, parameter, point z, velocity v along the chain.
 
     A place on the chain is a float u: the sample number, fractions in between.
     """
@@ -77,6 +79,29 @@ class Chain:
     def first(self):
         """Sample number at which each piece starts, and the total number at the end."""
         return np.append(np.searchsorted(self.index, np.arange(len(self.pieces))), len(self.t))
+
+    @cached_property
+    def loops(self):
+        """Number of the first piece of each loop, and the number of pieces at the end."""
+        loop = np.array([piece.loop for piece in self.pieces])
+        return np.append(np.flatnonzero(np.diff(loop, prepend=loop[0] - 1)), len(loop))
+
+    @cached_property
+    def loop(self):
+        """Which of the `loops` each piece is in."""
+        return np.repeat(np.arange(len(self.loops) - 1), np.diff(self.loops))
+
+    @cached_property
+    def following(self):
+        """Number of the piece after each piece of its loop."""
+        following = np.arange(1, len(self.pieces) + 1)
+        following[self.loops[1:] - 1] = self.loops[:-1]
+        return following
+
+    @cached_property
+    def previous(self):
+        """Number of the piece before each piece of its loop."""
+        return np.argsort(self.following)
 
     @cached_property
     def segments(self):
@@ -151,11 +176,11 @@ def _ends_exact(t, like):
 
 
 def _refuse_gaps(chain):
-    ends, starts = chain.first[1:] - 1, np.append(chain.first[1:-1], 0)
+    ends, starts = chain.first[1:] - 1, chain.first[chain.following]
     miss = np.abs(chain.z[ends] - chain.z[starts])
     worst = int(np.argmax(miss))
     if miss[worst] > _JOINT * chain.size:
-        here, there = chain.pieces[worst], chain.pieces[(worst + 1) % len(chain.pieces)]
+        here, there = chain.pieces[worst], chain.pieces[chain.following[worst]]
         raise InputError(
             f"curve: piece '{here.label}' ends at t = {here.stop:.6g} and piece '{there.label}' starts at t = {there.start:.6g}, "
             f"{miss[worst] * 1e3:.4g} mm apart. Pieces must follow one another without a jump and close after the last."

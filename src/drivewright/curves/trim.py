@@ -78,9 +78,11 @@ def trim(family, interior=0j, samples=1440, least=96):
     cuts, partner = _cuts(crossings)
     if family.material == "inside":
         _refuse_swept(family, chain, interior)
-    alive = _alive(family, chain, cuts)
-    loop = _choose(chain, cuts, _loops(cuts, partner, alive), interior, family.material)
-    spans, corners = _spans(chain, cuts, loop)
+    parts, following = _parts(chain, cuts)
+    alive = _alive(family, chain, parts)
+    turns_into = np.append(partner, np.arange(len(cuts), len(parts)))[following]
+    loop = _choose(chain, parts, _loops(turns_into, alive), interior, family.material)
+    spans, corners = _spans(chain, cuts, parts, following, loop)
     area, perimeter = span_measures(spans)
     return Trimmed(family, spans, corners, crossings, abs(area), perimeter, chain)
 
@@ -133,12 +135,45 @@ def _cuts(crossings):
     return places[order], rank[order ^ 1]
 
 
-def _alive(family, chain, cuts):
-    """Whether the interval that starts at each cut survives: no member covers its middle or a sample on it."""
-    intervals = np.array([_interval(chain, cuts, k) for k in range(max(len(cuts), 1))])
-    middles = gather(chain.pieces, *chain.locate(np.mean(intervals, axis=1))).d0
+class _Part(NamedTuple):
+    """Places from `start` to `stop` on the loop of the chain that has the samples from `low` to `high`; stop may run over its end."""
+
+    start: float
+    stop: float
+    low: int
+    high: int
+
+    def inside(self, place):
+        """The place on the loop itself."""
+        return self.low + (place - self.low) % (self.high - self.low)
+
+    @property
+    def samples(self):
+        """Numbers of the samples on it."""
+        return self.inside(np.arange(int(np.ceil(self.start)), int(np.ceil(self.stop))))
+
+
+def _parts(chain, cuts):
+    """Parts of the chain, number k from cut k to the next cut of its loop, then the loops without a cut; and which part follows each."""
+    bounds = chain.first[chain.loops]
+    home = np.searchsorted(bounds, cuts, side="right") - 1
+    parts, following = [None] * len(cuts), [None] * len(cuts)
+    for loop, (low, high) in enumerate(zip(bounds[:-1], bounds[1:], strict=True)):
+        own = np.flatnonzero(home == loop)
+        for k, after in zip(own, np.roll(own, -1), strict=True):
+            parts[k] = _Part(cuts[k], cuts[after] + (high - low if after <= k else 0), low, high)
+            following[k] = after
+        if not len(own):
+            following.append(len(parts))
+            parts.append(_Part(float(low), float(high), low, high))
+    return parts, np.array(following)
+
+
+def _alive(family, chain, parts):
+    """Whether each part survives: no member covers its middle or a sample on it."""
+    middles = gather(chain.pieces, *chain.locate(np.array([part.inside(0.5 * (part.start + part.stop)) for part in parts]))).d0
     gaps = _least_gap(family, chain, np.append(chain.z, middles))
-    least = [min(np.min(gaps[_samples_between(chain, *ends)], initial=np.inf), gaps[len(chain.z) + k]) for k, ends in enumerate(intervals)]
+    least = [min(np.min(gaps[part.samples], initial=np.inf), gaps[len(chain.z) + k]) for k, part in enumerate(parts)]
     return np.array(least) >= -_UNSEEN * chain.size
 
 
@@ -149,8 +184,8 @@ def _least_gap(family, chain, points):
     return family.gap(members[..., family.deepest(members, points)], points)
 
 
-def _loops(cuts, partner, alive):
-    """Closed sequences of surviving intervals: at a cut the profile turns into the interval that starts at the partner."""
+def _loops(turns_into, alive):
+    """Closed sequences of surviving parts: at its end each turns into the part that starts at the partner of that cut."""
     left = set(np.flatnonzero(alive))
     loops = []
     while left:
@@ -159,59 +194,50 @@ def _loops(cuts, partner, alive):
         while k in left:
             left.remove(k)
             loop.append(int(k))
-            if len(cuts):
-                k = partner[(k + 1) % len(cuts)]
+            k = turns_into[k]
         if k == start:
             loops.append(loop)
     return loops
 
 
-def _choose(chain, cuts, loops, interior, material):
+def _choose(chain, parts, loops, interior, material):
     """The loop that winds around the interior point: the smallest for material inside, the largest for material outside."""
     around = []
     for loop in loops:
-        points = np.concatenate([chain.z[_samples_between(chain, *_interval(chain, cuts, k))] for k in loop])
+        points = np.concatenate([chain.z[parts[k].samples] for k in loop])
         arms = points - interior
         winding = np.sum(np.angle(np.roll(arms, -1) / arms)) / (2 * np.pi)
         if abs(winding) > 0.5:
             around.append((abs(np.sum(np.imag(np.conj(arms) * np.roll(arms, -1)))), loop))
     if not around:
         raise SolverError(
-            f"trim: {len(loops)} closed loops survive of {max(len(cuts), 1)} parts of the envelope, none around the interior point "
+            f"trim: {len(loops)} closed loops survive of {len(parts)} parts of the envelope, none around the interior point "
             f"({interior.real:.4g}, {interior.imag:.4g}) m: either a self-intersection was missed (raise `samples` above {len(chain.t)}), "
             "or the motion turns back so far in a loop that the other side of its path bounds the part (smooth the motion)."
         )
     return (min if material == "inside" else max)(around)[1]
 
 
-def _interval(chain, cuts, k):
-    if not len(cuts):
-        return 0.0, float(len(chain.t))
-    return cuts[k], cuts[k + 1] if k + 1 < len(cuts) else cuts[0] + len(chain.t)
-
-
-def _samples_between(chain, start, stop):
-    return np.arange(int(np.ceil(start)), int(np.ceil(stop))) % len(chain.t)
-
-
-def _spans(chain, cuts, loop):
+def _spans(chain, cuts, parts, following, loop):
     spans, corners = [], []
     for number, k in enumerate(loop):
-        spans += _split(chain, *_interval(chain, cuts, k))
-        if len(cuts):
-            index, t = chain.locate(cuts[[(k + 1) % len(cuts), loop[(number + 1) % len(loop)]]])
+        spans += _split(chain, parts[k])
+        if k < len(cuts):
+            index, t = chain.locate(cuts[[following[k], loop[(number + 1) % len(loop)]]])
             corners.append(Corner(float(t[0]), float(t[1]), complex(gather(chain.pieces, index, t).d0[0])))
     return tuple(spans), tuple(corners)
 
 
-def _split(chain, start, stop):
-    """Spans of the interval of places, one per piece."""
+def _split(chain, part):
+    """Spans of the part, one per piece."""
     spans = []
-    for turn in (0, len(chain.t)):
-        for k, piece in enumerate(chain.pieces):
-            low, high = max(start, chain.first[k] + turn), min(stop, chain.first[k + 1] - 1 + turn)
+    pieces = np.flatnonzero((chain.first[:-1] >= part.low) & (chain.first[1:] <= part.high))
+    for turn in (0, part.high - part.low):
+        for k in pieces:
+            piece = chain.pieces[k]
+            low, high = max(part.start, chain.first[k] + turn), min(part.stop, chain.first[k + 1] - 1 + turn)
             if high > low:
-                _, t = chain.locate(np.array([low, high]))
+                _, t = chain.locate(np.array([low, high]) - turn)
                 spans.append(Span(piece, float(t[0]), float(t[1])))
     return spans
 

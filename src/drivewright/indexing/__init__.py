@@ -1,0 +1,1 @@
+"""Indexing drives: profiles cut by the pins of a wheel, play, load sharing, torsional stiffness."""
