@@ -1,6 +1,7 @@
 """What can be plugged in, by entry point.
 
-Groups: `drivewright.mechanisms` (a `Mechanism`), `drivewright.motion_laws` (a function returning a motion law),
+Groups: `drivewright.mechanisms` (a `Mechanism`), `drivewright.commands` (a command's name, pointing at the `Mechanism` that brings it, so
+that the names are known before anything is imported), `drivewright.motion_laws` (a function returning a motion law),
 `drivewright.impact_laws` (a `contact.ImpactLaw`),
 `drivewright.views` (a function that draws a table), `drivewright.validation` (a published source beside ours).
 A third-party package declares the same groups in its own pyproject.
@@ -59,10 +60,33 @@ class Mechanism:
     batch: Callable | None = None
     sources: tuple = ()
     headline: tuple = ()  # value names shown first; "*" stands for what users name
+    commands: tuple = ()  # what it brings to the command line, each a `Command`
 
     def presets(self):
         """Name -> path of the spec files that come with the kind."""
         return {path.stem: path for path in sorted((self.folder / "presets").glob("*.toml"))}
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command that a mechanism brings: `drivewright NAME ARGUMENT --key value ...` writes a run folder.
+
+    `evaluation` is a `Mechanism` like any other, only that its spec is written as options instead of a file: its kind is the name of the
+    command, the plain keys of its spec are the options, their descriptions the help.  `argument` is the key that stands without a name.
+    """
+
+    evaluation: Mechanism
+    argument: str
+
+    @property
+    def name(self):
+        """What is typed."""
+        return self.evaluation.kind
+
+    @property
+    def summary(self):
+        """One line for the help."""
+        return self.evaluation.summary
 
 
 @cache
@@ -97,8 +121,30 @@ def kinds():
 
 
 def mechanism(kind):
-    """The `Mechanism` of a kind."""
-    return load("drivewright.mechanisms", kind, "mechanism")
+    """The `Mechanism` of a kind, or the evaluation of a command by its name."""
+    if kind in plugins("drivewright.mechanisms") or kind not in commands():
+        return load("drivewright.mechanisms", kind, "mechanism")
+    return command(kind).evaluation
+
+
+def is_known(kind):
+    """Whether a kind, or a command, of this name is installed."""
+    return kind in kinds() or kind in commands()
+
+
+def commands():
+    """Name -> kind of the mechanism that brings it, sorted; nothing is imported."""
+    kind_of = {point.value: kind for kind, point in plugins("drivewright.mechanisms").items()}
+    return {name: kind_of.get(point.value, point.value) for name, point in sorted(plugins("drivewright.commands").items())}
+
+
+def command(name):
+    """The `Command` of a name; InputError where the mechanism that is said to bring it does not."""
+    bringing = load("drivewright.commands", name, "command")
+    found = next((each for each in bringing.commands if each.name == name), None)
+    if found is None:
+        raise InputError(f"command {name!r} is not among the commands of {bringing.kind!r}; repair the package that declares it")
+    return found
 
 
 def headlines(mechanism, values):

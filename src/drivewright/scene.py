@@ -1,7 +1,7 @@
 """Plain data for everything that draws: figures, the motion player, DXF, STEP, the studio.
 
 A `Scene` is labelled planar shapes that move rigidly through one cycle; a `Drawing` is one flat part on named layers;
-a `Part` is a set of prisms, bars and turned bodies at its start position.  Lengths in metres, angles in radians, y up,
+a `Part` is a set of prisms, bars, turned and grooved bodies at its start position.  Lengths in metres, angles in radians, y up,
 counter-clockwise positive.  Nothing here computes mechanics or knows a file format.
 """
 
@@ -209,9 +209,23 @@ class Turned(NamedTuple):
     rings: tuple
 
 
+class Grooved(NamedTuple):
+    """Body of revolution about a line in the plane, from `start` (x, y) at height z in the x direction, with grooves milled into it.
+
+    section: closed Outline of its half-section, (distance along the axis, radius).  Each of `grooves` is an array (2, n, m, 3) of points of
+    its two walls: n along the groove, m from above the body down to the floor; coordinates along the axis, across it in the plane, up.
+    Floor, mouth and ends of a groove run straight from wall to wall; mouth and ends lie outside the body.
+    """
+
+    start: tuple
+    z: float
+    section: Outline
+    grooves: tuple
+
+
 @dataclass(frozen=True)
 class Part:
-    """A named solid of an assembly: prisms, bars and turned bodies fused together, placed at `pose` (x, y, angle)."""
+    """A named solid of an assembly: prisms, bars, turned and grooved bodies fused together, placed at `pose` (x, y, angle)."""
 
     name: str
     solids: tuple

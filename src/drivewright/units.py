@@ -219,16 +219,38 @@ def _decimal(exact, digits):
     return f"{number:f}" if -5 <= number.adjusted() < 7 or not number else f"{number:e}"
 
 
-DIMENSIONS = tuple(Dimension(*row) for row in (
-    ("length", "m", "mm", ("um", "in")), ("angle", "rad", "deg", ("arcmin", "arcsec", "rad")),
-    ("angular speed", "rad/s", "rpm", ("rad/s", "rev/h")), ("angular acceleration", "rad/s^2", "rad/s^2"),
-    ("velocity", "m/s", "m/s", ("mm/min", "mm/s")), ("acceleration", "m/s^2", "m/s^2"), ("time", "s", "s", ("min", "h")),
-    ("frequency", "Hz", "Hz"), ("mass", "kg", "kg"), ("moment of inertia", "kg m^2", "kg m^2"), ("force", "N", "N"),
-    ("torque", "N m", "N m"), ("stiffness", "N/m", "N/mm"), ("rotational stiffness", "N m/rad", "N m/rad"), ("damping", "N s/m", "N s/m"),
-    ("pressure", "Pa", "MPa"), ("area", "m^2", "mm^2"), ("curvature", "1/m", "1/mm"), ("power", "W", "W"), ("density", "kg/m^3", "kg/m^3"),
-    ("volume", "m^3", "mm^3"), ("rotational damping", "N m s/rad", "N m s/rad"), ("viscosity", "Pa s", "Pa s"),
-    ("wear coefficient", "m^2/N", "mm^3/(N m)"), ("slowness", "s/m", "s/m"),
-    ("flexibility", "m/N", "um/kN")))
+DIMENSIONS = tuple(
+    Dimension(*row)
+    for row in (
+        ("length", "m", "mm", ("um", "in")),
+        ("angle", "rad", "deg", ("arcmin", "arcsec", "rad")),
+        ("angular speed", "rad/s", "rpm", ("rad/s", "rev/h")),
+        ("angular acceleration", "rad/s^2", "rad/s^2"),
+        ("velocity", "m/s", "m/s", ("mm/min", "mm/s")),
+        ("acceleration", "m/s^2", "m/s^2"),
+        ("time", "s", "s", ("min", "h")),
+        ("frequency", "Hz", "Hz"),
+        ("mass", "kg", "kg"),
+        ("moment of inertia", "kg m^2", "kg m^2"),
+        ("force", "N", "N"),
+        ("torque", "N m", "N m"),
+        ("stiffness", "N/m", "N/mm"),
+        ("rotational stiffness", "N m/rad", "N m/arcmin", ("N m/rad",)),
+        ("damping", "N s/m", "N s/m"),
+        ("pressure", "Pa", "MPa"),
+        ("area", "m^2", "mm^2"),
+        ("curvature", "1/m", "1/mm"),
+        ("power", "W", "W"),
+        ("density", "kg/m^3", "kg/m^3"),
+        ("volume", "m^3", "mm^3"),
+        ("rotational damping", "N m s/rad", "N m s/rad"),
+        ("viscosity", "Pa s", "Pa s"),
+        ("wear coefficient", "m^2/N", "mm^3/(N m)"),
+        ("slowness", "s/m", "s/m"),
+        ("flexibility", "m/N", "um/kN"),
+        ("torsional compliance", "rad/(N m)", "arcmin/(kN m)"),
+    )
+)
 REMEDIES = {"rotational damping": "; write N m s/rad, a torque per angular speed", "viscosity": "; write Pa s, the dynamic viscosity",
             "wear coefficient": "; write mm^3/(N m), volume per force and sliding distance", "slowness": "; write s/m"}
 BY_NAME = {dimension.name: dimension for dimension in DIMENSIONS}
@@ -284,4 +306,4 @@ def display(si_unit):
 
 # Typed apart from the registry so that drawing a figure does not import pint; a test holds the two together.
 _SHOWN_FACTOR = {"mm": 1e-3, "deg": math.pi / 180, "rpm": math.pi / 30, "N/mm": 1e3, "MPa": 1e6, "mm^2": 1e-6, "1/mm": 1e3, "mm^3": 1e-9,
-                 "mm^3/(N m)": 1e-9, "um/kN": 1e-9}
+                 "mm^3/(N m)": 1e-9, "um/kN": 1e-9, "N m/arcmin": 10800 / math.pi, "arcmin/(kN m)": math.pi / 10800e3}

@@ -8,6 +8,7 @@ import drivewright as dw
 NAMES = [
     "Cam",
     "DrivewrightError",
+    "Indexer",
     "InputError",
     "Linkage",
     "MissingExtra",
@@ -23,6 +24,7 @@ NAMES = [
     "contact",
     "curves",
     "gears",
+    "indexing",
     "load",
     "materials",
     "motion",

@@ -59,6 +59,7 @@ READ = {
     "viscosity": {"40 mPa s": 0.04, "1 Pa*s": 1.0, "1 N s/m^2": 1.0},
     "wear coefficient": {"1 m^2/N": 1.0, "2 mm^3/(N m)": 2e-9, "3 1/Pa": 3.0},
     "slowness": {"2 s/m": 2.0, "1 s/mm": 1000.0},
+    "torsional compliance": {"1 rad/(N m)": 1.0, "2 rad/(kN m)": 2e-3},
     "flexibility": {"1 m/N": 1.0, "250 um/kN": 2.5e-7, "3 mm/N": 3e-3},
 }
 CASES = [(name, text, value) for name, texts in READ.items() for text, value in texts.items()]

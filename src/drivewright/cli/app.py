@@ -1,7 +1,6 @@
 """Commands.  They know the registry, the schema and the result; no kind of drive by name."""
 
 import json
-import sys
 from collections import Counter
 from pathlib import Path
 from typing import Annotated
@@ -9,10 +8,11 @@ from typing import Annotated
 import typer
 
 from drivewright import registry
-from drivewright.cli import show
+from drivewright.cli import brought, show
 from drivewright.errors import InputError, UnknownName
 
 app = typer.Typer(
+    cls=brought.Commands,
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -97,14 +97,7 @@ def run(
         show.note(f"wrote {folder}/")
         if not as_json:
             show.result(result)
-    if as_json:
-        records = [result.record() for result in results]
-        json.dump(records[0] if len(records) == 1 else records, sys.stdout, indent=1)
-        print()
-    if any(result.outcome == "partial" for result in results):
-        raise typer.Exit(4)
-    if strict and not all(result.ok for result in results):
-        raise typer.Exit(3)
+    show.leave(results, as_json, strict)
 
 
 @app.command()

@@ -1,5 +1,6 @@
 """What the command line prints: results to stdout, everything else to stderr."""
 
+import json
 import shutil
 import sys
 from contextlib import contextmanager
@@ -87,6 +88,20 @@ def result(found):
     checks(found.checks)
     for finding in found.findings:
         note(f"note: {finding}")
+
+
+def leave(results, as_json=False, strict=False):
+    """The end of a run: JSON on stdout where asked for; exit 4 after a solver that gave up, 3 after a failed check with `strict`."""
+    import typer
+
+    if as_json:
+        records = [each.record() for each in results]
+        json.dump(records[0] if len(records) == 1 else records, sys.stdout, indent=1)
+        print()
+    if any(each.outcome == "partial" for each in results):
+        raise typer.Exit(4)
+    if strict and not all(each.ok for each in results):
+        raise typer.Exit(3)
 
 
 def checks(found):

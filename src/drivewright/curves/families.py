@@ -59,8 +59,16 @@ class CircleFamily:
 
     def _envelope(self, side):
         for number, (piece, following) in enumerate(_pairs(self.path)):
-            yield Piece(piece.start, piece.stop, partial(_branch, piece, self.radius, side), piece.label, piece.shape, number)
+            if not self._shrunk(piece, side):
+                yield Piece(piece.start, piece.stop, partial(_branch, piece, self.radius, side), piece.label, piece.shape, number)
             yield from self._corner(piece, following, side)
+
+    def _shrunk(self, piece, side):
+        """True where the envelope of an arc is its centre: the circle is as wide as the arc that its own centre runs on."""
+        if piece.shape != "arc":
+            return False
+        middle = np.array([0.5 * (piece.start + piece.stop)])
+        return bool(abs(_branch(piece, self.radius, side, middle).d1[0]) < _CORNER * abs(piece.at(middle).d1[0]))
 
     def _corner(self, piece, following, side):
         before, after = _end(piece, piece.stop), _end(following, following.start)

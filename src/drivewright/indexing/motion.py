@@ -15,7 +15,7 @@ NO_DWELL = "no-dwell"
 
 @dataclass(frozen=True)
 class Stretch:
-    """A smooth stretch of one turn of the input: angles [rad] from `start` to `stop`; `number` is its piece of the law, None in the dwell."""
+    """A smooth stretch of one turn of the input, angles [rad]; `number` is its piece of the law, None in the dwell."""
 
     start: float
     stop: float
@@ -46,7 +46,7 @@ class IndexMotion:
         return moving if self.motion_angle >= TURN else (*moving, Stretch(self.motion_angle, TURN, None))
 
     def on(self, stretch, theta, turn=0):
-        """Jet of phi [rad] by the input angle at `theta` within a stretch of turn number `turn`, one-sided at its ends; theta counts in the turn."""
+        """Jet of phi [rad] by the input angle theta, counted in turn number `turn`, by the formula of a stretch; one-sided at its ends."""
         theta = np.asarray(theta, dtype=float)
         if stretch.number is None:
             still = np.zeros_like(theta)
@@ -82,7 +82,7 @@ def index_motion(name, divisions, motion_to_dwell=1.0, **parameters):
         raise InputError(f"motion_to_dwell = {motion_to_dwell}; the ratio of motion to dwell is above 0 and finite, or {NO_DWELL!r}.")
     if found.continuity < 1:
         raise InputError(
-            f"motion law {name!r}: its velocity jumps (Vm = {found.peaks().v:.4g}), so the wheel would be struck at the ends of the dwell. "
-            'Take a law that starts and ends at rest, as "modified-sine", or leave the dwell out.'
+            f"motion law {name!r}: its velocity jumps by {found.peaks().Vm:.4g}, so the wheel would be struck at the ends of the dwell. "
+            f'Take a law from rest to rest, as "modified-sine", or motion_to_dwell = "{NO_DWELL}".'
         )
     return IndexMotion(found, divisions, TURN * motion_to_dwell / (1 + motion_to_dwell))

@@ -40,7 +40,7 @@ def views(result, model=None):
 
     `model` is the spec's own, where it has been built already.
     """
-    if result.mechanism not in registry.kinds():
+    if not registry.is_known(result.mechanism):
         return Views(remarks=(f"mechanism {result.mechanism!r} is not installed here: neither motion nor drawings",))
     mechanism = registry.mechanism(result.mechanism)
     model = model or mechanism.build(result.spec)
@@ -125,7 +125,7 @@ def verdict(passed, outcome):
 
 def headline(result):
     """The mechanism's headline values, or the first six; those that the run has."""
-    known = result.mechanism in registry.kinds()
+    known = registry.is_known(result.mechanism)
     names = registry.headlines(registry.mechanism(result.mechanism), result.values) if known else list(result.values)[:6]
     return [_value(name, result.values[name]) for name in names]
 

@@ -43,6 +43,6 @@ def _thumbnail(folder, base):
 
 def _headline(record):
     kind, values = record["mechanism"], record["values"]
-    registered = registry.mechanism(kind).headline if kind in registry.kinds() else ()
+    registered = registry.mechanism(kind).headline if registry.is_known(kind) else ()
     names = [name for name in registered or values if name in values][:MOST]
     return [{"meaning": sentence(values[n]["meaning"] or n), "shown": quantity(values[n]["value"], values[n]["unit"])} for n in names]

@@ -1,4 +1,5 @@
-"""CAD solids of parts with Netgen's OpenCASCADE kernel (extra `fe`): prisms of true arcs, lines and splines, round bars, turned bodies.
+"""CAD solids of parts with Netgen's OpenCASCADE kernel (extra `fe`): prisms of true arcs, lines and splines, round bars, turned and
+grooved bodies.
 
 A `scene.Part` is in metres; the shapes made here are in millimetres, the unit of STEP and STL files.
 """
@@ -9,8 +10,8 @@ import numpy as np
 
 from drivewright.curves import outline_area
 from drivewright.errors import InputError
-from drivewright.scene import Arc, Bar, Line, Prism, Turned
-from drivewright.solids import chain, pieces, turning
+from drivewright.scene import Arc, Bar, Grooved, Line, Prism, Turned
+from drivewright.solids import chain, grooving, pieces, turning
 from drivewright.solids.loading import failures, load
 
 MM = 1e3
@@ -20,7 +21,7 @@ COLOURS = {"steel": (0.62, 0.65, 0.70), "blue": (0.16, 0.38, 0.75), "orange": (0
 
 
 def solid(part, tolerance=TOLERANCE):
-    """OCC shape [mm] of a part: its prisms, bars and turned bodies fused, placed at its pose, named and coloured.
+    """OCC shape [mm] of a part: its prisms, bars, turned and grooved bodies fused, placed at its pose, named and coloured.
 
     Splines become C2 B-splines with few poles, within `tolerance` [m] of the knots; arcs stay circles.
     """
@@ -126,6 +127,23 @@ def revolved(occ, corners, foot, along, up, angle=360.0):
     return occ.Face(occ.Wire(edges)).Revolve(occ.Axis(foot, along), angle)
 
 
+def _grooved(occ, grooved, name, tolerance):
+    """Half-section turned about its axis, less the grooves; what is left and what is cut away must make up the blank again."""
+    label = f"part {name!r}"
+    grooving.checked(grooved, label)
+    section = _face(occ, grooved.section, label, tolerance)
+    with _kernel(label, "turning its section and milling its grooves"):
+        body = section.Revolve(occ.Axis((0, 0, 0), occ.X), 360)
+        for walls in grooved.grooves:
+            tool = grooving.tool(occ, MM * np.asarray(walls, float))
+            left, chips = body - tool, body * tool
+            if len(left.solids) != 1 or abs(left.mass + chips.mass - body.mass) > 1e-4 * body.mass or not chips.mass > 0:
+                raise InputError(f"{label}: the CAD kernel cut {chips.mass:.6g} mm^3 from a blank of {body.mass:.6g} mm^3 and left "
+                                 f"{left.mass:.6g} mm^3 in {len(left.solids)} pieces; look for walls that cross or miss the body")
+            body = left.solids[0]
+        return body.Move(occ.Vec(*(MM * float(c) for c in (*grooved.start, grooved.z)))).solids[0]
+
+
 def _face(occ, outline, name, tolerance):
     """Plane face of a closed outline, with a check that the kernel understood it."""
     outline = chain.joined(outline, name)
@@ -185,7 +203,7 @@ def _distance(edge, at, points, curve):
     return float(np.abs(tangent[:, 0] * offset[:, 1] - tangent[:, 1] * offset[:, 0]).max() / np.hypot(*tangent.T).min())
 
 
-MAKERS = {Prism: _prism, Bar: _bar, Turned: _turned}
+MAKERS = {Prism: _prism, Bar: _bar, Turned: _turned, Grooved: _grooved}
 
 
 def _point(occ, p):

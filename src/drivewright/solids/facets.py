@@ -1,4 +1,4 @@
-"""Closed triangle surfaces of parts: a single prism, bar or turned body directly, several fused ones with the CAD kernel (extra `fe`)."""
+"""Closed triangle surfaces of parts: a single prism, bar or turned body directly, others with the CAD kernel (extra `fe`)."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from drivewright.solids import cad, chain, turning
 
 def triangles(part, tolerance=1e-5):
     """Surface of a part, outward counter-clockwise: points (n, 3) [m] and corners (m, 3); chords within about `tolerance` [m] of it."""
-    if len(part.solids) != 1:
+    if len(part.solids) != 1 or type(part.solids[0]) not in MAKERS:
         return cad.triangles(part, tolerance)
     (solid,) = part.solids
     points, corners = MAKERS[type(solid)](solid, f"part {part.name!r}", tolerance)

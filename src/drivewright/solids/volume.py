@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from drivewright.scene import Bar, Prism, Turned
+from drivewright.errors import InputError
+from drivewright.scene import Bar, Grooved, Prism, Turned
 from drivewright.solids import chain, turning
 
 SAMPLES = 129  # places along a cone at which its horizontal section is taken
@@ -12,8 +13,10 @@ def volume(part):
     """Volume [m^3] of a part: the area of its horizontal sections, integrated over the height.
 
     Independent of the CAD kernel, whose `.mass` is off by up to 1 % for solids with spline edges.  Prisms are right to 1e-6; where a
-    round bar or a turned body leaves a prism, to about 1e-4.  A turned body alone has its closed form.
+    round bar or a turned body leaves a prism, to about 1e-4.  A turned body alone has its closed form.  A grooved one is refused.
     """
+    if any(isinstance(item, Grooved) for item in part.solids):
+        raise InputError(f"part {part.name!r}: the volume of a grooved body needs the CAD kernel; take that of its triangles.")
     if len(part.solids) == 1 and isinstance(part.solids[0], Turned):
         return turning.volume(turning.checked(part.solids[0].rings, f"part {part.name!r}"))
     prisms = [(item, chain.region(item, f"part {part.name!r}", 1e-8)) for item in part.solids if isinstance(item, Prism)]

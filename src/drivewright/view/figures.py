@@ -85,13 +85,14 @@ def _draw_series(axis, panel, series, x, ticks):
 def _draw_bars(axis, lines, x):
     """Stacked bars, what is negative below zero; a diamond marks the sum."""
     above, below = np.zeros(len(x)), np.zeros(len(x))
+    width = 0.6 if len(x) <= FEW else 0.85 * np.min(np.diff(x))
     for number, series in enumerate(lines):
         up, down = np.maximum(series.data, 0.0), np.minimum(series.data, 0.0)
-        look = {"width": 0.6, "color": colour(series.role), "edgecolor": "white", "lw": 0.4, "hatch": "//" * (number // len(SERIES))}
+        look = {"width": width, "color": colour(series.role), "edgecolor": "white", "lw": 0.4, "hatch": "//" * (number // len(SERIES))}
         axis.bar(x, up, bottom=above, label=series.label, **look)
         axis.bar(x, down, bottom=below, **look)
         above, below = above + up, below + down
-    axis.plot(x, above + below, ls="none", marker="D", ms=6, mfc="white", mec=colour("ink"), label="Sum")
+    axis.plot(x, above + below, ls="none", marker="D", ms=6 if len(x) <= FEW else 2.5, mfc="white", mec=colour("ink"), label="Sum")
     axis.axhline(0.0, color=colour("muted"), lw=0.8)
 
 

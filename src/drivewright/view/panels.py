@@ -52,7 +52,7 @@ class Panel(NamedTuple):
 
 def known_plots(result):
     """Name -> Plot of the result's mechanism; none where the kind is not installed here."""
-    if result.mechanism not in registry.kinds():
+    if not registry.is_known(result.mechanism):
         return {}
     plots = registry.mechanism(result.mechanism).plots
     return {plot.name: plot for plot in (plots(result) if callable(plots) else plots)}

@@ -1,0 +1,144 @@
+"""What yields in a pin-wheel indexer, as plain data: pins, crank bearings, split shafts, their supports, gears, the wheel.
+
+Two split shafts stand at (-spacing/2, 0) and (+spacing/2, 0); a gear on each meshes with the locked input gear on the wheel's axis,
+and their crank pins, one a cam, carry every cam in two holes.  What is None is rigid; without a gear the shafts are held where it
+would sit.  SI units.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from drivewright.errors import InputError
+from drivewright.shafts import Section
+
+PALMGREN_LINE = 8.06e10  # N/m^2: F = 8.06e4 b^(8/9) s^(10/9) of one steel line contact in N and mm; Palmgren, recalled
+SIDES = (-1.0, 1.0)  # of the two split shafts
+
+
+class PinContact(NamedTuple):
+    """Approach of cam and pin under the force F: (F/line)^0.9 + F/series; line [N/m^(10/9)], series [N/m], None leaves its part out."""
+
+    line: float | None = None
+    series: float | None = None
+
+
+class PowerBearing(NamedTuple):
+    """Radial force F = constant max(d - clearance, 0)^exponent at the displacement d [N, m], alike in all directions."""
+
+    constant: float
+    exponent: float = 1.0
+    clearance: float = 0.0
+
+
+class SplitShaft(NamedTuple):
+    """A stepped shaft from z = 0: places of its gear, of its front and rear support and of the cams; Euler-Bernoulli beam and rod."""
+
+    sections: tuple[Section, ...]
+    gear: float
+    supports: tuple[float, float]
+    cams: tuple[float, ...]
+    modulus: float
+    poisson: float
+
+
+class GearMesh(NamedTuple):
+    """Gears of the split shafts: pitch radius [m], stiffness of a mesh along its line of action [N/m], pressure angle [rad], and the
+    backlash [m] along that line, half of it on either flank."""
+
+    pitch_radius: float
+    stiffness: float
+    pressure_angle: float
+    backlash: float = 0.0
+
+
+class Drivetrain(NamedTuple):
+    """spacing [m] of the split shafts, and what yields.
+
+    crank, support, wheel: bearings of the cams, the shafts, the wheel: a PowerBearing or a rolling bearing of `drivewright.bearings`;
+    housing [N/m]: radial stiffness of a seat of the supports, in series; wheel_torsion [N m/rad]: between pins and output.
+    """
+
+    spacing: float
+    pins: PinContact | None = None
+    crank: Any = None
+    support: Any = None
+    housing: float | None = None
+    shaft: SplitShaft | None = None
+    gear: GearMesh | None = None
+    wheel: Any = None
+    wheel_torsion: float | None = None
+
+
+def pin_contact(width, series=None):
+    """The PinContact of a steel pin and cam that touch along `width` [m], with a linear stiffness [N/m] in series."""
+    if not width > 0:
+        raise InputError(f"pin contact: the width must be above 0, got {1e3 * width:g} mm; it is the thickness of the cam on the pin.")
+    return PinContact(PALMGREN_LINE * width ** (8 / 9), series)
+
+
+def power_bearing(stiffness_of, clearance=0.0):
+    """The PowerBearing of a formula of `drivewright.bearings.quick`: stiffness_of(force) gives its Stiffness.
+
+    F = K d^n has the secant K^(1/n) F^(1 - 1/n), and n is tangent over secant.
+    """
+    at_one = stiffness_of(1.0)
+    exponent = 1.0 / at_one.ratio
+    return PowerBearing(float(at_one.secant) ** exponent, exponent, clearance)
+
+
+def check(drive, cams):
+    """InputError where a part has no meaning for a drive with that many cams."""
+    for name, value, unit, least in _sizes(drive):
+        if value is not None and not (value > 0 if least is None else value >= least):
+            wanted = "above 0" if least is None else f"{least:g} or more"
+            raise InputError(f"drive train: {name} = {value:g} {unit}".rstrip() + f" must be {wanted}; leave it out for a rigid part.")
+    if drive.shaft is not None:
+        _check_shaft(drive.shaft, cams)
+    if drive.gear is not None:
+        _check_gear(drive.gear, drive.spacing)
+
+
+def _check_shaft(shaft, cams):
+    if len(shaft.cams) != cams:
+        raise InputError(f"drive train: the split shaft has places for {len(shaft.cams)} cams, but the drive has {cams}; give one each.")
+    front, rear = (1e3 * place for place in shaft.supports)
+    if not front < rear:
+        raise InputError(f"drive train: the front support at {front:g} mm must lie before the rear one at {rear:g} mm.")
+    stations = sorted((shaft.gear, *shaft.cams))
+    for before, after in zip(stations[:-1], stations[1:], strict=True):
+        if not before < after:
+            raise InputError(f"drive train: gear and cams of a split shaft want different places; two stand at {1e3 * after:g} mm.")
+
+
+def _check_gear(gear, spacing):
+    if not gear.pitch_radius < spacing / 2:
+        raise InputError(
+            f"drive train: the split gears' pitch radius {1e3 * gear.pitch_radius:g} mm leaves no input gear between shafts "
+            f"{1e3 * spacing:g} mm apart; it must be below half of that."
+        )
+    if not 0 <= gear.pressure_angle < np.pi / 2:
+        raise InputError(
+            f"drive train: the gears' pressure angle {np.degrees(gear.pressure_angle):.4g} deg must lie from 0 to below 90 deg "
+            "(it is taken in radians); 20 deg is usual."
+        )
+
+
+def _sizes(drive):
+    """(name, value, unit, least value allowed; None: above 0)."""
+    yield "spacing", drive.spacing, "m", None
+    yield "housing", drive.housing, "N/m", None
+    yield "wheel_torsion", drive.wheel_torsion, "N m/rad", None
+    if drive.pins is not None:
+        yield "pins.line", drive.pins.line, "N/m^(10/9)", None
+        yield "pins.series", drive.pins.series, "N/m", None
+    if drive.gear is not None:
+        yield "gear.pitch_radius", drive.gear.pitch_radius, "m", None
+        yield "gear.stiffness", drive.gear.stiffness, "N/m", None
+        yield "gear.backlash", drive.gear.backlash, "m", 0.0
+    for name in ("crank", "support", "wheel"):
+        bearing = getattr(drive, name)
+        if isinstance(bearing, PowerBearing):
+            yield f"{name}.constant", bearing.constant, "N/m^n", None
+            yield f"{name}.exponent", bearing.exponent, "", 1.0
+            yield f"{name}.clearance", bearing.clearance, "m", 0.0

@@ -1,0 +1,69 @@
+"""The parallel-shaft indexer: two plate cams on the input shaft hold a wheel with two levels of rollers.
+
+The wheel turns about 0, the input shaft stands at the centre distance C on the x axis and turns against the wheel, clockwise, as outer
+gears do: w = -theta.  Only so is the pitch point C/(1 + phi') between the shafts, where the rollers are.  A turn of the input is one step
+of 2 pi/N.  Each level has N rollers; in the dwell, and so at theta = 0, one roller of the first level stands a quarter of the pitch in
+front of the line of centres, one of the second level as far behind it.  The first is pressed forward by the dwell arc of its cam, the
+second backward: together they lock the wheel.  For a symmetric law the second cam is the mirror image of the first.
+Seen from the cam a roller's centre runs along (R exp(i psi) - C) exp(i theta), psi its angle on the wheel: the pitch curve of an
+oscillating roller follower with the arm R and the pivot distance C.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from drivewright.errors import InputError
+from drivewright.indexing.motion import IndexMotion
+from drivewright.indexing.plane import PlaneDrive, refuse_overlap
+from drivewright.numerics.jets import constant, variable
+
+
+@dataclass(frozen=True, eq=False)
+class PlateCam(PlaneDrive):
+    """One cam of the drive with the rollers of its level; `lead`: place of a roller in the dwell, in pitches from the line of centres."""
+
+    pins: int
+    circle_radius: float
+    pin_radius: float
+    centre_distance: float
+    motion: IndexMotion
+    lead: float
+
+    @property
+    def phase(self):
+        """Angle of roller 0 at theta = 0 [rad]."""
+        return self.lead * self.motion.pitch
+
+    def pose(self, theta):
+        """The input shaft and its turn -theta."""
+        theta = np.asarray(theta, dtype=float)
+        return constant(np.full(theta.shape, complex(self.centre_distance))), -variable(theta)
+
+    def refuse(self):
+        """InputError where rollers overlap or, on the line of centres, reach the input shaft's axis."""
+        refuse_overlap(self)
+        reach = self.circle_radius + self.pin_radius
+        if self.centre_distance <= reach:
+            raise InputError(
+                f"centre_distance = {self.centre_distance * 1e3:.4g} mm: the rollers reach {reach * 1e3:.4g} mm from the wheel's axis and "
+                f"sweep that of the cams, so nothing is left of them. Take more than {reach * 1e3:.4g} mm, and room for the shaft."
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class ParallelIndexer:
+    """Wheel with two levels of `pins` rollers each, the second turned by half a pitch, and the cams at `centre_distance` [m]."""
+
+    pins: int
+    circle_radius: float
+    pin_radius: float
+    centre_distance: float
+    motion: IndexMotion
+
+    @cached_property
+    def levels(self):
+        """The two cams, each with the rollers of its level."""
+        given = self.pins, self.circle_radius, self.pin_radius, self.centre_distance, self.motion
+        return PlateCam(*given, 0.25), PlateCam(*given, -0.25)

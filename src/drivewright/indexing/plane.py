@@ -1,0 +1,219 @@
+"""What all drives with plate cams share: pins on a wheel, seen from a cam that moves in the wheel's plane.
+
+The wheel turns about 0, the cam stands at p(theta) and has turned by w(theta).  Seen from the cam a pin's centre c is at
+(c - p) exp(-i w).  Pin 0 over as many turns of the input as the wheel has pins runs along one closed curve that all pins share, so the
+profile is the envelope of one circle on it, on both sides, trimmed by all of it.
+"""
+
+from functools import cached_property
+
+import numpy as np
+
+from drivewright.curves import CircleFamily, Piece, Trimmed, trim
+from drivewright.curves.outlines import span_measures
+from drivewright.curves.touching import Nodes, nodes_of, touches
+from drivewright.errors import InputError, SolverError
+from drivewright.indexing.contacts import Contacts
+from drivewright.indexing.motion import TURN
+from drivewright.numerics.jets import Jet, exp
+
+ALIVE = 1e-6  # a point of contact nearer than this [m] to the profile is on it
+_SAMPLES = (48, 96, 240)  # on each piece of the envelope: more where a crossing was missed
+_SAME = 1e-4  # a place nearer than this [m] to the envelope's own point is that point
+_STRAIGHT = 1e-9  # an arm below this, relative to the pin circle, turns the wheel neither way
+
+
+class PlaneDrive:
+    """One cam and the pins that it meets.
+
+    A kind has the attributes pins, circle_radius [m], pin_radius [m], motion (an IndexMotion) and states `pose` and `refuse`; `phase`
+    [rad] is where pin 0 stands at theta = 0, `side` on which side of the pins the cam lies, `levels` the drives whose cams differ.
+    """
+
+    phase = 0.0
+    side = "inside"
+
+    def pose(self, theta):
+        """Place p of the cam's axis [m] and its turn w [rad]: a complex and a real jet by theta."""
+        raise NotImplementedError
+
+    def refuse(self):
+        """InputError for measures that leave no cam or no wheel."""
+        raise NotImplementedError
+
+    @property
+    def levels(self):
+        """The drives of the wheel, one for each shape of cam; all of them hold it."""
+        return (self,)
+
+    def centres(self, theta):
+        """Centres of the pins from the wheel's axis: complex jet by theta, shape (..., pins)."""
+        phi = _column(self.motion(theta))
+        return self.circle_radius * exp(1j * (phi + self.phase + TURN / self.pins * np.arange(self.pins)))
+
+    def path(self, theta):
+        """Centres of the pins seen from the cam: complex jet by theta, shape (..., pins)."""
+        place, turn = (_column(jet) for jet in self.pose(theta))
+        return (self.centres(theta) - place) * exp(-1j * turn)
+
+    @cached_property
+    def family(self):
+        """All circles that cut the cam: pin 0 over as many turns of the input as there are pins."""
+        pieces = [
+            Piece(TURN * turn + stretch.start, TURN * turn + stretch.stop, self._piece(turn, stretch), f"step {turn}", _shape(stretch))
+            for turn in range(self.pins)
+            for stretch in self.motion.stretches
+        ]
+        return CircleFamily(tuple(pieces), self.pin_radius, self.side, both=True)
+
+    def _piece(self, turn, stretch):
+        def at(theta):
+            phi = self.motion.on(stretch, theta - TURN * turn, turn)
+            place, angle = self.pose(theta)
+            return (self.circle_radius * exp(1j * (phi + self.phase)) - place) * exp(-1j * angle)
+
+        return at
+
+    @cached_property
+    def profile(self) -> Trimmed:
+        """The cam's profile, trimmed by every pin at every angle.
+
+        Raises InputError where no cam is left, SolverError where the parts of the envelope do not chain around it.
+        """
+        self.refuse()
+        for samples in _SAMPLES:
+            try:
+                found = trim(self.family, least=samples)
+            except SolverError:
+                if samples == _SAMPLES[-1]:
+                    raise
+                continue
+            if _runs_around(found):
+                return found
+        raise SolverError(
+            f"profile: the loop of the envelope around the cam is broken; with {_SAMPLES[-1]} samples a piece a crossing is missed, "
+            "as where two branches nearly touch. Change pin_radius by a thousandth."
+        )
+
+    @cached_property
+    def nodes(self) -> Nodes:
+        """The profile as nodes, for the search of contacts."""
+        return nodes_of(self.profile.spans)
+
+    @property
+    def way(self):
+        """+1 where the profile's nodes run counter-clockwise."""
+        a, b = self.nodes.a, self.nodes.b
+        return float(np.sign(np.sum(np.imag(np.conj(a) * b))))
+
+
+def _runs_around(found):
+    """Whether the profile runs the way it must for the part to lie on its side; the edge on the other side of the pins runs against it."""
+    side = found.family.side if found.family.material == "inside" else -found.family.side
+    return span_measures(found.spans)[0] * side > 0
+
+
+def _shape(stretch):
+    return "smooth" if stretch.number is not None else "arc"
+
+
+def _column(jet):
+    """The jet with an axis for the pins."""
+    return Jet(*(np.asarray(part)[..., None] for part in jet))
+
+
+def pitch_point(drive, theta):
+    """Instant centre of wheel and cam, (p' - i w' p)/(i (phi' - w')) [m], complex; infinite in the dwell of a cam that does not turn.
+
+    The normal of every contact passes through it.
+    """
+    place, turn = drive.pose(theta)
+    rate = np.asarray(drive.motion(theta).d1 - turn.d1)
+    still = np.abs(rate) <= 1e-12
+    return np.where(still, np.inf, (place.d1 - 1j * turn.d1 * place.d0) / np.where(still, 1j, 1j * rate))
+
+
+def envelope_points(drive, theta):
+    """The two candidate points of contact of each pin, complex, shape (..., pins, 2), seen from the cam; nan where a pin stands still."""
+    path = drive.path(theta)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        normal = 1j * path.d1 / np.abs(path.d1)
+    return path.d0[..., None] + drive.pin_radius * normal[..., None] * np.array([1.0, -1.0])
+
+
+def centre_curvature(drive, theta):
+    """Curvature of the centre curve of each pin, left turns positive [1/m], shape (..., pins)."""
+    path = drive.path(theta)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.imag(np.conj(path.d1) * path.d2) / np.abs(path.d1) ** 3
+
+
+def contacts(drive, theta, reach=5e-4, turned=0.0):
+    """Contacts of the cam at one input angle theta with gaps up to `reach` [m]; `turned` [rad] is how far the wheel is off its place.
+
+    A place is `intended` where it is the envelope's own point, lies on the profile and the wheel stands in its place; its curvature is
+    exact, that of the others good to some percent.
+    """
+    theta = float(theta)
+    place, turn = (jet.d0 for jet in drive.pose(theta))
+    upright = np.exp(-1j * turn)
+    centre = drive.centres(theta).d0 * np.exp(1j * turned)
+    found = touches(drive.nodes, (centre - place) * upright, drive.pin_radius, reach)
+    point, curvature, own = _own_points(drive, found, theta)
+    intended = own & (turned == 0.0)
+    at = centre[found.centre]
+    arm = at - place - np.where(intended, point, found.point) / upright
+    normal = arm / np.abs(arm)
+    lever = np.imag(np.conj(at) * normal)
+    lever[np.abs(lever) < _STRAIGHT * drive.circle_radius] = 0.0
+    gap = np.where(intended, 0.0, np.maximum(found.gap, 0.0))
+    return Contacts(found.centre, at, normal, lever, gap, np.where(intended, curvature, drive.way * found.curvature), intended)
+
+
+def _own_points(drive, found, theta):
+    """For each touch the envelope's own point that is nearest, the part's curvature there, and whether the touch is that point.
+
+    The gap alone would not tell: where the own point is cut away beside a corner, the corner is nearly as near to the pin.
+    """
+    envelope = envelope_points(drive, theta)
+    own = envelope[found.centre]
+    apart = np.nan_to_num(np.abs(found.point[:, None] - own), nan=np.inf)
+    nearest = np.arange(len(apart)), np.argmin(apart, axis=1)
+    left = np.zeros(envelope.size, dtype=bool)
+    left[touches(drive.nodes, envelope, 0.0, ALIVE).centre] = True
+    alive = left.reshape(envelope.shape)[found.centre][nearest]
+    bend = (1 - 2 * nearest[1]) * centre_curvature(drive, theta)[found.centre]  # towards the side of the part
+    with np.errstate(divide="ignore", invalid="ignore"):
+        curvature = bend / (1 - drive.pin_radius * bend)
+    return own[nearest], curvature, alive & (apart[nearest] < _SAME) & (found.gap < ALIVE)
+
+
+def refuse_overlap(wheel):
+    """InputError for fewer than three pins, and for pins that overlap."""
+    chord = 2 * wheel.circle_radius * np.sin(np.pi / wheel.pins)
+    if wheel.pins < 3:
+        raise InputError(f"pins = {wheel.pins}: a wheel needs at least 3 pins.")
+    if 2 * wheel.pin_radius >= chord:
+        raise InputError(
+            f"pin_radius = {wheel.pin_radius * 1e3:.4g} mm: the pins overlap, their centres are {chord * 1e3:.4g} mm apart. "
+            f"Take less than {chord * 500:.4g} mm."
+        )
+
+
+def index_angles(drive, step=np.deg2rad(4.5)):
+    """Input angles [rad] over the index period from its start to its end, in equal steps of about `step`."""
+    return np.linspace(0.0, drive.motion.motion_angle, max(int(round(drive.motion.motion_angle / step)), 1) + 1)
+
+
+def pressure_angle(drive, theta, direction):
+    """acos(h/R) [rad] of the contact with the largest arm h that turns the wheel in the direction, at each of the input angles theta.
+
+    nan where no intended contact of any level does.
+    """
+    best = np.array([max((_best_arm(level, one, direction) for level in drive.levels), default=0.0) for one in np.atleast_1d(theta)])
+    return np.arccos(np.where(best > 0, np.minimum(best / drive.circle_radius, 1.0), np.nan))
+
+
+def _best_arm(drive, theta, direction):
+    found = contacts(drive, theta, reach=2 * ALIVE)
+    return np.max(direction * found.arm[found.intended], initial=0.0)

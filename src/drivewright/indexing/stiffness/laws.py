@@ -1,0 +1,112 @@
+"""Energy, force and stiffness of everything that yields non-linearly, for arrays of strains.
+
+A law is called with strains d (..., c), c = 1 for a contact and 2 for a bearing, and answers with (energy (...), force (..., c),
+stiffness (..., c, c)); the force is the gradient of the convex energy.  `secant(force)` [N/m] is a usual stiffness to start from.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.indexing.drivetrain import PinContact, PowerBearing
+
+LINE = 10 / 9
+TURNS = 6  # of Newton's method for the share of the line contact: quadratic from a start within a few tens of per cent
+TINY = 1e-300
+
+
+class Contact(NamedTuple):
+    """Contacts (cams' pins): force of a `PinContact` against approach; `both`: they also pull, as if bonded."""
+
+    pin: PinContact
+    both: bool
+
+    def __call__(self, strain):
+        """F(d) of d = s + F/k, F = c s^(10/9); V = 9/19 c s^(19/9) + F^2/2k;  dF/dd = 1/(0.9 s/F + 1/k)."""
+        c, k = self.pin.line, self.pin.series
+        depth = np.abs(strain) if self.both else np.maximum(strain, 0.0)
+        if c is None:
+            force, slope, energy = k * depth, np.where((strain > 0) | self.both, k, 0.0), 0.5 * k * depth**2
+        else:
+            share = depth if k is None else line_share(depth, c / k)
+            root = c * share ** (LINE - 1)
+            force = root * share
+            slope = root / (1 / LINE + (0.0 if k is None else root / k))
+            energy = force * share / (1 + LINE) + (0.0 if k is None else 0.5 * force**2 / k)
+        return energy[..., 0], np.copysign(force, strain) if self.both else force, slope[..., None]
+
+    def secant(self, force):
+        """F/d [N/m]."""
+        line = 0.0 if self.pin.line is None else (force / self.pin.line) ** 0.9 / force
+        return 1.0 / (line + (0.0 if self.pin.series is None else 1.0 / self.pin.series))
+
+
+def line_share(depth, ratio):
+    """s of s + ratio s^(10/9) = depth."""
+    share = depth / (1 + ratio * depth ** (LINE - 1))
+    for _ in range(TURNS):
+        power = ratio * share ** (LINE - 1)
+        share = share * (1 - (share * (1 + power) - depth) / np.maximum(share * (1 + LINE * power), TINY))
+    return share
+
+
+class Rigid(NamedTuple):
+    """Rigid contacts by the method of multipliers: F = max(m + k d, 0) with multipliers m (..., 1) that a loop moves to where d = 0.
+
+    A stiffness k alone leaves the error F/k; here it only sets how fast the loop is.
+    """
+
+    multipliers: np.ndarray
+    k: np.ndarray
+    both: bool
+
+    def __call__(self, strain):
+        pull = self.multipliers + self.k * strain
+        force = pull if self.both else np.maximum(pull, 0.0)
+        slope = np.where((force > 0) | self.both, self.k, 0.0)
+        return ((force**2 - self.multipliers**2) / (2 * self.k))[..., 0], force, slope[..., None]
+
+
+class Flank(NamedTuple):
+    """One-sided linear contact: F = k max(d, 0)."""
+
+    k: float
+
+    def __call__(self, strain):
+        depth = np.maximum(strain, 0.0)
+        return 0.5 * self.k * depth[..., 0] ** 2, self.k * depth, np.where(strain > 0, self.k, 0.0)[..., None]
+
+    def secant(self, force):
+        return self.k
+
+
+class Radial(NamedTuple):
+    """A bearing alike in all directions: F = K max(r - c, 0)^n along d, r = |d|;  dF = F' e e' + F/r (1 - e e')."""
+
+    bearing: PowerBearing
+
+    def __call__(self, strain):
+        constant, n, clearance = self.bearing
+        length = np.hypot(strain[..., 0], strain[..., 1])
+        depth = np.maximum(length - clearance, 0.0)
+        root = constant * depth ** (n - 1) if n != 1 else np.where(length >= clearance, constant, 0.0)
+        force, safe = root * depth, np.maximum(length, TINY)
+        # Without clearance F/r tends to K r^(n-1), also where r is 0 and has no direction.
+        around = root if clearance == 0 else force / safe
+        along = strain / safe[..., None]
+        stiffness = ((n * root - around)[..., None] * along)[..., None] * along[..., None, :]
+        stiffness[..., 0, 0] += around
+        stiffness[..., 1, 1] += around
+        return force * depth / (1 + n), around[..., None] * strain if clearance == 0 else force[..., None] * along, stiffness
+
+    def secant(self, force):
+        return self.bearing.constant ** (1 / self.bearing.exponent) * force ** (1 - 1 / self.bearing.exponent)
+
+
+def bearing_law(bearing):
+    """The law of a PowerBearing, or of a rolling bearing of `drivewright.bearings` with its axial place and tilts held."""
+    if isinstance(bearing, PowerBearing):
+        return Radial(bearing)
+    from drivewright.indexing.stiffness.rolling import rolling_law  # its kernel imports numba
+
+    return rolling_law(bearing)

@@ -1,0 +1,142 @@
+"""What the torsional stiffness of a pin-wheel indexer is made of: the result of `solve` and how it is read off the equilibrium."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from drivewright.indexing.drivetrain import SIDES
+from drivewright.indexing.stiffness.assembly import flank_directions
+from drivewright.indexing.stiffness.layout import OUT
+
+GROUPS = ("pin", "crank", "support", "housing", "bending", "torsion", "gear", "wheel")
+FARTHEST = 0.1  # rad: beyond it the contacts are others than those given
+CARRIED, FREE, RIGID, FAR, UNSETTLED = "carried", "free", "rigid", "far", "unsettled"
+REASONS = {
+    CARRIED: "",
+    FREE: "no contact without a gap resists the torque: the wheel turns freely first; look at the play",
+    RIGID: "every part in the way of the torque is rigid; give one of them a stiffness",
+    FAR: f"what touches has so small an arm that the wheel turns by more than {np.degrees(FARTHEST):.3g} deg, where other contacts act; "
+    "look at the play beyond these contacts, or take less torque or stiffer parts",
+    UNSETTLED: "no equilibrium found; look at clearances, and for torques far beyond what the parts carry",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class TorsionalStiffness:
+    """A wheel under `torque` [N m] with the input locked, at p positions; where `outcome` is not "carried" numbers are nan.
+
+    rotation [rad] of the output; secant = torque/rotation and tangent [N m/rad].  Forces [N] in the plane are complex:
+    pin_forces: one array (cams, k) a position, of the cam on the pins of its k `Contacts` along their normals;
+    crank_forces (p, 2, cams): of the cams on the crank pins of either shaft; support_forces (p, 2, 2): of either shaft on its front and
+    rear support; gear_forces (p, 2): of the input gear on either split gear, gear_torques [N m] about its axis (without a gear a couple
+    holds the shaft); wheel_forces (p,): of the wheel on its bearing.
+    shares: compliance [rad/(N m)] of each of GROUPS (p,), sum of force times displacement over torque^2, which add up to 1/secant.
+    steps: of Newton's method.
+    """
+
+    theta: np.ndarray
+    torque: float
+    model: str
+    outcome: tuple
+    rotation: np.ndarray
+    tangent: np.ndarray
+    pin_forces: tuple
+    crank_forces: np.ndarray
+    support_forces: np.ndarray
+    gear_forces: np.ndarray
+    gear_torques: np.ndarray
+    wheel_forces: np.ndarray
+    shares: dict
+    steps: int
+
+    @property
+    def secant(self):
+        """T/phi [N m/rad]."""
+        return self.torque / self.rotation
+
+    @property
+    def reasons(self):
+        """Why a position has no stiffness, "" where it has one."""
+        return tuple(REASONS[each] for each in self.outcome)
+
+
+def collect(drive, theta, torque, model, kept, assembly, state, here):
+    """The `TorsionalStiffness` at all positions from the state of those that may carry (`here`)."""
+    outcome = np.full(len(theta), FREE, dtype=object)
+    outcome[here] = np.where(state.settled, CARRIED, UNSETTLED)
+    outcome[here[~state.yields]] = RIGID
+    rotation = state.q[:, OUT] / assembly.lever
+    outcome[here[(np.abs(rotation) > FARTHEST) | (np.abs(state.q).max(axis=1) > assembly.lever)]] = FAR
+    good = outcome == CARRIED
+
+    def spread(values):
+        whole = np.full((len(theta), *values.shape[1:]), np.nan, dtype=values.dtype)
+        whole[good] = values[good[here]]
+        return whole
+
+    cams = assembly.layout.cams
+    tangent = spread(1 / np.where(good[here], state.compliance, np.nan))
+    return TorsionalStiffness(
+        theta, torque, model, tuple(outcome), spread(rotation), tangent, _pin_forces(state, cams, kept, here, good),
+        spread(_vectors(state, "crank").reshape(len(here), 2, cams)), spread(_vectors(state, "support").reshape(len(here), 2, 2)),
+        *(spread(each) for each in _gears(drive.gear, state)), spread(_vectors(state, "wheel")[:, 0]),
+        {name: spread(share) for name, share in shares(state, torque).items()}, state.steps)
+
+
+def take_up(first, after):
+    """`first`, with the positions where the wheel turns freely taken from `after`, the same drive with the wheel turned by its play.
+
+    Rotations there count from the turned wheel, so that the play adds to them and the secant is that of the loaded drive alone.
+    """
+    new = np.array([each == FREE for each in first.outcome], dtype=bool)
+
+    def chosen(a, b):
+        return np.where(new.reshape(len(new), *[1] * (a.ndim - 1)), b, a)
+
+    arrays = ("rotation", "tangent", "crank_forces", "support_forces", "gear_forces", "gear_torques", "wheel_forces")
+    return replace(
+        first, outcome=tuple(np.where(new, after.outcome, first.outcome)),
+        pin_forces=tuple(b if n else a for n, a, b in zip(new, first.pin_forces, after.pin_forces, strict=True)),
+        shares={name: chosen(first.shares[name], after.shares[name]) for name in GROUPS}, steps=first.steps + after.steps,
+        **{name: chosen(getattr(first, name), getattr(after, name)) for name in arrays})
+
+
+def shares(state, torque):
+    """Compliance [rad/(N m)] of each of GROUPS (p,): work of its parts, force times displacement, over torque^2."""
+    total = {name: np.zeros(len(state.q)) for name in GROUPS}
+    for part in state.parts:
+        total["wheel" if part.name == "output" else part.name] += part.work / torque**2
+    return total
+
+
+def _named(state, name):
+    """(p, n): all components of the forces in the parts of a name."""
+    return np.concatenate([part.flat for part in state.parts if part.name == name], axis=1)
+
+
+def _vectors(state, name):
+    """(p, n) complex."""
+    forces = _named(state, name)
+    return forces[:, 0::2] + 1j * forces[:, 1::2]
+
+
+def _gears(gear, state):
+    """(forces (p, 2) complex, torques (p, 2)) of the input on either split shaft."""
+    pressed = _named(state, "gear")
+    if gear is None:
+        return np.zeros_like(pressed, dtype=complex), -pressed
+    pressed = pressed.reshape(len(pressed), 2, 2)
+    forces = np.stack([pressed[:, side] @ flank_directions(gear, side) for side in (0, 1)], axis=1)
+    return forces, np.imag(np.conj(-np.array(SIDES) * gear.pitch_radius) * forces)
+
+
+def _pin_forces(state, cams, kept, here, good):
+    """One array (cams, contacts) a position; 0 for contacts that take no part, nan where the position does not carry."""
+    found = [np.full((cams, len(keep)), np.nan) for keep in kept]
+    forces = _named(state, "pin")
+    forces = forces.reshape(len(here), cams, forces.shape[1] // cams)
+    for row, i in enumerate(here):
+        if good[i]:
+            found[i][:] = 0.0
+            found[i][:, kept[i]] = forces[row, :, : np.sum(kept[i])]
+    return tuple(found)

@@ -1,0 +1,34 @@
+"""Springs in series: what the loading bar and the support of the test rig took of the angle."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.errors import InputError
+from drivewright.indexing.torsion_test.regression import compliance_estimate
+
+DOUBTFUL = 2.0  # corrected over measured stiffness: beyond it most of the angle was the rig's
+
+
+class Part(NamedTuple):
+    """A spring in series with the drive: stiffness [N m/rad] and its standard uncertainty."""
+
+    name: str
+    stiffness: float
+    uncertainty: float = 0.0
+
+
+def correct(measured, freedom, parts, confidence=0.95):
+    """The `Estimate` of k from 1/k = 1/k_r - sum 1/k_i; `measured` is the estimate of k_r, `freedom` its degrees of freedom.
+
+    u(k) = k^2 sqrt((u_r/k_r^2)^2 + sum (u_i/k_i^2)^2).  InputError where the parts alone are as soft as what was measured.
+    """
+    compliance = 1 / measured.value - sum(1 / part.stiffness for part in parts)
+    if compliance <= 0:
+        softest = min(parts, key=lambda part: part.stiffness)
+        raise InputError(
+            f"series correction: 1/k = 1/{measured.value:.6g} - {' - '.join(f'1/{part.stiffness:.6g}' for part in parts)} rad/(N m) "
+            f"= {compliance:.3g} is not positive: the rig would be softer than rig and drive together. Check the {softest.name} stiffness "
+            f"(it has to be well above {measured.value:.6g} N m/rad) and its unit")
+    spread = np.sqrt(sum((each.uncertainty / each.stiffness**2) ** 2 for each in parts) + (measured.uncertainty / measured.value**2) ** 2)
+    return compliance_estimate(compliance, float(spread), freedom, confidence)

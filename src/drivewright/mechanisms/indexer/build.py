@@ -1,0 +1,150 @@
+"""From the spec to a wheel with its cams and to what yields between wheel and input, in SI and in plain data."""
+
+from dataclasses import dataclass, field
+from functools import cached_property, partial
+from typing import Any
+
+import numpy as np
+
+from drivewright import bearings, materials
+from drivewright.bearings import quick
+from drivewright.errors import InputError, SpecError
+from drivewright.indexing import drivetrain
+from drivewright.indexing.motion import index_motion
+from drivewright.indexing.parallel import ParallelIndexer
+from drivewright.indexing.pin_wheel import PinWheel
+from drivewright.indexing.plane import index_angles
+from drivewright.indexing.roller_gear.design import barrel, globoidal
+from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refuse_contradictions
+from drivewright.shafts import Section
+from drivewright.units import SI
+
+STEP = np.deg2rad(4.5)  # of the input, from position to position
+FORMULAS = {("liu", "point"): quick.liu_ball, ("liu", "line"): quick.liu_roller,
+            ("palmgren", "point"): quick.palmgren_ball, ("palmgren", "line"): quick.palmgren_roller}
+
+
+@dataclass(frozen=True, eq=False)
+class IndexerModel:
+    """The drive (PinWheel, ParallelIndexer or RollerGear), the drive train of a pin wheel, and its rolling bearings by table name."""
+
+    spec: Any
+    drive: Any
+    train: Any = None
+    rolling: dict = field(default_factory=dict)
+
+    @property
+    def translating(self):
+        """Whether the cams translate on cranks."""
+        return self.spec.kind in TRANSLATING
+
+    @cached_property
+    def angles(self):
+        """Input angles [rad] of the tables: over the index period, or the one asked for."""
+        if self.spec.load.angle is not None:
+            return np.array([self.spec.load.angle])
+        return index_angles(self.drive, STEP)
+
+    @property
+    def modulus(self):
+        """Effective modulus of pin and cam [Pa]."""
+        card = materials.material(self.spec.contact.material)
+        return card.modulus / (2 * (1 - card.poisson**2))
+
+
+def build(spec):
+    """The `IndexerModel` of a spec; InputError where it has no cam."""
+    refuse_contradictions(spec)
+    law = {key: value for key in ("b", "c", "d") if (value := getattr(spec.motion, key)) is not None}
+    ratio = spec.motion.motion_to_dwell
+    moving = index_motion(law_name(spec), spec.pins, 1.0 if ratio is None else ratio, **law)
+    if spec.kind not in TRANSLATING:
+        return IndexerModel(spec, OTHERS[spec.kind](spec, moving))
+    wheel = PinWheel(spec.pins, spec.pin_circle_radius, spec.pin_radius, spec.eccentricity, moving, spec.side)
+    wheel.refuse()
+    rolling = {key: rolling_bearing(spec, key) for key in ("crank_bearings", "support_bearings") if _named(getattr(spec, key))}
+    return IndexerModel(spec, wheel, drive_train(spec, rolling), rolling)
+
+
+def _parallel(spec, moving):
+    drive = ParallelIndexer(spec.pins, spec.pin_circle_radius, spec.pin_radius, spec.centre_distance, moving)
+    for level in drive.levels:
+        level.refuse()
+    return drive
+
+
+def _globoidal(spec, moving):
+    return globoidal(moving, spec.pin_circle_radius, spec.pin_radius, spec.pin_length, spec.centre_distance, spec.cam_length, spec.hand)
+
+
+def _barrel(spec, moving):
+    return barrel(moving, spec.pin_circle_radius, spec.pin_radius, spec.pin_length, spec.cam_radius, spec.cam_length, spec.centre_distance,
+                  spec.hand)
+
+
+OTHERS = {"parallel": _parallel, "globoidal": _globoidal, "barrel": _barrel}
+
+
+def _named(given):
+    return given is not None and given.bearing is not None
+
+
+def rolling_bearing(spec, key):
+    """The rolling bearing of a table, with the clearance and the ratings that stand there in place of its own."""
+    given = getattr(spec, key)
+    try:
+        found = bearings.bearing(given.bearing, spec.catalogue)
+    except InputError as error:
+        raise SpecError(str(error), f"{key}.bearing") from None
+    keys = ("radial_clearance", "dynamic_rating", "static_rating")
+    changes = {name: SI(getattr(given, name)) for name in keys if getattr(given, name) is not None}
+    return found.replace(**changes) if changes else found
+
+
+def drive_train(spec, rolling):
+    """The `Drivetrain` of a spec; what has no table is rigid."""
+    housing = spec.housing
+    return drivetrain.Drivetrain(
+        spec.shaft_spacing or 2 * spec.pin_circle_radius,
+        drivetrain.pin_contact(spec.cam_width, spec.contact.pin_stiffness),
+        _law(spec.crank_bearings, rolling.get("crank_bearings")),
+        _law(spec.support_bearings, rolling.get("support_bearings")),
+        housing and housing.support_stiffness,
+        spec.shafts and split_shaft(spec.shafts, spec.cams),
+        _mesh(spec.gear),
+        drivetrain.PowerBearing(housing.wheel_stiffness) if housing and housing.wheel_stiffness else None,
+        housing and housing.wheel_torsion)
+
+
+def _law(given, rolling):
+    """How a bearing yields: None, a power law, or the rolling bearing itself."""
+    if given is None:
+        return None
+    if rolling is None:
+        return drivetrain.PowerBearing(given.stiffness, clearance=(given.radial_clearance or 0.0) / 2)
+    if given.law == "elements":
+        return rolling
+    contact = bearings.contact_of(rolling)
+    if contact == "point":
+        numbers = {"balls": rolling.balls, "ball_diameter": rolling.ball_diameter}
+    else:
+        numbers = {"rollers": rolling.rollers, "roller_length": rolling.roller_length}
+    return drivetrain.power_bearing(partial(FORMULAS[given.law, contact], **numbers), (given.radial_clearance or 0.0) / 2)
+
+
+def split_shaft(given, cams):
+    """The stepped shaft from its gear to its rear support."""
+    front = given.overhang
+    first = front + given.front
+    places = tuple(first + given.pitch * number for number in range(cams))
+    rear = places[-1] + given.rear
+    lengths = (front, given.front, places[-1] - first, given.rear)
+    sections = tuple(Section(length, d, d) for length, d in zip(lengths, given.diameters, strict=True) if length > 0)
+    poisson = given.youngs_modulus / (2 * given.shear_modulus) - 1
+    return drivetrain.SplitShaft(sections, 0.0, (front, rear), places, given.youngs_modulus, poisson)
+
+
+def _mesh(gear):
+    if gear is None or gear.stiffness is None:
+        return None
+    return drivetrain.GearMesh(gear.module * gear.teeth / 2, gear.stiffness, gear.pressure_angle, gear.backlash)

@@ -1,0 +1,121 @@
+"""Loads of the crank and support bearings over a turn of the crank, their lives, and the statics of equations (7) to (12)."""
+
+import numpy as np
+
+from drivewright import bearings
+from drivewright.indexing.motion import TURN
+from drivewright.indexing.stiffness import statics
+from drivewright.mechanisms.indexer.build import STEP
+from drivewright.mechanisms.indexer.refusals import TRANSLATING
+from drivewright.mechanisms.indexer.stiffness import CARRIED, after_play, solved
+from drivewright.result import Answer, Check, Column, Table, Value
+
+SHAFTS, PLACES = ("left", "right"), ("front", "rear")
+RATED = {"crank": "crank_bearings", "support": "support_bearings"}
+
+
+def no_loads(spec):
+    """Why there are none."""
+    if spec.kind not in TRANSLATING:
+        return f"kind {spec.kind!r} has no cranks"
+    if spec.load.torque is None:
+        return "load.torque is not given"
+    return None if spec.crank_bearings or spec.support_bearings else "no bearings are given; without them statics leaves their loads open"
+
+
+def bearing_loads(model, done):
+    """Forces on every bearing over the turn, largest and mean loads, lives, and the corrected statics beside them."""
+    torque = model.spec.load.torque
+    angles = model.angles if model.spec.load.angle is not None else np.linspace(0, TURN, int(round(TURN / STEP)) + 1)
+    found, near = solved(model, angles, torque)
+    loaded, _ = after_play(model, angles, torque, found)
+    forces = dict(_named_forces(loaded, model.spec.cams))
+    columns = [Column("angle", "rad", "input angle", angles)]
+    for name, force in forces.items():
+        words = name.replace(".", " ")
+        columns += [Column(name, "N", words, np.abs(force)), Column(f"{name}.x", "N", f"{words}, along x", force.real),
+                    Column(f"{name}.y", "N", f"{words}, along y", force.imag)]
+    values, checks, findings = {}, [], []
+    for group in RATED:
+        own = {name: force for name, force in forces.items() if name.startswith(group)}
+        if any(np.isfinite(force).any() for force in own.values()):
+            values |= _measures(model, group, own)
+            checks += _checks(model, group, own, values)
+    lost = np.sum([outcome != CARRIED for outcome in loaded.outcome])
+    if lost:
+        findings.append(f"bearing loads are absent at {lost} of {len(angles)} input angles, where nothing carries the torque")
+    if model.spec.cams == 2 and model.drive.side == "inside":
+        values |= _statics(model, found, near)
+    return Answer(values, (Table("bearing_loads", "Loads of the bearings", tuple(columns)),), tuple(checks), tuple(findings))
+
+
+def _named_forces(found, cams):
+    """Name -> force (p,) on every crank and support bearing."""
+    for s, shaft in enumerate(SHAFTS):
+        for cam in range(cams):
+            yield f"crank.{shaft}.cam{cam + 1}", found.crank_forces[:, s, cam]
+    for s, shaft in enumerate(SHAFTS):
+        for k, place in enumerate(PLACES):
+            yield f"support.{shaft}.{place}", found.support_forces[:, s, k]
+
+
+def _measures(model, group, own):
+    """Largest load of a group; equivalent load and life of its worst bearing."""
+    largest = max(float(np.nanmax(np.abs(force))) for force in own.values())
+    values = {f"{group}.max_load": Value(largest, "N", f"largest load of a {group} bearing")}
+    rolling = model.rolling.get(RATED[group])
+    if rolling is None or rolling.dynamic_rating is None or len(model.angles) == 1:
+        return values
+    power = 10 / 3 if bearings.contact_of(rolling) == "line" else 3
+    mean = max(_mean(np.abs(force), power) for force in own.values())
+    if mean > 0:
+        life = float(bearings.basic_life(rolling, mean))
+        values[f"{group}.equivalent_load"] = Value(mean, "N", f"load of constant size with the same life, worst {group} bearing")
+        values[f"{group}.basic_life"] = Value(life, "-", f"basic life L10 (ISO 281) of the worst {group} bearing, turns of the input")
+        if model.spec.load.speed:
+            values[f"{group}.basic_life.time"] = Value(life * TURN / model.spec.load.speed, "s", "the same at the input's speed")
+    return values
+
+
+def _mean(load, power):
+    """(mean F^p)^(1/p) over the turn, first and last position being one."""
+    carried = load[:-1][np.isfinite(load[:-1])]
+    return float(np.mean(carried**power) ** (1 / power)) if len(carried) else 0.0
+
+
+def static_rating(bearing):
+    """C0 [N] of the catalogue, else by the permissible pressure."""
+    return bearing.static_rating if bearing.static_rating is not None else bearings.geometric_static_rating(bearing)
+
+
+def _checks(model, group, own, values):
+    rolling, limits = model.rolling.get(RATED[group]), model.spec.limits
+    largest = values[f"{group}.max_load"].value
+    if rolling is not None and largest > 0:
+        rating = static_rating(rolling)
+        yield Check(f"static_rating.{group}", rating / largest, limits.static_safety, ">=", "-",
+                    f"static rating of {rating / 1e3:.4g} kN over the largest load of {largest / 1e3:.4g} kN", (group,))
+    life = values.get(f"{group}.basic_life.time")
+    if limits.life and life:
+        yield Check(f"life.{group}", life.value, limits.life, ">=", "s",
+                    f"basic life {life.value / 3600:.4g} h of {limits.life / 3600:.4g} h", (group,))
+
+
+def _statics(model, found, near):
+    """Largest difference of the corrected equations (7)-(12) from the solver, over the largest load, and the same of the printed (8)."""
+    carried = np.array([outcome == CARRIED for outcome in found.outcome])
+    if not carried.any() or model.train.crank is None:
+        return {}
+    force, moment = statics.pin_resultants(found, near)
+    centre = statics.cam_centre(model.spec.eccentricity, found.theta)
+    spacing = model.train.spacing
+    corrected = statics.crank_loads(force[:, 0], moment[:, 0], centre, spacing)
+    printed = statics.crank_loads_printed(force[:, 0], centre, spacing)
+    size = np.nanmax(np.abs(found.crank_forces))
+    values = {}
+    for name, loads in (("corrected", corrected), ("printed", printed)):
+        off = max(float(np.nanmax(np.abs((loads[s] + found.crank_forces[:, s, 0]).imag[carried]))) for s in range(2))
+        values[f"statics.{name}.deviation"] = Value(
+            off / size, "-", f"equations (8) as {name} against the equilibrium, over the largest load"
+        )
+    return values

@@ -1,0 +1,129 @@
+"""Torsional stiffness over the index period: who carries, how far the wheel yields, and where nothing holds it."""
+
+import numpy as np
+
+from drivewright.indexing import stiffness as core
+from drivewright.indexing.plane import contacts
+from drivewright.indexing.play import play
+from drivewright.mechanisms.indexer.pins import hertz, largest, pressure_check
+from drivewright.mechanisms.indexer.refusals import TRANSLATING
+from drivewright.result import Answer, Check, Column, Table, Value
+
+REACH = 2e-3  # gaps up to this [m] may close under the load
+CARRIED = "carried"
+
+
+def no_stiffness(spec):
+    """Why there is none."""
+    if spec.kind not in TRANSLATING:
+        return f"kind {spec.kind!r} has no model of stiffness"
+    return None if spec.load.torque else "load.torque is not given"
+
+
+def solved(model, angles, torque, found=None):
+    """(`TorsionalStiffness`, contacts) at the angles."""
+    wheel = model.drive
+    near = [contacts(wheel, angle, REACH) for angle in angles]
+    return _solve(model, angles, near, torque), near
+
+
+def _solve(model, angles, near, torque):
+    spec = model.spec
+    return core.solve(
+        model.train, angles, near, spec.eccentricity, torque, cams=spec.cams, sense=int(model.drive.sense), model=spec.contact.model
+    )
+
+
+def after_play(model, angles, torque, first):
+    """The positions where the wheel turns freely, solved again with the wheel turned to its first contact; (result, play [rad])."""
+    free = play(model.drive, angles, np.sign(torque))
+    turned = np.array([outcome == "free" for outcome in first.outcome]) & np.isfinite(free)
+    if model.spec.contact.model == "bonded" or not turned.any():
+        return first, np.where(turned, free, 0.0)
+    near = [contacts(model.drive, angle, REACH, turned=float(np.sign(torque) * each) if way else 0.0)
+            for angle, each, way in zip(angles, free, turned, strict=True)]
+    return core.take_up(first, _solve(model, angles, near, torque)), np.where(turned, free, 0.0)
+
+
+def torsional(model, done):
+    """Secant and tangent stiffness, compliance budget, forces of pins and bearings at every position."""
+    torque, angles = model.spec.load.torque, model.angles
+    found, near = solved(model, angles, torque)
+    loaded, free = after_play(model, angles, torque, found)
+    carried = np.array([outcome == CARRIED for outcome in found.outcome])
+    values = {"stiffness.undefined_fraction": Value(float(np.mean(~carried)), "-",
+                                                    "part of the positions where no contact without a gap carries the torque")}
+    values |= _summary(angles, found.secant, carried)
+    forces = pin_forces(model, angles, near, found)
+    values |= largest(forces)
+    tables = (stiffness_table(angles, found, loaded, free), forces)
+    return Answer(values, tables, tuple(_checks(model, values)), tuple(_findings(angles, found, loaded, torque)),
+                  data=(found, near))
+
+
+def _summary(angles, secant, carried):
+    """Mean, minimum and range over the positions that carry the torque."""
+    if not carried.any():
+        return {}
+    here, at = secant[carried], angles[carried]
+    least = int(np.argmin(here))
+    return {
+        "stiffness.mean": Value(float(np.mean(here)), "N m/rad", "mean secant stiffness of the positions that carry the torque"),
+        "stiffness.minimum": Value(float(here[least]), "N m/rad", "least secant stiffness"),
+        "stiffness.minimum.at": Value(float(at[least]), "rad", "input angle of it"),
+        "stiffness.maximum": Value(float(np.max(here)), "N m/rad", "greatest secant stiffness"),
+        "stiffness.range": Value(float(np.ptp(here)), "N m/rad", "greatest less least secant stiffness"),
+    }
+
+
+def stiffness_table(angles, found, loaded, free):
+    """Secant, tangent and the share of every group in the compliance; after the play where the wheel turns freely first."""
+    columns = [
+        Column("angle", "rad", "input angle", angles),
+        Column("secant", "N m/rad", "torque over rotation of the wheel", found.secant),
+        Column("tangent", "N m/rad", "change of torque over change of rotation", found.tangent),
+    ]
+    columns += [Column(name, "rad/(N m)", words, found.shares[name]) for name, words in GROUPS.items()]
+    columns += [Column("free_rotation", "rad", "rotation before a contact takes the torque", free),
+                Column("secant_after_play", "N m/rad", "torque over the rotation beyond that", loaded.secant)]
+    return Table("stiffness", "Torsional stiffness", tuple(columns))
+
+
+GROUPS = {"pin": "contacts of the pins", "crank": "crank bearings", "support": "support bearings", "housing": "housing",
+          "bending": "bending of the shafts", "torsion": "torsion of the shafts", "gear": "gears", "wheel": "wheel and its bearing"}
+
+
+def pin_forces(model, angles, near, found):
+    """Force and Hertz pressure of every loaded contact, one row each."""
+    rows = []
+    for angle, each, forces in zip(angles, near, found.pin_forces, strict=True):
+        for cam, row in enumerate(forces):
+            loaded = np.flatnonzero(np.nan_to_num(row) != 0)
+            rows += [(angle, cam, each.pin[k], row[k], each.arm[k], hertz(model, row[k], each.curvature[k])) for k in loaded]
+    data = np.array(rows, dtype=float).reshape(-1, 6).T
+    return Table("pin_forces", "Forces of the cams on the pins", (
+        Column("angle", "rad", "input angle", data[0]), Column("cam", "-", "cam", data[1]),
+        Column("pin", "-", "pin, counted from the first cam's own line", data[2]),
+        Column("force", "N", "force on the pin", data[3]),
+        Column("arm", "m", "lever about the wheel's axis", data[4]), Column("pressure", "Pa", "Hertz pressure", data[5])))
+
+
+def _checks(model, values):
+    limits = model.spec.limits
+    if limits.stiffness and "stiffness.minimum" in values:
+        yield Check(
+            "stiffness", values["stiffness.minimum"].value, limits.stiffness, ">=", "N m/rad", "least torsional stiffness", ("wheel",)
+        )
+    yield Check("held", values["stiffness.undefined_fraction"].value, 0.0, "<=", "-",
+                "part of the index period in which nothing holds the wheel against the torque", ("cam", "wheel"))
+    yield from pressure_check(model, values)
+
+
+def _findings(angles, found, loaded, torque):
+    lost = [k for k, outcome in enumerate(found.outcome) if outcome != CARRIED]
+    for reason in dict.fromkeys(found.reasons[k] for k in lost):
+        at = [np.degrees(angles[k]) for k in lost if found.reasons[k] == reason]
+        after = sum(loaded.outcome[k] == CARRIED for k in lost if found.reasons[k] == reason)
+        more = f" At {after} of them a contact takes it after the play: table stiffness, secant_after_play." if after else ""
+        yield (f"no stiffness at {len(at)} of {len(angles)} input angles ({', '.join(f'{angle:.4g}' for angle in at[:12])}"
+               f"{' ...' if len(at) > 12 else ''} deg) against {torque:.6g} N m: {reason}.{more}")

@@ -1,0 +1,58 @@
+"""Forces and contact pressure of the kinds without a model of stiffness: by statics of rigid parts."""
+
+import numpy as np
+
+from drivewright.indexing.plane import contacts
+from drivewright.mechanisms.indexer import roller
+from drivewright.mechanisms.indexer.pins import hertz, largest, pressure_check
+from drivewright.mechanisms.indexer.refusals import TRANSLATING
+from drivewright.result import Answer, Column, Table
+
+
+def no_stress(spec):
+    """Why there is none."""
+    if spec.kind in TRANSLATING:
+        return "pin forces come with the stiffness"
+    return None if spec.load.torque else "load.torque is not given"
+
+
+def stress(model, done):
+    """Forces on the rollers and Hertz pressure under the torque."""
+    table, findings = (_plate if model.spec.kind == "parallel" else roller.stress)(model, done)
+    values = largest(table)
+    return Answer(values, (table,), tuple(pressure_check(model, values)), findings)
+
+
+def _plate(model, done):
+    """Of two plate cams: the roller with the longest lever alone."""
+    torque, rows = model.spec.load.torque, []
+    for angle in model.angles:
+        best = [_best(level, angle, torque) for level in model.drive.levels]
+        number, (pin, arm, curvature) = max(enumerate(best), key=lambda each: abs(each[1][1]))
+        if arm:
+            force = abs(torque / arm)
+            rows.append((angle, pin + model.drive.pins * number, force, arm, hertz(model, force, curvature)))
+    data = np.array(rows, dtype=float).reshape(-1, 5).T
+    lost = len(model.angles) - len(rows)
+    findings = (f"nothing carries the torque at {lost} of {len(model.angles)} input angles",) if lost else ()
+    return Table(
+        "pin_forces",
+        "Force on the roller with the longest lever",
+        (
+            Column("angle", "rad", "input angle", data[0]),
+            Column("pin", "-", "roller", data[1]),
+            Column("force", "N", "force on the roller", data[2]),
+            Column("arm", "m", "lever about the wheel's axis", data[3]),
+            Column("pressure", "Pa", "Hertz pressure", data[4]),
+        ),
+    ), findings
+
+
+def _best(level, angle, torque):
+    """(roller, lever, curvature) of the contact that resists the torque best; lever 0 where none does."""
+    found = contacts(level, angle)
+    lever = np.where(found.intended, -np.sign(torque) * found.arm, -np.inf)
+    if not len(lever) or np.max(lever) <= 0:
+        return 0, 0.0, 0.0
+    k = int(np.argmax(lever))
+    return int(found.pin[k]), float(found.arm[k]), float(found.curvature[k])
