@@ -11,6 +11,7 @@ from drivewright.numerics.jets import Jet
 
 _JOINT = 1e-8  # two pieces meet when their ends are this close, relative to the size of the curve
 
+_SHARP, _HALVINGS = 0.25, 8  # steps that turn more [rad] are halved, at a cusp so often
 _SLOW = 0.05  # a place is slow where the speed is below this part of the piece's greatest
 
 
@@ -153,16 +154,23 @@ def sample(pieces, count=1440, least=96):
 
 
 def _crowded(piece, t, parts=16):
-    """Parameters t, `parts` times as many about the places where the curve is slow (cusps come in narrow pairs), and the jet there."""
+    """Parameters t, more of them about the places where the curve is slow (cusps come in narrow pairs) or turns sharply, and the jet."""
     jet = _spread(piece.at(t), t.shape)
     speed = np.abs(jet.d1)
     slow = np.flatnonzero((speed[1:-1] <= speed[:-2]) & (speed[1:-1] <= speed[2:]) & (speed[1:-1] < _SLOW * np.max(speed))) + 1
-    if not len(slow):
-        return t, jet
-    steps = np.unique(np.clip(slow[:, None] + np.arange(-3, 3), 0, len(t) - 2))
-    between = t[steps, None] + (t[steps + 1] - t[steps])[:, None] * np.arange(1, parts) / parts
-    merged = np.sort(np.concatenate([t, between.ravel()]))[:: int(piece.sense)]
-    return merged, _spread(piece.at(merged), merged.shape)
+    if len(slow):
+        steps = np.unique(np.clip(slow[:, None] + np.arange(-3, 3), 0, len(t) - 2))
+        between = t[steps, None] + (t[steps + 1] - t[steps])[:, None] * np.arange(1, parts) / parts
+        t = np.sort(np.concatenate([t, between.ravel()]))[:: int(piece.sense)]
+        jet = _spread(piece.at(t), t.shape)
+    for _ in range(_HALVINGS):  # a curve that swings round between two samples would be one long chord
+        with np.errstate(invalid="ignore"):
+            sharp = np.flatnonzero(np.abs(np.angle(np.conj(jet.d1[:-1]) * jet.d1[1:])) > _SHARP)
+        if not len(sharp):
+            break
+        t = np.insert(t, sharp + 1, 0.5 * (t[sharp] + t[sharp + 1]))
+        jet = _spread(piece.at(t), t.shape)
+    return t, jet
 
 
 def _running_length(piece, t):

@@ -1,7 +1,7 @@
 """Many pin wheels at once, for studies and the optimiser: play, contacts and pressure angles of a thousand designs in seconds.
 
 The profile is not the exact one of `curves.trim` but a swept one (`sweep`), sampled every 0.45 deg of the crank.  Measured on designs
-about the usual proportions: play within 0.02 arcmin of the exact route at the same angles, pressure angles within 0.01 deg, and the same
+of all proportions: play within 0.05 arcmin of the exact route at the same angles, pressure angles within 0.02 deg, and the same
 counts of contacts but for pins that begin or cease to touch within a micrometre of an angle of the table.
 """
 

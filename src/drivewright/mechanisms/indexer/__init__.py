@@ -4,9 +4,11 @@ from pathlib import Path
 
 from drivewright.mechanisms.indexer import geometry, loads, roller, stiffness, stress, torsion
 from drivewright.mechanisms.indexer.build import build
+from drivewright.mechanisms.indexer.designs import batch
 from drivewright.mechanisms.indexer.plots import plots
 from drivewright.mechanisms.indexer.scene import drawings, parts, scene
 from drivewright.mechanisms.indexer.spec import IndexerSpec
+from drivewright.mechanisms.indexer.verify import verify
 from drivewright.registry import Analysis, Mechanism
 
 SPATIAL = ("barrel", "globoidal")
@@ -41,4 +43,4 @@ SOURCES = (
 
 mechanism = Mechanism(kind="indexer", summary="indexing drive with pins or rollers", spec=IndexerSpec, build=build, analyses=ANALYSES,
                       folder=Path(__file__).parent, headline=HEADLINE, sources=SOURCES, scene=scene, plots=plots,
-                      drawings=drawings, parts=parts, commands=(torsion.command,))
+                      drawings=drawings, parts=parts, verify=verify, batch=batch, commands=(torsion.command,))

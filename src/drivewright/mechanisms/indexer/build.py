@@ -46,6 +46,16 @@ class IndexerModel:
         return index_angles(self.drive, STEP)
 
     @property
+    def crank_bearing(self):
+        """Catalogue entry (bore, outer_diameter, width) of the crank bearings; None where none is named."""
+        return _entry(self.spec, self.spec.crank_bearings)
+
+    @property
+    def support_bearing(self):
+        """The same of the support bearings."""
+        return _entry(self.spec, self.spec.support_bearings)
+
+    @property
     def modulus(self):
         """Effective modulus of pin and cam [Pa]."""
         card = materials.material(self.spec.contact.material)
@@ -83,6 +93,10 @@ def _barrel(spec, moving):
 
 
 OTHERS = {"parallel": _parallel, "globoidal": _globoidal, "barrel": _barrel}
+
+
+def _entry(spec, given):
+    return bearings.entry(given.bearing, spec.catalogue) if _named(given) else None
 
 
 def _named(given):

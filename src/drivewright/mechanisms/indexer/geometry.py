@@ -41,7 +41,8 @@ def profile(model, done):
     """The trimmed profile of every cam that differs: measures, points, curvature, undercut."""
     parts = [_profile(model, level, suffix) for level, suffix in zip(model.drive.levels, SUFFIXES, strict=False)]
     values = {name: value for part in parts for name, value in part[0].items()}
-    return Answer(values, tuple(part[1] for part in parts), tuple(check for part in parts for check in part[2]))
+    checks = [check for part in parts for check in part[2]]
+    return Answer(values, tuple(part[1] for part in parts), (*checks, *walls(model, values)), tuple(_remarks(model)))
 
 
 def _profile(model, drive, suffix):
@@ -63,6 +64,35 @@ def _profile(model, drive, suffix):
     check = Check(f"curvature{suffix}", convex / drive.pin_radius, model.spec.limits.curvature_ratio, ">=", "-",
                   "least convex radius of the centre curve over the pin's radius", ("cam1",))
     return values, table, (check,)
+
+
+def walls(model, values):
+    """Material between the two bearing holes of a cam, and between them and the profile."""
+    outer = getattr(model.crank_bearing, "outer_diameter", None)
+    if not outer or model.spec.side == "outside":
+        return
+    spacing, least = model.spec.shaft_spacing, model.spec.limits.wall
+    between = {"holes": (spacing - outer, "between the bearing holes of a cam"),
+               "profile": (values["profile.min_radius"].value - 0.5 * (spacing + outer), "between a bearing hole and the profile")}
+    for name, (width, words) in between.items():
+        yield Check(f"wall.{name}", width, least, ">=", "m", f"wall {words}", ("cam1",), True)
+
+
+def _remarks(model):
+    """What a designer should know and no number tells."""
+    spec, moving = model.spec, model.drive.motion
+    if model.translating and moving.motion_angle < TURN and spec.pin_radius >= spec.eccentricity:
+        yield (
+            f"pins of {1e3 * spec.pin_radius:.4g} mm reach the eccentricity of {1e3 * spec.eccentricity:.4g} mm: the tops of the lobes "
+            "that would touch in the dwell are cut away"
+        )
+    bore = getattr(model.crank_bearing, "bore", None)
+    shaft = max(spec.shafts.diameters[1:]) if spec.shafts else None
+    if bore and shaft and bore / 2 - spec.eccentricity - shaft / 2 <= 0:
+        yield (
+            f"a bore of {1e3 * bore:.4g} mm on an eccentricity of {1e3 * spec.eccentricity:.4g} mm leaves no sleeve around a shaft of "
+            f"{1e3 * shaft:.4g} mm (at most {1e3 * max(bore - 2 * spec.eccentricity, 0):.4g} mm): make shaft and crank pins of one piece"
+        )
 
 
 def profile_table(trimmed, name, chords=24):
@@ -114,15 +144,16 @@ def contact_map(model, done):
     values = {"contacts.minimum": Value(float(count.min()), "-", "fewest pins that touch one cam over the index period"),
               "contacts.maximum": Value(float(count.max()), "-", "most pins that touch one cam over the index period")}
     checks, findings = [], []
-    if np.isfinite(best).any():
-        worst = float(np.nanmax(best))
-        values["pressure_angle.maximum"] = Value(worst, "rad", "largest pressure angle of the best placed pin, of both directions")
+    driving = _driving(drive.motion(angles).d2, best)
+    if np.isfinite(driving).any():
+        worst = float(np.nanmax(driving))
+        values["pressure_angle.maximum"] = Value(worst, "rad", "largest pressure angle of the pin that accelerates the wheel best")
         for side, name in enumerate(("forward", "backward")):
             if np.isfinite(best[side]).any():
                 values[f"pressure_angle.{name}.maximum"] = Value(
                     float(np.nanmax(best[side])), "rad", f"largest pressure angle of the pin that pushes best {name}")
         checks.append(Check("pressure_angle", worst, model.spec.limits.pressure_angle, "<=", "rad",
-                            "angle between the normal of the best placed pin and its way", ("cam", "wheel")))
+                            "angle between the normal and the way of the pin that accelerates the wheel best", ("cam", "wheel")))
     for side, name in enumerate(("forward", "backward")):
         lost = angles[np.isnan(best[side])]
         if len(lost):
@@ -134,12 +165,19 @@ def contact_map(model, done):
         Column("angle", "rad", "input angle", angles), Column("pins", "-", "pins that touch", count.astype(float)),
         Column("forward", "-", "pins that the cam can push forward", np.sum(way > 0, axis=1).astype(float)),
         Column("backward", "-", "pins that the cam can push backward", np.sum(way < 0, axis=1).astype(float)),
+        Column("pressure_angle", "rad", "of the pin that accelerates the wheel best", driving),
         Column("pressure_angle_forward", "rad", "of the pin pushed best forward", best[0]),
         Column("pressure_angle_backward", "rad", "of the pin pushed best backward", best[1])))
     points = _contact_points(angles, found, drive)
     names = (tuple(f"{np.degrees(angle):.6g} deg" for angle in angles), tuple(str(k) for k in range(pins)))
     arrays = {"contact_map": Array("-", ("angle", "pin"), names, np.where(alive, np.where(way == 0, 0.5, way), 0.0))}
     return Answer(values, (table, points), tuple(checks), tuple(findings), arrays, data=found)
+
+
+def _driving(acceleration, best):
+    """Pressure angle in the direction in which the wheel is accelerated; the worse of both where it is not."""
+    still = np.abs(acceleration) <= 1e-9 * np.max(np.abs(acceleration), initial=1e-9)
+    return np.where(still, np.fmax(best[0], best[1]), np.where(acceleration > 0, best[0], best[1]))
 
 
 def spread(values, where):

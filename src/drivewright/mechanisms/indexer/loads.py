@@ -83,16 +83,18 @@ def _mean(load, power):
     return float(np.mean(carried**power) ** (1 / power)) if len(carried) else 0.0
 
 
-def static_rating(bearing):
-    """C0 [N] of the catalogue, else by the permissible pressure."""
-    return bearing.static_rating if bearing.static_rating is not None else bearings.geometric_static_rating(bearing)
+def static_rating(model, table):
+    """C0 [N] as given, else of the catalogue, else by the permissible pressure; None for a stiffness without one."""
+    given, rolling = getattr(model.spec, table), model.rolling.get(table)
+    if rolling is None:
+        return given.static_rating if given else None
+    return rolling.static_rating if rolling.static_rating is not None else bearings.geometric_static_rating(rolling)
 
 
 def _checks(model, group, own, values):
-    rolling, limits = model.rolling.get(RATED[group]), model.spec.limits
-    largest = values[f"{group}.max_load"].value
-    if rolling is not None and largest > 0:
-        rating = static_rating(rolling)
+    limits, largest = model.spec.limits, values[f"{group}.max_load"].value
+    rating = static_rating(model, RATED[group])
+    if rating and largest > 0:
         yield Check(f"static_rating.{group}", rating / largest, limits.static_safety, ">=", "-",
                     f"static rating of {rating / 1e3:.4g} kN over the largest load of {largest / 1e3:.4g} kN", (group,))
     life = values.get(f"{group}.basic_life.time")

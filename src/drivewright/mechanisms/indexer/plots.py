@@ -41,7 +41,7 @@ def _all(result):
         ("forward", "backward"),
         (("play.forward", "limit"),),
     )
-    yield Plot("stiffness", "Torsional stiffness", "stiffness", "angle", ("secant", "tangent"))
+    yield Plot("stiffness", "Torsional stiffness", "stiffness", "angle", ("secant", "tangent", "secant_reversed"))
     if "stiffness" in result.tables:
         table = result.tables["stiffness"]
         largest = {name: np.nanmax(np.abs(table[name].data), initial=0.0) for name in GROUPS}

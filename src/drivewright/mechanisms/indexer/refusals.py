@@ -83,5 +83,9 @@ def _bearings(spec):
             continue
         if (given.bearing is None) == (given.stiffness is None):
             raise SpecError("give one of bearing (a designation) and stiffness", key)
+        if given.stiffness is not None and given.dynamic_rating is not None:
+            raise SpecError(
+                "a life needs a bearing, whose rolling elements tell the exponent; a stiffness has none", f"{key}.dynamic_rating"
+            )
         if given.stiffness is not None and given.law != "elements":
             raise SpecError(f"law = {given.law!r} needs a bearing; a constant stiffness is a law of its own", f"{key}.law")

@@ -92,8 +92,7 @@ def cam_outline(drive):
 
 def hole_radius(model):
     """Radius of the crank bearings' holes in a cam [m], None where no bearing tells it."""
-    rolling = model.rolling.get("crank_bearings")
-    outer = getattr(rolling, "outer_diameter", None)
+    outer = getattr(model.crank_bearing, "outer_diameter", None)
     return outer / 2 if outer else None
 
 

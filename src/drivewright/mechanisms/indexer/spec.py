@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from drivewright import materials, motion
+from drivewright import materials
 from drivewright.indexing.motion import NO_DWELL
 from drivewright.mechanisms.indexer.refusals import refuse_nonsense
 from drivewright.spec import DataFile, Integer, MechanismSpec, Number, Spec, Text
@@ -24,8 +24,8 @@ Diameter = Annotated[Length, Field(gt=0)]
 class Motion(Spec):
     """The wheel over one turn of the input."""
 
-    law: Text | None = Field(None, description="motion law of the step: modified-sine (unless given), cycloidal, polynomial-345 ...; uniform: "
-                                               "a full turn, no dwell, as for a cycloid", examples=["modified-sine"])
+    law: Text | None = Field(None, description="motion law of the step: modified-sine (unless given), cycloidal, polynomial-345 ...; "
+                                               "uniform: a full turn, no dwell, as for a cycloid", examples=["modified-sine"])
     motion_to_dwell: Number | Literal["no-dwell"] | None = Field(
         None, description=f'angle of the step over that of the dwell; 1 unless given; "{NO_DWELL}": a full turn', examples=[1.0])
     b: Number | None = Field(None, description='part of the sine ramps, for law = "scca"')

@@ -50,13 +50,14 @@ def torsional(model, done):
     torque, angles = model.spec.load.torque, model.angles
     found, near = solved(model, angles, torque)
     loaded, free = after_play(model, angles, torque, found)
+    reverse = _solve(model, angles, near, -torque)
     carried = np.array([outcome == CARRIED for outcome in found.outcome])
     values = {"stiffness.undefined_fraction": Value(float(np.mean(~carried)), "-",
                                                     "part of the positions where no contact without a gap carries the torque")}
     values |= _summary(angles, found.secant, carried)
     forces = pin_forces(model, angles, near, found)
     values |= largest(forces)
-    tables = (stiffness_table(angles, found, loaded, free), forces)
+    tables = (stiffness_table(angles, found, loaded, free, reverse), forces)
     return Answer(values, tables, tuple(_checks(model, values)), tuple(_findings(angles, found, loaded, torque)),
                   data=(found, near))
 
@@ -76,7 +77,7 @@ def _summary(angles, secant, carried):
     }
 
 
-def stiffness_table(angles, found, loaded, free):
+def stiffness_table(angles, found, loaded, free, reverse):
     """Secant, tangent and the share of every group in the compliance; after the play where the wheel turns freely first."""
     columns = [
         Column("angle", "rad", "input angle", angles),
@@ -85,7 +86,8 @@ def stiffness_table(angles, found, loaded, free):
     ]
     columns += [Column(name, "rad/(N m)", words, found.shares[name]) for name, words in GROUPS.items()]
     columns += [Column("free_rotation", "rad", "rotation before a contact takes the torque", free),
-                Column("secant_after_play", "N m/rad", "torque over the rotation beyond that", loaded.secant)]
+                Column("secant_after_play", "N m/rad", "torque over the rotation beyond that", loaded.secant),
+                Column("secant_reversed", "N m/rad", "torque over rotation, torque reversed", reverse.secant)]
     return Table("stiffness", "Torsional stiffness", tuple(columns))
 
 

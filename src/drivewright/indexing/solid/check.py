@@ -1,0 +1,197 @@
+"""Torsional stiffness of a pin-wheel indexer with its bodies as solids, beside that of the reduced model (extra `fe`).
+
+Cams, eccentric shafts and pin wheel are meshed once with curved second-order tetrahedra and condensed to the loads between them; at every
+position they are joined by springs: bearings between the mean displacements of their seats, the pins that carry in the reduced model, gears
+along their line of action, all at the secant that they have there.  What is compared is thus the elasticity of the bodies alone.
+
+A pin presses on a strip of the cam, whose width is a choice and sets how deep it dents.  The local law of the contact (a line contact)
+already holds that dent, so the dent of the same strip on a half-space, down to the depth of a pin's radius, is taken off the cam's own
+flexibility; the strip's width then drops out.  The pin's displacement is the mean over its skin where the cam touches, without a dent.
+"""
+
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Literal
+
+import numpy as np
+
+from drivewright.errors import InputError
+from drivewright.indexing.drivetrain import SIDES
+from drivewright.indexing.solid import bodies as of
+from drivewright.indexing.solid.coupling import couple, starts
+from drivewright.indexing.solid.parts import check
+from drivewright.indexing.solid.springs import Position, Spring, springs, touched
+from drivewright.indexing.stiffness import TorsionalStiffness, solve
+from drivewright.indexing.stiffness.assembly import turn
+from drivewright.result import Column, Table
+
+DRAWN = 0.03  # the largest displacement is drawn as about this part of the cam
+STRIP = 0.2  # width sigma of the strip in radii of a pin
+GROUPS = ("pin", "crank", "support", "gear", "wheel bearing", "output", "cam", "shaft", "wheel")
+
+
+@dataclass(frozen=True, eq=False)
+class SolidStiffness:
+    """Answer of the solid check at p positions; nan where the reduced model does not carry.
+
+    secant (p,) [N m/rad] with solids; reduced: the `TorsionalStiffness` beside it; shares: compliance [rad/(N m)] of each of GROUPS (p,),
+    which add up to 1/secant: springs first, then the elasticity of cams, shafts and wheel.
+    astray (p,): largest force of a pin whose sign is another than in the reduced model, over the largest of all; 0 where the contact state
+    is that of the solids too.
+    unknowns: {"cam", "shaft", "wheel"} of one mesh each, 0 where a body is not a solid.
+    surface: of cam 0 (points (n, 3) [m], triangles (m, 3), displacements (p, n, 3) [m]), None without a solid cam.
+    """
+
+    theta: np.ndarray
+    torque: float
+    secant: np.ndarray
+    reduced: TorsionalStiffness
+    shares: dict
+    astray: np.ndarray
+    unknowns: dict
+    seconds: float
+    surface: tuple | None = None
+
+    @property
+    def ratio(self):
+        """Stiffness with solids over that of the reduced model."""
+        return self.secant / self.reduced.secant
+
+
+def solid_stiffness(wheel, drive, solids, theta, contacts, torque, *, cams=2, model: Literal["unilateral", "bonded"] = "unilateral",
+                    fineness=1.0, strip=STRIP):
+    """`SolidStiffness` of a `PinWheel`, its `Drivetrain` and `Solids` at the angles theta (p,) [rad] under a torque [N m].
+
+    contacts: `Contacts` of cam 0, one a position, as for the reduced model; fineness: factor on all element sizes; strip: width sigma of a
+    contact on the cam in radii of a pin.
+    """
+    started = perf_counter()
+    check(solids, wheel, drive, cams)
+    theta = np.atleast_1d(np.asarray(theta, dtype=float))
+    reduced = solve(drive, theta, contacts, wheel.eccentricity, torque, cams=cams, sense=int(wheel.sense), model=model)
+    places = {i: _position(wheel, reduced, contacts, i) for i, outcome in enumerate(reduced.outcome) if outcome == "carried"}
+    if not places:
+        raise InputError(f"solid check: no position carries the torque: {reduced.reasons[0]}.")
+    bodies = condensed(wheel, drive, solids, places, cams, fineness, strip)
+    found = {i: _coupled(bodies, drive, solids, wheel, place, i, model, torque) for i, place in places.items()}
+    shares = {group: _spread(theta, {i: each[group] for i, (_, each, _) in found.items()}) for group in GROUPS}
+    astray = _spread(theta, {i: each for i, (_, _, each) in found.items()})
+    unknowns = {name: bodies[key].unknowns for name, key in (("cam", ("cam", 0)), ("shaft", ("shaft", 0)), ("wheel", ("wheel",)))}
+    surface = None if solids.cam is None else _deformed(bodies, {i: each[0] for i, each in found.items()}, len(theta))
+    return SolidStiffness(theta, torque, 1 / sum(shares.values()), reduced, shares, astray, unknowns, perf_counter() - started, surface)
+
+
+def _spread(theta, values):
+    return np.array([values.get(i, np.nan) for i in range(len(theta))])
+
+
+def _position(wheel, reduced, contacts, i):
+    here = contacts[i]
+    turned = np.angle(np.mean(here.centre * np.exp(-2j * np.pi * here.pin / wheel.pins)))
+    return Position(wheel.sense * reduced.theta[i], turned, wheel.pins, here, reduced.pin_forces[i], reduced.crank_forces[i],
+                    reduced.support_forces[i], reduced.gear_forces[i], complex(reduced.wheel_forces[i]))
+
+
+def condensed(wheel, drive, solids, places, cams, fineness=1.0, strip=STRIP):
+    """{("cam", j), ("shaft", side), ("wheel",): Condensed} for all positions at once."""
+    pairs = sorted(set().union(*(touched(place)[0] for place in places.values())))
+    width = solids.cam.thickness if solids.cam else None
+    throws = [complex(c) for c in wheel.eccentricity * turn(cams)]
+    shaft = of.shaft(drive, solids.shaft, throws, fineness)
+    made = _cams(wheel, drive, solids.cam, places, cams, fineness, strip * wheel.pin_radius)
+    found = {("cam", j): body for j, body in enumerate(made)}
+    found |= {("shaft", side): shaft for side in (0, 1)}
+    return found | {("wheel",): of.wheel(drive, wheel, solids.wheel, width, pairs, fineness)}
+
+
+def _cams(wheel, drive, body, places, cams, fineness, sigma):
+    """Condensed cams; half a turn brings the holes back on each other, so that two opposite cams are one body with its seats exchanged."""
+    strips = {(i, c): (complex(point), complex(place.contacts.normal[c]))
+              for i, place in places.items() for c in touched(place)[1] for point in [_touching_point(wheel, place, c)]}
+    outline = wheel.profile.outline() if body else None
+    half = cams // 2 if cams % 2 == 0 else cams
+    found = []
+    for way in turn(cams)[:half]:
+        holes = [complex(side * drive.spacing / 2 / way) for side in SIDES]
+        made = of.cam(outline, body, holes, strips, sigma, fineness)
+        found.append(made if body is None else _undented(made, of.dent(sigma, wheel.pin_radius, body)))
+    return found + [_exchanged(body) for body in found[: cams - half]]
+
+
+def _touching_point(wheel, place, c):
+    """Where contact c touches, seen from cam 0."""
+    here = place.contacts
+    return here.centre[c] - wheel.pin_radius * here.normal[c] - wheel.eccentricity * np.exp(1j * place.crank)
+
+
+def _undented(body, dent):
+    taken = [dent if name[0] == "contact" else 0.0 for name in body.number]
+    return body._replace(flexibility=body.flexibility - np.diag(taken))
+
+
+def _exchanged(body):
+    """The body with its seats 0 and 1 named the other way round."""
+    return body._replace(number={("seat", 1 - name[1], name[2]) if name[0] == "seat" else name: n for name, n in body.number.items()})
+
+
+def _coupled(bodies, drive, solids, wheel, place, number, model, torque):
+    """(`Coupled`, {group: compliance [rad/(N m)]}, part of the pins' force that is astray) of one position."""
+    links = list(springs(drive, place, number, model == "bonded", solids.wheel is not None))
+    if solids.wheel is not None:  # its output does not move along the axis, nor tilt
+        links += [Spring("output", ((("wheel",), ("flange", motion), 1.0),), 0.0) for motion in (2, 3, 4)]
+    found = couple(bodies, links, (("wheel",), ("flange", 5), torque / wheel.circle_radius))
+    pins = found.forces[[link.group == "pin" for link in links]]
+    wrong = np.where(np.sign(pins) == np.sign(place.pins[place.pins != 0]), 0.0, np.abs(pins))
+    return found, _shares(bodies, drive, links, found, torque), wrong.max() / np.abs(pins).max()
+
+
+def _shares(bodies, drive, links, found, torque):
+    """Work of springs and bodies over torque^2; of the output shaft, in series, its compliance."""
+    shares = dict.fromkeys(GROUPS, 0.0)
+    for link, force, strain in zip(links, found.forces, found.strains, strict=True):
+        shares[link.group] += force * strain / torque**2
+    start, _ = starts(bodies)
+    for name, body in bodies.items():
+        loads = found.loads[start[name] : start[name] + len(body.flexibility)]
+        shares[name[0]] += loads @ body.flexibility @ loads / torque**2
+    shares["output"] += 0.0 if drive.wheel_torsion is None else 1 / drive.wheel_torsion
+    return shares
+
+
+# ------------------------------------------------------------------------------------------------------------------- surface
+
+
+def _deformed(bodies, found, count):
+    """Points [m], triangles, displacements (count, n, 3) [m] of cam 0, relative to its middle, and mirrored in its middle plane."""
+    body = bodies[("cam", 0)]
+    start, _ = starts(bodies)
+    at = slice(start[("cam", 0)], start[("cam", 0)] + len(body.flexibility))
+    fields = [_combined(body.fields, each.loads[at]) for each in found.values()]
+    points, triangles, moved = body.free.surface("profile|seat.*|bore|side", fields, np.zeros((len(body.free.basis.T), len(fields))))
+    flipped = np.array([1.0, 1.0, -1.0])
+    whole = np.full((count, 2 * len(points), 3), np.nan)
+    whole[list(found)] = np.concatenate([moved, moved * flipped], axis=1)
+    return np.concatenate([points, points * flipped]), np.concatenate([triangles, triangles[:, ::-1] + len(points)]), whole
+
+
+def _combined(fields, amounts):
+    """One vector: the sum of amounts times fields."""
+    total = fields[0].CreateVector()
+    total[:] = 0.0
+    for amount, field in zip(amounts, fields, strict=True):
+        total.data += float(amount) * field
+    return total
+
+
+def surface_table(solid, position, name="solid_cam", title="Deformed cam", exaggeration=None):
+    """Table of the deformed cam 0 at one position for a plot of style "mesh": three rows a triangle, without its motion as a whole."""
+    points, triangles, fields = solid.surface
+    displacement = fields[position]
+    size = np.linalg.norm(displacement, axis=1)
+    factor = exaggeration or 10.0 ** np.floor(np.log10(DRAWN * np.ptp(points[:, 0]) / max(size.max(), 1e-300)))
+    drawn, rows = points + factor * displacement, triangles.ravel()
+    columns = (
+        ("x", "across", drawn[:, 0]), ("y", "height", drawn[:, 1]), ("z", "along the axis", drawn[:, 2]),
+        ("displacement", f"displacement, drawn {factor:,.0f} times as large".replace(",", " ", 1), size),
+        ("rest_x", "across, unloaded", points[:, 0]), ("rest_y", "height, unloaded", points[:, 1]))
+    return Table(name, title, tuple(Column(key, "m", meaning, data[rows]) for key, meaning, data in columns))

@@ -1,0 +1,141 @@
+"""The linear springs between the bodies at one position: each law at its secant in the equilibrium of the reduced model.
+
+A spring's force is s = stiffness (d - offset) at the strain d.  With the bodies of the reduced model they give its own displacements.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.errors import SolverError
+from drivewright.indexing.drivetrain import SIDES, PowerBearing
+from drivewright.indexing.solid.bodies import TURN_RADIUS
+from drivewright.indexing.stiffness.assembly import flank_directions, turn
+from drivewright.indexing.stiffness.laws import bearing_law
+
+LEAST = 1e-6  # of the typical force: below it a bearing keeps the secant that it has there
+MOST_STEPS = 100
+
+
+class Spring(NamedTuple):
+    """terms: ((body, functional, factor), ...) of its strain; compliance [m/N], 0 is rigid; offset [m]."""
+
+    group: str
+    terms: tuple
+    compliance: float
+    offset: float = 0.0
+
+
+class Position(NamedTuple):
+    """One position of the reduced model: crank angle with its sense, wheel's angle and number of pins, contacts, forces."""
+
+    crank: float
+    wheel: float
+    of_wheel: int
+    contacts: object
+    pins: np.ndarray  # (cams, k)
+    cranks: np.ndarray  # (2, cams)
+    supports: np.ndarray  # (2, 2)
+    gears: np.ndarray  # (2,)
+    bearing: complex
+
+
+def springs(drive, place, number, both, solid_pins):
+    """All `Spring`s of a `Position`; bodies are ("cam", j), ("shaft", side), ("wheel",), `number` is that of the position."""
+    typical = np.abs(place.cranks).max()
+    yield from _pins(drive, place, number, both, solid_pins)
+    for side in (0, 1):
+        for j, way in enumerate(turn(len(place.pins))):
+            seat = _vector(("cam", j), ("seat", side), 1 / way, 1.0)
+            journal = _vector(("shaft", side), ("crank", j), np.exp(-1j * place.crank), -1.0)
+            yield from _bearing("crank", drive.crank, place.cranks[side, j], typical, [a + b for a, b in zip(seat, journal, strict=True)])
+        for end in (0, 1):
+            rows = _vector(("shaft", side), ("support", end), np.exp(-1j * place.crank), 1.0)
+            yield from _bearing("support", drive.support, place.supports[side, end], typical, rows, drive.housing)
+        yield from _gear(drive.gear, place, side)
+    flange = _vector(("wheel",), ("flange",), np.exp(-1j * place.wheel), 1.0)
+    yield from _bearing("wheel bearing", drive.wheel, place.bearing, typical, flange)
+
+
+def _vector(body, name, back, factor):
+    """Terms of the two components of a displacement, `back` turning them into the body's own frame."""
+    return [tuple((body, (*name, axis), factor * part) for axis, part in enumerate((turned.real, turned.imag)))
+            for turned in (back, 1j * back)]
+
+
+def _pins(drive, place, number, both, solid_pins):
+    """d = n . u_cam - n . u_pin of the contacts that carry."""
+    back = np.exp(-1j * place.wheel)
+    for j, way in enumerate(turn(len(place.pins))):
+        for c, force in enumerate(place.pins[j]):
+            if force == 0:
+                continue
+            normal = place.contacts.normal[c] * way * back
+            pin = _pin(place, c, j)
+            terms = ((("cam", j), ("contact", number, c), 1.0), (("wheel",), ("pin", pin, j, 0), -normal.real),
+                     (("wheel",), ("pin", pin, j, 1), -normal.imag))
+            yield Spring("pin", terms, pin_compliance(drive.pins, abs(force), solid_pins), 0.0 if both else place.contacts.gap[c])
+
+
+def pin_compliance(pin, force, solid_pins):
+    """d/F of a contact [m/N]; a solid pin yields itself, in place of the spring behind the contact."""
+    line = 0.0 if pin is None or pin.line is None else (force / pin.line) ** 0.9 / force
+    return line + (0.0 if pin is None or pin.series is None or solid_pins else 1 / pin.series)
+
+
+def _pin(place, c, j):
+    """Number of the pin at contact c of cam j: what touches cam 0, a part j/n of the wheel on."""
+    return int(place.contacts.pin[c] + place.of_wheel * j // len(place.pins)) % place.of_wheel
+
+
+def touched(place):
+    """({(pin, cam)}, {contact}) of all contacts that carry."""
+    at = [(int(j), int(c)) for j, c in np.argwhere(place.pins)]
+    return {(_pin(place, c, j), j) for j, c in at}, {c for _, c in at}
+
+
+def _bearing(group, bearing, force, typical, rows, behind=None):
+    """Two springs with the secant of a bearing's law, alike in all directions, and a stiffness behind it."""
+    softness = 0.0 if behind is None else 1 / behind
+    offset = 0j
+    if bearing is not None:
+        force = force if abs(force) > LEAST * typical else complex(LEAST * typical)
+        away = displacement(bearing, force)
+        secant = (away / force).real
+        softness, offset = softness + secant, away - secant * force
+    for row, part in zip(rows, (offset.real, offset.imag), strict=True):
+        yield Spring(group, tuple(row), softness, part)
+
+
+def displacement(bearing, force):
+    """Displacement [m] of a bearing under a radial force [N], both complex."""
+    if isinstance(bearing, PowerBearing):
+        return force / abs(force) * ((abs(force) / bearing.constant) ** (1 / bearing.exponent) + bearing.clearance)
+    law, wanted = bearing_law(bearing), np.array([force.real, force.imag])
+    at = wanted / law.secant(abs(force))
+    energy, found, slope = law(at)
+    for _ in range(MOST_STEPS):
+        missing = wanted - found
+        if np.abs(missing).max() < 1e-10 * abs(force):
+            return complex(*at)
+        step, value = np.linalg.solve(slope + 1e-9 * np.trace(slope) * np.eye(2), missing), energy - wanted @ at
+        while (trial := law(at + step))[0] - wanted @ (at + step) > value + 1e-14 * abs(value):
+            step = step / 2
+        at, (energy, found, slope) = at + step, trial
+    raise SolverError(f"solid check: no displacement of a bearing under {abs(force):.4g} N found; is that far beyond what it carries?")
+
+
+def _gear(gear, place, side):
+    """The flanks that carry, or the shaft held where the gear would sit."""
+    if gear is None:
+        yield Spring("gear", ((("shaft", side), ("gear", "turn"), 1.0),), 0.0)
+        return
+    directions = flank_directions(gear, side)
+    pressed = np.linalg.solve([directions.real, directions.imag], [place.gears[side].real, place.gears[side].imag])
+    for force, along in zip(pressed, directions, strict=True):
+        if force > LEAST * np.abs(pressed).max():
+            turned = along * np.exp(-1j * place.crank)
+            arm = -SIDES[side] * gear.pitch_radius * along.imag
+            terms = ((("shaft", side), ("gear", 0), -turned.real), (("shaft", side), ("gear", 1), -turned.imag),
+                     (("shaft", side), ("gear", "turn"), -arm / TURN_RADIUS))
+            yield Spring("gear", terms, 1 / gear.stiffness, gear.backlash / 2)

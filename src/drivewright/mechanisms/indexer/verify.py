@@ -1,0 +1,139 @@
+"""The indexer once more: its parts as solids of finite elements, the profile by polygons, the stiffness by its closed form.
+
+Rows are tuples (name, ours, other, unit, allowed difference, route) in SI.
+"""
+
+import numpy as np
+
+from drivewright.indexing import roller_gear, solid
+from drivewright.indexing.motion import TURN
+from drivewright.indexing.plane import contacts, pitch_point
+from drivewright.indexing.roller_gear.envelope import turned
+from drivewright.mechanisms.indexer.stiffness import solved
+from drivewright.shafts import Section
+
+POLYGON = "centre curve widened by the pin, as a polygon"
+SWEPT = "distance of points of the flanks from the axes of all rollers at 2880 input angles"
+TANGENT = "unit normals through the instant centre"
+SOLID = "cams, shafts and wheel as solids of second-order elements"
+CHORDS = 1200  # of the centre curve, in a turn
+ANGLES = (0.25, 0.5, 0.75)  # of the index period
+ALLOWED = 0.3  # the solids yield more than beams and rigid cams; beyond this the reduced model is not good enough
+
+
+def verify(model, result):
+    """All rows."""
+    if model.spec.kind in ("barrel", "globoidal"):
+        yield from _flanks(model)
+    else:
+        for number, level in enumerate(model.drive.levels):
+            yield from _profile(level, "" if not number else ".second")
+            yield from _normals(level, model.angles)
+    if model.translating and model.spec.load.torque and result.values["stiffness.undefined_fraction"].value < 1:
+        yield from _solids(model)
+
+
+def _profile(drive, suffix):
+    """Area and perimeter of the cam as what the widened centre curve leaves."""
+    from shapely import LineString, Point
+
+    theta = np.linspace(0, TURN, CHORDS, endpoint=False)
+    points = drive.path(theta).d0.T.ravel()
+    curve = LineString(np.stack([np.append(points, points[0]).real, np.append(points, points[0]).imag], axis=1))
+    swept = curve.buffer(drive.pin_radius, quad_segs=128)
+    if drive.side == "inside":
+        left = next(ring for ring in swept.interiors if ring.envelope.contains(Point(0, 0)) and _around(ring))
+    else:
+        left = swept.exterior
+    area = abs(_area(np.array(left.coords)))
+    ours = drive.profile
+    yield f"profile{suffix}.area", ours.area, area, "m^2", 1e-4 * ours.area, POLYGON
+    yield f"profile{suffix}.perimeter", ours.perimeter, left.length, "m", 2e-3 * ours.perimeter, POLYGON
+
+
+def _around(ring):
+    """Whether a ring goes round the cam's centre."""
+    from shapely import Point, Polygon
+
+    return Polygon(ring).contains(Point(0, 0))
+
+
+def _area(points):
+    x, y = points.T
+    return 0.5 * np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])
+
+
+def _normals(drive, angles):
+    """Every normal found on the profile passes through the pitch point: the largest distance of one."""
+    far = 0.0
+    for angle in angles:
+        pitch = complex(pitch_point(drive, angle))
+        if np.isfinite(pitch) and abs(pitch) < 10 * drive.circle_radius:
+            found = contacts(drive, angle)
+            live = found.intended
+            far = max(far, float(np.max(np.abs(np.imag(np.conj(found.normal[live]) * (pitch - found.centre[live]))), initial=0.0)))
+    yield "distance of the normals from the pitch point", far, 0.0, "m", 1e-7, TANGENT
+
+
+def _flanks(model, count=200):
+    """Points of the finished flanks that some roller touches and none enters: least distance from any roller's skin."""
+    cam, found = model.drive, roller_gear.flanks(model.drive)
+    points = found.contact.point[found.alive]
+    points = points[np.linspace(0, len(points) - 1, count).astype(int)]
+    theta = np.linspace(0, TURN, 2880, endpoint=False)
+    angle = cam.hand_sign * theta[:, None]
+    least = np.full(count, np.inf)
+    at = turned(points[None], angle) + (cam.centre_distance, 0.0, cam.height)
+    for roller in cam.rollers:
+        psi = cam.motion(theta).d0 + cam.motion.pitch * (cam.phase + roller)
+        along, across = np.exp(1j * psi)[:, None], at[..., 0] + 1j * at[..., 1]
+        local = across / along - cam.pin_circle_radius  # radially from the middle of the roller, and sideways
+        u, sideways, height = (local.real, local.imag, at[..., 2]) if cam.kind == "globoidal" else (at[..., 2], local.imag, local.real)
+        gap = np.hypot(sideways, height) - cam.roller_radius
+        least = np.fmin(least, np.where(np.abs(u) <= 0.5 * cam.roller_length * (1 + 1e-9), gap, np.inf).min(axis=0))
+    yield "least gap between flanks and rollers", 0.0, float(least.min()), "m", 2e-7, SWEPT
+    yield "greatest of the least gaps of a point", 0.0, float(least.max()), "m", 2e-6, SWEPT
+
+
+def _solids(model):
+    """Torsional stiffness at three angles with the contact state and the bearing values of the reduced model."""
+    parts = solid_parts(model)
+    if not any(parts):
+        return
+    angles = model.angles if len(model.angles) == 1 else model.drive.motion.motion_angle * np.array(ANGLES)
+    reduced, near = solved(model, angles, model.spec.load.torque)
+    train = model.train._replace(shaft=seated(model.train.shaft, parts.shaft))
+    found = solid.solid_stiffness(model.drive, train, parts, angles, near, model.spec.load.torque, cams=model.spec.cams,
+                                  model=model.spec.contact.model)
+    for angle, ours, other in zip(angles, reduced.secant, found.secant, strict=True):
+        if np.isfinite(other) and np.isfinite(ours):
+            yield f"stiffness at {np.degrees(angle):.4g} deg", float(ours), float(other), "N m/rad", ALLOWED * ours, SOLID
+
+
+def seated(shaft, body):
+    """The split shaft with seats under its supports, as wide as the bearings and of the thinner of the diameters that meet there."""
+    if shaft is None or body is None:
+        return shaft
+    ends = np.cumsum([0.0, *(section.length for section in shaft.sections)])
+    edges = [(z - body.support_width / 2, z + body.support_width / 2) for z in shaft.supports]
+    cuts = np.unique(np.round([*ends, *(min(max(z, 0.0), ends[-1]) for edge in edges for z in edge)], 12))
+    pieces = []
+    for low, high in zip(cuts[:-1], cuts[1:], strict=True):
+        middle = 0.5 * (low + high)
+        spots = [middle, *(z for a, b in edges if a < middle < b for z in (a, b))]
+        meeting = [shaft.sections[min(int(np.searchsorted(ends, z, side="right")) - 1, len(shaft.sections) - 1)].start for z in spots]
+        pieces.append(Section(float(high - low), min(meeting), min(meeting)))
+    return shaft._replace(sections=tuple(pieces))
+
+
+def solid_parts(model):
+    """The bodies that the spec tells the size of; what it does not is as in the reduced model."""
+    spec, entry = model.spec, model.crank_bearing
+    cam = shaft = None
+    if entry and entry.outer_diameter:
+        cam = solid.CamBody(spec.cam_width, entry.outer_diameter)
+    if entry and entry.bore and spec.shafts:
+        seat = model.support_bearing.width if model.support_bearing and model.support_bearing.width else 0.4 * min(spec.shafts.diameters)
+        shaft = solid.ShaftBody(entry.bore, spec.cam_width, seat, 0.7 * spec.shafts.diameters[0])
+    wheel = solid.usual_wheel(model.drive, model.train, spec.cam_width) if model.train.shaft else None
+    return solid.Solids(cam, shaft, wheel)
