@@ -8,6 +8,7 @@ import tempfile
 import time
 from pathlib import Path
 
+import indexing
 import linkages
 import numpy as np
 import shafts
@@ -178,6 +179,7 @@ SECTIONS = (
     ("Folder: table of impact load coefficients", linkages.table),
     ("Slider-crank with play: bifurcation diagram", linkages.bifurcation),
     *shafts.SECTIONS,
+    *indexing.SECTIONS,
 )
 
 

@@ -111,12 +111,15 @@ def _refined(chain, seeds, steps=15):
     Seeds that meet nowhere or only themselves are dropped.
     """
     index, t = chain.locate(seeds.ravel())
+    moving = np.arange(len(t))  # both places of every pair that is not settled
     for _ in range(steps):
-        step = _step(gather(chain.pieces, index, t))
-        index, t = _cross_joints(chain, index, t + step)
-        low, high = _range(chain, index)
-        t = np.clip(t, low, high)
-        if np.all(np.abs(step) <= 1e-12 * np.maximum(np.abs(low), np.abs(high))):  # the step made leaves its square
+        step = _step(gather(chain.pieces, index[moving], t[moving]))
+        index[moving], there = _cross_joints(chain, index[moving], t[moving] + step)
+        low, high = _range(chain, index[moving])
+        t[moving] = np.clip(there, low, high)
+        settled = np.abs(step) <= 1e-12 * np.maximum(np.abs(low), np.abs(high))  # the step made leaves its square
+        moving = moving[np.repeat(~settled.reshape(-1, 2).all(axis=1), 2)]
+        if not len(moving):
             break
     q = gather(chain.pieces, index, t).d0
     u = chain.place(index, t).reshape(-1, 2)

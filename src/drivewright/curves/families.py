@@ -58,20 +58,24 @@ class CircleFamily:
         return (*self._envelope(self.side), *other)
 
     def _envelope(self, side):
-        for number, (piece, following) in enumerate(_pairs(self.path)):
+        branches = {}  # pieces that share a formula share that of their envelope
+        numbers = np.arange(len(self.path))
+        stops = gather(self.path, numbers, np.array([float(piece.stop) for piece in self.path]))
+        starts = gather(self.path, np.roll(numbers, -1), np.array([float(piece.start) for piece in (*self.path[1:], self.path[0])]))
+        for number, piece in enumerate(self.path):
+            branch = branches.setdefault(piece.at, partial(_branch, piece.at, self.radius, side))
             if not self._shrunk(piece, side):
-                yield Piece(piece.start, piece.stop, partial(_branch, piece, self.radius, side), piece.label, piece.shape, number)
-            yield from self._corner(piece, following, side)
+                yield Piece(piece.start, piece.stop, branch, piece.label, piece.shape, number)
+            yield from self._corner(piece, stops[number], starts[number], side)
 
     def _shrunk(self, piece, side):
         """True where the envelope of an arc is its centre: the circle is as wide as the arc that its own centre runs on."""
         if piece.shape != "arc":
             return False
         middle = np.array([0.5 * (piece.start + piece.stop)])
-        return bool(abs(_branch(piece, self.radius, side, middle).d1[0]) < _CORNER * abs(piece.at(middle).d1[0]))
+        return bool(abs(_branch(piece.at, self.radius, side, middle).d1[0]) < _CORNER * abs(piece.at(middle).d1[0]))
 
-    def _corner(self, piece, following, side):
-        before, after = _end(piece, piece.stop), _end(following, following.start)
+    def _corner(self, piece, before, after, side):
         turn = float(np.angle(after.d1 / before.d1))
         if abs(turn) < _CORNER:
             return
@@ -144,8 +148,8 @@ class LineFamily:
         return np.argmin(support.real - reach, axis=1)
 
 
-def _branch(piece, radius, side, t):
-    return envelope_of_circle(piece.at(t), radius, side)
+def _branch(at, radius, side, t):
+    return envelope_of_circle(at(t), radius, side)
 
 
 def _pairs(pieces):

@@ -40,11 +40,14 @@ class Piece:
 
 
 def gather(pieces, index, t):
-    """Values of piece `index[k]` at `t[k]`: a Jet, or a tuple of Jets, of the shape of t."""
-    order = np.argsort(index, kind="stable")
-    used, first = np.unique(index[order], return_index=True)
+    """Values of piece `index[k]` at `t[k]`: a Jet, or a tuple of Jets, of the shape of t; pieces with one formula together."""
+    formulas = {}
+    number = np.array([formulas.setdefault(piece.at, len(formulas)) for piece in pieces])[index]
+    formulas = list(formulas)
+    order = np.argsort(number, kind="stable")
+    used, first = np.unique(number[order], return_index=True)
     parts = np.split(t[order], first[1:])
-    values = [_spread(pieces[k].at(part), part.shape) for k, part in zip(used, parts, strict=True)]
+    values = [_spread(formulas[k](part), part.shape) for k, part in zip(used, parts, strict=True)]
     back = np.empty_like(order)
     back[order] = np.arange(len(order))
     if isinstance(values[0], Jet):
@@ -135,7 +138,8 @@ class Chain:
 def sample(pieces, count=1440, least=96):
     """Chain of the pieces with about `count` samples, spread half by parameter, half by arc length; at least `least` per piece."""
     coarse = [np.linspace(piece.start, piece.stop, 33) for piece in pieces]
-    lengths = [_running_length(piece, t) for piece, t in zip(pieces, coarse, strict=True)]
+    speeds = np.abs(gather(pieces, np.repeat(np.arange(len(pieces)), 33), np.concatenate(coarse)).d1).reshape(-1, 33)
+    lengths = [_running_length(speed, t) for speed, t in zip(speeds, coarse, strict=True)]
     total = sum(length[-1] for length in lengths)
     spans = np.array([abs(piece.stop - piece.start) for piece in pieces])
     parameters, jets = [], []
@@ -168,13 +172,14 @@ def _crowded(piece, t, parts=16):
             sharp = np.flatnonzero(np.abs(np.angle(np.conj(jet.d1[:-1]) * jet.d1[1:])) > _SHARP)
         if not len(sharp):
             break
-        t = np.insert(t, sharp + 1, 0.5 * (t[sharp] + t[sharp + 1]))
-        jet = _spread(piece.at(t), t.shape)
+        middle = 0.5 * (t[sharp] + t[sharp + 1])
+        between = _spread(piece.at(middle), middle.shape)
+        t = np.insert(t, sharp + 1, middle)
+        jet = Jet(*(np.insert(part, sharp + 1, new) for part, new in zip(jet, between, strict=True)))
     return t, jet
 
 
-def _running_length(piece, t):
-    speed = np.abs(np.broadcast_to(piece.at(t).d1, t.shape))
+def _running_length(speed, t):
     return np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.abs(np.diff(t))))
 
 

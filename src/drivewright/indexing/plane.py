@@ -59,15 +59,21 @@ class PlaneDrive:
     @cached_property
     def family(self):
         """All circles that cut the cam: pin 0 over as many turns of the input as there are pins."""
+        steps = [(stretch, self._formula(stretch)) for stretch in self.motion.stretches]  # one for all turns: evaluated together
         pieces = [
-            Piece(TURN * turn + stretch.start, TURN * turn + stretch.stop, self._piece(turn, stretch), f"step {turn}", _shape(stretch))
+            Piece(TURN * turn + stretch.start, TURN * turn + stretch.stop, at, f"step {turn}", _shape(stretch))
             for turn in range(self.pins)
-            for stretch in self.motion.stretches
+            for stretch, at in steps
         ]
         return CircleFamily(tuple(pieces), self.pin_radius, self.side, both=True)
 
-    def _piece(self, turn, stretch):
+    def _formula(self, stretch):
+        """Pin 0 seen from the cam by the formula of one stretch, theta counted over all turns."""
+        middle = 0.5 * (stretch.start + stretch.stop)
+
         def at(theta):
+            theta = np.asarray(theta, dtype=float)
+            turn = np.round((theta - middle) / TURN)
             phi = self.motion.on(stretch, theta - TURN * turn, turn)
             place, angle = self.pose(theta)
             return (self.circle_radius * exp(1j * (phi + self.phase)) - place) * exp(-1j * angle)

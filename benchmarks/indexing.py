@@ -1,0 +1,113 @@
+"""Indexing drives: profile and contacts beside a polygon kernel, stiffness beside a general minimiser, designs per second."""
+
+from pathlib import Path
+
+import numpy as np
+from timing import best
+
+ROOT = Path(__file__).parent.parent
+TURN = 2 * np.pi
+
+
+def wheel():
+    """The paper's prototype."""
+    from drivewright.indexing import PinWheel, index_motion
+
+    return PinWheel(12, 0.12, 0.008, 0.01, index_motion("modified-sine", 12, 1.0))
+
+
+def profile():
+    """Exact trimming, and the same by shapely: the centre curve as a polygon of as many points, widened by the pin."""
+    from shapely import LineString
+
+    from drivewright.indexing.plane import contacts, index_angles
+
+    found = wheel()
+    angles = index_angles(found)
+
+    def ours():
+        return wheel().profile
+
+    def mapped():
+        fresh = wheel()
+        return [contacts(fresh, angle) for angle in angles]
+
+    exact = ours()
+    yield "profile of twelve pins, trimmed on both sides", best(ours), f"area {1e6 * exact.area:.6f} mm^2, {len(exact.corners)} corners"
+    yield "profile, and the contact map of 41 positions", best(mapped), "wanted under 0.3 s"
+    for steps in (480, 5760):
+        def theirs(steps=steps):
+            points = found.path(np.linspace(0, TURN, steps, endpoint=False)).d0.T.ravel()
+            line = LineString(np.stack([np.append(points, points[0]).real, np.append(points, points[0]).imag], axis=1))
+            return max(line.buffer(found.pin_radius, quad_segs=max(steps // 30, 8)).interiors, key=lambda ring: ring.length)
+
+        xy = np.array(theirs().coords)
+        area = 0.5 * abs(np.sum(xy[:-1, 0] * xy[1:, 1] - xy[1:, 0] * xy[:-1, 1]))
+        yield f"shapely, {12 * steps} points on the centre curve", best(theirs, 3), f"area off by {1e6 * abs(area - exact.area):.2g} mm^2"
+
+
+def stiffness():
+    """41 positions at once; one of them by SciPy's trust-region minimiser on the same energy, gradient and Hessian."""
+    from drivewright import load, registry
+
+    spec = load(ROOT / "examples" / "pin_indexer.toml")
+    for model in ("unilateral", "bonded"):
+        changed = spec.replace(contact=spec.contact.replace(model=model))
+        built = registry.mechanism("indexer").build(changed)
+        built.drive.nodes  # noqa: B018 - the profile is timed above
+        from drivewright.mechanisms.indexer.stiffness import solved
+
+        yield f"stiffness at 41 positions, {model}, contacts included", best(
+            lambda built=built: solved(built, built.angles, 1000.0)), "wanted under 0.2 s"
+    yield from _peer(spec, registry.mechanism("indexer").build(spec))
+
+
+def _peer(spec, built):
+    """SciPy's trust-region Newton method with the same energy, gradient and Hessian, from rest."""
+    from scipy.optimize import minimize
+
+    from drivewright.indexing import stiffness as core
+    from drivewright.indexing.plane import contacts
+    from drivewright.indexing.stiffness.assembly import assemble, load_of, padded
+    from drivewright.indexing.stiffness.equilibrium import _linear, _part
+    from drivewright.indexing.stiffness.minimise import System, energy, slope_and_hessian
+
+    theta, torque = np.array([np.pi / 2]), 1000.0
+    near = [contacts(built.drive, theta[0], 2e-3)]
+
+    def ours():
+        return core.solve(built.train, theta, near, spec.eccentricity, torque, cams=spec.cams)
+
+    yield "one position of it", best(ours), f"{ours().secant[0]:.6f} N m/rad in {ours().steps} steps"
+    assembly = assemble(built.train, spec.cams, spec.eccentricity * np.exp(1j * theta), padded(near, [np.isfinite(near[0].gap)]), False)
+    linear = assembly.basis.transpose(0, 2, 1) @ _linear(assembly) @ assembly.basis
+    system = System(linear, tuple(_part(group, assembly.basis) for group in assembly.groups), load_of(assembly, torque))
+
+    def theirs():
+        return minimize(lambda y: energy(system, y[None])[0], np.zeros(linear.shape[1]), method="trust-exact",
+                        jac=lambda y: slope_and_hessian(system, y[None])[0][0], hess=lambda y: slope_and_hessian(system, y[None])[1][0],
+                        options={"gtol": 1e-6, "maxiter": 2000})
+
+    found = theirs()
+    turn = (system.load[0] @ found.x) / torque
+    yield "SciPy, trust-exact, same energy and derivatives, from rest", best(theirs, 1), (
+        f"{torque / turn:.6f} N m/rad after {found.nit} steps; {'converged' if found.success else found.message}")
+
+
+def designs():
+    """Play, pressure angle and contacts of a thousand designs."""
+    from drivewright.indexing.designs import rate_designs
+    from drivewright.motion import law
+
+    rng = np.random.default_rng(1)
+    sizes = rng.uniform(0.005, 0.012, 1000), rng.uniform(0.006, 0.014, 1000), TURN * rng.uniform(0.4, 0.8, 1000)
+    seconds = best(lambda: rate_designs(law("modified-sine"), 12, 0.12, *sizes), 1)
+    yield f"1000 designs, play, contacts and pressure angle: {1000 / seconds[0]:.0f} designs per second", seconds, (
+        "wanted under 60 s; two threads; play every 0.9 deg of the whole turn")
+
+
+SECTIONS = (
+    ("Indexing cam: profile and contacts", profile),
+    ("Indexing cam: torsional stiffness", stiffness),
+    ("Indexing cam: many designs", designs),
+)
