@@ -119,10 +119,10 @@ def _length(system, y, change):
 
     low, share = np.zeros(len(y)), np.ones(len(y))
     low_slope, high, high_slope = slope(low), np.ones(len(y)), np.zeros(len(y))
-    steep = np.abs(low_slope)
+    steep, flat = np.abs(low_slope), low_slope >= 0  # flat: at rest but for rounding
     for _ in range(HALVINGS):
         here = slope(share)
-        done = (np.abs(here) <= 0.5 * steep) | ((here <= 0) & (share == 1.0))
+        done = flat | (np.abs(here) <= 0.5 * steep) | ((here <= 0) & (share == 1.0))
         if done.all():
             break
         short, long = ~done & (here < 0), ~done & (here >= 0)

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from drivewright.indexing.motion import TURN
-from drivewright.indexing.plane import contacts, pitch_point
+from drivewright.indexing.plane import ALIVE, contacts, pitch_point
 from drivewright.mechanisms.indexer import roller_views
 from drivewright.scene import Body, Drawing, Frame, Part, Prism, Scene, Shape, circle, polygon
 
@@ -146,7 +146,7 @@ def _cranks(model, angle):
 def _normals(cam, angle):
     """The pitch point, and the common normal of every pin that touches a cam; a pin that does not shows the normal of another."""
     drive = cam.drive
-    reach = 1.15 * drive.circle_radius
+    reach = 1.15 * max(drive.circle_radius, float(np.max(np.abs(drive.pose(angle)[0].d0))))
     pitch = pitch_point(drive, angle)
     turn = np.where(np.isfinite(pitch), pitch, drive.pose(angle)[0].d0)
     shown = np.where(np.abs(pitch) < reach, pitch, reach * turn / np.abs(turn))
@@ -162,7 +162,7 @@ def _normal_poses(drive, angle):
     """Foot and direction of the normal of every pin, towards the pitch point."""
     places, turns = np.zeros((len(angle), drive.pins), dtype=complex), np.zeros((len(angle), drive.pins))
     for row, theta in enumerate(angle):
-        found = contacts(drive, theta, reach=0.0)
+        found = contacts(drive, theta, reach=2 * ALIVE)
         live = np.flatnonzero(found.intended)
         if not len(live):
             continue

@@ -7,7 +7,7 @@ from pydantic import BeforeValidator, Field, model_validator
 from drivewright import materials
 from drivewright.indexing.motion import NO_DWELL
 from drivewright.mechanisms.indexer.refusals import refuse_nonsense
-from drivewright.spec import DataFile, Integer, MechanismSpec, Number, Spec, Text
+from drivewright.spec import DataFile, Integer, Machining, MechanismSpec, Number, Spec, Text
 from drivewright.units import Angle, Force, Length, Pressure, RotationalStiffness, Speed, Stiffness, Time, Torque
 
 TURN = 6.283185307179586
@@ -147,6 +147,7 @@ class IndexerSpec(MechanismSpec):
     shafts: Shafts | None = Field(None, description="split shafts; rigid unless given")
     gear: Gear | None = Field(None, description="gears; rigid unless given")
     housing: Housing | None = Field(None, description="housing and wheel; rigid unless given")
+    manufacture: Machining = Field(Machining(), description="milling of plate cams, for exports")
     limits: Limits = Field(Limits(), description="requirements")
 
     @model_validator(mode="after")
