@@ -129,6 +129,42 @@ def test_the_symmetry_theorem_through_the_command_s_own_path():
         assert pair[0]["stiffness.mean"] == pytest.approx(pair[1]["stiffness.mean"], rel=1e-9)
 
 
+def test_a_report_is_written_where_nothing_carries_the_torque(tmp_path):
+    from drivewright.report.content import views
+    from drivewright.report.folder import write_run_folder
+
+    changed = spec('load.angle="10 deg"')
+    model = dw.build(changed)
+    result = dw.run(changed)
+    assert (write_run_folder(result, tmp_path / "out", False, views(result, model)) / "report.html").is_file()
+    assert not [check.name for check in result.checks if check.name.startswith(("play", "held"))]
+
+
+def test_a_cycloid_with_cusps_of_its_centre_curve():
+    """Eccentricity times pins is the pin circle's radius: the centre curve has N - 1 cusps, arcs of the pin fill the valleys."""
+    found = dw.run(spec('kind="cycloid"', "motion.law=", "motion.motion_to_dwell="), only=("profile", "play"))
+    near = [dw.run(spec('kind="cycloid"', "motion.law=", "motion.motion_to_dwell=", f'eccentricity="{e} mm"'), only=("profile",))
+            for e in (9.99, 10.01)]
+    area, low, high = found["profile.area"], near[0]["profile.area"], near[1]["profile.area"]
+    assert low < area < high and area == pytest.approx(0.5 * (low + high), rel=2e-6)
+    assert found["profile.min_radius"] == pytest.approx(0.102, rel=1e-9) and found["play.forward.maximum"] < 1e-6
+
+
+@pytest.mark.parametrize(("change", "words"), [
+    ('load.angle="45 deg"', "one input angle was asked for"),
+    ('hand="left"', "does not use hand"),
+    ('limits.life="100 h"', "load.speed is not given"),
+])
+def test_what_is_given_and_not_used_is_told(change, words):
+    assert any(words in finding for finding in dw.build(spec(change)).findings)
+
+
+def test_the_dwell_is_told_beside_the_step(prototype):
+    assert {"dwell.stiffness.minimum", "dwell.undefined_fraction", "dwell.pins.max_force"} <= set(prototype.values)
+    mid = dw.run(dw.load(PRESETS / "default.toml", ('load.angle="270 deg"',)), only=("stiffness",))["stiffness.mean"]
+    assert prototype["dwell.stiffness.minimum"] <= mid
+
+
 def test_a_cycloid_is_the_pin_wheel_with_a_uniform_law():
     changes = ('eccentricity="6 mm"', 'motion.law="uniform"', "motion.motion_to_dwell=")
     wheel, disc = dw.run(spec(*changes)), dw.run(spec('kind="cycloid"', *changes))
@@ -150,6 +186,9 @@ def test_every_kind_tells_profile_motion_pressure_angle_and_stress(kind):
 
 @pytest.mark.parametrize(("change", "words"), [
     ('pins=2', "at least 3"),
+    ('motion.law="spline"', "points of its own"),
+    ('motion.motion_to_dwell=1e9', "1000"),
+
     ('eccentricity="-1 mm"', "greater than 0"),
     ('pin_radius="40 mm"', "overlap"),
     ('cams=5', "at most 4"),
@@ -164,7 +203,6 @@ def test_every_kind_tells_profile_motion_pressure_angle_and_stress(kind):
     ('eccentricity=', "needs it"),
     ('eccentricity="115 mm"', "nothing is left"),
     ('crank_bearings.bearing="NU207E"', "shaft_spacing"),
-    ('gear.module="2.5 mm"', "teeth"),
     ('kind="cycloid"', "uniform"),
     ('kind="globoidal"', "centre_distance"),
     ('kind="wheel"', "pin-wheel"),

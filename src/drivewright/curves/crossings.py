@@ -12,6 +12,7 @@ from drivewright.curves.pieces import gather
 
 _TOLERANCE = 1e-12  # two branches meet when they are this close, relative to the size of the curve
 _TAIL, _JOINT_TAIL = 0.5, 5e-3  # a tail shorter than this [samples], on one piece or across a joint, is one branch meeting itself
+_NEAR, _SMALL = 1e-4, 2e-3  # relative to the size of the curve, sine
 _SAME = 1e-3  # crossings nearer than this [samples] on both branches are one
 
 
@@ -121,13 +122,32 @@ def _refined(chain, seeds, steps=15):
         moving = moving[np.repeat(~settled.reshape(-1, 2).all(axis=1), 2)]
         if not len(moving):
             break
-    q = gather(chain.pieces, index, t).d0
+    ends = gather(chain.pieces, index, t)
+    q = ends.d0
     u = chain.place(index, t).reshape(-1, 2)
     u, index = np.take_along_axis(u, order := np.argsort(u, axis=1), 1), np.take_along_axis(index.reshape(-1, 2), order, 1)
     steps = u - index
     least = np.where(index[:, 0] == index[:, 1], _TAIL, _JOINT_TAIL)
     good = (np.abs(q[1::2] - q[::2]) <= _TOLERANCE * chain.size) & (_apart(chain, *steps.T) > least)
+    if len(chain.loops) > 2:
+        good &= ~_grazing(chain, u, ends)
     return u[good], steps[good], q[::2][good]
+
+
+def _grazing(chain, u, ends):
+    """True where a branch meets itself a little further on at next to no angle: beside the arc about a cusp, which it leaves slower than
+    numbers can tell."""
+    length = np.append(0.0, np.cumsum(np.abs(np.diff(chain.z)) * (np.diff(chain.index) == 0)))
+    along = np.interp(u, np.arange(len(length)), length)
+    bounds = chain.first[chain.loops]
+    home = np.searchsorted(bounds, u, side="right") - 1
+    whole = (length[bounds[1:] - 1] - length[bounds[:-1]])[np.clip(home[:, 0], 0, len(bounds) - 2)]
+    apart = np.abs(along[:, 1] - along[:, 0])
+    apart = np.where(home[:, 0] == home[:, 1], np.minimum(apart, np.abs(whole - apart)), np.inf)
+    first, second = ends.d1[::2], ends.d1[1::2]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        angle = np.abs(_cross(first, second)) / (np.abs(first) * np.abs(second))
+    return (apart < _NEAR * chain.size) & ~(angle > _SMALL)
 
 
 def _step(q):

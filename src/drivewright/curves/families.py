@@ -14,6 +14,7 @@ from drivewright.curves.plane import envelope_of_circle, envelope_of_line
 from drivewright.errors import InputError
 from drivewright.numerics.jets import Jet, exp, sqrt, variable
 
+_BACK = 1e-3  # a turn [rad] so near to half a turn is a cusp of the path
 _CORNER = 1e-9  # a turn [rad], or a step relative to the radius, below this is rounding and no corner
 
 
@@ -79,6 +80,8 @@ class CircleFamily:
         turn = float(np.angle(after.d1 / before.d1))
         if abs(turn) < _CORNER:
             return
+        if self.both and np.pi - abs(turn) < _BACK:  # the left side goes round in front of the tip, the right one, covered, behind it
+            turn -= 2 * np.pi * (turn > 0)
         arm = side * self.radius * 1j * before.d1 / abs(before.d1)
         yield Piece(0.0, turn, lambda angle: before.d0 + arm * exp(1j * variable(angle)), f"{piece.label} corner", "arc")
 

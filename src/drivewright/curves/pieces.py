@@ -11,7 +11,7 @@ from drivewright.numerics.jets import Jet
 
 _JOINT = 1e-8  # two pieces meet when their ends are this close, relative to the size of the curve
 
-_SHARP, _HALVINGS = 0.25, 8  # steps that turn more [rad] are halved, at a cusp so often
+_SHARP, _HALVINGS = 0.25, 20  # steps that turn more [rad] are halved, at a cusp so often
 _SLOW = 0.05  # a place is slow where the speed is below this part of the piece's greatest
 
 
@@ -146,7 +146,8 @@ def sample(pieces, count=1440, least=96):
     for piece, t, length, span in zip(pieces, coarse, lengths, spans / spans.sum(), strict=True):
         share = 0.5 * span * np.linspace(0, 1, 33) + 0.5 * length / total
         number = max(least, int(np.ceil(count * share[-1])))
-        t, jet = _crowded(piece, _ends_exact(np.interp(np.linspace(0, share[-1], number), share, t), t))
+        spread = _ends_exact(np.interp(np.linspace(0, share[-1], number), share, t), t)
+        t, jet = _crowded(piece, spread, _HALVINGS if pieces[-1].loop else 0)
         parameters.append(t)
         jets.append(jet)
     index = np.repeat(np.arange(len(pieces)), [len(t) for t in parameters])
@@ -157,8 +158,11 @@ def sample(pieces, count=1440, least=96):
     return chain
 
 
-def _crowded(piece, t, parts=16):
-    """Parameters t, more of them about the places where the curve is slow (cusps come in narrow pairs) or turns sharply, and the jet."""
+def _crowded(piece, t, halvings, parts=16):
+    """Parameters t, more of them about the places where the curve is slow (cusps come in narrow pairs) or turns sharply, and the jet.
+
+    Sharp turns are halved in curves of several loops, both sides of a path that turns back; one loop alone has cusps that rounding makes.
+    """
     jet = _spread(piece.at(t), t.shape)
     speed = np.abs(jet.d1)
     slow = np.flatnonzero((speed[1:-1] <= speed[:-2]) & (speed[1:-1] <= speed[2:]) & (speed[1:-1] < _SLOW * np.max(speed))) + 1
@@ -167,7 +171,7 @@ def _crowded(piece, t, parts=16):
         between = t[steps, None] + (t[steps + 1] - t[steps])[:, None] * np.arange(1, parts) / parts
         t = np.sort(np.concatenate([t, between.ravel()]))[:: int(piece.sense)]
         jet = _spread(piece.at(t), t.shape)
-    for _ in range(_HALVINGS):  # a curve that swings round between two samples would be one long chord
+    for _ in range(halvings):  # a curve that swings round between two samples would be one long chord
         with np.errstate(invalid="ignore"):
             sharp = np.flatnonzero(np.abs(np.angle(np.conj(jet.d1[:-1]) * jet.d1[1:])) > _SHARP)
         if not len(sharp):

@@ -19,6 +19,8 @@ from drivewright.numerics.jets import Jet, exp
 
 ALIVE = 1e-6  # a point of contact nearer than this [m] to the profile is on it
 _SAMPLES = (48, 96, 240)  # on each piece of the envelope: more where a crossing was missed
+_SLOW, _STANDSTILL = 0.05, 1e-7  # of the greatest speed of a path
+_TRIFLE = 2e-8  # rad
 _SAME = 1e-4  # a place nearer than this [m] to the envelope's own point is that point
 _STRAIGHT = 1e-9  # an arm below this, relative to the pin circle, turns the wheel neither way
 
@@ -61,9 +63,10 @@ class PlaneDrive:
         """All circles that cut the cam: pin 0 over as many turns of the input as there are pins."""
         steps = [(stretch, self._formula(stretch)) for stretch in self.motion.stretches]  # one for all turns: evaluated together
         pieces = [
-            Piece(TURN * turn + stretch.start, TURN * turn + stretch.stop, at, f"step {turn}", _shape(stretch))
+            Piece(start, stop, at, f"step {turn}", _shape(stretch))
             for turn in range(self.pins)
             for stretch, at in steps
+            for start, stop in _between_cusps(at, TURN * turn + stretch.start, TURN * turn + stretch.stop)
         ]
         return CircleFamily(tuple(pieces), self.pin_radius, self.side, both=True)
 
@@ -117,6 +120,26 @@ def _runs_around(found):
     """Whether the profile runs the way it must for the part to lie on its side; the edge on the other side of the pins runs against it."""
     side = found.family.side if found.family.material == "inside" else -found.family.side
     return span_measures(found.spans)[0] * side > 0
+
+
+def _between_cusps(at, start, stop, samples=361):
+    """Intervals of the path between the places where it stands still and turns back, which are left out by a trifle."""
+    t = np.linspace(start, stop, samples)
+    speed = np.abs(np.broadcast_to(at(t).d1, t.shape))
+    around = np.concatenate([[np.inf], speed, [np.inf]])
+    lowest = np.flatnonzero((speed <= around[:-2]) & (speed <= around[2:]) & (speed < _SLOW * np.max(speed)))
+    ends = [start]
+    for place in t[lowest]:
+        for _ in range(40):  # towards d1 = 0 along d2
+            jet = at(np.array([place]))
+            step = float(np.real(np.conj(jet.d2[0]) * jet.d1[0]) / np.abs(jet.d2[0]) ** 2)
+            place = np.clip(place - step, start, stop)
+            if abs(step) < 1e-15 * stop:
+                break
+        if np.abs(at(np.array([place])).d1[0]) < _STANDSTILL * np.max(speed):
+            ends += [float(place) - _TRIFLE, float(place) + _TRIFLE]
+    ends.append(stop)
+    return [(low, high) for low, high in zip(ends[::2], ends[1::2], strict=True) if high - low > 2 * _TRIFLE]
 
 
 def _shape(stretch):

@@ -73,7 +73,7 @@ def pack_plots(result, scene, plots):
 def _along(x, scene):
     """x as 0 ... 1 along the scene's closed cycle, wherever on it x starts; None where x covers more than one cycle."""
     u = (np.asarray(x, float) - scene.cycle[0]) / (scene.cycle[-1] - scene.cycle[0])
-    if not np.all(np.isfinite(u)) or np.ptp(u) > 1 + 1e-6:
+    if not len(u) or not np.all(np.isfinite(u)) or np.ptp(u) > 1 + 1e-6:
         return None
     return u if u.min() > -1e-6 and u.max() < 1 + 1e-6 else u % 1.0
 

@@ -153,6 +153,15 @@ class FreeBody:
             vector.data -= float(amount) * part
 
 
+def combined(fields, amounts):
+    """One vector of the finite elements: the sum of amounts times fields."""
+    total = fields[0].CreateVector()
+    total[:] = 0.0
+    for amount, field in zip(amounts, fields, strict=True):
+        total.data += float(amount) * field
+    return total
+
+
 def held(response, stiffness):
     """A `Held` of a free body's `Response`: its first functionals are springs of `stiffness` (S,) [N/m] (inf is rigid), the rest loads.
 

@@ -18,7 +18,7 @@ from drivewright.errors import InputError, SolverError
 from drivewright.result import Column, Table
 from drivewright.solids import turning
 from drivewright.solids.cad import MM, revolved
-from drivewright.solids.elastic import FreeBody, held
+from drivewright.solids.elastic import FreeBody, combined, held
 from drivewright.solids.loading import failures, load
 
 DOWN = (0.0, -1.0, 0.0)
@@ -83,7 +83,7 @@ def solid_flexibility(sections, modulus, poisson, bands, stations, max_size=None
     _check_areas(body, pieces)
     response = body.response([body.mean(name, DOWN) for name in (*seats, *places)])
     found = held(response, [band.stiffness for band in bands])
-    fields = [_combined(response.fields, [*force, *unit]) for force, unit in zip(found.reactions.T, np.eye(len(stations)), strict=True)]
+    fields = [combined(response.fields, [*force, *unit]) for force, unit in zip(found.reactions.T, np.eye(len(stations)), strict=True)]
     surface = _whole(*body.surface(f"skin.*|rest|cut0|cut{len(pieces)}", fields, found.motions))
     return SolidFlexibility(found.flexibility, found.reactions, body.unknowns, mesh.ne, perf_counter() - started, *surface)
 
@@ -245,15 +245,6 @@ def _whole(points, triangles, fields):
             found.append((points * (x, y, 1), turned + len(found) * len(points), fields * (x * y, 1, y)))
     points, triangles, fields = zip(*found, strict=True)
     return np.concatenate(points), np.concatenate(triangles), np.concatenate(fields, axis=1)
-
-
-def _combined(fields, amounts):
-    """One vector: the sum of amounts times fields."""
-    total = fields[0].CreateVector()
-    total[:] = 0.0
-    for amount, field in zip(amounts, fields, strict=True):
-        total.data += float(amount) * field
-    return total
 
 
 @contextmanager

@@ -167,8 +167,6 @@ ERRATA = (
     "A NU207E of 35 mm bore with 10 mm eccentricity leaves at most 15 mm for a shaft through a separate sleeve, the 61904 "
     "wants 20 mm; the crank must be one piece with its shaft.",
     "41 measuring points in section 2.2, 40 in section 4 (4.5 deg apart over 180 deg there are 41).",
-    '"109 971 elements" with "507 651 nodes" on shapes mostly meshed automatically: the count of nodes fits second-order '
-    "tetrahedra only with hardly any shared node.",
     "61904 is a deep-groove, not an angular-contact ball bearing.",
 )
 

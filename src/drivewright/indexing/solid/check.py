@@ -24,6 +24,7 @@ from drivewright.indexing.solid.springs import Position, Spring, springs, touche
 from drivewright.indexing.stiffness import TorsionalStiffness, solve
 from drivewright.indexing.stiffness.assembly import turn
 from drivewright.result import Column, Table
+from drivewright.solids.elastic import combined
 
 DRAWN = 0.03  # the largest displacement is drawn as about this part of the cam
 STRIP = 0.2  # width sigma of the strip in radii of a pin
@@ -166,21 +167,12 @@ def _deformed(bodies, found, count):
     body = bodies[("cam", 0)]
     start, _ = starts(bodies)
     at = slice(start[("cam", 0)], start[("cam", 0)] + len(body.flexibility))
-    fields = [_combined(body.fields, each.loads[at]) for each in found.values()]
+    fields = [combined(body.fields, each.loads[at]) for each in found.values()]
     points, triangles, moved = body.free.surface("profile|seat.*|bore|side", fields, np.zeros((len(body.free.basis.T), len(fields))))
     flipped = np.array([1.0, 1.0, -1.0])
     whole = np.full((count, 2 * len(points), 3), np.nan)
     whole[list(found)] = np.concatenate([moved, moved * flipped], axis=1)
     return np.concatenate([points, points * flipped]), np.concatenate([triangles, triangles[:, ::-1] + len(points)]), whole
-
-
-def _combined(fields, amounts):
-    """One vector: the sum of amounts times fields."""
-    total = fields[0].CreateVector()
-    total[:] = 0.0
-    for amount, field in zip(amounts, fields, strict=True):
-        total.data += float(amount) * field
-    return total
 
 
 def surface_table(solid, position, name="solid_cam", title="Deformed cam", exaggeration=None):

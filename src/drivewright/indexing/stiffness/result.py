@@ -15,8 +15,8 @@ REASONS = {
     CARRIED: "",
     FREE: "no contact without a gap resists the torque: the wheel turns freely first; look at the play",
     RIGID: "every part in the way of the torque is rigid; give one of them a stiffness",
-    FAR: f"what touches has so small an arm that the wheel turns by more than {np.degrees(FARTHEST):.3g} deg, where other contacts act; "
-    "look at the play beyond these contacts, or take less torque or stiffer parts",
+    FAR: f"the wheel turns by more than {np.degrees(FARTHEST):.3g} deg, where other contacts act: what touches has next to no arm, or the "
+    "torque is beyond what the parts carry; look at the play beyond these contacts, or take less torque or stiffer parts",
     UNSETTLED: "no equilibrium found; look at clearances, and for torques far beyond what the parts carry",
 }
 

@@ -11,12 +11,10 @@ from drivewright.mechanisms.indexer.spec import IndexerSpec
 from drivewright.mechanisms.indexer.verify import verify
 from drivewright.registry import Analysis, Mechanism
 
-SPATIAL = ("barrel", "globoidal")
-
 
 def by_kind(plane, spatial):
     """The analysis of the plane or of the spatial kinds."""
-    return lambda model, done: (spatial if model.spec.kind in SPATIAL else plane)(model, done)
+    return lambda model, done: (spatial if model.spec.kind in ("barrel", "globoidal") else plane)(model, done)
 
 
 ANALYSES = (

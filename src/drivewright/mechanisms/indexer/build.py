@@ -15,7 +15,7 @@ from drivewright.indexing.parallel import ParallelIndexer
 from drivewright.indexing.pin_wheel import PinWheel
 from drivewright.indexing.plane import index_angles
 from drivewright.indexing.roller_gear.design import barrel, globoidal
-from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refuse_contradictions
+from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refuse_contradictions, unused
 from drivewright.shafts import Section
 from drivewright.units import SI
 
@@ -32,6 +32,7 @@ class IndexerModel:
     drive: Any
     train: Any = None
     rolling: dict = field(default_factory=dict)
+    findings: tuple = ()
 
     @property
     def translating(self):
@@ -69,11 +70,11 @@ def build(spec):
     ratio = spec.motion.motion_to_dwell
     moving = index_motion(law_name(spec), spec.pins, 1.0 if ratio is None else ratio, **law)
     if spec.kind not in TRANSLATING:
-        return IndexerModel(spec, OTHERS[spec.kind](spec, moving))
+        return IndexerModel(spec, OTHERS[spec.kind](spec, moving), findings=tuple(unused(spec)))
     wheel = PinWheel(spec.pins, spec.pin_circle_radius, spec.pin_radius, spec.eccentricity, moving, spec.side)
     wheel.refuse()
     rolling = {key: rolling_bearing(spec, key) for key in ("crank_bearings", "support_bearings") if _named(getattr(spec, key))}
-    return IndexerModel(spec, wheel, drive_train(spec, rolling), rolling)
+    return IndexerModel(spec, wheel, drive_train(spec, rolling), rolling, tuple(unused(spec)))
 
 
 def _parallel(spec, moving):
@@ -159,6 +160,6 @@ def split_shaft(given, cams):
 
 
 def _mesh(gear):
-    if gear is None or gear.stiffness is None:
+    if gear is None:
         return None
     return drivetrain.GearMesh(gear.module * gear.teeth / 2, gear.stiffness, gear.pressure_angle, gear.backlash)

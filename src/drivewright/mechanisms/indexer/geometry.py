@@ -69,11 +69,13 @@ def _profile(model, drive, suffix):
 def walls(model, values):
     """Material between the two bearing holes of a cam, and between them and the profile."""
     outer = getattr(model.crank_bearing, "outer_diameter", None)
-    if not outer or model.spec.side == "outside":
+    if not outer:
         return
     spacing, least = model.spec.shaft_spacing, model.spec.limits.wall
+    inside = values["profile.min_radius"].value - 0.5 * (spacing + outer)
+    outside = 0.5 * (spacing - outer) - values["profile.max_radius"].value
     between = {"holes": (spacing - outer, "between the bearing holes of a cam"),
-               "profile": (values["profile.min_radius"].value - 0.5 * (spacing + outer), "between a bearing hole and the profile")}
+               "profile": (inside if model.spec.side == "inside" else outside, "between a bearing hole and the profile")}
     for name, (width, words) in between.items():
         yield Check(f"wall.{name}", width, least, ">=", "m", f"wall {words}", ("cam1",), True)
 
@@ -85,6 +87,14 @@ def _remarks(model):
         yield (
             f"pins of {1e3 * spec.pin_radius:.4g} mm reach the eccentricity of {1e3 * spec.eccentricity:.4g} mm: the tops of the lobes "
             "that would touch in the dwell are cut away"
+        )
+    turns_back = (
+        spec.eccentricity * moving.divisions / spec.pin_circle_radius if model.translating and moving.law.name == "uniform" else 0.0
+    )
+    if turns_back > 1:
+        yield (
+            f"eccentricity times pins over pin_circle_radius is {turns_back:.4g}, above 1: the centre curve turns back in loops; parts of "
+            "the profile are cut away"
         )
     bore = getattr(model.crank_bearing, "bore", None)
     shaft = max(spec.shafts.diameters[1:]) if spec.shafts else None
@@ -141,8 +151,9 @@ def contact_map(model, done):
             if np.any(arms > 0):
                 best[side, row] = np.arccos(min(np.max(arms) / drive.circle_radius, 1.0))
     count = alive.sum(axis=1)
-    values = {"contacts.minimum": Value(float(count.min()), "-", "fewest pins that touch one cam over the index period"),
-              "contacts.maximum": Value(float(count.max()), "-", "most pins that touch one cam over the index period")}
+    one = "one cam" if len(drive.levels) == 1 else "the two cams together"
+    values = {"contacts.minimum": Value(float(count.min()), "-", f"fewest pins that touch {one} over the index period"),
+              "contacts.maximum": Value(float(count.max()), "-", f"most pins that touch {one} over the index period")}
     checks, findings = [], []
     driving = _driving(drive.motion(angles).d2, best)
     if np.isfinite(driving).any():
@@ -155,10 +166,10 @@ def contact_map(model, done):
         checks.append(Check("pressure_angle", worst, model.spec.limits.pressure_angle, "<=", "rad",
                             "angle between the normal and the way of the pin that accelerates the wheel best", ("cam", "wheel")))
     for side, name in enumerate(("forward", "backward")):
-        lost = angles[np.isnan(best[side])]
-        if len(lost):
+        lost = np.isnan(best[side])
+        if lost.any():
             findings.append(
-                f"no pin can be pushed {name} by contact at {len(lost)} of {len(angles)} positions ({_ranges(lost)}): the cam does "
+                f"no pin can be pushed {name} by contact at {lost.sum()} of {len(angles)} positions ({stretches(angles, lost)}): it does "
                 f"not hold the wheel there against a torque that acts {'backward' if name == 'forward' else 'forward'}"
             )
     table = Table("contacts", "Pins in contact with one cam", (
@@ -192,10 +203,15 @@ def all_contacts(drive, angle):
     return Contacts(*(np.concatenate(parts) for parts in zip(*shifted, strict=True)))
 
 
-def _ranges(angles):
-    """Angles in words: first and last."""
-    low, high = np.degrees(angles.min()), np.degrees(angles.max())
-    return f"{low:.4g} deg" if low == high else f"from {low:.4g} to {high:.4g} deg"
+def stretches(angles, lost, most=6):
+    """In words, the stretches of the table of angles that are lost."""
+    degrees = np.degrees(angles)
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], lost.astype(int), [0]])))
+    parts = [
+        f"{degrees[a]:.4g}" if b - a == 1 else f"{degrees[a]:.4g} to {degrees[b - 1]:.4g}"
+        for a, b in zip(edges[::2], edges[1::2], strict=True)
+    ]
+    return f"{', '.join(parts[:most])}{' ...' if len(parts) > most else ''} deg"
 
 
 def _contact_points(angles, found, drive):
@@ -258,11 +274,21 @@ def play_answer(model, angle, rotations):
         stopped = np.isfinite(free)
         if not stopped.all():
             findings.append(f"nothing stops the wheel {name} at {np.sum(~stopped)} of {len(angle)} input angles "
-                            f"({_ranges(angle[~stopped])}): play.{name}.maximum does not exist")
-            checks.append(Check(f"play.{name}", model.drive.motion.pitch, model.spec.limits.play, "<=", "rad",
-                                f"free rotation {name}: nothing stops the wheel within a whole pitch", ("wheel", "cam")))
+                            f"({stretches(angle, ~stopped)}): play.{name}.maximum does not exist")
+            checks.append(
+                Check(
+                    f"play.{name}",
+                    max(model.drive.motion.pitch, 2 * model.spec.limits.play),
+                    model.spec.limits.play,
+                    "<=",
+                    "rad",
+                    f"free rotation {name}: nothing stops the wheel within a whole pitch",
+                    ("wheel", "cam"),
+                )
+            )
             continue
         worst = int(np.argmax(free))
+        where = f"largest over the cycle at {np.degrees(angle[worst]):.4g} deg" if free[worst] > 0 else "over the whole cycle"
         values[f"play.{name}.maximum"] = Value(free[worst], "rad", f"largest free rotation of the wheel {name}")
         if free[worst] > ALIVE / model.spec.pin_circle_radius:
             values[f"play.{name}.maximum.at"] = Value(angle[worst], "rad", "input angle of it")
@@ -273,8 +299,9 @@ def play_answer(model, angle, rotations):
                 model.spec.limits.play,
                 "<=",
                 "rad",
-                f"free rotation of the wheel {name}, largest over the cycle at {np.degrees(angle[worst]):.4g} deg",
+                f"free rotation of the wheel {name}, {where}",
                 ("wheel", "cam"),
             )
         )
+    checks = [] if model.spec.load.angle is not None else checks  # of one angle they would speak of the cycle
     return Answer(values, (Table("play", "Play of the wheel", tuple(columns)),), tuple(checks), tuple(findings))

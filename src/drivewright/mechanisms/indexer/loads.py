@@ -5,9 +5,10 @@ import numpy as np
 from drivewright import bearings
 from drivewright.indexing.motion import TURN
 from drivewright.indexing.stiffness import statics
+from drivewright.indexing.stiffness.result import CARRIED
 from drivewright.mechanisms.indexer.build import STEP
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
-from drivewright.mechanisms.indexer.stiffness import CARRIED, after_play, solved
+from drivewright.mechanisms.indexer.stiffness import after_play, solved
 from drivewright.result import Answer, Check, Column, Table, Value
 
 SHAFTS, PLACES = ("left", "right"), ("front", "rear")
@@ -28,7 +29,7 @@ def bearing_loads(model, done):
     torque = model.spec.load.torque
     angles = model.angles if model.spec.load.angle is not None else np.linspace(0, TURN, int(round(TURN / STEP)) + 1)
     found, near = solved(model, angles, torque)
-    loaded, _ = after_play(model, angles, torque, found)
+    loaded, _, _ = after_play(model, angles, torque, found, near)
     forces = dict(_named_forces(loaded, model.spec.cams))
     columns = [Column("angle", "rad", "input angle", angles)]
     for name, force in forces.items():
@@ -43,7 +44,9 @@ def bearing_loads(model, done):
             checks += _checks(model, group, own, values)
     lost = np.sum([outcome != CARRIED for outcome in loaded.outcome])
     if lost:
-        findings.append(f"bearing loads are absent at {lost} of {len(angles)} input angles, where nothing carries the torque")
+        findings.append(
+            f"bearing loads are absent at {lost} of {len(angles)} input angles, where nothing carries the torque; lives leave them out"
+        )
     if model.spec.cams == 2 and model.drive.side == "inside":
         values |= _statics(model, found, near)
     return Answer(values, (Table("bearing_loads", "Loads of the bearings", tuple(columns)),), tuple(checks), tuple(findings))

@@ -1,7 +1,5 @@
 """What has no meaning, refused by name; what can be computed is left to the checks."""
 
-import math
-
 from drivewright import motion
 from drivewright.errors import SpecError, UnknownName
 
@@ -14,7 +12,19 @@ NEEDED = {
     "globoidal": ("centre_distance", "pin_length", "cam_length"),
 }
 YIELDING = ("crank_bearings", "support_bearings", "shafts", "gear", "housing")
-LEAST_PINS = 3
+OWN = {  # keys that only some kinds have
+    "eccentricity": TRANSLATING,
+    "cams": TRANSLATING,
+    "side": TRANSLATING,
+    "shaft_spacing": TRANSLATING,
+    "cam_width": (*TRANSLATING, "parallel"),
+    "centre_distance": ("parallel", "barrel", "globoidal"),
+    "pin_length": ("barrel", "globoidal"),
+    "cam_length": ("barrel", "globoidal"),
+    "hand": ("barrel", "globoidal"),
+    "cam_radius": ("barrel",),
+}
+LARGEST_RATIO = 1000.0
 
 
 def refuse_nonsense(spec):
@@ -23,12 +33,40 @@ def refuse_nonsense(spec):
         raise SpecError("0 N m: without a load there is no stiffness; give another torque, or leave it out", "load.torque")
     if spec.motion.law is not None and spec.motion.law not in motion.names():
         raise SpecError(str(UnknownName("motion law", spec.motion.law, motion.names())), "motion.law")
+    if spec.motion.law in ("table", "spline"):
+        raise SpecError(
+            f"law {spec.motion.law!r} needs points of its own, for which an indexing drive has no key; take a law by formula, or "
+            "register one as a plug-in",
+            "motion.law",
+        )
 
 
 def refuse_contradictions(spec):
     """SpecError for the first key that is missing for the kind or contradicts another."""
     for check in (_kind, _motion, _pins, _drive, _bearings):
         check(spec)
+
+
+def unused(spec):
+    """Findings about keys that say nothing of this kind, and limits that cannot be checked."""
+    given = [key for key in OWN if key in spec.model_fields_set and spec.kind not in OWN[key]]
+    if given:
+        yield f"kind {spec.kind!r} does not use {', '.join(given)}"
+    limits, load = spec.limits, spec.load
+    if limits.life and not load.speed:
+        yield "limits.life is not checked: load.speed is not given"
+    if limits.stiffness and spec.kind not in TRANSLATING:
+        yield f"limits.stiffness is not checked: kind {spec.kind!r} has no model of stiffness"
+    if limits.contact_pressure and load.torque is None:
+        yield "limits.contact_pressure is not checked: load.torque is not given"
+    if load.angle is not None:
+        yield "one input angle was asked for: play and holding are not checked over the cycle"
+    clearances = [key for key in ("crank_bearings", "support_bearings") if getattr(spec, key) and getattr(spec, key).radial_clearance]
+    if clearances or (spec.gear and spec.gear.backlash):
+        yield (
+            f"the play is that of pins and profile; {' and '.join([*clearances, *(['gear'] if spec.gear and spec.gear.backlash else [])])} "
+            "have clearance of their own, which is in the rotation under the torque and so in the secant stiffness"
+        )
 
 
 def law_name(spec):
@@ -49,16 +87,16 @@ def _motion(spec):
                         "motion.law")
     if name == "uniform" and ratio not in (None, "no-dwell"):
         raise SpecError("the uniform law takes the full turn and has no dwell; leave motion_to_dwell out", "motion.motion_to_dwell")
-    if isinstance(ratio, float) and not (ratio > 0 and math.isfinite(ratio)):
-        raise SpecError(f'{ratio:g}: the ratio of motion to dwell is above 0; "no-dwell" for a full turn', "motion.motion_to_dwell")
+    if isinstance(ratio, float) and not 1 / LARGEST_RATIO <= ratio <= LARGEST_RATIO:
+        raise SpecError(f'{ratio:g}: the ratio of motion to dwell is above 0, from {1 / LARGEST_RATIO:g} to {LARGEST_RATIO:g}; '
+                        '"no-dwell" for a full turn', "motion.motion_to_dwell")
 
 
 def _pins(spec):
-    if spec.pins < LEAST_PINS:
-        raise SpecError(f"{spec.pins}: a wheel needs at least {LEAST_PINS} pins", "pins")
     if spec.kind in TRANSLATING and spec.pins % spec.cams:
-        raise SpecError(f"{spec.cams} cams in even phase need a number of pins that they divide; {spec.pins} is not. "
-                        f"Take 1 cam, or {spec.pins - spec.pins % spec.cams + spec.cams} pins", "cams")
+        fitting = [str(number) for number in range(1, 5) if spec.pins % number == 0]
+        raise SpecError(f"{spec.cams} cams in even phase must divide the number of pins, {spec.pins}. Take {' or '.join(fitting)} cams, or "
+                        f"{spec.pins - spec.pins % spec.cams + spec.cams} pins", "cams")
 
 
 def _drive(spec):

@@ -49,7 +49,15 @@ def _plane_scene(model):
     bodies = [Body("wheel", "wheel with pins", tuple(_wheel_shapes(model)), poses(0 * angle, phi), "orange")]
     for number, cam in reversed(list(enumerate(cams(model)))):
         colour = COLOURS[number % len(COLOURS)]
-        bodies.append(Body(f"cam{number + 1}", f"cam {number + 1}", tuple(cam_shapes(model, cam.drive)), cam_poses(cam, angle), colour))
+        bodies.append(
+            Body(
+                f"cam{number + 1}",
+                f"cam {number + 1}",
+                tuple(cam_shapes(model, cam.drive, turned=cam.turned)),
+                cam_poses(cam, angle),
+                colour,
+            )
+        )
     bodies += _cranks(model, angle)
     bodies += _normals(cams(model)[0], angle)
     frames = (Frame("machine", "machine frame", still), Frame("cam", "seen from cam 1", cam_poses(cams(model)[0], angle)),
@@ -96,20 +104,21 @@ def hole_radius(model):
     return outer / 2 if outer else None
 
 
-def _holes(model):
+def _holes(model, turned=0.0):
+    """Bearing holes in the frame of a cam that is turned against the line of the shafts."""
     radius = hole_radius(model)
     if radius and model.translating:
         for side in (-1, 1):
-            yield circle((side * model.spec.shaft_spacing / 2, 0.0), radius)
+            yield circle(_pair(side * model.spec.shaft_spacing / 2 * np.exp(-1j * turned)), radius)
 
 
-def cam_shapes(model, drive, construction=False):
+def cam_shapes(model, drive, construction=False, turned=0.0):
     """Profile, holes and, for the drawing, the centre curve of the pins."""
     outline = cam_outline(drive)
     if drive.side == "outside":
         yield Shape("body", circle((0, 0), outer_radius(drive)))
     yield Shape("profile", outline)
-    yield from (Shape("hole", hole) for hole in _holes(model))
+    yield from (Shape("hole", hole) for hole in _holes(model, turned))
     if construction and drive.side == "inside":
         yield Shape("base", circle((0, 0), float(np.min(np.hypot(*outline.points(1e-6).T)))))
     if construction and model.translating:
@@ -186,7 +195,7 @@ def drawings(model):
     """The cams that differ; plane kinds only."""
     if model.spec.kind in ("barrel", "globoidal"):
         return ()
-    found, alike = [], len(cams(model)) // len(model.drive.levels)
+    found, alike = [], 2 if model.translating and model.spec.cams % 2 == 0 else 1  # half a turn brings the holes back on each other
     for number, level in enumerate(model.drive.levels):
         reach = 1.1 * float(np.max(np.hypot(*cam_outline(level).points(1e-5).T)))
         axes = tuple(Shape("axis", polygon(pair, closed=False)) for pair in (((-reach, 0), (reach, 0)), ((0, -reach), (0, reach))))
@@ -208,7 +217,7 @@ def _plane_parts(model):
     step = spec.shafts.pitch if spec.shafts else 1.2 * width
     found, start = [], np.zeros(1)
     for number, cam in enumerate(cams(model)):
-        outline, holes = cam_outline(cam.drive), tuple(_holes(model))
+        outline, holes = cam_outline(cam.drive), tuple(_holes(model, cam.turned))
         plate = (outline, holes) if cam.drive.side == "inside" else (circle((0, 0), outer_radius(cam.drive)), (outline,))
         pose = tuple(float(each) for each in cam_poses(cam, start)[0])
         found.append(Part(f"cam{number + 1}", (Prism(*plate, number * step, width),), pose, COLOURS[number % len(COLOURS)]))

@@ -5,14 +5,10 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Field, model_validator
 
 from drivewright import materials
-from drivewright.indexing.motion import NO_DWELL
+from drivewright.indexing.motion import NO_DWELL, TURN
 from drivewright.mechanisms.indexer.refusals import refuse_nonsense
 from drivewright.spec import DataFile, Integer, Machining, MechanismSpec, Number, Spec, Text
 from drivewright.units import Angle, Force, Length, Pressure, RotationalStiffness, Speed, Stiffness, Time, Torque
-
-TURN = 6.283185307179586
-PLANE = ("pin-wheel", "cycloid", "parallel")
-SPATIAL = ("barrel", "globoidal")
 
 # 61904 without quotes is a number in TOML
 Designation = Annotated[Text, BeforeValidator(lambda value: str(value) if type(value) is int else value)]
@@ -60,7 +56,8 @@ class Bearings(Spec):
     law: Literal["elements", "liu", "palmgren"] = Field(
         "elements", description="how the bearing yields: by its rolling elements; or by a formula of its catalogue numbers, F ~ d^n: "
                                 "liu (the paper's, taken as the tangent that it is) or palmgren")
-    radial_clearance: Length | None = Field(None, ge=0, description="across the diameter, instead of the bearing's own", examples=["10 um"])
+    radial_clearance: Length | None = Field(None, ge=0, description="across the diameter, instead of the bearing's own; of a formula or a "
+                                                                    "stiffness, which has none of its own, besides", examples=["10 um"])
     dynamic_rating: Force | None = Field(None, gt=0, description="basic dynamic load rating C, instead of the bearing's own")
     static_rating: Force | None = Field(None, gt=0, description="basic static load rating C0, instead of the bearing's own")
 
@@ -79,12 +76,11 @@ class Shafts(Spec):
 
 
 class Gear(Spec):
-    """The gears from the input to the split shafts, all alike."""
+    """The gears from the input to the split shafts, all alike; without this table the split shafts are held where they would sit."""
 
     module: Length = Field(gt=0, description="module", examples=["2.5 mm"])
     teeth: Integer = Field(gt=3, description="teeth of each gear", examples=[22])
-    stiffness: Stiffness | None = Field(None, gt=0, description="of one mesh along its line of action; rigid unless given",
-                                        examples=["2.8e8 N/m"])
+    stiffness: Stiffness = Field(gt=0, description="of one mesh along its line of action", examples=["2.8e8 N/m"])
     pressure_angle: Angle = Field("20 deg", ge=0, lt=1.0, description="pressure angle")
     backlash: Length = Field("0 mm", ge=0, description="along the line of action")
 
@@ -120,7 +116,7 @@ class IndexerSpec(MechanismSpec):
     kind: Literal["pin-wheel", "cycloid", "parallel", "barrel", "globoidal"] = Field(
         "pin-wheel", description="pin-wheel: cams that translate on cranks; cycloid: the same, uniform; parallel: two plate cams; barrel, "
                                  "globoidal: roller gears")
-    pins: Integer = Field(ge=2, le=400, description="pins (rollers) of the wheel, of one level where it has two; steps in a turn",
+    pins: Integer = Field(ge=3, le=200, description="pins (rollers) of the wheel, of one level where it has two; steps in a turn",
                           examples=[12])
     pin_circle_radius: Length = Field(gt=0, description="radius on which the pins sit", examples=["120 mm"])
     pin_radius: Length = Field(gt=0, description="radius of a pin", examples=["8 mm"])

@@ -3,14 +3,16 @@
 import numpy as np
 
 from drivewright.indexing import stiffness as core
+from drivewright.indexing.motion import TURN
 from drivewright.indexing.plane import contacts
 from drivewright.indexing.play import play
+from drivewright.indexing.stiffness.result import CARRIED
+from drivewright.mechanisms.indexer.build import STEP
 from drivewright.mechanisms.indexer.pins import hertz, largest, pressure_check
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
 from drivewright.result import Answer, Check, Column, Table, Value
 
 REACH = 2e-3  # gaps up to this [m] may close under the load
-CARRIED = "carried"
 
 
 def no_stiffness(spec):
@@ -34,32 +36,54 @@ def _solve(model, angles, near, torque):
     )
 
 
-def after_play(model, angles, torque, first):
-    """The positions where the wheel turns freely, solved again with the wheel turned to its first contact; (result, play [rad])."""
+def after_play(model, angles, torque, first, near):
+    """Where the wheel turns freely, solved again with the wheel at its first contact: (result, contacts, play [rad])."""
     free = play(model.drive, angles, np.sign(torque))
     turned = np.array([outcome == "free" for outcome in first.outcome]) & np.isfinite(free)
     if model.spec.contact.model == "bonded" or not turned.any():
-        return first, np.where(turned, free, 0.0)
+        return first, near, np.where(turned, free, 0.0)
     near = [contacts(model.drive, angle, REACH, turned=float(np.sign(torque) * each) if way else 0.0)
             for angle, each, way in zip(angles, free, turned, strict=True)]
-    return core.take_up(first, _solve(model, angles, near, torque)), np.where(turned, free, 0.0)
+    return core.take_up(first, _solve(model, angles, near, torque)), near, np.where(turned, free, 0.0)
 
 
 def torsional(model, done):
     """Secant and tangent stiffness, compliance budget, forces of pins and bearings at every position."""
     torque, angles = model.spec.load.torque, model.angles
     found, near = solved(model, angles, torque)
-    loaded, free = after_play(model, angles, torque, found)
+    loaded, touching, free = after_play(model, angles, torque, found, near)
     reverse = _solve(model, angles, near, -torque)
     carried = np.array([outcome == CARRIED for outcome in found.outcome])
     values = {"stiffness.undefined_fraction": Value(float(np.mean(~carried)), "-",
                                                     "part of the positions where no contact without a gap carries the torque")}
     values |= _summary(angles, found.secant, carried)
-    forces = pin_forces(model, angles, near, found)
+    values |= dwell(model, torque)
+    forces = pin_forces(model, angles, touching, loaded)
     values |= largest(forces)
     tables = (stiffness_table(angles, found, loaded, free, reverse), forces)
     return Answer(values, tables, tuple(_checks(model, values)), tuple(_findings(angles, found, loaded, torque)),
                   data=(found, near))
+
+
+def dwell(model, torque):
+    """Holding, least stiffness and largest pin force in the dwell, where work is done on the table."""
+    start = model.drive.motion.motion_angle
+    count = int(np.ceil((TURN - start) / STEP))
+    if model.spec.load.angle is not None or count < 2:
+        return {}
+    angles = np.linspace(start, TURN, count + 1)[1:-1]
+    found, near = solved(model, angles, torque)
+    carried = np.array([outcome == CARRIED for outcome in found.outcome])
+    values = {
+        "dwell.undefined_fraction": Value(float(np.mean(~carried)), "-", "part of the dwell where the torque is not held without play")
+    }
+    if carried.any():
+        least = int(np.nanargmin(found.secant))
+        values["dwell.stiffness.minimum"] = Value(float(found.secant[least]), "N m/rad", "least secant stiffness in the dwell")
+        values["dwell.stiffness.minimum.at"] = Value(float(angles[least]), "rad", "input angle of the least stiffness in the dwell")
+        forces = pin_forces(model, angles, near, found)["force"].data
+        values["dwell.pins.max_force"] = Value(float(np.max(forces)), "N", "largest force on a pin in the dwell")
+    return values
 
 
 def _summary(angles, secant, carried):
@@ -71,7 +95,7 @@ def _summary(angles, secant, carried):
     return {
         "stiffness.mean": Value(float(np.mean(here)), "N m/rad", "mean secant stiffness of the positions that carry the torque"),
         "stiffness.minimum": Value(float(here[least]), "N m/rad", "least secant stiffness"),
-        "stiffness.minimum.at": Value(float(at[least]), "rad", "input angle of it"),
+        "stiffness.minimum.at": Value(float(at[least]), "rad", "input angle of the least stiffness"),
         "stiffness.maximum": Value(float(np.max(here)), "N m/rad", "greatest secant stiffness"),
         "stiffness.range": Value(float(np.ptp(here)), "N m/rad", "greatest less least secant stiffness"),
     }
@@ -116,8 +140,17 @@ def _checks(model, values):
         yield Check(
             "stiffness", values["stiffness.minimum"].value, limits.stiffness, ">=", "N m/rad", "least torsional stiffness", ("wheel",)
         )
-    yield Check("held", values["stiffness.undefined_fraction"].value, 0.0, "<=", "-",
-                "part of the index period in which nothing holds the wheel against the torque", ("cam", "wheel"))
+    for name, of, words in (("held", "stiffness", "index period"), ("held.dwell", "dwell", "dwell")):
+        if f"{of}.undefined_fraction" in values and model.spec.load.angle is None:
+            yield Check(
+                name,
+                values[f"{of}.undefined_fraction"].value,
+                0.0,
+                "<=",
+                "-",
+                f"part of the {words} in which the torque is not held at once: the wheel turns freely first, or has next to no lever",
+                ("cam1", "wheel"),
+            )
     yield from pressure_check(model, values)
 
 

@@ -2,25 +2,34 @@
 
 import numpy as np
 
+from drivewright.indexing.motion import TURN
 from drivewright.indexing.plane import contacts
 from drivewright.mechanisms.indexer import roller
 from drivewright.mechanisms.indexer.pins import hertz, largest, pressure_check
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
-from drivewright.result import Answer, Column, Table
+from drivewright.result import Answer, Check, Column, Table
 
 
 def no_stress(spec):
     """Why there is none."""
-    if spec.kind in TRANSLATING:
-        return "pin forces come with the stiffness"
-    return None if spec.load.torque else "load.torque is not given"
+    return None if spec.load.torque or spec.kind in TRANSLATING else "load.torque is not given"
 
 
 def stress(model, done):
-    """Forces on the rollers and Hertz pressure under the torque."""
+    """Forces on the rollers and Hertz pressure under the torque; those on the pins of translating cams come with the stiffness."""
+    if model.translating:
+        return Answer()
     table, findings = (_plate if model.spec.kind == "parallel" else roller.stress)(model, done)
     values = largest(table)
-    return Answer(values, (table,), tuple(pressure_check(model, values)), findings)
+    return Answer(values, (table,), (*pressure_check(model, values), *_held(model, table)), findings)
+
+
+def _held(model, table):
+    """Part of the input angles at which no roller takes the torque."""
+    if model.spec.load.angle is None:
+        angles = model.angles if model.spec.kind == "parallel" else np.linspace(0, TURN, roller.STEPS)
+        lost = 1 - len(np.unique(table["angle"].data)) / len(angles)
+        yield Check("held", lost, 0.0, "<=", "-", "part of the input angles at which no roller takes the torque", ("cam1", "wheel"))
 
 
 def _plate(model, done):
