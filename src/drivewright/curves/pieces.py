@@ -11,7 +11,7 @@ from drivewright.numerics.jets import Jet
 
 _JOINT = 1e-8  # two pieces meet when their ends are this close, relative to the size of the curve
 
-_SHARP, _HALVINGS = 0.25, 20  # steps that turn more [rad] are halved, at a cusp so often
+_SHARP, _HALVINGS = 0.25, 9  # steps that turn more [rad] are halved, at a cusp so often
 _SLOW = 0.05  # a place is slow where the speed is below this part of the piece's greatest
 
 

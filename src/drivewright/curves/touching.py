@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import inner, kernel, outer
+from drivewright.curves.pieces import gather
 
 SAME = 1e-10  # feet nearer to each other than this [m] are one
 CORNER = 1e-6  # a turn [rad] below this is a smooth joint
@@ -45,41 +46,31 @@ class Touches(NamedTuple):
     curvature: np.ndarray
 
 
-def nodes_of(spans):
-    """Nodes of the spans of a Trimmed profile, counter-clockwise or not as they run."""
-    points, slopes = [], []
-    for span in spans:
-        z, v = _course(span)
-        points.append(z)
-        slopes.append(v)
-    a = np.concatenate([z[:-1] for z in points])
-    b = np.roll(a, -1)  # so that no foot falls between two ends that differ by rounding
-    chord = np.abs(b - a)
-    leave, arrive = (np.concatenate([v[part] for v in slopes]) * chord for part in (slice(None, -1), slice(1, None)))
-    return Nodes(a, b, leave, arrive, *_blocks(a, b, chord))
-
-
-def _course(span, tolerance=2e-10):
-    """Points and unit tangents along a span, so close that the cubics leave it by less than the tolerance [m] in their middles."""
-    t = np.linspace(span.start, span.stop, _CHORDS + 1)
+def nodes_of(spans, tolerance=2e-10):
+    """Nodes of the spans of a Trimmed profile, in order; in their middles the cubics leave it by less than the tolerance [m]."""
+    index = np.repeat(np.arange(len(spans)), _CHORDS + 1)
+    t = np.concatenate([np.linspace(span.start, span.stop, _CHORDS + 1) for span in spans])
     for _ in range(_HALVINGS):
-        points, headings = _along(span, t)
-        middles = 0.5 * (t[:-1] + t[1:])
-        exact, heading = _along(span, middles)
-        chord = np.abs(np.diff(points))
-        cubic = 0.5 * (points[:-1] + points[1:]) + 0.125 * chord * (headings[:-1] - headings[1:])
-        off = np.abs(np.imag(np.conj(heading) * (cubic - exact))) > tolerance
-        off |= np.real(np.conj(headings[:-1]) * headings[1:]) < _TURN
+        points, headings = _along(spans, index, t)
+        chords = np.flatnonzero(index[1:] == index[:-1])
+        middles = 0.5 * (t[chords] + t[chords + 1])
+        exact, heading = _along(spans, index[chords], middles)
+        a, b, leave, arrive = points[chords], points[chords + 1], headings[chords], headings[chords + 1]
+        cubic = 0.5 * (a + b) + 0.125 * np.abs(b - a) * (leave - arrive)
+        off = (np.abs(np.imag(np.conj(heading) * (cubic - exact))) > tolerance) | (np.real(np.conj(leave) * arrive) < _TURN)
         if not off.any():
             break
-        t = np.insert(t, np.flatnonzero(off) + 1, middles[off])
-    return points, headings
+        t, index = np.insert(t, chords[off] + 1, middles[off]), np.insert(index, chords[off] + 1, index[chords[off]])
+    b = np.roll(a, -1)  # so that no foot falls between two ends that differ by rounding
+    chord = np.abs(b - a)
+    return Nodes(a, b, leave * chord, arrive * chord, *_blocks(a, b, chord))
 
 
-def _along(span, t):
-    jet = span.piece.at(t)
-    slope = np.broadcast_to(jet.d1, t.shape) * np.sign(span.stop - span.start)
-    return np.broadcast_to(jet.d0, t.shape), slope / np.abs(slope)
+def _along(spans, index, t):
+    """Points and unit tangents at parameters t of the spans `index`."""
+    jet = gather(tuple(span.piece for span in spans), index, t)
+    slope = jet.d1 * np.array([np.sign(span.stop - span.start) for span in spans])[index]
+    return jet.d0, slope / np.abs(slope)
 
 
 def _blocks(a, b, chord):

@@ -64,10 +64,10 @@ class PlaneDrive:
         steps = [(stretch, self._formula(stretch)) for stretch in self.motion.stretches]  # one for all turns: evaluated together
         pieces = [
             Piece(start, stop, at, f"step {turn}", _shape(stretch))
-            for turn in range(self.pins)
             for stretch, at in steps
-            for start, stop in _between_cusps(at, TURN * turn + stretch.start, TURN * turn + stretch.stop)
+            for turn, start, stop in _between_cusps(at, stretch, self.pins)
         ]
+        pieces.sort(key=lambda piece: piece.start)
         return CircleFamily(tuple(pieces), self.pin_radius, self.side, both=True)
 
     def _formula(self, stretch):
@@ -122,24 +122,27 @@ def _runs_around(found):
     return span_measures(found.spans)[0] * side > 0
 
 
-def _between_cusps(at, start, stop, samples=361):
-    """Intervals of the path between the places where it stands still and turns back, which are left out by a trifle."""
-    t = np.linspace(start, stop, samples)
+def _between_cusps(at, stretch, turns, samples=181):
+    """(turn, start, stop) of a stretch in every turn, parted where the path stands still and turns back, which is left out by a trifle."""
+    starts = TURN * np.arange(turns)
+    t = starts[:, None] + np.linspace(stretch.start, stretch.stop, samples)
     speed = np.abs(np.broadcast_to(at(t).d1, t.shape))
-    around = np.concatenate([[np.inf], speed, [np.inf]])
-    lowest = np.flatnonzero((speed <= around[:-2]) & (speed <= around[2:]) & (speed < _SLOW * np.max(speed)))
-    ends = [start]
-    for place in t[lowest]:
-        for _ in range(40):  # towards d1 = 0 along d2
-            jet = at(np.array([place]))
-            step = float(np.real(np.conj(jet.d2[0]) * jet.d1[0]) / np.abs(jet.d2[0]) ** 2)
-            place = np.clip(place - step, start, stop)
-            if abs(step) < 1e-15 * stop:
-                break
-        if np.abs(at(np.array([place])).d1[0]) < _STANDSTILL * np.max(speed):
-            ends += [float(place) - _TRIFLE, float(place) + _TRIFLE]
-    ends.append(stop)
-    return [(low, high) for low, high in zip(ends[::2], ends[1::2], strict=True) if high - low > 2 * _TRIFLE]
+    around = np.pad(speed, ((0, 0), (1, 1)), constant_values=np.inf)
+    row, column = np.nonzero((speed <= around[:, :-2]) & (speed <= around[:, 2:]) & (speed < _SLOW * np.max(speed)))
+    place = t[row, column]
+    low, high = starts[row] + stretch.start, starts[row] + stretch.stop
+    for _ in range(12 if len(place) else 0):  # towards d1 = 0 along d2
+        jet = at(place)
+        place = np.clip(place - np.real(np.conj(jet.d2) * jet.d1) / np.abs(jet.d2) ** 2, low, high)
+    cusp = np.abs(at(place).d1) < _STANDSTILL * np.max(speed) if len(place) else np.zeros(0, dtype=bool)
+    for turn in range(turns):
+        own = np.unique(np.round(place[cusp & (row == turn)], 12))
+        ends = [
+            starts[turn] + stretch.start,
+            *(float(end) for spot in own for end in (spot - _TRIFLE, spot + _TRIFLE)),
+            starts[turn] + stretch.stop,
+        ]
+        yield from ((turn, float(a), float(b)) for a, b in zip(ends[::2], ends[1::2], strict=True) if b - a > 2 * _TRIFLE)
 
 
 def _shape(stretch):
