@@ -4,9 +4,10 @@ import numpy as np
 
 from drivewright._jit import kernel, outer
 from drivewright.curves.touching import nearest
+from drivewright.indexing.loops import keep_loop, loop_around, nodes_along
 from drivewright.indexing.plane import ALIVE
 from drivewright.indexing.play import BACKWARD, FORWARD, free_rotation
-from drivewright.indexing.sweep import bare_samples, cells_of, keep_loop, loop_around, nodes_along, stretches_of, swept
+from drivewright.indexing.sweep import bare_samples, cells_of, stretches_of, swept
 
 VALUES = 8
 _HOLDS = 1e-6  # an arm above this part of the pin circle stops the wheel
