@@ -142,45 +142,56 @@ def sample(pieces, count=1440, least=96):
     lengths = [_running_length(speed, t) for speed, t in zip(speeds, coarse, strict=True)]
     total = sum(length[-1] for length in lengths)
     spans = np.array([abs(piece.stop - piece.start) for piece in pieces])
-    parameters, jets = [], []
-    for piece, t, length, span in zip(pieces, coarse, lengths, spans / spans.sum(), strict=True):
+    spread = []
+    for t, length, span in zip(coarse, lengths, spans / spans.sum(), strict=True):
         share = 0.5 * span * np.linspace(0, 1, 33) + 0.5 * length / total
         number = max(least, int(np.ceil(count * share[-1])))
-        spread = _ends_exact(np.interp(np.linspace(0, share[-1], number), share, t), t)
-        t, jet = _crowded(piece, spread, _HALVINGS if pieces[-1].loop else 0)
-        parameters.append(t)
-        jets.append(jet)
-    index = np.repeat(np.arange(len(pieces)), [len(t) for t in parameters])
-    jets = _joined(jets)
+        spread.append(_ends_exact(np.interp(np.linspace(0, share[-1], number), share, t), t))
+    index, t, jets = _crowded(pieces, spread)
     senses = np.array([piece.sense for piece in pieces])[index]
-    chain = Chain(tuple(pieces), index, np.concatenate(parameters), jets.d0, jets.d1 * senses)
+    chain = Chain(tuple(pieces), index, t, jets.d0, jets.d1 * senses)
     _refuse_gaps(chain)
     return chain
 
 
-def _crowded(piece, t, halvings, parts=16):
-    """Parameters t, more of them about the places where the curve is slow (cusps come in narrow pairs) or turns sharply, and the jet.
+def _crowded(pieces, spread):
+    """(index, t, jets) of samples at the parameters `spread` of each piece and more of them where the curve is slow or turns sharply.
 
     Sharp turns are halved in curves of several loops, both sides of a path that turns back; one loop alone has cusps that rounding makes.
     """
-    jet = _spread(piece.at(t), t.shape)
-    speed = np.abs(jet.d1)
-    slow = np.flatnonzero((speed[1:-1] <= speed[:-2]) & (speed[1:-1] <= speed[2:]) & (speed[1:-1] < _SLOW * np.max(speed))) + 1
-    if len(slow):
-        steps = np.unique(np.clip(slow[:, None] + np.arange(-3, 3), 0, len(t) - 2))
-        between = t[steps, None] + (t[steps + 1] - t[steps])[:, None] * np.arange(1, parts) / parts
-        t = np.sort(np.concatenate([t, between.ravel()]))[:: int(piece.sense)]
-        jet = _spread(piece.at(t), t.shape)
-    for _ in range(halvings):  # a curve that swings round between two samples would be one long chord
+    index, t = _labelled(spread)
+    jet = gather(pieces, index, t)
+    speeds = np.split(np.abs(jet.d1), np.cumsum([len(part) for part in spread])[:-1])
+    denser = [_denser(piece, part, speed) for piece, part, speed in zip(pieces, spread, speeds, strict=True)]
+    if sum(map(len, denser)) > len(t):
+        index, t = _labelled(denser)
+        jet = gather(pieces, index, t)
+    for _ in range(_HALVINGS if pieces[-1].loop else 0):  # a curve that swings round between two samples would be one long chord
         with np.errstate(invalid="ignore"):
-            sharp = np.flatnonzero(np.abs(np.angle(np.conj(jet.d1[:-1]) * jet.d1[1:])) > _SHARP)
+            turn = np.abs(np.angle(np.conj(jet.d1[:-1]) * jet.d1[1:]))
+        sharp = np.flatnonzero((turn > _SHARP) & (index[1:] == index[:-1]))
         if not len(sharp):
             break
         middle = 0.5 * (t[sharp] + t[sharp + 1])
-        between = _spread(piece.at(middle), middle.shape)
-        t = np.insert(t, sharp + 1, middle)
+        between = gather(pieces, index[sharp], middle)
+        t, index = np.insert(t, sharp + 1, middle), np.insert(index, sharp + 1, index[sharp])
         jet = Jet(*(np.insert(part, sharp + 1, new) for part, new in zip(jet, between, strict=True)))
-    return t, jet
+    return index, t, jet
+
+
+def _labelled(parts):
+    """(number of the part, value) of arrays one after the other."""
+    return np.repeat(np.arange(len(parts)), [len(part) for part in parts]), np.concatenate(parts)
+
+
+def _denser(piece, t, speed, parts=16):
+    """Parameters t, `parts` times as many about the places where the piece is slow: cusps come in narrow pairs."""
+    slow = np.flatnonzero((speed[1:-1] <= speed[:-2]) & (speed[1:-1] <= speed[2:]) & (speed[1:-1] < _SLOW * np.max(speed))) + 1
+    if not len(slow):
+        return t
+    steps = np.unique(np.clip(slow[:, None] + np.arange(-3, 3), 0, len(t) - 2))
+    between = t[steps, None] + (t[steps + 1] - t[steps])[:, None] * np.arange(1, parts) / parts
+    return np.sort(np.concatenate([t, between.ravel()]))[:: int(piece.sense)]
 
 
 def _running_length(speed, t):
