@@ -79,5 +79,5 @@ def _print(result, seconds):
             f"  check fails: {check.name} = {show.number(check.value, check.unit)}, "
             f"limit {check.sense} {show.number(check.limit, check.unit)}"
         )
-    if not failed:
+    if result.checks and not failed:
         print(f"  all {len(result.checks)} checks pass")

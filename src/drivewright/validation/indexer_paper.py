@@ -105,10 +105,22 @@ def _constant():
     ours = result(*CONSTANT)
     yield Row("mean stiffness, bearings of constant stiffness", Printed("about 1020 N m/arcmin", 975 / ARCMIN, 1065 / ARCMIN),
               ours["stiffness.mean"], "N m/rad", **about)
-    yield Row("its range", Printed("about 90 N m/arcmin", 80 / ARCMIN, 100 / ARCMIN), ours["stiffness.range"], "N m/rad", **about)
-    yield Row("angle of the highest stiffness", Printed("90 deg", np.radians(85), np.radians(95)), _at_most(ours), "rad", **about)
     yield Row(
-        "angle of the lowest stiffness", Printed("45 deg", np.radians(40), np.radians(50)), ours["stiffness.minimum.at"], "rad", **about
+        "range, bearings of constant stiffness",
+        Printed("about 90 N m/arcmin", 80 / ARCMIN, 100 / ARCMIN),
+        ours["stiffness.range"],
+        "N m/rad",
+        **about,
+    )
+    yield Row(
+        "highest at, bearings of constant stiffness", Printed("90 deg", np.radians(85), np.radians(95)), _at_most(ours), "rad", **about
+    )
+    yield Row(
+        "lowest at, bearings of constant stiffness",
+        Printed("45 deg", np.radians(40), np.radians(50)),
+        ours["stiffness.minimum.at"],
+        "rad",
+        **about,
     )
 
 
