@@ -17,7 +17,6 @@ def motion(model, done):
     """The wheel over one turn of the input."""
     angle = np.linspace(0, TURN, POINTS)
     phi, rate, bend, third = model.drive.motion(angle)
-    phi[-1] = model.drive.motion.pitch  # the end of this turn, not the start of the next
     values = {
         "motion.motion_angle": Value(model.drive.motion.motion_angle, "rad", "input angle in which the wheel moves"),
         "motion.velocity_factor": Value(np.max(np.abs(rate)), "-", "largest speed of the wheel over that of the input"),

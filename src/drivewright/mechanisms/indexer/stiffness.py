@@ -22,7 +22,7 @@ def no_stiffness(spec):
     return None if spec.load.torque else "load.torque is not given"
 
 
-def solved(model, angles, torque, found=None):
+def solved(model, angles, torque):
     """(`TorsionalStiffness`, contacts) at the angles."""
     wheel = model.drive
     near = [contacts(wheel, angle, REACH) for angle in angles]

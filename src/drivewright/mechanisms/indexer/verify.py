@@ -35,32 +35,20 @@ def verify(model, result):
 
 def _profile(drive, suffix):
     """Area and perimeter of the cam as what the widened centre curve leaves."""
-    from shapely import LineString, Point
+    from shapely import LineString, Point, Polygon
 
     theta = np.linspace(0, TURN, CHORDS, endpoint=False)
     points = drive.path(theta).d0.T.ravel()
     curve = LineString(np.stack([np.append(points, points[0]).real, np.append(points, points[0]).imag], axis=1))
     swept = curve.buffer(drive.pin_radius, quad_segs=128)
     if drive.side == "inside":
-        left = next(ring for ring in swept.interiors if ring.envelope.contains(Point(0, 0)) and _around(ring))
+        left = next(ring for ring in swept.interiors if Polygon(ring).contains(Point(0, 0)))
     else:
         left = swept.exterior
-    area = abs(_area(np.array(left.coords)))
+    area = Polygon(left).area
     ours = drive.profile
     yield f"profile{suffix}.area", ours.area, area, "m^2", 1e-4 * ours.area, POLYGON
     yield f"profile{suffix}.perimeter", ours.perimeter, left.length, "m", 2e-3 * ours.perimeter, POLYGON
-
-
-def _around(ring):
-    """Whether a ring goes round the cam's centre."""
-    from shapely import Point, Polygon
-
-    return Polygon(ring).contains(Point(0, 0))
-
-
-def _area(points):
-    x, y = points.T
-    return 0.5 * np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])
 
 
 def _normals(drive, angles):
