@@ -89,7 +89,7 @@ def test_the_house_lists_it_and_finds_its_law(installed, tmp_path):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=installed, cwd=tmp_path)
     kinds, law = done.stdout.splitlines()
-    assert kinds == "['cam', 'indexer', 'linkage', 'pendulum', 'seedling-pusher', 'shaft']" and law.endswith(" True")
+    assert kinds == "['cam', 'indexer', 'linkage', 'pendulum', 'seedling-pusher', 'shaft', 'silent-chain']" and law.endswith(" True")
     assert float(law.split()[0]) == pytest.approx(math.pi**2 / 2, rel=1e-12)
 
 
@@ -109,7 +109,7 @@ def points(monkeypatch):
 
 
 def test_an_unknown_kind_is_refused_with_the_nearest_known():
-    known = "known: cam, indexer, linkage, seedling-pusher, shaft"
+    known = "known: cam, indexer, linkage, seedling-pusher, shaft, silent-chain"
     with pytest.raises(UnknownName, match=f"no mechanism is called 'seedling_pusher' .did you mean 'seedling-pusher'.*; {known}"):
         registry.mechanism("seedling_pusher")
 

@@ -1,0 +1,1 @@
+"""Chains: joints, meshing, closure, dynamics, stress."""

@@ -1,0 +1,127 @@
+"""A strand between two sprockets, compiled: where its last pin lies for a direction of the force in it.
+
+Lengths in pitches, directions as angles against the force, points of the plane as complex numbers with the force along the real axis.
+n free plates with the directions d_1 .. d_n between two seated ones, d_0 and d_n+1, reach
+
+    W = A sum_1..n u(d_i) - 2 r sum_0..n u(m_i),     m_i = (d_i + d_i+1)/2,  u(b) = exp(i b),
+
+from the last pin seated to the first one seated again; each joint is as good as a bar of length 2 r along the mean of its plates.
+A straight strand has d_i = 0.  In equilibrium its reach along the force is stationary, in fact greatest,
+
+    A sin d_i = r (sin m_i-1 + sin m_i),
+
+which bends it at its ends: a joint turned by 2 t shifts its contact by r sin t.  Since A > 2 r, that has one solution.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright._jit import inner, kernel, outer
+
+_STEPS = 40
+_STILL = 1e-13  # rad
+
+
+class Reach(NamedTuple):
+    """W, its derivatives by d_0 and d_n+1, and the directions of the first and the last free plate."""
+
+    vector: complex
+    by_start: complex
+    by_end: complex
+    first: float
+    last: float
+
+
+@outer
+def reach(A, r, bent, count, start, end, work):
+    """The `Reach` of `count` free plates between seated ones with the directions `start` and `end`; work (3, count + 2) is scratch."""
+    if bent:
+        return _bent(A, r, count, start, end, work)
+    first, last = np.exp(0.5j * start), np.exp(0.5j * end)
+    vector = count * A - 2 * r * (count - 1 + first + last)
+    return Reach(vector, -1j * r * first, -1j * r * last, 0.0, 0.0)
+
+
+@kernel
+def plate_directions(A, r, bent, count, start, end):
+    """Directions of the free plates of a strand against its force."""
+    work = np.zeros((3, count + 2))
+    reach(A, r, bent, count, start, end, work)
+    return work[0, 1 : count + 1].copy()
+
+
+@inner
+def pressing(A, r, phi, seated, first):
+    """Moment by which a force A^-1 in a strand presses the last seated plate onto its seat  [-]; negative: it lifts the plate.
+
+    A sin d_0 - r (sin m_-1 + sin m_0) for the force 1: `seated` d_0 and `first` d_1 are the directions of the last seated and the first
+    free plate against the force, turned back from it; the plate seated before lies at d_0 + phi.
+    """
+    return np.sin(seated) - r / A * (np.sin(seated + 0.5 * phi) + np.sin(0.5 * (seated + first)))
+
+
+@outer
+def decay(A, r):
+    """By which factor the bend of a strand shrinks from plate to plate: the smaller root of r (1 + x^2) = 2 (A - r) x."""
+    return r / (A - r + np.sqrt(A * (A - 2 * r)))
+
+
+@outer
+def _bent(A, r, count, start, end, work):
+    d, diagonal, side = work[0], work[1], work[2]
+    shrink = decay(A, r)
+    d[0], d[count + 1] = start, end
+    for i in range(1, count + 1):
+        d[i] = start * shrink**i + end * shrink ** (count + 1 - i)
+    for _ in range(_STEPS):
+        if _newton_step(A, r, count, d, diagonal, side) < _STILL:
+            return _reached(A, r, count, d, diagonal, side)
+    return Reach(np.nan + 0j, np.nan + 0j, np.nan + 0j, np.nan, np.nan)
+
+
+@outer
+def _newton_step(A, r, count, d, diagonal, side):
+    """One step towards equilibrium; its largest part."""
+    bar = 0.5 * (d[0] + d[1])
+    for i in range(1, count + 1):
+        following = 0.5 * (d[i] + d[i + 1])
+        side[i] = r * (np.sin(bar) + np.sin(following)) - A * np.sin(d[i])
+        diagonal[i] = A * np.cos(d[i]) - 0.5 * r * (np.cos(bar) + np.cos(following))
+        bar = following
+    _solve(r, count, d, diagonal, side)
+    largest = 0.0
+    for i in range(1, count + 1):
+        d[i] += side[i]
+        largest = max(largest, abs(side[i]))
+    return largest
+
+
+@outer
+def _solve(r, count, d, diagonal, side):
+    """Overwrite `side` with the solution of the tridiagonal system of the plates' directions; beside the diagonal -r/2 cos m_i."""
+    for i in range(2, count + 1):
+        beside = -0.5 * r * np.cos(0.5 * (d[i - 1] + d[i]))
+        share = beside / diagonal[i - 1]
+        diagonal[i] -= share * beside
+        side[i] -= share * side[i - 1]
+    side[count] /= diagonal[count]
+    for i in range(count - 1, 0, -1):
+        side[i] = (side[i] + 0.5 * r * np.cos(0.5 * (d[i] + d[i + 1])) * side[i + 1]) / diagonal[i]
+
+
+@outer
+def _reached(A, r, count, d, diagonal, side):
+    """The `Reach` in equilibrium.  Across the force the free plates move along with the seated ones: one adjoint solution for both ends."""
+    opening = np.exp(0.5j * (d[0] + d[1]))
+    vector, bar = -2 * r * opening, opening
+    for i in range(1, count + 1):
+        plate, following = np.exp(1j * d[i]), np.exp(0.5j * (d[i] + d[i + 1]))
+        vector += A * plate - 2 * r * following
+        side[i] = A * plate.real - r * (bar.real + following.real)
+        diagonal[i] = A * plate.real - 0.5 * r * (bar.real + following.real)
+        bar = following
+    _solve(r, count, d, diagonal, side)
+    by_start = -1j * r * opening + 0.5j * r * opening.real * side[1]
+    by_end = -1j * r * bar + 0.5j * r * bar.real * side[count]
+    return Reach(vector, by_start, by_end, d[1], d[count])

@@ -1,0 +1,144 @@
+"""What a run shows: signals over time, their statistics over whole teeth, and whether energy and momenta add up."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from drivewright.chains.dynamics.measure import BODY, PLATE, ROW
+from drivewright.chains.dynamics.model import Model
+from drivewright.numerics.signals import order_spectrum, time_mean
+
+LOSSES = ("drive", "torque", "slide damping", "turn damping", "friction", "guide damping", "joint damping", "contact damping")
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A run: rows (m, ROW), bodies (m, sprockets and guides, BODY), tension (m, joints), plate (m, PLATE); columns by name, see below."""
+
+    model: Model
+    settings: object
+    step: float
+    every: int
+    rows: np.ndarray
+    bodies: np.ndarray
+    tension: np.ndarray
+    plate: np.ndarray
+
+    def column(self, name):
+        """A column of ROW, of the watched plate by its name in PLATE."""
+        return self.rows[:, ROW.index(name)] if name in ROW else self.plate[:, PLATE.index(name)]
+
+    def body(self, number, name):
+        """A column of BODY of one sprocket, or guide behind them."""
+        return self.bodies[:, number, BODY.index(name)]
+
+    @property
+    def t(self):
+        return self.rows[:, 0]
+
+    @property
+    def slide(self):
+        """Number of the first sprocket on a slide, else of the last one."""
+        return next((n for n, s in enumerate(self.model.sprockets) if s.slide), len(self.model.sprockets) - 1)
+
+    @cached_property
+    def centre_distance(self):
+        """Distance of the sliding sprocket from the driver (m,)  [m]."""
+        return np.hypot(*(self._centre(self.slide) - self._centre(self.model.driver)))
+
+    def _centre(self, number):
+        body = self.model.sprockets[number]
+        q = self.body(number, "q")
+        angle = body.slide.direction if body.slide else 0.0
+        return np.array([body.centre[0] + q * np.cos(angle), body.centre[1] + q * np.sin(angle)])
+
+    def transmission_error(self, number):
+        """Angle of a sprocket less that of the driver times the ratio of teeth, from the start (m,)  [rad]."""
+        driver, teeth = self.model.driver, [s.tooth.teeth for s in self.model.sprockets]
+        turned = [self.body(n, "psi") - self.body(n, "psi")[0] for n in (number, driver)]
+        return turned[0] - turned[1] * teeth[driver] / teeth[number]
+
+    # ------------------------------------------------------------------------------------------------------- statistics
+
+    @property
+    def per_tooth(self):
+        return self.settings.samples_per_tooth
+
+    @cached_property
+    def steady(self):
+        """Samples after settling, from the first to the last of a whole number of teeth of the driver."""
+        first = int(np.searchsorted(self.t, self.settings.settle - 1e-12))
+        teeth = (len(self.t) - 1 - first) // self.per_tooth
+        return slice(first, first + teeth * self.per_tooth + 1) if teeth > 0 else slice(first, len(self.t))
+
+    @property
+    def teeth(self):
+        """Whole teeth of the driver in the steady part."""
+        return (self.steady.stop - 1 - self.steady.start) // self.per_tooth
+
+    def mean(self, signal):
+        """Mean of a signal (m,) over the steady part."""
+        return time_mean(self.t[self.steady], signal[self.steady])
+
+    def fluctuation(self, signal):
+        """Largest less least value of a signal (m,) in the steady part."""
+        return float(np.ptp(signal[self.steady]))
+
+    def orders(self, signal, orders=(1.0,)):
+        """Amplitudes of a signal (m,) at multiples of the mesh frequency; multiples of 1/teeth."""
+        t = self.t[self.steady]
+        return order_spectrum(t, signal[self.steady], (t[-1] - t[0]) / self.teeth, orders)
+
+    def spectrum(self, signal):
+        """(mesh orders, amplitudes) of a signal (m,) up to a third of the samples per tooth, in steps of 1/teeth."""
+        orders = np.arange(1, self.teeth * self.per_tooth // 3 + 1) / self.teeth
+        return orders, self.orders(signal, orders)
+
+    @property
+    def mesh_order_amplitude(self):
+        """Amplitude of the centre distance at the mesh frequency  [m]."""
+        return float(self.orders(self.centre_distance)[0])
+
+    def running_deviation(self, reference):
+        """Mean centre distance less a reference, that of the ideal drive  [m]."""
+        return self.mean(self.centre_distance) - reference
+
+    # ----------------------------------------------------------------------------------------------------------- balance
+
+    @cached_property
+    def energy_gap(self):
+        """Energy less all work since the start (m,)  [J]."""
+        balance = self.column("kinetic") + self.column("potential") - sum(self.column(name) for name in LOSSES)
+        return balance - balance[0]
+
+    @property
+    def energy_drift(self):
+        """Largest gap over the largest kinetic energy."""
+        return float(np.max(np.abs(self.energy_gap)) / np.max(self.column("kinetic")))
+
+    @property
+    def momentum_residual(self):
+        """(momentum, angular momentum): largest gap to the impulse of all bodies on the chain, over the largest of a plate's times N."""
+        x, y, turning = (self.column(a) - self.column(b) for a, b in
+                         (("momentum x", "impulse x"), ("momentum y", "impulse y"), ("angular momentum", "turning impulse")))
+        chain, sprocket = self.model.chain, self.model.sprockets[self.model.driver]
+        speed = np.max(np.abs(self.body(self.model.driver, "w"))) * sprocket.tooth.teeth * chain.link.pitch / (2 * np.pi)
+        momentum = chain.count * chain.mass * max(speed, 1e-300)
+        arm = chain.count * chain.link.pitch
+        return (float(max(np.ptp(x), np.ptp(y)) / momentum), float(np.ptp(turning) / (momentum * arm)))
+
+    @property
+    def advice(self):
+        """What is wrong with the run; empty where nothing is."""
+        if not np.all(np.isfinite(self.rows)):
+            bad = int(np.argmin(np.all(np.isfinite(self.rows), axis=1)))
+            return f"the motion is lost at t = {self.t[max(bad - 1, 0)]:.4g} s; shorten the step of {self.step:.3g} s"
+        if self.energy_drift > self.settings.tolerance:
+            return (f"energy drifts by {self.energy_drift:.2g} of the largest kinetic energy, more than {self.settings.tolerance:.2g}; "
+                    f"shorten the step of {self.step:.3g} s")
+        return ""
+
+    @property
+    def outcome(self):
+        return "partial" if self.advice else "complete"

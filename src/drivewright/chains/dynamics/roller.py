@@ -1,0 +1,26 @@
+"""The tooth of a roller chain: a concave seat arc, then a convex flank arc, for rollers on the joints of the plates."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+class RollerTooth(NamedTuple):
+    """teeth z; pitch radius of the seat centres; seat radius ri and its whole seating angle; flank radius re; roller radius  [m], [rad].
+
+    A gap lies midway between two teeth; its seat is a concave arc about a point of the pitch circle, its flanks convex arcs that
+    continue it smoothly on both sides.
+    """
+
+    teeth: int
+    pitch_radius: float
+    seat_radius: float
+    seat_angle: float
+    flank_radius: float
+    roller_radius: float
+
+    @property
+    def flank_centre(self):
+        """Centre of the right flank's arc from the seat's centre (towards the tooth, outward)  [m]: ri + re along the end of the seat."""
+        half = 0.5 * self.seat_angle
+        return (self.seat_radius + self.flank_radius) * np.array([np.sin(half), -np.cos(half)])

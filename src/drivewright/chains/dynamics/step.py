@@ -1,0 +1,165 @@
+"""Kernels of the explicit step.  Loops over plates and joints have no branches and only unit strides, so that they become vector code.
+
+Leapfrog: rates at half steps, places and loads at whole ones; loads that depend on rates take them predicted from the last acceleration.
+"""
+
+import numpy as np
+
+from drivewright._jit import inner
+
+
+@inner
+def load_joints(chain, p, j, dt):
+    """Rolling joints: stretch d = P - Q - 2r u, force f = k d + beta k d' on both plates where the two pins touch, midway between them.
+
+    u is the mean of the two plates' directions.  The rate d' seen by both plates turning together is the relative velocity of the
+    two plates there: so the force is pure rolling, and conserves angular momentum with damping too.
+    """
+    k, damping, rolling, offset = chain.joint_stiffness, chain.joint_damping, chain.rolling, chain.offset
+    for i in range(8 * chain.blocks):
+        c, s, c1, s1 = p.c[i], p.s[i], p.c1[i], p.s1[i]
+        x, y, x1, y1 = p.x[i], p.y[i], p.x1[i], p.y1[i]
+        px, py = x + (p.half[i] * c + offset * s), y + (p.half[i] * s - offset * c)
+        qx, qy = x1 - (p.half1[i] * c1 - offset * s1), y1 - (p.half1[i] * s1 + offset * c1)
+        ux, uy = c + c1, s + s1
+        share = rolling / np.sqrt(ux * ux + uy * uy)
+        mx, my = 0.5 * (px + qx), 0.5 * (py + qy)
+        w, w1 = p.w[i], p.w1[i]
+        rx = (p.vx[i] - w * (my - y)) - (p.vx1[i] - w1 * (my - y1))
+        ry = (p.vy[i] + w * (mx - x)) - (p.vy1[i] + w1 * (mx - x1))
+        j.fx[i] = k * (px - qx - share * ux) + damping * rx
+        j.fy[i] = k * (py - qy - share * uy) + damping * ry
+        j.mx[i] = mx
+        j.my[i] = my
+        power = damping * (rx * rx + ry * ry)
+        j.power[i] = power
+        j.lost[i] += dt * power
+    n = chain.count - 1
+    j.fx_[0], j.fy_[0], j.mx_[0], j.my_[0] = j.fx[n], j.fy[n], j.mx[n], j.my[n]
+
+
+@inner
+def load_gravity(chain, p, t):
+    """Loads start anew with the weight."""
+    for i in range(8 * chain.blocks):
+        p.fx[i] = p.gx[i]
+        p.fy[i] = p.gy[i]
+        p.moment[i] = 0.0
+        t.stored[i] = 0.0
+
+
+@inner
+def load_flanks(chain, p, t, b, teeth, n, first, last, dt):
+    """Both flanks of the plates first .. last-1 on the involute teeth of sprocket n.
+
+    In the plate's frame D is its pin frame's origin seen from the sprocket's centre, delta how far it is turned against its seat.
+    Right flank: depth n.D + w - (H + rb delta), contact at s = rb - t.D along the flank; the left one is its mirror image.
+    """
+    ca, sa, wide, offset = chain.cos, chain.sin, chain.flank, chain.offset
+    k, damping, rb, support = b.stiffness[n], b.damping[n], teeth.base[n], teeth.support[n]
+    low, high, deep, top = teeth.low[n], teeth.high[n], chain.deepest, chain.highest
+    bx, by, ux, uy, psi, spin = b.x[n], b.y[n], b.vx[n], b.vy[n], b.psi[n], b.w[n]
+    for i in range(np.uint64(first), np.uint64(last)):
+        c, s, w = p.c[i], p.s[i], p.w[i]
+        gx, gy = p.x[i] - bx, p.y[i] - by
+        ex, ey = c * gx + s * gy, c * gy - s * gx - offset
+        zx, zy = p.vx[i] - ux, p.vy[i] - uy
+        dx, dy = c * zx + s * zy + w * (ey + offset), c * zy - s * zx - w * ex
+        turned = rb * (p.angle[i] - psi - t.seat[i])
+        turning = rb * (w - spin)
+        right, left = support + turned, support - turned
+        pen_r = ca * ex - sa * ey + wide - right
+        pen_l = -ca * ex - sa * ey + wide - left
+        rate_r = ca * dx - sa * dy - turning
+        rate_l = -ca * dx - sa * dy + turning
+        at_r, at_l = rb - sa * ex - ca * ey, rb + sa * ex - ca * ey
+        on_r = (right > low) & (right < high) & (at_r > deep) & (at_r < top) & (pen_r > 0.0)
+        on_l = (left > low) & (left < high) & (at_l > deep) & (at_l < top) & (pen_l > 0.0)
+        pen_r, pen_l = (pen_r if on_r else 0.0), (pen_l if on_l else 0.0)
+        fr = max(k * pen_r + damping * rate_r, 0.0) if on_r else 0.0
+        fl = max(k * pen_l + damping * rate_l, 0.0) if on_l else 0.0
+        lost = (fr - k * pen_r) * rate_r + (fl - k * pen_l) * rate_l
+        fx, fy = ca * (fl - fr), sa * (fl + fr)
+        t.right[i] = fr
+        t.left[i] = fl
+        t.fx[i] = c * fx - s * fy
+        t.fy[i] = s * fx + c * fy
+        t.torque[i] = rb * (fl - fr)
+        t.power[i] = lost
+        t.lost[i] += dt * lost
+        t.stored[i] += 0.5 * k * (pen_r * pen_r + pen_l * pen_l)
+        p.moment[i] += fr * at_r - fl * at_l + offset * fx
+
+
+@inner
+def total(row, first, last):
+    """Sum of row[first:last] in eight strands."""
+    a, b, c, d = 0.0, 0.0, 0.0, 0.0
+    i = np.uint64(first)
+    whole = np.uint64(first + (last - first) // 4 * 4)
+    for m in range(i, whole, np.uint64(4)):
+        a += row[m]
+        b += row[m + np.uint64(1)]
+        c += row[m + np.uint64(2)]
+        d += row[m + np.uint64(3)]
+    for m in range(whole, np.uint64(last)):
+        a += row[m]
+    return (a + b) + (c + d)
+
+
+@inner
+def take_on(p, t, b, n, first, last):
+    """Contact forces onto the plates first .. last-1, and the opposite ones onto body n."""
+    for i in range(np.uint64(first), np.uint64(last)):
+        p.fx[i] += t.fx[i]
+        p.fy[i] += t.fy[i]
+    b.fx[n] -= total(t.fx, first, last)
+    b.fy[n] -= total(t.fy, first, last)
+    b.torque[n] += total(t.torque, first, last)
+
+
+@inner
+def acceleration(p, j, i):
+    """Accelerations (x, y, angle) of plate i: its own load and the joints on both sides."""
+    x, y = p.x[i], p.y[i]
+    fx, fy, gx, gy = j.fx[i], j.fy[i], j.fx_[i], j.fy_[i]
+    moment = p.moment[i] - (j.mx[i] - x) * fy + (j.my[i] - y) * fx + (j.mx_[i] - x) * gy - (j.my_[i] - y) * gx
+    return (p.fx[i] + gx - fx) * p.by_mass[i], (p.fy[i] + gy - fy) * p.by_mass[i], moment * p.by_inertia[i]
+
+
+@inner
+def kick_plates(chain, p, j, dt):
+    """Half-step rates by the loads, and the rates that these lead to at the next whole step."""
+    for i in range(8 * chain.blocks):
+        p.fx[i], p.fy[i], p.moment[i] = acceleration(p, j, i)
+    for i in range(8 * chain.blocks):
+        ax, ay, a = p.fx[i], p.fy[i], p.moment[i]
+        hx, hy, hw = p.hx[i] + dt * ax, p.hy[i] + dt * ay, p.hw[i] + dt * a
+        p.hx[i] = hx
+        p.hy[i] = hy
+        p.hw[i] = hw
+        p.vx[i] = hx + 0.5 * dt * ax
+        p.vy[i] = hy + 0.5 * dt * ay
+        p.w[i] = hw + 0.5 * dt * a
+
+
+@inner
+def drift_plates(chain, p, dt):
+    """Places by the half-step rates; directions by the increment of the angle (series, exact to 1e-19)."""
+    for i in range(8 * chain.blocks):
+        e, c, s = dt * p.hw[i], p.c[i], p.s[i]
+        e2 = e * e
+        sin, versin = e * (1.0 - e2 * (1.0 / 6.0 - e2 / 120.0)), e2 * (0.5 - e2 * (1.0 / 24.0 - e2 / 720.0))
+        p.x[i] += dt * p.hx[i]
+        p.y[i] += dt * p.hy[i]
+        p.angle[i] += e
+        p.c[i] = c - (c * versin + s * sin)
+        p.s[i] = s - (s * versin - c * sin)
+
+
+@inner
+def close_ring(chain, p):
+    """The place behind the last plate holds a copy of the first one."""
+    n = chain.count
+    p.x[n], p.y[n], p.c[n], p.s[n] = p.x[0], p.y[0], p.c[0], p.s[0]
+    p.vx[n], p.vy[n], p.w[n] = p.vx[0], p.vy[0], p.w[0]

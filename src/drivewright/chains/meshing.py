@@ -1,0 +1,113 @@
+"""Meshing of a rocker-joint silent chain as An, Cheng, Li and Xu published it (Machines 2022, 10, 325), in numerically stable forms.
+
+Numbers or arrays that broadcast; p pitch, A hole pitch, r rolling radius, e offset of the pin centres below the pitch line, z teeth,
+t = pi/z half the seating angle, a flank angle, f apothem.  The equations' numbers are those of the paper; read, corrected where told.
+"""
+
+from typing import Literal
+
+import numpy as np
+
+IDEALS = ("seat", "rack")
+Ideal = Literal["seat", "rack"]
+
+
+def hole_pitch(p, r):
+    """A = p + 2 r  (1)  [m]."""
+    return p + 2 * r
+
+
+def equivalent_pitch(A, r, e, t1, t2):
+    """p'' of a plate whose neighbours are turned by 2 t1 and 2 t2  (3)  [m]."""
+    return A - (r - e * np.sin(t1)) / np.cos(t1) - (r - e * np.sin(t2)) / np.cos(t2)
+
+
+def seated_pitch(A, r, e, z):
+    """pp'' = A - 2 (r - e sin t)/cos t  (5)  [m]."""
+    return equivalent_pitch(A, r, e, np.pi / z, np.pi / z)
+
+
+def ideal_pitch(p, z, ideal="seat"):
+    """The seated pitch that leaves no polygonal action in the paper's measure, p/cos t  (16)  [m].
+
+    ideal = "rack": p tan(t)/t instead, which meshes like a rack on the pitch circle p z/(2 pi).
+    """
+    t = np.pi / z
+    return p / np.cos(t) if ideal == "seat" else p * np.tan(t) / t
+
+
+def pitch_deviation(p, r, e, z, ideal="seat"):
+    """Seated less ideal pitch, signed  (17)  [m]:  2 (e sin t - A sin^2(t/2))/cos t, free of cancellation."""
+    t = np.pi / z
+    seat = 2 * (e * np.sin(t) - hole_pitch(p, r) * np.sin(t / 2) ** 2) / np.cos(t)
+    return seat if ideal == "seat" else seat + p * (1 / np.cos(t) - np.tan(t) / t)
+
+
+def matching_offset(p, r, z, ideal="seat"):
+    """Offset e that leaves no deviation on a sprocket with z teeth  (21)  [m]: (A/2) tan(t/2) for the seat."""
+    return -pitch_deviation(p, r, 0.0, z, ideal) / (2 * np.tan(np.pi / z))
+
+
+def minimax_offset(p, r, z1, z2, ideal="seat"):
+    """Offset e with opposite deviations on the two sprockets: the least of the larger one  [m]."""
+    both = pitch_deviation(p, r, 0.0, z1, ideal) + pitch_deviation(p, r, 0.0, z2, ideal)
+    return -both / (2 * (np.tan(np.pi / z1) + np.tan(np.pi / z2)))
+
+
+def reference_deviation(p, z1, z2):
+    """delta12 = p/cos t1 - p/cos t2  (23)  [m], as p 2 sin((t1+t2)/2) sin((t1-t2)/2)/(cos t1 cos t2)."""
+    u, v = np.pi / z1, np.pi / z2
+    return 2 * p * np.sin((u + v) / 2) * np.sin((u - v) / 2) / (np.cos(u) * np.cos(v))
+
+
+def pitch_constant(z1, z2):
+    """k  (28)  [-] in the form that holds for equal tooth numbers too: cos((t1-t2)/2)/sin((t1+t2)/2)."""
+    u, v = np.pi / z1, np.pi / z2
+    return np.cos((u - v) / 2) / np.sin((u + v) / 2)
+
+
+def boundary_radius(p, z1, z2):
+    """r10  (27)  [m]: rolling radius at which a chain matched to the drive deviates by delta12 on the other sprocket.
+
+    p m/(2 (1 - m)), m = k tan(t1/2); infinite where m reaches 1.
+    """
+    m = pitch_constant(z1, z2) * np.tan(np.pi / (2 * z1))
+    return p * m / (2 * (1 - m)) if m < 1 else np.inf
+
+
+def monotone_radius(p, z1):
+    """Rolling radius below which p'' of a chain matched to the drive grows up to the seat, p/(2 cos t1)  [m]."""
+    return p / (2 * np.cos(np.pi / z1))
+
+
+def standard_apothem(f0, r, e, a, reference="pitch_line"):
+    """f: rotation centre on the pitch line to flank  (2)  [m].
+
+    f0 + r cos a + e sin a; reference = "pin" leaves the last term out, the other reading of the printed equation, which cuts the sprocket
+    for a flank e sin a off the real one.
+    """
+    return f0 + r * np.cos(a) + (e * np.sin(a) if reference == "pitch_line" else 0.0)
+
+
+def seated_apothem(f, p, seated, a):
+    """fp'' = f + (p - pp'') cos a / 2  (6)  [m]."""
+    return f + 0.5 * (p - seated) * np.cos(a)
+
+
+def positioning_diameter(seated, z):
+    """dp = pp''/sin t  (7)  [m]: circle through the rotation centres of the seated plates."""
+    return seated / np.sin(np.pi / z)
+
+
+def seat_of(f_seated, seated, z, a):
+    """Support H of the seated plate's flank from the paper's measures  [m]: (pp''/2) cos a - (pp''/2) cot t sin a + fp''."""
+    return 0.5 * seated * (np.cos(a) - np.sin(a) / np.tan(np.pi / z)) + f_seated
+
+
+def modification(f_seated, seated, z, a, p2, a2):
+    """Modification coefficient x of the sprocket for a cutter of pitch p2 and half angle a2  (9)-(11)  [-]."""
+    cot = 1 / np.tan(np.pi / z)
+    base = p2 * z * np.cos(a2) / np.pi
+    turned = 0.5 * base * (a - a2) + 0.5 * seated * (np.cos(a) - np.sin(a) * cot - np.cos(a2) + np.sin(a2) * cot) + f_seated  # fa'' (11)
+    return (-z / 2 + 0.75 * np.pi / np.tan(a2) - np.pi * turned / (np.sin(a2) * p2)
+            + 0.5 * np.pi * seated * (cot - 1 / np.tan(a2)) / p2)

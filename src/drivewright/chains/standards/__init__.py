@@ -1,0 +1,67 @@
+"""Chain drives by formula: lengths and distances, layouts, sprockets, forces, impacts, resonances, selection by the user's ratings.
+
+Roller chains (ISO 606 and ISO 10823 family) and inverted-tooth chains (ASME B29.2, GB/T 10855 family), in SI units, angles in rad.
+Each formula is checked by a closed form or a second route; of those recalled or read `SOURCES` says so.  Left out, as neither would
+verify it:
+
+- the standards' tables: pitches, rollers, strengths, power ratings, service factors; enter your own
+- the power equations behind the ratings, limits of speed and life that stem from them, the fatigue and dynamic strength of chains
+- lubrication classes, tooth-width and rim profiles, run-out and tolerances, also those of measuring pins
+- guide grooves, face widths and tip diameters of inverted-tooth sprockets; their dimension over pins follows from the involute tooth of
+  `drivewright.chains` and not from a table
+
+The chordal rise of a strand is `drivewright.chains.link.chordal_rise`.
+"""
+
+from drivewright.chains.standards.layout import (
+    approximate_centre_distance,
+    approximate_links,
+    centre_distance,
+    chain_links,
+    distance_factor,
+    even_links,
+    least_centre_distance,
+    pitch_diameter,
+    strand_angle,
+    strand_length,
+    usual_centre_distances,
+    wrap_angles,
+)
+from drivewright.chains.standards.loop import Circle, Loop, loop_length, taut_loop
+from drivewright.chains.standards.rating import RatingTable, design_power, rated_power, rating_table, suitable_chains
+from drivewright.chains.standards.running import (
+    articulation_pressure,
+    centrifugal_tension,
+    chain_speed,
+    greatest_power,
+    meeting_energy,
+    meeting_velocity,
+    mesh_frequency,
+    resonance_speed,
+    speed_fluctuation,
+    speed_range,
+    strand_frequency,
+    strand_tension,
+    tensile_safety,
+)
+from drivewright.chains.standards.sprocket import (
+    SOURCES,
+    ToothGap,
+    gap_outline,
+    greatest_radius_over_chain,
+    over_pins,
+    root_diameter,
+    silent_chain,
+    silent_number,
+    tip_range,
+    tooth_gap,
+)
+
+__all__ = [
+    "Circle", "Loop", "RatingTable", "SOURCES", "ToothGap", "approximate_centre_distance", "approximate_links", "articulation_pressure",
+    "centre_distance", "centrifugal_tension", "chain_links", "chain_speed", "design_power", "distance_factor", "even_links", "gap_outline",
+    "greatest_power", "greatest_radius_over_chain", "least_centre_distance", "loop_length", "meeting_energy", "meeting_velocity",
+    "mesh_frequency", "over_pins", "pitch_diameter", "rated_power", "rating_table", "resonance_speed", "root_diameter", "silent_chain",
+    "silent_number", "speed_fluctuation", "speed_range", "strand_angle", "strand_frequency", "strand_length", "strand_tension",
+    "suitable_chains", "taut_loop", "tensile_safety", "tip_range", "tooth_gap", "usual_centre_distances", "wrap_angles",
+]

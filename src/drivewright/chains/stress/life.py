@@ -1,0 +1,61 @@
+"""Life of a chain's plate around its rim: the stress history of every point, then strain-life fatigue on its critical plane.
+
+Where the elastic stress exceeds the material's cyclic yield stress, Neuber's rule gives the local stress and strain.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright import fatigue
+from drivewright.chains.stress.plate import amounts
+from drivewright.errors import InputError
+from drivewright.result import Column, Table
+from drivewright.solids.plane import mises
+
+
+class PlateLife(NamedTuple):
+    """rows (m,) of the rim that were looked at, life (m,) in repeats of the history (inf without damage), damage (m,) a repeat, and the
+    greatest von Mises stress (m,) [Pa] of the elastic history."""
+
+    rows: np.ndarray
+    life: np.ndarray
+    damage: np.ndarray
+    stress: np.ndarray
+
+
+def plate_life(basis, loads, material, plane="max-shear", least=0.0):
+    """`PlateLife` under a history of loads that repeats, with a `fatigue.StrainLife`.
+
+    Flanks that touch the sprocket are left out, as from the search for the worst stress; so are points whose greatest stress stays below
+    `least` times that of the worst point, with which a long history is faster.
+    """
+    if not 0 <= least < 1:
+        raise InputError(f"plate life: least = {least:g}; a share of the greatest stress, from 0 to below 1")
+    share, rows = amounts(basis, loads), np.flatnonzero(basis.bare)
+    size = _greatest(share, basis.stress[:, rows])
+    kept = size >= least * size.max()
+    rows, size = rows[kept], size[kept]
+    stress = fatigue.superposed(share, basis.stress[:, rows])
+    strain = fatigue.elastic_strain(stress, material)
+    for node in np.flatnonzero(size > material.cyclic_yield):
+        stress[node], strain[node] = fatigue.neuber_history(stress[node], material)
+    found = fatigue.life_map(strain, stress, material, plane)
+    return PlateLife(rows, found.life, found.damage, size)
+
+
+def life_table(basis, found):
+    """Table "plate_life" for a plot of points: x, y [m], life in repeats, damage a repeat, greatest von Mises stress [Pa]."""
+    x, y = basis.body.rim.points[found.rows].T
+    return Table("plate_life", "life around a plate", (
+        Column("x", "m", "along the plate", x), Column("y", "m", "across the plate", y),
+        Column("life", "1", "repeats of the history", found.life), Column("damage", "1", "share of the life a repeat takes", found.damage),
+        Column("mises", "Pa", "greatest von Mises stress", found.stress)))
+
+
+def _greatest(share, unit_stress):
+    """Greatest von Mises stress (m,) over the instants, one at a time to spare the memory."""
+    size = np.zeros(unit_stress.shape[1])
+    for one in share:
+        np.maximum(size, mises(np.tensordot(one, unit_stress, axes=1)), out=size)
+    return size

@@ -1,0 +1,134 @@
+"""Rainflow counting: turning points, then pairs of them that close a loop of the hysteresis.  After ASTM E1049, recalled.
+
+A range is a cycle once the next range is not smaller (the three-point rule; in the inside of a history the four-point rule finds the same).
+What stays open in a history that happens once counts as half cycles; in a block that is repeated, begun at its largest absolute peak,
+nothing stays open.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright._jit import kernel, outer, warmer
+from drivewright.errors import InputError
+
+
+class Cycles(NamedTuple):
+    """Rainflow cycles in the order in which they close: range, mean, count (0.5 or 1), samples at which they start and turn."""
+
+    range: np.ndarray
+    mean: np.ndarray
+    count: np.ndarray
+    start: np.ndarray
+    end: np.ndarray
+
+
+@outer
+def turning_points(x, first, last, gate, turning):
+    """Writes the indices of the reversals of x[first..last] larger than `gate`, both ends included; returns their number.
+
+    Of samples that are equal within the gate the first is taken.
+    """
+    turning[0] = first
+    count, heading, extreme = 1, 0, first
+    for k in range(first + 1, last + 1):
+        rise = x[k] - x[extreme]
+        if heading == 0:
+            if abs(rise) > gate:
+                heading, extreme = (1 if rise > 0.0 else -1), k
+        elif heading * rise > gate:
+            extreme = k
+        elif heading * rise < -gate:
+            turning[count] = extreme
+            count, heading, extreme = count + 1, -heading, k
+    if heading != 0:
+        turning[count] = extreme
+        count += 1
+    return count
+
+
+@outer
+def paired(x, turning, points, gate, closed, count, start, end, stack):
+    """Writes count, start and end of the cycles between the turning points; returns their number.
+
+    closed: the points are one round of a block that begins and ends at its largest range, so that every cycle closes.
+    """
+    depth, found = 0, 0
+    for t in range(points):
+        stack[depth] = turning[t]
+        depth += 1
+        while depth >= 3:
+            newest = abs(x[stack[depth - 1]] - x[stack[depth - 2]])
+            if newest < abs(x[stack[depth - 2]] - x[stack[depth - 3]]) - gate:
+                break
+            start[found], end[found] = stack[depth - 3], stack[depth - 2]
+            if depth == 3 and not closed:  # it contains the beginning, before which nothing closed it
+                count[found] = 0.5
+                stack[0], stack[1] = stack[1], stack[2]
+                depth = 2
+            else:
+                count[found] = 1.0
+                stack[depth - 3] = stack[depth - 1]
+                depth -= 2
+            found += 1
+    for k in range(depth - 1):
+        start[found], end[found], count[found] = stack[k], stack[k + 1], 0.5
+        found += 1
+    return found
+
+
+@outer
+def block_cycles(x, size, gate, turning, count, start, end, stack):
+    """The closed cycles of a block that is repeated, x holding it twice (2 size samples); start < end < 2 size."""
+    first = 0
+    for k in range(1, size):
+        if abs(x[k]) > abs(x[first]) + gate:
+            first = k
+    points = turning_points(x, first, first + size, gate, turning)
+    return paired(x, turning, points, gate, True, count, start, end, stack)
+
+
+@kernel
+def _counted(x, repeating):
+    """count, start, end of all cycles; of a repeating block x holds it twice."""
+    room = len(x) + 2
+    turning, stack, start, end = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.int64)
+    count = np.empty(room)
+    if repeating:
+        found = block_cycles(x, len(x) // 2, 0.0, turning, count, start, end, stack)
+    else:
+        points = turning_points(x, 0, len(x) - 1, 0.0, turning)
+        found = paired(x, turning, points, 0.0, False, count, start, end, stack)
+    return count[:found], start[:found], end[:found]
+
+
+def cycles(history, repeating=False):
+    """The rainflow `Cycles` of a row of numbers, of any unit.
+
+    Once through: cycles that close count 1, what is left open 0.5.  repeating: the history is one round of a block without end, its
+    last sample followed by its first; it is begun at its largest absolute peak and all its cycles close.  A constant has none.
+    """
+    x = _row(history)
+    count, start, end = _counted(np.concatenate([x, x]) if repeating else x, repeating)
+    start, end = start % x.size, end % x.size
+    return Cycles(np.abs(x[end] - x[start]), x[start] / 2 + x[end] / 2, count, start, end)
+
+
+def _row(history):
+    try:
+        x = np.array(history, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("cycles: the history must be a row of numbers.") from None
+    if x.ndim != 1 or not x.size:
+        raise InputError(f"cycles: the history must be one row of at least one number, got the shape {x.shape}; count one signal each.")
+    if not np.all(np.isfinite(x)):
+        bad = np.flatnonzero(~np.isfinite(x))
+        raise InputError(f"cycles: sample {bad[0]} of the history is {x[bad[0]]}; {bad.size} are not finite. Repair or cut them out.")
+    return x
+
+
+@warmer
+def warm_rainflow():
+    """Compile for `doctor --warm`."""
+    for repeating in (False, True):
+        cycles([0.0, 1.0, 0.0], repeating)

@@ -1,0 +1,138 @@
+"""From the spec to a link, two teeth, plates and sprockets, and what the published method says of them; SI, plain data."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, NamedTuple
+
+from drivewright.chains import meshing
+from drivewright.chains.closure import Drive, close
+from drivewright.chains.link import Link, link, seat_height
+from drivewright.chains.plate import design_plate
+from drivewright.chains.plate_holes import HingePin, default_pins
+from drivewright.chains.roller_sprocket import design_roller_sprocket
+from drivewright.chains.sprocket import design_sprocket
+from drivewright.chains.tooth import Cutter, Tooth, cut_tooth, matching_cutter
+from drivewright.mechanisms.silent_chain.refusals import refuse_contradictions, unused
+
+SIDES = ("drive", "driven")
+
+
+class Side(NamedTuple):
+    """One sprocket as the published method sees it, lengths in m: seated and ideal pitch, their difference, seated apothem fp'',
+    modification x, positioning diameter dp, and the tooth that is cut."""
+
+    teeth: int
+    seated_pitch: float
+    ideal_pitch: float
+    deviation: float
+    seated_apothem: float
+    modification: float
+    positioning_diameter: float
+    tooth: Tooth
+
+
+@dataclass(frozen=True, eq=False)
+class ChainModel:
+    """The drive: `link` holds what moves; offset, apothem and `sides` are the published method's measures, None for a roller chain."""
+
+    spec: Any
+    link: Link
+    offset: float = 0.0
+    standard_apothem: float | None = None
+    cutter: Cutter | None = None
+    sides: tuple | None = None
+    findings: tuple = ()
+
+    @property
+    def teeth(self):
+        """Teeth of the driving and of the driven sprocket."""
+        return self.spec.teeth
+
+    @property
+    def worn(self):
+        """The link as long as wear has made it."""
+        return self.link._replace(hole_pitch=self.link.hole_pitch + self.spec.closure.elongation * self.link.pitch)
+
+    @cached_property
+    def closure(self):
+        """The closed loop over one tooth of the driver."""
+        return close(Drive(self.worn, *self.teeth, self.spec.links, self.spec.closure.strands))
+
+    @cached_property
+    def plate(self):
+        """The plate of a silent chain; InputError where the lengths given leave none."""
+        said = self.spec.plate
+        lengths = {name: value for name in ("back", "toe", "crotch", "crotch_radius") if (value := getattr(said, name)) is not None}
+        return design_plate(self.link, self.pins, thickness=said.thickness, **lengths)
+
+    @property
+    def pins(self):
+        """Pins of the joints and the holes they need."""
+        diameter = self.spec.joint.pin_diameter
+        return default_pins(self.link) if self.link.radius or diameter is None else HingePin(0.5 * diameter)
+
+    @cached_property
+    def sprockets(self):
+        """Both sprockets with all their teeth; InputError where the lengths given leave no teeth."""
+        if self.spec.roller:
+            return tuple(design_roller_sprocket(z, self.spec.pitch, self.spec.roller.diameter, self.spec.roller.tooth_space)
+                         for z in self.teeth)
+        return tuple(self.sprocket(side.teeth, side.tooth) for side in self.sides)
+
+    def sprocket(self, teeth, tooth):
+        """A sprocket for this chain with a given tooth."""
+        said, height = self.spec.cutter, seat_height(self.link, teeth)
+        depths = {"tip_radius": said.tip_depth, "root_radius": said.root_depth}
+        lengths = {name: height - depth for name, depth in depths.items() if depth is not None}
+        lengths |= {
+            name: value for name, value in (("tip_rounding", said.tip_rounding), ("tip_chamfer", said.chamfer)) if value is not None
+        }
+        return replace(design_sprocket(self.link, teeth, self.cutter, **lengths), tooth=tooth)
+
+    @property
+    def chain_width(self):
+        """Width of the pack of plates [m]."""
+        return sum(self.spec.plate.lacing) * self.spec.plate.thickness
+
+
+def build(spec):
+    """The `ChainModel` of a spec."""
+    refuse_contradictions(spec)
+    radius = 0.0 if spec.joint.kind == "revolute" else spec.joint.rolling_radius
+    if spec.roller:
+        return ChainModel(spec, link(spec.pitch, 0.0, spec.plate.flank_angle, 0.0), findings=tuple(unused(spec)))
+    offset = offset_of(spec, radius)
+    angle = spec.plate.flank_angle
+    apothem = spec.plate.apothem
+    if apothem is None:
+        apothem = spec.plate.standard_apothem - meshing.standard_apothem(0.0, radius, offset, angle)
+    standard = meshing.standard_apothem(apothem, radius, offset, angle, spec.meshing.apothem_reference)
+    cutter = matching_cutter(spec.pitch, angle, spec.cutter.half_angle)
+    cutter = cutter if spec.cutter.pitch is None else cutter._replace(pitch=spec.cutter.pitch)
+    sides = tuple(_side(spec, radius, offset, standard, cutter, z) for z in spec.teeth)
+    return ChainModel(spec, link(spec.pitch, radius, angle, apothem), offset, standard, cutter, sides, tuple(unused(spec)))
+
+
+def offset_of(spec, radius):
+    """Offset of the pins [m], as said or by its rule."""
+    said, (z1, z2), ideal = spec.joint.offset, spec.teeth, spec.meshing.ideal
+    if said == "match-drive":
+        return meshing.matching_offset(spec.pitch, radius, z1, ideal)
+    return meshing.minimax_offset(spec.pitch, radius, z1, z2, ideal) if said == "minimax" else said
+
+
+def _side(spec, radius, offset, standard, cutter, teeth):
+    pitch, angle = spec.pitch, spec.plate.flank_angle
+    seated = meshing.seated_pitch(meshing.hole_pitch(pitch, radius), radius, offset, teeth)
+    apothem = meshing.seated_apothem(standard, pitch, seated, angle)
+    shift = meshing.modification(apothem, seated, teeth, angle, *cutter)
+    return Side(
+        teeth,
+        seated,
+        meshing.ideal_pitch(pitch, teeth, spec.meshing.ideal),
+        meshing.pitch_deviation(pitch, radius, offset, teeth, spec.meshing.ideal),
+        apothem,
+        shift,
+        meshing.positioning_diameter(seated, teeth),
+        cut_tooth(teeth, cutter, shift, angle),
+    )

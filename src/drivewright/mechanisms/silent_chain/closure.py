@@ -1,0 +1,73 @@
+"""Centre distance, transmission error and rise of the strands over one tooth, without dynamics."""
+
+import numpy as np
+
+from drivewright.chains.closure import departure
+from drivewright.mechanisms.silent_chain.build import SIDES
+from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
+from drivewright.result import Answer, Check, Column, Table, Value
+
+FREE = 1e-3  # of the taut centre distance: a fixed one that is longer would stretch the chain
+
+
+def closure(model, done):
+    """The closed loop over one tooth of the driving sprocket."""
+    found = model.closure
+    values = {
+        "centre_distance.mean": Value(found.mean, "m", "mean over a tooth, rigid plates, both strands taut"),
+        "centre_distance.fluctuation": Value(found.fluctuation, "m", "greatest less least over a tooth"),
+        "transmission_error": Value(found.transmission_ripple, "rad", "driven angle off the ratio of teeth, greatest less least"),
+        **_sides(model),
+    }
+    checks = [
+        Check(f"wrap.{side}", values[f"wrap.{side}"].value, model.spec.limits.wrap, ">=", "rad",
+              f"angle of the {SIDE_WORDS[side]} that the chain takes in", (side,))
+        for side in SIDES
+    ]
+    return Answer(values, (_table(found),), (*checks, *_fixed(model)), tuple(_remarks(model)), data=found)
+
+
+def no_closure(spec):
+    """Why there is none."""
+    return "it closes a chain around two sprockets; with more of them use the dynamics" if spec.sprockets else None
+
+
+def _sides(model):
+    found = {}
+    for number, side in enumerate(SIDES):
+        leaving = departure(model.worn, model.teeth[number], model.spec.closure.strands)
+        words = SIDE_WORDS[side]
+        wrap = float(np.mean(model.closure.states.wrap[:, number]))
+        found[f"chordal_rise.{side}"] = Value(leaving.rise, "m", f"rise and fall of the strand's force over a tooth of the {words}")
+        found[f"seating_angle.{side}"] = Value(leaving.seating, "rad", f"angle in which a plate comes to its seat on the {words}")
+        found[f"strand_slip.{side}"] = Value(leaving.slip, "m", f"of the strand off a pitch per tooth of the {words}, greatest less least")
+        found[f"wrap.{side}"] = Value(wrap, "rad", f"angle of the {words} that the chain takes in, mean over a tooth")
+    return found
+
+
+def _table(found):
+    seated = found.states.seated
+    return Table("centre_distance", "Centre distance over one tooth of the driving sprocket", (
+        Column("angle", "rad", "angle of the driving sprocket", found.driver_angle),
+        Column("centre_distance", "m", "centre distance", found.centre_distance),
+        Column("transmission_error", "rad", "driven angle off the ratio of teeth", found.transmission_error),
+        Column("seated_drive", "-", "plates seated on the driving sprocket", seated[:, 0].astype(float)),
+        Column("seated_driven", "-", "plates seated on the driven sprocket", seated[:, 1].astype(float))))
+
+
+def _fixed(model):
+    """A fixed centre distance against the taut one."""
+    wanted = model.spec.driven.centre_distance
+    if wanted is not None:
+        yield Check("centre_distance.taut", wanted, model.closure.mean * (1 + FREE), "<=", "m",
+                    "fixed centre distance against that of the taut chain: a longer one overstretches the chain", ("chain",))
+
+
+def _remarks(model):
+    if model.spec.guides:
+        yield "the closure leaves guides out: its strands are free between the sprockets"
+    if model.spec.closure.elongation:
+        yield (
+            f"the chain is {100 * model.spec.closure.elongation:.3g} % longer than its pitch: it rides on the polygon of its own pitch, "
+            "rigid; which flanks it then touches is told by the analysis 'quasi_static'"
+        )

@@ -1,0 +1,119 @@
+"""Pins on each other under the force of a strand: pressure, shear below the surface, shakedown, bending; and the strand's forces."""
+
+import numpy as np
+
+from drivewright.chains.stress import pins, rolling
+from drivewright.errors import InputError
+from drivewright.mechanisms.silent_chain.moving import link_of, undrawn
+from drivewright.result import Answer, Check, Value
+
+
+def no_contact(spec):
+    """Why there is none."""
+    return None if spec.drive or spec.contact.force else "no force is known: write [drive], or [contact] force"
+
+
+def contact(model, done):
+    """Forces of the strands and what they do to the pins."""
+    force = model.spec.contact.force or strand_force(model)
+    findings = [f"the mass of a link is estimated from the pitch: {undrawn(model)}"] if undrawn(model) and not model.spec.roller else []
+    values, checks = {**_strands(model), "pin.force": Value(force, "N", "of the strand, on the pins of a joint")}, []
+    pressed, found = (_rolling if model.link.radius else _hinge)(model, force)
+    values |= pressed
+    checks += found
+    try:
+        bent, safe = _bending(model, force)
+    except InputError as reason:
+        findings.append(f"bending of the pins is left out: {reason}")
+    else:
+        values |= bent
+        checks.append(safe)
+    if model.spec.drive:
+        checks.append(Check("strand.taut", values["strand.slack_force"].value, 0.0, ">=", "N",
+                            "force of the slack strand under preload and load torque, without the centrifugal force", ("chain",)))
+    return Answer(values, (), tuple(checks), tuple(findings))
+
+
+def strand_force(model):
+    """Half the preload, half the load's pull at the pitch circle, and the centrifugal force of the chain [N]."""
+    tight, _ = _pulls(model)
+    return tight + centrifugal(model)
+
+
+def centrifugal(model):
+    """Mass per length times speed squared [N]."""
+    return link_of(model).mass / model.link.pitch * chain_speed(model) ** 2
+
+
+def chain_speed(model):
+    """Mean speed of the chain [m/s]."""
+    return model.spec.drive.speed * model.teeth[0] * model.link.pitch / (2 * np.pi)
+
+
+def _pulls(model):
+    """Of the tight and of the slack strand [N], without the centrifugal force."""
+    drive = model.spec.drive
+    pull = drive.load_torque * 2 * np.pi / (model.teeth[1] * model.link.pitch)
+    return 0.5 * (drive.preload + pull), 0.5 * (drive.preload - pull)
+
+
+def _strands(model):
+    if not model.spec.drive:
+        return {}
+    tight, slack = _pulls(model)
+    return {
+        "chain.speed": Value(chain_speed(model), "m/s", "mean speed of the chain"),
+        "strand.centrifugal_force": Value(centrifugal(model), "N", "mass per length times speed squared"),
+        "strand.tight_force": Value(tight, "N", "that the tight strand pulls with, without the centrifugal force"),
+        "strand.slack_force": Value(slack, "N", "that the slack strand pulls with, without the centrifugal force"),
+    }
+
+
+def _rolling(model, force):
+    said, material = model.spec.joint, model.spec.material
+    found = rolling.rolling_contact(force, said.contact_length, 2 * (model.link.radius,), material.youngs_modulus, material.poisson_ratio)
+    limits = rolling.pressure_limits(material.yield_strength, material.poisson_ratio)
+    return {
+        "pin.contact_pressure": Value(found.pressure, "Pa", "greatest pressure of the pins on each other, Hertz"),
+        "pin.half_width": Value(found.half_width, "m", "half the width of their contact"),
+        "pin.max_shear": Value(found.shear, "Pa", "greatest shear stress below their surface"),
+        "pin.shear_depth": Value(found.depth, "m", "where it is, below the surface"),
+        "pin.first_yield": Value(limits.first_yield, "Pa", "pressure below which nothing yields, von Mises"),
+        "pin.shakedown_limit": Value(limits.shakedown, "Pa", "pressure below which nothing yields again after the first passes"),
+    }, (Check("pin.shakedown", limits.shakedown / found.pressure, model.spec.limits.shakedown_safety, ">=", "-",
+              "shakedown limit of the rolling pins over their contact pressure; a larger rolling radius lowers the pressure", ("chain",)),)
+
+
+def _hinge(model, force):
+    """Mean pressure of a plate's hole, or of the bush, on the one pin."""
+    pressure = force / (2 * model.pins.radius * model.spec.joint.contact_length)
+    return {"pin.bearing_pressure": Value(pressure, "Pa", "force over diameter and contact length of the pin")}, ()
+
+
+def _bending(model, force):
+    """The pin as a beam across the pack of plates."""
+    pack = pins.lacing(*sorted(model.spec.plate.lacing), model.spec.plate.thickness)
+    load = (pins.rolling_pin_load if model.link.radius else pins.hinge_pin_load)(pack, force)
+    found = pins.pin_stress(pins.beam(*load), _section(model))
+    values = {
+        "pin.bending_stress": Value(found.bending, "Pa", "of a pin across the pack of plates"),
+        "pin.shear_stress": Value(found.shear, "Pa", "of a pin across the pack of plates"),
+        "pin.von_mises": Value(found.mises, "Pa", "of bending and shear of a pin"),
+    }
+    safety = model.spec.material.yield_strength / found.mises
+    return values, Check(
+        "pin.yield",
+        safety,
+        model.spec.limits.yield_safety,
+        ">=",
+        "-",
+        "yield strength over von Mises stress of a pin's bending",
+        ("chain",),
+    )
+
+
+def _section(model):
+    """Cross-section of a pin."""
+    shape = model.pins.pin(model.link)
+    round_ones = not model.link.radius or len({piece.radius for piece in shape.pieces}) == 1
+    return pins.round_section(shape.pieces[0].radius) if round_ones else pins.outline_section(shape)

@@ -1,0 +1,134 @@
+"""Plates and sprockets as bodies: measures, walls, teeth, and whether plates meet anything but their seats."""
+
+from contextlib import suppress
+
+import numpy as np
+
+from drivewright.chains.closure import plates, states_at
+from drivewright.chains.interference import plate_gaps, seating_speeds
+from drivewright.chains.plate import mass_per_pitch
+from drivewright.errors import InputError
+from drivewright.mechanisms.silent_chain.build import SIDES
+from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
+from drivewright.result import Answer, Check, Value
+
+POSITIONS = 6  # of the chain in a tooth, at which gaps are looked at
+SPACING, TOLERANCE = 1e-2, 5e-5  # of the points of a plate and of the teeth whose gaps are looked at, over the pitch
+
+
+def geometry(model, done):
+    """Measures of plate and teeth, walls, least gaps of the plates; a body that cannot be is a failed check."""
+    values, checks = {}, []
+    for part, measured in (("plate", _plate), ("sprockets", _sprockets), ("meeting", _meeting)):
+        try:
+            found, passed = measured(model)
+        except InputError as impossible:
+            checks.append(Check(f"geometry.{part}", 0.0, 1.0, ">=", "-", str(impossible), ("chain",), geometry=True))
+            break
+        values |= found
+        checks += passed
+    return Answer(values, (), tuple(checks))
+
+
+def _plate(model):
+    if model.spec.roller:
+        return {}, ()
+    plate, limits, density = model.plate, model.spec.limits, model.spec.material.density
+    back, forward = plate.pins.limits(model.link)
+    values = {
+        "plate.area": Value(plate.moments.area, "m^2", "of a plate, holes taken out"),
+        "plate.mass_per_pitch": Value(mass_per_pitch(plate, model.spec.plate.lacing, density, model.chain_width), "kg",
+                                      "plates and pins of a pitch, from their outlines"),
+        **{f"plate.wall.{name.replace(' ', '_')}": Value(width, "m", f"least wall of the plate, {name}")
+           for name, width in plate.walls().items()},
+    }
+    checks = [Check(f"wall.{name.rpartition('.')[2]}", values[name].value, limits.wall, ">=", "m", values[name].meaning, ("chain",), True)
+              for name in values if name.startswith("plate.wall.")]
+    if np.isfinite(forward):
+        largest = 2 * np.pi / min(model.teeth)
+        values["plate.turn.forward"] = Value(forward, "rad", "angle that a joint can turn around a sprocket")
+        values["plate.turn.backward"] = Value(-back, "rad", "angle that a joint can bend back")
+        checks.append(Check("joint.turn", forward, largest, ">=", "rad", "angle that a joint can turn against that of the smaller sprocket",
+                            ("chain",), True))
+    return values, checks
+
+
+def _sprockets(model):
+    values, checks = {}, []
+    for side, sprocket in zip(SIDES, model.sprockets, strict=True):
+        found = (_roller_teeth if model.spec.roller else _teeth)(model, side, sprocket)
+        values |= found[0]
+        checks += found[1]
+    return values, checks
+
+
+def _radii(side, sprocket):
+    words = f"of the teeth of the {SIDE_WORDS[side]}"
+    return {
+        f"tip_radius.{side}": Value(sprocket.tip_radius, "m", f"tips {words}"),
+        f"root_radius.{side}": Value(sprocket.root_radius, "m", f"roots {words}"),
+        f"tip_thickness.{side}": Value(sprocket.tip_thickness, "m", f"width at the tip {words}"),
+    }
+
+
+def _teeth(model, side, sprocket):
+    words, limits = f"of the teeth of the {SIDE_WORDS[side]}", model.spec.limits
+    low, high = sprocket.contact_margins
+    values = {
+        **_radii(side, sprocket),
+        f"form_radius.{side}": Value(sprocket.form_radius, "m", f"where the involute begins, {words}"),
+        f"tooth_thickness.{side}": Value(sprocket.thickness(sprocket.tooth.contact_radius), "m", f"along the circle of contact, {words}"),
+    }
+    pin = model.spec.cutter.measuring_pin or sprocket.best_pin
+    with suppress(InputError):  # a pin that touches no flank measures nothing
+        over = sprocket.over_pins(pin)
+        values[f"measuring_pin.{side}"] = Value(pin, "m", f"diameter of the measuring pins, {SIDE_WORDS[side]}")
+        values[f"over_pins.{side}"] = Value(over, "m", f"distance over two measuring pins, {SIDE_WORDS[side]}")
+    at = model.plate.contact(sprocket.tooth, "right")
+    flank = np.sort([model.plate.flank("right").start[1], model.plate.flank("right").end[1]])
+    approach, sliding = seating_speeds(model.plate, sprocket.tooth, "right")
+    values[f"seating.approach.{side}"] = Value(approach, "m/rad", f"of a flank to its tooth per angle of the joint, {SIDE_WORDS[side]}")
+    values[f"seating.sliding.{side}"] = Value(sliding, "m/rad", f"of a flank along its tooth per angle of the joint, {SIDE_WORDS[side]}")
+    return values, (
+        Check(f"tip_thickness.{side}", sprocket.tip_thickness, limits.tip_thickness, ">=", "m", f"width at the tip {words}", (side,), True),
+        Check(f"contact.above_form.{side}", low, 0.0, ">=", "m", f"contact of a seated plate above the form radius {words}", (side,), True),
+        Check(f"contact.below_tip.{side}", high, 0.0, ">=", "m", f"contact of a seated plate below the tips {words}", (side,), True),
+        Check(f"contact.on_flank.{side}", min(at[1] - flank[0], flank[1] - at[1]), 0.0, ">=", "m",
+              f"contact of a plate seated on the {SIDE_WORDS[side]} within its flank", (side,), True),
+        Check(f"undercut.{side}", float(sprocket.undercut), 0.0, "<=", "-", f"1 where the hob's tip undercuts the flanks {words}", (side,),
+              True),
+    )
+
+
+def _roller_teeth(model, side, sprocket):
+    check = Check(f"tip_thickness.{side}", sprocket.tip_thickness, model.spec.limits.tip_thickness, ">=", "m",
+                  f"width at the tip of the teeth of the {SIDE_WORDS[side]}", (side,), True)
+    return _radii(side, sprocket), (check,)
+
+
+def _meeting(model):
+    """Least gap of all plates near each sprocket over a tooth of the driver."""
+    if model.spec.roller or model.spec.sprockets:
+        return {}, ()
+    states = states_at(model.closure, np.linspace(0, 2 * np.pi / model.teeth[0], POSITIONS, endpoint=False))
+    poses = plates(model.closure, states)
+    values, checks = {}, []
+    for number, (side, sprocket) in enumerate(zip(SIDES, model.sprockets, strict=True)):
+        least = min(_least_gap(model, sprocket, states, poses, k, number) for k in range(POSITIONS))
+        values[f"least_gap.{side}"] = Value(least, "m", f"of a plate, seated or coming in, to the teeth of the {SIDE_WORDS[side]}")
+        checks.append(Check(f"overlap.{side}", -least, model.spec.limits.overlap, "<=", "m",
+                            f"of a plate, seated or coming in, with the teeth of the {SIDE_WORDS[side]}", (side,), True))
+    return values, checks
+
+
+def _least_gap(model, sprocket, states, poses, k, number):
+    """Least gap at one position: plates whose teeth can reach the sprocket, in its frame, those that stand alike once."""
+    p, centre = model.link.pitch, (0.0, 0.0) if number == 0 else (states.centre_distance[k], 0.0)
+    angle = (states.driver_angle, states.driven_angle)[number][k] - 0.5 * np.pi
+    about = poses[k] - (*centre, 0.0)
+    distance, polar = np.hypot(about[:, 0], about[:, 1]), np.arctan2(about[:, 1], about[:, 0])
+    tooth = np.mod(polar - angle + 1e-6, 2 * np.pi / sprocket.tooth.teeth)
+    alike = np.round(np.stack([distance / p, tooth, np.mod(about[:, 2] - polar, 2 * np.pi)], axis=1), 7)
+    different = np.unique(alike, axis=0, return_index=True)[1]
+    near = about[[row for row in different if distance[row] < sprocket.tip_radius + 1.5 * p]]
+    return min(gap.gap for gap in plate_gaps(model.plate, sprocket, near, angle, SPACING * p, TOLERANCE * p))

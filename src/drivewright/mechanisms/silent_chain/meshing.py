@@ -1,0 +1,101 @@
+"""Chain, sprocket and cutter as published: pitches, deviations, offset, modification."""
+
+import numpy as np
+
+from drivewright.chains import meshing as published
+from drivewright.mechanisms.silent_chain.build import SIDES
+from drivewright.result import Answer, Check, Column, Table, Value
+
+SIDE_WORDS = {"drive": "driving sprocket", "driven": "driven sprocket"}
+TURNS = 121  # points of the curve of the equivalent pitch
+
+
+def meshing(model, done):
+    """All measures of the published method, and its curve of the equivalent pitch."""
+    values = {**_chain(model), **{name: value for k, side in enumerate(SIDES) for name, value in _side(model, side, k).items()}}
+    return Answer(values, (_turning(model),), tuple(_checks(model)), tuple(_remarks(model)))
+
+
+def no_meshing(spec):
+    """Why there is none."""
+    return "the published method is for chains whose plates mesh, not for rollers" if spec.roller else None
+
+
+def _chain(model):
+    pitch, (z1, z2) = model.spec.pitch, model.teeth
+    return {
+        "hole_pitch": Value(model.link.hole_pitch, "m", "distance of the centres of a plate's own pins"),
+        "pin_offset": Value(model.offset, "m", "centres of the pins below the pitch line"),
+        "standard_apothem": Value(model.standard_apothem, "m", "rotation centre on the pitch line to the flank on the same side"),
+        "pitch_deviation.reference": Value(published.reference_deviation(pitch, z1, z2), "m",
+                                           "delta12: difference of the two ideal pitches p/cos(pi/z), drive less driven"),
+        "k": Value(published.pitch_constant(z1, z2), "-", "constant k of the boundary radius"),
+        "rolling_radius.boundary": Value(published.boundary_radius(pitch, z1, z2), "m",
+                                         "r10: radius at which a chain matched to the drive deviates by delta12 on the other sprocket"),
+        "rolling_radius.monotone_limit": Value(published.monotone_radius(pitch, z1), "m",
+                                               "radius below which the equivalent pitch of a matched chain grows up to the drive's seat"),
+    }
+
+
+def _side(model, side, number):
+    found, words = model.sides[number], SIDE_WORDS[side]
+    seated = f"of the seated chain on the {words}"
+    return {
+        f"seated_pitch.{side}": Value(found.seated_pitch, "m", f"equivalent pitch {seated}"),
+        f"ideal_pitch.{side}": Value(found.ideal_pitch, "m", f"pitch without polygonal action in the published measure, {words}"),
+        f"pitch_deviation.{side}": Value(found.deviation, "m", f"seated less ideal pitch, {words}"),
+        f"seated_apothem.{side}": Value(found.seated_apothem, "m", f"apothem {seated}"),
+        f"modification.{side}": Value(found.modification, "-", f"modification coefficient x of the {words}"),
+        f"positioning_diameter.{side}": Value(found.positioning_diameter, "m", f"circle through the rotation centres {seated}"),
+        f"contact_radius.{side}": Value(found.tooth.contact_radius, "m", f"where a seated plate touches the tooth, {words}"),
+        f"curvature_radius.{side}": Value(found.tooth.curvature_radius, "m", f"of the tooth where a seated plate touches it, {words}"),
+        f"base_radius.{side}": Value(found.tooth.base_radius, "m", f"base circle of the {words}"),
+    }
+
+
+def _turning(model):
+    """p'' over the angle between two plates, beside the ideal one."""
+    largest = np.pi / min(model.teeth)
+    half = np.linspace(0, 1.25 * largest, TURNS)
+    pitch = published.equivalent_pitch(model.link.hole_pitch, model.link.radius, model.offset, half, half)
+    return Table("equivalent_pitch", "Equivalent pitch as published", (
+        Column("turn", "rad", "angle between neighbouring plates", 2 * half), Column("pitch", "m", "equivalent pitch p''", pitch),
+        Column("ideal", "m", "ideal pitch p/cos of half the angle", model.spec.pitch / np.cos(half))))
+
+
+def _checks(model):
+    for side, teeth in zip(SIDES, model.teeth, strict=True):
+        yield Check(f"teeth.{side}", float(teeth), float(model.spec.limits.teeth), ">=", "-", f"teeth of the {SIDE_WORDS[side]}", (side,))
+    if model.link.radius:
+        yield Check("offset", abs(model.offset) / model.link.radius, 1.0, "<=", "-",
+                    "offset over rolling radius: beyond 1 the published growth of the pitch has no end", ("chain",))
+
+
+def _remarks(model):
+    spec, (z1, z2) = model.spec, model.teeth
+    yield (
+        f"the offset of {1e3 * model.offset:.4g} mm enters the published measures alone: seats, teeth, centre distance and forces "
+        "do not depend on it, only on rolling radius and flank"
+    )
+    if z1 > z2:
+        yield (
+            f"the driving sprocket has more teeth ({z1}) than the driven one ({z2}): the driven sprocket turns the plates furthest and "
+            "governs the growth of the pitch; delta12 and the deviations change their signs"
+        )
+    if z1 == z2:
+        yield "equal tooth numbers: delta12 is 0, and an offset matched to one sprocket is matched to both"
+    if spec.links % 2 and spec.plate.lacing[0] != spec.plate.lacing[1]:
+        yield (
+            f"an odd number of links ({spec.links}) does not close with plates {spec.plate.lacing[0]} and {spec.plate.lacing[1]} side "
+            "by side in turn: it needs an offset link; the centre distance fluctuates differently too"
+        )
+    base = spec.pitch * np.cos(spec.plate.flank_angle)
+    ours = model.cutter.pitch * np.cos(model.cutter.half_angle)
+    if abs(ours / base - 1) > 1e-9:
+        yield (
+            f"the cutter's base pitch of {1e3 * ours:.6g} mm is not the chain's, {1e3 * base:.6g} mm: the tooth is another involute than "
+            "that of a matching cutter"
+        )
+    if spec.meshing.apothem_reference == "pin":
+        error = model.offset * np.sin(spec.plate.flank_angle)
+        yield f'apothem_reference = "pin": the teeth are cut {1e6 * error:.4g} um per flank off the plates\' real flanks'

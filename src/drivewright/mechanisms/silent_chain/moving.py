@@ -1,0 +1,154 @@
+"""The drive as a moving system: masses, stiffnesses, sprockets, guides; from the spec, in SI."""
+
+import numpy as np
+
+from drivewright.chains.dynamics.model import Chain, Contact, Drive, Guide, Model, Slide, Sprocket
+from drivewright.chains.dynamics.roller import RollerTooth
+from drivewright.chains.link import seat_support
+from drivewright.chains.plate import LinkMass, link_mass
+from drivewright.chains.roller_sprocket import design_roller_sprocket
+from drivewright.chains.sprocket import design_sprocket
+from drivewright.chains.tooth import Tooth
+from drivewright.errors import InputError
+
+IN_LINE = 3  # plate on pin, pin on pin, pin on plate: contacts that make a joint
+ROUGH_PLATE = (1.86, 0.95)  # length and height of a plate that cannot be drawn, over the pitch; its area is a pitch squared
+
+
+def moving(model):
+    """The `Model` of the chain drive for any solver of its motion."""
+    spec = model.spec
+    touch = Contact(spec.contact.stiffness, spec.contact.damping)
+    driven = [_driven(model, touch), *(_further(model, each, touch) for each in spec.sprockets)]
+    guides = tuple(_guide(model, each, touch) for each in spec.guides)
+    return Model(_chain(model), (_driver(model, touch), *driven), guides, spec.drive.gravity)
+
+
+def link_of(model):
+    """`LinkMass` of a pitch of chain: mass [kg], height of its centre [m], inertia [kg m^2]."""
+    said = model.spec.plate
+    drawn = _rough(model) if model.spec.roller or undrawn(model) else _drawn(model)
+    mass = said.link_mass or drawn.mass
+    return LinkMass(mass, drawn.height, said.link_inertia or drawn.inertia * mass / drawn.mass)
+
+
+def undrawn(model):
+    """Why the plate cannot be drawn; empty where it can."""
+    try:
+        return "" if model.plate else ""
+    except InputError as reason:
+        return str(reason)
+
+
+def _drawn(model):
+    """Mean of the two kinds of links in turn."""
+    said, density = model.spec.plate, model.spec.material.density
+    both = [link_mass(model.plate, plates, density, model.chain_width) for plates in said.lacing]
+    return LinkMass(*(0.5 * sum(each) for each in zip(*both, strict=True)))
+
+
+def _rough(model):
+    """Bars of the outer measures of a plate, with a plate's area."""
+    p, spec = model.spec.pitch, model.spec
+    mass = spec.material.density * 0.5 * model.chain_width * p * p
+    return LinkMass(mass, 0.0, mass * (ROUGH_PLATE[0] ** 2 + ROUGH_PLATE[1] ** 2) * p * p / 12)
+
+
+def _chain(model):
+    spec, found = model.spec, link_of(model)
+    flank = {}
+    if not spec.roller and not undrawn(model):
+        heights = np.sort([model.plate.flank("right").start[1], model.plate.flank("right").end[1]])
+        flank = {"toe": -float(heights[0]), "crotch": -float(heights[1])}
+    return Chain(model.link, spec.links, found.mass, found.inertia, spec.contact.stiffness / IN_LINE, spec.contact.joint_damping,
+                 centre_offset=found.height, elongation=spec.closure.elongation, **flank)
+
+
+def _driver(model, touch):
+    speed = model.spec.drive.speed
+    start = 0.0 if model.spec.drive.ramp else -speed
+    return Sprocket(_tooth(model, 0), touch, drive=Drive(-speed, start, model.spec.drive.ramp), **_active(model, 0))
+
+
+def _driven(model, touch):
+    spec, said = model.spec, model.spec.driven
+    mass = said.mass or _disc(model, model.teeth[1])
+    fixed = said.centre_distance
+    slide = None if fixed else Slide(0.0, spec.drive.preload, damping=2 * said.damping_ratio * np.sqrt(_strands(model) * mass))
+    return Sprocket(
+        _tooth(model, 1),
+        touch,
+        (fixed or model.closure.mean, 0.0),
+        mass=mass,
+        inertia=said.inertia or _inertia(model, mass, 1),
+        torque=spec.drive.load_torque,
+        damping=said.rotational_damping,
+        slide=slide,
+        **_active(model, 1),
+    )
+
+
+def _strands(model):
+    """Stiffness of the slide [N/m]: both strands, their joints one behind the other."""
+    free = 0.5 * (model.spec.links - np.mean(np.sum(model.closure.states.seated, axis=1)))
+    return 2 * model.spec.contact.stiffness / IN_LINE / (free + 1)
+
+
+def _tooth(model, number):
+    """The driver's or driven tooth, thicker by what is said."""
+    if model.spec.roller:
+        return _roller_tooth(model.sprockets[number])
+    tooth = model.sides[number].tooth
+    return tooth._replace(support=tooth.support - model.spec.dynamics.thickness_deviation)
+
+
+def _roller_tooth(sprocket):
+    return RollerTooth(sprocket.teeth, sprocket.pitch_radius, sprocket.seat_radius, sprocket.seat_angle, sprocket.flank_radius,
+                       0.5 * sprocket.roller_diameter)
+
+
+def _active(model, number):
+    """Radii between which the teeth are active."""
+    if model.spec.roller:
+        return {"tip_radius": model.sprockets[number].tip_radius}
+    sprocket = model.sprockets[number]
+    return {"tip_radius": sprocket.tip_radius - sprocket.tip_chamfer, "form_radius": sprocket.form_radius}
+
+
+def _further(model, said, touch):
+    """A sprocket that the chain passes besides, with teeth that fit."""
+    mass = said.mass or _disc(model, said.teeth)
+    inertia = said.inertia or 0.5 * mass * _pitch_radius(model, said.teeth) ** 2
+    if model.spec.roller:
+        wheel = design_roller_sprocket(said.teeth, model.spec.pitch, model.spec.roller.diameter, model.spec.roller.tooth_space)
+        active, tooth = {"tip_radius": wheel.tip_radius}, _roller_tooth(wheel)
+    else:
+        wheel = design_sprocket(model.link, said.teeth, model.cutter)
+        tooth = Tooth(said.teeth, wheel.tooth.base_radius, seat_support(model.link, said.teeth))
+        active = {"tip_radius": wheel.tip_radius - wheel.tip_chamfer, "form_radius": wheel.form_radius}
+    return Sprocket(tooth, touch, said.centre, mass=mass, inertia=inertia, torque=said.load_torque, **active)
+
+
+def _guide(model, said, touch):
+    """A rail, or a tensioner on a slide, against the backs or the toes."""
+    plate = None if model.spec.roller else model.plate
+    distance = 0.45 * model.spec.pitch if plate is None else plate.back if said.side == "outside" else -plate.toe
+    slide = None
+    if said.force is not None:
+        direction = said.direction if said.direction is not None else 0.0
+        slide = Slide(direction, said.force, said.stiffness, said.damping)
+    return Guide(said.centre, said.radius, said.start, said.end, said.side, distance, touch, said.friction, mass=said.mass, slide=slide)
+
+
+def _pitch_radius(model, teeth):
+    return 0.5 * model.spec.pitch / np.sin(np.pi / teeth)
+
+
+def _disc(model, teeth):
+    """Mass of a disc as large as the pitch circle and as wide as the chain [kg]."""
+    bore = 0.5 * model.spec.cutter.bore
+    return np.pi * (_pitch_radius(model, teeth) ** 2 - bore**2) * model.chain_width * model.spec.material.density
+
+
+def _inertia(model, mass, number):
+    return 0.5 * mass * (_pitch_radius(model, model.teeth[number]) ** 2 + (0.5 * model.spec.cutter.bore) ** 2)

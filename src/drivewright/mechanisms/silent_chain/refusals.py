@@ -1,0 +1,44 @@
+"""What has no meaning, refused by name; what can be computed is left to the checks."""
+
+from drivewright.errors import SpecError
+
+LEAST_TEETH = 6  # below, a polygon is no sprocket
+
+
+def refuse_nonsense(spec):
+    """SpecError for the first thing that has no meaning."""
+    for number, teeth in enumerate(spec.teeth):
+        if teeth < LEAST_TEETH:
+            raise SpecError(f"{teeth} teeth are too few for a sprocket; take {LEAST_TEETH} or more", f"teeth.{number}")
+    if spec.links <= max(spec.teeth):
+        raise SpecError(
+            f"{spec.links} links are no more than the {max(spec.teeth)} teeth of a sprocket: the chain does not reach around two; "
+            f"take {sum(spec.teeth) // 2 + 4} or more", "links")
+    if min(spec.plate.lacing) < 1:
+        raise SpecError(f"lacing {list(spec.plate.lacing)} has a pitch without a plate; count one or more in each", "plate.lacing")
+
+
+def refuse_contradictions(spec):
+    """SpecError for the first two keys that contradict each other, or one that lacks another."""
+    joint, plate = spec.joint, spec.plate
+    if joint.kind != "revolute" and joint.rolling_radius is None:
+        raise SpecError('a rolling joint needs its radius: give rolling_radius, or take kind = "revolute"', "joint.rolling_radius")
+    if spec.roller is not None:
+        if joint.kind != "revolute":
+            raise SpecError(
+                f'rollers turn on one pin, but kind is {joint.kind!r}; take kind = "revolute", or leave [roller] out', "joint.kind"
+            )
+        if spec.roller.diameter >= spec.pitch:
+            raise SpecError("rollers as large as the pitch overlap; take a smaller one", "roller.diameter")
+        return
+    if (plate.apothem is None) == (plate.standard_apothem is None):
+        how = "neither is" if plate.apothem is None else "both are"
+        raise SpecError(f"give one of apothem (from the hole) and standard_apothem (from the pitch line); {how} given", "plate.apothem")
+
+
+def unused(spec):
+    """Findings for keys that have no effect here."""
+    if spec.joint.kind == "revolute" and spec.joint.rolling_radius is not None:
+        yield "joint.rolling_radius has no effect: a revolute joint does not roll"
+    if spec.joint.kind != "revolute" and spec.joint.pin_diameter is not None:
+        yield "joint.pin_diameter has no effect: the pins of a rolling joint have its rolling_radius"

@@ -1,0 +1,267 @@
+"""What the user says of a chain drive: links, joint, plates, sprockets, drive, how it is computed."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from drivewright.chains.meshing import Ideal
+from drivewright.errors import UnitError, brief
+from drivewright.fatigue.material import StrainLife
+from drivewright.mechanisms.silent_chain.refusals import refuse_nonsense
+from drivewright.spec import Integer, MechanismSpec, Name, Number, Spec
+from drivewright.units import (
+    BY_NAME,
+    Acceleration,
+    Angle,
+    Damping,
+    Density,
+    Dimension,
+    Force,
+    Inertia,
+    Length,
+    Mass,
+    Pressure,
+    RotationalDamping,
+    Speed,
+    Stiffness,
+    Time,
+    Torque,
+)
+
+RULES = ("match-drive", "minimax")
+TURN = 6.283185307179586
+
+
+class _LengthOrRule(Dimension):
+    """A length [m], or the word for a rule that gives it."""
+
+    plain = True
+
+    def parse(self, value):
+        """As `Dimension.parse`, of the wider kind."""
+        if value in RULES:
+            return value
+        try:
+            return BY_NAME["length"].parse(value)
+        except UnitError as error:
+            raise UnitError(f"wants {self.described}, got {brief(value)}") from error
+
+    def text(self, value):
+        return value if value in RULES else BY_NAME["length"].text(value)
+
+    def __get_pydantic_json_schema__(self, schema, handler):
+        return {"type": "string", "examples": ["match-drive", "0.27 mm"], "x-dimension": "length", "x-unit": "mm", "x-si-unit": "m"}
+
+
+LengthOrRule = Annotated[float | str, _LengthOrRule('length, "match-drive" or "minimax"', "m", "mm")]
+
+
+class Joint(Spec):
+    """What joins two plates."""
+
+    kind: Literal["round-pin", "arc", "revolute"] = Field(
+        "round-pin", description="round-pin: two round pins that roll on each other; arc: rockers of a larger radius (classical Hy-Vo); "
+                                 "revolute: one pin, a hinge")
+    rolling_radius: Length | None = Field(None, gt=0, description="of the rolling surfaces; not for a revolute joint", examples=["1.2 mm"])
+    offset: LengthOrRule = Field("match-drive", description="centre of the pins below the pitch line, or its rule: match-drive, minimax; "
+                                                            "a label, nothing physical depends on it")
+    contact_length: Length = Field("6 mm", gt=0, description="length along which the pins touch")
+    pin_diameter: Length | None = Field(None, gt=0, description="of the pin of a revolute joint; a quarter of the pitch unless given",
+                                        examples=["3 mm"])
+
+
+class Plate(Spec):
+    """The toothed link plates of a silent chain."""
+
+    flank_angle: Angle = Field("30 deg", gt=0, lt=TURN / 8, description="of the outer flank from the plate's axis of symmetry")
+    apothem: Length | None = Field(None, description="hole centre to flank on the same side; or give standard_apothem", examples=["2.6 mm"])
+    standard_apothem: Length | None = Field(None, gt=0, description="rotation centre on the pitch line to flank, instead of apothem",
+                                            examples=["3.773 mm"])
+    thickness: Length = Field("2 mm", gt=0, description="of a plate")
+    lacing: tuple[Integer, Integer] = Field((1, 2), description="plates side by side in one pitch and in the next")
+    back: Length | None = Field(None, gt=0, description="height of the back above the pin line; 0.27 pitches unless given",
+                                examples=["2.6 mm"])
+    toe: Length | None = Field(None, lt=0, description="ends of the toes below the pin line; -0.63 pitches unless given",
+                               examples=["-6 mm"])
+    crotch: Length | None = Field(None, lt=0, description="bottom of the crotch below the pin line; -0.15 pitches unless given",
+                                  examples=["-1.4 mm"])
+    crotch_radius: Length | None = Field(None, ge=0, description="rounding of the crotch; 0.06 pitches unless given", examples=["0.6 mm"])
+    link_mass: Mass | None = Field(None, gt=0, description="of a pitch of chain; from plates and pins unless given", examples=["2.5 g"])
+    link_inertia: Inertia | None = Field(
+        None,
+        gt=0,
+        description="of a pitch of chain about its centre of mass; from plates and pins unless given",
+        examples=["6.4e-8 kg m^2"],
+    )
+
+
+class Roller(Spec):
+    """Rollers on the pins: the chain is a roller chain, its sprockets have arcs for teeth."""
+
+    diameter: Length = Field(gt=0, description="of the rollers", examples=["6.35 mm"])
+    tooth_space: Number = Field(0.5, ge=0, le=1, description="form of the sprockets' spaces between the smallest (0) and the largest (1)")
+
+
+class Cutter(Spec):
+    """The hob or rack cutter that makes both sprockets, and the teeth it leaves."""
+
+    half_angle: Angle = Field("30 deg", gt=0, lt=TURN / 8, description="half the angle of its teeth")
+    pitch: Length | None = Field(None, gt=0, description="of its teeth; from the chain's base pitch unless given", examples=["9.525 mm"])
+    tip_rounding: Length | None = Field(None, gt=0, description="of its tip; a quarter of its module, or what has room, unless given",
+                                        examples=["0.5 mm"])
+    tip_depth: Length | None = Field(None, description="tips of the teeth below the pin line of a seated plate; 0.18 pitches unless given",
+                                     examples=["1.7 mm"])
+    root_depth: Length | None = Field(None, gt=0, description="roots of the teeth below it; 0.68 pitches unless given", examples=["6.5 mm"])
+    chamfer: Length | None = Field(None, ge=0, description="of the tips; 0.02 pitches unless given", examples=["0.2 mm"])
+    bore: Length = Field("20 mm", ge=0, description="diameter of the holes of both sprockets, for drawings and masses")
+    measuring_pin: Length | None = Field(None, gt=0, description="diameter; that which touches where the plates do unless given",
+                                         examples=["6 mm"])
+
+
+class Meshing(Spec):
+    """Readings of the published method."""
+
+    ideal: Ideal = Field("seat", description="ideal pitch: seat p/cos(pi/z), the paper's; rack p tan(t)/t, conjugate on the pitch circle")
+    apothem_reference: Literal["pitch_line", "pin"] = Field(
+        "pitch_line", description="where the apothem counts from; pin is the other reading of equation (2), and cuts the teeth too thin")
+
+
+class Drive(Spec):
+    """Speed and loads."""
+
+    speed: Speed = Field(gt=0, description="of the driving sprocket", examples=["2000 rpm"])
+    preload: Force = Field(gt=0, description="outward force on the driven sprocket; each strand carries half of it", examples=["150 N"])
+    load_torque: Torque = Field("0 N m", ge=0, description="that the driven sprocket has to overcome")
+    ramp: Time = Field("0 s", ge=0, description="time in which the speed is reached from rest; 0: the run begins at speed")
+    gravity: tuple[Acceleration, Acceleration] = Field(("0 m/s^2", "0 m/s^2"), description="along x, from the driving to the driven "
+                                                                                            "sprocket, and y")
+
+
+class Driven(Spec):
+    """The driven sprocket as a body."""
+
+    mass: Mass | None = Field(None, gt=0, description="a steel disc as wide as the chain unless given", examples=["0.6 kg"])
+    inertia: Inertia | None = Field(None, gt=0, description="about its axis; m r^2/2 unless given", examples=["9.3e-4 kg m^2"])
+    damping_ratio: Number = Field(0.1, ge=0, description="of its slide, over the critical damping of the sprocket on the strands")
+    rotational_damping: RotationalDamping = Field("0 N m s/rad", ge=0, description="of its bearing")
+    centre_distance: Length | None = Field(None, gt=0, description="a fixed one, instead of the slide under the preload",
+                                           examples=["219.056 mm"])
+
+
+class Sprocket(Spec):
+    """A further sprocket inside the loop."""
+
+    name: Name = Field(description="name", examples=["idler"])
+    teeth: Integer = Field(ge=3, description="teeth", examples=[21])
+    centre: tuple[Length, Length] = Field(description="x, y from the driving sprocket", examples=[["100 mm", "60 mm"]])
+    mass: Mass | None = Field(None, gt=0, description="a steel disc as wide as the chain unless given", examples=["0.3 kg"])
+    inertia: Inertia | None = Field(None, gt=0, description="about its axis; m r^2/2 unless given", examples=["1e-4 kg m^2"])
+    load_torque: Torque = Field("0 N m", description="that it has to overcome")
+
+
+class Guide(Spec):
+    """A curved rail that the plates slide on; sprung, it is a tensioner."""
+
+    name: Name = Field(description="name", examples=["tensioner"])
+    centre: tuple[Length, Length] = Field(description="of its arc: x, y from the driving sprocket", examples=[["110 mm", "350 mm"]])
+    radius: Length = Field(gt=0, description="of its arc", examples=["300 mm"])
+    start: Angle = Field(description="polar angle where the arc begins, counter-clockwise from x", examples=["255 deg"])
+    end: Angle = Field(description="polar angle where it ends", examples=["285 deg"])
+    side: Literal["outside", "inside"] = Field("outside", description="of the loop: touches the backs or the toes of the plates")
+    friction: Number = Field(0.0, ge=0, description="coefficient of Coulomb friction")
+    force: Force | None = Field(None, gt=0, description="of a tensioner, towards the loop; a fixed rail unless given", examples=["50 N"])
+    direction: Angle | None = Field(None, description="in which a tensioner moves", examples=["-90 deg"])
+    stiffness: Stiffness = Field("0 N/m", ge=0, description="of a tensioner's spring")
+    damping: Damping = Field("0 N s/m", ge=0, description="of a tensioner")
+    mass: Mass = Field("50 g", gt=0, description="of a tensioner")
+
+
+class Closure(Spec):
+    """Centre distance and transmission error without dynamics."""
+
+    strands: Literal["straight", "equilibrium"] = Field(
+        "equilibrium", description="straight: free plates in one line; equilibrium: each where the strand's force leaves it")
+    elongation: Number = Field(0.0, ge=-0.02, le=0.05, description="of the chain by wear, relative to its pitch")
+
+
+class Contact(Spec):
+    """Pins on each other, plates on teeth."""
+
+    force: Force | None = Field(None, gt=0, description="of the strand; half the preload plus the centrifugal force unless given",
+                                examples=["200 N"])
+    stiffness: Stiffness = Field("1e5 N/mm", gt=0, description="of a place of contact: flank on tooth, plate on pin, pin on pin; three of "
+                                                               "these in line make a joint")
+    damping: Damping = Field("0 N s/m", ge=0, description="of flank and tooth")
+    joint_damping: Time = Field("2 us", ge=0, description="damping of a joint over its stiffness")
+
+
+class Dynamics(Spec):
+    """The run of the moving chain."""
+
+    integrator: Literal["explicit", "implicit"] = Field(
+        "explicit", description="implicit: for damping too large, or contacts too stiff, for short explicit steps")
+    step: Time | None = Field(None, gt=0, description="of time; 1 us (explicit) unless given", examples=["1 us"])
+    settling: Time = Field("50 ms", ge=0, description="left out of the statistics")
+    duration: Time | None = Field(None, gt=0, description="that is evaluated; a revolution of the chain unless given", examples=["0.25 s"])
+    thickness_deviation: Length = Field("0 mm", description="of all teeth, on each flank, positive: too thick")
+    largest_drift: Number = Field(1e-3, gt=0, description="of the energy balance over the kinetic energy; beyond it the run has failed")
+
+
+class Fatigue(Spec):
+    """Stress and life of the plates."""
+
+    card: StrainLife | None = Field(None, description="strain-life data; estimated from the tensile strength unless given")
+    plane: Literal["max-shear", "max-damage"] = Field(
+        "max-shear", description="critical plane: of the greatest shear strain, exact for one-directional tests; or the most damaged one")
+    fineness: Number = Field(1.0, ge=0.3, le=4, description="of the elements: 2 halves them all")
+
+
+class Limits(Spec):
+    """Requirements; each becomes a check."""
+
+    teeth: Integer = Field(8, ge=3, description="of a sprocket, at least")
+    wrap: Angle = Field("120 deg", ge=0, description="angle of a sprocket that the chain takes in, at least")
+    shakedown_safety: Number = Field(1.0, gt=0, description="shakedown limit of the rolling pins over their contact pressure")
+    yield_safety: Number = Field(1.0, gt=0, description="yield strength over von Mises stress of pins and plates")
+    wall: Length = Field("0.5 mm", ge=0, description="least width of a plate around and between its holes")
+    tip_thickness: Length = Field("0.3 mm", ge=0, description="of the teeth at their tips")
+    overlap: Length = Field("5 um", ge=0, description="of plates with teeth, seated or coming in")
+
+
+class Material(Spec):
+    """Of plates and pins; the values are those of 38CrMoAl, recalled but for the yield strength."""
+
+    youngs_modulus: Pressure = Field("206 GPa", gt=0, description="Young's modulus")
+    poisson_ratio: Number = Field(0.3, gt=-1, lt=0.5, description="Poisson's ratio")
+    density: Density = Field("7850 kg/m^3", gt=0, description="density")
+    yield_strength: Pressure = Field("835 MPa", gt=0, description="yield strength")
+    tensile_strength: Pressure = Field("980 MPa", gt=0, description="tensile strength")
+
+
+class SilentChainSpec(MechanismSpec):
+    """A chain drive."""
+
+    mechanism: Literal["silent-chain"] = Field("silent-chain", description="kind of drive")
+    pitch: Length = Field(gt=0, description="of the straight chain", examples=["9.525 mm"])
+    links: Integer = Field(ge=6, le=2000, description="number of pitches", examples=[82])
+    teeth: tuple[Integer, Integer] = Field(description="of the driving and of the driven sprocket", examples=[[35, 37]])
+    joint: Joint = Field(description="joint")
+    plate: Plate = Field(Plate(), description="plate")
+    roller: Roller | None = Field(None, description="rollers; without them the plates mesh")
+    cutter: Cutter = Field(Cutter(), description="cutter")
+    meshing: Meshing = Field(Meshing(), description="published method")
+    drive: Drive | None = Field(None, description="speed and loads; for contact, dynamics, stress and life")
+    driven: Driven = Field(Driven(), description="driven sprocket")
+    sprockets: tuple[Sprocket, ...] = Field((), description="further sprockets, clockwise after the driven one")
+    guides: tuple[Guide, ...] = Field((), description="guides and tensioners")
+    closure: Closure = Field(Closure(), description="closure")
+    contact: Contact = Field(Contact(), description="contact")
+    dynamics: Dynamics = Field(Dynamics(), description="dynamics")
+    material: Material = Field(Material(), description="material")
+    fatigue: Fatigue = Field(Fatigue(), description="stress and life")
+    limits: Limits = Field(Limits(), description="requirements")
+
+    @model_validator(mode="after")
+    def _has_a_meaning(self):
+        refuse_nonsense(self)
+        return self

@@ -1,0 +1,259 @@
+"""Flat elastic bodies in plane stress (extra `fe`): an outline with holes, loaded along its rim, held by nothing.
+
+A load that is not in balance is balanced by the inertia forces of the rigid motion that it causes (d'Alembert, even density): the body
+flies, and no support disturbs its stresses.  One factorisation serves any number of loads.  Loads are given, and displacements and
+stresses found, at the same integration points of the rim; stresses come raw from the element inside, unaveraged.
+
+Meshes are in millimetres, stiffness in N/mm inside; every number that goes in or comes out is SI.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from drivewright.errors import InputError
+from drivewright.result import Column, Table
+from drivewright.solids.elastic import _subdivision
+from drivewright.solids.loading import load
+from drivewright.solids.plane_mesh import MM, WHAT, matches
+
+ALONG_EDGE = 8  # Gauss points on an edge of an element
+
+
+class Rim(NamedTuple):
+    """Integration points on the boundary of a body.
+
+    name (n,): boundary that they lie on; points (n, 2) [m]; normals (n, 2) out of the material; lengths (n,) [m], the weights of an
+    integral along the rim.
+    """
+
+    name: np.ndarray
+    points: np.ndarray
+    normals: np.ndarray
+    lengths: np.ndarray
+
+
+class Surface(NamedTuple):
+    """points (n, 2) [m], flat triangles (m, 3) of them, counter-clockwise, and stress (L, n, 3) [Pa] there: sxx, syy, sxy."""
+
+    points: np.ndarray
+    triangles: np.ndarray
+    stress: np.ndarray
+
+
+def mises(stress):
+    """Equivalent stress sqrt(sx^2 - sx sy + sy^2 + 3 sxy^2) of stresses (..., 3) in plane stress."""
+    x, y, xy = np.moveaxis(np.asarray(stress, float), -1, 0)
+    return np.sqrt(x**2 - x * y + y**2 + 3 * xy**2)
+
+
+class PlaneBody:
+    """A plate of even thickness [m] on a mesh made by `plane_mesh`; modulus [Pa]; elements of an order from 2 up.
+
+    `rim` is the `Rim` where loads are given and displacements and stresses found.  Fields of displacement are rows of coefficients.
+    """
+
+    def __init__(self, mesh, *, thickness, modulus, poisson, order=4):
+        _check_material(thickness, modulus, poisson, order)
+        self.ng = ng = load("ngsolve", WHAT)
+        ng.SetNumThreads(1)  # the same bits every time
+        self.mesh, self.thickness, self.modulus, self.poisson, self.order = mesh, thickness, modulus, poisson, order
+        self._space = ng.VectorH1(mesh, order=order)
+        self._shape = ng.GridFunction(self._space)
+        self.rim, self._trace = _rim(ng, mesh, self._space.components[0])
+        motions = _rigid_motions(ng, mesh)
+        test = self._space.TestFunction()
+        self._modes = np.array([self._interpolated(motion) for motion in motions])
+        self._masses = np.array([ng.LinearForm(motion * test * ng.dx).Assemble().vec.FV().NumPy().copy() for motion in motions])
+        self._gram = self._modes @ self._masses.T
+        with ng.TaskManager():
+            self._inverse = self._stiffness().mat.Inverse(self._unpinned(), inverse="sparsecholesky")
+
+    @property
+    def unknowns(self):
+        return self._space.ndof
+
+    def raised(self):
+        """The same body on the same mesh with elements one order higher."""
+        return PlaneBody(self.mesh, thickness=self.thickness, modulus=self.modulus, poisson=self.poisson, order=self.order + 1)
+
+    def on(self, pattern):
+        """Which points of the rim (n,) lie on boundaries whose names match a pattern as in "hole0:*"; InputError where none does."""
+        names = np.unique(self.rim.name)
+        found = [name for name in names if matches(pattern, name)]
+        if not found:
+            raise InputError(f"no boundary of the plate matches {pattern!r}; there are {', '.join(names)}")
+        return np.isin(self.rim.name, found)
+
+    def resultant(self, tractions):
+        """Forces (L, 2) [N] and moments about the origin (L,) [N m] of tractions (L, n, 2) [Pa] on the rim."""
+        force = self._forces(tractions)
+        x, y = self.rim.points.T
+        return force.sum(axis=1), (x * force[..., 1] - y * force[..., 0]).sum(axis=1)
+
+    def solve(self, tractions):
+        """Fields (L, unknowns) [m] of displacement, without rigid part, under tractions (L, n, 2) [Pa] on the rim."""
+        force = self._forces(tractions)
+        right = np.concatenate([(self._trace.T @ force[..., axis].T).T for axis in (0, 1)], axis=1)
+        right -= _parts(self._gram, self._modes, right) @ self._masses
+        fields = np.array([self._solved(row) for row in right])
+        return fields - _parts(self._gram.T, self._masses, fields) @ self._modes
+
+    def displacement(self, fields):
+        """Displacement (L, n, 2) [m] of the points of the rim."""
+        half = self._trace.shape[1]
+        return np.stack([(self._trace @ part.T).T for part in (fields[:, :half], fields[:, half:])], axis=-1)
+
+    def stress(self, fields):
+        """Stress (L, n, 3) [Pa], sxx, syy, sxy, at the points of the rim."""
+        at = self.mesh.MapToAllElements(_rule(self.ng)[0], self.mesh.Boundaries(".*"))
+        return self._stresses(fields, self.ng.BoundaryFromVolumeCF(self.ng.Grad(self._shape)), at)
+
+    def surface(self, fields, parts=2):
+        """The `Surface`: stress all over the plate, each triangle of the mesh in parts^2; neighbours share no points."""
+        ng = self.ng
+        grid, local = _subdivision(parts)
+        rule = ng.IntegrationRule(points=[tuple(p) for p in grid / parts], weights=[0.0] * len(grid))
+        at = self.mesh.MapToAllElements({ng.ET.TRIG: rule}, self.mesh.Materials(".*"))
+        points = MM * ng.CF((ng.x, ng.y))(at)
+        triangles = (np.arange(len(points) // len(grid))[:, None, None] * len(grid) + local).reshape(-1, 3)
+        return Surface(points, _counter_clockwise(points, triangles), self._stresses(fields, ng.Grad(self._shape), at))
+
+    def _forces(self, tractions):
+        return self.thickness * self.rim.lengths[:, None] * np.asarray(tractions, float)
+
+    def _solved(self, right):
+        given, found = self._shape.vec.CreateVector(), self._shape.vec.CreateVector()
+        given.FV().NumPy()[:] = right
+        found.data = self._inverse * given
+        return MM * found.FV().NumPy()
+
+    def _stresses(self, fields, gradient, at):
+        vector, found = self._shape.vec.FV().NumPy(), []
+        for field in fields:
+            vector[:] = field / MM
+            found.append(np.asarray(gradient(at)))
+        return self._hooke(np.array(found))
+
+    def _hooke(self, gradient):
+        """Plane stress: E/(1 - nu^2) (exx + nu eyy), likewise y, and E/(1 + nu) exy; gradient (..., 4) row by row."""
+        xx, xy, yx, yy = np.moveaxis(gradient, -1, 0)
+        factor, nu = self.modulus / (1 - self.poisson**2), self.poisson
+        return np.stack([factor * (xx + nu * yy), factor * (yy + nu * xx), factor * (1 - nu) * (xy + yx) / 2], axis=-1)
+
+    def _stiffness(self):
+        """Bilinear form t int s(u) : e(v) in N/mm."""
+        ng, nu = self.ng, self.poisson
+        u, v = self._space.TnT()
+        factor = self.thickness / MM * self.modulus * MM**2 / (1 - nu**2)
+        strain, virtual = ng.Sym(ng.Grad(u)), ng.Sym(ng.Grad(v))
+        form = ng.BilinearForm(self._space, symmetric=True)
+        form += factor * ((1 - nu) * ng.InnerProduct(strain, virtual) + nu * ng.Trace(strain) * ng.Trace(virtual)) * ng.dx
+        with ng.TaskManager():
+            return form.Assemble()
+
+    def _interpolated(self, motion):
+        self._shape.Set(motion)
+        return self._shape.vec.FV().NumPy().copy()
+
+    def _unpinned(self):
+        """All unknowns but three vertex displacements that rigid motions cannot leave at 0: balanced loads do not feel the pins."""
+        corners, half = np.array(self.mesh.ngmesh.Coordinates()), self._space.components[0].ndof
+        first = int(corners[:, 0].argmin())
+        last = int(np.hypot(*(corners - corners[first]).T).argmax())
+        across = 0 if abs(corners[last, 1] - corners[first, 1]) > abs(corners[last, 0] - corners[first, 0]) else half
+        free = self.ng.BitArray(self._space.FreeDofs())
+        for number in (first, half + first, across + last):
+            free.Clear(number)
+        return free
+
+
+def field_table(name, title, surface, columns):
+    """Table for a plot of style "mesh", three rows a triangle: x, y, a depth of 0, and the columns, whose data are at the points."""
+    rows = surface.triangles.ravel()
+    x, y = surface.points[rows].T
+    flat = Column("depth", "m", "flat", np.zeros(len(x)))
+    place = Column("x", "m", "along the plate", x), Column("y", "m", "across the plate", y), flat
+    return Table(name, title, place + tuple(column._replace(data=np.asarray(column.data)[rows]) for column in columns))
+
+
+def order_error(body, tractions):
+    """How far the elements are from the truth under tractions (L, n, 2): the largest change of von Mises stress on the rim by one order
+    more, over the largest such stress, for each load (L,)."""
+    low, high = (mises(one.stress(one.solve(tractions))) for one in (body, body.raised()))
+    return np.abs(high - low).max(axis=1) / high.max(axis=1)
+
+
+# ---------------------------------------------------------------------------------------------------------------------- pieces
+
+
+def _parts(gram, tests, rows):
+    """Amounts (L, 3) that make rows less amounts times the other set have no product with any of the tests (3, n)."""
+    return np.linalg.solve(gram, tests @ rows.T).T
+
+
+def _rigid_motions(ng, mesh):
+    corners = np.array(mesh.ngmesh.Coordinates())
+    (x, y), size = (corners.max(axis=0) + corners.min(axis=0)) / 2, np.ptp(corners, axis=0).max()
+    return [ng.CF((1, 0)), ng.CF((0, 1)), ng.CF((float(y) - ng.y, ng.x - float(x))) / float(size)]
+
+
+def _rule(ng):
+    """Gauss points and weights on the reference edge, as NGSolve wants them and as arrays."""
+    node, weight = np.polynomial.legendre.leggauss(ALONG_EDGE)
+    node, weight = (1 + node) / 2, weight / 2
+    return ng.IntegrationRule(points=[(float(s),) for s in node], weights=[0.0] * ALONG_EDGE), node, weight
+
+
+def _rim(ng, mesh, scalar):
+    """The `Rim` and the sparse matrix that takes a scalar's coefficients to its values there."""
+    rule, node, weight = _rule(ng)
+    at = mesh.MapToAllElements(rule, mesh.Boundaries(".*"))
+    elements = list(scalar.Elements(ng.BND))
+    unknowns = np.array([element.dofs for element in elements])
+    stretch = np.hypot(*np.asarray(ng.specialcf.JacobianMatrix(2, 1)(at)).T).reshape(len(elements), -1)
+    points = MM * np.asarray(ng.CF((ng.x, ng.y))(at))
+    rim = Rim(np.repeat([element.mat for element in elements], len(node)), points, _outward(ng, mesh, elements, points, at),
+              MM * (stretch * weight).ravel())
+    values = _shape_values(ng, scalar, unknowns, node, at)
+    rows = np.broadcast_to(np.arange(len(rim.name)).reshape(len(elements), -1, 1), values.shape)
+    columns = np.broadcast_to(unknowns[:, None, :], values.shape)
+    return rim, csr_array((values.ravel(), (rows.ravel(), columns.ravel())), shape=(len(rim.name), scalar.ndof))
+
+
+def _outward(ng, mesh, elements, points, at):
+    """Unit normals (n, 2) out of the material; the mesher's own point inwards along a hole."""
+    corners = MM * np.array(mesh.ngmesh.Coordinates())
+    insides = np.array([np.mean([corners[v.nr] for v in mesh[mesh[edge.edges[0]].elements[0]].vertices], axis=0) for edge in elements])
+    normals = np.asarray(ng.specialcf.normal(2)(at)).reshape(len(elements), -1, 2)
+    outward = np.sum(normals * (points.reshape(normals.shape) - insides[:, None]), axis=(1, 2)) > 0
+    return np.where(outward[:, None, None], normals, -normals).reshape(-1, 2)
+
+
+def _shape_values(ng, scalar, unknowns, node, at):
+    """Values (edges, points, unknowns of an edge) of the shape functions: linear ones of the two ends, then the edge's own, all edges at
+    once."""
+    shape = ng.GridFunction(scalar)
+    vector = shape.vec.FV().NumPy()
+    values = np.empty((len(unknowns), len(node), unknowns.shape[1]))
+    values[..., 0], values[..., 1] = node, 1 - node
+    for own in range(2, unknowns.shape[1]):
+        vector[:] = 0.0
+        vector[unknowns[:, own]] = 1.0
+        values[..., own] = np.asarray(shape(at)).reshape(len(unknowns), -1)
+    return values
+
+
+def _counter_clockwise(points, triangles):
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    turn = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
+    return np.where(turn[:, None] > 0, triangles, triangles[:, ::-1])
+
+
+def _check_material(thickness, modulus, poisson, order):
+    if not (thickness > 0 and modulus > 0 and -1 < poisson <= 0.5):
+        raise InputError(f"a plate of thickness {thickness:g} m, modulus {modulus:g} Pa and Poisson's ratio {poisson:g}; the first two "
+                         "must be above 0, the last between -1 and 0.5")
+    if order not in range(2, 10):
+        raise InputError(f"elements of order {order}; choose one from 2 to 9")
