@@ -8,13 +8,15 @@ from drivewright.chains import meshing
 from drivewright.chains.closure import Drive, close
 from drivewright.chains.link import Link, link, seat_height
 from drivewright.chains.plate import design_plate
-from drivewright.chains.plate_holes import HingePin, default_pins
+from drivewright.chains.plate_holes import HingePin, RockerPins, RoundPins
 from drivewright.chains.roller_sprocket import design_roller_sprocket
 from drivewright.chains.sprocket import design_sprocket
 from drivewright.chains.tooth import Cutter, Tooth, cut_tooth, matching_cutter
 from drivewright.mechanisms.silent_chain.refusals import refuse_contradictions, unused
 
 SIDES = ("drive", "driven")
+HINGE = 0.125  # radius of a hinge's pin over the pitch
+ROCKER = (0.17, 0.21, 0.02)  # radius of a rocker's back, its thickness, its clearance, over the pitch
 
 
 class Side(NamedTuple):
@@ -68,8 +70,10 @@ class ChainModel:
     @property
     def pins(self):
         """Pins of the joints and the holes they need."""
-        diameter = self.spec.joint.pin_diameter
-        return default_pins(self.link) if self.link.radius or diameter is None else HingePin(0.5 * diameter)
+        said, p = self.spec.joint, self.spec.pitch
+        if said.kind == "revolute":
+            return HingePin(0.5 * said.pin_diameter if said.pin_diameter else HINGE * p)
+        return RoundPins() if said.kind == "round-pin" else RockerPins(*(share * p for share in ROCKER))
 
     @cached_property
     def sprockets(self):

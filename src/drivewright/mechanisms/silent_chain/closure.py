@@ -3,6 +3,7 @@
 import numpy as np
 
 from drivewright.chains.closure import departure
+from drivewright.chains.link import seat_height
 from drivewright.mechanisms.silent_chain.build import SIDES
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.result import Answer, Check, Column, Table, Value
@@ -24,7 +25,7 @@ def closure(model, done):
               f"angle of the {SIDE_WORDS[side]} that the chain takes in", (side,))
         for side in SIDES
     ]
-    return Answer(values, (_table(found),), (*checks, *_fixed(model)), tuple(_remarks(model)), data=found)
+    return Answer(values, (_table(found),), (*checks, _apart(model), *_fixed(model)), tuple(_remarks(model)), data=found)
 
 
 def no_closure(spec):
@@ -53,6 +54,12 @@ def _table(found):
         Column("transmission_error", "rad", "driven angle off the ratio of teeth", found.transmission_error),
         Column("seated_drive", "-", "plates seated on the driving sprocket", seated[:, 0].astype(float)),
         Column("seated_driven", "-", "plates seated on the driven sprocket", seated[:, 1].astype(float))))
+
+
+def _apart(model):
+    """Sprockets as large as their seated pin lines against the centre distance."""
+    room = model.closure.mean - sum(seat_height(model.link, z) for z in model.teeth)
+    return Check("sprockets.apart", room, 0.0, ">=", "m", "centre distance beyond the pin lines of the two sprockets", SIDES, geometry=True)
 
 
 def _fixed(model):

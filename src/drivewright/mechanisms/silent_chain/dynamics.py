@@ -4,9 +4,11 @@ import numpy as np
 
 from drivewright.chains.dynamics.simulate import Settings, simulate, tooth_time
 from drivewright.chains.dynamics.stability import largest_step
+from drivewright.chains.implicit import simulate as implicit
 from drivewright.mechanisms.silent_chain.moving import moving
 from drivewright.result import Answer, Check, Column, Table, Value
 
+IMPLICIT_STEP = 1e-5  # [s]
 STEP, SAFE = 1e-6, 0.5  # [s], and part of the largest stable step, that an explicit run takes unless told otherwise
 ORDERS = 8  # of the mesh frequency, up to which the spectrum is told
 WATCHED = 0
@@ -37,11 +39,18 @@ def dynamics(model, done):
 
 
 def _run(model, system):
+    """The run, by the integrator asked for."""
     said = model.spec.dynamics
     duration = said.settling + (said.duration or model.spec.links * tooth_time(system))
-    step = said.step or min(STEP, SAFE * largest_step(system))
-    settings = Settings(step, settle=said.settling, tolerance=said.largest_drift, plate=WATCHED)
-    return simulate(system, duration, settings)
+    common = {"settle": said.settling, "tolerance": said.largest_drift, "plate": WATCHED}
+    if said.integrator == "implicit":
+        return implicit.simulate(system, duration, implicit.Settings(said.step or IMPLICIT_STEP, **common))
+    return simulate(system, duration, Settings(explicit_step(model, system), **common))
+
+
+def explicit_step(model, system):
+    """Step of an explicit run [s]: as said, else a microsecond, or less where that is not safe."""
+    return model.spec.dynamics.step or min(STEP, SAFE * largest_step(system))
 
 
 def _more(model, motion):

@@ -13,7 +13,7 @@ def refuse_nonsense(spec):
     if spec.links <= max(spec.teeth):
         raise SpecError(
             f"{spec.links} links are no more than the {max(spec.teeth)} teeth of a sprocket: the chain does not reach around two; "
-            f"take {sum(spec.teeth) // 2 + 4} or more", "links")
+            f"take {max(spec.teeth) + 4} or more", "links")
     if min(spec.plate.lacing) < 1:
         raise SpecError(f"lacing {list(spec.plate.lacing)} has a pitch without a plate; count one or more in each", "plate.lacing")
 

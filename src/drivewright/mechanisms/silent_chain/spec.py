@@ -53,6 +53,7 @@ class _LengthOrRule(Dimension):
         return {"type": "string", "examples": ["match-drive", "0.27 mm"], "x-dimension": "length", "x-unit": "mm", "x-si-unit": "m"}
 
 
+Radius = Annotated[Length, Field(ge=0)]
 LengthOrRule = Annotated[float | str, _LengthOrRule('length, "match-drive" or "minimax"', "m", "mm")]
 
 
@@ -207,6 +208,27 @@ class Dynamics(Spec):
     largest_drift: Number = Field(1e-3, gt=0, description="of the energy balance over the kinetic energy; beyond it the run has failed")
 
 
+class Compare(Spec):
+    """Designs beside this one; lists left empty are chosen around it."""
+
+    rolling_radii: tuple[Radius, ...] = Field((), max_length=40, description="rolling radii of the trade-off and of the phase map",
+                                              examples=[["1.0 mm", "1.2 mm", "1.6 mm", "7.4 mm"]])
+    links: tuple[Integer, ...] = Field((), max_length=60, description="numbers of links of the phase map", examples=[[80, 81, 82, 83, 84]])
+    driven_teeth: tuple[Integer, ...] = Field((), max_length=20, description="teeth of the driven sprocket in the phase map",
+                                              examples=[[35, 36, 37]])
+    speeds: tuple[Speed, ...] = Field((), max_length=60, description="speeds of the driving sprocket for the Campbell diagram",
+                                      examples=[["500 rpm", "1000 rpm", "2000 rpm"]])
+
+
+class Scatter(Spec):
+    """Scatter of manufacture, normally distributed: standard deviations."""
+
+    tooth_thickness: Length = Field("2 um", ge=0, description="place of the flanks, all teeth of a sprocket alike")
+    pitch: Length = Field("2 um", ge=0, description="hole pitch of every single plate")
+    samples: Integer = Field(20, ge=3, le=5000, description="drives")
+    seed: Integer = Field(0, ge=0, description="of the random numbers")
+
+
 class Fatigue(Spec):
     """Stress and life of the plates."""
 
@@ -258,6 +280,8 @@ class SilentChainSpec(MechanismSpec):
     contact: Contact = Field(Contact(), description="contact")
     dynamics: Dynamics = Field(Dynamics(), description="dynamics")
     material: Material = Field(Material(), description="material")
+    compare: Compare = Field(Compare(), description="comparisons")
+    scatter: Scatter = Field(Scatter(), description="scatter of manufacture")
     fatigue: Fatigue = Field(Fatigue(), description="stress and life")
     limits: Limits = Field(Limits(), description="requirements")
 

@@ -1,0 +1,187 @@
+"""A drive at rest at every angle of its driver: unilateral contacts, elastic joints and teeth, pitches and tooth thickness as they are."""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.chains.dynamics.model import Model, with_sprocket
+from drivewright.chains.dynamics.stability import refuse_seats
+from drivewright.chains.implicit.parts import ARC, GAP, TOOTH, assembled, at_rest, lower
+from drivewright.chains.implicit.relax import relax, work_for
+from drivewright.errors import InputError, SolverError
+
+_MOST = 1000
+_TOLERANCE = 1e-11  # part of the joint stiffness times the pitch that a force may stay unbalanced by: what rounding leaves, and some
+
+
+@dataclass(frozen=True, eq=False)
+class Equilibrium:
+    """Positions of rest at S even steps of the driver's angle, over whole teeth, the last end left out.
+
+    plates (S, N, 3): mass centres and angles; bodies (S, B, 2): place on the slide and angle of sprockets, then guides;
+    joint_force (S, N, 2): of the joint behind a plate, as it acts on the next one [N]; flank_force (S, N, 2): on the right and the left
+    flank of a plate, or on the seat and the flank of its roller's gap [N]; residual: the largest force left unbalanced [N].
+    """
+
+    model: Model
+    plates: np.ndarray
+    bodies: np.ndarray
+    joint_force: np.ndarray
+    flank_force: np.ndarray
+    residual: float
+
+    @property
+    def driver_angle(self):
+        """(S,)  [rad]."""
+        return self.bodies[:, self.model.driver, 1]
+
+    @property
+    def slide(self):
+        """Number of the first sprocket on a slide, else of the last one."""
+        return next((n for n, s in enumerate(self.model.sprockets) if s.slide), len(self.model.sprockets) - 1)
+
+    def _centre(self, number):
+        sprocket = self.model.sprockets[number]
+        way = np.exp(1j * sprocket.slide.direction) if sprocket.slide else 0.0
+        return complex(*sprocket.centre) + self.bodies[:, number, 0] * way
+
+    @property
+    def centre_distance(self):
+        """Distance of the sliding sprocket from the driver (S,)  [m]."""
+        return np.abs(self._centre(self.slide) - self._centre(self.model.driver))
+
+    @property
+    def mean(self):
+        """Mean centre distance  [m]."""
+        return float(np.mean(self.centre_distance))
+
+    @property
+    def fluctuation(self):
+        """Largest less least centre distance  [m]."""
+        return float(np.ptp(self.centre_distance))
+
+    def transmission_error(self, number):
+        """Angle of a sprocket less that of the driver times the ratio of teeth, its mean taken off (S,)  [rad]."""
+        teeth = [s.tooth.teeth for s in self.model.sprockets]
+        error = self.bodies[:, number, 1] - self.driver_angle * teeth[self.model.driver] / teeth[number]
+        return error - np.mean(error)
+
+    @property
+    def tension(self):
+        """(S, N) size of the joints' forces  [N]."""
+        return np.hypot(self.joint_force[..., 0], self.joint_force[..., 1])
+
+    @property
+    def contacts(self):
+        """(S,) number of flanks that touch."""
+        return np.sum(self.flank_force > 0, axis=(1, 2))
+
+
+class Compliance(NamedTuple):
+    """Mean centre distance of the rigid drive and what its compliance adds  [m]; fluctuation of the rigid drive, estimated  [m]."""
+
+    rigid_mean: float
+    added: float
+    rigid_fluctuation: float
+
+
+def equilibrium(model, positions=48, teeth=1, tolerance=None):
+    """The `Equilibrium` of a model at `positions` angles of the driver per tooth, over `teeth` of them in its sense of rotation.
+
+    tolerance [N]: the largest force left unbalanced.  SolverError where a position does not come to rest, with those before it.
+    """
+    _refuse(model, positions, teeth)
+    refuse_seats(model)
+    parts = lower(model)
+    work, state = work_for(parts), at_rest(*assembled(model)[:2])
+    small = _TOLERANCE * model.chain.joint_stiffness * model.chain.link.pitch if tolerance is None else tolerance
+    relax(_endless(parts), state, work, small, _MOST)  # flanks of any length: nothing is lost on the way from the assembly
+    step, found, driver = _step(model, positions), [], model.driver
+    for k in range(positions * teeth):
+        residual, _ = relax(parts, state, work, small, _MOST)
+        if not residual <= small:
+            raise SolverError(_restless(model, k, positions, residual, small), partial=_result(model, found) if found else None)
+        found.append((state.plates.copy(), state.bodies.copy(), parts.field.joints.copy(), _flanks(parts), residual))
+        state = _continued(state, found)
+        state.bodies[driver, 1] = found[0][1][driver, 1] + (k + 1) * step
+    return _result(model, found)
+
+
+def compliance_of(model, positions=24, factor=8.0):
+    """The `Compliance` of a drive, from its equilibrium and that with all stiffnesses `factor` times higher.
+
+    What contact and joints add is of first order in 1/k: rigid = (factor stiff - soft)/(factor - 1).
+    """
+    soft, stiff = equilibrium(model, positions), equilibrium(stiffened(model, factor), positions)
+    rigid = stiff.mean + (stiff.mean - soft.mean) / (factor - 1)
+    ripple = stiff.fluctuation + (stiff.fluctuation - soft.fluctuation) / (factor - 1)
+    return Compliance(rigid, soft.mean - rigid, ripple)
+
+
+def stiffened(model, factor):
+    """The model with its joints, teeth and guides stiffer by a factor."""
+    for number, sprocket in enumerate(model.sprockets):
+        contact = replace(sprocket.contact, stiffness=factor * sprocket.contact.stiffness)
+        model = with_sprocket(model, number, contact=contact)
+    guides = tuple(replace(g, contact=replace(g.contact, stiffness=factor * g.contact.stiffness)) for g in model.guides)
+    return replace(model, chain=replace(model.chain, joint_stiffness=factor * model.chain.joint_stiffness), guides=guides)
+
+
+def thickened(model, number, thickness):
+    """The model with every flank of one sprocket standing out by `thickness` [m], against the plates."""
+    tooth = model.sprockets[number].tooth
+    return with_sprocket(model, number, tooth=tooth._replace(support=tooth.support - thickness))
+
+
+def _endless(parts):
+    """The same drive with flanks of any length."""
+    bodies = parts.bodies.copy()
+    bodies["low"][bodies["kind"] == TOOTH] = -np.inf
+    bodies["low"][bodies["kind"] == GAP] = np.inf
+    return parts._replace(bodies=bodies, chain=parts.chain._replace(deepest=-np.inf, highest=np.inf))
+
+
+def _step(model, positions):
+    """From one position to the next, in the sense of the drive, or as the plates are numbered."""
+    sprocket = model.sprockets[model.driver]
+    sense = np.sign(sprocket.drive.speed or sprocket.drive.start or -1.0)
+    return sense * 2 * np.pi / (sprocket.tooth.teeth * positions)
+
+
+def _continued(state, found):
+    """A guess of the next position: on as before."""
+    if len(found) < 2:
+        return state
+    return at_rest(2 * found[-1][0] - found[-2][0], 2 * found[-1][1] - found[-2][1])
+
+
+def _flanks(parts):
+    """(N, 2) forces on both flanks of every plate; guides left out."""
+    forces, pairs = np.zeros((len(parts.half), 2)), parts.pairs[: parts.size[0]]
+    teeth = pairs[parts.bodies["kind"][pairs["body"]] != ARC]
+    forces[teeth["plate"]] = np.column_stack([teeth["right"], teeth["left"]])
+    return forces
+
+
+def _result(model, found):
+    plates, bodies, joints, flanks, residual = zip(*found, strict=True)
+    return Equilibrium(model, *map(np.array, (plates, bodies, joints, flanks)), float(max(residual)))
+
+
+def _restless(model, k, positions, residual, small):
+    return (
+        f"chain drive: at position {k} of {positions} per tooth {residual:.3g} N stay unbalanced, more than {small:.3g} N. "
+        "A plate may rest on the edge of a flank (raise tip_radius or toe), or the loads leave the chain slack (raise the slide's force)."
+    )
+
+
+def _refuse(model, positions, teeth):
+    if not isinstance(model, Model):
+        raise InputError(f"equilibrium: wants a chain drive's Model, got {type(model).__name__}.")
+    for name, value in (("positions", positions), ("teeth", teeth)):
+        if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < 1:
+            raise InputError(f"equilibrium: {name} = {value!r}; it must be a whole number from 1 up.")
+    free = [n for n, s in enumerate(model.sprockets, 1) if s.slide and not s.slide.force and not s.slide.stiffness]
+    if free:
+        raise InputError(f"equilibrium: nothing holds the slide of sprocket {free[0]}; give it a force or a stiffness.")

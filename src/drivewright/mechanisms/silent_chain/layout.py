@@ -1,0 +1,55 @@
+"""The drive by formula: length of the chain, pitch circles, wraps, unevenness, strands as moving strings."""
+
+import numpy as np
+
+from drivewright.chains import standards
+from drivewright.errors import InputError
+from drivewright.mechanisms.silent_chain.build import SIDES
+from drivewright.mechanisms.silent_chain.contact import chain_speed, strand_force
+from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
+from drivewright.mechanisms.silent_chain.moving import link_of
+from drivewright.result import Answer, Value
+
+MODES = 2  # of a strand that are told
+
+
+def layout(model, done):
+    """Formulas of the field, for two sprockets; of each sprocket alone for more."""
+    values = {name: value for k, side in enumerate(SIDES) for name, value in _side(model, side, k)}
+    findings = []
+    if not model.spec.sprockets:
+        try:
+            values |= _pair(model)
+        except InputError as reason:
+            findings.append(f"layout by pitch circles is left out: {reason}")
+    return Answer(values, (), (), tuple(findings))
+
+
+def _side(model, side, number):
+    teeth, pitch, words = model.teeth[number], model.spec.pitch, SIDE_WORDS[side]
+    yield f"layout.pitch_diameter.{side}", Value(standards.pitch_diameter(pitch, teeth), "m", f"pitch circle of the {words}")
+    yield f"layout.speed_fluctuation.{side}", Value(standards.speed_fluctuation(teeth), "-",
+                                                    f"of a hinged chain on the {words}: greatest less least speed, over the mean")
+    if model.spec.roller:
+        over = standards.over_pins(pitch, teeth, model.spec.roller.diameter)
+        yield f"over_pins.{side}", Value(over, "m", f"distance over two measuring pins as thick as the rollers, {words}")
+
+
+def _pair(model):
+    spec, (z1, z2), pitch = model.spec, model.teeth, model.spec.pitch
+    distance = float(standards.centre_distance(pitch, z1, z2, spec.links))
+    values = {
+        "layout.chain_length": Value(spec.links * pitch, "m", "pitch times links"),
+        "layout.centre_distance": Value(distance, "m", "by pitch circles"),
+        "layout.strand_length": Value(standards.strand_length(pitch, z1, z2, distance), "m", "of a free strand"),
+    }
+    if spec.drive:
+        force, density = strand_force(model), link_of(model).mass / pitch
+        speed = chain_speed(model)
+        for mode in range(1, MODES + 1):
+            frequency = standards.strand_frequency(force, density, values["layout.strand_length"].value, speed, mode)
+            values[f"layout.strand_frequency.{mode}"] = Value(frequency, "Hz", f"mode {mode} of a strand across, as a moving string")
+        values["layout.mesh_frequency"] = Value(spec.drive.speed * z1 / (2 * np.pi), "Hz", "teeth that mesh in a second")
+        values["layout.meeting_velocity"] = Value(standards.meeting_velocity(pitch, spec.drive.speed), "m/s",
+                                                  "with which a hinged link meets the driving sprocket")
+    return values

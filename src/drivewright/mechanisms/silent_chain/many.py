@@ -1,0 +1,95 @@
+"""Many runs of the moving chain: over speed, and over the scatter of manufacture; and the chain at rest at many angles."""
+
+import numpy as np
+
+from drivewright.chains.dynamics.simulate import Settings, tooth_time
+from drivewright.chains.dynamics.sweep import Scatter, campbell, monte_carlo
+from drivewright.chains.implicit.equilibrium import compliance_of, equilibrium
+from drivewright.mechanisms.silent_chain.dynamics import explicit_step
+from drivewright.mechanisms.silent_chain.moving import moving
+from drivewright.result import Answer, Column, Table, Value
+
+SPEEDS = 12  # of the Campbell diagram, unless told otherwise, up to
+BEYOND = 1.5  # times the design's speed
+TEETH = 60  # of a run of the Campbell diagram
+POSITIONS = 24  # in a tooth, at rest
+PERCENTILES = (5, 50, 95)
+
+
+def speeds(model, done):
+    """Fluctuation and mesh order over the speed, and the spectra: a Campbell diagram."""
+    drive, said = model.spec.drive, model.spec.compare.speeds
+    chosen = np.array(said) if said else drive.speed * BEYOND * np.arange(1, SPEEDS + 1) / SPEEDS
+    system = moving(model)
+    found = campbell(system, -chosen, TEETH, settings=_settings(model, system))
+    rows = [(-row.case, row.value) for row in found.rows if row.value is not None]
+    findings = tuple(f"at {-row.case * 30 / np.pi:.4g} rpm: {row.reason}" for row in found.failed)
+    if not rows:
+        return Answer(findings=findings, outcome="partial")
+    table = Table("speeds", "Centre distance over the speed", (
+        Column("speed", "rad/s", "speed of the driving sprocket", np.array([speed for speed, _ in rows])),
+        Column("mean", "m", "mean centre distance", np.array([level.mean for _, level in rows])),
+        Column("fluctuation", "m", "greatest less least centre distance", np.array([level.fluctuation for _, level in rows])),
+        *(Column(f"mesh_order_{k + 1}", "m", f"amplitude at {k + 1} times the mesh frequency",
+                 np.array([level.amplitudes[k] for _, level in rows])) for k in range(3)),
+        Column("tension", "N", "greatest tension in a joint", np.array([level.tension for _, level in rows]))))
+    lines = [(speed, f, a) for speed, level in rows for f, a in zip(level.frequency, level.spectrum, strict=True)]
+    speed, frequency, amplitude = np.array(lines).T
+    diagram = Table("campbell", "Campbell diagram of the centre distance", (
+        Column("speed", "rad/s", "speed of the driving sprocket", speed), Column("frequency", "Hz", "frequency", frequency),
+        Column("amplitude", "m", "amplitude of the centre distance", amplitude)))
+    return Answer({}, (table, diagram), (), findings)
+
+
+def scatter(model, done):
+    """Percentiles of mean and fluctuation of the centre distance over drives as they come from manufacture."""
+    system, said = moving(model), model.spec.scatter
+    settings = _settings(model, system)
+    duration = settings.settle + model.spec.links * tooth_time(system)
+    found = monte_carlo(system, Scatter(said.tooth_thickness, said.pitch), said.samples, duration, settings, PERCENTILES, said.seed)
+    values = {}
+    for k, percent in enumerate(PERCENTILES):
+        values[f"scatter.mean.p{percent:02d}"] = Value(found.mean[k], "m", f"mean centre distance, {percent} % of the drives are below")
+        values[f"scatter.fluctuation.p{percent:02d}"] = Value(found.fluctuation[k], "m",
+                                                              f"fluctuation of the centre distance, {percent} % are below")
+    rows = [row.value for row in found.outcomes.rows if row.value is not None]
+    table = Table(
+        "scatter",
+        "Drives as they come from manufacture",
+        (
+            Column("drive", "-", "drive", np.arange(float(len(rows)))),
+            Column("mean", "m", "mean centre distance", np.array([r.mean for r in rows])),
+            Column("fluctuation", "m", "of the centre distance", np.array([r.fluctuation for r in rows])),
+        ),
+    )
+    findings = tuple(f"drive {row.case}: {row.reason}" for row in found.outcomes.failed)
+    return Answer(values, (table,), (), findings)
+
+
+def quasi_static(model, done):
+    """The loaded chain at rest, teeth and joints elastic, flanks that press only: also with thick teeth and a worn chain."""
+    system = moving(model)
+    found, rigid = equilibrium(system, POSITIONS), compliance_of(system, POSITIONS)
+    error = found.transmission_error(1)
+    values = {
+        "quasi_static.centre_distance.mean": Value(found.mean, "m", "mean centre distance under load, at rest"),
+        "quasi_static.centre_distance.fluctuation": Value(found.fluctuation, "m", "greatest less least over a tooth"),
+        "quasi_static.centre_distance.rigid": Value(rigid.rigid_mean, "m", "the mean with the compliance taken off"),
+        "quasi_static.transmission_error": Value(np.ptp(error), "rad", "driven angle off the ratio of teeth, greatest less least"),
+        "quasi_static.flank_force.maximum": Value(np.max(found.flank_force), "N", "greatest force on a flank of a plate"),
+    }
+    table = Table("quasi_static", "The loaded chain at rest over a tooth", (
+        Column("angle", "rad", "angle of the driving sprocket", np.abs(found.driver_angle - found.driver_angle[0])),
+        Column("centre_distance", "m", "centre distance", found.centre_distance),
+        Column("transmission_error", "rad", "driven angle off the ratio of teeth", error),
+        Column("contacts", "-", "flanks that touch", found.contacts.astype(float))))
+    plates = Table("plate_forces", "Forces in the chain at rest, plate by plate", (
+        Column("plate", "-", "plate, clockwise from the driving sprocket", np.arange(float(found.tension.shape[1]))),
+        Column("tension", "N", "of the joint behind the plate", found.tension[0]),
+        Column("right_flank", "N", "force on the right flank", found.flank_force[0, :, 0]),
+        Column("left_flank", "N", "force on the left flank", found.flank_force[0, :, 1])))
+    return Answer(values, (table, plates))
+
+
+def _settings(model, system):
+    return Settings(explicit_step(model, system), settle=model.spec.dynamics.settling, tolerance=model.spec.dynamics.largest_drift)
