@@ -9,7 +9,10 @@ from drivewright.spec import read_document
 
 DOCS = Path(__file__).parent
 PAGES = ("motion", "curves", "gears", "cams", "contact", "bearings.ball", "bearings.roller", "bearings.solving", "bearings.quick",
-         "bearings.catalogue", "shafts.model", "shafts.equilibrium", "shafts.influence", "shafts.vibration", "shafts.batch", "materials",
+         "bearings.catalogue", "shafts.model", "shafts.equilibrium", "shafts.influence", "shafts.vibration", "shafts.batch", "chains.link",
+         "chains.meshing", "chains.tooth", "chains.plate", "chains.sprocket", "chains.closure.drive", "chains.dynamics.model",
+         "chains.dynamics.simulate", "chains.implicit.equilibrium", "chains.standards", "fatigue.material", "fatigue.critical",
+         "fatigue.rainflow", "fatigue.curves", "materials",
          "units", "spec", "result", "scene", "errors")
 
 
