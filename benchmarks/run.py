@@ -8,6 +8,7 @@ import tempfile
 import time
 from pathlib import Path
 
+import chains
 import indexing
 import linkages
 import numpy as np
@@ -180,6 +181,7 @@ SECTIONS = (
     ("Slider-crank with play: bifurcation diagram", linkages.bifurcation),
     *shafts.SECTIONS,
     *indexing.SECTIONS,
+    *chains.SECTIONS,
 )
 
 

@@ -96,7 +96,7 @@ class Plot(NamedTuple):
     `limits` are (value, label) lines; a value that is text names a check whose limit is drawn, with "-" in front its negative.
     `reference` names the columns that the y columns are compared with, in the same order; they are dashed.
     Style "mesh" (with `equal`) draws a surface seen from the side, three rows of the table a triangle, corners counter-clockwise as seen
-    from outside: x to the right; y names the columns (up, away from the viewer, length that the colour shows); reference names
+    from outside: x to the right; y names the columns (up, away from the viewer, what the colour shows); reference names
     (right, up) of the same surface before, whose silhouette is dashed.
     """
 

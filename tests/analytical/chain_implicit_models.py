@@ -36,15 +36,17 @@ def small(**changes):
 
 def with_guides(model):
     """A guide on the back and a sliding one on the belly of plates of both strands, pressed in by 20 um."""
-    begin = start(model)
-    places = (begin.seated[0][-1] + 3, "outside"), (begin.seated[1][-1] + 2, "inside")
-    return replace(model, guides=tuple(_guide(begin.poses[number], side) for number, side in places))
+    for _ in range(2):  # with guides the chain starts a little slack, so they are placed once more
+        begin = start(model)
+        places = (begin.seated[0][-1] + 3, "outside"), (begin.seated[1][-1] + 2, "inside")
+        model = replace(model, guides=tuple(_guide(begin.poses[number], side) for number, side in places))
+    return model
 
 
 def _guide(pose, side):
     out = np.array([-np.sin(pose[2]), np.cos(pose[2])]) * (1 if side == "outside" else -1)
     polar = np.arctan2(-out[1], -out[0])
-    return Guide(tuple(pose[:2] + out * (80e-3 + 1.2e-3 - 2e-5)), 80e-3, polar - 1.0, polar + 1.0, side, 1.2e-3, Contact(1e7), 0.3, 0.05,
+    return Guide(tuple(pose[:2] + out * (80e-3 + 1.2e-3 - 2e-5)), 80e-3, polar - 0.06, polar + 0.06, side, 1.2e-3, Contact(1e7), 0.3, 0.05,
                  mass=0.1, slide=Slide(0.9, 3.0, 1e3, 2.0))
 
 

@@ -8,6 +8,8 @@ import pytest
 from scipy.optimize import minimize
 
 from drivewright.chains.closure import Drive, close, departure, phase_map, states_at
+from drivewright.chains.closure.measures import measure
+from drivewright.chains.closure.strand import decay, plate_directions
 from drivewright.chains.link import chordal_rise, link
 
 P = 9.525e-3
@@ -183,3 +185,25 @@ def test_no_other_shape_of_the_chain_reaches_further(radius, teeth, links, where
     psi_2, distance = greatest_distance(joint, teeth, links, angle, *near, *seats, upper)
     assert distance == pytest.approx(states.centre_distance[0], abs=1e-12)
     assert psi_2 == pytest.approx(states.driven_angle[0], abs=1e-8)
+
+
+def test_a_bend_dies_away_along_a_strand_by_one_factor():
+    """Of small turns: r (1 + x^2) = 2 (A - r) x, from the equilibrium of a plate between its neighbours."""
+    for A, r in ((11.925, 1.2), (24.325, 7.4)):
+        x = decay(A, r)
+        assert 0 < x < 1
+        assert r * (1 + x**2) == pytest.approx(2 * (A - r) * x, rel=1e-13)
+        bend = plate_directions(A, r, True, 40, 1e-3, 0.0)
+        np.testing.assert_allclose(bend[1:7] / bend[:6], x, rtol=1e-5)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("tilt", [0.0, 0.4, -0.4])
+def test_both_extremes_of_one_cubic_are_found(sign, tilt):
+    """sign (x^3 - x) + tilt x^2 + 3 over -1.2 .. 1.1 in one piece: its extremes lie at the roots of the slope, whichever is taken first."""
+    curve = np.polynomial.Polynomial([3.0, -sign, tilt, sign])
+    x = np.array([-1.2, 1.1])
+    found = measure(x, curve(x), curve.deriv()(x), curve.deriv()(x))
+    ends = curve(np.concatenate([x, curve.deriv().roots()]))
+    area = np.diff(curve.integ()(x))[0]
+    assert found == pytest.approx((area / 2.3, ends.min(), ends.max()), rel=1e-13)

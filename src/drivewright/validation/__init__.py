@@ -9,6 +9,7 @@ from drivewright.validation import (
     clearance_joints,
     elliptic_gears,
     folding_linkage,
+    hyvo_paper,
     indexer_paper,
     modified_sine_help,
     motion_factors,
@@ -20,7 +21,7 @@ from drivewright.validation.source import AGREES, EXPLAINED, KINDS, OPEN, Explan
 
 OURS = (
     pusher_paper.source, motion_factors.source, modified_sine_help.source, elliptic_gears.source, folding_linkage.source,
-    clearance_joints.source, shaft_paper.source, indexer_paper.source)
+    clearance_joints.source, shaft_paper.source, indexer_paper.source, hyvo_paper.source)
 
 __all__ = ["AGREES", "EXPLAINED", "Explanation", "KINDS", "OPEN", "Printed", "Row", "Source", "page", "rounded", "sources"]
 

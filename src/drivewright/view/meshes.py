@@ -1,4 +1,4 @@
-"""A closed triangle surface seen from the side: nearest triangles last, coloured by a length, lightly shaded, its shape before dashed."""
+"""A closed triangle surface seen from the side: nearest triangles last, coloured by a quantity, lightly shaded, its shape before dashed."""
 
 import numpy as np
 

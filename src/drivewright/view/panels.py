@@ -166,9 +166,10 @@ def _panel(plot, x, series, label, limits, shade):
 
 
 def _mesh_panel(plot, table):
-    """The panel of a surface: series up, depth and colour [um], then the dashed right and up of the surface before."""
+    """The panel of a surface: series up, depth and colour (lengths in um), then the dashed right and up of the surface before."""
     up, depth, colour = (_series(table[name]) for name in plot.y)
-    colour = colour._replace(unit="µm", data=np.asarray(table[plot.y[2]].data) * 1e6)
+    if table[plot.y[2]].unit == "m":
+        colour = colour._replace(unit="µm", data=np.asarray(table[plot.y[2]].data) * 1e6)
     before = tuple(_series(table[name], dashed=True) for name in plot.reference)
     label = axis_label(up.label, up.unit)
     return Panel(plot.title, label, _series(table[plot.x]), (up, depth, colour, *before), (), *span([up.data]), True, "mesh")

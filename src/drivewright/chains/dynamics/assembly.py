@@ -1,7 +1,7 @@
 """Where everything is at the start: seated plates on the sprockets' polygons, straight strands between them, all moving as if rigid.
 
 Plates leave sprocket j in the direction beta_j towards sprocket j + 1.  Unknown are the directions, the angles of all sprockets but the
-first, and what lets the loop close: the first slide, or without one an even stretch of all free joints.
+first, and what lets the loop close: the first slide, or without one an even change of the hole pitches of all free plates.
 """
 
 from dataclasses import dataclass
@@ -13,12 +13,17 @@ from drivewright.chains.link import seat_height
 from drivewright.errors import DoesNotAssemble, InputError, SolverError
 from drivewright.numerics.roots import newton
 
+TIGHT, SLACK = 2e-3, 0.03  # parts of its length by which a chain may miss a loop that nothing adjusts, and that guides may take up
 STEP = 1e-7  # of differences, in lengths of the pitch and in angles
 
 
 @dataclass(frozen=True)
 class Start:
-    """Poses and rates of the plates (N, 3) from the first one seated on sprocket 1; q and psi (m,) of the sprockets with their rates."""
+    """Poses and rates of the plates (N, 3) from the first one seated on sprocket 1; q and psi (m,) of the sprockets with their rates.
+
+    hole_pitches (N,) with which the loop closes, supports (m,) of teeth that these plates just touch; speed of the chain along x of its
+    plates; tension.
+    """
 
     poses: np.ndarray
     rates: np.ndarray
@@ -28,6 +33,9 @@ class Start:
     rate_psi: np.ndarray
     seated: tuple  # numbers of the plates on each sprocket
     tension: float
+    hole_pitches: np.ndarray
+    supports: np.ndarray
+    speed: float
 
 
 @dataclass(frozen=True)
@@ -40,7 +48,7 @@ class _Loop:
     centre: np.ndarray  # (m,) complex
     slide: int | None
     direction: complex
-    taut: float  # stretch of the free joints by the tension
+    taut: float  # stretch of the joints of free plates by the tension
 
     def centres(self, q):
         moved = self.centre.copy()
@@ -48,27 +56,40 @@ class _Loop:
             moved[self.slide] += q * self.direction
         return moved
 
+    def parts(self, extra):
+        """(place of the slide, change of the free plates' pitch) of what lets the loop close."""
+        return (extra, 0.0) if self.slide is not None else (0.0, extra)
+
     @property
     def phi(self):
         return 2 * np.pi / self.teeth
 
+    @property
+    def gap(self):
+        """Distance of the pins of a joint under tension."""
+        return 2 * self.link.radius - self.taut
 
-def start(model):
-    """The `Start` of a model; DoesNotAssemble where the chain fits at no place of the slide."""
+
+def start(model, before=0.0):
+    """The `Start` of a model, `before` [s] ahead of sprocket 1 being at its angle; DoesNotAssemble where the chain fits at no place of the
+    slide."""
     loop = _loop(model, 0.0)
-    q = _slid(loop, model.chain.count)
+    q = _slid(loop, model.chain.count, SLACK if model.guides else 0.0)
     speed = _speeds(model)
     chain_speed = _chain_speed(model, speed)
     tension = _tension(model, loop, q, chain_speed)
     loop = _loop(model, tension / model.chain.joint_stiffness)
-    seats, free, guess = _seats(loop, model, q)
+    seats, free, guess = _seats(loop, model, q, before * speed[0])
     beta, psi, extra = _closed(loop, seats, free, guess)
     poses, seated = _poses(loop, seats, free, beta, psi, extra)
-    rates = _rates(poses, seated, loop.centres(extra if loop.slide is not None else 0.0), speed, chain_speed)
-    places = np.zeros(len(psi))
+    q, more = loop.parts(extra)
+    rates = _rates(poses, seated, loop.centres(q), speed, chain_speed)
+    places, pitches = np.zeros(len(psi)), np.full(len(poses), loop.link.hole_pitch + more)
     if loop.slide is not None:
-        places[loop.slide] = extra
-    return Start(poses, rates, places, psi, np.zeros(len(psi)), speed, seated, tension)
+        places[loop.slide] = q
+    pitches[np.concatenate(seated)] = loop.link.hole_pitch
+    supports = loop.link.flank - loop.height * np.sin(loop.link.flank_angle)
+    return Start(poses, rates, places, psi, np.zeros(len(psi)), speed, seated, tension, pitches, supports, -np.sign(speed[0]) * chain_speed)
 
 
 def _loop(model, taut):
@@ -105,10 +126,12 @@ def _links(loop, q):
     return np.sum(length) / loop.link.pitch + np.sum(_wraps(beta) / loop.phi)
 
 
-def _slid(loop, count):
-    """Place of the slide at which the loop takes `count` pitches."""
+def _slid(loop, count, slack):
+    """Place of the slide at which the loop takes `count` pitches; without one, `slack` is the part of the chain that guides may take up."""
     if loop.slide is None:
-        _refuse(_links(loop, 0.0), count, 1e-3 * count)
+        links = _links(loop, 0.0)
+        if not -slack - TIGHT < links / count - 1 < TIGHT:
+            raise DoesNotAssemble(_misfit(links, count))
         return 0.0
     q = 0.0
     for _ in range(50):
@@ -120,11 +143,6 @@ def _slid(loop, count):
             break
         q -= np.clip(excess / slope, -5 * loop.link.pitch, 5 * loop.link.pitch)
     raise DoesNotAssemble(_misfit(_links(loop, 0.0), count))
-
-
-def _refuse(links, count, tolerance):
-    if abs(links - count) > tolerance:
-        raise DoesNotAssemble(_misfit(links, count))
 
 
 def _misfit(links, count):
@@ -159,20 +177,20 @@ def _tension(model, loop, q, chain_speed):
     return tension + centrifugal
 
 
-def _seats(loop, model, q):
+def _seats(loop, model, q, behind):
     """((first, last) tooth of each sprocket, free plates of each strand, first guess of the unknowns)."""
     beta, length = _tangents(loop, q)
     phi, wrap, count = loop.phi, _wraps(beta), len(beta)
     angle = model.sprockets[0].angle
     psi = np.zeros(count)
-    psi[0] = angle if angle is not None else 0.0
+    psi[0] = (angle if angle is not None else 0.0) - behind
     first, last, free = np.zeros(count, int), np.zeros(count, int), np.zeros(count, int)
     first[0] = np.floor((beta[0] + wrap[0] + 0.5 * np.pi - psi[0]) / phi[0])
     for j in range(count):
         last[j] = np.ceil((beta[j] + 0.5 * np.pi - psi[j]) / phi[j] - 1e-9)
         if j + 1 < count:  # the next sprocket takes its first plate half a tooth after the tangent
-            behind = psi[j] + last[j] * phi[j] - 0.5 * np.pi - beta[j]
-            plates = length[j] / loop.link.pitch + behind / phi[j] + 0.5
+            past = psi[j] + last[j] * phi[j] - 0.5 * np.pi - beta[j]
+            plates = length[j] / loop.link.pitch + past / phi[j] + 0.5
             free[j] = round(plates) - 1
             psi[j + 1] = beta[j] + 0.5 * np.pi - (0.5 + free[j] + 1 - plates) * phi[j + 1]
     free[-1] = model.chain.count - np.sum(first - last + 1) - np.sum(free)
@@ -184,7 +202,7 @@ def _seats(loop, model, q):
 
 
 def _closed(loop, seats, free, guess):
-    """(beta, psi, place of the slide or stretch of the free joints) at which every strand meets both its ends."""
+    """(beta, psi, place of the slide or change of the free plates' pitch) at which every strand meets both its ends."""
     m, p = len(free), loop.link.pitch
     scale = np.concatenate([np.ones(2 * m - 1), [p]])
 
@@ -201,11 +219,6 @@ def _closed(loop, seats, free, guess):
     except SolverError as error:
         raise DoesNotAssemble(f"chain drive: the loop does not close ({error})") from error
     return x[:m], np.append(guess[m], x[m : 2 * m - 1]), x[-1]
-
-
-def _joint(loop, stretch):
-    """Distance of the pins of a free joint."""
-    return 2 * loop.link.radius - loop.taut - stretch
 
 
 def _pins(loop, centre, j, angle):
@@ -226,8 +239,8 @@ def _ends(loop, seats, psi, q):
 
 def _misses(loop, seats, free, beta, psi, extra):
     """By how much each strand, laid from its beginning, misses its end: (2 m,) real."""
-    q, stretch = (extra, 0.0) if loop.slide is not None else (0.0, extra)
-    gap, A = _joint(loop, stretch), loop.link.hole_pitch
+    q, more = loop.parts(extra)
+    gap, A = loop.gap, loop.link.hole_pitch + more
     misses = []
     for (pin, off, target, on), n, b in zip(_ends(loop, seats, psi, q), free, beta, strict=True):
         along = np.exp(1j * b) * (n * A - (n - 1) * gap)
@@ -237,8 +250,8 @@ def _misses(loop, seats, free, beta, psi, extra):
 
 def _poses(loop, seats, free, beta, psi, extra):
     """Pin-frame poses (N, 3) of all plates in their order, and which of them sit on each sprocket."""
-    q, stretch = (extra, 0.0) if loop.slide is not None else (0.0, extra)
-    centre, gap, A, (first, last) = loop.centres(q), _joint(loop, stretch), loop.link.hole_pitch, seats
+    q, more = loop.parts(extra)
+    centre, gap, A, (first, last) = loop.centres(q), loop.gap, loop.link.hole_pitch + more, seats
     rows, seated = [], []
     for j, (pin, off, _, _) in enumerate(_ends(loop, seats, psi, q)):
         angles = psi[j] + np.arange(first[j], last[j] - 1, -1) * loop.phi[j] - 0.5 * np.pi

@@ -55,54 +55,81 @@ def load_rollers(chain, p, t, b, teeth, n, first, last, dt):
 
 @inner
 def load_guide(chain, p, t, b, arcs, n, first, last, power):
-    """Plates first .. last-1 on the arc of guide n, the body `n` + number of sprockets: the plate's back or belly as a straight line.
+    """Plates first .. last-1 on the arc of guide n, the body `n` + number of sprockets: the plate's back or belly, half a pitch either way.
 
-    depth = R + b -+ D_y with D its pin frame's origin seen from the arc's centre; friction -mu fn v/sqrt(v^2 + slip^2).
+    r leads from the arc's centre to the nearest point of that line, which may be its end: where two plates make a corner towards the
+    guide, the corner touches.  Depth R - |r|, normal r/|r|; friction -mu fn v/sqrt(v^2 + slip^2).
     """
     body = n + b.q.size - arcs.side.size
-    k, damping, side, off = b.stiffness[body], b.damping[body], arcs.side[n], chain.offset
-    lift = arcs.radius[n] + arcs.distance[n]
+    k, damping, side, half = b.stiffness[body], b.damping[body], arcs.side[n], chain.half_plate
+    py = -side * arcs.distance[n] - chain.offset  # of the line, above the mass centre
     for i in range(first, last):
         c, s, w = p.c[i], p.s[i], p.w[i]
         gx, gy = p.x[i] - b.x[body], p.y[i] - b.y[body]
-        ex, ey = c * gx + s * gy, c * gy - s * gx - off
         zx, zy = p.vx[i] - b.vx[body], p.vy[i] - b.vy[body]
-        depth = lift - side * ey
-        rate = -side * (c * zy - s * zx - w * ex)
-        within = side * (c * arcs.middle_y[n] - s * arcs.middle_x[n]) >= arcs.opening[n]
-        on = depth > 0.0 and abs(ex) <= chain.half_plate and within
+        ex, ry = c * gx + s * gy, c * gy - s * gx + py
+        px = min(max(-ex, -half), half)
+        far = np.hypot(ex + px, ry)
+        nx, ny = (ex + px) / far, ry / far
+        vx, vy = c * zx + s * zy - w * py, c * zy - s * zx + w * px
+        depth, rate = arcs.radius[n] - far, -(nx * vx + ny * vy)
+        within = (c * nx - s * ny) * arcs.middle_x[n] + (s * nx + c * ny) * arcs.middle_y[n] >= arcs.opening[n]
+        on = depth > 0.0 and side * ry > 0.0 and within
         force = max(k * depth + damping * rate, 0.0) if on else 0.0
-        height = side * arcs.distance[n] + off  # of the mass centre above the place of contact
-        slide = c * zx + s * zy + w * height
+        slide = side * (ny * vx - nx * vy)
         drag = -arcs.friction[n] * force * slide / np.sqrt(slide * slide + arcs.slip[n] ** 2)
-        t.fx[i], t.fy[i] = c * drag - s * side * force, s * drag + c * side * force
-        t.torque[i] = side * arcs.radius[n] * drag
+        fx, fy = nx * force + side * ny * drag, ny * force - side * nx * drag
+        t.fx[i], t.fy[i] = c * fx - s * fy, s * fx + c * fy
+        t.torque[i] = side * far * drag
         t.stored[i] += 0.5 * k * depth * depth if on else 0.0
-        p.moment[i] += -ex * side * force + height * drag
+        p.moment[i] += px * fy - py * fx
         power[GUIDE_DAMPING] -= (force - k * depth) * rate if on else 0.0
         power[FRICTION] += drag * slide
 
 
 @inner
-def move_bodies(b, gravity, clock, power, dt):
-    """Sprockets and guides one step on: slides by the leapfrog, driven angles by their law, free ones by the leapfrog."""
+def kick_bodies(b, gravity, power, dt):
+    """Accelerations of slides and free sprockets, half-step rates by them, their mean with those before; powers with these means."""
+    for n in range(b.q.size):
+        if b.slides[n]:
+            damped = b.slide_damping[n] * b.vq[n]
+            b.aq[n] = slide_acceleration(b, gravity, n)
+            set_rate(b, n, b.hq[n] + 0.5 * dt * b.aq[n])
+            b.hq[n] += dt * b.aq[n]
+            power[SLIDE_DAMPING] -= damped * b.vq[n]
+        if b.driven[n]:
+            power[DRIVE] -= b.torque[n] * b.w[n]
+        else:
+            damped = b.turn_damping[n] * b.w[n]
+            b.aw[n] = turn_acceleration(b, n)
+            b.w[n] = b.hw[n] + 0.5 * dt * b.aw[n]
+            b.hw[n] += dt * b.aw[n]
+            power[TORQUE] += b.load[n] * b.w[n]
+            power[TURN_DAMPING] -= damped * b.w[n]
+
+
+@inner
+def drift_bodies(b, clock, dt):
+    """Places and predicted rates of sprockets and guides one step on; driven angles by their law."""
     later = clock[0] + dt
     for n in range(b.q.size):
-        add_power(b, n, power, 1.0)
         if b.slides[n]:
-            b.aq[n] = slide_acceleration(b, gravity, n)
-            b.hq[n] += dt * b.aq[n]
             b.q[n] += dt * b.hq[n]
-            b.vq[n] = b.hq[n] + 0.5 * dt * b.aq[n]
-            place(b, n)
+            b.x[n], b.y[n] = b.x0[n] + b.q[n] * b.ux[n], b.y0[n] + b.q[n] * b.uy[n]
+            set_rate(b, n, b.hq[n] + 0.5 * dt * b.aq[n])
         if b.driven[n]:
             follow(b, n, later)
         else:
-            b.aw[n] = turn_acceleration(b, n)
-            b.hw[n] += dt * b.aw[n]
             b.psi[n] += dt * b.hw[n]
             b.w[n] = b.hw[n] + 0.5 * dt * b.aw[n]
     clock[0] = later
+
+
+@inner
+def set_rate(b, n, rate):
+    """Rate of body n along its slide, and of its centre."""
+    b.vq[n] = rate
+    b.vx[n], b.vy[n] = rate * b.ux[n], rate * b.uy[n]
 
 
 @inner
@@ -116,27 +143,6 @@ def slide_acceleration(b, gravity, n):
 def turn_acceleration(b, n):
     """Angular acceleration of the free body n."""
     return (b.torque[n] + b.load[n] - b.turn_damping[n] * b.w[n]) / b.inertia[n]
-
-
-@inner
-def add_power(b, n, power, share):
-    """Powers of drive and load, and the losses of body n, added to `power`."""
-    if b.slides[n]:
-        power[SLIDE_DAMPING] -= share * b.slide_damping[n] * b.vq[n] ** 2
-    if b.driven[n]:
-        power[DRIVE] -= share * b.torque[n] * b.w[n]
-    else:
-        power[TORQUE] += share * b.load[n] * b.w[n]
-        power[TURN_DAMPING] -= share * b.turn_damping[n] * b.w[n] ** 2
-
-
-@inner
-def place(b, n):
-    """Centre and its velocity of a body on its slide."""
-    b.x[n] = b.x0[n] + b.q[n] * b.ux[n]
-    b.y[n] = b.y0[n] + b.q[n] * b.uy[n]
-    b.vx[n] = b.vq[n] * b.ux[n]
-    b.vy[n] = b.vq[n] * b.uy[n]
 
 
 @inner

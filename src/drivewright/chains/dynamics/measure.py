@@ -1,136 +1,112 @@
-"""Kernels that write one row of the record: energies, works, momenta, and what the plates, joints and sprockets feel."""
+"""The record of a run from its snapshots: energies, works, momenta, and what the plates, joints and sprockets feel."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import inner
-from drivewright.chains.dynamics.bodies import add_power, slide_acceleration, turn_acceleration
+from drivewright.chains.dynamics.shots import BODIES, PLATES, SCALARS
 from drivewright.chains.dynamics.state import SUMS
-from drivewright.chains.dynamics.step import acceleration, total
 
 ROW = ("t", "kinetic", "potential", "momentum x", "momentum y", "angular momentum", "contacts", "open joints", "utilisation",
        "joint damping", "contact damping", *SUMS)
-(T, KINETIC, POTENTIAL, MOMENTUM_X, MOMENTUM_Y, ANGULAR, CONTACTS, OPEN, UTILISATION, JOINT_DAMPING, CONTACT_DAMPING, WORKS) = range(12)
-BODY = ("q", "vq", "psi", "w", "fx", "fy", "torque")
+BODY = BODIES[:7]
 PLATE = ("x", "y", "angle", "left x", "left y", "right x", "right y", "left flank", "right flank")
 PRESSED = 0.05  # part of the largest joint force below which friction utilisation is not asked for
 
 
 class Log(NamedTuple):
-    """Rows (samples, ROW), bodies (samples, bodies, BODY), tension (samples, joints), plate (samples, PLATE); of which joints, plate."""
+    """Rows (samples, ROW), bodies (samples, bodies, BODY), tension (samples, joints), plate (samples, PLATE)."""
 
     rows: np.ndarray
     bodies: np.ndarray
     tension: np.ndarray
     plate: np.ndarray
-    joints: np.ndarray
-    watched: np.ndarray
 
 
-@inner
-def measure(drive, log, sample, dt):
-    """One row of the record, at a whole step under its loads, before the rates move on."""
-    row = log.rows[sample]
-    row[T] = drive.clock[0]
-    measure_plates(drive, row, dt)
-    measure_joints(drive, log, sample)
-    measure_bodies(drive, log, sample, dt)
-    measure_works(drive, row, dt)
-    measure_watched(drive, log, sample)
+def empty_log(samples, bodies, joints):
+    """Room for so many."""
+    return Log(np.zeros((samples, len(ROW))), np.zeros((samples, bodies, len(BODY))), np.zeros((samples, joints)),
+               np.zeros((samples, len(PLATE))))
 
 
-@inner
-def twice(v, a, dt):
-    """Product of the rates half a step before and after: v^2 - (dt a/2)^2.
+def measured(drive, shots, joints, plate):
+    """The `Log` of snapshots; `joints` whose tension, `plate` whose forces are asked for."""
+    p = {name: shots.plates[:, k] for k, name in enumerate(PLATES)}
+    b = {name: shots.bodies[:, k] for k, name in enumerate(BODIES)}
+    tension, across, stretched = joint_forces(drive.chain, p)
+    columns = {name: shots.scalars[:, k] for k, name in enumerate(SCALARS)} | momenta(drive.chain, p)
+    columns["kinetic"] = plates_kinetic(drive.chain, p) + bodies_kinetic(drive.bodies, b)
+    columns["potential"] = stretched + np.sum(p["stored"], axis=1) + weight(drive, p) + bodies_potential(drive, b)
+    columns["contacts"] = np.sum(p["left"] > 0, axis=1) + np.sum(p["right"] > 0, axis=1)
+    columns["open joints"] = np.sum(tension <= 0, axis=1)
+    columns["utilisation"] = utilisation(tension, across)
+    bodies = np.moveaxis(shots.bodies[:, : len(BODY)], 1, 2)
+    return Log(np.stack([columns[name] for name in ROW], axis=1), bodies, tension[:, list(joints)], watched(p, plate))
+
+
+def twice(half, mean):
+    """Product h (2 v - h) of the rates half a step after and before.
 
     With it the leapfrog's kinetic energy changes by exactly the mean force of two steps times the path between them, so that the energy of
     a linear system without damping does not change at all.
     """
-    return v * v - 0.25 * dt * dt * a * a
+    return half * (2 * mean - half)
 
 
-@inner
-def measure_plates(drive, row, dt):
-    """Kinetic energy (product of the half steps on both sides), momenta, energy of weight and contacts of all plates."""
-    chain, p, t, m = drive.chain, drive.plates, drive.touches, drive.chain.mass
-    for i in range(chain.count):
-        ax, ay, a = acceleration(p, drive.joints, i)
-        vx, vy, w = p.hx[i] + 0.5 * dt * ax, p.hy[i] + 0.5 * dt * ay, p.hw[i] + 0.5 * dt * a
-        row[KINETIC] += 0.5 * (m * (twice(vx, ax, dt) + twice(vy, ay, dt)) + chain.inertia * twice(w, a, dt))
-        row[POTENTIAL] += t.stored[i] - m * (drive.gravity[0] * p.x[i] + drive.gravity[1] * p.y[i])
-        row[MOMENTUM_X] += m * vx
-        row[MOMENTUM_Y] += m * vy
-        row[ANGULAR] += m * (p.x[i] * vy - p.y[i] * vx) + chain.inertia * w
-        row[CONTACTS] += (t.right[i] > 0.0) + (t.left[i] > 0.0)
+def dot(a, b):
+    """Sum over the last axis of the products."""
+    return np.einsum("...i,...i->...", a, b)
 
 
-@inner
-def along(drive, i):
-    """(tension, force across) of joint i, in the mean direction of its plates, and the energy stored in it."""
-    chain, p, j = drive.chain, drive.plates, drive.joints
-    ux, uy = p.c[i] + p.c1[i], p.s[i] + p.s1[i]
-    size = np.hypot(ux, uy)
-    ux, uy = ux / size, uy / size
-    px, py = p.x[i] + p.half[i] * p.c[i] + chain.offset * p.s[i], p.y[i] + p.half[i] * p.s[i] - chain.offset * p.c[i]
-    qx, qy = p.x1[i] - p.half1[i] * p.c1[i] + chain.offset * p.s1[i], p.y1[i] - p.half1[i] * p.s1[i] - chain.offset * p.c1[i]
-    dx, dy = px - qx - chain.rolling * ux, py - qy - chain.rolling * uy
-    return -j.fx[i] * ux - j.fy[i] * uy, j.fy[i] * ux - j.fx[i] * uy, 0.5 * chain.joint_stiffness * (dx * dx + dy * dy)
+def plates_kinetic(chain, p):
+    """Kinetic energy of all plates (S,)  [J]."""
+    x, y, turning = (2 * dot(p[half], p[mean]) - dot(p[half], p[half]) for half, mean in (("hx", "vx"), ("hy", "vy"), ("hw", "w")))
+    return 0.5 * (chain.mass * (x + y) + chain.inertia * turning)
 
 
-@inner
-def measure_joints(drive, log, sample):
-    """Energy stored in the joints, how many are open (pushed apart), the most friction that pure rolling asks for, tensions."""
-    row, most = log.rows[sample], 0.0
-    for i in range(drive.chain.count):
-        tension, across, energy = along(drive, i)
-        row[POTENTIAL] += energy
-        row[OPEN] += tension <= 0.0
-        most = max(most, tension)
-    for i in range(drive.chain.count):
-        tension, across, energy = along(drive, i)
-        if tension > PRESSED * most:
-            row[UTILISATION] = max(row[UTILISATION], abs(across) / tension)
-    for k in range(log.joints.size):
-        log.tension[sample, k] = along(drive, log.joints[k])[0]
+def momenta(chain, p):
+    """Momentum and angular momentum about the origin of all plates, (S,) each."""
+    turning = chain.mass * (dot(p["x"], p["vy"]) - dot(p["y"], p["vx"])) + chain.inertia * np.sum(p["w"], axis=1)
+    return {"momentum x": chain.mass * np.sum(p["vx"], axis=1), "momentum y": chain.mass * np.sum(p["vy"], axis=1),
+            "angular momentum": turning}
 
 
-@inner
-def measure_bodies(drive, log, sample, dt):
-    """Energy and motion of sprockets and guides; those that are driven count as outside."""
-    b, row, gravity = drive.bodies, log.rows[sample], drive.gravity
-    for n in range(b.q.size):
-        out = log.bodies[sample, n]
-        out[0], out[1], out[2], out[3] = b.q[n], b.vq[n], b.psi[n], b.w[n]
-        out[4], out[5], out[6] = b.fx[n], b.fy[n], b.torque[n]
-        if b.slides[n]:
-            a, q, weight = slide_acceleration(b, gravity, n), b.q[n], b.mass[n] * (gravity[0] * b.ux[n] + gravity[1] * b.uy[n])
-            row[KINETIC] += 0.5 * b.mass[n] * twice(b.hq[n] + 0.5 * dt * a, a, dt)
-            row[POTENTIAL] += 0.5 * b.spring[n] * q * q - (b.force[n] + weight) * q
-        if not b.driven[n]:
-            a = turn_acceleration(b, n)
-            row[KINETIC] += 0.5 * b.inertia[n] * twice(b.hw[n] + 0.5 * dt * a, a, dt)
-        add_power(b, n, drive.power, 1.0)
+def weight(drive, p):
+    """Energy of the plates' weight (S,)  [J]."""
+    return -drive.chain.mass * (drive.gravity[0] * np.sum(p["x"], axis=1) + drive.gravity[1] * np.sum(p["y"], axis=1))
 
 
-@inner
-def measure_works(drive, row, dt):
-    """Works up to now; this step counts with half its weight, the trapezoidal rule, which the leapfrog obeys exactly."""
-    j, t, count = drive.joints, drive.touches, drive.chain.count
-    row[JOINT_DAMPING] = 0.5 * dt * total(j.power, 0, count) - total(j.lost, 0, count)
-    row[CONTACT_DAMPING] = 0.5 * dt * total(t.power, 0, count) - total(t.lost, 0, count)
-    for k in range(drive.power.size):
-        row[WORKS + k] = drive.sums[k] + 0.5 * dt * drive.power[k]
-    for n in range(drive.bodies.q.size):
-        add_power(drive.bodies, n, drive.power, -1.0)  # the step itself will add them
+def bodies_kinetic(b, seen):
+    """Kinetic energy of sprockets and guides (S,)  [J]; what is driven counts as outside."""
+    slid = np.where(b.slides, b.mass * twice(seen["hq"], seen["vq"]), 0.0)
+    turned = np.where(b.driven, 0.0, b.inertia * twice(seen["hw"], seen["w"]))
+    return 0.5 * np.sum(slid + turned, axis=1)
 
 
-@inner
-def measure_watched(drive, log, sample):
-    """Pose of the watched plate and the forces on it: pins in its own frame, flanks along their normals."""
-    p, j, t, i, out = drive.plates, drive.joints, drive.touches, log.watched[0], log.plate[sample]
-    c, s = p.c[i], p.s[i]
-    out[0], out[1], out[2] = p.x[i], p.y[i], p.angle[i]
-    out[3], out[4] = c * j.fx_[i] + s * j.fy_[i], c * j.fy_[i] - s * j.fx_[i]
-    out[5], out[6] = -c * j.fx[i] - s * j.fy[i], s * j.fx[i] - c * j.fy[i]
-    out[7], out[8] = t.left[i], t.right[i]
+def bodies_potential(drive, seen):
+    """Energy of springs, steady forces and weights of what slides (S,)  [J]."""
+    b, q = drive.bodies, seen["q"]
+    force = b.force + b.mass * (drive.gravity[0] * b.ux + drive.gravity[1] * b.uy)
+    return np.sum(np.where(b.slides, 0.5 * b.spring * q * q - force * q, 0.0), axis=1)
+
+
+def joint_forces(chain, p):
+    """Tension along the mean direction of the two plates and force across it (S, N); energy stored in all joints (S,)."""
+    ux, uy = p["c"] + np.roll(p["c"], -1, axis=1), p["s"] + np.roll(p["s"], -1, axis=1)
+    inverse, fx, fy, rx, ry, c = 1 / np.sqrt(ux * ux + uy * uy), p["fx"], p["fy"], p["rx"], p["ry"], chain.joint_damping
+    stretched = dot(fx, fx) + dot(fy, fy) - 2 * c * (dot(fx, rx) + dot(fy, ry)) + c * c * (dot(rx, rx) + dot(ry, ry))
+    return -(fx * ux + fy * uy) * inverse, (fy * ux - fx * uy) * inverse, 0.5 / chain.joint_stiffness * stretched
+
+
+def utilisation(tension, across):
+    """The most friction that pure rolling asks for in joints pressed together (S,), over the force that presses them."""
+    least = PRESSED * np.max(tension, axis=1, keepdims=True).clip(1e-300)
+    return np.max(np.where(tension > least, np.abs(across) / np.maximum(tension, least), 0.0), axis=1)
+
+
+def watched(p, i):
+    """Pose of a plate and the forces on it (S, PLATE): pins in its own frame, flanks along their normals."""
+    c, s = p["c"][:, i], p["s"][:, i]
+    (lx, ly), (rx, ry) = (p["fx"][:, i - 1], p["fy"][:, i - 1]), (-p["fx"][:, i], -p["fy"][:, i])
+    pins = (c * lx + s * ly, c * ly - s * lx, c * rx + s * ry, c * ry - s * rx)
+    return np.stack([*(p[name][:, i] for name in ("x", "y", "angle")), *pins, p["left"][:, i], p["right"][:, i]], axis=1)

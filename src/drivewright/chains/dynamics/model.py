@@ -82,7 +82,8 @@ class Sprocket:
     """A sprocket: its `Tooth` (or `RollerTooth`), how it touches, and how it may move.
 
     centre [m] at q = 0; angle psi [rad] at the start (None: as the chain asks); tip and form radius [m] of the active flank;
-    drive, or free with inertia [kg m^2], torque [N m] counter-clockwise and rotational damping [N m s]; slide with mass [kg], or fixed.
+    drive, or free with inertia [kg m^2], torque [N m] counter-clockwise and rotational damping [N m s] against rates that differ from
+    `calm` [rad/s]; slide with mass [kg], or fixed.
     """
 
     tooth: Tooth | RollerTooth
@@ -95,6 +96,7 @@ class Sprocket:
     inertia: float = 0.0
     torque: float = 0.0
     damping: float = 0.0
+    calm: float = 0.0
     drive: Drive | None = None
     slide: Slide | None = None
 
@@ -139,8 +141,10 @@ class Model:
 
 
 def at_speed(model, speed):
-    """The model with its driver at a constant speed [rad/s] from the start."""
-    return with_sprocket(model, model.driver, drive=Drive(speed, speed))
+    """The model with its driver at a constant speed [rad/s] from the start; loads are calm at speeds in the same ratio."""
+    share = speed / model.sprockets[model.driver].drive.speed
+    calm = replace(model, sprockets=tuple(replace(each, calm=share * each.calm) for each in model.sprockets))
+    return with_sprocket(calm, model.driver, drive=Drive(speed, speed))
 
 
 def with_sprocket(model, number, **changes):
@@ -192,7 +196,7 @@ def _check_sprocket(sprocket, where):
     elif not sprocket.drive.ramp >= 0 or not np.isfinite(sprocket.drive.speed + sprocket.drive.start):
         raise InputError(f"{where}: the drive needs finite speeds and a ramp of 0 s or more, got {sprocket.drive}.")
     _from_zero(where, "damping", sprocket.damping)
-    _finite(f"{where}: torque", (sprocket.torque,))
+    _finite(f"{where}: torque and calm rate", (sprocket.torque, sprocket.calm))
     _check_slide(sprocket, where)
 
 

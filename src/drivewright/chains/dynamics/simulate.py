@@ -7,14 +7,17 @@ import numpy as np
 
 from drivewright.chains.dynamics.advance import run, settle_rates
 from drivewright.chains.dynamics.assembly import start
-from drivewright.chains.dynamics.measure import BODY, PLATE, ROW, Log
+from drivewright.chains.dynamics.measure import empty_log, measured
 from drivewright.chains.dynamics.model import Model
 from drivewright.chains.dynamics.motion import Motion
+from drivewright.chains.dynamics.run_in import PARTS, run_in, steps_of
+from drivewright.chains.dynamics.shots import Shots, empty_shots
 from drivewright.chains.dynamics.stability import refuse_seats, refuse_step
 from drivewright.chains.dynamics.state import lower
 from drivewright.errors import InputError
 
 CHUNK = 0.3  # seconds of computing between two looks at the outside world
+ROOM = 16000  # plates, over all snapshots, that are kept until they are measured: what a cache holds
 AGAIN = 50  # steps between two searches for who may touch whom
 DRIFT = 0.02  # of a tooth that a sprocket may turn in between
 
@@ -23,11 +26,13 @@ DRIFT = 0.02  # of a tooth that a sprocket may turn in between
 class Settings:
     """How to run.  The step [s] is shortened to fit a whole number of times between samples, these into a tooth of the driver.
 
+    run_in [s]: before the clock starts, teeth, pitches and guides take on their measures under fading damping;
     settle [s]: what statistics leave out at the start; tolerance: energy drift over the largest kinetic energy that fails a run;
     joints whose tension is recorded; plate whose forces are.
     """
 
     step: float = 1e-6
+    run_in: float = 0.02
     settle: float = 0.0
     samples_per_tooth: int = 24
     tolerance: float = 1e-4
@@ -44,10 +49,20 @@ def simulate(model, duration, settings=Settings(), *, begin=None, progress=None)
     refuse_step(model, settings.step)
     refuse_seats(model)
     every, step, samples = stepping(model, duration, settings)
-    drive = placed(model, start(model) if begin is None else begin, step)
-    log = _log(model, samples, settings)
-    _in_chunks(drive, log, samples, every, _again(model, step), step, progress)
+    again = _again(model, step)
+    drive = _begun(model, begin, settings.run_in, step, again)
+    log = _in_chunks(drive, settings, samples, every, again, step, progress)
     return Motion(model, settings, step, every, log.rows, log.bodies, log.tension, log.plate)
+
+
+def _begun(model, begin, duration, step, again):
+    """The drive run in, sprocket 1 at its angle."""
+    steps = steps_of(duration, step) if duration > 0 else 0
+    begin = start(model, PARTS * steps * step) if begin is None else begin
+    drive = placed(model, begin, step)
+    if steps:
+        run_in(drive, begin, steps, step, again)
+    return drive
 
 
 def stepping(model, duration, settings):
@@ -89,29 +104,30 @@ def _place_bodies(b, begin):
     b.vx[:], b.vy[:] = b.vq * b.ux, b.vq * b.uy
 
 
-def _log(model, samples, settings):
-    bodies = len(model.sprockets) + len(model.guides)
-    return Log(np.zeros((samples, len(ROW))), np.zeros((samples, bodies, len(BODY))), np.zeros((samples, len(settings.joints))),
-               np.zeros((samples, len(PLATE))), np.array(settings.joints, np.int64), np.array([settings.plate], np.int64))
-
-
 def _again(model, step):
     """Steps between two searches."""
     speed = 2 * np.pi / tooth_time(model)  # teeth times angular speed, of every sprocket
     return float(max(1, min(AGAIN, int(2 * np.pi * DRIFT / (speed * step)))))
 
 
-def _in_chunks(drive, log, samples, every, again, step, progress):
-    """All samples, in chunks of so many as CHUNK seconds hold."""
-    done, many = 0, 1
+def _in_chunks(drive, settings, samples, every, again, step, progress):
+    """The `Log` of all samples, in chunks of so many as CHUNK seconds and ROOM hold."""
+    bodies, count = len(drive.bodies), drive.chain.count
+    log = empty_log(samples, bodies, len(settings.joints))
+    room = min(samples, max(1, ROOM // count))
+    shots, done, many = empty_shots(room, bodies, count), 0, 1
     while done < samples:
-        began, last = time.perf_counter(), min(done + many, samples)
-        run(drive, log, done, last, every, again, step)
+        began, now = time.perf_counter(), min(many, samples - done)
+        run(drive, shots, 0, now, every, again, step)
         took = max(time.perf_counter() - began, 1e-9)
-        many = max(1, min(int((last - done) * CHUNK / took), 8 * many))
-        done = last
+        taken = measured(drive, Shots(*(each[:now] for each in shots)), settings.joints, settings.plate)
+        for whole, part in zip(log, taken, strict=True):
+            whole[done : done + now] = part
+        many = max(1, min(int(now * CHUNK / took), 8 * many, room))
+        done += now
         if progress:
             progress(done, samples)
+    return log
 
 
 def _refuse(model, duration, settings):
@@ -121,6 +137,8 @@ def _refuse(model, duration, settings):
         raise InputError(f"simulate: the duration must be finite and above 0 s, got {duration:g}.")
     if not 0 <= settings.settle < duration:
         raise InputError(f"simulate: {settings.settle:g} s of settling do not lie within the duration of {duration:g} s.")
+    if not (np.isfinite(settings.run_in) and settings.run_in >= 0):
+        raise InputError(f"simulate: run_in must be finite and 0 s or more, got {settings.run_in:g}.")
     if settings.samples_per_tooth < 20:
         raise InputError(f"simulate: {settings.samples_per_tooth} samples per tooth alias its harmonics; take 20 or more.")
     drive = model.sprockets[model.driver].drive

@@ -15,7 +15,9 @@ WIDTH = 8  # plates that one vector instruction may hold
 
 
 class Plates(NamedTuple):
-    """Per plate: mass centre, direction (cos, sin), rates at the whole step (predicted), angle, rates at the half step, load, constants.
+    """Per plate: mass centre, direction (cos, sin), rates at the whole step, angle, rates at the half step, load, constants.
+
+    Rates at the whole step are predicted while loads are found, then the mean of the half steps on both sides; loads become accelerations.
 
     `x1` ... are the same memory one plate further.
     """
@@ -45,12 +47,12 @@ class Plates(NamedTuple):
     half1: np.ndarray
     by_mass: np.ndarray  # 1/m, 0 for dead plates
     by_inertia: np.ndarray
-    gx: np.ndarray  # gravity, 0 for dead plates
+    gx: np.ndarray  # weight, 0 for dead plates
     gy: np.ndarray
 
 
 class Joints(NamedTuple):
-    """Per joint: force on the plate ahead (the one behind gets the opposite), where it acts, damping power and its sum.
+    """Per joint: force on the plate ahead (the one behind gets the opposite), where it acts, rate of stretch, damping power and its sum.
 
     `fx_` ... are the same memory one joint earlier.
     """
@@ -63,17 +65,21 @@ class Joints(NamedTuple):
     fy_: np.ndarray
     mx_: np.ndarray
     my_: np.ndarray
+    rx: np.ndarray
+    ry: np.ndarray
     power: np.ndarray
     lost: np.ndarray
 
 
 class Touches(NamedTuple):
-    """Per plate: seat angle of its tooth (less psi), forces of the right and left flank (of roller seat and flank), loss power and its sum,
-    energy stored, force on the plate, torque on the body."""
+    """Per plate: seat angle of its tooth (less psi), forces of the right and left flank (of roller seat and flank) and what of them is
+    damping, loss power and its sum, energy stored, force on the plate, torque on the body."""
 
     seat: np.ndarray
     right: np.ndarray
     left: np.ndarray
+    damped_right: np.ndarray
+    damped_left: np.ndarray
     power: np.ndarray
     lost: np.ndarray
     stored: np.ndarray
@@ -82,44 +88,14 @@ class Touches(NamedTuple):
     torque: np.ndarray
 
 
-class Bodies(NamedTuple):
-    """Per sprocket, then per guide: what slides and turns.  Rates at whole steps (predicted) and at half steps; loads; constants."""
+BODIES = np.dtype([(name, float) for name in (
+    "q", "vq", "hq", "psi", "w", "hw", "x", "y", "vx", "vy", "fx", "fy", "torque", "aq", "aw", "x0", "y0", "ux", "uy", "mass", "inertia",
+    "start", "speed", "ramp", "psi0", "force", "spring", "slide_damping", "load", "turn_damping", "stiffness", "damping",
+)] + [("slides", bool), ("driven", bool)], align=True)
+"""Per sprocket, then per guide: what slides and turns.  Rates at whole steps and (hq, hw) at half steps; loads; constants.
 
-    q: np.ndarray
-    vq: np.ndarray
-    hq: np.ndarray
-    psi: np.ndarray
-    w: np.ndarray
-    hw: np.ndarray
-    x: np.ndarray
-    y: np.ndarray
-    vx: np.ndarray
-    vy: np.ndarray
-    fx: np.ndarray
-    fy: np.ndarray
-    torque: np.ndarray
-    aq: np.ndarray
-    aw: np.ndarray
-    x0: np.ndarray
-    y0: np.ndarray
-    ux: np.ndarray
-    uy: np.ndarray
-    mass: np.ndarray
-    inertia: np.ndarray
-    slides: np.ndarray  # bool
-    driven: np.ndarray  # bool
-    start: np.ndarray
-    speed: np.ndarray
-    ramp: np.ndarray
-    psi0: np.ndarray
-    force: np.ndarray
-    spring: np.ndarray
-    slide_damping: np.ndarray
-    load: np.ndarray
-    turn_damping: np.ndarray
-    stiffness: np.ndarray
-    damping: np.ndarray
-
+Records, as of guides: a tuple of so many arrays takes long to compile.
+"""
 
 class Teeth(NamedTuple):
     """Per sprocket: base radius, support, limits of the support for form and tip, tooth angle, reach; then what a roller's tooth needs."""
@@ -140,17 +116,8 @@ class Teeth(NamedTuple):
     flank_y: np.ndarray
 
 
-class Arcs(NamedTuple):
-    """Per guide: radius; distance to the pin line; side (-1 outside, 1 inside); middle of its arc, cosine of half of it; friction, slip."""
-
-    radius: np.ndarray
-    distance: np.ndarray
-    side: np.ndarray
-    middle_x: np.ndarray
-    middle_y: np.ndarray
-    opening: np.ndarray
-    friction: np.ndarray
-    slip: np.ndarray
+ARCS = np.dtype([(name, float) for name in ("radius", "distance", "side", "middle_x", "middle_y", "opening", "friction", "slip")])
+"""Per guide: radius; distance to the pin line; side (-1 outside, 1 inside); middle of its arc, cosine of half of it; friction, slip."""
 
 
 class Runs(NamedTuple):
@@ -188,9 +155,9 @@ class Drive(NamedTuple):
     plates: Plates
     joints: Joints
     touches: Touches
-    bodies: Bodies
+    bodies: np.recarray
     teeth: Teeth
-    arcs: Arcs
+    arcs: np.recarray
     runs: Runs
     gravity: np.ndarray
     clock: np.ndarray
@@ -214,8 +181,9 @@ def _chain(chain):
     ca, sa = np.cos(link.flank_angle), np.sin(link.flank_angle)
     along = [(link.flank * sa - depth) / ca for depth in (chain.toe, chain.crotch)]
     blocks = chain.count // WIDTH + 1  # one more place than plates at least, for the copy of the first
-    return Chain(chain.count, blocks, chain.joint_stiffness, chain.joint_damping * chain.joint_stiffness, 2 * link.radius,
-                 chain.centre_offset, ca, sa, link.flank, *along, 0.5 * link.pitch, chain.mass, chain.inertia)
+    values = (chain.joint_stiffness, chain.joint_damping * chain.joint_stiffness, 2 * link.radius, chain.centre_offset, ca, sa, link.flank,
+              *along, 0.5 * link.pitch, chain.mass, chain.inertia)
+    return Chain(int(chain.count), blocks, *map(float, values))  # whole numbers among them would be compiled for anew
 
 
 def _lanes(chain):
@@ -228,14 +196,15 @@ def _plates(model, chain):
     half, rest = _lanes(chain), [_lanes(chain)[:-1] for _ in range(7)]
     half[: chain.count] = 0.5 * model.chain.hole_pitches
     half[chain.count] = half[0]
-    live = np.arange(WIDTH * chain.blocks) < chain.count
-    constants = (live / model.chain.mass, live / model.chain.inertia, live * model.gravity[0], live * model.gravity[1])
+    live = np.where(np.arange(WIDTH * chain.blocks) < chain.count, 1.0, 0.0)
+    constants = (live / model.chain.mass, live / model.chain.inertia, model.chain.mass * model.gravity[0] * live,
+                 model.chain.mass * model.gravity[1] * live)
     return Plates(*(a[:-1] for a in moving), *(a[1:] for a in moving), *rest, half[:-1], half[1:], *constants)
 
 
 def _joints(chain):
     rows = [_lanes(chain) for _ in range(4)]
-    return Joints(*(a[1:] for a in rows), *(a[:-1] for a in rows), _lanes(chain)[:-1], _lanes(chain)[:-1])
+    return Joints(*(a[1:] for a in rows), *(a[:-1] for a in rows), *(_lanes(chain)[:-1] for _ in range(4)))
 
 
 def _touches(chain):
@@ -244,25 +213,29 @@ def _touches(chain):
 
 def _bodies(model):
     every = (*model.sprockets, *model.guides)
-    slides = [body.slide for body in every]
-    drives = [getattr(body, "drive", None) for body in every]
+    rows = np.zeros(len(every), BODIES).view(np.recarray)
+    for row, body in zip(rows, every, strict=True):
+        row.x0, row.y0 = row.x, row.y = body.centre
+        row.psi0 = row.psi = getattr(body, "angle", 0.0) or 0.0
+        row.mass, row.inertia = body.mass if body.slide else 1.0, getattr(body, "inertia", 0.0) or 1.0
+        row.turn_damping = getattr(body, "damping", 0.0)
+        row.load = getattr(body, "torque", 0.0) + row.turn_damping * getattr(body, "calm", 0.0)
+        row.stiffness, row.damping = body.contact.stiffness, body.contact.damping
+        _slide(row, body.slide)
+        _drive(row, getattr(body, "drive", None), isinstance(body, Guide))
+    return rows
 
-    def row(values):
-        return np.array([float(v) for v in values])
 
-    x0, y0 = row(b.centre[0] for b in every), row(b.centre[1] for b in every)
-    psi0 = row(getattr(b, "angle", 0.0) or 0.0 for b in every)
-    zeros = [np.zeros(len(every)) for _ in range(15)]
-    zeros[3], zeros[6], zeros[7] = psi0.copy(), x0.copy(), y0.copy()
-    return Bodies(
-        *zeros, x0, y0, row(np.cos(s.direction) if s else 0.0 for s in slides), row(np.sin(s.direction) if s else 0.0 for s in slides),
-        row(b.mass if s else 1.0 for b, s in zip(every, slides, strict=True)),
-        row(getattr(b, "inertia", 0.0) or 1.0 for b in every), np.array([s is not None for s in slides]),
-        np.array([d is not None or isinstance(b, Guide) for b, d in zip(every, drives, strict=True)]),
-        row(d.start if d else 0.0 for d in drives), row(d.speed if d else 0.0 for d in drives), row(d.ramp if d else 0.0 for d in drives),
-        psi0, row(s.force if s else 0.0 for s in slides), row(s.stiffness if s else 0.0 for s in slides),
-        row(s.damping if s else 0.0 for s in slides), row(getattr(b, "torque", 0.0) for b in every),
-        row(getattr(b, "damping", 0.0) for b in every), row(b.contact.stiffness for b in every), row(b.contact.damping for b in every))
+def _slide(row, slide):
+    if slide:
+        row.slides, row.ux, row.uy = True, np.cos(slide.direction), np.sin(slide.direction)
+        row.force, row.spring, row.slide_damping = slide.force, slide.stiffness, slide.damping
+
+
+def _drive(row, drive, still):
+    row.driven = still or drive is not None
+    if drive:
+        row.start, row.speed, row.ramp = drive.start, drive.speed, drive.ramp
 
 
 def _teeth(model):
@@ -290,12 +263,13 @@ def _roller(sprocket, model):
 
 
 def _arcs(guides):
-    middle = np.array([0.5 * (g.start + g.end) for g in guides])
-    side = np.array([1.0 if g.side == "inside" else -1.0 for g in guides])
-    radius, distance = np.array([float(g.radius) for g in guides]), np.array([float(g.distance) for g in guides])
-    return Arcs(radius, distance, side, np.cos(middle), np.sin(middle),
-                np.cos([0.5 * (g.end - g.start) for g in guides]), np.array([g.friction for g in guides], float),
-                np.array([g.slip for g in guides], float))
+    rows = np.zeros(len(guides), ARCS).view(np.recarray)
+    for row, g in zip(rows, guides, strict=True):
+        middle = 0.5 * (g.start + g.end)
+        row.radius, row.distance, row.side = g.radius, g.distance, 1.0 if g.side == "inside" else -1.0
+        row.middle_x, row.middle_y, row.opening = np.cos(middle), np.sin(middle), np.cos(0.5 * (g.end - g.start))
+        row.friction, row.slip = g.friction, g.slip
+    return rows
 
 
 def _runs(model, chain):

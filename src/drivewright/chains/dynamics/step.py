@@ -9,7 +9,7 @@ from drivewright._jit import inner
 
 
 @inner
-def load_joints(chain, p, j, dt):
+def load_joints(chain, p, j):
     """Rolling joints: stretch d = P - Q - 2r u, force f = k d + beta k d' on both plates where the two pins touch, midway between them.
 
     u is the mean of the two plates' directions.  The rate d' seen by both plates turning together is the relative velocity of the
@@ -31,11 +31,26 @@ def load_joints(chain, p, j, dt):
         j.fy[i] = k * (py - qy - share * uy) + damping * ry
         j.mx[i] = mx
         j.my[i] = my
-        power = damping * (rx * rx + ry * ry)
-        j.power[i] = power
-        j.lost[i] += dt * power
+        j.rx[i] = rx
+        j.ry[i] = ry
     n = chain.count - 1
     j.fx_[0], j.fy_[0], j.mx_[0], j.my_[0] = j.fx[n], j.fy[n], j.mx[n], j.my[n]
+
+
+@inner
+def lose_joints(chain, p, j, dt):
+    """Power beta k d'.d'' and work of the joints' damping: its force, at the predicted rate d', on the way between the half steps, d''.
+
+    So the leapfrog's balance of energy is exact, however fast the joints shake.
+    """
+    damping = chain.joint_damping
+    for i in range(8 * chain.blocks):
+        mx, my, w, w1 = j.mx[i], j.my[i], p.w[i], p.w1[i]
+        rx = (p.vx[i] - w * (my - p.y[i])) - (p.vx1[i] - w1 * (my - p.y1[i]))
+        ry = (p.vy[i] + w * (mx - p.x[i])) - (p.vy1[i] + w1 * (mx - p.x1[i]))
+        power = damping * (rx * j.rx[i] + ry * j.ry[i])
+        j.power[i] = power
+        j.lost[i] += dt * power
 
 
 @inner
@@ -49,7 +64,7 @@ def load_gravity(chain, p, t):
 
 
 @inner
-def load_flanks(chain, p, t, b, teeth, n, first, last, dt):
+def load_flanks(chain, p, t, b, teeth, n, first, last):
     """Both flanks of the plates first .. last-1 on the involute teeth of sprocket n.
 
     In the plate's frame D is its pin frame's origin seen from the sprocket's centre, delta how far it is turned against its seat.
@@ -78,17 +93,32 @@ def load_flanks(chain, p, t, b, teeth, n, first, last, dt):
         pen_r, pen_l = (pen_r if on_r else 0.0), (pen_l if on_l else 0.0)
         fr = max(k * pen_r + damping * rate_r, 0.0) if on_r else 0.0
         fl = max(k * pen_l + damping * rate_l, 0.0) if on_l else 0.0
-        lost = (fr - k * pen_r) * rate_r + (fl - k * pen_l) * rate_l
         fx, fy = ca * (fl - fr), sa * (fl + fr)
         t.right[i] = fr
         t.left[i] = fl
         t.fx[i] = c * fx - s * fy
         t.fy[i] = s * fx + c * fy
         t.torque[i] = rb * (fl - fr)
-        t.power[i] = lost
-        t.lost[i] += dt * lost
+        t.damped_right[i] = fr - k * pen_r
+        t.damped_left[i] = fl - k * pen_l
         t.stored[i] += 0.5 * k * (pen_r * pen_r + pen_l * pen_l)
         p.moment[i] += fr * at_r - fl * at_l + offset * fx
+
+
+@inner
+def lose_flanks(chain, p, t, b, teeth, n, first, last, dt):
+    """Power and work of the flanks' damping, as of the joints'."""
+    ca, sa, rb = chain.cos, chain.sin, teeth.base[n]
+    bx, by, ux, uy, spin = b.x[n], b.y[n], b.vx[n], b.vy[n], b.w[n]
+    for i in range(np.uint64(first), np.uint64(last)):
+        c, s, w = p.c[i], p.s[i], p.w[i]
+        gx, gy, zx, zy = p.x[i] - bx, p.y[i] - by, p.vx[i] - ux, p.vy[i] - uy
+        across = ca * (c * zx + s * zy + w * (c * gy - s * gx))
+        out = -sa * (c * zy - s * zx - w * (c * gx + s * gy))
+        turning = rb * (w - spin)
+        power = t.damped_right[i] * (out + across - turning) + t.damped_left[i] * (out - across + turning)
+        t.power[i] = power
+        t.lost[i] += dt * power
 
 
 @inner
@@ -129,23 +159,23 @@ def acceleration(p, j, i):
 
 @inner
 def kick_plates(chain, p, j, dt):
-    """Half-step rates by the loads, and the rates that these lead to at the next whole step."""
+    """Accelerations, half-step rates by them, and the mean of these rates with those before."""
     for i in range(8 * chain.blocks):
         p.fx[i], p.fy[i], p.moment[i] = acceleration(p, j, i)
     for i in range(8 * chain.blocks):
         ax, ay, a = p.fx[i], p.fy[i], p.moment[i]
-        hx, hy, hw = p.hx[i] + dt * ax, p.hy[i] + dt * ay, p.hw[i] + dt * a
-        p.hx[i] = hx
-        p.hy[i] = hy
-        p.hw[i] = hw
+        hx, hy, hw = p.hx[i], p.hy[i], p.hw[i]
         p.vx[i] = hx + 0.5 * dt * ax
         p.vy[i] = hy + 0.5 * dt * ay
         p.w[i] = hw + 0.5 * dt * a
+        p.hx[i] = hx + dt * ax
+        p.hy[i] = hy + dt * ay
+        p.hw[i] = hw + dt * a
 
 
 @inner
 def drift_plates(chain, p, dt):
-    """Places by the half-step rates; directions by the increment of the angle (series, exact to 1e-19)."""
+    """Places by the half-step rates, directions by the increment of the angle (series, exact to 1e-19); rates predicted there."""
     for i in range(8 * chain.blocks):
         e, c, s = dt * p.hw[i], p.c[i], p.s[i]
         e2 = e * e
@@ -155,6 +185,16 @@ def drift_plates(chain, p, dt):
         p.angle[i] += e
         p.c[i] = c - (c * versin + s * sin)
         p.s[i] = s - (s * versin - c * sin)
+        p.vx[i] = p.hx[i] + 0.5 * dt * p.fx[i]
+        p.vy[i] = p.hy[i] + 0.5 * dt * p.fy[i]
+        p.w[i] = p.hw[i] + 0.5 * dt * p.moment[i]
+
+
+@inner
+def close_rates(chain, p):
+    """The rates behind the last plate are a copy of those of the first one."""
+    n = chain.count
+    p.vx[n], p.vy[n], p.w[n] = p.vx[0], p.vy[0], p.w[0]
 
 
 @inner
@@ -162,4 +202,4 @@ def close_ring(chain, p):
     """The place behind the last plate holds a copy of the first one."""
     n = chain.count
     p.x[n], p.y[n], p.c[n], p.s[n] = p.x[0], p.y[0], p.c[0], p.s[0]
-    p.vx[n], p.vy[n], p.w[n] = p.vx[0], p.vy[0], p.w[0]
+    close_rates(chain, p)

@@ -93,7 +93,7 @@ def equilibrium(model, positions=48, teeth=1, tolerance=None):
     """
     _refuse(model, positions, teeth)
     refuse_seats(model)
-    parts = lower(model)
+    parts = lower(_at_rest(model))
     work, state = work_for(parts), at_rest(*assembled(model)[:2])
     small = _TOLERANCE * model.chain.joint_stiffness * model.chain.link.pitch if tolerance is None else tolerance
     relax(_endless(parts), state, work, small, _MOST)  # flanks of any length: nothing is lost on the way from the assembly
@@ -126,6 +126,11 @@ def stiffened(model, factor):
         model = with_sprocket(model, number, contact=contact)
     guides = tuple(replace(g, contact=replace(g.contact, stiffness=factor * g.contact.stiffness)) for g in model.guides)
     return replace(model, chain=replace(model.chain, joint_stiffness=factor * model.chain.joint_stiffness), guides=guides)
+
+
+def _at_rest(model):
+    """The model without rotational dampers: what does not turn is not damped."""
+    return replace(model, sprockets=tuple(replace(each, damping=0.0) for each in model.sprockets))
 
 
 def thickened(model, number, thickness):

@@ -59,13 +59,29 @@ def _flank(parts, body, c, s, along, up, turned, sign):
 
 @inner
 def _guide(parts, body, c, s, along, up):
-    """Depth of the plate's back or belly in the arc of a guide; -1 where the plate or the arc ends."""
-    depth = body.radius + body.distance - body.side * (up - parts.chain.offset)
-    within = body.side * (c * body.middle_y - s * body.middle_x) >= body.opening
-    if not (depth > 0.0 and within and abs(along) <= parts.chain.half_plate):
+    """Depth of the plate's back or belly, half a pitch either way, in the arc of a guide; -1 where the arc ends.
+
+    Where the nearest point of that line is its end, two plates make a corner that touches.
+    """
+    x, y, far = nearest(parts, body, along, up)
+    within = (c * x - s * y) * body.middle_x + (s * x + c * y) * body.middle_y >= body.opening * far
+    if not (far < body.radius and body.side * y > 0.0 and within):
         return -1.0
-    _line(parts.field, body, c, s, along, up, 0.0, -body.side, 0.0)
-    return depth
+    if x == 0.0:
+        _line(parts.field, body, c, s, along, up, 0.0, -body.side, 0.0)
+        return body.radius - far
+    gx, gy = c * x - s * y, s * x + c * y
+    px, py = x - along, y - up
+    _point(parts.field, body, -gx / far, -gy / far, -1.0 / far, c * px - s * py, s * px + c * py, gx, gy)
+    return body.radius - far
+
+
+@inner
+def nearest(parts, body, along, up):
+    """The nearest point of a plate's back or belly from a guide's centre, in the plate's frame, and its distance."""
+    half = parts.chain.half_plate
+    x, y = along + min(max(-along, -half), half), up - body.side * body.distance - parts.chain.offset
+    return x, y, np.hypot(x, y)
 
 
 @inner
@@ -113,13 +129,19 @@ def drag_guide(parts, state, pair, body, gain):
     """Friction -mu fn v/sqrt(v^2 + slip^2) along the plate where it touches the guide."""
     field, c, s = parts.field, parts.field.directions[pair.plate, 0], parts.field.directions[pair.plate, 1]
     v = state.plate_rates[pair.plate]
-    height, back = body.side * body.distance + parts.chain.offset, -(c * body.ux + s * body.uy)
-    slide = c * v[0] + s * v[1] + v[2] * height + back * state.body_rates[pair.body, 0]
+    gx = state.plates[pair.plate, 0] - body.x0 - state.bodies[pair.body, 0] * body.ux
+    gy = state.plates[pair.plate, 1] - body.y0 - state.bodies[pair.body, 0] * body.uy
+    along, up = c * gx + s * gy, c * gy - s * gx
+    x, y, far = nearest(parts, body, along, up)
+    tx, ty = body.side * y / far, -body.side * x / far
+    wx, wy, lever = c * tx - s * ty, s * tx + c * ty, (x - along) * ty - (y - up) * tx
+    back = -(wx * body.ux + wy * body.uy)
+    slide = wx * v[0] + wy * v[1] + v[2] * lever + back * state.body_rates[pair.body, 0]
     soft, limit = np.hypot(slide, body.slip), pair.right * body.friction
     drag, damping = limit * slide / soft, gain * limit * body.slip**2 / soft**3
     pair.left = -drag
     field.powers[FRICTION] += drag * slide
-    way, column = (c, s, height), body.slide_column
+    way, column = (wx, wy, lever), body.slide_column
     for a in range(3):
         field.plates[pair.plate, a] += drag * way[a]
         for d in range(3):
@@ -128,9 +150,9 @@ def drag_guide(parts, state, pair, body, gain):
             field.ring.border[pair.plate, a, column] += damping * way[a] * back
     field.bodies[pair.body, 0] += drag * back
     loads = field.loads[pair.body]
-    loads[0] += drag * c
-    loads[1] += drag * s
-    loads[2] -= drag * body.side * body.radius
+    loads[0] += drag * wx
+    loads[1] += drag * wy
+    loads[2] -= drag * body.side * far
     if column >= 0:
         field.ring.corner[column, column] += damping * back * back
 

@@ -49,7 +49,7 @@ def life_table(basis, found):
     x, y = basis.body.rim.points[found.rows].T
     return Table("plate_life", "life around a plate", (
         Column("x", "m", "along the plate", x), Column("y", "m", "across the plate", y),
-        Column("life", "1", "repeats of the history", found.life), Column("damage", "1", "share of the life a repeat takes", found.damage),
+        Column("life", "-", "repeats of the history", found.life), Column("damage", "-", "share of the life a repeat takes", found.damage),
         Column("mises", "Pa", "greatest von Mises stress", found.stress)))
 
 

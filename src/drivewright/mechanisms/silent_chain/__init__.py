@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.silent_chain import closure, compare, contact, dynamics, layout, many, stress
 from drivewright.mechanisms.silent_chain.build import build
 from drivewright.mechanisms.silent_chain.geometry import geometry
@@ -9,7 +10,24 @@ from drivewright.mechanisms.silent_chain.meshing import meshing, no_meshing
 from drivewright.mechanisms.silent_chain.plots import plots
 from drivewright.mechanisms.silent_chain.scene import drawings, parts, scene
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
+from drivewright.mechanisms.silent_chain.verify import verify
 from drivewright.registry import Analysis, Mechanism
+from drivewright.result import Answer
+
+
+def where_it_can(answer):
+    """The analysis, left out with the reason where the bodies, the card or the place that it asks for cannot be."""
+
+    def guarded(model, done):
+        try:
+            return answer(model, done)
+        except SpecError:  # it names the key to change
+            raise
+        except InputError as impossible:
+            return Answer(findings=(f"{answer.__name__.replace('_', ' ')} is left out: {impossible}",), outcome="left out")
+
+    return guarded
+
 
 ANALYSES = (
     Analysis("meshing", meshing, "pitches, offset, modification of the teeth as published", missing=no_meshing),
@@ -19,15 +37,46 @@ ANALYSES = (
     Analysis("contact", contact.contact, "pins under the force of a strand: pressure, shakedown, bending", missing=contact.no_contact),
     Analysis("trade_off", compare.trade_off, "what the rolling radius trades", missing=compare.no_comparison),
     Analysis("phase_map", compare.phases, "fluctuation over links, teeth and rolling radius", missing=compare.no_phase_map),
-    Analysis("dynamics", dynamics.dynamics, "the running chain: centre distance, forces, spectrum", missing=dynamics.no_dynamics),
-    Analysis("quasi_static", many.quasi_static, "the loaded chain at rest, teeth and joints elastic", default=False,
-             missing=dynamics.no_dynamics),
-    Analysis("speeds", many.speeds, "the running chain over the speed: Campbell diagram", default=False, missing=dynamics.no_dynamics),
-    Analysis("scatter", many.scatter, "the running chain as it comes from manufacture", default=False, missing=dynamics.no_dynamics),
-    Analysis("stress", stress.stress, "stress of a plate as it goes round, finite elements", default=False, needs=("dynamics",),
-             missing=stress.no_stress),
-    Analysis("life", stress.life, "fatigue life of a plate on its critical planes", default=False, needs=("stress",),
-             missing=stress.no_stress),
+    Analysis(
+        "dynamics", where_it_can(dynamics.dynamics), "the running chain: centre distance, forces, spectrum", missing=dynamics.no_dynamics
+    ),
+    Analysis(
+        "quasi_static",
+        where_it_can(many.quasi_static),
+        "the loaded chain at rest, teeth and joints elastic",
+        default=False,
+        missing=dynamics.no_dynamics,
+    ),
+    Analysis(
+        "speeds",
+        where_it_can(many.speeds),
+        "the running chain over the speed: Campbell diagram",
+        default=False,
+        missing=dynamics.no_dynamics,
+    ),
+    Analysis(
+        "scatter",
+        where_it_can(many.scatter),
+        "the running chain as it comes from manufacture",
+        default=False,
+        missing=dynamics.no_dynamics,
+    ),
+    Analysis(
+        "stress",
+        where_it_can(stress.stress),
+        "stress of a plate as it goes round, finite elements",
+        default=False,
+        needs=("dynamics",),
+        missing=stress.no_stress,
+    ),
+    Analysis(
+        "life",
+        where_it_can(stress.life),
+        "fatigue life of a plate on its critical planes",
+        default=False,
+        needs=("stress",),
+        missing=stress.no_stress,
+    ),
 )
 
 HEADLINE = ("pin_offset", "pitch_deviation.drive", "pitch_deviation.driven", "modification.*", "centre_distance.mean",
@@ -43,4 +92,4 @@ SOURCES = (
 
 mechanism = Mechanism(kind="silent-chain", summary="chain drive", spec=SilentChainSpec, build=build, analyses=ANALYSES,
                       folder=Path(__file__).parent, headline=HEADLINE, sources=SOURCES, scene=scene, plots=plots, drawings=drawings,
-                      parts=parts)
+                      parts=parts, verify=verify)

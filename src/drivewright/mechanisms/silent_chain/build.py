@@ -4,6 +4,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from drivewright.chains import meshing
 from drivewright.chains.closure import Drive, close
 from drivewright.chains.link import Link, link, seat_height
@@ -14,6 +16,7 @@ from drivewright.chains.sprocket import design_sprocket
 from drivewright.chains.tooth import Cutter, Tooth, cut_tooth, matching_cutter
 from drivewright.mechanisms.silent_chain.refusals import refuse_contradictions, unused
 
+BORE = 0.4  # of the smaller pitch circle
 SIDES = ("drive", "driven")
 HINGE = 0.125  # radius of a hinge's pin over the pitch
 ROCKER = (0.17, 0.21, 0.02)  # radius of a rocker's back, its thickness, its clearance, over the pitch
@@ -53,7 +56,11 @@ class ChainModel:
     @property
     def worn(self):
         """The link as long as wear has made it."""
-        return self.link._replace(hole_pitch=self.link.hole_pitch + self.spec.closure.elongation * self.link.pitch)
+        return self.lengthened(self.link)
+
+    def lengthened(self, link):
+        """A link with the wear of this chain."""
+        return link._replace(hole_pitch=link.hole_pitch + self.spec.closure.elongation * link.pitch)
 
     @cached_property
     def closure(self):
@@ -92,6 +99,12 @@ class ChainModel:
             name: value for name, value in (("tip_rounding", said.tip_rounding), ("tip_chamfer", said.chamfer)) if value is not None
         }
         return replace(design_sprocket(self.link, teeth, self.cutter, **lengths), tooth=tooth)
+
+    @property
+    def bore(self):
+        """Diameter of the sprockets' holes [m]."""
+        said = self.spec.cutter.bore
+        return BORE * self.spec.pitch / np.sin(np.pi / min(self.teeth)) if said is None else said
 
     @property
     def chain_width(self):

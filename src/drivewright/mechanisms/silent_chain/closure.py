@@ -58,7 +58,7 @@ def _table(found):
 
 def _apart(model):
     """Sprockets as large as their seated pin lines against the centre distance."""
-    room = model.closure.mean - sum(seat_height(model.link, z) for z in model.teeth)
+    room = model.closure.mean - sum(seat_height(model.worn, z) for z in model.teeth)
     return Check("sprockets.apart", room, 0.0, ">=", "m", "centre distance beyond the pin lines of the two sprockets", SIDES, geometry=True)
 
 

@@ -35,8 +35,8 @@ def trade_off(model, done):
     pressure = [_pressure(model, r, force) for r in radii]
     columns = [
         Column("rolling_radius", "m", "rolling radius of the pins", radii),
-        Column("fluctuation", "m", "of the centre distance over a tooth, greatest less least", closures[:, 1]),
-        Column("transmission_error", "rad", "greatest less least", closures[:, 2]),
+        Column("fluctuation", "m", "fluctuation of the centre distance", closures[:, 1]),
+        Column("transmission_error", "rad", "transmission error, greatest less least", closures[:, 2]),
         Column("mean", "m", "mean centre distance", closures[:, 0]),
         Column("running_deviation", "m", "mean centre distance less that of a hinged chain",
                closures[:, 0] - _closed(model, [(0.0, model.spec.links, model.teeth[1])])[0, 0]),
@@ -58,10 +58,12 @@ def phases(model, done):
     table = Table("phase_map", "Fluctuation by the number of links", (
         Column("links", "-", "links of the chain", count), Column("rolling_radius", "m", "rolling radius", radius),
         Column("driven_teeth", "-", "teeth of the driven sprocket", teeth), Column("design", "-", "rolling radius and teeth", names),
-        Column("fluctuation", "m", "of the centre distance over a tooth, greatest less least", found[:, 1]),
-        Column("transmission_error", "rad", "greatest less least", found[:, 2])))
+        Column("fluctuation", "m", "fluctuation of the centre distance", found[:, 1]),
+        Column("transmission_error", "rad", "transmission error, greatest less least", found[:, 2])))
     missing = int(np.sum(~np.isfinite(found[:, 1])))
     findings = (f"phase map: {missing} of {len(cases)} chains do not close",) if missing else ()
+    if missing == len(cases):
+        return Answer({}, (table,), (), findings)
     best = int(np.nanargmin(found[:, 1]))
     values = {"phase_map.least_fluctuation": Value(found[best, 1], "m", f"least in the phase map: {count[best]:.0f} links, {names[best]}")}
     return Answer(values, (table,), (), findings)
@@ -76,7 +78,8 @@ def _radii(model):
 def _closed(model, cases):
     """(mean, fluctuation, transmission error) (n, 3) of chains (radius, links, driven teeth); nan where one does not close."""
     spec = model.spec
-    drives = [Drive(link(spec.pitch, r, spec.plate.flank_angle, 0.0), model.teeth[0], z, n, spec.closure.strands) for r, n, z in cases]
+    drives = [Drive(model.lengthened(link(spec.pitch, r, spec.plate.flank_angle, 0.0)), model.teeth[0], z, n, spec.closure.strands)
+              for r, n, z in cases]
     rows = phase_map(drives, POSITIONS).rows
     return np.array([(row.value.mean, row.value.fluctuation, row.value.transmission_ripple) if row.ok else (np.nan,) * 3 for row in rows])
 

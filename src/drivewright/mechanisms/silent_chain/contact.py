@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from drivewright.chains import standards
 from drivewright.chains.stress import pins, rolling
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.moving import link_of, undrawn
@@ -16,7 +17,9 @@ def no_contact(spec):
 def contact(model, done):
     """Forces of the strands and what they do to the pins."""
     force = model.spec.contact.force or strand_force(model)
-    findings = [f"the mass of a link is estimated from the pitch: {undrawn(model)}"] if undrawn(model) and not model.spec.roller else []
+    said = model.spec.plate
+    rough = undrawn(model) and not model.spec.roller and not (said.link_mass and said.link_inertia)
+    findings = [f"the mass of a link is estimated from the pitch: {undrawn(model)}"] if rough else []
     values, checks = {**_strands(model), "pin.force": Value(force, "N", "of the strand, on the pins of a joint")}, []
     pressed, found = (_rolling if model.link.radius else _hinge)(model, force)
     values |= pressed
@@ -35,7 +38,7 @@ def contact(model, done):
 
 
 def strand_force(model):
-    """Half the preload, half the load's pull at the pitch circle, and the centrifugal force of the chain [N]."""
+    """Of the tight strand: half the preload along it, half the load's pull, and the centrifugal force of the chain [N]."""
     tight, _ = _pulls(model)
     return tight + centrifugal(model)
 
@@ -54,7 +57,17 @@ def _pulls(model):
     """Of the tight and of the slack strand [N], without the centrifugal force."""
     drive = model.spec.drive
     pull = drive.load_torque * 2 * np.pi / (model.teeth[1] * model.link.pitch)
-    return 0.5 * (drive.preload + pull), 0.5 * (drive.preload - pull)
+    along = drive.preload / slope(model)
+    return 0.5 * (along + pull), 0.5 * (along - pull)
+
+
+def slope(model):
+    """Cosine of the angle of the strands to the line of centres, by pitch circles; 1 where there are none."""
+    try:
+        distance = standards.centre_distance(model.link.pitch, *model.teeth, model.spec.links)
+    except InputError:
+        return 1.0
+    return float(np.cos(standards.strand_angle(model.link.pitch, *model.teeth, distance)))
 
 
 def _strands(model):
@@ -114,6 +127,7 @@ def _bending(model, force):
 
 def _section(model):
     """Cross-section of a pin."""
+    model.pins.check(model.link)
     shape = model.pins.pin(model.link)
     round_ones = not model.link.radius or len({piece.radius for piece in shape.pieces}) == 1
     return pins.round_section(shape.pieces[0].radius) if round_ones else pins.outline_section(shape)

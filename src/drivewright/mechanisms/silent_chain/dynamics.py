@@ -3,8 +3,9 @@
 import numpy as np
 
 from drivewright.chains.dynamics.simulate import Settings, simulate, tooth_time
-from drivewright.chains.dynamics.stability import largest_step
+from drivewright.chains.dynamics.stability import largest_step, refuse_step
 from drivewright.chains.implicit import simulate as implicit
+from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.silent_chain.moving import moving
 from drivewright.result import Answer, Check, Column, Table, Value
 
@@ -42,6 +43,9 @@ def _run(model, system):
     """The run, by the integrator asked for."""
     said = model.spec.dynamics
     duration = said.settling + (said.duration or model.spec.links * tooth_time(system))
+    if duration - said.settling < 2 * tooth_time(system):
+        raise SpecError(f"{1e3 * (duration - said.settling):.4g} ms hold no two teeth of {1e3 * tooth_time(system):.4g} ms; give more",
+                        "dynamics.duration")
     common = {"settle": said.settling, "tolerance": said.largest_drift, "plate": WATCHED}
     if said.integrator == "implicit":
         return implicit.simulate(system, duration, implicit.Settings(said.step or IMPLICIT_STEP, **common))
@@ -50,7 +54,12 @@ def _run(model, system):
 
 def explicit_step(model, system):
     """Step of an explicit run [s]: as said, else a microsecond, or less where that is not safe."""
-    return model.spec.dynamics.step or min(STEP, SAFE * largest_step(system))
+    said = model.spec.dynamics.step
+    try:
+        refuse_step(system, said or 0.1 * largest_step(system))
+    except InputError as reason:
+        raise SpecError(str(reason), "dynamics.step") from None
+    return said or min(STEP, SAFE * largest_step(system))
 
 
 def _more(model, motion):

@@ -59,7 +59,14 @@ def _sprockets(model):
         found = (_roller_teeth if model.spec.roller else _teeth)(model, side, sprocket)
         values |= found[0]
         checks += found[1]
-    return values, checks
+    return values, [*checks, *bores(model)]
+
+
+def bores(model):
+    """The holes against the roots of the teeth."""
+    for side, sprocket in zip(SIDES, model.sprockets, strict=True):
+        yield Check(f"bore.{side}", 0.5 * model.bore, sprocket.root_radius, "<=", "m",
+                    f"radius of the hole of the {SIDE_WORDS[side]} against the roots of its teeth", (side,), True)
 
 
 def _radii(side, sprocket):

@@ -12,6 +12,7 @@ from drivewright.result import Answer, Column, Table, Value
 SPEEDS = 12  # of the Campbell diagram, unless told otherwise, up to
 BEYOND = 1.5  # times the design's speed
 TEETH = 60  # of a run of the Campbell diagram
+PEAKS = 4  # of a spectrum, in the Campbell diagram
 POSITIONS = 24  # in a tooth, at rest
 PERCENTILES = (5, 50, 95)
 
@@ -22,7 +23,7 @@ def speeds(model, done):
     chosen = np.array(said) if said else drive.speed * BEYOND * np.arange(1, SPEEDS + 1) / SPEEDS
     system = moving(model)
     found = campbell(system, -chosen, TEETH, settings=_settings(model, system))
-    rows = [(-row.case, row.value) for row in found.rows if row.value is not None]
+    rows = [(-row.case, row.value) for row in found.rows if row.ok]
     findings = tuple(f"at {-row.case * 30 / np.pi:.4g} rpm: {row.reason}" for row in found.failed)
     if not rows:
         return Answer(findings=findings, outcome="partial")
@@ -33,12 +34,19 @@ def speeds(model, done):
         *(Column(f"mesh_order_{k + 1}", "m", f"amplitude at {k + 1} times the mesh frequency",
                  np.array([level.amplitudes[k] for _, level in rows])) for k in range(3)),
         Column("tension", "N", "greatest tension in a joint", np.array([level.tension for _, level in rows]))))
-    lines = [(speed, f, a) for speed, level in rows for f, a in zip(level.frequency, level.spectrum, strict=True)]
-    speed, frequency, amplitude = np.array(lines).T
-    diagram = Table("campbell", "Campbell diagram of the centre distance", (
-        Column("speed", "rad/s", "speed of the driving sprocket", speed), Column("frequency", "Hz", "frequency", frequency),
-        Column("amplitude", "m", "amplitude of the centre distance", amplitude)))
+    diagram = Table("campbell", "Campbell diagram: highest peaks of the spectra of the centre distance", (
+        Column("speed", "rad/s", "speed of the driving sprocket", np.array([speed for speed, _ in rows])),
+        *(Column(f"peak_{k + 1}", "Hz", f"peak {k + 1}", np.array([_peaks(level)[k] for _, level in rows])) for k in range(PEAKS)),
+        Column("mesh_frequency", "Hz", "mesh frequency", np.array([speed for speed, _ in rows]) * model.teeth[0] / (2 * np.pi))))
     return Answer({}, (table, diagram), (), findings)
+
+
+def _peaks(level):
+    """Frequencies (PEAKS,) of the highest local maxima of the spectrum, highest first; nan where there are fewer."""
+    a, f = level.spectrum, level.frequency
+    tops = np.flatnonzero((a[1:-1] > a[:-2]) & (a[1:-1] >= a[2:])) + 1
+    best = tops[np.argsort(-a[tops])][:PEAKS]
+    return np.pad(f[best], (0, PEAKS - len(best)), constant_values=np.nan)
 
 
 def scatter(model, done):
@@ -52,14 +60,14 @@ def scatter(model, done):
         values[f"scatter.mean.p{percent:02d}"] = Value(found.mean[k], "m", f"mean centre distance, {percent} % of the drives are below")
         values[f"scatter.fluctuation.p{percent:02d}"] = Value(found.fluctuation[k], "m",
                                                               f"fluctuation of the centre distance, {percent} % are below")
-    rows = [row.value for row in found.outcomes.rows if row.value is not None]
+    rows = [row.value for row in found.outcomes.rows if row.ok]
     table = Table(
         "scatter",
         "Drives as they come from manufacture",
         (
             Column("drive", "-", "drive", np.arange(float(len(rows)))),
             Column("mean", "m", "mean centre distance", np.array([r.mean for r in rows])),
-            Column("fluctuation", "m", "of the centre distance", np.array([r.fluctuation for r in rows])),
+            Column("fluctuation", "m", "fluctuation of the centre distance", np.array([r.fluctuation for r in rows])),
         ),
     )
     findings = tuple(f"drive {row.case}: {row.reason}" for row in found.outcomes.failed)

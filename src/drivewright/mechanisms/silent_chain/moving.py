@@ -7,7 +7,6 @@ from drivewright.chains.dynamics.roller import RollerTooth
 from drivewright.chains.link import seat_support
 from drivewright.chains.plate import LinkMass, link_mass
 from drivewright.chains.roller_sprocket import design_roller_sprocket
-from drivewright.chains.sprocket import design_sprocket
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import InputError
 
@@ -18,7 +17,8 @@ ROUGH_PLATE = (1.86, 0.95)  # length and height of a plate that cannot be drawn,
 def moving(model):
     """The `Model` of the chain drive for any solver of its motion."""
     spec = model.spec
-    touch = Contact(spec.contact.stiffness, spec.contact.damping)
+    damping = spec.contact.joint_damping * spec.contact.stiffness if spec.contact.damping is None else spec.contact.damping
+    touch = Contact(spec.contact.stiffness, damping)
     driven = [_driven(model, touch), *(_further(model, each, touch) for each in spec.sprockets)]
     guides = tuple(_guide(model, each, touch) for each in spec.guides)
     return Model(_chain(model), (_driver(model, touch), *driven), guides, spec.drive.gravity)
@@ -71,21 +71,16 @@ def _driver(model, touch):
 
 
 def _driven(model, touch):
+    """On its slide or fixed; its load resists changes of speed about the nominal one."""
     spec, said = model.spec, model.spec.driven
     mass = said.mass or _disc(model, model.teeth[1])
-    fixed = said.centre_distance
-    slide = None if fixed else Slide(0.0, spec.drive.preload, damping=2 * said.damping_ratio * np.sqrt(_strands(model) * mass))
-    return Sprocket(
-        _tooth(model, 1),
-        touch,
-        (fixed or model.closure.mean, 0.0),
-        mass=mass,
-        inertia=said.inertia or _inertia(model, mass, 1),
-        torque=spec.drive.load_torque,
-        damping=said.rotational_damping,
-        slide=slide,
-        **_active(model, 1),
-    )
+    inertia, fixed = said.inertia or _inertia(model, mass, 1), said.centre_distance
+    stiffness, ratio = _strands(model), said.damping_ratio
+    slide = None if fixed else Slide(0.0, spec.drive.preload, damping=2 * ratio * np.sqrt(stiffness * mass))
+    turning = 0.0 if spec.drive.ramp else 2 * ratio * _pitch_radius(model, model.teeth[1]) * np.sqrt(stiffness * inertia)
+    nominal = -spec.drive.speed * model.teeth[0] / model.teeth[1]
+    return Sprocket(_tooth(model, 1), touch, (fixed or model.closure.mean, 0.0), mass=mass, inertia=inertia,
+                    torque=spec.drive.load_torque, damping=turning, calm=nominal, slide=slide, **_active(model, 1))
 
 
 def _strands(model):
@@ -123,8 +118,9 @@ def _further(model, said, touch):
         wheel = design_roller_sprocket(said.teeth, model.spec.pitch, model.spec.roller.diameter, model.spec.roller.tooth_space)
         active, tooth = {"tip_radius": wheel.tip_radius}, _roller_tooth(wheel)
     else:
-        wheel = design_sprocket(model.link, said.teeth, model.cutter)
-        tooth = Tooth(said.teeth, wheel.tooth.base_radius, seat_support(model.link, said.teeth))
+        base = 0.5 * model.cutter.module * said.teeth * np.cos(model.cutter.half_angle)
+        wheel = model.sprocket(said.teeth, Tooth(said.teeth, base, seat_support(model.link, said.teeth)))
+        tooth = wheel.tooth._replace(support=wheel.tooth.support - model.spec.dynamics.thickness_deviation)
         active = {"tip_radius": wheel.tip_radius - wheel.tip_chamfer, "form_radius": wheel.form_radius}
     return Sprocket(tooth, touch, said.centre, mass=mass, inertia=inertia, torque=said.load_torque, **active)
 
@@ -146,9 +142,15 @@ def _pitch_radius(model, teeth):
 
 def _disc(model, teeth):
     """Mass of a disc as large as the pitch circle and as wide as the chain [kg]."""
-    bore = 0.5 * model.spec.cutter.bore
-    return np.pi * (_pitch_radius(model, teeth) ** 2 - bore**2) * model.chain_width * model.spec.material.density
+    radius = _pitch_radius(model, teeth)
+    return np.pi * (radius**2 - _hole(model, radius) ** 2) * model.chain_width * model.spec.material.density
 
 
 def _inertia(model, mass, number):
-    return 0.5 * mass * (_pitch_radius(model, model.teeth[number]) ** 2 + (0.5 * model.spec.cutter.bore) ** 2)
+    radius = _pitch_radius(model, model.teeth[number])
+    return 0.5 * mass * (radius**2 + _hole(model, radius) ** 2)
+
+
+def _hole(model, radius):
+    """Radius of the hole of a disc; none where it would leave no disc."""
+    return 0.5 * model.bore if model.bore < 2 * radius else 0.0

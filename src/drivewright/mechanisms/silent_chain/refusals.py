@@ -14,6 +14,11 @@ def refuse_nonsense(spec):
         raise SpecError(
             f"{spec.links} links are no more than the {max(spec.teeth)} teeth of a sprocket: the chain does not reach around two; "
             f"take {max(spec.teeth) + 4} or more", "links")
+    for table in ("guides", "sprockets"):
+        names = [entry.name for entry in getattr(spec, table)]
+        for name in names:
+            if names.count(name) > 1:
+                raise SpecError(f"the name {name!r} comes twice; names in {table} must differ", f"{table}.{name}.name")
     if min(spec.plate.lacing) < 1:
         raise SpecError(f"lacing {list(spec.plate.lacing)} has a pitch without a plate; count one or more in each", "plate.lacing")
 
@@ -23,6 +28,11 @@ def refuse_contradictions(spec):
     joint, plate = spec.joint, spec.plate
     if joint.kind != "revolute" and joint.rolling_radius is None:
         raise SpecError('a rolling joint needs its radius: give rolling_radius, or take kind = "revolute"', "joint.rolling_radius")
+    for guide in spec.guides:
+        if (guide.force is None) != (guide.direction is None):
+            raise SpecError(
+                "a tensioner needs both force and direction; give both, or neither for a fixed rail", f"guides.{guide.name}.force"
+            )
     if spec.roller is not None:
         if joint.kind != "revolute":
             raise SpecError(
@@ -38,6 +48,13 @@ def refuse_contradictions(spec):
 
 def unused(spec):
     """Findings for keys that have no effect here."""
+    for guide in spec.guides:
+        if guide.force is None and (guide.stiffness or guide.damping):
+            yield f"guides.{guide.name}: stiffness and damping have no effect on a rail that does not move; give force and direction"
+    if spec.roller:
+        given = [key for key in ("apothem", "standard_apothem", "flank_angle") if key in spec.plate.model_fields_set]
+        if given:
+            yield f"plate.{', plate.'.join(given)} {'has' if len(given) == 1 else 'have'} no effect: rollers mesh, not plates"
     if spec.joint.kind == "revolute" and spec.joint.rolling_radius is not None:
         yield "joint.rolling_radius has no effect: a revolute joint does not roll"
     if spec.joint.kind != "revolute" and spec.joint.pin_diameter is not None:

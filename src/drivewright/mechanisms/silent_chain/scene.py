@@ -13,6 +13,7 @@ from drivewright.scene import Body, Drawing, Frame, Part, Prism, Scene, Shape, c
 FRAMES = 49
 SLOWLY = 3.0  # seconds for the two teeth on the screen
 FINE = 2e-5  # of the teeth's outline on the screen [m]
+SOLID_LINKS = 4
 OVERHANG = 0.5e-3  # of the pins beyond the plates, in solids
 COLOURS = {"drive": "orange", "driven": "green"}
 
@@ -46,8 +47,8 @@ def _wheel(model, sprocket):
     outline = sprocket.outline() if model.spec.roller else sprocket.outline(FINE)
     gap = np.pi / sprocket.teeth if model.spec.roller else 0.0
     yield Shape("body", outline.moved((0.0, 0.0, -np.pi / 2 - gap)))
-    if model.spec.cutter.bore:
-        yield Shape("hole", circle((0, 0), 0.5 * model.spec.cutter.bore))
+    if model.bore:
+        yield Shape("hole", circle((0, 0), 0.5 * model.bore))
     reach = 0.9 * sprocket.root_radius
     yield Shape("axis", circle((reach, 0.0), 0.02 * reach).moved(quarter))
 
@@ -67,7 +68,7 @@ def link_shapes(model, number=0):
 
 def drawings(model):
     """Plate and both sprockets; what cannot be drawn raises InputError."""
-    bore, width = model.spec.cutter.bore, model.chain_width
+    bore, width = model.bore, model.chain_width
     found = [sprocket.drawing(bore, width, f"sprocket_{side}") for side, sprocket in zip(SIDES, model.sprockets, strict=True)]
     if model.spec.roller:
         shape = Shape("profile", roller_plate(model.spec.pitch, 0.45 * model.spec.pitch, 0.5 * model.spec.pitch))
@@ -77,15 +78,15 @@ def drawings(model):
 
 
 def parts(model):
-    """Both sprockets and the whole chain in its first position."""
+    """Both sprockets and the first links, of each kind two: as solids the whole chain would fill tens of megabytes."""
     states = states_at(model.closure, [0.0])
     where = {"drive": (0.0, 0.0, 0.0), "driven": (float(states.centre_distance[0]), 0.0, float(states.driven_angle[0]))}
     found = []
     for side, sprocket in zip(SIDES, model.sprockets, strict=True):
         x, y, angle = where[side]
         gap = np.pi / sprocket.teeth if model.spec.roller else 0.0
-        found.append(sprocket.part(model.spec.cutter.bore, model.chain_width, side, (x, y, float(angle - np.pi / 2 - gap))))
-    chain = plates(model.closure, states)[0]
+        found.append(sprocket.part(model.bore, model.chain_width, side, (x, y, float(angle - np.pi / 2 - gap))))
+    chain = plates(model.closure, states)[0, :SOLID_LINKS]
     return (*found, *(_links(model, chain) if not model.spec.roller else _roller_links(model, chain)))
 
 

@@ -21,7 +21,6 @@ from drivewright.units import (
     Length,
     Mass,
     Pressure,
-    RotationalDamping,
     Speed,
     Stiffness,
     Time,
@@ -75,7 +74,11 @@ class Plate(Spec):
     """The toothed link plates of a silent chain."""
 
     flank_angle: Angle = Field("30 deg", gt=0, lt=TURN / 8, description="of the outer flank from the plate's axis of symmetry")
-    apothem: Length | None = Field(None, description="hole centre to flank on the same side; or give standard_apothem", examples=["2.6 mm"])
+    apothem: Length | None = Field(
+        None,
+        description="centre of the pin's rolling surface to the flank on the same side; or give standard_apothem",
+        examples=["2.6 mm"],
+    )
     standard_apothem: Length | None = Field(None, gt=0, description="rotation centre on the pitch line to flank, instead of apothem",
                                             examples=["3.773 mm"])
     thickness: Length = Field("2 mm", gt=0, description="of a plate")
@@ -104,7 +107,7 @@ class Roller(Spec):
 
 
 class Cutter(Spec):
-    """The hob or rack cutter that makes both sprockets, and the teeth it leaves."""
+    """The hob or rack cutter that makes the sprockets, and the teeth it leaves."""
 
     half_angle: Angle = Field("30 deg", gt=0, lt=TURN / 8, description="half the angle of its teeth")
     pitch: Length | None = Field(None, gt=0, description="of its teeth; from the chain's base pitch unless given", examples=["9.525 mm"])
@@ -114,7 +117,12 @@ class Cutter(Spec):
                                      examples=["1.7 mm"])
     root_depth: Length | None = Field(None, gt=0, description="roots of the teeth below it; 0.68 pitches unless given", examples=["6.5 mm"])
     chamfer: Length | None = Field(None, ge=0, description="of the tips; 0.02 pitches unless given", examples=["0.2 mm"])
-    bore: Length = Field("20 mm", ge=0, description="diameter of the holes of both sprockets, for drawings and masses")
+    bore: Length | None = Field(
+        None,
+        ge=0,
+        description="diameter of the holes of the sprockets, for drawings and masses; 0.4 of the smaller pitch circle unless given",
+        examples=["20 mm"],
+    )
     measuring_pin: Length | None = Field(None, gt=0, description="diameter; that which touches where the plates do unless given",
                                          examples=["6 mm"])
 
@@ -143,8 +151,12 @@ class Driven(Spec):
 
     mass: Mass | None = Field(None, gt=0, description="a steel disc as wide as the chain unless given", examples=["0.6 kg"])
     inertia: Inertia | None = Field(None, gt=0, description="about its axis; m r^2/2 unless given", examples=["9.3e-4 kg m^2"])
-    damping_ratio: Number = Field(0.1, ge=0, description="of its slide, over the critical damping of the sprocket on the strands")
-    rotational_damping: RotationalDamping = Field("0 N m s/rad", ge=0, description="of its bearing")
+    damping_ratio: Number = Field(
+        0.1,
+        ge=0,
+        description="of its slide and, but while the speed ramps up, of its rotation about the nominal "
+        "speed; over critical, on the strands",
+    )
     centre_distance: Length | None = Field(None, gt=0, description="a fixed one, instead of the slide under the preload",
                                            examples=["219.056 mm"])
 
@@ -153,7 +165,7 @@ class Sprocket(Spec):
     """A further sprocket inside the loop."""
 
     name: Name = Field(description="name", examples=["idler"])
-    teeth: Integer = Field(ge=3, description="teeth", examples=[21])
+    teeth: Integer = Field(ge=6, description="teeth", examples=[21])
     centre: tuple[Length, Length] = Field(description="x, y from the driving sprocket", examples=[["100 mm", "60 mm"]])
     mass: Mass | None = Field(None, gt=0, description="a steel disc as wide as the chain unless given", examples=["0.3 kg"])
     inertia: Inertia | None = Field(None, gt=0, description="about its axis; m r^2/2 unless given", examples=["1e-4 kg m^2"])
@@ -192,7 +204,8 @@ class Contact(Spec):
                                 examples=["200 N"])
     stiffness: Stiffness = Field("1e5 N/mm", gt=0, description="of a place of contact: flank on tooth, plate on pin, pin on pin; three of "
                                                                "these in line make a joint")
-    damping: Damping = Field("0 N s/m", ge=0, description="of flank and tooth")
+    damping: Damping | None = Field(None, ge=0, description="of flank and tooth; joint_damping times stiffness unless given",
+                                    examples=["200 N s/m"])
     joint_damping: Time = Field("2 us", ge=0, description="damping of a joint over its stiffness")
 
 

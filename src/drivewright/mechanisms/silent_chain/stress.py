@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from drivewright import fatigue
+from drivewright.chains.dynamics.simulate import tooth_time
 from drivewright.chains.stress.life import life_table, plate_life
 from drivewright.chains.stress.plate import Loads, plate_basis, plate_body, stress_history, stress_picture, worst
 from drivewright.mechanisms.silent_chain.dynamics import no_dynamics
@@ -15,6 +16,7 @@ from drivewright.solids.plane import mises
 
 LEAST = 0.3  # of the greatest stress: points below it are not looked at for life
 MOST_INSTANTS = 500  # of a revolution, for life
+DOT = 0.015  # of the pitch: a point of the life map
 SEAT = 0.17  # sine of how far a seat reaches around its pin beyond a right angle
 
 
@@ -22,6 +24,8 @@ def no_stress(spec):
     """Why there is none."""
     if spec.roller:
         return "it is for plates of silent chains"
+    if spec.sprockets:
+        return "it is for two sprockets"
     return no_dynamics(spec)
 
 
@@ -56,6 +60,11 @@ def life(model, done):
     found, card = done["stress"].data, card_of(model)
     if found is None:
         return Answer(findings=("life is left out: there is no stress",), outcome="left out")
+    if not found.whole:
+        return Answer(
+            findings=("life is left out: the run is shorter than a revolution of the chain; give dynamics.duration more, or none",),
+            outcome="left out",
+        )
     thin = found.thinned
     lives = plate_life(found.basis, thin, card, model.spec.fatigue.plane, LEAST)
     shortest, revolution = float(np.min(lives.life)), found.time[-1] - found.time[0]
@@ -70,7 +79,18 @@ def life(model, done):
           if card.estimated else []),
         "the pins roll under their contact pressure: its fatigue is not Brown and Miller's; see pin.shakedown",
     ]
-    return Answer(values, (life_table(found.basis, lives),), (), tuple(findings))
+    return Answer(values, (life_table(found.basis, lives), _life_map(found.basis, lives, model.link.pitch)), (), tuple(findings))
+
+
+def _life_map(basis, lives, pitch):
+    """Small squares around the rim, two triangles each, in the colour of their life; lives without damage are left out."""
+    kept = np.isfinite(lives.life)
+    centre, half = basis.body.rim.points[lives.rows[kept]], 0.5 * DOT * pitch
+    corners = np.array([(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)]) * half
+    x, y = (centre[:, None, :] + corners).reshape(-1, 2).T
+    return Table("life_map", "Life around a plate", (
+        Column("x", "m", "along the plate", x), Column("y", "m", "across the plate", y), Column("depth", "m", "flat", 0 * x),
+        Column("life", "-", "power of ten of the revolutions", np.repeat(np.log10(lives.life[kept]), 6))))
 
 
 def card_of(model):
@@ -104,6 +124,12 @@ class Revolution(SimpleNamespace):
         count = self.model.spec.links * self.motion.per_tooth
         last = self.motion.steady.stop
         return slice(max(self.motion.steady.start, last - count - 1), last)
+
+    @property
+    def whole(self):
+        """Whether it is a whole revolution of the chain, of a run that did not fail."""
+        turn = self.model.spec.links * tooth_time(self.motion.model)
+        return not self.motion.advice and self.time[-1] - self.time[0] > 0.999 * turn
 
     @property
     def time(self):

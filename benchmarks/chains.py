@@ -1,0 +1,234 @@
+"""Chain drives: time of a link's step, of closures, maps and lives; a roller chain beside Exudyn's at the same contact stiffness."""
+
+import time
+from dataclasses import replace
+
+import numpy as np
+from timing import best
+
+CORES = 2
+RADII = (1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 7.4)  # mm, seven groups of the paper and its control group
+DURATION, STEP = 0.3, 1e-6
+FLOPS, SCALAR, VECTOR = 170, 28.0, 8.0  # of a link's step; ns of it that this kind of machine allows, one number or eight at a time
+PITCH = 9.525e-3
+
+
+def system(radius):
+    """The paper's drive [mm], masses assumed, the outer flank where the paper has it."""
+    from drivewright import load, registry
+    from drivewright.mechanisms.silent_chain.moving import moving
+    from drivewright.runner import build
+
+    flank = float(2.6 + (1.2 - radius) * np.cos(np.pi / 6))
+    kind = "arc" if radius > 0.25e3 * PITCH else "round-pin"
+    changes = (f'joint.kind="{kind}"', f'joint.rolling_radius="{radius} mm"', f'plate.apothem="{flank!r} mm"', 'plate.link_mass="2.5 g"',
+               'plate.link_inertia="6.4e-8 kg m^2"', 'driven.mass="0.6 kg"')
+    return moving(build(load(registry.mechanism("silent-chain").presets()["default"], changes)))
+
+
+def running():
+    """Explicit steps of 82 links at 2000 rpm, and all groups of the paper."""
+    from drivewright.cases import run
+    from drivewright.chains.dynamics.simulate import Settings, simulate
+    from drivewright.chains.dynamics.stability import largest_step
+
+    drive, settings = system(1.2), Settings(STEP, settle=0.1, run_in=0.0)
+    seconds = best(lambda: simulate(drive, DURATION, settings), 5)
+    motion = simulate(drive, DURATION, settings)
+    per = [1e9 * s * motion.step / DURATION / drive.chain.count for s in seconds]
+    yield f"82 links, 0.3 s at 2000 rpm in steps of {1e6 * motion.step:.3g} us, one core: {per[0]:.1f} ns per link and step", seconds, (
+        f"{FLOPS} flops; this kind of machine allows {SCALAR:g} ns one link at a time, {VECTOR:g} ns with vectors: "
+        f"{per[0] / VECTOR:.1f} times that; energy drift {motion.energy_drift:.1e}")
+    drives = [system(radius) for radius in RADII]
+
+    def one(each):
+        return simulate(each, DURATION, replace(settings, step=min(STEP, 0.5 * largest_step(each)))).energy_drift
+
+    seconds, rows = best(lambda: run(one, drives, CORES), 2), run(one, drives, CORES).rows
+    yield "eight groups of the paper, 0.3 s each, two threads", seconds, (
+        f"wanted under 10 s; {sum(row.ok for row in rows)} ran, largest energy drift {max(row.value or 0.0 for row in rows):.1e}")
+
+
+def closures():
+    """Rigid drives over a tooth, at rest with contacts, many designs."""
+    from drivewright.chains.closure import Drive, close, phase_map
+    from drivewright.chains.dynamics.model import with_sprocket
+    from drivewright.chains.implicit.equilibrium import equilibrium
+    from drivewright.chains.link import link
+
+    joint = link(PITCH, 1.2e-3, np.pi / 6, 0.0)
+    means = {}
+    for strands in ("straight", "equilibrium"):
+        drive = Drive(joint, 35, 37, 82, strands)
+        means[strands] = close(drive).mean
+        yield f"closure over a tooth, 48 positions, strands {strands}", best(lambda drive=drive: close(drive), 20), (
+            f"mean {1e3 * means[strands]:.6f} mm, rest of the loop {close(drive).residual:.0e} m")
+    drives = [Drive(link(PITCH, r, np.pi / 6, 0.0), 35, z, n)
+              for r in np.linspace(0, 7.4e-3, 5) for z in (33, 35, 37, 39) for n in range(78, 88)]
+    seconds = best(lambda: phase_map(drives, 24, CORES), 3)
+    failed = len(phase_map(drives, 24, CORES).failed)
+    yield f"phase map of {len(drives)} designs, two threads: {len(drives) / seconds[0]:,.0f} per second", seconds, f"{failed} do not close"
+    loaded = with_sprocket(system(1.2), 1, torque=0.0)  # without the torque that the damping of its turning takes up when it runs
+    yield "at rest with 150 N, teeth and joints elastic, 24 positions", best(lambda: equilibrium(loaded, 24), 5), (
+        f"mean {1e3 * equilibrium(loaded, 24).mean:.6f} mm, {equilibrium(loaded, 24).residual:.0e} N unbalanced at most")
+
+
+def lives():
+    """Critical planes of many points under a plate's history of 200 instants, plane stress."""
+    from drivewright import fatigue
+
+    card = fatigue.uniform_material_law(980e6, 206e9)
+    rng, points, instants = np.random.default_rng(1), 200, 200
+    turn = np.linspace(0, 2 * np.pi, instants, endpoint=False)
+    stress = np.zeros((points, instants, 3, 3))
+    for k, wave in enumerate((1 + np.sin(turn), np.sin(2 * turn), np.cos(turn))):
+        i, j = ((0, 0), (1, 1), (0, 1))[k]
+        stress[..., i, j] = stress[..., j, i] = rng.uniform(50e6, 250e6, (points, 1)) * wave
+    strain = fatigue.elastic_strain(stress, card)
+    for plane in ("max-shear", "max-damage"):
+        seconds = best(lambda plane=plane: fatigue.life_map(strain, stress, card, plane), 2)
+        yield f"life of {points} points, {instants} instants, plane {plane}: {points / seconds[0]:,.0f} points per second", seconds, ""
+
+
+# -- a roller chain beside Exudyn's ----------------------------------------------------------------------------------------------
+
+ROLLER, SEAT, SEAT_ANGLE, FLANK = 3.175e-3, 3.9e-3, 1.9, 9e-3
+STIFFNESS, DAMPING, FORCE, SPEED = 1e8, 300.0, 150.0, -60.0
+SEGMENTS = (9, 2)  # of the seat and of each flank of a tooth space, for Exudyn
+TIME = 1e-4  # [s]; over longer ones Newton's method of this model in Exudyn stops converging, and its times say nothing
+
+
+def roller_drive(joint):
+    """24 links around 9 and 10 teeth, joints of a stiffness [N/m]."""
+    from drivewright.chains.dynamics import model as m
+    from drivewright.chains.dynamics.roller import RollerTooth
+    from drivewright.chains.link import Link
+
+    teeth = [RollerTooth(z, 0.5 * PITCH / np.sin(np.pi / z), SEAT, SEAT_ANGLE, FLANK, ROLLER) for z in (9, 10)]
+    chain = m.Chain(Link(PITCH, 0.0, np.pi / 6, 0.0), 24, 2.5e-3, 6.4e-8, joint, 2e-6)
+    contact = m.Contact(STIFFNESS, DAMPING)
+    first = m.Sprocket(teeth[0], contact, angle=0.0, tip_radius=teeth[0].pitch_radius + 2e-3, drive=m.Drive(SPEED, SPEED))
+    second = m.Sprocket(teeth[1], contact, (0.0692, 0.0), tip_radius=teeth[1].pitch_radius + 2e-3, mass=0.2, inertia=2e-5,
+                        slide=m.Slide(0.0, FORCE, damping=100.0))
+    return m.Model(chain, (first, second))
+
+
+def space(tooth):
+    """Corners (n, 2) of a tooth space about the polar angle 0, clockwise to counter-clockwise: flank, seat, flank, touching the arcs."""
+    half, (seats, flanks) = 0.5 * SEAT_ANGLE, SEGMENTS
+    seat, rise = tooth.pitch_radius - ROLLER + SEAT, 0.15  # angle of a flank
+    low = seat - SEAT / np.cos(half / seats) * np.exp(1j * np.linspace(half, -half, seats + 1))  # from its clockwise end
+    centre = seat - (SEAT + FLANK) * np.exp(-1j * half)  # of the flank of the tooth counter-clockwise of the space
+    high = centre + FLANK / np.cos(0.5 * rise / flanks) * np.exp(1j * np.linspace(-half, rise - half, flanks + 1)[1:])
+    points = np.concatenate([high[::-1].conj(), low, high])
+    return np.column_stack([points.real, points.imag])
+
+
+def exudyns(step):
+    """(seconds, centre distance after `TIME` [m]) of Exudyn's chain: rigid plates and joints, rollers as circles."""
+    import exudyn
+    from exudyn import itemInterface as item
+
+    from drivewright.chains.dynamics.assembly import start
+
+    exudyn.config.printToConsole = False
+    model = roller_drive(1e13)
+    begin, n = start(model), model.chain.count
+    container = exudyn.SystemContainer()
+    mbs = container.AddSystem()
+    ground = mbs.AddMarker(item.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(item.NodePointGround()), coordinate=0))
+
+    def body(pose, rates, mass, inertia):
+        node = mbs.AddNode(item.NodeRigidBody2D(referenceCoordinates=list(pose), initialVelocities=list(rates)))
+        return node, mbs.AddObject(item.ObjectRigidBody2D(mass=mass, inertia=inertia, nodeNumber=node))
+
+    def marker(number, x=0.0):
+        return mbs.AddMarker(item.MarkerBodyRigid(bodyNumber=number, localPosition=[x, 0.0, 0.0]))
+
+    def held(node, coordinate, **more):
+        own = mbs.AddMarker(item.MarkerNodeCoordinate(nodeNumber=node, coordinate=coordinate))
+        mbs.AddObject(item.ObjectConnectorCoordinate(markerNumbers=[ground, own], **more))
+
+    plates = [body(pose, rate, model.chain.mass, model.chain.inertia)[1] for pose, rate in zip(begin.poses, begin.rates, strict=True)]
+    for i in range(n):
+        pins = [marker(plates[i], PITCH / 2), marker(plates[(i + 1) % n], -PITCH / 2)]
+        mbs.AddObject(item.ObjectJointRevolute2D(markerNumbers=pins))
+    rollers = [marker(plate, PITCH / 2) for plate in plates]
+    slide = None
+    for number, sprocket in enumerate(model.sprockets):
+        place = (sprocket.centre[0] + begin.q[number], 0.0, begin.psi[number])
+        node, wheel = body(place, (0.0, 0.0, begin.rate_psi[number]), sprocket.mass or 1.0, sprocket.inertia or 1e-3)
+        held(node, 1)
+        if sprocket.drive:
+            held(node, 0)
+            held(node, 2, velocityLevel=True, offset=SPEED)
+        else:
+            slide = node
+            along = mbs.AddMarker(item.MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
+            mbs.AddLoad(item.LoadCoordinate(markerNumber=along, load=FORCE))
+            mbs.AddObject(item.ObjectConnectorCoordinateSpringDamper(markerNumbers=[ground, along], damping=sprocket.slide.damping))
+        _contact(mbs, item, marker(wheel), rollers, sprocket.tooth)
+    sensor = mbs.AddSensor(item.SensorNode(nodeNumber=slide, storeInternal=True, outputVariableType=exudyn.OutputVariableType.Position))
+    mbs.Assemble()
+    settings = exudyn.SimulationSettings()
+    settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = TIME, round(TIME / step)
+    settings.timeIntegration.verboseMode = 0
+    settings.timeIntegration.newton.useModifiedNewton = True
+    settings.timeIntegration.generalizedAlpha.spectralRadius = 0.8
+    settings.timeIntegration.discontinuous.useRecommendedStepSize = False
+    settings.solution.file.write = False
+    settings.solution.sensors.writePeriod = TIME
+    began = time.perf_counter()
+    mbs.SolveDynamic(settings)
+    seconds = time.perf_counter() - began
+    return seconds, float(mbs.GetSensorStoredData(sensor)[-1, 1])
+
+
+def _contact(mbs, item, wheel, rollers, tooth):
+    """All spaces of a sprocket against all rollers: Exudyn's force is stiffness times length of the segment times penetration."""
+    corners = space(tooth)
+    turns = 2 * np.pi * (np.arange(tooth.teeth) + 0.5) / tooth.teeth
+    for part in (slice(0, SEGMENTS[1] + 1), slice(SEGMENTS[1], SEGMENTS[1] + SEGMENTS[0] + 1), slice(-SEGMENTS[1] - 1, None)):
+        rows = []
+        for turn in turns:
+            c, s = np.cos(turn), np.sin(turn)
+            at = corners[part] @ np.array([[c, s], [-s, c]])
+            rows += [np.concatenate(pair) for pair in zip(at[:-1], at[1:], strict=True)]
+        size = float(np.hypot(*(rows[0][2:] - rows[0][:2])))
+        memory = mbs.AddNode(item.NodeGenericData(initialCoordinates=[-1.0, 0.0, 0.0] * len(rows), numberOfDataCoordinates=3 * len(rows)))
+        mbs.AddObject(item.ObjectContactCurveCircles(
+            markerNumbers=[wheel, *rollers], nodeNumber=memory, circlesRadii=[ROLLER] * len(rollers), segmentsData=np.array(rows),
+            contactStiffness=STIFFNESS / size, contactDamping=DAMPING / size, contactModel=0))
+
+
+def beside():
+    """The first tenth of a millisecond of both, from the same start."""
+    from drivewright.chains.dynamics.simulate import Settings, simulate, tooth_time
+
+    model = roller_drive(10 * STIFFNESS)
+    settings = Settings(1e-7, run_in=0.0, samples_per_tooth=round(tooth_time(model) / TIME))
+    seconds = best(lambda: simulate(model, TIME, settings), 5)
+    motion = simulate(model, TIME, settings)
+    links = model.chain.count * motion.every * (len(motion.t) - 1)
+    yield f"ours, 24 links, rollers, 0.1 ms: {1e9 * seconds[0] / links:.0f} ns per link and step", seconds, (
+        f"steps of {motion.step:.1e} s, start included; centre distance {1e3 * motion.centre_distance[-1]:.5f} mm at "
+        f"{1e3 * motion.t[-1]:.4f} ms")
+    try:
+        import exudyn  # noqa: F401 - whether it is there
+    except ImportError as error:
+        yield "Exudyn", None, f"not available: {error}"
+        return
+    for step in (1e-6, 5e-7):
+        runs = [exudyns(step) for _ in range(3)]
+        shortest = min(seconds for seconds, _ in runs)
+        yield (f"Exudyn, the same contact stiffness, rigid joints: {1e9 * shortest / (model.chain.count * round(TIME / step)):,.0f} ns per "
+               "link and step", (shortest, sorted(seconds for seconds, _ in runs)[1]),
+               f"implicit, steps of {step:.1e} s; centre distance {1e3 * runs[0][1]:.5f} mm at {1e3 * TIME:.4f} ms; sprockets as polygons")
+
+
+SECTIONS = (
+    ("Chains: running", running),
+    ("Chains: closure and equilibrium", closures),
+    ("Chains: lives", lives),
+    ("Chains: rollers beside Exudyn", beside),
+)

@@ -1,0 +1,86 @@
+"""Running in: from the assembled drive to one that runs quietly, before the clock starts.
+
+Assembled, plates sit where ideal teeth would seat them, free ones have the pitch that closes the loop, and guides are passed through.
+In the first part of the run-in teeth, pitches and guides become what they are; all the time, ever more faintly, rates are drawn to those
+of a chain that follows itself at its mean speed.  What remains in the end is the motion itself.
+"""
+
+import numpy as np
+
+from drivewright.chains.dynamics.advance import run
+from drivewright.chains.dynamics.shots import empty_shots
+
+PARTS = 400  # of the run-in, between which rates are damped
+DAMPING = 400.0  # largest rate of damping, times the duration
+FADED = 0.6  # part of the run-in in which the parts take on their own measures
+
+
+def steps_of(duration, step):
+    """Steps of each of the PARTS."""
+    return max(1, round(duration / PARTS / step))
+
+
+def run_in(drive, begin, steps, step, again):
+    """Run the drive in for PARTS of so many steps; afterwards its clock stands at 0 and its works start anew."""
+    own, first = _measures(drive), _first_measures(drive, begin)
+    ramps = drive.bodies.ramp.copy(), drive.bodies.speed.copy()
+    drive.bodies.ramp[:], drive.bodies.speed[:] = 0.0, drive.bodies.w
+    shots = empty_shots(1, len(drive.bodies), drive.chain.count)
+    for part in range(PARTS):
+        faded = min(1.0, (part + 1) / (FADED * PARTS))
+        _set_measures(drive, first, own, faded * faded * (3 - 2 * faded))
+        run(drive, shots, 0, 1, steps, again, step)
+        _damp(drive, begin, 1 - np.exp(-DAMPING * (1 - (part + 1) / PARTS) ** 2 / PARTS))
+    drive.bodies.ramp[:], drive.bodies.speed[:] = ramps
+    drive.bodies.psi0[:] = drive.bodies.psi
+    for sums in (drive.clock, drive.sums, drive.joints.lost, drive.touches.lost):
+        sums[:] = 0.0
+
+
+def _measures(drive):
+    """Half the hole pitches, supports of the teeth, radii of the guides."""
+    return drive.plates.half.copy(), drive.teeth.support.copy(), drive.arcs.radius.copy()
+
+
+def _first_measures(drive, begin):
+    """Those with which the assembled drive is free of contact forces."""
+    half, n = drive.plates.half.copy(), drive.chain.count
+    half[:n] = 0.5 * begin.hole_pitches
+    half[n] = half[0]
+    support = np.where(drive.teeth.rolls, drive.teeth.support, begin.supports)
+    deepest = [max(0.0, np.max(_guide_depth(drive, g))) for g in range(len(drive.arcs))]
+    return half, support, drive.arcs.radius - deepest
+
+
+def _guide_depth(drive, number):
+    """Depth of every plate in a guide (N,); -inf where it is beside the arc."""
+    arc, b, p, n = drive.arcs[number], drive.bodies[len(drive.teeth.base) + number], drive.plates, drive.chain.count
+    c, s, gx, gy = p.c[:n], p.s[:n], p.x[:n] - b.x, p.y[:n] - b.y
+    along, out = c * gx + s * gy, c * gy - s * gx - drive.chain.offset - arc.side * arc.distance
+    along = along + np.clip(-along, -drive.chain.half_plate, drive.chain.half_plate)
+    far = np.hypot(along, out)
+    within = (c * along - s * out) * arc.middle_x + (s * along + c * out) * arc.middle_y >= arc.opening * far
+    return np.where(within, np.where(arc.side * out > 0, arc.radius - far, arc.radius + far), -np.inf)
+
+
+def _set_measures(drive, first, own, share):
+    targets = (drive.plates.half, drive.teeth.support, drive.arcs.radius)
+    for target, a, b in zip(targets, first, own, strict=True):
+        target[:] = b if share == 1.0 else a + share * (b - a)
+
+
+def _damp(drive, begin, share):
+    """Draw rates towards the quiet ones: plates along their own line, no faster turned than their neighbours, slides at rest."""
+    p, b, n, m = drive.plates, drive.bodies, drive.chain.count, len(begin.psi)
+    w = p.hw[:n]
+    changes = (share * (begin.speed * p.c[:n] - p.hx[:n]), share * (begin.speed * p.s[:n] - p.hy[:n]),
+               0.25 * share * (np.roll(w, 1) - 2 * w + np.roll(w, -1)))
+    for half, whole, change in zip((p.hx, p.hy, p.hw), (p.vx, p.vy, p.w), changes, strict=True):
+        half[:n] += change
+        whole[:n] += change
+        whole[n] = whole[0]
+    free = ~b.driven[:m]
+    for rate in (b.hw, b.w):
+        rate[:m][free] += share * (begin.rate_psi - rate[:m])[free]
+    for rate in (b.hq, b.vq, b.vx, b.vy):
+        rate *= 1 - share

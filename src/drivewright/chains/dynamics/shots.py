@@ -1,0 +1,51 @@
+"""Snapshots of a run: what the kernel copies out at a sample, for `measure` to make sense of."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright._jit import inner
+from drivewright.chains.dynamics.state import SUMS
+from drivewright.chains.dynamics.step import total
+
+SCALARS = ("t", "joint damping", "contact damping", *SUMS)
+BODIES = ("q", "vq", "psi", "w", "fx", "fy", "torque", "hq", "hw")
+PLATES = ("x", "y", "angle", "c", "s", "vx", "vy", "w", "hx", "hy", "hw", "fx", "fy", "rx", "ry", "stored", "left", "right")
+
+
+class Shots(NamedTuple):
+    """scalars (S, SCALARS), bodies (S, BODIES, B), plates (S, PLATES, N), joints by the plate behind them."""
+
+    scalars: np.ndarray
+    bodies: np.ndarray
+    plates: np.ndarray
+
+
+def empty_shots(samples, bodies, count):
+    """Room for so many."""
+    return Shots(np.zeros((samples, len(SCALARS))), np.zeros((samples, len(BODIES), bodies)), np.zeros((samples, len(PLATES), count)))
+
+
+@inner
+def shoot(chain, p, j, t, b, clock, power, sums, shots, shot, dt):
+    """One snapshot, at a whole step under its loads: rates are the means of the half steps on both sides, h those of the later one."""
+    out, n = shots.plates[shot], chain.count
+    for row, values in enumerate((p.x, p.y, p.angle, p.c, p.s, p.vx, p.vy, p.w, p.hx, p.hy, p.hw, j.fx, j.fy, j.rx, j.ry, t.stored,
+                                  t.left, t.right)):
+        for i in range(n):
+            out[row, i] = values[i]
+    bodies = shots.bodies[shot]
+    for m in range(b.q.size):
+        for row, value in enumerate((b.q[m], b.vq[m], b.psi[m], b.w[m], b.fx[m], b.fy[m], b.torque[m], b.hq[m], b.hw[m])):
+            bodies[row, m] = value
+    shoot_works(n, j, t, clock, power, sums, shots.scalars[shot], dt)
+
+
+@inner
+def shoot_works(n, j, t, clock, power, sums, out, dt):
+    """Time and works up to now; this step, already in the sums of the damping, counts with half its weight: the trapezoidal rule."""
+    out[0] = clock[0]
+    out[1] = 0.5 * dt * total(j.power, 0, n) - total(j.lost, 0, n)
+    out[2] = 0.5 * dt * total(t.power, 0, n) - total(t.lost, 0, n)
+    for k in range(power.size):
+        out[3 + k] = sums[k] + 0.5 * dt * power[k]
