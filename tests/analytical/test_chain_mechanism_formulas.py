@@ -158,7 +158,7 @@ def test_the_published_measures_of_each_side():
 
 def test_findings_tell_what_is_off():
     def words(*changes):
-        return " ".join(run("meshing", *changes).findings)
+        return " ".join(run(("meshing", "layout"), *changes).findings)
 
     assert "base pitch" not in words() and "odd number" not in words() and "driven sprocket turns" not in words()
     assert "base pitch" in words('cutter.pitch="9.6 mm"')
@@ -264,7 +264,7 @@ def test_a_pin_bends_across_its_pack():
 
 def test_pressure_of_a_hinge_and_limits_of_a_rolling_joint():
     hinge = run("contact", *HINGE, 'contact.force="200 N"', 'joint.pin_diameter="3 mm"')
-    assert hinge["pin.bearing_pressure"] == pytest.approx(200 / (3 * MM * 7 * MM), rel=1e-12)
+    assert hinge["pin.bearing_pressure"] == pytest.approx(200 / (3 * MM * 1 * MM), rel=1e-12)  # in two plates of 0.5 mm
     rolling = run("contact", 'contact.force="200 N"')
     modulus = 206e9 / (2 * (1 - 0.3**2))
     pressure = np.sqrt(200 * modulus / (np.pi * 7 * MM * 0.6 * MM))  # 1/R = 2/r
@@ -352,7 +352,7 @@ def test_links_weigh_what_their_steel_weighs():
     assert said.mass == pytest.approx(5e-3) and said.inertia / 5e-3 == pytest.approx(light.inertia / light.mass, rel=1e-12)
     assert link_of(build('plate.link_inertia="7e-8 kg m^2"')).inertia == pytest.approx(7e-8)
     rough = link_of(build(*ROLLER))
-    bars = 7850 * 0.5 * 2.5 * MM * P**2  # half of the pack's width is full of plates of a pitch squared
+    bars = 7850 * 0.5 * 9 * MM * P**2  # half of the width over four plates of 0.5 mm and the bush is full of a pitch squared
     assert rough.mass == pytest.approx(bars, rel=1e-12)
     assert rough.inertia == pytest.approx(bars * ((1.86 * P) ** 2 + (0.95 * P) ** 2) / 12, rel=1e-12)
 
@@ -471,7 +471,7 @@ def test_the_chain_lies_on_its_teeth_on_the_screen(changes):
 def test_plates_and_rollers_of_a_roller_chain_stand_side_by_side():
     model = build(*ROLLER)
     parts = [part for part in registry.mechanism("silent-chain").parts(model) if part.name.startswith("link")]
-    width, sheet = model.chain_width, 0.5 * MM
+    width, sheet = model.contact_length, 0.5 * MM
     for number, part in enumerate(parts[:2]):
         heights = sorted((solid.z, solid.z + solid.thickness) for solid in part.solids)
         out = 0.5 * width + number * sheet

@@ -175,9 +175,9 @@ def test_equal_teeth_and_more_teeth_on_the_drive():
 
 
 def test_findings_and_failed_checks():
-    odd = run("meshing", "links=83")
+    odd = run("layout", "links=83")
     assert any("odd number of links" in finding for finding in odd.findings)
-    assert not run("meshing", "teeth=[7, 37]", "links=60").check("teeth.drive").ok
+    assert not run("layout", "teeth=[7, 37]", "links=60").check("teeth.drive").ok
     few = run("geometry", "teeth=[9, 37]", "links=60")
     assert not few.ok
     steep = run("meshing", 'joint.offset="1.5 mm"')

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from drivewright.chains.standards.sprocket import tip_range, tooth_gap
 from drivewright.errors import InputError
 from drivewright.scene import Arc, Drawing, Outline, Part, Prism, Shape, circle
 
@@ -138,15 +139,10 @@ def design_roller_sprocket(teeth, pitch, roller_diameter, space=0.5, **lengths):
         raise InputError(f"roller sprocket: {teeth:g} teeth, pitch {pitch:.4g} m, roller {roller_diameter:.4g} m; at least 5 "
                          "teeth, and a roller smaller "
                          "than the pitch.")
-    d1, z = roller_diameter, teeth
-    cubic = 0.069e-3 * (d1 / 1e-3) ** (1 / 3)
-    tip = 0.5 * pitch / np.sin(np.pi / z) - 0.5 * d1 + 0.5 * pitch * (1 - 1.6 / z)
-    standard = {
-        "seat_radius": 0.505 * d1 + space * cubic,
-        "seat_angle": np.radians(140 - 20 * space - 90 / z),
-        "flank_radius": (1 - space) * 0.12 * d1 * (z + 2) + space * 0.008 * d1 * (z * z + 180),
-        "tip_radius": tip,
-    }
+    least, greatest = (tooth_gap(teeth, roller_diameter, kind) for kind in ("least", "greatest"))
+    standard = {name: (1 - space) * getattr(least, name) + space * getattr(greatest, name)
+                for name in ("seat_radius", "seat_angle", "flank_radius")}
+    standard["tip_radius"] = 0.5 * tip_range(pitch, teeth, roller_diameter)[0]
     return RollerSprocket(teeth, pitch, roller_diameter, **{**standard, **lengths})
 
 

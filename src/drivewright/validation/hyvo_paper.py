@@ -185,9 +185,11 @@ def _distances():
 
 SOFT = ("True of rigid drives alone. With joints and teeth of the paper's stiffness, at rest under the paper's force, the order is the "
         "opposite: 2.5 um for group 1, 2.1 um for group 7, and 2.4 um for the control group.")
-RUNNING = ("At 2000 rpm, with assumed masses and little damping, our runs of 0.3 s give 31, 26 and 13 um for groups 1, 4 and 7 and 7 um for "
-           "the control group, of which the mesh frequency has 0.2 to 0.5 um; slide and strands swing at 60 to 250 Hz, which masses and "
-           "damping decide. Their means do grow with the radius: 219.091, 219.100 and 219.108 mm, control 219.164 mm.")
+RUNNING = (
+    "At 2000 rpm, with assumed masses and little damping, our runs of 0.3 s give 31, 26 and 13 um for groups 1, 4 and 7 and 7 um for "
+    "the control group, of which the mesh frequency has 0.2 to 0.5 um; slide and strands swing at 60 to 250 Hz, which masses and "
+    "damping decide. Their means do grow with the radius: 219.091, 219.100 and 219.108 mm, control 219.164 mm."
+)
 
 
 def _trends():

@@ -93,9 +93,9 @@ class Closure:
 def close(drive, positions=POSITIONS):
     """The `Closure` of a `Drive`, at `positions` equal steps of a tooth and at every event between them.
 
-    InputError for numbers that make no chain, DoesNotAssemble where the chain is too short for a free plate in each strand or the wrap too small for
-    two seated ones, SolverError where the positions or seats do not settle.  A wrap or a centre distance that should not be built is
-    computed all the same.
+    InputError for numbers that make no chain, DoesNotAssemble where the chain is too short for a free plate in each strand or the wrap
+    too small for two seated ones, SolverError where the positions or seats do not settle.  A wrap or a centre distance that should not
+    be built is computed all the same.
     """
     refuse_joint(drive.link)
     refuse_strands(drive.strands)

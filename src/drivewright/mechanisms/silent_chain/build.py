@@ -16,8 +16,10 @@ from drivewright.chains.sprocket import design_sprocket
 from drivewright.chains.tooth import Cutter, Tooth, cut_tooth, matching_cutter
 from drivewright.mechanisms.silent_chain.refusals import refuse_contradictions, unused
 
+BUSH = 0.9  # length of a roller chain's bushes over the pitch
 BORE = 0.4  # of the smaller pitch circle
 SIDES = ("drive", "driven")
+LEAST_TURNED = 17  # teeth: joints turn as far as on a sprocket with so many, or with fewer where there is one
 HINGE = 0.125  # radius of a hinge's pin over the pitch
 ROCKER = (0.17, 0.21, 0.02)  # radius of a rocker's back, its thickness, its clearance, over the pitch
 
@@ -80,7 +82,10 @@ class ChainModel:
         said, p = self.spec.joint, self.spec.pitch
         if said.kind == "revolute":
             return HingePin(0.5 * said.pin_diameter if said.pin_diameter else HINGE * p)
-        return RoundPins() if said.kind == "round-pin" else RockerPins(*(share * p for share in ROCKER))
+        turn = max(2 * np.pi / LEAST_TURNED, 2.2 * np.pi / min(self.teeth))
+        if said.kind == "round-pin":
+            return RoundPins(turn=turn)
+        return RockerPins(*(share * p for share in ROCKER), turn)
 
     @cached_property
     def sprockets(self):
@@ -107,9 +112,18 @@ class ChainModel:
         return BORE * self.spec.pitch / np.sin(np.pi / min(self.teeth)) if said is None else said
 
     @property
+    def contact_length(self):
+        """Length along which the pins touch, or of a roller chain's bushes [m]."""
+        said, plate = self.spec.joint.contact_length, self.spec.plate
+        if said is not None:
+            return said
+        return BUSH * self.spec.pitch if self.spec.roller else sum(plate.lacing) * plate.thickness
+
+    @property
     def chain_width(self):
-        """Width of the pack of plates [m]."""
-        return sum(self.spec.plate.lacing) * self.spec.plate.thickness
+        """Width of the pack of plates [m]; of a roller chain over its four rows of plates."""
+        plate = self.spec.plate
+        return self.contact_length + 4 * plate.thickness if self.spec.roller else sum(plate.lacing) * plate.thickness
 
 
 def build(spec):

@@ -8,6 +8,7 @@ from drivewright.mechanisms.silent_chain.build import SIDES
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.result import Answer, Check, Column, Table, Value
 
+SLACK = 0.01  # of it that a fixed one may be shorter
 FREE = 1e-3  # of the taut centre distance: a fixed one that is longer would stretch the chain
 
 
@@ -38,7 +39,8 @@ def _sides(model):
     for number, side in enumerate(SIDES):
         leaving = departure(model.worn, model.teeth[number], model.spec.closure.strands)
         words = SIDE_WORDS[side]
-        wrap = float(np.mean(model.closure.states.wrap[:, number]))
+        wraps, angle = model.closure.states.wrap[:, number], model.closure.driver_angle
+        wrap = float(np.sum(0.5 * (wraps[1:] + wraps[:-1]) * np.diff(angle)) / np.ptp(angle))
         found[f"chordal_rise.{side}"] = Value(leaving.rise, "m", f"rise and fall of the strand's force over a tooth of the {words}")
         found[f"seating_angle.{side}"] = Value(leaving.seating, "rad", f"angle in which a plate comes to its seat on the {words}")
         found[f"strand_slip.{side}"] = Value(leaving.slip, "m", f"of the strand off a pitch per tooth of the {words}, greatest less least")
@@ -66,6 +68,8 @@ def _fixed(model):
     """A fixed centre distance against the taut one."""
     wanted = model.spec.driven.centre_distance
     if wanted is not None:
+        yield Check("centre_distance.slack", wanted, model.closure.mean * (1 - SLACK), ">=", "m",
+                    "fixed centre distance against that of the taut chain: a shorter one lets the chain sag and jump", ("chain",))
         yield Check("centre_distance.taut", wanted, model.closure.mean * (1 + FREE), "<=", "m",
                     "fixed centre distance against that of the taut chain: a longer one overstretches the chain", ("chain",))
 

@@ -98,5 +98,5 @@ def _published(model, radii):
 def _pressure(model, radius, force):
     material = model.spec.material
     return rolling_contact(
-        force, model.spec.joint.contact_length, (radius, radius), material.youngs_modulus, material.poisson_ratio
+        force, model.contact_length, (radius, radius), material.youngs_modulus, material.poisson_ratio
     ).pressure

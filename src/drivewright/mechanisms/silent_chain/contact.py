@@ -45,12 +45,12 @@ def strand_force(model):
 
 def centrifugal(model):
     """Mass per length times speed squared [N]."""
-    return link_of(model).mass / model.link.pitch * chain_speed(model) ** 2
+    return standards.centrifugal_tension(link_of(model).mass / model.link.pitch, chain_speed(model))
 
 
 def chain_speed(model):
     """Mean speed of the chain [m/s]."""
-    return model.spec.drive.speed * model.teeth[0] * model.link.pitch / (2 * np.pi)
+    return standards.chain_speed(model.link.pitch, model.teeth[0], model.spec.drive.speed)
 
 
 def _pulls(model):
@@ -83,8 +83,8 @@ def _strands(model):
 
 
 def _rolling(model, force):
-    said, material = model.spec.joint, model.spec.material
-    found = rolling.rolling_contact(force, said.contact_length, 2 * (model.link.radius,), material.youngs_modulus, material.poisson_ratio)
+    material = model.spec.material
+    found = rolling.rolling_contact(force, model.contact_length, 2 * (model.link.radius,), material.youngs_modulus, material.poisson_ratio)
     limits = rolling.pressure_limits(material.yield_strength, material.poisson_ratio)
     return {
         "pin.contact_pressure": Value(found.pressure, "Pa", "greatest pressure of the pins on each other, Hertz"),
@@ -99,15 +99,16 @@ def _rolling(model, force):
 
 def _hinge(model, force):
     """Mean pressure of a plate's hole, or of the bush, on the one pin."""
-    pressure = force / (2 * model.pins.radius * model.spec.joint.contact_length)
-    return {"pin.bearing_pressure": Value(pressure, "Pa", "force over diameter and contact length of the pin")}, ()
+    length = model.contact_length if model.spec.roller else min(model.spec.plate.lacing) * model.spec.plate.thickness
+    pressure = force / (2 * model.pins.radius * length)
+    return {
+        "pin.bearing_pressure": Value(pressure, "Pa", "force over diameter and length of the pin in the bush, or in the fewer plates")
+    }, ()
 
 
 def _bending(model, force):
     """The pin as a beam across the pack of plates."""
-    pack = pins.lacing(*sorted(model.spec.plate.lacing), model.spec.plate.thickness)
-    load = (pins.rolling_pin_load if model.link.radius else pins.hinge_pin_load)(pack, force)
-    found = pins.pin_stress(pins.beam(*load), _section(model))
+    found = pins.pin_stress(pins.beam(*_pin_load(model, force)), _section(model))
     values = {
         "pin.bending_stress": Value(found.bending, "Pa", "of a pin across the pack of plates"),
         "pin.shear_stress": Value(found.shear, "Pa", "of a pin across the pack of plates"),
@@ -123,6 +124,16 @@ def _bending(model, force):
         "yield strength over von Mises stress of a pin's bending",
         ("chain",),
     )
+
+
+def _pin_load(model, force):
+    """Line load along a pin: breaks and values."""
+    sheet, bush = model.spec.plate.thickness, model.contact_length
+    if model.spec.roller:  # outer plates pull at both ends, the bush presses between, inner plates lie in the gaps
+        return sheet * np.array([0, 1, 2, 2, 3, 4]) + bush * np.array([0, 0, 0, 1, 1, 1]), force * np.array(
+            [0.5 / sheet, 0, -1 / bush, 0, 0.5 / sheet])
+    pack = pins.lacing(*sorted(model.spec.plate.lacing), sheet)
+    return (pins.rolling_pin_load if model.link.radius else pins.hinge_pin_load)(pack, force)
 
 
 def _section(model):

@@ -1,6 +1,5 @@
 """The drive by formula: length of the chain, pitch circles, wraps, unevenness, strands as moving strings."""
 
-import numpy as np
 
 from drivewright.chains import standards
 from drivewright.errors import InputError
@@ -8,7 +7,7 @@ from drivewright.mechanisms.silent_chain.build import SIDES
 from drivewright.mechanisms.silent_chain.contact import chain_speed, strand_force
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.mechanisms.silent_chain.moving import link_of
-from drivewright.result import Answer, Value
+from drivewright.result import Answer, Check, Value
 
 MODES = 2  # of a strand that are told
 
@@ -22,7 +21,22 @@ def layout(model, done):
             values |= _pair(model)
         except InputError as reason:
             findings.append(f"layout by pitch circles is left out: {reason}")
-    return Answer(values, (), (), tuple(findings))
+    return Answer(values, (), tuple(_checks(model)), (*findings, *_remarks(model.spec)))
+
+
+def _checks(model):
+    for side, teeth in zip(SIDES, model.teeth, strict=True):
+        yield Check(f"teeth.{side}", float(teeth), float(model.spec.limits.teeth), ">=", "-", f"teeth of the {SIDE_WORDS[side]}", (side,))
+
+
+def _remarks(spec):
+    a, b = spec.plate.lacing
+    if spec.links % 2 and (spec.roller or a != b):
+        kinds = "inner and outer plates" if spec.roller else f"plates {a} and {b} side by side"
+        yield (
+            f"an odd number of links ({spec.links}) does not close with {kinds} in turn: it needs an offset link; the centre distance "
+            "fluctuates differently too"
+        )
 
 
 def _side(model, side, number):
@@ -49,7 +63,7 @@ def _pair(model):
         for mode in range(1, MODES + 1):
             frequency = standards.strand_frequency(force, density, values["layout.strand_length"].value, speed, mode)
             values[f"layout.strand_frequency.{mode}"] = Value(frequency, "Hz", f"mode {mode} of a strand across, as a moving string")
-        values["layout.mesh_frequency"] = Value(spec.drive.speed * z1 / (2 * np.pi), "Hz", "teeth that mesh in a second")
+        values["layout.mesh_frequency"] = Value(standards.mesh_frequency(z1, spec.drive.speed), "Hz", "teeth that mesh in a second")
         values["layout.meeting_velocity"] = Value(standards.meeting_velocity(pitch, spec.drive.speed), "m/s",
                                                   "with which a hinged link meets the driving sprocket")
     return values

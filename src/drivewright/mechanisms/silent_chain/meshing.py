@@ -64,8 +64,6 @@ def _turning(model):
 
 
 def _checks(model):
-    for side, teeth in zip(SIDES, model.teeth, strict=True):
-        yield Check(f"teeth.{side}", float(teeth), float(model.spec.limits.teeth), ">=", "-", f"teeth of the {SIDE_WORDS[side]}", (side,))
     if model.link.radius:
         yield Check("offset", abs(model.offset) / model.link.radius, 1.0, "<=", "-",
                     "offset over rolling radius: beyond 1 the published growth of the pitch has no end", ("chain",))
@@ -84,11 +82,6 @@ def _remarks(model):
         )
     if z1 == z2:
         yield "equal tooth numbers: delta12 is 0, and an offset matched to one sprocket is matched to both"
-    if spec.links % 2 and spec.plate.lacing[0] != spec.plate.lacing[1]:
-        yield (
-            f"an odd number of links ({spec.links}) does not close with plates {spec.plate.lacing[0]} and {spec.plate.lacing[1]} side "
-            "by side in turn: it needs an offset link; the centre distance fluctuates differently too"
-        )
     base = spec.pitch * np.cos(spec.plate.flank_angle)
     ours = model.cutter.pitch * np.cos(model.cutter.half_angle)
     if abs(ours / base - 1) > 1e-9:

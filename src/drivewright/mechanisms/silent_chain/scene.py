@@ -97,7 +97,7 @@ def _links(model, chain):
 
 def _roller_links(model, chain):
     """Plates on both sides of the rollers, inner and outer in turn."""
-    width, sheet = model.chain_width, model.spec.plate.thickness
+    width, sheet = model.contact_length, model.spec.plate.thickness
     outline = roller_plate(model.spec.pitch, 0.45 * model.spec.pitch, 0.5 * model.spec.pitch)
     roller = circle((0.5 * model.spec.pitch, 0.0), 0.5 * model.spec.roller.diameter)
     for number, pose in enumerate(chain):

@@ -65,7 +65,12 @@ class Joint(Spec):
     rolling_radius: Length | None = Field(None, gt=0, description="of the rolling surfaces; not for a revolute joint", examples=["1.2 mm"])
     offset: LengthOrRule = Field("match-drive", description="centre of the pins below the pitch line, or its rule: match-drive, minimax; "
                                                             "a label, nothing physical depends on it")
-    contact_length: Length = Field("6 mm", gt=0, description="length along which the pins touch")
+    contact_length: Length | None = Field(
+        None,
+        gt=0,
+        description="length along which the pins touch, or of a roller chain's bushes; the width of the pack of plates unless given",
+        examples=["6 mm"],
+    )
     pin_diameter: Length | None = Field(None, gt=0, description="of the pin of a revolute joint; a quarter of the pitch unless given",
                                         examples=["3 mm"])
 

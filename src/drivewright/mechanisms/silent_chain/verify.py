@@ -204,11 +204,11 @@ def _rest(model, result):
 
 def _pressure(model, result):
     """Force, radius and shear that the pressure p0 sqrt(1 - (x/b)^2) belongs to, by Gauss and Chebyshev's rule over the contact."""
-    said, material = model.spec.joint, model.spec.material
+    material = model.spec.material
     peak, b = result["pin.contact_pressure"], result["pin.half_width"]
     at = np.pi * np.arange(1, NODES + 1) / (NODES + 1)
     x, weight = np.cos(at), np.pi / (NODES + 1) * np.sin(at) ** 2  # sum of weight f(x) = integral of sqrt(1 - x^2) f(x)
-    yield "pin.force", result["pin.force"], float(peak * b * said.contact_length * weight.sum()), "N", 1e-9 * result["pin.force"], HERTZ
+    yield "pin.force", result["pin.force"], float(peak * b * model.contact_length * weight.sum()), "N", 1e-9 * result["pin.force"], HERTZ
     between = np.cos(np.pi * (2 * np.arange(1, NODES + 2) - 1) / (2 * (NODES + 1)))[NODES // 4]
     modulus = 0.5 * material.youngs_modulus / (1 - material.poisson_ratio**2)
     slope = 2 * peak / (np.pi * modulus) * np.sum(weight / (between - x))  # of the surfaces that the pressure flattens: x b/R
