@@ -542,7 +542,8 @@ def test_the_running_chain_s_numbers(monkeypatch):
         asked.update(duration=duration, settle=settings.settle)
         return SimpleNamespace(
             model=system, t=np.linspace(0, 1, n), steady=steady, mean=mean, fluctuation=lambda x: float(np.ptp(x[20:])),
-            column=columns.__getitem__, centre_distance=3 + np.linspace(0, 1, n) ** 2, tension=np.linspace(5, 9, n)[:, None] * [1, 7],
+            column=columns.__getitem__, centre_distance=model.closure.mean + 1e-4 * np.linspace(0, 1, n) ** 2, rows=np.zeros(n), slide=1,
+            tension=np.linspace(5, 9, n)[:, None] * [1, 7],
             transmission_error=lambda sprocket: sprocket * np.linspace(0, 4, n), mesh_order_amplitude=0.25, energy_drift=1e-5,
             energy_gap=np.zeros(n), advice="", outcome="complete",
             spectrum=lambda x: (np.array([0.0, 1.0, 8.0, 9.0]), np.array([3.0, 0.25, 0.1, 0.05])))

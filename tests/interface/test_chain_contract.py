@@ -164,6 +164,22 @@ def test_dynamics():
     assert np.all(np.diff(table["time"].data) <= 1 / found["dynamics.mesh_frequency"] / 20 * (1 + 1e-9))
 
 
+def test_dynamics_of_the_other_joints():
+    """The contract's own spec with a hinge; the classical arcs of the preset."""
+    hinge = run("dynamics", 'joint.kind="revolute"')
+    assert set(DYNAMICS) <= set(hinge.values), hinge.findings
+    assert 219.054018 * MM < hinge["dynamics.centre_distance.mean"] < 219.13 * MM
+    classical = dw.run(dw.load(PRESETS / "classical.toml"), only=("dynamics",))
+    assert 219.084 * MM < classical["dynamics.centre_distance.mean"] < 219.19 * MM
+
+
+def test_a_run_that_left_its_teeth_shows_no_statistics():
+    lost = run("dynamics", 'drive.preload="500 kN"')
+    assert lost.outcome == "partial" and not lost.check("running.centre_distance").ok
+    assert "dynamics.centre_distance.mean" not in lost.values
+    assert any("slack strand" in finding for finding in lost.findings)
+
+
 def test_equal_teeth_and_more_teeth_on_the_drive():
     equal = run(("meshing", "closure"), "teeth=[36, 36]", "links=83", 'closure.strands="straight"', 'joint.rolling_radius="1.0 mm"')
     assert equal["pitch_deviation.reference"] == 0

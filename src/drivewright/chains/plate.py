@@ -167,12 +167,20 @@ def _side(side):
 def design_plate(link, pins=None, **lengths):
     """A `Plate` with the lengths given and the others in proportion to the pitch.
 
+    Toes end higher where they would be narrower than a tenth of the pitch.
     For p = 9.525 mm: back 3.1, shoulder 2.6, toe -6, crotch -1.4, gap 0.3, roundings 0.35 (toe) and 0.6 (crotch), sheet 2 mm.
     """
     ratios = {"back": 3.1, "toe": -6.0, "crotch": -1.4, "inner_gap": 0.3, "shoulder_radius": 2.6, "toe_radius": 0.35,
               "crotch_radius": 0.6, "thickness": 2.0}
     standard = {name: value / 9.525 * link.pitch for name, value in ratios.items()}
+    standard["toe"] = max(standard["toe"], _toe_end(link, standard["inner_gap"]))
     return Plate(link, default_pins(link) if pins is None else pins, **{**standard, **lengths})
+
+
+def _toe_end(link, inner_gap):
+    """Height at which a toe is a tenth of the pitch wide: 2 (w + y sin a)/cos a - p - gap/cos a = p/10."""
+    a = link.flank_angle
+    return (0.5 * (1.1 * link.pitch * np.cos(a) + inner_gap) - link.flank) / np.sin(a)
 
 
 class LinkMass(NamedTuple):

@@ -267,6 +267,10 @@ def design_sprocket(link, teeth, cutter=None, **lengths):
     height, p = seat_height(link, teeth), link.pitch / 9.525
     design = {"tip_radius": height - 1.7 * p, "root_radius": height - 6.5 * p, "tip_chamfer": 0.2 * p, **lengths}
     if "tip_rounding" not in design:
-        full = full_rounding(teeth, cutter, base_half_angle(tooth, link.flank_angle), design["root_radius"])
+        half = base_half_angle(tooth, link.flank_angle)
+        full = full_rounding(teeth, cutter, half, design["root_radius"])
+        while full < 0.1 * cutter.module and "root_radius" not in lengths and design["root_radius"] < design["tip_radius"] - 2 * p:
+            design["root_radius"] += 0.1 * p
+            full = full_rounding(teeth, cutter, half, design["root_radius"])
         design["tip_rounding"] = min(0.25 * cutter.module, 0.9 * full)
     return Sprocket(tooth, link.flank_angle, cutter, **design)

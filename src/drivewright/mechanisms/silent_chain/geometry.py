@@ -12,6 +12,11 @@ from drivewright.mechanisms.silent_chain.build import SIDES
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.result import Answer, Check, Value
 
+KEYS = {  # that decide on a body
+    "plate": "Keys: joint.rolling_radius, plate.apothem (or standard_apothem), back, toe, crotch.",
+    "sprockets": "Keys: teeth, plate.apothem, cutter.tip_depth, root_depth, tip_rounding, chamfer.",
+    "meeting": "",
+}
 POSITIONS = 6  # of the chain in a tooth, at which gaps are looked at
 SPACING, TOLERANCE = 1e-2, 5e-5  # of the points of a plate and of the teeth whose gaps are looked at, over the pitch
 
@@ -23,7 +28,7 @@ def geometry(model, done):
         try:
             found, passed = measured(model)
         except InputError as impossible:
-            checks.append(Check(f"geometry.{part}", 0.0, 1.0, ">=", "-", str(impossible), ("chain",), geometry=True))
+            checks.append(Check(f"geometry.{part}", 0.0, 1.0, ">=", "-", f"{impossible} {KEYS[part]}", ("chain",), geometry=True))
             break
         values |= found
         checks += passed

@@ -49,7 +49,7 @@ def refuse_contradictions(spec):
 def unused(spec):
     """Findings for keys that have no effect here."""
     for guide in spec.guides:
-        if guide.force is None and (guide.stiffness or guide.damping):
+        if guide.force is None and {"stiffness", "damping"} & guide.model_fields_set:
             yield f"guides.{guide.name}: stiffness and damping have no effect on a rail that does not move; give force and direction"
     if spec.roller:
         given = [key for key in ("apothem", "standard_apothem", "flank_angle") if key in spec.plate.model_fields_set]

@@ -190,7 +190,7 @@ class Guide(Spec):
     force: Force | None = Field(None, gt=0, description="of a tensioner, towards the loop; a fixed rail unless given", examples=["50 N"])
     direction: Angle | None = Field(None, description="in which a tensioner moves", examples=["-90 deg"])
     stiffness: Stiffness = Field("0 N/m", ge=0, description="of a tensioner's spring")
-    damping: Damping = Field("0 N s/m", ge=0, description="of a tensioner")
+    damping: Damping = Field("50 N s/m", ge=0, description="of a tensioner")
     mass: Mass = Field("50 g", gt=0, description="of a tensioner")
 
 
