@@ -40,10 +40,9 @@ class _LengthOrRule(Dimension):
         """As `Dimension.parse`, of the wider kind."""
         if value in RULES:
             return value
-        try:
-            return BY_NAME["length"].parse(value)
-        except UnitError as error:
-            raise UnitError(f"wants {self.described}, got {brief(value)}") from error
+        if isinstance(value, str) and not any(sign.isdigit() for sign in value):
+            raise UnitError(f"wants {self.described}, got {brief(value)}")
+        return BY_NAME["length"].parse(value)
 
     def text(self, value):
         return value if value in RULES else BY_NAME["length"].text(value)
