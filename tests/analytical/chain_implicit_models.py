@@ -16,7 +16,7 @@ FLANK = np.pi / 6
 
 def drive(radius=1.2e-3, teeth=(35, 37), links=82, stiffness=1e9, joint=None, force=150.0, apothem=2.6e-3, speed=-200.0, damping=0.0,
           beta=2e-6, offset=0.0, gravity=(0.0, 0.0), torque=0.0, **chain):
-    """The drive of the sheet; both strands at force/2."""
+    """The drive of the paper, masses assumed; both strands at force/2."""
     joined = link(PITCH, radius, FLANK, apothem)
     involutes = [Tooth(z, 0.5 * PITCH * z / np.pi * np.cos(FLANK), seat_support(joined, z)) for z in teeth]
     tips = [0.5 * PITCH / np.sin(np.pi / z) - 0.9e-3 for z in teeth]

@@ -125,7 +125,7 @@ def test_the_offset_changes_nothing_physical():
             assert other[name] == pytest.approx(value.value, rel=1e-12, abs=1e-15), name  # least gaps are differences of lengths
 
 
-def test_pins_of_the_sheet():
+def test_pressure_of_the_pins_under_200_newtons():
     for radius, kind, pressure, width, shear in ((1.2, "round-pin", 1414.77, 0.0150, 424), (7.4, "arc", 569.72, 0.0372, 171)):
         found = run("contact", 'contact.force="200 N"', f'joint.kind="{kind}"', f'joint.rolling_radius="{radius} mm"')
         assert found["pin.contact_pressure"] == pytest.approx(pressure * 1e6, rel=1e-5)
