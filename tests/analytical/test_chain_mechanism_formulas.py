@@ -413,7 +413,7 @@ def test_further_sprockets_and_guides():
     system, radius = moving(model), pitch_radius(19)
     idler = system.sprockets[2]
     assert idler.mass == pytest.approx(7850 * 2.5 * MM * np.pi * (radius**2 - (9 * MM) ** 2), rel=1e-12)
-    assert idler.inertia == pytest.approx(0.5 * idler.mass * radius**2, rel=1e-12)
+    assert idler.inertia == pytest.approx(0.5 * idler.mass * (radius**2 + (9 * MM) ** 2), rel=1e-12)  # a ring
     assert (idler.torque, idler.centre) == (0.5, pytest.approx((0.09, 0.015)))
     assert idler.tooth.support == pytest.approx(seat_support(model.link, 19), rel=1e-12)
     rail, shoe = system.guides

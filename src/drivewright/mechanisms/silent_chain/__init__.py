@@ -19,6 +19,7 @@ def where_it_can(answer):
     """The analysis, left out with the reason where the bodies, the card or the place that it asks for cannot be."""
 
     def guarded(model, done):
+        """Its answer, or why there is none."""
         try:
             return answer(model, done)
         except SpecError:  # it names the key to change

@@ -13,7 +13,9 @@ from drivewright.chains.plate import design_plate
 from drivewright.chains.plate_holes import HingePin, RockerPins, RoundPins
 from drivewright.chains.roller_sprocket import design_roller_sprocket
 from drivewright.chains.sprocket import design_sprocket
+from drivewright.chains.standards import pitch_diameter
 from drivewright.chains.tooth import Cutter, Tooth, cut_tooth, matching_cutter
+from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.refusals import refuse_contradictions, unused
 
 BUSH = 0.9  # length of a roller chain's bushes over the pitch
@@ -76,6 +78,15 @@ class ChainModel:
         lengths = {name: value for name in ("back", "toe", "crotch", "crotch_radius") if (value := getattr(said, name)) is not None}
         return design_plate(self.link, self.pins, thickness=said.thickness, **lengths)
 
+    @cached_property
+    def undrawn(self):
+        """Why the plate cannot be drawn; empty where it can."""
+        try:
+            _ = self.plate
+        except InputError as reason:
+            return str(reason)
+        return ""
+
     @property
     def pins(self):
         """Pins of the joints and the holes they need."""
@@ -109,7 +120,7 @@ class ChainModel:
     def bore(self):
         """Diameter of the sprockets' holes [m]."""
         said = self.spec.cutter.bore
-        return BORE * self.spec.pitch / np.sin(np.pi / min(self.teeth)) if said is None else said
+        return BORE * pitch_diameter(self.spec.pitch, min(self.teeth)) if said is None else said
 
     @property
     def contact_length(self):

@@ -5,7 +5,7 @@ import numpy as np
 from drivewright.chains import standards
 from drivewright.chains.stress import pins, rolling
 from drivewright.errors import InputError
-from drivewright.mechanisms.silent_chain.moving import link_of, undrawn
+from drivewright.mechanisms.silent_chain.moving import link_of
 from drivewright.result import Answer, Check, Value
 
 
@@ -18,8 +18,8 @@ def contact(model, done):
     """Forces of the strands and what they do to the pins."""
     force = model.spec.contact.force or strand_force(model)
     said = model.spec.plate
-    rough = undrawn(model) and not model.spec.roller and not (said.link_mass and said.link_inertia)
-    findings = [f"the mass of a link is estimated from the pitch: {undrawn(model)}"] if rough else []
+    rough = model.undrawn and not model.spec.roller and not (said.link_mass and said.link_inertia)
+    findings = [f"the mass of a link is estimated from the pitch: {model.undrawn}"] if rough else []
     values, checks = {**_strands(model), "pin.force": Value(force, "N", "of the strand, on the pins of a joint")}, []
     pressed, found = (_rolling if model.link.radius else _hinge)(model, force)
     values |= pressed

@@ -7,8 +7,8 @@ from drivewright.chains.dynamics.roller import RollerTooth
 from drivewright.chains.link import seat_support
 from drivewright.chains.plate import LinkMass, link_mass
 from drivewright.chains.roller_sprocket import design_roller_sprocket
+from drivewright.chains.standards import pitch_diameter
 from drivewright.chains.tooth import Tooth
-from drivewright.errors import InputError
 
 IN_LINE = 3  # plate on pin, pin on pin, pin on plate: contacts that make a joint
 ROUGH_PLATE = (1.86, 0.95)  # length and height of a plate that cannot be drawn, over the pitch; its area is a pitch squared
@@ -27,17 +27,9 @@ def moving(model):
 def link_of(model):
     """`LinkMass` of a pitch of chain: mass [kg], height of its centre [m], inertia [kg m^2]."""
     said = model.spec.plate
-    drawn = _rough(model) if model.spec.roller or undrawn(model) else _drawn(model)
+    drawn = _rough(model) if model.spec.roller or model.undrawn else _drawn(model)
     mass = said.link_mass or drawn.mass
     return LinkMass(mass, drawn.height, said.link_inertia or drawn.inertia * mass / drawn.mass)
-
-
-def undrawn(model):
-    """Why the plate cannot be drawn; empty where it can."""
-    try:
-        return "" if model.plate else ""
-    except InputError as reason:
-        return str(reason)
 
 
 def _drawn(model):
@@ -57,7 +49,7 @@ def _rough(model):
 def _chain(model):
     spec, found = model.spec, link_of(model)
     flank = {}
-    if not spec.roller and not undrawn(model):
+    if not spec.roller and not model.undrawn:
         heights = np.sort([model.plate.flank("right").start[1], model.plate.flank("right").end[1]])
         flank = {"toe": -float(heights[0]), "crotch": -float(heights[1])}
     return Chain(model.link, spec.links, found.mass, found.inertia, spec.contact.stiffness / IN_LINE, spec.contact.joint_damping,
@@ -74,7 +66,7 @@ def _driven(model, touch):
     """On its slide or fixed; its load resists changes of speed about the nominal one."""
     spec, said = model.spec, model.spec.driven
     mass = said.mass or _disc(model, model.teeth[1])
-    inertia, fixed = said.inertia or _inertia(model, mass, 1), said.centre_distance
+    inertia, fixed = said.inertia or _inertia(model, mass, model.teeth[1]), said.centre_distance
     stiffness, ratio = _strands(model), said.damping_ratio
     slide = None if fixed else Slide(0.0, spec.drive.preload, damping=2 * ratio * np.sqrt(stiffness * mass))
     turning = 0.0 if spec.drive.ramp else 2 * ratio * _pitch_radius(model, model.teeth[1]) * np.sqrt(stiffness * inertia)
@@ -113,7 +105,7 @@ def _active(model, number):
 def _further(model, said, touch):
     """A sprocket that the chain passes besides, with teeth that fit."""
     mass = said.mass or _disc(model, said.teeth)
-    inertia = said.inertia or 0.5 * mass * _pitch_radius(model, said.teeth) ** 2
+    inertia = said.inertia or _inertia(model, mass, said.teeth)
     if model.spec.roller:
         wheel = design_roller_sprocket(said.teeth, model.spec.pitch, model.spec.roller.diameter, model.spec.roller.tooth_space)
         active, tooth = {"tip_radius": wheel.tip_radius}, _roller_tooth(wheel)
@@ -137,7 +129,7 @@ def _guide(model, said, touch):
 
 
 def _pitch_radius(model, teeth):
-    return 0.5 * model.spec.pitch / np.sin(np.pi / teeth)
+    return 0.5 * pitch_diameter(model.spec.pitch, teeth)
 
 
 def _disc(model, teeth):
@@ -146,8 +138,9 @@ def _disc(model, teeth):
     return np.pi * (radius**2 - _hole(model, radius) ** 2) * model.chain_width * model.spec.material.density
 
 
-def _inertia(model, mass, number):
-    radius = _pitch_radius(model, model.teeth[number])
+def _inertia(model, mass, teeth):
+    """Of such a disc about its axis [kg m^2]."""
+    radius = _pitch_radius(model, teeth)
     return 0.5 * mass * (radius**2 + _hole(model, radius) ** 2)
 
 

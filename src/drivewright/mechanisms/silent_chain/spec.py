@@ -154,7 +154,7 @@ class Driven(Spec):
     """The driven sprocket as a body."""
 
     mass: Mass | None = Field(None, gt=0, description="a steel disc as wide as the chain unless given", examples=["0.6 kg"])
-    inertia: Inertia | None = Field(None, gt=0, description="about its axis; m r^2/2 unless given", examples=["9.3e-4 kg m^2"])
+    inertia: Inertia | None = Field(None, gt=0, description="about its axis; that of the disc unless given", examples=["9.3e-4 kg m^2"])
     damping_ratio: Number = Field(
         0.1,
         ge=0,
@@ -172,7 +172,7 @@ class Sprocket(Spec):
     teeth: Integer = Field(ge=6, description="teeth", examples=[21])
     centre: tuple[Length, Length] = Field(description="x, y from the driving sprocket", examples=[["100 mm", "60 mm"]])
     mass: Mass | None = Field(None, gt=0, description="a steel disc as wide as the chain unless given", examples=["0.3 kg"])
-    inertia: Inertia | None = Field(None, gt=0, description="about its axis; m r^2/2 unless given", examples=["1e-4 kg m^2"])
+    inertia: Inertia | None = Field(None, gt=0, description="about its axis; that of the disc unless given", examples=["1e-4 kg m^2"])
     load_torque: Torque = Field("0 N m", description="that it has to overcome")
 
 

@@ -10,7 +10,6 @@ from drivewright.chains.dynamics.simulate import tooth_time
 from drivewright.chains.stress.life import life_table, plate_life
 from drivewright.chains.stress.plate import Loads, plate_basis, plate_body, stress_history, stress_picture, worst
 from drivewright.mechanisms.silent_chain.dynamics import no_dynamics
-from drivewright.mechanisms.silent_chain.moving import undrawn
 from drivewright.result import Answer, Check, Column, Table, Value
 from drivewright.solids.plane import mises
 
@@ -31,7 +30,7 @@ def no_stress(spec):
 
 def stress(model, done):
     """Stress of a plate over a revolution of the chain."""
-    reason = undrawn(model)
+    reason = model.undrawn
     if reason:
         return Answer(findings=(f"stress is left out: no plate can be drawn: {reason}",), outcome="left out")
     found = Revolution(model, done["dynamics"].data)
