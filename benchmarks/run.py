@@ -13,6 +13,7 @@ import indexing
 import linkages
 import numpy as np
 import shafts
+import studies
 from timing import best
 
 ROOT = Path(__file__).parent.parent
@@ -182,6 +183,7 @@ SECTIONS = (
     *shafts.SECTIONS,
     *indexing.SECTIONS,
     *chains.SECTIONS,
+    *studies.SECTIONS,
 )
 
 

@@ -1,6 +1,7 @@
-"""Fill the pages that are made from the code: home, theory of each mechanism, motion-law peaks, gallery, reference."""
+"""Fill the pages that are made from the code: home, theory of each mechanism, motion-law peaks, gallery, worked studies, reference."""
 
 import shutil
+import tempfile
 from pathlib import Path
 
 from drivewright import motion, registry
@@ -37,6 +38,43 @@ def gallery():
     return "\n".join(lines) + "\n"
 
 
+def worked_studies():
+    """The worked studies: what each says at its head, and the figures of its report.  They are run here: a few minutes."""
+    import drivewright as dw
+    from drivewright.report.study import write_answers
+    from drivewright.studies.answers import answers
+
+    lines = ["# Worked studies", "", "Made by running the files of `examples/studies`; [Studies](studies.md) says how to write one."]
+    with tempfile.TemporaryDirectory() as scratch:
+        for path in sorted((DOCS.parent / "examples" / "studies").glob("*.toml")):
+            study = dw.sweep(dw.load(path), out=Path(scratch) / path.stem)
+            report = write_answers(study, answers(study), study.folder)
+            drawn = DOCS / "worked-studies" / path.stem
+            shutil.rmtree(drawn, ignore_errors=True)
+            shutil.copytree(report.parent / "figures", drawn)
+            chosen = sorted(drawn.glob("*.svg"), key=_first)[:FIGURES]
+            lines += ["", f"## {study.spec.title}", "", *_head(path), "", f"`{path.name}`: {len(study)} cases. Figures of its report:", "",
+                      *(f"![{svg.stem}](worked-studies/{path.stem}/{svg.name})" for svg in chosen)]
+    return "\n".join(lines) + "\n"
+
+
+FIGURES = 6  # of each study
+KINDS = ("pareto", "map", "curve", "histogram", "contributions")  # of figures, as they are shown
+
+
+def _first(svg):
+    """Sorts figures: by what they are, then by name."""
+    kind = svg.name.removeprefix("plot-").split(".")[0]
+    return (KINDS.index(kind) if kind in KINDS else len(KINDS)), svg.name
+
+
+def _head(path):
+    """The comment at the head of a spec, as it stands there."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    end = next(number for number, line in enumerate(lines) if not line.startswith("#"))
+    return ["```text", *(line.removeprefix("#").removeprefix(" ") for line in lines[:end]), "```"]
+
+
 def main():
     text = (DOCS.parent / "README.md").read_text(encoding="utf-8").replace("](docs/", "](")
     (DOCS / "index.md").write_text(text, encoding="utf-8")
@@ -45,6 +83,7 @@ def main():
     text = (DOCS / "theory" / "motion.in.md").read_text(encoding="utf-8").replace("{{ motion_peaks }}", peaks())
     (DOCS / "theory" / "motion.md").write_text(text, encoding="utf-8")
     (DOCS / "gallery.md").write_text(gallery(), encoding="utf-8")
+    (DOCS / "worked-studies.md").write_text(worked_studies(), encoding="utf-8")
     (DOCS / "reference.md").write_text(
         "# Reference\n\n" + "\n\n".join(f"::: drivewright.{name}" for name in PAGES) + "\n", encoding="utf-8"
     )

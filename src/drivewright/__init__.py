@@ -24,7 +24,11 @@ _WHERE = {
     "build": "runner",
     "load": "spec",
     "run": "runner",
+    "Study": "studies.study",
+    "linspace": "studies.varying",
+    "open_study": "studies.sweep",
     "optimise": "studies.optimise",
+    "sweep": "studies.sweep",
     "verify": "studies.verify",
     "bearings": "bearings:",
     "cams": "cams:",
@@ -38,6 +42,7 @@ _WHERE = {
     "motion": "motion:",
     "multibody": "multibody:",
     "shafts": "shafts:",
+    "studies": "studies:",
     "units": "units:",
 }
 

@@ -51,7 +51,7 @@ def run(task, cases, workers=1, progress=None):
     Ctrl-C, or a KeyboardInterrupt from `progress`, lets the cases under way end (a second one does not wait for them) and returns
     the rows so far, `interrupted`; it goes on to the caller where there are none.
     """
-    cases, workers = tuple(cases), _number(workers)
+    cases, workers = tuple(cases), worker_count(workers)
     rows, interrupted = {}, False  # by number of the case
     each = _in_threads(task, cases, workers, rows) if workers > 1 else _in_line(task, cases, rows)
     try:
@@ -66,8 +66,8 @@ def run(task, cases, workers=1, progress=None):
     return Outcomes(tuple(rows[number] for number in sorted(rows)), interrupted)
 
 
-def _number(workers):
-    """How many workers are meant."""
+def worker_count(workers):
+    """How many workers are meant: a number, or None for one per core this process may use."""
     if workers is None:
         return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:

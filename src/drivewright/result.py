@@ -98,6 +98,12 @@ class Plot(NamedTuple):
     Style "mesh" (with `equal`) draws a surface seen from the side, three rows of the table a triangle, corners counter-clockwise as seen
     from outside: x to the right; y names the columns (up, away from the viewer, what the colour shows); reference names
     (right, up) of the same surface before, whose silhouette is dashed.
+    Style "map" colours cells: a row of the table is a cell, y names the columns (second axis, what the colour shows), both axes are
+    numbers or texts; `limits` are contours of the colour.
+    Style "histogram" counts the samples in its one y column (x is not looked at); `limits` stand upright.
+    Style "ranked" draws lying bars, one for each row: x holds their labels, y the columns (several: side by side), the largest
+    magnitude of the first on top; reference names its (lower, upper) ends of error bars.
+    Style "points" with `by` marks each group with its own shape; groups of text come in the order in which the table has them.
     """
 
     name: str
@@ -107,10 +113,10 @@ class Plot(NamedTuple):
     y: tuple
     limits: tuple = ()
     equal: bool = False
-    style: str = "line"  # line, points, stems, bars (stacked), polar or mesh
-    log: bool = False  # y axis in powers of ten
+    style: str = "line"  # line, points, stems, bars (stacked), polar, mesh, map, histogram or ranked
+    log: bool = False  # y axis, or the colour of a map, in powers of ten
     reference: tuple = ()
-    by: str = ""  # a column: one line for each of its values
+    by: str = ""  # a column: one line, or one kind of points, for each of its values
     shade: str = ""  # a column: the ground is shaded where it is above 0
     rings: tuple = ()  # (radius, label) of circles about the origin, in the unit of x
 

@@ -4,6 +4,7 @@ import math
 import platform
 import time
 from dataclasses import replace
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 
 from drivewright import registry
@@ -26,18 +27,24 @@ def run(spec, only=(), everything=False, progress=None, model=None):
     mechanism = registry.mechanism(spec.mechanism)
     wanted = selection(mechanism.analyses, only, everything)
     model = mechanism.build(spec) if model is None else model
-    answers, findings = {}, list(getattr(model, "findings", ()))
-    for number, analysis in enumerate(wanted):
-        if progress:
-            progress(number, len(wanted), analysis.name)
-        answers[analysis.name] = answer = _answer(analysis, spec, model, answers)
-        findings += answer.findings
+    answers = ask(spec, model, wanted, progress)
+    findings = [*getattr(model, "findings", ()), *(finding for answer in answers.values() for finding in answer.findings)]
     findings += [
         f"analysis '{a.name}' ({a.meaning}) runs on request: --only {a.name}"
         for a in mechanism.analyses
         if not only and not everything and not a.default
     ]
     return _result(spec, mechanism, answers, findings, time.perf_counter() - started)
+
+
+def ask(spec, model, wanted, progress=None):
+    """{name: Answer} of the wanted analyses, one after another; each sees those before it."""
+    answers = {}
+    for number, analysis in enumerate(wanted):
+        if progress:
+            progress(number, len(wanted), analysis.name)
+        answers[analysis.name] = _answer(analysis, spec, model, answers)
+    return answers
 
 
 def selection(analyses, only=(), everything=False):
@@ -114,6 +121,11 @@ def _result(spec, mechanism, answers, findings, seconds):
 
 def versions():
     """Version of Python and of the libraries that make numbers."""
+    return dict(_versions())
+
+
+@cache
+def _versions():
     found = {"python": platform.python_version()}
     for name in ("drivewright", "numpy", "scipy", "numba"):
         try:

@@ -120,11 +120,9 @@ class Dimension:
             raise UnitError(f"wants {self.described}, got {brief(value)}")
         if not isinstance(value, str) and (value != value or abs(value) == math.inf):
             raise UnitError(f"{brief(value)} is not finite")
-        number, unit = split(value) if isinstance(value, str) else (value, "")
-        if not unit:
-            bare = value.strip() if isinstance(value, str) else brief(value)
-            raise UnitError(f'a bare number; {self.described} wants its unit, e.g. "{bare} {self.shown}"')
-        return _rounded(number * self._exact(unit, value), value)
+        if not isinstance(value, str):
+            raise UnitError(f'a bare number; {self.described} wants its unit, e.g. "{brief(value)} {self.shown}"')
+        return _read(self, value)
 
     def factor(self, unit):
         """Factor from `unit` to SI; UnitError where it belongs to another kind of quantity."""
@@ -175,6 +173,15 @@ class Dimension:
         limits = {f"x-{name}": schema["schema"][name] for name in ("gt", "ge", "lt", "le") if name in schema.get("schema", {})}
         about = {"x-dimension": self.name, "x-unit": self.shown, "x-si-unit": self.unit}
         return {"type": "string", "pattern": PATTERN, "examples": [f"1 {self.shown}"], **about, **limits}
+
+
+@lru_cache(maxsize=4096)
+def _read(dimension, text):
+    """SI float of a text: the cases of a study say the same again and again."""
+    number, unit = split(text)
+    if not unit:
+        raise UnitError(f'a bare number; {dimension.described} wants its unit, e.g. "{text.strip()} {dimension.shown}"')
+    return _rounded(number * dimension._exact(unit, text), text)
 
 
 def split(text):

@@ -8,8 +8,9 @@ import pytest
 
 import drivewright as dw
 from drivewright.cli import main
-from drivewright.errors import SpecError
-from drivewright.spec import from_document
+from drivewright.errors import SolverError, SpecError
+from drivewright.spec import document, from_document, value_at
+from drivewright.studies.problem import prepare
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PUSHER = EXAMPLES / "seedling_pusher.toml"
@@ -140,6 +141,105 @@ def test_a_kind_without_batch_is_run_design_by_design():
     assert np.degrees(found.best["max_pressure_angle"]) == pytest.approx(25, abs=0.5)
 
 
+def search(example, key, lower, upper, objective, *requirements, changes=()):
+    """A small search from an example: its spec with an [optimise] table."""
+    table = {"population": 8, "generations": 1, "unknowns": [{"key": key, "lower": lower, "upper": upper}],
+             "objectives": [{"value": objective}], "requirements": list(requirements)}
+    return from_document(document(dw.load(EXAMPLES / f"{example}.toml", changes)) | {"optimise": table}, folder=EXAMPLES)
+
+
+CHAIN = {"mechanism": "silent-chain", "pitch": "9.525 mm", "links": 82, "teeth": [35, 37], "joint": {"rolling_radius": "1.2 mm"},
+         "plate": {"apothem": "2.6 mm"}, "limits": {"teeth": 17}}
+
+
+def chain_of(*teeth, **more):
+    table = {"population": 8, "generations": 3, "unknowns": [{"key": "teeth.0", "lower": teeth[0], "upper": teeth[1]}],
+             "objectives": [{"value": "layout.pitch_diameter.drive"}], **more}
+    return from_document(CHAIN | {"optimise": table})
+
+
+@pytest.mark.parametrize(
+    ("spec", "analyses"),
+    [
+        (search("disc_cam", "follower.roller_radius", "4 mm", "8 mm", "max_contact_pressure", {"value": "check.undercut"}),
+         ("geometry", "forces")),
+        (search("pressure_roller_shaft", "segments.0.diameter", "15 mm", "25 mm", "shaft.max_deflection", {"value": "check.yield_safety"}),
+         ("statics",)),
+        (search("pressure_roller_shaft", "bearings.B.position", "120 mm", "150 mm", "shaft.max_deflection"), ("statics",)),
+        (search("four_bar", "bodies.rocker.mass", "0.1 kg", "0.4 kg", "joints.B.max_force", changes=["simulate.turns=2"]), ("forces",)),
+        (search("cycloid_reducer", "eccentricity", "1 mm", "1.5 mm", "pressure_angle.maximum"), ("contacts",)),
+    ],
+    ids=["cam", "shaft", "shaft by name", "linkage", "indexer"],
+)
+def test_every_kind_runs_the_analyses_that_give_what_is_looked_at(spec, analyses):
+    """Whatever the search finds is what a run of that design gives."""
+    found = dw.optimise(spec, on="serial")
+    assert found.problem.analyses == analyses and found.evaluations == 16
+    (name,) = [objective for objective, _ in found.problem.objectives]
+    assert found.best[name] == found.front_values[name][0] == np.nanmin(found.history[name][found.history["violation"] <= 0])
+    assert value_at(found.best.spec, found.problem.keys[0]) == found.front[0][0]
+    assert all(requirement.ok for requirement in found.requirements)
+
+
+def test_an_unknown_that_may_also_be_a_word_is_a_number():
+    problem = prepare(dw.load(EXAMPLES / "pin_indexer_two_way.toml"))
+    assert problem.keys[2] == "motion.motion_to_dwell" and problem.kinds[2].name == "number"
+    assert problem.bounds[2].tolist() == [1.0, 2.0] and problem.design(problem.bounds[:, 0]).motion.motion_to_dwell == 1.0
+
+
+def test_whole_numbers_reach_both_bounds_and_no_design_is_evaluated_twice():
+    found = dw.optimise(chain_of(30, 34))
+    teeth = found.history["teeth.0"]
+    assert sorted(teeth) == [30, 31, 32, 33, 34] and found.table.schema.field("teeth.0").type == "int64"
+    assert found.front[0][0] == 30 and found.best.spec.teeth == (30, 37)
+    assert found.unknown_rows() == [("teeth.0", "30", "30", "34")]
+    pitch_diameter = 9.525e-3 / np.sin(np.pi / 30)
+    assert found.best["layout.pitch_diameter.drive"] == pytest.approx(pitch_diameter, rel=1e-12)
+
+
+def test_as_large_as_possible_is_the_other_end():
+    found = dw.optimise(chain_of(30, 34, objectives=[{"value": "layout.pitch_diameter.drive", "goal": "maximise"}]))
+    assert found.front[0][0] == 34 and found.objective_rows()[0][2] == "as large as possible"
+
+
+def test_every_whole_number_has_an_equal_share_of_the_search():
+    problem = prepare(chain_of(30, 33))
+    low, high = problem.space[0]
+    teeth, counts = np.unique(problem.designs(np.linspace(low, high, 4001)[:, None]), return_counts=True)
+    assert teeth.tolist() == [30, 31, 32, 33] and np.all(abs(counts - 1000) <= 1), counts
+
+
+def test_a_check_without_a_limit_has_to_pass():
+    """The least number of teeth that passes the check is the answer; below it the margin is negative."""
+    least = 17
+    found = dw.optimise(chain_of(10, 30, requirements=[{"value": "check.teeth.drive"}]))
+    assert found.best.spec.teeth[0] == least and found.best.check("teeth.drive").ok
+    assert found.problem.limits == (("check.teeth.drive", ">=", 0.0),) and found.problem.scales == [least]
+    assert np.array_equal(found.history["check.teeth.drive"] >= 0, found.history["teeth.0"] >= least)
+    missed = dw.optimise(chain_of(10, 15, requirements=[{"value": "check.teeth.drive"}]))
+    assert not missed.feasible and missed.best.spec.teeth[0] == 15
+    assert "the requirement to blame is check.teeth.drive >= 0: the least violating design reaches -2," in missed.findings[0]
+    assert "and 0 of the designs tried meet this one at all" in missed.findings[0]
+
+
+def test_a_design_that_fails_never_wins_however_large_the_objective_is():
+    """Contact pressures are millions of pascals; a roller larger than the prime circle leaves no cam and no pressure."""
+    found = dw.optimise(search("disc_cam", "follower.roller_radius", "20 mm", "90 mm", "max_contact_pressure"), on="serial")
+    failed = np.isnan(found.history["max_contact_pressure"])
+    assert failed.any() and found.feasible and found.front_values["max_contact_pressure"][0] > 1e6
+    assert np.all(found.history["violation"][failed] > 0) and np.all(found.history["violation"][~failed] == 0)
+
+
+def test_where_no_design_can_be_computed_the_reason_is_told(tmp_path, capsys):
+    spec = search("disc_cam", "follower.roller_radius", "80 mm", "90 mm", "max_contact_pressure")
+    with pytest.raises(SolverError, match="none of them could be computed; the commonest reason: follower.prime_radius: .*leaves no cam"):
+        dw.optimise(spec, on="serial", out=tmp_path / "o")
+    (tmp_path / "s.toml").write_text(spec.to_toml())
+    with pytest.raises(SystemExit) as left:
+        main(["optimise", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o")])
+    assert left.value.code == 4 and "none of them could be computed" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
@@ -150,6 +250,10 @@ def test_a_kind_without_batch_is_run_design_by_design():
         ({"unknowns": [{"key": "follower.prime_radius", "lower": 30.0, "upper": "80 mm"}]}, "optimise.unknowns.0.lower: a bare number"),
         ({"unknowns": [{"key": "follower.prime_radius", "lower": "90 mm", "upper": "80 mm"}]}, "is not below upper bound"),
         ({"objectives": [{"value": "max_presure_angle"}]}, "did you mean 'max_pressure_angle'"),
+        ({"unknowns": [{"key": "follower.motion", "lower": 1, "upper": 2}]}, "optimise.unknowns.0.key: follower.motion takes"),
+        ({"unknowns": 2 * [{"key": "follower.prime_radius", "lower": "30 mm", "upper": "80 mm"}]},
+         "optimise.unknowns.1.key: follower.prime_radius is there twice"),
+        ({"objectives": [{"value": "check.pressure_angel"}]}, "did you mean 'check.pressure_angle'"),
         ({"requirements": [{"value": "max_pressure_angle"}]}, "needs at_least, at_most, or both"),
         ({"requirements": [{"value": "max_pressure_angle", "at_most": "25 mm"}]}, "optimise.requirements.0.at_most: wants an angle"),
         (
@@ -163,6 +267,17 @@ def test_a_wrong_table_is_refused_by_key(change, message):
     data["optimise"] |= change
     with pytest.raises(SpecError) as error:
         dw.optimise(from_document(data))
+    assert message in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("teeth", "message"),
+    [((30.5, 34), "optimise.unknowns.0.lower: wants a whole number, got 30.5"), ((30, "34 mm"), "optimise.unknowns.0.upper: wants a whole"),
+     ((30, 30), "optimise.unknowns.0: lower bound 30 is not below upper bound 30")],
+)
+def test_bounds_of_whole_numbers_are_whole(teeth, message):
+    with pytest.raises(SpecError) as error:
+        dw.optimise(chain_of(*teeth))
     assert message in str(error.value)
 
 

@@ -72,7 +72,8 @@ def boundary_radius(p, z1, z2):
     p m/(2 (1 - m)), m = k tan(t1/2); infinite where m reaches 1.
     """
     m = pitch_constant(z1, z2) * np.tan(np.pi / (2 * z1))
-    return p * m / (2 * (1 - m)) if m < 1 else np.inf
+    finite = m < 1
+    return np.where(finite, p * m / (2 * np.where(finite, 1 - m, 1.0)), np.inf)[()]
 
 
 def monotone_radius(p, z1):

@@ -28,6 +28,9 @@ Set = Annotated[list[str] | None, typer.Option("--set", help="key=value, repeata
 Only = Annotated[str, typer.Option("--only", help="analyses to run, comma separated, with what they need")]
 All = Annotated[bool, typer.Option("--all", help="every analysis")]
 Out = Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the spec>")]
+VARY = ("repeatable: KEY=FROM:TO:STEPS, KEY=V1,V2, KEY=normal(MEAN, SIGMA), KEY=FROM:TO, KEY=+-TOLERANCE; KEY+KEY=... for keys "
+        "with the same value; instead of what the spec's [study] varies")
+METHOD = "latin-hypercube, sobol, random, corners, one-at-a-time, tolerance, sobol-indices"
 Strict = Annotated[bool, typer.Option("--strict", help="exit 3 when a design check fails")]
 
 
@@ -119,15 +122,77 @@ def export(
 
 
 @app.command()
-def optimise(spec: SpecFile, out: Out = None, set_: Set = None):
-    """Optimise the unknowns of the spec's [optimise] table; exit 4 when nothing feasible was found."""
+def sweep(
+    spec: SpecFile,
+    vary: Annotated[list[str] | None, typer.Option("--vary", help=VARY)] = None,
+    sample: Annotated[int | None, typer.Option("--sample", help="size of the sample of what has a distribution")] = None,
+    method: Annotated[str | None, typer.Option("--method", help=METHOD)] = None,
+    seed: Annotated[int | None, typer.Option("--seed", help="of the sample")] = None,
+    points: Annotated[Path | None, typer.Option("--points", help="CSV or Parquet file of cases, a column per key: key [unit]")] = None,
+    only: Only = "",
+    all_: All = False,
+    values: Annotated[str, typer.Option("--values", help="values and checks (check.NAME) to keep, comma separated; all unless given")] = "",
+    out: Annotated[Path | None, typer.Option("--out", help="folder of the study; default out/<stem of the spec>-study")] = None,
+    set_: Set = None,
+    workers: Annotated[int | None, typer.Option("--workers", help="processes on this machine; default: one per core")] = None,
+    on: Annotated[str | None, typer.Option("--on", help="local:N or tcp://HOST:PORT (Dask), or serial")] = None,
+    yes: Annotated[bool, typer.Option("--yes", help="also a very large number of cases")] = False,
+    figures: Annotated[bool, typer.Option("--figures/--no-figures", help="write the report with its figures")] = True,
+):
+    """Compute many cases of a spec; the same command again goes on where it stopped."""
+    from drivewright.report.study import write_answers
+    from drivewright.studies.answers import answers
+    from drivewright.studies.sweep import sweep as compute
+    from drivewright.studies.varying import asked
+
+    with show.located(spec):
+        loaded = asked(_load(spec, set_), vary or (), points, samples=sample, method=method, seed=seed, analyses=_names(only) or None,
+                       every_analysis=all_ or None, values=_names(values) or None)
+    with show.progress(spec.name) as step, show.located(spec):
+        study = compute(loaded, out=out or Path("out") / f"{spec.stem}-study", workers=workers, on=on, confirmed=yes, progress=step)
+        show.note(f"{study.folder}: {len(study)} of {len(study.plan)} cases")
+        if study.interrupted:
+            raise KeyboardInterrupt
+        found = answers(study) if figures else None
+        if found:
+            show.note(f"wrote {write_answers(study, found, study.folder)}")
+    show.study(study, found)
+    if not study.answered:
+        raise typer.Exit(4)
+
+
+@app.command()
+def table(
+    study: Annotated[Path, typer.Argument(help="folder of a study")],
+    to: Annotated[str, typer.Option("--to", help="formats, comma separated: csv, xlsx, parquet")] = "csv",
+    out: Annotated[Path | None, typer.Option("--out", help="folder to write to; default the study's own")] = None,
+):
+    """Write a study's cases as one table."""
+    from drivewright.report.tabular import write_study_table
+    from drivewright.studies.sweep import open_study
+
+    with show.located(study):
+        opened = open_study(study)
+        for form in _names(to):
+            print(write_study_table(opened, (out or study) / f"table.{form}"))
+
+
+@app.command()
+def optimise(
+    spec: SpecFile,
+    out: Annotated[Path | None, typer.Option("--out", help="folder of the search; default out/<stem of the spec>-optimised")] = None,
+    set_: Set = None,
+    workers: Annotated[int | None, typer.Option("--workers", help="processes on this machine; default: one per core")] = None,
+    on: Annotated[str | None, typer.Option("--on", help="local:N or tcp://HOST:PORT (Dask), or serial")] = None,
+):
+    """Optimise the unknowns of the spec's [optimise] table, exit 4 when nothing feasible was found; the same command again goes on."""
     from drivewright.report.optimised import write_optimised
     from drivewright.studies.optimise import optimise as search
 
     loaded = _load(spec, set_)
     with show.progress(spec.name) as step, show.located(spec):
-        found = search(loaded, progress=step)
-        folder = write_optimised(found, out or Path("out") / f"{spec.stem}-optimised")
+        found = search(loaded, out=out or Path("out") / f"{spec.stem}-optimised", workers=workers, on=on, progress=step)
+        folder = write_optimised(found, found.folder)
     show.note(f"wrote {folder}/ (best.toml, history.parquet, best/)")
     show.optimised(found)
     if found.interrupted:
@@ -171,19 +236,21 @@ def examples(
     run_: Annotated[str | None, typer.Option("--run", help="'all', or the name of an example to run")] = None,
     out: Annotated[Path, typer.Option("--out", help="folder of the runs")] = Path("out"),
 ):
-    """List, copy or run the worked examples."""
+    """List, copy or run the worked examples and studies."""
     from drivewright.cli import gallery
 
-    known = gallery.examples()
+    known, studies = gallery.examples(), gallery.studies()
     for chosen in (name, run_ if run_ != "all" else None):
-        if chosen is not None and chosen not in known:
-            raise UnknownName("example", chosen, known)
-    if run_:
+        if chosen is not None and chosen not in known | studies:
+            raise UnknownName("example", chosen, known | studies)
+    if run_ in studies:
+        gallery.run_study(studies[run_], out / run_)
+    elif run_:
         gallery.run_examples(known if run_ == "all" else {run_: known[run_]}, out)
     elif name:
-        show.note("wrote " + ", ".join(str(path) for path in gallery.copy(known[name], Path("."))))
+        show.note("wrote " + ", ".join(str(path) for path in gallery.copy((known | studies)[name], Path("."))))
     else:
-        gallery.listing(known)
+        gallery.listing()
 
 
 @app.command()

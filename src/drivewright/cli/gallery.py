@@ -15,21 +15,27 @@ CHECKOUT = Path(__file__).parents[3] / "examples"
 
 def examples():
     """Name -> path of every example spec."""
-    folder = PACKED if PACKED.is_dir() else CHECKOUT
-    return {path.stem: path for path in sorted(folder.glob("*.toml"))}
+    return {path.stem: path for path in sorted(_folder().glob("*.toml"))}
 
 
-def listing(known):
+def studies():
+    """Name -> path of every worked study: specs with a [study] table, for `sweep`."""
+    return {path.stem: path for path in sorted((_folder() / "studies").glob("*.toml"))}
+
+
+def _folder():
+    return PACKED if PACKED.is_dir() else CHECKOUT
+
+
+def listing():
     """Print name, kind and title of each."""
-    rows = []
-    for name, path in known.items():
-        data = read_document(path)
-        rows.append((name, data.get("mechanism", ""), data.get("title", "")))
-    show.table(
-        "worked examples (drivewright examples NAME copies one, --run NAME runs it)",
-        (("name", "left"), ("kind", "left"), ("what it shows", "left")),
-        rows,
-    )
+    for title, known in (
+        ("worked examples (drivewright examples NAME copies one, --run NAME runs it)", examples()),
+        ("worked studies (the same; a copy is run by drivewright sweep)", studies()),
+    ):
+        data = {name: read_document(path) for name, path in known.items()}
+        rows = [(name, tables.get("mechanism", ""), tables.get("title", "")) for name, tables in data.items()]
+        show.table(title, (("name", "left"), ("kind", "left"), ("what it shows", "left")), rows)
 
 
 def copy(path, folder):
@@ -41,6 +47,21 @@ def copy(path, folder):
     for source, target in zip(sources, targets, strict=True):
         shutil.copyfile(source, target)
     return targets
+
+
+def run_study(path, out):
+    """Run a worked study and write its folder with the report."""
+    from drivewright.report.study import write_answers
+    from drivewright.studies.answers import answers
+    from drivewright.studies.sweep import sweep
+
+    with show.progress(path.stem) as step:
+        study = sweep(load(path), out=out, progress=step)
+    if study.interrupted:
+        raise KeyboardInterrupt
+    found = answers(study)
+    show.note(f"wrote {write_answers(study, found, study.folder)}")
+    show.study(study, found)
 
 
 def run_examples(chosen, out):

@@ -3,11 +3,15 @@
 import json
 import shutil
 import sys
+from collections import Counter
 from contextlib import contextmanager
 from pathlib import Path
 
 from drivewright import registry, units
 from drivewright.errors import InputError, MissingExtra, SpecError
+
+
+MOST_ROWS = 12  # of a study's values
 
 
 def note(text):
@@ -128,9 +132,33 @@ def optimised(found):
     table("objectives", (("value", "left"), ("best", "right"), ("wanted", "left")), found.objective_rows())
     table("unknowns", (("key", "left"), ("best", "right"), ("lower", "right"), ("upper", "right")), found.unknown_rows())
     checks(found.requirements)
-    note(f"{found.evaluations} evaluations, {found.seconds:.1f} s, seed {found.seed}")
+    so_far = " so far: the best of them, not the end of the search" if found.interrupted else ""
+    note(f"{found.evaluations} evaluations{so_far}, {found.seconds:.1f} s, seed {found.seed}")
     for line in found.findings:
         note(f"note: {line}")
+
+
+def study(found, answers=None):
+    """How the cases of a study ended, between which ends its headline values lie, and the yield where the answers have one."""
+    import numpy as np
+
+    names = registry.headlines(registry.mechanism(found.spec.mechanism), dict.fromkeys(found.value_names))
+    ends = {name: column[np.isfinite(column)] for name in names for column in [found[name]]}
+    told = {name: column for name, column in ends.items() if len(column)}
+    rows = [(name, *(number(end, found.unit(name)) for end in (column.min(), column.max())), found.meaning(name))
+            for name, column in list(told.items())[:MOST_ROWS]]
+    title = ", ".join(f"{count} {status}" for status, count in found.counts.items())
+    table(title, (("value", "left"), ("least", "right"), ("greatest", "right"), ("meaning", "left")), rows)
+    if answers and "yield" in answers.result.values:
+        share, low, high = (answers.result.values[name].value for name in ("yield", "yield.low", "yield.high"))
+        print(f"yield {share:.1%} of the cases pass every check ({low:.1%} to {high:.1%} with 95% confidence)")
+    if len(told) > len(rows):
+        note(f"{len(told) - len(rows)} more values in the report and in the study's table")
+    reasons = Counter(text for text, status in zip(found["message"], found["status"], strict=True) if status != "complete")
+    for reason, count in reasons.most_common(3):
+        note(f"note: {count} x {reason}")
+    for remark in (*found.plan.remarks, *found.remarks):
+        note(f"note: {remark}")
 
 
 def comparison(rows):

@@ -92,12 +92,15 @@ def _marks(result, plot, scene):
     return tuple((value * factor, label) for value, label in scene.marks)
 
 
-def content(result, remarks=()):
-    """Title, verdict, headline, checks, values, arrays, tables, findings, sources and provenance of a result."""
+def content(result, remarks=(), headlines=None):
+    """Title, verdict, headline, checks, values, arrays, tables, findings, sources and provenance of a result.
+
+    `headlines` names the values shown first; the mechanism's unless given.
+    """
     return {
         "title": result.title, "mechanism": result.mechanism, "version": program(), "digest": result.digest,
         "verdict": verdict([bool(check.ok) for check in result.checks], result.outcome),
-        "headline": headline(result), "checks": [_check(c) for c in sorted(result.checks, key=lambda c: c.ok)],
+        "headline": headline(result, headlines), "checks": [_check(c) for c in sorted(result.checks, key=lambda c: c.ok)],
         "values": [_value(name, value) for name, value in result.values.items() if math.isfinite(value.value)],
         "arrays": [_array(name, array) for name, array in result.arrays.items()],
         "tables": [_table(table) for table in result.tables.values()],
@@ -123,10 +126,11 @@ def verdict(passed, outcome):
     return {"state": "good", "text": "1 check passes" if count == 1 else f"all {count} checks pass"}
 
 
-def headline(result):
-    """The mechanism's headline values, or the first six; those that the run has."""
-    known = registry.is_known(result.mechanism)
-    names = registry.headlines(registry.mechanism(result.mechanism), result.values) if known else list(result.values)[:6]
+def headline(result, names=None):
+    """The values of those names; unless given the mechanism's headline values, or the first six; those that the run has."""
+    if names is None:
+        known = registry.is_known(result.mechanism)
+        names = registry.headlines(registry.mechanism(result.mechanism), result.values) if known else list(result.values)[:6]
     return [_value(name, result.values[name]) for name in names]
 
 

@@ -16,7 +16,7 @@ HERE = Path(__file__).parent
 def write_report(result, seen, folder, pictures=()):
     """Write `folder`/report.html: numbers, checks, motion player with linked plots, pictures, sources.  `seen` is a `Views`."""
     text = page("report.html.j2", content(result, seen.remarks), player=player_data(result, seen),
-                pictures=[_embedded(picture) for picture in pictures])
+                pictures=[embedded(picture) for picture in pictures])
     path = Path(folder) / "report.html"
     write_text(path, text)
     return path
@@ -64,7 +64,7 @@ def _text(name):
     return (HERE / name).read_text(encoding="utf-8")
 
 
-def _embedded(picture):
+def embedded(picture):
     """A picture as an image of its own, so that the ids inside several SVGs cannot meet; as text, a quarter smaller than base64."""
     from markupsafe import Markup
 

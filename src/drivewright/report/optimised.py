@@ -1,43 +1,41 @@
-"""The folder of an optimisation: best.toml, the best design's run folder, every evaluation."""
+"""The outcome of an optimisation beside its evaluations: best.toml, the best design's run folder, every evaluation in one table."""
 
-import shutil
 from pathlib import Path
 
+from drivewright.report import atomic
 from drivewright.report.folder import refuse_foreign, write_run_folder
 
 MARK = "history.parquet"
 
 
 def write_optimised(found, folder):
-    """Write best.toml, best/ (run folder), history.parquet and, for several objectives, front.parquet; returns the folder."""
+    """Write history.parquet, front.parquet, best/ (run folder) and best.toml, each whole or not at all; returns the folder."""
     folder = Path(folder).resolve()
-    if not (folder / MARK).is_file():
+    if folder != found.folder and not (folder / MARK).is_file():
         refuse_foreign(folder)
-    fresh = folder.with_name(f"{folder.name}.tmp")
-    shutil.rmtree(fresh, ignore_errors=True)
-    try:
-        fresh.mkdir(parents=True)
-        found.best.spec.write(fresh / "best.toml")
-        write_run_folder(found.best, fresh / "best")
-        _write_columns(fresh / MARK, found.history, found.problem)
-        _write_columns(fresh / "front.parquet", _front(found), found.problem)
-        shutil.rmtree(folder, ignore_errors=True)
-        fresh.rename(folder)
-    finally:
-        shutil.rmtree(fresh, ignore_errors=True)
+    folder.mkdir(parents=True, exist_ok=True)
+    _write_table(folder / MARK, found.table)
+    _write_table(folder / "front.parquet", _front(found))
+    write_run_folder(found.best, folder / "best")
+    with atomic.replacing(folder / "best.toml") as temporary:
+        found.best.spec.write(temporary)
     return folder
 
 
 def _front(found):
-    unknowns = dict(zip(found.problem.keys, found.front.T, strict=True))
-    return unknowns | dict(found.front_values)
-
-
-def _write_columns(path, columns, problem):
-    """Parquet with the SI unit of each column in its metadata."""
+    """The front as a table: unknowns and values, with their units."""
     import pyarrow as pa
+
+    unknowns = dict(zip(found.problem.keys, found.front.T, strict=True))
+    units = {key: kind.unit for key, kind in zip(found.problem.keys, found.problem.kinds, strict=True)}
+    columns = {name: (data, found.problem.about[name][0]) for name, data in found.front_values.items()}
+    columns = {key: (data, units[key]) for key, data in unknowns.items()} | columns
+    fields = [pa.field(name, pa.float64(), metadata={"unit": unit}) for name, (_, unit) in columns.items()]
+    return pa.Table.from_arrays([pa.array(data, pa.float64()) for data, _ in columns.values()], schema=pa.schema(fields))
+
+
+def _write_table(path, table):
     from pyarrow import parquet
 
-    units = problem.column_units()
-    fields = [pa.field(name, pa.array(data).type, metadata={"unit": units.get(name, "-")}) for name, data in columns.items()]
-    parquet.write_table(pa.Table.from_arrays([pa.array(data) for data in columns.values()], schema=pa.schema(fields)), path)
+    with atomic.replacing(path) as temporary:
+        parquet.write_table(table, temporary)

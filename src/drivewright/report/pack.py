@@ -6,7 +6,7 @@ import numpy as np
 
 from drivewright.view.motion import fractions
 from drivewright.view.outlines import overall_size, thinned
-from drivewright.view.panels import decimals, drawable, panels
+from drivewright.view.panels import STANDING, decimals, drawable, panels
 from drivewright.view.text import shown
 
 FINENESS = 3e-5  # curves become chords within this part of the scene's size: under a pixel at twenty-fold zoom
@@ -65,7 +65,7 @@ def pack_plots(result, scene, plots):
     """
     main = result.tables.get(scene.table)
     chosen = [(plot, _along(result.tables[plot.table][plot.x].data, scene)) for plot in drawable(result, plots)
-              if main and plot.x == main.columns[0].name and not plot.equal]
+              if main and plot.x == main.columns[0].name and not plot.equal and plot.style not in STANDING]
     packed = [panel for plot, u in chosen if u is not None for panel in _panels(panels(result, plot), u, scene)]
     return {"cycle": _cycle(scene), "panels": packed} if packed else None
 

@@ -31,7 +31,7 @@ def template(kind, preset=None):
              '# Every key is here.  "#key = value" is left at its default, or out: take the # away to change it.',
              '# A quantity is text with a unit, e.g. "9.5 mm", "2000 rpm", "3e7 N/m".  [...] says what is allowed,',
              '# and "default" where the value shown is the one taken when the key is left out.', ""]
-    return "\n".join(intro + _lines(mechanism.spec, given, samples={"optimise": _search_sample(mechanism, given)})) + "\n"
+    return "\n".join(intro + _lines(mechanism.spec, given, samples=_shared_samples(mechanism, given))) + "\n"
 
 
 def preset_path(kind, preset=None):
@@ -196,16 +196,17 @@ def _length(annotation):
     return max(map(_length, inner), default=0)
 
 
-def _search_sample(mechanism, given):
-    """An [optimise] table that fits the kind: its first quantity as the unknown, a headline value as the objective."""
+def _shared_samples(mechanism, given):
+    """[optimise] and [study] tables that fit the kind: its first quantity as what changes, a headline value as the objective."""
     keys = [(f"{table}.{key}", value) for table, keys in given.items() if isinstance(keys, dict) for key, value in keys.items()]
     quantities = [(key, value) for key, value in keys
                   if isinstance(value, str) and (field := field_at(mechanism.spec, key.split("."))) and dimension_of(field)]
     if not quantities or not mechanism.headline:
-        return None
+        return {}
     key, value = quantities[0]
     number, unit = split(value)
     lower, upper = (f"{float(number) * share:.4g} {unit}" for share in (0.9, 1.1))
     required = {"value": mechanism.headline[-1], "at_least": 1.0, "at_most": 2.0}
-    return {"settings": [{"key": key, "value": value}], "unknowns": [{"key": key, "lower": lower, "upper": upper}],
-            "objectives": [{"value": mechanism.headline[0]}], "requirements": [required]}
+    search = {"settings": [{"key": key, "value": value}], "unknowns": [{"key": key, "lower": lower, "upper": upper}],
+              "objectives": [{"value": mechanism.headline[0]}], "requirements": [required]}
+    return {"optimise": search, "study": {"vary": [{"key": key, "lower": lower, "upper": upper, "steps": 5}]}}

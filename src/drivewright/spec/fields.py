@@ -183,3 +183,19 @@ def dimension_at(model, key):
     """(exists, Dimension or None) of a dotted key below a table class; a list's elements go by name or number."""
     field = field_at(model, key.split("."))
     return field is not None, dimension_of(field) if field else None
+
+
+def value_at(spec, key):
+    """The value at a dotted key of a spec, a list's elements by name or number; None where there is none."""
+    found = spec
+    for step in key.split("."):
+        if isinstance(found, BaseModel):
+            found = getattr(found, step, None)
+        elif isinstance(found, dict):
+            found = found.get(step)
+        elif isinstance(found, tuple):
+            named = (entry for entry in found if getattr(entry, "name", None) == step)
+            found = next(named, found[int(step)] if step.isdecimal() and int(step) < len(found) else None)
+        else:
+            return None
+    return found

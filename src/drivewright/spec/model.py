@@ -8,6 +8,7 @@ from pydantic import Field
 
 from drivewright.spec.fields import Integer, Text
 from drivewright.spec.searching import Optimise
+from drivewright.spec.studying import Study
 from drivewright.spec.table import Spec
 from drivewright.spec.writing import canonical_text, document, files, places_beside, toml_text
 
@@ -19,6 +20,7 @@ class MechanismSpec(Spec):
     mechanism: Text = Field(description="kind of drive")
     title: Text = Field("", description="a name for people")
     optimise: Optimise | None = Field(None, description="unknowns, requirements and objectives for `drivewright optimise`")
+    study: Study | None = Field(None, description="what varies from case to case for `drivewright sweep`")
 
     def to_toml(self):
         """The effective spec as TOML text with units; reads back to an equal spec on this machine."""
@@ -37,12 +39,13 @@ class MechanismSpec(Spec):
 
     def _tables(self, places=None):
         tables = document(self, places)
-        search = {"optimise": tables.pop("optimise")} if "optimise" in tables else {}
-        return tables | search  # what all kinds share reads best at the end
+        shared = {name: tables.pop(name) for name in ("optimise", "study") if name in tables}
+        return tables | shared  # what all kinds share reads best at the end
 
     def digest(self):
-        """SHA-256 of the canonical effective spec in SI; data files by content, the title left out."""
-        return hashlib.sha256(canonical_text(self, leave_out=("title",)).encode()).hexdigest()
+        """SHA-256 of the canonical effective spec in SI; data files by content; title and study change no number of a run, so they are
+        left out."""
+        return hashlib.sha256(canonical_text(self, leave_out=("title", "study")).encode()).hexdigest()
 
     def data_files(self):
         """Absolute paths of all data files the spec names."""

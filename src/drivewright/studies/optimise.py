@@ -1,77 +1,38 @@
 """Optimisation of any drive: the unknowns, requirements and objectives of a spec's [optimise] table.
 
-One objective: differential evolution (SciPy); several: NSGA-II (pymoo).  Seeded and deterministic.  A mechanism that offers
-`batch` evaluates a whole generation in compiled code; any other is run design by design.
+One objective: differential evolution (SciPy); several: NSGA-II (pymoo).  Seeded and deterministic: a search that was stopped in any way
+is gone through again from its beginning, and what its folder holds is not evaluated again.
 """
 
 import time
+from collections import Counter
+from contextlib import closing
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from drivewright import registry, units
-from drivewright.errors import InputError, MissingExtra, SpecError, UnknownName
+from drivewright import units
+from drivewright.errors import InputError, SolverError
 from drivewright.result import Check, Result
-from drivewright.runner import run
-from drivewright.spec import MechanismSpec, dimension_at, document, from_document, set_key
+from drivewright.runner import run, versions
+from drivewright.studies import history, store
+from drivewright.studies.evaluator import SILENT, Evaluator
+from drivewright.studies.pareto import nondominated
+from drivewright.studies.problem import Problem, looked_at, prepare
+from drivewright.studies.searching import METHODS, method_of
+from drivewright.studies.study import MESSAGE, STATUS
 
-HOPELESS = 1e3  # violation of a design that has no solution at all, in units of the limits
-
-
-@dataclass(frozen=True)
-class Problem:
-    """The [optimise] table in numbers: keys, bounds (n, 2) SI, objectives (name, sign), limits (name, sense, limit)."""
-
-    spec: MechanismSpec
-    keys: tuple
-    bounds: np.ndarray
-    objectives: tuple
-    limits: tuple
-    reference: Result
-
-    @property
-    def names(self):
-        """Every value that is looked at."""
-        return tuple(dict.fromkeys([name for name, _ in self.objectives] + [name for name, _, _ in self.limits]))
-
-    @cached_property
-    def scales(self):
-        """Size by which each limit's violation is measured."""
-        return np.array([abs(limit) or 1.0 for _, _, limit in self.limits])
-
-    def objective_values(self, values):
-        """(m, designs), to be made small; nan becomes huge."""
-        rows = np.array([sign * values[name] for name, sign in self.objectives])
-        return np.where(np.isfinite(rows), rows, HOPELESS)
-
-    def violations(self, values):
-        """(limits, designs): how far beyond each limit, over its size; 0 or less is met."""
-        if not self.limits:
-            return np.zeros((1, len(next(iter(values.values())))))
-        rows = [
-            (limit - values[name] if sense == ">=" else values[name] - limit) / scale
-            for (name, sense, limit), scale in zip(self.limits, self.scales, strict=True)
-        ]
-        return np.where(np.isfinite(rows), rows, HOPELESS)
-
-    def column_units(self):
-        """SI unit of every unknown and value."""
-        found = {key: dimension_at(type(self.spec), key)[1] for key in self.keys}
-        return {key: d.unit if d else "-" for key, d in found.items()} | {name: self.reference.values[name].unit for name in self.names}
-
-    def design(self, x):
-        """The spec with the unknowns at x (SI)."""
-        data = document(self.spec)
-        for key, value in zip(self.keys, x, strict=True):
-            dimension = dimension_at(type(self.spec), key)[1]
-            set_key(data, key, dimension.text(float(value)) if dimension else float(value))
-        return from_document(data, type(self.spec))
+HISTORY = "history.parquet"
+NEAR = 1e-6  # difference of two routes to a value, relative to its size, that is worth no word
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Optimised:
-    """The outcome: best design with its full result, the front of several objectives, and every evaluation."""
+    """The outcome: best design with its full result, the front (designs, unknowns) of several objectives with its values, and every
+    evaluation: `table` is a pyarrow.Table with unit and meaning of each column, a row per evaluation."""
 
     problem: Problem
     best: Result
@@ -79,304 +40,155 @@ class Optimised:
     front_values: dict
     requirements: tuple
     feasible: bool
-    history: dict
-    evaluations: int
+    table: Any
     seconds: float
-    seed: int
     method: str
     findings: tuple
+    folder: Path | None = None
     interrupted: bool = False
+
+    @property
+    def evaluations(self):
+        """How many designs were evaluated, in all starts together."""
+        return self.table.num_rows
+
+    @property
+    def seed(self):
+        """Of the random numbers."""
+        return self.problem.spec.optimise.seed
+
+    @cached_property
+    def history(self):
+        """{column: array} of the table: generation, unknowns, values (nan where there is none), violation."""
+        names = [history.GENERATION, *self.problem.keys, *(history.column_of(self.problem, name) for name in self.problem.names)]
+        return {name: self.table[name].to_numpy() for name in [*names, history.VIOLATION]}
 
     def objective_rows(self):
         """(value, reached, direction) as text."""
-        rows = []
-        for name, sign in self.problem.objectives:
-            value = self.best.values[name]
-            factor, shown = units.display(value.unit)
-            rows.append(
-                (
-                    name,
-                    f"{value.value * factor:.6g} {shown}".removesuffix(" -"),
-                    "as small as possible" if sign > 0 else "as large as possible",
-                )
-            )
-        return rows
+        reached = looked_at(self.best.values, self.best.checks)
+        return [(name, _shown(reached[name].value, reached[name].unit) if name in reached else "does not exist",
+                 "as small as possible" if sign > 0 else "as large as possible") for name, sign in self.problem.objectives]
 
     def unknown_rows(self):
         """(key, best, lower, upper) as text."""
-        rows = []
-        for key, x, (low, high) in zip(self.problem.keys, self.front[0], self.problem.bounds, strict=True):
-            dimension = dimension_at(type(self.problem.spec), key)[1]
-            show = (
-                (lambda v, d=dimension: f"{v / units.unit_factor(d.shown, d.name):.5g} {d.shown}") if dimension else (lambda v: f"{v:.5g}")
-            )
-            rows.append((key, show(x), show(low), show(high)))
-        return rows
+        keys, kinds = self.problem.keys, self.problem.kinds
+        return [(key, *(_shown(x, kind.unit, 5) for x in (best, low, high)))
+                for key, kind, best, (low, high) in zip(keys, kinds, self.front[0], self.problem.bounds, strict=True)]
 
 
-def optimise(spec, progress=None):
-    """`Optimised` of a spec with an [optimise] table.  SpecError where the table cannot be understood."""
+def optimise(spec, *, out=None, workers=None, on=None, progress=None):
+    """`Optimised` of a spec with an [optimise] table.  SpecError where the table cannot be understood.
+
+    `out` is the folder that keeps every evaluation: the same search given again goes on where it was, or answers from there.  None keeps
+    them in memory.  `workers` processes (None: one per core, where the search is long enough), or `on` another place, see `pools.pool`;
+    neither changes a bit.  What the mechanism evaluates in compiled code is done here.  `progress(done, total, what)` is called as
+    generations end.  Ctrl-C, also from `progress`, gives the best so far, `interrupted`.  SolverError where no design can be computed.
+    """
     started = time.perf_counter()
     problem = prepare(spec)
-    search = spec.optimise
-    method = search.method if search.method != "auto" else ("nsga2" if len(problem.objectives) > 1 else "differential-evolution")
-    evaluator = Evaluator(problem, search.generations, progress or (lambda done, total, what: None))
-    if method == "differential-evolution" and len(problem.objectives) > 1:
-        raise SpecError("differential-evolution takes one objective; take nsga2 for several", "optimise.method")
-    interrupted = False
+    method = method_of(spec.optimise)
+    with closing(_place(out, spec, method)) as kept:
+        interrupted = _search(problem, method, Evaluator(problem, kept, workers, on, progress))
+        tables = kept.tables()
+        if not tables:
+            raise KeyboardInterrupt
+        found = _outcome(problem, store.joined(tables))
+    return Optimised(problem, **found, seconds=time.perf_counter() - started, method=method, folder=kept.folder, interrupted=interrupted)
+
+
+def _search(problem, method, evaluator):
+    """Search to the end; whether it was interrupted."""
     try:
-        front = (_nsga2 if method == "nsga2" else _differential_evolution)(problem, search, evaluator)
+        with closing(evaluator):
+            METHODS[method](problem, problem.spec.optimise, evaluator)
     except KeyboardInterrupt:
-        if not evaluator.designs:
-            raise
-        front, interrupted = _best_so_far(problem, evaluator), True
-    return _outcome(problem, front, evaluator, method, time.perf_counter() - started, interrupted)
+        return True
+    return False
 
 
-# -- reading the table ---------------------------------------------------------------------------------------------------------
-
-
-def prepare(spec):
-    """The `Problem` of a spec; each complaint names the key of the [optimise] table."""
-    if spec.optimise is None:
-        raise SpecError("is missing; it says what may change, what is required and what is wanted (see `drivewright new`)", "optimise")
-    base = _with_settings(spec)
-    reference = run(base)
-    bounds = [_bounds(base, unknown, number) for number, unknown in enumerate(spec.optimise.unknowns)]
-    objectives = tuple(
-        (_known(reference, o.value, f"optimise.objectives.{n}.value"), 1.0 if o.goal == "minimise" else -1.0)
-        for n, o in enumerate(spec.optimise.objectives)
-    )
-    limits = tuple(limit for n, r in enumerate(spec.optimise.requirements) for limit in _limits(reference, r, n))
-    return Problem(base, tuple(u.key for u in spec.optimise.unknowns), np.array(bounds), objectives, limits, reference)
-
-
-def _with_settings(spec):
-    data = document(spec)
-    for setting in spec.optimise.settings:
-        set_key(data, setting.key, setting.value)
-    return from_document(data, type(spec))
-
-
-def _bounds(spec, unknown, number):
-    place = f"optimise.unknowns.{number}"
-    exists, dimension = dimension_at(type(spec), unknown.key)
-    if not exists:
-        raise SpecError(f"this spec has no key {unknown.key!r}", f"{place}.key")
-    low, high = (_in_si(getattr(unknown, side), dimension, f"{place}.{side}") for side in ("lower", "upper"))
-    if not low < high:
-        raise SpecError(f"lower bound {unknown.lower} is not below upper bound {unknown.upper}", place)
-    return low, high
-
-
-def _in_si(value, dimension, key):
-    if dimension is None:
-        if isinstance(value, str):
-            raise SpecError(f"is a pure number here, got {value!r}", key)
-        return float(value)
-    try:
-        return dimension.parse(value)
-    except SpecError as error:
-        raise error.located(key) from None
-
-
-def _known(reference, name, key):
-    if name not in reference.values:
-        raise SpecError(str(UnknownName("value of the result", name, reference.values)), key)
-    return name
-
-
-def _limits(reference, requirement, number):
-    place = f"optimise.requirements.{number}"
-    name = _known(reference, requirement.value, f"{place}.value")
-    dimension = units.BY_UNIT.get(reference.values[name].unit)
-    if requirement.at_least is None and requirement.at_most is None:
-        raise SpecError("needs at_least, at_most, or both", place)
-    for side, sense in (("at_least", ">="), ("at_most", "<=")):
-        if (limit := getattr(requirement, side)) is not None:
-            yield name, sense, _in_si(limit, dimension, f"{place}.{side}")
-
-
-# -- evaluating ----------------------------------------------------------------------------------------------------------------
-
-
-class Evaluator:
-    """Counts, remembers and evaluates: `evaluator(x)` with designs (n, d) gives {name: (n,)}."""
-
-    def __init__(self, problem, generations, progress):
-        self.problem, self.generations, self.progress = problem, generations, progress
-        offer = registry.mechanism(problem.spec.mechanism).batch
-        self.many = (offer(problem.spec, problem.keys, problem.names) if offer else None) or self._one_by_one
-        self.designs, self.values = [], []
-
-    def __call__(self, x):
-        if self.designs and x.shape == self.designs[-1].shape and np.array_equal(x, self.designs[-1]):
-            return self.values[-1]  # objective and constraints ask for the same generation
-        values = self.many(x)  # an interrupted generation leaves no trace
-        self.designs.append(x.copy())
-        self.values.append(values)
-        self.progress(min(len(self.designs), self.generations), self.generations, f"{self.count} designs")
-        return self.values[-1]
-
-    def _one_by_one(self, x):
-        rows = [self._one(row) for row in x]
-        return {name: np.array([row.get(name, np.nan) for row in rows]) for name in self.problem.names}
-
-    def _one(self, row):
-        try:
-            return {name: value.value for name, value in run(self.problem.design(row), self._analyses).values.items()}
-        except InputError:
-            return {}
-
-    @cached_property
-    def _analyses(self):
-        """The analyses that give the values looked at; the others need not run for every design."""
-        wanted, chosen = set(self.problem.names), []
-        for analysis in registry.mechanism(self.problem.spec.mechanism).analyses:
-            if analysis.default and (given := wanted & set(run(self.problem.spec, (analysis.name,)).values)):
-                wanted -= given
-                chosen.append(analysis.name)
-        return tuple(chosen)
-
-    @property
-    def count(self):
-        """Designs evaluated so far."""
-        return sum(len(x) for x in self.designs)
-
-    def history(self):
-        """Columns of every evaluation: generation, unknowns, values, total violation."""
-        x, values = np.concatenate(self.designs), {n: np.concatenate([v[n] for v in self.values]) for n in self.problem.names}
-        generation = np.repeat(np.arange(len(self.designs)), [len(d) for d in self.designs])
-        violation = np.maximum(self.problem.violations(values), 0).sum(axis=0)
-        return {"generation": generation, **dict(zip(self.problem.keys, x.T, strict=True)), **values, "violation": violation}
-
-
-def _population(search):
-    return search.population or max(16, 8 * len(search.unknowns))
-
-
-def _differential_evolution(problem, search, evaluator):
-    """Best design (1, d) by SciPy's differential evolution, a whole generation per call, Lampinen's rule for the constraints."""
-    from scipy.optimize import NonlinearConstraint, differential_evolution
-
-    low, high = problem.bounds.T
-    number = max(1, len(problem.limits))
-    constraint = NonlinearConstraint(
-        lambda u: problem.violations(evaluator(np.atleast_2d(low + u.T * (high - low)))).reshape(number, *u.shape[1:]),
-        np.full(number, -np.inf),
-        np.zeros(number),
-    )
-    found = differential_evolution(
-        lambda u: problem.objective_values(evaluator(low + u.T * (high - low)))[0],
-        [(0.0, 1.0)] * len(low),
-        maxiter=search.generations,
-        popsize=max(1, -(-_population(search) // len(low))),
-        rng=np.random.default_rng(search.seed),
-        polish=False,
-        vectorized=True,
-        updating="deferred",
-        mutation=(0.4, 0.9),
-        recombination=0.9,
-        tol=1e-6,
-        atol=0.0,
-        init="sobol",
-        constraints=constraint if problem.limits else (),
-    )
-    return (low + found.x * (high - low))[None]
-
-
-def _nsga2(problem, search, evaluator):
-    """The non-dominated designs (n, d) by pymoo's NSGA-II, sorted by the first objective."""
-    try:
-        from pymoo.algorithms.moo.nsga2 import NSGA2
-        from pymoo.core.problem import Problem as Vectorised
-        from pymoo.optimize import minimize
-    except ImportError as error:
-        raise MissingExtra("NSGA-II", "optimise", error) from None
-
-    class Task(Vectorised):
-        def _evaluate(self, x, out, *_, **__):
-            values = evaluator(x)
-            out["F"], out["G"] = problem.objective_values(values).T, problem.violations(values).T
-
-    task = Task(
-        n_var=len(problem.keys),
-        n_obj=len(problem.objectives),
-        n_ieq_constr=max(1, len(problem.limits)),
-        xl=problem.bounds[:, 0],
-        xu=problem.bounds[:, 1],
-    )
-    found = minimize(task, NSGA2(pop_size=_population(search)), ("n_gen", search.generations), seed=search.seed, verbose=False)
-    front = found.X if found.X is not None else np.atleast_2d(_least_violating(problem, evaluator))
-    front = np.atleast_2d(front)
-    return front[np.argsort(problem.objective_values(evaluator.many(front))[0], kind="stable")]
-
-
-def _least_violating(problem, evaluator):
-    violation = evaluator.history()["violation"]
-    return np.concatenate(evaluator.designs)[np.argmin(violation)]
+def _place(out, spec, method):
+    """The store of a search; InputError for a folder with something else in it."""
+    if out is None:
+        return store.Memory()
+    if (Path(out) / HISTORY).is_file() and not store.is_study(out):
+        raise InputError(f"{out}: holds the outcome of a search ({HISTORY}) by an older version, which cannot be gone on with; nothing was "
+                         "written. Remove the folder, or give another --out")
+    return store.Folder(out, spec, {"spec": spec.digest(), "search": method, "drivewright": versions()["drivewright"]})
 
 
 # -- outcome -------------------------------------------------------------------------------------------------------------------
 
 
-def _best_so_far(problem, evaluator):
-    """The design to keep when a search is interrupted: the best that meets every requirement, else the least violating one."""
-    history = evaluator.history()
-    objective = problem.objective_values({name: history[name] for name in problem.names})[0]
-    order = np.lexsort((objective, np.maximum(history["violation"], 0.0)))
-    return np.concatenate(evaluator.designs)[order[:1]]
-
-
-def _outcome(problem, front, evaluator, method, seconds, interrupted=False):
-    values = evaluator.many(front)
-    feasible = bool(np.all(problem.violations(values)[:, 0] <= 0))
+def _outcome(problem, table):
+    """What an `Optimised` says of the evaluations of a table."""
+    _, designs, values = history.read(problem, table)
+    chosen = _front(problem, values)
+    front, front_values = designs[chosen], {name: column[chosen] for name, column in values.items()}
+    if table[STATUS][int(chosen[0])].as_py() != "complete":
+        raise SolverError(_nothing(problem, table, front[0]))
     best = run(problem.design(front[0]))
+    feasible = bool(problem.total_violation(front_values)[0] <= 0)
+    reached = looked_at(best.values, best.checks)
     requirements = tuple(
-        Check(
-            name,
-            best.values[name].value if name in best.values else float("nan"),
-            limit,
-            sense,
-            problem.reference.values[name].unit,
-            "requirement",
-        )
+        Check(name, reached[name].value if name in reached else float("nan"), limit, sense, problem.about[name][0], "requirement")
         for name, sense, limit in problem.limits
     )
-    findings = () if feasible else (_blame(problem, front[0], evaluator),)
-    if method != "nsga2":
-        findings += tuple(_on_bounds(problem, front[0]))
-    return Optimised(
-        problem,
-        best,
-        front,
-        values,
-        requirements,
-        feasible,
-        evaluator.history(),
-        evaluator.count,
-        seconds,
-        problem.spec.optimise.seed,
-        method,
-        findings,
-        interrupted,
-    )
+    findings = [] if feasible else [_blame(problem, front_values, values)]
+    findings += _differing(front_values, reached)
+    findings += _on_bounds(problem, front[0]) if len(problem.objectives) == 1 else []
+    return {"best": best, "front": front, "front_values": front_values, "requirements": requirements, "feasible": feasible, "table": table,
+            "findings": tuple(findings)}
 
 
-def _blame(problem, x, evaluator):
+def _front(problem, values):
+    """Rows of the designs that meet every requirement and that no other beats, by the first objective; else the least violating one."""
+    violation = problem.total_violation(values)
+    rows = np.flatnonzero(violation <= 0)
+    if not len(rows):
+        return np.array([np.argmin(violation)])
+    objectives = problem.objective_values(values)[:, rows]
+    if len(objectives) == 1:
+        return rows[[np.argmin(objectives[0])]]
+    order = np.lexsort(objectives[::-1])
+    return rows[order[nondominated(objectives.T)[order]]]
+
+
+def _nothing(problem, table, x):
+    """Why no design has an answer."""
+    reasons = Counter(message for message in table[MESSAGE].to_pylist() if message)
+    reason = reasons.most_common(1)[0][0]
+    if reason == SILENT:
+        try:
+            run(problem.design(x))
+        except InputError as error:
+            reason = str(error)
+    return (f"no feasible design after {table.num_rows} evaluations: none of them could be computed; the commonest reason: {reason}. Move "
+            "the bounds of the unknowns to where the drive works")
+
+
+def _blame(problem, reached, values):
     """Which requirement cannot be met: the one that the least violating design misses most."""
-    violations = problem.violations(evaluator.many(x[None]))[:, 0]
-    name, sense, limit = problem.limits[int(np.argmax(violations))]
-    history = evaluator.history()
-    alone = int(np.sum(problem.violations({n: history[n] for n in problem.names})[int(np.argmax(violations))] <= 0))
-    unit = problem.reference.values[name].unit
-    factor, shown = units.display(unit)
-    reached = evaluator.many(x[None])[name][0]
+    violations = problem.violations(reached)[:, 0]
+    count, worst = len(next(iter(values.values()))), int(np.argmax(violations))
+    if worst == len(problem.limits):
+        absent = ", ".join(name for name, _ in problem.objectives if not np.isfinite(reached[name][0]))
+        return f"no feasible design after {count} evaluations: {absent} does not exist in any of them. Move the bounds of the unknowns"
+    name, sense, limit = problem.limits[worst]
+    unit = problem.about[name][0]
+    alone = int(np.sum(problem.violations(values)[worst] <= 0))
     return (
-        f"no feasible design after {evaluator.count} evaluations; the requirement to blame is {name} {sense} {limit * factor:.6g} {shown}: "
-        f"the least violating design reaches {reached * factor:.6g} {shown}, and {alone} of the designs tried meet this one at all. "
+        f"no feasible design after {count} evaluations; the requirement to blame is {name} {sense} {_shown(limit, unit)}: "
+        f"the least violating design reaches {_shown(reached[name][0], unit)}, and {alone} of the designs tried meet this one at all. "
         "Relax it or widen the bounds of the unknowns."
     )
+
+
+def _differing(evaluated, reached):
+    """Where the evaluation during the search and the run of the best design part."""
+    for name, column in evaluated.items():
+        value = reached[name].value if name in reached else np.nan
+        if np.isfinite(column[0]) and not abs(column[0] - value) <= NEAR * max(abs(column[0]), abs(value)):
+            yield f"{name}: the compiled evaluation of the search gives {column[0]:.8g}, the run of the best design {value:.8g}"
 
 
 def _on_bounds(problem, x):
@@ -385,3 +197,9 @@ def _on_bounds(problem, x):
     for key, u in zip(problem.keys, share, strict=True):
         if u < 0.01 or u > 0.99:
             yield f"{key} sits on its {'lower' if u < 0.5 else 'upper'} bound; a wider bound may give a better design"
+
+
+def _shown(value, unit, digits=6):
+    """A number in the unit people read, with the unit."""
+    factor, shown = units.display(unit)
+    return f"{value * factor:.{digits}g} {shown}".removesuffix(" -")

@@ -2,12 +2,15 @@
 
 import numpy as np
 
+from drivewright.view.histograms import draw_histogram
+from drivewright.view.maps import draw_map
 from drivewright.view.meshes import draw_mesh
 from drivewright.view.palette import SERIES, colour
 from drivewright.view.panels import find_plot, panels
+from drivewright.view.ranked import draw_ranked
 from drivewright.view.rounds import draw_round
-from drivewright.view.style import MUTED, angle_ticks, legend_columns, new_figure, styled
-from drivewright.view.text import axis_label, parts_of_label
+from drivewright.view.style import BADGE, MUTED, angle_ticks, are_turned, legend_above, new_figure, places, show_places, styled
+from drivewright.view.text import axis_label, literal, parts_of_label
 
 FEW = 25  # up to so many points each one is marked
 MANY = 1500  # from so many points on lines are thinner and points smaller
@@ -23,35 +26,43 @@ def plot_table(result, name, marks=()):
 
 def draw_panels(shown, marks=()):
     """Figure of panels, one under the other over a common x; `marks` as in `plot_table` but in the unit of the x axis."""
-    if shown[0].style == "mesh":
-        return draw_mesh(shown[0])
-    if shown[0].style == "polar":
-        return draw_round(shown[0])
+    if shown[0].style in APART:
+        return APART[shown[0].style](shown)
     with styled():
         equal = shown[0].equal
-        figure = new_figure(4.6 if equal else 3.1 if len(shown) == 1 else 0.9 + 1.7 * len(shown), shown[0].title)
+        figure = new_figure(4.6 if equal else _height(shown), shown[0].title)
         axes = figure.subplots(len(shown), 1, squeeze=False, sharex=not equal)[:, 0]
         for axis, panel in zip(axes, shown, strict=True):
             _draw(axis, panel)
             _shade(axis, panel, marks, named=axis is axes[0])
-        axes[-1].set_xlabel(axis_label(shown[0].x.label, shown[0].x.unit))
+        axes[-1].set_xlabel(literal(axis_label(shown[0].x.label, shown[0].x.unit)))
         figure.align_ylabels(list(axes))
     return figure
 
 
+APART = {"mesh": draw_mesh, "polar": draw_round, "map": draw_map, "histogram": draw_histogram, "ranked": draw_ranked}
+
+
+def _height(shown):
+    """Inches; a legend of many rows and names that are turned get room of their own."""
+    names = places(shown[0].x.data)[1] if shown[0].style == "points" else None
+    more = 0.16 * sum(len(panel.series) // 6 for panel in shown) + (0.8 if names and are_turned(names) else 0.0)
+    return (3.1 if len(shown) == 1 else 0.9 + 1.7 * len(shown)) + more
+
+
 def _draw(axis, panel):
-    x, ticks = _positions(panel.x.data)
+    # Points may share a name; in any other style each row has its own place.
+    x, names = places(panel.x.data) if panel.style == "points" else _positions(panel.x.data)
     if panel.style == "bars":
         _draw_bars(axis, panel.series, x)
     for series in panel.series if panel.style != "bars" else ():
-        _draw_series(axis, panel, series, x, ticks)
+        _draw_series(axis, panel, series, x, names)
     for start, end in panel.shade:
         axis.axvspan(start, end, color=colour("line"), zorder=0, lw=0)
     for radius, text in panel.rings:
         _ring(axis, radius, text)
-    if ticks:
-        axis.set_xticks(x, ticks)
-    axis.set_ylabel(axis_label(*parts_of_label(panel.label), width=26 if not panel.equal else 60))
+    show_places(axis.xaxis, x, names)
+    axis.set_ylabel(literal(axis_label(*parts_of_label(panel.label), width=26 if not panel.equal else 60)))
     if panel.equal:
         axis.set_aspect("equal", adjustable="datalim")
     else:
@@ -59,27 +70,31 @@ def _draw(axis, panel):
     for value, text in panel.limits:
         _limit(axis, value, text)
     if len(panel.series) > 1:
-        axis.legend(loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncols=legend_columns([s.label for s in panel.series], 84),
-                    borderaxespad=0.1, handlelength=1.4, columnspacing=1.2)
+        legend_above(axis)
 
 
-def _draw_series(axis, panel, series, x, ticks):
+def _draw_series(axis, panel, series, x, names):
     """One line, cloud of points or row of stems."""
     data = np.where(np.isfinite(series.data), series.data, np.nan)
-    hue, finite = colour(series.role), np.isfinite(data)
-    if panel.style == "points":
+    hue, finite, label = colour(series.role), np.isfinite(data), literal(series.label)
+    if series.marker:
+        size = 6 if len(x) <= FEW else 5 if len(x) <= MANY else 3
+        # The first group lies on top: it is the one that matters.
+        axis.plot(x[finite], data[finite], ls="none", marker=series.marker, ms=size, mew=0.4, mec="white", color=hue, label=label,
+                  zorder=3 - 0.01 * panel.series.index(series), rasterized=len(x) > MANY)
+    elif panel.style == "points":
         size = 7 if len(x) <= FEW else 4 if len(x) <= MANY else 1.5
         # A cloud is drawn as an image: as outlines ten thousand points are megabytes.
-        axis.plot(x, data, ls="none", marker=".", ms=size, mew=0, color=hue, label=series.label, rasterized=len(x) > MANY)
+        axis.plot(x, data, ls="none", marker=".", ms=size, mew=0, color=hue, label=label, rasterized=len(x) > MANY)
     elif panel.style == "stems" and not series.dashed:
         axis.vlines(x[finite], panel.low if panel.log else 0.0, data[finite], color=hue, lw=1.0)
-        axis.plot(x, data, ls="none", marker="o", ms=3, color=hue, label=series.label)
-    elif ticks:
-        axis.plot(x, data, ls="none", marker="D", ms=5, color=hue, label=series.label)
+        axis.plot(x, data, ls="none", marker="o", ms=3, color=hue, label=label)
+    elif names:
+        axis.plot(x, data, ls="none", marker="D", ms=5, color=hue, label=label)
     elif series.dashed:
-        axis.plot(x, data, lw=1.0, ls=(0, (4, 3)), color=hue, label=series.label, zorder=2.5)
+        axis.plot(x, data, lw=1.0, ls=(0, (4, 3)), color=hue, label=label, zorder=2.5)
     else:
-        axis.plot(x, data, lw=1.5 if len(x) <= MANY else 0.9, marker="o" if len(x) <= FEW else None, ms=3.5, color=hue, label=series.label)
+        axis.plot(x, data, lw=1.5 if len(x) <= MANY else 0.9, marker="o" if len(x) <= FEW else None, ms=3.5, color=hue, label=label)
 
 
 def _draw_bars(axis, lines, x):
@@ -89,7 +104,7 @@ def _draw_bars(axis, lines, x):
     for number, series in enumerate(lines):
         up, down = np.maximum(series.data, 0.0), np.minimum(series.data, 0.0)
         look = {"width": width, "color": colour(series.role), "edgecolor": "white", "lw": 0.4, "hatch": "//" * (number // len(SERIES))}
-        axis.bar(x, up, bottom=above, label=series.label, **look)
+        axis.bar(x, up, bottom=above, label=literal(series.label), **look)
         axis.bar(x, down, bottom=below, **look)
         above, below = above + up, below + down
     axis.plot(x, above + below, ls="none", marker="D", ms=6 if len(x) <= FEW else 2.5, mfc="white", mec=colour("ink"), label="Sum")
@@ -101,7 +116,7 @@ def _ring(axis, radius, text):
     turn = np.linspace(0, 2 * np.pi, 181)
     axis.plot(radius * np.cos(turn), radius * np.sin(turn), color=colour("bad"), lw=1.0, ls=(0, (5, 3)))
     axis.annotate(text, (0, radius), xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=8, color=colour("bad"),
-                  bbox={"boxstyle": "square,pad=0.1", "fc": (1, 1, 1, 0.75), "ec": "none"})
+                  bbox=BADGE)
 
 
 def _positions(data):
@@ -114,7 +129,7 @@ def _scale(axis, panel, x):
     axis.set_ylim(panel.low, panel.high)
     if panel.log:
         axis.set_yscale("log")
-    if len(x) > 1 and np.ptp(x) > 0 and len(x) > FEW:
+    if len(x) > FEW and np.ptp(x) > 0 and not panel.series[0].marker:
         axis.set_xlim(np.min(x), np.max(x))
     if panel.x.unit == "°":
         angle_ticks(axis.xaxis, np.min(x), np.max(x))
@@ -128,7 +143,7 @@ def _limit(axis, value, text):
     above = value < sum(axis.get_ylim()) / 2
     axis.annotate(text, (1.0, value), xycoords=("axes fraction", "data"), xytext=(-2, 2 if above else -2),
                   textcoords="offset points", ha="right", va="bottom" if above else "top", fontsize=8, color=colour("bad"),
-                  bbox={"boxstyle": "square,pad=0.1", "fc": (1, 1, 1, 0.75), "ec": "none"})
+                  bbox=BADGE)
 
 
 def _shade(axis, panel, marks, named):

@@ -10,12 +10,13 @@ LIGHT = np.array([-0.35, 0.75, 0.56])  # from the upper left, in front: right, u
 DARKEST = 0.72  # brightness of what the light does not reach
 
 
-def draw_mesh(panel):
+def draw_mesh(shown):
     """Figure of a panel of style "mesh"; axes in the panel's units at one scale, a colour bar below."""
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
+    panel = shown[0]
     up, depth, size, *before = panel.series
     corners = np.stack([panel.x.data, up.data, -depth.data], axis=1).reshape(-1, 3, 3)
     seen, order, bright = facing(corners)

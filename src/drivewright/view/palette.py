@@ -30,6 +30,7 @@ ROLES = {
     "ground": ("#2f3742", "#c3ccd6"),
 }
 SERIES = ("blue", "orange", "green", "violet", "steel")
+MARKERS = ("o", "s", "X", "D", "^", "P", "v")  # of groups of points; seven beside five colours make 35 pairs
 TRACES = ("violet", "orange", "green", "blue", "steel")
 THEMES = ("light", "dark")
 

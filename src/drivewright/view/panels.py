@@ -11,15 +11,17 @@ import numpy as np
 from drivewright import registry
 from drivewright.errors import UnknownName
 from drivewright.result import Plot
-from drivewright.view.palette import SERIES
+from drivewright.view.palette import MARKERS, SERIES
 from drivewright.view.text import axis_label, dimension, number, quantity, sentence, shown, with_unit
 
 REACH = 8.0  # a panel with a limit shows at most so many times the limit: beyond it (a pole of a radius) the line leaves the panel
 DECADES = 6  # powers of ten that a logarithmic axis shows at most
+MOST_GROUPS = 20  # kinds of points that are told apart
+STANDING = ("map", "histogram", "ranked")  # styles whose x is no quantity that a cursor could run along
 
 
 class Series(NamedTuple):
-    """One column in the unit people read; `unit` as printed, `role` its colour, `dashed` where it is a reference."""
+    """One column in the unit people read; `unit` as printed, `role` its colour, `dashed` where it is a reference, `marker` of points."""
 
     name: str
     label: str
@@ -27,13 +29,15 @@ class Series(NamedTuple):
     data: np.ndarray
     role: str = "ink"
     dashed: bool = False
+    marker: str = ""
 
 
 class Panel(NamedTuple):
     """Series of one unit over x, with limit lines (value, text) and the range [low, high] to show.
 
-    style: line, points, stems, bars (stacked), polar (over the angle x) or mesh (series: up, depth, colour, then right and up of the shape
-    before); `log`: y axis in powers of ten; `shade`: stretches (from, to) of x; `rings`: circles (radius, text).
+    style: line, points, stems, bars (stacked), polar (over the angle x), mesh (series: up, depth, colour, then right and up of the shape
+    before), map (series: second axis, colour; the range is the colour's), histogram (of its series) or ranked (x: labels, dashed: ends of
+    the error bars); `log`: y axis or colour in powers of ten; `shade`: stretches (from, to) of x; `rings`: circles (radius, text).
     """
 
     title: str
@@ -85,11 +89,15 @@ def panels(result, plot):
     table = result.tables[plot.table]
     if plot.style == "mesh":
         return (_mesh_panel(plot, table),)
-    x, lines = _grouped(table, plot) if plot.by else _compared(table, plot)
+    if plot.style == "map":
+        return (_map_panel(result, plot, table),)
+    if plot.style == "points" and plot.by:
+        return tuple(_cloud_panel(result, plot, table, name) for name in plot.y)
+    x, lines = LINES[plot.style](table, plot) if plot.style in LINES else _grouped(table, plot) if plot.by else _compared(table, plot)
     groups = {}
     for line in lines:
         groups.setdefault(line[0].unit, []).append(line)
-    most = len(lines) if plot.style == "bars" else len(SERIES)
+    most = len(lines) if plot.style in ("bars", "ranked") else len(SERIES)
     chunks = [group[i:i + most] for group in groups.values() for i in range(0, len(group), most)]
     roles = itertools.cycle(SERIES)  # running on from panel to panel, so that one colour means one line as long as there are enough
     shade = _shaded(x, table[plot.shade]) if plot.shade else ()
@@ -123,6 +131,45 @@ def _grouped(table, plot):
         lines += [(column._replace(name=f"{column.name}.{text}", meaning=f"{plot.by} {text}", data=row),)
                   for text, row in zip(told, data, strict=True)]
     return x._replace(data=places), lines
+
+
+def _ranked(table, plot):
+    """(labels, lines): the rows in the order of the first y column's magnitude, what has none last; with it the ends of its error bars."""
+    first = np.asarray(table[plot.y[0]].data, float)
+    order = np.argsort(-np.where(np.isfinite(first), np.abs(first), -1.0), kind="stable")
+    x, *columns = (table[name]._replace(data=np.asarray(table[name].data)[order]) for name in (plot.x, *plot.y, *plot.reference))
+    bars, ends = columns[: len(plot.y)], columns[len(plot.y) :]
+    return x, [(bars[0], *ends), *((bar,) for bar in bars[1:])]
+
+
+def _samples(table, plot):
+    """(samples, lines) of a histogram."""
+    return table[plot.y[0]], [(table[plot.y[0]],)]
+
+
+LINES = {"ranked": _ranked, "histogram": _samples}
+
+
+def _cloud_panel(result, plot, table, name):
+    """Points of a column told apart by colour and shape; the rows of the other groups are nan."""
+    column = _series(table[name])
+    names, group = _groups(table[plot.by])
+    series = [column._replace(name=f"{column.name}.{name}", label=name, data=np.where(group == n, column.data, np.nan),
+                              role=SERIES[n % len(SERIES)], marker=MARKERS[n % len(MARKERS)]) for n, name in enumerate(names)]
+    limits = _limits(result, plot) if name == plot.y[0] else ()
+    return _panel(plot, _series(table[plot.x]), series or [column], (column.label, table[name].unit), limits, ())
+
+
+def _groups(by):
+    """(names, number of the group of each row): texts as they come, numbers rising; the last of very many are one group."""
+    is_text = np.asarray(by.data).dtype.kind not in "fiub"
+    values, first, group = np.unique(np.asarray(by.data).astype(str) if is_text else by.data, return_index=True, return_inverse=True)
+    order = np.argsort(first) if is_text else np.arange(len(values))
+    names = [sentence(str(v)) if is_text else f"{sentence(by.name)} {quantity(v, by.unit, 4)}" for v in values[order]]
+    place = np.argsort(order)[group]
+    if len(names) > MOST_GROUPS:
+        names = [*names[: MOST_GROUPS - 1], f"{len(names) - MOST_GROUPS + 1} more"]
+    return names, np.minimum(place, len(names) - 1)
 
 
 def _coloured(chunk, roles):
@@ -161,8 +208,8 @@ def _panel(plot, x, series, label, limits, shade):
     if plot.style == "bars":
         lines = [np.maximum(lines, 0.0).sum(axis=0), np.minimum(lines, 0.0).sum(axis=0)]
     low, high = log_span(lines, values) if plot.log else span(lines, values + [0.0] * (plot.style == "stems"))
-    return Panel(plot.title, axis_label(sentence(label[0]), text), x, tuple(series), limits, low, high, plot.equal, plot.style, plot.log,
-                 shade, rings)
+    return Panel(sentence(plot.title), axis_label(sentence(label[0]), text), x, tuple(series), limits, low, high, plot.equal, plot.style,
+                 plot.log, shade, rings)
 
 
 def _mesh_panel(plot, table):
@@ -175,10 +222,24 @@ def _mesh_panel(plot, table):
     return Panel(plot.title, label, _series(table[plot.x]), (up, depth, colour, *before), (), *span([up.data]), True, "mesh")
 
 
+def _map_panel(result, plot, table):
+    """The panel of cells over two axes; its range and its limits are those of the colour."""
+    up, tint = (_series(table[name]) for name in plot.y)
+    factor, text = shown(table[plot.y[1]].unit)
+    limits = tuple((value * factor, limit_text(value * factor, label, text)) for value, label in _limits(result, plot))
+    finite = np.asarray(tint.data, float)
+    finite = finite[np.isfinite(finite) & (finite > 0)] if plot.log else finite[np.isfinite(finite)]
+    low, high = (float(finite.min()), float(finite.max())) if len(finite) else (np.nan, np.nan)
+    label = axis_label(up.label, up.unit)
+    return Panel(sentence(plot.title), label, _series(table[plot.x]), (up, tint), limits, low, high, False, "map", plot.log)
+
+
 def _series(column, role="ink", dashed=False):
     factor, text = shown(column.unit)
     data = np.asarray(column.data)
-    data = data * factor if data.dtype.kind in "fiub" else data
+    # Whole numbers stay whole, so that their axis has whole ticks.
+    if data.dtype.kind in "fb" or (data.dtype.kind in "iu" and factor != 1):
+        data = data * factor
     return Series(column.name, sentence(column.meaning or column.name), text, data, role, dashed)
 
 

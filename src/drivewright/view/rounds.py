@@ -7,8 +7,9 @@ from drivewright.view.style import new_figure, styled
 from drivewright.view.text import axis_label, parts_of_label
 
 
-def draw_round(panel):
+def draw_round(shown):
     """Figure of a panel of style "polar": angles counter-clockwise from the right, x up and down as in the drawing."""
+    panel = shown[0]
     angle = np.deg2rad(panel.x.data)
     with styled():
         figure = new_figure(4.2, panel.title)

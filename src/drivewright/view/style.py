@@ -8,11 +8,15 @@ from contextlib import contextmanager
 import numpy as np
 
 from drivewright.view.palette import colour
+from drivewright.view.text import literal, wrapped
 
 WIDTH = 7.2  # inches: the text width of an A4 page with normal margins
 TITLE = {"ha": "left", "fontsize": 11, "fontweight": "bold"}
 RASTER = 220  # dots per inch of what is drawn as an image
 TALLEST = 4.4  # inches: the tallest picture to scale
+BADGE = {"boxstyle": "square,pad=0.1", "fc": (1, 1, 1, 0.75), "ec": "none"}  # behind words that stand on a line
+TURNED = 78  # letters of the names under an axis, from which on they are turned
+MOST_NAMES = 40  # along an axis; of more, only every second, third ... is written
 INK, MUTED, LINE, GRID = colour("ink"), colour("muted"), colour("line"), colour("grid")
 PARAMETERS = {
     "font.family": ["DejaVu Sans"], "font.size": 9, "axes.titlesize": 10, "axes.labelsize": 9, "legend.fontsize": 8.5,
@@ -40,7 +44,7 @@ def new_figure(height, title=""):
 
     figure = Figure(figsize=(WIDTH, height), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.06, h_pad=0.05, hspace=0.02)
-    figure.suptitle(title, x=0.012, **TITLE)
+    figure.suptitle(literal(title), x=0.012, **TITLE)
     return figure
 
 
@@ -96,6 +100,46 @@ def angle_ticks(axis, low, high, most=9):
     if width >= 20:
         step = next((step for step in (5, 10, 15, 30, 45, 60, 90, 180) if width / step <= most), 360 * math.ceil(width / 360 / most))
         axis.set_major_locator(MultipleLocator(step))
+
+
+def places(data):
+    """(numbers on an axis, names of the places 0, 1, 2 ... where the column holds texts, else None); texts come in their own order."""
+    data = np.asarray(data)
+    if data.dtype.kind in "fiub":
+        return data, None
+    names = list(dict.fromkeys(data.tolist()))
+    place = {name: number for number, name in enumerate(names)}
+    return np.array([place[name] for name in data.tolist()], int), [str(name) for name in names]
+
+
+def show_places(axis, numbers, names):
+    """Ticks of an axis (xaxis, yaxis): names at their places, or whole numbers for whole numbers."""
+    if names is not None:
+        turned = {"rotation": 40, "ha": "right", "rotation_mode": "anchor"} if axis.axis_name == "x" and are_turned(names) else {}
+        each = -(-len(names) // MOST_NAMES)
+        axis.set_ticks(range(0, len(names), each), [literal(wrapped(name, 28)) for name in names[::each]], **turned)
+    elif np.asarray(numbers).dtype.kind in "iu":
+        whole_ticks(axis)
+
+
+def are_turned(names):
+    """Whether names under an axis are too long to stand beside each other."""
+    return sum(len(name) + 2 for name in names) > TURNED
+
+
+def whole_ticks(axis):
+    """Ticks at whole numbers only."""
+    from matplotlib.ticker import MaxNLocator
+
+    axis.set_major_locator(MaxNLocator("auto", steps=[1, 2, 5, 10], integer=True, min_n_ticks=1))
+
+
+def legend_above(axis, handles=None, room=84):
+    """The legend in rows of `room` letters above an axis, from its left end on; none without anything to tell."""
+    handles = axis.get_legend_handles_labels()[0] if handles is None else handles
+    if handles:
+        axis.legend(handles=handles, loc="lower left", bbox_to_anchor=(-0.01, 1.0), borderaxespad=0.1, handlelength=1.4, columnspacing=1.2,
+                    ncols=legend_columns([handle.get_label() for handle in handles], room))
 
 
 def legend_columns(labels, room=92):

@@ -56,13 +56,30 @@ def quantity(value, unit, digits=5):
 
 
 def sentence(text):
-    """First letter large, the rest untouched."""
-    return text[:1].upper() + text[1:]
+    """First letter large, the rest untouched; a dotted name stays as it is."""
+    is_name = " " not in text and ("." in text or "_" in text)
+    return text if is_name else text[:1].upper() + text[1:]
 
 
 def axis_label(meaning, unit, width=60):
     """'Lift of the roller [mm]', wrapped; `unit` as printed."""
     return textwrap.fill(sentence(meaning) + (f" [{unit}]" if unit else ""), width)
+
+
+def literal(text):
+    """A text of the user's for matplotlib, which would take what stands between two dollar signs for a formula."""
+    return str(text).replace("$", r"\$")
+
+
+def wrapped(name, width=32):
+    """A long dotted name on several lines, broken behind dots, underscores, hyphens and blanks where it has some."""
+    pieces = [piece[i : i + width] for piece in re.findall(r"[^._ -]*[._ -]|[^._ -]+", name) for i in range(0, len(piece), width)]
+    lines = [""]
+    for piece in pieces:
+        if lines[-1] and len(lines[-1]) + len(piece.rstrip()) > width:
+            lines.append("")
+        lines[-1] += piece
+    return "\n".join(line.rstrip() for line in lines)
 
 
 def dimension(unit):

@@ -5,6 +5,7 @@ from pathlib import Path
 from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.silent_chain import closure, compare, contact, dynamics, layout, many, stress
 from drivewright.mechanisms.silent_chain.build import build
+from drivewright.mechanisms.silent_chain.designs import batch
 from drivewright.mechanisms.silent_chain.geometry import geometry
 from drivewright.mechanisms.silent_chain.meshing import meshing, no_meshing
 from drivewright.mechanisms.silent_chain.plots import plots
@@ -93,4 +94,4 @@ SOURCES = (
 
 mechanism = Mechanism(kind="silent-chain", summary="chain drive", spec=SilentChainSpec, build=build, analyses=ANALYSES,
                       folder=Path(__file__).parent, headline=HEADLINE, sources=SOURCES, scene=scene, plots=plots, drawings=drawings,
-                      parts=parts, verify=verify)
+                      parts=parts, verify=verify, batch=batch)

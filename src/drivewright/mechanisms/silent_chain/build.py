@@ -158,9 +158,11 @@ def build(spec):
 def offset_of(spec, radius):
     """Offset of the pins [m], as said or by its rule."""
     said, (z1, z2), ideal = spec.joint.offset, spec.teeth, spec.meshing.ideal
+    if not isinstance(said, str):
+        return said
     if said == "match-drive":
         return meshing.matching_offset(spec.pitch, radius, z1, ideal)
-    return meshing.minimax_offset(spec.pitch, radius, z1, z2, ideal) if said == "minimax" else said
+    return meshing.minimax_offset(spec.pitch, radius, z1, z2, ideal)
 
 
 def _side(spec, radius, offset, standard, cutter, teeth):

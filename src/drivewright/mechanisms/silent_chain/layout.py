@@ -14,7 +14,7 @@ MODES = 2  # of a strand that are told
 
 def layout(model, done):
     """Formulas of the field, for two sprockets; of each sprocket alone for more."""
-    values = {name: value for k, side in enumerate(SIDES) for name, value in _side(model, side, k)}
+    values = {name: value for k, side in enumerate(SIDES) for name, value in side_measures(model, side, k)}
     findings = []
     if not model.spec.sprockets:
         try:
@@ -39,7 +39,8 @@ def _remarks(spec):
         )
 
 
-def _side(model, side, number):
+def side_measures(model, side, number):
+    """(name, Value) of the closed forms of one sprocket."""
     teeth, pitch, words = model.teeth[number], model.spec.pitch, SIDE_WORDS[side]
     yield f"layout.pitch_diameter.{side}", Value(standards.pitch_diameter(pitch, teeth), "m", f"pitch circle of the {words}")
     yield f"layout.speed_fluctuation.{side}", Value(standards.speed_fluctuation(teeth), "-",

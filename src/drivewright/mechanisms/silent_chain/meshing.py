@@ -12,7 +12,7 @@ TURNS = 121  # points of the curve of the equivalent pitch
 
 def meshing(model, done):
     """All measures of the published method, and its curve of the equivalent pitch."""
-    values = {**_chain(model), **{name: value for k, side in enumerate(SIDES) for name, value in _side(model, side, k).items()}}
+    values = {**measures(model), **{name: value for k, side in enumerate(SIDES) for name, value in seated_measures(model, side, k).items()}}
     return Answer(values, (_turning(model),), tuple(_checks(model)), tuple(_remarks(model)))
 
 
@@ -21,7 +21,8 @@ def no_meshing(spec):
     return "the published method is for chains whose plates mesh, not for rollers" if spec.roller else None
 
 
-def _chain(model):
+def measures(model):
+    """{name: Value} of the chain itself."""
     pitch, (z1, z2) = model.spec.pitch, model.teeth
     return {
         "hole_pitch": Value(model.link.hole_pitch, "m", "distance of the centres of a plate's own pins"),
@@ -37,7 +38,8 @@ def _chain(model):
     }
 
 
-def _side(model, side, number):
+def seated_measures(model, side, number):
+    """{name: Value} of the seated chain and the tooth of one sprocket."""
     found, words = model.sides[number], SIDE_WORDS[side]
     seated = f"of the seated chain on the {words}"
     return {

@@ -1,0 +1,132 @@
+"""Many chains at once: the published method, and the layout's closed forms, with arrays in the place of the spec's numbers."""
+
+import operator
+
+import numpy as np
+
+from drivewright.chains import standards
+from drivewright.errors import InputError
+from drivewright.mechanisms.silent_chain.build import SIDES, build
+from drivewright.mechanisms.silent_chain.layout import side_measures
+from drivewright.mechanisms.silent_chain.meshing import measures, seated_measures
+from drivewright.mechanisms.silent_chain.refusals import LEAST_TEETH
+from drivewright.result import Check
+from drivewright.spec import value_at
+from drivewright.spec.fields import field_at, type_of
+
+KEYS = ("pitch", "links", "teeth.0", "teeth.1", "joint.rolling_radius", "joint.offset", "plate.flank_angle", "plate.apothem",
+        "plate.standard_apothem", "cutter.half_angle", "cutter.pitch", "drive.speed", "drive.preload", "drive.load_torque")
+LIMITS = {"gt": operator.gt, "ge": operator.ge, "lt": operator.lt, "le": operator.le}
+BLOCK = 8192  # designs at a time: their arrays stay in the processor's cache
+
+
+def batch(spec, keys, names):
+    """designs (n, d) -> {name: (n,)}; None where a key or a value is beyond it, which then runs one by one.
+
+    A design that the spec refuses, or for which one of the values asked for does not exist, is nan in every name.
+    """
+    if spec.roller or not set(keys) <= set(KEYS) or (spec.drive is None and any(key.startswith("drive.") for key in keys)):
+        return None
+    try:
+        known = _quantities(_changed(spec, {key: np.array([_sample(spec, key)]) for key in keys}))
+    except InputError:  # no design can be built; the run of one says why
+        return None
+    if not set(names) <= set(known):
+        return None
+
+    def evaluate(designs):
+        """{name: (n,)} of designs (n, d) in SI, nan for an impossible one."""
+        columns = dict(zip(keys, np.asarray(designs, float).T, strict=True))
+        found = {name: np.full(len(designs), np.nan) for name in names}
+        possible = np.flatnonzero(_possible(spec, columns, len(designs)))
+        for start in range(0, len(possible), BLOCK):
+            rows = possible[start : start + BLOCK]
+            everything = _quantities(_changed(spec, {key: column[rows] for key, column in columns.items()}))
+            wanted = [np.broadcast_to(everything[name], rows.shape) for name in names]
+            exist = np.all(np.isfinite(wanted), axis=0)
+            for name, column in zip(names, wanted, strict=True):
+                found[name][rows[exist]] = column[exist]
+        return found
+
+    return evaluate
+
+
+# -- designs in the spec -------------------------------------------------------------------------------------------------------
+
+
+def _sample(spec, key):
+    """A number that the key can have: the spec's own where it has one."""
+    own = value_at(spec, key)
+    return float(own) if isinstance(own, (int, float)) else 1.0
+
+
+def _changed(spec, columns):
+    """The spec with arrays in the place of numbers, not validated again."""
+    for key, column in columns.items():
+        spec = _placed(spec, key.split("."), column)
+    return spec
+
+
+def _placed(table, steps, column):
+    """A table, or a list, with the column at the end of the steps."""
+    first, *rest = steps
+    if isinstance(table, tuple):
+        return tuple(column if number == int(first) else entry for number, entry in enumerate(table))
+    return table.model_copy(update={first: _placed(getattr(table, first), rest, column) if rest else column})
+
+
+def _possible(spec, columns, count):
+    """Which designs the spec accepts: the limits of each field, whole numbers, and what `refuse_nonsense` asks of teeth and links."""
+    good = np.ones(count, bool)
+    for key, column in columns.items():
+        field = field_at(type(spec), key.split("."))
+        good &= np.isfinite(column)
+        if type_of(field.annotation) is int:
+            good &= column == np.floor(column)
+        for mark in field.metadata:
+            for name, holds in LIMITS.items():
+                if (limit := getattr(mark, name, None)) is not None:
+                    good &= holds(column, limit)
+    links, first, second = (columns.get(key, value_at(spec, key)) for key in ("links", "teeth.0", "teeth.1"))
+    return good & (np.minimum(first, second) >= LEAST_TEETH) & (links > np.maximum(first, second))
+
+
+# -- what is known of them -----------------------------------------------------------------------------------------------------
+
+
+def _quantities(spec):
+    """Name -> numbers of everything there is: values of `meshing`, closed forms of `layout`, margins of the checks of both."""
+    with np.errstate(all="ignore"):  # what is beyond the floats is not finite, and told as nan
+        model = build(spec)
+        values = measures(model)
+        for number, side in enumerate(SIDES):
+            values |= seated_measures(model, side, number) | dict(side_measures(model, side, number))
+        return {name: np.asarray(value.value) for name, value in values.items()} | _pair(spec) | dict(_margins(model))
+
+
+def _pair(spec):
+    """The closed forms of a layout of two sprockets; nan where the chain does not reach around them."""
+    if spec.sprockets:
+        return {}
+    pitch, (z1, z2) = spec.pitch, spec.teeth
+    touching = 0.5 * (standards.pitch_diameter(1.0, z1) + standards.pitch_diameter(1.0, z2)) * (1 + 1e-12)  # as `centre_distance` asks
+    reaches = np.where(spec.links >= standards.chain_links(1.0, z1, z2, touching), 1.0, np.nan)
+    found = {"layout.chain_length": spec.links * pitch}
+    if spec.drive:
+        found["layout.mesh_frequency"] = standards.mesh_frequency(z1, spec.drive.speed)
+        found["layout.meeting_velocity"] = standards.meeting_velocity(pitch, spec.drive.speed)
+    return {name: reaches * value for name, value in found.items()}
+
+
+def _margins(model):
+    """check.NAME -> margin of each check: at least 0 exactly where it passes."""
+    for side, teeth in zip(SIDES, model.teeth, strict=True):
+        yield f"check.teeth.{side}", _margin(teeth, model.spec.limits.teeth, ">=")
+    if model.spec.joint.kind != "revolute":
+        yield "check.offset", _margin(np.abs(np.asarray(model.offset)) / model.link.radius, 1.0, "<=")
+
+
+def _margin(value, limit, sense):
+    """Margin of a check, 0 where only its tolerance (see `Check.ok`) lets it pass."""
+    margin = Check("", value, limit, sense, "", "").margin
+    return np.where((margin < 0) & (margin >= -1e-9 * np.maximum(np.abs(limit), np.abs(value))), 0.0, margin)

@@ -1,0 +1,212 @@
+"""The report of a study beside its cases: what varied, what became of the cases, what the answers are, how to do it again."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from drivewright.report.atomic import replacing, write_text
+from drivewright.report.content import Views, content, pictures
+from drivewright.report.folder import file_name, record_text
+from drivewright.report.html import embedded, page
+from drivewright.view.text import number, quantity, sentence, shown, unit_text, with_unit
+
+STATUS, MESSAGE = "status", "message"  # columns of a study's table
+STATES = {"complete": "good", "partial": "warn", "failed": "bad"}
+MOST_REASONS = 8
+MOST_TILES = 12
+MOST_LEVELS = 8  # that are told one by one
+PRINTED = (40, 10)  # rows and columns of a table that is on the page itself
+FORMS = {"norm": "normal", "truncnorm": "normal", "uniform": "uniform", "triang": "triangular"}
+COMMAND = "drivewright sweep study.toml --out again"
+VARIED = ("Key", "Over", "Nominal")
+
+
+def write_answers(study, found, folder):
+    """Write what was found in a study (`studies.answers.answers`) into `folder` and return the path of its report.html.
+
+    answers.json, figures/*.svg, tables/*.parquet, report.html; each file whole or not at all, the report last.  What an older report
+    left is replaced, everything else in the folder stays.
+    """
+    folder = Path(folder)
+    drawn = [picture._replace(name=file_name(picture.name)) for picture in pictures(found.result, Views(plots=found.plots))]
+    _write_tables(folder / "tables", found.result.tables.values())
+    _write_figures(folder / "figures", drawn)
+    write_text(folder / "answers.json", record_text(found.result))
+    path = folder / "report.html"
+    write_text(path, page("study.html.j2", said(study, found), pictures=[embedded(picture) for picture in drawn]))
+    return path
+
+
+def _write_tables(folder, tables):
+    from pyarrow import parquet
+
+    files = {f"{file_name(table.name)}.parquet": table for table in tables}
+    for name, table in files.items():
+        with replacing(folder / name) as temporary:
+            parquet.write_table(table.arrow(), temporary)
+    _forget(folder, "*.parquet", files)
+
+
+def _write_figures(folder, drawn):
+    files = {f"{picture.name}.svg": picture.svg for picture in drawn}
+    for name, text in files.items():
+        write_text(folder / name, text)
+    _forget(folder, "*.svg", files)
+
+
+def _forget(folder, pattern, kept):
+    """Remove what an older report left."""
+    for file in folder.glob(pattern):
+        if file.name not in kept:
+            file.unlink()
+
+
+# -- what the page says --------------------------------------------------------------------------------------------------------
+
+
+def said(study, found):
+    """What the page says, as plain text in plain dictionaries."""
+    result = found.result
+    tables = [told | _printed(table) for told, table in zip(content(result)["tables"], result.tables.values(), strict=True)]
+    return content(result, headlines=_headlines(found)) | {
+        "verdict": verdict(study), "tables": tables, "cases": cases(study), "reasons": reasons(study),
+        "varied": [varied(variable) for variable in study.plan.variables],
+        "varied_columns": [{"name": name, "unit": "", "meaning": name, "number": False} for name in VARIED],
+        "sampling": sampling(study), "command": COMMAND, "recipe": recipe(study)}
+
+
+def verdict(study):
+    """{'state', 'text'}: how many cases of the plan are complete; never good where one is not."""
+    complete, total = study.counts.get("complete", 0), len(study.plan)
+    state = "good" if complete == total else "warn" if complete else "bad"
+    return {"state": state, "text": f"all {total} cases complete" if complete == total > 1 else f"{complete} of {total} cases complete"}
+
+
+def cases(study):
+    """Rows {name, count, state, share} of every status, and of the cases that are not there."""
+    counts = [(name, study.counts.get(name, 0), state) for name, state in STATES.items()]
+    counts += [("not computed yet", len(study.plan) - len(study), "none")] if not study.complete else []
+    return [{"name": name, "count": str(count), "state": state, "share": count} for name, count, state in counts]
+
+
+def reasons(study):
+    """The commonest reasons {status, count, text} of what is not complete: those that differ in their numbers only are one."""
+    import pyarrow.compute as pc
+
+    rows = study.table.select([STATUS, MESSAGE]).filter(pc.not_equal(study.table[STATUS], "complete"))
+    kinds = {}
+    for row in rows.group_by([STATUS, MESSAGE], use_threads=False).aggregate([([], "count_all")]).to_pylist():
+        kind = (row[STATUS], re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "#", row[MESSAGE] or ""))
+        kinds.setdefault(kind, []).append((row["count_all"], row[MESSAGE] or "no reason given"))
+    found = sorted(({"status": status, "count": sum(count for count, _ in told), "text": _example(told)}
+                    for (status, _), told in kinds.items()), key=lambda each: (-each["count"], each["status"], each["text"]))
+    return found[:MOST_REASONS]
+
+
+def _example(told):
+    """The first message of its kind, which says when the others differ."""
+    return told[0][1] + (" (and the like with other numbers)" if len(told) > 1 else "")
+
+
+def _headlines(found):
+    """The yield, then of each value that has a plot what the answers say about it."""
+    plotted = {name for plot in found.plots for name in plot.y}
+    return [name for name in found.result.values if name == "yield" or name.partition(".")[2] in plotted][:MOST_TILES]
+
+
+def _printed(table):
+    """{'printed': rows of text, 'columns'} of a table small enough for the page; a column of unit "" is in the unit its row names."""
+    rows, columns = len(table.columns[0].data), table.columns
+    if not 0 < rows <= PRINTED[0] or len(columns) > PRINTED[1]:
+        return {}
+    named = next((column.data for column in columns if column.name == "unit"), [""] * rows)
+    kept = [column for column in columns if column.name != "unit"]
+    heads = [{"name": c.name, "unit": shown(c.unit)[1], "meaning": sentence(c.meaning), "number": _is_number(c)} for c in kept]
+    return {"columns": heads, "printed": list(zip(*(_cells(column, named) for column in kept), strict=True))}
+
+
+def _is_number(column):
+    return np.asarray(column.data).dtype.kind in "iuf"
+
+
+def _cells(column, named):
+    """Texts of a column, without a unit where its head says it."""
+    data = np.asarray(column.data).tolist()
+    if not _is_number(column):
+        return [str(cell) for cell in data]
+    if column.unit == "":
+        return [quantity(cell, str(unit)) for cell, unit in zip(data, named, strict=True)]
+    return [number(cell * shown(column.unit)[0]) for cell in data]
+
+
+# -- what varied ---------------------------------------------------------------------------------------------------------------
+
+
+def varied(variable):
+    """(key, levels or distribution, nominal value) as people read them."""
+    if variable.levels is not None:
+        over = _levels(variable)
+    else:
+        over = _distribution(variable) if variable.distribution is not None else "the points of a file"
+    return variable.key, over, "" if variable.nominal is None else _text(variable, variable.nominal)
+
+
+def _text(variable, value):
+    if isinstance(value, (bool, np.bool_)):
+        return str(bool(value)).lower()
+    return quantity(value, variable.kind.unit) if isinstance(value, (int, float, np.number)) else str(value)
+
+
+def _levels(variable):
+    """Each of some levels; of many numbers the ends, and how they follow each other."""
+    levels = variable.levels
+    if len(levels) <= MOST_LEVELS or levels.dtype.kind not in "iuf":
+        told = [_text(variable, level) for level in levels.tolist()]
+        more = len(told) - 3 * MOST_LEVELS
+        return ", ".join(told[: 3 * MOST_LEVELS]) + (f" and {more} more" if more > 0 else "")
+    steps = np.diff(levels)
+    even = np.ptp(steps) <= 1e-9 * np.abs(steps).max()
+    how = "equal steps" if even else "equal ratios" if _is_geometric(levels) else "uneven steps"
+    return f"{_text(variable, levels.min())} … {_text(variable, levels.max())}, {len(levels)} levels in {how}"
+
+
+def _is_geometric(levels):
+    if np.any(levels[0] * levels <= 0):
+        return False
+    steps = np.diff(np.log(np.abs(levels)))
+    return np.ptp(steps) <= 1e-9 * np.abs(steps).max()
+
+
+def _distribution(variable):
+    """The form with its numbers."""
+    frozen, unit = variable.distribution, variable.kind.unit
+    form, (low, high) = FORMS[frozen.dist.name], frozen.support()
+    ends = f"{quantity(low, unit)} … {quantity(high, unit)}"
+    if form == "uniform":
+        return f"uniform, {ends}"
+    if form == "triangular":  # the mean of a triangle is that of its three corners
+        return f"triangular, {ends}, peak at {quantity(3 * frozen.mean() - low - high, unit)}"
+    # The parameters of the bell itself; a cut one is narrower than they say.
+    middle, sigma = frozen.args[-2:]
+    cut = f", within {ends}" if np.isfinite(low) or np.isfinite(high) else ""
+    return f"normal, mean {quantity(middle, unit)}, standard deviation {quantity(sigma, unit)}{cut}"
+
+
+# -- how to do it again --------------------------------------------------------------------------------------------------------
+
+
+def sampling(study):
+    """How the cases come about, in a sentence."""
+    plan, method = study.plan, study.spec.study.method
+    levels = f"{' × '.join(map(str, plan.shape))} levels" if plan.grid else ""
+    blocks = " + ".join(f"{block.stop - block.start} {block.name}" for block in plan.blocks)
+    points = f"{plan.inner} points of a file" if plan.listed else f"{plan.inner} points by {method} ({blocks})" if plan.random else ""
+    return f"{' × '.join(part for part in (levels, points) if part)} = {len(plan)} cases."
+
+
+def recipe(study):
+    """What has to be the same for the same numbers."""
+    place = "study.toml is in the study's folder" if study.folder else "study.toml is the spec below"
+    return (f"{place}. Same version, same seed ({study.plan.seed}), same cases: digest of the plan {study.plan.digest[:12]}, "
+            f"of the spec {study.spec.digest()[:12]}. Computing took {with_unit(number(study.seconds, 3), unit_text('s'))} of one core.")

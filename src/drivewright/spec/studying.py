@@ -1,0 +1,44 @@
+"""The [study] table: what varies from case to case, how it is sampled, what is kept.  The same for every kind of drive."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from drivewright.spec.fields import Bound, DataFile, Flag, Integer, PlainValue, Text
+from drivewright.spec.table import Spec
+
+METHODS = Literal["latin-hypercube", "sobol", "random", "corners", "one-at-a-time", "tolerance", "sobol-indices"]
+
+
+class Vary(Spec):
+    """A key of this spec that varies: over levels (`values`, or `lower`, `upper` and `steps`), or as a random number."""
+
+    key: Text = Field(description="dotted key of this spec")
+    also: tuple[Text, ...] = Field((), description="further keys that always have the same value")
+    values: tuple[PlainValue, ...] = Field((), description="its levels, one by one")
+    lower: Bound | None = Field(None, description="least level, or where the distribution ends")
+    upper: Bound | None = Field(None, description="greatest level, or where the distribution ends")
+    steps: Integer | None = Field(None, ge=1, description="number of levels from lower to upper")
+    spacing: Literal["linear", "logarithmic"] = Field("linear", description="of the levels")
+    distribution: Literal["normal", "uniform", "triangular"] | None = Field(
+        None, description="normal where sigma or tolerance is given, else uniform from lower to upper, unless said")
+    mean: Bound | None = Field(None, description="of a normal distribution; the spec's own value unless given")
+    sigma: Bound | None = Field(None, description="standard deviation of a normal distribution; a third of the tolerance unless given")
+    mode: Bound | None = Field(None, description="peak of a triangular distribution; the spec's own value unless given")
+    tolerance: Bound | None = Field(None, description="half the width about the spec's own value, instead of lower and upper")
+
+
+class Study(Spec):
+    """Many cases of this spec: levels are crossed with each other, and each of their combinations with the random sample."""
+
+    method: METHODS = Field(
+        "latin-hypercube",
+        description="how random keys are sampled; corners: all ends; one-at-a-time: each a step up and down; tolerance: these three and a "
+                    "sample; sobol-indices: a sample for the variance that each key causes")
+    samples: Integer = Field(1000, ge=1, le=100_000_000, description="size of the random sample")
+    seed: Integer = Field(1, ge=0, le=2**31 - 1, description="seed of the random numbers; same seed, same cases")
+    analyses: tuple[Text, ...] = Field((), description="analyses to run; the default ones unless given")
+    every_analysis: Flag = Field(False, description="run every analysis, also those on request")
+    values: tuple[Text, ...] = Field((), description="values and checks (as check.NAME) to keep; all unless given")
+    points: DataFile | None = Field(None, description="CSV or Parquet file of cases, a column per key: key [unit]")
+    vary: tuple[Vary, ...] = Field((), description="what varies")

@@ -1,0 +1,181 @@
+"""What a study says: a `Result` with values, tables and findings, and how to look at it.  What can be said depends on the plan."""
+
+import re
+from collections import Counter
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright import registry
+from drivewright.result import Result, Value
+from drivewright.runner import versions
+from drivewright.studies import causes, maps, spread
+from drivewright.studies.fronts import fronts
+from drivewright.studies.parts import STATUSES, Arranged, Part, listed, status_codes, together
+from drivewright.studies.statistics import LEVEL, finite, varies
+from drivewright.studies.study import CHECK, MESSAGE
+
+MOST = 6  # values that get plots
+REASONS = 3  # that are quoted
+WORDS = 6  # by which reasons are told apart
+ROUNDING = 1e-15  # of the largest value of the same unit
+LONGEST = 200  # characters of a quoted reason
+
+
+class Answers(NamedTuple):
+    """The `Result` of a study, and its plots."""
+
+    result: Result
+    plots: tuple
+
+
+def answers(study, values=()):
+    """`Answers` of a study.  `values` (check.NAME for the margin of a check) get plots; UnknownName where the study has no such column.
+
+    Unless given they are those of the spec's [study] or else of the mechanism's headline, `MOST` at most.  Tables hold all values.
+    """
+    for name in values:
+        study[name]
+    shown, remarks = _shown(study, values)
+    arranged = Arranged(study, shown)
+    named = values or (study.spec.study.values if study.spec.study else ())
+    parts = [_cases(study), Part(findings=remarks), *_parts(arranged), fronts(study, named)]
+    found = together(parts)
+    return Answers(_result(study, found), found.plots)
+
+
+def _parts(arranged):
+    """What the plan allows to say."""
+    if not len(arranged.study):
+        return
+    if not (len(arranged.sample) or arranged.plan.blocks):
+        yield maps.ranges(arranged)
+        yield maps.surveyed(arranged, maps.responses(arranged))
+        return
+    yield spread.spread(arranged)
+    yield spread.worst_case(arranged)
+    yield causes.causes(arranged)
+    yield Part(findings=_assumptions(arranged))
+    if arranged.combinations > 1:
+        over_grid = (*(spread.responses(arranged) if len(arranged.sample) else ()), *causes.responses(arranged))
+        yield maps.surveyed(arranged, over_grid)
+
+
+def _assumptions(arranged):
+    """What the intervals take for granted."""
+    method = {"tolerance": "latin-hypercube"}.get(arranged.study.spec.study.method, arranged.study.spec.study.method)
+    if arranged.plan.listed:
+        yield "the points of the file are taken as a random sample; contributions as if its keys varied independently of each other"
+    elif len(arranged.sample) and method != "random":
+        yield (f"the intervals of {LEVEL:.0%} are those of independent cases; the even points of this sample ({method}) make means, "
+               "as a rule, more certain than told")
+
+
+# -- which values --------------------------------------------------------------------------------------------------------------
+
+
+def _shown(study, values):
+    """(names that get plots, findings about those that do not vary)."""
+    known = (*study.value_names, *(CHECK + name for name in study.check_names))
+    sizes = _sizes(study, known)
+    varying = [name for name in known if varies(study[name], ROUNDING * sizes[study.unit(name)])]
+    still = [name for name in study.value_names if name not in varying and np.any(np.isfinite(_numbers(study, name)))]
+    absent = [name for name in study.value_names if not np.any(np.isfinite(_numbers(study, name)))]
+    told = [f"{what} ({len(names)}): {listed(names)}"
+            for names, what in ((still, "values that do not vary over the study"), (absent, "values that no case has")) if names]
+    chosen = [name for name in _wanted(study, values, varying) if name in varying]
+    shown = chosen if values else chosen[:MOST]
+    if len(chosen) > len(shown):
+        told.append(f"the plots show {MOST} of {len(chosen)} values: {listed(shown)}; the tables hold all")
+    return tuple(dict.fromkeys(shown)), tuple(told)
+
+
+def _sizes(study, names):
+    """Unit -> greatest magnitude of all values of that unit, beside which rounding is judged; 0 for pure numbers, which are of many kinds."""
+    sizes = {"-": 0.0}
+    for name in names:
+        if study.unit(name) == "-":
+            continue
+        sizes[study.unit(name)] = max(sizes.get(study.unit(name), 0.0), np.max(np.abs(finite(_numbers(study, name))), initial=0.0))
+    return sizes
+
+
+def _numbers(study, name):
+    return np.asarray(study[name], dtype=float)
+
+
+def _wanted(study, values, varying):
+    """Names that should get plots, as far as they vary."""
+    if values or (study.spec.study and study.spec.study.values):
+        return values or study.spec.study.values
+    values = [name for name in varying if not name.startswith(CHECK)]
+    return registry.headlines(registry.mechanism(study.spec.mechanism), values)
+
+
+# -- cases ---------------------------------------------------------------------------------------------------------------------
+
+
+def _cases(study):
+    """`Part` of the counts, and why cases are not complete."""
+    counts = {name: study.counts.get(name, 0) for name in STATUSES}
+    values = {"cases": Value(float(len(study.plan)), "-", "cases of the study")}
+    values |= {f"cases.{name}": Value(float(count), "-", f"cases that are {name}") for name, count in counts.items()}
+    missing = len(study.plan) - len(study)
+    values["cases.missing"] = Value(float(missing), "-", "cases that have not been run")
+    findings = [f"{missing} of {len(study.plan)} cases have not been run yet"] if missing else []
+    return Part(values, findings=(*findings, *_reasons(study, counts)))
+
+
+def _reasons(study, counts):
+    """A finding for the failed and one for the partial cases, with the commonest reasons."""
+    codes, messages = status_codes(study), study[MESSAGE]
+    for name in ("failed", "partial"):
+        if counts[name]:
+            reasons = [message or "no reason given" for message in messages[codes == STATUSES.index(name)]]
+            yield f"{counts[name]} of {len(study)} cases are {name}; {_commonest(reasons)}"
+
+
+def _commonest(reasons):
+    """The commonest kinds of reasons, each with its number and the first of its kind in full."""
+    kinds = [_kind(reason) for reason in reasons]
+    counted = Counter(kinds)
+    quoted = [f"{f'{number} times, such as' if number > 1 else 'once'}: {_quoted(reasons[kinds.index(kind)])}"
+              for kind, number in counted.most_common(REASONS)]
+    rest = len(counted) - len(quoted)
+    return "; ".join(quoted) + (f"; and {rest} other reasons" if rest else "")
+
+
+def _kind(reason):
+    """The first words of a reason, without its numbers."""
+    return " ".join(re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "#", reason).split()[:WORDS])
+
+
+def _quoted(reason):
+    return reason if len(reason) <= LONGEST else f"{reason[:LONGEST].rstrip()} ..."
+
+
+# -- result --------------------------------------------------------------------------------------------------------------------
+
+
+def _result(study, found):
+    """The `Result`; a value that does not exist is absent."""
+    spec, mechanism = study.spec, registry.mechanism(study.spec.mechanism)
+    return Result(
+        spec=spec,
+        mechanism=mechanism.kind,
+        title=f"Study: {spec.title or mechanism.summary}",
+        digest=spec.digest(),
+        values={name: value for name, value in found.values.items() if np.isfinite(value.value)},
+        tables={table.name: table for table in found.tables},
+        checks=(),
+        findings=(*study.plan.remarks, *study.remarks, *found.findings),
+        outcome="complete" if study.complete else "partial",
+        provenance={
+            "seed": study.plan.seed,
+            "seconds": round(study.seconds, 4),
+            "analyses": list(spec.study.analyses) if spec.study else [],
+            "versions": versions(),
+            "sources": list(mechanism.sources),
+            "plan": study.plan.digest,
+        },
+    )

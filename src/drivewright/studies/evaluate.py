@@ -1,0 +1,231 @@
+"""A batch of cases: the one function that every runner calls, here, in another process or on another machine.
+
+Two routes: design by design through `runner`, or many designs at once through what the mechanism offers as `batch`.  A row depends on
+its own design only, so neither the size of a batch nor who computes it changes a bit.
+"""
+
+import time
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright import registry, runner
+from drivewright.errors import DrivewrightError, InputError
+from drivewright.spec import document, from_document, set_key
+from drivewright.studies.study import CASE, CHECK, MESSAGE, STATUS
+from drivewright.studies.variables import kind_of
+
+LONGEST = 2000  # characters of a message
+OFFERED = "value."  # in front of a value that has the name of a key that varies
+
+
+class Task(NamedTuple):
+    """What to do with each case: the tables of the spec, the keys that vary, what to compute and what to keep.
+
+    `names` are the values and checks to keep, () for all.  `compiled` are those that the mechanism's `batch` gives, with unit and meaning;
+    where there are none, each case is a run.
+    """
+
+    tables: dict
+    keys: tuple
+    analyses: tuple = ()
+    everything: bool = False
+    names: tuple = ()
+    compiled: tuple = ()
+    version: str = ""
+
+
+class Found(NamedTuple):
+    """One case by the runner: `values` {name: (value, unit, meaning)} and what became of it."""
+
+    values: dict
+    status: str = "complete"
+    message: str = ""
+
+
+def task_of(spec, keys):
+    """The `Task` of a spec and the keys that vary, design by design."""
+    study, tables = spec.study, document(spec)
+    for shared in ("study", "optimise"):
+        tables.pop(shared, None)
+    asked = (study.analyses, study.every_analysis, study.values) if study else ((), False, ())
+    runner.selection(registry.mechanism(spec.mechanism).analyses, asked[0])
+    return Task(tables, tuple(keys), *asked, version=runner.versions()["drivewright"])
+
+
+def with_compiled(task, plan):
+    """(Task, remarks): the same task by the compiled route where the mechanism offers one that gives the numbers of a run.
+
+    First, middle and last case are run and compared.  Where the user names the values, an approximate route is taken, and a remark says
+    how far it is off.
+    """
+    offer = registry.mechanism(task.tables["mechanism"]).batch
+    if offer is None or len(plan) < FEW or not all(each.kind.numeric for each in plan.variables):
+        return task, ()
+    places = sorted({0, len(plan) // 2, len(plan) - 1})
+    columns = {key: np.concatenate([plan.cases(n, n + 1)[key] for n in places]) for key in plan.keys}
+    direct = _working(task)
+    if any(column.dtype == object for column in columns.values()) or offer(direct.spec, task.keys, task.names) is None:
+        return task, ()
+    runs = [direct.case(columns, 0)]
+    if offer(direct.spec, task.keys, tuple(runs[0].values)) is None:
+        return task, ()
+    runs += [direct.case(columns, n) for n in range(1, len(places))]
+    about = {name: tuple(value[1:]) for run in runs for name, value in run.values.items()}
+    compiled = task._replace(compiled=tuple((name, *about[name]) for name in about))
+    if not about or offer(direct.spec, task.keys, tuple(about)) is None:
+        return task, ()
+    off = _difference(runs, _working(compiled).many(columns))
+    if off <= ROUNDING:
+        return compiled, ()
+    remark = (
+        f"the compiled route was taken for the values named; in the cases compared it differs from a run by {off:.1g} of a value at most"
+    )
+    return (compiled, (remark,)) if task.names else (task, ())
+
+
+FEW = 4  # cases that are not worth a second route
+ROUNDING = 1e-9
+
+
+def _difference(runs, many):
+    """Greatest difference of two routes, relative to the size of each value; what one of them lacks counts as all."""
+    worst = 0.0
+    for n, run in enumerate(runs):
+        for name, column in many.items():
+            value = run.values.get(name, (np.nan,))[0]
+            if np.isfinite(value) or np.isfinite(column[n]):
+                off = abs(column[n] - value) / max(abs(value), 1e-300) if column[n] != value else 0.0
+                worst = max(worst, off if np.isfinite(off) else 1.0 if run.values else worst)
+    return float(worst)
+
+
+def evaluate(task, first, columns):
+    """(pyarrow.Table, seconds) of the cases from number `first` on, `columns` {key: values in SI}."""
+    started = time.perf_counter()
+    table = _working(task).table(first, columns)
+    return table, time.perf_counter() - started
+
+
+def failed(task, first, columns, reason):
+    """The rows of cases that have no answer for a reason outside them."""
+    count = len(next(iter(columns.values())))
+    return _table(first, columns, _working(task).kinds, {}, {}, ["failed"] * count, [reason] * count)
+
+
+def _working(task):
+    return _of_pickle(_pickled(task))
+
+
+def _pickled(task):
+    import pickle
+
+    return pickle.dumps(task)
+
+
+@lru_cache(maxsize=4)
+def _of_pickle(pickled):
+    import pickle
+
+    return Working(pickle.loads(pickled))
+
+
+class Working:
+    """A task made ready, once in each process."""
+
+    def __init__(self, task):
+        if task.version != runner.versions()["drivewright"]:
+            raise InputError(
+                f"drivewright {task.version} asks and {runner.versions()['drivewright']} would answer; install the same version "
+                "on all workers"
+            )
+        self.task = task
+        self.spec = from_document(task.tables)
+        self.mechanism = registry.mechanism(self.spec.mechanism)
+        self.wanted = runner.selection(self.mechanism.analyses, task.analyses, task.everything)
+        self.kinds = {key: kind_of(self.spec, key) for key in task.keys}
+        self.about = {name: (unit, meaning) for name, unit, meaning in task.compiled}
+        self.batch = self.mechanism.batch(self.spec, task.keys, tuple(self.about)) if task.compiled else None
+
+    def table(self, first, columns):
+        """The rows of some cases."""
+        count = len(next(iter(columns.values())))
+        if self.batch is None:
+            return _table(first, columns, self.kinds, *_gathered([self.case(columns, n) for n in range(count)]))
+        values = self.many(columns)
+        silent = np.flatnonzero(np.all([~np.isfinite(column) for column in values.values()], axis=0))
+        alone = {int(n): self.case(columns, n) for n in silent}
+        for name, column in values.items():
+            for n, found in alone.items():
+                column[n] = found.values.get(name, (np.nan,))[0]
+        statuses, messages = ["complete"] * count, [""] * count
+        for n, found in alone.items():
+            statuses[n], messages[n] = found.status, found.message
+        return _table(first, columns, self.kinds, values, self.about, statuses, messages)
+
+    def many(self, columns):
+        """{name: (n,)} by the mechanism's compiled route."""
+        found = self.batch(np.stack([np.asarray(columns[key], float) for key in self.task.keys], axis=1))
+        return {name: np.array(found[name], float) for name in self.about}
+
+    def case(self, columns, n):
+        """`Found` of case n of some columns; whatever goes wrong is its reason."""
+        try:
+            tables = self.task.tables
+            for key, kind in self.kinds.items():
+                set_key(tables, key, kind.given(columns[key][n]))
+            return self.found(from_document(tables, type(self.spec)))
+        except DrivewrightError as error:
+            return Found({}, "failed", _short(error))
+        except Exception as bug:  # one case in a million must not cost the others
+            return Found({}, "failed", _short(f"a fault of the program, please report it: {type(bug).__name__}: {bug}"))
+
+    def found(self, spec):
+        """`Found` of a spec."""
+        answers = runner.ask(spec, self.mechanism.build(spec), self.wanted).values()
+        values = {name: tuple(value) for answer in answers for name, value in answer.values.items()}
+        values |= {f"{CHECK}{c.name}": (_margin(c), c.unit, f"margin of: {c.message}") for answer in answers for c in answer.checks}
+        if self.task.names:
+            values = {name: values[name] for name in self.task.names if name in values}
+        partial = any(answer.outcome == "partial" for answer in answers)
+        reasons = [finding for answer in answers if answer.outcome != "complete" for finding in answer.findings[-1:]]
+        return Found(values, "partial" if partial else "complete", _short("; ".join(reasons)))
+
+
+def _margin(check):
+    """Margin of a check, 0 where rounding alone makes it negative: it passes exactly when this is not below 0."""
+    return max(check.margin, 0.0) if check.ok else check.margin
+
+
+def _short(reason):
+    text = str(reason)
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 4]} ..."
+
+
+def _gathered(rows):
+    """(values {name: (n,)}, about {name: (unit, meaning)}, statuses, messages) of rows by the runner."""
+    about = {}
+    for row in rows:
+        for name, (_, unit, meaning) in row.values.items():
+            about.setdefault(name, (unit, meaning))
+    values = {name: np.array([row.values[name][0] if name in row.values else np.nan for row in rows], float) for name in about}
+    return values, about, [row.status for row in rows], [row.message for row in rows]
+
+
+def _table(first, columns, kinds, values, about, statuses, messages):
+    """The pyarrow.Table of some cases; what does not exist is null."""
+    import pyarrow as pa
+
+    fields = [pa.field(CASE, pa.int64(), metadata={"unit": "-", "meaning": "number of the case"}),
+              pa.field(STATUS, pa.string(), metadata={"unit": "", "meaning": "complete, partial or failed"}),
+              pa.field(MESSAGE, pa.string(), metadata={"unit": "", "meaning": "why it is not complete, or what was left out"})]
+    arrays = [pa.array(np.arange(first, first + len(statuses))), pa.array(statuses, pa.string()), pa.array(messages, pa.string())]
+    for key, kind in kinds.items():
+        arrays.append(pa.array(columns[key]))
+        fields.append(pa.field(key, arrays[-1].type, metadata={"unit": kind.unit, "meaning": "varied"}))
+    for name, column in values.items():
+        unit, meaning = about[name]
+        fields.append(pa.field(f"{OFFERED}{name}" if name in kinds else name, pa.float64(), metadata={"unit": unit, "meaning": meaning}))
+        arrays.append(pa.array(column, pa.float64(), mask=~np.isfinite(column)))
+    return pa.Table.from_arrays(arrays, schema=pa.schema(fields))

@@ -1,0 +1,191 @@
+"""The designs of a search and their values: each is evaluated once, kept, and never again, also not after a new start."""
+
+from contextlib import closing
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright import registry
+from drivewright.cases import worker_count
+from drivewright.errors import InputError
+from drivewright.studies import history
+from drivewright.studies.batches import Batch, Supply, compute, gaps
+from drivewright.studies.evaluate import evaluate, failed, task_of
+from drivewright.studies.pools import Here, pool
+from drivewright.studies.searching import population_of
+from drivewright.studies.store import joined
+from drivewright.studies.study import MESSAGE, STATUS
+
+WORTH_HELP = 3.0  # seconds: other processes need one or two to start
+SILENT = "the compiled evaluation finds no solution; a run of this design says why"
+
+
+class Rows(NamedTuple):
+    """Evaluated designs from number `first` on: values {name: (m,)}, what became of each, and the seconds it took."""
+
+    first: int
+    values: dict
+    statuses: list
+    messages: list
+    seconds: float
+
+
+class Evaluator:
+    """`evaluator(points)` with the points (m, n) of a generation gives {name: (m,)}; it is the same search each time, so what `kept` holds
+    of an earlier start answers for the designs with the same numbers.  InputError where they are not the same designs."""
+
+    def __init__(self, problem, kept, workers=None, on=None, progress=None):
+        self.problem, self.generations = problem, problem.spec.optimise.generations
+        self.progress = progress or (lambda done, total, what: None)
+        self.designs = []  # of each generation those that it brought
+        self._answers = {}  # design (bytes) -> values, in the order of their numbers
+        self._found = _kept(problem, kept)  # number -> (design, values) not asked for yet
+        self._journal = history.Journal(kept)
+        self._compute = compiled(problem) or Runs(problem, workers, on)
+
+    def __call__(self, points):
+        designs = self.problem.designs(points)
+        new = {key: row for key, row in zip(map(bytes, designs), designs, strict=True) if key not in self._answers}
+        self._fill(np.array(list(new.values())).reshape(-1, designs.shape[1]))
+        for number, key in enumerate(new, len(self._answers)):
+            self._answers[key] = self._found.pop(number)[1]
+        return self.values(points)
+
+    def values(self, points):
+        """{name: (m,)} at points that have been evaluated."""
+        rows = np.array([self._answers[key] for key in map(bytes, self.problem.designs(points))])
+        return dict(zip(self.problem.names, rows.reshape(-1, len(self.problem.names)).T, strict=True))
+
+    def _fill(self, designs):
+        """Find what is known of a generation's new designs, and evaluate the others."""
+        first, generation = len(self._answers), len(self.designs)
+        have = [number for number in range(first, first + len(designs)) if number in self._found]
+        if any(bytes(self._found[number][0]) != bytes(designs[number - first]) for number in have):
+            raise InputError(f"the search asks for other designs than those that were kept, from evaluation {first} on: another version of "
+                             "NumPy, SciPy or pymoo, or another machine. Go on there, or give another --out")
+        done, ahead = first + len(have), (self.generations - generation) * population_of(self.problem.spec.optimise)
+        if len(have) < len(designs):
+            with closing(self._compute(first, designs, have, ahead)) as each:
+                for found in each:
+                    self._keep(found, generation, designs[found.first - first :][: len(found.statuses)])
+                    done += len(found.statuses)
+                    self.progress(min(generation, self.generations), self.generations, f"{done} designs")
+        self.designs.append(designs)
+        self.progress(min(generation + 1, self.generations), self.generations, f"{done} designs")
+
+    def _keep(self, found, generation, designs):
+        values = history.usable(found.values, found.statuses)
+        for number, (design, *row) in enumerate(zip(designs, *(values[name] for name in self.problem.names), strict=True), found.first):
+            self._found[number] = design, np.array(row)
+        table = history.rows(self.problem, found.first, generation, designs, found.values, found.statuses, found.messages)
+        self._journal.add(found.first, table, found.seconds)
+
+    def close(self):
+        """What is evaluated goes to the store, whatever ends the search."""
+        try:
+            self._journal.flush()
+        finally:
+            self._compute.close()
+
+
+def _kept(problem, kept):
+    """{number: (design, values)} of what a store holds."""
+    tables = kept.tables()
+    if not tables:
+        return {}
+    numbers, designs, values = history.read(problem, joined(tables))
+    rows = np.stack([values[name] for name in problem.names], axis=1)
+    return {number: (design, row) for number, design, row in zip(numbers.tolist(), designs, rows, strict=True)}
+
+
+# -- who computes --------------------------------------------------------------------------------------------------------------
+
+
+def _missing(first, designs, have):
+    """[(number, number after the last)] of the new designs that are not kept."""
+    return gaps([(0, first), *((number, 1) for number in have)], first + len(designs))
+
+
+def compiled(problem):
+    """Evaluation of a whole generation by what the mechanism offers as `batch`; None where it has none for this problem."""
+    offer = registry.mechanism(problem.spec.mechanism).batch
+    many = offer(problem.spec, problem.keys, problem.names) if offer else None
+    return Compiled(problem, many) if many else None
+
+
+class Compiled:
+    """All missing designs of a generation in one call."""
+
+    def __init__(self, problem, many):
+        self._problem, self._many = problem, many
+
+    def __call__(self, first, designs, have, ahead):
+        for start, stop in _missing(first, designs, have):
+            found = self._many(designs[start - first : stop - first])
+            values = {name: np.asarray(found[name], float) for name in self._problem.names}
+            silent = np.all([~np.isfinite(column) for column in values.values()], axis=0).tolist()
+            statuses, messages = ["failed" if no else "complete" for no in silent], [SILENT if no else "" for no in silent]
+            yield Rows(start, values, statuses, messages, 0.0)
+
+    def close(self):
+        """Nothing to let go."""
+
+
+class Runs:
+    """Design by design through the runner, by the lanes of a pool.
+
+    Where nobody says who is to compute, this process begins, and has help as soon as the search would take long alone.
+    """
+
+    def __init__(self, problem, workers, on):
+        bare = problem.spec.model_copy(update={"study": None})
+        self._task = task_of(bare, problem.keys)._replace(analyses=problem.analyses, names=problem.names)
+        self._problem, self._asked, self._workers = problem, (workers, on), worker_count(workers)
+        self._alone, self._lanes = workers is None and on is None, ()
+        self._count, self._seconds = 0, 0.0  # of what is done
+
+    def __call__(self, first, designs, have, ahead):
+        supply = Supply([(0, first), *((number, 1) for number in have)], first + len(designs), self._workers)
+        if self._count:
+            supply.learn(Batch(0, self._count), self._seconds)
+
+        def arguments(batch):
+            return self._task, batch.first, self._columns(designs[batch.first - first : batch.stop - first])
+
+        if self._alone:
+            self._lanes = self._lanes or (Here(),)
+            yield from self._by(arguments, supply, lambda: self._wants_help(ahead))
+            if not supply:
+                return
+            self.close()
+            self._alone = False
+        self._lanes = self._lanes or pool(*self._asked)
+        yield from self._by(arguments, supply)
+
+    def _by(self, arguments, supply, enough=lambda: False):
+        for batch, table, seconds, reason in compute(self._lanes, evaluate, arguments, supply, enough):
+            if reason:
+                table = failed(*arguments(batch), reason)
+            else:
+                self._count, self._seconds = self._count + table.num_rows, self._seconds + seconds
+            yield Rows(batch.first, self._values(table), table[STATUS].to_pylist(), table[MESSAGE].to_pylist(), seconds)
+
+    def _wants_help(self, ahead):
+        return self._count > 0 and ahead * self._seconds / self._count > WORTH_HELP
+
+    def _columns(self, designs):
+        kinds = self._problem.kinds
+        return {key: x.astype(np.int64) if kind.name == "integer" else x
+                for key, kind, x in zip(self._problem.keys, kinds, designs.T, strict=True)}
+
+    def _values(self, table):
+        """{name: (m,)} of evaluated rows, nan where a design has none; where no design has one, there is no column."""
+        columns, absent = {name: history.column_of(self._problem, name) for name in self._problem.names}, np.full(table.num_rows, np.nan)
+        return {name: table[column].to_numpy().astype(float) if column in table.column_names else absent
+                for name, column in columns.items()}
+
+    def close(self):
+        """Let the lanes go."""
+        lanes, self._lanes = self._lanes, ()
+        for lane in lanes:
+            lane.close()

@@ -1,0 +1,154 @@
+"""Values over the levels of a grid: curves over one key, maps over two."""
+
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.result import Column, Plot, Table, Value
+from drivewright.studies.parts import STATUSES, Part, level_text, status_codes, table_of_rows, together
+from drivewright.studies.statistics import finite
+from drivewright.studies.study import CHECK
+
+MOST_PANELS = 4  # combinations of further keys that get plots of their own
+MOST_LINES = 6  # levels of a second key that are lines; with more they are a map
+
+RANGE = (
+    ("value", "", "value of the result"), ("unit", "", "unit of the row's numbers"), ("cases", "-", "cases that have the value"),
+    ("least", "", "least over the grid"), ("least.case", "-", "number of the case where it is least"),
+    ("greatest", "", "greatest over the grid"), ("greatest.case", "-", "number of the case where it is greatest"),
+)
+
+
+class Response(NamedTuple):
+    """Something over the combinations of levels: columns (combinations,) that are lines of one plot; a map shows the first.
+
+    What comes in steps, a count or a code, is not drawn as lines beside its map.
+    """
+
+    name: str
+    title: str
+    columns: tuple
+    in_steps: bool = False
+    limits: tuple = ()
+
+
+def surveyed(arranged, responses):
+    """`Part` of responses: tables `response` (one for each combination of further keys), curves or maps."""
+    responses, axes = tuple(responses), _axes(arranged.plan)
+    if not responses or not axes:
+        return Part()
+    panels, remark = _panels(arranged.plan, axes)
+    return together([Part(findings=remark), *(_panel(arranged, responses, axes[:2], *panel) for panel in panels)])
+
+
+def _axes(plan):
+    """Places of the keys with several levels, those with numbers first."""
+    several = [n for n, variable in enumerate(plan.grid) if len(variable.levels) > 1]
+    return sorted(several, key=lambda n: not _numeric(plan.grid[n]))
+
+
+def _numeric(variable):
+    return variable.levels.dtype.kind in "iuf"
+
+
+def _panels(plan, axes):
+    """([(suffix of names, end of titles, combinations)], findings): all levels of the two axes for each combination of the further keys."""
+    others = axes[2:]
+    combined = list(product(*(range(plan.shape[n]) for n in others)))
+    chosen = combined if len(combined) <= MOST_PANELS else combined[:1]
+    found = []
+    for number, places in enumerate(chosen, 1):
+        fixed = dict(zip(others, places, strict=True))
+        told = "".join(f", {plan.grid[n].key} = {level_text(plan.grid[n], place)}" for n, place in fixed.items())
+        found.append((f".{number}" if len(chosen) > 1 else "", told, _combinations(plan, axes[:2], fixed)))
+    remark = (f"the plots show one of {len(combined)} combinations of {', '.join(plan.grid[n].key for n in others)}:{found[0][1][1:]}; "
+              "the study's table holds all",) if len(chosen) < len(combined) else ()
+    return found, remark
+
+
+def _combinations(plan, axes, fixed):
+    """Combinations of levels with all levels of the axes, the first axis slowest; keys that are not fixed at their first level."""
+    levels = np.meshgrid(*(np.arange(plan.shape[n]) for n in axes), indexing="ij")
+    places = dict(zip(axes, (level.ravel() for level in levels), strict=True))
+    return np.ravel_multi_index([places.get(n, np.full(levels[0].size, fixed.get(n, 0))) for n in range(len(plan.grid))], plan.shape)
+
+
+def _panel(arranged, responses, axes, suffix, told, combinations):
+    """Table and plots of one combination of the further keys."""
+    keys = arranged.level_columns(combinations)
+    data = [column._replace(data=np.asarray(column.data)[combinations]) for response in responses for column in response.columns]
+    name = f"response{suffix}"
+    table = Table(name, f"Response over {' and '.join(keys[n].name for n in axes)}{told}", (*(keys[n] for n in axes), *data))
+    plots = [plot for response in responses for plot in _plots(arranged.plan, response, axes, table.name, suffix, told)]
+    return Part(tables=(table,), plots=tuple(plots))
+
+
+def _plots(plan, response, axes, table, suffix, told):
+    x, *more = (plan.grid[n] for n in axes)
+    columns = tuple(column.name for column in response.columns)
+    title = f"{response.title}{told}"
+    if not more:
+        yield Plot(f"curve.{response.name}{suffix}", title, table, x.key, columns, response.limits)
+        return
+    mapped = _numeric(x) and _numeric(more[0])
+    if mapped:
+        yield Plot(f"map.{response.name}{suffix}", title, table, x.key, (more[0].key, columns[0]), response.limits, style="map")
+    if not mapped or (len(more[0].levels) <= MOST_LINES and not response.in_steps):
+        yield Plot(f"curve.{response.name}{suffix}", title, table, x.key, columns[:1], response.limits, by=more[0].key)
+
+
+# -- a grid alone --------------------------------------------------------------------------------------------------------------
+
+
+def ranges(arranged):
+    """`Part` of a grid without random keys: table `range` of all values."""
+    rows = [(0, name, arranged.study.unit(name), *_range(arranged.of(name)[:, 0])) for name in arranged.study.value_names]
+    rows = [row for row in rows if row[3]]
+    if not rows:
+        return Part()
+    table = table_of_rows("range", "Range of the values over the grid", RANGE, rows)
+    return Part(dict(_range_values(arranged, rows)), (table,))
+
+
+def _range(column):
+    count = len(finite(column))
+    if not count:
+        return 0, np.nan, -1, np.nan, -1
+    least, greatest = int(np.nanargmin(column)), int(np.nanargmax(column))
+    return count, float(column[least]), least, float(column[greatest]), greatest
+
+
+def _range_values(arranged, rows):
+    for _, name, unit, _, least, _, greatest, _ in rows:
+        what = arranged.study.meaning(name) or name
+        yield f"least.{name}", Value(least, unit, f"{what}: least over the grid")
+        yield f"greatest.{name}", Value(greatest, unit, f"{what}: greatest over the grid")
+
+
+def responses(arranged):
+    """`Response`s of a grid without random keys: the shown values, the worst margin, the number of failing checks, the status."""
+    for name in arranged.shown:
+        meaning = arranged.study.meaning(name) or name
+        yield Response(name, name, (Column(name, arranged.study.unit(name), meaning, arranged.of(name)[:, 0]),))
+    yield from _of_checks(arranged)
+    if np.any(status_codes(arranged.study)):
+        told = "status: " + ", ".join(f"{code} {name}" for code, name in enumerate(STATUSES))
+        yield Response("status", "What became of the cases", (Column("status.code", "-", told, arranged.status[:, 0]),), True)
+
+
+def _of_checks(arranged):
+    """Margins of different units are compared as parts of the largest size that each check's margin has in the study."""
+    margins = [arranged.of(CHECK + name)[:, 0] for name in arranged.study.check_names]
+    sizes = [np.max(np.abs(finite(margin)), initial=0.0) for margin in margins]
+    parts = np.array([margin / (size or 1.0) for margin, size in zip(margins, sizes, strict=True)])
+    known = np.any(np.isfinite(parts), axis=0) if len(parts) else np.zeros(0, dtype=bool)
+    if not np.any(known):
+        return
+    worst = np.where(known, np.min(np.where(np.isfinite(parts), parts, np.inf), axis=0), np.nan)
+    meaning = "least margin of all checks, each over the largest in the study; a check fails below 0"
+    yield Response("checks.margin", "Margin of the worst check", (Column("checks.margin", "-", meaning, worst),),
+                   limits=((0.0, "limit"),))
+    failing = np.where(known, np.sum(parts < 0, axis=0), np.nan)
+    if np.any(failing > 0):
+        yield Response("checks.failing", "Checks that fail", (Column("checks.failing", "-", "number of checks that fail", failing),), True)

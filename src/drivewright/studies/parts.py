@@ -1,0 +1,132 @@
+"""What the answers of a study are made of: its table arranged by combination of levels, and parts that are put together."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from drivewright.result import Column, Table, Value
+from drivewright.studies.statistics import LEVEL
+from drivewright.studies.study import CHECK, STATUS, Study
+from drivewright.view.text import quantity
+
+STATUSES = ("complete", "partial", "failed")
+BOUNDS = (("", ""), (".low", f", at least, with {LEVEL:.0%} confidence"), (".high", f", at most, with {LEVEL:.0%} confidence"))
+
+
+@dataclass(frozen=True)
+class Part:
+    """Some of the answers: values, tables, how to look at them, findings."""
+
+    values: Mapping[str, Value] = field(default_factory=dict)
+    tables: tuple = ()
+    plots: tuple = ()
+    findings: tuple = ()
+
+
+def together(parts):
+    """One `Part` of several."""
+    parts = tuple(parts)
+    gathered = (tuple(item for part in parts for item in getattr(part, name)) for name in ("tables", "plots", "findings"))
+    return Part({name: value for part in parts for name, value in part.values.items()}, *gathered)
+
+
+@dataclass(frozen=True, eq=False)
+class Arranged:
+    """A study as arrays (combinations of levels, points that come with each), nan where a case is not there; `shown` get plots."""
+
+    study: Study
+    shown: tuple
+
+    @property
+    def plan(self):
+        """The plan of the study."""
+        return self.study.plan
+
+    @cached_property
+    def combinations(self):
+        """How many combinations of levels there are."""
+        return len(self.plan) // self.plan.inner
+
+    @cached_property
+    def sample(self):
+        """Rows of the points that are a random sample, or come from a file; none where there is only a grid, steps or corners."""
+        if self.plan.listed:
+            return np.arange(self.plan.inner)
+        blocks = [np.arange(block.start, block.stop) for block in self.plan.blocks if block.name in ("sample", "a", "b")]
+        return np.concatenate([np.zeros(0, dtype=int), *blocks])
+
+    def block(self, name):
+        """Slice of the points of a block, or None."""
+        found = self.plan.block(name)
+        return slice(found.start, found.stop) if found else None
+
+    def of(self, name):
+        """A column by combination and point."""
+        return self.arrange(np.asarray(self.study[name], dtype=float))
+
+    def arrange(self, column):
+        """Numbers of the rows of the table by combination and point."""
+        found = np.full(len(self.plan), np.nan)
+        found[np.asarray(self.study["case"], dtype=int)] = column
+        return found.reshape(self.combinations, self.plan.inner)
+
+    @cached_property
+    def status(self):
+        """0 complete, 1 partial, 2 failed, by combination and point."""
+        return self.arrange(status_codes(self.study).astype(float))
+
+    @cached_property
+    def passing(self):
+        """1 where a case is complete and no check fails, else 0, by combination and point."""
+        return self.arrange(passing(self.study).astype(float))
+
+    def level_columns(self, rows):
+        """A `Column` for each key of the grid: its level in the combinations `rows`."""
+        places = np.unravel_index(np.asarray(rows, dtype=int), self.plan.shape) if self.plan.grid else ()
+        return tuple(Column(variable.key, variable.kind.unit, variable.key, plain(variable.levels[place]))
+                     for variable, place in zip(self.plan.grid, places, strict=True))
+
+
+def level_text(variable, place):
+    """A level as people read it."""
+    level = plain(variable.levels)[place]
+    return str(level) if isinstance(level, str) else quantity(level, variable.kind.unit)
+
+
+def plain(column):
+    """A column of numbers as it is; flags and texts as texts."""
+    column = np.asarray(column)
+    if column.dtype.kind == "b":
+        return np.where(column, "true", "false")
+    return column if column.dtype.kind in "iuf" else column.astype(str)
+
+
+def status_codes(study):
+    """Number of each row's status in STATUSES."""
+    status = np.asarray(study[STATUS], dtype=str)
+    return np.select([status == name for name in STATUSES], range(len(STATUSES)), len(STATUSES) - 1)
+
+
+def passing(study):
+    """(rows,) whether a case is complete and none of the checks that it has fails."""
+    passes = status_codes(study) == 0
+    for name in study.check_names:
+        passes &= ~(np.asarray(study[CHECK + name], dtype=float) < 0)
+    return passes
+
+
+def table_of_rows(name, title, columns, rows, arranged=None):
+    """A `Table` of rows (combination, ...): `columns` (name, unit, meaning) of what follows, then the levels of the row's combination.
+
+    Unit "" stands for the one that the row itself names.
+    """
+    filled = [Column(*head, np.array([row[number] for row in rows])) for number, head in enumerate(columns, 1)]
+    return Table(name, title, (*filled, *(arranged.level_columns([row[0] for row in rows]) if arranged else ())))
+
+
+def listed(names, most=12):
+    """Some names in one line."""
+    more = len(names) - most
+    return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")

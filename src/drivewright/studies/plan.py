@@ -1,0 +1,206 @@
+"""The plan of a study: every case, known before the first one runs.
+
+Levels are crossed with each other (the first key changes slowest); with each of their combinations come the points of the random
+keys, the same ones every time, in blocks: a sample, corners, steps ...  A case is a row; its number is its name.
+"""
+
+import hashlib
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+
+import numpy as np
+
+from drivewright.errors import SpecError
+from drivewright.studies.points import read_points
+from drivewright.studies.variables import variable
+
+LARGEST = 100_000_000  # cases
+MOST_CORNERS = 16  # keys whose corners are all taken
+FEW_CORNERS = 10  # keys up to which a tolerance study takes them
+
+
+@dataclass(frozen=True)
+class Block:
+    """Rows `start` to `stop` of the points that come with every combination of levels: sample, nominal, steps, corners, a, b, mixed."""
+
+    name: str
+    start: int
+    stop: int
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """All cases: a column per key, levels in `grid`, random keys in `random`, the `points` (n, d) of the latter and their blocks."""
+
+    grid: tuple
+    random: tuple
+    points: np.ndarray
+    blocks: tuple
+    listed: dict  # columns of a file of points, by variable
+    seed: int = 0
+    remarks: tuple = ()
+
+    @property
+    def variables(self):
+        """Everything that varies, in the order of its columns."""
+        return (*self.listed, *self.grid, *self.random)
+
+    @property
+    def keys(self):
+        """Their dotted keys, each with those that go with it."""
+        return tuple(key for each in self.variables for key in each.keys)
+
+    @property
+    def shape(self):
+        """How many levels each key of the grid has."""
+        return tuple(len(variable.levels) for variable in self.grid)
+
+    @property
+    def inner(self):
+        """Cases that come with each combination of levels."""
+        return len(next(iter(self.listed.values()))) if self.listed else len(self.points)
+
+    def __len__(self):
+        return math.prod(self.shape) * self.inner
+
+    def cases(self, first, stop):
+        """{key: values} of the cases from `first` up to `stop`, SI."""
+        outer, inner = np.divmod(np.arange(first, stop), self.inner)
+        places = np.unravel_index(outer, self.shape) if self.grid else ()
+        columns = [column[inner] for column in self.listed.values()]
+        columns += [each.levels[place] for each, place in zip(self.grid, places, strict=True)]
+        columns += [self.points[inner, n] for n in range(len(self.random))]
+        return {key: column for each, column in zip(self.variables, columns, strict=True) for key in each.keys}
+
+    def block(self, name):
+        """The `Block` of a name, or None."""
+        return next((block for block in self.blocks if block.name == name), None)
+
+    @cached_property
+    def digest(self):
+        """SHA-256 of all cases: the same plan has the same points, also another day with other libraries."""
+        digest = hashlib.sha256(repr((self.keys, self.shape, self.blocks)).encode())
+        for column in (*self.listed.values(), *(each.levels for each in self.grid), self.points):
+            digest.update(repr(column.tolist()).encode() if column.dtype == object else np.ascontiguousarray(column).tobytes())
+        return digest.hexdigest()
+
+
+def plan_of(spec):
+    """The `Plan` of a spec's [study]; SpecError where nothing varies, or something that cannot."""
+    study = spec.study
+    if study is None or not (study.vary or study.points):
+        raise SpecError(
+            "nothing varies, so there is nothing to study; give --vary KEY=FROM:TO:STEPS, KEY=V1,V2 or KEY=normal(MEAN, SIGMA), "
+            "or a [study] table",
+            "study.vary",
+        )
+    variables = [variable(spec, vary, number) for number, vary in enumerate(study.vary)]
+    listed = read_points(spec, study.points) if study.points else {}
+    _refuse_twice([key for each in (*listed, *variables) for key in each.keys])
+    random = tuple(each for each in variables if each.distribution is not None)
+    grid = tuple(each for each in variables if each.levels is not None)
+    if listed and random:
+        raise SpecError("a file of points is not crossed with random keys; put their values into the file", "study.points")
+    points, blocks, remarks = _points(study, random)
+    count = math.prod(len(each.levels) for each in grid) * len(next(iter(listed.values())) if listed else points)
+    if count > LARGEST:
+        raise SpecError(f"{count:.3g} cases are more than {LARGEST:.0g}; take fewer levels or samples", "study.vary")
+    return Plan(grid, random, points, blocks, listed, study.seed, remarks)
+
+
+def _refuse_twice(keys):
+    for number, key in enumerate(keys):
+        if key in keys[:number]:
+            raise SpecError(f"{key} varies twice; give it once", "study.vary")
+
+
+# -- points of the random keys -------------------------------------------------------------------------------------------------
+
+
+def _points(study, random):
+    """(points (n, d), blocks, remarks) of the random keys."""
+    if not random:
+        return np.zeros((1, 0)), (), ()
+    parts = METHODS[study.method](study, random)
+    ends = np.cumsum([0, *(len(part) for _, part in parts)]).tolist()
+    blocks = tuple(Block(name, start, stop) for (name, _), start, stop in zip(parts, ends, ends[1:], strict=False))
+    return np.concatenate([part for _, part in parts]), blocks, tuple(_remarks(study))
+
+
+def _remarks(study):
+    if study.method in ("sobol", "sobol-indices") and study.samples & (study.samples - 1):
+        near = 2 ** round(math.log2(study.samples))
+        yield f"{study.samples} points of a Sobol sequence are less even than a power of two: {near} would be better spent"
+
+
+def _mapped(unit, random):
+    """Points of the unit cube through the inverse distributions."""
+    return np.stack([each.distribution.ppf(u) for each, u in zip(random, unit.T, strict=True)], axis=1)
+
+
+def _latin(study, random):
+    from scipy.stats import qmc
+
+    return [("sample", _mapped(qmc.LatinHypercube(len(random), rng=study.seed).random(study.samples), random))]
+
+
+def _sobol_cube(study, dimensions):
+    """Scrambled Sobol points; without the even number of a power of two they are less even, which a remark says."""
+    import warnings
+
+    from scipy.stats import qmc
+
+    if dimensions > qmc.Sobol.MAXDIM:
+        raise SpecError(f"{dimensions} dimensions are beyond a Sobol sequence; take latin-hypercube", "study.method")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        cube = qmc.Sobol(dimensions, rng=study.seed).random(study.samples)
+    return np.clip(cube, 0.5**33, 1 - 0.5**33)
+
+
+def _sobol(study, random):
+    return [("sample", _mapped(_sobol_cube(study, len(random)), random))]
+
+
+def _independent(study, random):
+    """Independent points: a case's point depends on seed and number alone, so that a longer sample continues a shorter one."""
+    cube = np.random.Generator(np.random.Philox(study.seed)).random((study.samples, len(random)))
+    return [("sample", _mapped(cube, random))]
+
+
+def _corners(study, random):
+    if len(random) > MOST_CORNERS:
+        raise SpecError(f"{len(random)} keys have {2.0 ** len(random):.2g} corners; {MOST_CORNERS} keys at most, or take one-at-a-time",
+                        "study.method")
+    return [("corners", np.array(list(product(*(each.ends for each in random)))))]
+
+
+def _steps(study, random):
+    """The means, then each key one standard deviation down and up: row 2 k is key k down, 2 k + 1 up."""
+    means, sigmas = (np.array([getattr(each.distribution, what)() for each in random]) for what in ("mean", "std"))
+    steps = np.repeat(means[None], 2 * len(random), axis=0)
+    for k, sigma in enumerate(sigmas):
+        steps[2 * k : 2 * k + 2, k] += [-sigma, sigma]
+    return [("nominal", means[None]), ("steps", steps)]
+
+
+def _tolerance(study, random):
+    corners = _corners(study, random) if len(random) <= FEW_CORNERS else []
+    return [*_steps(study, random), *corners, *_latin(study, random)]
+
+
+def _saltelli(study, random):
+    """A, B, and for each key k the points of A with the column k of B, one after another (Saltelli et al. 2010, recalled)."""
+    d = len(random)
+    cube = _sobol_cube(study, 2 * d)
+    a, b = _mapped(cube[:, :d], random), _mapped(cube[:, d:], random)
+    mixed = np.repeat(a[None], d, axis=0)
+    for k in range(d):
+        mixed[k, :, k] = b[:, k]
+    return [("a", a), ("b", b), ("mixed", mixed.reshape(-1, d))]
+
+
+METHODS = {"latin-hypercube": _latin, "sobol": _sobol, "random": _independent, "corners": _corners, "one-at-a-time": _steps,
+           "tolerance": _tolerance, "sobol-indices": _saltelli}

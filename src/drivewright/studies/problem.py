@@ -1,0 +1,175 @@
+"""The [optimise] table in numbers: what may change, what is wanted, what is required.
+
+A value of the result goes by its name, the margin of a design check by `check.NAME`: it is at least 0 exactly when the check passes.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from drivewright import registry, runner, units
+from drivewright.errors import SpecError, UnknownName
+from drivewright.result import Value
+from drivewright.spec import MechanismSpec, document, from_document, set_key
+from drivewright.studies.study import CHECK
+from drivewright.studies.variables import READABLE, kind_of
+
+HOPELESS = 1e3  # violation of a design that has no solution at all, in units of the limits
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Keys with their `Kind` and bounds (n, 2) SI, objectives (name, sign), limits (name, sense, limit) with the scale of each, what is
+    known `about` every value that is looked at, {name: (unit, meaning)}, and the analyses that give them."""
+
+    spec: MechanismSpec
+    keys: tuple
+    kinds: tuple
+    bounds: np.ndarray
+    objectives: tuple
+    limits: tuple
+    scales: np.ndarray
+    about: dict
+    analyses: tuple
+
+    @property
+    def names(self):
+        """Every value that is looked at."""
+        return tuple(self.about)
+
+    @cached_property
+    def whole(self):
+        """(n,) which unknowns are whole numbers."""
+        return np.array([kind.name == "integer" for kind in self.kinds])
+
+    @cached_property
+    def space(self):
+        """(n, 2) where the search moves: half a step further for whole numbers, so that each has an equal share."""
+        return self.bounds + np.where(self.whole, 0.5, 0.0)[:, None] * np.array([-1.0, 1.0])
+
+    def designs(self, points):
+        """The designs (m, n) at points of the search: within the bounds, whole where a key takes whole numbers."""
+        return np.clip(np.where(self.whole, np.rint(points), points), *self.bounds.T) + 0.0  # + 0.0: -0.0 is the same design as 0.0
+
+    def objective_values(self, values):
+        """(objectives, designs), to be made small; nan becomes large (and such a design violates, see below)."""
+        rows = np.array([sign * values[name] for name, sign in self.objectives])
+        return np.where(np.isfinite(rows), rows, HOPELESS)
+
+    def violations(self, values):
+        """(limits + 1, designs): how far beyond each limit, over its scale, and whether an objective is missing; 0 or less is met."""
+        rows = [
+            (limit - values[name] if sense == ">=" else values[name] - limit) / scale
+            for (name, sense, limit), scale in zip(self.limits, self.scales, strict=True)
+        ]
+        missing = ~np.all([np.isfinite(values[name]) for name, _ in self.objectives], axis=0)
+        rows.append(np.where(missing, HOPELESS, 0.0))
+        return np.where(np.isfinite(rows), rows, HOPELESS)
+
+    def total_violation(self, values):
+        """(designs,): 0 exactly where every requirement is met."""
+        return np.maximum(self.violations(values), 0.0).sum(axis=0)
+
+    def design(self, x):
+        """The spec with the unknowns at x (SI)."""
+        data = document(self.spec)
+        for key, kind, value in zip(self.keys, self.kinds, x, strict=True):
+            set_key(data, key, kind.given(value))
+        return from_document(data, type(self.spec))
+
+
+def prepare(spec):
+    """The `Problem` of a spec; each complaint names the key of the [optimise] table."""
+    if spec.optimise is None:
+        raise SpecError("is missing; it says what may change, what is required and what is wanted (see `drivewright new`)", "optimise")
+    search, base = spec.optimise, _with_settings(spec)
+    givers, known, sizes = _known(base)
+    kinds = [_kind(base, search.unknowns, number) for number in range(len(search.unknowns))]
+    bounds = [_bounds(kind, search.unknowns[number], f"optimise.unknowns.{number}") for number, kind in enumerate(kinds)]
+    objectives = tuple(
+        (_named(known, each.value, f"optimise.objectives.{n}.value"), 1.0 if each.goal == "minimise" else -1.0)
+        for n, each in enumerate(search.objectives)
+    )
+    limits = tuple(limit for n, each in enumerate(search.requirements) for limit in _limits(known, each, f"optimise.requirements.{n}"))
+    names = dict.fromkeys([name for name, _ in objectives] + [name for name, _, _ in limits])
+    return Problem(
+        base, tuple(unknown.key for unknown in search.unknowns), tuple(kinds), np.array(bounds, float), objectives, limits,
+        scales=np.array([abs(limit) or sizes[name] or 1.0 for name, _, limit in limits]),
+        about={name: tuple(known[name][1:]) for name in names},
+        analyses=tuple(analysis for analysis in dict.fromkeys(givers.values()) if any(givers[name] == analysis for name in names)),
+    )
+
+
+def looked_at(values, checks):
+    """{name: Value} of all that a search can look at: values, and margins of checks (0 where rounding alone makes a margin negative)."""
+    margins = {f"{CHECK}{c.name}": Value(max(c.margin, 0.0) if c.ok else c.margin, c.unit, f"margin of: {c.message}") for c in checks}
+    return dict(values) | margins
+
+
+def _with_settings(spec):
+    data = document(spec)
+    for setting in spec.optimise.settings:
+        set_key(data, setting.key, setting.value)
+    return from_document(data, type(spec))
+
+
+def _known(spec):
+    """({name: analysis}, {name: Value}, {name: size}) of all that the spec itself gives."""
+    mechanism = registry.mechanism(spec.mechanism)
+    answers = runner.ask(spec, mechanism.build(spec), runner.selection(mechanism.analyses))
+    givers, known, sizes = {}, {}, {}
+    for analysis, answer in answers.items():
+        found = looked_at(answer.values, answer.checks)
+        known |= found
+        givers |= dict.fromkeys(found, analysis)
+        sizes |= {name: abs(value.value) for name, value in found.items()} | {f"{CHECK}{c.name}": abs(c.limit) for c in answer.checks}
+    return givers, known, {name: size if np.isfinite(size) else 0.0 for name, size in sizes.items()}
+
+
+def _kind(spec, unknowns, number):
+    """The `Kind` of an unknown."""
+    key, place = unknowns[number].key, f"optimise.unknowns.{number}.key"
+    if key in (each.key for each in unknowns[:number]):
+        raise SpecError(f"{key} is there twice; give one range for it", place)
+    kind = kind_of(spec, key, place)
+    if not kind.numeric:
+        raise SpecError(f"{key} takes {READABLE[kind.name]} and has no range; an unknown is a quantity, a number or a whole number", place)
+    return kind
+
+
+def _bounds(kind, unknown, place):
+    low, high = (kind.read(getattr(unknown, side), f"{place}.{side}") for side in ("lower", "upper"))
+    if not low < high:
+        raise SpecError(f"lower bound {unknown.lower} is not below upper bound {unknown.upper}", place)
+    return low, high
+
+
+def _named(known, name, key):
+    if name not in known:
+        raise SpecError(str(UnknownName("value of the result", name, known)), key)
+    return name
+
+
+def _limits(known, requirement, place):
+    """(name, sense, limit) of a requirement; a check with no limit given has to pass."""
+    name = _named(known, requirement.value, f"{place}.value")
+    dimension = units.BY_UNIT.get(known[name].unit)
+    if requirement.at_least is None and requirement.at_most is None:
+        if not name.startswith(CHECK):
+            raise SpecError("needs at_least, at_most, or both", place)
+        yield name, ">=", 0.0
+    for side, sense in (("at_least", ">="), ("at_most", "<=")):
+        if (limit := getattr(requirement, side)) is not None:
+            yield name, sense, _in_si(limit, dimension, f"{place}.{side}")
+
+
+def _in_si(value, dimension, key):
+    if dimension is None:
+        if isinstance(value, str):
+            raise SpecError(f"is a pure number here, got {value!r}", key)
+        return float(value)
+    try:
+        return dimension.parse(value)
+    except SpecError as error:
+        raise error.located(key) from None

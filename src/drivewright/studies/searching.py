@@ -1,0 +1,75 @@
+"""Ways to search: one objective by differential evolution (SciPy), several by NSGA-II (pymoo).  Seeded and deterministic.
+
+A search calls `evaluator(points)` with each generation (m, n) and leaves it to the evaluator to remember what came of it.
+"""
+
+import numpy as np
+
+from drivewright.errors import MissingExtra, SpecError
+
+
+def method_of(search):
+    """Name of the method for an [optimise] table."""
+    several = len(search.objectives) > 1
+    if search.method == "differential-evolution" and several:
+        raise SpecError("differential-evolution takes one objective; take nsga2 for several", "optimise.method")
+    return search.method if search.method != "auto" else ("nsga2" if several else "differential-evolution")
+
+
+def population_of(search):
+    """Designs per generation that are asked for."""
+    return search.population or max(16, 8 * len(search.unknowns))
+
+
+def differential_evolution(problem, search, evaluator):
+    """A whole generation per call, Lampinen's rule for the constraints."""
+    from scipy.optimize import NonlinearConstraint, differential_evolution
+
+    low, high = problem.space.T
+    number = len(problem.limits) + 1
+
+    def points(u):
+        return low + u.T * (high - low)
+
+    def violations(u):
+        """Asked of each generation before the objective; and of one design (n,), for the number of constraints only."""
+        return problem.violations(evaluator(points(u))) if u.ndim == 2 else np.zeros(number)
+
+    differential_evolution(
+        lambda u: problem.objective_values(evaluator.values(points(u)))[0],
+        [(0.0, 1.0)] * len(low),
+        maxiter=search.generations,
+        popsize=max(1, -(-population_of(search) // len(low))),
+        rng=np.random.default_rng(search.seed),
+        polish=False,
+        vectorized=True,
+        updating="deferred",
+        mutation=(0.4, 0.9),
+        recombination=0.9,
+        tol=1e-6,
+        atol=0.0,
+        init="sobol",
+        constraints=NonlinearConstraint(violations, np.full(number, -np.inf), np.zeros(number)),
+    )
+
+
+def nsga2(problem, search, evaluator):
+    """Non-dominated sorting of each generation with its parents."""
+    try:
+        from pymoo.algorithms.moo.nsga2 import NSGA2
+        from pymoo.core.problem import Problem as Vectorised
+        from pymoo.optimize import minimize
+    except ImportError as error:
+        raise MissingExtra("NSGA-II", "optimise", error) from None
+
+    class Task(Vectorised):
+        def _evaluate(self, x, out, *_, **__):
+            values = evaluator(x)
+            out["F"], out["G"] = problem.objective_values(values).T, problem.violations(values).T
+
+    low, high = problem.space.T
+    task = Task(n_var=len(low), n_obj=len(problem.objectives), n_ieq_constr=len(problem.limits) + 1, xl=low, xu=high)
+    minimize(task, NSGA2(pop_size=population_of(search)), ("n_gen", search.generations), seed=search.seed, verbose=False)
+
+
+METHODS = {"differential-evolution": differential_evolution, "nsga2": nsga2}

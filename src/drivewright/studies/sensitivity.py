@@ -1,0 +1,172 @@
+"""Which of the varying keys causes how much of a number's spread.
+
+Three ways, by what has been run: linear theory from a step of each key, regression and ranks from any random sample, and the indices
+of Sobol from a sample made for them.  The keys vary independently of each other.  Functions of plain arrays; nan is a case without
+the number.
+"""
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.studies.statistics import LEVEL, varies
+
+ROUNDS = 500  # of the bootstrap
+GROUPS = 4096  # rows, or groups of rows, that are drawn in each
+LEAST_RANKED = 20  # cases below which ranks say nothing
+
+
+class Linear(NamedTuple):
+    """Linear theory about the nominal point; arrays (d,) over the keys.
+
+    slope dy/dx, contribution (dy/dx sigma_x)^2 to the variance and its share of their sum, curvature y+ + y- - 2 y0 (what the straight
+    line leaves out, 0 for a straight one), sigma by root sum of squares, and the ends that the sum of all |dy/dx| reaches.
+    """
+
+    slope: np.ndarray
+    contribution: np.ndarray
+    share: np.ndarray
+    curvature: np.ndarray
+    sigma: float
+    least: float
+    greatest: float
+
+
+def linear(nominal, steps, sigmas, deviations):
+    """`Linear` of a number: at the means, and with each key one sigma (d,) down and up, steps (2 d,) as the plan has them.
+
+    `deviations` (d, 2): lower and upper end of each key less its mean.  dy/dx = (y+ - y-) / (2 sigma); exact for a parabola.
+    """
+    down, up = np.reshape(steps, (-1, 2)).T
+    slope = (up - down) / (2 * sigmas)
+    contribution = (slope * sigmas) ** 2
+    total = contribution.sum()
+    reach = np.sort(slope[:, None] * deviations, axis=1)
+    share = contribution / total if total > 0 else np.full_like(contribution, np.nan)
+    return Linear(slope, contribution, share, up + down - 2 * nominal, float(np.sqrt(total)),
+                  *(float(nominal + side.sum()) for side in reach.T))
+
+
+# -- any random sample ---------------------------------------------------------------------------------------------------------
+
+
+class Regression(NamedTuple):
+    """Standardised regression coefficients b sigma_x / sigma_y (d,), and the share R2 of the variance that the fit explains."""
+
+    coefficients: np.ndarray
+    determination: float
+
+
+def regression(x, y):
+    """`Regression` of y (n,) on x (n, d) by least squares; nan where y does not vary or the cases are too few.
+
+    For independent keys the square of a coefficient is the key's share of the variance, as far as the number is linear in the keys.
+    """
+    present = np.isfinite(y)
+    x, y = x[present], y[present]
+    if len(y) < x.shape[1] + 2 or not varies(y):
+        return Regression(np.full(x.shape[1], np.nan), np.nan)
+    design, target = np.stack([_standardised(column) for column in x.T], axis=1), _standardised(y)
+    coefficients = np.linalg.lstsq(design, target, rcond=None)[0]
+    return Regression(coefficients, float(1 - np.sum((target - design @ coefficients) ** 2) / np.sum(target**2)))
+
+
+def _standardised(column):
+    """(column - mean) / standard deviation; zeros where it does not vary."""
+    if not varies(column):
+        return np.zeros(len(column))
+    part = (column - column.min()) / np.ptp(column)
+    part = part - part.mean()
+    return part / np.sqrt(np.mean(part**2))
+
+
+def orders(x):
+    """The cases in ascending order of each key (n, d), for `by_ranks`; once for all numbers of a study."""
+    return np.argsort(x, axis=0, kind="stable")
+
+
+def by_ranks(order, y):
+    """First-order Sobol indices (d,) of y (n,) from any random sample: how alike the numbers of cases with neighbouring keys are.
+
+    S = (sum y_j y_N(j) / n - mean^2) / variance, N(j) being the case whose key is next above, of the last the first one
+    (Gamboa, Gremaud, Klein & Lagnoux, Bernoulli 2022; recalled, held by functions with known indices).  Scatters by about 1/sqrt(n), so
+    that a small index may come out below 0.  Not for the points of a Sobol sequence, whose neighbours are anything but random.
+    nan where y does not vary or the cases are fewer than `LEAST_RANKED`.
+    """
+    present = np.isfinite(y)
+    if present.sum() < LEAST_RANKED or not varies(y):
+        return np.full(order.shape[1], np.nan)
+    z = np.zeros(len(y))
+    z[present] = _standardised(y[present])
+    return np.array([_neighbours(z[column[present[column]]]) for column in order.T])
+
+
+def _neighbours(z):
+    """Mean product of neighbours of a standardised ring."""
+    return np.mean(z * np.roll(z, -1))
+
+
+# -- a sample made for it ------------------------------------------------------------------------------------------------------
+
+
+class Indices(NamedTuple):
+    """Sobol indices of each key (d,): first order, its own share of the variance; total, with all that it shares with other keys.
+
+    The intervals (d, 2) are those of a bootstrap.  `rows` base cases are complete, `dropped` are not and left out.
+    """
+
+    first: np.ndarray
+    first_interval: np.ndarray
+    total: np.ndarray
+    total_interval: np.ndarray
+    rows: int
+    dropped: int
+
+
+def indices(a, b, mixed):
+    """`Indices` of a number at the points A (n,), B (n,), and A with column k from B (d, n).
+
+    S = mean(y_B (y_ABk - y_A)) / variance (Saltelli et al. 2010), T = mean((y_A - y_ABk)^2) / (2 variance) (Jansen 1999); both recalled,
+    held by functions with known indices.  A base case that lacks one of its numbers is left out in whole.
+    """
+    present = np.isfinite(a) & np.isfinite(b) & np.all(np.isfinite(mixed), axis=0)
+    a, b, mixed = a[present], b[present], mixed[:, present]
+    d, rows, dropped = len(mixed), int(present.sum()), int(np.sum(~present))
+    if rows < 2 or not varies(np.concatenate([a, b])):
+        return Indices(*(np.full(shape, np.nan) for shape in (d, (d, 2), d, (d, 2))), rows, dropped)
+    terms = _terms(a, b, mixed)
+    first, total = _ratios(terms.sum(axis=0), d)
+    drawn = _drawn(min(rows, GROUPS)) @ _grouped(terms)
+    intervals = np.quantile(_ratios(drawn, d), [(1 - LEVEL) / 2, (1 + LEVEL) / 2], axis=1)
+    return Indices(first, intervals[:, 0].T, total, intervals[:, 1].T, rows, dropped)
+
+
+def _terms(a, b, mixed):
+    """Rows (n, 2 d + 1) whose sums make the indices: products, squared differences, and squares about the mean."""
+    low, width = min(a.min(), b.min()), np.ptp(np.concatenate([a, b]))
+    a, b, mixed = ((y - low) / width for y in (a, b, mixed))
+    middle = (a.mean() + b.mean()) / 2
+    a, b, mixed = a - middle, b - middle, mixed - middle
+    return np.stack([*(b * (mixed - a)), *((mixed - a) ** 2 / 2), (a**2 + b**2) / 2], axis=1)
+
+
+def _ratios(sums, d):
+    """(first, total) (..., d) of summed terms; nan where a draw has no variance."""
+    variance = np.where(sums[..., -1:] > 0, sums[..., -1:], np.nan)
+    return sums[..., :d] / variance, sums[..., d : 2 * d] / variance
+
+
+def _grouped(terms):
+    """The rows, or where they are many their sums in groups put together at random, which scatter alike and are drawn faster."""
+    if len(terms) <= GROUPS:
+        return terms
+    shuffled = terms[np.random.default_rng(len(terms)).permutation(len(terms))]
+    return np.add.reduceat(shuffled, np.linspace(0, len(terms), GROUPS, endpoint=False).astype(int), axis=0)
+
+
+@lru_cache(maxsize=4)
+def _drawn(n):
+    """How often each of n rows is drawn in each round (ROUNDS, n); always the same."""
+    rng = np.random.default_rng(n)
+    return np.stack([np.bincount(rng.integers(n, size=n), minlength=n) for _ in range(ROUNDS)]).astype(float)

@@ -1,0 +1,162 @@
+"""How far the values of a random sample spread, how many cases pass, and how bad it gets at the corners."""
+
+import numpy as np
+
+from drivewright.result import Column, Plot, Table, Value
+from drivewright.studies.maps import Response
+from drivewright.studies.parts import BOUNDS, Part, table_of_rows, together
+from drivewright.studies.statistics import PERCENTS, capability, finite, share, summary
+from drivewright.studies.study import CHECK
+
+ALL = "all checks"
+VALUE = (("value", "", "value of the result"), ("unit", "", "unit of the row's numbers"))
+SHORT = (1.0, 50.0, 99.0)  # percentiles that are told at a glance
+TOLERANCE = (
+    *VALUE, ("mean", "", "mean"), ("sigma", "", "standard deviation"),
+    *((f"percentile.{percent:g}", "", f"{percent:g} % of all cases are below") for percent in SHORT),
+    ("least", "", "least of the sample"), ("greatest", "", "greatest of the sample"), ("absent", "-", "cases that do not have the value"),
+)
+CONFIDENCE = (
+    *VALUE, ("cases", "-", "cases that have the value"),
+    *((name + end, "", meaning + told) for name, meaning in (("mean", "mean"), ("sigma", "standard deviation"))
+      for end, told in BOUNDS),
+    ("skewness", "-", "skewness"),
+    *((f"percentile.{percent:g}{end}", "", f"{percent:g} % of all cases are below" + told) for percent in PERCENTS
+      for end, told in BOUNDS),
+)
+YIELD = (
+    ("check", "", "design check"), ("passes", "-", "cases that pass"), ("cases", "-", "cases that have the check, or failed"),
+    *(("yield" + end, "-", "share of the cases that pass" + told) for end, told in BOUNDS),
+    ("capability", "-", "capability index Cpk: mean margin over three standard deviations"),
+)
+WORST = (
+    ("value", "", "value of the result, or margin of a check to its limit"), ("unit", "", "unit of the row's numbers"),
+    ("least", "", "least at the corners"), ("greatest", "", "greatest at the corners"), ("corners", "-", "corners that have it"),
+)
+
+
+def spread(arranged):
+    """`Part` of the sample: tables `tolerance`, `confidence` and `yield`, their values and histograms."""
+    if not len(arranged.sample):
+        return Part()
+    names = arranged.study.value_names
+    rows = [(number, name, arranged.study.unit(name), summary(sample))
+            for name in names for number, sample in enumerate(arranged.of(name)[:, arranged.sample])]
+    parts = [_yields(arranged)]
+    if rows:
+        short = table_of_rows("tolerance", "Spread of the values", TOLERANCE, [_told(*row) for row in rows], arranged)
+        full = table_of_rows("confidence", "Spread of the values with confidence", CONFIDENCE, [_sure(*row) for row in rows], arranged)
+        parts.append(Part(tables=(short, full)))
+    if arranged.combinations == 1:
+        parts += [Part(dict(_values(arranged, rows))), _histograms(arranged)]
+    return together(parts)
+
+
+def _told(number, name, unit, found):
+    """Row of the table `tolerance`."""
+    middle = (found.percentiles[PERCENTS.index(percent)].value for percent in SHORT)
+    return (number, name, unit, found.mean.value, found.sigma.value, *middle, found.least, found.greatest, found.absent)
+
+
+def _sure(number, name, unit, found):
+    """Row of the table `confidence`."""
+    spread_ = (each for percent in found.percentiles for each in percent)
+    return (number, name, unit, found.count, *found.mean, *found.sigma, found.skewness, *spread_)
+
+
+def _values(arranged, rows):
+    for _, name, unit, found in rows:
+        what = arranged.study.meaning(name) or name
+        yield f"mean.{name}", Value(found.mean.value, unit, f"{what}: mean of the sample")
+        yield f"sigma.{name}", Value(found.sigma.value, unit, f"{what}: standard deviation of the sample")
+
+
+def _histograms(arranged):
+    """The raw samples of the shown values; the margin of a check with its limit, 0."""
+    columns = [Column(name, arranged.study.unit(name), arranged.study.meaning(name) or name, arranged.of(name)[0, arranged.sample])
+               for name in arranged.shown]
+    columns = [column for column in columns if len(finite(column.data)) > 1]
+    if not columns:
+        return Part()
+    cases = Column("case", "-", "number of the case", arranged.sample)
+    plots = [Plot(f"histogram.{c.name}", f"Distribution of {c.name}", "sample", c.name, (c.name,),
+                  ((0.0, "limit"),) if c.name.startswith(CHECK) else (), style="histogram") for c in columns]
+    return Part(tables=(Table("sample", "The random sample", (cases, *columns)),), plots=tuple(plots))
+
+
+# -- yield ---------------------------------------------------------------------------------------------------------------------
+
+
+def _yields(arranged):
+    """Table `yield`: each check, and all in one; a failed case passes none, and one that is not complete does not pass all."""
+    if not arranged.study.check_names:
+        return Part()
+    status = arranged.status[:, arranged.sample]
+    rows = [row for name in arranged.study.check_names for row in _of_check(name, arranged.of(CHECK + name)[:, arranged.sample], status)]
+    together_ = [_all(number, case) for number, case in enumerate(arranged.passing[:, arranged.sample])]
+    table = table_of_rows("yield", "Share of the cases that pass", YIELD, rows + together_, arranged)
+    return Part(dict(_yield_values(together_[0])) if arranged.combinations == 1 else {}, (table,))
+
+
+def _of_check(name, margins, status):
+    for number, (margin, code) in enumerate(zip(margins, status, strict=True)):
+        count = int(np.sum(np.isfinite(margin) | (code == 2)))
+        if count:
+            passes = int(np.sum(margin >= 0))
+            yield number, name, passes, count, *share(passes, count), capability(margin)
+
+
+def _all(number, passing):
+    count, passes = int(np.sum(np.isfinite(passing))), int(np.sum(passing == 1))
+    return number, ALL, passes, count, *share(passes, count), np.nan
+
+
+def _yield_values(row):
+    what = "share of the cases that are complete and pass every design check"
+    for value, (end, told) in zip(row[4:7], BOUNDS, strict=True):
+        yield f"yield{end}", Value(value, "-", what + told)
+
+
+def responses(arranged):
+    """`Response`s over the grid: mean and mean -+ sigma of each shown value, its sigma, and the yield."""
+    for name in arranged.shown:
+        unit, what = arranged.study.unit(name), arranged.study.meaning(name) or name
+        found = [summary(sample) for sample in arranged.of(name)[:, arranged.sample]]
+        mean, sigma = (np.array([getattr(each, part).value for each in found]) for part in ("mean", "sigma"))
+        lines = ((f"mean.{name}", "mean", mean), (f"lower.{name}", "mean less one standard deviation", mean - sigma),
+                 (f"upper.{name}", "mean and one standard deviation", mean + sigma))
+        yield Response(name, f"{name}: mean and standard deviation", tuple(Column(c, unit, f"{what}, {told}", y) for c, told, y in lines))
+        alone = Column(f"sigma.{name}", unit, f"{what}, standard deviation", sigma)
+        yield Response(alone.name, f"{name}: standard deviation", (alone,))
+    if arranged.study.check_names:
+        shares = np.array([_all(0, case)[4] for case in arranged.passing[:, arranged.sample]])
+        yield Response("yield", "Yield", (Column("yield", "-", "share of the cases that pass every check", shares),))
+
+
+# -- corners -------------------------------------------------------------------------------------------------------------------
+
+
+def worst_case(arranged):
+    """`Part` of the corners: table `worst_case` of all values and of the margins of all checks."""
+    block = arranged.block("corners")
+    if block is None:
+        return Part()
+    names = (*arranged.study.value_names, *(CHECK + name for name in arranged.study.check_names))
+    rows = [(number, name, arranged.study.unit(name), *ends) for name in names
+            for number, ends in enumerate(_ends(case) for case in arranged.of(name)[:, block]) if ends[2]]
+    if not rows:
+        return Part()
+    table = table_of_rows("worst_case", "Worst case: every key at an end", WORST, rows, arranged)
+    return Part(dict(_worst_values(arranged, rows)) if arranged.combinations == 1 else {}, (table,))
+
+
+def _ends(case):
+    ordered = finite(case)
+    return (float(ordered[0]), float(ordered[-1]), len(ordered)) if len(ordered) else (np.nan, np.nan, 0)
+
+
+def _worst_values(arranged, rows):
+    for _, name, unit, least, greatest, _ in rows:
+        what = arranged.study.meaning(name) or name
+        yield f"worst_case.least.{name}", Value(least, unit, f"{what}: least at the corners")
+        yield f"worst_case.greatest.{name}", Value(greatest, unit, f"{what}: greatest at the corners")

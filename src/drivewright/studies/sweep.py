@@ -1,0 +1,95 @@
+"""A study from its plan to its rows: `sweep(spec)` computes what is not there yet and keeps it."""
+
+from contextlib import closing
+from pathlib import Path
+
+from drivewright.cases import worker_count
+from drivewright.errors import InputError
+from drivewright.runner import versions
+from drivewright.spec.writing import canonical_text
+from drivewright.studies import store
+from drivewright.studies.batches import Supply, compute
+from drivewright.studies.evaluate import evaluate, failed, task_of, with_compiled
+from drivewright.studies.plan import plan_of
+from drivewright.studies.pools import Here, pool
+from drivewright.studies.study import STATUS, Study
+from drivewright.studies.varying import varied
+
+MANY = 200_000  # cases that want a confirmation
+WORTH_HELP = 3.0  # seconds: other processes need one or two to start
+
+
+def sweep(spec, vary=None, *, out=None, workers=None, on=None, confirmed=True, progress=None):
+    """`Study` of a spec: one row for every case of its [study], or of `vary` {key: levels or distribution}, see `varying`.
+
+    `out` is the folder it lives in: what is there already is not computed again, and a study stopped in any way goes on where it was.
+    None keeps it in memory.  `workers` processes (None: one per core); `on` names another place to compute, see `pools.pool`.  Neither
+    changes a bit of any row.  `progress(done, total, what)` is called after each batch.  Ctrl-C, also from `progress`, returns what is
+    there, `interrupted`.
+    """
+    spec = spec if vary is None else varied(spec, vary)
+    plan = plan_of(spec)
+    if len(plan) > MANY and not confirmed:
+        raise InputError(f"{len(plan)} cases are more than {MANY}; say --yes if you mean it, or take fewer levels or samples")
+    task = task_of(spec, plan.keys)
+    kept = store.Folder(out, spec, identity(spec, plan)) if out is not None else store.Memory()
+    with closing(kept):
+        interrupted = _fill(kept, task, plan, workers, on, progress or (lambda done, total, what: None))
+        return Study(spec, plan, store.joined(kept.tables()), kept.folder, kept.seconds, kept.remarks(), interrupted)
+
+
+def open_study(folder):
+    """`Study` of a folder as far as it has come; another process may be at work on it."""
+    spec, tables, seconds, remarks = store.opened(folder)
+    return Study(spec, plan_of(spec), store.joined(tables), Path(folder).resolve(), seconds, remarks)
+
+
+def identity(spec, plan):
+    """What must stay the same between two starts of a study, {what: text}."""
+    return {"spec": spec.digest(), "study": canonical_text(spec.study), "plan": plan.digest, "drivewright": versions()["drivewright"]}
+
+
+def _fill(kept, task, plan, workers, on, progress):
+    """Compute what is missing; whether it was interrupted."""
+    total, done, trouble = len(plan), sum(count for _, count in kept.ranges()), 0
+    if done == total:
+        return False
+    task, remarks = with_compiled(task, plan)
+    kept.remark(remarks)
+    supply = Supply(kept.ranges(), total, worker_count(workers))
+    progress(done, total, "")
+    try:
+        with closing(_computed(task, plan, supply, workers, on)) as each:
+            for batch, table, seconds, reason in each:
+                table = failed(task, batch.first, plan.cases(batch.first, batch.stop), reason) if reason else table
+                kept.add(batch.first, table, seconds)
+                done, trouble = done + table.num_rows, trouble + _incomplete(table)
+                progress(done, total, f"{trouble} not complete" if trouble else "")
+    except KeyboardInterrupt:
+        return True
+    return False
+
+
+def _computed(task, plan, supply, workers, on):
+    """A `Done` for every batch.  Where nobody says who is to compute, this process begins, and has help when it would take long alone."""
+
+    def arguments(batch):
+        return task, batch.first, plan.cases(batch.first, batch.stop)
+
+    if workers is None and on is None:
+        yield from _by((Here(),), arguments, supply, lambda: supply.expected is not None and supply.expected > WORTH_HELP)
+    if supply:
+        yield from _by(pool(workers, on), arguments, supply)
+
+
+def _by(lanes, arguments, supply, enough=lambda: False):
+    """The same by given lanes, which are let go at the end."""
+    try:
+        yield from compute(lanes, evaluate, arguments, supply, enough)
+    finally:
+        for lane in lanes:
+            lane.close()
+
+
+def _incomplete(table):
+    return sum(status != "complete" for status in table[STATUS].to_pylist())

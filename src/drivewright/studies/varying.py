@@ -1,0 +1,125 @@
+"""How to say what varies: from Python, and as on the command line."""
+
+import re
+
+import numpy as np
+
+from drivewright.errors import SpecError, brief
+from drivewright.spec import Study, Vary, document, read_value
+
+FORMS = {"normal": ("mean", "sigma", "lower", "upper"), "uniform": ("lower", "upper"), "triangular": ("lower", "mode", "upper")}
+LEAST = {"normal": 2, "uniform": 2, "triangular": 3}
+HOW = ("KEY=FROM:TO:STEPS (add :log for equal ratios), KEY=V1,V2,... , KEY=FROM:TO or KEY=uniform(FROM, TO), KEY=normal(MEAN, SIGMA), "
+       "KEY=triangular(FROM, PEAK, TO), KEY=+-TOLERANCE")
+
+
+def linspace(lower, upper, steps):
+    """So many equal steps from `lower` to `upper`, both with their unit: levels of a key."""
+    return {"lower": lower, "upper": upper, "steps": steps}
+
+
+def geomspace(lower, upper, steps):
+    """So many levels from `lower` to `upper` with equal ratios."""
+    return {"lower": lower, "upper": upper, "steps": steps, "spacing": "logarithmic"}
+
+
+def uniform(lower, upper):
+    """Evenly distributed from `lower` to `upper`."""
+    return {"distribution": "uniform", "lower": lower, "upper": upper}
+
+
+def normal(mean, sigma, lower=None, upper=None):
+    """Normally distributed, cut off at `lower` and `upper` where given."""
+    ends = {"lower": lower, "upper": upper}
+    return {"distribution": "normal", "mean": mean, "sigma": sigma} | {side: end for side, end in ends.items() if end is not None}
+
+
+def triangular(lower, mode, upper):
+    """Distributed in a triangle with its peak at `mode`."""
+    return {"distribution": "triangular", "lower": lower, "mode": mode, "upper": upper}
+
+
+def tolerance(half_width, distribution="normal"):
+    """Within `half_width` of the spec's own value; normal: three standard deviations."""
+    return {"distribution": distribution, "tolerance": half_width}
+
+
+def varied(spec, vary, **settings):
+    """A spec whose [study] varies {key: what}: a list of levels, or what the functions above give; `settings` are further keys of it.
+
+    "key + other" are keys that always have the same value.
+    """
+    entries = tuple(_entry(key, what if isinstance(what, dict) else {"values": _plain(what)}) for key, what in vary.items())
+    kept = document(spec.study) if spec.study else {}
+    if entries:
+        kept = {name: value for name, value in kept.items() if name != "points"} | {"vary": [document(entry) for entry in entries]}
+    return spec.model_copy(update={"study": Study(**(kept | settings))})
+
+
+def _entry(keys, what):
+    key, *also = (part.strip() for part in keys.split("+"))
+    return Vary(key=key, also=tuple(also), **what)
+
+
+def asked(spec, texts=(), points=None, **settings):
+    """A spec whose [study] is what the command line asks for: `texts` as in `from_text`, a file of points, settings that are not None."""
+    given = {name: value for name, value in settings.items() if value is not None}
+    if points is not None:
+        given["points"] = str(points)
+    vary = {}
+    for key, what in map(from_text, texts):
+        if key in vary:
+            raise SpecError(f"--vary {key} is given twice; give its levels in one list")
+        vary[key] = what
+    changed = varied(spec, vary, **given) if vary or given else spec
+    if settings.get("samples") is not None and not any(each.steps is None and not each.values for each in changed.study.vary):
+        raise SpecError(f"--sample {settings['samples']}: nothing has a distribution to sample from; give --vary KEY=FROM:TO or "
+                        "KEY=normal(MEAN, SIGMA) or KEY=+-TOLERANCE")
+    return changed
+
+
+def _plain(levels):
+    """Levels as a tuple of what a spec file could say."""
+    if isinstance(levels, (str, bytes)) or not hasattr(levels, "__iter__"):
+        raise SpecError(f"wants a list of levels, or linspace, normal ..., got {brief(levels)}", "study.vary")
+    return tuple(level.item() if isinstance(level, np.generic) else level for level in levels)
+
+
+def from_text(text):
+    """(key, what) of "key=from:to:steps" and the other ways of the command line."""
+    key, equals, said = (part.strip() for part in text.partition("="))
+    if not equals or not key or not said:
+        raise SpecError(f"--vary wants {HOW}; got {brief(text)}")
+    if form := re.fullmatch(r"(\w+)\s*\((.*)\)", said):
+        return key, _distribution(form[1], [_bound(part) for part in form[2].split(",")], text)
+    if sign := re.fullmatch(r"(?:\+-|\+/-|±)\s*(.+)", said):
+        return key, tolerance(_bound(sign[1]))
+    parts = [part.strip() for part in said.split(":")]
+    if len(parts) == 2:
+        return key, uniform(*map(_bound, parts))
+    if len(parts) in (3, 4):
+        return key, _range(parts, text)
+    if len(parts) > 1:
+        raise SpecError(f"--vary wants {HOW}; got {brief(text)}")
+    return key, [read_value(part) for part in said.split(",") if part.strip()]
+
+
+def _range(parts, text):
+    if not parts[2].isdecimal() or not int(parts[2]):
+        raise SpecError(f"--vary {text}: the number of steps must be a whole number from 1 up, got {brief(parts[2])}")
+    if len(parts) == 4 and parts[3] != "log":
+        raise SpecError(f"--vary {text}: behind the steps only :log can stand, got {brief(parts[3])}")
+    return (geomspace if len(parts) == 4 else linspace)(_bound(parts[0]), _bound(parts[1]), int(parts[2]))
+
+
+def _distribution(name, numbers, text):
+    if name not in FORMS:
+        raise SpecError(f"--vary {text}: no distribution is called {name!r}; known: {', '.join(FORMS)}")
+    if not LEAST[name] <= len(numbers) <= len(FORMS[name]):
+        raise SpecError(f"--vary {text}: {name} wants ({', '.join(FORMS[name][: LEAST[name]])}), got {len(numbers)} numbers")
+    return {"distribution": name, **dict(zip(FORMS[name], numbers, strict=False))}
+
+
+def _bound(text):
+    """A bound as TOML has it: a number, or a quantity as text."""
+    return read_value(text.strip())
