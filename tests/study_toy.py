@@ -61,7 +61,7 @@ def answer(spec, done):
         time.sleep(PATIENCE)
     values = {"size": Value(spec.size, "m", "size again"), "area": Value(spec.size**2, "m^2", "size squared")}
     if spec.count == GIVES_UP:
-        raise SolverError("7 steps were not enough; raise max_steps", Answer(values=values))
+        raise SolverError("7 steps were not enough; raise max_steps", Answer(values=values, findings=("half of it is done",)))
     values["root"] = Value(math.sqrt(spec.ratio) if spec.ratio >= 0 else math.nan, "-", "square root of ratio")
     if spec.flag:
         values["bonus"] = Value(1.0 + spec.count, "-", "only with the flag")
@@ -85,8 +85,8 @@ TOY = Mechanism(
 
 
 def exact(spec, keys, names):
-    """A compiled route for size and ratio that gives the numbers of a run."""
-    return _batch(spec, keys, names, 1.0)
+    """A compiled route for size and ratio that gives the numbers of a run, up to rounding."""
+    return _batch(spec, keys, names, 1 + 1e-11)
 
 
 def rough(spec, keys, names):

@@ -43,8 +43,8 @@ class Mechanism:
     `build(spec)` gives the model; `analyses` ask it; `scene(model)`, `plots` (or `plots(result)`, where they depend on it),
     `drawings(model)` and `parts(model)` show it;
     `verify(model, result)` re-computes it on an independent route; `batch(spec, keys, names)` gives a fast evaluation of many designs
-    (n, keys) in SI -> {name: (n,)} for values, and checks as `check.NAME` (their margins), or None where it does not cover them; a design that
-    it cannot speak for is nan in every name.
+    (n, keys) in SI -> {name: (n,)} for values, and checks as `check.NAME` (their margins), or None where it does not cover them; a design
+    that it cannot speak for is nan in every name.
     `folder` holds `presets/*.toml` and `theory.md`.
     """
 

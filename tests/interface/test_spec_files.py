@@ -198,7 +198,7 @@ BASE = 'mechanism = "toy"\nlength = "40 mm"\n'
 @pytest.mark.parametrize(
     ("text", "key", "wanted"),
     [
-        ("lenth = 1", "lenth", "unknown key (did you mean 'length'?); known here: format, mechanism, title, optimise, study, length, tilt,"),
+        ("lenth = 1", "lenth", "unknown key (did you mean 'length'?); known here: format, mechanism, title, optimise, study, length,"),
         ("DRIVE = {}", "DRIVE", "unknown key (did you mean 'drive'?)"),
         ("zzz = 1", "zzz", "unknown key; known here: format,"),
         ('"" = 1', '""', "unknown key; known here: format,"),

@@ -129,7 +129,7 @@ def test_several_objectives_too(counted):
 def test_the_folder_holds_every_evaluation_with_units_and_reasons(tmp_path, undisturbed):
     found = dw.optimise(cam(), out=tmp_path / "o", on="serial")
     assert same(found, undisturbed) and found.folder == (tmp_path / "o").resolve()
-    _, tables, _, _ = store.opened(found.folder)
+    _, tables, *_ = store.opened(found.folder)
     table = store.joined(tables)
     assert table.equals(found.table) and table.num_rows == found.evaluations
     units = {field.name: field.metadata[b"unit"].decode() for field in table.schema}
@@ -220,7 +220,7 @@ def test_another_search_in_the_folder_is_refused_with_the_difference(tmp_path):
 
 def test_a_sweep_and_a_search_do_not_share_a_folder(tmp_path):
     sweep(cam(), {"follower.prime_radius": ["30 mm", "40 mm"]}, out=tmp_path, on="serial")
-    with pytest.raises(InputError, match="holds another study; study.method: latin-hypercube there, not given here"):
+    with pytest.raises(InputError, match="holds another study; search: not given there, differential-evolution here"):
         dw.optimise(cam(), out=tmp_path)
 
 

@@ -11,6 +11,7 @@ from scipy.stats import norm
 
 import drivewright as dw
 from drivewright.errors import UnknownName
+from drivewright.report.study import varied
 from drivewright.spec import document, from_document
 from drivewright.studies.answers import answers
 from drivewright.studies.plan import plan_of
@@ -179,6 +180,16 @@ def test_whole_numbers_are_an_axis_and_flags_are_words():
     assert read == {(19, "true"): 119, (21, "true"): 121, (23, "true"): 123, (19, "false"): 19, (21, "false"): 21, (23, "false"): 23}
 
 
+def test_keys_with_the_same_value_are_one_axis_and_the_report_names_them_all():
+    tied = [{"key": ROLLER, "also": [PRIME, "manufacture.bore"], "values": ["6 mm", "7 mm"]}, LEVELS]
+    study = made(spec_of(tied), y=lambda c: c[ROLLER] + c[PRIME] + c[FORCE])
+    found = answers(study)
+    consistent(found)
+    assert [column.name for column in found.result.tables["response"].columns] == [ROLLER, FORCE, "y"]
+    assert [row["y"] for row in rows(found.result, "response")] == pytest.approx([f + 2 * r for r in (6e-3, 7e-3) for f in (10, 20, 40)])
+    assert [varied(each)[0] for each in study.plan.variables] == [f"{ROLLER}, also {PRIME}, manufacture.bore", FORCE]
+
+
 def test_words_as_levels_become_a_column_of_words():
     result, plots = answers(made(spec_of([STEEL]), y=lambda c: np.arange(2.0)))
     assert [row["material"] for row in rows(result, "response")] == ["16MnCr5", "42CrMo4"]
@@ -272,17 +283,91 @@ def consistent(found):
     result.record()
 
 
+# -- files of points -----------------------------------------------------------------------------------------------------------
+
+
+def from_file(path, lines, vary=()):
+    """A spec whose study is a file of points, crossed with levels."""
+    path.write_text("\n".join(lines), encoding="utf-8")
+    return spec_of(list(vary), points=str(path))
+
+
 def test_a_file_of_points_is_a_sample_with_its_numbers_and_words(tmp_path):
     rng = np.random.default_rng(1)
     lines = [f"{ROLLER} [mm],load.force [N],material"] + [f"{r},{f},{s}" for r, f, s in zip(
         rng.uniform(6, 9, 50), rng.uniform(10, 20, 50), ["16MnCr5", "42CrMo4"] * 25, strict=True)]
-    (tmp_path / "points.csv").write_text("\n".join(lines))
-    spec = from_document(SPEC | {"study": {"points": str(tmp_path / "points.csv")}})
-    found = answers(made(spec, y=lambda c: c[ROLLER] * 1e3 + c[FORCE]))
+    found = answers(made(from_file(tmp_path / "points.csv", lines), y=lambda c: c[ROLLER] * 1e3 + c[FORCE]))
     consistent(found)
     shares = {row["key"]: row["share"] for row in rows(found.result, "contributions", value="y")}
     assert set(shares) == {ROLLER, FORCE} and sum(shares.values()) == pytest.approx(1.0, abs=0.3)
     assert {row["method"] for row in rows(found.result, "contributions")} == {"regression"}
+    assert found.result.tables["sample"].title == "The points of the file"
+    assert any("taken as a random sample" in text for text in found.result.findings)
+
+
+DESIGNED = [(steel, r, p) for steel in ("42CrMo4", "C45", "16MnCr5") for r in (6, 7, 9) for p in (40, 50)]
+HEAD = f"material,{ROLLER} [mm],{PRIME} [mm],manufacture.bore [mm],{FORCE} [N]"  # the bore as the roller, the force from all the others
+
+
+def designed(points):
+    return [HEAD, *(f"{steel},{r},{p},{r},{r * p + (5 if steel == '16MnCr5' else 0)}" for steel, r, p in points)]
+
+
+HARD = {"42CrMo4": 1e-3, "C45": 5e-4, "16MnCr5": 0.0}
+
+
+def bent(cases):
+    return cases[ROLLER] * cases[PRIME] + np.array([HARD[steel] for steel in cases["material"]])
+
+
+def test_a_file_with_all_combinations_is_a_grid_in_whatever_order_its_lines_stand(tmp_path):
+    points = [DESIGNED[n] for n in np.random.default_rng(0).permutation(len(DESIGNED))]
+    assert list(dict.fromkeys(steel for steel, _, _ in points)) == ["42CrMo4", "C45", "16MnCr5"]  # by the alphabet it would be 1, 2, 0
+    study = made(from_file(tmp_path / "points.csv", designed(points)), y=bent, check_a=lambda c: c[PRIME] - 0.045)
+    found = answers(study)
+    consistent(found)
+    result, plots = found
+    assert set(result.tables) == {"range", "response.1", "response.2", "response.3"} and {plot.style for plot in plots} == {"map", "line"}
+    assert not any("sample" in text for text in result.findings)
+    assert not any(name.startswith(("mean.", "sigma.", "yield")) for name in result.values)
+    told = f"all combinations of the levels of material, {ROLLER}, {PRIME}; these decide manufacture.bore, {FORCE}, so they are answered"
+    assert any(told in text for text in result.findings)
+    for number, steel in enumerate(dict.fromkeys(steel for steel, _, _ in points), 1):
+        told = rows(result, f"response.{number}")
+        assert [(row[ROLLER], row[PRIME]) for row in told] == [pytest.approx((r * 1e-3, p * 1e-3)) for r in (6, 7, 9) for p in (40, 50)]
+        expected = [r * p * 1e-6 + HARD[steel] for r in (6, 7, 9) for p in (40, 50)]
+        assert [row["y"] for row in told] == pytest.approx(expected) and [row["checks.failing"] for row in told] == [1, 0] * 3
+        assert steel in {plot.name: plot for plot in plots}[f"map.y.{number}"].title
+    row = rows(result, "range", value="y")[0]
+    assert points[row["greatest.case"]] == ("42CrMo4", 9, 50) and points[row["least.case"]] == ("16MnCr5", 6, 40)
+    assert result.provenance["plan"] == study.plan.digest
+
+
+def test_such_a_file_crossed_with_levels_and_not_yet_whole(tmp_path):
+    laws = {"key": "programme.0.law", "values": ["cycloidal", "modified-sine"]}
+    spec = from_file(tmp_path / "points.csv", designed(DESIGNED[:6][::-1]), [laws])
+    study = made(spec, y=lambda c: bent(c) + np.where(c["programme.0.law"] == "cycloidal", 0, 1), keep=lambda case: case != 2)
+    result, _ = answers(study)
+    for number in (1, 2):
+        told = [row["y"] for row in rows(result, f"response.{number}")]
+        expected = [r * p * 1e-6 + 1e-3 + number - 1 for r in (6, 7, 9) for p in (40, 50)]
+        assert told == pytest.approx([np.nan if (number, n) == (1, 3) else each for n, each in enumerate(expected)], nan_ok=True)
+    assert rows(result, "range", value="y")[0]["greatest.case"] == 6 and result["cases.missing"] == 1
+
+
+@pytest.mark.parametrize("points", [DESIGNED[:-1], [*DESIGNED, DESIGNED[0]], [*DESIGNED[:-1], DESIGNED[0]], [("42CrMo4", 6, 40)]],
+                         ids=["one less", "one twice", "one for another", "alone"])
+def test_what_lacks_a_combination_is_no_grid(tmp_path, points):
+    result, _ = answers(made(from_file(tmp_path / "points.csv", designed(points)), y=bent))
+    assert "range" not in result.tables and len(rows(result, "tolerance", value="y")) == 1
+
+
+def test_words_alone_do_not_make_a_grid_of_numbers(tmp_path):
+    """Four roller radii, each with another pair of words: the words do not decide the radius."""
+    lines = [f"{ROLLER} [mm],material,programme.0.law"] + [f"{r},{steel},{law}" for r, (steel, law) in zip(
+        (6.1, 7.3, 8.8, 6.7), [(a, b) for a in ("16MnCr5", "42CrMo4") for b in ("cycloidal", "modified-sine")], strict=True)]
+    result, _ = answers(made(from_file(tmp_path / "points.csv", lines), y=lambda c: c[ROLLER]))
+    assert "range" not in result.tables and rows(result, "tolerance", value="y")[0]["least"] == pytest.approx(6.1e-3)
 
 
 def test_values_that_do_not_vary_are_named_and_not_drawn():

@@ -121,6 +121,12 @@ def test_a_longer_sample_continues_a_shorter_one(method):
     assert np.array_equal(long[:16], short)
 
 
+@pytest.mark.parametrize("edge", [0.0, 1.0])
+def test_a_sobol_point_on_the_edge_of_the_cube_is_not_infinitely_far(monkeypatch, edge):
+    monkeypatch.setattr(stats.qmc.Sobol, "random", lambda self, n: np.full((n, self.d), edge))
+    assert np.all(np.isfinite(plan(RANDOM, method="sobol", samples=2).points))
+
+
 def test_random_points_are_independent():
     unit = quantiles(plan(RANDOM, method="random", samples=2000).points)
     assert all(stats.kstest(column, "uniform").pvalue > 0.01 for column in unit.T)

@@ -23,7 +23,7 @@ def main(arguments=None):
     except DrivewrightError as error:
         sys.exit(_complain(error))
     except (KeyboardInterrupt, *_aborts()):
-        print("interrupted; what was finished before is on disk, the same command starts again", file=sys.stderr)
+        print("interrupted; what was finished before is kept, and the same command goes on", file=sys.stderr)
         sys.exit(INTERRUPTED)
     except BrokenPipeError:
         sys.stderr.close()

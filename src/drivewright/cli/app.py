@@ -173,6 +173,8 @@ def table(
 
     with show.located(study):
         opened = open_study(study)
+        if not opened.complete:
+            show.note(f"note: {len(opened)} of {len(opened.plan)} cases are there; the same sweep again goes on")
         for form in _names(to):
             print(write_study_table(opened, (out or study) / f"table.{form}"))
 

@@ -10,7 +10,6 @@ from pathlib import Path
 from drivewright import registry, units
 from drivewright.errors import InputError, MissingExtra, SpecError
 
-
 MOST_ROWS = 12  # of a study's values
 
 
@@ -142,7 +141,7 @@ def study(found, answers=None):
     """How the cases of a study ended, between which ends its headline values lie, and the yield where the answers have one."""
     import numpy as np
 
-    names = registry.headlines(registry.mechanism(found.spec.mechanism), dict.fromkeys(found.value_names))
+    names = _shown(found)
     ends = {name: column[np.isfinite(column)] for name in names for column in [found[name]]}
     told = {name: column for name, column in ends.items() if len(column)}
     rows = [(name, *(number(end, found.unit(name)) for end in (column.min(), column.max())), found.meaning(name))
@@ -151,7 +150,7 @@ def study(found, answers=None):
     table(title, (("value", "left"), ("least", "right"), ("greatest", "right"), ("meaning", "left")), rows)
     if answers and "yield" in answers.result.values:
         share, low, high = (answers.result.values[name].value for name in ("yield", "yield.low", "yield.high"))
-        print(f"yield {share:.1%} of the cases pass every check ({low:.1%} to {high:.1%} with 95% confidence)")
+        print(f"yield: {share:.1%} of the random cases pass every check ({low:.1%} to {high:.1%} with 95% confidence)")
     if len(told) > len(rows):
         note(f"{len(told) - len(rows)} more values in the report and in the study's table")
     reasons = Counter(text for text, status in zip(found["message"], found["status"], strict=True) if status != "complete")
@@ -159,6 +158,14 @@ def study(found, answers=None):
         note(f"note: {count} x {reason}")
     for remark in (*found.plan.remarks, *found.remarks):
         note(f"note: {remark}")
+
+
+def _shown(study):
+    """The values asked for, or the headline; those that vary first."""
+    asked = study.spec.study.values if study.spec.study else ()
+    names = asked or registry.headlines(registry.mechanism(study.spec.mechanism), dict.fromkeys(study.value_names))
+    known = [name for name in names if name in study.table.column_names]
+    return sorted(known, key=lambda name: len(set(study[name][:1000].tolist())) == 1)
 
 
 def comparison(rows):

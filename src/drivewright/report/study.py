@@ -144,12 +144,13 @@ def _cells(column, named):
 
 
 def varied(variable):
-    """(key, levels or distribution, nominal value) as people read them."""
+    """(key and those that go with it, levels or distribution, nominal value) as people read them."""
     if variable.levels is not None:
         over = _levels(variable)
     else:
         over = _distribution(variable) if variable.distribution is not None else "the points of a file"
-    return variable.key, over, "" if variable.nominal is None else _text(variable, variable.nominal)
+    key = variable.key + (f", also {', '.join(variable.also)}" if variable.also else "")
+    return key, over, "" if variable.nominal is None else _text(variable, variable.nominal)
 
 
 def _text(variable, value):

@@ -18,7 +18,7 @@ class Vary(Spec):
     values: tuple[PlainValue, ...] = Field((), description="its levels, one by one")
     lower: Bound | None = Field(None, description="least level, or where the distribution ends")
     upper: Bound | None = Field(None, description="greatest level, or where the distribution ends")
-    steps: Integer | None = Field(None, ge=1, description="number of levels from lower to upper")
+    steps: Integer | None = Field(None, ge=1, le=100_000_000, description="number of levels from lower to upper")
     spacing: Literal["linear", "logarithmic"] = Field("linear", description="of the levels")
     distribution: Literal["normal", "uniform", "triangular"] | None = Field(
         None, description="normal where sigma or tolerance is given, else uniform from lower to upper, unless said")

@@ -49,6 +49,7 @@ def _parts(arranged):
     if not len(arranged.study):
         return
     if not (len(arranged.sample) or arranged.plan.blocks):
+        yield Part(findings=_read_as_levels(arranged))
         yield maps.ranges(arranged)
         yield maps.surveyed(arranged, maps.responses(arranged))
         return
@@ -59,6 +60,16 @@ def _parts(arranged):
     if arranged.combinations > 1:
         over_grid = (*(spread.responses(arranged) if len(arranged.sample) else ()), *causes.responses(arranged))
         yield maps.surveyed(arranged, over_grid)
+
+
+def _read_as_levels(arranged):
+    """What a file of points turned out to be."""
+    listed_keys = [variable.key for variable in arranged.study.plan.listed]
+    if listed_keys:
+        axes = [variable.key for variable in arranged.plan.grid if variable.key in listed_keys]
+        others = [key for key in listed_keys if key not in axes]
+        yield (f"the points of the file are all combinations of the levels of {listed(axes)}"
+               + (f"; these decide {listed(others)}" if others else "") + ", so they are answered as a grid")
 
 
 def _assumptions(arranged):
@@ -91,7 +102,7 @@ def _shown(study, values):
 
 
 def _sizes(study, names):
-    """Unit -> greatest magnitude of all values of that unit, beside which rounding is judged; 0 for pure numbers, which are of many kinds."""
+    """{unit: greatest magnitude of its values}, beside which rounding is judged; 0 for pure numbers, which are of many kinds."""
     sizes = {"-": 0.0}
     for name in names:
         if study.unit(name) == "-":

@@ -10,7 +10,7 @@ from drivewright.errors import InputError
 TARGET, LEAST = 1.5, 0.5  # seconds that a batch should take, and below which no batch is split for the sake of an even end
 GROWTH = 8  # a batch may have so many times the cases of the one before: the first ones compile
 LARGEST = 200_000  # cases of a batch: what is held in memory on its way
-TRIES = 3  # a batch whose worker dies is taken again, twice
+TRIES = 3  # a batch whose worker dies is taken again, twice; then its halves once each, until the deadly case is alone
 LOOK = 1.0  # seconds between two looks at the pool
 
 
@@ -39,7 +39,7 @@ class Supply:
         self._gaps = deque(gaps(ranges, total))
         self._left = sum(stop - first for first, stop in self._gaps)
         self._again = deque()
-        self._workers, self._size, self._least, self.expected = workers, 1, 1, None
+        self.workers, self._size, self._least, self.expected = workers, 1, 1, None
 
     def __bool__(self):
         return bool(self._again or self._gaps)
@@ -49,7 +49,7 @@ class Supply:
         if self._again:
             return self._again.popleft()
         first, stop = self._gaps.popleft()
-        share = math.ceil(self._left / (2 * self._workers))
+        share = math.ceil(self._left / (2 * self.workers))
         end = min(stop, first + min(self._size, max(self._least, share)))
         if end < stop:
             self._gaps.appendleft((end, stop))
@@ -88,9 +88,9 @@ def compute(lanes, function, arguments, supply, enough=lambda: False):
     """
     waiting = {}  # future -> (lane, batch), in the order of their submission
     while waiting or (supply and not enough()):
-        for lane in lanes if supply.expected is not None else lanes[:1]:
-            room = (lane.capacity if supply.expected is not None else 1) - sum(at is lane for at, _ in waiting.values())
-            for _ in range(room):
+        begun = supply.expected is not None
+        for lane in lanes if begun else lanes[:1]:
+            for _ in range((lane.capacity if begun else 1) - sum(at is lane for at, _ in waiting.values())):
                 if supply and not enough():
                     batch = supply.next()
                     waiting[lane.submit(function, *arguments(batch))] = lane, batch
@@ -141,11 +141,15 @@ def _buried(lane, death, waiting, supply):
     blamed = lost[0]._replace(deaths=lost[0].deaths + 1)
     if blamed.deaths < TRIES:
         supply.again(blamed)
+    elif blamed.stop - blamed.first > 1:
+        middle = (blamed.first + blamed.stop) // 2
+        supply.again(Batch(middle, blamed.stop, TRIES - 1))
+        supply.again(Batch(blamed.first, middle, TRIES - 1))
     else:
-        yield Done(blamed, reason=f"the process that computed this batch died {TRIES} times (of memory, or killed from outside)")
+        yield Done(blamed, reason=f"the process that computed this case died {TRIES} times (of memory, or killed from outside)")
 
 
 def _refuse_loss(lanes):
-    if not all(lane.alive() for lane in lanes):
-        raise InputError("the scheduler has gone away; every case that was finished before is kept. Start it again and give the same "
-                         "command, or go on without it (leave --on out)")
+    for trouble in filter(None, (lane.trouble() for lane in lanes)):
+        raise InputError(f"{trouble}; every case that was finished before is kept. Start it again and give the same command, or go on "
+                         "without it (leave --on out)")

@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright import registry, runner
-from drivewright.errors import DrivewrightError, InputError
+from drivewright.errors import DrivewrightError, InputError, SpecError, UnknownName
 from drivewright.spec import document, from_document, set_key
-from drivewright.studies.study import CASE, CHECK, MESSAGE, STATUS
+from drivewright.studies.study import CASE, CHECK, MESSAGE, STATUS, first_fields
 from drivewright.studies.variables import kind_of
 
 LONGEST = 2000  # characters of a message
@@ -73,9 +73,10 @@ def with_compiled(task, plan):
         return task, ()
     runs += [direct.case(columns, n) for n in range(1, len(places))]
     about = {name: tuple(value[1:]) for run in runs for name, value in run.values.items()}
-    compiled = task._replace(compiled=tuple((name, *about[name]) for name in about))
-    if not about or offer(direct.spec, task.keys, tuple(about)) is None:
+    whole = all(run.status == "failed" or (run.status == "complete" and not run.message) for run in runs)
+    if not about or not whole or offer(direct.spec, task.keys, tuple(about)) is None:
         return task, ()
+    compiled = task._replace(compiled=tuple((name, *about[name]) for name in about))
     off = _difference(runs, _working(compiled).many(columns))
     if off <= ROUNDING:
         return compiled, ()
@@ -92,19 +93,33 @@ ROUNDING = 1e-9
 def _difference(runs, many):
     """Greatest difference of two routes, relative to the size of each value; what one of them lacks counts as all."""
     worst = 0.0
+    silent = np.all([~np.isfinite(column) for column in many.values()], axis=0)  # these are run in any case
     for n, run in enumerate(runs):
-        for name, column in many.items():
+        for name, column in () if silent[n] else many.items():
             value = run.values.get(name, (np.nan,))[0]
             if np.isfinite(value) or np.isfinite(column[n]):
                 off = abs(column[n] - value) / max(abs(value), 1e-300) if column[n] != value else 0.0
-                worst = max(worst, off if np.isfinite(off) else 1.0 if run.values else worst)
+                worst = max(worst, off if np.isfinite(off) else 1.0)
     return float(worst)
 
 
+def refuse_unknown(task, plan):
+    """SpecError for a value to keep that the first case does not have, where that case is complete."""
+    if task.names and len(plan):
+        found = _working(task._replace(names=())).case(plan.cases(0, 1), 0)
+        for name in task.names:
+            if found.status == "complete" and name not in found.values:
+                raise SpecError(str(UnknownName("value of the first case", name, found.values)), "study.values")
+
+
 def evaluate(task, first, columns):
-    """(pyarrow.Table, seconds) of the cases from number `first` on, `columns` {key: values in SI}."""
+    """(pyarrow.Table, seconds) of the cases from number `first` on, `columns` {key: values in SI}; one thread in the libraries, whose
+    number of threads may change the bits of a matrix product."""
+    from threadpoolctl import threadpool_limits
+
     started = time.perf_counter()
-    table = _working(task).table(first, columns)
+    with threadpool_limits(1):
+        table = _working(task).table(first, columns)
     return table, time.perf_counter() - started
 
 
@@ -115,6 +130,7 @@ def failed(task, first, columns, reason):
 
 
 def _working(task):
+    """The `Working` of a task; found by its bytes, so that a copy that came from another process is known again."""
     return _of_pickle(_pickled(task))
 
 
@@ -153,31 +169,43 @@ class Working:
         count = len(next(iter(columns.values())))
         if self.batch is None:
             return _table(first, columns, self.kinds, *_gathered([self.case(columns, n) for n in range(count)]))
-        values = self.many(columns)
+        values, about = self.many(columns), dict(self.about)
         silent = np.flatnonzero(np.all([~np.isfinite(column) for column in values.values()], axis=0))
-        alone = {int(n): self.case(columns, n) for n in silent}
-        for name, column in values.items():
-            for n, found in alone.items():
-                column[n] = found.values.get(name, (np.nan,))[0]
         statuses, messages = ["complete"] * count, [""] * count
-        for n, found in alone.items():
+        for n in silent.tolist():
+            found = self.case(columns, n)
             statuses[n], messages[n] = found.status, found.message
-        return _table(first, columns, self.kinds, values, self.about, statuses, messages)
+            for name, (value, *more) in found.values.items():
+                about.setdefault(name, tuple(more))
+                values.setdefault(name, np.full(count, np.nan))[n] = value
+        return _table(first, columns, self.kinds, values, about, statuses, messages)
 
     def many(self, columns):
         """{name: (n,)} by the mechanism's compiled route."""
-        found = self.batch(np.stack([np.asarray(columns[key], float) for key in self.task.keys], axis=1))
+        found = self._by_batch(np.stack([np.asarray(columns[key], float) for key in self.task.keys], axis=1))
         return {name: np.array(found[name], float) for name in self.about}
+
+    def _by_batch(self, designs):
+        """The same of designs (n, d); a design that it stumbles over is nan, and the others have their numbers."""
+        try:
+            return self.batch(designs)
+        except Exception:
+            if len(designs) == 1:
+                return dict.fromkeys(self.about, np.array([np.nan]))
+            halves = [self._by_batch(half) for half in np.array_split(designs, 2)]
+            return {name: np.concatenate([half[name] for half in halves]) for name in self.about}
 
     def case(self, columns, n):
         """`Found` of case n of some columns; whatever goes wrong is its reason."""
         try:
-            tables = self.task.tables
+            tables = _fresh(self.task.tables)  # a worker may have several threads
             for key, kind in self.kinds.items():
                 set_key(tables, key, kind.given(columns[key][n]))
             return self.found(from_document(tables, type(self.spec)))
         except DrivewrightError as error:
             return Found({}, "failed", _short(error))
+        except (ImportError, MemoryError):  # of the place where it is computed, not of the case
+            raise
         except Exception as bug:  # one case in a million must not cost the others
             return Found({}, "failed", _short(f"a fault of the program, please report it: {type(bug).__name__}: {bug}"))
 
@@ -191,6 +219,13 @@ class Working:
         partial = any(answer.outcome == "partial" for answer in answers)
         reasons = [finding for answer in answers if answer.outcome != "complete" for finding in answer.findings[-1:]]
         return Found(values, "partial" if partial else "complete", _short("; ".join(reasons)))
+
+
+def _fresh(tables):
+    """A copy of raw tables that may be changed."""
+    if isinstance(tables, dict):
+        return {key: _fresh(value) for key, value in tables.items()}
+    return [_fresh(value) for value in tables] if isinstance(tables, list) else tables
 
 
 def _margin(check):
@@ -217,15 +252,15 @@ def _table(first, columns, kinds, values, about, statuses, messages):
     """The pyarrow.Table of some cases; what does not exist is null."""
     import pyarrow as pa
 
-    fields = [pa.field(CASE, pa.int64(), metadata={"unit": "-", "meaning": "number of the case"}),
-              pa.field(STATUS, pa.string(), metadata={"unit": "", "meaning": "complete, partial or failed"}),
-              pa.field(MESSAGE, pa.string(), metadata={"unit": "", "meaning": "why it is not complete, or what was left out"})]
+    fields = first_fields()
     arrays = [pa.array(np.arange(first, first + len(statuses))), pa.array(statuses, pa.string()), pa.array(messages, pa.string())]
     for key, kind in kinds.items():
         arrays.append(pa.array(columns[key]))
-        fields.append(pa.field(key, arrays[-1].type, metadata={"unit": kind.unit, "meaning": "varied"}))
+        unit = "" if columns[key].dtype == object else kind.unit
+        fields.append(pa.field(key, arrays[-1].type, metadata={"unit": unit, "meaning": "varied"}))
+    taken = {CASE, STATUS, MESSAGE, *kinds}
     for name, column in values.items():
         unit, meaning = about[name]
-        fields.append(pa.field(f"{OFFERED}{name}" if name in kinds else name, pa.float64(), metadata={"unit": unit, "meaning": meaning}))
+        fields.append(pa.field(f"{OFFERED}{name}" if name in taken else name, pa.float64(), metadata={"unit": unit, "meaning": meaning}))
         arrays.append(pa.array(column, pa.float64(), mask=~np.isfinite(column)))
     return pa.Table.from_arrays(arrays, schema=pa.schema(fields))

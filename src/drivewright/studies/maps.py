@@ -8,7 +8,7 @@ import numpy as np
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies.parts import STATUSES, Part, level_text, status_codes, table_of_rows, together
 from drivewright.studies.statistics import finite
-from drivewright.studies.study import CHECK
+from drivewright.studies.study import CASE, CHECK
 
 MOST_PANELS = 4  # combinations of further keys that get plots of their own
 MOST_LINES = 6  # levels of a second key that are lines; with more they are a map
@@ -103,7 +103,8 @@ def _plots(plan, response, axes, table, suffix, told):
 
 def ranges(arranged):
     """`Part` of a grid without random keys: table `range` of all values."""
-    rows = [(0, name, arranged.study.unit(name), *_range(arranged.of(name)[:, 0])) for name in arranged.study.value_names]
+    cases = arranged.of(CASE)[:, 0]
+    rows = [(0, name, arranged.study.unit(name), *_range(arranged.of(name)[:, 0], cases)) for name in arranged.study.value_names]
     rows = [row for row in rows if row[3]]
     if not rows:
         return Part()
@@ -111,12 +112,12 @@ def ranges(arranged):
     return Part(dict(_range_values(arranged, rows)), (table,))
 
 
-def _range(column):
+def _range(column, cases):
     count = len(finite(column))
     if not count:
         return 0, np.nan, -1, np.nan, -1
     least, greatest = int(np.nanargmin(column)), int(np.nanargmax(column))
-    return count, float(column[least]), least, float(column[greatest]), greatest
+    return count, float(column[least]), int(cases[least]), float(column[greatest]), int(cases[greatest])
 
 
 def _range_values(arranged, rows):

@@ -7,8 +7,9 @@ from functools import cached_property
 import numpy as np
 
 from drivewright.result import Column, Table, Value
+from drivewright.studies.factorial import crossed
 from drivewright.studies.statistics import LEVEL
-from drivewright.studies.study import CHECK, STATUS, Study
+from drivewright.studies.study import CASE, CHECK, STATUS, Study
 from drivewright.view.text import quantity
 
 STATUSES = ("complete", "partial", "failed")
@@ -39,10 +40,14 @@ class Arranged:
     study: Study
     shown: tuple
 
+    @cached_property
+    def _crossed(self):
+        return crossed(self.study.plan)
+
     @property
     def plan(self):
-        """The plan of the study."""
-        return self.study.plan
+        """The plan of the study; a file of points that is a full factorial as the levels that it combines."""
+        return self._crossed[0]
 
     @cached_property
     def combinations(self):
@@ -69,7 +74,7 @@ class Arranged:
     def arrange(self, column):
         """Numbers of the rows of the table by combination and point."""
         found = np.full(len(self.plan), np.nan)
-        found[np.asarray(self.study["case"], dtype=int)] = column
+        found[self._crossed[1][np.asarray(self.study[CASE], dtype=int)]] = column
         return found.reshape(self.combinations, self.plan.inner)
 
     @cached_property

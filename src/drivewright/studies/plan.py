@@ -96,6 +96,7 @@ def plan_of(spec):
             "or a [study] table",
             "study.vary",
         )
+    _refuse_many(study)
     variables = [variable(spec, vary, number) for number, vary in enumerate(study.vary)]
     listed = read_points(spec, study.points) if study.points else {}
     _refuse_twice([key for each in (*listed, *variables) for key in each.keys])
@@ -104,10 +105,18 @@ def plan_of(spec):
     if listed and random:
         raise SpecError("a file of points is not crossed with random keys; put their values into the file", "study.points")
     points, blocks, remarks = _points(study, random)
-    count = math.prod(len(each.levels) for each in grid) * len(next(iter(listed.values())) if listed else points)
-    if count > LARGEST:
-        raise SpecError(f"{count:.3g} cases are more than {LARGEST:.0g}; take fewer levels or samples", "study.vary")
     return Plan(grid, random, points, blocks, listed, study.seed, remarks)
+
+
+def _refuse_many(study):
+    """SpecError for more cases than can be held, before any of them is made."""
+    levels = [vary.steps or len(vary.values) for vary in study.vary if vary.steps or vary.values]
+    d = len(study.vary) - len(levels)
+    rows = {"corners": 2**d, "one-at-a-time": 1 + 2 * d, "sobol-indices": (d + 2) * study.samples,
+            "tolerance": 1 + 2 * d + 2**FEW_CORNERS + study.samples}.get(study.method, study.samples) if d else 1
+    count = math.prod(levels) * rows
+    if count > LARGEST or rows * d > LARGEST:
+        raise SpecError(f"{count:.3g} cases are more than {LARGEST:.0g}; take fewer levels or samples", "study.vary")
 
 
 def _refuse_twice(keys):
@@ -137,7 +146,7 @@ def _remarks(study):
 
 def _mapped(unit, random):
     """Points of the unit cube through the inverse distributions."""
-    return np.stack([each.distribution.ppf(u) for each, u in zip(random, unit.T, strict=True)], axis=1)
+    return np.stack([each.at(u) for each, u in zip(random, unit.T, strict=True)], axis=1)
 
 
 def _latin(study, random):

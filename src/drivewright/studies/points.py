@@ -13,6 +13,9 @@ from drivewright.studies.variables import READABLE, Variable, kind_of
 def read_points(spec, file):
     """{Variable: column in SI} of a file of points; SpecError naming file, column and line."""
     columns = _from_parquet(file) if Path(file).suffix.lower() in (".parquet", ".pq") else _from_csv(file)
+    for number, (key, *_) in enumerate(columns):
+        if key in [earlier for earlier, *_ in columns[:number]]:
+            raise SpecError(f"column '{key}' is there twice; give it once", file=str(file))
     if not columns or not len(columns[0][2]):
         raise SpecError("has no cases; give a line of keys and a line for each case", file=str(file))
     return dict(_read(spec, *column, file) for column in columns)
@@ -26,8 +29,11 @@ def _read(spec, key, unit, cells, file):
     except SpecError as error:
         raise error.located(file=str(file)) from None
     values = [_cell(kind, cell, f"case {number}, column '{key}'", file) for number, cell in enumerate(cells)]
-    column = np.array(values, dtype={"integer": np.int64, "flag": bool, "text": object}.get(kind.name, float))
-    return Variable(key, kind), column * factor if kind.name == "quantity" else column
+    if kind.name == "quantity" and factor != 1 and isinstance(cells[0], str):  # rounded once, as the same text elsewhere
+        values = [kind.dimension.parse(f"{value!r} {unit}") for value in values]
+    elif kind.name == "quantity":
+        values = [value * factor for value in values]
+    return Variable(key, kind), np.array(values, dtype={"integer": np.int64, "flag": bool, "text": object}.get(kind.name, float))
 
 
 def _factor(kind, unit, key):
@@ -53,26 +59,29 @@ def _cell(kind, cell, place, file):
             value = float(cell)
             if np.isfinite(value):
                 return value
-        elif kind.name == "integer" and float(cell) == int(float(cell)):
+        elif kind.name == "integer" and float(cell) == int(float(cell)) and abs(float(cell)) <= 2**53:
             return int(float(cell))
         elif kind.name == "flag" and str(cell).lower() in ("true", "false"):
             return str(cell).lower() == "true"
-        elif kind.name == "text":
+        elif kind.name == "text" and cell is not None and (not kind.choices or str(cell) in kind.choices):
             return str(cell)
     except (ValueError, TypeError, OverflowError):
         pass
-    raise SpecError(f"wants {'a number' if kind.name == 'quantity' else READABLE[kind.name]}, got {brief(cell)}", place, str(file))
+    wanted = "a number" if kind.name == "quantity" else " or ".join(map(str, kind.choices)) if kind.choices else READABLE[kind.name]
+    raise SpecError(f"wants {wanted}, got {brief(cell)}", place, str(file))
 
 
 def _from_csv(file):
     """[(key, unit, cells)] of a CSV file."""
     try:
-        rows = [row for row in csv.reader(Path(file).read_text(encoding="utf-8-sig").splitlines()) if row]
+        with Path(file).open(encoding="utf-8-sig", newline="") as stream:
+            rows = [row for row in csv.reader(stream) if row]
     except (OSError, UnicodeDecodeError) as error:
         raise SpecError(f"cannot be read: {getattr(error, 'strerror', None) or error}", file=str(file)) from None
     for number, row in enumerate(rows[1:]):
         if len(row) != len(rows[0]):
-            raise SpecError(f"case {number} has {len(row)} entries, the first line has {len(rows[0])}", file=str(file))
+            hint = "; the columns are separated by commas, and a decimal point is a point" if ";" in "".join(rows[0]) else ""
+            raise SpecError(f"case {number} has {len(row)} entries, the first line has {len(rows[0])}{hint}", file=str(file))
     headings = [re.fullmatch(r"\s*(.*?)\s*(?:\[(.*)\])?\s*", cell) for cell in rows[0]] if rows else []
     return [(match[1], match[2] or "", [row[n] for row in rows[1:]]) for n, match in enumerate(headings)]
 

@@ -1,7 +1,8 @@
 """Who computes: this process, processes on this machine, or the workers of a Dask scheduler.  All call the same function.
 
 A pool is a tuple of lanes.  A lane takes up to `capacity` calls at once; `submit(function, *arguments)` gives a future as those of
-`concurrent.futures`, `revive()` makes a broken lane usable again, `close()` lets everything go at once.
+`concurrent.futures`, `revive()` makes a broken lane usable again, `trouble()` says why nothing can come from it any more, `close()` lets
+everything go at once.
 """
 
 import logging
@@ -9,8 +10,9 @@ import os
 import signal
 import sys
 import threading
-from concurrent.futures import Future, ProcessPoolExecutor
-from contextlib import contextmanager
+import time
+from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor
+from contextlib import ExitStack, contextmanager
 from multiprocessing import get_context
 
 from drivewright.cases import worker_count
@@ -19,36 +21,53 @@ from drivewright.errors import InputError, MissingExtra, brief
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 WATCH = 0.25  # seconds between two looks at the parent
 PATIENCE = "20s"  # for a scheduler to answer
+LONELY = 60.0  # seconds without a worker after which a scheduler is given up
+SCHEMES = ("tcp://", "tls://", "ucx://", "ws://", "wss://")
 
 
-def pool(workers=None, on=None):
-    """The lanes for `on`: None for `workers` processes (None: one per core), "serial" for this process, "local:N" for a Dask cluster on
-    this machine, "tcp://HOST:PORT" for the scheduler there.  InputError for anything else."""
+def pool(workers=None, on=None, most=None):
+    """The lanes for `on`: None for `workers` processes (None: one per core), but no more than `most`, "serial" for this process, "local:N"
+    for a Dask cluster on this machine, "tcp://HOST:PORT" for the scheduler there.  InputError for anything else."""
+    refuse_nowhere(workers, on)
     if on is None:
-        return tuple(Process() for _ in range(worker_count(workers)))
-    if workers is not None:
-        raise InputError(f"--workers counts processes of this machine, and --on {on} says who computes; give one of them")
+        return _processes(min(worker_count(workers), most or sys.maxsize))
     if on == "serial":
         return (Here(),)
-    if on.startswith("local:"):
-        return (Cluster(_local_cluster(on)),)
-    if on.startswith(("tcp://", "tls://", "ucx://", "ws://", "wss://")):
-        return (Cluster(_remote(on)),)
-    raise InputError(
-        f"--on {brief(on)} is no place to compute: serial, local:N for N Dask workers on this machine, or tcp://HOST:PORT of a Dask "
-        "scheduler; leave it out for processes on this machine"
-    )
+    return (_local_cluster(on) if on.startswith("local:") else _remote(on),)
+
+
+def refuse_nowhere(workers, on):
+    """InputError where `workers` and `on` say no place to compute."""
+    if on is None:
+        worker_count(workers)
+    elif workers is not None:
+        raise InputError(f"--workers counts processes of this machine, and --on {on} says who computes; give one of them")
+    elif on.startswith("local:"):
+        number = on.removeprefix("local:")
+        if not number.isdecimal() or not int(number):
+            raise InputError(f"--on {brief(on)} wants a number of workers from 1 up, e.g. local:4")
+    elif on != "serial" and not on.startswith(SCHEMES):
+        raise InputError(
+            f"--on {brief(on)} is no place to compute: serial, local:N for N Dask workers on this machine, or tcp://HOST:PORT of "
+            "a Dask scheduler; leave it out for processes on this machine"
+        )
+
+
+def _processes(number):
+    """So many lanes of one process each; those that came up are let go where the next one does not."""
+    with ExitStack() as stack:
+        lanes = []
+        for _ in range(number):
+            lanes.append(Process())
+            stack.callback(lanes[-1].close)
+        stack.pop_all()
+        return tuple(lanes)
 
 
 class Here:
-    """One call after another in this process, with one thread in the libraries like everywhere else."""
+    """One call after another in this process."""
 
     workers = capacity = 1
-
-    def __init__(self):
-        from threadpoolctl import threadpool_limits
-
-        self._limits = threadpool_limits(1)
 
     def submit(self, function, *arguments):
         """The call is over when this returns."""
@@ -59,13 +78,12 @@ class Here:
             future.set_exception(error)
         return future
 
-    def alive(self):
-        """Always."""
-        return True
+    def trouble(self):
+        """None."""
+        return ""
 
     def close(self):
-        """The libraries may have their threads again."""
-        self._limits.restore_original_limits()
+        """Nothing to let go."""
 
 
 class Process:
@@ -81,21 +99,29 @@ class Process:
         ours, self._hold = context.Pipe(duplex=False)
         with _as_a_worker():
             self._executor = ProcessPoolExecutor(1, context, _watch, (os.getpid(), ours))
-            self._executor.submit(_warm)
+            self._warmed = self._executor.submit(_warm)
         ours.close()
 
     def submit(self, function, *arguments):
-        """BrokenExecutor in its future when the process dies."""
-        return self._executor.submit(function, *arguments)
+        """BrokenExecutor in its future when the process dies, or is dead already."""
+        try:
+            return self._executor.submit(function, *arguments)
+        except BrokenExecutor as death:
+            future = Future()
+            future.set_exception(death)
+            return future
 
     def revive(self):
-        """A new process in place of the dead one."""
+        """A new process in place of the dead one; InputError where that one never came to work."""
+        if not self._warmed.done() or self._warmed.exception() is not None:
+            raise InputError("a worker process does not start (its own message stands above, if it had one); mend that, or compute in this "
+                             "process with --on serial. Every case that was finished before is kept")
         self.close()
         self._start()
 
-    def alive(self):
-        """A death shows in the futures."""
-        return True
+    def trouble(self):
+        """None: a death shows in the futures."""
+        return ""
 
     def close(self):
         """The process leaves as soon as its end of the pipe is closed, whatever it does at the moment."""
@@ -106,27 +132,36 @@ class Process:
 class Cluster:
     """The workers of a Dask scheduler; it sends a call again itself when a worker dies."""
 
-    def __init__(self, client):
-        self._client = client
+    def __init__(self, on, client, ours=None):
+        self._on, self._client, self._ours = on, client, ours
         self._executor = client.get_executor(pure=False)
-        self.workers = len(client.scheduler_info(n_workers=-1)["workers"])
-        self.capacity = 2 * max(1, self.workers)
+        self._seen = time.monotonic()
+        self.workers = _workers_of(client)
+
+    @property
+    def capacity(self):
+        """Two calls for each worker that is there."""
+        return 2 * max(1, self.workers)
 
     def submit(self, function, *arguments):
         """KilledWorker in its future when several workers died of it."""
         return self._executor.submit(function, *arguments)
 
-    def alive(self):
-        """Whether the scheduler is still there."""
-        return self._client.status == "running"
+    def trouble(self):
+        """Why nothing can come from it any more; empty while it works."""
+        if self._client.status != "running":
+            return f"--on {self._on}: the scheduler has gone away"
+        self.workers = _workers_of(self._client)
+        self._seen = time.monotonic() if self.workers else self._seen
+        lost = time.monotonic() - self._seen
+        return f"--on {self._on}: the scheduler has had no workers for {lost:.0f} s" if lost > LONELY else ""
 
     def close(self):
         """Leave the scheduler; a cluster of our own ends with it."""
         self._executor.shutdown(wait=False)
-        cluster = self._client.cluster
         self._client.close(timeout=2)
-        if cluster is not None:
-            cluster.close(timeout=10)
+        if self._ours is not None:
+            self._ours.close()
 
 
 # -- a process of our own ------------------------------------------------------------------------------------------------------
@@ -186,27 +221,38 @@ def _distributed():
     return dask, distributed
 
 
+def _workers_of(client):
+    """How many workers a scheduler has; 0 where it does not say."""
+    try:
+        return len(client.scheduler_info(n_workers=-1)["workers"])
+    except (OSError, RuntimeError, TimeoutError):
+        return 0
+
+
 def _local_cluster(on):
-    """A client of as many Dask workers on this machine, one thread each."""
+    """The lane of as many Dask workers on this machine, one thread each."""
     dask, distributed = _distributed()
-    number = on.removeprefix("local:")
-    if not number.isdecimal() or not int(number):
-        raise InputError(f"--on {brief(on)} wants a number of workers from 1 up, e.g. local:4")
-    with _as_a_worker(), dask.config.set({"distributed.scheduler.allowed-failures": 2}):
-        cluster = distributed.LocalCluster(n_workers=int(number), threads_per_worker=1, processes=True, dashboard_address=":0",
-                                           silence_logs=logging.CRITICAL)
-    return distributed.Client(cluster)
+    with ExitStack() as stack:
+        stack.enter_context(_as_a_worker())  # to the end: the cluster starts a worker again when it dies
+        stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": 2}))
+        cluster = distributed.LocalCluster(n_workers=int(on.removeprefix("local:")), threads_per_worker=1, processes=True,
+                                           dashboard_address=":0", silence_logs=logging.CRITICAL)
+        stack.callback(cluster.close, timeout=10)
+        return Cluster(on, distributed.Client(cluster), stack.pop_all())
 
 
 def _remote(on):
-    """A client of a scheduler; InputError where nobody answers, or nobody works."""
+    """The lane of a scheduler; InputError where nobody answers, nobody works, or a worker has several threads."""
     _, distributed = _distributed()
     try:
         client = distributed.Client(on, timeout=PATIENCE)
-    except (OSError, ValueError, TimeoutError) as error:
-        raise InputError(f"--on {on}: no Dask scheduler answers there ({str(error).splitlines()[0]}); start one with `dask scheduler`, and "
-                         "workers with `dask worker HOST:PORT --nthreads 1`") from None
-    if not client.scheduler_info(n_workers=-1)["workers"]:
+    except (OSError, ValueError, TypeError, ImportError, RuntimeError, TimeoutError) as error:
+        reason = str(error).partition("\n")[0] or type(error).__name__
+        raise InputError(f"--on {on}: no Dask scheduler answers there ({reason}); start one with `dask scheduler`, and workers with "
+                         "`dask worker HOST:PORT --nthreads 1`") from None
+    threads = [worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values()]
+    if not threads or max(threads) > 1:
         client.close()
-        raise InputError(f"--on {on}: the scheduler has no workers; start them with `dask worker {on} --nthreads 1`")
-    return client
+        what = f"a worker has {max(threads)} threads, and one is what a case can use" if threads else "the scheduler has no workers"
+        raise InputError(f"--on {on}: {what}; start workers with `dask worker {on} --nthreads 1`, several with --nworkers")
+    return Cluster(on, client)

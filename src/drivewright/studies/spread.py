@@ -81,7 +81,8 @@ def _histograms(arranged):
     cases = Column("case", "-", "number of the case", arranged.sample)
     plots = [Plot(f"histogram.{c.name}", f"Distribution of {c.name}", "sample", c.name, (c.name,),
                   ((0.0, "limit"),) if c.name.startswith(CHECK) else (), style="histogram") for c in columns]
-    return Part(tables=(Table("sample", "The random sample", (cases, *columns)),), plots=tuple(plots))
+    title = "The points of the file" if arranged.plan.listed else "The random sample"
+    return Part(tables=(Table("sample", title, (cases, *columns)),), plots=tuple(plots))
 
 
 # -- yield ---------------------------------------------------------------------------------------------------------------------

@@ -11,7 +11,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from drivewright.errors import InputError
-from drivewright.spec import document, load
+from drivewright.spec import load
+from drivewright.studies.differing import differing
+from drivewright.studies.study import first_fields
 
 SPEC, LEDGER, PARTS, LOCK = "study.toml", "ledger.sqlite", "parts", ".lock"
 OURS = {SPEC, f"{SPEC}.tmp", LEDGER, f"{LEDGER}-journal", PARTS, LOCK, "data"}
@@ -62,10 +64,11 @@ class Folder:
         self.folder = Path(folder).resolve()
         refuse_foreign(self.folder)
         with self._to_disk():
-            (self.folder / PARTS).mkdir(parents=True, exist_ok=True)
+            self.folder.mkdir(parents=True, exist_ok=True)
             self._lock = _locked(self.folder)
         try:
             with self._to_disk():
+                (self.folder / PARTS).mkdir(exist_ok=True)
                 self._ledger = _ledger(self.folder)
                 self._settle(spec, identity)
                 self._forget_what_is_not_named()
@@ -76,24 +79,26 @@ class Folder:
     def _settle(self, spec, identity):
         """Write down what the study is, or refuse another one."""
         known = dict(self._ledger.execute("select key, value from identity"))
-        if not known:
+        if known and known != identity:
+            raise InputError(
+                f"{self.folder}: holds another study; {differing(self.folder / SPEC, spec, known, identity)}. Give another --out, "
+                "or remove the folder"
+            )
+        if not known or not (self.folder / SPEC).is_file() or load(self.folder / SPEC).title != spec.title:
             _write_spec(spec, self.folder)
+        if not known:
             with self._ledger:
                 self._ledger.executemany("insert into identity values (?, ?)", list(identity.items()))
-        elif known != identity:
-            raise InputError(
-                f"{self.folder}: holds another study; {_differing(self.folder, spec, known, identity)}. Give another --out, or "
-                "remove the folder"
-            )
 
     def _forget_what_is_not_named(self):
-        named = {name for (name,) in self._ledger.execute("select name from parts")}
+        """Delete parts that never happened, and compute again those that are gone or damaged."""
+        named = dict(self._ledger.execute("select name, count from parts"))
         for file in (self.folder / PARTS).iterdir():
-            if file.name not in named:
+            if file.name not in named and file.suffix in (".parquet", ".tmp") and file.is_file():
                 file.unlink()
-        missing = sorted(name for name in named if not (self.folder / PARTS / name).is_file())
+        lost = [(name,) for name, count in named.items() if _rows_of(self.folder / PARTS / name) != count]
         with self._ledger:
-            self._ledger.executemany("delete from parts where name = ?", [(name,) for name in missing])
+            self._ledger.executemany("delete from parts where name = ?", lost)
 
     @property
     def seconds(self):
@@ -138,10 +143,9 @@ class Folder:
             yield
         except (OSError, sqlite3.Error) as error:
             reason = getattr(error, "strerror", None) or error
-            raise InputError(
-                f"{self.folder}: cannot be written: {reason}; every case that was finished before is safe. Make room or mend the "
-                "disk, and give the same command again"
-            ) from None
+            remedy = ("Make room or mend the disk, and give the same command again" if type(error) is not sqlite3.DatabaseError
+                      else f"Its {LEDGER} is damaged: the parts are whole, but the study cannot go on from them; give another --out")
+            raise InputError(f"{self.folder}: cannot be written: {reason}; every case that was finished before is safe. {remedy}") from None
 
 
 def is_study(folder):
@@ -154,27 +158,42 @@ def refuse_foreign(folder):
     if folder.exists() and not folder.is_dir():
         raise InputError(f"{folder}: is a file, a study cannot take its place; choose another --out")
     inside = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
-    if not is_study(folder) and set(inside) - OURS:
+    if not is_study(folder) and (set(inside) - OURS or (inside and LOCK not in inside)):
         raise InputError(
             f"{folder}: is not empty and holds no study ({', '.join(inside[:3])} ...); nothing was written. Choose another --out"
         )
 
 
 def opened(folder):
-    """(spec, tables of the parts, seconds, remarks) of a study's folder, without its lock: what is acknowledged by now."""
+    """(spec, tables of the parts, seconds, remarks, identity) of a study's folder, without its lock: what is acknowledged by now."""
     folder = Path(folder)
     if not is_study(folder):
         raise InputError(
             f"{folder}: is no study (it has no {SPEC} with a {LEDGER}); `drivewright sweep SPEC --vary ... --out {folder}` makes one"
         )
-    ledger = sqlite3.connect(f"{(folder / LEDGER).resolve().as_uri()}?mode=ro", uri=True)
     try:
+        ledger = _readable(folder / LEDGER)
         seconds = ledger.execute("select coalesce(sum(seconds), 0) from parts").fetchone()[0]
-        return load(folder / SPEC), read_parts(folder, ledger), seconds, _remarks(ledger)
+        known = dict(ledger.execute("select key, value from identity"))
+        found = load(folder / SPEC), read_parts(folder, ledger), seconds, _remarks(ledger), known
+        ledger.close()
     except (OSError, sqlite3.Error) as error:
         raise InputError(f"{folder}: cannot be read: {error}") from None
-    finally:
-        ledger.close()
+    return found
+
+
+def _readable(file):
+    """A connection for reading; a kill in the middle of a commit leaves a journal that only a writer may roll back."""
+    for mode in ("ro", "rw"):
+        ledger = sqlite3.connect(f"{file.resolve().as_uri()}?mode={mode}", uri=True)
+        try:
+            ledger.execute("select count(*) from parts").fetchone()
+            return ledger
+        except sqlite3.OperationalError:
+            ledger.close()
+            if mode == "rw":
+                raise
+    return ledger
 
 
 def _remarks(ledger):
@@ -183,17 +202,34 @@ def _remarks(ledger):
 
 def read_parts(folder, ledger):
     """The tables that a ledger names, in the order of their cases."""
+    import pyarrow as pa
     from pyarrow import parquet
 
     names = [name for (name,) in ledger.execute("select name from parts order by first")]
-    return [parquet.read_table(folder / PARTS / name) for name in names]
+    try:
+        return [parquet.read_table(folder / PARTS / name) for name in names]
+    except (OSError, pa.ArrowException) as error:
+        raise InputError(
+            f"{folder}: a part cannot be read ({str(error).splitlines()[0]}); the sweep's command computes its cases again"
+        ) from None
+
+
+def _rows_of(file):
+    """How many rows a part has; -1 where it cannot be read."""
+    import pyarrow as pa
+    from pyarrow import parquet
+
+    try:
+        return parquet.read_metadata(file).num_rows
+    except (OSError, pa.ArrowException):
+        return -1
 
 
 def joined(tables):
     """One table of all parts: columns in the order in which the cases bring them, null where a case has none."""
     import pyarrow as pa
 
-    fields = {}
+    fields = {} if tables else {field.name: field for field in first_fields()}
     for table in tables:
         for field in table.schema:
             fields.setdefault(field.name, field)
@@ -240,6 +276,7 @@ def _write_spec(spec, folder):
     spec.write(temporary)
     _forced(temporary)
     temporary.replace(folder / SPEC)
+    _forced(folder)
 
 
 def _write_part(path, table):
@@ -262,38 +299,3 @@ def _forced(path):
         os.fsync(handle)
     finally:
         os.close(handle)
-
-
-# -- what differs --------------------------------------------------------------------------------------------------------------
-
-
-def _differing(folder, spec, known, identity):
-    """What is not the same there and here, key by key where the specs tell."""
-    there, here = _flat(document(load(folder / SPEC))), _flat(document(spec))
-    keys = [
-        key for key in dict.fromkeys([*there, *here]) if there.get(key) != here.get(key) and not _same_file(there.get(key), here.get(key))
-    ]
-    rows = [f"{key}: {there.get(key, 'not given')} there, {here.get(key, 'not given')} here" for key in keys]
-    rows += [
-        f"{what}: {known.get(what, 'not given')} there, {identity.get(what, 'not given')} here"
-        for what in dict.fromkeys([*known, *identity])
-        if known.get(what) != identity.get(what) and what not in ("spec", "plan", "study")
-    ]
-    more = f" and {len(rows) - 8} more" if len(rows) > 8 else ""
-    return "; ".join(rows[:8]) + more if rows else "the content of a data file, or the points of the plan, are not the same"
-
-
-def _flat(tables, path=""):
-    """{dotted key: value} of raw tables."""
-    entries = tables.items() if isinstance(tables, dict) else enumerate(tables)
-    found = {}
-    for key, value in entries:
-        place = f"{path}.{key}" if path else str(key)
-        found |= _flat(value, place) if isinstance(value, (dict, list)) else {place: value}
-    return found
-
-
-def _same_file(there, here):
-    """Whether two texts are paths of files with the same content: a study keeps copies of its data."""
-    paths = [Path(value) for value in (there, here) if isinstance(value, str) and Path(value).is_file()]
-    return len(paths) == 2 and paths[0].read_bytes() == paths[1].read_bytes()

@@ -13,6 +13,15 @@ from drivewright.studies.plan import Plan
 CASE, STATUS, MESSAGE, CHECK = "case", "status", "message", "check."
 
 
+def first_fields():
+    """The pyarrow fields that every study's table begins with."""
+    import pyarrow as pa
+
+    rows = ((CASE, pa.int64(), "-", "number of the case"), (STATUS, pa.string(), "", "complete, partial or failed"),
+            (MESSAGE, pa.string(), "", "why it is not complete, or what was left out"))
+    return [pa.field(name, kind, metadata={"unit": unit, "meaning": meaning}) for name, kind, unit, meaning in rows]
+
+
 @dataclass(frozen=True, eq=False)
 class Study:
     """The rows of a study, sorted by case; `table` is a pyarrow.Table with unit and meaning in the metadata of every field."""
@@ -46,13 +55,13 @@ class Study:
     @property
     def counts(self):
         """{status: number of cases}."""
-        names, counts = np.unique(self[STATUS].astype(str), return_counts=True)
+        names, counts = np.unique(self[STATUS].astype(str), return_counts=True) if len(self) else (np.array([]), np.array([]))
         return dict(zip(names.tolist(), counts.tolist(), strict=True))
 
     @property
     def answered(self):
         """Whether any case has an answer."""
-        return bool(np.any(self[STATUS] != "failed"))
+        return len(self) > 0 and bool(np.any(self[STATUS] != "failed"))
 
     @property
     def complete(self):
@@ -79,4 +88,6 @@ class Study:
         return self._about(name, b"meaning")
 
     def _about(self, name, what):
+        if name not in self.table.column_names:
+            raise UnknownName("column of the study", name, self.table.column_names)
         return (self.table.schema.field(name).metadata or {}).get(what, b"").decode()

@@ -3,15 +3,14 @@
 from contextlib import closing
 from pathlib import Path
 
-from drivewright.cases import worker_count
 from drivewright.errors import InputError
 from drivewright.runner import versions
 from drivewright.spec.writing import canonical_text
 from drivewright.studies import store
 from drivewright.studies.batches import Supply, compute
-from drivewright.studies.evaluate import evaluate, failed, task_of, with_compiled
+from drivewright.studies.evaluate import evaluate, failed, refuse_unknown, task_of, with_compiled
 from drivewright.studies.plan import plan_of
-from drivewright.studies.pools import Here, pool
+from drivewright.studies.pools import Here, pool, refuse_nowhere
 from drivewright.studies.study import STATUS, Study
 from drivewright.studies.varying import varied
 
@@ -28,6 +27,7 @@ def sweep(spec, vary=None, *, out=None, workers=None, on=None, confirmed=True, p
     there, `interrupted`.
     """
     spec = spec if vary is None else varied(spec, vary)
+    refuse_nowhere(workers, on)
     plan = plan_of(spec)
     if len(plan) > MANY and not confirmed:
         raise InputError(f"{len(plan)} cases are more than {MANY}; say --yes if you mean it, or take fewer levels or samples")
@@ -40,13 +40,21 @@ def sweep(spec, vary=None, *, out=None, workers=None, on=None, confirmed=True, p
 
 def open_study(folder):
     """`Study` of a folder as far as it has come; another process may be at work on it."""
-    spec, tables, seconds, remarks = store.opened(folder)
-    return Study(spec, plan_of(spec), store.joined(tables), Path(folder).resolve(), seconds, remarks)
+    spec, tables, seconds, remarks, known = store.opened(folder)
+    if "plan" not in known:
+        raise InputError(f"{folder}: holds a search, not a study; its table is history.parquet")
+    plan = plan_of(spec)
+    if plan.digest != known["plan"]:
+        raise InputError(
+            f"{folder}: its points cannot be made again here: another version of SciPy or NumPy. Its rows are in {folder}/parts"
+        )
+    return Study(spec, plan, store.joined(tables), Path(folder).resolve(), seconds, remarks)
 
 
 def identity(spec, plan):
     """What must stay the same between two starts of a study, {what: text}."""
-    return {"spec": spec.digest(), "study": canonical_text(spec.study), "plan": plan.digest, "drivewright": versions()["drivewright"]}
+    drive = spec.model_copy(update={"optimise": None})
+    return {"spec": drive.digest(), "study": canonical_text(spec.study), "plan": plan.digest, "drivewright": versions()["drivewright"]}
 
 
 def _fill(kept, task, plan, workers, on, progress):
@@ -54,11 +62,12 @@ def _fill(kept, task, plan, workers, on, progress):
     total, done, trouble = len(plan), sum(count for _, count in kept.ranges()), 0
     if done == total:
         return False
-    task, remarks = with_compiled(task, plan)
-    kept.remark(remarks)
-    supply = Supply(kept.ranges(), total, worker_count(workers))
-    progress(done, total, "")
+    refuse_unknown(task, plan)
+    supply = Supply(kept.ranges(), total, 1)
     try:
+        progress(done, total, "")
+        task, remarks = with_compiled(task, plan)
+        kept.remark(remarks)
         with closing(_computed(task, plan, supply, workers, on)) as each:
             for batch, table, seconds, reason in each:
                 table = failed(task, batch.first, plan.cases(batch.first, batch.stop), reason) if reason else table
@@ -79,11 +88,12 @@ def _computed(task, plan, supply, workers, on):
     if workers is None and on is None:
         yield from _by((Here(),), arguments, supply, lambda: supply.expected is not None and supply.expected > WORTH_HELP)
     if supply:
-        yield from _by(pool(workers, on), arguments, supply)
+        yield from _by(pool(workers, on, len(plan)), arguments, supply)
 
 
 def _by(lanes, arguments, supply, enough=lambda: False):
     """The same by given lanes, which are let go at the end."""
+    supply.workers = sum(lane.workers for lane in lanes)
     try:
         yield from compute(lanes, evaluate, arguments, supply, enough)
     finally:

@@ -7,7 +7,7 @@ import numpy as np
 
 from drivewright.errors import SpecError, UnitError, brief, nearest
 from drivewright.spec import dimension_at, value_at
-from drivewright.spec.fields import choices_of, field_at, table_at, type_of
+from drivewright.spec.fields import choices_of, field_at, levels, table_at, type_of
 from drivewright.units import SI
 
 FAR = 3.0  # standard deviations: where an endless distribution is cut for corners, and what a tolerance is in a normal one
@@ -41,15 +41,17 @@ class Kind:
         wanted = {"number": (int, float), "integer": int, "flag": bool, "text": str}[self.name]
         if not isinstance(value, wanted) or (isinstance(value, bool) and self.name != "flag"):
             raise SpecError(f"wants {READABLE[self.name]}, got {brief(value)}", place)
+        if self.name == "integer" and abs(value) > 2**53:
+            raise SpecError(f"is too large a whole number: {brief(value)}", place)
         if self.choices and value not in self.choices:
             raise SpecError(f"must be one of {', '.join(map(str, self.choices))}, got {brief(value)}{nearest(value, self.choices)}", place)
         return float(value) if self.name == "number" else value
 
     def given(self, value):
-        """An entry of its column as a spec takes it."""
-        if self.name == "quantity":
-            return SI(value) if not isinstance(value, str) else value
-        return {"number": float, "integer": int, "flag": bool, "text": str}[self.name](value)
+        """An entry of its column as a spec takes it; a text stands for itself, also where a number may."""
+        if isinstance(value, str):
+            return str(value)
+        return {"quantity": SI, "number": float, "integer": int, "flag": bool, "text": str}[self.name](value)
 
 
 READABLE = {"number": "a number", "integer": "a whole number", "flag": "true or false", "text": "a text"}
@@ -62,9 +64,10 @@ class Variable:
     key: str
     kind: Kind
     nominal: Any = None
-    also: tuple = ()  # keys that have the same value
     levels: np.ndarray | None = None
     distribution: Any = None
+    also: tuple = ()  # keys that have the same value
+    bounds: tuple = (-np.inf, np.inf)  # that its distribution keeps, also after rounding
 
     @property
     def keys(self):
@@ -75,7 +78,12 @@ class Variable:
     def ends(self):
         """Least and greatest value of the distribution, 3 sigma where it has no end."""
         mean, sigma, support = self.distribution.mean(), self.distribution.std(), self.distribution.support()
-        return tuple(end if np.isfinite(end) else mean + side * FAR * sigma for end, side in zip(support, (-1, 1), strict=True))
+        ends = (end if np.isfinite(end) else mean + side * FAR * sigma for end, side in zip(support, (-1, 1), strict=True))
+        return tuple(float(np.clip(end, *self.bounds)) for end in ends)
+
+    def at(self, u):
+        """Its values at points u of the unit interval."""
+        return np.clip(self.distribution.ppf(u), *self.bounds)
 
 
 def kind_of(spec, key, place="study.vary", said=()):
@@ -88,15 +96,32 @@ def kind_of(spec, key, place="study.vary", said=()):
     exists, dimension = dimension_at(type(spec), key)
     if not exists or _hole(spec, key):
         raise SpecError(f"this spec has no key {key!r}{_hole(spec, key) or _near(spec, key)}", place)
+    annotation = field_at(type(spec), key.split(".")).annotation
+    if depth := len(levels(annotation)) - _entered(spec, key):
+        holder = key.rpartition(".")[0]
+        if holder and value_at(spec, holder) is None and key.rpartition(".")[2].isdecimal():
+            raise SpecError(f"{holder} has no value in this spec; give all of it there, then one of its elements can vary", place)
+        raise SpecError(f"{key} holds {'several values' if depth == 1 else 'lists'}, not one; name an element, e.g. {key}.0", place)
     if dimension:
         return Kind("quantity", dimension)
-    annotation = field_at(type(spec), key.split(".")).annotation
     choices, plain = choices_of(annotation), type_of(annotation)
     if choices and (plain is None or (said and all(value in choices for value in said))):
         return Kind(KINDS[type(choices[0])], choices=tuple(choices))
     if plain not in KINDS:
         raise SpecError(f"{key} is a table or a file, not one value; name a key in it", place)
     return Kind(KINDS[plain])
+
+
+def _entered(spec, key):
+    """How many of the steps of a key stand for elements of the list or dictionary at its end."""
+    steps = key.split(".")
+    holders = [type(value_at(spec, ".".join(steps[:n]))) if n else None for n in range(len(steps))]
+    count = 0
+    for holder in reversed(holders):
+        if holder is None or not issubclass(holder, (tuple, dict)):
+            break
+        count += 1
+    return count
 
 
 KINDS = {float: "number", int: "integer", bool: "flag", str: "text"}
@@ -133,13 +158,42 @@ def variable(spec, vary, number):
         if kind_of(spec, key, f"{place}.also.{n}", vary.values) != kind:
             raise SpecError(f"{key} cannot have the same value as {vary.key}: they take different kinds of values", f"{place}.also.{n}")
     if vary.values or vary.steps is not None:
-        return Variable(vary.key, kind, nominal, vary.also, _levels(kind, vary, place))
+        _refuse_beside(vary, "levels", ("values",) if vary.values else ("lower", "upper", "steps"), place)
+        return Variable(vary.key, kind, nominal, _levels(kind, vary, place), also=vary.also)
     if not kind.numeric or kind.name == "integer":
         raise SpecError(
             f"{vary.key} takes {READABLE.get(kind.name)}, so it varies over values only; give values, or lower, upper and steps", place
         )
     nominal = nominal if isinstance(nominal, (int, float)) else None
-    return Variable(vary.key, kind, nominal, vary.also, distribution=_distribution(kind, vary, nominal, place))
+    distribution, bounds = _distribution(kind, vary, nominal, place)
+    _refuse_idle(vary, place)
+    return Variable(vary.key, kind, nominal, distribution=distribution, also=vary.also, bounds=bounds)
+
+
+SAID = ("values", "lower", "upper", "steps", "distribution", "mean", "sigma", "mode", "tolerance")
+
+
+def _refuse_beside(vary, what, wanted, place):
+    """SpecError for a key that says nothing beside those that are wanted."""
+    for name in SAID:
+        if name not in wanted and getattr(vary, name) not in (None, ()):
+            raise SpecError(
+                f"has no meaning beside {', '.join(n for n in wanted if getattr(vary, n) not in (None, ()))} ({what}); leave it out",
+                f"{place}.{name}",
+            )
+
+
+def _refuse_idle(vary, place):
+    """SpecError for a key that the distribution does not use."""
+    form = _form(vary)
+    ends = ("tolerance",) if vary.tolerance is not None else ("lower", "upper")
+    own = {"normal": ("mean", "sigma"), "triangular": ("mode",), "uniform": ()}[form]
+    _refuse_beside(vary, f"a {form} distribution", ("distribution", *own, *ends), place)
+
+
+def _form(vary):
+    """Name of the distribution, also where it is not given."""
+    return vary.distribution or ("normal" if vary.sigma is not None or vary.tolerance is not None else "uniform")
 
 
 def _levels(kind, vary, place):
@@ -148,12 +202,16 @@ def _levels(kind, vary, place):
     low, high = (_bound(kind, vary, side, place, needed=True) for side in ("lower", "upper"))
     if not kind.numeric:
         raise SpecError(f"{vary.key} takes {READABLE[kind.name]} and has no range; give values", place)
+    if vary.steps == 1 and low != high:
+        raise SpecError("one step from lower to upper leaves one of them out; give 2 or more, or values", f"{place}.steps")
     if vary.spacing == "logarithmic":
         if not low * high > 0:
             raise SpecError(f"logarithmic levels need bounds of one sign beside 0, got {brief(vary.lower)} and {brief(vary.upper)}", place)
         found = np.geomspace(low, high, vary.steps)
     else:
         found = np.linspace(low, high, vary.steps)
+    if kind.name == "integer":
+        found = np.where(np.abs(found - np.round(found)) <= 1e-12 * np.abs(found), np.round(found), found)  # equal ratios round
     if kind.name == "integer" and np.any(found != np.round(found)):
         raise SpecError(f"{vary.key} takes whole numbers, but {vary.steps} steps from {low} to {high} give "
                         f"{', '.join(f'{x:g}' for x in found[:4])} ...; choose steps = {abs(high - low) + 1}, or give values", place)
@@ -175,18 +233,18 @@ def _bound(kind, vary, name, place, needed=False):
 
 
 def _distribution(kind, vary, nominal, place):
-    """A frozen distribution of scipy.stats."""
+    """(frozen distribution of scipy.stats, its bounds)."""
     said = {name: _bound(kind, vary, name, place) for name in ("lower", "upper", "mean", "sigma", "mode", "tolerance")}
     for name in ("sigma", "tolerance"):
         if said[name] is not None and not said[name] > 0:
             raise SpecError(f"must be greater than 0, got {brief(getattr(vary, name))}", f"{place}.{name}")
-    form = vary.distribution or ("normal" if said["sigma"] is not None or said["tolerance"] is not None else "uniform")
     if said["tolerance"] is not None:
         middle = _middle(said, nominal, vary.key, place)
         said |= {"lower": middle - said["tolerance"], "upper": middle + said["tolerance"]}
     if said["lower"] is not None and said["upper"] is not None and not said["lower"] < said["upper"]:
         raise SpecError(f"lower bound {vary.lower} is not below upper bound {vary.upper}", place)
-    return FORMS[form](said, nominal, vary.key, place)
+    bounds = tuple(end if said[name] is None else said[name] for name, end in (("lower", -np.inf), ("upper", np.inf)))
+    return FORMS[_form(vary)](said, nominal, vary.key, place), bounds
 
 
 def _middle(said, nominal, key, place):
@@ -203,6 +261,9 @@ def _normal(said, nominal, key, place):
     if said["sigma"] is None and said["tolerance"] is None:
         raise SpecError("a normal distribution needs sigma or tolerance", f"{place}.sigma")
     sigma = said["sigma"] if said["sigma"] is not None else said["tolerance"] / FAR
+    for side, beyond in (("lower", -1), ("upper", 1)):
+        if said[side] is not None and beyond * (middle - said[side]) > 0:
+            raise SpecError("the mean is beyond it; choose ends on both sides of the mean", f"{place}.{side}")
     low, high = ((end - middle) / sigma if end is not None else side * np.inf
                  for end, side in ((said["lower"], -1), (said["upper"], 1)))
     if np.isinf(low) and np.isinf(high):

@@ -72,9 +72,10 @@ def asked(spec, texts=(), points=None, **settings):
             raise SpecError(f"--vary {key} is given twice; give its levels in one list")
         vary[key] = what
     changed = varied(spec, vary, **given) if vary or given else spec
-    if settings.get("samples") is not None and not any(each.steps is None and not each.values for each in changed.study.vary):
-        raise SpecError(f"--sample {settings['samples']}: nothing has a distribution to sample from; give --vary KEY=FROM:TO or "
-                        "KEY=normal(MEAN, SIGMA) or KEY=+-TOLERANCE")
+    for name, option in (("samples", "--sample"), ("method", "--method"), ("seed", "--seed")):
+        if settings.get(name) is not None and not any(each.steps is None and not each.values for each in changed.study.vary):
+            raise SpecError(f"{option} {settings[name]}: nothing has a distribution to sample from; give --vary KEY=FROM:TO or "
+                            "KEY=normal(MEAN, SIGMA) or KEY=+-TOLERANCE")
     return changed
 
 

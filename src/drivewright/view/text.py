@@ -56,9 +56,8 @@ def quantity(value, unit, digits=5):
 
 
 def sentence(text):
-    """First letter large, the rest untouched; a dotted name stays as it is."""
-    is_name = " " not in text and ("." in text or "_" in text)
-    return text if is_name else text[:1].upper() + text[1:]
+    """First letter large, the rest untouched; a dotted name at the start stays as it is."""
+    return text if re.match(r"\w+[._]\w", text) else text[:1].upper() + text[1:]
 
 
 def axis_label(meaning, unit, width=60):

@@ -1,0 +1,57 @@
+"""What makes a study another one than that in a folder, key by key."""
+
+from pathlib import Path
+
+from drivewright.errors import SpecError, UnitError
+from drivewright.spec import document, load
+from drivewright.units import any_quantity
+
+TOLD = 8  # differences that are told
+UNSEEN = ("spec", "plan", "study")  # parts of an identity that the keys tell better
+PROGRAM = "drivewright"  # the part of an identity that is the program's version
+
+
+def differing(spec_file, spec, known, identity):
+    """One line of what is not the same there and here: other parts of the identity first, then key by key."""
+    names = [name for name in dict.fromkeys([*known, *identity]) if known.get(name) != identity.get(name) and name not in UNSEEN]
+    rows = [_row(name, known, identity) for name in names]
+    if PROGRAM not in names:  # another version may have other keys
+        rows += _keys(spec_file, spec, "optimise." if "plan" in known else "study.")
+    more = f" and {len(rows) - TOLD} more" if len(rows) > TOLD else ""
+    return "; ".join(rows[:TOLD]) + more if rows else "the content of a data file, or the points of the plan, are not the same"
+
+
+def _row(name, there, here):
+    if all(isinstance(each.get(name), str) and Path(each[name]).is_file() for each in (there, here)):
+        return f"{name}: the content of the file is not that of the study's copy"
+    return f"{name}: {there.get(name, 'not given')} there, {here.get(name, 'not given')} here"
+
+
+def _keys(spec_file, spec, idle):
+    """The keys that differ; the title, and those that begin with `idle`, change nothing here."""
+    try:
+        there, here = _flat(document(load(spec_file))), _flat(document(spec))
+    except SpecError as error:
+        return [f"its spec cannot be read ({error})"]
+    keys = [key for key in dict.fromkeys([*there, *here]) if key != "title" and not key.startswith(idle)]
+    return [_row(key, there, here) for key in keys if not _same(there.get(key), here.get(key))]
+
+
+def _flat(tables, path=""):
+    """{dotted key: value} of raw tables."""
+    entries = tables.items() if isinstance(tables, dict) else enumerate(tables)
+    found = {}
+    for key, value in entries:
+        place = f"{path}.{key}" if path else str(key)
+        found |= _flat(value, place) if isinstance(value, (dict, list)) else {place: value}
+    return found
+
+
+def _same(there, here):
+    """Whether two entries say the same: in other units, or by a copy of the same file."""
+    if there == here or not (isinstance(there, str) and isinstance(here, str)):
+        return there == here
+    try:
+        return any_quantity(there) == any_quantity(here)
+    except UnitError:
+        return Path(there).is_file() and Path(here).is_file() and Path(there).read_bytes() == Path(here).read_bytes()
