@@ -290,3 +290,22 @@ def test_a_journal_writes_each_row_once_whatever_happens_in_between(undisturbed)
     journal.flush()
     assert kept.ranges() == [(0, 8), (9, 3)] and kept.seconds == 4.0
     assert store.joined(kept.tables())["case"].to_pylist() == [*range(8), *range(9, 12)]
+
+
+# -- how a search is shown -----------------------------------------------------------------------------------------------------
+
+
+def test_the_search_is_drawn_with_the_best_on_top(undisturbed, tmp_path, monkeypatch):
+    from drivewright.studies import optimise as module
+
+    table, plot = undisturbed.search()
+    objective = undisturbed.problem.objectives[0][0]
+    assert (plot.x, plot.y, plot.by) == ("evaluation", (objective,), "set") and len(table["set"].data) == undisturbed.evaluations
+    assert table["set"].data[0] == "best"
+    best = int(table["evaluation"].data[0])
+    assert table[objective].data[0] == undisturbed.front_values[objective][0] == undisturbed.history[objective][best]
+    failing = {int(n) for n, what in zip(table["evaluation"].data, table["set"].data, strict=True) if what == "fails a requirement"}
+    assert failing == {int(n) for n in np.flatnonzero((undisturbed.history["violation"] > 0) & np.isfinite(undisturbed.history[objective]))}
+    monkeypatch.setattr(module, "DRAWN", 10)
+    thin, _ = undisturbed.search()
+    assert len(thin["set"].data) <= 12 and thin["set"].data[0] == "best" and int(thin["evaluation"].data[0]) == best

@@ -1,8 +1,10 @@
 """The outcome of an optimisation beside its evaluations: best.toml, the best design's run folder, every evaluation in one table."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from drivewright.report import atomic
+from drivewright.report.content import views
 from drivewright.report.folder import refuse_foreign, write_run_folder
 
 MARK = "history.parquet"
@@ -16,10 +18,18 @@ def write_optimised(found, folder):
     folder.mkdir(parents=True, exist_ok=True)
     _write_table(folder / MARK, found.table)
     _write_table(folder / "front.parquet", _front(found))
-    write_run_folder(found.best, folder / "best")
+    best, seen = _with_search(found)
+    write_run_folder(best, folder / "best", seen=seen)
     with atomic.replacing(folder / "best.toml") as temporary:
         found.best.spec.write(temporary)
     return folder
+
+
+def _with_search(found):
+    """(Result, Views) of the best design, with the search that led to it."""
+    table, plot = found.search()
+    seen = views(found.best)
+    return replace(found.best, tables={**found.best.tables, table.name: table}), seen._replace(plots=(*seen.plots, plot))
 
 
 def _front(found):

@@ -11,6 +11,7 @@ TARGET, LEAST = 1.5, 0.5  # seconds that a batch should take, and below which no
 GROWTH = 8  # a batch may have so many times the cases of the one before: the first ones compile
 LARGEST = 200_000  # cases of a batch: what is held in memory on its way
 TRIES = 3  # a batch whose worker dies is taken again, twice; then its halves once each, until the deadly case is alone
+WORTH_HELP = 3.0  # seconds of work: other processes need one or two to start
 LOOK = 1.0  # seconds between two looks at the pool
 
 

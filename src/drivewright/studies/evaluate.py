@@ -12,6 +12,7 @@ import numpy as np
 
 from drivewright import registry, runner
 from drivewright.errors import DrivewrightError, InputError, SpecError, UnknownName
+from drivewright.result import Value
 from drivewright.spec import document, from_document, set_key
 from drivewright.studies.study import CASE, CHECK, MESSAGE, STATUS, first_fields
 from drivewright.studies.variables import kind_of
@@ -37,7 +38,7 @@ class Task(NamedTuple):
 
 
 class Found(NamedTuple):
-    """One case by the runner: `values` {name: (value, unit, meaning)} and what became of it."""
+    """One case by the runner: `values` {name: Value} and what became of it."""
 
     values: dict
     status: str = "complete"
@@ -175,9 +176,9 @@ class Working:
         for n in silent.tolist():
             found = self.case(columns, n)
             statuses[n], messages[n] = found.status, found.message
-            for name, (value, *more) in found.values.items():
-                about.setdefault(name, tuple(more))
-                values.setdefault(name, np.full(count, np.nan))[n] = value
+            for name, value in found.values.items():
+                about.setdefault(name, value[1:])
+                values.setdefault(name, np.full(count, np.nan))[n] = value[0]
         return _table(first, columns, self.kinds, values, about, statuses, messages)
 
     def many(self, columns):
@@ -212,8 +213,8 @@ class Working:
     def found(self, spec):
         """`Found` of a spec."""
         answers = runner.ask(spec, self.mechanism.build(spec), self.wanted).values()
-        values = {name: tuple(value) for answer in answers for name, value in answer.values.items()}
-        values |= {f"{CHECK}{c.name}": (_margin(c), c.unit, f"margin of: {c.message}") for answer in answers for c in answer.checks}
+        stated = {name: value for answer in answers for name, value in answer.values.items()}
+        values = looked_at(stated, [check for answer in answers for check in answer.checks])
         if self.task.names:
             values = {name: values[name] for name in self.task.names if name in values}
         partial = any(answer.outcome == "partial" for answer in answers)
@@ -228,9 +229,11 @@ def _fresh(tables):
     return [_fresh(value) for value in tables] if isinstance(tables, list) else tables
 
 
-def _margin(check):
-    """Margin of a check, 0 where rounding alone makes it negative: it passes exactly when this is not below 0."""
-    return max(check.margin, 0.0) if check.ok else check.margin
+def looked_at(values, checks):
+    """{name: Value} of all that a study looks at: values, and margins of checks, 0 where rounding alone makes one negative: a check
+    passes exactly when its margin is not below 0."""
+    margins = {f"{CHECK}{c.name}": Value(max(c.margin, 0.0) if c.ok else c.margin, c.unit, f"margin of: {c.message}") for c in checks}
+    return dict(values) | margins
 
 
 def _short(reason):

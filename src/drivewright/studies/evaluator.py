@@ -9,14 +9,13 @@ from drivewright import registry
 from drivewright.cases import worker_count
 from drivewright.errors import InputError
 from drivewright.studies import history
-from drivewright.studies.batches import Batch, Supply, compute, gaps
+from drivewright.studies.batches import WORTH_HELP, Batch, Supply, compute, gaps
 from drivewright.studies.evaluate import evaluate, failed, task_of
 from drivewright.studies.pools import Here, pool
 from drivewright.studies.searching import population_of
 from drivewright.studies.store import joined
 from drivewright.studies.study import MESSAGE, STATUS
 
-WORTH_HELP = 3.0  # seconds: other processes need one or two to start
 SILENT = "the compiled evaluation finds no solution; a run of this design says why"
 
 

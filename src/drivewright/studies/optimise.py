@@ -16,16 +16,19 @@ import numpy as np
 
 from drivewright import units
 from drivewright.errors import InputError, SolverError
-from drivewright.result import Check, Result
+from drivewright.result import Check, Column, Plot, Result, Table
 from drivewright.runner import run, versions
 from drivewright.studies import history, store
+from drivewright.studies.evaluate import looked_at
 from drivewright.studies.evaluator import SILENT, Evaluator
 from drivewright.studies.pareto import nondominated
-from drivewright.studies.problem import Problem, looked_at, prepare
+from drivewright.studies.problem import Problem, prepare
 from drivewright.studies.searching import METHODS, method_of
 from drivewright.studies.study import MESSAGE, STATUS
 
 HISTORY = "history.parquet"
+DRAWN = 4000  # evaluations that a figure shows, evenly chosen, and the best ones
+SETS = ("best", "meets every requirement", "fails a requirement", "has no value")
 NEAR = 1e-6  # difference of two routes to a value, relative to its size, that is worth no word
 
 
@@ -62,6 +65,28 @@ class Optimised:
         """{column: array} of the table: generation, unknowns, values (nan where there is none), violation."""
         names = [history.GENERATION, *self.problem.keys, *(history.column_of(self.problem, name) for name in self.problem.names)]
         return {name: self.table[name].to_numpy() for name in [*names, history.VIOLATION]}
+
+    def search(self):
+        """(Table, Plot) of evaluations, of many a part: the objectives against each other, or the only one in the course of the search."""
+        names = [name for name, _ in self.problem.objectives]
+        sets = self._sets(names)
+        shown = np.flatnonzero((np.arange(len(sets)) % -(-len(sets) // DRAWN) == 0) | (sets == SETS[0]))
+        order = shown[np.argsort([SETS.index(each) for each in sets[shown]], kind="stable")]  # what matters lies on top
+        columns = [Column("evaluation", "-", "number of the evaluation", np.arange(self.evaluations)[order])]
+        columns += [Column(name, *self.problem.about[name], self.history[history.column_of(self.problem, name)][order]) for name in names]
+        table = Table("search", "The search", (*columns, Column("set", "", "what became of the design", sets[order])))
+        x, y = (names[0], tuple(names[1:])) if len(names) > 1 else ("evaluation", (names[0],))
+        title = "Trade-off of the objectives" if len(names) > 1 else "The objective in the course of the search"
+        return table, Plot("search", title, "search", x, y, style="points", by="set")
+
+    def _sets(self, names):
+        """What became of each evaluation, as one of `SETS`."""
+        values = [np.asarray(self.history[history.column_of(self.problem, name)], float) for name in names]
+        sets = np.where(self.history[history.VIOLATION] <= 0, SETS[1], SETS[2])
+        sets[~np.all(np.isfinite(values), axis=0)] = SETS[3]
+        designs = np.stack([self.history[key].astype(float) for key in self.problem.keys], axis=1)
+        sets[[n for n, design in enumerate(designs) if any(np.array_equal(design, each) for each in self.front)]] = SETS[0]
+        return sets
 
     def objective_rows(self):
         """(value, reached, direction) as text."""

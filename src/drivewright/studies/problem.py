@@ -10,8 +10,8 @@ import numpy as np
 
 from drivewright import registry, runner, units
 from drivewright.errors import SpecError, UnknownName
-from drivewright.result import Value
 from drivewright.spec import MechanismSpec, document, from_document, set_key
+from drivewright.studies.evaluate import looked_at
 from drivewright.studies.study import CHECK
 from drivewright.studies.variables import READABLE, kind_of
 
@@ -99,12 +99,6 @@ def prepare(spec):
         about={name: tuple(known[name][1:]) for name in names},
         analyses=tuple(analysis for analysis in dict.fromkeys(givers.values()) if any(givers[name] == analysis for name in names)),
     )
-
-
-def looked_at(values, checks):
-    """{name: Value} of all that a search can look at: values, and margins of checks (0 where rounding alone makes a margin negative)."""
-    margins = {f"{CHECK}{c.name}": Value(max(c.margin, 0.0) if c.ok else c.margin, c.unit, f"margin of: {c.message}") for c in checks}
-    return dict(values) | margins
 
 
 def _with_settings(spec):

@@ -7,7 +7,7 @@ from drivewright.errors import InputError
 from drivewright.runner import versions
 from drivewright.spec.writing import canonical_text
 from drivewright.studies import store
-from drivewright.studies.batches import Supply, compute
+from drivewright.studies.batches import WORTH_HELP, Supply, compute
 from drivewright.studies.evaluate import evaluate, failed, refuse_unknown, task_of, with_compiled
 from drivewright.studies.plan import plan_of
 from drivewright.studies.pools import Here, pool, refuse_nowhere
@@ -15,7 +15,6 @@ from drivewright.studies.study import STATUS, Study
 from drivewright.studies.varying import varied
 
 MANY = 200_000  # cases that want a confirmation
-WORTH_HELP = 3.0  # seconds: other processes need one or two to start
 
 
 def sweep(spec, vary=None, *, out=None, workers=None, on=None, confirmed=True, progress=None):

@@ -9,7 +9,7 @@ from drivewright.view.palette import SERIES, colour
 from drivewright.view.panels import find_plot, panels
 from drivewright.view.ranked import draw_ranked
 from drivewright.view.rounds import draw_round
-from drivewright.view.style import BADGE, MUTED, angle_ticks, are_turned, legend_above, new_figure, places, show_places, styled
+from drivewright.view.style import BADGE, MUTED, angle_ticks, are_turned, legend_above, new_figure, places, show_places, styled, whole_ticks
 from drivewright.view.text import axis_label, literal, parts_of_label
 
 FEW = 25  # up to so many points each one is marked
@@ -135,6 +135,14 @@ def _scale(axis, panel, x):
         angle_ticks(axis.xaxis, np.min(x), np.max(x))
     if panel.series[0].unit == "°" and panel.high - panel.low > 100:
         angle_ticks(axis.yaxis, panel.low, panel.high, most=6)
+    elif not panel.log and not panel.series[0].unit.strip("-") and all(_counts(series.data) for series in panel.series):
+        whole_ticks(axis.yaxis)
+
+
+def _counts(data):
+    """Whether numbers count something, as far as there are any."""
+    known = data[np.isfinite(data)] if data.dtype.kind in "fiu" else data[:0]
+    return len(known) > 0 and bool(np.all(known % 1 == 0))
 
 
 def _limit(axis, value, text):
