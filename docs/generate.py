@@ -14,7 +14,8 @@ PAGES = ("motion", "curves", "gears", "cams", "contact", "bearings.ball", "beari
          "chains.meshing", "chains.tooth", "chains.plate", "chains.sprocket", "chains.closure.drive", "chains.dynamics.model",
          "chains.dynamics.simulate", "chains.implicit.equilibrium", "chains.standards", "fatigue.material", "fatigue.critical",
          "fatigue.rainflow", "fatigue.curves", "materials",
-         "units", "spec", "result", "scene", "errors")
+         "studies.sweep", "studies.varying", "studies.study", "studies.plan", "studies.pools", "studies.answers.whole", "studies.statistics",
+         "studies.sensitivity", "studies.pareto", "studies.optimise", "units", "spec", "result", "scene", "errors")
 
 
 def peaks():

@@ -10,7 +10,7 @@ import drivewright as dw
 from drivewright.cli import main
 from drivewright.errors import SolverError, SpecError
 from drivewright.spec import document, from_document, value_at
-from drivewright.studies.problem import prepare
+from drivewright.studies.search.problem import prepare
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PUSHER = EXAMPLES / "seedling_pusher.toml"

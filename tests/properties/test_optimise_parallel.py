@@ -14,8 +14,9 @@ import drivewright as dw
 from drivewright.cli import main
 from drivewright.errors import InputError
 from drivewright.spec import from_document
-from drivewright.studies import evaluator, history, store
+from drivewright.studies import store
 from drivewright.studies.pools import Here, pool
+from drivewright.studies.search import evaluator, history
 from drivewright.studies.sweep import sweep
 
 TEXT = """
@@ -180,7 +181,7 @@ KILLED = """
     import sys, time, tomllib
     from drivewright import optimise
     from drivewright.spec import from_document
-    from drivewright.studies import evaluator, history
+    from drivewright.studies.search import evaluator, history
 
     plain = evaluator.evaluate
 

@@ -18,12 +18,13 @@ from drivewright import units
 from drivewright.errors import InputError, SolverError
 from drivewright.result import Check, Column, Plot, Result, Table
 from drivewright.runner import run, versions
-from drivewright.studies import history, store
+from drivewright.studies import store
 from drivewright.studies.evaluate import looked_at
-from drivewright.studies.evaluator import SILENT, Evaluator
 from drivewright.studies.pareto import nondominated
-from drivewright.studies.problem import Problem, prepare
-from drivewright.studies.searching import METHODS, method_of
+from drivewright.studies.search import history
+from drivewright.studies.search.evaluator import SILENT, Evaluator
+from drivewright.studies.search.problem import Problem, prepare
+from drivewright.studies.search.searching import METHODS, method_of
 from drivewright.studies.study import MESSAGE, STATUS
 
 HISTORY = "history.parquet"

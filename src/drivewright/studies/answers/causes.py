@@ -4,8 +4,8 @@ import numpy as np
 
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies import sensitivity
-from drivewright.studies.maps import Response
-from drivewright.studies.parts import BOUNDS, Part, table_of_rows, together
+from drivewright.studies.answers.maps import Response
+from drivewright.studies.answers.parts import BOUNDS, Part, table_of_rows, together
 from drivewright.studies.statistics import varies
 
 LINEAR, REGRESSION, RANKS = "linear", "regression", "ranks"

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright.result import Column, Plot, Table, Value
-from drivewright.studies.parts import STATUSES, Part, level_text, status_codes, table_of_rows, together
+from drivewright.studies.answers.parts import STATUSES, Part, level_text, status_codes, table_of_rows, together
 from drivewright.studies.statistics import finite
 from drivewright.studies.study import CASE, CHECK
 

@@ -5,8 +5,8 @@ import numpy as np
 from drivewright import units
 from drivewright.errors import InputError
 from drivewright.result import Column, Plot, Table, Value
+from drivewright.studies.answers.parts import Part, listed, passing, plain
 from drivewright.studies.pareto import ABSENT, FRONT, sorted_out
-from drivewright.studies.parts import Part, listed, passing, plain
 from drivewright.studies.study import CHECK
 
 

@@ -8,11 +8,11 @@ import numpy as np
 from drivewright import registry
 from drivewright.cases import worker_count
 from drivewright.errors import InputError
-from drivewright.studies import history
 from drivewright.studies.batches import WORTH_HELP, Batch, Supply, compute, gaps
 from drivewright.studies.evaluate import evaluate, failed, task_of
 from drivewright.studies.pools import Here, pool
-from drivewright.studies.searching import population_of
+from drivewright.studies.search import history
+from drivewright.studies.search.searching import population_of
 from drivewright.studies.store import joined
 from drivewright.studies.study import MESSAGE, STATUS
 

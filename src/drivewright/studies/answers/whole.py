@@ -9,9 +9,9 @@ import numpy as np
 from drivewright import registry
 from drivewright.result import Result, Value
 from drivewright.runner import versions
-from drivewright.studies import causes, maps, spread
-from drivewright.studies.fronts import fronts
-from drivewright.studies.parts import STATUSES, Arranged, Part, listed, status_codes, together
+from drivewright.studies.answers import causes, maps, spread
+from drivewright.studies.answers.fronts import fronts
+from drivewright.studies.answers.parts import STATUSES, Arranged, Part, listed, status_codes, together
 from drivewright.studies.statistics import LEVEL, finite, varies
 from drivewright.studies.study import CHECK, MESSAGE
 

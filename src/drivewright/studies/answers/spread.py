@@ -3,8 +3,8 @@
 import numpy as np
 
 from drivewright.result import Column, Plot, Table, Value
-from drivewright.studies.maps import Response
-from drivewright.studies.parts import BOUNDS, Part, table_of_rows, together
+from drivewright.studies.answers.maps import Response
+from drivewright.studies.answers.parts import BOUNDS, Part, table_of_rows, together
 from drivewright.studies.statistics import PERCENTS, capability, finite, share, summary
 from drivewright.studies.study import CHECK
 

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from drivewright.result import Column, Table, Value
-from drivewright.studies.factorial import crossed
+from drivewright.studies.answers.factorial import crossed
 from drivewright.studies.statistics import LEVEL
 from drivewright.studies.study import CASE, CHECK, STATUS, Study
 from drivewright.view.text import quantity

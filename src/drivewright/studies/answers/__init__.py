@@ -1,0 +1,8 @@
+"""What a study says: `answers(study)` gives a `Result` and its plots.
+
+`spread` of a sample and corners, `causes` of the spread, `maps` over levels, `fronts` of objectives; `parts` is what they are made of.
+"""
+
+from drivewright.studies.answers.whole import Answers, answers
+
+__all__ = ["Answers", "answers"]
