@@ -28,7 +28,8 @@ Set = Annotated[list[str] | None, typer.Option("--set", help="key=value, repeata
 Only = Annotated[str, typer.Option("--only", help="analyses to run, comma separated, with what they need")]
 All = Annotated[bool, typer.Option("--all", help="every analysis")]
 Out = Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the spec>")]
-VARY = ("repeatable: KEY=FROM:TO:STEPS, KEY=V1,V2, KEY=normal(MEAN, SIGMA), KEY=FROM:TO, KEY=+-TOLERANCE; KEY+KEY=... for keys "
+VARY = ("repeatable: KEY=FROM:TO:STEPS, KEY=V1,V2, KEY=FROM:TO or uniform(FROM, TO), KEY=normal(MEAN, SIGMA), "
+        "KEY=triangular(FROM, PEAK, TO), KEY=+-TOLERANCE; KEY+KEY=... for keys "
         "with the same value; instead of what the spec's [study] varies")
 METHOD = "latin-hypercube, sobol, random, corners, one-at-a-time, tolerance, sobol-indices"
 Strict = Annotated[bool, typer.Option("--strict", help="exit 3 when a design check fails")]
@@ -42,6 +43,11 @@ def _load(path, changes):
 
 def _names(text):
     return tuple(name.strip() for name in text.split(",") if name.strip())
+
+
+def _refuse_both(only, everything):
+    if only and everything:
+        raise InputError("--only and --all contradict each other; give one of them")
 
 
 def _folder(path, out, several=False):
@@ -84,8 +90,7 @@ def run(
     from drivewright.report.content import views
     from drivewright.report.folder import write_run_folder
 
-    if only and all_:
-        raise InputError("--only and --all contradict each other; give one of them")
+    _refuse_both(only, all_)
     stems = [path.stem for path in specs]
     if len(set(stems)) < len(stems):
         raise InputError("two specs have the same file name and would share a run folder; run them one by one with --out")
@@ -145,6 +150,7 @@ def sweep(
     from drivewright.studies.sweep import sweep as compute
     from drivewright.studies.varying import asked
 
+    _refuse_both(only, all_)
     with show.located(spec):
         loaded = asked(_load(spec, set_), vary or (), points, samples=sample, method=method, seed=seed, analyses=_names(only) or None,
                        every_analysis=all_ or None, values=_names(values) or None)
@@ -171,10 +177,10 @@ def table(
     from drivewright.report.tabular import write_study_table
     from drivewright.studies.sweep import open_study
 
+    opened = open_study(study)
+    if not opened.complete:
+        show.note(f"note: {len(opened)} of {len(opened.plan)} cases are there; the same sweep again goes on")
     with show.located(study):
-        opened = open_study(study)
-        if not opened.complete:
-            show.note(f"note: {len(opened)} of {len(opened.plan)} cases are there; the same sweep again goes on")
         for form in _names(to):
             print(write_study_table(opened, (out or study) / f"table.{form}"))
 
