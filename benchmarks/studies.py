@@ -11,8 +11,8 @@ import numpy as np
 from timing import best
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
-CASES, BATCH = 1200, 120  # of about 10 ms
-MANY = 4000  # of about 1 ms
+CASES, BATCH, ROUNDS = 2000, 100, 2  # of about 10 ms
+MANY = 3000  # of about 1 ms
 CHECKED = 200  # of them run again one by one, for the bits
 
 
@@ -57,7 +57,7 @@ def bare(workers, cases, loops):
 
 
 def workers():
-    """Cases of 10 ms by one and two workers of each kind, in turn, so that a machine that changes its speed changes it for all."""
+    """Cases of about 10 ms by one and two workers of each kind."""
     from drivewright.studies import pools
 
     loops = loops_for(10e-3)
@@ -65,13 +65,12 @@ def workers():
     yield "a case alone, in this process", alone, f"load of the machine {os.getloadavg()[0]:.1f}"
     lanes = {"processes": lambda n: [pools.Process() for _ in range(n)], "Dask, local": lambda n: list(pools.pool(on=f"local:{n}"))}
     for name, make in lanes.items():
-        per = {}
-        for count in (1, 2):
-            opened = make(count)
-            per[count] = [ours(opened, CASES * count // 2, loops) for _ in range(2)]
-            for lane in opened:
-                lane.close()
-        gain = min(per[1]) / min(per[2])
+        opened, per = {count: make(count) for count in (1, 2)}, {1: [], 2: []}
+        for count in (1, 2) * ROUNDS:  # in turn: a machine that changes its speed changes it for both
+            per[count].append(ours(opened[count], CASES * count // 2, loops))
+        for lane in (*opened[1], *opened[2]):
+            lane.close()
+        gain = np.median(per[1]) / np.median(per[2])
         yield f"{name}: one worker, per case", (min(per[1]), float(np.median(per[1]))), ""
         remark = f"{gain:.2f} times one; wanted 1.8 on two free cores"
         yield f"{name}: two workers, per case", (min(per[2]), float(np.median(per[2]))), remark
@@ -82,15 +81,16 @@ def workers():
 
 def overhead():
     """A real study of cases of about 1 ms: what it costs beyond the bare run of each."""
+    from threadpoolctl import threadpool_limits
+
     from drivewright import load, registry, runner, sweep
     from drivewright.spec import from_document, set_key
     from drivewright.studies.evaluate import task_of
-    from drivewright.studies.pools import Here
     from drivewright.studies.varying import linspace, varied
     from drivewright.units import SI
 
     key = "joint.rolling_radius"
-    spec = load(EXAMPLES / "hyvo_chain.toml", ('closure.strands="straight"', 'study.analyses=["closure"]'))
+    spec = load(EXAMPLES / "hyvo_chain.toml", ('study.analyses=["closure"]',))
     studied = varied(spec, {key: linspace("1.0 mm", "1.6 mm", MANY)})
     task, mechanism = task_of(studied, (key,)), registry.mechanism(spec.mechanism)
     wanted = runner.selection(mechanism.analyses, task.analyses)
@@ -105,9 +105,8 @@ def overhead():
         with tempfile.TemporaryDirectory() as folder:
             sweep(studied, out=Path(folder) / "S", on="serial")
 
-    lane = Here()  # one thread in the libraries for both
-    pairs = [(best(alone, 1)[0], best(kept, 1)[0]) for _ in range(3)]
-    lane.close()
+    with threadpool_limits(1):  # for both
+        pairs = [(best(alone, 1)[0], best(kept, 1)[0]) for _ in range(3)]
     bare, whole = (min(times) / MANY for times in zip(*pairs, strict=True))
     yield f"{MANY} closures of a chain, spec and run alone, per case", (bare, float(np.median([p[0] for p in pairs])) / MANY), ""
     yield "the same as a study on disk, one worker, per case", (whole, float(np.median([p[1] for p in pairs])) / MANY), (

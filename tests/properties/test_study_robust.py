@@ -46,7 +46,7 @@ def test_the_tables_of_a_task_are_never_changed():
     task = evaluate.task_of(chain(), ("joint.rolling_radius",))
     before = repr(task.tables)
     evaluate.evaluate(task, 0, {"joint.rolling_radius": np.array([1.3e-3])})
-    assert repr(task.tables) == before and repr(evaluate._working(task).task.tables) == before
+    assert repr(task.tables) == before
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ its own design only, so neither the size of a batch nor who computes it changes 
 
 import time
 from functools import lru_cache
+from threading import Lock
 from typing import NamedTuple
 
 import numpy as np
@@ -157,7 +158,7 @@ class Working:
                 f"drivewright {task.version} asks and {runner.versions()['drivewright']} would answer; install the same version "
                 "on all workers"
             )
-        self.task = task
+        self.task, self._alone = task, Lock()
         self.spec = from_document(task.tables)
         self.mechanism = registry.mechanism(self.spec.mechanism)
         self.wanted = runner.selection(self.mechanism.analyses, task.analyses, task.everything)
@@ -199,16 +200,20 @@ class Working:
     def case(self, columns, n):
         """`Found` of case n of some columns; whatever goes wrong is its reason."""
         try:
-            tables = _fresh(self.task.tables)  # a worker may have several threads
-            for key, kind in self.kinds.items():
-                set_key(tables, key, kind.given(columns[key][n]))
-            return self.found(from_document(tables, type(self.spec)))
+            return self.found(self._spec(columns, n))
         except DrivewrightError as error:
             return Found({}, "failed", _short(error))
         except (ImportError, MemoryError):  # of the place where it is computed, not of the case
             raise
         except Exception as bug:  # one case in a million must not cost the others
             return Found({}, "failed", _short(f"a fault of the program, please report it: {type(bug).__name__}: {bug}"))
+
+    def _spec(self, columns, n):
+        """The spec of case n; one at a time, as all have the same tables and a process may have several threads."""
+        with self._alone:
+            for key, kind in self.kinds.items():
+                set_key(self.task.tables, key, kind.given(columns[key][n]))
+            return from_document(self.task.tables, type(self.spec))
 
     def found(self, spec):
         """`Found` of a spec."""
@@ -220,13 +225,6 @@ class Working:
         partial = any(answer.outcome == "partial" for answer in answers)
         reasons = [finding for answer in answers if answer.outcome != "complete" for finding in answer.findings[-1:]]
         return Found(values, "partial" if partial else "complete", _short("; ".join(reasons)))
-
-
-def _fresh(tables):
-    """A copy of raw tables that may be changed."""
-    if isinstance(tables, dict):
-        return {key: _fresh(value) for key, value in tables.items()}
-    return [_fresh(value) for value in tables] if isinstance(tables, list) else tables
 
 
 def looked_at(values, checks):
