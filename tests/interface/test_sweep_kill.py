@@ -22,10 +22,13 @@ def command(folder, workers):
             "--vary", f"joint.rolling_radius=1.0 mm:1.6 mm:{CASES}", "--out", str(folder), "--workers", str(workers), "--no-figures"]
 
 
-def acknowledged(folder):
-    """(first, count, name) of the ledger; none where there is no ledger yet."""
+def acknowledged(folder, mode="ro"):
+    """(first, count, name) of the ledger; none where there is no ledger yet.
+
+    After a kill in the middle of a commit only a reader that may write, "rw", can roll it back.
+    """
     try:
-        with sqlite3.connect(f"file:{folder}/ledger.sqlite?mode=ro", uri=True) as ledger:
+        with sqlite3.connect(f"file:{folder}/ledger.sqlite?mode={mode}", uri=True) as ledger:
             return ledger.execute("select first, count, name from parts order by first").fetchall()
     except sqlite3.Error:
         return []
@@ -75,7 +78,7 @@ def killed(tmp_path_factory):
     process.wait()
     died = time.monotonic()
     wait_for(lambda: not any(map(running, workers)), 20)
-    parts = acknowledged(folder)
+    parts = acknowledged(folder, "rw")
     return folder, parts, stamps(folder, parts), workers, time.monotonic() - died
 
 
