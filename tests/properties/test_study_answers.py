@@ -392,3 +392,10 @@ def test_what_is_missing_makes_the_outcome_partial():
     whole, _ = answers(made(spec_of(RANDOM, method="random", samples=25), y=straight))
     assert whole.outcome == "complete" and whole["mean.y"] == result["mean.y"] and whole["sigma.y"] == result["sigma.y"]
     assert whole.digest == spec.digest() and whole.provenance["seed"] == 1
+
+
+def test_the_front_lies_on_top_of_what_it_beats():
+    spec = spec_of(RANDOM, method="random", samples=60, values=["y", "z"])
+    result, _ = answers(made(spec, y=lambda c: c[ROLLER], z=lambda c: c[PRIME] ** 2 / c[ROLLER]))
+    sets = result.tables["pareto"]["set"].data.tolist()
+    assert sets[0] == "front" and "dominated" in sets and sets == sorted(sets, key=["front", "dominated", "fails"].index)

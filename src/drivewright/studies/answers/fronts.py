@@ -6,8 +6,10 @@ from drivewright import units
 from drivewright.errors import InputError
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies.answers.parts import Part, listed, passing, plain
-from drivewright.studies.pareto import ABSENT, FRONT, sorted_out
+from drivewright.studies.pareto import ABSENT, DOMINATED, FAILS, FRONT, sorted_out
 from drivewright.studies.study import CHECK
+
+DRAWN = (FRONT, DOMINATED, FAILS)  # from the top down
 
 
 def fronts(study, values=()):
@@ -63,6 +65,7 @@ def _told(study, goals, columns, sets, remarks):
     there = np.flatnonzero(sets != ABSENT)
     if not len(there):
         return Part(findings=(*remarks, "no Pareto front: no case has all objectives"))
+    there = there[np.argsort([DRAWN.index(each) for each in sets[there]], kind="stable")]
     members = there[sets[there] == FRONT]
     members = members[np.argsort(columns[0][members], kind="stable")]
     plots = tuple(Plot("pareto" if number == 1 else f"pareto.{number}", "Trade-off of the objectives", "pareto", list(goals)[0], (name,),
