@@ -87,6 +87,7 @@ def compute(lanes, function, arguments, supply, enough=lambda: False):
     that all others need.  No batch begins when `enough()`.  A batch whose worker dies is taken again; InputError where the scheduler
     goes away.
     """
+    supply.workers = sum(lane.workers for lane in lanes)
     waiting = {}  # future -> (lane, batch), in the order of their submission
     while waiting or (supply and not enough()):
         begun = supply.expected is not None

@@ -19,6 +19,8 @@ from drivewright.studies.study import CASE, CHECK, MESSAGE, STATUS, first_fields
 from drivewright.studies.variables import kind_of
 
 LONGEST = 2000  # characters of a message
+FEW = 4  # cases that are not worth a second route
+ROUNDING = 1e-9  # of a value: no difference between two routes
 OFFERED = "value."  # in front of a value that has the name of a key that varies
 
 
@@ -86,10 +88,6 @@ def with_compiled(task, plan):
         f"the compiled route was taken for the values named; in the cases compared it differs from a run by {off:.1g} of a value at most"
     )
     return (compiled, (remark,)) if task.names else (task, ())
-
-
-FEW = 4  # cases that are not worth a second route
-ROUNDING = 1e-9
 
 
 def _difference(runs, many):

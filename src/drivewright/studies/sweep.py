@@ -92,7 +92,6 @@ def _computed(task, plan, supply, workers, on):
 
 def _by(lanes, arguments, supply, enough=lambda: False):
     """The same by given lanes, which are let go at the end."""
-    supply.workers = sum(lane.workers for lane in lanes)
     try:
         yield from compute(lanes, evaluate, arguments, supply, enough)
     finally:

@@ -6,7 +6,6 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright import registry
-from drivewright.cases import worker_count
 from drivewright.errors import InputError
 from drivewright.studies.batches import WORTH_HELP, Batch, Supply, compute, gaps
 from drivewright.studies.evaluate import evaluate, failed, task_of
@@ -139,12 +138,12 @@ class Runs:
     def __init__(self, problem, workers, on):
         bare = problem.spec.model_copy(update={"study": None})
         self._task = task_of(bare, problem.keys)._replace(analyses=problem.analyses, names=problem.names)
-        self._problem, self._asked, self._workers = problem, (workers, on), worker_count(workers)
+        self._problem, self._asked = problem, (workers, on)
         self._alone, self._lanes = workers is None and on is None, ()
         self._count, self._seconds = 0, 0.0  # of what is done
 
     def __call__(self, first, designs, have, ahead):
-        supply = Supply([(0, first), *((number, 1) for number in have)], first + len(designs), self._workers)
+        supply = Supply([(0, first), *((number, 1) for number in have)], first + len(designs), 1)
         if self._count:
             supply.learn(Batch(0, self._count), self._seconds)
 
