@@ -32,3 +32,12 @@ def test_straight_runs_keep_their_corners_only():
 
 def test_even_the_coarsest_circle_has_an_area():
     assert shapely.area(shapely.polygons(thinned(circle((0, 0), 1.0), 0.9))) > 0
+
+
+def test_points_are_remembered_for_the_same_outline_only():
+    first, second = wavy(1.0, 3), wavy(2.0, 3)
+    assert thinned(first, 1e-3) is thinned(first, 1e-3) and not thinned(first, 1e-3).flags.writeable
+    assert np.ptp(thinned(second, 1e-3)[:, 0]) == pytest.approx(2 * np.ptp(thinned(first, 1e-3)[:, 0]), rel=5e-3)
+    small, large = circle((0, 0), 1.0), circle((0, 0), 1.1)
+    assert np.ptp(thinned(large, 1e-3)[:, 0]) == pytest.approx(1.1 * np.ptp(thinned(small, 1e-3)[:, 0]), rel=5e-3)
+    assert len(thinned(small, 1e-5)) > 2 * len(thinned(small, 1e-3))

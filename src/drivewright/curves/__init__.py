@@ -1,9 +1,10 @@
 """Plane curves as complex jets, envelopes of moving circles and lines, and the profile that is really left of them."""
 
 from drivewright.curves.crossings import Crossing
+from drivewright.curves.drawn import drawn_outline, simple_outline
 from drivewright.curves.families import CircleFamily, LineFamily
 from drivewright.curves.outlines import outline_area, outline_of_spans, perimeter
-from drivewright.curves.pieces import Piece
+from drivewright.curves.pieces import Member, Piece
 from drivewright.curves.plane import (
     curvature,
     curvature_rate,
@@ -22,12 +23,14 @@ __all__ = [
     "Corner",
     "Crossing",
     "LineFamily",
+    "Member",
     "Piece",
     "Span",
     "Trimmed",
     "curvature",
     "curvature_rate",
     "derivative",
+    "drawn_outline",
     "envelope_of_circle",
     "envelope_of_line",
     "largest_lost_motion",
@@ -39,6 +42,7 @@ __all__ = [
     "outline_of_spans",
     "perimeter",
     "profile_loss",
+    "simple_outline",
     "tangent",
     "trim",
 ]

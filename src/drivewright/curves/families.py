@@ -1,7 +1,7 @@
 """What cuts a profile: a circle or a straight line moving in the plane of the part, in pieces over one closed cycle.
 
 Each family gives the pieces of its envelope and the gap between one of its members and a point: a point is left standing
-when no member's gap is negative.
+when no member's gap is negative.  It is `whole` where its envelope is all that can bound the part.
 """
 
 from dataclasses import dataclass, replace
@@ -9,7 +9,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from drivewright.curves.pieces import Piece, gather
+from drivewright.curves.pieces import Member, Piece, gather
 from drivewright.curves.plane import envelope_of_circle, envelope_of_line
 from drivewright.errors import InputError
 from drivewright.numerics.jets import Jet, exp, sqrt, variable
@@ -39,13 +39,19 @@ class CircleFamily:
             raise InputError(f"CircleFamily: material = {self.material!r}; it is 'inside' or 'outside' the swept ring.")
         _refuse_disorder(self.path)
 
+    @property
+    def whole(self):
+        """Whether the envelope is all that can bound the part."""
+        return self.both
+
     @cached_property
     def side(self):
         """+1 when the profile lies to the left of the centre's travel, -1 to the right.
 
         The sense is that in which the path goes round the axis (the origin); if it does not, that in which it encloses its area.
         """
-        points = np.concatenate([piece.at(np.linspace(piece.start, piece.stop, 65)).d0 for piece in self.path])
+        t = np.concatenate([np.linspace(piece.start, piece.stop, 65) for piece in self.path])
+        points = gather(self.path, np.repeat(np.arange(len(self.path)), 65), t).d0
         step = np.conj(points) * np.roll(points, -1)
         turns = np.round(np.sum(np.angle(step)) / (2 * np.pi))
         turn = np.sign(turns if turns else np.sum(step.imag))
@@ -60,21 +66,31 @@ class CircleFamily:
 
     def _envelope(self, side):
         branches = {}  # pieces that share a formula share that of their envelope
-        numbers = np.arange(len(self.path))
-        stops = gather(self.path, numbers, np.array([float(piece.stop) for piece in self.path]))
-        starts = gather(self.path, np.roll(numbers, -1), np.array([float(piece.start) for piece in (*self.path[1:], self.path[0])]))
+        stops, starts = self._ends
         for number, piece in enumerate(self.path):
-            branch = branches.setdefault(piece.at, partial(_branch, piece.at, self.radius, side))
-            if not self._shrunk(piece, side):
+            formula = getattr(piece.at, "formula", piece.at)
+            branch = branches.setdefault(formula, partial(_branch, formula, self.radius, side))
+            branch = Member(branch, piece.at.numbers) if isinstance(piece.at, Member) else branch
+            if number not in self._shrunk[side]:
                 yield Piece(piece.start, piece.stop, branch, piece.label, piece.shape, number)
             yield from self._corner(piece, stops[number], starts[number], side)
 
-    def _shrunk(self, piece, side):
-        """True where the envelope of an arc is its centre: the circle is as wide as the arc that its own centre runs on."""
-        if piece.shape != "arc":
-            return False
-        middle = np.array([0.5 * (piece.start + piece.stop)])
-        return bool(abs(_branch(piece.at, self.radius, side, middle).d1[0]) < _CORNER * abs(piece.at(middle).d1[0]))
+    @cached_property
+    def _ends(self):
+        """Jets at the stop of each piece, and at the start of the piece after it."""
+        numbers = np.arange(len(self.path))
+        stops, starts = (np.array([getattr(piece, end) for piece in self.path], float) for end in ("stop", "start"))
+        return gather(self.path, numbers, stops), gather(self.path, np.roll(numbers, -1), np.roll(starts, -1))
+
+    @cached_property
+    def _shrunk(self):
+        """By side the arcs whose envelope is their centre: the circle is as wide as the arc that its own centre runs on."""
+        arcs = np.array([number for number, piece in enumerate(self.path) if piece.shape == "arc"], dtype=int)
+        if not len(arcs):
+            return {1.0: (), -1.0: ()}
+        centre = gather(self.path, arcs, np.array([0.5 * (self.path[k].start + self.path[k].stop) for k in arcs]))
+        slow = {side: np.abs(envelope_of_circle(centre, self.radius, side).d1) < _CORNER * np.abs(centre.d1) for side in (1.0, -1.0)}
+        return {side: arcs[found] for side, found in slow.items()}
 
     def _corner(self, piece, before, after, side):
         turn = float(np.angle(after.d1 / before.d1))
@@ -83,7 +99,7 @@ class CircleFamily:
         if self.both and np.pi - abs(turn) < _BACK:  # the left side goes round in front of the tip, the right one, covered, behind it
             turn -= 2 * np.pi * (turn > 0)
         arm = side * self.radius * 1j * before.d1 / abs(before.d1)
-        yield Piece(0.0, turn, lambda angle: before.d0 + arm * exp(1j * variable(angle)), f"{piece.label} corner", "arc")
+        yield Piece(0.0, turn, Member(_around, (before.d0, arm)), f"{piece.label} corner", "arc")
 
     def members(self, index, t):
         """The centres at parameters t of the pieces `index`."""
@@ -110,6 +126,8 @@ class LineFamily:
 
     motion: tuple
     material: str = "inside"
+
+    whole = True  # the envelope is all that can bound the part
 
     def __post_init__(self):
         if self.material != "inside":
@@ -151,8 +169,12 @@ class LineFamily:
         return np.argmin(support.real - reach, axis=1)
 
 
-def _branch(at, radius, side, t):
-    return envelope_of_circle(at(t), radius, side)
+def _around(centre, arm, angle):
+    return centre + arm * exp(1j * variable(angle))
+
+
+def _branch(formula, radius, side, *where):
+    return envelope_of_circle(formula(*where), radius, side)
 
 
 def _pairs(pieces):

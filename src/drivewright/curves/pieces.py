@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -39,20 +40,38 @@ class Piece:
         return 1.0 if self.stop >= self.start else -1.0
 
 
+class Member(NamedTuple):
+    """An `at` of a whole set of pieces that differ in numbers only: formula(*numbers, t), which takes arrays of every number too."""
+
+    formula: Callable
+    numbers: tuple
+
+    def __call__(self, t):
+        return self.formula(*self.numbers, t)
+
+
 def gather(pieces, index, t):
     """Values of piece `index[k]` at `t[k]`: a Jet, or a tuple of Jets, of the shape of t; pieces with one formula together."""
     formulas = {}
-    number = np.array([formulas.setdefault(piece.at, len(formulas)) for piece in pieces])[index]
-    formulas = list(formulas)
+    number = np.array([formulas.setdefault(getattr(piece.at, "formula", piece.at), len(formulas)) for piece in pieces])[index]
     order = np.argsort(number, kind="stable")
-    used, first = np.unique(number[order], return_index=True)
-    parts = np.split(t[order], first[1:])
-    values = [_spread(formulas[k](part), part.shape) for k, part in zip(used, parts, strict=True)]
+    first = np.unique(number[order], return_index=True)[1]
+    groups = zip(np.split(index[order], first[1:]), np.split(t[order], first[1:]), strict=True)
+    values = [_spread(_together(pieces, own, part), part.shape) for own, part in groups]
     back = np.empty_like(order)
     back[order] = np.arange(len(order))
     if isinstance(values[0], Jet):
         return _joined(values)[back]
     return tuple(_joined(column)[back] for column in zip(*values, strict=True))
+
+
+def _together(pieces, index, t):
+    """Values of pieces that have one formula."""
+    at = pieces[index[0]].at
+    if not isinstance(at, Member):
+        return at(t)
+    used, own = np.unique(index, return_inverse=True)
+    return at.formula(*np.array([pieces[k].at.numbers for k in used]).T[:, own], t)
 
 
 def _spread(value, shape):

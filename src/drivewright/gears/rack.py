@@ -15,7 +15,7 @@ from functools import cached_property
 
 import numpy as np
 
-from drivewright.curves import Piece, derivative, tangent
+from drivewright.curves import Member, Piece, derivative, tangent
 from drivewright.errors import InputError, SolverError
 from drivewright.gears.rolling import RollingPair
 from drivewright.numerics.jets import Jet
@@ -90,7 +90,7 @@ class RackFamily:
     rack: Rack
     phase: float = 0.0
 
-    material = "inside"
+    material, whole = "inside", True
 
     @property
     def period(self):
@@ -115,39 +115,28 @@ class RackFamily:
         speed = derivative(z).abs2() ** 0.5
         return z, along, (1j if self.gear == 1 else -1j) * along, Jet(self.pair.arc_length(x), *list(speed)[:3])
 
-    def flank(self, center, side):
+    def flank(self, center, side, x):
         """Envelope of the flank on the `side` (+1: ahead, -1: behind) of the cutter tooth at `center`."""
         s, c = np.sin(self.rack.pressure_angle), np.cos(self.rack.pressure_angle)
         half = self.rack.half_width * self.module
+        z, along, outward, rolled = self.frame(x)
+        return z + (side * (rolled - center) - half) * c * (s * outward - side * c * along)
 
-        def at(x):
-            z, along, outward, rolled = self.frame(x)
-            return z + (side * (rolled - center) - half) * c * (s * outward - side * c * along)
-
-        return at
-
-    def fillet(self, center, side):
+    def fillet(self, center, side, x):
         """Envelope of the rounded corner of the cutter's tip."""
         land, depth, rounding = (self.module * value for value in (self.rack.land, self.rack.center_depth, self.rack.rounding))
+        z, along, outward, rolled = self.frame(x)
+        beside = land - side * (rolled - center)
+        return z + (1 + rounding * (beside * beside + depth**2) ** -0.5) * (side * beside * along - depth * outward)
 
-        def at(x):
-            z, along, outward, rolled = self.frame(x)
-            beside = land - side * (rolled - center)
-            return z + (1 + rounding * (beside * beside + depth**2) ** -0.5) * (side * beside * along - depth * outward)
-
-        return at
-
-    def parallel(self, height):
+    def parallel(self, height, x):
         """The curve at a height [m] outside the pitch curve: tip and root."""
-        def at(x):
-            z, _, outward, _ = self.frame(x)
-            return z + height * outward
-
-        return at
+        z, _, outward, _ = self.frame(x)
+        return z + height * outward
 
     def envelope(self):
         """Pieces of the gear's boundary in the direction of the driver angle, five per tooth space and the tip of the tooth after it."""
-        tip, flank_ends, shape = self.parallel(self.rack.addendum * self.module), self._tip_corners, self.round_shape
+        tip, flank_ends, shape = Member(self.parallel, (self.rack.addendum * self.module,)), self._tip_corners, self.round_shape
         pieces = []
         for k in range(self.teeth):
             pieces += self._space(k, *flank_ends[0][k], shape)
@@ -156,15 +145,19 @@ class RackFamily:
         return tuple(pieces)
 
     def _space(self, k, behind, ahead, shape):
-        center, inverse = self.spaces[k], self.pair.arc_length.inverse
+        center, (a, b, c, d) = self.spaces[k], self._root_corners[k]
+        yield Piece(behind, a, Member(self.flank, (center, -1.0)), f"flank {k}-", "smooth", 0)
+        yield Piece(a, b, Member(self.fillet, (center, -1.0)), f"fillet {k}-", "smooth", 0)
+        if self.rack.land > 0:
+            yield Piece(b, c, Member(self.parallel, (-self.rack.dedendum * self.module,)), f"root {k}", shape, 0)
+        yield Piece(c, d, Member(self.fillet, (center, 1.0)), f"fillet {k}+", "smooth", 0)
+        yield Piece(d, ahead, Member(self.flank, (center, 1.0)), f"flank {k}+", "smooth", 0)
+
+    @cached_property
+    def _root_corners(self):
+        """Driver angles (teeth, 4) at which flank, fillet, root, fillet and flank of each space meet."""
         join, land = self._join * self.module, self.rack.land * self.module
-        a, b, c, d = (float(inverse(center + w)) for w in (-join, -land, land, join))
-        yield Piece(behind, a, self.flank(center, -1), f"flank {k}-", "smooth", 0)
-        yield Piece(a, b, self.fillet(center, -1), f"fillet {k}-", "smooth", 0)
-        if land > 0:
-            yield Piece(b, c, self.parallel(-self.rack.dedendum * self.module), f"root {k}", shape, 0)
-        yield Piece(c, d, self.fillet(center, 1), f"fillet {k}+", "smooth", 0)
-        yield Piece(d, ahead, self.flank(center, 1), f"flank {k}+", "smooth", 0)
+        return self.pair.arc_length.inverse(self.spaces[:, None] + np.array([-join, -land, land, join]))
 
     @property
     def _join(self):
@@ -188,9 +181,8 @@ class RackFamily:
         centers, sides = np.repeat(self.spaces, 2), np.tile([-1.0, 1.0], self.teeth)
         x = self.pair.arc_length.inverse(centers + sides * (half + height / (s * c)))
         y = self.pair.arc_length.inverse(centers + sides * (half + height * s / c))
-        flank, tip = self.flank(centers, sides), self.parallel(height)
         for _ in range(30):
-            p, q = flank(x), tip(y)
+            p, q = self.flank(centers, sides, x), self.parallel(height, y)
             miss, area = q.d0 - p.d0, np.imag(np.conj(p.d1) * q.d1)
             step = np.imag(np.conj(miss) * q.d1) / area
             x, y = x + step, y + np.imag(np.conj(miss) * p.d1) / area

@@ -1,6 +1,7 @@
 """Gears with teeth: what the rack leaves of the blank when it has rolled once around the pitch curve."""
 
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -50,7 +51,7 @@ class Gear:
     def pitch_outline(self, tolerance=1e-6):
         """Counter-clockwise Outline of the pitch curve."""
         family = self.family
-        piece = Piece(0.0, family.period, family.parallel(0.0), "pitch curve", family.round_shape)
+        piece = Piece(0.0, family.period, partial(family.parallel, 0.0), "pitch curve", family.round_shape)
         return outline_of_spans([Span(piece, piece.start, piece.stop)], tolerance)
 
     def drawing(self, name, bore=0.0, thickness=0.0, tolerance=1e-6):

@@ -1,19 +1,60 @@
 """Outlines as polylines with no more points than a picture needs."""
 
+from functools import lru_cache
+
 import numpy as np
+
+_KEPT = 512  # outlines whose points are remembered: bodies of a scene share shapes, and the next scene has most of them again
+
+
+class _Itself:
+    """An outline with arrays as a key: equal to itself only."""
+
+    def __init__(self, outline):
+        self.outline = outline
+
+    def __eq__(self, other):
+        return isinstance(other, _Itself) and self.outline is other.outline
+
+    def __hash__(self):
+        return id(self.outline)
+
+    def points(self, tolerance):
+        return self.outline.points(tolerance)
+
+
+def _key(outline):
+    """What the points of an outline are remembered by."""
+    try:
+        hash(outline)
+    except TypeError:
+        return _Itself(outline)
+    return outline
 
 
 def thinned(outline, tolerance):
-    """Points (n, 2) of an outline, each dropped that lies within `tolerance` [m] of the line through its neighbours."""
+    """Points (n, 2) of an outline, read-only, each dropped that lies within `tolerance` [m] of the line through its neighbours."""
+    return _thinned(_key(outline), 2.0 ** (np.floor(8 * np.log2(tolerance)) / 8))  # in steps, which a picture that grows a little keeps
+
+
+@lru_cache(maxsize=_KEPT)
+def _thinned(outline, tolerance):
     import shapely
 
     points = outline.points(tolerance)
     kept = shapely.get_coordinates(shapely.simplify(shapely.linestrings(points), tolerance, preserve_topology=False))
-    return kept if len(kept) > 2 or len(points) < 3 else points
+    kept = kept if len(kept) > 2 or len(points) < 3 else np.array(points)
+    kept.setflags(write=False)
+    return kept
 
 
 def overall_size(scene):
     """A length that stands for the whole scene: the larger of the spread of the bodies' origins and the largest shape [m]."""
     spots = np.concatenate([np.asarray(body.poses)[:, :2] for body in scene.bodies])
-    shapes = [shape.outline.points(1e-3) for body in scene.bodies for shape in body.shapes]
-    return max(float(np.ptp(spots, axis=0).max()), *(float(np.ptp(points, axis=0).max()) for points in shapes), 1e-9)
+    extents = (_extent(_key(shape.outline)) for body in scene.bodies for shape in body.shapes)
+    return max(float(np.ptp(spots, axis=0).max()), *extents, 1e-9)
+
+
+@lru_cache(maxsize=_KEPT)
+def _extent(outline):
+    return float(np.ptp(outline.points(1e-3), axis=0).max())

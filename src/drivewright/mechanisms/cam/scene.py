@@ -1,14 +1,18 @@
 """The cam on screen and for manufacture: scene, plots, drawings, parts."""
 
+from functools import lru_cache
+
 import numpy as np
 
+from drivewright import cams, curves
 from drivewright.mechanisms.cam import sketch
-from drivewright.mechanisms.cam.build import pitch_outline, profile
+from drivewright.mechanisms.cam.build import Profile, pitch_outline, profile
 from drivewright.mechanisms.cam.spec import TURN
 from drivewright.result import Plot
 from drivewright.scene import Body, Drawing, Frame, Part, Prism, Scene, Shape, Trace, circle, polygon
 
 FRAMES = 181
+DRAWN = 1e-5  # on screen a profile stays within this part of the cam's size
 SURFACES = (("", ""), (".conjugate", ", second cam"), (".outer", ", outer wall"), (".opposite", ", second face"))
 
 PLOTS = (
@@ -37,7 +41,7 @@ def scene(model):
     turning, still = _poses(0.0, 0.0, model.follower.sense * angle), _poses(0.0, 0.0, 0.0 * angle)
     moving = _poses(sketch.origin(model).real, 0.0, -lift) if model.oscillating else _poses(0.0, lift, 0.0)
     colours = {"cam": "blue", "outer wall": "blue", "conjugate": "green"}
-    bodies = [Body(track.name, track.name, tuple(_cam_shapes(model, number)), turning, colours[track.name])
+    bodies = [Body(track.name, track.name, tuple(_cam_shapes(model, number, _shown)), turning, colours[track.name])
               for number, track in enumerate(model.tracks) if track.cut]
     bodies += [Body("follower", "follower", tuple(sketch.follower_shapes(model)), moving, "orange"),
                Body("frame", "frame", tuple(_ground(model)), still, "ground")]
@@ -54,9 +58,20 @@ def _poses(x, y, angle):
     return np.stack(np.broadcast_arrays(np.full(FRAMES, x), y, angle), axis=1)
 
 
-def _cam_shapes(model, number):
+@lru_cache(maxsize=16)
+def _shown(model, number):
+    """The `Profile` of a track for the screen: as fine as that needs where nothing is trimmed away, else the exact one."""
+    track = model.tracks[number]
+    if track.radius == 0:
+        return profile(model, number)
+    family = cams.family(track.follower, model.programme, track.flank)
+    outline = curves.simple_outline(family, DRAWN * sketch.size(model))
+    return Profile(outline, None) if outline else profile(model, number)
+
+
+def _cam_shapes(model, number, profile_of=profile):
     """Profile, pitch curve, base circle, bore and what was trimmed away of a track's cam, at cam angle 0."""
-    track, found = model.tracks[number], profile(model, number)
+    track, found = model.tracks[number], profile_of(model, number)
     yield Shape("profile", found.outline)
     if track.flank > 0:
         yield Shape("base", circle((0, 0), float(np.min(np.hypot(*found.outline.points(1e-6).T)))))
@@ -65,7 +80,7 @@ def _cam_shapes(model, number):
         if model.spec.manufacture.bore:
             yield Shape("hole", circle((0, 0), model.spec.manufacture.bore / 2))
     else:
-        yield Shape("body", circle((0, 0), _disc_radius(model)))
+        yield Shape("body", circle((0, 0), _disc_radius(model, profile_of)))
     for start, stop in found.trimmed.removed if found.trimmed else ():
         angle = np.linspace(start, stop, 33)
         piece = np.clip(np.searchsorted(model.cycle.motion.breaks, angle, side="right") - 1, 0, len(model.cycle.motion.breaks) - 2)
@@ -73,9 +88,9 @@ def _cam_shapes(model, number):
         yield Shape("defect", polygon(np.stack([point.real, point.imag], axis=1), closed=False))
 
 
-def _disc_radius(model):
+def _disc_radius(model, profile_of=profile):
     """Edge of the disc that a groove is cut into."""
-    return float(np.max(np.hypot(*profile(model, 1).outline.points(1e-6).T))) + model.spec.limits.wall
+    return float(np.max(np.hypot(*profile_of(model, 1).outline.points(1e-6).T))) + model.spec.limits.wall
 
 
 def _ground(model):

@@ -1,16 +1,20 @@
 """The plane kinds on screen and for manufacture: scene, drawings, parts."""
 
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from drivewright.curves import drawn_outline
 from drivewright.indexing.motion import TURN
-from drivewright.indexing.plane import ALIVE, contacts, pitch_point
+from drivewright.indexing.plane import ALIVE, envelope_points, pitch_point
 from drivewright.mechanisms.indexer import roller_views
 from drivewright.scene import Body, Drawing, Frame, Part, Prism, Scene, Shape, circle, polygon
 
 FRAMES = 361
 FINE = 2e-6  # splines of the profile follow it to this [m]
+_BEHIND = 3  # so many times as deep is a point sought in the cam
+DRAWN = 2e-5  # on screen it stays within this part of the pin circle's radius
 COLOURS = ("blue", "green", "violet", "steel")
 NORMALS = 1.4  # length of a normal over the pin circle's radius
 
@@ -53,7 +57,7 @@ def _plane_scene(model):
             Body(
                 f"cam{number + 1}",
                 f"cam {number + 1}",
-                tuple(cam_shapes(model, cam.drive, turned=cam.turned)),
+                tuple(_shown_cam(model, cam)),
                 cam_poses(cam, angle),
                 colour,
             )
@@ -93,6 +97,22 @@ def rim(model):
     return model.spec.pin_circle_radius - 1.8 * model.spec.pin_radius, model.spec.pin_circle_radius + 1.8 * model.spec.pin_radius
 
 
+@lru_cache(maxsize=16)
+def drawn_cam(drive):
+    """Outline of the trimmed profile, as fine as a picture needs."""
+    drive.refuse()
+    return drawn_outline(drive.family, DRAWN * drive.circle_radius)
+
+
+def _shown_cam(model, cam):
+    """Profile and holes of a cam on screen, around the pins within its disc."""
+    outline = drawn_cam(cam.drive)
+    if cam.drive.side == "outside":
+        yield Shape("body", circle((0, 0), _edge(cam.drive, outline)))
+    yield Shape("profile", outline)
+    yield from (Shape("hole", hole) for hole in _holes(model, cam.turned))
+
+
 def cam_outline(drive):
     """Exact outline of the trimmed profile."""
     return drive.profile.outline(FINE)
@@ -112,22 +132,26 @@ def _holes(model, turned=0.0):
             yield circle(_pair(side * model.spec.shaft_spacing / 2 * np.exp(-1j * turned)), radius)
 
 
-def cam_shapes(model, drive, construction=False, turned=0.0):
-    """Profile, holes and, for the drawing, the centre curve of the pins."""
+def cam_shapes(model, drive):
+    """Profile, holes and the centre curve of the pins, for the drawing."""
     outline = cam_outline(drive)
     if drive.side == "outside":
         yield Shape("body", circle((0, 0), outer_radius(drive)))
     yield Shape("profile", outline)
-    yield from (Shape("hole", hole) for hole in _holes(model, turned))
-    if construction and drive.side == "inside":
+    yield from (Shape("hole", hole) for hole in _holes(model))
+    if drive.side == "inside":
         yield Shape("base", circle((0, 0), float(np.min(np.hypot(*outline.points(1e-6).T)))))
-    if construction and model.translating:
+    if model.translating:
         yield Shape("pitch", polygon(_centre_curve(drive)))
 
 
 def outer_radius(drive):
     """Outer edge of a cam around the pins [m]."""
-    return float(np.max(np.hypot(*cam_outline(drive).points(1e-6).T))) + 2 * drive.pin_radius
+    return _edge(drive, cam_outline(drive))
+
+
+def _edge(drive, outline):
+    return float(np.max(np.hypot(*outline.points(1e-6).T))) + 2 * drive.pin_radius
 
 
 def _centre_curve(drive, steps=120):
@@ -169,19 +193,48 @@ def _normals(cam, angle):
 
 def _normal_poses(drive, angle):
     """Foot and direction of the normal of every pin, towards the pitch point."""
-    places, turns = np.zeros((len(angle), drive.pins), dtype=complex), np.zeros((len(angle), drive.pins))
-    for row, theta in enumerate(angle):
-        found = contacts(drive, theta, reach=2 * ALIVE)
-        live = np.flatnonzero(found.intended)
-        if not len(live):
-            continue
-        owner = {int(found.pin[k]): k for k in live}
-        chosen = [owner.get(pin, live[0]) for pin in range(drive.pins)]
-        pitch = complex(pitch_point(drive, theta))
-        towards = pitch if np.isfinite(pitch) else 0.0
-        ahead = np.real(np.conj(found.normal[chosen]) * (towards - found.centre[chosen]))
-        places[row], turns[row] = found.centre[chosen], np.angle(found.normal[chosen] * np.where(ahead >= 0, 1.0, -1.0))
-    return places, turns
+    centre, turn = drive.centres(angle).d0, np.broadcast_to(drive.pose(angle)[1].d0, angle.shape)[:, None]
+    side = _touching_side(drive, angle)
+    touched = side != 0
+    towards_pin = -side * 1j * np.exp(1j * turn) * _unit(drive.path(angle).d1)
+    pitch = pitch_point(drive, angle)[:, None]
+    ahead = np.real(np.conj(towards_pin) * (np.where(np.isfinite(pitch), pitch, 0.0) - centre))
+    normal = towards_pin * np.where(ahead >= 0, 1.0, -1.0)
+    chosen = np.where(touched, np.arange(drive.pins), np.argmax(touched, axis=1)[:, None])
+    rows, any_touch = np.arange(len(angle))[:, None], touched.any(axis=1)[:, None]
+    return np.where(any_touch, centre[rows, chosen], 0.0), np.where(any_touch, np.angle(normal[rows, chosen]), 0.0)
+
+
+def _touching_side(drive, angle):
+    """+1 or -1 where a pin touches the cam on the left or right of its path, 0 where it does not; shape (angle, pins).
+
+    Of the envelope's points of each pin those count with the cam behind them that no pin at any of the angles covers; the right one
+    where both do.
+    """
+    from scipy.spatial import cKDTree
+
+    points, centre = envelope_points(drive, angle), drive.path(angle).d0
+    row, pin, side = np.nonzero(_in_cam(drive, points + _BEHIND * DRAWN * drive.circle_radius * _unit(points - centre[..., None])))
+    near = points[row, pin, side]
+    tree = cKDTree(np.stack([centre.ravel().real, centre.ravel().imag], axis=1))
+    kept = np.isinf(tree.query(np.stack([near.real, near.imag], axis=1), distance_upper_bound=drive.pin_radius - ALIVE)[0])
+    touching = np.zeros((*centre.shape, 2), dtype=bool)
+    touching[row[kept], pin[kept], side[kept]] = True
+    return np.where(touching[..., 1], -1.0, np.where(touching[..., 0], 1.0, 0.0))
+
+
+def _in_cam(drive, points):
+    """Whether points seen from the cam, complex, lie in it; nan does not."""
+    import shapely
+
+    profile = shapely.polygons(drawn_cam(drive).points())
+    shapely.prepare(profile)
+    return (shapely.contains_xy(profile, points.real, points.imag) == (drive.side == "inside")) & np.isfinite(points)
+
+
+def _unit(z):
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return z / np.abs(z)
 
 
 def _pair(z):
@@ -202,7 +255,7 @@ def drawings(model):
         name = f"cam{number + 1}" if len(model.drive.levels) > 1 else "cam"
         title = f"{model.spec.title or 'indexer'}: {name}" + (f" ({alike} alike)" if alike > 1 else "")
         found.append(
-            Drawing(name, title, (*cam_shapes(model, level, construction=True), *axes), model.spec.cam_width, level.side == "inside")
+            Drawing(name, title, (*cam_shapes(model, level), *axes), model.spec.cam_width, level.side == "inside")
         )
     return tuple(found)
 

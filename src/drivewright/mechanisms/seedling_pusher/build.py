@@ -4,20 +4,21 @@ All functions take the carrier angle as an array [rad] and give jets in it.  Wor
 """
 
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache, partial
 
 import numpy as np
 
 from drivewright import curves, motion
 from drivewright.cams import oscillating
 from drivewright.errors import InputError, SpecError
-from drivewright.gears import EllipticGearPair, GearTrain, cut_gear
+from drivewright.gears import EllipticGearPair, GearTrain, Rack, RackFamily, cut_gear
 from drivewright.mechanisms.seedling_pusher.spec import SeedlingPusherSpec
 from drivewright.numerics.jets import Jet, atan, exp, variable
 from drivewright.numerics.roots import bracketed_roots
 
 TURN = 2 * np.pi
 GRID = np.linspace(0, TURN, 721)
+DRAWN = 1e-4
 
 
 @dataclass(frozen=True)
@@ -117,6 +118,21 @@ class Pusher:
         return self.gear.outline(self.spec.manufacture.chord_tolerance)
 
     @cached_property
+    def drawn_gear(self):
+        """Toothed outline of the gear, as fine as a picture needs."""
+        return _drawn_gear(self.train.pairs[0].eccentricity, self.spec.train.semi_major, self.spec.train.teeth, self.drawn_tolerance)
+
+    @cached_property
+    def drawn_profiles(self):
+        """Outline of the real profile of each cam by name, as fine as a picture needs."""
+        return {cam.name: curves.drawn_outline(self.family(cam), self.drawn_tolerance, fewest=65) for cam in self.cams}
+
+    @property
+    def drawn_tolerance(self):
+        """How far a drawn curve may leave the exact one [m]: some millionths of the picture's size."""
+        return DRAWN * self.spec.train.semi_major
+
+    @cached_property
     def lowest(self):
         """Carrier angle in [0, 2 pi) where the tip is lowest."""
         return _extreme(lambda t: self.tip(t).imag, -1)
@@ -169,16 +185,23 @@ class Pusher:
 
     def family(self, cam):
         """The roller's motion around its cam, for enveloping."""
+        at = partial(self._pitch_on, cam)
+        pieces = [
+            curves.Piece(low, high, curves.Member(at, (k,)), phase, "arc" if phase == "dwell" else "smooth")
+            for low, high, phase, k in self.pieces()
+        ]
+        return curves.CircleFamily(tuple(pieces), cam.roller_radius)
 
-        def along(k):
-            return lambda t: self.pitch(cam, t, k)
+    def _pitch_on(self, cam, piece, t):
+        """`pitch` by the formula of a piece, or of a piece of its own at each t."""
+        return self.pitch(cam, t, np.asarray(piece).astype(int))
 
-        return curves.CircleFamily(
-            tuple(
-                curves.Piece(low, high, along(k), phase, "arc" if phase == "dwell" else "smooth") for low, high, phase, k in self.pieces()
-            ),
-            cam.roller_radius,
-        )
+
+@lru_cache(maxsize=64)
+def _drawn_gear(eccentricity, semi_major, teeth, tolerance):
+    """The gear of `Pusher.gear` for the picture; it stays while other numbers of the design change."""
+    family = RackFamily(EllipticGearPair(eccentricity, semi_major), 1, teeth, Rack())
+    return curves.drawn_outline(family, tolerance, fewest=4)
 
 
 def build(spec):

@@ -40,7 +40,7 @@ def scene(model):
     spec = model.spec
     axis, rotation, swing = model.planet_axis(t).d0, model.arm_rotation(t).d0, model.swing(t).d0
     carrier = 2 * spec.train.semi_major * np.exp(1j * (spec.train.carrier_angle - t))
-    wheel = model.gear_outline
+    wheel = model.drawn_gear
     arm_pose, lever_pivot = _poses(axis, rotation), axis + np.exp(1j * rotation) * pivot(model)
     bodies = (
         _gear("sun", "sun gear (fixed)", wheel, _poses(0 * axis, 0 * t + sun_angle(model)), "ground"),
@@ -48,7 +48,7 @@ def scene(model):
         _gear("planet", "planet gear", wheel, _poses(axis, planet_angle(model, t)), "steel"),
         Body("carrier", "carrier", (Shape("body", _carrier_shape(model)),), _poses(0 * axis, -t), "blue"),
         *(
-            Body(f"cam.{cam.name}", f"{cam.name} cam", tuple(cam_shapes(model, cam)), _poses(axis, -t), colour)
+            Body(f"cam.{cam.name}", f"{cam.name} cam", tuple(cam_shapes(model, cam, model.drawn_profiles)), _poses(axis, -t), colour)
             for cam, colour in zip(model.cams, ("orange", "violet"), strict=True)
         ),
         Body("arm", "planting arm with needle", tuple(_arm_shapes(model)), arm_pose, "green"),
@@ -195,10 +195,10 @@ def in_carrier(model):
     return (0.0, 0.0, angle + side(model) * np.pi / 2), side(model) < 0
 
 
-def cam_shapes(model, cam):
+def cam_shapes(model, cam, profiles):
     """Profile, pitch curve, largest and least pitch circle, bore of a cam, in the carrier's frame."""
     pose, mirror = in_carrier(model)
-    yield Shape("profile", model.profiles[cam.name].moved(pose, mirror))
+    yield Shape("profile", profiles[cam.name].moved(pose, mirror))
     yield Shape("pitch", Outline(tuple(_pitch_pieces(model, cam))).moved(pose, mirror))
     yield Shape("base", circle((0.0, 0.0), cam.prime_radius))
     yield Shape("hole", circle((0.0, 0.0), model.spec.cams.bore / 2))
@@ -223,7 +223,7 @@ def drawings(model):
         Drawing(
             f"cam_{cam.name}",
             f"{cam.name} cam, roller radius {1e3 * cam.roller_radius:.3f} mm",
-            tuple(cam_shapes(model, cam)),
+            tuple(cam_shapes(model, cam, model.profiles)),
             width,
         )
         for cam in model.cams
