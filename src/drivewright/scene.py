@@ -5,6 +5,7 @@ a `Part` is a set of prisms, bars, turned and grooved bodies at its start positi
 counter-clockwise positive.  Nothing here computes mechanics or knows a file format.
 """
 
+import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -20,7 +21,10 @@ def place(points, pose, mirror=False):
 
 
 def _point(point, pose, mirror):
-    return tuple(float(v) for v in place(np.array([point]), pose, mirror)[0])
+    """One point of `place`, without arrays: outlines have thousands."""
+    (x, y), c, s = point, math.cos(pose[2]), math.sin(pose[2])
+    y = -y if mirror else y
+    return float(c * x - s * y + pose[0]), float(s * x + c * y + pose[1])
 
 
 class Line(NamedTuple):
@@ -93,7 +97,7 @@ def circle(center, radius):
 
 def polygon(points, closed=True):
     """Outline of straight segments through `points` (n, 2)."""
-    points = [tuple(map(float, p)) for p in points]
+    points = list(map(tuple, np.asarray(points, float).tolist()))
     ends = points[1:] + points[:1] if closed else points[1:]
     return Outline(tuple(Line(a, b) for a, b in zip(points, ends, strict=False)), closed)
 
@@ -117,13 +121,20 @@ class Shape(NamedTuple):
 
 @dataclass(frozen=True)
 class Body:
-    """A rigid body: shapes in its own frame and its pose (x [m], y [m], angle [rad]) in every frame of the cycle."""
+    """A rigid body: shapes in its own frame and its pose (x [m], y [m], angle [rad]) in every frame of the cycle.
+
+    Where play or deflection is drawn `magnified` times its real size, `rest` (frames, 3) is where the body would be without it, and the
+    label ends in the factor ("deflection × 2000"); a viewer may draw  rest + k (poses - rest)  for k from 0 up to `most`.
+    """
 
     name: str
     label: str
     shapes: tuple
     poses: np.ndarray
     colour: str = "steel"  # a role the viewer turns into a colour: steel, blue, orange, green, violet, ground
+    rest: np.ndarray | None = None
+    most: float = np.inf
+    magnified: float = 1.0
 
 
 @dataclass(frozen=True)

@@ -108,7 +108,7 @@ def four_bar_result(title="Four-bar sample"):
     arrays = {"flexibility": Array("m/N", ("station", "station"), stations, np.array([[1.5e-8, 0.2e-8], [0.2e-8, 2.5e-8]]))}
     provenance = {"seed": 0, "seconds": 0.412, "analyses": ["motion"], "versions": {"python": "3.11", "numpy": "2"},
                   "sources": ["Norton, Design of Machinery (recalled)"]}
-    spec = SimpleNamespace(to_toml=lambda: SPEC_TEXT, write=lambda path: path.write_text(SPEC_TEXT))
+    spec = SimpleNamespace(to_toml=lambda moved=False: SPEC_TEXT, write=lambda path: path.write_text(SPEC_TEXT))
     return Result(spec, "four-bar-sample", title, "5d41402abc4b2a76b9719d911017c592ae2f", values,
                   {"motion": motion, "links": links}, checks, ("analysis 'forces' is left out: no [load] & no mass",), provenance, arrays)
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from sample_designs import FRAMES, PLOTS, four_bar_result, four_bar_scene
 
-from drivewright.report.pack import MOST_ROWS, pack_plots, pack_scene, telling_rows
+from drivewright.report.pack import MOST_ROWS, pack_plot_groups, pack_plots, pack_scene, telling_rows
 from drivewright.result import Column, Table
 from drivewright.scene import Outline, Shape, circle
 
@@ -18,6 +18,10 @@ SCENE, RESULT = four_bar_scene(), four_bar_result()
 def array(text, columns=1):
     flat = np.frombuffer(base64.b64decode(text), "<f4")
     return flat.reshape(-1, columns) if columns > 1 else flat
+
+
+def shapes_of(packed, things, number=0):
+    return [packed["shapes"][n] for n in packed[things][number]["shapes"]]
 
 
 def test_poses_arrive_with_continuous_angles():
@@ -55,14 +59,14 @@ def test_a_cycle_of_uneven_steps_that_runs_backwards():
 
 def test_arcs_become_chords_finer_than_a_pixel_at_twenty_fold_zoom():
     scene = replace(SCENE, bodies=(replace(SCENE.bodies[0], shapes=(Shape("body", circle((0, 0), 0.05)),)),), traces=())
-    points = array(pack_scene(scene)["bodies"][0]["shapes"][0]["points"], 2)
+    points = array(shapes_of(pack_scene(scene), "bodies")[0]["points"], 2)
     middle = np.hypot(*((points + np.roll(points, -1, axis=0)) / 2).T)
     assert np.hypot(*points.T) == pytest.approx(0.05) and 0.05 - middle.min() < 0.1 / 20 / 800
 
 
 def test_open_and_closed_outlines_and_traces():
     packed = pack_scene(SCENE)
-    ground = [shape["closed"] for shape in packed["bodies"][0]["shapes"]]
+    ground = [shape["closed"] for shape in shapes_of(packed, "bodies")]
     assert ground == [s.outline.closed for s in SCENE.bodies[0].shapes] and False in ground
     assert packed["traces"] == [{"label": "coupler point", "body": 1, "point": [0.060, 0.046]}]
     assert packed["observers"][1]["advance"] == [-0.14, 0.0]
@@ -114,4 +118,45 @@ def test_a_long_table_is_thinned_and_keeps_its_peaks():
 def test_shapes_of_any_outline_pack():
     half = Shape("ground", Outline(circle((0, 0), 1).pieces[:1], closed=False))
     packed = pack_scene(replace(SCENE, frames=(replace(SCENE.frames[0], shapes=(half,)),)))
-    assert packed["observers"][0]["shapes"][0]["closed"] is False
+    assert shapes_of(packed, "observers")[0]["closed"] is False
+
+
+def test_bodies_of_the_same_shapes_send_them_once():
+    first, second = SCENE.bodies[1:3]
+    twins = replace(SCENE, bodies=(first, replace(second, shapes=first.shapes), second), traces=())
+    packed = pack_scene(twins)
+    one, twin, other = (body["shapes"] for body in packed["bodies"])
+    assert one == twin == [0, 1, 2] and other == [3, 1] and len(packed["shapes"]) == 4 + len(SCENE.frames[1].shapes)
+    assert [shape["layer"] for shape in packed["shapes"]] == ["body", "hole", "hole", "body", "ground"]
+
+
+def test_a_scene_that_grows_a_little_keeps_the_chords_of_its_curves():
+    def points(radius):
+        bar = replace(SCENE.bodies[0], shapes=(Shape("body", circle((0, 0), 0.01)), Shape("body", circle((0, 0), radius))))
+        return shapes_of(pack_scene(replace(SCENE, bodies=(bar,), traces=())), "bodies")[0]["points"]
+
+    assert points(0.2) == points(0.201) and len(points(0.2)) > len(points(2.0))
+
+
+def test_what_is_drawn_larger_tells_where_it_would_rest():
+    body = SCENE.bodies[1]
+    rest = body.poses * (1.0, 0.0, 1.0)
+    free = pack_scene(replace(SCENE, bodies=(replace(body, rest=rest, magnified=40.0),), traces=()))
+    sent, = free["bodies"]
+    assert sent["magnified"] == 40.0 and "most" not in sent
+    assert array(free["motions"][sent["rest"]], 3)[:, :2] == pytest.approx(rest[:, :2], abs=1e-7)
+    assert array(free["motions"][sent["rest"]], 3)[:, 2] == pytest.approx(array(free["motions"][sent["motion"]], 3)[:, 2], abs=1e-7)
+    held, = pack_scene(replace(SCENE, bodies=(replace(body, rest=rest, most=1.0),), traces=()))["bodies"]
+    assert held["most"] == 1.0
+    plain = pack_scene(SCENE)["bodies"][1]
+    assert not {"rest", "most", "magnified"} & set(plain)
+    json.dumps(free, allow_nan=False)
+
+
+def test_groups_hold_the_same_panels_plot_by_plot():
+    groups, flat = pack_plot_groups(RESULT, SCENE, PLOTS), pack_plots(RESULT, SCENE, PLOTS)
+    assert [(plot["name"], plot["title"], len(plot["panels"])) for plot in groups["plots"]] == [
+        ("rocker", "Rocker angle", 1), ("speed", "Rocker speed and acceleration", 2), ("transmission", "Angles at the rocker pin", 1),
+        ("radius", "Radius of curvature", 1)]
+    assert json.dumps([panel for plot in groups["plots"] for panel in plot["panels"]]) == json.dumps(flat["panels"])
+    assert groups["cycle"] == flat["cycle"] and pack_plot_groups(RESULT, replace(SCENE, table="nowhere"), PLOTS) is None

@@ -175,6 +175,9 @@ def test_the_journal_stays_inside_its_bearing_and_shows_the_play(drawn):
         away = journal.poses[:, :2] - path(carrier, centre)
         assert np.all(np.hypot(*away.T) + radius <= bearing * (1 + 1e-9))
         real = path(bodies[joint.second.body], joint.second[1:]) - path(carrier, centre)
+        assert journal.rest[:, :2] == pytest.approx(path(carrier, centre), abs=1e-12), "without play it is in the bearing's middle"
+        assert journal.rest[:, 2] == pytest.approx(bodies[joint.second.body].poses[:, 2], abs=1e-12)
+        assert (journal.magnified, journal.most) == (factor, 1.0), "further out it would pass through the wall"
         inside = np.hypot(*real.T) <= play
         assert away[inside] == pytest.approx(factor * real[inside], abs=1e-9)
         orbits = [s.outline.points() for s in carrier.shapes if s.layer == "pitch"]

@@ -19,6 +19,9 @@ TABLES = {
               {"station": "q", "force": "50 N", "angle": "0 deg"}, {"station": "q", "moment": "3 N m"}],
 }
 
+GEARS = [{"name": "pinion", "position": "200 mm", "pitch_diameter": "80 mm", "torque": "10 N m"},
+         {"name": "wheel", "position": "300 mm", "pitch_diameter": "60 mm", "torque": "-10 N m"}]
+
 
 def model(**changes):
     return dw.build(dw.Shaft(**(TABLES | changes)))
@@ -43,6 +46,24 @@ def test_slices_follow_the_deflection_and_its_slope():
     assert np.abs(up).max() > 0.005 and np.gradient(up, z)[5] * turn[5] > 0
     half = drawn[0].poses[15]
     assert half[1] == pytest.approx(drawn[0].poses[30][1] / 2) and np.tan(half[2]) == pytest.approx(np.tan(drawn[0].poses[30][2]) / 2)
+
+
+def test_everything_that_bends_knows_where_it_is_straight():
+    """The drawn way from rest is the deflection times the factor of the label; the outline at rest has none."""
+    made = scene(model(gears=GEARS))
+    table = dw.run(model(gears=GEARS).spec, only=("statics",)).tables["diagram"]
+    for body in made.bodies:
+        if body.name == "rest":
+            assert body.rest is None
+            continue
+        assert body.magnified == float(bodies(made, "shaft.")[0].label.split("×")[1]) > 1 and body.most == np.inf
+        assert body.rest == pytest.approx(body.poses * (1, 0, 0)), body.name
+        if not body.name.startswith("bearing."):
+            place = np.clip(body.poses[30][0], *(bodies(made, "shaft.")[n].poses[30][0] for n in (0, -1)))
+            real = -np.interp(place, table["z"].data, table["deflection"].data)
+            away = (body.poses - body.rest)[30, 1] / body.magnified
+            assert away == pytest.approx(real, abs=3e-3 * np.abs(table["deflection"].data).max()), body.name
+    assert {body.name.split(".")[0] for body in made.bodies} == {"rest", "bearing", "gear", "shaft", "load"}
 
 
 def test_without_loads_it_is_bent_by_a_force_at_the_last_station():

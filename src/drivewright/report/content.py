@@ -99,14 +99,20 @@ def content(result, remarks=(), headlines=None):
     """
     return {
         "title": result.title, "mechanism": result.mechanism, "version": program(), "digest": result.digest,
-        "verdict": verdict([bool(check.ok) for check in result.checks], result.outcome),
-        "headline": headline(result, headlines), "checks": [_check(c) for c in sorted(result.checks, key=lambda c: c.ok)],
-        "values": [_value(name, value) for name, value in result.values.items() if math.isfinite(value.value)],
+        **summary(result, headlines),
         "arrays": [_array(name, array) for name, array in result.arrays.items()],
         "tables": [_table(table) for table in result.tables.values()],
-        "findings": [*result.findings, *remarks], "spec": result.spec.to_toml(),
+        "findings": [*result.findings, *remarks], "spec": result.spec.to_toml(moved=True),
         "sources": [str(source) for source in result.provenance.get("sources", ())], "provenance": provenance(result),
         "cite": f"Drivewright {program()}, {result.mechanism}: {result.title}, digest {result.digest[:12]}."}
+
+
+def summary(result, headlines=None):
+    """Verdict, headline, checks and values of a result: what changes with every number of a design."""
+    return {
+        "verdict": verdict([bool(check.ok) for check in result.checks], result.outcome),
+        "headline": headline(result, headlines), "checks": [_check(c) for c in sorted(result.checks, key=lambda c: c.ok)],
+        "values": [_value(name, value) for name, value in result.values.items() if math.isfinite(value.value)]}
 
 
 def program():

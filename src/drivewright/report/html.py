@@ -11,6 +11,7 @@ from drivewright.report.pack import pack_plots, pack_scene
 from drivewright.view.palette import style_sheet
 
 HERE = Path(__file__).parent
+MODULES = ("clock.js", "scene.js", "drawing.js", "controls.js", "player.js", "plots.js")  # each behind those that it imports
 
 
 def write_report(result, seen, folder, pictures=()):
@@ -55,8 +56,8 @@ def _breakable(name):
 
 @cache
 def scripts():
-    """player.js and plots.js as one module: the import between them goes, the rest stays as it is."""
-    return "\n".join(re.sub(r"^import .*$", "", _text(name), flags=re.MULTILINE) for name in ("player.js", "plots.js"))
+    """The modules of the player and the plots as one: the lines that import from one another go, the rest stays as it is."""
+    return "\n".join(re.sub(r"^(import|export) \{.*\} from .*$", "", _text(name), flags=re.MULTILINE) for name in MODULES)
 
 
 @cache

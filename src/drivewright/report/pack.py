@@ -21,19 +21,32 @@ def floats(array):
 def pack_scene(scene):
     """Plain dictionary of a scene for `createPlayer`.
 
-    `motions` holds every different set of poses once, as (frames or 1) x (x, y, angle) with continuous angles; bodies and
-    observers point into it.  `u` is the driving quantity as 0 ... 1.
+    `motions` holds every different set of poses once, as (frames or 1) x (x, y, angle) with continuous angles, and `shapes` every
+    different shape once; bodies and observers point into them.  `u` is the driving quantity as 0 ... 1.
     """
-    motions, size = [], overall_size(scene)
-    bodies = [{"name": b.name, "label": b.label, "colour": b.colour, "motion": _pooled(b.poses, motions), "shapes": _shapes(b.shapes, size)}
-              for b in scene.bodies]
+    motions, pool, tolerance = {}, {}, _fineness(overall_size(scene))
+    bodies = [{"name": b.name, "label": b.label, "colour": b.colour, "motion": _pooled(b.poses, motions),
+               "shapes": _drawn(b.shapes, pool, tolerance), **_magnified(b, motions)} for b in scene.bodies]
     observers = [{"name": f.name, "label": f.label, "motion": _pooled(f.poses, motions), "advance": [float(a) for a in f.advance],
-                  "shapes": _shapes(f.shapes, size)} for f in scene.frames]
+                  "shapes": _drawn(f.shapes, pool, tolerance)} for f in scene.frames]
     order = [b.name for b in scene.bodies]
     traces = [{"label": t.label, "body": order.index(t.body), "point": [float(p) for p in t.point]} for t in scene.traces]
     period = float(scene.period) if np.isfinite(scene.period) and scene.period > 0 else None
-    return {"cycle": _cycle(scene), "period": period, "bodies": bodies, "observers": observers, "traces": traces, "motions": motions,
-            "frames": len(scene.cycle), "u": floats(fractions(scene.cycle))}
+    return {"cycle": _cycle(scene), "period": period, "bodies": bodies, "observers": observers, "traces": traces, "motions": list(motions),
+            "shapes": [packed for _, packed in pool.values()], "frames": len(scene.cycle), "u": floats(fractions(scene.cycle))}
+
+
+def _fineness(size):
+    """A power of two, so that a scene that grows a little keeps the chords of its curves, and a viewer what it has made of them."""
+    return 2.0 ** np.floor(np.log2(FINENESS * size))
+
+
+def _magnified(body, motions):
+    """What the viewer needs to draw play or deflection larger or smaller; nothing of a body that is where it is."""
+    if body.rest is None:
+        return {}
+    limit = {"most": float(body.most)} if np.isfinite(body.most) else {}
+    return {"rest": _pooled(body.rest, motions), "magnified": float(body.magnified), **limit}
 
 
 def _cycle(scene):
@@ -49,25 +62,35 @@ def _pooled(poses, motions):
     poses = np.asarray(poses, float)
     turned = np.column_stack([poses[:, :2], np.unwrap(poses[:, 2])])
     text = floats(turned[:1] if np.array_equal(turned, np.broadcast_to(turned[0], turned.shape)) else turned)
-    if text not in motions:
-        motions.append(text)
-    return motions.index(text)
+    return motions.setdefault(text, len(motions))
 
 
-def _shapes(shapes, size):
-    return [{"layer": s.layer, "closed": bool(s.outline.closed), "points": floats(thinned(s.outline, FINENESS * size))} for s in shapes]
+def _drawn(shapes, pool, tolerance):
+    """Numbers of these shapes in the pool {id: (number, packed)}, as chords within `tolerance` [m]; the links of a chain share theirs."""
+    for shape in shapes:
+        if id(shape) not in pool:
+            points = floats(thinned(shape.outline, tolerance))
+            pool[id(shape)] = len(pool), {"layer": shape.layer, "closed": bool(shape.outline.closed), "points": points}
+    return [pool[id(shape)][0] for shape in shapes]
 
 
 def pack_plots(result, scene, plots):
-    """Plain dictionary for `createPlots`: the panels over the scene's cycle; None where there are none.
+    """Plain dictionary for `createPlots`: the panels over the scene's cycle, one after another; None where there are none."""
+    packed = pack_plot_groups(result, scene, plots)
+    return packed and {"cycle": packed["cycle"], "panels": [panel for plot in packed["plots"] for panel in plot["panels"]]}
+
+
+def pack_plot_groups(result, scene, plots):
+    """The same with the panels of every plot together: {"cycle", "plots": [{"name", "title", "panels"}]}; None where there are none.
 
     A plot is linked when its x column is the one that leads the scene's table and covers one cycle at most, whichever table it is in.
     """
     main = result.tables.get(scene.table)
     chosen = [(plot, _along(result.tables[plot.table][plot.x].data, scene)) for plot in drawable(result, plots)
               if main and plot.x == main.columns[0].name and not plot.equal and plot.style not in STANDING]
-    packed = [panel for plot, u in chosen if u is not None for panel in _panels(panels(result, plot), u, scene)]
-    return {"cycle": _cycle(scene), "panels": packed} if packed else None
+    packed = [{"name": plot.name, "title": plot.title, "panels": list(_panels(panels(result, plot), u, scene))}
+              for plot, u in chosen if u is not None]
+    return {"cycle": _cycle(scene), "plots": packed} if packed else None
 
 
 def _along(x, scene):

@@ -1,8 +1,8 @@
 // Plots over the cycle, with one cursor on all of them.  Dragging in one moves the clock, and so the player.
 //
-//   createPlots(host, plots, {clock});                       // plots: the dictionary of pack_plots
+//   createPlots(host, plots, {clock});                       // plots: the dictionary of pack_plots or pack_plot_groups
 
-import { element, fitCanvas, fixed, floats, locate, watchTheme, watchVisible } from "./player.js";
+import { element, fitCanvas, fixed, floats, locate, watchTheme, watchVisible } from "./clock.js";
 
 const MARGIN = {left: 52, right: 14, top: 6, bottom: 36};
 const FONT = "11px system-ui, sans-serif";
@@ -28,29 +28,55 @@ const tickText = (value, decimals) => Math.abs(value) >= 1e5 || (value !== 0 && 
   ? value.toExponential(1).replace("e+", "e").replace("-", "−") : fixed(value, decimals);
 const unitText = unit => unit.startsWith("°") || !unit ? unit : ` ${unit}`;
 
-/** One panel: title, running values, curves with limit lines, cursor.  {draw(), show(), node} */
-function createPanel(panel, cycle, clock, theme) {
-  const u = floats(panel.u);
-  const lines = panel.series.map(series => ({...series, values: floats(series.data)}));
-  const numbers = lines.map(series => element("b", {}, "–"));
-  const readouts = lines.map((series, n) => element("span", {class: "dw-now", title: series.label, style: `--chip: var(--${series.role})`},
-    ...(lines.length > 1 ? [element("i", {}), element("em", {}, series.label)] : []), numbers[n], unitText(series.unit)));
+/** The panel with arrays instead of text. */
+const unpacked = panel => ({...panel, u: floats(panel.u), series: panel.series.map(series => ({...series, values: floats(series.data)}))});
+
+/** Value of a line at a phase; none where it does not reach. */
+function valueAt(u, values, phase) {
+  if (phase < u[0] - 1e-3 || phase > u[u.length - 1] + 1e-3) return NaN;
+  const [low, part] = locate(u, phase);
+  return values[low] + part * (values[low + 1] - values[low]);
+}
+
+/** One panel: title, running values, curves with limit lines, cursor.  It costs nothing while it is out of sight. */
+function createPanel(packed, cycle, clock, theme) {
+  let panel, behind = [], visible = true;  // behind: for each line the one it is compared with, {u, values}, or nothing
+  const {title, series} = packed;
+  const numbers = series.map(() => element("b", {}, "–")), others = series.map(() => element("small", {}));
+  const readouts = series.map((one, n) => element("span", {class: "dw-now", title: one.label, style: `--chip: var(--${one.role})`},
+    ...(series.length > 1 ? [element("i", {}), element("em", {}, one.label)] : []), numbers[n], unitText(one.unit), others[n]));
   const canvas = element("canvas", {class: "dw-plot-canvas"}), cursor = element("div", {class: "dw-cursor"}), cover = element("div", {class: "dw-cover"}, cursor);
-  const dots = lines.map(series => element("div", {class: "dw-dot", style: `--chip: var(--${series.role})`}));
+  const dots = series.map(one => element("div", {class: "dw-dot", style: `--chip: var(--${one.role})`}));
   cover.append(...dots);
-  const node = element("div", {class: "dw-plot"}, element("div", {class: "dw-plot-head"}, element("span", {class: "dw-plot-title", title: panel.title}, panel.title),
+  const node = element("div", {class: "dw-plot"}, element("div", {class: "dw-plot-head"}, element("span", {class: "dw-plot-title", title}, title),
     element("span", {class: "dw-plot-values"}, ...readouts)), element("div", {class: "dw-plot-area"}, canvas, cover));
   const surface = fitCanvas(canvas, () => { draw(); show(); });
+  const unwatch = watchVisible(node, now => { visible = now; draw(); show(); });
   const inner = () => ({w: surface.width - MARGIN.left - MARGIN.right, h: surface.height - MARGIN.top - MARGIN.bottom});
   const toX = part => MARGIN.left + part * inner().w;
-  const height = panel.log ? value => value > 0 ? Math.log10(value) : NaN : value => value;  // where a value stands on the axis
-  const [low, high] = [height(panel.low), height(panel.high)];
-  const toY = value => MARGIN.top + (high - height(value)) / (high - low) * inner().h;
+  const height = value => !panel.log ? value : value > 0 ? Math.log10(value) : NaN;  // where a value stands on the axis
+  const toY = value => MARGIN.top + (height(range()[1]) - height(value)) / (height(range()[1]) - height(range()[0])) * inner().h;
+
+  /** [low, high] of the axis: the panel's own, and room for what it is compared with. */
+  function range() {
+    const found = behind.filter(Boolean);
+    return [Math.min(panel.low, ...found.map(one => one.low)), Math.max(panel.high, ...found.map(one => one.high))];
+  }
+
+  /** Other values of the same lines; `wholeCycle` may have changed with them. */
+  function update(next, wholeCycle) { panel = unpacked(next); cycle = wholeCycle; draw(); show(); }
+
+  /** Panels of the other design's plot of the same name: its lines of the same label are drawn behind. */
+  function compare(theirs) {
+    behind = panel.series.map(({label, unit}) => theirs.flatMap(({u, low, high, series: lines}) =>
+      lines.filter(line => line.label === label && line.unit === unit).map(line => ({u, low, high, values: line.values})))[0]);
+    draw(); show();
+  }
 
   function axes(context, colours) {
     const {w, h} = inner(), end = cycle.start + cycle.span;
     const across = ticks(Math.min(cycle.start, end), Math.max(cycle.start, end), Math.max(2, Math.min(8, w / 62)), cycle.unit);
-    const up = panel.log ? powers(panel.low, panel.high) : ticks(low, high, Math.max(2, h / 23), panel.series[0].unit);
+    const up = panel.log ? powers(...range()) : ticks(...range(), Math.max(2, h / 23), panel.series[0].unit);
     context.font = FONT; context.lineWidth = 1;
     phases(context, colours);
     stretches(context, colours);
@@ -107,13 +133,13 @@ function createPanel(panel, cycle, clock, theme) {
     }
   }
 
-  const place = (values, i) => [toX(u[i]), Math.max(-1e4, Math.min(1e4, toY(values[i])))];
+  const place = (u, values, i) => [toX(u[i]), Math.max(-1e4, Math.min(1e4, toY(values[i])))];
 
-  function curve(context, values) {
+  function curve(context, u, values) {
     context.beginPath();
     let pen = false;
     for (let i = 0; i < u.length; i++) {
-      const [x, y] = place(values, i);
+      const [x, y] = place(u, values, i);
       if (!Number.isFinite(y)) { pen = false; continue; }
       pen ? context.lineTo(x, y) : context.moveTo(x, y);
       pen = true;
@@ -122,10 +148,10 @@ function createPanel(panel, cycle, clock, theme) {
   }
 
   /** Points, and below them the stems that they stand on. */
-  function marks(context, values) {
-    const foot = toY(panel.log ? panel.low : 0);
+  function marks(context, u, values) {
+    const foot = toY(panel.log ? range()[0] : 0);
     for (let i = 0; i < u.length; i++) {
-      const [x, y] = place(values, i);
+      const [x, y] = place(u, values, i);
       if (!Number.isFinite(y)) continue;
       context.beginPath(); context.arc(x, y, 1.8, 0, 2 * Math.PI); context.fill();
       if (panel.style === "stems") { context.beginPath(); context.moveTo(x, foot); context.lineTo(x, y); context.stroke(); }
@@ -136,33 +162,36 @@ function createPanel(panel, cycle, clock, theme) {
     const {w, h} = inner();
     context.save();
     context.beginPath(); context.rect(MARGIN.left, MARGIN.top, w, h); context.clip();
-    context.lineJoin = "round"; context.lineWidth = 1.8;
-    for (const {values, role, dashed} of lines) {
+    context.lineJoin = "round";
+    context.strokeStyle = colours.muted; context.lineWidth = 1.1; context.setLineDash([4, 3]);
+    for (const one of behind.filter(Boolean)) curve(context, one.u, one.values);
+    for (const {values, role, dashed} of panel.series) {
       context.strokeStyle = context.fillStyle = colours[role];
       context.setLineDash(dashed ? [5, 3] : []); context.lineWidth = dashed ? 1.2 : 1.8;
-      (panel.style === "line" || dashed ? curve : marks)(context, values);
+      (panel.style === "line" || dashed ? curve : marks)(context, panel.u, values);
     }
     context.setLineDash([]);
     context.restore();
   }
 
   function draw() {
-    const {context, ratio, width, height} = surface;
-    if (width < 2) return;
+    const {context, ratio, width, height: tall} = surface;
+    if (width < 2 || !visible) return;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.clearRect(0, 0, width, height);
+    context.clearRect(0, 0, width, tall);
     axes(context, theme.colours);
     curves(context, theme.colours);
     limits(context, theme.colours);
   }
 
   function show() {
-    const [low, part] = locate(u, clock.phase), x = Math.round(toX(clock.phase));
+    if (!visible) return;
+    const x = Math.round(toX(clock.phase)), [low, high] = range();
     cursor.style.transform = `translateX(${x}px)`;
-    lines.forEach(({values}, n) => {
-      const here = clock.phase >= u[0] - 1e-3 && clock.phase <= u[u.length - 1] + 1e-3;
-      const value = here ? values[low] + part * (values[low + 1] - values[low]) : NaN, y = toY(value), inside = value >= panel.low && value <= panel.high;
+    panel.series.forEach(({values}, n) => {
+      const value = valueAt(panel.u, values, clock.phase), y = toY(value), inside = value >= low && value <= high, other = behind[n];
       numbers[n].textContent = fixed(value, panel.decimals);
+      others[n].textContent = other ? ` (${fixed(valueAt(other.u, other.values, clock.phase), panel.decimals)})` : "";
       dots[n].style.transform = `translate(${x}px, ${inside ? y : -99}px)`;
     });
   }
@@ -174,16 +203,54 @@ function createPanel(panel, cycle, clock, theme) {
   }
   cover.addEventListener("pointerdown", event => { cover.setPointerCapture(event.pointerId); drag(event); });
   cover.addEventListener("pointermove", event => { if (cover.hasPointerCapture(event.pointerId)) drag(event); });
-  return {node, draw, show, stop: surface.stop};
+  update(packed, cycle);
+  return {node, draw, show, update, compare, stop() { surface.stop(); unwatch(); }};
 }
 
-/** Plots inside `host` that follow `options.clock`.  Returns {destroy()}. */
+/** Plots as groups of panels: those of `plots` by name, or bare `panels`, each standing for itself. */
+const grouped = ({plots, panels}) => plots || panels.map(panel => ({name: panel.title, panels: [panel]}));
+
+/** What the page shows beside the numbers: where it is the same, plots stay as they are and only draw other numbers. */
+const structure = packed => JSON.stringify([!packed.plots, grouped(packed).map(({name, title, panels}) => [name, title, panels.map(panel =>
+  [panel.title, panel.series.map(({label, unit, role}) => [label, unit, role])])])]);
+
+/**
+ * Plots inside `host` that follow `options.clock`.  Returns {update(packed), compare(packed | null), destroy()}: the next values of the
+ * same plots or others; plots of another design, drawn behind those of the same name.
+ */
 export function createPlots(host, packed, {clock}) {
   const theme = watchTheme(host, () => panels.forEach(panel => panel.draw()));
-  const panels = packed.panels.map(panel => createPanel(panel, packed.cycle, clock, theme));
-  const plots = {destroy() { stop(); unwatch(); theme.stop(); clock.see(plots, false); panels.forEach(panel => panel.stop()); host.replaceChildren(); }};
+  let panels = [], shape = "", names = [], reference = null;
+
+  function build(next) {
+    panels.forEach(panel => panel.stop());
+    panels = []; names = [];
+    const boxes = grouped(next).map(({name, title, panels: own}) => {
+      const made = own.map(panel => createPanel(panel, next.cycle, clock, theme));
+      panels.push(...made); names.push(...made.map(() => name));
+      return next.plots ? element("section", {class: "dw-group", "data-testid": `plot-${name}`, "aria-label": title, style: `--count: ${own.length}`},
+        ...made.map(panel => panel.node)) : made[0].node;
+    });
+    host.classList.toggle("dw-grouped", !!next.plots);
+    host.replaceChildren(...boxes);
+  }
+
+  function update(next) {
+    const wanted = structure(next);
+    if (wanted === shape) grouped(next).flatMap(group => group.panels).forEach((panel, n) => panels[n].update(panel, next.cycle));
+    else { build(next); shape = wanted; compare(reference); }
+  }
+
+  function compare(other) {
+    reference = other;
+    const theirs = new Map(other ? grouped(other).map(({name, panels: own}) => [name, own.map(unpacked)]) : []);
+    panels.forEach((panel, n) => panel.compare(theirs.get(names[n]) || []));
+  }
+
   host.classList.add("dw-plots");
-  host.replaceChildren(...panels.map(panel => panel.node));
+  update(packed);
+  const plots = {update, compare,
+    destroy() { stop(); unwatch(); theme.stop(); clock.see(plots, false); panels.forEach(panel => panel.stop()); host.replaceChildren(); }};
   const unwatch = watchVisible(host, visible => clock.see(plots, visible));
   const stop = clock.subscribe(() => panels.forEach(panel => panel.show()));
   return plots;

@@ -8,7 +8,7 @@ from drivewright.spec.describing import preset_path, schema, template
 from drivewright.spec.fields import DataFile, Flag, Integer, Name, Named, Number, Text, dimension_at, value_at
 from drivewright.spec.machining import Machining
 from drivewright.spec.model import MechanismSpec, Spec
-from drivewright.spec.reading import change_key, from_document, load, read_document, read_value, set_key
+from drivewright.spec.reading import change_key, from_document, load, parse_document, read_document, read_value, set_key
 from drivewright.spec.searching import Optimise
 from drivewright.spec.studying import Study, Vary
 from drivewright.spec.writing import document
@@ -32,6 +32,7 @@ __all__ = [
     "document",
     "from_document",
     "load",
+    "parse_document",
     "preset_path",
     "read_document",
     "read_value",

@@ -25,13 +25,13 @@ SAMPLES = {bool: False, int: 1, float: 1.0, str: "...", Path: "data.csv"}
 def template(kind, preset=None):
     """Commented spec text of a kind: every key with its meaning, unit, default and limits; values from a preset."""
     mechanism, path = registry.mechanism(kind), preset_path(kind, preset)
-    given = read_document(path) if path else {"mechanism": kind, **_skeleton(mechanism.spec)}
+    given = read_document(path) if path else {"mechanism": kind, **skeleton(mechanism.spec)}
     source = f' (preset "{path.stem}")' if path else ""
     intro = [f"# {mechanism.summary[:1].upper()}{mechanism.summary[1:]}{source}.", "#",
              '# Every key is here.  "#key = value" is left at its default, or out: take the # away to change it.',
              '# A quantity is text with a unit, e.g. "9.5 mm", "2000 rpm", "3e7 N/m".  [...] says what is allowed,',
              '# and "default" where the value shown is the one taken when the key is left out.', ""]
-    return "\n".join(intro + _lines(mechanism.spec, given, samples=_shared_samples(mechanism, given))) + "\n"
+    return "\n".join(intro + _lines(mechanism.spec, given, samples=shared_samples(mechanism, given))) + "\n"
 
 
 def preset_path(kind, preset=None):
@@ -72,7 +72,7 @@ def _lines(model, given, path="", off=False, samples=None):
 def _table(path, field, given, off, sample):
     """Lines of a sub-table or of a list of them, switched off where it is optional and not given."""
     inner, off = table_of(field.annotation), off or (not given and not field.is_required() and not field.default)
-    first, *others = _tables(path, field, given or ({} if not off else sample or _skeleton(inner)))
+    first, *others = _tables(path, field, given or ({} if not off else sample or skeleton(inner)))
     place, heading, table = first
     explained = ["", f"{'#' if off else ''}{heading}  # {field.description or inner.__doc__}", *_lines(inner, table, f"{place}.", off)]
     return explained + [line for other in others for line in _again(inner, *other, off)]
@@ -98,7 +98,7 @@ def _again(inner, place, heading, table, off):
 def _key(name, field, given, off):
     """(code, comment) of a key: as given, else at its default and switched off."""
     default = raw(field.default, dimension_of(field)) if not field.is_required() and field.default is not None else None
-    value = given.get(name, _sample(field) if default is None else default)
+    value = given.get(name, sample_of(field) if default is None else default)
     switched = "#" if off or name not in given else ""
     return f"{switched}{name} = {toml_value(value)}", f"{field.description or ''}  [{_allowed(field, default, value)}]"
 
@@ -155,19 +155,19 @@ def _in_columns(rows):
 # -- samples -------------------------------------------------------------------------------------------------------------------
 
 
-def _skeleton(model):
+def skeleton(model):
     """Sample values for the required keys of a table."""
     tables = {}
     for name, field in model.model_fields.items():
         if field.is_required():
             inner = table_of(field.annotation)
-            table = _skeleton(inner) if inner else None
+            table = skeleton(inner) if inner else None
             several = {SOME_NAME: table} if has_names(field.annotation) else [table] if list_depth(field.annotation) else table
-            tables[name] = _sample(field) if inner is None else several
+            tables[name] = sample_of(field) if inner is None else several
     return tables
 
 
-def _sample(field):
+def sample_of(field):
     """A value that a key could have."""
     if field.examples:
         return field.examples[0]
@@ -196,7 +196,7 @@ def _length(annotation):
     return max(map(_length, inner), default=0)
 
 
-def _shared_samples(mechanism, given):
+def shared_samples(mechanism, given):
     """[optimise] and [study] tables that fit the kind: its first quantity as what changes, a headline value as the objective."""
     keys = [(f"{table}.{key}", value) for table, keys in given.items() if isinstance(keys, dict) for key, value in keys.items()]
     quantities = [(key, value) for key, value in keys

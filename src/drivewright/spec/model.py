@@ -22,9 +22,10 @@ class MechanismSpec(Spec):
     optimise: Optimise | None = Field(None, description="unknowns, requirements and objectives for `drivewright optimise`")
     study: Study | None = Field(None, description="what varies from case to case for `drivewright sweep`")
 
-    def to_toml(self):
-        """The effective spec as TOML text with units; reads back to an equal spec on this machine."""
-        return toml_text(self._tables())
+    def to_toml(self, moved=False):
+        """The effective spec as TOML text with units; reads back to an equal spec on this machine, or `moved` beside copies of its data
+        files, as `write` makes them."""
+        return toml_text(self._tables(places_beside(self.data_files()) if moved else None))
 
     def write(self, path):
         """The effective spec as a file, with copies of its data files in `data/` beside it: together they can move to another machine."""
@@ -35,7 +36,7 @@ class MechanismSpec(Spec):
             target.parent.mkdir(exist_ok=True)
             if not (target.exists() and target.samefile(source)):  # the spec of a run folder, run again into it
                 shutil.copyfile(source, target)
-        path.write_text(toml_text(self._tables(places)), encoding="utf-8", newline="\n")
+        path.write_text(self.to_toml(moved=True), encoding="utf-8", newline="\n")
 
     def _tables(self, places=None):
         tables = document(self, places)

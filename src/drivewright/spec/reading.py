@@ -29,13 +29,21 @@ def from_document(tables, model=None, folder="."):
 
 def read_document(path):
     """The raw tables of a TOML spec file; SpecError where it is missing or is not TOML."""
-    text = _text_of(Path(path)) + "\n"  # so that tomllib knows the line of a slip at the very end
+    try:
+        return parse_document(_text_of(Path(path)))
+    except SpecError as error:
+        raise error.located(file=str(path)) from None
+
+
+def parse_document(text):
+    """The raw tables of a spec's text; SpecError where it is not TOML."""
+    text += "\n"  # so that tomllib knows the line of a slip at the very end
     try:
         return tomllib.loads(text)
     except RecursionError:
-        raise SpecError("is not valid TOML: nested too deeply", file=str(path)) from None
+        raise SpecError("is not valid TOML: nested too deeply") from None
     except ValueError as error:  # TOMLDecodeError, and integers of more than 4300 digits
-        raise SpecError(f"is not valid TOML: {_explained(str(error), text)}", file=str(path)) from None
+        raise SpecError(f"is not valid TOML: {_explained(str(error), text)}") from None
 
 
 def _explained(complaint, text):

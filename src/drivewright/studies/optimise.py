@@ -86,7 +86,8 @@ class Optimised:
         sets = np.where(self.history[history.VIOLATION] <= 0, SETS[1], SETS[2])
         sets[~np.all(np.isfinite(values), axis=0)] = SETS[3]
         designs = np.stack([self.history[key].astype(float) for key in self.problem.keys], axis=1)
-        sets[[n for n, design in enumerate(designs) if any(np.array_equal(design, each) for each in self.front)]] = SETS[0]
+        best = set(map(bytes, self.front))
+        sets[[n for n, design in enumerate(designs) if bytes(design) in best]] = SETS[0]
         return sets
 
     def objective_rows(self):
@@ -110,15 +111,19 @@ def optimise(spec, *, out=None, workers=None, on=None, progress=None):
     neither changes a bit.  What the mechanism evaluates in compiled code is done here.  `progress(done, total, what)` is called as
     generations end.  Ctrl-C, also from `progress`, gives the best so far, `interrupted`.  SolverError where no design can be computed.
     """
-    started = time.perf_counter()
     problem = prepare(spec)
-    method = method_of(spec.optimise)
-    with closing(_place(out, spec, method)) as kept:
-        interrupted = _search(problem, method, Evaluator(problem, kept, workers, on, progress))
-        tables = kept.tables()
-        if not tables:
-            raise KeyboardInterrupt
-        found = _outcome(problem, store.joined(tables))
+    with closing(_place(out, spec, method_of(spec.optimise))) as kept:
+        return searched(problem, kept, workers, on, progress)
+
+
+def searched(problem, kept, workers=None, on=None, progress=None):
+    """`Optimised` of a problem; every evaluation goes to the store `kept` within a second.  The rest as of `optimise`."""
+    started, method = time.perf_counter(), method_of(problem.spec.optimise)
+    interrupted = _search(problem, method, Evaluator(problem, kept, workers, on, progress))
+    tables = kept.tables()
+    if not tables:
+        raise KeyboardInterrupt
+    found = _outcome(problem, store.joined(tables))
     return Optimised(problem, **found, seconds=time.perf_counter() - started, method=method, folder=kept.folder, interrupted=interrupted)
 
 

@@ -97,8 +97,8 @@ class Process:
     def _start(self):
         context = get_context("spawn")
         ours, self._hold = context.Pipe(duplex=False)
-        with _as_a_worker():
-            self._executor = ProcessPoolExecutor(1, context, _watch, (os.getpid(), ours))
+        with as_a_worker():
+            self._executor = ProcessPoolExecutor(1, context, leave_with_parent, (os.getpid(), ours))
             self._warmed = self._executor.submit(_warm)
         ours.close()
 
@@ -168,7 +168,7 @@ class Cluster:
 
 
 @contextmanager
-def _as_a_worker():
+def as_a_worker():
     """What a process inherits: one thread in the libraries, and no main module (it would run a user's script again)."""
     kept = {name: os.environ.get(name) for name in ONE_THREAD}
     main = sys.modules["__main__"]
@@ -185,7 +185,7 @@ def _as_a_worker():
             os.environ.pop(name) if value is None else os.environ.__setitem__(name, value)
 
 
-def _watch(parent, pipe):
+def leave_with_parent(parent, pipe):
     """In the process: leave when the parent dies or closes its end; Ctrl-C is the parent's business."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
@@ -233,7 +233,7 @@ def _local_cluster(on):
     """The lane of as many Dask workers on this machine, one thread each."""
     dask, distributed = _distributed()
     with ExitStack() as stack:
-        stack.enter_context(_as_a_worker())  # to the end: the cluster starts a worker again when it dies
+        stack.enter_context(as_a_worker())  # to the end: the cluster starts a worker again when it dies
         stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": 2}))
         cluster = distributed.LocalCluster(n_workers=int(on.removeprefix("local:")), threads_per_worker=1, processes=True,
                                            dashboard_address=":0", silence_logs=logging.CRITICAL)

@@ -33,8 +33,13 @@ def sweep(spec, vary=None, *, out=None, workers=None, on=None, confirmed=True, p
     task = task_of(spec, plan.keys)
     kept = store.Folder(out, spec, identity(spec, plan)) if out is not None else store.Memory()
     with closing(kept):
-        interrupted = _fill(kept, task, plan, workers, on, progress or (lambda done, total, what: None))
-        return Study(spec, plan, store.joined(kept.tables()), kept.folder, kept.seconds, kept.remarks(), interrupted)
+        return swept(kept, spec, plan, task, workers, on, progress)
+
+
+def swept(kept, spec, plan, task, workers=None, on=None, progress=None):
+    """`Study` of the cases of a plan, whoever made it; they go to the store `kept` as they are done.  The rest as of `sweep`."""
+    interrupted = _fill(kept, task, plan, workers, on, progress or (lambda done, total, what: None))
+    return Study(spec, plan, store.joined(kept.tables()), kept.folder, kept.seconds, kept.remarks(), interrupted)
 
 
 def open_study(folder):

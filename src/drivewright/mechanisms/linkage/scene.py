@@ -147,7 +147,7 @@ def _supports(spec, joints, slim):
 
 class Play(NamedTuple):
     """A joint with play as drawn: radius of the bearing, the play in it, the factor on the real one;
-    `orbit` (samples, 2) of the journal in the bearing's body, `poses` (frames, 3) of the journal."""
+    `orbit` (samples, 2) of the journal in the bearing's body, `poses` (frames, 3) of the journal and at `rest` in the bearing's middle."""
 
     joint: Revolute
     radius: float
@@ -155,6 +155,7 @@ class Play(NamedTuple):
     factor: float
     orbit: np.ndarray
     poses: np.ndarray
+    rest: np.ndarray
 
 
 def _play(joint, seen, slim):
@@ -167,9 +168,9 @@ def _play(joint, seen, slim):
     away = away * factor
     # Where steel gives way the journal is a little outside its play; magnified, it would lie in the wall.
     away *= np.minimum(1.0, factor * real / np.maximum(np.hypot(*away.T), 1e-300))[:, None]
-    turn = seen.poses[joint.first.body][:, 2]
-    poses = np.column_stack([bearing + away, seen.poses[joint.second.body][:, 2]])[::FINE]
-    return Play(joint, radius, factor * real, factor, turned(away, -turn), poses)
+    turn, own = (seen.poses[marker.body][:, 2] for marker in (joint.first, joint.second))
+    poses, rest = (np.column_stack([place, own])[::FINE] for place in (bearing + away, bearing))
+    return Play(joint, radius, factor * real, factor, turned(away, -turn), poses, rest)
 
 
 def clearance(model):
@@ -196,11 +197,15 @@ def _bearings(plays, name):
 
 
 def _journal(play):
-    """The journal as a body of its own: only its place in the bearing is magnified, not the mechanism around it."""
+    """The journal as a body of its own: only its place in the bearing is magnified, not the mechanism around it.
+
+    Further than drawn it would pass through the bearing's wall.
+    """
     radius = play.radius - play.drawn
     shapes = (Shape("roller", circle((0, 0), radius)), Shape("axis", polygon([(0, 0), (radius, 0)], closed=False)))
     what = "bushing" if isinstance(play.joint.model, Bushing) else "play"
-    return Body(f"journal {play.joint.name}", f"{what} drawn ×{play.factor:g}", shapes, play.poses, "ground")
+    return Body(f"journal {play.joint.name}", f"{what} drawn ×{play.factor:g}", shapes, play.poses, "ground",
+                rest=play.rest, most=1.0, magnified=play.factor)
 
 
 # -- springs -------------------------------------------------------------------------------------------------------------------

@@ -30,19 +30,22 @@ def scene(model):
     factor = exaggeration(np.abs(up).max(), model.shaft.length)
     name = f"shaft, {words} × {factor:g}" if factor else "shaft"
 
+    def bent(called, label, shapes, poses, colour):
+        """A body that leaves the straight axis by the drawn deflection."""
+        rest = poses * (1.0, 0.0, 0.0) if factor else None
+        return Body(called, label, tuple(shapes), poses, colour, rest, magnified=float(factor or 1))
+
     def riding(place):
         return _poses(place, factor * part * np.interp(place, middles, up), 0.0)
 
     bodies = [Body("rest", "shaft at rest", tuple(sketch.silhouette(model.shaft)), still, "ground")]
-    bodies += [Body(f"bearing.{support.name}", "bearing", tuple(sketch.bearing(model, support)),
+    bodies += [bent(f"bearing.{support.name}", "bearing", sketch.bearing(model, support),
                     _poses(0.0, factor * _raised(model, bearing) + 0 * part, 0.0), "green")
                for support, bearing in zip(model.shaft.supports, model.spec.bearings, strict=True)]
-    bodies += [
-        Body(f"gear.{gear.name}", "gear", tuple(sketch.gear(model, gear)), riding(gear.position), "violet") for gear in model.spec.gears
-    ]
-    bodies += [Body(f"shaft.{n}", name, tuple(shapes), _poses(middle, factor * part * u, np.arctan(factor * part * t)), "blue")
+    bodies += [bent(f"gear.{gear.name}", "gear", sketch.gear(model, gear), riding(gear.position), "violet") for gear in model.spec.gears]
+    bodies += [bent(f"shaft.{n}", name, shapes, _poses(middle, factor * part * u, np.arctan(factor * part * t)), "blue")
                for n, (middle, shapes, u, t) in enumerate(zip(middles, sketch.slices(model.shaft, z), up, turn, strict=True))]
-    bodies += [Body(f"load.{n}", "load", tuple(sketch.arrow(model, place, force)), riding(place), "orange")
+    bodies += [bent(f"load.{n}", "load", sketch.arrow(model, place, force), riding(place), "orange")
                for n, (place, force) in enumerate(_shown(model)) if abs(force) > 1e-9]
     return Scene(phase, "load grows and fades", "rad", 2.0, tuple(bodies), (Frame("side", "seen from the side, exaggerated", still),))
 
