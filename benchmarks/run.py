@@ -14,6 +14,7 @@ import linkages
 import numpy as np
 import shafts
 import studies
+import studio
 from timing import best
 
 ROOT = Path(__file__).parent.parent
@@ -184,6 +185,7 @@ SECTIONS = (
     *indexing.SECTIONS,
     *chains.SECTIONS,
     *studies.SECTIONS,
+    *studio.SECTIONS,
 )
 
 

@@ -21,6 +21,7 @@ EXTRAS = {
     "needs_pdf": (("typst",), "pdf"),
     "needs_optimise": (("pymoo",), "optimise"),
     "needs_peers": (("exudyn", "pylinkage", "mpmath", "jax", "Pynite"), "peers"),
+    "needs_studio": (("nicegui",), "studio"),
     "needs_cluster": (("distributed",), "cluster"),
     "needs_browser": (("playwright",), "dev"),
 }

@@ -7,6 +7,7 @@ that the names are known before anything is imported), `drivewright.motion_laws`
 A third-party package declares the same groups in its own pyproject.
 """
 
+import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
@@ -45,7 +46,7 @@ class Mechanism:
     `verify(model, result)` re-computes it on an independent route; `batch(spec, keys, names)` gives a fast evaluation of many designs
     (n, keys) in SI -> {name: (n,)} for values, and checks as `check.NAME` (their margins), or None where it does not cover them; a design
     that it cannot speak for is nan in every name.
-    `folder` holds `presets/*.toml` and `theory.md`.
+    `folder` holds `presets/*.toml`, `theory.md` and, for screens in other languages, `zh.toml`.
     """
 
     kind: str
@@ -67,6 +68,14 @@ class Mechanism:
     def presets(self):
         """Name -> path of the spec files that come with the kind."""
         return {path.stem: path for path in sorted((self.folder / "presets").glob("*.toml"))}
+
+    def translations(self, language):
+        """Tables of `<language>.toml` in the folder: `fields`, `tables`, `texts`, `presets`; {} where the kind brings none."""
+        path = self.folder / f"{language}.toml"
+        try:
+            return tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+        except ValueError as error:  # no TOML, or no UTF-8
+            raise InputError(f"mechanism {self.kind!r}: {path.name} cannot be read: {error}; repair the package that brings it") from error
 
 
 @dataclass(frozen=True)

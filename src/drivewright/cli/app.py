@@ -239,6 +239,23 @@ def validate(name: Annotated[str | None, typer.Argument(help="a source; default 
 
 
 @app.command()
+def studio(
+    spec: Annotated[Path | None, typer.Argument(help="spec file (TOML) to begin with")] = None,
+    host: Annotated[str, typer.Option(help="address to listen at; others than this machine's own want a token")] = "127.0.0.1",
+    port: Annotated[int | None, typer.Option(help="port; the first free one from 8123 unless given")] = None,
+    token: Annotated[str, typer.Option(help="token for another host; a new one unless given")] = "",
+    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="open a browser")] = True,
+):
+    """The web studio: a design as a form, moving, with its checks and plots."""
+    from drivewright.studio.app import serve
+    from drivewright.studio.session import first_design, opened
+
+    with show.located(spec or Path("studio")):
+        start = opened(spec) if spec else first_design()
+    serve(start, spec.stem if spec else "", host, port, token, browser, show.note)
+
+
+@app.command()
 def examples(
     name: Annotated[str | None, typer.Argument(help="example to copy into this folder")] = None,
     run_: Annotated[str | None, typer.Option("--run", help="'all', or the name of an example to run")] = None,

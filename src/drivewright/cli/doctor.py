@@ -12,6 +12,7 @@ EXTRAS = (
     ("fe", "ngsolve", "STEP and STL of solids, solid check by finite elements"),
     ("pdf", "typst", "PDF report"),
     ("optimise", "pymoo", "NSGA-II for several objectives"),
+    ("studio", "nicegui", "the web studio"),
     ("cluster", "distributed", "studies on a Dask cluster, here or elsewhere"),
     ("peers", "exudyn", "independent engines for `verify` and the benchmarks"),
 )

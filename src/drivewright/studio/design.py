@@ -1,0 +1,58 @@
+"""A design on its way through the studio: the raw tables of a spec, and the folder that its data files are in."""
+
+from copy import deepcopy
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from drivewright.errors import SpecError
+from drivewright.spec import from_document, set_key
+from drivewright.spec.writing import toml_text
+
+
+@dataclass(frozen=True)
+class Design:
+    """Raw tables as TOML has them, quantities as text with unit.  Nobody changes `tables` in place.
+
+    `readable` are the data files that the tables may name, None for any: what a page sends must not read the disk.
+    """
+
+    tables: dict
+    folder: Path = field(default_factory=Path.cwd)
+    readable: frozenset | None = None
+
+    @property
+    def kind(self):
+        """Kind of drive."""
+        return self.tables.get("mechanism")
+
+    def spec(self):
+        """The spec; SpecError where the tables are none, or name a file that is not theirs."""
+        try:
+            spec = from_document(deepcopy(self.tables), folder=self.folder)
+        except SpecError as error:
+            if self.readable is not None and "there is no file" in error.message:
+                raise _not_here(error.key) from None
+            raise
+        if self.readable is not None and not self.readable.issuperset(spec.data_files()):
+            raise _not_here(None)
+        return spec
+
+    def toml(self):
+        """The tables as TOML text, data files as the user named them."""
+        return toml_text(self.tables)
+
+    def with_tables(self, tables):
+        """Other tables in the same place."""
+        return replace(self, tables=tables)
+
+    def changed(self, changes):
+        """The design with {dotted key: raw value} set; SpecError where a key cannot be entered."""
+        tables = deepcopy(self.tables)
+        for key, value in changes.items():
+            set_key(tables, key, value)
+        return self.with_tables(tables)
+
+
+def _not_here(key):
+    # The same words whether the file exists or not: a page learns nothing of the disk.
+    return SpecError("there is no such data file here; open the spec together with the data files that it names", key)

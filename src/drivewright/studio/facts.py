@@ -1,0 +1,223 @@
+"""What a key of a spec is, read off its class: a `Fact`; and the way between a raw value and the text that a box shows."""
+
+from copy import deepcopy
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path, PureWindowsPath
+from typing import Any, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from drivewright.errors import UnitError
+from drivewright.spec import MechanismSpec, document, from_document, read_value
+from drivewright.spec.fields import AnyUnit, choices_of, dimension_of, levels, mark_of, table_of, type_of
+from drivewright.spec.writing import raw, toml_value
+from drivewright.studio.sliders import Limits
+from drivewright.units import split
+
+KINDS = {bool: "flag", int: "integer", float: "number", str: "text", Path: "file"}
+ABSENT = object()  # where a key is not said
+
+
+@dataclass(frozen=True, eq=False)
+class Fact:
+    """What does not change about a field: all that its spec class says of it.  `items`: of each entry of a list or of a `Named`."""
+
+    name: str
+    hint: str
+    kind: str
+    required: bool
+    dimension: Any
+    choices: tuple
+    limits: Limits
+    default: Any  # raw, None where there is none
+    example: Any  # raw, None where there is none
+    table: type | None
+    levels: tuple
+    items: tuple = ()  # of a list or a `Named`: a Fact for each entry where their number is fixed, else one for all
+    fixed: bool = False
+    own: tuple = ()  # of a table: (key, raw value) where its default says something else than its class
+
+    @property
+    def sample(self):
+        """A raw value that an entry of a list could have."""
+        usual = {"quantity": f"1 {self.dimension.shown}" if self.dimension else "", "number": 1.0, "integer": 1, "flag": False}
+        return usual.get(self.kind, "...") if self.example is None else self.example
+
+    @property
+    def begun(self):
+        """What a file has to say before a part of this default can be changed; None where there is no default."""
+        if self.kind == "list" and not self.table:
+            return deepcopy(self.default or self.example or [item.sample for item in self.items if self.fixed])
+        if self.table and isinstance(self.default, dict):
+            return dict(self.own)
+        return deepcopy(self.default)
+
+
+# -- facts ---------------------------------------------------------------------------------------------------------------------
+
+
+@cache
+def facts(model):
+    """The Fact of each key of a table class, values first, then sub-tables, those that all kinds share last."""
+    found = {name: fact_of(name, field) for name, field in model.model_fields.items()}
+    shared = MechanismSpec.model_fields
+    order = sorted(found.values(), key=lambda fact: (bool(fact.table) or fact.kind == "names", bool(fact.table) and fact.name in shared))
+    return {fact.name: fact for fact in order}
+
+
+def fact_of(name, field):
+    """The Fact of a pydantic field."""
+    dimension, required = dimension_of(field), field.is_required()
+    example = field.examples[0] if field.examples else None
+    default = None if required or field.default in ((), {}) else raw(field.default, dimension)
+    own = _own(field.default) if isinstance(field.default, BaseModel) else ()
+    return _fact(name, field.annotation, dimension or mark_of(field, AnyUnit), _limits(field.metadata), hint=field.description or "",
+                 required=required, default=default, example=example, own=own)
+
+
+def _own(table):
+    """What a table says that its class does not say by itself."""
+    kind, own = type(table), document(table)
+    usual = document(from_document({name: own[name] for name, field in kind.model_fields.items() if field.is_required()}, kind))
+    return tuple((name, value) for name, value in own.items() if usual.get(name) != value)
+
+
+def _fact(name, annotation, mark, limits, hint="", required=True, default=None, example=None, own=()):
+    dimension = None if isinstance(mark, AnyUnit) else mark
+    kind = _kind(annotation, mark)
+    parts = () if table_of(annotation) else _parts(annotation)
+    items = tuple(_fact(str(n), part, dimension_of(_Bare(part)) or mark_of(_Bare(part), AnyUnit) or mark, _limits(_marks(part)),
+                        default=default[n] if isinstance(default, list) and n < len(default) else None,
+                        example=example[n] if isinstance(example, list) and n < len(example) else None)
+                  for n, part in enumerate(parts))
+    return Fact(name, hint, kind, required, dimension, choices_of(annotation), limits, default, example, table_of(annotation),
+                levels(annotation), items, kind == "list" and Ellipsis not in get_args(_bare(annotation)), own)
+
+
+def fact_at(model, steps):
+    """The Fact at a path of keys below a table class, elements of lists by name or number; None where no value can stand."""
+    step, *rest = steps
+    fact = facts(model).get(step)
+    while fact and rest:
+        step, *rest = rest
+        if fact.table:
+            rest = rest if fact.levels else [step, *rest]
+            return fact_at(fact.table, rest) if rest else None
+        number = int(step) if step.isdecimal() and fact.fixed else 0
+        fact = fact.items[number] if number < len(fact.items) else None
+    return fact
+
+
+@dataclass(frozen=True)
+class _Bare:
+    """An annotation that stands alone, looking like a field."""
+
+    annotation: Any
+    metadata: tuple = ()
+
+
+def _kind(annotation, mark):
+    """What sort of box a field has."""
+    nested, choices, plain = levels(annotation), choices_of(annotation), type_of(annotation)
+    if nested:
+        return "names" if nested[0] is dict else "list"
+    if isinstance(mark, AnyUnit) or (choices and plain is not None):
+        return "any"
+    return "quantity" if mark else "choice" if choices else KINDS.get(plain, "any")
+
+
+def _bare(annotation):
+    """An annotation without `Annotated` and `| None` around it."""
+    if hasattr(annotation, "__metadata__"):
+        return _bare(annotation.__origin__)
+    if get_origin(annotation) in (tuple, list, dict):
+        return annotation
+    inner = [part for part in get_args(annotation) if part is not type(None)]
+    return _bare(inner[0]) if len(inner) == 1 and not isinstance(annotation, type) and levels(annotation) else annotation
+
+
+def _parts(annotation):
+    """The annotations of what a list or a `Named` holds."""
+    annotation = _bare(annotation)
+    parts = get_args(annotation) if get_origin(annotation) in (tuple, list, dict) else ()
+    return parts[1:] if get_origin(annotation) is dict else tuple(part for part in parts if part is not Ellipsis)
+
+
+def _marks(annotation):
+    """What an annotation is annotated with."""
+    marks = getattr(annotation, "__metadata__", ())
+    return [mark for given in marks for mark in (given.metadata if isinstance(given, FieldInfo) else [given])]
+
+
+def _limits(marks):
+    """Limits, in SI."""
+    found = {side: limit for mark in marks for side in ("gt", "ge", "lt", "le") if (limit := getattr(mark, side, None)) is not None}
+    return Limits(found.get("gt", found.get("ge")), found.get("lt", found.get("le")), "gt" in found, "lt" in found)
+
+
+# -- text ----------------------------------------------------------------------------------------------------------------------
+
+
+def read(fact, text, shown=""):
+    """The raw value of a typed text, `shown` being the text in the box before: its unit goes with a bare number."""
+    if fact.kind in ("text", "file"):
+        return text
+    text = text.strip()
+    if fact.kind == "choice":
+        return next((choice for choice in fact.choices if str(choice) == text), text)
+    if fact.kind == "list":
+        return _read_list(fact, text, shown)
+    if fact.kind in ("quantity", "any") and is_bare(text):
+        unit = _unit(shown) or (_unit(plain_text(fact.default)) or fact.dimension.shown if fact.kind == "quantity" else "")
+        return f"{text} {unit}" if unit else read_value(text)
+    return text if fact.kind == "quantity" else read_value(text)
+
+
+def _read_list(fact, text, shown):
+    """A list as TOML, or its entries with commas between them."""
+    value = read_value(text) if text.startswith("[") else text
+    texts = value if isinstance(value, list) else text.split(",")
+    before = shown.split(",") or [""]
+    if len(fact.levels) > 1 or not fact.items:
+        return read_value(text)
+    return [read(fact.items[min(n, len(fact.items) - 1)], part.strip(), before[min(n, len(before) - 1)]) if isinstance(part, str) else part
+            for n, part in enumerate(texts)]
+
+
+def shown_text(fact, value, shown=""):
+    """The text that a box shows for a raw value; `read` gives the value back."""
+    if value is None or value is ABSENT or value == "":
+        return ""
+    if fact.kind == "file":  # a folder of the user's disk is nothing for the page
+        return PureWindowsPath(value).name if Path(value).is_absolute() or PureWindowsPath(value).is_absolute() else value
+    if fact.kind == "list" and isinstance(value, list) and all(not isinstance(entry, (list, dict)) for entry in value):
+        text = ", ".join(shown_text(fact.items[min(n, len(fact.items) - 1)], entry) for n, entry in enumerate(value)) if fact.items else ""
+    else:
+        text = plain_text(value)
+    return text if _same(read(fact, text, shown or text), value) and text else toml_value(value)
+
+
+def plain_text(value):
+    """A raw value as people write it in a box."""
+    return "" if value is None else value if isinstance(value, str) else toml_value(value)
+
+
+def is_bare(text):
+    """Whether a text is a number without a unit."""
+    try:
+        return not split(text)[1]
+    except UnitError:
+        return False
+
+
+def _unit(text):
+    try:
+        return split(text)[1]
+    except UnitError:
+        return ""
+
+
+def _same(one, other):
+    return one == other and type(one) is type(other)

@@ -1,0 +1,115 @@
+"""Who may talk to the studio, and how much: hosts, origins, a token, counted bytes.  Plain ASGI, for pages and websockets alike."""
+
+import hmac
+from http.cookies import CookieError, SimpleCookie
+from urllib.parse import parse_qs, urlsplit
+
+LARGEST = 4_000_000  # bytes of a request's body
+COOKIE = "drivewright-studio"
+LOOPBACK = ("127.0.0.1", "localhost", "::1")
+OPEN = ("/healthz",)
+
+
+class Gate:
+    """Refuses what does not come from the studio's own page.
+
+    On this machine only (`token` empty) the Host header must be one of this machine's own names, so that no other name that somebody
+    points here gets through.  Elsewhere a token is wanted, as `?token=` once and as a cookie from then on.  An Origin header must be the
+    host itself: a page of another site can neither post nor open a websocket.  Bodies are counted as they arrive.
+    """
+
+    def __init__(self, app, token=""):
+        self.app, self.token = app, token
+
+    async def __call__(self, scope, receive, send):
+        """One request, or one websocket."""
+        if scope["type"] not in ("http", "websocket"):
+            return await self.app(scope, receive, send)
+        headers = {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
+        if status := self._refused(scope, headers):
+            return await _refuse(scope, receive, send, *status)
+        if scope["type"] == "http" and self._shown(scope) and not self._has_cookie(headers):
+            return await self._welcome(scope, send)
+        counted = _Counted(receive, send)
+        try:
+            return await self.app(scope, counted.receive, counted.send)
+        except _TooLarge:
+            if not counted.begun:
+                return await _refuse(scope, receive, send, 413, "more than the studio takes")
+            raise
+
+    def _refused(self, scope, headers):
+        """(status, words) where this may not pass, else None."""
+        host = headers.get("host", "")
+        if not self.token and _name(host) not in LOOPBACK:
+            return 421, "the studio answers to this machine's own names only"
+        origin = headers.get("origin")
+        if origin is not None and urlsplit(origin).netloc.lower() != host.lower():
+            return 403, "this page belongs to another site"
+        length = headers.get("content-length", "0")
+        if not length.isdecimal() or int(length) > LARGEST:
+            return 413, "more than the studio takes"
+        if self.token and scope["path"] not in OPEN and not (self._has_cookie(headers) or (scope["type"] == "http" and self._shown(scope))):
+            return 401, "a token is wanted: open the address that the command printed"
+        return None
+
+    def _shown(self, scope):
+        """Whether the address carries the token."""
+        given = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])[0]
+        return bool(self.token) and hmac.compare_digest(given.encode(), self.token.encode())
+
+    def _has_cookie(self, headers):
+        try:
+            found = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
+        except CookieError:
+            return False
+        return bool(self.token) and found is not None and hmac.compare_digest(found.value.encode(), self.token.encode())
+
+    async def _welcome(self, scope, send):
+        """To the same page without the token in its address, which stays in the browser's history."""
+        cookie = f"{COOKIE}={self.token}; HttpOnly; SameSite=Strict; Path=/"
+        headers = [(b"location", scope["path"].encode()), (b"set-cookie", cookie.encode()), (b"content-length", b"0")]
+        await send({"type": "http.response.start", "status": 303, "headers": headers})
+        await send({"type": "http.response.body", "body": b""})
+
+
+class _TooLarge(Exception):
+    """The body has grown over the limit."""
+
+
+class _Counted:
+    """`receive` and `send` of one request; the bytes of its body are counted, whatever its headers promise."""
+
+    def __init__(self, receive, send):
+        self._receive, self._send, self._bytes, self.begun = receive, send, 0, False
+
+    async def receive(self):
+        """The next message."""
+        message = await self._receive()
+        if message["type"] == "http.request":
+            self._bytes += len(message.get("body", b""))
+            if self._bytes > LARGEST:
+                raise _TooLarge
+        return message
+
+    async def send(self, message):
+        """Hand on, and remember that an answer has begun."""
+        self.begun = True
+        await self._send(message)
+
+
+async def _refuse(scope, receive, send, status, words):
+    """Say no: with a status, or by not accepting the websocket."""
+    if scope["type"] == "websocket":
+        await receive()
+        await send({"type": "websocket.close", "code": 4000 + status})
+        return
+    body = f"{words}\n".encode()
+    headers = [(b"content-type", b"text/plain; charset=utf-8"), (b"content-length", str(len(body)).encode())]
+    await send({"type": "http.response.start", "status": status, "headers": headers})
+    await send({"type": "http.response.body", "body": body})
+
+
+def _name(host):
+    """The name in a Host header, without its port."""
+    return urlsplit(f"//{host}").hostname or ""

@@ -1,0 +1,88 @@
+"""Files that a person takes home: manufacturing files, the report, the spec.  They are made in memory, and name no place on this disk."""
+
+import io
+import zipfile
+from copy import deepcopy
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from drivewright import runner
+from drivewright.report.content import pictures, program, views
+from drivewright.report.export import export as write_export
+from drivewright.report.folder import file_name, write_run_folder
+from drivewright.report.html import write_report
+from drivewright.spec import set_key, value_at
+from drivewright.spec.writing import places_beside, toml_text
+from drivewright.studio.jobs.keys import leaves
+
+LONGEST = 80  # characters of a file's name
+BEGINNING = (1980, 1, 1, 0, 0, 0)  # of time in an archive: the same files, the same bytes
+
+
+def export(design, tell, format, anyway=False):
+    """{"files": [{"name", "data"}]}: the design in a format of `drivewright export`, several files in one archive.
+
+    InputError where a geometry check fails, unless `anyway`; MissingExtra where the format needs what is not installed.
+    """
+    with TemporaryDirectory() as folder:
+        written = write_export(design.spec(), (format,), Path(folder), anyway, tell)
+        return _files(_stem(design), format, {path.name: path.read_bytes() for path in written})
+
+
+def report(design, tell, whole=False):
+    """The report page of a run as one file, or the `whole` run folder as an archive."""
+    spec = design.spec()
+    model = runner.build(spec)
+    result = runner.run(spec, model=model, progress=tell)
+    done = len(result.provenance["analyses"])
+    tell(done, done, "drawing")
+    seen, stem = views(result, model), _stem(design)
+    with TemporaryDirectory() as folder:
+        if not whole:
+            named = [picture._replace(name=file_name(picture.name)) for picture in pictures(result, seen)]
+            return _one(f"{stem}.html", write_report(result, seen, folder, named).read_bytes())
+        out = write_run_folder(result, Path(folder) / stem, seen=seen)
+        return _one(f"{stem}.zip", archive({path.relative_to(folder).as_posix(): path.read_bytes()
+                                            for path in out.rglob("*") if path.is_file()}))
+
+
+def save(design, tell):
+    """The spec as the user has it; where it names data files an archive with copies of them beside it."""
+    spec, stem = design.spec(), _stem(design)
+    places = places_beside(spec.data_files())
+    tables = deepcopy(design.tables)
+    for key, _ in leaves(design.tables):
+        if (path := value_at(spec, key)) in places:
+            set_key(tables, key, places[path])
+    text = f"# Written by the studio of Drivewright {program()}.  Run it with: drivewright run {stem}.toml\n{toml_text(tables)}".encode()
+    copies = {place: path.read_bytes() for path, place in places.items()}
+    return _one(f"{stem}.zip", archive({f"{stem}.toml": text, **copies})) if copies else _one(f"{stem}.toml", text)
+
+
+def archive(files):
+    """The bytes of a ZIP archive of {path: bytes}; the same files, the same bytes."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w") as packed:
+        for name in sorted(files):
+            entry = zipfile.ZipInfo(name, BEGINNING)
+            entry.compress_type, entry.external_attr, entry.create_system = zipfile.ZIP_DEFLATED, 0o644 << 16, 3
+            packed.writestr(entry, files[name])
+    return stream.getvalue()
+
+
+def _stem(design):
+    """The title as the name of a file, else the kind."""
+    title = design.tables.get("title")
+    return file_name(title[:LONGEST] if isinstance(title, str) and title.strip() else design.kind)
+
+
+def _files(stem, format, written):
+    """One file under the name of the design, several in an archive."""
+    if len(written) == 1:
+        ((name, data),) = written.items()
+        return _one(f"{stem}{Path(name).suffix}", data)
+    return _one(f"{stem}-{format}.zip", archive(written))
+
+
+def _one(name, data):
+    return {"files": [{"name": name, "data": data}]}

@@ -1,0 +1,77 @@
+"""The keys of a design as jobs see them: which have values, how a value is written, what a person calls them."""
+
+import math
+
+from drivewright.errors import SpecError
+from drivewright.spec import value_at
+from drivewright.studies.variables import FIXED, kind_of
+from drivewright.view.text import shown
+
+
+def leaves(tables, path=()):
+    """(dotted key, raw value) of everything in raw tables that is no table; elements of lists by number."""
+    for step, value in enumerate(tables) if isinstance(tables, list) else tables.items():
+        here = (*path, str(step))
+        if isinstance(value, (dict, list)):
+            yield from leaves(value, here)
+        else:
+            yield ".".join(here), value
+
+
+def numeric(design, spec):
+    """{dotted key: (Kind, value in SI)} of the quantities and numbers that a design gives; whole numbers do not vary by per cent."""
+    found = {}
+    for key, _ in leaves(design.tables):
+        try:
+            kind = kind_of(spec, key) if key.split(".")[0] not in FIXED else None
+        except SpecError:  # a file, or a list that is one value
+            continue
+        value = value_at(spec, key)
+        if kind and kind.name in ("quantity", "number") and isinstance(value, float):
+            found[key] = kind, value
+    return found
+
+
+def numbered(tables, key):
+    """A dotted key whose list elements go by number, whether they were named or not."""
+    steps, place = [], tables
+    for step in key.split("."):
+        if isinstance(place, list):
+            named = [n for n, entry in enumerate(place) if isinstance(entry, dict) and entry.get("name") == step]
+            step = str(named[0]) if named else step
+            place = place[int(step)] if step.isdecimal() and int(step) < len(place) else None
+        else:
+            place = place.get(step) if isinstance(place, dict) else None
+        steps.append(step)
+    return ".".join(steps)
+
+
+def is_locked(tables, key, locks):
+    """Whether a key, or a table or list that it is in, is locked."""
+    key = numbered(tables, key)
+    return any(key == lock or key.startswith(f"{lock}.") for lock in (numbered(tables, lock) for lock in locks))
+
+
+def written(kind, value):
+    """A value of a column as a person writes it into the spec, to the last digit."""
+    given = kind.given(value)
+    if kind.name == "quantity" and not isinstance(given, str):
+        return kind.dimension.text(float(given))
+    return str(given).lower() if isinstance(given, bool) else repr(given) if isinstance(given, float) else str(given)
+
+
+def label(tables, key):
+    """A key in words: an element of a list by its name where it has one."""
+    words, place = [], tables
+    for step in key.split("."):
+        place = place[int(step)] if isinstance(place, list) and step.isdecimal() and int(step) < len(place) else \
+            place.get(step) if isinstance(place, dict) else None
+        name = place.get("name") if isinstance(place, dict) and step.isdecimal() else None
+        words.append((name if isinstance(name, str) and name else step).replace("_", " "))
+    return " · ".join(words)
+
+
+def plain(value, unit="-"):
+    """A number in the unit people read, for JSON: None where there is none."""
+    number = float(value) * shown(unit)[0]
+    return number if math.isfinite(number) else None

@@ -1,0 +1,154 @@
+"""The [optimise] of a design: a search for its best, told while it goes on."""
+
+from copy import deepcopy
+from dataclasses import replace
+
+import numpy as np
+
+from drivewright.errors import SpecError
+from drivewright.report.content import SIGNS, Views, pictures, summary
+from drivewright.studies.optimise import searched
+from drivewright.studies.search import history
+from drivewright.studies.search.problem import prepare
+from drivewright.studies.store import Memory, joined
+from drivewright.studies.study import CHECK
+from drivewright.studio.design import Design
+from drivewright.studio.jobs.figures import drawn
+from drivewright.studio.jobs.keys import is_locked, label, plain, written
+from drivewright.studio.jobs.study import Live, thinned
+from drivewright.view.text import quantity, sentence, shown
+
+MOST_FRONT = 500  # designs of a front that a page is sent
+
+
+def optimise(design, tell, locks=(), workers=None, on=None, theme="light"):
+    """The best design of the [optimise] table, unknowns that are locked left as they are.
+
+    {"changes": {key: text}, "unknowns", "objectives", "requirements", "feasible", "message", "findings", "verdict", "evaluations", "front":
+    {"columns", "rows", "load"}, "history", "figures"}; on the way {"cases", "history", "best": {key: text}, "objective"}.  history:
+    [number of designs, best value so far in the unit people read or None, least violation of the requirements so far].
+    """
+    free, left_out = _freed(design, locks)
+    problem = prepare(free.spec())
+    kept = Memory()
+    found = searched(problem, kept, workers, on, Live(tell, lambda: _so_far(problem, kept)))
+    return _told(design, found, left_out, theme)
+
+
+def _freed(design, locks):
+    """(design without the unknowns that are locked, their keys); SpecError where none remains."""
+    tables = deepcopy(design.tables)
+    search = tables.get("optimise")
+    if not isinstance(search, dict):
+        raise SpecError("this design does not say what may change and what is wanted; write it into the text of the design, for example:\n"
+                        '[[optimise.unknowns]]\nkey = "KEY"\nlower = "FROM"\nupper = "TO"\n\n[[optimise.objectives]]\nvalue = "VALUE"\n'
+                        'goal = "minimise"', "optimise")
+    unknowns = search.get("unknowns", [])
+    locked = [unknown["key"] for unknown in unknowns if is_locked(tables, unknown["key"], locks)]
+    search["unknowns"] = [unknown for unknown in unknowns if unknown["key"] not in locked]
+    if locked and not search["unknowns"]:
+        raise SpecError(f"every unknown is locked ({', '.join(locked)}), so nothing may change; unlock one", "optimise.unknowns")
+    return Design(tables, design.folder), locked
+
+
+# -- the course of the search --------------------------------------------------------------------------------------------------
+
+
+def _so_far(problem, kept):
+    """What the page shows while the search goes on; None before the first evaluations are there."""
+    tables = kept.tables()
+    if not tables:
+        return None
+    table = joined(tables)
+    _, designs, values = history.read(problem, table)
+    course, best = _course(problem, values)
+    return {"cases": table.num_rows, "history": course, "best": _settings(problem, designs[best]), "objective": _objective(problem)}
+
+
+def _course(problem, values):
+    """([[number, best, violation]] at every improvement and at the end, row of the best design): by the first objective."""
+    name, sign = problem.objectives[0]
+    violation = problem.total_violation(values)
+    wanted = np.where((violation <= 0) & np.isfinite(values[name]), sign * values[name], np.inf)
+    least, lowest = np.minimum.accumulate(violation), np.minimum.accumulate(wanted)
+    turns = np.flatnonzero(np.concatenate([[True], (np.diff(least) < 0) | (lowest[1:] < lowest[:-1])]))
+    unit = problem.about[name][0]
+    points = [[int(n) + 1, plain(sign * lowest[n], unit), plain(least[n])] for n in sorted({*turns.tolist(), len(least) - 1})]
+    return points, int(np.argmin(wanted) if np.isfinite(lowest[-1]) else np.argmin(violation))
+
+
+def _objective(problem):
+    name, sign = problem.objectives[0]
+    unit, meaning = problem.about[name]
+    return {"name": name, "label": sentence(meaning or name), "unit": shown(unit)[1], "goal": "minimise" if sign > 0 else "maximise"}
+
+
+def _settings(problem, x):
+    """{key: text} of a design of the search, with what the search sets besides."""
+    texts = {setting.key: _plain_text(setting.value) for setting in problem.spec.optimise.settings}
+    return texts | {key: written(kind, value) for key, kind, value in zip(problem.keys, problem.kinds, x, strict=True)}
+
+
+def _plain_text(value):
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+# -- the outcome ---------------------------------------------------------------------------------------------------------------
+
+
+def _told(design, found, left_out, theme):
+    problem = found.problem
+    _, _, values = history.read(problem, found.table)
+    return {"changes": _settings(problem, found.front[0]), "unknowns": _unknowns(design, found), "objective": _objective(problem),
+            "objectives": [{"name": name, "label": _label(problem, name), "text": text, "goal": goal}
+                           for name, text, goal in found.objective_rows()],
+            "requirements": [_requirement(check) for check in found.requirements], "feasible": found.feasible,
+            "message": _message(found, left_out), "findings": list(found.findings), "verdict": summary(found.best)["verdict"],
+            "evaluations": found.evaluations, "seed": found.seed, "method": found.method, "history": _course(problem, values)[0],
+            "front": _front(design, found), "figures": _figures(found, theme)}
+
+
+def _label(problem, name):
+    return sentence(problem.about[name][1] or name)
+
+
+def _unknowns(design, found):
+    """Each unknown with its best value and its bounds as text."""
+    return [{"key": key, "label": label(design.tables, key), "best": best, "lower": lower, "upper": upper}
+            for key, best, lower, upper in found.unknown_rows()]
+
+
+def _requirement(check):
+    return {"name": check.name, "ok": check.ok, "value": quantity(check.value, check.unit),
+            "limit": f"{SIGNS[check.sense]} {quantity(check.limit, check.unit)}"}
+
+
+def _message(found, left_out):
+    """One or two sentences."""
+    several = len(found.front) > 1
+    said = (f"{len(found.front)} designs that no other beats, of {found.evaluations}" if several else f"the best of {found.evaluations} "
+            "designs") if found.feasible else f"no design of {found.evaluations} meets every requirement; this one comes nearest"
+    return said + (f". Locked and left as they are: {', '.join(left_out)}" if left_out else "")
+
+
+def _front(design, found):
+    """The designs that no other beats as a table like that of a study."""
+    problem, chosen = found.problem, thinned(len(found.front), MOST_FRONT)
+    columns = [{"name": key, "label": label(design.tables, key), "unit": shown(kind.unit)[1], "role": "key"}
+               for key, kind in zip(problem.keys, problem.kinds, strict=True)]
+    columns += [{"name": name, "label": _label(problem, name), "unit": shown(unit)[1], "role": _role(name)}
+                for name, (unit, _) in problem.about.items()]
+    units = [kind.unit for kind in problem.kinds] + [unit for unit, _ in problem.about.values()]
+    data = [*found.front.T, *(found.front_values[name] for name in problem.about)]
+    rows = [[plain(column[n], unit) for column, unit in zip(data, units, strict=True)] for n in chosen]
+    return {"columns": columns, "rows": rows, "load": [_settings(problem, found.front[n]) for n in chosen]}
+
+
+def _role(name):
+    return "check" if name.startswith(CHECK) else "value"
+
+
+def _figures(found, theme):
+    """The search itself as a figure."""
+    table, plot = found.search()
+    return drawn(pictures(replace(found.best, tables={table.name: table}), Views(plots=(plot,))), theme)

@@ -1,0 +1,92 @@
+"""The assembly as triangles for a viewer: flat arrays for the graphics card, round surfaces smooth, edges sharp."""
+
+import numpy as np
+
+from drivewright import registry, runner
+from drivewright.errors import InputError
+from drivewright.report.pack import floats
+from drivewright.solids import facets
+
+CREASE = np.cos(np.radians(30))  # faces that turn by more meet in an edge
+TOLERANCE = 3e-5  # m: chords stay about so near to a round surface
+
+
+def solid(design, tell):
+    """{"unit": "m", "size", "low", "high", "parts": [{"name", "colour", "triangles", "positions", "normals", "edges"}]}.
+
+    positions and normals: base64 of float32 x, y, z, three corners a triangle, counter-clockwise from outside; edges: two ends each.
+    InputError where the drive has no solids; MissingExtra where a part needs the CAD kernel.
+    """
+    spec = design.spec()
+    mechanism = registry.mechanism(spec.mechanism)
+    model = runner.build(spec)
+    parts = tuple(mechanism.parts(model)) if mechanism.parts else ()
+    if not parts:
+        raise InputError(f"{mechanism.kind} has no solids to show")
+    packed, ends = [], []
+    for number, part in enumerate(parts):
+        tell(number, len(parts), part.name)
+        points, corners = facets.triangles(part, TOLERANCE)
+        ends += [points.min(axis=0), points.max(axis=0)]
+        packed.append({"name": part.name, "colour": part.colour, "triangles": len(corners), **shaded(points, corners)})
+    low, high = np.min(ends, axis=0), np.max(ends, axis=0)
+    return {"unit": "m", "size": float(np.linalg.norm(high - low)), "low": low.tolist(), "high": high.tolist(), "parts": packed}
+
+
+def shaded(points, corners):
+    """{"positions", "normals", "edges"} of a closed surface: points (n, 3), corners (m, 3)."""
+    corners, faces = _proper(points, corners)
+    sides = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    return {"positions": floats(points[corners]), "normals": floats(_normals(points, corners, faces)),
+            "edges": floats(points[_sharp(sides, np.repeat(np.arange(len(corners)), 3), faces)])}
+
+
+def _proper(points, corners):
+    """(triangles that have an area, their normals as long as twice that area), equal points being one."""
+    _, first, same = np.unique(points.round(9), axis=0, return_index=True, return_inverse=True)
+    corners = first[np.ravel(same)][corners]
+    a, b, c = np.moveaxis(points[corners], 1, 0)
+    normals = np.cross(b - a, c - a)
+    proper = np.linalg.norm(normals, axis=1) > 0
+    return corners[proper], normals[proper]
+
+
+def _unit(vectors):
+    return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+
+
+def _angles(points, corners):
+    """Angle [rad] of each triangle at each of its corners (m, 3)."""
+    ahead = _unit(points[np.roll(corners, -1, axis=1)] - points[corners])
+    return np.arccos(np.clip(-np.einsum("ijk,ijk->ij", ahead, np.roll(ahead, 1, axis=1)), -1.0, 1.0))
+
+
+def _normals(points, corners, faces):
+    """Unit normals (m, 3, 3) at the corners: of the faces at the point that turn by less than a crease from the own one, each by its
+    angle there, so that it does not matter how a flat face is cut into triangles."""
+    spots, owners = corners.ravel(), np.repeat(np.arange(len(corners)), 3)
+    order = np.argsort(spots, kind="stable")
+    counts = np.bincount(spots)[spots[order]]
+    starts = np.searchsorted(spots[order], spots[order])
+    mine = np.repeat(np.arange(len(order)), counts)
+    theirs = np.repeat(starts, counts) + np.arange(len(mine)) - np.repeat(np.cumsum(counts) - counts, counts)
+    own, other = owners[order][mine], owners[order][theirs]
+    unit = _unit(faces)
+    near = np.einsum("ij,ij->i", unit[own], unit[other]) > CREASE
+    total = np.zeros((len(order), 3))
+    weights = _angles(points, corners).ravel()[order][theirs]
+    np.add.at(total, mine[near], (weights[:, None] * unit[other])[near])
+    found = np.empty_like(total)
+    found[order] = _unit(total)
+    return found.reshape(-1, 3, 3)
+
+
+def _sharp(sides, owners, faces):
+    """Sides (k, 2) where two faces meet in a crease, or that only one face has."""
+    order = np.lexsort(sides.T)
+    sides, owners, unit = sides[order], owners[order], _unit(faces)
+    first = np.flatnonzero(np.concatenate([[True], np.any(np.diff(sides, axis=0) != 0, axis=1)]))
+    count = np.diff([*first, len(sides)])
+    partner = np.minimum(first + 1, len(sides) - 1)
+    flat = (count == 2) & (np.einsum("ij,ij->i", unit[owners[first]], unit[owners[partner]]) > CREASE)
+    return sides[first[~flat]]

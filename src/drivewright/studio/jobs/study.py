@@ -1,0 +1,175 @@
+"""The [study] of a design: its cases as rows of a table, and what they say."""
+
+import time
+from pathlib import Path
+
+import numpy as np
+
+from drivewright import registry
+from drivewright.errors import SpecError
+from drivewright.report.content import Views, pictures
+from drivewright.report.study import said
+from drivewright.spec.writing import toml_value
+from drivewright.studies.answers import answers
+from drivewright.studies.evaluate import task_of
+from drivewright.studies.plan import plan_of
+from drivewright.studies.statistics import varies
+from drivewright.studies.store import Folder, Memory, joined
+from drivewright.studies.study import CASE, CHECK, STATUS, Study
+from drivewright.studies.sweep import identity, swept
+from drivewright.studies.varying import asked
+from drivewright.studio.jobs.figures import drawn
+from drivewright.studio.jobs.keys import label, numeric, plain, written
+from drivewright.view.text import quantity, sentence, shown
+
+MOST_ROWS, MOST_LIVE = 4000, 1000  # that a page is sent: at the end, and on the way
+PAUSE = 0.5  # seconds between two looks at what is done so far
+SHARE = 10  # pauses are so many times as long as a look takes
+
+
+def study(design, tell, vary=(), samples=None, method=None, folder=None, workers=None, on=None, theme="light"):
+    """Every case of the [study] table, or of `vary` as on the command line ("key=1 mm:2 mm:5").
+
+    {"columns": [{"name", "label", "unit", "role": key | value | check}], "rows" in the units people read, None where there is no number,
+    "cases": number of each row, "passes" whether it is complete and passes, "load": {key: text} of each row, "fronts":
+    [{"name", "objectives": [{"name", "goal"}], "rows"}], "statements", "figures", "failed", "total"}.  A check is told by its margin.
+    Of more than `MOST_ROWS` cases an even part is told, and every case on a front.
+    """
+    spec = asked(design.spec(), vary, samples=samples, method=method)
+    if spec.study is None or not (spec.study.vary or spec.study.points):
+        raise SpecError(_remedy(design), "study.vary")
+    plan = plan_of(spec)
+    kept = Folder(Path(folder), spec, identity(spec, plan)) if folder is not None else Memory()
+    live = Live(tell, lambda: _rows(design, _so_far(spec, plan, kept), MOST_LIVE))
+    try:
+        found = swept(kept, spec, plan, task_of(spec, plan.keys), workers, on, live)
+    finally:
+        kept.close()
+    tell(len(plan), len(plan), "what the cases say")
+    return _told(design, found, theme)
+
+
+class Live:
+    """Progress of cases, with a partial answer at most every `PAUSE`, and less often where one takes long to make."""
+
+    def __init__(self, tell, look):
+        self._tell, self._look, self._next = tell, look, 0.0
+
+    def __call__(self, done, total, what):
+        began = time.monotonic()
+        due = done and began >= self._next
+        self._tell(done, total, what, self._look() if due else None)
+        if due:
+            self._next = time.monotonic() + max(PAUSE, SHARE * (time.monotonic() - began))
+
+
+def _remedy(design):
+    """What to write, with a key of this design."""
+    known = numeric(design, design.spec()).items()
+    key, low, high = next(((key, *(toml_value(written(kind, float(f"{part * value:.2g}"))) for part in (0.9, 1.1)))
+                           for key, (kind, value) in known if value > 0 and kind.name == "quantity"), ("KEY", '"FROM"', '"TO"'))
+    return ("nothing varies, so there is nothing to study; write what does into the text of the design, for example:\n"
+            f'[study]\nsamples = 200\n\n[[study.vary]]\nkey = "{key}"\nlower = {low}\nupper = {high}')
+
+
+def _so_far(spec, plan, kept):
+    return Study(spec, plan, joined(kept.tables()))
+
+
+# -- rows ----------------------------------------------------------------------------------------------------------------------
+
+
+def _rows(design, study, most, always=()):
+    """Columns and rows of a study, and the design behind each row; rows thinned to `most`, `always` (rows) among them."""
+    names = _names(study)
+    chosen = thinned(len(study), most, always)
+    columns = [{"name": name, "label": _label(design, study, name), "unit": shown(study.unit(name))[1], "role": _role(study, name)}
+               for name in names]
+    data = [_cells(study[name][chosen], study.unit(name)) for name in names]
+    return {"columns": columns, "rows": [list(row) for row in zip(*data, strict=True)], "cases": study[CASE][chosen].tolist(),
+            "passes": _passes(study)[chosen].tolist(), "load": _loads(study, chosen), "total": len(study.plan)}
+
+
+def thinned(count, most, always=()):
+    """Numbers of up to about `most` of `count` rows, evenly spaced, and of those that must be there."""
+    even = np.arange(count) if count <= most else np.linspace(0, count - 1, most).round().astype(int)
+    return np.union1d(even, np.asarray(always, int)).astype(int)
+
+
+def _names(study):
+    """The keys, then the values that vary, those of the headline first, then the checks."""
+    keys = [variable.key for variable in study.plan.variables]
+    values = [name for name in study.value_names if varies(np.asarray(study[name], float))]
+    first = [name for name in study.spec.study.values if name in values]
+    first += registry.headlines(registry.mechanism(study.spec.mechanism), values)
+    return [*keys, *dict.fromkeys([*first, *values]), *(CHECK + name for name in study.check_names)] if len(study) else keys
+
+
+def _role(study, name):
+    return "key" if name in study.plan.keys else "check" if name.startswith(CHECK) else "value"
+
+
+def _label(design, study, name):
+    if _role(study, name) == "key":
+        return label(design.tables, name)
+    return sentence(study.meaning(name).removeprefix("margin of: ") or name)
+
+
+def _cells(data, unit):
+    """Numbers in the unit people read, None for what is none; texts and flags as they are."""
+    return [plain(cell, unit) if isinstance(cell, float) else cell for cell in np.asarray(data).tolist()]
+
+
+def _passes(study):
+    found = np.asarray(study[STATUS], dtype=str) == "complete"
+    for name in study.check_names:
+        found &= ~(np.asarray(study[CHECK + name], float) < 0)
+    return found
+
+
+def _loads(study, chosen):
+    """{key: text} that makes the design of each row."""
+    texts = {}
+    for variable in study.plan.variables:
+        cells = [written(variable.kind, cell) for cell in study[variable.key][chosen].tolist()]
+        texts |= dict.fromkeys(variable.keys, cells)
+    return [dict(zip(texts, row, strict=True)) for row in zip(*texts.values(), strict=True)]
+
+
+# -- what the cases say --------------------------------------------------------------------------------------------------------
+
+
+def _told(design, study, theme):
+    found = answers(study)
+    fronts = _fronts(study, found.result)
+    rows = _rows(design, study, MOST_ROWS, [row for front in fronts for row in front["rows"]])
+    place = {case: row for row, case in enumerate(rows["cases"])}
+    cases = study[CASE]
+    for front in fronts:
+        front["rows"] = [place[int(cases[row])] for row in front["rows"]]
+    failed = int(np.sum(np.asarray(study[STATUS], dtype=str) == "failed"))
+    return rows | {"fronts": fronts, "figures": drawn(pictures(found.result, Views(plots=found.plots)), theme),
+                   "statements": _statements(study, found), "failed": failed}
+
+
+def _fronts(study, result):
+    """The Pareto front as rows of the study, in the order of its first objective."""
+    if "front" not in result.tables:
+        return []
+    table = result.tables["front"]
+    names = [column.name for column in table.columns]
+    goals = {each.value: each.goal for each in study.spec.optimise.objectives} if study.spec.optimise else {}
+    objectives = [{"name": name, "goal": goals.get(name, "minimise")} for name in names[: names.index(CASE)]]
+    rows = np.searchsorted(study[CASE], np.asarray(table[CASE].data, int)).tolist()
+    return [{"name": "front", "objectives": objectives, "rows": rows}]
+
+
+def _statements(study, found):
+    """What the study's report says in words and small tables, all of it text."""
+    page = said(study, found)
+    tables = [{"name": table["name"], "title": table["title"], "columns": table["columns"], "rows": [list(row) for row in table["printed"]]}
+              for table in page["tables"] if "printed" in table]
+    headline = [{"name": value["name"], "meaning": value["meaning"], "shown": value["shown"]} for value in page["headline"]]
+    return {"verdict": page["verdict"], "headline": headline, "tables": tables, "findings": page["findings"], "reasons": page["reasons"],
+            "cases": page["cases"], "varied": [list(row) for row in page["varied"]], "sampling": page["sampling"],
+            "seconds": quantity(study.seconds, "s", 3)}

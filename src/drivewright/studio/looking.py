@@ -1,0 +1,121 @@
+"""What a worker process does with a design for the page: the drawing, what follows it at once, and the whole result."""
+
+import json
+import time
+
+from drivewright import registry, runner
+from drivewright.errors import DrivewrightError
+from drivewright.report.content import summary
+from drivewright.report.pack import pack_plot_groups, pack_scene
+from drivewright.view.panels import known_plots
+
+
+def warm(tell):
+    """Load what the first drawing needs."""
+    for kind in registry.kinds():
+        registry.mechanism(kind)
+    runner.versions()
+
+
+def draw(tell, design, affordable):
+    """Tell the packed scene; answer the page's result of the affordable analyses, None where there are none.
+
+    `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
+    """
+    spec = design.spec()
+    model = runner.build(spec)
+    scene = _scene(tell, spec, model)
+    if not affordable:
+        return None
+    return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable)
+
+
+def analyse(tell, design):
+    """Tell (done, total, analysis) on the way; answer (the page's result of all default analyses, seconds of each)."""
+    spec = design.spec()
+    model = runner.build(spec)
+    began, seconds = [], {}
+
+    def step(done, total, name):
+        _end_of(began, seconds)
+        tell((done, total, name))
+        began.append((name, time.perf_counter()))
+
+    result = runner.run(spec, progress=step, model=model)
+    _end_of(began, seconds)
+    mechanism = registry.mechanism(spec.mechanism)
+    try:
+        scene = mechanism.scene(model) if mechanism.scene else None
+    except DrivewrightError:
+        scene = None  # the drawing's own call has said why
+    return page_result(result, scene, list(seconds)), seconds
+
+
+def _end_of(began, seconds):
+    if began:
+        name, since = began.pop()
+        seconds[name] = time.perf_counter() - since
+
+
+def _scene(tell, spec, model):
+    """The scene, told as JSON text, with the remark that says why there is none."""
+    mechanism, remarks, scene = registry.mechanism(spec.mechanism), [], None
+    try:
+        scene = mechanism.scene(model) if mechanism.scene else None
+    except DrivewrightError as error:
+        remarks.append(f"no motion to show: {error}")
+    tell(json.dumps({"scene": pack_scene(scene) if scene else None, "remarks": remarks}, allow_nan=False))
+    return scene
+
+
+def page_result(result, scene, analyses):
+    """Plain dictionary of a result for the page; `analyses` says whose answers it holds."""
+    groups = pack_plot_groups(result, scene, tuple(known_plots(result).values())) if scene else None
+    return {**summary(result), "plots": groups, "findings": list(result.findings), "outcome": result.outcome,
+            "seconds": result.provenance["seconds"], "analyses": analyses,
+            "fractions": {check.name: _fraction(check) for check in result.checks}}
+
+
+def _fraction(check):
+    """Margin as a part of the limit; None where that says nothing."""
+    part = check.margin / abs(check.limit) if check.limit else float("nan")
+    return part if abs(part) < 1e6 else None
+
+
+def merged(shown, found):
+    """What is shown, with the answers of some analyses renewed; checks and plots of the others are marked stale."""
+    def renewed(old, new, name):
+        fresh = {item[name]: item for item in new}
+        known = {item[name] for item in old}
+        return [fresh.get(item[name], {**item, "stale": True}) for item in old] + [item for item in new if item[name] not in known]
+
+    checks, values, headline = (renewed(shown[what], found[what], "name") for what in ("checks", "values", "headline"))
+    return {**shown, "checks": checks, "values": values, "headline": headline, "plots": _merged_plots(shown["plots"], found["plots"]),
+            "verdict": {**shown["verdict"], "stale": True}}
+
+
+def _merged_plots(shown, found):
+    """Plots of the same name renewed, where the cycle is still the same kind of cycle."""
+    if not shown or not found or shown["cycle"]["unit"] != found["cycle"]["unit"]:
+        return shown
+    fresh = {plot["name"]: plot for plot in found["plots"]}
+    return {"cycle": found["cycle"], "plots": [fresh.get(plot["name"], {**plot, "stale": True}) for plot in shown["plots"]]}
+
+
+def affordable(analyses, seconds, budget):
+    """Names of the analyses that fit the budget [s], each with what it needs, the quickest first."""
+    by_name = {analysis.name: analysis for analysis in analyses}
+    chosen, spent = {}, 0.0
+    for name in sorted(seconds, key=seconds.get):
+        more = {n for n in _needed(name, by_name) if n not in chosen}
+        if name not in chosen and all(n in seconds for n in more):
+            cost = sum(seconds[n] for n in more)
+            if spent + cost <= budget:
+                chosen |= dict.fromkeys(more)
+                spent += cost
+    return [analysis.name for analysis in analyses if analysis.name in chosen]
+
+
+def _needed(name, by_name):
+    """The analysis and all that it needs."""
+    return {name}.union(*(_needed(other, by_name) for other in by_name[name].needs)) if name in by_name else {name}

@@ -1,0 +1,289 @@
+"""One tab of the browser: what the page says changes the document, and the page hears what became of it.
+
+Nothing of NiceGUI is in here: `send(message)` reaches the page, `hear(message)` takes what comes from it.
+"""
+
+import base64
+import zlib
+from pathlib import Path
+
+from drivewright import registry
+from drivewright.errors import DrivewrightError, InputError, SpecError, brief
+from drivewright.report.folder import file_name
+from drivewright.spec import parse_document, preset_path, read_document
+from drivewright.studio import words
+from drivewright.studio.computing import Computing
+from drivewright.studio.design import Design
+from drivewright.studio.document import Document, without_folder
+from drivewright.studio.form import changed_fields, form
+from drivewright.studio.jobs import JOBS
+
+LARGEST = 1_000_000  # characters that a page may send as files, or as a shared design
+MOST_FILES = 20
+
+
+class Session:
+    """The design of one tab.  `start` is the design that the studio was opened with."""
+
+    def __init__(self, send, workshop, start, name=""):
+        self.send, self.workshop, self.start, self.start_name = send, workshop, start, name
+        self.document, self.gen, self.files = None, 0, ""
+        self._form = None
+        self.computing = Computing(send, self._words, workshop)
+
+    def hear(self, message):
+        """One message {what, ...} of the page; what it asks wrongly is answered in the words of the command line."""
+        arguments = {str(name): value for name, value in message.items()}
+        act = ACTS.get(str(arguments.pop("what", "")))
+        if act is None or (self.document is None and act is not ACTS["hello"]):
+            return
+        try:
+            act(self, **arguments)
+        except DrivewrightError as error:
+            key = str(arguments.get("key") or getattr(error, "key", None) or "")
+            self.send({"what": "refused", "key": key, "text": str(arguments.get("text", "")), "message": self._words(error, key)})
+        except (TypeError, ValueError, KeyError, AttributeError) as error:
+            self.send({"what": "refused", "key": "", "text": "", "message": f"the page asked for something odd: {brief(str(error))}"})
+
+    def close(self):
+        """The tab has gone."""
+        self.computing.close()
+
+    # -- beginning -------------------------------------------------------------------------------------------------------------
+
+    def hello(self, saved="", shared="", files=""):
+        """A page begins: with what it had before a reload, with the design in its address, or with the start."""
+        self.send({"what": "start", "kinds": _kinds(), "words": words.texts(None)})
+        design, trouble = self.start, None
+        try:
+            if shared or saved:
+                design = self._kept(unpacked(shared) if shared else _limited(saved), files)
+        except DrivewrightError as error:
+            trouble = error
+        self._open(design, self.start_name if design is self.start else "")
+        if trouble:
+            self.send({"what": "refused", "key": "", "text": "", "message": self._words(trouble)})
+
+    def _kept(self, text, files):
+        """The design that a page brings, with the files that it once sent, or those of the start."""
+        folder = self.workshop.folder(files)
+        self.files = files if folder else ""
+        place = Design({}, folder, frozenset(folder.iterdir())) if folder else self.start
+        design = place.with_tables(parse_document(text))
+        design.spec()
+        return design
+
+    def again(self):
+        """The connection was lost for a moment: everything once more."""
+        self._form = None
+        self._changed()
+
+    # -- changing --------------------------------------------------------------------------------------------------------------
+
+    def set(self, key, text, gesture=""):
+        """A value as typed, or as a slider gives it."""
+        self.document.set(str(key), str(text), str(gesture))
+        self._changed(str(key))
+
+    def unset(self, key):
+        """Back to the default, or out."""
+        self.document.unset(str(key))
+        self._changed(str(key))
+
+    def add(self, list):
+        """Another element."""
+        self.document.add(str(list))
+        self._changed()
+
+    def drop(self, list, index):
+        """An element less."""
+        self.document.drop(str(list), index)
+        self._changed()
+
+    def put(self, table):
+        """An optional table in."""
+        self.document.put(str(table))
+        self._changed()
+
+    def take(self, table):
+        """An optional table out."""
+        self.document.take(str(table))
+        self._changed()
+
+    def undo(self):
+        """One step back."""
+        self.document.undo()
+        self._changed()
+
+    def redo(self):
+        """One step forward."""
+        self.document.redo()
+        self._changed()
+
+    def lock(self, key, on):
+        """Hold a value."""
+        self.document.lock(str(key), bool(on))
+        self._show()
+
+    def text(self, toml):
+        """The whole spec as text."""
+        self.document.text(_limited(toml))
+        self._changed("")
+
+    def load(self, changes):
+        """Several values at once: a row of a study."""
+        self.document.load({str(key): str(text) for key, text in changes.items()})
+        self._changed()
+
+    def preset(self, name):
+        """Another preset of the same kind."""
+        self.document.replace(_preset(self.document.design.kind, name))
+        self._changed("")
+
+    # -- files -----------------------------------------------------------------------------------------------------------------
+
+    def fresh(self, kind, preset=None):
+        """Another drive."""
+        self.files = ""
+        self._open(_preset(kind, preset), "")
+
+    def open(self, files):
+        """A spec with its data files, as text."""
+        given = {file_name(str(file["name"])): _limited(file["text"]) for file in files[:MOST_FILES]}
+        specs = [name for name in given if name.lower().endswith(".toml")]
+        if len(specs) != 1:
+            raise InputError(f"open one spec (.toml) and the data files that it names; here are {len(specs)} specs in {len(given)} files")
+        _limited("".join(given.values()))
+        tables = parse_document(given[specs[0]])
+        token, folder = self.workshop.new_folder()
+        for name, text in given.items():
+            (folder / name).write_text(text, encoding="utf-8")
+        design = Design(tables, folder, frozenset(folder.iterdir()))
+        design.spec()
+        self.files = token
+        self._open(design, Path(specs[0]).stem)
+
+    def share(self):
+        """The design as the end of an address."""
+        design = self.document.design
+        if design.spec().data_files():
+            raise InputError("a design with data files does not fit into an address; save it and send the file")
+        self.send({"what": "shared", "fragment": packed(design.toml())})
+
+    def reference(self, preset):
+        """A preset to compare with."""
+        design = _preset(self.document.design.kind, preset)
+        self.computing.refer(str(preset), design)
+
+    # -- computing -------------------------------------------------------------------------------------------------------------
+
+    def job(self, name, options=None):
+        """Begin a job of jobs.JOBS."""
+        if name not in JOBS:
+            raise InputError(f"there is no job {brief(name)}")
+        locks = {"locks": sorted(self.document.locks)} if name in TAKE_LOCKS else {}
+        self.computing.job(name, self.document.design, {**(options or {}), **locks})
+
+    def export(self, format, anyway=False):
+        """A manufacturing file."""
+        self.job("export", {"format": str(format), "anyway": bool(anyway)})
+
+    def save(self):
+        """The spec as a file."""
+        self.document.saved()
+        self.job("save")
+        self._show()
+
+    def cancel(self, name):
+        """End a job, or the analyses ("look")."""
+        self.computing.cancel(str(name))
+
+    # -- telling ---------------------------------------------------------------------------------------------------------------
+
+    def _open(self, design, name):
+        """A design that has nothing to do with the one before."""
+        self.document, self._form = Document(design, name), None
+        self.computing.forget()
+        self._changed("")
+
+    def _changed(self, *settled):
+        """First the drawing, which is waited for; while it is on its way, the form."""
+        self.gen += 1
+        self.computing.look(self.gen, self.document.design)
+        self._show(settled)
+
+    def _show(self, settled=()):
+        """The form; only the fields that differ, where nothing else does."""
+        document, design = self.document, self.document.design
+        before = self._form
+        self._form = form(design, words.fields(design.kind) | words.tables(design.kind), before)
+        fields = changed_fields(before, self._form) if before else None
+        common = {"gen": self.gen, "undo": document.can_undo, "redo": document.can_redo, "locks": sorted(document.locks),
+                  "changed": document.changed, "toml": design.toml(), "files": self.files, "settled": list(settled)}
+        if fields is not None:
+            self.send({"what": "values", "fields": fields, **common})
+            return
+        self.send({"what": "design", "kind": design.kind, "title": str(design.tables.get("title", "")), "name": document.name,
+                   "presets": list(registry.mechanism(design.kind).presets()), "form": self._form, "words": words.texts(design.kind),
+                   **common})
+
+    def _words(self, error, key=None):
+        """An error in words, without folders of this machine, and without the key where it stands beside its field."""
+        beside = isinstance(error, SpecError) and key and error.key == key
+        folder = (self.document.design if self.document else self.start).folder
+        return without_folder(error.message if beside else str(error), folder)
+
+
+TAKE_LOCKS = ("sensitivity", "optimise")
+ACTS = {name: getattr(Session, name) for name in (
+    "hello", "again", "set", "unset", "add", "drop", "put", "take", "undo", "redo", "lock", "text", "load", "preset", "fresh", "open",
+    "share", "reference", "job", "export", "save", "cancel")}
+
+
+def opened(path):
+    """The design of a spec file on this machine; it may read what it names, and the tables beside it."""
+    tables, folder = read_document(path), Path(path).resolve().parent
+    named = Design(tables, folder).spec().data_files()
+    beside = [found for pattern in ("*.csv", "*.parquet") for found in folder.glob(pattern)]
+    return Design(tables, folder, frozenset([*named, *beside]))
+
+
+def _preset(kind, name=None):
+    path = preset_path(str(kind), name and str(name))
+    if path is None:
+        raise InputError(f"{kind} brings no preset to start from")
+    return opened(path)
+
+
+def first_design():
+    """Where the studio begins when it is given no spec: the first kind's own example."""
+    return _preset(next(kind for kind in registry.kinds() if registry.mechanism(kind).presets()))
+
+
+def _kinds():
+    return [{"kind": kind, "summary": registry.mechanism(kind).summary, "presets": list(registry.mechanism(kind).presets())}
+            for kind in registry.kinds()]
+
+
+def _limited(text):
+    if not isinstance(text, str) or len(text) > LARGEST:
+        raise InputError(f"this is no text, or has more than {LARGEST:,} characters; that is too much for the studio")
+    return text
+
+
+def packed(text):
+    """A text as the end of an address."""
+    return "d=" + base64.urlsafe_b64encode(zlib.compress(text.encode(), 9)).decode().rstrip("=")
+
+
+def unpacked(fragment):
+    """The text that `packed` was given; InputError where it is none, or too long."""
+    folded = zlib.decompressobj()
+    try:
+        raw = base64.b64decode(str(fragment).removeprefix("d=") + "==", altchars="-_", validate=True)
+        text = folded.decompress(raw, LARGEST + 1).decode()
+    except (ValueError, zlib.error):
+        text = ""
+    if not text:
+        raise InputError("the design in this address is damaged; ask for the file, or for the address once more")
+    return _limited(text)

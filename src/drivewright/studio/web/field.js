@@ -1,0 +1,248 @@
+// One field of the form: its box, slider, choice or flag; what is typed goes to the server, what the server says comes back into it.
+
+import { icon } from "./icons.js";
+import { decimals, quantityOf, withUnit } from "./numbers.js";
+import { tool } from "./parts.js";
+import { element } from "./player.js";
+import { createGesture, createSlider } from "./slider.js";
+
+const PAUSE = 700;                       // ms after the last key until a text is sent
+const PATIENCE = 2500;                   // ms that a sent value stays on screen without an answer
+const LONG = 12;                         // letters that do not fit into the usual box
+const COUNTED = ["quantity", "number", "integer"];
+
+/** Whether a sent text says what the field now holds. */
+function agrees(field, text) {
+  if (field.text === text) return true;
+  const found = quantityOf(text);
+  return Boolean(found) && typeof field.value === "number" && (!found[1] || found[1] === field.unit)
+    && Math.abs(found[0] - field.value) <= 1e-9 * Math.abs(field.value);
+}
+
+// --------------------------------------------------------------------------------------------------------------------- looks
+
+const messageOf = key => element("div", {class: "st-message", role: "alert", "data-testid": `message-${key}`, hidden: ""});
+const nameOf = (field, name, t) => element("span", {class: "st-name", title: `${field.key}${field.hint ? `\n${t(field.hint)}` : ""}`}, name);
+
+function tell(message, root, refusal) {
+  root.classList.toggle("st-refused", Boolean(refusal));
+  message.textContent = refusal?.message || "";
+  message.hidden = !refusal;
+}
+
+/** The button that takes a value back to the usual one is there where that is another. */
+function offerReset(reset, {given, default: usual, optional}, t) {
+  reset.hidden = !given || usual == null && !optional;
+  reset.title = usual == null ? t("Leave it out") : `${t("Back to the usual value")}: ${usual}`;
+  reset.setAttribute("aria-label", reset.title);
+}
+
+/** What stands for a value: {input, show(field), text(), whole}; one that is not `whole` is typed in letter by letter. */
+function createControl(field, name, t) {
+  const common = {"aria-label": name, class: "st-box"};
+  if (field.kind === "choice") {
+    const choice = element("select", {...common, class: "st-select st-box"});
+    const none = field.optional && field.default == null ? [element("option", {value: ""}, t("not set"))] : [];
+    choice.append(...none, ...field.choices.map(name => element("option", {value: name}, t(String(name)))));
+    return {input: choice, show: now => { choice.value = now.value ?? ""; }, text: () => choice.value, whole: true};
+  }
+  if (field.kind === "flag") {
+    const flag = element("input", {...common, type: "checkbox", class: "st-flag"});
+    return {input: flag, show: now => { flag.checked = now.value === true; }, text: () => String(flag.checked), whole: true};
+  }
+  const box = element("input", {...common, type: "text", spellcheck: "false", autocomplete: "off", autocapitalize: "off"});
+  if (field.optional || field.value === null) box.placeholder = field.default ?? t("not set");
+  return {input: box, show: now => { if (box.value !== now.text) box.value = now.text ?? ""; }, text: () => box.value, whole: false};
+}
+
+/** The elements of a row, and how they look when it is locked, refused or given; `back()` takes it to its usual value. */
+function createLook(row, {say, t}, back) {
+  const {field} = row, control = createControl(field, row.name, t), {input} = control, message = messageOf(row.key);
+  const lock = tool("unlock", t("Lock: keep this value"), () => say({what: "lock", key: row.key, on: !row.locked})), reset = tool("reset", "", back);
+  const root = element("label", {class: `st-field st-is-${field.kind}`, "data-testid": `field-${field.key}`, "data-key": field.key},
+    input, nameOf(field, row.name, t), element("span", {class: "st-tools"}, reset, lock), message);
+  return {
+    root, input, control,
+    slide(slider) { message.before(slider.root); root.classList.add("st-slid"); },
+    refuse(refusal) {
+      tell(message, root, refusal);
+      if (refusal) input.setAttribute("aria-invalid", "true"); else input.removeAttribute("aria-invalid");
+    },
+    lock(locked) {
+      root.classList.toggle("st-locked", locked);
+      if (control.whole) input.disabled = locked; else input.readOnly = locked;
+      lock.replaceChildren(icon(locked ? "lock" : "unlock"));
+      lock.title = t(locked ? "Locked; click to free it" : "Lock: keep this value");
+      lock.setAttribute("aria-label", lock.title); lock.setAttribute("aria-pressed", String(locked));
+    },
+    give(field) {
+      root.classList.toggle("st-given", field.given);
+      if (field.value !== null) root.classList.remove("st-unset");
+      offerReset(reset, field, t);
+    },
+  };
+}
+
+// ----------------------------------------------------------------------------------------------------------------------- row
+
+/**
+ * One field: `root` to place, `update(field, refusal, locked)` for what the server says, `held()` while the user has it in hand.
+ *
+ * `sent` is the text that waits for an answer: until then what the server says is older, and is not shown.
+ */
+export function createRow(field, context) {
+  const {send, say, t} = context, counted = COUNTED.includes(field.kind), gesture = createGesture(field.key);
+  const row = {key: field.key, field, name: context.chinese() && field.zh || field.label, refusal: null, locked: false, update, held};
+  const look = createLook(row, context, () => { settle(); say({what: "unset", key: row.key}); }), {root, input, control} = look;
+  let slider = null, typed = false, sent = null, before = "", original = "", waiting = 0, patience = 0;
+  row.root = root;
+
+  // ---- from the server
+  function held() { return typed || Boolean(slider?.dragging); }
+  function answered() {
+    if (sent === null) return true;
+    return slider?.dragging ? false : agrees(row.field, sent) || (!counted && row.field.text !== before);
+  }
+  function show() {
+    const slides = Boolean(row.field.slider) && typeof row.field.value === "number";
+    if (!slider && slides) addSlider();
+    if (slider) slider.root.hidden = !slides;
+    if (row.refusal?.text != null || !answered()) return;
+    sent = null;
+    if (slides) slider.show(row.field);
+    if (typed) return;
+    control.show(row.field);
+    original = row.field.text ?? "";
+    if (counted) root.classList.toggle("st-long", original.length > LONG);
+  }
+  function addSlider() {
+    slider = createSlider(row, {bounds: context.bounds, t, moved, ended});
+    slider.range.disabled = row.locked;
+    look.slide(slider);
+  }
+  function update(field, refusal, locked) {
+    if (row.field === field && refusal === row.refusal && locked === row.locked && sent === null) return;
+    const old = row.field, changed = old.text !== field.text || old.value !== field.value || old.unit !== field.unit;
+    const bent = old.slider?.[0] !== field.slider?.[0] || old.slider?.[1] !== field.slider?.[1] || old.step !== field.step;
+    const told = refusal?.message !== row.refusal?.message || refusal?.text !== row.refusal?.text;
+    row.field = field;
+    if (told) refuse(refusal); else row.refusal = refusal;
+    if (locked !== row.locked) setLocked(locked);
+    if (old.given !== field.given || old.default !== field.default) look.give(field);
+    if (changed || bent || told || sent !== null) show();
+  }
+  function refuse(refusal) {
+    const first = refusal && !row.refusal;
+    row.refusal = refusal;
+    sent = null;
+    look.refuse(refusal);
+    if (refusal && !held() && !control.whole && refusal.text != null) input.value = refusal.text;
+    if (first) context.reveal(row);
+  }
+  function setLocked(locked) {
+    row.locked = locked;
+    look.lock(locked);
+    if (slider) slider.range.disabled = locked;
+  }
+
+  // ---- to the server
+  function expect(text) {
+    sent = text; before = row.field.text;
+    clearTimeout(patience);
+    patience = setTimeout(() => { if (!slider?.dragging) { sent = null; show(); } }, PATIENCE);
+  }
+  function moved(text, id) {
+    settle();
+    if (input.value !== text) input.value = text;
+    sent = text;
+    send({what: "set", key: row.key, text, gesture: id}, false);
+  }
+  function ended() { context.flush(); if (sent !== null) expect(sent); context.released(); }
+  function settle() { typed = false; clearTimeout(waiting); delete input.dataset.unsent; }
+  function commit() {
+    const text = control.text(), known = sent ?? row.refusal?.text;
+    clearTimeout(waiting);
+    delete input.dataset.unsent;
+    if (known == null ? agrees(row.field, text) : text === known) return;
+    if (!text.trim() && (row.field.optional || row.field.default != null)) say({what: "unset", key: row.key});
+    else { expect(text); send({what: "set", key: row.key, text, gesture: gesture.current()}, true); }
+  }
+  function choose() {
+    const text = control.text();
+    gesture.begin();
+    expect(text);
+    if (text === "") say({what: "unset", key: row.key}); else send({what: "set", key: row.key, text, gesture: gesture.current()}, true);
+  }
+  function restore() {
+    const back = original;
+    settle();
+    input.value = back;
+    if (row.refusal || sent !== null || row.field.text !== back) {
+      sent = null;
+      say({what: "set", key: row.key, text: back, gesture: gesture.current()});
+    }
+    input.select();
+  }
+  /** Arrow keys in a box: the number in it, one step on; ten with Shift. */
+  function nudge(times) {
+    const found = quantityOf(input.value), step = row.field.step || 1;
+    if (!found) return;
+    input.value = withUnit(Number((found[0] + step * times).toFixed(decimals(Math.abs(step)))), found[1]);
+    typed = true;
+    expect(input.value);
+    send({what: "set", key: row.key, text: input.value, gesture: gesture.next()}, false);
+  }
+
+  // ---- from the user
+  function keys(event) {
+    const undo = (event.ctrlKey || event.metaKey) && "zy".includes(event.key.toLowerCase()), way = {ArrowUp: 1, ArrowDown: -1}[event.key];
+    if (undo && input.dataset.unsent === undefined) settle();
+    else if (event.key === "Enter") { commit(); settle(); show(); input.select(); }
+    else if (event.key === "Escape") { event.preventDefault(); restore(); }
+    else if (counted && way && !row.locked) { event.preventDefault(); nudge(way * (event.shiftKey ? 10 : 1)); }
+  }
+  function type() {
+    typed = true;
+    input.dataset.unsent = "";
+    clearTimeout(waiting);
+    waiting = setTimeout(commit, PAUSE);
+  }
+  function leave() {
+    if (context.moving) return;
+    if (typed) commit();
+    settle(); show(); context.released();
+  }
+  function listen() {
+    if (control.whole) { input.addEventListener("change", choose); return; }
+    input.addEventListener("focus", () => { if (!context.moving) gesture.end(); });
+    input.addEventListener("input", type);
+    input.addEventListener("blur", leave);
+    input.addEventListener("keydown", keys);
+  }
+  listen(); look.give(field); setLocked(false); show();
+  return row;
+}
+
+// ---------------------------------------------------------------------------------------------------------------------- pair
+
+/** A point or a pair: its parts side by side, each a field of its own. */
+export function createPair(field, context) {
+  const {t, say} = context, name = context.chinese() && field.zh || field.label;
+  const rows = field.parts.map((part, index) => createRow({...part, zh: null, label: `${name} ${index + 1}`, hint: field.hint}, context));
+  const message = messageOf(field.key), reset = tool("reset", t("Back to the usual value"), () => say({what: "unset", key: field.key}));
+  const root = element("div", {class: "st-pair", role: "group", "aria-label": name, "data-testid": `field-${field.key}`, "data-key": field.key},
+    element("div", {class: "st-pair-head"}, nameOf(field, name, t), element("span", {class: "st-tools"}, reset)),
+    element("div", {class: "st-pair-parts"}, ...rows.map(row => row.root)), message);
+  const pair = {key: field.key, field, name, root, refusal: null, update, held: () => rows.some(row => row.held()), rows};
+  function update(now, refusal, locked) {
+    pair.field = now;
+    offerReset(reset, now, t);
+    if (now.value !== null) root.classList.remove("st-unset");
+    rows.forEach((row, index) => row.update(now.parts[index], context.refusal(row.key), locked || context.locked(row.key)));
+    if (refusal?.message === pair.refusal?.message) return;
+    pair.refusal = refusal;
+    tell(message, root, refusal);
+    if (refusal) context.reveal(pair);
+  }
+  return pair;
+}

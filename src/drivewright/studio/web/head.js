@@ -1,0 +1,193 @@
+// The bar at the top: what is open, new drives and presets, undo, files, sharing, comparing, theme and language.
+
+import { acceptFiles } from "./files.js";
+import { icon, mark } from "./icons.js";
+import { createPopovers, pressable, put, themeOf } from "./parts.js";
+import { element } from "./player.js";
+
+const NOTICE = 12000;  // ms that a complaint stays
+
+/** Kind or preset as words. */
+const spoken = name => name.replace(/[-_]/g, " ");
+const alike = (one, other) => spoken(one).toLowerCase() === spoken(other).toLowerCase();
+
+/** Whether the keys belong to a text box that holds something of its own: its undo is then the browser's. */
+function typing(active) {
+  if (!active?.matches?.("textarea, input:not([type=range], [type=checkbox], [type=file])")) return false;
+  return active.dataset.unsent !== undefined || !active.classList.contains("st-box");
+}
+
+/** A button of the bar: a sign, a word, or both. */
+function button({id, sign, title, text, look = "", ...more}, act) {
+  const inside = [...(sign ? [icon(sign)] : []), ...(text ? [element("span", {class: "st-word"}, text)] : [])];
+  const named = {class: `st-button${look && ` st-${look}`}`, title, "aria-label": title, "data-testid": id || false};
+  return pressable({...named, ...more}, act, ...inside);
+}
+const hanging = role => ({"aria-haspopup": role, "aria-expanded": "false"});
+const rule = () => element("i", {class: "st-rule"});
+const held = (...inside) => element("div", {class: "st-hold"}, ...inside);
+
+// --------------------------------------------------------------------------------------------------------------------- menus
+
+/** What the menus of the bar hold; `fresh(kind, preset)` starts another drive. */
+function createMenus({store, say, t}, popovers, fresh) {
+  function item(text, hint, act) {
+    const made = pressable({class: "st-item", role: "menuitem"}, () => { popovers.close(true); act(); }, element("span", {}, text));
+    if (hint) made.append(element("small", {}, hint));
+    return made;
+  }
+  const kindItems = ({kind, summary, presets}) => element("div", {class: "st-kind", role: "group", "aria-label": kind},
+    element("div", {class: "st-item-head"}, t(spoken(kind))), element("div", {class: "st-item-hint"}, t(summary || "")),
+    element("div", {class: "st-items"}, ...presets.map(preset => item(t(spoken(preset)), "", () => fresh(kind, preset)))));
+  const kinds = () => (store.state.kinds || []).map(kindItems);
+  function comparing() {
+    const {reference, design} = store.state, presets = design?.presets || [], compare = message => () => say({what: "compare", ...message});
+    const pin = item(t(reference ? "Pin this design instead" : "Pin this design"), t("later changes are seen against it"), compare({with: "this"}));
+    const stop = reference ? [item(t("Stop comparing"), reference.title, compare({with: "none"}))] : [];
+    const head = presets.length ? [element("div", {class: "st-item-head"}, t("Compare with a preset"))] : [];
+    return [pin, ...stop, ...head, ...presets.map(name => item(t(spoken(name)), "", compare({with: "preset", name})))];
+  }
+  /** The address of the design, to be copied. */
+  function sharing({url}) {
+    const box = element("input", {class: "st-link", type: "text", readonly: "", "aria-label": t("Address of this design"),
+      "data-testid": "share-url"});
+    box.value = url;
+    box.addEventListener("focus", () => box.select());
+    const copy = button({look: "main", title: t("Copy the address"), text: t("Copy"), id: "share-copy"}, async made => {
+      box.select();
+      try { await navigator.clipboard.writeText(url); } catch { document.execCommand("copy"); }
+      made.firstChild.textContent = t("Copied");
+    });
+    return [element("p", {class: "st-item-hint"}, t("This address holds the whole design")), element("div", {class: "st-share"}, box, copy)];
+  }
+  return {kinds, comparing, sharing};
+}
+
+// ----------------------------------------------------------------------------------------------------------------------- bar
+
+/** The bar in `host`. */
+export function createHead(host, {store, say, t}) {
+  const popovers = createPopovers(), menus = createMenus({store, say, t}, popovers, fresh), stops = [];
+  const bar = element("div", {class: "st-bar"}), notice = element("div", {class: "st-notice", role: "alert", hidden: ""});
+  const files = acceptFiles({say, t, tell});
+  let parts = {}, chosen = "", asked = false, failed = "", hide = 0;
+
+  /** Shows a complaint below the bar for a while. */
+  function tell(message) {
+    const shut = button({look: "small", sign: "cross", title: t("Close")}, () => { notice.hidden = true; });
+    clearTimeout(hide);
+    notice.replaceChildren(element("span", {}, message), shut);
+    notice.hidden = false;
+    hide = setTimeout(() => { notice.hidden = true; }, NOTICE);
+  }
+  function fresh(kind, preset) { chosen = preset || ""; say({what: "fresh", kind, preset}); }
+
+  // ---- its parts
+  function presetChoice() {
+    const choice = element("select", {class: "st-select", "data-testid": "preset", title: t("Start from a preset of this drive"),
+      "aria-label": t("Preset")});
+    choice.addEventListener("change", () => { chosen = choice.value; say({what: "preset", name: choice.value}); });
+    return choice;
+  }
+  function languageButton() {
+    const chinese = store.state.lang === "zh", word = (text, on) => element("span", {class: on ? "st-on" : ""}, text);
+    const made = button({id: "language", look: "language", title: chinese ? "English" : "中文"}, () => store.set({lang: chinese ? "en" : "zh"}));
+    made.append(word("EN", !chinese), "/", word("中文", chinese));
+    return made;
+  }
+  const design = () => ({
+    title: element("strong", {class: "st-title"}), kind: element("span", {class: "st-kind-name"}),
+    dot: element("span", {class: "st-dot", title: t("not saved yet")}), preset: presetChoice(),
+    fresh: button({id: "new", sign: "plus", title: t("New design"), text: t("New"), ...hanging("menu")},
+      made => popovers.toggle(made, "menu", t("New design"), menus.kinds)),
+    undo: button({id: "undo", sign: "undo", title: `${t("Undo")} (Ctrl+Z)`}, () => say({what: "undo"})),
+    redo: button({id: "redo", sign: "redo", title: `${t("Redo")} (Ctrl+Y)`}, () => say({what: "redo"})),
+  });
+  const comparison = () => ({
+    compare: button({id: "compare", sign: "compare", title: t("Compare later changes with this design"), text: t("Compare"), "aria-pressed": "false"},
+      () => say({what: "compare", with: store.state.reference ? "none" : "this"})),
+    more: button({id: "compare-menu", look: "caret", sign: "down", title: t("What to compare with"), ...hanging("menu")},
+      made => popovers.toggle(made, "menu", t("Compare"), menus.comparing)),
+  });
+  const exchange = () => ({
+    open: button({id: "open", sign: "open", title: `${t("Open a design and its data files")} (Ctrl+O)`}, files.pick),
+    save: button({id: "save", sign: "save", title: `${t("Save the design as a file")} (Ctrl+S)`}, () => say({what: "save"})),
+    share: button({id: "share", sign: "share", title: t("Share as an address"), ...hanging("dialog")}, () => { asked = true; say({what: "share"}); }),
+    report: button({id: "report", sign: "report", title: t("Download the report"), text: t("Report")},
+      () => say({what: "job", name: "report", options: {}})),
+  });
+  const taste = () => ({
+    theme: button({id: "theme", title: t("Light or dark")}, () => store.set({theme: themeOf(store.state) === "dark" ? "light" : "dark"})),
+    language: languageButton(),
+  });
+
+  function build() {
+    const p = parts = {...design(), ...comparison(), ...exchange(), ...taste()};
+    popovers.close(false);
+    bar.replaceChildren(
+      element("div", {class: "st-brand"}, mark(), element("b", {}, "Drivewright")), rule(),
+      element("div", {class: "st-name-plate"}, p.title, p.kind, p.dot), held(p.fresh), p.preset, rule(), p.undo, p.redo,
+      element("i", {class: "st-space"}), held(element("div", {class: "st-split"}, p.compare, p.more)), rule(),
+      p.open, p.save, held(p.share), p.report, rule(), p.theme, p.language);
+    files.reword();
+    showDesign(); showReference(); showJobs(); showTheme();
+  }
+
+  // ---- what they show
+  function showPresets(design) {
+    const names = design.presets || [], key = names.join("\n"), option = name => element("option", {value: name}, t(spoken(name)));
+    if (parts.preset.dataset.names !== key) {
+      parts.preset.dataset.names = key;
+      parts.preset.replaceChildren(element("option", {value: "", disabled: "", hidden: ""}, t("Preset")), ...names.map(option));
+    }
+    parts.preset.hidden = !names.length;
+    const shown = design.changed || !names.includes(chosen) ? "" : chosen;
+    if (parts.preset.value !== shown) parts.preset.value = shown;
+  }
+  function showDesign() {
+    const design = store.state.design;
+    parts.undo.disabled = !design?.undo; parts.redo.disabled = !design?.redo; parts.preset.hidden = !design;
+    if (!design) return;
+    put(parts.title, t(design.title || spoken(design.kind))); parts.title.title = design.name || "";
+    put(parts.kind, alike(design.title || "", design.kind) ? "" : t(spoken(design.kind)));
+    parts.dot.classList.toggle("st-shown", Boolean(design.changed));
+    showPresets(design);
+  }
+  function showReference() {
+    const reference = store.state.reference, word = parts.compare.querySelector(".st-word");
+    parts.compare.setAttribute("aria-pressed", String(Boolean(reference)));
+    word.textContent = reference ? `${t("against")} ${reference.title}` : t("Compare");
+    parts.compare.title = t(reference ? "Stop comparing" : "Compare later changes with this design");
+  }
+  function showJobs() {
+    const job = store.state.jobs?.report, running = job?.state === "running", text = job?.state === "failed" ? job.text : "";
+    parts.report.classList.toggle("st-busy", running); parts.report.disabled = running;
+    parts.report.style.setProperty("--part", running && job.total ? job.done / job.total : 0);
+    if (text && text !== failed) tell(text);
+    failed = text;
+  }
+  function showTheme() { parts.theme.replaceChildren(icon(themeOf(store.state) === "dark" ? "sun" : "moon")); }
+  function showShared() {
+    if (!asked || !store.state.shared) return;
+    asked = false;
+    popovers.show(parts.share, "dialog", t("Share"), menus.sharing(store.state.shared));
+  }
+
+  // ---- the page's keys
+  function keys(event) {
+    if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
+    const key = event.key.toLowerCase(), act = {s: () => say({what: "save"}), o: files.pick, z: undo, y: undo}[key];
+    if (!act || act === undo && typing(document.activeElement)) return;
+    event.preventDefault();
+    act(key === "y" || event.shiftKey);
+  }
+  function undo(again) { if (again ? store.state.design?.redo : store.state.design?.undo) say({what: again ? "redo" : "undo"}); }
+
+  const scheme = matchMedia("(prefers-color-scheme: dark)");
+  const listen = (target, name, fn) => { target.addEventListener(name, fn); stops.push(() => target.removeEventListener(name, fn)); };
+  listen(document, "keydown", keys); listen(scheme, "change", showTheme);
+  host.append(bar, files.picker, notice, files.drop);
+  stops.push(store.on(["lang"], build), store.on(["design"], showDesign), store.on(["reference"], showReference), store.on(["jobs"], showJobs),
+    store.on(["theme"], showTheme), store.on(["shared"], showShared));
+  return {destroy() { clearTimeout(hide); popovers.destroy(); files.stop(); for (const stop of stops) stop(); host.replaceChildren(); }};
+}

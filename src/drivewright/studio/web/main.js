@@ -1,0 +1,160 @@
+// The page: what comes from the server goes into the store, every part of the page hears what concerns it.
+
+import { createForm } from "./form.js";
+import { createHead } from "./head.js";
+import { createClock, createPlayer, element } from "./player.js";
+import { createPlots } from "./plots.js";
+import { createSide } from "./side.js";
+import { createStore } from "./store.js";
+import { createViews } from "./views.js";
+import { createWords } from "./words.js";
+
+const IDLE = {state: "idle", text: "", done: 0, total: 0}, AWAY = "the connection to the server is lost; trying again";
+const KEPT = "drivewright-design", TASTE = "drivewright-taste";
+
+/** Fill `host`; `page` is {say(message), connection()}.  Returns a function that takes everything away again. */
+export function start(host, page) {
+  const store = createStore({lang: "en", theme: "", kinds: [], words: {}, design: null, refused: {}, scene: null, result: null, reference: null,
+    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", shared: null, focus: null, notice: "", ...taste()});
+  const t = createWords(store), clock = createClock({duration: 4});
+  const hears = createEar(store), parts = [];
+  const socket = joined(page, hears, store);
+  window.drivewright = store;  // for whoever drives the page from outside
+  const say = message => ACTS[message.what] ? ACTS[message.what](store, message, page.say) : page.say(message);
+  const tools = {store, say, t, clock, createPlayer};
+
+  const places = ["header", "aside", "main", "aside", "section"].map((tag, n) => element(tag, {class: `st-${["head", "form", "centre", "side", "plots"][n]}`}));
+  host.replaceChildren(element("div", {class: "st"}, ...places));
+  [createHead, createForm, createViews, createSide, createBottom].forEach((create, n) => parts.push(create(places[n], tools)));
+
+  store.on(["theme"], ({theme}) => theme ? document.documentElement.setAttribute("data-theme", theme) : document.documentElement.removeAttribute("data-theme"));
+  store.on(["lang"], ({lang}) => document.documentElement.setAttribute("lang", lang === "zh" ? "zh-CN" : "en"));
+  store.on(["lang", "theme"], ({lang, theme}) => remember(localStorage, TASTE, {lang, theme}));
+  store.on(["design"], ({design}) => design && remember(sessionStorage, KEPT, {toml: design.toml, files: design.files}));
+  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();
+  return () => { socket.leave(); parts.forEach(part => part.destroy()); };
+}
+
+/** The plots below, when there is a result with plots over the cycle. */
+function createBottom(host, {store, t, clock}) {
+  let plots = null, lang = "";
+  const stop = store.on(["result", "reference", "lang"], ({result, reference, lang: now}) => {
+    const packed = result && result.plots && translated(result.plots, t);
+    if (plots && (!packed || now !== lang)) { plots.destroy(); plots = null; }
+    lang = now;
+    host.classList.toggle("st-none", !packed);
+    if (!packed) return;
+    if (plots) plots.update(packed); else plots = createPlots(host, packed, {clock});
+    plots.compare(reference && reference.result.plots ? translated(reference.result.plots, t) : null);
+  });
+  return {destroy() { stop(); plots?.destroy(); }};
+}
+
+/** Labels of plots in the language of the page. */
+function translated(packed, t) {
+  const panel = one => ({...one, title: t(one.title), series: one.series.map(series => ({...series, label: t(series.label)})),
+    limits: one.limits.map(([value, text]) => [value, t(text)])});
+  const cycle = {...packed.cycle, label: t(packed.cycle.label), marks: packed.cycle.marks.map(([u, label]) => [u, t(label)])};
+  return {cycle, plots: packed.plots.map(plot => ({...plot, title: t(plot.title), panels: plot.panels.map(panel)}))};
+}
+
+// ------------------------------------------------------------------------------------------------------- from the server
+
+/** {what: act(message)}: how each message changes the store. */
+function createEar(store) {
+  const {state} = store;
+  let impossible = null;  // key of the complaint that the design as it stands has no solution
+  const patched = (key, patch) => store.set({[key]: {...state[key], ...patch}});
+  const without = keys => Object.fromEntries(Object.entries(state.refused).filter(([key]) => !keys.includes(key)));
+  return {
+    start: ({kinds, words}) => {
+      if (location.hash.startsWith("#d=")) history.replaceState(null, "", location.pathname + location.search);
+      store.set({kinds, words});
+    },
+    design: message => {
+      const other = !state.design || state.design.kind !== message.kind;
+      store.set({design: message, refused: without(message.settled), ...(other ? {scene: null, result: null, reference: null, jobs: {}, lit: []} : {})});
+    },
+    values: ({fields, settled, ...rest}) => {
+      const form = {groups: state.design.form.groups.map(group => ({...group, fields: group.fields.map(field => fields[field.key] || field)}))};
+      store.set({design: {...state.design, ...rest, form}, ...(settled.length ? {refused: without(settled)} : {})});
+    },
+    refused: ({key, text, message}) => store.set({refused: {...state.refused, [key]: {text, message}}}),
+    scene: ({gen, json}) => store.set({scene: {gen, ...JSON.parse(json)}}),
+    possible: () => {
+      if (impossible === null) return;
+      store.set({refused: without([impossible])});
+      impossible = null;
+    },
+    impossible: ({key, message}) => {
+      impossible = key;
+      store.set({refused: {...state.refused, [key]: {text: null, message}}, work: IDLE});
+    },
+    result: ({gen, full, result}) => store.set({result: {...result, gen, full}}),
+    reference: ({title, json, result}) => store.set({reference: {title, ...JSON.parse(json), result}}),
+    work: message => store.set({work: message.state === "lost" ? IDLE : message, ...(message.state === "lost" ? {notice: message.text} : {})}),
+    job: ({name, answer, ...rest}) => {
+      const before = state.jobs[name] || {};
+      patched("jobs", {[name]: {...before, gen: state.design.gen, ...rest, answer: answer === undefined ? (rest.state === "running" && !rest.text ? null : before.answer) : answer}});
+      if (answer?.files) answer.files.forEach(fetched);
+    },
+    shared: ({fragment}) => store.set({shared: {url: `${location.origin}${location.pathname}#${fragment}`}}),
+  };
+}
+
+function fetched({name, url}) {
+  const link = element("a", {href: url, download: name});
+  document.body.append(link);
+  link.click();
+  link.remove();
+}
+
+/** The connection: hello until the server answers, "again" when the connection comes back. */
+function joined(page, hears, store) {
+  let socket = null, left = false, begun = false;
+  const hear = message => { begun ||= message.what === "start"; hears[message.what]?.(message); };
+  const lost = () => store.set({notice: AWAY});
+  const greet = () => {
+    if (left) return;
+    if (store.state.notice === AWAY) store.set({notice: ""});
+    if (begun) { page.say({what: "again"}); return; }
+    const kept = recalled(sessionStorage, KEPT), shared = location.hash.startsWith("#d=") ? location.hash.slice(1) : "";
+    page.say({what: "hello", saved: kept.toml || "", files: kept.files || "", shared});
+    setTimeout(() => begun || greet(), 2000);  // the server hears nothing before the framework's own handshake
+  };
+  const join = () => {
+    if (left) return;
+    socket = page.connection();
+    if (!socket) { setTimeout(join, 20); return; }
+    socket.on("studio", hear);
+    socket.on("disconnect", lost);
+    socket.on("connect", () => setTimeout(greet, begun ? 300 : 0));
+    if (socket.connected) greet();
+  };
+  join();
+  return {leave() { left = true; socket?.off("studio", hear); socket?.off("disconnect", lost); }};
+}
+
+// ---------------------------------------------------------------------------------------------------- what the page does itself
+
+const ACTS = {
+  compare(store, message, say) {
+    const {design, scene, result} = store.state;
+    if (message.with === "preset") say({what: "reference", preset: message.name});
+    else if (message.with === "this" && scene && result) store.set({reference: {title: design.title, ...scene, result}});
+    else store.set({reference: null});
+  },
+};
+
+function taste() {
+  const {lang, theme} = recalled(localStorage, TASTE);
+  return {lang: lang === "zh" || (!lang && navigator.language.startsWith("zh")) ? "zh" : "en", theme: ["light", "dark"].includes(theme) ? theme : ""};
+}
+
+function recalled(storage, key) {
+  try { return JSON.parse(storage.getItem(key)) || {}; } catch { return {}; }
+}
+
+function remember(storage, key, value) {
+  try { storage.setItem(key, JSON.stringify(value)); } catch { /* a full or forbidden storage: a reload begins afresh */ }
+}

@@ -1,0 +1,35 @@
+// Numbers as people type them and read them.
+
+const TYPED = /^\s*([+-−]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/i;
+const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+
+/** [number, unit] of a typed text as "60 rpm", or null. */
+export function quantityOf(text) {
+  const found = TYPED.exec(text);
+  return found && [Number(found[1].replace("−", "-")), found[2]];
+}
+
+/** The number of a text as results have it: "−1.25×10⁻³ mm", "12 500". */
+export function numberOf(text) {
+  const [, mantissa, power] = text.replace(/[\u202f,]/g, "").replaceAll("−", "-").match(/^([+-]?[\d.]+)(?:×10(\S+?))?(?![\d.])/) || [];
+  const exponent = [...power || ""].map(c => RAISED.includes(c) ? RAISED.indexOf(c) : c === "⁻" ? "-" : "").join("");
+  return mantissa === undefined ? NaN : Number(mantissa) * 10 ** Number(exponent);
+}
+
+/** Decimals that a multiple of `step` needs. */
+export const decimals = step => Math.min(Math.max(0, -Math.floor(Math.log10(step) + 1e-9)), 12);
+
+/** "60 rpm", as it is typed into a box. */
+export const withUnit = (number, unit) => unit ? `${number} ${unit}` : String(number);
+
+/** What stands behind a number that is shown. */
+export const unitText = unit => !unit || unit === "-" ? "" : unit === "deg" ? "°" : unit.startsWith("°") ? unit : `\u00a0${unit}`;
+
+/** A number with its power of ten: "1.5e−7". */
+export const powered = (value, places) => value.toExponential(places).replace("e+", "e").replace(/-/g, "−");
+
+/** A number to so many digits, with its power of ten where it is very large or small. */
+export function figure(value, digits = 4) {
+  if (value !== 0 && (Math.abs(value) >= 1e6 || Math.abs(value) < 1e-4)) return powered(value, digits - 1);
+  return String(Number(value.toPrecision(digits))).replace("-", "−");
+}

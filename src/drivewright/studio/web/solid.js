@@ -1,0 +1,197 @@
+// A small viewer of solids: triangles with normals, feature edges, orbit, pan and zoom.  Nothing is drawn while nothing changes.
+
+import { pressable } from "./parts.js";
+import { element, fixed, floats, nice, watchTheme } from "./player.js";
+import { createRenderer } from "./triangles.js";
+
+const VIEWS = {iso: [0.62, 0.5], front: [0, 0], top: [0, Math.PI / 2], side: [Math.PI / 2, 0]};
+const DEPTH = 0.6;  // half the depth that is seen, in sizes of the whole
+
+const plain = name => name.replace(/[._\s]+/g, "_");  // checks say cam.main, solids cam_main
+
+/** Rotation of the view as rows: right, up, towards the eye; turned about y first, then tilted. */
+function axesOf(turn, tilt) {
+  const c = Math.cos(turn), s = Math.sin(turn), ct = Math.cos(tilt), st = Math.sin(tilt);
+  return [[c, 0, -s], [-s * st, ct, -c * st], [s * ct, st, c * ct]];
+}
+
+/** Middle and size (diagonal) of everything. */
+function extent(parts) {
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (const {points} of parts) for (let i = 0; i < points.length; i++) {
+    if (points[i] < low[i % 3]) low[i % 3] = points[i];
+    if (points[i] > high[i % 3]) high[i % 3] = points[i];
+  }
+  return {low, high, centre: low.map((l, k) => (l + high[k]) / 2), size: Math.hypot(...low.map((l, k) => high[k] - l)) || 1};
+}
+
+/** The viewer inside `host`; load({parts}), highlight(names), destroy(). */
+export function createSolid(host, {t}) {
+  const canvas = element("canvas", {class: "so-canvas", tabindex: 0, role: "img",
+    "aria-label": t("Solid parts: drag turns, right drag moves, wheel zooms, arrow keys turn, f fits")});
+  const overlay = element("canvas", {class: "so-overlay", "aria-hidden": "true"});
+  const legend = element("div", {class: "dw-legend so-legend"}), tools = element("div", {class: "dw-segments so-tools"});
+  const view = {turn: VIEWS.iso[0], tilt: VIEWS.iso[1], scale: 1, fitted: true, shift: [0, 0], width: 0, height: 0, ratio: 1};
+  const look = {hidden: new Set(), lit: new Set()};  // names of parts
+  const state = {parts: [], whole: {low: [0, 0, 0], high: [1, 1, 1], centre: [0, 0, 0], size: 1}, frame: 0};
+  const renderer = createRenderer(canvas), theme = watchTheme(host, () => redraw());
+  host.classList.add("so");
+  if (!renderer) {
+    const words = t("This browser has no WebGL, so solids cannot be shown. STEP and STL can still be exported.");
+    host.replaceChildren(element("p", {class: "vw-empty"}, words));
+    return {load() {}, highlight() {}, destroy() { theme.stop(); host.replaceChildren(); }};
+  }
+  host.replaceChildren(canvas, overlay, legend, tools);
+
+  const observer = new ResizeObserver(() => {
+    Object.assign(view, {width: host.clientWidth, height: host.clientHeight, ratio: window.devicePixelRatio || 1});
+    for (const one of [canvas, overlay]) { one.width = Math.round(view.width * view.ratio); one.height = Math.round(view.height * view.ratio); }
+    draw();
+  });
+  observer.observe(host);
+
+  function redraw() { state.frame ||= requestAnimationFrame(draw); }
+  /** Scale at which the whole fills the window from this side. */
+  function fitting() {
+    const {low, high, centre} = state.whole, axes = axesOf(view.turn, view.tilt), reach = [0, 0];
+    for (let corner = 0; corner < 8; corner++) [0, 1].forEach(k => {
+      const at = axes[k].reduce((sum, a, i) => sum + a * ((corner >> i & 1 ? high[i] : low[i]) - centre[i]), 0);
+      reach[k] = Math.max(reach[k], Math.abs(at));
+    });
+    return Math.min(0.84 * view.width / 2 / (reach[0] || 1e-9), 0.74 * view.height / 2 / (reach[1] || 1e-9));
+  }
+  function draw() {
+    cancelAnimationFrame(state.frame);
+    state.frame = 0;
+    if (view.width < 2) return;
+    if (view.fitted) view.scale = fitting();
+    const axes = axesOf(view.turn, view.tilt);
+    renderer.paint(placing(axes), theme.colours, {hidden: look.hidden, faint: faintness()});
+    annotate(axes, view.scale);
+  }
+  /** Matrices from the parts' space to the window's, column by column. */
+  function placing(axes) {
+    const {centre, size} = state.whole, px = view.scale;
+    const [sx, sy, sz] = [2 * px / view.width, 2 * px / view.height, -1 / (DEPTH * size)];
+    const at = axes.map(row => -row.reduce((sum, a, k) => sum + a * centre[k], 0));
+    const matrix = [];
+    for (let k = 0; k < 3; k++) matrix.push(sx * axes[0][k], sy * axes[1][k], sz * axes[2][k], 0);
+    matrix.push(sx * at[0] + 2 * view.shift[0] / view.width, sy * at[1] + 2 * view.shift[1] / view.height, sz * at[2], 1);
+    return {matrix: new Float32Array(matrix), turn: new Float32Array([0, 1, 2].flatMap(k => axes.map(row => row[k])))};
+  }
+  /** Whether a part is faint, because others are lit. */
+  function faintness() {
+    const isLit = ({name}) => look.lit.has(plain(name)), some = state.parts.some(part => !look.hidden.has(part.name) && isLit(part));
+    return part => some && !isLit(part);
+  }
+
+  /** Triad and scale bar. */
+  function annotate(axes, px) {
+    const context = overlay.getContext("2d");
+    context.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
+    context.clearRect(0, 0, view.width, view.height);
+    triad(context, axes, view.width - 52, view.height - 50);
+    scaleBar(context, px, 16, view.height - 16);
+  }
+  function triad(context, axes, x0, y0) {
+    const colours = ["orange", "green", "blue"].map(role => theme.colours[role]);
+    const arms = [0, 1, 2].map(k => ({name: "xyz"[k], colour: colours[k], x: axes[0][k], y: axes[1][k], z: axes[2][k]})).sort((a, b) => a.z - b.z);
+    context.font = "600 11px system-ui, sans-serif"; context.textAlign = "center"; context.textBaseline = "middle";
+    context.lineWidth = 2; context.lineCap = "round";
+    for (const arm of arms) {
+      context.strokeStyle = context.fillStyle = arm.colour; context.globalAlpha = arm.z < -0.1 ? 0.55 : 1;
+      context.beginPath(); context.moveTo(x0, y0); context.lineTo(x0 + 26 * arm.x, y0 - 26 * arm.y); context.stroke();
+      if (Math.hypot(arm.x, arm.y) > 0.2) context.fillText(arm.name, x0 + 36 * arm.x, y0 - 36 * arm.y);
+    }
+    context.globalAlpha = 1;
+  }
+  function scaleBar(context, px, x, y) {
+    const length = nice(150 / px), wide = length * px, mm = length * 1e3;
+    context.strokeStyle = context.fillStyle = theme.colours.muted; context.lineWidth = 1.5;
+    context.textAlign = "left"; context.font = "11px system-ui, sans-serif";
+    context.beginPath();
+    context.moveTo(x, y - 6); context.lineTo(x, y); context.lineTo(x + wide, y); context.lineTo(x + wide, y - 6);
+    context.stroke();
+    context.fillText(mm >= 1000 ? `${fixed(mm / 1000, 0)} m` : `${fixed(mm, mm < 1 ? 2 : 0)} mm`, x, y - 14);
+  }
+
+  /** Turning keeps the scale; only fitting changes it. */
+  function turn(across, up) {
+    view.fitted = false;
+    view.turn -= across; view.tilt = Math.min(Math.max(view.tilt + up, -Math.PI / 2), Math.PI / 2);
+    mark(); redraw();
+  }
+  function zoom(factor, x = view.width / 2, y = view.height / 2) {
+    const least = 0.2 * fitting(), to = Math.min(Math.max(view.scale * factor, least), 1000 * least), change = to / view.scale;
+    const dx = x - view.width / 2, dy = view.height / 2 - y;
+    view.shift = [dx + (view.shift[0] - dx) * change, dy + (view.shift[1] - dy) * change];
+    view.scale = to; view.fitted = false;
+    redraw();
+  }
+  function move(x, y) { view.fitted = false; view.shift = [view.shift[0] + x, view.shift[1] - y]; redraw(); }
+  function fit() { Object.assign(view, {fitted: true, shift: [0, 0]}); redraw(); }
+  function from(name) { [view.turn, view.tilt] = VIEWS[name]; fit(); mark(name); }
+  function mark(name) { for (const [key, made] of buttons) made.setAttribute("aria-pressed", String(key === name)); }
+
+  const names = {iso: t("Oblique"), front: t("Front"), top: t("Top"), side: t("Side"), fit: t("Fit")};
+  const buttons = new Map(Object.entries(names).map(([key, text]) =>
+    [key, pressable({"aria-pressed": "false"}, () => key === "fit" ? fit() : from(key), text)]));
+  tools.append(...buttons.values());
+  mark("iso");
+
+  function keys(event) {
+    const step = event.shiftKey ? 24 : 0.12, go = (x, y) => event.shiftKey ? move(step * x, -step * y) : turn(step * x, step * y);
+    const acts = {ArrowLeft: () => go(-1, 0), ArrowRight: () => go(1, 0), ArrowUp: () => go(0, 1), ArrowDown: () => go(0, -1),
+      "+": () => zoom(1.25), "=": () => zoom(1.25), "-": () => zoom(0.8), f: fit};
+    if (!acts[event.key] || event.ctrlKey || event.metaKey) return;
+    event.preventDefault();
+    acts[event.key]();
+  }
+  let held = null;
+  canvas.addEventListener("pointerdown", event => {
+    held = [event.clientX, event.clientY, event.button || event.shiftKey];
+    canvas.setPointerCapture(event.pointerId);
+  });
+  canvas.addEventListener("pointermove", event => {
+    if (!held) return;
+    const [x, y, pans] = held, dx = event.clientX - x, dy = event.clientY - y;
+    held = [event.clientX, event.clientY, pans];
+    pans ? move(dx, dy) : turn(dx * 0.008, dy * 0.008);
+  });
+  for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => { held = null; });
+  canvas.addEventListener("contextmenu", event => event.preventDefault());
+  canvas.addEventListener("wheel", event => {
+    event.preventDefault();
+    zoom(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY);
+  }, {passive: false});
+  canvas.addEventListener("keydown", keys);
+  canvas.addEventListener("dblclick", fit);
+  canvas.addEventListener("webglcontextlost", event => event.preventDefault());
+  canvas.addEventListener("webglcontextrestored", () => { renderer.ready(); redraw(); });
+
+  function chips() {
+    legend.replaceChildren(...state.parts.map(({name, colour}) => {
+      const looks = {class: "dw-chip", "aria-pressed": String(!look.hidden.has(name)), style: `--chip: var(--${colour}, var(--steel))`};
+      return pressable(looks, chip => {
+        if (!look.hidden.delete(name)) look.hidden.add(name);
+        chip.setAttribute("aria-pressed", String(!look.hidden.has(name)));
+        redraw();
+      }, t(name.replaceAll("_", " ")));
+    }));
+  }
+
+  return {
+    load({parts}) {
+      state.parts = parts.map(({name, colour, positions, normals, edges}) => ({name, colour,
+        points: floats(positions), normals: floats(normals), edges: floats(edges)}));
+      const had = state.whole.size;
+      state.whole = extent(state.parts);
+      if (Math.abs(state.whole.size / had - 1) > 0.5) fit();
+      renderer.load(state.parts);
+      chips();
+      redraw();
+    },
+    highlight(list) { look.lit = new Set(list.map(plain)); redraw(); },
+    destroy() { observer.disconnect(); theme.stop(); cancelAnimationFrame(state.frame); renderer.close(); host.replaceChildren(); },
+  };
+}

@@ -1,0 +1,21 @@
+// What the page knows, once, and who wants to hear of it.
+
+/** A store over plain keys: `state`, `set({key: value})`, `on(["key"], fn)`; fn(state) is called at once and after each change of a key. */
+export function createStore(state) {
+  const listeners = new Set();
+  return {
+    state,
+    set(patch) {
+      const changed = Object.keys(patch).filter(key => state[key] !== patch[key]);
+      if (!changed.length) return;
+      Object.assign(state, patch);
+      for (const listener of [...listeners]) if (listener.keys.some(key => changed.includes(key))) listener.fn(state);
+    },
+    on(keys, fn) {
+      const listener = {keys, fn};
+      listeners.add(listener);
+      fn(state);
+      return () => listeners.delete(listener);
+    },
+  };
+}

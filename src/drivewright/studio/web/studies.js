@@ -1,0 +1,66 @@
+// The designs of a study, or of a search for the best one: as points that can be loaded, with the figures of the study below.
+
+import { empty } from "./asked.js";
+import { gallery } from "./figures.js";
+import { numberOf } from "./numbers.js";
+import { pressable } from "./parts.js";
+import { element } from "./player.js";
+import { createScatter } from "./scatter.js";
+
+/** The design as it stands, as a row of a study: its dimensions by key, its values and the margins of its checks. */
+function standing({design, result}) {
+  const found = {};
+  for (const {name, number} of result?.values || []) found[name] = numberOf(number);
+  for (const {name, margin} of result?.checks || []) found[`check.${name}`] = numberOf(margin);
+  for (const group of design?.form.groups || []) for (const field of group.fields) for (const part of field.parts || [field])
+    if (typeof part.value === "number") found[part.key] = part.value;
+  return found;
+}
+
+const offs = new WeakMap();
+
+/** Designs of an optimisation that no other beats, as a study has them; null with a single objective. */
+function tradeOff(answer) {
+  if (!answer?.front || answer.objectives.length < 2) return null;
+  if (!offs.has(answer)) {
+    const {rows} = answer.front, passes = rows.map(() => answer.feasible), fronts = [{objectives: answer.objectives, rows: rows.map((_, n) => n)}];
+    offs.set(answer, {...answer.front, passes, figures: answer.figures, failed: 0, total: rows.length, fronts});
+  }
+  return offs.get(answer);
+}
+
+/** The pane of the study in `host`. */
+export function createStudies(host, {store, say, t}) {
+  const choice = element("div", {class: "dw-segments vw-sources"}), plot = element("div", {class: "vw-scatter"});
+  const figures = element("div", {class: "vw-study-figures"}), page = element("div", {class: "vw-scroll vw-study"}, choice, plot, figures);
+  const none = empty(element("b", {}, t("No study has been run yet")), element("p", {},
+    t("Run a study or an optimisation with several objectives on the right; its designs appear here as points, and a click loads one.")));
+  const sources = [["study", t("Study")], ["optimise", t("Optimisation")]];
+  let scatter = null, shown = null, chosen = null, before = {};
+  host.append(page, none);
+
+  function sourceButton([name, text]) {
+    return pressable({"aria-pressed": String(name === chosen)}, () => { chosen = name; update(store.state); }, text);
+  }
+  function update({jobs = {}}) {
+    const tables = {study: jobs.study?.answer, optimise: tradeOff(jobs.optimise?.answer)};
+    const ready = sources.filter(([name]) => tables[name]?.rows?.length);
+    for (const [name] of ready) if (tables[name] !== before[name]) chosen = name;
+    before = Object.fromEntries(ready.map(([name]) => [name, tables[name]]));
+    if (!(chosen in before)) chosen = ready[0]?.[0];
+    none.hidden = ready.length > 0; page.hidden = !ready.length;
+    choice.hidden = ready.length < 2;
+    choice.replaceChildren(...ready.map(sourceButton));
+    show();
+  }
+  function show() {
+    const answer = chosen && before[chosen];
+    if (!answer || answer === shown) return;
+    shown = answer;
+    scatter ||= createScatter(plot, {say, t, now: () => standing(store.state)});
+    scatter.load(answer);
+    figures.replaceChildren(...(answer.figures?.length ? gallery(answer.figures, t) : []));
+  }
+  const stops = [store.on(["jobs"], update), store.on(["design", "result"], () => { if (!host.hidden) scatter?.mark(); })];
+  return {open() { scatter?.mark(); }, close() {}, destroy() { stops.forEach(stop => stop()); scatter?.destroy(); }};
+}

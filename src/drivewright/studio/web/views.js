@@ -1,0 +1,103 @@
+// The centre: the moving mechanism, its solids, its figures, and the designs of a study, one at a time.
+
+import { createFigures } from "./figures.js";
+import { pressable } from "./parts.js";
+import { element } from "./player.js";
+import { createSolids } from "./solids.js";
+import { createStudies } from "./studies.js";
+
+// -------------------------------------------------------------------------------------------------------------------- motion
+
+/** The player, and what there is to say where nothing can be drawn.  `reword()` writes its words anew, and leaves the view as it is. */
+function createMotion(host, {store, t, clock, createPlayer}) {
+  const stage = element("div", {class: "vw-player"}), note = element("div", {class: "vw-note", role: "status", hidden: ""});
+  let player = null, shown = null, compared = null;
+  host.append(stage, note);
+  const picked = name => store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
+  function load(scene) {
+    const packed = {...scene.scene, gen: scene.gen};
+    shown = scene;
+    if (player) player.load(packed);
+    else {
+      player = createPlayer(stage, packed, {clock, text: t, picked});
+      player.highlight(store.state.lit);
+    }
+    if (compared) player.compare(compared);
+  }
+  function remark(scene) {
+    const missing = scene && !scene.scene, words = !scene ? [t("drawing …")] : missing ? scene.remarks : [];
+    const head = missing ? [element("b", {}, t("There is no motion to show"))] : [];
+    stage.hidden = !player;
+    stage.classList.toggle("is-old", Boolean(missing && player));
+    note.hidden = !missing && Boolean(player);
+    note.replaceChildren(...head, ...words.map(text => element("p", {}, t(text))));
+  }
+  function update({scene}) {
+    if (scene?.scene && scene !== shown) load(scene);
+    remark(scene);
+  }
+  function reference({reference}) {
+    const next = reference?.scene || null;
+    if (next === compared) return;
+    compared = next;
+    player?.compare(next);
+  }
+  const stops = [store.on(["scene"], update), store.on(["reference"], reference), store.on(["lit"], ({lit}) => player?.highlight(lit))];
+  return {
+    open() {}, close() {},
+    reword() { if (player) load(shown); remark(store.state.scene); },
+    destroy() { stops.forEach(stop => stop()); player?.destroy(); },
+  };
+}
+
+// ---------------------------------------------------------------------------------------------------------------- the centre
+
+const PANES = {motion: createMotion, solid: createSolids, figures: createFigures, study: createStudies};
+
+/** The centre inside `host`: tabs, and what each shows; `createPlayer` of report/player.js, `clock` shared with the plots. */
+export function createViews(host, tools) {
+  const {store, t} = tools, names = Object.keys(PANES), tabs = {}, places = {}, views = {};
+  const row = element("div", {class: "vw-tabs", role: "tablist"}), frame = element("div", {class: "vw-frame"});
+
+  function add(name) {
+    tabs[name] = pressable({role: "tab", id: `view-tab-${name}`, "data-testid": `view-${name}`}, () => store.set({view: name}));
+    places[name] = element("div", {class: `vw-pane vw-${name}`, role: "tabpanel", "aria-labelledby": `view-tab-${name}`, hidden: ""});
+  }
+  function keys(event) {
+    const step = {ArrowRight: 1, ArrowLeft: -1}[event.key];
+    if (!step) return;
+    const next = names[(names.indexOf(store.state.view) + step + names.length) % names.length];
+    event.preventDefault();
+    store.set({view: next});
+    tabs[next].focus();
+  }
+  /** All words in the language of the page: a view that cannot change its words is made anew. */
+  function reword() {
+    const words = {motion: t("Motion"), solid: t("Solid"), figures: t("Figures"), study: t("Study")};
+    row.setAttribute("aria-label", t("Views"));
+    for (const name of names) {
+      tabs[name].textContent = words[name];
+      if (views[name]?.reword) { views[name].reword(); continue; }
+      views[name]?.destroy();
+      places[name].replaceChildren();
+      views[name] = PANES[name](places[name], tools);
+    }
+    show(store.state);
+  }
+  function show({view}) {
+    for (const name of names) {
+      const on = name === view;
+      places[name].hidden = !on;
+      tabs[name].setAttribute("aria-selected", String(on)); tabs[name].tabIndex = on ? 0 : -1;
+      if (on) views[name].open(); else views[name].close();
+    }
+  }
+  names.forEach(add);
+  row.append(...Object.values(tabs));
+  frame.append(...Object.values(places));
+  row.addEventListener("keydown", keys);
+  host.classList.add("vw");
+  host.replaceChildren(row, frame);
+  const stops = [store.on(["lang"], reword), store.on(["view"], show)];
+  return {destroy() { stops.forEach(stop => stop()); for (const view of Object.values(views)) view.destroy(); host.replaceChildren(); }};
+}

@@ -1,0 +1,86 @@
+"""Words of the page in another language than English: labels of the form, and texts on the screen.
+
+They stand in `zh.toml`, here for what all kinds share and in the folder of each mechanism for its own:
+`fields` and `tables` (dotted key, * for a name or a number -> label), `texts` (English, * for a part that varies -> text), `presets`.
+"""
+
+import tomllib
+from functools import cache
+from pathlib import Path
+
+from drivewright import registry
+
+LANGUAGE = "zh"
+
+
+def fields(kind):
+    """{dotted key with * for names and numbers: label} of every field of a kind; the dictionary is shared, do not change it."""
+    return _merged(kind, "fields")
+
+
+def tables(kind):
+    """The same of its tables, which are the groups of a form."""
+    return _merged(kind, "tables")
+
+
+@cache
+def texts(kind=None):
+    """{English text, with * for what varies: text} of a kind and the studio, or of the studio alone with what it says of all kinds."""
+    if kind is None:
+        return {english: text for each in registry.kinds() for english, text in _introduction(each).items()} | _own().get("texts", {})
+    return _keys(kind) | _presets(kind) | _merged(kind, "texts")
+
+
+def label(key, patterns):
+    """The label of a dotted key among `patterns`, None where there is none; an element or a part (`.0`) has that of its list."""
+    steps = key.split(".")
+    fitting = [pattern for pattern in patterns if _fits(pattern.split("."), steps)]
+    if fitting:
+        return patterns[min(fitting, key=lambda pattern: pattern.count("*"))]
+    return label(".".join(steps[:-1]), patterns) if len(steps) > 1 else None
+
+
+def _fits(pattern, steps):
+    return len(pattern) == len(steps) and all(part in ("*", step) for part, step in zip(pattern, steps, strict=True))
+
+
+def _introduction(kind):
+    """What the page says of a kind before a design of it is open: its name, its summary, its presets."""
+    known = registry.mechanism(kind)
+    said = _brought(kind).get("texts", {})
+    return _presets(kind) | {english: said[english] for english in (_spoken(kind), known.summary) if english in said}
+
+
+def _keys(kind):
+    """Fields as jobs name them: 'joints · * · clearance', each step by its own label."""
+    titles = tables(kind)
+    named = {}
+    for key, text in fields(kind).items():
+        *places, last = key.split(".")
+        titled = [step if step == "*" else titles.get(".".join(places[: n + 1]), step) for n, step in enumerate(places)]
+        named[" · ".join(map(_spoken, (*places, last)))] = " · ".join((*titled, text))
+    return named
+
+
+def _presets(kind):
+    """Presets by their names as the page shows them."""
+    return {_spoken(name): text for name, text in _brought(kind).get("presets", {}).items()}
+
+
+def _spoken(name):
+    return name.replace("-", " ").replace("_", " ")
+
+
+@cache
+def _merged(kind, part):
+    return _own().get(part, {}) | _brought(kind).get(part, {})
+
+
+@cache
+def _brought(kind):
+    return registry.mechanism(kind).translations(LANGUAGE)
+
+
+@cache
+def _own():
+    return tomllib.loads(Path(__file__).with_name(f"{LANGUAGE}.toml").read_text(encoding="utf-8"))

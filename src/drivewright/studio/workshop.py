@@ -1,0 +1,58 @@
+"""What all tabs share: the worker processes, the files that pages sent, and those that wait to be fetched."""
+
+import secrets
+import shutil
+import tempfile
+import time
+from pathlib import Path
+
+from drivewright.cases import worker_count
+from drivewright.report.folder import file_name
+from drivewright.studio.lanes import Lanes
+
+KEPT = 600.0  # seconds that a file waits to be fetched
+TABS_FILES = 200  # folders of files that pages sent; the oldest goes
+
+
+class Workshop:
+    """Made once, in the running loop of the server; `close` leaves nothing behind."""
+
+    def __init__(self):
+        self.quick, self.heavy = Lanes(1), Lanes(max(2, worker_count(None)))
+        self.seconds = {}  # kind -> seconds of each analysis, as last measured
+        self._root, self._folders, self._offers = None, [], {}
+
+    def new_folder(self):
+        """(token, path) of a folder for the files of a page."""
+        if self._root is None:
+            self._root = Path(tempfile.mkdtemp(prefix="drivewright-studio-")).resolve()
+        token = secrets.token_urlsafe(16)
+        self._folders.append(token)
+        while len(self._folders) > TABS_FILES:
+            shutil.rmtree(self._root / self._folders.pop(0), ignore_errors=True)
+        (self._root / token).mkdir()
+        return token, self._root / token
+
+    def folder(self, token):
+        """The folder behind a token, None where it is none of ours."""
+        return self._root / token if token in self._folders else None
+
+    def offer(self, name, data):
+        """Address where a file can be fetched, once."""
+        now = time.monotonic()
+        self._offers = {token: offer for token, offer in self._offers.items() if now - offer[2] < KEPT}
+        token = secrets.token_urlsafe(16)
+        self._offers[token] = file_name(name), data, now
+        return f"/download/{token}"
+
+    def fetch(self, token):
+        """(name, data) of an offered file, None where there is none."""
+        found = self._offers.pop(token, None)
+        return found and found[:2]
+
+    def close(self):
+        """Processes and files go."""
+        self.quick.close()
+        self.heavy.close()
+        if self._root is not None:
+            shutil.rmtree(self._root, ignore_errors=True)

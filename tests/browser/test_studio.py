@@ -1,0 +1,221 @@
+"""The studio in a real browser: every kind of drive opens and moves, and everything that a hand can do to it."""
+
+import os
+import re
+import signal
+import subprocess
+import zipfile
+
+import ezdxf
+import pytest
+from browsing import until
+from studio_running import EXAMPLES, analysed, drawn, enter, field, running, shared
+
+pytestmark = [pytest.mark.needs_browser, pytest.mark.needs_studio]
+
+ONE_OF_EACH = ("disc_cam", "seedling_pusher", "four_bar", "pressure_roller_shaft", "pin_indexer", "hyvo_chain")
+FRAME = """async () => {
+  const canvas = document.querySelector('.dw-canvas');
+  const wait = () => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
+  const seen = () => { const c = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+    let sum = 0; for (let i = 0; i < c.length; i += 4) sum = (sum * 31 + c[i] + 3 * c[i + 1] + 7 * c[i + 2]) % 1000000007; return sum; };
+  const first = seen(); for (let n = 0; n < 12; n++) await wait(); return [first, seen()];
+}"""
+STATE = "window.drivewright.state"
+
+
+@pytest.fixture(scope="module")
+def studio(worker_port):
+    with running(worker_port, EXAMPLES / "four_bar.toml") as (address, process):
+        yield address, process
+
+
+@pytest.fixture(scope="module")
+def worker_port():
+    """A port of its own for every parallel worker."""
+    number = re.sub(r"\D", "", os.environ.get("PYTEST_XDIST_WORKER", "")) or "0"
+    return 8400 + int(number)
+
+
+@pytest.fixture
+def tab(browser):
+    """Opens tabs; afterwards none of them may have complained, or asked for anything outside."""
+    contexts, complaints = [], []
+
+    def open_it(address, width=1440, height=900, **settings):
+        context = browser.new_context(viewport={"width": width, "height": height}, accept_downloads=True, **settings)
+        contexts.append(context)
+        page = context.new_page()
+        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        own = (address.partition("#")[0], "ws", "data:", "blob:")
+        page.on("request", lambda request: None if request.url.startswith(own) else complaints.append(request.url))
+        page.goto(address)
+        until(page, "window.drivewright !== undefined", 30)
+        drawn(page)
+        return page
+
+    yield open_it
+    for context in contexts:
+        context.close()
+    assert complaints == []
+
+
+@pytest.mark.parametrize("name", ONE_OF_EACH)
+def test_every_kind_opens_and_moves(studio, tab, name):
+    page = tab(shared(studio[0], name))
+    before, after = page.evaluate(FRAME)
+    assert before != after
+    analysed(page)
+    assert page.locator("[data-testid^=check-]").count() >= 3
+    assert page.locator("[data-testid^=field-]").count() >= 5
+    assert page.get_by_test_id("player").is_visible()
+
+
+def test_a_slider_changes_the_drawing_and_a_check(studio, tab):
+    page = tab(studio[0])
+    analysed(page)
+    page.evaluate(f"{STATE}, document.querySelector('.dw-button').click()")  # pause: only the slider may change the picture
+    key = "bodies.crank.points.A.0"
+    checks = page.evaluate(f"JSON.stringify({STATE}.result.checks)")
+    scene = page.evaluate(f"{STATE}.scene.scene.motions.join()")
+    box, slider = field(page, key).locator("input").first, page.get_by_test_id(f"slider-{key}")
+    before = box.input_value()
+    slider.focus()
+    for _ in range(5):
+        slider.press("ArrowRight")
+    until(page, f"{STATE}.design.gen > 1")
+    drawn(page)
+    assert box.input_value() != before
+    assert page.evaluate(f"{STATE}.scene.scene.motions.join()") != scene
+    analysed(page)
+    assert page.evaluate(f"JSON.stringify({STATE}.result.checks)") != checks
+
+
+def test_a_bad_value_shows_its_message_and_loses_nothing(studio, tab):
+    page = tab(studio[0])
+    analysed(page)
+    key = "drive.speed"
+    toml = page.evaluate(f"{STATE}.design.toml")
+    for text, words in (("3 kg", r"wants an angular speed, got '3 kg' \(mass\)"), ("fast", "'fast' is not \"number unit\"")):
+        enter(page, key, text)
+        message = page.get_by_test_id(f"message-{key}")
+        message.wait_for()
+        assert re.search(words, message.inner_text()), message.inner_text()
+        assert field(page, key).locator("input").first.input_value() == text
+        assert page.evaluate(f"{STATE}.design.toml") == toml
+    enter(page, key, "301 rpm")
+    until(page, f"{STATE}.design.toml.includes('301 rpm')")
+    page.get_by_test_id(f"message-{key}").wait_for(state="hidden")
+
+
+def test_an_impossible_design_says_so_and_keeps_the_drawing(studio, tab):
+    page = tab(studio[0])
+    analysed(page)
+    enter(page, "bodies.crank.points.A.0", "900 mm")
+    until(page, f"Object.values({STATE}.refused).length > 0")
+    assert page.evaluate(f"{STATE}.scene.scene !== null")
+    assert page.evaluate("[...document.querySelectorAll('[data-testid^=message-]')].some(e => e.innerText.length > 20)")
+    page.get_by_test_id("undo").click()
+    until(page, f"Object.values({STATE}.refused).length === 0")
+    analysed(page)
+
+
+def test_undo_and_redo(studio, tab):
+    page = tab(studio[0])
+    first = page.evaluate(f"{STATE}.design.toml")
+    enter(page, "drive.speed", "281 rpm")
+    until(page, f"{STATE}.design.toml.includes('281 rpm')")
+    page.get_by_test_id("undo").click()
+    until(page, f"!{STATE}.design.toml.includes('281 rpm')")
+    assert page.evaluate(f"{STATE}.design.toml") == first
+    page.get_by_test_id("redo").click()
+    until(page, f"{STATE}.design.toml.includes('281 rpm')")
+    assert field(page, "drive.speed").locator("input").first.input_value() == "281 rpm"
+
+
+def test_compare_draws_the_design_before(studio, tab):
+    page = tab(studio[0])
+    analysed(page)
+    page.evaluate("document.querySelector('.dw-button').click()")
+    page.get_by_test_id("compare").click()
+    if page.evaluate(f"{STATE}.reference === null"):
+        page.get_by_text("Pin this design").first.click()
+    until(page, f"{STATE}.reference !== null")
+    pinned = page.evaluate(f"{STATE}.reference.scene.motions.join()")
+    enter(page, "bodies.crank.points.A.0", "35 mm")
+    until(page, f"{STATE}.design.toml.includes('35 mm')")
+    analysed(page)
+    assert page.evaluate(f"{STATE}.reference.scene.motions.join()") == pinned != page.evaluate(f"{STATE}.scene.scene.motions.join()")
+
+
+def test_export_downloads_a_dxf_that_audits_clean(studio, tab, tmp_path):
+    page = tab(shared(studio[0], "disc_cam"))
+    analysed(page)
+    with page.expect_download(timeout=60_000) as coming:
+        page.get_by_test_id("export-dxf").click()
+    assert re.fullmatch(r"[\w.-]+", coming.value.suggested_filename)
+    path = tmp_path / coming.value.suggested_filename
+    coming.value.save_as(path)
+    if path.suffix == ".zip":
+        with zipfile.ZipFile(path) as packed:
+            packed.extractall(tmp_path)
+    found = list(tmp_path.glob("*.dxf"))
+    assert found
+    for file in found:
+        assert not ezdxf.readfile(file).audit().errors
+
+
+def test_a_reload_keeps_the_design(studio, tab):
+    page = tab(studio[0])
+    enter(page, "drive.speed", "277 rpm")
+    until(page, f"{STATE}.design.toml.includes('277 rpm')")
+    page.reload()
+    until(page, "window.drivewright !== undefined", 30)
+    drawn(page)
+    assert page.evaluate(f"{STATE}.design.toml").count("277 rpm") == 1
+
+
+def test_two_tabs_do_not_disturb_each_other(studio, tab):
+    one, other = tab(studio[0]), tab(shared(studio[0], "disc_cam"))
+    enter(one, "drive.speed", "266 rpm")
+    until(one, f"{STATE}.design.toml.includes('266 rpm')")
+    drawn(one)
+    assert other.evaluate(f"{STATE}.design.kind") != one.evaluate(f"{STATE}.design.kind")
+    assert "266 rpm" not in other.evaluate(f"{STATE}.design.toml")
+    assert other.evaluate(f"{STATE}.design.gen") == 1
+
+
+def workers(server):
+    """Ids of the server's computing processes."""
+    found = subprocess.run(["pgrep", "-P", str(server.pid), "-f", "spawn_main"], capture_output=True, text=True, check=False).stdout
+    return [int(pid) for pid in found.split()]
+
+
+def test_workers_killed_at_rest_are_replaced(studio, tab):
+    page = tab(studio[0])
+    analysed(page)
+    before = workers(studio[1])
+    for pid in before:
+        os.kill(pid, signal.SIGKILL)
+    enter(page, "drive.speed", "264 rpm")
+    drawn(page)
+    analysed(page)
+    assert workers(studio[1]) and not set(workers(studio[1])) & set(before)
+
+
+def test_a_worker_killed_at_work_is_reported(studio, tab):
+    page = tab(shared(studio[0], "hyvo_chain"))
+    analysed(page)
+    for speed in range(3000, 3020):
+        enter(page, "drive.speed", f"{speed} rpm")
+        until(page, f"{STATE}.work.state === 'analysing'")
+        for pid in workers(studio[1]):
+            os.kill(pid, signal.SIGKILL)
+        page.wait_for_timeout(500)
+        if "was ended by signal 9" in page.evaluate(f"{STATE}.notice"):
+            break
+    assert page.get_by_text("was ended by signal 9").is_visible()
+    enter(page, "drive.speed", "2999 rpm")
+    drawn(page)
+    analysed(page)

@@ -1,0 +1,97 @@
+"""The studio's screens as pictures in out/screenshots/, for people to look at; asserted is that they are screens and not blank."""
+
+import subprocess
+
+import pytest
+from browsing import until
+from studio_running import EXAMPLES, ROOT, analysed, drawn, enter, running, shared
+
+pytestmark = [pytest.mark.slow, pytest.mark.needs_browser, pytest.mark.needs_studio]
+
+FOLDER = ROOT / "out" / "screenshots"
+NAMES = ("disc_cam", "seedling_pusher", "four_bar", "rubber_roller_61804", "pin_indexer", "hyvo_chain", "slider_crank_clearance")
+TASTE = "localStorage.setItem('drivewright-taste', JSON.stringify({{lang: '{lang}', theme: '{theme}'}}))"
+COLOURS = """async () => {
+  const c = document.querySelector('.dw-canvas'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+  const seen = new Set(); for (let i = 0; i < d.length; i += 4) seen.add(d[i] << 16 | d[i + 1] << 8 | d[i + 2]); return seen.size; }"""
+
+
+@pytest.fixture(scope="module")
+def address():
+    with running(8490, EXAMPLES / "four_bar.toml") as (found, _):
+        yield found
+
+
+@pytest.fixture
+def tab(browser, address):
+    pages = []
+
+    def open_it(name, theme="light", lang="en", size=(1440, 900)):
+        page = browser.new_page(viewport={"width": size[0], "height": size[1]})
+        pages.append(page)
+        page.add_init_script(TASTE.format(lang=lang, theme=theme))
+        page.goto(shared(address, name))
+        until(page, "window.drivewright !== undefined", 30)
+        drawn(page)
+        analysed(page)
+        page.evaluate("document.querySelector('.dw-button').click()")
+        until(page, "document.querySelector('.dw-range') !== null")
+        page.evaluate("{ const r = document.querySelector('.dw-range'); r.value = 0.3; r.dispatchEvent(new Event('input')); }")
+        page.wait_for_timeout(200)
+        return page
+
+    yield open_it
+    for page in pages:
+        page.close()
+
+
+def keep(page, name):
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    page.screenshot(path=FOLDER / f"{name}.png")
+    assert page.evaluate(COLOURS) > 20
+
+
+def has_chinese_letters():
+    return bool(subprocess.run(["fc-list", ":lang=zh"], capture_output=True, text=True, check=False).stdout.strip())
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("name", NAMES)
+def test_a_picture_of_every_kind(tab, name, theme):
+    keep(tab(name, theme), f"studio-{name}-{theme}")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_small_screen(tab, name):
+    page = tab(name, size=(1280, 720))
+    keep(page, f"studio-{name}-small")
+    assert page.evaluate("document.documentElement.scrollWidth <= 1280 && document.documentElement.scrollHeight <= 720")
+
+
+@pytest.mark.skipif(not has_chinese_letters(), reason="no Chinese font (fonts-wqy-zenhei)")
+@pytest.mark.parametrize("name", NAMES)
+def test_the_chinese_screen(tab, name):
+    page = tab(name, lang="zh")
+    keep(page, f"studio-{name}-zh")
+    text = page.locator(".st-form").inner_text() + page.locator(".st-head").inner_text()
+    letters = [c for c in text if c.isalpha()]
+    assert sum("\u4e00" <= c <= "\u9fff" for c in letters) > 0.35 * len(letters)
+
+
+def test_compared(tab):
+    page = tab("four_bar")
+    page.get_by_test_id("compare").click()
+    enter(page, "bodies.crank.points.A.0", "46 mm")
+    until(page, "window.drivewright.state.design.toml.includes('46 mm')")
+    analysed(page)
+    keep(page, "studio-compared")
+
+
+@pytest.mark.parametrize("view", ["solid", "figures", "study"])
+def test_the_other_views(tab, view):
+    page = tab("disc_cam")
+    page.get_by_test_id(f"view-{view}").click()
+    if view != "study":
+        until(page, f"['done', 'failed'].includes(window.drivewright.state.jobs.{view}?.state)", 120)
+    page.wait_for_timeout(1500)
+    page.screenshot(path=FOLDER / f"studio-view-{view}.png")

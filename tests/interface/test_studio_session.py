@@ -1,0 +1,238 @@
+"""One tab of the studio without a browser: what it is told, and what it lets nobody do."""
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from drivewright.errors import InputError
+from drivewright.studio.session import LARGEST, Session, first_design, opened, packed, unpacked
+from drivewright.studio.workshop import Workshop
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+class Quiet:
+    """Stands for the computations: notes what is asked of them."""
+
+    def __init__(self):
+        self.asked = []
+
+    def __getattr__(self, name):
+        return lambda *arguments: self.asked.append((name, *arguments))
+
+
+class Tab:
+    """A session and all that it has said."""
+
+    def __init__(self, start, workshop):
+        self.heard = []
+        self.session = Session(self.heard.append, workshop, start)
+        self.session.computing = self.quiet = Quiet()
+
+    def say(self, what, **more):
+        """What the session answers to one message."""
+        self.heard.clear()
+        self.session.hear({"what": what, **more})
+        json.dumps(self.heard, allow_nan=False)  # everything can be sent
+        return list(self.heard)
+
+    @property
+    def toml(self):
+        return self.session.document.design.toml()
+
+
+@pytest.fixture
+def workshop(tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    shop = Workshop()
+    yield shop
+    shop.close()
+
+
+@pytest.fixture
+def tab(workshop, tmp_path):
+    found = Tab(opened(shutil.copy(EXAMPLES / "four_bar.toml", tmp_path)), workshop)
+    found.say("hello")
+    return found
+
+
+def only(messages, what):
+    return [message for message in messages if message["what"] == what]
+
+
+def test_hello_brings_the_kinds_the_form_and_a_drawing(workshop):
+    tab = Tab(opened(EXAMPLES / "four_bar.toml"), workshop)
+    assert tab.say("set", key="title", text="x") == []  # nothing before hello
+    start, design = tab.say("hello")
+    assert {kind["kind"] for kind in start["kinds"]} >= {tab.session.document.design.kind}
+    assert design["title"] == "Crank-rocker four-bar" and design["form"]["groups"] and not design["undo"]
+    assert tab.quiet.asked[-1] == ("look", 1, tab.session.document.design)
+
+
+def test_a_change_sends_its_field_only(tab):
+    (values,) = tab.say("set", key="drive.speed", text="150")
+    assert set(values["fields"]) == {"drive.speed"} and values["fields"]["drive.speed"]["text"] == "150 rpm"
+    assert values["undo"] and values["changed"] and values["settled"] == ["drive.speed"] and values["gen"] == 2
+    assert 'speed = "150 rpm"' in values["toml"]
+    assert tab.quiet.asked[-1][:2] == ("look", 2)
+
+
+def test_a_refusal_has_the_words_of_the_command_line_and_changes_nothing(tab):
+    before = tab.toml
+    (refused,) = tab.say("set", key="drive.speed", text="3 kg")
+    assert refused == {"what": "refused", "key": "drive.speed", "text": "3 kg", "message": "wants an angular speed, got '3 kg' (mass)"}
+    assert tab.toml == before and tab.session.gen == 1
+
+
+def test_undo_and_redo_are_designs_like_others(tab):
+    before = tab.toml
+    tab.say("set", key="drive.speed", text="150")
+    (back,) = tab.say("undo")
+    assert back["toml"] == before and back["redo"] and not back["undo"] and set(back["fields"]) == {"drive.speed"}
+    (again,) = tab.say("redo")
+    assert 'speed = "150 rpm"' in again["toml"]
+
+
+def test_a_reload_brings_the_design_back(tab, workshop):
+    tab.say("set", key="drive.speed", text="150")
+    other = Tab(tab.session.start, workshop)
+    other.say("hello", saved=tab.toml, files="")
+    assert other.toml == tab.toml != Tab(tab.session.start, workshop).session.start.toml()
+
+
+@pytest.mark.parametrize("saved", ["mechanism = ", 'mechanism = "nothing"', "x" * (LARGEST + 1), 7])
+def test_what_cannot_be_brought_back_is_told_and_the_start_is_there(tab, workshop, saved):
+    other = Tab(tab.session.start, workshop)
+    said = other.say("hello", saved=saved)
+    assert only(said, "refused") and only(said, "design")
+    assert other.toml == tab.toml
+
+
+def test_an_address_holds_a_whole_design(tab):
+    (shared,) = tab.say("share")
+    assert unpacked(shared["fragment"]) == tab.toml
+    assert len(shared["fragment"]) < 2000
+
+
+@pytest.mark.parametrize("fragment", ["", "d=", "d=!!!", "d=AAAA", 3])
+def test_a_damaged_address(fragment):
+    with pytest.raises(InputError, match="damaged"):
+        unpacked(fragment)
+
+
+def test_an_address_that_unfolds_without_end():
+    with pytest.raises(InputError, match="1,000,000 characters"):
+        unpacked(packed("x" * 50_000_000))
+
+
+# -- files ---------------------------------------------------------------------------------------------------------------------
+
+
+
+def sample_with_file(name):
+    """The text of the example that names a data file, with another name in its place."""
+    text = (EXAMPLES / "oscillating_cam.toml").read_text(encoding="utf-8")
+    assert '"lift.csv"' in text
+    return text.replace('"lift.csv"', json.dumps(name))
+
+
+LIFT = (EXAMPLES / "lift.csv").read_text(encoding="utf-8")
+
+
+def test_a_spec_opens_with_its_data_files(tab):
+    said = tab.say("open", files=[{"name": "mine.toml", "text": sample_with_file("my lift.csv")}, {"name": "my lift.csv", "text": LIFT}])
+    assert only(said, "refused")  # the name on the disk is another one: blanks go
+    said = tab.say("open", files=[{"name": "mine.toml", "text": sample_with_file("lift.csv")}, {"name": "lift.csv", "text": LIFT}])
+    (design,) = only(said, "design")
+    assert design["name"] == "mine" and design["files"] and '"lift.csv"' in design["toml"]
+    other = Tab(tab.session.start, tab.session.workshop)
+    other.say("hello", saved=design["toml"], files=design["files"])  # and is there after a reload
+    assert other.toml == design["toml"]
+    (refused,) = tab.say("share")
+    assert "data files" in refused["message"]
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd", "/etc/no-such-file", "../../../../../etc/passwd", "lift.csv", str(EXAMPLES / "lift.csv")])
+def test_a_page_cannot_read_the_disk_nor_learn_what_is_on_it(tab, name):
+    messages = set()
+    for what in ({"what": "open", "files": [{"name": "a.toml", "text": sample_with_file(name)}]},
+                 {"what": "text", "toml": sample_with_file(name)}):
+        (refused,) = tab.say(**what)
+        assert refused["what"] == "refused"
+        messages.add(refused["message"].partition(": ")[2] or refused["message"])
+    assert messages == {"there is no such data file here; open the spec together with the data files that it names"}
+
+
+def test_no_message_shows_a_folder_of_this_machine(workshop):
+    tab = Tab(opened(EXAMPLES / "oscillating_cam.toml"), workshop)
+    said = tab.say("hello")
+    said += tab.say("set", key="motion.file", text="missing.csv") + tab.say("text", toml="format = 1\n]")
+    assert str(EXAMPLES) not in json.dumps(said)
+
+
+def test_names_of_files_cannot_leave_their_folder(tab, tmp_path):
+    said = tab.say("open", files=[{"name": "../../evil.toml", "text": (EXAMPLES / "four_bar.toml").read_text(encoding="utf-8")}])
+    assert only(said, "design") and not list(tmp_path.glob("evil*"))
+    assert len(list(tmp_path.glob("drivewright-studio-*/*/*evil.toml"))) == 1
+
+
+@pytest.mark.parametrize("files", [[], [{"name": "a.csv", "text": ""}], [{"name": "a.toml", "text": ""}, {"name": "b.toml", "text": ""}]])
+def test_one_spec_at_a_time(tab, files):
+    (refused,) = tab.say("open", files=files)
+    assert "open one spec (.toml)" in refused["message"]
+
+
+def test_too_much_is_refused(tab):
+    half = "#" * (LARGEST // 2 + 1)
+    (refused,) = tab.say("open", files=[{"name": "a.toml", "text": half}, {"name": "b.csv", "text": half}])
+    assert "1,000,000 characters" in refused["message"]
+
+
+# -- odd pages -----------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("message", [{}, {"what": None}, {"what": "close"}, {"what": "_open"}, {"what": "__init__"}, {"what": ["set"]}])
+def test_what_is_no_request_is_nothing(tab, message):
+    before = tab.toml
+    tab.heard.clear()
+    tab.session.hear(message)
+    assert tab.heard == [] and tab.toml == before
+
+
+@pytest.mark.parametrize("message", [
+    {"what": "set"}, {"what": "set", "key": None, "text": None}, {"what": "set", "key": "drive.speed", "text": "1 rpm", "more": 1},
+    {"what": "load", "changes": 3}, {"what": "open", "files": 3}, {"what": "drop", "list": "joints", "index": "x"},
+    {"what": "job", "name": "rm"}, {"what": "put", "table": "x.y"}, {"what": "fresh", "kind": "../x"}])
+def test_an_odd_request_is_answered_and_changes_nothing(tab, message):
+    before = tab.toml
+    (refused,) = tab.say(**message)
+    assert refused["what"] == "refused" and refused["message"]
+    assert tab.toml == before
+
+
+def test_jobs_get_the_locks(tab):
+    tab.say("lock", key="drive.speed", on=True)
+    tab.say("job", name="sensitivity", options={})
+    assert tab.quiet.asked[-1] == ("job", "sensitivity", tab.session.document.design, {"locks": ["drive.speed"]})
+    (refused,) = tab.say("set", key="drive.speed", text="1 rpm")
+    assert "lock" in refused["message"]
+
+
+def test_another_kind_forgets_what_was_computed(tab):
+    other = next(kind["kind"] for kind in only(tab.say("hello"), "start")[0]["kinds"] if kind["kind"] != tab.session.document.design.kind)
+    (design,) = tab.say("fresh", kind=other)
+    assert design["kind"] == other and not design["undo"]
+    assert ("forget",) in tab.quiet.asked
+
+
+def test_an_offered_file_is_fetched_once(workshop):
+    address = workshop.offer("../a b.dxf", b"0\nEOF")
+    token = address.rpartition("/")[2]
+    assert workshop.fetch(token) == ("a-b.dxf", b"0\nEOF")
+    assert workshop.fetch(token) is None and workshop.folder("nobody") is None and workshop.folder(["x"]) is None
+
+
+def test_the_first_design_is_one():
+    first_design().spec()
