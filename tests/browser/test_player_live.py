@@ -142,9 +142,9 @@ def test_the_window_holds_still_until_the_scene_leaves_it_or_gets_small(page):
 def test_a_drawing_tells_its_generation(page):
     call(page, "start", packed(gen=7))
     assert page.evaluate("host.dataset.gen") == "7"
+    before = page.evaluate(PIXELS)
     page.evaluate("next => { live.player.load(next); window.early = host.dataset.gen; }", packed(0.9, gen=8))
-    until(page, "host.dataset.gen === '8'")
-    assert page.evaluate("early") == "7", "not before it is drawn"
+    assert page.evaluate("early") == "8" and page.evaluate(PIXELS) != before, "drawn at once: a person waits for it"
 
 
 def test_outlines_with_the_same_text_are_not_decoded_again(page):

@@ -215,7 +215,7 @@ def test_an_odd_request_is_answered_and_changes_nothing(tab, message):
 def test_jobs_get_the_locks(tab):
     tab.say("lock", key="drive.speed", on=True)
     tab.say("job", name="sensitivity", options={})
-    assert tab.quiet.asked[-1] == ("job", "sensitivity", tab.session.document.design, {"locks": ["drive.speed"]})
+    assert tab.quiet.asked[-1] == ("job", "sensitivity", 1, tab.session.document.design, {"locks": ["drive.speed"]})
     (refused,) = tab.say("set", key="drive.speed", text="1 rpm")
     assert "lock" in refused["message"]
 

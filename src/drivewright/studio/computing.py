@@ -29,10 +29,10 @@ class Computing:
         if not self._drawing:
             self._drawing = asyncio.create_task(self._draw_newest())
 
-    def job(self, name, design, options):
+    def job(self, name, gen, design, options):
         """Begin a job; one of the same name that is under way ends."""
         self.cancel(name)
-        self._jobs[name] = asyncio.create_task(self._job(name, design, options))
+        self._jobs[name] = asyncio.create_task(self._job(name, gen, design, options))
 
     def refer(self, title, design):
         """Draw and analyse another design, to be compared with."""
@@ -144,16 +144,16 @@ class Computing:
 
     # -- jobs ------------------------------------------------------------------------------------------------------------------
 
-    async def _job(self, name, design, options):
+    async def _job(self, name, gen, design, options):
         """A job's way: running with news, then done, failed or cancelled."""
         def tell(state, **more):
-            self.send({"what": "job", "name": name, "state": state, **more})
+            self.send({"what": "job", "name": name, "state": state, "gen": gen, **more})
 
         def heard(news):
             done, total, text, partial = news
             tell("running", done=done, total=total, text=text, **({"answer": partial} if partial is not None else {}))
 
-        tell("running", done=0, total=0, text="")
+        tell("running", done=0, total=0, text="", answer=None)
         try:
             async with self.workshop.heavy.lane() as lane:
                 answer = await lane.call(_work, name, design, options, heard=heard)

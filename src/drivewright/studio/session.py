@@ -182,7 +182,7 @@ class Session:
         if name not in JOBS:
             raise InputError(f"there is no job {brief(name)}")
         locks = {"locks": sorted(self.document.locks)} if name in TAKE_LOCKS else {}
-        self.computing.job(name, self.document.design, {**(options or {}), **locks})
+        self.computing.job(name, self.gen, self.document.design, {**(options or {}), **locks})
 
     def export(self, format, anyway=False):
         """A manufacturing file."""

@@ -12,23 +12,27 @@ import { createWords } from "./words.js";
 const IDLE = {state: "idle", text: "", done: 0, total: 0}, AWAY = "the connection to the server is lost; trying again";
 const KEPT = "drivewright-design", TASTE = "drivewright-taste";
 
+const PLACES = [["header", "head", createHead], ["aside", "form", createForm], ["main", "centre", createViews], ["aside", "side", createSide],
+  ["section", "plots", createBottom]];
+
 /** Fill `host`; `page` is {say(message), connection()}.  Returns a function that takes everything away again. */
 export function start(host, page) {
   const store = createStore({lang: "en", theme: "", kinds: [], words: {}, design: null, refused: {}, scene: null, result: null, reference: null,
     work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", shared: null, focus: null, notice: "", ...taste()});
   const t = createWords(store), clock = createClock({duration: 4});
-  const hears = createEar(store), parts = [];
-  const socket = joined(page, hears, store);
+  const parts = [];
   window.drivewright = store;  // for whoever drives the page from outside
   const say = message => ACTS[message.what] ? ACTS[message.what](store, message, page.say) : page.say(message);
   const tools = {store, say, t, clock, createPlayer};
 
-  const places = ["header", "aside", "main", "aside", "section"].map((tag, n) => element(tag, {class: `st-${["head", "form", "centre", "side", "plots"][n]}`}));
+  const places = PLACES.map(([tag, name]) => element(tag, {class: `st-${name}`}));
   host.replaceChildren(element("div", {class: "st"}, ...places));
-  [createHead, createForm, createViews, createSide, createBottom].forEach((create, n) => parts.push(create(places[n], tools)));
+  const begin = () => PLACES.forEach(([, , create], n) => parts.push(create(places[n], tools)));
+  const socket = joined(page, createEar(store, () => parts.length || begin()), store);
 
-  store.on(["theme"], ({theme}) => theme ? document.documentElement.setAttribute("data-theme", theme) : document.documentElement.removeAttribute("data-theme"));
-  store.on(["lang"], ({lang}) => document.documentElement.setAttribute("lang", lang === "zh" ? "zh-CN" : "en"));
+  const root = document.documentElement;
+  store.on(["theme"], ({theme}) => theme ? root.setAttribute("data-theme", theme) : root.removeAttribute("data-theme"));
+  store.on(["lang"], ({lang}) => root.setAttribute("lang", lang === "zh" ? "zh-CN" : "en"));
   store.on(["lang", "theme"], ({lang, theme}) => remember(localStorage, TASTE, {lang, theme}));
   store.on(["design"], ({design}) => design && remember(sessionStorage, KEPT, {toml: design.toml, files: design.files}));
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();
@@ -60,27 +64,30 @@ function translated(packed, t) {
 
 // ------------------------------------------------------------------------------------------------------- from the server
 
-/** {what: act(message)}: how each message changes the store. */
-function createEar(store) {
+/** {what: act(message)}: how each message changes the store; `begin()` is called when the page knows its words. */
+function createEar(store, begin) {
   const {state} = store;
+  let since = 0;  // generation of the first design of this kind: what is older belongs to another drive
   let impossible = null;  // key of the complaint that the design as it stands has no solution
-  const patched = (key, patch) => store.set({[key]: {...state[key], ...patch}});
   const without = keys => Object.fromEntries(Object.entries(state.refused).filter(([key]) => !keys.includes(key)));
   return {
     start: ({kinds, words}) => {
       if (location.hash.startsWith("#d=")) history.replaceState(null, "", location.pathname + location.search);
       store.set({kinds, words});
+      begin();
     },
     design: message => {
       const other = !state.design || state.design.kind !== message.kind;
-      store.set({design: message, refused: without(message.settled), ...(other ? {scene: null, result: null, reference: null, jobs: {}, lit: []} : {})});
+      if (other) since = message.gen;
+      const afresh = other ? {scene: null, result: null, reference: null, jobs: {}, lit: []} : {};
+      store.set({design: message, refused: without(message.settled), ...afresh});
     },
     values: ({fields, settled, ...rest}) => {
       const form = {groups: state.design.form.groups.map(group => ({...group, fields: group.fields.map(field => fields[field.key] || field)}))};
       store.set({design: {...state.design, ...rest, form}, ...(settled.length ? {refused: without(settled)} : {})});
     },
     refused: ({key, text, message}) => store.set({refused: {...state.refused, [key]: {text, message}}}),
-    scene: ({gen, json}) => store.set({scene: {gen, ...JSON.parse(json)}}),
+    scene: ({gen, json}) => gen >= since && store.set({scene: {gen, ...JSON.parse(json)}}),
     possible: () => {
       if (impossible === null) return;
       store.set({refused: without([impossible])});
@@ -90,13 +97,12 @@ function createEar(store) {
       impossible = key;
       store.set({refused: {...state.refused, [key]: {text: null, message}}, work: IDLE});
     },
-    result: ({gen, full, result}) => store.set({result: {...result, gen, full}}),
+    result: ({gen, full, result}) => gen >= since && store.set({result: {...result, gen, full}}),
     reference: ({title, json, result}) => store.set({reference: {title, ...JSON.parse(json), result}}),
     work: message => store.set({work: message.state === "lost" ? IDLE : message, ...(message.state === "lost" ? {notice: message.text} : {})}),
-    job: ({name, answer, ...rest}) => {
-      const before = state.jobs[name] || {};
-      patched("jobs", {[name]: {...before, gen: state.design.gen, ...rest, answer: answer === undefined ? (rest.state === "running" && !rest.text ? null : before.answer) : answer}});
-      if (answer?.files) answer.files.forEach(fetched);
+    job: ({name, ...news}) => {
+      store.set({jobs: {...state.jobs, [name]: {...state.jobs[name], ...news}}});
+      if (news.state === "done") news.answer?.files?.forEach(fetched);
     },
     shared: ({fragment}) => store.set({shared: {url: `${location.origin}${location.pathname}#${fragment}`}}),
   };
