@@ -116,8 +116,39 @@ def test_an_impossible_design_says_so_and_keeps_the_drawing(studio, tab):
     until(page, f"Object.values({STATE}.refused).length > 0")
     assert page.evaluate(f"{STATE}.scene.scene !== null")
     assert page.evaluate("[...document.querySelectorAll('[data-testid^=message-]')].some(e => e.innerText.length > 20)")
+    assert page.get_by_test_id("verdict").inner_text() == "no solution"
     page.get_by_test_id("undo").click()
     until(page, f"Object.values({STATE}.refused).length === 0")
+    analysed(page)
+
+
+def test_another_design_begins_with_nothing_of_the_one_before(studio, tab):
+    page = tab(studio[0])
+    analysed(page)
+    enter(page, "drive.speed", "3 kg")
+    page.get_by_test_id("message-drive.speed").wait_for()
+    page.get_by_test_id("tab-text").click()
+    page.get_by_test_id("toml").fill("a draft")
+    spec = (EXAMPLES / "slider_crank_clearance.toml").read_text(encoding="utf-8")
+    page.get_by_test_id("open-files").set_input_files({"name": "mine.toml", "mimeType": "text/plain", "buffer": spec.encode()})
+    until(page, f"{STATE}.design.name === 'mine'")
+    assert page.evaluate(f"Object.keys({STATE}.refused).length") == 0
+    assert page.get_by_test_id("toml").input_value() == page.evaluate(f"{STATE}.design.toml")
+    drawn(page)
+
+
+def test_cancelled_analyses_can_be_begun_again(studio, tab):
+    page = tab(shared(studio[0], "hyvo_chain"))
+    analysed(page)
+    for speed in range(2990, 2999):
+        enter(page, "drive.speed", f"{speed} rpm")
+        until(page, f"{STATE}.work.state === 'analysing'")
+        page.evaluate("document.querySelector('[data-testid=cancel-look]').click()")
+        page.wait_for_timeout(300)
+        if page.evaluate(f"{STATE}.work.state") == "stopped":
+            break
+    assert not page.evaluate(f"{STATE}.result.full")
+    page.get_by_test_id("analyse").click()
     analysed(page)
 
 

@@ -47,7 +47,7 @@ def test_this_machines_own_names_pass(host):
     assert status((b"host", host)) == 200
 
 
-@pytest.mark.parametrize("host", [b"evil.example:8123", b"127.0.0.1.evil.example", b"", b"192.168.1.7:8123"])
+@pytest.mark.parametrize("host", [b"evil.example:8123", b"127.0.0.1.evil.example", b"", b"192.168.1.7:8123", b"[::1", b"[", b"127.0.0.1:8123/x"])
 def test_another_name_for_this_machine_is_refused(host):
     assert status((b"host", host)) == 421
 

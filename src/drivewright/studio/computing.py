@@ -10,6 +10,7 @@ from drivewright.studio.jobs import JOBS
 from drivewright.studio.lanes import NOW, Failed, Lost
 
 REST = 0.25  # seconds without a change after which the analyses follow
+PATIENCE = 30.0  # seconds that a drawing may keep a newer one waiting: enough to compile what it needs
 BUDGET = 0.02  # seconds of analyses that go with every drawing
 
 
@@ -19,15 +20,24 @@ class Computing:
     def __init__(self, send, words, workshop):
         self.send, self.words, self.workshop = send, words, workshop
         self._newest = self._shown = None  # (gen, design); what the page shows of it
-        self._drawing, self._analysing, self._jobs = None, None, {}
+        self._since = 0  # generation of the first design of this drive
+        self._drawing = self._pen = self._analysing = None
+        self._jobs = {}
 
     def look(self, gen, design):
         """Draw this design as soon as the one under way is drawn, and analyse it when it has rested."""
         self._newest = gen, design
         if self._analysing:
             self._analysing.cancel()
-        if not self._drawing:
+        if self._drawing:
+            asyncio.get_running_loop().call_later(PATIENCE, self._give_up, self._pen)
+        else:
             self._drawing = asyncio.create_task(self._draw_newest())
+
+    def analyse(self):
+        """Begin the analyses of the newest design again, after they were cancelled."""
+        if not self._drawing and (not self._analysing or self._analysing.done()):
+            self._analysing = asyncio.create_task(self._analyse(*self._newest))
 
     def job(self, name, gen, design, options):
         """Begin a job; one of the same name that is under way ends."""
@@ -45,33 +55,43 @@ class Computing:
         if task:
             task.cancel(NOW)
 
-    def forget(self):
-        """Nothing of the design before belongs to the one that comes."""
-        self._shown = None
+    def forget(self, since):
+        """Another drive begins with the generation `since`: nothing of the one before belongs to it."""
+        self._since, self._shown = since, None
         for name in self._jobs:
             self.cancel(name)
 
     def close(self):
         """The tab has gone."""
-        for task in (self._drawing, self._analysing, *self._jobs.values()):
+        for task in (self._drawing, self._pen, self._analysing, *self._jobs.values()):
             if task:
                 task.cancel()
 
     # -- the drawing -----------------------------------------------------------------------------------------------------------
 
     async def _draw_newest(self):
-        """Draw until the newest is drawn."""
-        drawn = None
+        """Draw until the newest is drawn; analyse it, where it has a solution."""
+        drawn, solved = None, False
         try:
             while drawn is not self._newest:
                 drawn = self._newest
-                await self._drawn(*drawn)
+                self._pen = asyncio.create_task(self._drawn(*drawn))
+                await asyncio.wait([self._pen])
+                solved = not self._pen.cancelled() and self._pen.result()
         finally:
+            self._pen.cancel()
             self._drawing = None
-        self._analysing = asyncio.create_task(self._analyse(*drawn))
+        if solved:
+            self._analysing = asyncio.create_task(self._analyse(*drawn))
+
+    def _give_up(self, pen):
+        """A drawing that takes all too long makes way for the newer one."""
+        if pen is self._pen and not pen.done():
+            pen.cancel(NOW)
+            self.send({"what": "work", "state": "lost", "text": "the drawing took too long and was given up for the newer one"})
 
     async def _drawn(self, gen, design):
-        """The drawing of one design and the analyses that cost next to nothing; once more where the process died."""
+        """Whether the design has a solution; its drawing and the analyses that cost next to nothing, once more where the process died."""
         try:
             try:
                 await self._draw(gen, design)
@@ -80,8 +100,11 @@ class Computing:
                 await self._draw(gen, design)
         except (Lost, Failed) as error:
             self.send({"what": "work", "state": "lost", "text": _last_line(error)})
+            return False
         except DrivewrightError as error:
             self._impossible(gen, error)
+            return False
+        return True
 
     async def _draw(self, gen, design):
         def heard(text):
@@ -100,8 +123,11 @@ class Computing:
 
     def _show(self, gen, found, quick=None):
         """A result; one of the quick analyses takes over from what is shown where it can, the rest is stale."""
+        if gen < self._since:
+            return
         self._shown = found if quick is None or self._shown is None else looking.merged(self._shown, found)
-        self.send({"what": "result", "gen": gen, "full": quick is None, "result": self._shown})
+        full = quick is None and gen == self._newest[0]
+        self.send({"what": "result", "gen": gen, "full": full, "result": self._shown})
 
     # -- the analyses ----------------------------------------------------------------------------------------------------------
 
@@ -113,8 +139,8 @@ class Computing:
             self.workshop.seconds[design.kind] = seconds
             self._show(gen, found)
             self.send({"what": "work", "state": "idle", "text": ""})
-        except asyncio.CancelledError:
-            self.send({"what": "work", "state": "stopped", "text": ""})
+        except asyncio.CancelledError as cancelled:
+            self.send({"what": "work", "state": "stopped" if NOW in cancelled.args else "drawing", "text": ""})
             raise
         except (Lost, Failed) as error:
             self.send({"what": "work", "state": "lost", "text": _last_line(error)})

@@ -201,6 +201,8 @@ def shown_text(fact, value, shown=""):
 
 def plain_text(value):
     """A raw value as people write it in a box."""
+    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
+        return str(int(value))
     return "" if value is None else value if isinstance(value, str) else toml_value(value)
 
 

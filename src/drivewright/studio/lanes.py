@@ -16,6 +16,8 @@ from drivewright.errors import DrivewrightError
 from drivewright.studies.pools import as_a_worker, leave_with_parent
 
 NOW = "now"
+SHARE = 0.4  # of the machine's memory that one process may take
+PATIENCE = 60.0  # seconds that a call which nobody waits for may take to notice
 AT_ONCE = 0.3  # seconds that a call may take to clear up
 
 
@@ -37,11 +39,21 @@ class Failed(Exception):
 def _work(pipe, alive, parent):
     """Take calls from the pipe until it closes."""
     leave_with_parent(parent, alive)
+    _limit_memory()
     with suppress(EOFError, OSError):
         while True:
             call = pipe.recv()
             if call is not None:  # a stop that came after the end
                 pipe.send(_answered(pipe, *call))
+
+
+def _limit_memory():
+    """A design that wants more than its share of the memory fails, and takes neither the machine nor the other tabs along."""
+    with suppress(ImportError, ValueError, OSError):
+        import resource
+
+        share = int(SHARE * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+        resource.setrlimit(resource.RLIMIT_DATA, (share, resource.getrlimit(resource.RLIMIT_DATA)[1]))
 
 
 def _answered(pipe, function, arguments):
@@ -82,7 +94,7 @@ class Lane:
     async def call(self, function, *arguments, heard=lambda what: None):
         """The function's answer; its error, Lost or Failed.  `heard(what)` is called for every piece of news.
 
-        Where the caller is cancelled, the process is asked to stop, and waited for: it may be compiling what the next call needs too.
+        Where the caller is cancelled, the process is asked to stop and given PATIENCE: it may be compiling what the next call needs too.
         Where the caller is cancelled with the message NOW, the process is ended if it does not stop at once.
         """
         if not self.process.is_alive():
@@ -95,7 +107,7 @@ class Lane:
         try:
             return await asyncio.shield(ended)
         except asyncio.CancelledError as cancelled:
-            await self._stopped(ended, AT_ONCE if NOW in cancelled.args else None)
+            await self._stopped(ended, AT_ONCE if NOW in cancelled.args else PATIENCE)
             raise
 
     async def _stopped(self, ended, patience):

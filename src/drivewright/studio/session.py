@@ -20,6 +20,7 @@ from drivewright.studio.jobs import JOBS
 
 LARGEST = 1_000_000  # characters that a page may send as files, or as a shared design
 MOST_FILES = 20
+ALL = "*"  # every complaint is settled
 
 
 class Session:
@@ -113,12 +114,12 @@ class Session:
     def undo(self):
         """One step back."""
         self.document.undo()
-        self._changed()
+        self._changed(ALL)
 
     def redo(self):
         """One step forward."""
         self.document.redo()
-        self._changed()
+        self._changed(ALL)
 
     def lock(self, key, on):
         """Hold a value."""
@@ -128,7 +129,7 @@ class Session:
     def text(self, toml):
         """The whole spec as text."""
         self.document.text(_limited(toml))
-        self._changed("")
+        self._changed(ALL)
 
     def load(self, changes):
         """Several values at once: a row of a study."""
@@ -138,7 +139,7 @@ class Session:
     def preset(self, name):
         """Another preset of the same kind."""
         self.document.replace(_preset(self.document.design.kind, name))
-        self._changed("")
+        self._changed(ALL)
 
     # -- files -----------------------------------------------------------------------------------------------------------------
 
@@ -194,6 +195,10 @@ class Session:
         self.job("save")
         self._show()
 
+    def analyse(self):
+        """The analyses once more, after they were cancelled."""
+        self.computing.analyse()
+
     def cancel(self, name):
         """End a job, or the analyses ("look")."""
         self.computing.cancel(str(name))
@@ -203,16 +208,16 @@ class Session:
     def _open(self, design, name):
         """A design that has nothing to do with the one before."""
         self.document, self._form = Document(design, name), None
-        self.computing.forget()
-        self._changed("")
+        self.computing.forget(self.gen + 1)
+        self._changed(ALL, opened=True)
 
-    def _changed(self, *settled):
+    def _changed(self, *settled, opened=False):
         """First the drawing, which is waited for; while it is on its way, the form."""
         self.gen += 1
         self.computing.look(self.gen, self.document.design)
-        self._show(settled)
+        self._show(settled, opened)
 
-    def _show(self, settled=()):
+    def _show(self, settled=(), opened=False):
         """The form; only the fields that differ, where nothing else does."""
         document, design = self.document, self.document.design
         before = self._form
@@ -224,8 +229,8 @@ class Session:
             self.send({"what": "values", "fields": fields, **common})
             return
         self.send({"what": "design", "kind": design.kind, "title": str(design.tables.get("title", "")), "name": document.name,
-                   "presets": list(registry.mechanism(design.kind).presets()), "form": self._form, "words": words.texts(design.kind),
-                   **common})
+                   "presets": _presets(design.kind), "form": self._form, "words": words.texts(design.kind),
+                   "opened": opened, **common})
 
     def _words(self, error, key=None):
         """An error in words, without folders of this machine, and without the key where it stands beside its field."""
@@ -237,7 +242,7 @@ class Session:
 TAKE_LOCKS = ("sensitivity", "optimise")
 ACTS = {name: getattr(Session, name) for name in (
     "hello", "again", "set", "unset", "add", "drop", "put", "take", "undo", "redo", "lock", "text", "load", "preset", "fresh", "open",
-    "share", "reference", "job", "export", "save", "cancel")}
+    "share", "reference", "job", "export", "save", "analyse", "cancel")}
 
 
 def opened(path):
@@ -260,8 +265,13 @@ def first_design():
     return _preset(next(kind for kind in registry.kinds() if registry.mechanism(kind).presets()))
 
 
+def _presets(kind):
+    """Names of the presets, the one to start with first."""
+    return sorted(registry.mechanism(kind).presets(), key=lambda name: (name != "default", name))
+
+
 def _kinds():
-    return [{"kind": kind, "summary": registry.mechanism(kind).summary, "presets": list(registry.mechanism(kind).presets())}
+    return [{"kind": kind, "summary": registry.mechanism(kind).summary, "presets": _presets(kind)}
             for kind in registry.kinds()]
 
 
@@ -278,10 +288,10 @@ def packed(text):
 
 def unpacked(fragment):
     """The text that `packed` was given; InputError where it is none, or too long."""
-    folded = zlib.decompressobj()
+    letters = str(fragment).removeprefix("d=")
     try:
-        raw = base64.b64decode(str(fragment).removeprefix("d=") + "==", altchars="-_", validate=True)
-        text = folded.decompress(raw, LARGEST + 1).decode()
+        raw = base64.b64decode(letters + "=" * (-len(letters) % 4), altchars="-_", validate=True)
+        text = zlib.decompressobj().decompress(raw, LARGEST + 1).decode()
     except (ValueError, zlib.error):
         text = ""
     if not text:

@@ -18,7 +18,8 @@ class Workshop:
     """Made once, in the running loop of the server; `close` leaves nothing behind."""
 
     def __init__(self):
-        self.quick, self.heavy = Lanes(1), Lanes(max(2, worker_count(None)))
+        most = max(2, worker_count(None))
+        self.quick, self.heavy = Lanes(most), Lanes(most)
         self.seconds = {}  # kind -> seconds of each analysis, as last measured
         self._root, self._folders, self._offers = None, [], {}
 

@@ -31,6 +31,7 @@ export function start(host, page) {
   const socket = joined(page, createEar(store, () => parts.length || begin()), store);
 
   const root = document.documentElement;
+  store.on(["result"], ({result}) => host.firstChild.classList.toggle("st-unsolved", Boolean(result?.unsolved)));
   store.on(["theme"], ({theme}) => theme ? root.setAttribute("data-theme", theme) : root.removeAttribute("data-theme"));
   store.on(["lang"], ({lang}) => root.setAttribute("lang", lang === "zh" ? "zh-CN" : "en"));
   store.on(["lang", "theme"], ({lang, theme}) => remember(localStorage, TASTE, {lang, theme}));
@@ -69,7 +70,7 @@ function createEar(store, begin) {
   const {state} = store;
   let since = 0;  // generation of the first design of this kind: what is older belongs to another drive
   let impossible = null;  // key of the complaint that the design as it stands has no solution
-  const without = keys => Object.fromEntries(Object.entries(state.refused).filter(([key]) => !keys.includes(key)));
+  const without = keys => Object.fromEntries(Object.entries(state.refused).filter(([key]) => !keys.includes(key) && !keys.includes("*")));
   return {
     start: ({kinds, words}) => {
       if (location.hash.startsWith("#d=")) history.replaceState(null, "", location.pathname + location.search);
@@ -77,10 +78,9 @@ function createEar(store, begin) {
       begin();
     },
     design: message => {
-      const other = !state.design || state.design.kind !== message.kind;
-      if (other) since = message.gen;
-      const afresh = other ? {scene: null, result: null, reference: null, jobs: {}, lit: []} : {};
-      store.set({design: message, refused: without(message.settled), ...afresh});
+      if (message.opened) since = message.gen;
+      const afresh = message.opened ? {scene: null, result: null, reference: null, jobs: {}, lit: []} : {};
+      store.set({design: {...message, opened: since}, refused: without(message.settled), ...afresh});
     },
     values: ({fields, settled, ...rest}) => {
       const form = {groups: state.design.form.groups.map(group => ({...group, fields: group.fields.map(field => fields[field.key] || field)}))};
@@ -95,7 +95,7 @@ function createEar(store, begin) {
     },
     impossible: ({key, message}) => {
       impossible = key;
-      store.set({refused: {...state.refused, [key]: {text: null, message}}, work: IDLE});
+      store.set({refused: {...state.refused, [key]: {text: null, message}}, work: IDLE, result: unsolved(state.result)});
     },
     result: ({gen, full, result}) => gen >= since && store.set({result: {...result, gen, full}}),
     reference: ({title, json, result}) => store.set({reference: {title, ...JSON.parse(json), result}}),
@@ -106,6 +106,12 @@ function createEar(store, begin) {
     },
     shared: ({fragment}) => store.set({shared: {url: `${location.origin}${location.pathname}#${fragment}`}}),
   };
+}
+
+/** What was shown last, where the design as it stands has no solution. */
+function unsolved(result) {
+  return result && {...result, full: false, unsolved: true, verdict: {state: "bad", text: "no solution", stale: true},
+    checks: result.checks.map(check => ({...check, stale: true}))};
 }
 
 function fetched({name, url}) {

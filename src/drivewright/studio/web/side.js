@@ -17,10 +17,11 @@ function createState({store, say, t}) {
   const cancel = button(t("Cancel"), () => say({what: "cancel", name: "look"}), {testid: "cancel-look", look: "quiet"});
   const wrong = element("span"), close = button(t("Close"), () => store.set({notice: ""}), {look: "quiet"});
   const strip = element("div", {class: "sd-strip", role: "alert", hidden: ""}, wrong, close);
-  const words = element("span", {class: "pn-words"}), line = element("div", {class: "sd-line"}, words, cancel);
+  const again = button(t("Analyse"), () => say({what: "analyse"}), {testid: "analyse", look: "quiet"});
+  const words = element("span", {class: "pn-words"}), line = element("div", {class: "sd-line"}, words, cancel, again);
   const node = element("div", {class: "sd-top"}, element("div", {class: "sd-title"}, title, pill), line, bar, strip);
   let timer = 0;
-  cancel.hidden = true;
+  cancel.hidden = again.hidden = true;
   function working(on) {
     const {work} = store.state;
     node.classList.toggle("is-working", on);
@@ -31,10 +32,12 @@ function createState({store, say, t}) {
   /** What stands there while nothing is under way. */
   function settled() {
     const {result} = store.state;
+    if (result?.unsolved) return t("shown is the last design that had a solution");
     return !result ? "" : !result.full || result.verdict.stale ? t("not all checks are up to date") : t("up to date");
   }
   function work({work}) {
     const on = work?.state === "analysing";
+    again.hidden = work?.state !== "stopped";
     if (!on) { clearTimeout(timer); timer = 0; working(false); }
     else if (node.classList.contains("is-working")) working(true);
     else timer ||= setTimeout(() => { timer = 0; if (store.state.work?.state === "analysing") working(true); }, LATE);
@@ -110,13 +113,15 @@ function createExport({store, say, t}) {
     const job = jobs?.export || {state: "idle", text: ""}, busy = job.state === "running", failed = job.state === "failed";
     if (job === before) return;
     before = job;
+    box.dataset.gen = job.gen;
     for (const [format, made] of buttons) { made.disabled = busy; made.classList.toggle("is-busy", busy && format === wanted); }
     put(words, busy ? job.text ? t(job.text) : t("writing …") : job.state === "done" ? t("saved") : "");
     box.hidden = !failed;
     anyway.hidden = !/--anyway/.test(job.text || "");
     put(trouble, failed ? job.text : "");
   }
-  return {node, stops: [store.on(["jobs"], update)]};
+  const outdated = ({design}) => { if (String(design?.gen) !== box.dataset.gen) box.hidden = true; };
+  return {node, stops: [store.on(["jobs"], update), store.on(["design"], outdated)]};
 }
 
 // ---------------------------------------------------------------------------------------------------------------- the column
@@ -139,7 +144,7 @@ function createJumps(scroll, sections, t) {
   }
   const sized = new ResizeObserver(observe);
   scroll.addEventListener("scroll", observe, {passive: true});
-  sized.observe(scroll);
+  for (const node of [scroll, ...sections.map(part => part.node)]) sized.observe(node);
   return {node: element("nav", {class: "sd-jumps", "aria-label": t("Sections")}, ...links), stops: [() => sized.disconnect()]};
 }
 

@@ -10,11 +10,13 @@ export function createText(body, {store, say, t}) {
   const apply = pressable({class: "st-button st-main", "data-testid": "apply", title: "Ctrl+Enter"}, send, t("Apply"));
   const discard = pressable({class: "st-button", "data-testid": "discard"}, () => { settle(); show(); area.focus(); }, t("Discard"));
   const state = element("span", {class: "st-edited"});
+  let drive = null;  // generation of the first design of this drive: a draft of another one is thrown away
   let edited = false, sent = null;  // the text before what was sent, until the answer
 
   function settle() { edited = false; sent = null; }
   function show() {
     const text = store.state.design?.toml ?? "", refused = store.state.refused?.[""];
+    if (store.state.design?.opened && store.state.design.opened !== drive) { drive = store.state.design.opened; settle(); }
     if (sent !== null && !refused && text !== sent) settle();
     if (!edited && area.value !== text) area.value = text;
     apply.disabled = discard.disabled = !edited;

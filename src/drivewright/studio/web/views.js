@@ -8,16 +8,20 @@ import { createStudies } from "./studies.js";
 
 // -------------------------------------------------------------------------------------------------------------------- motion
 
+const LATE = 4000;  // ms
+const FIRST = "the first drawing after installation compiles for up to a minute";
+
 /** The player, and what there is to say where nothing can be drawn.  `reword()` writes its words anew, and leaves the view as it is. */
 function createMotion(host, {store, t, clock, createPlayer}) {
   const stage = element("div", {class: "vw-player"}), note = element("div", {class: "vw-note", role: "status", hidden: ""});
-  let player = null, shown = null, compared = null;
+  let player = null, shown = null, compared = null, late = false, timer = 0, drive = null;
   host.append(stage, note);
   const picked = name => store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
   function load(scene) {
-    const packed = {...scene.scene, gen: scene.gen};
+    const packed = {...scene.scene, gen: scene.gen}, afresh = drive !== store.state.design?.opened;
+    drive = store.state.design?.opened;
     shown = scene;
-    if (player) player.load(packed);
+    if (player) { player.load(packed); if (afresh) player.fit(); }
     else {
       player = createPlayer(stage, packed, {clock, text: t, picked});
       player.highlight(store.state.lit);
@@ -25,15 +29,17 @@ function createMotion(host, {store, t, clock, createPlayer}) {
     if (compared) player.compare(compared);
   }
   function remark(scene) {
-    const missing = scene && !scene.scene, words = !scene ? [t("drawing …")] : missing ? scene.remarks : [];
+    const missing = scene && !scene.scene, words = !scene ? [t("drawing …"), ...(late ? [t(FIRST)] : [])] : missing ? scene.remarks : [];
     const head = missing ? [element("b", {}, t("There is no motion to show"))] : [];
     stage.hidden = !player;
-    stage.classList.toggle("is-old", Boolean(missing && player));
-    note.hidden = !missing && Boolean(player);
+    stage.classList.toggle("is-old", Boolean(player) && !scene?.scene);
+    note.hidden = Boolean(scene?.scene);
     note.replaceChildren(...head, ...words.map(text => element("p", {}, t(text))));
   }
   function update({scene}) {
     if (scene?.scene && scene !== shown) load(scene);
+    if (!scene && !timer) timer = setTimeout(() => { late = true; remark(store.state.scene); }, LATE);
+    if (scene) { clearTimeout(timer); timer = 0; late = false; }
     remark(scene);
   }
   function reference({reference}) {
@@ -46,7 +52,7 @@ function createMotion(host, {store, t, clock, createPlayer}) {
   return {
     open() {}, close() {},
     reword() { if (player) load(shown); remark(store.state.scene); },
-    destroy() { stops.forEach(stop => stop()); player?.destroy(); },
+    destroy() { clearTimeout(timer); stops.forEach(stop => stop()); player?.destroy(); },
   };
 }
 
