@@ -11,6 +11,8 @@ import pytest
 from browsing import until
 from studio_running import EXAMPLES, analysed, drawn, enter, field, running, shared
 
+from drivewright.spec import load
+
 pytestmark = [pytest.mark.needs_browser, pytest.mark.needs_studio]
 
 ONE_OF_EACH = ("disc_cam", "seedling_pusher", "four_bar", "pressure_roller_shaft", "pin_indexer", "hyvo_chain")
@@ -64,6 +66,7 @@ def tab(browser):
 @pytest.mark.parametrize("name", ONE_OF_EACH)
 def test_every_kind_opens_and_moves(studio, tab, name):
     page = tab(shared(studio[0], name))
+    assert page.evaluate(f"{STATE}.design.title") == load(EXAMPLES / f"{name}.toml").title
     before, after = page.evaluate(FRAME)
     assert before != after
     analysed(page)

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from drivewright.errors import InputError
+from drivewright.errors import InputError, SpecError
+from drivewright.studio.jobs import JOBS
 from drivewright.studio.session import LARGEST, Session, first_design, opened, packed, unpacked
 from drivewright.studio.workshop import Workshop
 
@@ -167,8 +168,9 @@ def test_a_page_cannot_read_the_disk_nor_learn_what_is_on_it(tab, name):
                  {"what": "text", "toml": sample_with_file(name)}):
         (refused,) = tab.say(**what)
         assert refused["what"] == "refused"
-        messages.add(refused["message"].partition(": ")[2] or refused["message"])
-    assert messages == {"there is no such data file here; open the spec together with the data files that it names"}
+        messages.add((refused["key"], refused["message"]))
+    # neither words nor key tell whether the file exists
+    assert messages == {("", "there is no such data file here; open the spec together with the data files that it names")}
 
 
 def test_no_message_shows_a_folder_of_this_machine(workshop):
@@ -199,7 +201,10 @@ def test_too_much_is_refused(tab):
 # -- odd pages -----------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("message", [{}, {"what": None}, {"what": "close"}, {"what": "_open"}, {"what": "__init__"}, {"what": ["set"]}])
+ODD = ({}, [], None, "set", {"what": ["set"]}, {"what": None}, {"what": "close"}, {"what": "_open"}, {"what": "__init__"})
+
+
+@pytest.mark.parametrize("message", ODD)
 def test_what_is_no_request_is_nothing(tab, message):
     before = tab.toml
     tab.heard.clear()
@@ -210,12 +215,35 @@ def test_what_is_no_request_is_nothing(tab, message):
 @pytest.mark.parametrize("message", [
     {"what": "set"}, {"what": "set", "key": None, "text": None}, {"what": "set", "key": "drive.speed", "text": "1 rpm", "more": 1},
     {"what": "load", "changes": 3}, {"what": "open", "files": 3}, {"what": "drop", "list": "joints", "index": "x"},
-    {"what": "job", "name": "rm"}, {"what": "put", "table": "x.y"}, {"what": "fresh", "kind": "../x"}])
+    {"what": "job", "name": "rm"}, {"what": "job", "name": "study", "options": {"folder": "/tmp/x"}},
+    {"what": "drop", "list": "joints", "index": 1e999},
+    {"what": "job", "name": "optimise", "options": {"on": "tcp://127.0.0.1:1"}}, {"what": "text", "toml": "[a" + ".a" * 3000 + "]"},
+    {"what": "open", "files": [{"name": "x" * 300 + "/../" + "y" * 400 + ".toml", "text": "format = 1"}]},
+    {"what": "put", "table": "x.y"}, {"what": "fresh", "kind": "../x"}])
 def test_an_odd_request_is_answered_and_changes_nothing(tab, message):
     before = tab.toml
     (refused,) = tab.say(**message)
     assert refused["what"] == "refused" and refused["message"]
     assert tab.toml == before
+
+
+def test_a_search_cannot_name_a_file(tab):
+    text = tab.toml + '[[optimise.settings]]\nkey = "torques.load.file"\nvalue = "/etc/passwd"\n'
+    text += '[[optimise.unknowns]]\nkey = "drive.speed"\nlower = "1 rpm"\nupper = "2 rpm"\n[[optimise.objectives]]\nvalue = "x"\n'
+    (design,) = tab.say("text", toml=text)[:1]
+    with pytest.raises(SpecError, match="is a data file, which a search cannot change") as caught:
+        JOBS["optimise"](tab.session.document.design, lambda *news: None)
+    assert caught.value.key == "optimise.settings.0.key"
+
+
+def test_text_of_another_kind_is_another_drive(tab):
+    first = tab.session.document.design.kind
+    tab.say("job", name="sensitivity", options={})
+    (design,) = tab.say("text", toml=(EXAMPLES / "disc_cam.toml").read_text(encoding="utf-8"))
+    assert design["opened"] and design["kind"] != first and design["settled"] == ["*"]
+    assert tab.quiet.asked[-2] == ("forget", tab.session.gen)
+    (back,) = tab.say("undo")
+    assert back["opened"] and back["kind"] == first
 
 
 def test_jobs_get_the_locks(tab):

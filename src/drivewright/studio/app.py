@@ -25,6 +25,7 @@ SHARED = (*MODULES, "player.css")  # with the report
 TYPES = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
 SAFE = {"X-Content-Type-Options": "nosniff", "Cache-Control": "no-cache"}
 PORT = 8123
+EVERY = ("0.0.0.0", "::")  # all addresses of this machine
 AWAY = 30.0  # seconds without a sign of life after which a tab counts as closed; also paces the signs of life
 
 
@@ -40,9 +41,10 @@ def serve(start, name="", host="127.0.0.1", port=None, token="", browser=True, s
         raise MissingExtra("drivewright studio", "studio", error) from None
     listening = _listening(host, port)
     token = "" if host in LOOPBACK else token or secrets.token_urlsafe(18)
-    address = f"http://{f'[{host}]' if ':' in host else host}:{listening.getsockname()[1]}/{f'?token={token}' if token else ''}"
+    number, name_of_host = listening.getsockname()[1], socket.gethostname() if host in EVERY else f"[{host}]" if ":" in host else host
+    address = f"http://{name_of_host}:{number}/{f'?token={token}' if token else ''}"
     app = application(start, name, lambda: _ready(address, browser, say))
-    config = uvicorn.Config(Gate(app, token), log_level="warning", ws_max_size=4_000_000, timeout_graceful_shutdown=1,
+    config = uvicorn.Config(Gate(app, token, number), log_level="warning", ws_max_size=4_000_000, timeout_graceful_shutdown=1,
                             ws_per_message_deflate=bool(token))  # to this machine itself folding costs more time than it saves
     with suppress(KeyboardInterrupt):
         uvicorn.Server(config).run(sockets=[listening])

@@ -1,7 +1,7 @@
 """What is computed for one tab: always the newest drawing, the analyses when the design rests, and the jobs that were asked for."""
 
 import asyncio
-from contextlib import suppress
+from contextlib import contextmanager
 
 from drivewright import registry
 from drivewright.errors import DrivewrightError
@@ -10,7 +10,8 @@ from drivewright.studio.jobs import JOBS
 from drivewright.studio.lanes import NOW, Failed, Lost
 
 REST = 0.25  # seconds without a change after which the analyses follow
-PATIENCE = 30.0  # seconds that a drawing may keep a newer one waiting: enough to compile what it needs
+SLOW = 3.0  # seconds after which a drawing says that it is under way
+PATIENCE = 120.0  # seconds after which it is given up: enough to compile what it needs
 BUDGET = 0.02  # seconds of analyses that go with every drawing
 
 
@@ -21,23 +22,26 @@ class Computing:
         self.send, self.words, self.workshop = send, words, workshop
         self._newest = self._shown = None  # (gen, design); what the page shows of it
         self._since = 0  # generation of the first design of this drive
+        self._fresh = False  # whether what is shown is the full result of the newest design
         self._drawing = self._pen = self._analysing = None
+        self._seconds = {}  # of each analysis, as last measured with this drive
         self._jobs = {}
 
     def look(self, gen, design):
         """Draw this design as soon as the one under way is drawn, and analyse it when it has rested."""
         self._newest = gen, design
-        if self._analysing:
+        if self._analysing and not self._analysing.cancelling():  # a second word would end the process
             self._analysing.cancel()
-        if self._drawing:
-            asyncio.get_running_loop().call_later(PATIENCE, self._give_up, self._pen)
-        else:
+        if self._fresh:
+            self._fresh = False
+            self.send({"what": "outdated"})
+        if not self._drawing:
             self._drawing = asyncio.create_task(self._draw_newest())
 
     def analyse(self):
-        """Begin the analyses of the newest design again, after they were cancelled."""
-        if not self._drawing and (not self._analysing or self._analysing.done()):
-            self._analysing = asyncio.create_task(self._analyse(*self._newest))
+        """Begin with the newest design again, after its computation was cancelled."""
+        if not self._drawing:
+            self.look(*self._newest)
 
     def job(self, name, gen, design, options):
         """Begin a job; one of the same name that is under way ends."""
@@ -50,22 +54,24 @@ class Computing:
         self._jobs["reference"] = asyncio.create_task(self._reference(title, design))
 
     def cancel(self, name):
-        """End a job, or the analyses of the design ("look")."""
-        task = self._analysing if name == "look" else self._jobs.get(name)
-        if task:
-            task.cancel(NOW)
+        """End a job, or what is computed of the design ("look")."""
+        for task in (self._pen, self._analysing) if name == "look" else (self._jobs.get(name),):
+            if task:
+                task.cancel(NOW)
 
     def forget(self, since):
         """Another drive begins with the generation `since`: nothing of the one before belongs to it."""
-        self._since, self._shown = since, None
+        self._since, self._shown, self._fresh, self._seconds = since, None, False, {}
         for name in self._jobs:
             self.cancel(name)
 
     def close(self):
         """The tab has gone."""
-        for task in (self._drawing, self._pen, self._analysing, *self._jobs.values()):
+        for task in (self._drawing, self._pen, self._analysing):
             if task:
                 task.cancel()
+        for name in self._jobs:
+            self.cancel(name)
 
     # -- the drawing -----------------------------------------------------------------------------------------------------------
 
@@ -84,38 +90,52 @@ class Computing:
         if solved:
             self._analysing = asyncio.create_task(self._analyse(*drawn))
 
-    def _give_up(self, pen):
-        """A drawing that takes all too long makes way for the newer one."""
-        if pen is self._pen and not pen.done():
-            pen.cancel(NOW)
-            self.send({"what": "work", "state": "lost", "text": "the drawing took too long and was given up for the newer one"})
-
     async def _drawn(self, gen, design):
         """Whether the design has a solution; its drawing and the analyses that cost next to nothing, once more where the process died."""
         try:
             try:
                 await self._draw(gen, design)
             except Lost as loss:
-                self.send({"what": "work", "state": "lost", "text": str(loss)})
+                self._lost(loss)
                 await self._draw(gen, design)
         except (Lost, Failed) as error:
-            self.send({"what": "work", "state": "lost", "text": _last_line(error)})
+            self._lost(error)
             return False
         except DrivewrightError as error:
             self._impossible(gen, error)
             return False
         return True
 
+    def _lost(self, error):
+        """A process that died, or a bug, in one line."""
+        self.send({"what": "work", "state": "lost", "text": _last_line(self.words(error))})
+
     async def _draw(self, gen, design):
         def heard(text):
             self.send({"what": "scene", "gen": gen, "json": text})
 
-        quick = looking.affordable(registry.mechanism(design.kind).analyses, self.workshop.seconds.get(design.kind, {}), BUDGET)
+        quick = looking.affordable(registry.mechanism(design.kind).analyses, self._seconds, BUDGET)
         async with self.workshop.quick.lane() as lane:
-            found = await lane.call(looking.draw, design, quick, heard=heard)
+            with self._limited():
+                found = await lane.call(looking.draw, design, quick, heard=heard)
         self.send({"what": "possible", "gen": gen})
         if found:
             self._show(gen, found, quick)
+
+    @contextmanager
+    def _limited(self):
+        """A drawing that takes long says so and can be cancelled; one that takes all too long is given up."""
+        loop, pen = asyncio.get_running_loop(), asyncio.current_task()
+        slow = {"what": "work", "state": "analysing", "text": "drawing", "done": 0, "total": 0}
+        timers = loop.call_later(SLOW, self.send, slow), loop.call_later(PATIENCE, pen.cancel, NOW)
+        try:
+            yield
+        except asyncio.CancelledError:
+            self.send({"what": "work", "state": "stopped", "text": ""})
+            raise
+        finally:
+            for timer in timers:
+                timer.cancel()
 
     def _impossible(self, gen, error):
         """A design that is a proper spec, but has no solution: the page keeps what it showed and says so."""
@@ -126,8 +146,8 @@ class Computing:
         if gen < self._since:
             return
         self._shown = found if quick is None or self._shown is None else looking.merged(self._shown, found)
-        full = quick is None and gen == self._newest[0]
-        self.send({"what": "result", "gen": gen, "full": full, "result": self._shown})
+        self._fresh = quick is None and gen == self._newest[0]
+        self.send({"what": "result", "gen": gen, "full": self._fresh, "result": self._shown})
 
     # -- the analyses ----------------------------------------------------------------------------------------------------------
 
@@ -136,14 +156,15 @@ class Computing:
         await asyncio.sleep(REST)
         try:
             found, seconds = await self._analysed(design)
-            self.workshop.seconds[design.kind] = seconds
+            self._seconds = seconds if gen >= self._since else {}
             self._show(gen, found)
             self.send({"what": "work", "state": "idle", "text": ""})
         except asyncio.CancelledError as cancelled:
-            self.send({"what": "work", "state": "stopped" if NOW in cancelled.args else "drawing", "text": ""})
+            if self._analysing is asyncio.current_task():
+                self.send({"what": "work", "state": "stopped" if NOW in cancelled.args else "drawing", "text": ""})
             raise
         except (Lost, Failed) as error:
-            self.send({"what": "work", "state": "lost", "text": _last_line(error)})
+            self._lost(error)
         except DrivewrightError as error:
             self._impossible(gen, error)
             self.send({"what": "work", "state": "idle", "text": ""})
@@ -166,14 +187,17 @@ class Computing:
         except DrivewrightError as error:
             self.send({"what": "refused", "key": "", "text": "", "message": self.words(error)})
         except Failed as error:
-            self.send({"what": "work", "state": "lost", "text": _last_line(error)})
+            self._lost(error)
 
     # -- jobs ------------------------------------------------------------------------------------------------------------------
 
     async def _job(self, name, gen, design, options):
         """A job's way: running with news, then done, failed or cancelled."""
+        own = asyncio.current_task()
+
         def tell(state, **more):
-            self.send({"what": "job", "name": name, "state": state, "gen": gen, **more})
+            if self._jobs.get(name) is own:  # and not of one that has begun since
+                self.send({"what": "job", "name": name, "state": state, "gen": gen, **more})
 
         def heard(news):
             done, total, text, partial = news
@@ -190,11 +214,10 @@ class Computing:
         except DrivewrightError as error:
             tell("failed", text=self.words(error))
         except Failed as error:
-            tell("failed", text=_last_line(error))
+            tell("failed", text=_last_line(self.words(error)))
         finally:
-            if self._jobs.get(name) is asyncio.current_task():
-                with suppress(KeyError):
-                    del self._jobs[name]
+            if self._jobs.get(name) is own:
+                del self._jobs[name]
 
     def _downloaded(self, answer):
         """Files become addresses to fetch them from."""
@@ -209,6 +232,6 @@ def _work(tell, name, design, options):
     return JOBS[name](design, lambda done, total, text="", partial=None: tell((done, total, text, partial)), **options)
 
 
-def _last_line(error):
+def _last_line(text):
     """What a bug's traceback ends with, or the one line that an error is."""
-    return str(error).strip().splitlines()[-1]
+    return text.strip().splitlines()[-1]

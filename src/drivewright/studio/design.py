@@ -31,10 +31,10 @@ class Design:
             spec = from_document(deepcopy(self.tables), folder=self.folder)
         except SpecError as error:
             if self.readable is not None and "there is no file" in error.message:
-                raise _not_here(error.key) from None
+                raise _not_here() from None
             raise
         if self.readable is not None and not self.readable.issuperset(spec.data_files()):
-            raise _not_here(None)
+            raise _not_here()
         return spec
 
     def toml(self):
@@ -53,6 +53,6 @@ class Design:
         return self.with_tables(tables)
 
 
-def _not_here(key):
+def _not_here():
     # The same words whether the file exists or not: a page learns nothing of the disk.
-    return SpecError("there is no such data file here; open the spec together with the data files that it names", key)
+    return SpecError("there is no such data file here; open the spec together with the data files that it names")

@@ -1,6 +1,7 @@
 """Who may talk to the studio, and how much: hosts, origins, a token, counted bytes.  Plain ASGI, for pages and websockets alike."""
 
 import hmac
+from contextlib import suppress
 from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qs, urlsplit
 
@@ -18,8 +19,8 @@ class Gate:
     host itself: a page of another site can neither post nor open a websocket.  Bodies are counted as they arrive.
     """
 
-    def __init__(self, app, token=""):
-        self.app, self.token = app, token
+    def __init__(self, app, token="", port=""):
+        self.app, self.token, self.cookie = app, token, f"{COOKIE}-{port}" if port else COOKIE  # cookies know no ports
 
     async def __call__(self, scope, receive, send):
         """One request, or one websocket."""
@@ -44,7 +45,7 @@ class Gate:
         if not self.token and _name(host) not in LOOPBACK:
             return 421, "the studio answers to this machine's own names only"
         origin = headers.get("origin")
-        if origin is not None and urlsplit(origin).netloc.lower() != host.lower():
+        if origin is not None and _place(origin) != host.lower():
             return 403, "this page belongs to another site"
         length = headers.get("content-length", "0")
         if not length.isdecimal() or int(length) > LARGEST:
@@ -60,14 +61,14 @@ class Gate:
 
     def _has_cookie(self, headers):
         try:
-            found = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
+            found = SimpleCookie(headers.get("cookie", "")).get(self.cookie)
         except CookieError:
             return False
         return bool(self.token) and found is not None and hmac.compare_digest(found.value.encode(), self.token.encode())
 
     async def _welcome(self, scope, send):
         """To the same page without the token in its address, which stays in the browser's history."""
-        cookie = f"{COOKIE}={self.token}; HttpOnly; SameSite=Strict; Path=/"
+        cookie = f"{self.cookie}={self.token}; HttpOnly; SameSite=Strict; Path=/"
         headers = [(b"location", scope["path"].encode()), (b"set-cookie", cookie.encode()), (b"content-length", b"0")]
         await send({"type": "http.response.start", "status": 303, "headers": headers})
         await send({"type": "http.response.body", "body": b""})
@@ -112,4 +113,13 @@ async def _refuse(scope, receive, send, status, words):
 
 def _name(host):
     """The name in a Host header, without its port."""
-    return urlsplit(f"//{host}").hostname or ""
+    with suppress(ValueError):  # a bracket that does not close
+        return urlsplit(f"//{host}").hostname or ""
+    return ""
+
+
+def _place(origin):
+    """Host and port of an Origin header."""
+    with suppress(ValueError):
+        return urlsplit(origin).netloc.lower()
+    return ""

@@ -150,6 +150,8 @@ def _listen(pipe, process, loop, future, heard):
         except (EOFError, OSError):
             process.join(1)
             return hand(settle, future.set_exception, Lost(_epitaph(process.exitcode)))
+        except Exception as error:  # an answer that cannot be read
+            return hand(settle, future.set_exception, Failed(f"{type(error).__name__}: {error}"))
         if kind == "news":
             hand(heard, what)
         elif kind == "answer":

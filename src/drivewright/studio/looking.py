@@ -91,6 +91,7 @@ def merged(shown, found):
 
     checks, values, headline = (renewed(shown[what], found[what], "name") for what in ("checks", "values", "headline"))
     return {**shown, "checks": checks, "values": values, "headline": headline, "plots": _merged_plots(shown["plots"], found["plots"]),
+            "fractions": {**shown["fractions"], **found["fractions"]},
             "verdict": {**shown["verdict"], "stale": True}}
 
 

@@ -16,7 +16,7 @@ from drivewright.studio.computing import Computing
 from drivewright.studio.design import Design
 from drivewright.studio.document import Document, without_folder
 from drivewright.studio.form import changed_fields, form
-from drivewright.studio.jobs import JOBS
+from drivewright.studio.jobs import JOBS, OPTIONS
 
 LARGEST = 1_000_000  # characters that a page may send as files, or as a shared design
 MOST_FILES = 20
@@ -29,12 +29,12 @@ class Session:
     def __init__(self, send, workshop, start, name=""):
         self.send, self.workshop, self.start, self.start_name = send, workshop, start, name
         self.document, self.gen, self.files = None, 0, ""
-        self._form = None
+        self._form = self._kind = None
         self.computing = Computing(send, self._words, workshop)
 
     def hear(self, message):
         """One message {what, ...} of the page; what it asks wrongly is answered in the words of the command line."""
-        arguments = {str(name): value for name, value in message.items()}
+        arguments = {str(name): value for name, value in message.items()} if isinstance(message, dict) else {}
         act = ACTS.get(str(arguments.pop("what", "")))
         if act is None or (self.document is None and act is not ACTS["hello"]):
             return
@@ -43,8 +43,10 @@ class Session:
         except DrivewrightError as error:
             key = str(arguments.get("key") or getattr(error, "key", None) or "")
             self.send({"what": "refused", "key": key, "text": str(arguments.get("text", "")), "message": self._words(error, key)})
-        except (TypeError, ValueError, KeyError, AttributeError) as error:
+        except (TypeError, ValueError, AttributeError, ArithmeticError, LookupError, RecursionError) as error:
             self.send({"what": "refused", "key": "", "text": "", "message": f"the page asked for something odd: {brief(str(error))}"})
+        except OSError as error:
+            self.send({"what": "refused", "key": "", "text": "", "message": f"a file cannot be kept: {error.strerror}"})
 
     def close(self):
         """The tab has gone."""
@@ -99,7 +101,7 @@ class Session:
     def drop(self, list, index):
         """An element less."""
         self.document.drop(str(list), index)
-        self._changed()
+        self._changed(ALL)
 
     def put(self, table):
         """An optional table in."""
@@ -109,7 +111,7 @@ class Session:
     def take(self, table):
         """An optional table out."""
         self.document.take(str(table))
-        self._changed()
+        self._changed(ALL)
 
     def undo(self):
         """One step back."""
@@ -134,11 +136,12 @@ class Session:
     def load(self, changes):
         """Several values at once: a row of a study."""
         self.document.load({str(key): str(text) for key, text in changes.items()})
-        self._changed()
+        self._changed(ALL)
 
     def preset(self, name):
         """Another preset of the same kind."""
         self.document.replace(_preset(self.document.design.kind, name))
+        self.document.saved()
         self._changed(ALL)
 
     # -- files -----------------------------------------------------------------------------------------------------------------
@@ -150,7 +153,7 @@ class Session:
 
     def open(self, files):
         """A spec with its data files, as text."""
-        given = {file_name(str(file["name"])): _limited(file["text"]) for file in files[:MOST_FILES]}
+        given = {file_name(str(file["name"])[-80:]): _limited(file["text"]) for file in files[:MOST_FILES]}
         specs = [name for name in given if name.lower().endswith(".toml")]
         if len(specs) != 1:
             raise InputError(f"open one spec (.toml) and the data files that it names; here are {len(specs)} specs in {len(given)} files")
@@ -182,8 +185,11 @@ class Session:
         """Begin a job of jobs.JOBS."""
         if name not in JOBS:
             raise InputError(f"there is no job {brief(name)}")
+        options = {str(option): value for option, value in dict(options or {}).items()}
+        if other := sorted(set(options) - set(OPTIONS.get(name, ()))):
+            raise InputError(f"{name} takes no {brief(other[0])}")
         locks = {"locks": sorted(self.document.locks)} if name in TAKE_LOCKS else {}
-        self.computing.job(name, self.gen, self.document.design, {**(options or {}), **locks})
+        self.computing.job(name, self.gen, self.document.design, {**options, **locks})
 
     def export(self, format, anyway=False):
         """A manufacturing file."""
@@ -207,13 +213,16 @@ class Session:
 
     def _open(self, design, name):
         """A design that has nothing to do with the one before."""
-        self.document, self._form = Document(design, name), None
-        self.computing.forget(self.gen + 1)
+        self.document = Document(design, name)
         self._changed(ALL, opened=True)
 
     def _changed(self, *settled, opened=False):
         """First the drawing, which is waited for; while it is on its way, the form."""
         self.gen += 1
+        opened = opened or self.document.design.kind != self._kind
+        if opened:
+            self._kind, self._form = self.document.design.kind, None
+            self.computing.forget(self.gen)
         self.computing.look(self.gen, self.document.design)
         self._show(settled, opened)
 

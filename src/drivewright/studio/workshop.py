@@ -11,6 +11,7 @@ from drivewright.report.folder import file_name
 from drivewright.studio.lanes import Lanes
 
 KEPT = 600.0  # seconds that a file waits to be fetched
+MOST_OFFERS = 50
 TABS_FILES = 200  # folders of files that pages sent; the oldest goes
 
 
@@ -20,7 +21,6 @@ class Workshop:
     def __init__(self):
         most = max(2, worker_count(None))
         self.quick, self.heavy = Lanes(most), Lanes(most)
-        self.seconds = {}  # kind -> seconds of each analysis, as last measured
         self._root, self._folders, self._offers = None, [], {}
 
     def new_folder(self):
@@ -44,6 +44,8 @@ class Workshop:
         self._offers = {token: offer for token, offer in self._offers.items() if now - offer[2] < KEPT}
         token = secrets.token_urlsafe(16)
         self._offers[token] = file_name(name), data, now
+        while len(self._offers) > MOST_OFFERS:
+            del self._offers[next(iter(self._offers))]
         return f"/download/{token}"
 
     def fetch(self, token):

@@ -5,12 +5,14 @@ A value of the result goes by its name, the margin of a design check by `check.N
 
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 
 from drivewright import registry, runner, units
 from drivewright.errors import SpecError, UnknownName
 from drivewright.spec import MechanismSpec, document, from_document, set_key
+from drivewright.spec.fields import field_at, type_of
 from drivewright.studies.evaluate import looked_at
 from drivewright.studies.study import CHECK
 from drivewright.studies.variables import READABLE, kind_of
@@ -103,7 +105,9 @@ def prepare(spec):
 
 def _with_settings(spec):
     data = document(spec)
-    for setting in spec.optimise.settings:
+    for number, setting in enumerate(spec.optimise.settings):
+        if type_of(getattr(field_at(type(spec), setting.key.split(".")), "annotation", None)) is Path:
+            raise SpecError("is a data file, which a search cannot change; name it in its own table", f"optimise.settings.{number}.key")
         set_key(data, setting.key, setting.value)
     return from_document(data, type(spec))
 

@@ -12,7 +12,6 @@ from drivewright.studies.search import history
 from drivewright.studies.search.problem import prepare
 from drivewright.studies.store import Memory, joined
 from drivewright.studies.study import CHECK
-from drivewright.studio.design import Design
 from drivewright.studio.jobs.figures import drawn
 from drivewright.studio.jobs.keys import is_locked, label, plain, written
 from drivewright.studio.jobs.study import Live, thinned
@@ -48,7 +47,7 @@ def _freed(design, locks):
     search["unknowns"] = [unknown for unknown in unknowns if unknown["key"] not in locked]
     if locked and not search["unknowns"]:
         raise SpecError(f"every unknown is locked ({', '.join(locked)}), so nothing may change; unlock one", "optimise.unknowns")
-    return Design(tables, design.folder), locked
+    return design.with_tables(tables), locked
 
 
 # -- the course of the search --------------------------------------------------------------------------------------------------

@@ -94,15 +94,18 @@ function createEar(store, begin) {
       impossible = null;
     },
     impossible: ({key, message}) => {
+      const before = impossible === null ? state.refused : without([impossible]);
       impossible = key;
-      store.set({refused: {...state.refused, [key]: {text: null, message}}, work: IDLE, result: unsolved(state.result)});
+      store.set({refused: {...before, [key]: {text: null, message}}, work: IDLE, result: unsolved(state.result)});
     },
+    outdated: () => state.result && store.set({result: stale(state.result)}),
     result: ({gen, full, result}) => gen >= since && store.set({result: {...result, gen, full}}),
     reference: ({title, json, result}) => store.set({reference: {title, ...JSON.parse(json), result}}),
     work: message => store.set({work: message.state === "lost" ? IDLE : message, ...(message.state === "lost" ? {notice: message.text} : {})}),
     job: ({name, ...news}) => {
       store.set({jobs: {...state.jobs, [name]: {...state.jobs[name], ...news}}});
       if (news.state === "done") news.answer?.files?.forEach(fetched);
+      if (name === "save" && news.state === "failed") store.set({notice: news.text});
     },
     shared: ({fragment}) => store.set({shared: {url: `${location.origin}${location.pathname}#${fragment}`}}),
   };
@@ -110,9 +113,11 @@ function createEar(store, begin) {
 
 /** What was shown last, where the design as it stands has no solution. */
 function unsolved(result) {
-  return result && {...result, full: false, unsolved: true, verdict: {state: "bad", text: "no solution", stale: true},
-    checks: result.checks.map(check => ({...check, stale: true}))};
+  return result && {...stale(result), unsolved: true, verdict: {state: "bad", text: "no solution", stale: true}};
 }
+
+/** A result that a change has overtaken. */
+const stale = result => ({...result, full: false, verdict: {...result.verdict, stale: true}, checks: result.checks.map(check => ({...check, stale: true}))});
 
 function fetched({name, url}) {
   const link = element("a", {href: url, download: name});
@@ -153,8 +158,9 @@ const ACTS = {
   compare(store, message, say) {
     const {design, scene, result} = store.state;
     if (message.with === "preset") say({what: "reference", preset: message.name});
-    else if (message.with === "this" && scene && result) store.set({reference: {title: design.title, ...scene, result}});
-    else store.set({reference: null});
+    else if (message.with !== "this") store.set({reference: null});
+    else if (result?.full && scene?.gen === result.gen) store.set({reference: {title: design.title, ...scene, result}});
+    else store.set({notice: "the design is still being analysed; pin it in a moment"});
   },
 };
 

@@ -7,13 +7,15 @@ import { pressable } from "./parts.js";
 import { element } from "./player.js";
 import { createScatter } from "./scatter.js";
 
-/** The design as it stands, as a row of a study: its dimensions by key, its values and the margins of its checks. */
-function standing({design, result}) {
-  const found = {};
+const spoken = unit => unit === "deg" ? "°" : unit || "";
+
+/** The design as it stands, as a row of a study: its dimensions by key where they speak the unit of their column, values, margins of checks. */
+function standing({design, result}, columns) {
+  const found = {}, units = new Map(columns.map(({name, unit}) => [name, unit]));
   for (const {name, number} of result?.values || []) found[name] = numberOf(number);
   for (const {name, margin} of result?.checks || []) found[`check.${name}`] = numberOf(margin);
   for (const group of design?.form.groups || []) for (const field of group.fields) for (const part of field.parts || [field])
-    if (typeof part.value === "number") found[part.key] = part.value;
+    if (typeof part.value === "number" && spoken(part.unit) === spoken(units.get(part.key))) found[part.key] = part.value;
   return found;
 }
 
@@ -57,7 +59,7 @@ export function createStudies(host, {store, say, t}) {
     const answer = chosen && before[chosen];
     if (!answer || answer === shown) return;
     shown = answer;
-    scatter ||= createScatter(plot, {say, t, now: () => standing(store.state)});
+    scatter ||= createScatter(plot, {say, t, now: () => standing(store.state, shown.columns)});
     scatter.load(answer);
     figures.replaceChildren(...(answer.figures?.length ? gallery(answer.figures, t) : []));
   }
