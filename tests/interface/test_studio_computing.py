@@ -36,7 +36,7 @@ class Bench:
     """Stands for the workshop, and holds all that the page has heard."""
 
     def __init__(self):
-        self.said, self.calls, self.seconds, self.offered, self.busy = [], [], {}, {}, 0
+        self.said, self.calls, self.offered, self.busy = [], [], {}, 0
         self.quick, self.heavy = (SimpleNamespace(lane=lambda name=name: self._lane(name)) for name in ("quick", "heavy"))
         self.computing = Computing(self.said.append, lambda error: f"in words: {error}", self)
 
@@ -148,7 +148,7 @@ async def test_a_look_after_the_end_of_a_drawing_begins_another(bench):
 async def test_a_lost_worker_is_told_and_the_design_drawn_once_more(bench):
     await bench.look(1)
     await bench.calls[0].fail(Lost("the process has gone"))
-    assert bench.said == [{"what": "work", "state": "lost", "text": "the process has gone"}]
+    assert bench.said == [{"what": "work", "state": "lost", "text": "in words: the process has gone"}]
     assert bench.asked == [("quick", "draw", 1)] * 2
     await bench.calls[1].answer(None)
     assert bench.told("possible") == [{"what": "possible", "gen": 1}]
@@ -160,7 +160,7 @@ async def test_but_not_for_ever(bench):
     await bench.look(1)
     await bench.calls[0].fail(Lost("first"))
     await bench.calls[1].fail(Lost("second"))
-    assert [message["text"] for message in bench.said] == ["first", "second"]
+    assert [message["text"] for message in bench.said] == ["in words: first", "in words: second"]
     assert [call for call in bench.asked if call[1] == "draw"] == [("quick", "draw", 1)] * 2
 
 
@@ -186,6 +186,62 @@ async def test_an_impossible_design_is_told_with_its_key(bench):
     assert bench.said[-1]["key"] == ""
 
 
+@story
+async def test_a_design_without_a_solution_is_not_analysed(bench):
+    for gen, error in enumerate((Lost("x"), SpecError("y"), Failed("z"))):
+        await bench.look(gen)
+        await bench.calls[-1].fail(error)
+        if isinstance(error, Lost):
+            await bench.calls[-1].fail(error)
+    assert {function for _, function, _ in bench.asked} == {"draw"}
+
+
+def test_a_drawing_that_takes_long_says_so_and_is_given_up_at_last(bench, monkeypatch):
+    monkeypatch.setattr(computing, "SLOW", 0.05)
+    monkeypatch.setattr(computing, "PATIENCE", 0.2)
+
+    async def tell():
+        await bench.look(1)
+        await bench.look(2)
+        await asyncio.sleep(0.1)
+        assert [(message["state"], message["text"]) for message in bench.said] == [("analysing", "drawing")]
+        assert bench.calls[0].stopped is None
+        await asyncio.sleep(0.2)
+        assert bench.calls[0].stopped == (NOW,) and bench.said[1] == {"what": "work", "state": "stopped", "text": ""}
+        assert bench.asked[1:] == [("quick", "draw", 2)]  # and the newer one has its turn
+        await bench.calls[1].answer(None)
+        bench.said.clear()
+        await asyncio.sleep(0.3)
+        assert bench.said == []  # what is drawn in time says nothing
+        bench.computing.close()
+        await settled()
+
+    asyncio.run(tell())
+
+
+@story
+async def test_a_person_ends_a_drawing_and_begins_it_again(bench):
+    await bench.look(1)
+    bench.computing.cancel("look")
+    await settled()
+    assert bench.calls[0].stopped == (NOW,) and bench.said == [{"what": "work", "state": "stopped", "text": ""}]
+    assert len(bench.calls) == 1  # a drawing that was ended is not analysed
+    bench.computing.analyse()
+    await settled()
+    assert bench.asked[1:] == [("quick", "draw", 1)]
+
+
+@story
+async def test_what_is_shown_is_outdated_by_a_newer_design_once(bench):
+    await bench.look(1)
+    assert bench.told("outdated") == []
+    await bench.calls[0].answer(None)
+    await bench.calls[1].answer((found("motion"), {}))
+    await bench.look(2)
+    await bench.look(3)
+    assert bench.told("outdated") == [{"what": "outdated"}]
+
+
 # -- the analyses --------------------------------------------------------------------------------------------------------------
 
 
@@ -199,7 +255,6 @@ async def test_analyses_tell_how_far_they_are_and_what_they_took(bench):
     await bench.calls[1].answer((found("motion", "forces"), {"motion": 0.001, "forces": 3.0}))
     assert bench.said[1:] == [{"what": "result", "gen": 1, "full": True, "result": found("motion", "forces")},
                               {"what": "work", "state": "idle", "text": ""}]
-    assert bench.seconds == {KIND: {"motion": 0.001, "forces": 3.0}}
 
 
 def test_a_design_is_analysed_when_it_has_rested_only(bench, monkeypatch):
@@ -224,10 +279,23 @@ async def test_a_newer_look_ends_the_analyses_which_may_clear_up(bench):
     assert bench.asked[-1] == ("heavy", "analyse", 1)
     await bench.look(2)
     assert bench.calls[1].stopped is not None and NOW not in bench.calls[1].stopped
-    assert bench.told("work") == [{"what": "work", "state": "stopped", "text": ""}]
+    assert bench.told("work") == [{"what": "work", "state": "drawing", "text": ""}]
     await bench.calls[2].answer(None)
     assert bench.asked[2:] == [("quick", "draw", 2), ("heavy", "analyse", 2)]
     assert not bench.told("result")
+
+
+@story
+async def test_older_analyses_that_end_late_say_nothing(bench):
+    await bench.look(1)
+    await bench.calls[0].answer(None)
+    bench.calls[1].clearing = asyncio.Event()  # it compiles, and hears nothing
+    await bench.look(2)
+    await bench.calls[2].answer(None)
+    await bench.calls[3].answer((found("motion"), {}))
+    bench.calls[1].clearing.set()
+    await settled()
+    assert bench.said[-1] == {"what": "work", "state": "idle", "text": ""}
 
 
 @story
@@ -242,6 +310,31 @@ async def test_a_person_ends_the_analyses_at_once(bench):
     bench.computing.cancel("look")
     await settled()
     assert len(bench.told("work")) == 1
+    bench.computing.analyse()
+    bench.computing.analyse()
+    await settled()
+    assert bench.asked[2:] == [("quick", "draw", 1)]  # once more from the beginning, and one is enough
+
+
+@story
+async def test_any_number_of_newer_looks_is_one_request_to_stop(bench):
+    await bench.look(1)
+    await bench.calls[0].answer(None)
+    bench.calls[1].clearing = asyncio.Event()  # a second cancellation would not let it clear up
+    for gen in (2, 3, 4):
+        await bench.look(gen)
+    assert bench.busy == 2
+    bench.calls[1].clearing.set()
+    await settled()
+    assert bench.busy == 1
+
+
+@story
+async def test_analyses_asked_for_while_it_is_drawn_wait_for_the_drawing(bench):
+    await bench.look(1)
+    bench.computing.analyse()
+    await settled()
+    assert bench.asked == [("quick", "draw", 1)]
 
 
 @story
@@ -250,7 +343,7 @@ async def test_no_result_of_an_older_design_after_a_newer_one(bench):
     await bench.calls[0].answer(None)
     bench.calls[1].end.set_result((found("motion"), {"motion": 0.001}))  # just arrived, and not yet seen
     await bench.look(2)
-    assert bench.told("result") == [] and bench.seconds == {}
+    assert bench.told("result") == []
     await bench.calls[2].answer(None)
     await bench.calls[3].answer((found("motion", value=2.0), {"motion": 0.001}))
     assert [(message["gen"], message["result"]["checks"][0]["value"]) for message in bench.told("result")] == [(2, 2.0)]
@@ -265,7 +358,7 @@ async def test_analyses_that_find_the_design_impossible_come_to_rest(bench):
                                {"what": "work", "state": "idle", "text": ""}]
 
 
-@pytest.mark.parametrize(("error", "text"), [(Lost("gone"), "gone"), (Failed("Traceback\nValueError: x"), "ValueError: x")])
+@pytest.mark.parametrize(("error", "text"), [(Lost("gone"), "in words: gone"), (Failed("Traceback\nValueError: x"), "ValueError: x")])
 def test_analyses_that_end_badly_are_told(bench, error, text):
     @story
     async def tell(bench):
@@ -304,7 +397,7 @@ async def test_quick_analyses_go_with_the_drawing_and_renew_what_is_shown(bench)
 
 @story
 async def test_the_first_quick_result_is_shown_as_it_is(bench):
-    bench.seconds[KIND] = {"motion": computing.BUDGET, "forces": 1e-4}
+    bench.computing._seconds = {"motion": 0.02, "forces": 1e-4}
     await bench.look(1)
     assert bench.calls[0].arguments[1] == ["forces"]  # both together are over the budget
     await bench.calls[0].answer(found("forces"))
@@ -313,11 +406,11 @@ async def test_the_first_quick_result_is_shown_as_it_is(bench):
 
 @story
 async def test_another_design_has_nothing_of_the_one_before(bench):
-    bench.seconds[KIND] = {"motion": 0.001}
+    bench.computing._seconds = {"motion": 0.001}
     await bench.look(1)
     await bench.calls[0].answer(found("motion"))
     await bench.calls[1].answer((found("motion", "forces"), {"motion": 0.001}))
-    bench.computing.forget()
+    bench.computing.forget(2)
     await bench.look(2)
     await bench.calls[-1].answer(found("motion", value=2.0))
     assert bench.told("result")[-1]["result"] == found("motion", value=2.0)
@@ -325,9 +418,9 @@ async def test_another_design_has_nothing_of_the_one_before(bench):
 
 @story
 async def test_a_drawing_of_the_design_before_leaves_nothing_in_the_next_one(bench):
-    bench.seconds[KIND] = {"motion": 0.001}
+    bench.computing._seconds = {"motion": 0.001}
     await bench.look(1)
-    bench.computing.forget()
+    bench.computing.forget(2)
     await bench.look(2)
     await bench.calls[0].answer(found("motion", "forces"))
     await bench.calls[1].answer(found("motion", value=2.0))
@@ -512,6 +605,6 @@ def test_closing_before_anything_was_looked_at(bench):
 async def test_another_design_ends_the_jobs_and_keeps_the_drawing(bench):
     study = await begun(bench)
     await bench.look(1)
-    bench.computing.forget()
+    bench.computing.forget(2)
     await settled()
     assert study.stopped == (NOW,) and bench.calls[1].stopped is None

@@ -13,8 +13,9 @@ from drivewright.errors import SpecError
 from drivewright.spec import read_document
 from drivewright.studio.design import Design
 from drivewright.studio.document import STEPS, Document, without_folder
-from drivewright.studio.entering import value_in
+from drivewright.studio.entering import overlap, value_in
 from drivewright.studio.facts import ABSENT, facts
+from drivewright.studio.fitting import fresh, renamed
 from drivewright.studio.form import form, values
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -372,6 +373,7 @@ def test_a_key_said_elsewhere_is_put_in_its_place():
     document = Document(design)
     assert at(document, "rotation") == "clockwise" and at(document, "drive") == {"speed": "600 rpm"}
     assert document.design.spec().digest() == design.spec().digest() and not document.changed
+    assert set(document.design.tables) == {*tables, "rotation"}  # and no defaults
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -431,3 +433,22 @@ def test_no_folder_of_this_machine_is_in_a_message(message, clean):
 def test_a_missing_file_names_no_folder(toy, tmp_path):
     error = refused(toy, toy.set, "table", "missing.csv")
     assert str(tmp_path) in error.message and without_folder(error.message, tmp_path).startswith("there is no file 'missing.csv'")
+
+
+@pytest.mark.parametrize(("name", "taken", "found"), [
+    ("arm", {"arm"}, "arm2"), ("arm", {"arm", "arm2"}, "arm3"), ("arm2", set(), "arm3"), ("arm2", {"arm2", "arm3"}, "arm4"),
+    ("arm_1", {"arm_1"}, "arm_2"), ("arm_7", {"arm_8"}, "arm_9"), ("7", {"7"}, "8"), (None, set(), "a2")])
+def test_a_fresh_name(name, taken, found):
+    assert fresh(name, taken) == found
+
+
+def test_a_key_overlaps_what_is_in_it_only():
+    assert overlap("bodies.crank", "bodies.crank") and overlap("bodies", "bodies.crank.mass") and overlap("bodies.crank.mass", "bodies")
+    assert not overlap("bodies.crank", "bodies.crank2") and not overlap("bodies.crank2.mass", "bodies.crank")
+
+
+def test_a_copy_shares_nothing_with_its_model():
+    model = {"name": "arm", "at": ["1 mm"]}
+    copy, plain = renamed(model, [model]), renamed(["1 mm"], [])
+    copy["at"][0] = "2 mm"
+    assert copy["name"] == "arm2" and plain == ["1 mm"] and model == {"name": "arm", "at": ["1 mm"]}

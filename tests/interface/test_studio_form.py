@@ -7,14 +7,14 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from pydantic import BaseModel
+from pydantic import BaseModel, Field
 from spec_cases import FULL, install
 
 from drivewright import registry
-from drivewright.spec import read_document
+from drivewright.spec import read_document, set_key
 from drivewright.studio.design import Design
 from drivewright.studio.entering import form_key, value_in
-from drivewright.studio.facts import ABSENT, fact_at, facts, read
+from drivewright.studio.facts import ABSENT, fact_at, facts, plain_text, read
 from drivewright.studio.form import changed_fields, form, values
 from drivewright.studio.sliders import Limits, slider, tidied, typical
 from drivewright.units import any_quantity
@@ -209,6 +209,12 @@ def test_a_key_of_a_message_finds_its_field(toy):
     assert [form_key(twins, f"joints.{n}.at") for n in range(3)] == ["joints.0.at", "joints.1.at", "joints.2.at"]
 
 
+def test_of_two_elements_with_one_name_both_ways_mean_the_same():
+    tables = {"joints": [{"name": "A", "at": 1}, {"name": "A", "at": 2}, {"name": "B", "at": 3}]}
+    set_key(tables, "joints.A.at", 5)
+    assert value_in(tables, "joints.A.at") == 5
+
+
 def test_no_folder_of_the_disk_is_shown(toy, tmp_path):
     field = values(form(toy.changed({"table": str(tmp_path / "lift.csv")})))["table"]
     assert field["text"] == "lift.csv" and str(tmp_path) not in json.dumps({**field, "value": field["text"]})
@@ -239,6 +245,15 @@ def test_no_folder_of_the_disk_is_shown(toy, tmp_path):
         (5.0, Limits(4, None), {}, [4, 10], 0.02),
         (5.0, Limits(4, None, True), {}, [4.02, 10], 0.02),
         (5.0, Limits(None, 7.3), {}, [2.5, 7.3], 0.02),
+        (1.0, Limits(0, 20), {}, [0, 20], 0.1),
+        (1.0, Limits(0, 21), {}, [0.5, 2], 0.005),
+        (0.5, Limits(0.3, 0.7), {}, [0.3, 0.7], 0.002),  # whose difference is a little less than 0.4
+        (1.0000000000000002, Limits(), {}, [0.5, 2], 0.005),
+        (0.001, Limits(0, 1, open_low=True), {}, [0.001, 1], 0.005),
+        (0.999, Limits(0, 1, open_high=True), {}, [0, 0.999], 0.005),
+        (0.0, Limits(), {"around": -8.0}, [-8, 8], 0.05),
+        (10.0, Limits(), {"old": ([2, 10], 0.05)}, [2, 10], 0.05),
+        (2.0, Limits(), {"old": ([2, 10], 0.05)}, [2, 10], 0.05),
         (1e-8, Limits(1e-13, 1e-2), {"old": ([5e-9, 2e-8], 5e-11)}, [5e-9, 2e-8], 5e-11),
     ],
 )
@@ -262,13 +277,18 @@ def test_where_there_is_no_room_there_is_no_slider():
     assert slider(2.0, Limits(2, 2)) is None and slider(math.inf) is None and slider(1e-200) is None and slider(math.nan) is None
 
 
+def test_steps_of_whole_numbers_are_whole():
+    assert repr(slider(20000, Limits(2), integer=True)[1]) == "100"
+
+
 def test_an_old_range_that_breaks_the_limits_goes():
     assert slider(5.0, Limits(0, 6), old=([2.0, 10.0], 0.05)) == ([0, 6], 0.02)
 
 
 @pytest.mark.parametrize(
     ("text", "short"),
-    [("0.30000000000000004 mm", "0.3 mm"), ("0.30000000000000004", "0.3"), ("-12.3 deg", "-12.3 deg"), ("1.1e-7", "1.1e-7"),
+    [("1.234567890 mm", "1.234567890 mm"), ("1.2345678901 mm", "1.23456789 mm"),
+     ("0.30000000000000004 mm", "0.3 mm"), ("0.30000000000000004", "0.3"), ("-12.3 deg", "-12.3 deg"), ("1.1e-7", "1.1e-7"),
      ("rigid", "rigid"), ("2.9999999999999996e-05 kg m^2", "3e-05 kg m^2"), ("12345678.9", "12345678.9")],
 )
 def test_numbers_of_a_slider_are_short(text, short):
@@ -277,3 +297,19 @@ def test_numbers_of_a_slider_are_short(text, short):
 
 def test_usual_sizes():
     assert typical("mm") == 10 and typical("mm", -4.0) == 4 and typical("mm", 0.0) == 10 and typical("furlong") == 1
+
+
+def test_an_open_limit_is_open_on_its_own_side():
+    class Both(BaseModel):
+        """Limits of either sort."""
+
+        above: float = Field(1.0, gt=0, le=2)
+        below: float = Field(1.0, ge=0, lt=2)
+
+    found = facts(Both)
+    assert found["above"].limits == Limits(0, 2, True, False) and found["below"].limits == Limits(0, 2, False, True)
+
+
+@pytest.mark.parametrize(("value", "text"), [(3.0, "3"), (-2.0, "-2"), (0.5, "0.5"), (1e20, "1e+20"), (None, ""), ("3 mm", "3 mm")])
+def test_numbers_as_people_write_them(value, text):
+    assert plain_text(value) == text

@@ -47,7 +47,7 @@ def test_this_machines_own_names_pass(host):
     assert status((b"host", host)) == 200
 
 
-@pytest.mark.parametrize("host", [b"evil.example:8123", b"127.0.0.1.evil.example", b"", b"192.168.1.7:8123", b"[::1", b"[", b"127.0.0.1:8123/x"])
+@pytest.mark.parametrize("host", [b"evil.example:8123", b"127.0.0.1.evil.example", b"", b"192.168.1.7:8123", b"[::1", b"[x]"])
 def test_another_name_for_this_machine_is_refused(host):
     assert status((b"host", host)) == 421
 
@@ -60,8 +60,9 @@ def test_no_host_at_all_is_refused():
 def test_a_page_of_another_site_is_refused(kind):
     good = {"http": 200, "websocket": "websocket.accept"}[kind]
     assert status(OWN, (b"origin", b"http://127.0.0.1:8123"), kind=kind) == good
+    assert status((b"host", b"LocalHost:8123"), (b"origin", b"http://localhost:8123"), kind=kind) == good
     assert status(OWN, kind=kind) == good  # programs send no origin
-    for origin in (b"http://evil.example", b"http://127.0.0.1:9999", b"null", b"http://127.0.0.1:8123.evil.example"):
+    for origin in (b"http://evil.example", b"http://127.0.0.1:9999", b"null", b"http://127.0.0.1:8123.evil.example", b"http://["):
         assert status(OWN, (b"origin", origin), kind=kind) == {"http": 403, "websocket": "websocket.close"}[kind]
 
 
@@ -75,6 +76,7 @@ def test_a_token_opens_once_by_address_and_then_by_cookie():
     assert "HttpOnly" in cookie and "SameSite=Strict" in cookie
     kept = (b"cookie", cookie.partition(";")[0].encode())
     assert status(other, kept, token="abc") == 200
+    assert status(other, kept, token="abc", query=b"token=abc") == 200  # no second welcome
     assert status(other, kept, token="abc", kind="websocket") == "websocket.accept"
     assert status(other, token="abc", kind="websocket") == "websocket.close"
     assert status(other, token="abc", kind="websocket", query=b"token=abc") == "websocket.close"
@@ -93,3 +95,27 @@ def test_bodies_are_counted_whatever_their_length_header_says():
     assert status(OWN, (b"content-length", b"10"), chunks=[b"x" * LARGEST, b"x"]) == 413
     assert status(OWN, (b"content-length", str(LARGEST + 1).encode())) == 413
     assert status(OWN, (b"content-length", b"-1")) == 413
+    assert status(OWN, (b"content-length", str(LARGEST).encode())) == 200
+
+
+def test_an_answer_that_has_begun_is_broken_off():
+    said, waiting = [], [{"type": "http.request", "body": b"x" * LARGEST, "more_body": True}, {"type": "http.request", "body": b"x"}]
+
+    async def begins(scope, receive, send):
+        await send({"type": "http.response.start", "status": 200, "headers": []})
+        while True:
+            await receive()
+
+    async def receive():
+        return waiting.pop(0)
+
+    async def send(message):
+        said.append(message["type"])
+
+    with pytest.raises(Exception, match="^$"):
+        asyncio.run(Gate(begins)({"type": "http", "path": "/", "query_string": b"", "headers": [OWN]}, receive, send))
+    assert said == ["http.response.start"]
+
+
+def test_a_websocket_learns_why():
+    assert ask(OWN, (b"origin", b"http://evil.example"), kind="websocket") == [{"type": "websocket.close", "code": 4403}]

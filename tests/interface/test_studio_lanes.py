@@ -2,8 +2,10 @@
 
 import asyncio
 import os
+import re
 import signal
 import time
+from pathlib import Path
 
 import lane_toy
 import pytest
@@ -119,3 +121,11 @@ def test_lanes_are_made_when_wanted_and_used_again():
         return one, other
 
     assert not any(lane.process.is_alive() for lane in asyncio.run(work()))
+
+
+@pytest.mark.skipif(not Path("/proc/self/limits").exists(), reason="reads limits in /proc")
+def test_a_process_may_take_its_share_of_the_memory_only(lane):
+    call(lane, lane_toy.process)
+    limits = Path(f"/proc/{lane.process.pid}/limits").read_text()
+    share = int(re.search(r"Max data size +(\d+)", limits)[1]) / (os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    assert 0.2 < share < 0.5

@@ -222,8 +222,9 @@ def test_findings_and_the_outcome_come_along(monkeypatch):
     monkeypatch.setattr(looking, "summary", lambda result: {"verdict": "good"})
     checks = (check("near", 3.0, 4.0), check("zero", 1.0, 0.0, ">="))
     made = SimpleNamespace(checks=checks, findings=("beware",), outcome="partial", provenance={"seconds": 2.5})
-    assert page_result(made, None, ["a"]) == {"verdict": "good", "plots": None, "findings": ["beware"], "outcome": "partial", "seconds": 2.5,
-                                              "analyses": ["a"], "fractions": {"near": 0.25, "zero": None}}
+    assert page_result(made, None, ["a"]) == {
+        "verdict": "good", "plots": None, "findings": ["beware"], "outcome": "partial", "seconds": 2.5, "analyses": ["a"],
+        "fractions": {"near": 0.25, "zero": None}}
 
 
 def test_warming_loads_every_kind_and_tells_nothing(monkeypatch):

@@ -8,8 +8,8 @@ import pytest
 
 from drivewright.errors import InputError, SpecError
 from drivewright.studio.jobs import JOBS
-from drivewright.studio.session import LARGEST, Session, first_design, opened, packed, unpacked
-from drivewright.studio.workshop import Workshop
+from drivewright.studio.session import LARGEST, MOST_FILES, Session, first_design, opened, packed, unpacked
+from drivewright.studio.workshop import KEPT, MOST_OFFERS, Workshop
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -70,6 +70,13 @@ def test_hello_brings_the_kinds_the_form_and_a_drawing(workshop):
     assert {kind["kind"] for kind in start["kinds"]} >= {tab.session.document.design.kind}
     assert design["title"] == "Crank-rocker four-bar" and design["form"]["groups"] and not design["undo"]
     assert tab.quiet.asked[-1] == ("look", 1, tab.session.document.design)
+
+
+def test_the_start_has_the_name_of_its_file_and_what_a_page_brings_has_none(workshop):
+    tab = Tab(opened(EXAMPLES / "four_bar.toml"), workshop)
+    tab.session.start_name = "four_bar"
+    assert only(tab.say("hello"), "design")[0]["name"] == "four_bar"
+    assert only(tab.say("hello", saved=tab.toml), "design")[0]["name"] == ""
 
 
 def test_a_change_sends_its_field_only(tab):
@@ -173,6 +180,29 @@ def test_a_page_cannot_read_the_disk_nor_learn_what_is_on_it(tab, name):
     assert messages == {("", "there is no such data file here; open the spec together with the data files that it names")}
 
 
+@pytest.mark.parametrize("name", ["/etc/passwd", str(EXAMPLES / "lift.csv"), "../lift.csv", "other.csv"])
+def test_nor_with_files_that_it_once_sent(tab, name):
+    said = tab.say("open", files=[{"name": "mine.toml", "text": sample_with_file("lift.csv")}, {"name": "lift.csv", "text": LIFT}])
+    token = only(said, "design")[0]["files"]
+    other = Tab(tab.session.start, tab.session.workshop)
+    said = other.say("hello", saved=sample_with_file(name), files=token)
+    assert "there is no such data file here" in only(said, "refused")[0]["message"] and other.toml == other.session.start.toml()
+
+
+def test_another_drive_has_no_files(tab):
+    tab.say("open", files=[{"name": "mine.toml", "text": sample_with_file("lift.csv")}, {"name": "lift.csv", "text": LIFT}])
+    kind = tab.session.start.kind
+    assert only(tab.say("fresh", kind=kind), "design")[0]["files"] == ""
+
+
+def test_only_some_files_are_looked_at(tab):
+    spec = {"name": "a.toml", "text": (EXAMPLES / "four_bar.toml").read_text(encoding="utf-8")}
+    others = [{"name": f"{n}.csv", "text": ""} for n in range(MOST_FILES)]
+    assert only(tab.say("open", files=[*others[1:], spec]), "design")
+    (refused,) = tab.say("open", files=[*others, spec])
+    assert f"here are 0 specs in {MOST_FILES} files" in refused["message"]
+
+
 def test_no_message_shows_a_folder_of_this_machine(workshop):
     tab = Tab(opened(EXAMPLES / "oscillating_cam.toml"), workshop)
     said = tab.say("hello")
@@ -254,6 +284,26 @@ def test_jobs_get_the_locks(tab):
     assert "lock" in refused["message"]
 
 
+def test_other_jobs_do_not(tab):
+    tab.say("lock", key="drive.speed", on=True)
+    tab.say("export", format="dxf")
+    assert tab.quiet.asked[-1] == ("job", "export", 1, tab.session.document.design, {"format": "dxf", "anyway": False})
+    tab.say("lock", key="drive.speed", on=False)
+    assert only(tab.say("set", key="drive.speed", text="1 rpm"), "values")
+
+
+def test_what_is_saved_is_no_change_any_more(tab):
+    assert tab.say("set", key="drive.speed", text="150")[0]["changed"]
+    (values,) = tab.say("save")
+    assert not values["changed"] and tab.quiet.asked[-1][:2] == ("job", "save")
+
+
+def test_after_a_lost_connection_everything_comes_once_more(tab):
+    (design,) = tab.say("again")
+    assert design["what"] == "design" and design["form"]["groups"] and design["gen"] == 2
+    assert tab.quiet.asked[-1][:2] == ("look", 2)
+
+
 def test_another_kind_forgets_what_was_computed(tab):
     other = next(kind["kind"] for kind in only(tab.say("hello"), "start")[0]["kinds"] if kind["kind"] != tab.session.document.design.kind)
     (design,) = tab.say("fresh", kind=other)
@@ -270,3 +320,33 @@ def test_an_offered_file_is_fetched_once(workshop):
 
 def test_the_first_design_is_one():
     first_design().spec()
+
+
+def test_files_wait_for_a_while_and_some_at_a_time(workshop, monkeypatch):
+    now = 0.0
+    monkeypatch.setattr("drivewright.studio.workshop.time.monotonic", lambda: now)
+    first = workshop.offer("a", b"a").rpartition("/")[2]
+    now = KEPT - 1
+    second = workshop.offer("b", b"b").rpartition("/")[2]
+    assert workshop.fetch(first) == ("a", b"a")
+    now = 2 * KEPT
+    workshop.offer("c", b"c")
+    assert workshop.fetch(second) is None
+    tokens = [workshop.offer("d", b"d").rpartition("/")[2] for _ in range(MOST_OFFERS + 1)]
+    assert workshop.fetch(tokens[0]) is None and workshop.fetch(tokens[1]) == workshop.fetch(tokens[-1]) == ("d", b"d")
+
+
+def test_the_oldest_folder_goes_and_all_of_them_at_the_end(workshop, monkeypatch, tmp_path):
+    monkeypatch.setattr("drivewright.studio.workshop.TABS_FILES", 2)
+    (first, place), (second, _), (third, _) = (workshop.new_folder() for _ in range(3))
+    assert workshop.folder(first) is None and not place.exists()
+    assert all(workshop.folder(token).is_dir() for token in (second, third))
+    workshop.close()
+    assert not list(tmp_path.glob("drivewright-studio-*"))
+
+
+def test_a_spec_of_this_machine_may_read_the_tables_beside_it_only(tmp_path):
+    for name in ("four_bar.toml", "lift.csv"):
+        shutil.copy(EXAMPLES / name, tmp_path)
+    (tmp_path / "secret.txt").write_text("x")
+    assert opened(tmp_path / "four_bar.toml").readable == {tmp_path / "lift.csv"}

@@ -33,11 +33,11 @@ class Gate:
             return await self._welcome(scope, send)
         counted = _Counted(receive, send)
         try:
-            return await self.app(scope, counted.receive, counted.send)
-        except _TooLarge:
-            if not counted.begun:
-                return await _refuse(scope, receive, send, 413, "more than the studio takes")
-            raise
+            await self.app(scope, counted.receive, counted.send)
+        except Exception:  # frameworks wrap what `receive` raises, or swallow it and answer something else
+            if not counted.refused:
+                raise
+        return await _refuse(scope, receive, send, 413, "more than the studio takes") if counted.refused else None
 
     def _refused(self, scope, headers):
         """(status, words) where this may not pass, else None."""
@@ -69,7 +69,7 @@ class Gate:
     async def _welcome(self, scope, send):
         """To the same page without the token in its address, which stays in the browser's history."""
         cookie = f"{self.cookie}={self.token}; HttpOnly; SameSite=Strict; Path=/"
-        headers = [(b"location", scope["path"].encode()), (b"set-cookie", cookie.encode()), (b"content-length", b"0")]
+        headers = [(b"location", b"/"), (b"set-cookie", cookie.encode()), (b"content-length", b"0")]
         await send({"type": "http.response.start", "status": 303, "headers": headers})
         await send({"type": "http.response.body", "body": b""})
 
@@ -82,7 +82,7 @@ class _Counted:
     """`receive` and `send` of one request; the bytes of its body are counted, whatever its headers promise."""
 
     def __init__(self, receive, send):
-        self._receive, self._send, self._bytes, self.begun = receive, send, 0, False
+        self._receive, self._send, self._bytes, self._begun, self.refused = receive, send, 0, False, False
 
     async def receive(self):
         """The next message."""
@@ -90,13 +90,15 @@ class _Counted:
         if message["type"] == "http.request":
             self._bytes += len(message.get("body", b""))
             if self._bytes > LARGEST:
+                self.refused = not self._begun
                 raise _TooLarge
         return message
 
     async def send(self, message):
-        """Hand on, and remember that an answer has begun."""
-        self.begun = True
-        await self._send(message)
+        """Hand on, and remember that an answer has begun; nothing where the body was refused."""
+        if not self.refused:
+            self._begun = True
+            await self._send(message)
 
 
 async def _refuse(scope, receive, send, status, words):
