@@ -4,6 +4,7 @@ import asyncio
 from contextlib import asynccontextmanager
 from types import SimpleNamespace
 
+import loops
 import pytest
 
 from drivewright.errors import DoesNotAssemble, SpecError
@@ -106,7 +107,7 @@ def story(test):
             await settled()
             assert bench.busy == 0  # no lane is kept
 
-        asyncio.run(asyncio.wait_for(tell(), 10))
+        loops.run(asyncio.wait_for(tell(), 10))
 
     return told
 
@@ -216,7 +217,7 @@ def test_a_drawing_that_takes_long_says_so_and_is_given_up_at_last(bench, monkey
         bench.computing.close()
         await settled()
 
-    asyncio.run(tell())
+    loops.run(tell())
 
 
 @story
@@ -269,7 +270,7 @@ def test_a_design_is_analysed_when_it_has_rested_only(bench, monkeypatch):
         assert bench.asked[2:] == [("heavy", "analyse", 2)]  # and none of the first
         assert not bench.told("work")  # which had not begun, so that it was not stopped either
 
-    asyncio.run(tell())
+    loops.run(tell())
 
 
 @story

@@ -1,7 +1,7 @@
 """Who may talk to the studio: hosts, origins, the token, counted bytes - for pages and websockets."""
 
-import asyncio
 
+import loops
 import pytest
 
 from drivewright.studio.gate import COOKIE, LARGEST, Gate
@@ -33,7 +33,7 @@ def ask(*headers, token="", path="/", query=b"", kind="http", chunks=(b"",)):
         said.append(message)
 
     scope = {"type": kind, "path": path, "query_string": query, "headers": list(headers)}
-    asyncio.run(Gate(_inner, token)(scope, receive, send))
+    loops.run(Gate(_inner, token)(scope, receive, send))
     return said
 
 
@@ -113,7 +113,7 @@ def test_an_answer_that_has_begun_is_broken_off():
         said.append(message["type"])
 
     with pytest.raises(Exception, match="^$"):
-        asyncio.run(Gate(begins)({"type": "http", "path": "/", "query_string": b"", "headers": [OWN]}, receive, send))
+        loops.run(Gate(begins)({"type": "http", "path": "/", "query_string": b"", "headers": [OWN]}, receive, send))
     assert said == ["http.response.start"]
 
 

@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 import lane_toy
+import loops
 import pytest
 
 from drivewright.errors import SpecError
@@ -22,7 +23,7 @@ def lane():
 
 
 def call(lane, function, *arguments, **more):
-    return asyncio.run(lane.call(function, *arguments, **more))
+    return loops.run(lane.call(function, *arguments, **more))
 
 
 def test_an_answer_and_news_on_the_way(lane):
@@ -68,7 +69,7 @@ def test_a_process_killed_from_outside_is_told_at_once(lane):
 
     began = time.monotonic()
     with pytest.raises(Lost, match="was ended by signal 9"):
-        asyncio.run(killed())
+        loops.run(killed())
     assert time.monotonic() - began < 30
 
 
@@ -83,19 +84,19 @@ async def _cancelled(lane, function, seconds, *message):
 
 def test_a_call_that_listens_stops_and_keeps_its_process(lane):
     before = call(lane, lane_toy.process)
-    asyncio.run(_cancelled(lane, lane_toy.wait_politely, 60))
+    loops.run(_cancelled(lane, lane_toy.wait_politely, 60))
     assert call(lane, lane_toy.process) == before
 
 
 def test_a_call_that_does_not_listen_is_waited_for(lane):
     before = call(lane, lane_toy.process)
-    asyncio.run(_cancelled(lane, lane_toy.wait_deaf, 0.6))
+    loops.run(_cancelled(lane, lane_toy.wait_deaf, 0.6))
     assert call(lane, lane_toy.process) == before
 
 
 def test_or_ended_when_a_person_does_not_want_to_wait(lane):
     before = call(lane, lane_toy.process)
-    asyncio.run(_cancelled(lane, lane_toy.wait_deaf, 60, NOW))
+    loops.run(_cancelled(lane, lane_toy.wait_deaf, 60, NOW))
     assert call(lane, lane_toy.process) != before
 
 
@@ -120,7 +121,7 @@ def test_lanes_are_made_when_wanted_and_used_again():
             lanes.close()
         return one, other
 
-    assert not any(lane.process.is_alive() for lane in asyncio.run(work()))
+    assert not any(lane.process.is_alive() for lane in loops.run(work()))
 
 
 @pytest.mark.skipif(not Path("/proc/self/limits").exists(), reason="reads limits in /proc")
