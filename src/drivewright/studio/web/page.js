@@ -2,9 +2,8 @@
 
 export default {
   template: '<div class="st-root"></div>',
-  props: {version: String},
   async mounted() {
-    const {start} = await import(`/web/main.js`);
+    const {start} = await import("/web/main.js");
     this.leave = start(this.$el, {say: message => this.$emit("say", message), connection: () => window.socket});
   },
   unmounted() { this.leave?.(); },
