@@ -1,5 +1,7 @@
 """A running studio, and what its tests do with a page of it."""
 
+import os
+import re
 import subprocess
 import sys
 import time
@@ -13,6 +15,11 @@ from drivewright.studio.session import packed
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
+
+
+def own_port(first):
+    """A port of its own for every parallel worker of the tests."""
+    return first + int(re.sub(r"\D", "", os.environ.get("PYTEST_XDIST_WORKER", "")) or "0")
 
 
 @contextmanager
@@ -38,6 +45,7 @@ def _healthy(address, process):
         try:
             with urllib.request.urlopen(f"{address}/healthz", timeout=2) as answer:
                 assert answer.read() == b'{"status":"ok"}'
+                assert process.poll() is None, "another studio answers at this port"
                 return
         except OSError:
             assert process.poll() is None, process.stderr.read()

@@ -9,7 +9,7 @@ import zipfile
 import ezdxf
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, analysed, drawn, enter, field, running, shared
+from studio_running import EXAMPLES, analysed, drawn, enter, field, own_port, running, shared
 
 from drivewright.spec import load
 
@@ -27,16 +27,9 @@ STATE = "window.drivewright.state"
 
 
 @pytest.fixture(scope="module")
-def studio(worker_port):
-    with running(worker_port, EXAMPLES / "four_bar.toml") as (address, process):
+def studio():
+    with running(own_port(8400), EXAMPLES / "four_bar.toml") as (address, process):
         yield address, process
-
-
-@pytest.fixture(scope="module")
-def worker_port():
-    """A port of its own for every parallel worker."""
-    number = re.sub(r"\D", "", os.environ.get("PYTEST_XDIST_WORKER", "")) or "0"
-    return 8400 + int(number)
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, ROOT, analysed, drawn, enter, running, shared
+from studio_running import EXAMPLES, ROOT, analysed, drawn, enter, own_port, running, shared
 
 pytestmark = [pytest.mark.slow, pytest.mark.needs_browser, pytest.mark.needs_studio]
 
@@ -18,7 +18,7 @@ COLOURS = """async () => {
 
 @pytest.fixture(scope="module")
 def address():
-    with running(8490, EXAMPLES / "four_bar.toml") as (found, _):
+    with running(own_port(8490), EXAMPLES / "four_bar.toml") as (found, _):
         yield found
 
 

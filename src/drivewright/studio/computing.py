@@ -104,6 +104,9 @@ class Computing:
         except DrivewrightError as error:
             self._impossible(gen, error)
             return False
+        except Exception as error:  # a bug on this side: the page must not wait for ever
+            self._lost(error)
+            raise
         return True
 
     def _lost(self, error):
