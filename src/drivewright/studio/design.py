@@ -2,6 +2,7 @@
 
 from copy import deepcopy
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 
 from drivewright.errors import SpecError
@@ -39,7 +40,11 @@ class Design:
 
     def toml(self):
         """The tables as TOML text, data files as the user named them."""
-        return toml_text(self.tables)
+        return self._toml
+
+    @cached_property
+    def _toml(self):
+        return toml_text(self.tables)  # wanted several times for every change
 
     def with_tables(self, tables):
         """Other tables in the same place."""

@@ -24,7 +24,8 @@ def draw(tell, design, affordable):
     """
     spec = design.spec()
     model = runner.build(spec)
-    scene = _scene(tell, spec, model)
+    scene, remarks = _scene(spec, model)
+    tell(json.dumps({"scene": pack_scene(scene) if scene else None, "remarks": remarks}, allow_nan=False))
     if not affordable:
         return None
     return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable)
@@ -43,11 +44,7 @@ def analyse(tell, design):
 
     result = runner.run(spec, progress=step, model=model)
     _end_of(began, seconds)
-    mechanism = registry.mechanism(spec.mechanism)
-    try:
-        scene = mechanism.scene(model) if mechanism.scene else None
-    except DrivewrightError:
-        scene = None  # the drawing's own call has said why
+    scene, _ = _scene(spec, model)
     return page_result(result, scene, list(seconds)), seconds
 
 
@@ -57,15 +54,13 @@ def _end_of(began, seconds):
         seconds[name] = time.perf_counter() - since
 
 
-def _scene(tell, spec, model):
-    """The scene, told as JSON text, with the remark that says why there is none."""
-    mechanism, remarks, scene = registry.mechanism(spec.mechanism), [], None
+def _scene(spec, model):
+    """(the scene or None, remarks that say why there is none)."""
+    mechanism = registry.mechanism(spec.mechanism)
     try:
-        scene = mechanism.scene(model) if mechanism.scene else None
+        return mechanism.scene(model) if mechanism.scene else None, []
     except DrivewrightError as error:
-        remarks.append(f"no motion to show: {error}")
-    tell(json.dumps({"scene": pack_scene(scene) if scene else None, "remarks": remarks}, allow_nan=False))
-    return scene
+        return None, [f"no motion to show: {error}"]
 
 
 def page_result(result, scene, analyses):
