@@ -8,14 +8,13 @@ export const empty = (...children) => element("div", {class: "vw-empty"}, ...chi
 
 /**
  * The pane in `host`; `shown(body, answer)` fills it, `wanted` are the words while it waits, `options()` go with the job.
- * The server does not say for which design an answer is, so the pane remembers which design it asked for; an answer for an older one
- * stays, with a bar that offers a new one.
+ * An answer for an older design stays, with a bar that offers a new one.
  */
 export function createAsked(host, name, {store, say, t}, {wanted, shown, options = () => ({})}) {
   const bar = progress(name, {say, t}), note = outcome(t), body = element("div", {class: "vw-body"});
   const old = element("div", {class: "vw-old", hidden: ""}, t("The design has changed since."), button(t("Show the new one"), ask, {look: "main"}));
   const retry = button(t("Try again"), ask, {testid: `job-${name}`}), wait = empty(element("p", {}, wanted), bar.node, note.node, retry);
-  let asked = null, got = null, answer = null, opened = false, before = null, kind = null;
+  let asked = null, got = null, answer = null, opened = false, before = null, drive = null;
   host.append(body, wait, old);
 
   const gen = () => store.state.design?.gen;
@@ -26,12 +25,12 @@ export function createAsked(host, name, {store, say, t}, {wanted, shown, options
     bar.show(job); note.show(job);
     if (job.state !== "done" || !job.answer || job.answer === answer) return;
     answer = job.answer;
-    asked = got = asked ?? job.gen;
+    got = job.gen;
     shown(body, answer);
   }
   function update({jobs, design}) {
     const job = jobs?.[name] || {state: "idle"}, running = job.state === "running", failed = job.state === "failed";
-    if (design && design.kind !== kind) { kind = design.kind; answer = asked = got = null; }  // nothing of another drive stays
+    if (design && design.opened !== drive) { drive = design.opened; answer = asked = got = null; }  // nothing of another drive stays
     take(job);
     body.hidden = !answer;
     wait.hidden = Boolean(answer) && !running && !failed;

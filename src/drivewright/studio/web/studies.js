@@ -2,12 +2,10 @@
 
 import { empty } from "./asked.js";
 import { gallery } from "./figures.js";
-import { numberOf } from "./numbers.js";
+import { numberOf, unitText } from "./numbers.js";
 import { pressable } from "./parts.js";
 import { element } from "./player.js";
 import { createScatter } from "./scatter.js";
-
-const spoken = unit => unit === "deg" ? "°" : unit || "";
 
 /** The design as it stands, as a row of a study: its dimensions by key where they speak the unit of their column, values, margins of checks. */
 function standing({design, result}, columns) {
@@ -15,7 +13,7 @@ function standing({design, result}, columns) {
   for (const {name, number} of result?.values || []) found[name] = numberOf(number);
   for (const {name, margin} of result?.checks || []) found[`check.${name}`] = numberOf(margin);
   for (const group of design?.form.groups || []) for (const field of group.fields) for (const part of field.parts || [field])
-    if (typeof part.value === "number" && spoken(part.unit) === spoken(units.get(part.key))) found[part.key] = part.value;
+    if (typeof part.value === "number" && unitText(part.unit) === unitText(units.get(part.key))) found[part.key] = part.value;
   return found;
 }
 
