@@ -1,5 +1,6 @@
 """The drawn mechanism is the computed one: rollers lie on their cams, gears mesh, the rod runs along its line, parts fit together."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import shapely
 import drivewright as dw
 from drivewright.mechanisms.seedling_pusher import scene as pusher_scene
 from drivewright.mechanisms.seedling_pusher.build import build
-from drivewright.scene import place
+from drivewright.scene import Shape, place
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FRAMES = (0, 37, 70, 76, 84, 90, 110, 118, 200, 305)
@@ -108,6 +109,8 @@ def test_the_solids_stand_where_the_scene_starts(drawn):
         solid = shapely.Polygon(place(prism.outline.points(2e-6), parts[f"cam_{cam.name}"].pose))
         shown = polygon(bodies[f"cam.{cam.name}"], "profile", 0)
         assert solid.symmetric_difference(shown).area < model.drawn_tolerance * solid.length
+        exact = replace(bodies[f"cam.{cam.name}"], shapes=tuple(pusher_scene.cam_shapes(model, cam, model.profiles)))
+        assert solid.symmetric_difference(polygon(exact, "profile", 0)).area < 1e-9
         roller = parts[f"roller_{cam.name}"]
         assert roller.solids[0].z == prism.z, "roller and cam lie in one plane"
         centre = place(roller.solids[0].outline.points(1e-7), roller.pose).mean(axis=0)
@@ -116,6 +119,8 @@ def test_the_solids_stand_where_the_scene_starts(drawn):
         part = parts[f"gear_{name}"]
         solid = shapely.Polygon(place(part.solids[0].outline.points(2e-6), part.pose))
         assert solid.symmetric_difference(polygon(bodies[name], "body", 0)).area < model.drawn_tolerance * solid.length
+        exact = replace(bodies[name], shapes=(Shape("body", model.gear_outline),))
+        assert solid.symmetric_difference(polygon(exact, "body", 0)).area < 1e-9
 
 
 def test_an_even_tooth_count_is_refused():
