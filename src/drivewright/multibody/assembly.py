@@ -17,12 +17,12 @@ from drivewright.multibody.lower import Places, lower, rows_of, table
 from drivewright.multibody.model import GROUND, Ideal, Model, Revolute
 from drivewright.multibody.system import System, scratch
 from drivewright.multibody.tree import Tree, expanded, grow
+from drivewright.numerics.small import lu_factor
 
-CLOSED = 1e-12  # largest miss of an assembled loop [m], [rad]
+CLOSED = 1e-12  # largest miss of an assembled loop [rad], [lengths of the mechanism]
 WEAK = 0.05  # a coordinate that moves the loops less than this part of its own size is no good dependent one
 RANK = 1e-9  # rows that depend on one another to this accuracy are redundant
-FIRM = 0.02  # part of its firmness to which a split may fall before another one is made
-NUDGE = 1e-3  # how far a mechanism is moved to see whether rows depend on one another everywhere [rad]
+NUDGE = 1e-3  # how far a mechanism is moved to see whether rows depend on one another everywhere [rad], [lengths of the mechanism]
 
 
 class Start(NamedTuple):
@@ -104,6 +104,16 @@ def at(system, q, t=0.0, v=None):
     return work
 
 
+def scaled_jacobian(system, work, coordinates):
+    """(rows, given coordinates) of the Jacobian without dimensions: lengths count in lengths of the mechanism."""
+    return work.jacobian[:, coordinates] * system.sizes[coordinates] / system.rows.extent[:, None]
+
+
+def _misses(system, work):
+    """Residuals of the rows without dimensions."""
+    return work.columns[arrays.MISS] / system.rows.extent
+
+
 def _guess(tree, system):
     """Coordinates as the bodies' start angles have it; slides and free places zero."""
     angles = {GROUND: 0.0} | {link.body.name: link.body.angle for link in tree.links}
@@ -171,30 +181,31 @@ def _step(system, q, columns):
     work = at(system, q)
     q = q.copy()
     if len(system.rows):
-        q[columns] -= np.linalg.lstsq(work.jacobian[:, columns], work.columns[0], rcond=1e-10)[0]
+        q[columns] -= system.sizes[columns] * np.linalg.lstsq(scaled_jacobian(system, work, columns), _misses(system, work), rcond=1e-10)[0]
     return q
 
 
 def _newton(system, q, columns, t=0.0):
-    """(coordinates, largest miss) by Newton's method on some coordinates: least change, damped, at most half a radian a step."""
+    """(coordinates, largest miss) by Newton's method on some coordinates: least change, damped, at most half a radian, or half the
+    mechanism's length, a step."""
     work = at(system, q, t)
     for _ in range(60):
-        size = np.max(np.abs(work.columns[0]), initial=0.0)
-        if size < 0.01 * CLOSED or not columns:
+        misses = _misses(system, work)
+        if np.max(np.abs(misses), initial=0.0) < 0.01 * CLOSED or not columns:
             break
-        step = np.linalg.lstsq(work.jacobian[:, columns], work.columns[0], rcond=1e-12)[0]
+        step = np.linalg.lstsq(scaled_jacobian(system, work, columns), misses, rcond=1e-12)[0]
         step *= min(1.0, 0.5 / np.max(np.abs(step), initial=1e-300))
         for _ in range(10):
             trial = work.coordinates.q.copy()
-            trial[columns] -= step
+            trial[columns] -= step * system.sizes[columns]
             better = at(system, trial, t)
-            if np.linalg.norm(better.columns[0]) < np.linalg.norm(work.columns[0]):
+            if np.linalg.norm(_misses(system, better)) < np.linalg.norm(misses):
                 break
             step *= 0.5
         else:
             break
         work = better
-    return work.coordinates.q, np.max(np.abs(work.columns[0]), initial=0.0)
+    return work.coordinates.q, np.max(np.abs(_misses(system, work)), initial=0.0)
 
 
 def _giving_way(wide, tree, system, q, free):
@@ -202,7 +213,7 @@ def _giving_way(wide, tree, system, q, free):
     order = {body.name: k for k, body in enumerate(wide.bodies)}
     links = sorted(tree.links, key=lambda link: -order[link.body.name])
     ranked = [k for link in links for k in _places(link)] + [link.turn for link in links]
-    jacobian = at(system, q).jacobian
+    jacobian = scaled_jacobian(system, at(system, q), range(len(q)))
     chosen, basis = [], np.zeros((len(system.rows), 0))
     for k in (k for k in ranked if k in free):
         column = jacobian[:, k]
@@ -215,7 +226,7 @@ def _giving_way(wide, tree, system, q, free):
 
 def _does_not_close(wide, system, q):
     work = at(system, q)
-    worst = int(np.argmax(np.abs(work.columns[0])))
+    worst = int(np.argmax(np.abs(_misses(system, work))))
     row = system.rows[worst]
     joint = wide.joints[row.joint]
     pair = [k for k in range(len(system.rows)) if system.rows[k].joint == row.joint]
@@ -236,18 +247,18 @@ def _bodies_of(joint):
 
 def _without_redundant_rows(wide, tree, system, q):
     """The system without rows that others imply, with a finding for each joint concerned."""
-    kept = _independent_rows(at(system, q).jacobian[:, system.stored])
+    kept = _independent_rows(scaled_jacobian(system, at(system, q), system.stored))
     if len(kept) == len(system.rows):
         return system, ()
     nudged, t = _nudge(system, q)
-    again = _independent_rows(at(system, nudged, t).jacobian[:, system.stored])
+    again = _independent_rows(scaled_jacobian(system, at(system, nudged, t), system.stored))
     if len(again) > len(kept):
         missing = wide.joints[system.rows[next(k for k in again if k not in kept)].joint].name
         raise DoesNotAssemble(f"the mechanism starts in a dead point: joint {missing!r} has no unique way on from there. "
                               "Start a few degrees away from it, or drive another joint")
     dropped = [k for k in range(len(system.rows)) if k not in kept]
     names = list(dict.fromkeys(wide.joints[system.rows[k].joint].name for k in dropped))
-    whole = at(system, q).jacobian
+    whole = scaled_jacobian(system, at(system, q), range(len(q)))
     for k in dropped:
         if np.linalg.matrix_rank(whole[[*kept, k]], RANK) > np.linalg.matrix_rank(whole[kept], RANK):
             raise DoesNotAssemble(f"the drive cannot move: joint {wide.joints[system.rows[k].joint].name!r} holds the mechanism fast. "
@@ -273,19 +284,22 @@ def _independent_rows(jacobian):
 def _nudge(system, q):
     """Coordinates and time of the mechanism moved on a little: its drives, and what is free of them at the moment (in a dead point)."""
     work, q = at(system, q), q.copy()
-    fastest = np.max(np.abs(work.coordinates.v), initial=0.0)
+    fastest = np.max(np.abs(work.coordinates.v) / system.sizes, initial=0.0)
     t = NUDGE / fastest if fastest > 0 else 0.0
-    free = null_space(work.jacobian[:, system.stored])
-    q[system.stored] += NUDGE * np.sum(free, axis=1)
+    free = null_space(scaled_jacobian(system, work, system.stored))
+    q[system.stored] += NUDGE * system.sizes[system.stored] * np.sum(free, axis=1)
     return _newton(system, q, list(system.stored), t)[0], t
 
 
 def split(system, q, t=0.0):
     """The system with its coordinates split at q so that the dependent ones follow as firmly as possible."""
-    jacobian = at(system, q, t).jacobian[:, system.stored]
-    rows = len(system.rows)
-    pivots = qr(jacobian, mode="r", pivoting=True)[1] if rows else np.zeros(0, dtype=int)
-    dependent = np.sort(system.stored[pivots[:rows]])
+    work = at(system, q, t)
+    pivots = qr(scaled_jacobian(system, work, system.stored), mode="r", pivoting=True)[1] if len(system.rows) else np.zeros(0, int)
+    return split_into(system, np.sort(system.stored[pivots[: len(system.rows)]]), work)
+
+
+def split_into(system, dependent, work):
+    """The system with the given coordinates dependent and without a chart, its determinant measured at what `work` holds."""
     independent = np.array([k for k in system.stored if k not in dependent], dtype=np.int64)
     contacts, place = system.contacts.copy(), len(system.stored) + len(independent)
     for contact in contacts:
@@ -295,8 +309,17 @@ def split(system, q, t=0.0):
             contact.bristle, place = place, place + 1
         else:
             contact.bristle = contact.memory
-    least = FIRM * float(abs(np.linalg.det(jacobian[:, pivots[:rows]]))) if len(independent) else -1.0
-    return system._replace(dependent=dependent.astype(np.int64), independent=independent, contacts=contacts, least_firmness=least)
+    return system._replace(
+        dependent=np.asarray(dependent, np.int64), independent=independent, contacts=contacts,
+        reference_determinant=_determinant(scaled_jacobian(system, work, dependent)), chart=arrays.no_chart(len(independent), len(dependent)))
+
+
+def _determinant(square):
+    """Determinant, with the sign that the kernels' own elimination has; 0 where that finds no pivot."""
+    lu, pivots = np.array(square), np.zeros(len(square), np.int64)
+    if not lu_factor(lu, pivots):
+        return 0.0
+    return float(np.prod(np.diag(lu)) * (-1.0) ** np.count_nonzero(pivots != np.arange(len(square))))
 
 
 # ------------------------------------------------------------------------------------------------------------------- rates
@@ -310,8 +333,9 @@ def start_rates(model, wide, tree, system, q):
     pick = np.eye(size)
     driven = system.driven.coordinate
     given, together = _given_rates(wide, tree, system, work), _concentric(model, wide, tree, system, q)
-    stages = [(pick[driven], work.coordinates.v[driven]), (work.jacobian, np.zeros(len(system.rows))), given, together]
-    x, free = np.zeros(size), np.eye(size)
+    stages = [(pick[driven], work.coordinates.v[driven]), (work.jacobian / system.rows.extent[:, None], np.zeros(len(system.rows))),
+              given, together]
+    x, free = np.zeros(size), np.diag(system.sizes)  # changes of all coordinates alike
     for matrix, wanted in stages:
         if len(wanted) and free.shape[1]:
             x = x + free @ np.linalg.lstsq(matrix @ free, wanted - matrix @ x, rcond=1e-10)[0]
@@ -323,8 +347,8 @@ def _given_rates(wide, tree, system, work):
     rows, wanted = [], []
     for k, link in enumerate(tree.links, start=1):
         if link.body.velocity is not None:
-            rows += [work.levers.x[k], work.levers.y[k]]
-            wanted += list(link.body.velocity)
+            rows += [work.levers.x[k] / system.length, work.levers.y[k] / system.length]
+            wanted += [v / system.length for v in link.body.velocity]
         if link.body.angular_velocity is not None:
             rows.append(work.levers.t[k])
             wanted.append(link.body.angular_velocity)
@@ -338,5 +362,5 @@ def _concentric(model, wide, tree, system, q):
     pins = [j for j in wide.joints if isinstance(j, Revolute) and not isinstance(j.model, Ideal)]
     rows = table(arrays.ROW, [row for pin in pins for row in rows_of(pin, places)])
     links = np.eye(len(q))[[link.turn for link in tree.links if link.body.name.startswith("link:")]].reshape(-1, len(q))
-    jacobian = np.concatenate([at(system._replace(rows=rows), q).jacobian, links])
+    jacobian = np.concatenate([at(system._replace(rows=rows), q).jacobian / system.length, links])
     return jacobian, np.zeros(len(jacobian))

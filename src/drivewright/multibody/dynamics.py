@@ -7,11 +7,15 @@ the state only start Newton's method: the loops are closed anew, exactly, at eve
 import numpy as np
 
 from drivewright._jit import implements, inner
-from drivewright.multibody.kinematics import bend, close, curve_at, drive, move
+from drivewright.multibody.chart import configure, interpolated, offset_of, pose
+from drivewright.multibody.kinematics import curve_at, determinant, move
 from drivewright.multibody.loads import SLOWEST, apart, gap_of, load, worn_off
 from drivewright.multibody.system import DRIFT, LUGRE, Motion
 from drivewright.numerics.ode import events, rate, switch
 from drivewright.numerics.small import cholesky_solve
+
+DECADE = 0.1  # part of its determinant to which a split may fall, or whose inverse it may reach, before another one is made
+FIRST_PIN = 2  # among the event functions: before it stand the split's own and the singular position
 
 
 @implements(rate, Motion)
@@ -32,9 +36,7 @@ def _(motion, index, t, y):
 @inner
 def accelerations(system, work, t, y, dy):
     """dy of the state y: rates of the stored coordinates, accelerations of the independent ones, rates of what elements remember."""
-    closed = pose(system, work, t, y)
-    move(system, work)
-    bend(system, work)
+    closed = configure(system, work, t, y)
     load(system, work, t, y, dy)
     accelerate(system, work)
     for k in range(system.stored.size):
@@ -45,13 +47,18 @@ def accelerations(system, work, t, y, dy):
 
 @inner
 def depths(system, work, t, y, values):
-    """How firmly the dependent coordinates follow, less the least that is allowed; then the depth of every pin with play: it touches where
-    this rises through 0 and lets go where it falls."""
-    if not stands(system, work, t, y):  # at the end of a step the last rates were those of this very state
-        pose(system, work, t, y)
-    values[0] = firmness(work) - system.least_firmness
+    """Whether the split of the coordinates, or the chart, still serves (below 0 it does not); how far the state stands from the singular
+    position of the chart; then the depth of every pin with play: it touches where this rises through 0 and lets go where it falls."""
+    if system.chart.offsets.size > 0:
+        interpolated(system, work, t, y)
+        values[1] = offset_of(system, t, y)
+        values[0] = 1.0 - (values[1] / system.chart.reach) ** 2
+    else:
+        if not stands(system, work, t, y):  # at the end of a step the last rates were those of this very state
+            pose(system, work, t, y)
+        values[0], values[1] = validity_of_split(system, work), 1.0
     for n in range(system.contacts.size):
-        values[n + 1] = gap_of(system, work, n)
+        values[n + FIRST_PIN] = gap_of(system, work, n)
 
 
 @inner
@@ -72,23 +79,29 @@ def stands(system, work, t, y):
 
 
 @inner
-def firmness(work):
-    """Determinant of the dependent coordinates' Jacobian: 0 where the mechanism stands in a dead point of this split.  Its ratio to that
-    at another pose does not depend on the units nor on the sizes of the loops."""
-    volume = 1.0
-    for r in range(work.pivots.size):
-        volume *= work.lu[r, r]
-    return abs(volume)
+def validity_of_split(system, work):
+    """Above 0 while the determinant is within a decade of that where the coordinates were split, with the same sign.
+
+    It changes its sign in the singular position of a single loop, and stays small about that of several, so that no step of the
+    integrator is so long that it misses one.
+    """
+    if system.reference_determinant == 0.0:
+        return 1.0
+    share = determinant(system, work) / system.reference_determinant
+    return min(share - DECADE, 1.0 - DECADE * share)
 
 
 @inner
 def touch_or_let_go(system, work, index, t, y):
     """A pin touches: remember the speed of approach.  It lets go: forget it."""
-    contact = system.contacts[index - 1]
-    pose(system, work, t, y)
-    move(system, work)
+    contact = system.contacts[index - FIRST_PIN]
+    if system.chart.offsets.size > 0:
+        interpolated(system, work, t, y)
+    else:
+        pose(system, work, t, y)
+        move(system, work)
     dx, dy, vx, vy, _, _, _, _ = apart(work.poses, contact)
-    _, lean = worn_off(system.wear[index - 1], work.poses[contact.i].angle, dx, dy)
+    _, lean = worn_off(system.wear[index - FIRST_PIN], work.poses[contact.i].angle, dx, dy)
     across = (dx * vy - dy * vx) / np.hypot(dx, dy) - np.hypot(dx, dy) * work.poses[contact.i].w
     approach = (dx * vx + dy * vy) / np.hypot(dx, dy) - lean * across
     if y[contact.memory] > 0.0 and approach > 0.0:  # a touch, seen twice by rounding
@@ -96,17 +109,6 @@ def touch_or_let_go(system, work, index, t, y):
     y[contact.memory] = 0.0 if y[contact.memory] > 0.0 else max(approach, SLOWEST)
     if contact.law == LUGRE:
         y[contact.bristle] = 0.0
-
-
-@inner
-def pose(system, work, t, y):
-    """Coordinates of the state, loops closed, bodies placed; False where the loops cannot be closed."""
-    for k in range(system.stored.size):
-        work.coordinates[system.stored[k]].q = y[k]
-    for m in range(system.independent.size):
-        work.coordinates[system.independent[m]].v = y[system.stored.size + m]
-    drive(system, work, t)
-    return close(system, work)
 
 
 @inner

@@ -6,7 +6,7 @@ from drivewright._jit import inner, outer
 from drivewright.multibody.system import COLUMN, DISTANCE, DRIFT, LINEAR, MISS
 from drivewright.numerics.small import lu_factor, lu_solve
 
-CLOSED = 1e-7  # Newton's correction below which one more evaluation is exact to rounding, convergence being quadratic
+CLOSED = 1e-7  # Newton's correction [rad], [lengths of the mechanism] below which one more evaluation is exact to rounding, convergence being quadratic
 TRIES = 12
 
 
@@ -134,9 +134,22 @@ def close(system, work):
         for r in range(system.rows.size):
             step = work.columns[MISS, r]
             work.coordinates[system.dependent[r]].q -= step
-            largest = max(largest, abs(step))
+            largest = max(largest, abs(step) / system.sizes[system.dependent[r]])
         settled = largest < CLOSED
     return False
+
+
+@inner
+def determinant(system, work):
+    """Determinant of the dependent coordinates' Jacobian, which is factored: 0 where the mechanism stands in a dead point of this split.
+
+    Lengths count in lengths of the mechanism; its ratio to that at another pose depends on the sizes of the loops neither.
+    """
+    volume = 1.0
+    for r in range(work.pivots.size):
+        pivot = work.lu[r, r] * system.sizes[system.dependent[r]] / system.rows[r].extent
+        volume *= pivot if work.pivots[r] == r else -pivot
+    return volume
 
 
 @inner
@@ -153,6 +166,12 @@ def move(system, work):
     """Rates of the dependent coordinates, and velocities of all bodies, from the rates of the independent and driven coordinates."""
     if system.rows.size > 0:
         _follow(system, work)
+    body_velocities(system, work)
+
+
+@inner
+def body_velocities(system, work):
+    """Velocities of all bodies from the rates of all coordinates."""
     for i in range(1, system.bodies.size):
         body, here, base = system.bodies[i], work.poses[i], work.poses[system.bodies[i].parent]
         here.w = body.inherits * base.w
@@ -188,6 +207,16 @@ def _follow(system, work):
 
 
 @inner
+def led(system, work, d):
+    """d(dependent)/d(driven coordinate d), in work.columns[COLUMN]."""
+    column = work.columns[COLUMN]
+    for r in range(system.rows.size):
+        column[r] = -work.jacobian[r, system.driven[d].coordinate]
+    if system.rows.size > 0:
+        lu_solve(work.lu, work.pivots, column)
+
+
+@inner
 def slide_of(work, body):
     """Displacement and speed along the slide by which a body hangs; zero where it has none."""
     if body.slide < 0:
@@ -209,6 +238,16 @@ def _driven_part(system, work, r, acceleration):
 @inner
 def bend(system, work):
     """Accelerations that the velocities alone cause: of the bodies (bx, by), and of the dependent coordinates (DRIFT)."""
+    body_bends(system, work)
+    if system.rows.size > 0:
+        for r in range(system.rows.size):
+            work.columns[DRIFT, r] = _driven_part(system, work, r, True) - _row_bend(system, work, system.rows[r])
+        lu_solve(work.lu, work.pivots, work.columns[DRIFT])
+
+
+@inner
+def body_bends(system, work):
+    """Accelerations of the bodies (bx, by) with the second derivatives of all coordinates zero."""
     for i in range(1, system.bodies.size):
         body, here, base = system.bodies[i], work.poses[i], work.poses[system.bodies[i].parent]
         if body.free >= 0:
@@ -221,10 +260,6 @@ def bend(system, work):
         bx, by = turned(here, w * w * (body.bx + slide * body.fx) + 2 * slip * w * body.fy,
                         w * w * (body.by + slide * body.fy) - 2 * slip * w * body.fx)
         here.bx, here.by = base.bx - ax + bx, base.by - ay + by
-    if system.rows.size > 0:
-        for r in range(system.rows.size):
-            work.columns[DRIFT, r] = _driven_part(system, work, r, True) - _row_bend(system, work, system.rows[r])
-        lu_solve(work.lu, work.pivots, work.columns[DRIFT])
 
 
 @inner
@@ -257,5 +292,11 @@ def _row_bend(system, work, row):
 def placed(system, work, t):
     """Driven coordinates set, bodies placed and rows measured at the coordinates in `work`; the loops stay as they are."""
     drive(system, work, t)
+    measured(system, work)
+
+
+@outer
+def measured(system, work):
+    """Bodies placed and rows measured at the coordinates in `work`, driven ones included."""
     place(system, work)
     measure(system, work)

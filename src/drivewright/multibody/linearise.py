@@ -13,7 +13,6 @@ from drivewright.multibody.statics import (
     Place,
     equilibrium,
     forces_at_work,
-    length_of,
     names_of,
     reduced,
     resting,
@@ -65,7 +64,7 @@ def linearise(assembly, state=None, time=0.0, running=False):
     The drives are held; `running`, they go on as at `time` and the state keeps its rates (a governor).
     """
     here = _place(assembly, state, time, running)
-    now, length = reduced(here), length_of(here.system)
+    now, length = reduced(here), here.system.length
     scale = scales(now, length)
     step = _step(here, length)
     stiffness = (4 * scaled_stiffness(here, scale, step / 2) - scaled_stiffness(here, scale, step)) / 3

@@ -80,11 +80,27 @@ def lower(model, tree):
         own = [k for k in (body["turn"], body["slide"], body["free"]) if k >= 0]
         bodies[number]["driven"] = bool(bodies[int(body["parent"])]["driven"] or not body["parent"]) and all(k in given for k in own)
     curves, pieces = _curves(places.curves)
+    bodies, rows = np.array(bodies).view(np.recarray), table(arrays.ROW, rows)
+    length = arrays.length_of(bodies, rows, *(each for each in records.values() if "ax" in each.dtype.names))
+    rows["extent"] = np.where(_measures_angles(rows), 1.0, length)
     return arrays.System(
-        bodies=np.array(bodies).view(np.recarray), rows=table(arrays.ROW, rows),
+        bodies=bodies, rows=rows,
         driven=table(arrays.DRIVEN, driven), stored=stored, independent=stored, dependent=np.zeros(0, np.int64), **records,
         wear=np.zeros((len(records["contacts"]), 0)),
-        curves=curves, pieces=pieces, gravity_x=float(model.gravity[0]), gravity_y=float(model.gravity[1]), least_firmness=0.0)
+        curves=curves, pieces=pieces, gravity_x=float(model.gravity[0]), gravity_y=float(model.gravity[1]), length=length,
+        sizes=_sizes(tree, length), reference_determinant=0.0, chart=arrays.no_chart())
+
+
+def _measures_angles(rows):
+    """Which rows have an angle for a residual; the others have a length."""
+    return (rows.kind == arrays.LINEAR) & (rows.ex == 0.0) & (rows.ey == 0.0)
+
+
+def _sizes(tree, length):
+    """(coordinates,): 1 of the rotations, the mechanism's length of the displacements."""
+    sizes = np.full(tree.size, length)
+    sizes[[link.turn for link in tree.links if link.turn >= 0]] = 1.0
+    return sizes
 
 
 def _record(kind, /, **values):

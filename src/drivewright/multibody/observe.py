@@ -5,11 +5,10 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import inner, outer
-from drivewright.multibody.dynamics import accelerate, pose
-from drivewright.multibody.kinematics import bend, move
+from drivewright.multibody.chart import configure, lead
+from drivewright.multibody.dynamics import accelerate
 from drivewright.multibody.loads import apply, film_of, hold, press, touch, unload
 from drivewright.multibody.system import COLUMN, DRIFT, NO_FILM, motion
-from drivewright.numerics.small import lu_solve
 
 FIELDS = ("x", "y", "angle", "vx", "vy", "w", "ax", "ay", "alpha", "fx", "fy", "torque")
 PIN_FIELDS = ("depth", "normal", "friction", "slip", "nx", "ny", "fx", "fy")
@@ -65,9 +64,7 @@ def observe_all(motion, t, y, dy, bodies, pins, powers, drives):
 @inner
 def settle(system, work, t, y, dy, powers):
     """Everything about the system at a state: poses, rates, loads with their powers, and the accelerations of all coordinates."""
-    pose(system, work, t, y)
-    move(system, work)
-    bend(system, work)
+    configure(system, work, t, y)
     unload(work)
     hold(system, work)
     powers[0] = _power(work)
@@ -123,11 +120,8 @@ def _power(work):
 def _drive(system, work, d):
     """Generalised force of a driven coordinate: what inertia and loads of all bodies that follow it ask for."""
     k = system.driven[d].coordinate
+    lead(system, work, d)
     column = work.columns[COLUMN]
-    for r in range(system.rows.size):
-        column[r] = -work.jacobian[r, k]
-    if system.rows.size > 0:
-        lu_solve(work.lu, work.pivots, column)
     total = 0.0
     for i in range(1, system.bodies.size):
         body, here = system.bodies[i], work.poses[i]

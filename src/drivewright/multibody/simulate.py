@@ -2,23 +2,25 @@
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import inner, outer, plain
+from drivewright._jit import plain
 from drivewright.errors import DoesNotAssemble
 from drivewright.multibody.assembly import Assembly, at, split
-from drivewright.multibody.dynamics import pose
-from drivewright.multibody.kinematics import move
+from drivewright.multibody.chart import configure_at
+from drivewright.multibody.continuation import Stretch, continued
+from drivewright.multibody.dynamics import FIRST_PIN
 from drivewright.multibody.loads import SLOWEST, gap_of
-from drivewright.multibody.system import System, motion
+from drivewright.multibody.singular import Outlook, look_ahead, passage
+from drivewright.multibody.system import motion, no_chart
 from drivewright.numerics.ode import Event, integrate
 from drivewright.numerics.radau import integrate_stiff
 
 GEAR = 1e-3  # absolute over relative tolerance, at lengths and angles of the size of 1
+WARY, CAREFUL = 3.0, 0.2  # length of a leg towards a singular position, and longest step in it, over the time until it is reached
 GRID = 720  # samples of a turn where the drives leave no freedom and so no steps to report
-NEAR = 0.2  # a coordinate that is farther from where its rate led to is on another assembly [m], [rad]
-SHORTEST = 1e-9  # part of the way below which a drive that finds no way on is stuck
 
 
 @dataclass(frozen=True)
@@ -32,28 +34,27 @@ class Settings:
     max_steps: int = 10_000_000
     method: str = "dopri5"
     per_step: int = 1
+    singular: str = "smooth"  # or "stop": end the run in the first singular position
 
 
-@dataclass(frozen=True)
-class Stretch:
-    """States y (m, n) at the times t (m,) of one system, that is of one split of the coordinates; the end of it is in `t_end`, `y_end`."""
+class Leg(NamedTuple):
+    """Until when a run is integrated at once, and how long its steps may be: short ones on the way to a singular position."""
 
-    system: System
-    t: np.ndarray
-    y: np.ndarray
-    t_end: float
-    y_end: np.ndarray
+    until: float
+    max_step: float = np.inf
 
 
 @dataclass(frozen=True)
 class Run:
-    """A motion: stretches one after the other, the impacts (time, number of the pin, speed of approach), and how it ended."""
+    """A motion: stretches one after the other, the impacts (time, number of the pin, speed of approach), how it ended, and the singular
+    positions on the way."""
 
     assembly: Assembly
     stretches: tuple
     impacts: np.ndarray  # (k, 3)
     advice: str
     steps: int
+    passages: tuple = ()
 
     @property
     def outcome(self):
@@ -75,21 +76,55 @@ def simulate(assembly, duration, settings=Settings(), *, samples=None, state=Non
         turns = max(duration * speed_of(assembly) / (2 * np.pi), 1.0)
         grid = np.linspace(start, start + duration, 1 + math.ceil(GRID * turns))
         times = grid if samples is None else np.asarray(samples, float)
-        return _follow(assembly, times, start + duration)
+        return _driven(assembly, times, start + duration, settings)
     system = assembly.system
     y = assembly.state if state is None else touching(system, start, np.array(state, float))
     if duration == 0:
         return Run(assembly, (Stretch(system, np.array([start]), y[None], start, y),), np.zeros((0, 3)), "", 0)
-    t, stretches, impacts, steps, advice = start, [], [np.zeros((0, 3))], 0, ""
+    return _legs(assembly, start, start + duration, y, settings, samples)
+
+
+def _legs(assembly, t, end, y, settings, samples):
+    """The `Run` of a mechanism with freedom, leg by leg: until the coordinates are split anew, or a chart leads across a singular position."""
+    system, leg = assembly.system, Leg(end)
+    stretches, impacts, passages, steps = [], [np.zeros((0, 3))], [], 0
     while True:
-        inside = None if samples is None else samples[(samples > t) | (t == start)]
-        run = _integrate(system, t, start + duration, y, settings, steps, inside, speed_of(assembly))
-        stretches.append(Stretch(system, run.t, run.y, run.t_end, run.y_end))
+        inside = None if samples is None else samples[(samples <= leg.until) & ((samples > t) | (not stretches))]
+        run = _integrate(system, t, leg, y, settings, steps, inside, speed_of(assembly))
+        goes_on = run.outcome == "event" or (not run.advice and run.t_end < end)
+        kept = slice(None, -1) if goes_on and samples is None else slice(None)  # the next stretch begins with the state at the end
+        stretches.append(Stretch(system, run.t[kept], run.y[kept], run.t_end, run.y_end))
         impacts.append(_impacts(system, run))
+        passages += _passages(system, run)
         t, y, steps, advice = run.t_end, run.y_end, steps + run.steps, run.advice
-        if run.outcome != "event":
-            return Run(assembly, tuple(stretches), np.concatenate(impacts), advice, steps)
-        system, y = resplit(system, t, y)
+        if goes_on:
+            system, y, leg = _onward(system, t, y, end, run.outcome == "event")
+            if len(system.chart.offsets) and settings.singular == "stop":
+                goes_on, advice = False, stopped_at(system.chart.origin_time)
+        if not goes_on:
+            return Run(assembly, tuple(stretches), np.concatenate(impacts), advice, steps, tuple(passages))
+
+
+def _onward(system, t, y, end, weak):
+    """(system, state, `Leg`) with which a run goes on from the end of a leg, where the split of its coordinates may have become weak."""
+    if not weak:
+        return system, y, Leg(end)
+    outlook = look_ahead(system, t, y) if len(system.chart.offsets) == 0 else Outlook(None, np.inf)
+    if outlook.charted:
+        return *outlook.charted, Leg(end)
+    return *resplit(system, t, y), Leg(min(end, t + WARY * outlook.time), CAREFUL * outlook.time)
+
+
+def stopped_at(time):
+    """Advice of a run that was to stop in a singular position."""
+    return (f"the mechanism comes to a singular position at t = {time:.6g} s, where the run was to stop; take simulate.singular = \"smooth\" "
+            "to go through it")
+
+
+def _passages(system, run):
+    """`Passage` of each singular position that the run goes through in the chart of its system."""
+    t, index, y = run.crossings
+    return [passage(system, t[k], y[k]) for k in np.flatnonzero(index == FIRST_PIN - 1)]
 
 
 def touching(system, t, y):
@@ -101,11 +136,11 @@ def touching(system, t, y):
     return y
 
 
-def _integrate(system, t, t1, y, settings, steps, samples, speed):
-    watch = [Event(-1, terminal=True), *[Event(switches=True)] * len(system.contacts)]
-    longest = settings.max_step or (2 * np.pi / speed / 100 if speed else np.inf)
+def _integrate(system, t, leg, y, settings, steps, samples, speed):
+    watch = [Event(-1, terminal=True), Event(), *[Event(switches=True)] * len(system.contacts)]
+    longest = min(leg.max_step, settings.max_step or (2 * np.pi / speed / 100 if speed else np.inf))
     solve = integrate_stiff if settings.method == "radau" else integrate
-    return solve(motion(system), t, t1, y, settings.rtol, tolerances(system, settings, speed), samples=samples, watch=watch,
+    return solve(motion(system), t, leg.until, y, settings.rtol, tolerances(system, settings, speed), samples=samples, watch=watch,
                  max_steps=max(settings.max_steps - steps, 0), max_step=longest, min_step=settings.min_step,
                  per_step=settings.per_step)
 
@@ -117,10 +152,10 @@ def speed_of(assembly):
 
 def tolerances(system, settings, speed):
     """Absolute tolerance of every component of the state: rates get ten times the speed times that of the positions, memories none."""
-    stored, free = len(system.stored), len(system.independent)
     atol = settings.atol or settings.rtol * GEAR
     memories = len(system.contacts) + int(np.sum(system.contacts.bristle != system.contacts.memory))
-    values = np.concatenate([np.full(stored, atol), np.full(free, 10 * max(speed, 1.0) * atol), np.full(memories, 1.0)])
+    stored, free = np.full(len(system.stored), atol), np.full(len(system.independent), atol)
+    values = np.concatenate([stored, 10 * max(speed, 1.0) * free, np.full(memories, 1.0)])
     for contact in system.contacts:
         if contact.bristle != contact.memory:
             values[contact.bristle] = atol
@@ -131,7 +166,7 @@ def _impacts(system, run):
     """Touches among the events: those after which a pin remembers its speed of approach."""
     t, index, y = run.crossings
     rows, last = [], np.zeros(len(system.contacts))
-    for time, pin, state in zip(t, index - 1, y, strict=True):
+    for time, pin, state in zip(t, index - FIRST_PIN, y, strict=True):
         if pin >= 0:
             memory = state[system.contacts[pin].memory]
             if memory > 0.0 and memory != last[pin]:
@@ -143,7 +178,7 @@ def _impacts(system, run):
 def resplit(system, t, y):
     """(system, state) with the coordinates split anew at a state."""
     work = at_state(system, t, y)
-    fresh = split(system, work.coordinates.q, t)
+    fresh = split(system._replace(chart=no_chart()), work.coordinates.q, t)
     return fresh, restated(system, t, y, fresh)
 
 
@@ -157,84 +192,24 @@ def restated(system, t, y, other):
 def at_state(system, t, y):
     """`Work` of a state: loops closed, rates of all coordinates."""
     moving = motion(system)
-    if not settle_at(moving.system, moving.work, t, y):
+    if not configure_at(moving.system, moving.work, t, y):
         raise DoesNotAssemble(f"the loops do not close at t = {t:.6g} s")
     return moving.work
-
-
-@inner
-def settled(system, work, t, y):
-    """Coordinates and rates of a state in `work`; False where the loops cannot be closed."""
-    closed = pose(system, work, t, y)
-    move(system, work)
-    return closed
-
-
-@outer
-def settle_at(system, work, t, y):
-    """`settled`, to be called from Python."""
-    return settled(system, work, t, y)
 
 
 # -------------------------------------------------------------------------------------------------------------- no freedom
 
 
-def _follow(assembly, times, end):
+def _driven(assembly, times, end, settings):
     """Kinematics: the dependent coordinates at the times, each from the one before."""
-    system = assembly.system
-    y, moving = assembly.state.copy(), motion(system)
-    ways = np.append(times, end)
-    states = np.empty((len(ways), len(y)))
-    done = follow_all(moving.system, moving.work, ways, y, np.empty_like(y), states)
-    if done < end:
-        raise DoesNotAssemble(_stuck(assembly, y, done, end))
-    stretch = Stretch(system, times, states[:-1], end, states[-1])
-    return Run(assembly, (stretch,), np.zeros((0, 3)), "", len(times))
+    found = continued(assembly.system, times, end, assembly.state, settings.singular == "stop")
+    if found.outcome == "stuck":
+        raise DoesNotAssemble(_stuck(assembly, found.reached, end))
+    advice = stopped_at(found.passages[-1].time) if found.outcome == "stopped" else ""
+    return Run(assembly, found.stretches, np.zeros((0, 3)), advice, len(times), found.passages)
 
 
-@outer
-def follow_all(system, work, times, y, trial, states):
-    """`follow` from time 0 through all times, filling `states`; the time reached."""
-    t = 0.0
-    for n in range(times.size):
-        done = follow(system, work, t, times[n], y, trial)
-        if done < times[n]:
-            return done
-        t = times[n]
-        for k in range(y.size):
-            states[n, k] = y[k]
-    return t
-
-
-@inner
-def follow(system, work, t, end, y, trial):
-    """Carry the dependent coordinates in y on to the time `end`, in steps small enough to stay on the same assembly; the time reached.
-
-    trial is scratch, of the size of y.
-    """
-    step = end - t
-    settled(system, work, t, y)
-    while t != end:
-        for k in range(system.stored.size):
-            trial[k] = y[k] + step * work.coordinates[system.stored[k]].v
-        closed = settled(system, work, t + step, trial)
-        far = 0.0
-        for k in range(system.stored.size):
-            far = max(far, abs(work.coordinates[system.stored[k]].q - trial[k]))
-        if closed and far < NEAR:
-            t = end if abs(end - t - step) <= 1e-15 * abs(end) else t + step
-            for k in range(system.stored.size):
-                y[k] = work.coordinates[system.stored[k]].q
-            step = end - t
-        elif abs(step) < SHORTEST * max(abs(end), 1e-9):
-            return t
-        else:
-            settled(system, work, t, y)
-            step *= 0.5
-    return t
-
-
-def _stuck(assembly, y, t, end):
+def _stuck(assembly, t, end):
     """Message on a drive that cannot go on."""
     work = at(assembly.system, np.zeros(len(assembly.start.q)), t)
     told = []

@@ -13,15 +13,15 @@ from drivewright._jit import outer
 from drivewright.errors import InputError, SolverError
 from drivewright.multibody import system as arrays
 from drivewright.multibody.assembly import at
-from drivewright.multibody.dynamics import firmness, pose
-from drivewright.multibody.kinematics import bend, move
+from drivewright.multibody.chart import configure
+from drivewright.multibody.dynamics import validity_of_split
 from drivewright.multibody.loads import load
 from drivewright.multibody.simulate import resplit
 from drivewright.multibody.system import DRIFT, System, Work, motion
 
 REACH = 0.1  # way of one step of creeping: an unstable equilibrium within it is found as well, in lengths of the mechanism
 LONGEST = 0.3  # step of Newton's method, in the same
-FLIP = 0.5  # change of a coordinate at once that may lead to another assembly [rad], [m]
+FLIP = 0.5  # change of a coordinate at once that may lead to another assembly [rad], [lengths of the mechanism]
 SHORTEST = 1e-6  # part of a step below which the loops do not let it through
 SETTLED = 1e-10  # generalised force over the forces that make it, and last step over the mechanism's length
 TRIES = 300
@@ -74,7 +74,7 @@ def equilibrium(assembly, state=None, time=0.0):
     A state near an unstable equilibrium leads there.  Raises SolverError, the last state as `partial`, where there is none.
     """
     here = resting(assembly, state, time)
-    length = length_of(here.system)
+    length = here.system.length
     for _ in range(TRIES):
         now = reduced(here)
         scale = scales(now, length)
@@ -140,9 +140,7 @@ def _driven_by(system, start, slope):
 @outer
 def loaded(system, work, t, y, dy):
     """Everything but the accelerations of a state in `work`; False where the loops cannot be closed."""
-    closed = pose(system, work, t, y)
-    move(system, work)
-    bend(system, work)
+    closed = configure(system, work, t, y)
     load(system, work, t, y, dy)
     return closed
 
@@ -156,7 +154,7 @@ def carried(here, t, shift):
         trial, s = y.copy(), done + part
         trial[here.free] = here.y[here.free] + s * shift
         closed = loaded(system, work, here.t + s * (t - here.t), trial, np.empty_like(y))
-        if closed and np.max(np.abs(work.coordinates.q - last), initial=0.0) < FLIP:
+        if closed and np.max(np.abs(work.coordinates.q - last) / system.sizes, initial=0.0) < FLIP:
             last, done = work.coordinates.q.copy(), s
             y = trial
             y[: len(system.stored)] = last[system.stored]
@@ -171,7 +169,7 @@ def carried(here, t, shift):
 def _firm(here):
     """The place with its coordinates split anew where the dependent ones have come near to a dead point."""
     loaded(here.system, here.work, here.t, here.y, np.empty_like(here.y))
-    if firmness(here.work) > here.system.least_firmness:
+    if validity_of_split(here.system, here.work) > 0.0:
         return here
     system, y = resplit(here.system, here.t, here.y)
     return Place(system, motion(system).work, here.t, at_rest(system, y))
@@ -186,7 +184,7 @@ def reduced(here):
     loaded(system, work, here.t, here.y, np.empty_like(here.y))
     levers = np.stack([work.levers.x, work.levers.y, work.levers.t], axis=1)  # (bodies, 3, coordinates)
     driven, dependent = system.driven.coordinate, levers[:, :, system.dependent]
-    motions = levers[:, :, system.independent] + dependent @ work.follow
+    motions = levers[:, :, system.independent] + dependent @ work.follow[:, : len(system.independent)]
     led = levers[:, :, driven] - dependent @ np.linalg.solve(work.jacobian[:, system.dependent], work.jacobian[:, driven])
     poses, none = work.poses, np.zeros(len(work.poses))
     mass = np.stack([system.bodies.mass, system.bodies.mass, system.bodies.inertia], axis=-1)
@@ -196,15 +194,8 @@ def reduced(here):
     rest = loads + weight - mass * bent
     return Reduced(
         mass=np.einsum("bcm,bc,bcn->mn", motions, mass, motions), force=np.einsum("bcm,bc->m", motions, rest),
-        size=float(np.sum((np.abs(loads) + np.abs(weight) + np.abs(mass * bent))[1:] / [1.0, 1.0, length_of(system)])), motions=motions,
+        size=float(np.sum((np.abs(loads) + np.abs(weight) + np.abs(mass * bent))[1:] / [1.0, 1.0, system.length])), motions=motions,
         drives=-system.driven.sign * np.einsum("bcd,bc->d", led, rest))
-
-
-def length_of(system):
-    """The largest arm in the system: how large the mechanism is [m]; 1 where all are zero."""
-    tables = (system.bodies, system.rows, system.springs, system.forces, system.bushings, system.contacts)
-    arms = [np.abs(table[name]).max(initial=0.0) for table in tables for name in ("ax", "ay", "bx", "by") if name in table.dtype.names]
-    return max(arms) or 1.0
 
 
 def scales(now, length):

@@ -25,7 +25,8 @@ BODY = _record("parent turn slide free driven", "inherits offset ax ay bx by ex 
 # DISTANCE |P_i - P_j| - constant = 0
 # CIRCLE   (gi + gj) phi - gi theta_i - gj theta_j - constant = 0, phi the direction from P_j to P_i
 LINEAR, DISTANCE, CIRCLE = range(3)
-ROW = _record("kind i j k l lift joint", "ax ay bx by ex ey gi gj gk constant")
+# `extent` of its residual: the length of the mechanism, or 1 where the residual is an angle.
+ROW = _record("kind i j k l lift joint", "ax ay bx by ex ey gi gj gk constant extent")
 
 DRIVEN = _record("coordinate curve", "sign start")
 CURVE = _record("first count", "period")
@@ -53,6 +54,25 @@ LEVER = _record("", "x y t")  # d(place, angle)/d(coordinate)
 MISS, DRIFT, COLUMN = range(3)  # residual of the rows; q'' of the dependent coordinates at zero q'' of the independent ones; scratch
 
 
+class Chart(NamedTuple):
+    """The dependent coordinates across a singular position, as values at nodes on both sides of it; see `multibody.chart`.
+
+    z are the independent coordinates.  A state lies at  x = normal . (z - origin) + normal_time (t - origin_time)  from the singular
+    position; the node k stands at z + (offsets[k] - x) direction and t + (offsets[k] - x) pace.  No nodes: there is no singular
+    position, and the loops are closed at the state itself.
+    """
+
+    offsets: np.ndarray  # (nodes,)
+    guesses: np.ndarray  # (nodes, dependent): where Newton's method starts
+    direction: np.ndarray  # (independent,), per unit of x
+    normal: np.ndarray
+    origin: np.ndarray
+    pace: float  # [s] per unit of x
+    normal_time: float
+    origin_time: float
+    reach: float  # |x| up to which the chart holds
+
+
 class System(NamedTuple):
     """Frozen arrays of records; `stored` are the coordinates in the state, dependent and independent ones."""
 
@@ -73,7 +93,10 @@ class System(NamedTuple):
     pieces: np.ndarray
     gravity_x: float
     gravity_y: float
-    least_firmness: float  # of the split of the coordinates; below it another one is better
+    length: float  # of the mechanism, its largest arm [m]
+    sizes: np.ndarray  # (coordinates,): 1 of a rotation, `length` of a displacement
+    reference_determinant: float  # of the dependent coordinates' Jacobian where the coordinates were split, with its sign; 0: none
+    chart: Chart
 
 
 class Work(NamedTuple):
@@ -86,10 +109,12 @@ class Work(NamedTuple):
     lu: np.ndarray  # (rows, rows): decomposition of the Jacobian by the dependent coordinates
     pivots: np.ndarray
     columns: np.ndarray  # (3, rows)
-    follow: np.ndarray  # (rows, independent): d(dependent)/d(independent)
+    follow: np.ndarray  # (rows, independent + driven): d(dependent)/d(independent and, in a chart, driven)
     reduced: np.ndarray  # (independent,): levers of one body, the dependent coordinates following
     mass: np.ndarray  # (independent, independent)
     force: np.ndarray  # (independent,)
+    node: np.ndarray  # (stored + independent,): state of a node of the chart
+    sums: np.ndarray  # (rows, 3 + independent + driven): dependent coordinates, rates, drift and `follow`, summed over the nodes
 
 
 class Motion(NamedTuple):
@@ -111,13 +136,27 @@ def turning(bodies, size):
 
 def scratch(system):
     """Fresh `Work` for a system; every thread needs its own."""
-    bodies, n, rows, free = len(system.bodies), len(system.stored) + len(system.driven), len(system.rows), len(system.independent)
+    bodies, given, rows, free = len(system.bodies), len(system.driven), len(system.rows), len(system.independent)
+    n = len(system.stored) + given
     poses, levers = np.zeros(bodies, POSE).view(np.recarray), np.zeros((bodies, n), LEVER).view(np.recarray)
     poses.c = 1.0  # of the angle 0
     levers.t = turning(system.bodies, n)
     return Work(
         np.zeros(n, COORDINATE).view(np.recarray), poses, levers, np.zeros((rows, n)), np.zeros((rows, rows)), np.zeros(rows, np.int64),
-        np.zeros((3, rows)), np.zeros((rows, free)), np.zeros(free, LEVER).view(np.recarray), np.zeros((free, free)), np.zeros(free))
+        np.zeros((3, rows)), np.zeros((rows, free + given)), np.zeros(free, LEVER).view(np.recarray), np.zeros((free, free)),
+        np.zeros(free), np.zeros(len(system.stored) + free), np.zeros((rows, 3 + free + given)))
+
+
+def no_chart(independent=0, dependent=0):
+    """The `Chart` without nodes."""
+    none = np.zeros(independent)
+    return Chart(np.zeros(0), np.zeros((0, dependent)), none, none, none, 0.0, 0.0, 0.0, np.inf)
+
+
+def length_of(*tables):
+    """The largest arm in tables of records: how large the mechanism is [m]; 1 where all are zero."""
+    arms = [np.abs(table[name]).max(initial=0.0) for table in tables for name in ("ax", "ay", "bx", "by") if name in table.dtype.names]
+    return max(arms, default=0.0) or 1.0
 
 
 def motion(system):

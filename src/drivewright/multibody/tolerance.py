@@ -12,7 +12,8 @@ from drivewright import cases
 from drivewright._jit import inner, outer
 from drivewright.errors import DoesNotAssemble, InputError, UnknownName
 from drivewright.multibody.kinematics import close, turned
-from drivewright.multibody.simulate import at_state, follow
+from drivewright.multibody.continuation import continued
+from drivewright.multibody.simulate import at_state
 from drivewright.multibody.system import CURVE, DISTANCE, LINEAR, PIECE, System, Work, motion, scratch
 
 CHUNK = 10_000  # samples between two looks at the keyboard
@@ -76,12 +77,11 @@ def _brought(assembly, angle):
     """(system, work) with the drive brought from its start to an angle, always on the same assembly."""
     system, y = assembly.system, assembly.state.copy()
     if angle is not None:
-        system = _led(system, angle)
-        moving = motion(system)
-        reached = follow(moving.system, moving.work, 0.0, 1.0, y, np.empty_like(y))
-        if reached < 1.0:
+        found = continued(_led(system, angle), np.empty(0), 1.0, y)
+        system, y = found.stretches[-1].system, found.stretches[-1].y_end
+        if found.outcome == "stuck":
             start = system.driven[0].start
-            stop = np.degrees(start + reached * (angle - start))
+            stop = np.degrees(start + found.reached * (angle - start))
             raise DoesNotAssemble(f"tolerances: the mechanism does not close beyond {stop:.2f} deg of the drive, on the way from "
                                   f"{np.degrees(start):.2f} to {np.degrees(angle):.2f} deg. Give an angle that it reaches")
     return system, at_state(system, 0.0 if angle is None else 1.0, y)

@@ -1,0 +1,178 @@
+"""Kinematics over time: a mechanism whose drives leave it no freedom, carried on along its branch.
+
+A step is as long as the branch is nearly straight over it: Newton's correction and the change of the rates are small beside the way, and
+the determinant of the loops does not fall by more than half.  So the steps shrink towards a singular position instead of leading over it
+to another branch; from near by `multibody.singular` lays a chart across.  What comes out does not depend on the times asked for.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from drivewright._jit import inner, outer
+from drivewright.multibody.assembly import at, split_into
+from drivewright.multibody.chart import configure, configure_all, configure_at
+from drivewright.multibody.dynamics import validity_of_split
+from drivewright.multibody.kinematics import determinant
+from drivewright.multibody.singular import look_ahead, passage
+from drivewright.multibody.system import System, motion
+
+LONGEST = 0.05  # way of the fastest coordinate in a step [rad], [lengths of the mechanism]
+BENT = 0.25  # Newton's correction, and half the change of the rates, over the way of a step
+SHRUNK = 0.5  # part of the determinant that is left after a step, at least
+SHORTEST = 1e-9  # part of the way below which a drive that finds no way on is stuck
+STEADY = 1e-9  # correction that is none, however short the way
+
+REACHED, STUCK, WEAK = range(3)
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """States y (m, n) at the times t (m,) of one system, that is of one split of the coordinates; the end of it is in `t_end`, `y_end`."""
+
+    system: System
+    t: np.ndarray
+    y: np.ndarray
+    t_end: float
+    y_end: np.ndarray
+
+
+@dataclass(frozen=True)
+class Continuation:
+    """Stretches one after another, the singular positions passed, the time reached, and whether it is stuck there or asked to stop."""
+
+    stretches: tuple
+    passages: tuple
+    reached: float
+    outcome: str  # "finished", "stuck" or "stopped"
+
+
+def continued(system, times, end, y, stop=False):
+    """The `Continuation` of a driven system from its state y at time 0 through ascending times to the end; it ends in the first singular
+    position with `stop`."""
+    t, stretches, passages = 0.0, [], []
+    while True:
+        ahead = times[times >= t] if not stretches else times[times > t]
+        stretch, code = _carried(system, t, ahead, end, y)
+        stretches.append(stretch)
+        t, y = stretch.t_end, stretch.y_end
+        if code != WEAK:
+            return Continuation(tuple(stretches), tuple(passages), t, "finished" if code == REACHED else "stuck")
+        charted = look_ahead(system, t, y).charted
+        if charted is None:
+            system = _split(system, t, y)
+            continue
+        stretch, passed = _across(charted[0], t, times, end)
+        if passed is not None:
+            passages.append(passed)
+        if passed is not None and stop:
+            return Continuation(tuple(stretches), tuple(passages), t, "stopped")
+        stretches.append(stretch)
+        t, y = stretch.t_end, stretch.y_end
+        if t >= end:
+            return Continuation(tuple(stretches), tuple(passages), t, "finished")
+        system = _split(charted[0], t, y)
+
+
+def _split(system, t, y):
+    """The system without a chart, its determinant measured at the state."""
+    work = motion(system).work
+    configure_at(system, work, t, y)
+    return split_into(system, system.dependent, at(system, work.coordinates.q, t))
+
+
+def _carried(system, t, times, end, y):
+    """(`Stretch` as far as the determinant stays, why it ends)."""
+    moving, y = motion(system), y.copy()
+    ways = np.append(times, end)
+    states = np.empty((len(ways), len(y)))
+    t_end, count, code = follow_all(moving.system, moving.work, t, ways, y, np.empty_like(y), states)
+    count = min(count, len(times))
+    return Stretch(system, times[:count], states[:count], t_end, y), code
+
+
+def _across(system, t, times, end):
+    """(`Stretch` from time t over the chart's reach, the `Passage` or None where the end comes before it)."""
+    chart = system.chart
+    leave = min(chart.origin_time + chart.reach * chart.pace, end)
+    inside = times[(times > t) & (times <= leave)]
+    states = _states(system, np.append(inside, leave))
+    passed = chart.origin_time < leave
+    there = passage(system, chart.origin_time, _states(system, np.array([chart.origin_time]))[0]) if passed else None
+    return Stretch(system, inside, states[:-1], leave, states[-1]), there
+
+
+def _states(system, times):
+    """States (m, n) of a driven system at times within its chart."""
+    moving, y = motion(system), np.zeros((len(times), len(system.stored)))
+    q, v = np.empty((2, len(times), len(system.sizes)))
+    configure_all(moving.system, moving.work, times, y, q, v)
+    return np.ascontiguousarray(q[:, system.stored])
+
+
+@outer
+def follow_all(system, work, start, times, y, rates, states):
+    """Carry the dependent coordinates in y from time `start` through all times, filling `states`: (time reached, samples, why it ends)."""
+    t = start
+    for n in range(times.size):
+        t, code = follow(system, work, t, times[n], y, rates)
+        if code != REACHED:
+            return t, n, code
+        for k in range(y.size):
+            states[n, k] = y[k]
+    return t, times.size, REACHED
+
+
+@inner
+def follow(system, work, t, end, y, rates):
+    """Carry the dependent coordinates in y on to the time `end`, in steps small enough to stay on the same branch: (time reached, why it
+    ends).  rates is scratch, of the size of y."""
+    configure(system, work, t, y)
+    step, size = end - t, determinant(system, work)
+    while t != end:
+        if validity_of_split(system, work) <= 0.0:
+            return t, WEAK
+        step = _predict(system, work, y, step, rates)
+        if abs(end - t - step) <= 1e-15 * abs(end):
+            step = end - t
+        closed = configure(system, work, t + step, work.node)
+        left = determinant(system, work) / size if size != 0.0 else 1.0
+        if closed and left >= SHRUNK and _straight(system, work, rates, step):
+            t, size = end if step == end - t else t + step, determinant(system, work)
+            for k in range(system.stored.size):
+                y[k] = work.coordinates[system.stored[k]].q
+            step = end - t
+        elif abs(step) < SHORTEST * max(abs(end), 1e-9):
+            return t, STUCK
+        else:
+            configure(system, work, t, y)
+            step *= 0.5
+    return t, REACHED
+
+
+@inner
+def _predict(system, work, y, step, rates):
+    """Where the rates lead to in a step, in work.node, the rates, and the step: no longer than LONGEST."""
+    fastest = 0.0
+    for k in range(system.stored.size):
+        rates[k] = work.coordinates[system.stored[k]].v
+        fastest = max(fastest, abs(rates[k]) / system.sizes[system.stored[k]])
+    if abs(step) * fastest > LONGEST:
+        step = np.copysign(LONGEST / fastest, step)
+    for k in range(system.stored.size):
+        work.node[k] = y[k] + step * rates[k]
+    return step
+
+
+@inner
+def _straight(system, work, rates, step):
+    """Whether the branch is nearly straight over a step from where the rates were these to what `work` holds; work.node is predicted."""
+    way = 0.0
+    for k in range(system.stored.size):
+        way = max(way, abs(rates[k] * step) / system.sizes[system.stored[k]])
+    for k in range(system.stored.size):
+        coordinate, size = work.coordinates[system.stored[k]], system.sizes[system.stored[k]]
+        off, turned = abs(coordinate.q - work.node[k]) / size, abs((coordinate.v - rates[k]) * step) / size
+        if off > BENT * way + STEADY or turned > 2 * BENT * way + STEADY:
+            return False
+    return True

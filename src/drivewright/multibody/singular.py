@@ -1,0 +1,292 @@
+"""Singular positions: where loops fold and lose rank, and the chart that leads through along the smooth branch.
+
+In a singular position several branches of the motion meet.  Along each of them the dependent coordinates are smooth functions of the
+independent ones and of time, though the equations that close the loops do not determine them there.  Before such a place a straight line
+of states is laid through it, the branch on which the mechanism comes is continued over it by a polynomial, and Newton's method closes the
+loops at nodes on both sides.  That the polynomial also closes the loops in between, in the singular position itself, proves that the
+branch goes through; where two branches only come near each other it does not, and the motion follows the bend of its own.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import null_space, qr
+
+from drivewright.multibody.assembly import at, scaled_jacobian, split_into
+from drivewright.multibody.chart import configure_at
+from drivewright.multibody.kinematics import measured
+from drivewright.multibody.system import MISS, Chart, System, Work, motion, scratch
+
+NODES = np.array([-1.0, -0.85, -0.7, -0.55, 0.55, 0.7, 0.85, 1.0])  # of a chart, in parts of its half width
+WIDTHS = 0.12 * 0.5 ** np.arange(6)  # half widths to try [rad], [lengths of the mechanism]
+REACH = 0.95  # part of the half width in which a chart serves
+BACK = 0.01  # step back along the line by which the way to the singular position is estimated [rad], [lengths]
+CLOSED = 1e-10  # largest miss of the loops between the nodes [rad], [lengths]
+ASTRAY = 0.1  # correction of a guess, over the half width, that may lead to another branch
+FOLDED = 1e-6  # singular value over the largest that counts as zero in a singular position
+TWICE = 1e-6  # discriminant of the tangents, over its terms, below which two branches touch
+
+
+class Passage(NamedTuple):
+    """A singular position on the way: when, the coordinates there, the system with its chart, and what meets there.
+
+    smallest: singular value over the largest, `tangents`: number of directions that meet (at most, where several loops fold at once),
+    `touching`: two branches have the same tangent, so that the second order decides.
+    """
+
+    time: float
+    system: System
+    state: np.ndarray
+    smallest: float
+    tangents: int
+    touching: bool
+
+
+class Line(NamedTuple):
+    """States z + x direction at t + x pace, x counting in radians, or lengths of the mechanism, of the fastest coordinate."""
+
+    system: System
+    work: Work
+    t: float
+    y: np.ndarray
+    direction: np.ndarray
+    pace: float
+
+    @property
+    def free(self):
+        """Where the independent coordinates are in the state."""
+        return np.searchsorted(self.system.stored, self.system.independent)
+
+    @property
+    def held(self):
+        """Where the dependent coordinates are in the state."""
+        return np.searchsorted(self.system.stored, self.system.dependent)
+
+    def close(self, x, guess, shift=0.0, delay=0.0):
+        """`Place` at x, the loops closed from a guess of the dependent coordinates; z shifted, time delayed."""
+        y = self.y.copy()
+        y[self.free] += x * self.direction + shift
+        y[self.held] = guess
+        closed = configure_at(self.system, self.work, self.t + x * self.pace + delay, y)
+        dependent = self.work.coordinates.q[self.system.dependent]
+        miss = np.max(np.abs(dependent - guess) / self.system.sizes[self.system.dependent], initial=0.0)
+        values = np.linalg.svd(scaled_jacobian(self.system, self.work, self.system.stored), compute_uv=False) if closed else np.ones(1)
+        return Place(x, dependent.copy(), miss if closed else np.inf, float(values[-1] / values[0]))
+
+
+class Place(NamedTuple):
+    """A point of a line: dependent coordinates, how far the guess was from them, smallest singular value over the largest."""
+
+    x: float
+    dependent: np.ndarray
+    correction: float
+    smallest: float
+
+
+class Outlook(NamedTuple):
+    """`charted`: (system with a chart, state) where a singular position is near enough to be charted, else None; `time` [s] until one,
+    estimated from how the smallest singular value falls, infinite where it does not."""
+
+    charted: tuple | None
+    time: float
+
+
+def look_ahead(system, t, y):
+    """The `Outlook` of the motion from a state on."""
+    line = _line(system, t, y)
+    if line is None:
+        return Outlook(None, np.inf)
+    behind = _behind(line)
+    ahead = _way_ahead(behind)
+    for width in WIDTHS[REACH * WIDTHS > ahead]:
+        nodes = _nodes(line, behind, ahead, width)
+        if nodes is not None and _closes_between(line, nodes):
+            return Outlook(_charted(line, nodes, _centre(nodes), width), ahead * line.pace)
+    return Outlook(None, ahead * line.pace)
+
+
+def _line(system, t, y):
+    """The `Line` along the motion of a state, the coordinates split by its tangent; None at rest."""
+    moving = motion(system)
+    if not configure_at(moving.system, moving.work, t, y):
+        return None
+    rates = moving.work.coordinates.v.copy()
+    speed = float(np.max(np.abs(rates) / system.sizes, initial=0.0))
+    if speed == 0.0 or len(system.rows) == 0:
+        return None
+    fresh = split_into(system, _dependent(system, moving.work), moving.work)
+    state = np.concatenate([moving.work.coordinates.q[fresh.stored], rates[fresh.independent], y[len(y) - _memories(system, y):]])
+    return Line(fresh, motion(fresh).work, t, state, rates[fresh.independent] / speed, 1.0 / speed)
+
+
+def _memories(system, y):
+    return len(y) - len(system.stored) - len(system.independent)
+
+
+def _dependent(system, work):
+    """The coordinates that follow best: those in which the tangent of the motion is small, for the Jacobian says nothing in a fold."""
+    free = len(system.independent)
+    if not free:
+        return system.dependent
+    tangent = np.linalg.svd(scaled_jacobian(system, work, system.stored))[2][-free:]
+    pivots = qr(tangent, mode="r", pivoting=True)[1]
+    return np.sort(system.stored[pivots[free:]])
+
+
+def _behind(line):
+    """Places of the line at the state itself and on the way to it."""
+    here = line.close(0.0, line.y[line.held])
+    rates = line.work.coordinates.v[line.system.dependent] * line.pace
+    places = [here]
+    for k in (1, 2):
+        places.append(line.close(-k * BACK, _carried(places, -k * BACK) if k > 1 else here.dependent - BACK * rates))
+    return places
+
+
+def _way_ahead(behind):
+    """x at which the smallest singular value, on its straight way, is zero; infinite where it does not fall."""
+    here, before = behind[0].smallest, behind[1].smallest
+    return BACK * here / (before - here) if before > here and all(np.isfinite(p.correction) for p in behind) else np.inf
+
+
+def _carried(places, x, most=5):
+    """Dependent coordinates at x by the polynomial through the nearest places."""
+    near = sorted(places, key=lambda place: abs(place.x - x))[:most]
+    at_x = np.array([place.x for place in near])
+    return _weights(at_x, x) @ np.array([place.dependent for place in near])
+
+
+def _weights(nodes, x):
+    """Lagrange's polynomials of the nodes at x."""
+    apart = nodes[:, None] - nodes + np.eye(len(nodes))
+    away = np.where(np.eye(len(nodes), dtype=bool), 1.0, x - nodes)
+    return np.prod(away / apart, axis=1)
+
+
+def _nodes(line, behind, ahead, width):
+    """Places of the nodes about x = ahead, closed one after another from this side to the other; None where the branch is lost."""
+    known = list(behind)
+    for x in sorted(ahead + width * NODES, key=abs):
+        guess = _carried(known, x)
+        place = line.close(x, guess)
+        if not place.correction < ASTRAY * width:
+            return None
+        known.append(place)
+    nodes = sorted(known[len(behind):])
+    centre = _centre(nodes)
+    if abs(centre - ahead) <= 0.02 * width:
+        return nodes
+    again = [line.close(x, _carried(nodes, x, len(nodes))) for x in centre + width * NODES]
+    return again if max(place.correction for place in again) < ASTRAY * width else None
+
+
+def _centre(nodes):
+    """x of the singular position: there the smallest singular value, counted negative beyond, is zero."""
+    x = np.array([place.x for place in nodes])
+    signed = np.array([place.smallest for place in nodes]) * np.where(np.arange(len(nodes)) < len(nodes) // 2, 1.0, -1.0)
+    low, high = x[len(x) // 2 - 1], x[len(x) // 2]
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if _weights(x, middle) @ signed > 0 else (low, middle)
+    return float((low + high) / 2)
+
+
+def _closes_between(line, nodes):
+    """Whether the polynomial through the nodes closes the loops between them too."""
+    low, high = nodes[len(nodes) // 2 - 1].x, nodes[len(nodes) // 2].x
+    return all(_miss(line, x, _carried(nodes, x, len(nodes))) < CLOSED for x in np.linspace(low, high, 5))
+
+
+def _coordinates(line, x, dependent):
+    """All coordinates at x of the line."""
+    q = np.zeros(len(line.system.sizes))
+    q[line.system.independent] = line.y[line.free] + x * line.direction
+    q[line.system.dependent] = dependent
+    return q
+
+
+def _miss(line, x, dependent):
+    work = at(line.system, _coordinates(line, x, dependent), line.t + x * line.pace)
+    return float(np.max(np.abs(work.columns[MISS] / line.system.rows.extent)))
+
+
+def _charted(line, nodes, centre, width):
+    """(system with the chart, state)."""
+    normal, normal_time = _normal(line, nodes, width)
+    chart = Chart(
+        offsets=np.array([place.x - centre for place in nodes]), guesses=np.array([place.dependent for place in nodes]),
+        direction=line.direction, normal=normal, origin=line.y[line.free] + centre * line.direction, pace=line.pace,
+        normal_time=normal_time, origin_time=line.t + centre * line.pace, reach=REACH * width)
+    return line.system._replace(chart=chart), line.y
+
+
+def _normal(line, nodes, width):
+    """(normal, normal_time): the gradient of x in the independent coordinates and in time, from that of the smallest singular value."""
+    free, driven = len(line.system.independent), len(line.system.driven)
+    if free == 0 or (free == 1 and driven == 0):
+        return 1.0 / line.direction, 0.0 if free else 1.0 / line.pace
+    base = nodes[len(nodes) // 2 - 1]
+    step = 0.05 * width
+
+    def slope(**change):
+        one, other = (line.close(base.x, base.dependent, **{k: sign * v for k, v in change.items()}).smallest for sign in (1.0, -1.0))
+        return one - other
+
+    sizes = line.system.sizes[line.system.independent]
+    gradient = np.array([slope(shift=step * size * unit) / (2 * step * size) for size, unit in zip(sizes, np.eye(free), strict=True)])
+    in_time = slope(delay=step * line.pace) / (2 * step * line.pace) if driven else 0.0
+    along = gradient @ line.direction + in_time * line.pace
+    return gradient / along, float(in_time / along)
+
+
+# -------------------------------------------------------------------------------------------------------- what meets there
+
+
+def passage(system, t, y):
+    """The `Passage` of a state that stands in the singular position of its system's chart."""
+    moving = motion(system)
+    configure_at(moving.system, moving.work, t, y)
+    q = moving.work.coordinates.q.copy()
+    work = at(system, q, t)
+    columns = scaled_jacobian(system, work, system.stored)
+    values = np.linalg.svd(columns, compute_uv=False)
+    tangents, touching = _tangents(system, q, t)
+    return Passage(float(t), system, np.array(y), float(values[-1] / values[0]), tangents, touching)
+
+
+def _tangents(system, q, t):
+    """(number of directions in which a motion can go through, whether two of them coincide)."""
+    moved = np.concatenate([system.stored, system.driven.coordinate])
+    columns = scaled_jacobian(system, at(system, q, t), moved)
+    folded = int(np.sum(np.linalg.svd(columns, compute_uv=False) < FOLDED * np.linalg.norm(columns, 2)))
+    if folded != 1 or len(moved) - len(columns) != 1:
+        return 2**folded, False
+    plane, across = null_space(columns, rcond=FOLDED), null_space(columns.T, rcond=FOLDED)[:, 0]
+    form = _second_order(system, q, t, moved, plane, across)
+    terms = abs(form[0, 0] * form[1, 1]) + form[0, 1] ** 2
+    return 2, bool(form[0, 1] ** 2 - form[0, 0] * form[1, 1] < TWICE * terms)
+
+
+def _second_order(system, q, t, moved, plane, across):
+    """(2, 2) quadratic form whose zeros are the tangents: second derivative of the row that folds, in the plane of all that is free."""
+    step = 1e-3
+
+    def residual(way):
+        there = q.copy()
+        there[moved] += step * system.sizes[moved] * way
+        return across @ (_free_misses(system, there) / system.rows.extent)
+
+    def second(way):
+        return (residual(way) - 2 * residual(0.0 * way) + residual(-way)) / step**2
+
+    one, two = plane.T
+    mixed = (second(one + two) - second(one - two)) / 4
+    return np.array([[second(one), mixed], [mixed, second(two)]])
+
+
+def _free_misses(system, q):
+    """Residuals at the coordinates q, driven ones where q has them."""
+    work = scratch(system)
+    work.coordinates.q = q
+    measured(system, work)
+    return work.columns[MISS]
