@@ -8,16 +8,16 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import null_space, qr
+from scipy.linalg import null_space
 
 from drivewright.errors import DoesNotAssemble
 from drivewright.multibody import system as arrays
-from drivewright.multibody.kinematics import placed
 from drivewright.multibody.lower import Places, lower, rows_of, table
 from drivewright.multibody.model import GROUND, Ideal, Model, Revolute
-from drivewright.multibody.system import System, scratch
+from drivewright.multibody.partition import at, misses, scaled_jacobian, split
+from drivewright.multibody.singular import chart_through
+from drivewright.multibody.system import System
 from drivewright.multibody.tree import Tree, expanded, grow
-from drivewright.numerics.small import lu_factor
 
 CLOSED = 1e-12  # largest miss of an assembled loop [rad], [lengths of the mechanism]
 WEAK = 0.05  # a coordinate that moves the loops less than this part of its own size is no good dependent one
@@ -86,32 +86,15 @@ def assemble(model):
 
 def _assemble(model, wide, tree, system, q):
     system, q = _close(wide, tree, system, q)
-    system, findings = _without_redundant_rows(wide, tree, system, q)
+    system, findings, folded = _without_redundant_rows(wide, tree, system, q)
     system = split(system, q)
-    return Assembly(model, wide, tree, system, Start(q, start_rates(model, wide, tree, system, q)), findings)
+    v, undecided = start_rates(model, wide, tree, system, q)
+    if folded:
+        system = _on_branch(system, q, v, undecided, folded)
+    return Assembly(model, wide, tree, system, Start(q, v), findings)
 
 
 # ---------------------------------------------------------------------------------------------------------------- position
-
-
-def at(system, q, t=0.0, v=None):
-    """`Work` with driven coordinates set, bodies placed and rows measured at the coordinates q."""
-    work = scratch(system)
-    work.coordinates.q = q
-    if v is not None:
-        work.coordinates.v = v
-    placed(system, work, t)
-    return work
-
-
-def scaled_jacobian(system, work, coordinates):
-    """(rows, given coordinates) of the Jacobian without dimensions: lengths count in lengths of the mechanism."""
-    return work.jacobian[:, coordinates] * system.sizes[coordinates] / system.rows.extent[:, None]
-
-
-def _misses(system, work):
-    """Residuals of the rows without dimensions."""
-    return work.columns[arrays.MISS] / system.rows.extent
 
 
 def _guess(tree, system):
@@ -181,7 +164,7 @@ def _step(system, q, columns):
     work = at(system, q)
     q = q.copy()
     if len(system.rows):
-        q[columns] -= system.sizes[columns] * np.linalg.lstsq(scaled_jacobian(system, work, columns), _misses(system, work), rcond=1e-10)[0]
+        q[columns] -= system.sizes[columns] * np.linalg.lstsq(scaled_jacobian(system, work, columns), misses(system, work), rcond=1e-10)[0]
     return q
 
 
@@ -190,22 +173,22 @@ def _newton(system, q, columns, t=0.0):
     mechanism's length, a step."""
     work = at(system, q, t)
     for _ in range(60):
-        misses = _misses(system, work)
-        if np.max(np.abs(misses), initial=0.0) < 0.01 * CLOSED or not columns:
+        off = misses(system, work)
+        if np.max(np.abs(off), initial=0.0) < 0.01 * CLOSED or not columns:
             break
-        step = np.linalg.lstsq(scaled_jacobian(system, work, columns), misses, rcond=1e-12)[0]
+        step = np.linalg.lstsq(scaled_jacobian(system, work, columns), off, rcond=1e-12)[0]
         step *= min(1.0, 0.5 / np.max(np.abs(step), initial=1e-300))
         for _ in range(10):
             trial = work.coordinates.q.copy()
             trial[columns] -= step * system.sizes[columns]
             better = at(system, trial, t)
-            if np.linalg.norm(_misses(system, better)) < np.linalg.norm(misses):
+            if np.linalg.norm(misses(system, better)) < np.linalg.norm(off):
                 break
             step *= 0.5
         else:
             break
         work = better
-    return work.coordinates.q, np.max(np.abs(_misses(system, work)), initial=0.0)
+    return work.coordinates.q, np.max(np.abs(misses(system, work)), initial=0.0)
 
 
 def _giving_way(wide, tree, system, q, free):
@@ -226,7 +209,7 @@ def _giving_way(wide, tree, system, q, free):
 
 def _does_not_close(wide, system, q):
     work = at(system, q)
-    worst = int(np.argmax(np.abs(_misses(system, work))))
+    worst = int(np.argmax(np.abs(misses(system, work))))
     row = system.rows[worst]
     joint = wide.joints[row.joint]
     pair = [k for k in range(len(system.rows)) if system.rows[k].joint == row.joint]
@@ -246,16 +229,15 @@ def _bodies_of(joint):
 
 
 def _without_redundant_rows(wide, tree, system, q):
-    """The system without rows that others imply, with a finding for each joint concerned."""
+    """(system without rows that others imply, a finding for each joint concerned, the joint whose rows others imply only at the start)."""
     kept = _independent_rows(scaled_jacobian(system, at(system, q), system.stored))
     if len(kept) == len(system.rows):
-        return system, ()
+        return system, (), None
     nudged, t = _nudge(system, q)
     again = _independent_rows(scaled_jacobian(system, at(system, nudged, t), system.stored))
     if len(again) > len(kept):
-        missing = wide.joints[system.rows[next(k for k in again if k not in kept)].joint].name
-        raise DoesNotAssemble(f"the mechanism starts in a dead point: joint {missing!r} has no unique way on from there. "
-                              "Start a few degrees away from it, or drive another joint")
+        folded = wide.joints[system.rows[next(k for k in again if k not in kept)].joint].name
+        return system._replace(rows=system.rows[again]), (), folded
     dropped = [k for k in range(len(system.rows)) if k not in kept]
     names = list(dict.fromkeys(wide.joints[system.rows[k].joint].name for k in dropped))
     whole = scaled_jacobian(system, at(system, q), range(len(q)))
@@ -265,7 +247,19 @@ def _without_redundant_rows(wide, tree, system, q):
                                   "Remove a joint or a drive, or free a direction (pin-slot instead of prismatic)")
     findings = tuple(f"joint '{name}' repeats a constraint that the joints before it impose already; its share of the forces is not "
                      "determined by rigid bodies" for name in names)
-    return system._replace(rows=system.rows[kept]), findings
+    return system._replace(rows=system.rows[kept]), findings, None
+
+
+def _on_branch(system, q, v, undecided, joint):
+    """The system with a chart through the singular position in which it starts, along the branch to which the start rates belong."""
+    where = f"the mechanism starts in a singular position, where its loops fold and joint {joint!r} has no unique way on"
+    remedy = "Start a few degrees away from it, or give the angular velocity of every body that is not driven"
+    if undecided or not np.any(v):
+        raise DoesNotAssemble(f"{where}: {'nothing moves' if not np.any(v) else 'the rates given fit more than one branch'}. {remedy}")
+    charted = chart_through(system, q, v)
+    if charted is None:
+        raise DoesNotAssemble(f"{where}, and the rates given are those of none of its branches. {remedy}, as one of the branches has them")
+    return charted
 
 
 def _independent_rows(jacobian):
@@ -291,43 +285,12 @@ def _nudge(system, q):
     return _newton(system, q, list(system.stored), t)[0], t
 
 
-def split(system, q, t=0.0):
-    """The system with its coordinates split at q so that the dependent ones follow as firmly as possible."""
-    work = at(system, q, t)
-    pivots = qr(scaled_jacobian(system, work, system.stored), mode="r", pivoting=True)[1] if len(system.rows) else np.zeros(0, int)
-    return split_into(system, np.sort(system.stored[pivots[: len(system.rows)]]), work)
-
-
-def split_into(system, dependent, work):
-    """The system with the given coordinates dependent and without a chart, its determinant measured at what `work` holds."""
-    independent = np.array([k for k in system.stored if k not in dependent], dtype=np.int64)
-    contacts, place = system.contacts.copy(), len(system.stored) + len(independent)
-    for contact in contacts:
-        contact.memory, place = place, place + 1
-    for contact in contacts:
-        if contact.law == arrays.LUGRE:
-            contact.bristle, place = place, place + 1
-        else:
-            contact.bristle = contact.memory
-    return system._replace(
-        dependent=np.asarray(dependent, np.int64), independent=independent, contacts=contacts,
-        reference_determinant=_determinant(scaled_jacobian(system, work, dependent)), chart=arrays.no_chart(len(independent), len(dependent)))
-
-
-def _determinant(square):
-    """Determinant, with the sign that the kernels' own elimination has; 0 where that finds no pivot."""
-    lu, pivots = np.array(square), np.zeros(len(square), np.int64)
-    if not lu_factor(lu, pivots):
-        return 0.0
-    return float(np.prod(np.diag(lu)) * (-1.0) ** np.count_nonzero(pivots != np.arange(len(square))))
-
-
 # ------------------------------------------------------------------------------------------------------------------- rates
 
 
 def start_rates(model, wide, tree, system, q):
-    """Rates of all coordinates: driven ones as driven, loops closed, then as near as possible to the rates given for the bodies, then pins
-    with play and links as if they were ideal, and nothing that moves without need."""
+    """(rates of all coordinates, number of freedoms that these leave): driven ones as driven, loops closed, then as near as possible to the
+    rates given for the bodies, then pins with play and links as if they were ideal, and nothing that moves without need."""
     work = at(system, q)
     size = len(q)
     pick = np.eye(size)
@@ -340,7 +303,7 @@ def start_rates(model, wide, tree, system, q):
         if len(wanted) and free.shape[1]:
             x = x + free @ np.linalg.lstsq(matrix @ free, wanted - matrix @ x, rcond=1e-10)[0]
             free = free @ null_space(matrix @ free, rcond=1e-10)
-    return x
+    return x, free.shape[1]
 
 
 def _given_rates(wide, tree, system, work):

@@ -12,19 +12,27 @@ from drivewright._jit import inner, outer
 from drivewright.multibody.kinematics import bend, body_bends, body_velocities, close, drive, led, move, place
 from drivewright.multibody.system import COLUMN, DRIFT
 
+FOLD = 0.2  # part of a chart's reach about its middle
+
 
 @inner
 def configure(system, work, t, y):
     """Coordinates and rates of a state, dependent ones included, poses, velocities and drift; False where the loops cannot be closed."""
     if system.chart.offsets.size > 0:
         return interpolated(system, work, t, y)
+    return regular(system, work, t, y)
+
+
+@outer
+def regular(system, work, t, y):
+    """`configure` where the loops determine the dependent coordinates; called, not inlined: it is half of every right-hand side."""
     closed = pose(system, work, t, y)
     move(system, work)
     bend(system, work)
     return closed
 
 
-@inner
+@outer
 def pose(system, work, t, y):
     """Coordinates of the state, loops closed, bodies placed; False where the loops cannot be closed."""
     take(system, work, t, y)
@@ -71,9 +79,7 @@ def interpolated(system, work, t, y):
     for k in range(system.chart.offsets.size):
         shift = system.chart.offsets[k] - x
         _node(system, work, k, shift, y)
-        closed &= pose(system, work, t + shift * system.chart.pace, work.node)
-        move(system, work)
-        bend(system, work)
+        closed &= regular(system, work, t + shift * system.chart.pace, work.node)
         _add(system, work, weight(system.chart.offsets, k, x))
     _assign(system, work, t, y)
     return closed
@@ -149,6 +155,13 @@ def configure_all(system, work, t, y, q, v):
         configure(system, work, t[n], y[n])
         for k in range(work.coordinates.size):
             q[n, k], v[n, k] = work.coordinates[k].q, work.coordinates[k].v
+
+
+def clear_of_fold(system, t, y):
+    """Which of the states y (m, n) at the times t (m,) are not in the middle of a chart, where forces in the joints are mere limits."""
+    if len(system.chart.offsets) == 0:
+        return np.full(len(t), True)
+    return np.abs(offsets_of(system, t, y)) > FOLD * system.chart.reach
 
 
 def offsets_of(system, t, y):

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from drivewright._jit import inner, outer
-from drivewright.multibody.assembly import at, split_into
 from drivewright.multibody.chart import configure, configure_all, configure_at
 from drivewright.multibody.dynamics import validity_of_split
 from drivewright.multibody.kinematics import determinant
+from drivewright.multibody.partition import at, split_into
 from drivewright.multibody.singular import look_ahead, passage
 from drivewright.multibody.system import System, motion
 
@@ -53,25 +53,20 @@ def continued(system, times, end, y, stop=False):
     t, stretches, passages = 0.0, [], []
     while True:
         ahead = times[times >= t] if not stretches else times[times > t]
-        stretch, code = _carried(system, t, ahead, end, y)
+        if len(system.chart.offsets) == 0:
+            stretch, code = _carried(system, t, ahead, end, y)
+        else:
+            stretch, code = _across(system, ahead, end), REACHED if end <= _leave(system) else WEAK
+            if t < system.chart.origin_time < stretch.t_end:
+                passages.append(_passage(system))
+                if stop:
+                    return Continuation(tuple(stretches), tuple(passages), t, "stopped")
         stretches.append(stretch)
         t, y = stretch.t_end, stretch.y_end
         if code != WEAK:
             return Continuation(tuple(stretches), tuple(passages), t, "finished" if code == REACHED else "stuck")
-        charted = look_ahead(system, t, y).charted
-        if charted is None:
-            system = _split(system, t, y)
-            continue
-        stretch, passed = _across(charted[0], t, times, end)
-        if passed is not None:
-            passages.append(passed)
-        if passed is not None and stop:
-            return Continuation(tuple(stretches), tuple(passages), t, "stopped")
-        stretches.append(stretch)
-        t, y = stretch.t_end, stretch.y_end
-        if t >= end:
-            return Continuation(tuple(stretches), tuple(passages), t, "finished")
-        system = _split(charted[0], t, y)
+        charted = look_ahead(system, t, y).charted if len(system.chart.offsets) == 0 else None
+        system = charted[0] if charted else _split(system, t, y)
 
 
 def _split(system, t, y):
@@ -91,15 +86,23 @@ def _carried(system, t, times, end, y):
     return Stretch(system, times[:count], states[:count], t_end, y), code
 
 
-def _across(system, t, times, end):
-    """(`Stretch` from time t over the chart's reach, the `Passage` or None where the end comes before it)."""
-    chart = system.chart
-    leave = min(chart.origin_time + chart.reach * chart.pace, end)
-    inside = times[(times > t) & (times <= leave)]
+def _leave(system):
+    """Time at which a driven system leaves its chart."""
+    return system.chart.origin_time + system.chart.reach * system.chart.pace
+
+
+def _across(system, times, end):
+    """`Stretch` up to where the chart is left."""
+    leave = min(_leave(system), end)
+    inside = times[times <= leave]
     states = _states(system, np.append(inside, leave))
-    passed = chart.origin_time < leave
-    there = passage(system, chart.origin_time, _states(system, np.array([chart.origin_time]))[0]) if passed else None
-    return Stretch(system, inside, states[:-1], leave, states[-1]), there
+    return Stretch(system, inside, states[:-1], leave, states[-1])
+
+
+def _passage(system):
+    """The `Passage` of the singular position in a driven system's chart."""
+    time = system.chart.origin_time
+    return passage(system, time, _states(system, np.array([time]))[0])
 
 
 def _states(system, times):

@@ -8,7 +8,7 @@ import numpy as np
 
 from drivewright._jit import implements, inner
 from drivewright.multibody.chart import configure, interpolated, offset_of, pose
-from drivewright.multibody.kinematics import curve_at, determinant, move
+from drivewright.multibody.kinematics import curve_at, determinant
 from drivewright.multibody.loads import SLOWEST, apart, gap_of, load, worn_off
 from drivewright.multibody.system import DRIFT, LUGRE, Motion
 from drivewright.numerics.ode import events, rate, switch
@@ -95,11 +95,7 @@ def validity_of_split(system, work):
 def touch_or_let_go(system, work, index, t, y):
     """A pin touches: remember the speed of approach.  It lets go: forget it."""
     contact = system.contacts[index - FIRST_PIN]
-    if system.chart.offsets.size > 0:
-        interpolated(system, work, t, y)
-    else:
-        pose(system, work, t, y)
-        move(system, work)
+    configure(system, work, t, y)
     dx, dy, vx, vy, _, _, _, _ = apart(work.poses, contact)
     _, lean = worn_off(system.wear[index - FIRST_PIN], work.poses[contact.i].angle, dx, dy)
     across = (dx * vy - dy * vx) / np.hypot(dx, dy) - np.hypot(dx, dy) * work.poses[contact.i].w

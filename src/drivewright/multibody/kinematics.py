@@ -6,7 +6,7 @@ from drivewright._jit import inner, outer
 from drivewright.multibody.system import COLUMN, DISTANCE, DRIFT, LINEAR, MISS
 from drivewright.numerics.small import lu_factor, lu_solve
 
-CLOSED = 1e-7  # Newton's correction [rad], [lengths of the mechanism] below which one more evaluation is exact to rounding, convergence being quadratic
+CLOSED = 1e-7  # Newton's correction [rad], [lengths of the mechanism] below which one more evaluation is exact to rounding
 TRIES = 12
 
 

@@ -45,6 +45,11 @@ def observe(system, t, y):
     return seen
 
 
+def joined(parts):
+    """One `Observed` of several, one after another."""
+    return Observed(*(np.concatenate(fields) for fields in zip(*parts, strict=True)))
+
+
 @outer
 def observe_all(motion, t, y, dy, bodies, pins, powers, drives):
     """Fill the arrays of `Observed`; dy is scratch."""

@@ -8,12 +8,15 @@ independent check of the motion.
 from typing import NamedTuple
 
 import numpy as np
+from scipy.linalg import null_space
 
 from drivewright.multibody.model import GROUND, Bushing, CamPair, Dry, Gear, Lubricated, MasslessLink, PinSlot, Prismatic, Revolute, Rolling
 from drivewright.multibody.tree import closes
 
 CHUNK = 2000  # states at a time: bounds the memory
 RANK = 1e-10  # singular values below this part of the largest are those of redundant constraints
+FOLDED = 1e-6  # ... and in a singular position of those that fold
+CARRIED = 1e-6  # part of the largest force that joints may leave over in a singular position
 
 
 class Reaction(NamedTuple):
@@ -84,26 +87,64 @@ def reactions(assembly, system, observed):
     """`Reactions` of the observed states of a system of the assembly."""
     parts = [observed._replace(**{name: getattr(observed, name)[k : k + CHUNK] for name in observed._fields})
              for k in range(0, len(observed.t), CHUNK)]
-    solved = [_solve(assembly, system, part) for part in parts]
+    return joined_reactions([_solve(assembly, system, part) for part in parts])
+
+
+def joined_reactions(solved):
+    """One `Reactions` of several, one after another."""
     joints = {name: Reaction(*(np.concatenate(pieces) for pieces in zip(*(one.joints[name] for one in solved), strict=True)))
               for name in solved[0].joints}
     tensions = {name: np.concatenate([one.tensions[name] for one in solved]) for name in solved[0].tensions}
     return Reactions(joints, tensions, *(np.concatenate([getattr(one, name) for one in solved]) for name in ("drives", "residual")))
 
 
-def _solve(assembly, system, observed):
+def unbounded_joints(assembly, system, observed):
+    """Names of the ideal joints whose forces grow without bound towards one state in a singular position; none where they stay finite.
+
+    There the joints cannot transmit every load.  What is left over of the equations of motion says whether they would have to; which joints
+    it is, the forces say with which they could hold one another without any load.
+    """
+    equations = _equations(assembly, system, observed)
+    _, residual = _balance(equations.columns, equations.wanted, FOLDED)
+    if residual[0] < CARRIED:
+        return ()
+    idle = null_space(equations.columns[0], rcond=FOLDED)
+    share = np.linalg.norm(idle, axis=1) if idle.shape[1] else np.zeros(equations.columns.shape[2])
+    names = [joint.name for joint, group in zip(equations.ideal, equations.groups, strict=True) for _ in group]
+    return tuple(dict.fromkeys(name for name, part in zip(names, share[: len(names)], strict=True) if part > 1e-3))
+
+
+class _Equations(NamedTuple):
+    """M a - F - M g = W lambda of observed states: `columns` W, `wanted` the left side; what the unknowns belong to; a length."""
+
+    places: Places
+    ideal: list
+    groups: list
+    unknowns: list
+    length: float
+    columns: np.ndarray
+    wanted: tuple
+
+
+def _equations(assembly, system, observed):
     wide = assembly.wide
     places = Places({name: k for k, name in enumerate(assembly.names)}, {GROUND: (0.0, 0.0)} | {b.name: b.centroid for b in wide.bodies},
                     observed)
     ideal = [joint for joint in wide.joints if closes(joint)]
-    by_joint = [wrenches(joint, places) for joint in ideal]
+    groups = [wrenches(joint, places) for joint in ideal]
     driven = [_drive(next(j for j in wide.joints if j.name == drive.joint), places) for drive in wide.drives]
-    unknowns = [wrench for group in by_joint for wrench in group] + driven
+    unknowns = [wrench for group in groups for wrench in group] + driven
     length = _length(unknowns, places)
-    sizes, residual = _balance(_columns(unknowns, places, length), _wanted(system, observed, length))
-    sizes *= [length if wrench.force is None else 1.0 for wrench in unknowns]
+    return _Equations(places, ideal, groups, unknowns, length, _columns(unknowns, places, length), _wanted(system, observed, length))
+
+
+def _solve(assembly, system, observed):
+    wide, equations = assembly.wide, _equations(assembly, system, observed)
+    places, length = equations.places, equations.length
+    sizes, residual = _balance(equations.columns, equations.wanted)
+    sizes *= [length if wrench.force is None else 1.0 for wrench in equations.unknowns]
     joints, start = {}, 0
-    for joint, group in zip(ideal, by_joint, strict=True):
+    for joint, group in zip(equations.ideal, equations.groups, strict=True):
         joints[joint.name] = _reaction(joint, group, sizes[:, start : start + len(group)], places)
         start += len(group)
     joints |= {joint.name: _play(joint, k, places) for k, joint in enumerate(_pins(wide))}
@@ -222,10 +263,10 @@ def _wanted(system, observed, length):
     return (inertial - loads - gravity).reshape(len(observed.t), -1), largest
 
 
-def _balance(columns, wanted):
+def _balance(columns, wanted, rank=RANK):
     """(sizes of the unknowns, residual): least squares, least norm, corrected once for rounding."""
     wanted, largest = wanted
-    inverse = np.linalg.pinv(columns, rcond=RANK)
+    inverse = np.linalg.pinv(columns, rcond=rank)
     sizes = np.einsum("mub,mb->mu", inverse, wanted)
     left = wanted - np.einsum("mbu,mu->mb", columns, sizes)
     sizes += np.einsum("mub,mb->mu", inverse, left)

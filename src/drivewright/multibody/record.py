@@ -6,10 +6,12 @@ A run of a hundred turns has a million states; they are observed in chunks and o
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.integrate import cumulative_simpson, trapezoid
 
-from drivewright.multibody.observe import FIELDS, observe
+from drivewright.multibody.observe import FIELDS, POWER_FIELDS, observe
 
 CHUNK = 20_000
+IDLE = 1e-3  # part of the energy exchanged that drives do at least, for the power audit
 POINT_FIELDS = ("angle", "w", "alpha", "x", "y", "vx", "vy", "ax", "ay")
 
 
@@ -83,17 +85,26 @@ def energy_of(system, seen):
 @dataclass(frozen=True)
 class Audit:
     """Work [J] of each kind of element from the start, over t (m,): works (m, POWER_FIELDS); gap (m,) between all work and the change of
-    energy; exchanged: all power, either way, over time, and all that the kinetic energy rises and falls."""
+    energy; exchanged: all power, either way, over time, and all that the kinetic energy rises and falls; driven: the same of the power of
+    the drives alone."""
 
     t: np.ndarray
     works: np.ndarray
     gap: np.ndarray
     exchanged: float
+    driven: float
 
     @property
     def error(self):
         """Largest gap over the energy exchanged."""
         return float(np.max(np.abs(self.gap)) / self.exchanged) if self.exchanged > 0 else 0.0
+
+    @property
+    def power_error(self):
+        """Largest difference between the work of the drives and the change of energy and losses, over the work that the drives do, give
+        and take; drives that do next to nothing count as a thousandth of what is exchanged."""
+        whole = max(self.driven, IDLE * self.exchanged)
+        return float(np.max(np.abs(self.gap)) / whole) if whole > 0 else 0.0
 
 
 def audit(seen):
@@ -102,7 +113,17 @@ def audit(seen):
     steps = np.diff(t)[:, None]
     begin, middle, end = power[:-2:2], power[1:-1:2], power[2::2]
     works = np.concatenate([np.zeros((1, power.shape[1])), np.cumsum(steps / 6 * (begin + 4 * middle + end), axis=0)])
-    exchanged = float(np.sum(steps / 6 * (np.abs(begin) + 4 * np.abs(middle) + np.abs(end))))
-    exchanged += float(np.sum(np.abs(np.diff(seen.kinetic[::2]))))
-    energy = seen.energy[::2]
-    return Audit(t, works, energy - energy[0] - np.sum(works, axis=1), exchanged)
+    flow = np.sum(steps / 6 * (np.abs(begin) + 4 * np.abs(middle) + np.abs(end)), axis=0)
+    return _audit(t, works, flow, seen.energy[::2], seen.kinetic[::2])
+
+
+def audit_of_samples(seen):
+    """The `Audit` of a record at any times, Simpson's rule over neighbouring samples: kinematics has no steps of its own."""
+    works = cumulative_simpson(seen.powers, x=seen.t, axis=0, initial=0.0)
+    flow = trapezoid(np.abs(seen.powers), seen.t, axis=0)
+    return _audit(seen.t, works, flow, seen.energy, seen.kinetic)
+
+
+def _audit(t, works, flow, energy, kinetic):
+    exchanged = float(np.sum(flow) + np.sum(np.abs(np.diff(kinetic))))
+    return Audit(t, works, energy - energy[0] - np.sum(works, axis=1), exchanged, float(flow[POWER_FIELDS.index("drives")]))

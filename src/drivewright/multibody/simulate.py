@@ -8,11 +8,12 @@ import numpy as np
 
 from drivewright._jit import plain
 from drivewright.errors import DoesNotAssemble
-from drivewright.multibody.assembly import Assembly, at, split
-from drivewright.multibody.chart import configure_at
+from drivewright.multibody.assembly import Assembly
+from drivewright.multibody.chart import clear_of_fold, configure_at
 from drivewright.multibody.continuation import Stretch, continued
 from drivewright.multibody.dynamics import FIRST_PIN
 from drivewright.multibody.loads import SLOWEST, gap_of
+from drivewright.multibody.partition import at, split
 from drivewright.multibody.singular import Outlook, look_ahead, passage
 from drivewright.multibody.system import motion, no_chart
 from drivewright.numerics.ode import Event, integrate
@@ -85,7 +86,7 @@ def simulate(assembly, duration, settings=Settings(), *, samples=None, state=Non
 
 
 def _legs(assembly, t, end, y, settings, samples):
-    """The `Run` of a mechanism with freedom, leg by leg: until the coordinates are split anew, or a chart leads across a singular position."""
+    """The `Run` of a mechanism with freedom, leg by leg: to where the coordinates are split anew, or a chart leads across a fold."""
     system, leg = assembly.system, Leg(end)
     stretches, impacts, passages, steps = [], [np.zeros((0, 3))], [], 0
     while True:
@@ -117,14 +118,22 @@ def _onward(system, t, y, end, weak):
 
 def stopped_at(time):
     """Advice of a run that was to stop in a singular position."""
-    return (f"the mechanism comes to a singular position at t = {time:.6g} s, where the run was to stop; take simulate.singular = \"smooth\" "
-            "to go through it")
+    return (f"the mechanism comes to a singular position at t = {time:.6g} s, where the run was to stop; "
+            "take simulate.singular = \"smooth\" to go through it")
 
 
 def _passages(system, run):
     """`Passage` of each singular position that the run goes through in the chart of its system."""
     t, index, y = run.crossings
     return [passage(system, t[k], y[k]) for k in np.flatnonzero(index == FIRST_PIN - 1)]
+
+
+def clear_states(run, start=-np.inf, most=None):
+    """(system, times, states) of each stretch of a run from a time on, without the middles of folds; at most so many of all, if told."""
+    clear = [np.flatnonzero((part.t >= start) & clear_of_fold(part.system, part.t, part.y)) for part in run.stretches]
+    stride = max(1, -(-sum(map(len, clear)) // most)) if most else 1
+    pairs = ((part, rows[::stride]) for part, rows in zip(run.stretches, clear, strict=True) if len(rows))
+    return [(part.system, part.t[rows], part.y[rows]) for part, rows in pairs]
 
 
 def touching(system, t, y):

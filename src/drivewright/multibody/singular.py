@@ -12,16 +12,18 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import null_space, qr
 
-from drivewright.multibody.assembly import at, scaled_jacobian, split_into
 from drivewright.multibody.chart import configure_at
 from drivewright.multibody.kinematics import measured
-from drivewright.multibody.system import MISS, Chart, System, Work, motion, scratch
+from drivewright.multibody.partition import at, misses, scaled_jacobian, split_into
+from drivewright.multibody.system import LUGRE, MISS, Chart, System, Work, motion, scratch
 
 NODES = np.array([-1.0, -0.85, -0.7, -0.55, 0.55, 0.7, 0.85, 1.0])  # of a chart, in parts of its half width
 WIDTHS = 0.12 * 0.5 ** np.arange(6)  # half widths to try [rad], [lengths of the mechanism]
 REACH = 0.95  # part of the half width in which a chart serves
 BACK = 0.01  # step back along the line by which the way to the singular position is estimated [rad], [lengths]
 CLOSED = 1e-10  # largest miss of the loops between the nodes [rad], [lengths]
+LINEAR, HALFWAY = 0.05, np.array([0.15, 0.3])  # places between a singular start and the nodes: the first ones by the rates alone
+SAME = 1e-5  # difference of rates, per unit of x, within which a branch has the rates that are asked for
 ASTRAY = 0.1  # correction of a guess, over the half width, that may lead to another branch
 FOLDED = 1e-6  # singular value over the largest that counts as zero in a singular position
 TWICE = 1e-6  # discriminant of the tangents, over its terms, below which two branches touch
@@ -30,8 +32,8 @@ TWICE = 1e-6  # discriminant of the tangents, over its terms, below which two br
 class Passage(NamedTuple):
     """A singular position on the way: when, the coordinates there, the system with its chart, and what meets there.
 
-    smallest: singular value over the largest, `tangents`: number of directions that meet (at most, where several loops fold at once),
-    `touching`: two branches have the same tangent, so that the second order decides.
+    smallest: singular value of the loops' Jacobian without dimensions; tangents: number of directions that meet (at most, where several
+    loops fold at once); touching: two branches have the same tangent, so that the second order decides.
     """
 
     time: float
@@ -98,7 +100,7 @@ def look_ahead(system, t, y):
         return Outlook(None, np.inf)
     behind = _behind(line)
     ahead = _way_ahead(behind)
-    for width in WIDTHS[REACH * WIDTHS > ahead]:
+    for width in WIDTHS[ahead < REACH * WIDTHS]:
         nodes = _nodes(line, behind, ahead, width)
         if nodes is not None and _closes_between(line, nodes):
             return Outlook(_charted(line, nodes, _centre(nodes), width), ahead * line.pace)
@@ -115,12 +117,14 @@ def _line(system, t, y):
     if speed == 0.0 or len(system.rows) == 0:
         return None
     fresh = split_into(system, _dependent(system, moving.work), moving.work)
-    state = np.concatenate([moving.work.coordinates.q[fresh.stored], rates[fresh.independent], y[len(y) - _memories(system, y):]])
+    remembered = y[len(system.stored) + len(system.independent):]
+    state = np.concatenate([moving.work.coordinates.q[fresh.stored], rates[fresh.independent], remembered])
     return Line(fresh, motion(fresh).work, t, state, rates[fresh.independent] / speed, 1.0 / speed)
 
 
-def _memories(system, y):
-    return len(y) - len(system.stored) - len(system.independent)
+def _memories(system):
+    """What pins with play remember, in the state behind coordinates and rates."""
+    return len(system.contacts) + int(np.sum(system.contacts.law == LUGRE))
 
 
 def _dependent(system, work):
@@ -163,16 +167,52 @@ def _weights(nodes, x):
     return np.prod(away / apart, axis=1)
 
 
-def _nodes(line, behind, ahead, width):
-    """Places of the nodes about x = ahead, closed one after another from this side to the other; None where the branch is lost."""
-    known = list(behind)
-    for x in sorted(ahead + width * NODES, key=abs):
-        guess = _carried(known, x)
-        place = line.close(x, guess)
+def chart_through(system, q, v):
+    """The system with a chart through the singular position at the coordinates q, along the branch with the rates v; None where there is
+    none.  Nothing but its rates tells it from the other branches there; of several freedoms it is not known what the others do."""
+    free, speed = len(system.independent), float(np.max(np.abs(v) / system.sizes))
+    if free > 1:
+        return None
+    dependent = np.setdiff1d(system.stored, system.stored[np.argsort(-np.abs(v / system.sizes)[system.stored])[:free]])
+    fresh = split_into(system, dependent, at(system, q))
+    state = np.concatenate([q[fresh.stored], v[fresh.independent], np.zeros(_memories(system))])
+    line = Line(fresh, motion(fresh).work, 0.0, state, v[fresh.independent] / speed, 1.0 / speed)
+    here, slope = Place(0.0, q[dependent], 0.0, 0.0), v[dependent] / speed
+    for width in WIDTHS:
+        beside = [line.close(x, here.dependent + x * slope) for x in (-LINEAR * width, LINEAR * width)]
+        nodes = _outward(line, [here, *beside], width * np.concatenate([-HALFWAY, HALFWAY, NODES]), width)
+        if nodes is None or max(place.correction for place in beside) > ASTRAY * LINEAR * width:
+            continue
+        nodes = sorted(place for place in nodes if abs(place.x) > np.max(HALFWAY) * width)
+        if _closes_between(line, nodes) and np.allclose(_slope(nodes, width), slope, rtol=0.0, atol=SAME * np.max(system.sizes[dependent])):
+            return _charted(line, nodes, 0.0, width)[0]
+    return None
+
+
+def _slope(nodes, width):
+    """d(dependent)/dx at x = 0 by the polynomial through the nodes."""
+    step = 1e-3 * width
+    return (_carried(nodes, step, len(nodes)) - _carried(nodes, -step, len(nodes))) / (2 * step)
+
+
+def _outward(line, known, offsets, width):
+    """Places of the line at offsets, closed one after another, the nearest first, from those already known; None where the branch is
+    lost."""
+    found = []
+    for x in sorted(offsets, key=abs):
+        place = line.close(x, _carried([*known, *found], x))
         if not place.correction < ASTRAY * width:
             return None
-        known.append(place)
-    nodes = sorted(known[len(behind):])
+        found.append(place)
+    return found
+
+
+def _nodes(line, behind, ahead, width):
+    """Places of the nodes about x = ahead, closed one after another from this side to the other; None where the branch is lost."""
+    found = _outward(line, behind, ahead + width * NODES, width)
+    if found is None:
+        return None
+    nodes = sorted(found)
     centre = _centre(nodes)
     if abs(centre - ahead) <= 0.02 * width:
         return nodes
@@ -207,7 +247,7 @@ def _coordinates(line, x, dependent):
 
 def _miss(line, x, dependent):
     work = at(line.system, _coordinates(line, x, dependent), line.t + x * line.pace)
-    return float(np.max(np.abs(work.columns[MISS] / line.system.rows.extent)))
+    return float(np.max(np.abs(misses(line.system, work))))
 
 
 def _charted(line, nodes, centre, width):
@@ -244,14 +284,24 @@ def _normal(line, nodes, width):
 
 def passage(system, t, y):
     """The `Passage` of a state that stands in the singular position of its system's chart."""
+    q = _configured(system, t, y).coordinates.q
+    return Passage(float(t), system, np.array(y), _smallest(system, q, t), *_tangents(system, q, t))
+
+
+def smallest_singular_values(system, t, y):
+    """(m,) of the loops' Jacobian without dimensions, at states y (m, n) at the times t (m,); infinite without loops."""
+    return np.array([_smallest(system, _configured(system, time, state).coordinates.q, time) for time, state in zip(t, y, strict=True)])
+
+
+def _configured(system, t, y):
     moving = motion(system)
     configure_at(moving.system, moving.work, t, y)
-    q = moving.work.coordinates.q.copy()
-    work = at(system, q, t)
-    columns = scaled_jacobian(system, work, system.stored)
-    values = np.linalg.svd(columns, compute_uv=False)
-    tangents, touching = _tangents(system, q, t)
-    return Passage(float(t), system, np.array(y), float(values[-1] / values[0]), tangents, touching)
+    return moving.work
+
+
+def _smallest(system, q, t):
+    columns = scaled_jacobian(system, at(system, q, t), system.stored)
+    return float(np.linalg.svd(columns, compute_uv=False)[-1]) if len(columns) else np.inf
 
 
 def _tangents(system, q, t):

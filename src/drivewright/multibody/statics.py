@@ -12,10 +12,10 @@ import numpy as np
 from drivewright._jit import outer
 from drivewright.errors import InputError, SolverError
 from drivewright.multibody import system as arrays
-from drivewright.multibody.assembly import at
 from drivewright.multibody.chart import configure
 from drivewright.multibody.dynamics import validity_of_split
 from drivewright.multibody.loads import load
+from drivewright.multibody.partition import at
 from drivewright.multibody.simulate import resplit
 from drivewright.multibody.system import DRIFT, System, Work, motion
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from drivewright.mechanisms.linkage import analyse, energy, forces, nonlinear, rest, tolerance, verify, wear
+from drivewright.mechanisms.linkage import analyse, energy, forces, nonlinear, rest, singular, tolerance, verify, wear
 from drivewright.mechanisms.linkage.build import build
 from drivewright.mechanisms.linkage.plates import drawings, parts
 from drivewright.mechanisms.linkage.plots import plots
@@ -25,6 +25,7 @@ ANALYSES = (
     Analysis("pins", analyse.pins, "forces, impacts and orbits of pins with play", missing=analyse.no_pins),
     Analysis("forces", forces.forces, "forces in all joints over the last turn", missing=analyse.no_run),
     Analysis("energy", energy.energy, "energy audit and drive torque", missing=analyse.no_run),
+    Analysis("singular", singular.singular, "singular positions passed", missing=analyse.no_run),
     Analysis("spectrum", nonlinear.spectrum, "accelerations in orders of the drive", missing=_no_turns),
     Analysis("poincare", nonlinear.poincare, "Poincare section", missing=_asked("poincare")),
     Analysis("lyapunov", nonlinear.lyapunov, "largest Lyapunov exponent", missing=_asked("lyapunov")),

@@ -64,7 +64,8 @@ class LinkageModel:
         asked = self.spec.simulate
         if asked is None:
             return Settings(per_step=2)
-        return Settings(asked.relative_tolerance, asked.absolute_tolerance, None, asked.min_step, asked.max_steps, asked.method, 2)
+        return Settings(asked.relative_tolerance, asked.absolute_tolerance, None, asked.min_step, asked.max_steps, asked.method, 2,
+                        asked.singular)
 
     def crank_angle(self, t):
         """Angle of the drive at constant speed, counted from the start of the joint's zero [rad]."""

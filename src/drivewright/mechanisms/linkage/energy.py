@@ -5,7 +5,7 @@ import numpy as np
 from drivewright.mechanisms.linkage.analyse import ROWS, cycle_columns, last_turn, window
 from drivewright.mechanisms.linkage.build import record_of
 from drivewright.multibody.observe import POWER_FIELDS
-from drivewright.multibody.record import audit
+from drivewright.multibody.record import audit, audit_of_samples
 from drivewright.result import Answer, Check, Column, Table, Value
 
 MEANING = {"springs": "springs, dampers and bushings", "applied": "applied torques and forces", "pins": "pins with play",
@@ -14,9 +14,8 @@ MEANING = {"springs": "springs, dampers and bushings", "applied": "applied torqu
 
 def energy(model, done):
     """Work of every kind of element against the change of energy; torque of the drive."""
-    if model.assembly.freedom == 0:  # kinematics: samples, not steps
-        return _torque(model)
-    found = audit(record_of(model))
+    seen = record_of(model)
+    found = audit_of_samples(seen) if model.assembly.freedom == 0 else audit(seen)  # kinematics has samples, not steps
     rows = slice(None, None, max(1, len(found.t) // ROWS))
     columns = (Column("time", "s", "time", found.t[rows]), Column("stored", "J", "kinetic energy and energy of gravity, from the start",
                                                                   (found.gap + np.sum(found.works, axis=1))[rows]))
@@ -26,9 +25,13 @@ def energy(model, done):
               for k, name in enumerate(POWER_FIELDS)}
     values["energy.gap"] = Value(float(np.max(np.abs(found.gap))), "J", "largest gap of the energy audit")
     values["energy.error"] = Value(found.error, "-", "largest gap over the energy exchanged")
-    check = Check("energy_audit", found.error, model.spec.limits.energy_error, "<=", "-", values["energy.error"].meaning)
+    limit, checks = model.spec.limits.energy_error, []
+    checks.append(Check("energy_audit", found.error, limit, "<=", "-", values["energy.error"].meaning))
+    if model.assembly.model.drives:
+        words = "work of the drives against change of energy and losses: largest gap over the work that the drives do and take"
+        checks.append(Check("power_audit", found.power_error, limit, "<=", "-", words))
     torque = _torque(model)
-    return Answer(values | torque.values, (Table("energy", "Energy audit", columns), *torque.tables), (check, *torque.checks))
+    return Answer(values | torque.values, (Table("energy", "Energy audit", columns), *torque.tables), (*checks, *torque.checks))
 
 
 def _torque(model):

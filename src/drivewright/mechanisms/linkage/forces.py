@@ -5,31 +5,31 @@ import numpy as np
 from drivewright.mechanisms.linkage.analyse import ROWS, cycle_columns
 from drivewright.mechanisms.linkage.build import run_of
 from drivewright.multibody.observe import observe
-from drivewright.multibody.reactions import reactions
+from drivewright.multibody.reactions import joined_reactions, reactions, unbounded_joints
+from drivewright.multibody.simulate import clear_states
 from drivewright.numerics.signals import time_mean
 from drivewright.result import Answer, Check, Column, Table, Value
 
 
 def last_states(model):
-    """(system, times, states) of the last whole turn, or of the run; of its last split of the coordinates, thinned to ROWS."""
-    last = run_of(model).stretches[-1]
-    turns = np.floor(last.t_end / model.period + 1e-9) if model.period else 0
+    """[(system, times, states)] of the last whole turn, or of the run, thinned to ROWS; folds left out."""
+    end = run_of(model).end[1]
+    turns = np.floor(end / model.period + 1e-9) if model.period else 0
     start = (turns - 1) * model.period if turns >= 1 else 0.0
-    rows = np.flatnonzero(last.t >= start * (1 - 1e-12))
-    rows = rows[:: max(1, -(-len(rows) // ROWS))]
-    return last.system, last.t[rows], last.y[rows]
+    return clear_states(run_of(model), start * (1 - 1e-12), ROWS)
 
 
 def forces(model, done):
     """Largest force of every joint in the last turn, the forces over it, and what Newton's and Euler's equations leave over."""
-    system, t, y = last_states(model)
-    found = reactions(model.assembly, system, observe(system, t, y))
+    states = last_states(model)
+    found = joined_reactions([reactions(model.assembly, system, observe(system, t, y)) for system, t, y in states])
+    t, unbounded = np.concatenate([t for _, t, _ in states]), _unbounded(model, states[0][1][0])
     values, checks, columns = {}, [], list(cycle_columns(model, t))
     for name, joint in found.joints.items():
         size = np.hypot(*joint.force.T)
         if name.endswith(" (link)"):  # the other end of a link without mass: the same force
             continue
-        if name not in model.pins:  # of those the whole window is known
+        if name not in model.pins and name not in unbounded:  # of pins with play the whole window is known
             values[f"joints.{name}.max_force"] = Value(float(size.max()), "N", f"largest force in joint {name!r} in the last turn")
         columns += [Column(f"{name}.force", "N", f"force in joint {name!r}", size),
                     Column(f"{name}.force_x", "N", f"force of joint {name!r} on its first body, x", joint.force[:, 0]),
@@ -42,4 +42,24 @@ def forces(model, done):
                             f"least tension of the massless link of joint {name!r}: a pin that is pushed has lost contact", (name,)))
     words = "what Newton's and Euler's equations of the bodies leave over, as a part of the largest force"
     values["forces.residual"] = Value(float(found.residual.max()), "-", words)
-    return Answer(values, (Table("forces", "Forces in the joints over the last turn", tuple(columns)),), tuple(checks))
+    return Answer(values, (Table("forces", "Forces in the joints over the last turn", tuple(columns)),), tuple(checks),
+                  tuple(_fold_findings(model, unbounded)))
+
+
+def _unbounded(model, start):
+    """{joint: time of the singular position towards which its force grows without bound}, from a time on."""
+    found = {}
+    for passed in run_of(model).passages:
+        if passed.time >= start:
+            seen = observe(passed.system, np.array([passed.time]), passed.state[None])
+            found |= dict.fromkeys(unbounded_joints(model.assembly, passed.system, seen), passed.time)
+    return found
+
+
+def _fold_findings(model, unbounded):
+    if unbounded:
+        names, time = ", ".join(map(repr, unbounded)), max(unbounded.values())
+        yield (f"the force in joints {names} grows without bound towards the singular position at t = {time:.6g} s: links in line cannot "
+               "carry a load across them. Its largest value does not exist; elastic links or play would bound it")
+    elif run_of(model).passages:
+        yield "joint forces in the middle of a singular position are limits of those beside it; they are left out of tables and extremes"

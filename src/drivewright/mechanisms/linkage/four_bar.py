@@ -15,8 +15,8 @@ from drivewright.mechanisms.linkage.second_route import (
     velocities,
 )
 from drivewright.multibody.model import GROUND, Ideal, Marker, MasslessLink, Revolute, RotationalSpring
-from drivewright.multibody.observe import observe
-from drivewright.multibody.simulate import Settings, simulate
+from drivewright.multibody.observe import joined, observe
+from drivewright.multibody.simulate import Settings, clear_states, simulate
 from drivewright.numerics.ode import integrate
 
 ROUTE = "closed form of the four-bar"
@@ -102,11 +102,12 @@ def _branch(bar, crank, alphas, e):
 
 def _turn(model, chain):
     run = simulate(model.assembly, model.period, samples=np.linspace(0, model.period, SAMPLES))
-    seen = observe(run.stretches[0].system, run.stretches[0].t, run.stretches[0].y)
+    seen = joined([observe(*states) for states in clear_states(run)])
     e = _directions(model, chain, seen)
     crank, speed = np.angle(e[0]), model.spec.drive.speed
-    bar = _branch(_bar(chain), crank[0], np.zeros(4), e[:, 0])
-    other, _, bent = ideal_motion(bar, crank)
+    both = [ideal_motion(_bar(chain)._replace(branch=sign), crank) for sign in (1.0, -1.0)]  # in a fold one goes over into the other
+    mine = np.argmin([np.abs(found[0][2] - e[2]) for found in both], axis=0)
+    other, bent = (np.where(mine == 0, both[0][k], both[1][k]) for k in (0, 2))
     for k, row in ((1, COUPLER_TURN), (2, ROCKER_TURN)):
         name = chain.bodies[k]
         apart = np.angle(e[k] / other[k])

@@ -117,6 +117,8 @@ class Simulate(Spec):
     absolute_tolerance: Length | None = Field(None, gt=0, description="of positions; relative_tolerance times the mechanism's size unless "
                                                                       "given", examples=["1 nm"])
     method: Literal["dopri5", "radau"] = Field("dopri5", description="dopri5: explicit, fast; radau: for heavy damping")
+    singular: Literal["smooth", "stop"] = Field("smooth", description="in a singular position, where loops fold and branches of the motion "
+                                                                      "meet. smooth: go on along the smooth branch; stop: end the run")
     max_steps: Integer = Field(20_000_000, ge=1, description="steps after which the run ends with what it has")
     min_step: Time = Field("0 s", ge=0, description="step below which the run ends with what it has; 0: at the limit of the arithmetic")
     samples_per_turn: Integer = Field(720, ge=8, le=1_000_000, description="rows of the tables (a run without turns: for all of it)")

@@ -1,0 +1,65 @@
+"""Singular positions that the mechanism passes: where they are, what meets there and which branch is taken."""
+
+import numpy as np
+
+from drivewright.mechanisms.linkage.build import TURN, run_of
+from drivewright.multibody.observe import FIELDS, observe
+from drivewright.multibody.singular import smallest_singular_values
+from drivewright.result import Answer, Column, Table, Value
+
+SAMPLES = 200  # states of a run whose smallest singular values give the median
+TOLD = 6  # bodies whose rates are told
+
+
+def singular(model, done):
+    """Number of singular positions passed, each in a table, and what is done there."""
+    passages = run_of(model).passages
+    values = {"singular.count": Value(float(len(passages)), "-", "singular positions passed in the run")}
+    if not passages:
+        return Answer(values)
+    return Answer(values, (_table(model, passages),), (), (_finding(model, passages),))
+
+
+def _table(model, passages):
+    typical = _median(run_of(model))
+    angle = () if not model.period else (Column("drive_angle", "rad", "drive angle", _drive_angle(model, passages)),)
+    rules = ["continuous acceleration" if each.touching else "continuous velocity" for each in passages]
+    return Table("singular_positions", "Singular positions", (
+        Column("time", "s", "time", np.array([each.time for each in passages])), *angle,
+        Column("smallest_singular_value", "-", "smallest singular value of the loops over its median in the run",
+               np.array([each.smallest / typical for each in passages])),
+        Column("branches", "-", "branches that meet, at most", np.array([each.tangents for each in passages])),
+        Column("branch", "-", "branch taken, by angular velocities", np.array([_rates(model, each) for each in passages])),
+        Column("rule", "-", "rule by which it is taken", np.array(rules))))
+
+
+def _median(run):
+    """Median of the smallest singular value over the states of a run."""
+    found = []
+    for part in run.stretches:
+        rows = slice(None, None, max(1, len(part.t) * len(run.stretches) // SAMPLES))
+        found.append(smallest_singular_values(part.system, part.t[rows], part.y[rows]))
+    return float(np.median(np.concatenate(found)))
+
+
+def _drive_angle(model, passages):
+    angles = np.mod([float(model.crank_angle(each.time)) for each in passages], TURN)
+    return np.where(angles > TURN * (1 - 1e-9), 0.0, angles)
+
+
+def _rates(model, passed):
+    """Angular velocities of the bodies there, over the largest of them."""
+    seen = observe(passed.system, np.array([passed.time]), passed.state[None]).bodies[0, :, FIELDS.index("w")]
+    names = [name for name in model.assembly.names if name in model.spec.bodies][:TOLD]
+    rates = [seen[model.assembly.names.index(name)] for name in names]
+    largest = max(map(abs, rates), default=0.0) or 1.0
+    return ", ".join(f"{name} {round(rate / largest, 3) + 0.0:g}" for name, rate in zip(names, rates, strict=True))
+
+
+def _finding(model, passages):
+    first = passages[0]
+    where = f", drive at {np.degrees(_drive_angle(model, passages)[0]):.4g} deg" if model.period else ""
+    many = f"{len(passages)} singular positions" if len(passages) > 1 else "a singular position"
+    return (f"the mechanism passes {many} (the first at t = {first.time:.6g} s{where}): loops fold there and up to {first.tangents} "
+            "branches of the motion meet. The motion follows the smooth one, on which velocities are continuous; what a real mechanism does "
+            "there is decided by its play and its loads (simulate.singular = \"stop\" ends the run before)")

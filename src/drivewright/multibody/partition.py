@@ -1,0 +1,59 @@
+"""Coordinate partitioning: the Jacobian of the loops, and which coordinates depend on which (Wehage & Haug 1982, recalled)."""
+
+import numpy as np
+from scipy.linalg import qr
+
+from drivewright.multibody.kinematics import placed
+from drivewright.multibody.system import LUGRE, MISS, no_chart, scratch
+from drivewright.numerics.small import lu_factor
+
+
+def at(system, q, t=0.0, v=None):
+    """`Work` with driven coordinates set, bodies placed and rows measured at the coordinates q."""
+    work = scratch(system)
+    work.coordinates.q = q
+    if v is not None:
+        work.coordinates.v = v
+    placed(system, work, t)
+    return work
+
+
+def scaled_jacobian(system, work, coordinates):
+    """(rows, given coordinates) of the Jacobian without dimensions: lengths count in lengths of the mechanism."""
+    return work.jacobian[:, coordinates] * system.sizes[coordinates] / system.rows.extent[:, None]
+
+
+def misses(system, work):
+    """Residuals of the rows without dimensions."""
+    return work.columns[MISS] / system.rows.extent
+
+
+def split(system, q, t=0.0):
+    """The system with its coordinates split at q so that the dependent ones follow as firmly as possible."""
+    work = at(system, q, t)
+    pivots = qr(scaled_jacobian(system, work, system.stored), mode="r", pivoting=True)[1] if len(system.rows) else np.zeros(0, int)
+    return split_into(system, np.sort(system.stored[pivots[: len(system.rows)]]), work)
+
+
+def split_into(system, dependent, work):
+    """The system with the given coordinates dependent and without a chart, its determinant measured at what `work` holds."""
+    independent = np.array([k for k in system.stored if k not in dependent], dtype=np.int64)
+    contacts, place = system.contacts.copy(), len(system.stored) + len(independent)
+    for contact in contacts:
+        contact.memory, place = place, place + 1
+    for contact in contacts:
+        if contact.law == LUGRE:
+            contact.bristle, place = place, place + 1
+        else:
+            contact.bristle = contact.memory
+    return system._replace(
+        dependent=np.asarray(dependent, np.int64), independent=independent, contacts=contacts,
+        reference_determinant=_determinant(scaled_jacobian(system, work, dependent)), chart=no_chart(len(independent), len(dependent)))
+
+
+def _determinant(square):
+    """Determinant, with the sign that the kernels' own elimination has; 0 where that finds no pivot."""
+    lu, pivots = np.array(square), np.zeros(len(square), np.int64)
+    if not lu_factor(lu, pivots):
+        return 0.0
+    return float(np.prod(np.diag(lu)) * (-1.0) ** np.count_nonzero(pivots != np.arange(len(square))))
