@@ -14,13 +14,14 @@ from drivewright.multibody.chart import configure, configure_all, configure_at
 from drivewright.multibody.dynamics import validity_of_split
 from drivewright.multibody.kinematics import determinant
 from drivewright.multibody.partition import at, split_into
-from drivewright.multibody.singular import look_ahead, passage
+from drivewright.multibody.singular import Outlook, look_ahead, passage
 from drivewright.multibody.system import System, motion
 
 LONGEST = 0.05  # way of the fastest coordinate in a step [rad], [lengths of the mechanism]
 BENT = 0.25  # Newton's correction, and half the change of the rates, over the way of a step
 SHRUNK = 0.5  # part of the determinant that is left after a step, at least
 SHORTEST = 1e-9  # part of the way below which a drive that finds no way on is stuck
+FINE = 160  # times added on the way to, and from, a place where the branches come near each other
 STEADY = 1e-9  # correction that is none, however short the way
 
 REACHED, STUCK, WEAK = range(3)
@@ -47,9 +48,9 @@ class Continuation:
     outcome: str  # "finished", "stuck" or "stopped"
 
 
-def continued(system, times, end, y, stop=False):
+def continued(system, times, end, y, stop=False, refine=False):
     """The `Continuation` of a driven system from its state y at time 0 through ascending times to the end; it ends in the first singular
-    position with `stop`."""
+    position with `stop`.  With `refine` times are added where two branches come near each other and the motion bends sharply."""
     t, stretches, passages = 0.0, [], []
     while True:
         ahead = times[times >= t] if not stretches else times[times > t]
@@ -65,8 +66,10 @@ def continued(system, times, end, y, stop=False):
         t, y = stretch.t_end, stretch.y_end
         if code != WEAK:
             return Continuation(tuple(stretches), tuple(passages), t, "finished" if code == REACHED else "stuck")
-        charted = look_ahead(system, t, y).charted if len(system.chart.offsets) == 0 else None
-        system = charted[0] if charted else _split(system, t, y)
+        outlook = look_ahead(system, t, y) if len(system.chart.offsets) == 0 else Outlook(None, np.inf)
+        system = outlook.charted[0] if outlook.charted else _split(system, t, y)
+        if refine and not outlook.charted and np.isfinite(outlook.time):
+            times = np.union1d(times, [time for time in t + outlook.time * np.linspace(0.0, 2.0, FINE + 1)[1:] if time < end])
 
 
 def _split(system, t, y):

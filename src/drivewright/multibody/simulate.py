@@ -77,7 +77,7 @@ def simulate(assembly, duration, settings=Settings(), *, samples=None, state=Non
         turns = max(duration * speed_of(assembly) / (2 * np.pi), 1.0)
         grid = np.linspace(start, start + duration, 1 + math.ceil(GRID * turns))
         times = grid if samples is None else np.asarray(samples, float)
-        return _driven(assembly, times, start + duration, settings)
+        return _driven(assembly, times, start + duration, settings, samples is None)
     system = assembly.system
     y = assembly.state if state is None else touching(system, start, np.array(state, float))
     if duration == 0:
@@ -209,9 +209,9 @@ def at_state(system, t, y):
 # -------------------------------------------------------------------------------------------------------------- no freedom
 
 
-def _driven(assembly, times, end, settings):
+def _driven(assembly, times, end, settings, refine):
     """Kinematics: the dependent coordinates at the times, each from the one before."""
-    found = continued(assembly.system, times, end, assembly.state, settings.singular == "stop")
+    found = continued(assembly.system, times, end, assembly.state, settings.singular == "stop", refine)
     if found.outcome == "stuck":
         raise DoesNotAssemble(_stuck(assembly, found.reached, end))
     advice = stopped_at(found.passages[-1].time) if found.outcome == "stopped" else ""

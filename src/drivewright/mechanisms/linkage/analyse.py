@@ -90,13 +90,20 @@ def last_turn(model):
 
 
 def cycle_columns(model, t):
-    """Time, and the angle of a drive at constant speed."""
-    columns = (Column("time", "s", "time", t),)
+    """Time, the angle of a drive at constant speed, and where loops fold in a run that passes singular positions."""
+    columns = (Column("time", "s", "time", t), *_folds(run_of(model), t))
     if model.period:
         turn = np.floor(t[0] / model.period + 1e-9)
         angle = (t - turn * model.period) * TURN / model.period
         columns = (Column("crank_angle", "rad", "angle of the drive since the start of the turn", angle), *columns)
     return columns
+
+
+def _folds(run, t):
+    if not run.passages:
+        return ()
+    near = [np.abs(t - passed.time) < passed.system.chart.reach * passed.system.chart.pace for passed in run.passages]
+    return (Column("fold", "-", "1 near a singular position, where loops fold", np.any(near, axis=0).astype(float)),)
 
 
 def _motion_table(model):

@@ -12,7 +12,16 @@ def plots(result):
     """The plots of a result, those of analyses that were left out too."""
     found = [plot for output in result.spec.outputs for plot in _of_output(result, output)]
     found += [plot for joint in result.spec.joints for plot in _of_joint(result, joint)]
-    return (*found, *_of_run(result), *_of_many_runs(result))
+    return tuple(_with_folds(result, plot) for plot in (*found, *_of_run(result), *_of_many_runs(result)))
+
+
+def _with_folds(result, plot):
+    """A plot over time or angle shaded where loops fold, if its table tells where and nothing else shades it."""
+    table = result.tables.get(plot.table)
+    names = {column.name for column in table.columns} if table else set()
+    if "fold" not in names or plot.shade or plot.equal:
+        return plot
+    return plot._replace(shade="fold", title=f"{plot.title}; loops fold where shaded")
 
 
 def _of_output(result, output):

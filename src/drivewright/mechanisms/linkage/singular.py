@@ -61,5 +61,5 @@ def _finding(model, passages):
     where = f", drive at {np.degrees(_drive_angle(model, passages)[0]):.4g} deg" if model.period else ""
     many = f"{len(passages)} singular positions" if len(passages) > 1 else "a singular position"
     return (f"the mechanism passes {many} (the first at t = {first.time:.6g} s{where}): loops fold there and up to {first.tangents} "
-            "branches of the motion meet. The motion follows the smooth one, on which velocities are continuous; what a real mechanism does "
-            "there is decided by its play and its loads (simulate.singular = \"stop\" ends the run before)")
+            "branches of the motion meet. The motion follows the smooth one, on which velocities are continuous; what a real mechanism "
+            "does there is decided by its play and its loads (simulate.singular = \"stop\" ends the run before)")
