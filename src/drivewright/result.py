@@ -15,11 +15,38 @@ from drivewright.errors import UnknownName
 
 
 class Value(NamedTuple):
-    """One number [SI unit] and what it means."""
+    """One number [SI unit] and what it means; where it is uncertain with its 95 % interval.
+
+    `interval` says how that was made: "ensemble" or "windows" of a chaotic run, "sample", "fit", "periodic" (rounding).  A bound that is
+    None is not known; a value without interval is exact to its printed digits.  What has not `settled`, a statistic that still drifted
+    when its run ended, is no property of the design yet: it is in the result, but never among the headline values.
+    """
 
     value: float
     unit: str
     meaning: str
+    low: float | None = None
+    high: float | None = None
+    interval: str = ""
+    settled: bool = True
+
+    @classmethod
+    def of(cls, estimate: Any, unit: str, meaning: str) -> "Value":
+        """The value of a `numerics.ensemble.Estimate`: whatever has value, low, high, interval and settled."""
+        return cls(estimate.value, unit, meaning, estimate.low, estimate.high, estimate.interval, estimate.settled).plain()
+
+    def plain(self) -> "Value":
+        """The same in Python's own floats; a bound that is not finite is None, and without any bound there is no interval."""
+        low, high = (float(end) if end is not None and math.isfinite(end) else None for end in (self.low, self.high))
+        return self._replace(value=float(self.value), low=low, high=high, interval=self.interval if (low, high) != (None, None) else "")
+
+    def record(self) -> dict:
+        """Plain dictionary as in result.json: `low`, `high` and `interval` where it has them, `settled` where it has not."""
+        plain = self.plain()
+        bounds = {name: end for name, end in (("low", plain.low), ("high", plain.high)) if end is not None}
+        how = {"interval": plain.interval} if plain.interval else {}
+        unsettled = {} if plain.settled else {"settled": False}
+        return {"value": plain.value, "unit": plain.unit, "meaning": plain.meaning, **bounds, **how, **unsettled}
 
 
 class Array(NamedTuple):
@@ -188,7 +215,7 @@ class Result:
         """The content of result.json; non-finite values are left out (a finding says why)."""
         from drivewright import __version__
 
-        values = {k: {**v._asdict(), "value": float(v.value)} for k, v in self.values.items() if math.isfinite(v.value)}
+        values = {k: v.record() for k, v in self.values.items() if math.isfinite(v.value)}
         arrays = {k: {"unit": a.unit, "axes": list(a.axes), "labels": [list(x) for x in a.labels], "values": _listed(a.values)}
                   for k, a in self.arrays.items()}
         checks = [check.record() for check in self.checks if math.isfinite(check.value) and math.isfinite(check.limit)]

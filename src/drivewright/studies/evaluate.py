@@ -76,7 +76,7 @@ def with_compiled(task, plan):
     if offer(direct.spec, task.keys, tuple(runs[0].values)) is None:
         return task, ()
     runs += [direct.case(columns, n) for n in range(1, len(places))]
-    about = {name: tuple(value[1:]) for run in runs for name, value in run.values.items()}
+    about = {name: (value.unit, value.meaning) for run in runs for name, value in run.values.items()}
     whole = all(run.status == "failed" or (run.status == "complete" and not run.message) for run in runs)
     if not about or not whole or offer(direct.spec, task.keys, tuple(about)) is None:
         return task, ()
@@ -176,8 +176,8 @@ class Working:
             found = self.case(columns, n)
             statuses[n], messages[n] = found.status, found.message
             for name, value in found.values.items():
-                about.setdefault(name, value[1:])
-                values.setdefault(name, np.full(count, np.nan))[n] = value[0]
+                about.setdefault(name, (value.unit, value.meaning))
+                values.setdefault(name, np.full(count, np.nan))[n] = value.value
         return _table(first, columns, self.kinds, values, about, statuses, messages)
 
     def many(self, columns):
@@ -241,8 +241,8 @@ def _gathered(rows):
     """(values {name: (n,)}, about {name: (unit, meaning)}, statuses, messages) of rows by the runner."""
     about = {}
     for row in rows:
-        for name, (_, unit, meaning) in row.values.items():
-            about.setdefault(name, (unit, meaning))
+        for name, value in row.values.items():
+            about.setdefault(name, (value.unit, value.meaning))
     values = {name: np.array([row.values[name][0] if name in row.values else np.nan for row in rows], float) for name in about}
     return values, about, [row.status for row in rows], [row.message for row in rows]
 

@@ -98,7 +98,7 @@ def prepare(spec):
     return Problem(
         base, tuple(unknown.key for unknown in search.unknowns), tuple(kinds), np.array(bounds, float), objectives, limits,
         scales=np.array([abs(limit) or sizes[name] or 1.0 for name, _, limit in limits]),
-        about={name: tuple(known[name][1:]) for name in names},
+        about={name: (known[name].unit, known[name].meaning) for name in names},
         analyses=tuple(analysis for analysis in dict.fromkeys(givers.values()) if any(givers[name] == analysis for name in names)),
     )
 
