@@ -20,6 +20,7 @@ class Value(NamedTuple):
     `interval` says how that was made: "ensemble" or "windows" of a chaotic run, "sample", "fit", "periodic" (rounding).  A bound that is
     None is not known; a value without interval is exact to its printed digits.  What has not `settled`, a statistic that still drifted
     when its run ended, is no property of the design yet: it is in the result, but never among the headline values.
+    `error` is the standard error, for those who average over many values; result.json does not have it.
     """
 
     value: float
@@ -29,16 +30,19 @@ class Value(NamedTuple):
     high: float | None = None
     interval: str = ""
     settled: bool = True
+    error: float | None = None
 
     @classmethod
     def of(cls, estimate: Any, unit: str, meaning: str) -> "Value":
         """The value of a `numerics.ensemble.Estimate`: whatever has value, low, high, interval and settled."""
-        return cls(estimate.value, unit, meaning, estimate.low, estimate.high, estimate.interval, estimate.settled).plain()
+        return cls(estimate.value, unit, meaning, estimate.low, estimate.high, estimate.interval, estimate.settled,
+                   estimate.error).plain()
 
     def plain(self) -> "Value":
         """The same in Python's own floats; a bound that is not finite is None, and without any bound there is no interval."""
-        low, high = (float(end) if end is not None and math.isfinite(end) else None for end in (self.low, self.high))
-        return self._replace(value=float(self.value), low=low, high=high, interval=self.interval if (low, high) != (None, None) else "")
+        low, high, error = (float(each) if each is not None and math.isfinite(each) else None for each in (self.low, self.high, self.error))
+        interval = self.interval if (low, high) != (None, None) else ""
+        return self._replace(value=float(self.value), low=low, high=high, interval=interval, error=error)
 
     def record(self) -> dict:
         """Plain dictionary as in result.json: `low`, `high` and `interval` where it has them, `settled` where it has not."""
@@ -49,7 +53,7 @@ class Value(NamedTuple):
         return {"value": plain.value, "unit": plain.unit, "meaning": plain.meaning, **bounds, **how, **unsettled}
 
 
-LOW, HIGH = ".low", ".high"  # behind the name of a column: the ends of its 95 % intervals
+LOW, HIGH, ERROR = ".low", ".high", ".error"  # behind the name of a column: ends of its 95 % intervals; in studies its standard errors
 
 
 UNDECIDED = "undecided: the limit lies within the interval"

@@ -51,6 +51,15 @@ def test_half_width_is_that_of_the_standard_error():
     assert np.median([(e.high - e.low) / 2 for e in estimates(8, 32, 0.5)]) == pytest.approx(expected, rel=0.08)
 
 
+@pytest.mark.parametrize("size", [(4, 4, 0.0), (4, 8, 0.5), (2, 32, 0.8)])
+def test_the_square_of_the_standard_error_of_members_is_unbiased(size):
+    members, windows, coefficient = size
+    k = np.arange(1, windows)
+    known = (1 + 2 * np.sum((1 - k / windows) * coefficient**k)) / (members * windows)
+    squares = np.array([estimate(x).error ** 2 for x in autoregressive(TRIALS, *size)])
+    assert squares.mean() == pytest.approx(known, abs=4 * squares.std() / np.sqrt(TRIALS))
+
+
 @pytest.mark.parametrize("size", [(1, 256, 0.5), (4, 8, 0.0), (4, 32, 0.5), (8, 16, 0.8)])
 def test_settled_ensembles_raise_few_false_alarms(size):
     assert share(not e.settled for e in estimates(*size)) <= 3 * FALSE_ALARM
@@ -183,7 +192,7 @@ def test_a_statistic_of_one_member_has_no_interval_and_of_a_constant_no_width():
 def test_value_of_an_estimate():
     found = estimate(autoregressive(1, 8, 16, 0.5)[0] + 10)
     value = Value.of(found, "m", "fluctuation")
-    assert value == Value(found.value, "m", "fluctuation", found.low, found.high, "ensemble", True)
+    assert value == Value(found.value, "m", "fluctuation", found.low, found.high, "ensemble", True, found.error)
     assert value.record() == {"value": found.value, "unit": "m", "meaning": "fluctuation", "low": found.low, "high": found.high,
                               "interval": "ensemble"}
     assert all(type(each) is float for each in (value.value, value.low, value.high))

@@ -181,11 +181,8 @@ def study(found, answers=None):
     """How the cases of a study ended, between which ends its headline values lie, and the yield where the answers have one."""
     import numpy as np
 
-    names = _shown(found)
-    ends = {name: column[np.isfinite(column)] for name in names for column in [found[name]]}
-    told = {name: column for name, column in ends.items() if len(column)}
-    rows = [(name, *(number(end, found.unit(name)) for end in (column.min(), column.max())), found.meaning(name))
-            for name, column in list(told.items())[:MOST_ROWS]]
+    told = [name for name in _shown(found) if np.any(np.isfinite(found[name]))]
+    rows = [(name, *_ends(found, name), found.meaning(name)) for name in told[:MOST_ROWS]]
     title = ", ".join(f"{count} {status}" for status, count in found.counts.items())
     table(title, (("value", "left"), ("least", "right"), ("greatest", "right"), ("meaning", "left")), rows)
     if answers and "yield" in answers.result.values:
@@ -198,6 +195,14 @@ def study(found, answers=None):
         note(f"note: {count} x {reason}")
     for remark in (*found.plan.remarks, *found.remarks):
         note(f"note: {remark}")
+
+
+def _ends(study, name):
+    """Least and greatest of a column, each with the interval that it has in its case."""
+    import numpy as np
+
+    column, bounds = study[name], study.bounds(name) or ()
+    return [number(column[row], study.unit(name), *(end[row] for end in bounds)) for row in (np.nanargmin(column), np.nanargmax(column))]
 
 
 def _shown(study):

@@ -24,6 +24,8 @@ class Estimate:
 
     `interval`: "ensemble" (several members), "windows" (of one run), "periodic" (all windows agree to rounding) or "" (there is none).
     `settled`: no drift was found, and one would have been.  `effective`: the effective number of independent samples.
+    `error`: standard error, of several members that of their means, whose square is unbiased whatever the windows remember: for averages
+    over many estimates; the interval is the better word on a single one.
     """
 
     value: float
@@ -32,13 +34,14 @@ class Estimate:
     interval: str
     settled: bool
     effective: float
+    error: float
 
 
 def estimate(samples: np.ndarray, *, rounding: float = ROUNDING, scale: float = 0.0) -> Estimate:
     """Mean over windows and members of `samples` (members, windows), or (windows,) of one run.
 
     value -+ t sigma / sqrt(n), with n = members windows / tau effective samples, tau = 1 + 2 sum (1 - k/windows) rho_k the integrated
-    autocorrelation time of a member in windows, and t Student's quantile of n - 2 degrees of freedom.  rho_k is pooled over the members,
+    autocorrelation time of a member in windows, and t Student's quantile of n - 1 degrees of freedom.  rho_k is pooled over the members,
     about the means of both halves, which all members share: members that disagree for good lengthen tau up to the whole run, so n lies
     between the number of members and that of all windows.  Where windows alternate (tau < 1) n stays at that of all windows, and the
     interval is too wide.
@@ -58,10 +61,11 @@ def estimate(samples: np.ndarray, *, rounding: float = ROUNDING, scale: float = 
         return _of_members(samples[:, 0], False)
     variance, effective = _noise(_about_halves(samples))
     drift, limit = _drift(samples)
-    reach = float(_student(effective - 2, (1 + LEVEL) / 2) * np.sqrt(variance / effective))
+    reach = float(_student(effective - 1, (1 + LEVEL) / 2) * np.sqrt(variance / effective))
     reach = max(reach, drift / 2) if drift > limit else reach
     made = "ensemble" if len(samples) > 1 else "windows"
-    return Estimate(value, value - reach, value + reach, made, effective >= ENOUGH and drift <= limit, effective)
+    error = _standard_error(np.mean(samples, axis=1)) if len(samples) > 1 else float(np.sqrt(variance / effective))
+    return Estimate(value, value - reach, value + reach, made, effective >= ENOUGH and drift <= limit, effective, error)
 
 
 def estimate_statistic(samples: np.ndarray, statistic: Callable, *, rounding: float = ROUNDING, scale: float = 0.0) -> Estimate:
@@ -96,16 +100,22 @@ def _checked(samples):
 
 
 def _periodic(value, tolerance, count):
-    return Estimate(value, value - tolerance, value + tolerance, "periodic", True, float(count))
+    return Estimate(value, value - tolerance, value + tolerance, "periodic", True, float(count), 0.0)
 
 
 def _of_members(numbers, settled):
     """Student's interval of one number (members,) of each member."""
     count, value = len(numbers), float(np.mean(numbers))
     if count < 2:
-        return Estimate(value, np.nan, np.nan, "", False, 1.0)
-    reach = _student(count - 1, (1 + LEVEL) / 2) * float(np.std(numbers, ddof=1)) / np.sqrt(count)
-    return Estimate(value, value - reach, value + reach, "ensemble", settled, float(count))
+        return Estimate(value, np.nan, np.nan, "", False, 1.0, np.nan)
+    error = _standard_error(numbers)
+    reach = _student(count - 1, (1 + LEVEL) / 2) * error
+    return Estimate(value, value - reach, value + reach, "ensemble", settled, float(count), error)
+
+
+def _standard_error(numbers):
+    """Of the mean of independent numbers."""
+    return float(np.std(numbers, ddof=1) / np.sqrt(len(numbers)))
 
 
 def _student(freedom, share):
@@ -124,7 +134,7 @@ def _drift(samples, false_alarm=FALSE_ALARM):
     count = samples.shape[1]
     first = count // 2
     difference = abs(np.mean(samples[:, :first]) - np.mean(samples[:, first:]))
-    limits = [_student(effective - 2, 1 - false_alarm / 2) * np.sqrt(variance / effective * (count / first + count / (count - first)))
+    limits = [_student(effective - 1, 1 - false_alarm / 2) * np.sqrt(variance / effective * (count / first + count / (count - first)))
               for variance, effective in map(_noise, (_about_halves(samples), _about_line(samples)))]
     return float(difference), float(min(limits))
 
