@@ -149,6 +149,7 @@ def _value(name, value):
     told, low, high = numbers(value.value * factor, *(None if end is None else end * factor for end in (value.low, value.high)))
     return {"name": name, "meaning": sentence(value.meaning or name), "shown": uncertain(value.value, value.unit, value.low, value.high),
             "number": told, "unit": unit, "low": low, "high": high, "hint": interval_hint(value),
+            "interval": value.interval,
             "si": with_unit(repr(float(value.value)), unit_text(value.unit))}
 
 
