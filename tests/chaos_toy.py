@@ -15,6 +15,7 @@ from scipy.special import ndtri
 from drivewright.numerics.ensemble import estimate
 from drivewright.registry import Analysis, Mechanism
 from drivewright.result import Answer, Array, Check, Column, Plot, Table, Value
+from drivewright.scene import Body, Frame, Scene, Shape, circle
 from drivewright.spec import Integer, MechanismSpec, Number
 from drivewright.units import Length
 
@@ -66,13 +67,22 @@ def course(drawn):
     return Table("course", "Course of the level", (window, mean, *ends, name))
 
 
+def scene(spec):
+    """A disc that rises over the windows."""
+    count = spec.windows
+    poses = np.column_stack([np.zeros(count), spec.size * np.linspace(0, 1, count), np.zeros(count)])
+    disc = Body("disc", "disc", (Shape("profile", circle((0.0, 0.0), spec.size)),), poses)
+    frames = (Frame("machine", "machine frame", np.zeros((count, 3))),)
+    return Scene(np.arange(float(count)), "number of the window", "-", 1.0, (disc,), frames, table="course")
+
+
 PLOTS = (Plot("course", "Course of the level", "course", "window", ("level",)),
          Plot("points", "Levels of the windows", "course", "window", ("level",), style="points"),
          Plot("stems", "Stems of the windows", "course", "window", ("level",), style="stems"),
          Plot("bars", "Bars of the windows", "course", "name", ("level",), style="bars"),
          Plot("ranked", "Ranks of the windows", "course", "name", ("level",), style="ranked"))
 CHAOTIC = Mechanism("chaotic-toy", "a toy with chaotic numbers", Chaotic, lambda spec: spec, (Analysis("main", answer, "what it is"),),
-                    Path(__file__).parent, plots=PLOTS, headline=("level", "area"))
+                    Path(__file__).parent, scene=scene, plots=PLOTS, headline=("level", "area"))
 
 
 def install(patch=setattr, mechanism=CHAOTIC):
