@@ -159,6 +159,10 @@ def command(name):
 
 
 def headlines(mechanism, values):
-    """Names of the values that are shown first, in the order of the mechanism's headline; the first ones where it names none."""
+    """Names of the values that are shown first, in the order of the mechanism's headline; the first ones where it names none.
+
+    `values` are names, or {name: Value}; a value that has not settled is left out.
+    """
+    values = [name for name in values if not isinstance(values, Mapping) or getattr(values[name], "settled", True)]
     named = dict.fromkeys(name for pattern in mechanism.headline for name in values if fnmatchcase(name, pattern))
     return list(named) or list(values)[:12]

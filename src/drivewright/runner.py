@@ -95,7 +95,7 @@ def _given_up(analysis, error):
 
 
 def _result(spec, mechanism, answers, findings, seconds):
-    values = {k: v._replace(value=float(v.value)) for a in answers.values() for k, v in a.values.items()}
+    values = {k: v.plain() for a in answers.values() for k, v in a.values.items()}
     absent = {k: v for k, v in values.items() if not math.isfinite(v.value)}
     findings = [*findings, *(f"value '{name}' ({v.meaning}) does not exist for this design: it is {v.value}" for name, v in absent.items())]
     return Result(

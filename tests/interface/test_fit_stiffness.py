@@ -152,6 +152,14 @@ def test_errors_of_several_positions_are_independent():
     assert "90 % interval" in found["k.low"].meaning and "mean of 4 positions" in found["k"].meaning
 
 
+def test_a_stiffness_carries_its_interval_of_95_percent():
+    estimates = [Estimate(10.0, 1.0, 8.0, 13.0)]
+    found = torsion._estimate("k", "stiffness", estimates, 0.95)
+    assert (found["k"].low, found["k"].high, found["k"].interval) == (8.0, 13.0, "fit")
+    assert (found["k.low"].value, found["k.high"].value) == (8.0, 13.0)
+    assert torsion._estimate("k", "stiffness", estimates, 0.9)["k"].interval == ""
+
+
 @pytest.mark.parametrize(("options", "wanted"), [
     (["--rated-torque", "1000"], '--rated-torque: a bare number; a torque wants its unit, e.g. "1000 N m"'),
     (["--rated-torque", "1000 N m/rad"], "--rated-torque: wants a torque, got '1000 N m/rad' (rotational stiffness); write N m"),

@@ -66,7 +66,8 @@ def test_a_row_for_every_case_with_all_values_of_a_run(chains):
         assert {name: chains[name][case] for name in chains.value_names} == pytest.approx(
             {n: v.value for n, v in run.values.items()}, rel=1e-9
         )
-        assert {name: (chains.unit(name), chains.meaning(name)) for name in run.values} == {n: v[1:] for n, v in run.values.items()}
+        about = {name: (value.unit, value.meaning) for name, value in run.values.items()}
+        assert {name: (chains.unit(name), chains.meaning(name)) for name in run.values} == about
         assert chains.check_names == tuple(check.name for check in run.checks)
         for check in run.checks:
             assert chains[f"check.{check.name}"][case] == pytest.approx(check.margin) and (check.margin >= 0) == check.ok

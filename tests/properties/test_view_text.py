@@ -7,7 +7,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from drivewright.view.text import SUPERSCRIPT, axis_label, dimension, number, quantity, unit_text, with_unit
+from drivewright.digits import last_place, to_place
+from drivewright.result import Value
+from drivewright.view.text import (
+    SUPERSCRIPT,
+    axis_label,
+    dimension,
+    interval_hint,
+    number,
+    numbers,
+    quantity,
+    uncertain,
+    unit_text,
+    with_unit,
+)
 
 DOWN = {chr(v): chr(k) for k, v in SUPERSCRIPT.items()}
 
@@ -60,3 +73,47 @@ def test_axis_labels():
     assert axis_label("ratio", "") == "Ratio"
     assert "\n" in axis_label("a rather long name of a quantity", "mm", 20)
     assert (dimension("m"), dimension("rad"), dimension("m/rad")) == ("length", "angle", "value")
+
+
+# -- digits of an interval -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("value", "low", "high", "expected"), [
+    (10.234, 8.09, 12.38, ("10.2", "8.1", "12.4")),
+    (10.0, 9.97, 10.03, ("10.000", "9.970", "10.030")),
+    (3.2, -50.0, 56.0, ("3", "−50", "56")),
+    (10234.0, 8123.0, 12345.0, ("10\u202f200", "8100", "12\u202f300")),
+    (-0.04, -3.0, 2.9, ("0.0", "−3.0", "2.9")),
+    (1.5e7, 1.1e7, 1.9e7, ("1.50×10⁷", "1.10×10⁷", "1.90×10⁷")),
+    (2.5e-9, -1.1e-9, 6.1e-9, ("2.5×10⁻⁹", "−1.1×10⁻⁹", "6.1×10⁻⁹")),
+    (12.3456789, 12.34567, 12.34569, ("12.346", "", "")),
+    (12.3456789, None, None, ("12.346", "", "")),
+    (12.3456789, math.nan, 13.0, ("12.346", "", "")),
+    (5.0, 5.0, 5.0, ("5", "", "")),
+])
+def test_digits_are_those_that_the_interval_supports(value, low, high, expected):
+    assert numbers(value, low, high) == expected
+
+
+@given(st.floats(-1e12, 1e12), st.floats(1e-6, 1e3))
+def test_a_printed_value_lies_within_a_twentieth_of_half_the_width(value, part):
+    """Half a unit of the second digit of the half width: at most 5 % of it; coarser only where five digits say as much as an exact one."""
+    half = part * max(abs(value), 1e-9)
+    place = last_place(value, value - half, value + half)
+    if place is not None:
+        assert abs(float(to_place(value, place)) - value) <= 0.0501 * half
+        assert 10.0 ** (place + 1) <= 1.05 * half < 10.0 ** (place + 2) * 1.05
+
+
+def test_quantity_with_its_interval_and_without():
+    assert uncertain(10.234e-3, "m", 8.09e-3, 12.38e-3) == "10.2 (8.1 to 12.4)\u00a0mm"
+    assert uncertain(0.3, "rad", 0.2, 0.4) == "17.2 (11.5 to 22.9)°"
+    assert uncertain(10.234e-3, "m", None, None) == quantity(10.234e-3, "m")
+
+
+@pytest.mark.parametrize(("value", "hint"), [
+    (Value(1.0, "m", "x"), ""), (Value(1.0, "m", "x", 0.0, 2.0, "fit"), "95\u00a0%, fit"),
+    (Value(1.0, "m", "x", 0.0, 2.0, "ensemble", False), "95\u00a0%, ensemble, not settled"),
+    (Value(1.0, "m", "x", settled=False), "not settled")])
+def test_hint_says_how_the_interval_was_made(value, hint):
+    assert interval_hint(value) == hint

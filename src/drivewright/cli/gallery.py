@@ -91,10 +91,9 @@ def _print(result, seconds):
     """Key numbers of one run, on stdout."""
     failed = [check for check in result.checks if not check.ok]
     print(f"\n{result.title}   ({seconds:.1f} s)")
-    names = [n for n in registry.mechanism(result.mechanism).headline if n in result.values][:6]
-    for name in names:
+    for name in registry.headlines(registry.mechanism(result.mechanism), result.values)[:6]:
         value = result.values[name]
-        print(f"  {name:40s} {show.number(value.value, value.unit):>14s}   {value.meaning}")
+        print(f"  {name:40s} {show.number(value.value, value.unit, value.low, value.high):>14s}   {value.meaning}")
     for check in failed:
         print(
             f"  check fails: {check.name} = {show.number(check.value, check.unit)}, "

@@ -1,13 +1,14 @@
 """What the command line prints: results to stdout, everything else to stderr."""
 
 import json
+import math
 import shutil
 import sys
 from collections import Counter
 from contextlib import contextmanager
 from pathlib import Path
 
-from drivewright import registry, units
+from drivewright import digits, registry, units
 from drivewright.errors import InputError, MissingExtra, SpecError
 
 MOST_ROWS = 12  # of a study's values
@@ -74,23 +75,54 @@ def table(title, header, rows):
     Console(file=sys.stdout, width=None if sys.stdout.isatty() else 140, highlight=False).print(grid)
 
 
-def number(value, unit):
-    """A number in the unit people read, with the unit."""
-    factor, shown = units.display(unit)
-    return f"{value * factor:.6g}{'' if shown in ('-', '') else ' ' + shown}"
+def number(value, unit, low=None, high=None):
+    """A number in the unit people read, with the unit, and with its interval in the digits that this supports."""
+    told, *ends = _numbers(value, unit, low, high)
+    return _with_unit(f"{told} ({ends[0]} to {ends[1]})" if ends else told, unit)
+
+
+def _numbers(value, unit, low, high):
+    """Texts of a number, and of the ends of its interval where this says something."""
+    factor = units.display(unit)[0]
+    value, low, high = (None if each is None else each * factor for each in (value, low, high))
+    place = digits.last_place(value, low, high)
+    return [f"{value:.6g}"] if place is None else [_to_place(each, place) for each in (value, low, high)]
+
+
+def _with_unit(text, unit):
+    shown = units.display(unit)[1]
+    return text if shown in ("-", "") else f"{text} {shown}"
+
+
+def _to_place(value, place):
+    """As text; with a power of ten where it is very small or large."""
+    if place >= -5 and abs(value) < 1e6:
+        return digits.to_place(value, place)
+    count = math.floor(math.log10(abs(value))) - place if value else 0
+    return f"{value:.{max(count, 0)}e}"
 
 
 def result(found):
     """Headline values, checks and findings of a run."""
     mechanism = registry.mechanism(found.mechanism)
     headline = registry.headlines(mechanism, found.values)
-    rows = [(name, number(found.values[name].value, found.values[name].unit), found.values[name].meaning) for name in headline]
+    rows = [(name, _value(found.values[name]), _meaning(found.values[name])) for name in headline]
     table(found.title, (("value", "left"), ("", "right"), ("meaning", "left")), rows)
     if len(found.values) > len(headline):
         note(f"{len(found.values) - len(headline)} more values in result.json")
     checks(found.checks)
     for finding in found.findings:
         note(f"note: {finding}")
+
+
+def _value(value):
+    return number(value.value, value.unit, value.low, value.high)
+
+
+def _meaning(value):
+    """What it is, and how its interval was made where one is shown."""
+    told = f"95 %, {value.interval}" if " to " in _value(value) else value.interval
+    return f"{value.meaning} ({told})" if told else value.meaning
 
 
 def leave(results, as_json=False, strict=False):
@@ -111,11 +143,14 @@ def checks(found):
     """Every design check with value, limit and margin."""
     from rich.text import Text
 
+    from drivewright.result import UNDECIDED
+
     def verdict(check):
         return Text("ok", style="green") if check.ok else Text("FAILS", style="bold red")
 
     rows = [
-        (verdict(c), c.name, number(c.value, c.unit), f"{c.sense} {number(c.limit, c.unit)}", number(c.margin, c.unit), c.message)
+        (verdict(c), c.name, number(c.value, c.unit, *(c.bounds or ())), f"{c.sense} {number(c.limit, c.unit)}", _margin(c),
+         f"{c.message} ({UNDECIDED})" if c.undecided else c.message)
         for c in sorted(found, key=lambda c: c.ok)
     ]
     if rows:
@@ -124,6 +159,11 @@ def checks(found):
             (("", "left"), ("check", "left"), ("value", "right"), ("limit", "right"), ("margin", "right"), ("", "left")),
             rows,
         )
+
+
+def _margin(check):
+    """With the digits that the check's value has."""
+    return _with_unit(_numbers(check.margin, check.unit, *(check.margin_bounds or (None, None)))[0], check.unit)
 
 
 def optimised(found):
@@ -141,11 +181,8 @@ def study(found, answers=None):
     """How the cases of a study ended, between which ends its headline values lie, and the yield where the answers have one."""
     import numpy as np
 
-    names = _shown(found)
-    ends = {name: column[np.isfinite(column)] for name in names for column in [found[name]]}
-    told = {name: column for name, column in ends.items() if len(column)}
-    rows = [(name, *(number(end, found.unit(name)) for end in (column.min(), column.max())), found.meaning(name))
-            for name, column in list(told.items())[:MOST_ROWS]]
+    told = [name for name in _shown(found) if np.any(np.isfinite(found[name]))]
+    rows = [(name, *_ends(found, name), found.meaning(name)) for name in told[:MOST_ROWS]]
     title = ", ".join(f"{count} {status}" for status, count in found.counts.items())
     table(title, (("value", "left"), ("least", "right"), ("greatest", "right"), ("meaning", "left")), rows)
     if answers and "yield" in answers.result.values:
@@ -158,6 +195,14 @@ def study(found, answers=None):
         note(f"note: {count} x {reason}")
     for remark in (*found.plan.remarks, *found.remarks):
         note(f"note: {remark}")
+
+
+def _ends(study, name):
+    """Least and greatest of a column, each with the interval that it has in its case."""
+    import numpy as np
+
+    column, bounds = study[name], study.bounds(name) or ()
+    return [number(column[row], study.unit(name), *(end[row] for end in bounds)) for row in (np.nanargmin(column), np.nanargmax(column))]
 
 
 def _shown(study):

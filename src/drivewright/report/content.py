@@ -7,11 +7,12 @@ import numpy as np
 
 from drivewright import registry
 from drivewright.errors import DrivewrightError
+from drivewright.result import UNDECIDED
 from drivewright.runner import versions
 from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_thumbnail, svg
 from drivewright.view.motion import fractions
 from drivewright.view.panels import drawable, known_plots, panels
-from drivewright.view.text import number, quantity, sentence, shown, unit_text, with_unit
+from drivewright.view.text import interval_hint, number, numbers, sentence, shown, uncertain, unit_text, with_unit
 
 GHOSTS = tuple(n / 5 for n in range(5))
 SIGNS = {"<=": "≤", ">=": "≥"}
@@ -110,7 +111,7 @@ def content(result, remarks=(), headlines=None):
 def summary(result, headlines=None):
     """Verdict, headline, checks and values of a result: what changes with every number of a design."""
     return {
-        "verdict": verdict([bool(check.ok) for check in result.checks], result.outcome),
+        "verdict": verdict([bool(check.ok) for check in result.checks], result.outcome, sum(check.undecided for check in result.checks)),
         "headline": headline(result, headlines), "checks": [_check(c) for c in sorted(result.checks, key=lambda c: c.ok)],
         "values": [_value(name, value) for name, value in result.values.items() if math.isfinite(value.value)]}
 
@@ -120,8 +121,8 @@ def program():
     return versions()["drivewright"]
 
 
-def verdict(passed, outcome):
-    """{'state': 'good' | 'bad' | 'warn', 'text'} of checks as booleans; an unfinished or unchecked run is never good."""
+def verdict(passed, outcome, undecided=0):
+    """{'state': 'good' | 'bad' | 'warn', 'text'} of checks as booleans; an unfinished, unchecked or undecided run is never good."""
     failed, count = passed.count(False), len(passed)
     if failed:
         return {"state": "bad", "text": f"{failed} of {count} checks {'fails' if failed == 1 else 'fail'}"}
@@ -129,6 +130,8 @@ def verdict(passed, outcome):
         return {"state": "warn", "text": f"{outcome} result"}
     if not passed:
         return {"state": "warn", "text": "no checks"}
+    if undecided:
+        return {"state": "warn", "text": f"{undecided} of {count} checks undecided"}
     return {"state": "good", "text": "1 check passes" if count == 1 else f"all {count} checks pass"}
 
 
@@ -141,18 +144,31 @@ def headline(result, names=None):
 
 
 def _value(name, value):
+    """`shown` in full; `number`, `unit` and the interval `low` .. `high` apart, "" where it says nothing, with its `hint`."""
     factor, unit = shown(value.unit)
-    return {"name": name, "meaning": sentence(value.meaning or name), "shown": quantity(value.value, value.unit),
-            "number": number(value.value * factor), "unit": unit, "si": with_unit(repr(float(value.value)), unit_text(value.unit))}
+    told, low, high = numbers(value.value * factor, *(None if end is None else end * factor for end in (value.low, value.high)))
+    return {"name": name, "meaning": sentence(value.meaning or name), "shown": uncertain(value.value, value.unit, value.low, value.high),
+            "number": told, "unit": unit, "low": low, "high": high, "hint": interval_hint(value),
+            "interval": value.interval,
+            "si": with_unit(repr(float(value.value)), unit_text(value.unit))}
 
 
 def _check(check):
+    """The interval of the value is `low` .. `high`, the unit behind the latter; "" where it says nothing."""
     factor, unit = shown(check.unit)
     limit = with_unit(number(check.limit * factor), unit)
-    margin = ("+" if check.margin >= 0 else "−") + number(abs(check.margin) * factor, 4) if math.isfinite(check.margin) else ""
+    told, low, high = numbers(check.value * factor, *(end * factor for end in check.bounds or (math.nan, math.nan)))
+    margin = _margin(check, factor) if math.isfinite(check.margin) else ""
     return {"name": check.name, "label": sentence(check.name.replace("_", " ").replace(".", " · ")), "ok": bool(check.ok),
-            "value": with_unit(number(check.value * factor), unit), "limit": f"{SIGNS[check.sense]} {limit}",
+            "value": with_unit(told, unit), "low": low, "high": with_unit(high, unit) if high else "",
+            "undecided": UNDECIDED if check.undecided else "", "limit": f"{SIGNS[check.sense]} {limit}",
             "margin": with_unit(margin, unit) if margin else "", "message": sentence(check.message), "parts": list(check.parts)}
+
+
+def _margin(check, factor):
+    """With a sign, and the digits that the check's value has."""
+    told = numbers(check.margin * factor, *(end * factor for end in check.margin_bounds or (math.nan, math.nan)), 4)[0]
+    return told if told.startswith("−") else f"+{told}"
 
 
 def _array(name, array):
@@ -165,8 +181,10 @@ def _array(name, array):
 
 
 def _table(table):
+    """A column whose intervals are in the table stands for their ends too."""
+    heads = [(c, " (with its interval)" if table.bounds_of(c.name) else "") for c in table.columns if not table.bounded(c.name)]
     return {"name": table.name, "title": table.title, "rows": len(table.columns[0].data),
-            "columns": [{"name": c.name, "unit": unit_text(c.unit), "meaning": sentence(c.meaning)} for c in table.columns]}
+            "columns": [{"name": c.name, "unit": unit_text(c.unit), "meaning": sentence(c.meaning) + more} for c, more in heads]}
 
 
 def provenance(result):

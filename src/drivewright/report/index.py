@@ -9,7 +9,8 @@ from drivewright import registry
 from drivewright.report.atomic import write_text
 from drivewright.report.content import program, verdict
 from drivewright.report.html import page
-from drivewright.view.text import number, quantity, sentence
+from drivewright.result import Value
+from drivewright.view.text import interval_hint, number, sentence, uncertain
 
 MOST = 4  # headline numbers on a card
 
@@ -27,7 +28,8 @@ def _card(folder, base):
     record = json.loads((folder / "result.json").read_text(encoding="utf-8"))
     return {"title": record["title"], "mechanism": record["mechanism"], "report": _link(folder / "report.html", base),
             "picture": _thumbnail(folder, base), "values": _headline(record),
-            "verdict": verdict([check["ok"] for check in record["checks"]], record["outcome"]),
+            "verdict": verdict([check["ok"] for check in record["checks"]], record["outcome"],
+                               sum(check.get("undecided", False) for check in record["checks"])),
             "seconds": number(record["provenance"].get("seconds", 0.0), 2)}
 
 
@@ -42,7 +44,7 @@ def _thumbnail(folder, base):
 
 
 def _headline(record):
-    kind, values = record["mechanism"], record["values"]
-    registered = registry.mechanism(kind).headline if registry.is_known(kind) else ()
-    names = [name for name in registered or values if name in values][:MOST]
-    return [{"meaning": sentence(values[n]["meaning"] or n), "shown": quantity(values[n]["value"], values[n]["unit"])} for n in names]
+    kind, values = record["mechanism"], {name: Value(**each) for name, each in record["values"].items()}
+    names = registry.headlines(registry.mechanism(kind), values) if registry.is_known(kind) else list(values)
+    return [{"meaning": sentence(v.meaning or n), "shown": uncertain(v.value, v.unit, v.low, v.high), "hint": interval_hint(v)}
+            for n, v in ((name, values[name]) for name in names[:MOST])]

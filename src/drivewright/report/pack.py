@@ -105,12 +105,13 @@ def _panels(found, u, scene):
     """The panels of one plot; where there are several, one with a single line is named after it."""
     order = np.argsort(u, kind="stable")
     for panel in found:
-        rows = order[telling_rows([s.data[order] for s in panel.series])]
+        rows = order[telling_rows([each[order] for s in panel.series for each in (s.data, *s.ends)])]
         title = panel.title if len(found) == 1 or len(panel.series) > 1 else panel.series[0].label
         yield {"title": title, "low": panel.low, "high": panel.high, "decimals": int(decimals(panel.low, panel.high)), "u": floats(u[rows]),
                "style": panel.style, "log": panel.log, "shade": _shade(panel, scene),
                "limits": [[float(value), text] for value, text in panel.limits],
-               "series": [{"label": s.label, "unit": s.unit, "role": s.role, "dashed": s.dashed, "data": floats(s.data[rows])}
+               "series": [{"label": s.label, "unit": s.unit, "role": s.role, "dashed": s.dashed, "data": floats(s.data[rows]),
+                           **({"ends": [floats(end[rows]) for end in s.ends]} if s.ends else {})}
                           for s in panel.series]}
 
 

@@ -29,7 +29,8 @@ const tickText = (value, decimals) => Math.abs(value) >= 1e5 || (value !== 0 && 
 const unitText = unit => unit.startsWith("°") || !unit ? unit : ` ${unit}`;
 
 /** The panel with arrays instead of text. */
-const unpacked = panel => ({...panel, u: floats(panel.u), series: panel.series.map(series => ({...series, values: floats(series.data)}))});
+const unpacked = panel => ({...panel, u: floats(panel.u), series: panel.series.map(series => ({...series, values: floats(series.data),
+  ends: (series.ends || []).map(floats)}))});
 
 /** Value of a line at a phase; none where it does not reach. */
 function valueAt(u, values, phase) {
@@ -147,6 +148,28 @@ function createPanel(packed, cycle, clock, theme) {
     context.stroke();
   }
 
+  /** The 95 % intervals of a line as a band; of single points as error bars. */
+  function intervals(context, u, [low, high], isolated) {
+    context.globalAlpha = isolated ? 0.8 : 0.2; context.setLineDash([]); context.lineWidth = 1;
+    const known = i => Number.isFinite(low[i]) && Number.isFinite(high[i]);
+    if (isolated) for (let i = 0; i < u.length; i++) {
+      if (!known(i)) continue;
+      const [x, y0] = place(u, low, i), [, y1] = place(u, high, i);
+      context.beginPath(); context.moveTo(x, y0); context.lineTo(x, y1);
+      for (const y of [y0, y1]) { context.moveTo(x - 3, y); context.lineTo(x + 3, y); }
+      context.stroke();
+    } else for (let i = 0; i < u.length;) {
+      let stop = i;
+      while (stop < u.length && known(stop)) stop++;
+      context.beginPath();
+      for (let k = i; k < stop; k++) context.lineTo(...place(u, high, k));
+      for (let k = stop - 1; k >= i; k--) context.lineTo(...place(u, low, k));
+      context.fill();
+      i = stop + 1;
+    }
+    context.globalAlpha = 1;
+  }
+
   /** Points, and below them the stems that they stand on. */
   function marks(context, u, values) {
     const foot = toY(panel.log ? range()[0] : 0);
@@ -165,8 +188,9 @@ function createPanel(packed, cycle, clock, theme) {
     context.lineJoin = "round";
     context.strokeStyle = colours.muted; context.lineWidth = 1.1; context.setLineDash([4, 3]);
     for (const one of behind.filter(Boolean)) curve(context, one.u, one.values);
-    for (const {values, role, dashed} of panel.series) {
+    for (const {values, role, dashed, ends} of panel.series) {
       context.strokeStyle = context.fillStyle = colours[role];
+      if (ends.length) intervals(context, panel.u, ends, panel.style !== "line");
       context.setLineDash(dashed ? [5, 3] : []); context.lineWidth = dashed ? 1.2 : 1.8;
       (panel.style === "line" || dashed ? curve : marks)(context, panel.u, values);
     }

@@ -9,7 +9,7 @@ from drivewright.report.atomic import replacing, write_text
 from drivewright.report.content import Views, content, pictures
 from drivewright.report.folder import file_name, record_text
 from drivewright.report.html import embedded, page
-from drivewright.view.text import number, quantity, sentence, shown, unit_text, with_unit
+from drivewright.view.text import SOLID, number, quantity, sentence, shown, uncertain, unit_text, with_unit
 
 STATUS, MESSAGE = "status", "message"  # columns of a study's table
 STATES = {"complete": "good", "partial": "warn", "failed": "bad"}
@@ -118,26 +118,28 @@ def _headlines(found):
 def _printed(table):
     """{'printed': rows of text, 'columns'} of a table small enough for the page; a column of unit "" is in the unit its row names."""
     rows, columns = len(table.columns[0].data), table.columns
-    if not 0 < rows <= PRINTED[0] or len(columns) > PRINTED[1]:
+    if not 0 < rows <= PRINTED[0] or sum(not table.bounded(column.name) for column in columns) > PRINTED[1]:
         return {}
     named = next((column.data for column in columns if column.name == "unit"), [""] * rows)
-    kept = [column for column in columns if column.name != "unit"]
+    kept = [column for column in columns if column.name != "unit" and not table.bounded(column.name)]
     heads = [{"name": c.name, "unit": shown(c.unit)[1], "meaning": sentence(c.meaning), "number": _is_number(c)} for c in kept]
-    return {"columns": heads, "printed": list(zip(*(_cells(column, named) for column in kept), strict=True))}
+    return {"columns": heads, "printed": list(zip(*(_cells(column, named, table.bounds_of(column.name)) for column in kept), strict=True))}
 
 
 def _is_number(column):
     return np.asarray(column.data).dtype.kind in "iuf"
 
 
-def _cells(column, named):
-    """Texts of a column, without a unit where its head says it."""
+def _cells(column, named, bounds):
+    """Texts of a column with its intervals, without a unit where its head says it."""
     data = np.asarray(column.data).tolist()
     if not _is_number(column):
         return [str(cell) for cell in data]
-    if column.unit == "":
-        return [quantity(cell, str(unit)) for cell, unit in zip(data, named, strict=True)]
-    return [number(cell * shown(column.unit)[0]) for cell in data]
+    units = [str(unit) for unit in named] if column.unit == "" else [column.unit] * len(data)
+    lows, highs = (np.asarray(end.data).tolist() for end in bounds) if bounds else ([None] * len(data),) * 2
+    texts = [uncertain(*row) for row in zip(data, units, lows, highs, strict=True)]
+    tail = shown(column.unit)[1] if column.unit else ""
+    return [text.removesuffix(tail).rstrip(SOLID) for text in texts] if tail else texts
 
 
 # -- what varied ---------------------------------------------------------------------------------------------------------------

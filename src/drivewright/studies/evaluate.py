@@ -13,9 +13,9 @@ import numpy as np
 
 from drivewright import registry, runner
 from drivewright.errors import DrivewrightError, InputError, SpecError, UnknownName
-from drivewright.result import Value
 from drivewright.spec import document, from_document, set_key
-from drivewright.studies.study import CASE, CHECK, MESSAGE, STATUS, first_fields
+from drivewright.studies.outputs import TOLD, looked_at
+from drivewright.studies.study import CASE, MESSAGE, STATUS, first_fields
 from drivewright.studies.variables import kind_of
 
 LONGEST = 2000  # characters of a message
@@ -27,8 +27,8 @@ OFFERED = "value."  # in front of a value that has the name of a key that varies
 class Task(NamedTuple):
     """What to do with each case: the tables of the spec, the keys that vary, what to compute and what to keep.
 
-    `names` are the values and checks to keep, () for all.  `compiled` are those that the mechanism's `batch` gives, with unit and meaning;
-    where there are none, each case is a run.
+    `names` are the values and checks to keep, with the ends of their intervals, () for all.  `compiled` are those that the mechanism's
+    `batch` gives, with unit, meaning and whose interval they bound; where there are none, each case is a run.
     """
 
     tables: dict
@@ -41,7 +41,7 @@ class Task(NamedTuple):
 
 
 class Found(NamedTuple):
-    """One case by the runner: `values` {name: Value} and what became of it."""
+    """One case by the runner: `values` {name: Output} and what became of it."""
 
     values: dict
     status: str = "complete"
@@ -76,7 +76,7 @@ def with_compiled(task, plan):
     if offer(direct.spec, task.keys, tuple(runs[0].values)) is None:
         return task, ()
     runs += [direct.case(columns, n) for n in range(1, len(places))]
-    about = {name: tuple(value[1:]) for run in runs for name, value in run.values.items()}
+    about = {name: output.about for run in runs for name, output in run.values.items()}
     whole = all(run.status == "failed" or (run.status == "complete" and not run.message) for run in runs)
     if not about or not whole or offer(direct.spec, task.keys, tuple(about)) is None:
         return task, ()
@@ -161,7 +161,7 @@ class Working:
         self.mechanism = registry.mechanism(self.spec.mechanism)
         self.wanted = runner.selection(self.mechanism.analyses, task.analyses, task.everything)
         self.kinds = {key: kind_of(self.spec, key) for key in task.keys}
-        self.about = {name: (unit, meaning) for name, unit, meaning in task.compiled}
+        self.about = {name: tuple(about) for name, *about in task.compiled}
         self.batch = self.mechanism.batch(self.spec, task.keys, tuple(self.about)) if task.compiled else None
 
     def table(self, first, columns):
@@ -175,9 +175,9 @@ class Working:
         for n in silent.tolist():
             found = self.case(columns, n)
             statuses[n], messages[n] = found.status, found.message
-            for name, value in found.values.items():
-                about.setdefault(name, value[1:])
-                values.setdefault(name, np.full(count, np.nan))[n] = value[0]
+            for name, output in found.values.items():
+                about.setdefault(name, output.about)
+                values.setdefault(name, np.full(count, np.nan))[n] = output.value
         return _table(first, columns, self.kinds, values, about, statuses, messages)
 
     def many(self, columns):
@@ -219,17 +219,11 @@ class Working:
         stated = {name: value for answer in answers for name, value in answer.values.items()}
         values = looked_at(stated, [check for answer in answers for check in answer.checks])
         if self.task.names:
-            values = {name: values[name] for name in self.task.names if name in values}
+            values = {name: values[name] for asked in self.task.names for name in (asked, *(f"{asked}{end}" for end in TOLD))
+                      if name in values and (name == asked or values[name].bounds == asked)}
         partial = any(answer.outcome == "partial" for answer in answers)
         reasons = [finding for answer in answers if answer.outcome != "complete" for finding in answer.findings[-1:]]
         return Found(values, "partial" if partial else "complete", _short("; ".join(reasons)))
-
-
-def looked_at(values, checks):
-    """{name: Value} of all that a study looks at: values, and margins of checks, 0 where rounding alone makes one negative: a check
-    passes exactly when its margin is not below 0."""
-    margins = {f"{CHECK}{c.name}": Value(max(c.margin, 0.0) if c.ok else c.margin, c.unit, f"margin of: {c.message}") for c in checks}
-    return dict(values) | margins
 
 
 def _short(reason):
@@ -238,11 +232,11 @@ def _short(reason):
 
 
 def _gathered(rows):
-    """(values {name: (n,)}, about {name: (unit, meaning)}, statuses, messages) of rows by the runner."""
+    """(values {name: (n,)}, about {name: (unit, meaning, bounds)}, statuses, messages) of rows by the runner."""
     about = {}
     for row in rows:
-        for name, (_, unit, meaning) in row.values.items():
-            about.setdefault(name, (unit, meaning))
+        for name, output in row.values.items():
+            about.setdefault(name, output.about)
     values = {name: np.array([row.values[name][0] if name in row.values else np.nan for row in rows], float) for name in about}
     return values, about, [row.status for row in rows], [row.message for row in rows]
 
@@ -259,7 +253,9 @@ def _table(first, columns, kinds, values, about, statuses, messages):
         fields.append(pa.field(key, arrays[-1].type, metadata={"unit": unit, "meaning": "varied"}))
     taken = {CASE, STATUS, MESSAGE, *kinds}
     for name, column in values.items():
-        unit, meaning = about[name]
-        fields.append(pa.field(f"{OFFERED}{name}" if name in taken else name, pa.float64(), metadata={"unit": unit, "meaning": meaning}))
+        unit, meaning, owner = about[name]
+        prefix = OFFERED if (owner or name) in taken or name in taken else ""
+        bounds = {"bounds": f"{prefix}{owner}"} if owner else {}
+        fields.append(pa.field(f"{prefix}{name}", pa.float64(), metadata={"unit": unit, "meaning": meaning, **bounds}))
         arrays.append(pa.array(column, pa.float64(), mask=~np.isfinite(column)))
     return pa.Table.from_arrays(arrays, schema=pa.schema(fields))

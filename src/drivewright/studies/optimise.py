@@ -15,15 +15,16 @@ from typing import Any
 import numpy as np
 
 from drivewright import units
+from drivewright.digits import last_place, to_place
 from drivewright.errors import InputError, SolverError
 from drivewright.result import Check, Column, Plot, Result, Table
 from drivewright.runner import run, versions
 from drivewright.studies import store
-from drivewright.studies.evaluate import looked_at
+from drivewright.studies.outputs import looked_at
 from drivewright.studies.pareto import nondominated
 from drivewright.studies.search import history
 from drivewright.studies.search.evaluator import SILENT, Evaluator
-from drivewright.studies.search.problem import Problem, prepare
+from drivewright.studies.search.problem import Problem, at_worst, prepare
 from drivewright.studies.search.searching import METHODS, method_of
 from drivewright.studies.study import MESSAGE, STATUS
 
@@ -93,7 +94,7 @@ class Optimised:
     def objective_rows(self):
         """(value, reached, direction) as text."""
         reached = looked_at(self.best.values, self.best.checks)
-        return [(name, _shown(reached[name].value, reached[name].unit) if name in reached else "does not exist",
+        return [(name, _with_interval(reached, name) if name in reached else "does not exist",
                  "as small as possible" if sign > 0 else "as large as possible") for name, sign in self.problem.objectives]
 
     def unknown_rows(self):
@@ -161,7 +162,8 @@ def _outcome(problem, table):
     feasible = bool(problem.total_violation(front_values)[0] <= 0)
     reached = looked_at(best.values, best.checks)
     requirements = tuple(
-        Check(name, reached[name].value if name in reached else float("nan"), limit, sense, problem.about[name][0], "requirement")
+        Check(name, reached[name].value if name in reached else float("nan"), limit, sense, problem.about[name][0], "requirement",
+              **_bounds(reached, name))
         for name, sense, limit in problem.limits
     )
     findings = [] if feasible else [_blame(problem, front_values, values)]
@@ -207,9 +209,11 @@ def _blame(problem, reached, values):
     name, sense, limit = problem.limits[worst]
     unit = problem.about[name][0]
     alone = int(np.sum(problem.violations(values)[worst] <= 0))
+    end = at_worst(reached, name, sense)[0]
+    uncertain = f" with an interval to {_shown(end, unit)}, all of which has to meet it" if end != reached[name][0] else ""
     return (
-        f"no feasible design after {count} evaluations; the requirement to blame is {name} {sense} {_shown(limit, unit)}: "
-        f"the least violating design reaches {_shown(reached[name][0], unit)}, and {alone} of the designs tried meet this one at all. "
+        f"no feasible design after {count} evaluations; the requirement to blame is {name} {sense} {_shown(limit, unit)}: the least "
+        f"violating design reaches {_shown(reached[name][0], unit)}{uncertain}, and {alone} of the designs tried meet this one at all. "
         "Relax it or widen the bounds of the unknowns."
     )
 
@@ -228,6 +232,23 @@ def _on_bounds(problem, x):
     for key, u in zip(problem.keys, share, strict=True):
         if u < 0.01 or u > 0.99:
             yield f"{key} sits on its {'lower' if u < 0.5 else 'upper'} bound; a wider bound may give a better design"
+
+
+def _bounds(reached, name):
+    """{"low", "high"} of an output, where it has an interval."""
+    ends = {side: reached.get(f"{name}.{side}") for side in ("low", "high")}
+    return {side: end.value for side, end in ends.items()} if all(end and end.bounds == name for end in ends.values()) else {}
+
+
+def _with_interval(reached, name):
+    """A number with its interval, in the digits that this supports."""
+    bounds = _bounds(reached, name)
+    factor, unit = units.display(reached[name].unit)
+    place = last_place(*(factor * each for each in (reached[name].value, *bounds.values()))) if bounds else None
+    if place is None:
+        return _shown(reached[name].value, reached[name].unit)
+    told, low, high = (to_place(factor * each, place) for each in (reached[name].value, *bounds.values()))
+    return f"{told} ({low} to {high}) {unit}".removesuffix(" -")
 
 
 def _shown(value, unit, digits=6):

@@ -33,14 +33,16 @@ class Linear(NamedTuple):
     greatest: float
 
 
-def linear(nominal, steps, sigmas, deviations):
+def linear(nominal, steps, sigmas, deviations, noise=0.0):
     """`Linear` of a number: at the means, and with each key one sigma (d,) down and up, steps (2 d,) as the plan has them.
 
     `deviations` (d, 2): lower and upper end of each key less its mean.  dy/dx = (y+ - y-) / (2 sigma); exact for a parabola.
+    `noise` (2 d,): variance of the number within each of those cases.  It adds (noise+ + noise-)/4 to a contribution on average, which
+    is taken off, down to 0.
     """
     down, up = np.reshape(steps, (-1, 2)).T
     slope = (up - down) / (2 * sigmas)
-    contribution = (slope * sigmas) ** 2
+    contribution = np.maximum((slope * sigmas) ** 2 - np.reshape(np.broadcast_to(noise, np.shape(steps)), (-1, 2)).sum(axis=1) / 4, 0.0)
     total = contribution.sum()
     reach = np.sort(slope[:, None] * deviations, axis=1)
     share = contribution / total if total > 0 else np.full_like(contribution, np.nan)
@@ -70,6 +72,18 @@ def regression(x, y):
     design, target = np.stack([_standardised(column) for column in x.T], axis=1), _standardised(y)
     coefficients = np.linalg.lstsq(design, target, rcond=None)[0]
     return Regression(coefficients, float(1 - np.sum((target - design @ coefficients) ** 2) / np.sum(target**2)))
+
+
+def share_by_keys(y, noise):
+    """Share of the variance of y (n,) that is not within its cases, `noise` (n,) being the variance within each; nan where none is left.
+
+    Scatter within the cases is independent from case to case: it adds its mean to the variance and nothing to what keys and y have in
+    common, so shares of the whole variance, divided by this, are those of what the keys cause.
+    """
+    present = np.isfinite(y)
+    whole = np.var(y[present]) if varies(y) else 0.0
+    left = whole - np.mean(noise[present]) if whole > 0 else 0.0
+    return left / whole if left > 0 else np.nan
 
 
 def _standardised(column):
@@ -124,31 +138,36 @@ class Indices(NamedTuple):
     dropped: int
 
 
-def indices(a, b, mixed):
+def indices(a, b, mixed, noise=(0.0, 0.0, 0.0)):
     """`Indices` of a number at the points A (n,), B (n,), and A with column k from B (d, n).
 
     S = mean(y_B (y_ABk - y_A)) / variance (Saltelli et al. 2010), T = mean((y_A - y_ABk)^2) / (2 variance) (Jansen 1999); both recalled,
     held by functions with known indices.  A base case that lacks one of its numbers is left out in whole.
+    `noise`: variance of the number within each of the cases A, B and mixed.  No key causes it, and as it is independent from case to case
+    it adds to the variance and to the squared differences only, where it is taken off case by case: the indices are those of the rest.
     """
     present = np.isfinite(a) & np.isfinite(b) & np.all(np.isfinite(mixed), axis=0)
+    noise = [np.broadcast_to(part, np.shape(each))[..., present] for part, each in zip(noise, (a, b, mixed), strict=True)]
     a, b, mixed = a[present], b[present], mixed[:, present]
     d, rows, dropped = len(mixed), int(present.sum()), int(np.sum(~present))
     if rows < 2 or not varies(np.concatenate([a, b])):
         return Indices(*(np.full(shape, np.nan) for shape in (d, (d, 2), d, (d, 2))), rows, dropped)
-    terms = _terms(a, b, mixed)
+    terms = _terms(a, b, mixed, *noise)
     first, total = _ratios(terms.sum(axis=0), d)
     drawn = _drawn(min(rows, GROUPS)) @ _grouped(terms)
     intervals = np.quantile(_ratios(drawn, d), [(1 - LEVEL) / 2, (1 + LEVEL) / 2], axis=1)
     return Indices(first, intervals[:, 0].T, total, intervals[:, 1].T, rows, dropped)
 
 
-def _terms(a, b, mixed):
-    """Rows (n, 2 d + 1) whose sums make the indices: products, squared differences, and squares about the mean."""
+def _terms(a, b, mixed, a_noise, b_noise, mixed_noise):
+    """Rows (n, 2 d + 1) whose sums make the indices: products, squared differences, and squares about the mean, without the noise."""
     low, width = min(a.min(), b.min()), np.ptp(np.concatenate([a, b]))
     a, b, mixed = ((y - low) / width for y in (a, b, mixed))
+    a_noise, b_noise, mixed_noise = (each / width**2 for each in (a_noise, b_noise, mixed_noise))
     middle = (a.mean() + b.mean()) / 2
     a, b, mixed = a - middle, b - middle, mixed - middle
-    return np.stack([*(b * (mixed - a)), *((mixed - a) ** 2 / 2), (a**2 + b**2) / 2], axis=1)
+    squares = ((mixed - a) ** 2 - mixed_noise - a_noise) / 2
+    return np.stack([*(b * (mixed - a)), *squares, (a**2 - a_noise + b**2 - b_noise) / 2], axis=1)
 
 
 def _ratios(sums, d):

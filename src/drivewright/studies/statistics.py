@@ -10,17 +10,24 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright.result import Value
+
 LEVEL = 0.95
+NORMAL = 1.959963984540054  # quantile of the normal distribution that leaves (1 - LEVEL)/2 above it
 PERCENTS = (0.135, 1.0, 5.0, 25.0, 50.0, 75.0, 95.0, 99.0, 99.865)  # the outer ones are 3 sigma of a normal distribution
 NOISE = 1e-12  # a column whose range is a smaller part of its size is rounding about one number
 
 
-class Estimate(NamedTuple):
+class Sampled(NamedTuple):
     """A number estimated from a sample and its confidence interval; nan where the sample is too small for one."""
 
     value: float
     low: float = np.nan
     high: float = np.nan
+
+    def named(self, unit, meaning):
+        """As a `Value` of a result."""
+        return Value(self.value, unit, meaning, self.low, self.high, "sample").plain()
 
 
 class Summary(NamedTuple):
@@ -28,8 +35,8 @@ class Summary(NamedTuple):
 
     count: int
     absent: int
-    mean: Estimate
-    sigma: Estimate
+    mean: Sampled
+    sigma: Sampled
     skewness: float
     least: float
     greatest: float
@@ -41,7 +48,7 @@ def summary(sample):
     ordered = finite(sample)
     absent = np.size(sample) - len(ordered)
     if not len(ordered):
-        none = Estimate(np.nan)
+        none = Sampled(np.nan)
         return Summary(0, absent, none, none, np.nan, np.nan, np.nan, (none,) * len(PERCENTS))
     mean, sigma, skewness = moments(ordered)
     return Summary(len(ordered), absent, _mean(mean, sigma, len(ordered)), _sigma(sigma, len(ordered)), skewness,
@@ -80,9 +87,9 @@ def _mean(mean, sigma, n):
     from scipy.special import stdtrit
 
     if n < 2:
-        return Estimate(mean)
+        return Sampled(mean)
     reach = float(stdtrit(n - 1, (1 + LEVEL) / 2) * sigma / np.sqrt(n))
-    return Estimate(mean, mean - reach, mean + reach)
+    return Sampled(mean, mean - reach, mean + reach)
 
 
 def _sigma(sigma, n):
@@ -90,19 +97,19 @@ def _sigma(sigma, n):
     from scipy.special import chdtri
 
     if n < 2:
-        return Estimate(sigma)
+        return Sampled(sigma)
     low, high = (sigma * np.sqrt((n - 1) / chdtri(n - 1, tail)) for tail in ((1 - LEVEL) / 2, (1 + LEVEL) / 2))
-    return Estimate(sigma, float(low), float(high))
+    return Sampled(sigma, float(low), float(high))
 
 
 def percentiles(ordered):
-    """`Estimate` of each of PERCENTS of an ascending sample, between neighbours in a straight line; intervals end at cases of the sample.
+    """`Sampled` of each of PERCENTS of an ascending sample, between neighbours in a straight line; intervals end at cases of the sample.
 
     The number of cases below the true percentile is binomial, whatever the distribution; so the r-th and s-th smallest case hold it.
     Where the sample is too small to reach beyond it on a side, there is no bound on that side (nan).
     """
     n, between = len(ordered), np.percentile(ordered, PERCENTS)
-    return tuple(Estimate(float(value), float(ordered[low - 1]) if low else np.nan, float(ordered[high - 1]) if high <= n else np.nan)
+    return tuple(Sampled(float(value), float(ordered[low - 1]) if low else np.nan, float(ordered[high - 1]) if high <= n else np.nan)
                  for value, (low, high) in zip(between, _ranks(n), strict=True))
 
 
@@ -119,15 +126,20 @@ def _ranks(n):
 
 
 def share(passes, count):
-    """`Estimate` of a probability from `passes` of `count` cases, with the interval of Clopper and Pearson; nan of no cases."""
+    """`Sampled` of a probability from `passes` of `count` cases, with the interval of Clopper and Pearson; nan of no cases."""
     from scipy.special import betaincinv
 
     if not count:
-        return Estimate(np.nan)
+        return Sampled(np.nan)
     tail = (1 - LEVEL) / 2
     low = float(betaincinv(passes, count - passes + 1, tail)) if passes else 0.0
     high = float(betaincinv(passes + 1, count - passes, 1 - tail)) if passes < count else 1.0
-    return Estimate(passes / count, low, high)
+    return Sampled(passes / count, low, high)
+
+
+def share_between(surely, passes, possibly, count):
+    """The same where some cases are undecided: from the lower end for those that surely pass to the upper one for those that may."""
+    return Sampled(share(passes, count).value, share(surely, count).low, share(possibly, count).high)
 
 
 def capability(margins):

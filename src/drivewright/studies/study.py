@@ -7,10 +7,13 @@ from typing import Any
 import numpy as np
 
 from drivewright.errors import UnknownName
+from drivewright.result import ERROR, HIGH, LOW
 from drivewright.spec import MechanismSpec
 from drivewright.studies.plan import Plan
+from drivewright.studies.statistics import NORMAL
 
 CASE, STATUS, MESSAGE, CHECK = "case", "status", "message", "check."
+BOUNDS = b"bounds"  # in the metadata of a column that is an end of an interval, or a standard error: the name of the column whose it is
 
 
 def first_fields():
@@ -70,14 +73,41 @@ class Study:
 
     @property
     def value_names(self):
-        """Names of the columns that hold values of the result."""
+        """Names of the columns that hold values of the result; the ends of their intervals are not among them."""
         inputs = {CASE, STATUS, MESSAGE, *self.plan.keys}
-        return tuple(name for name in self.table.column_names if name not in inputs and not name.startswith(CHECK))
+        return tuple(name for name in self._outputs if name not in inputs and not name.startswith(CHECK))
 
     @property
     def check_names(self):
         """Names of the design checks, without the `check.` of their columns."""
-        return tuple(name.removeprefix(CHECK) for name in self.table.column_names if name.startswith(CHECK))
+        return tuple(name.removeprefix(CHECK) for name in self._outputs if name.startswith(CHECK))
+
+    @property
+    def _outputs(self):
+        """Names of the columns that belong to no other one."""
+        return [field.name for field in self.table.schema if BOUNDS not in (field.metadata or {})]
+
+    def bounds(self, name):
+        """(low, high): the ends of the 95 % intervals of a column (rows,), nan where a case has none; None where no case has one."""
+        ends = [f"{name}{end}" for end in (LOW, HIGH)]
+        if any(end not in self.table.column_names or self._about(end, BOUNDS) != name for end in ends):
+            return None
+        return tuple(np.asarray(self[end], float) for end in ends)
+
+    def errors(self, name):
+        """Standard errors of a column (rows,): its own, or half the width of its interval over the normal quantile; None without any."""
+        bounds, own = self.bounds(name), f"{name}{ERROR}"
+        if bounds is None:
+            return None
+        half = (bounds[1] - bounds[0]) / (2 * NORMAL)
+        known = own in self.table.column_names and self._about(own, BOUNDS) == name
+        return np.where(np.isfinite(self[own]), self[own], half) if known else half
+
+    def at_worst(self, name, sign):
+        """The column (rows,) at the lower (sign -1) or upper (+1) end of each interval, the value where a case has none."""
+        column, bounds = np.asarray(self[name], float), self.bounds(name)
+        end = column if bounds is None else bounds[0 if sign < 0 else 1]
+        return np.where(np.isfinite(end), end, column)
 
     def unit(self, name):
         """SI unit of a column."""

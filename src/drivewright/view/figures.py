@@ -74,7 +74,9 @@ def _draw(axis, panel):
 
 
 def _draw_series(axis, panel, series, x, names):
-    """One line, cloud of points or row of stems."""
+    """One line, cloud of points or row of stems, with the intervals of its values."""
+    if series.ends:
+        _draw_intervals(axis, series, x, isolated=bool(names or series.marker) or panel.style in ("points", "stems"))
     data = np.where(np.isfinite(series.data), series.data, np.nan)
     hue, finite, label = colour(series.role), np.isfinite(data), literal(series.label)
     if series.marker:
@@ -97,8 +99,21 @@ def _draw_series(axis, panel, series, x, names):
         axis.plot(x, data, lw=1.5 if len(x) <= MANY else 0.9, marker="o" if len(x) <= FEW else None, ms=3.5, color=hue, label=label)
 
 
+def _draw_intervals(axis, series, x, isolated):
+    """A band behind a line; error bars of isolated values, unless they are too many to be told apart."""
+    hue, (low, high) = colour(series.role), series.ends
+    known = np.isfinite(low) & np.isfinite(high)
+    if not isolated:
+        axis.fill_between(x, low, high, where=known, color=hue, alpha=0.18, lw=0, zorder=1.5)
+    if isolated or len(x) <= FEW:
+        axis.vlines(x[known], low[known], high[known], color=hue, lw=1.0 if len(x) <= FEW else 0.5, alpha=0.75, zorder=2.2)
+    if len(x) <= FEW:
+        for end in (low, high):
+            axis.plot(x[known], end[known], ls="none", marker="_", ms=5, mew=1.0, color=hue, alpha=0.75, zorder=2.2)
+
+
 def _draw_bars(axis, lines, x):
-    """Stacked bars, what is negative below zero; a diamond marks the sum."""
+    """Stacked bars, what is negative below zero; a diamond marks the sum of several, error bars the intervals of a single one."""
     above, below = np.zeros(len(x)), np.zeros(len(x))
     width = 0.6 if len(x) <= FEW else 0.85 * np.min(np.diff(x))
     for number, series in enumerate(lines):
@@ -107,7 +122,10 @@ def _draw_bars(axis, lines, x):
         axis.bar(x, up, bottom=above, label=literal(series.label), **look)
         axis.bar(x, down, bottom=below, **look)
         above, below = above + up, below + down
-    axis.plot(x, above + below, ls="none", marker="D", ms=6 if len(x) <= FEW else 2.5, mfc="white", mec=colour("ink"), label="Sum")
+    if len(lines) > 1:
+        axis.plot(x, above + below, ls="none", marker="D", ms=6 if len(x) <= FEW else 2.5, mfc="white", mec=colour("ink"), label="Sum")
+    elif lines[0].ends:
+        _draw_intervals(axis, lines[0]._replace(role="ink"), x, isolated=True)
     axis.axhline(0.0, color=colour("muted"), lw=0.8)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from drivewright import registry
 from drivewright.errors import UnknownName
 from drivewright.result import Plot
+from drivewright.view.lines import lines_of
 from drivewright.view.palette import MARKERS, SERIES
 from drivewright.view.text import axis_label, dimension, number, quantity, sentence, shown, with_unit
 
@@ -21,7 +22,10 @@ STANDING = ("map", "histogram", "ranked")  # styles whose x is no quantity that 
 
 
 class Series(NamedTuple):
-    """One column in the unit people read; `unit` as printed, `role` its colour, `dashed` where it is a reference, `marker` of points."""
+    """One column in the unit people read; `unit` as printed, `role` its colour, `dashed` where it is a reference, `marker` of points.
+
+    `ends` are the (low, high) of its 95 % intervals, nan where a value has none; () where no value has one.
+    """
 
     name: str
     label: str
@@ -30,14 +34,15 @@ class Series(NamedTuple):
     role: str = "ink"
     dashed: bool = False
     marker: str = ""
+    ends: tuple = ()
 
 
 class Panel(NamedTuple):
     """Series of one unit over x, with limit lines (value, text) and the range [low, high] to show.
 
     style: line, points, stems, bars (stacked), polar (over the angle x), mesh (series: up, depth, colour, then right and up of the shape
-    before), map (series: second axis, colour; the range is the colour's), histogram (of its series) or ranked (x: labels, dashed: ends of
-    the error bars); `log`: y axis or colour in powers of ten; `shade`: stretches (from, to) of x; `rings`: circles (radius, text).
+    before), map (series: second axis, colour; the range is the colour's), histogram (of its series) or ranked (x: labels);
+    `log`: y axis or colour in powers of ten; `shade`: stretches (from, to) of x; `rings`: circles (radius, text).
     """
 
     title: str
@@ -76,7 +81,8 @@ def find_plot(result, name):
 def whole_table(table):
     """The plot of every column of numbers over the first column."""
     first, *rest = table.columns
-    return Plot(table.name, table.title, table.name, first.name, tuple(c.name for c in rest if np.asarray(c.data).dtype.kind in "fiub"))
+    numbers = (c.name for c in rest if np.asarray(c.data).dtype.kind in "fiub")
+    return Plot(table.name, table.title, table.name, first.name, tuple(name for name in numbers if not table.bounded(name)))
 
 
 def drawable(result, plots):
@@ -93,10 +99,10 @@ def panels(result, plot):
         return (_map_panel(result, plot, table),)
     if plot.style == "points" and plot.by:
         return tuple(_cloud_panel(result, plot, table, name) for name in plot.y)
-    x, lines = LINES[plot.style](table, plot) if plot.style in LINES else _grouped(table, plot) if plot.by else _compared(table, plot)
+    x, lines = lines_of(table, plot)
     groups = {}
     for line in lines:
-        groups.setdefault(line[0].unit, []).append(line)
+        groups.setdefault(line.column.unit, []).append(line)
     most = len(lines) if plot.style in ("bars", "ranked") else len(SERIES)
     chunks = [group[i:i + most] for group in groups.values() for i in range(0, len(group), most)]
     roles = itertools.cycle(SERIES)  # running on from panel to panel, so that one colour means one line as long as there are enough
@@ -107,55 +113,21 @@ def panels(result, plot):
 
 def _label(table, plot, chunk):
     """(meaning, SI unit) of the y axis: that of the only line, or of the column that another one splits into lines; else the dimension."""
-    column = chunk[0][0] if len(chunk) == 1 else table[plot.y[0]] if plot.by and len(plot.y) == 1 else None
-    return (column.meaning or column.name if column else dimension(chunk[0][0].unit)), chunk[0][0].unit
-
-
-def _compared(table, plot):
-    """(x column, lines): every line a column, with its reference behind it where there is one."""
-    references = [(table[name],) for name in plot.reference]
-    references += [()] * (len(plot.y) - len(references))
-    return table[plot.x], [(table[name], *reference) for name, reference in zip(plot.y, references, strict=True)]
-
-
-def _grouped(table, plot):
-    """(x column, lines): for every y column a line for each value of the column `by`, over all values of x; gaps are nan."""
-    by, x = table[plot.by], table[plot.x]
-    values, group = np.unique(by.data, return_inverse=True)
-    places, place = np.unique(x.data, return_inverse=True)
-    lines = []
-    for column in (table[name] for name in plot.y):
-        data = np.full((len(values), len(places)), np.nan)
-        data[group, place] = column.data
-        told = [str(v) if values.dtype.kind not in "fiub" else quantity(v, by.unit, 4) for v in values]
-        lines += [(column._replace(name=f"{column.name}.{text}", meaning=f"{plot.by} {text}", data=row),)
-                  for text, row in zip(told, data, strict=True)]
-    return x._replace(data=places), lines
-
-
-def _ranked(table, plot):
-    """(labels, lines): the rows in the order of the first y column's magnitude, what has none last; with it the ends of its error bars."""
-    first = np.asarray(table[plot.y[0]].data, float)
-    order = np.argsort(-np.where(np.isfinite(first), np.abs(first), -1.0), kind="stable")
-    x, *columns = (table[name]._replace(data=np.asarray(table[name].data)[order]) for name in (plot.x, *plot.y, *plot.reference))
-    bars, ends = columns[: len(plot.y)], columns[len(plot.y) :]
-    return x, [(bars[0], *ends), *((bar,) for bar in bars[1:])]
-
-
-def _samples(table, plot):
-    """(samples, lines) of a histogram."""
-    return table[plot.y[0]], [(table[plot.y[0]],)]
-
-
-LINES = {"ranked": _ranked, "histogram": _samples}
+    column = chunk[0].column if len(chunk) == 1 else table[plot.y[0]] if plot.by and len(plot.y) == 1 else None
+    return (column.meaning or column.name if column else dimension(chunk[0].column.unit)), chunk[0].column.unit
 
 
 def _cloud_panel(result, plot, table, name):
     """Points of a column told apart by colour and shape; the rows of the other groups are nan."""
-    column = _series(table[name])
+    column = _series(table[name], ends=table.bounds_of(name) or ())
     names, group = _groups(table[plot.by])
-    series = [column._replace(name=f"{column.name}.{name}", label=name, data=np.where(group == n, column.data, np.nan),
-                              role=SERIES[n % len(SERIES)], marker=MARKERS[n % len(MARKERS)]) for n, name in enumerate(names)]
+
+    def member(n, name):
+        data, *ends = (np.where(group == n, each, np.nan) for each in (column.data, *column.ends))
+        return column._replace(name=f"{column.name}.{name}", label=name, data=data, ends=tuple(ends),
+                               role=SERIES[n % len(SERIES)], marker=MARKERS[n % len(MARKERS)])
+
+    series = [member(n, name) for n, name in enumerate(names)]
     limits = _limits(result, plot) if name == plot.y[0] else ()
     return _panel(plot, _series(table[plot.x]), series or [column], (column.label, table[name].unit), limits, ())
 
@@ -177,7 +149,7 @@ def _coloured(chunk, roles):
     found = []
     for line in chunk:
         role = next(roles)
-        found += [_series(column, "ink" if n else role, dashed=n > 0) for n, column in enumerate(line)]
+        found += [_series(line.column, role, ends=line.ends), *(_series(column, "ink", dashed=True) for column in line.references)]
     return _told_apart(found)
 
 
@@ -204,9 +176,10 @@ def _panel(plot, x, series, label, limits, shade):
     factor, text = shown(label[1])
     limits = tuple((value * factor, limit_text(value * factor, label, text)) for value, label in limits)
     rings = tuple((radius * factor, limit_text(radius * factor, label, text)) for radius, label in plot.rings)
-    lines, values = [s.data for s in series], [value for value, _ in limits]
+    lines, values = [each for s in series for each in (s.data, *s.ends)], [value for value, _ in limits]
     if plot.style == "bars":
-        lines = [np.maximum(lines, 0.0).sum(axis=0), np.minimum(lines, 0.0).sum(axis=0)]
+        data, ends = [s.data for s in series], series[0].ends if len(series) == 1 else ()
+        lines = [np.maximum(data, 0.0).sum(axis=0), np.minimum(data, 0.0).sum(axis=0), *ends]
     low, high = log_span(lines, values) if plot.log else span(lines, values + [0.0] * (plot.style == "stems"))
     return Panel(sentence(plot.title), axis_label(sentence(label[0]), text), x, tuple(series), limits, low, high, plot.equal, plot.style,
                  plot.log, shade, rings)
@@ -234,13 +207,14 @@ def _map_panel(result, plot, table):
     return Panel(sentence(plot.title), label, _series(table[plot.x]), (up, tint), limits, low, high, False, "map", plot.log)
 
 
-def _series(column, role="ink", dashed=False):
+def _series(column, role="ink", dashed=False, ends=()):
     factor, text = shown(column.unit)
     data = np.asarray(column.data)
     # Whole numbers stay whole, so that their axis has whole ticks.
     if data.dtype.kind in "fb" or (data.dtype.kind in "iu" and factor != 1):
         data = data * factor
-    return Series(column.name, sentence(column.meaning or column.name), text, data, role, dashed)
+    ends = tuple(np.asarray(end.data, float) * factor for end in ends)
+    return Series(column.name, sentence(column.meaning or column.name), text, data, role, dashed, ends=ends)
 
 
 def limit_text(value, label, unit):

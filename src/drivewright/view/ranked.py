@@ -4,7 +4,7 @@ import numpy as np
 
 from drivewright.view.palette import SERIES, colour
 from drivewright.view.style import legend_above, new_figure, styled
-from drivewright.view.text import axis_label, literal, number, parts_of_label, wrapped
+from drivewright.view.text import axis_label, literal, number, numbers, parts_of_label, wrapped
 
 MOST_ROWS = 30  # the rest is counted, not drawn
 HATCHES = ("", "///", "...", "xxx", "\\\\\\")  # so that bars side by side differ on a grey printer
@@ -17,7 +17,7 @@ def draw_ranked(shown):
     """Figure of panels of style "ranked", one under the other: a row for each label, in it a bar for each column."""
     labels = [literal(wrapped(str(label), 40)) for label in shown[0].x.data[:MOST_ROWS]]
     with styled():
-        rows = [max(0.17 * (label.count("\n") + 1), 0.12 * len(_bars(panel)) + 0.04, 0.22) for label in labels for panel in shown]
+        rows = [max(0.17 * (label.count("\n") + 1), 0.12 * len(panel.series) + 0.04, 0.22) for label in labels for panel in shown]
         figure = new_figure(0.75 + 0.55 * len(shown) + sum(rows), shown[0].title)
         axes = figure.subplots(len(shown), 1, squeeze=False)[:, 0]
         for axis, panel in zip(axes, shown, strict=True):
@@ -25,20 +25,16 @@ def draw_ranked(shown):
     return figure
 
 
-def _bars(panel):
-    return [series for series in panel.series if not series.dashed]
-
-
 def _draw(axis, panel, labels):
-    bars, ends = _bars(panel), [series.data[: len(labels)] for series in panel.series if series.dashed]
+    bars = panel.series
     place, thick = np.arange(len(labels)), THICK / max(len(bars), 1)
     for n, series in enumerate(bars):
         middle = place + (n - (len(bars) - 1) / 2) * thick
         data = series.data[: len(labels)]
         axis.barh(middle, np.where(np.isfinite(data), data, 0.0), 0.92 * thick, color=colour(series.role), edgecolor="white", lw=0.3,
                   hatch=HATCHES[n // len(SERIES) + n % len(SERIES) if n < len(HATCHES) else n % len(HATCHES)], label=literal(series.label))
-        if n == 0 and len(ends) == 2:
-            _errors(axis, middle, data, *ends)
+        if series.ends:
+            _errors(axis, middle, data, *(end[: len(labels)] for end in series.ends))
     axis.axvline(0.0, color=colour("muted"), lw=0.8)
     axis.set_yticks(place, labels)
     axis.tick_params(axis="y", length=0)
@@ -48,9 +44,15 @@ def _draw(axis, panel, labels):
     named = literal(axis_label(*parts_of_label(panel.label))) if len(bars) == 1 else ""
     axis.set_xlabel("; ".join(part for part in (named, f"{more} smaller ones are not shown" if more else "") if part))
     axis.set_ylabel(literal(panel.x.label))
-    _write(axis, bars, ends, place)
+    _write(axis, bars, place)
     if len(bars) > 1:
         legend_above(axis, room=ROOM - max((len(line) for label in labels for line in label.splitlines()), default=0))
+
+
+def _told(value, ends):
+    """A number with the digits that its interval supports, three at most; as any number without zeros at its end."""
+    text = numbers(value, *ends, 3)[0] if ends else number(value, 3)
+    return text.rstrip("0").rstrip(".") if "." in text and "×" not in text else text
 
 
 def _errors(axis, middle, data, low, high):
@@ -61,9 +63,9 @@ def _errors(axis, middle, data, low, high):
         axis.plot(end[known], middle[known], ls="none", marker="|", ms=6, mew=1.2, color=colour("ink"))
 
 
-def _write(axis, bars, ends, place):
+def _write(axis, bars, place):
     """The number of each single bar beyond its end, with room for it, and a word where there is none."""
-    data = bars[0].data[: len(place)]
+    data, *ends = (each[: len(place)] for each in (bars[0].data, *bars[0].ends))
     low, high = (np.fmin.reduce([data, *ends]), np.fmax.reduce([data, *ends]))
     for row, value in zip(place, data, strict=True):
         side = -1 if value < 0 else 1
@@ -72,7 +74,7 @@ def _write(axis, bars, ends, place):
         if not np.isfinite(value):
             axis.annotate("no value", (0.0, row), **look)
         elif len(bars) == 1:
-            axis.annotate(number(value, 3), (min(low[row], 0.0) if value < 0 else max(high[row], 0.0), row), **look)
+            axis.annotate(_told(value, [end[row] for end in ends]), (min(low[row], 0.0) if value < 0 else max(high[row], 0.0), row), **look)
     if len(bars) == 1:
         left, right = axis.get_xlim()
         wide = LETTER * max((len(text.get_text()) for text in axis.texts), default=0) * (right - left)

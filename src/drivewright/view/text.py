@@ -4,6 +4,7 @@ import math
 import re
 import textwrap
 
+from drivewright.digits import EXACT, last_place, to_place
 from drivewright.units import BY_UNIT, display
 
 SUPERSCRIPT = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
@@ -11,7 +12,7 @@ UNSPOKEN = {"J": "energy"}  # what results have and nobody writes into a spec
 THIN, SOLID = "\u202f", "\u00a0"
 
 
-def number(value, digits=5):
+def number(value, digits=EXACT):
     """`value` to `digits` significant digits: thin spaces from 10 000 on, powers of ten outside 0.001 ... 1e6."""
     value = float(value)
     if not math.isfinite(value):
@@ -23,9 +24,39 @@ def number(value, digits=5):
         text = f"{value:,.{max(digits - 1 - exponent, 0)}f}"
         text = (text.rstrip("0").rstrip(".") if "." in text else text).replace(",", THIN if exponent >= 4 else "")
     else:
-        mantissa = f"{value / 10.0**exponent:.{digits - 1}f}".rstrip("0").rstrip(".")
-        text = f"{mantissa}×10{str(exponent).translate(SUPERSCRIPT)}"
+        text = _powered(f"{value / 10.0**exponent:.{digits - 1}f}".rstrip("0").rstrip("."), exponent)
+    return _signed(text)
+
+
+def _powered(mantissa, exponent):
+    return f"{mantissa}×10{str(exponent).translate(SUPERSCRIPT)}"
+
+
+def _signed(text):
+    """With the minus sign of print."""
     return text.replace("-", "−", 1) if text.startswith("-") else text
+
+
+def numbers(value, low, high, digits=EXACT):
+    """(value, low, high) as texts with the digits that the interval supports, all with the same power of ten.
+
+    The bounds are "" where there are none, or where they say nothing beyond the printed digits: then the value stands as if exact.
+    """
+    place = last_place(value, low, high, digits)
+    if place is None:
+        return number(value, digits), "", ""
+    exponent = math.floor(math.log10(max(abs(value), abs(low), abs(high))))
+    if -3 <= exponent < 6:
+        texts = [to_place(each, place) for each in (value, low, high)]
+        return tuple(_signed(_grouped(text)) for text in texts)
+    texts = [to_place(each / 10.0**exponent, min(place - exponent, 0)) for each in (value, low, high)]
+    return tuple("0" if not text.strip("-0.") else _signed(_powered(text, exponent)) for text in texts)
+
+
+def _grouped(text):
+    """Thin spaces between thousands from 10 000 on."""
+    whole, point, rest = text.partition(".")
+    return f"{int(whole):,}".replace(",", THIN) + point + rest if len(whole.lstrip("-")) > 4 else text
 
 
 def unit_text(unit):
@@ -49,10 +80,23 @@ def with_unit(text, unit):
     return f"{text}{unit}" if unit.startswith("°") or not unit else f"{text}{SOLID}{unit}"
 
 
-def quantity(value, unit, digits=5):
+def quantity(value, unit, digits=EXACT):
     """An SI number in the unit people read."""
     factor, text = shown(unit)
     return with_unit(number(value * factor, digits), text)
+
+
+def uncertain(value, unit, low, high, digits=EXACT):
+    """The same with its interval, '10.2 (8.1 to 12.4) mm'; as `quantity` where the interval says nothing."""
+    factor, text = shown(unit)
+    told, *ends = numbers(value * factor, *(None if end is None else end * factor for end in (low, high)), digits)
+    return with_unit(f"{told} ({ends[0]} to {ends[1]})" if ends[0] else told, text)
+
+
+def interval_hint(value):
+    """How the interval of a `result.Value` was made, '95 %, ensemble'; "" where it has none."""
+    made = f"95{SOLID}%, {value.interval}" if value.interval else ""
+    return made if value.settled else ", ".join(filter(None, (made, "not settled")))
 
 
 def sentence(text):

@@ -10,6 +10,7 @@ from drivewright import registry, runner
 from drivewright.errors import InputError, SpecError
 from drivewright.indexing import torsion_test
 from drivewright.indexing.torsion_test import Part, Setup
+from drivewright.numerics.ensemble import LEVEL
 from drivewright.registry import Analysis, Command, Mechanism
 from drivewright.result import Answer, Column, Plot, Table, Value
 from drivewright.spec import DataFile, Integer, MechanismSpec, Number, load
@@ -72,7 +73,10 @@ def stiffness(model, done):
 
 
 def _estimate(name, meaning, found, confidence):
-    """Value, standard uncertainty and interval of a stiffness; of several positions the mean, their errors independent."""
+    """Value, standard uncertainty and interval of a stiffness; of several positions the mean, their errors independent.
+
+    The value carries its interval where that is one of 95 %, as those of all results are.
+    """
     if None in found:
         return {}
     columns = np.array(found)
@@ -81,7 +85,10 @@ def _estimate(name, meaning, found, confidence):
     of = f", mean of {count} positions of the crank" if count > 1 else ""
     told = {"": (value, f"{meaning}{of}"), ".uncertainty": (np.sqrt(np.sum(columns[:, 1] ** 2)) / count, "standard uncertainty of it"),
             ".low": (value - below, f"lower end of the {share} interval"), ".high": (value + above, f"upper end of the {share} interval")}
-    return {f"{name}{key}": Value(float(number), STIFF, text) for key, (number, text) in told.items() if np.isfinite(number)}
+    values = {f"{name}{key}": Value(float(number), STIFF, text) for key, (number, text) in told.items() if np.isfinite(number)}
+    if name in values and confidence == LEVEL:
+        values[name] = values[name]._replace(low=value - below, high=value + above, interval="fit").plain()
+    return values
 
 
 def _mean(tests):

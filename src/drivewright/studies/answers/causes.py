@@ -6,6 +6,7 @@ from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies import sensitivity
 from drivewright.studies.answers.maps import Response
 from drivewright.studies.answers.parts import BOUNDS, Part, table_of_rows, together
+from drivewright.studies.answers.within import variances
 from drivewright.studies.statistics import varies
 
 LINEAR, REGRESSION, RANKS = "linear", "regression", "ranks"
@@ -39,11 +40,17 @@ def causes(arranged):
 
 
 def _each(arranged):
-    """(value, (combinations, points)) of the values that vary."""
+    """(value, it and its variance within a case, both (combinations, points)) of the values that vary."""
     for name in arranged.study.value_names:
         found = arranged.of(name)
         if varies(found):
-            yield name, found
+            yield name, found, _noise(arranged, name)
+
+
+def _noise(arranged, name):
+    """Variance of a value within each case (combinations, points); 0 where it has no interval."""
+    noise = variances(arranged, name)
+    return np.zeros((arranged.combinations, arranged.plan.inner)) if noise is None else noise
 
 
 def _keys(arranged):
@@ -53,7 +60,7 @@ def _keys(arranged):
 # -- linear theory -------------------------------------------------------------------------------------------------------------
 
 
-def _theories(arranged, found):
+def _theories(arranged, found, noise):
     """`sensitivity.Linear` of each combination; none without steps."""
     nominal, steps = arranged.block("nominal"), arranged.block("steps")
     if steps is None:
@@ -61,15 +68,16 @@ def _theories(arranged, found):
     distributions = [variable.distribution for variable in arranged.plan.random]
     sigmas, means = (np.array([getattr(each, what)() for each in distributions]) for what in ("std", "mean"))
     deviations = np.array([variable.ends for variable in arranged.plan.random]) - means[:, None]
-    return [sensitivity.linear(row[nominal][0], row[steps], sigmas, deviations) for row in found]
+    return [sensitivity.linear(row[nominal][0], row[steps], sigmas, deviations, within[steps])
+            for row, within in zip(found, noise, strict=True)]
 
 
 def _linear(arranged):
     """Tables `linear` (each key) and `linear_totals`."""
     rows, totals = [], []
-    for name, found in _each(arranged):
+    for name, found, noise in _each(arranged):
         unit = arranged.study.unit(name)
-        for number, theory in enumerate(_theories(arranged, found)):
+        for number, theory in enumerate(_theories(arranged, found, noise)):
             nominal = found[number, arranged.block("nominal")][0]
             columns = (theory.slope, np.sqrt(theory.contribution), theory.share, theory.curvature)
             rows += [(number, name, unit, key, *row) for key, *row in zip(_keys(arranged), *columns, strict=True)]
@@ -104,15 +112,18 @@ class _Sample:
         ranked = columns and not plan.listed and arranged.study.spec.study.method != "sobol"
         self.order = sensitivity.orders(self.x) if ranked else None
 
-    def shares(self, y):
-        """({method: shares of the keys}, determination of the regression) of a value at all points."""
+    def shares(self, y, noise):
+        """({method: shares of the keys}, determination of the regression) of a value at all points, whose variance within each case,
+        `noise`, no key causes: the shares are those of what is left."""
         if not self.keys:
             return {}, np.nan
-        coefficients, determination = sensitivity.regression(self.x, y[self.rows])
-        found = {REGRESSION: coefficients**2}
+        y = y[self.rows]
+        more = 1 / sensitivity.share_by_keys(y, noise[self.rows])
+        coefficients, determination = sensitivity.regression(self.x, y)
+        found = {REGRESSION: more * coefficients**2}
         if self.order is not None:
-            found[RANKS] = sensitivity.by_ranks(self.order, y[self.rows])
-        return {method: shares for method, shares in found.items() if np.any(np.isfinite(shares))}, determination
+            found[RANKS] = more * sensitivity.by_ranks(self.order, y)
+        return {method: shares for method, shares in found.items() if np.any(np.isfinite(shares))}, more * determination
 
 
 def _numbers(listed):
@@ -123,10 +134,10 @@ def _numbers(listed):
 def _contributions(arranged):
     """Table `contributions`: value, key, method, share; a wide table and a plot of each shown value."""
     sample, rows, wide, fits = _Sample(arranged), [], {}, {}
-    for name, found in _each(arranged):
-        theories = _theories(arranged, found)
+    for name, found, noise in _each(arranged):
+        theories = _theories(arranged, found, noise)
         for number, y in enumerate(found):
-            shares, determination = sample.shares(y)
+            shares, determination = sample.shares(y, noise[number])
             if theories and np.any(np.isfinite(theories[number].share)):
                 shares = {LINEAR: theories[number].share} | shares
             wide[name, number], fits[name] = shares, determination
@@ -165,10 +176,11 @@ def responses(arranged):
     """`Response`s over the grid: the share of each key in the variance of the shown values, by the first method that there is."""
     sample = _Sample(arranged)
     for name in arranged.shown:
-        found = arranged.of(name)
-        theories = _theories(arranged, found)
+        found, noise = arranged.of(name), _noise(arranged, name)
+        theories = _theories(arranged, found, noise)
         keys = _keys(arranged) if theories else sample.keys
-        shares = [theory.share for theory in theories] or [sample.shares(y)[0].get(REGRESSION, np.full(len(keys), np.nan)) for y in found]
+        shares = [theory.share for theory in theories] or [sample.shares(*row)[0].get(REGRESSION, np.full(len(keys), np.nan))
+                                                           for row in zip(found, noise, strict=True)]
         columns = tuple(Column(f"share.{name}.{key}", "-", f"share of {key}", part)
                         for key, part in zip(keys, np.array(shares).T, strict=True) if np.any(np.isfinite(part)))
         if columns:
@@ -182,8 +194,8 @@ def _indices(arranged):
     """Table `indices` from a sample made for it, and for each shown value a table and a plot."""
     if arranged.block("mixed") is None:
         return Part()
-    rows = [(number, name, key, *row) for name, found in _each(arranged) for number, y in enumerate(found)
-            for key, row in zip(_keys(arranged), _index_rows(arranged, y), strict=True)]
+    rows = [(number, name, key, *row) for name, found, noise in _each(arranged) for number, y in enumerate(found)
+            for key, row in zip(_keys(arranged), _index_rows(arranged, y, noise[number]), strict=True)]
     if not rows:
         return Part()
     table = table_of_rows("indices", "Sobol indices", INDICES, rows, arranged)
@@ -194,10 +206,11 @@ def _indices(arranged):
     return together([Part(tables=(table,), findings=remark), *(part for part in shown if part)])
 
 
-def _index_rows(arranged, y):
+def _index_rows(arranged, y, noise):
     """Row of each key."""
-    a, b, mixed = (y[arranged.block(name)] for name in ("a", "b", "mixed"))
-    found = sensitivity.indices(a, b, mixed.reshape(-1, len(a)))
+    blocks = [arranged.block(name) for name in ("a", "b", "mixed")]
+    (a, b, mixed), within = ([column[block] for block in blocks] for column in (y, noise))
+    found = sensitivity.indices(a, b, mixed.reshape(-1, len(a)), (within[0], within[1], within[2].reshape(-1, len(a))))
     return [(s, *s_ends, t, *t_ends, found.rows, found.dropped) for s, s_ends, t, t_ends in
             zip(found.first, found.first_interval, found.total, found.total_interval, strict=True)]
 

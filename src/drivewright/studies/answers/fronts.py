@@ -41,12 +41,12 @@ def _goals(study, values):
 
 
 def _requirements(study):
-    """((rows,) whether all requirements are met, findings about those that cannot be read)."""
+    """((rows,) whether all requirements are met, by whole intervals, findings about those that cannot be read)."""
     met, ignored = np.ones(len(study), dtype=bool), []
     for number, requirement in enumerate(study.spec.optimise.requirements if study.spec.optimise else ()):
         try:
             for sign, limit in _limits(study, requirement):
-                met &= sign * (np.asarray(study[requirement.value], dtype=float) - limit) >= 0
+                met &= sign * (study.at_worst(requirement.value, -sign) - limit) >= 0
         except InputError as error:
             ignored.append(f"optimise.requirements.{number} is left out of the Pareto front: {error}")
     return met, ignored

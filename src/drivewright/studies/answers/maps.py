@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.result import Column, Plot, Table, Value
+from drivewright.result import HIGH, LOW, Column, Plot, Table, Value
 from drivewright.studies.answers.parts import STATUSES, Part, level_text, status_codes, table_of_rows, together
 from drivewright.studies.statistics import finite
 from drivewright.studies.study import CASE, CHECK
@@ -20,6 +20,10 @@ RANGE = (
 )
 
 
+RANGE_ENDS = tuple((f"{end}{side}", "", f"{end} over the grid, {told}") for end in ("least", "greatest")
+                   for side, told in ((LOW, "at least"), (HIGH, "at most")))
+
+
 class Response(NamedTuple):
     """Something over the combinations of levels: columns (combinations,) that are lines of one plot; a map shows the first.
 
@@ -31,6 +35,7 @@ class Response(NamedTuple):
     columns: tuple
     in_steps: bool = False
     limits: tuple = ()
+    ends: tuple = ()  # columns with the intervals of the others, NAME.low and NAME.high
 
 
 def surveyed(arranged, responses):
@@ -77,7 +82,8 @@ def _combinations(plan, axes, fixed):
 def _panel(arranged, responses, axes, suffix, told, combinations):
     """Table and plots of one combination of the further keys."""
     keys = arranged.level_columns(combinations)
-    data = [column._replace(data=np.asarray(column.data)[combinations]) for response in responses for column in response.columns]
+    data = [column._replace(data=np.asarray(column.data)[combinations]) for response in responses
+            for column in (*response.columns, *response.ends)]
     name = f"response{suffix}"
     table = Table(name, f"Response over {' and '.join(keys[n].name for n in axes)}{told}", (*(keys[n] for n in axes), *data))
     plots = [plot for response in responses for plot in _plots(arranged.plan, response, axes, table.name, suffix, told)]
@@ -104,34 +110,39 @@ def _plots(plan, response, axes, table, suffix, told):
 def ranges(arranged):
     """`Part` of a grid without random keys: table `range` of all values."""
     cases = arranged.of(CASE)[:, 0]
-    rows = [(0, name, arranged.study.unit(name), *_range(arranged.of(name)[:, 0], cases)) for name in arranged.study.value_names]
+    rows = [(0, name, arranged.study.unit(name), *_range(arranged, name, cases)) for name in arranged.study.value_names]
     rows = [row for row in rows if row[3]]
     if not rows:
         return Part()
-    table = table_of_rows("range", "Range of the values over the grid", RANGE, rows)
+    uncertain = np.any(np.isfinite([row[-4:] for row in rows]))
+    table = table_of_rows("range", "Range of the values over the grid", RANGE + (RANGE_ENDS if uncertain else ()), rows)
     return Part(dict(_range_values(arranged, rows)), (table,))
 
 
-def _range(column, cases):
+def _range(arranged, name, cases):
+    column = arranged.of(name)[:, 0]
     count = len(finite(column))
     if not count:
-        return 0, np.nan, -1, np.nan, -1
-    least, greatest = int(np.nanargmin(column)), int(np.nanargmax(column))
-    return count, float(column[least]), int(cases[least]), float(column[greatest]), int(cases[greatest])
+        return 0, np.nan, -1, np.nan, -1, *[np.nan] * 4
+    ends = int(np.nanargmin(column)), int(np.nanargmax(column))
+    bounds = [part[:, 0] for part in arranged.bounds(name) or ()] or [np.full(len(column), np.nan)] * 2
+    places = (part for end in ends for part in (float(column[end]), int(cases[end])))
+    return count, *places, *(float(bound[end]) for end in ends for bound in bounds)
 
 
 def _range_values(arranged, rows):
-    for _, name, unit, _, least, _, greatest, _ in rows:
+    for _, name, unit, _, least, _, greatest, _, *bounds in rows:
         what = arranged.study.meaning(name) or name
-        yield f"least.{name}", Value(least, unit, f"{what}: least over the grid")
-        yield f"greatest.{name}", Value(greatest, unit, f"{what}: greatest over the grid")
+        yield f"least.{name}", Value(least, unit, f"{what}: least over the grid", *bounds[:2], "of the case").plain()
+        yield f"greatest.{name}", Value(greatest, unit, f"{what}: greatest over the grid", *bounds[2:], "of the case").plain()
 
 
 def responses(arranged):
     """`Response`s of a grid without random keys: the shown values, the worst margin, the number of failing checks, the status."""
     for name in arranged.shown:
-        meaning = arranged.study.meaning(name) or name
-        yield Response(name, name, (Column(name, arranged.study.unit(name), meaning, arranged.of(name)[:, 0]),))
+        column = Column(name, arranged.study.unit(name), arranged.study.meaning(name) or name, arranged.of(name)[:, 0])
+        bounds = arranged.bounds(name)
+        yield Response(name, name, (column,), ends=column.bounds(*(end[:, 0] for end in bounds)) if bounds else ())
     yield from _of_checks(arranged)
     if np.any(status_codes(arranged.study)):
         told = "status: " + ", ".join(f"{code} {name}" for code, name in enumerate(STATUSES))

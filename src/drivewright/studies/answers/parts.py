@@ -71,6 +71,20 @@ class Arranged:
         """A column by combination and point."""
         return self.arrange(np.asarray(self.study[name], dtype=float))
 
+    def bounds(self, name):
+        """(low, high): the ends of a column's 95 % intervals by combination and point, nan where it has none; None where no case has."""
+        ends = self.study.bounds(name)
+        return None if ends is None else tuple(self.arrange(end) for end in ends)
+
+    def errors(self, name):
+        """Standard errors of a column by combination and point, nan where it has none; None where no case has one."""
+        found = self.study.errors(name)
+        return None if found is None else self.arrange(found)
+
+    def at_worst(self, name, sign):
+        """A column by combination and point, at the lower (sign -1) or upper (+1) end of each interval."""
+        return self.arrange(self.study.at_worst(name, sign))
+
     def arrange(self, column):
         """Numbers of the rows of the table by combination and point."""
         found = np.full(len(self.plan), np.nan)
@@ -86,6 +100,11 @@ class Arranged:
     def passing(self):
         """1 where a case is complete and no check fails, else 0, by combination and point."""
         return self.arrange(passing(self.study).astype(float))
+
+    @cached_property
+    def passing_ends(self):
+        """The same for cases that surely pass, whatever the intervals hold, and for those that may pass."""
+        return tuple(self.arrange(passing(self.study, sign).astype(float)) for sign in (-1, 1))
 
     def level_columns(self, rows):
         """A `Column` for each key of the grid: its level in the combinations `rows`."""
@@ -114,11 +133,12 @@ def status_codes(study):
     return np.select([status == name for name in STATUSES], range(len(STATUSES)), len(STATUSES) - 1)
 
 
-def passing(study):
-    """(rows,) whether a case is complete and none of the checks that it has fails."""
+def passing(study, sign=0):
+    """(rows,) whether a case is complete and none of the checks that it has fails; by the value, or surely (-1), or possibly (+1)."""
     passes = status_codes(study) == 0
     for name in study.check_names:
-        passes &= ~(np.asarray(study[CHECK + name], dtype=float) < 0)
+        margin = study.at_worst(CHECK + name, sign) if sign else np.asarray(study[CHECK + name], dtype=float)
+        passes &= ~(margin < 0)
     return passes
 
 

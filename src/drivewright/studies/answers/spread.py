@@ -5,7 +5,8 @@ import numpy as np
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies.answers.maps import Response
 from drivewright.studies.answers.parts import BOUNDS, Part, table_of_rows, together
-from drivewright.studies.statistics import PERCENTS, capability, finite, share, summary
+from drivewright.studies.answers.within import within_cases
+from drivewright.studies.statistics import PERCENTS, Sampled, capability, finite, share_between, summary
 from drivewright.studies.study import CHECK
 
 ALL = "all checks"
@@ -28,6 +29,7 @@ YIELD = (
     ("check", "", "design check"), ("passes", "-", "cases that pass"), ("cases", "-", "cases that have the check, or failed"),
     *(("yield" + end, "-", "share of the cases that pass" + told) for end, told in BOUNDS),
     ("capability", "-", "capability index Cpk: mean margin over three standard deviations"),
+    ("undecided", "-", "cases whose limit lies within the interval of their value"),
 )
 WORST = (
     ("value", "", "value of the result, or margin of a check to its limit"), ("unit", "", "unit of the row's numbers"),
@@ -42,7 +44,7 @@ def spread(arranged):
     names = arranged.study.value_names
     rows = [(number, name, arranged.study.unit(name), summary(sample))
             for name in names for number, sample in enumerate(arranged.of(name)[:, arranged.sample])]
-    parts = [_yields(arranged)]
+    parts = [_yields(arranged), within_cases(arranged)]
     if rows:
         short = table_of_rows("tolerance", "Spread of the values", TOLERANCE, [_told(*row) for row in rows], arranged)
         full = table_of_rows("confidence", "Spread of the values with confidence", CONFIDENCE, [_sure(*row) for row in rows], arranged)
@@ -67,8 +69,8 @@ def _sure(number, name, unit, found):
 def _values(arranged, rows):
     for _, name, unit, found in rows:
         what = arranged.study.meaning(name) or name
-        yield f"mean.{name}", Value(found.mean.value, unit, f"{what}: mean of the sample")
-        yield f"sigma.{name}", Value(found.sigma.value, unit, f"{what}: standard deviation of the sample")
+        yield f"mean.{name}", found.mean.named(unit, f"{what}: mean of the sample")
+        yield f"sigma.{name}", found.sigma.named(unit, f"{what}: standard deviation of the sample")
 
 
 def _histograms(arranged):
@@ -89,49 +91,66 @@ def _histograms(arranged):
 
 
 def _yields(arranged):
-    """Table `yield`: each check, and all in one; a failed case passes none, and one that is not complete does not pass all."""
+    """Table `yield`: each check, and all in one; a failed case passes none, and one that is not complete does not pass all.
+
+    Whether a case passes is decided by its values; the interval of the yield reaches from that of the cases that surely pass, whatever
+    their intervals hold, to that of those that may.
+    """
     if not arranged.study.check_names:
         return Part()
     status = arranged.status[:, arranged.sample]
-    rows = [row for name in arranged.study.check_names for row in _of_check(name, arranged.of(CHECK + name)[:, arranged.sample], status)]
-    together_ = [_all(number, case) for number, case in enumerate(arranged.passing[:, arranged.sample])]
+    rows = [row for name in arranged.study.check_names for row in _of_check(arranged, name, status)]
+    together_ = _all(arranged)
     table = table_of_rows("yield", "Share of the cases that pass", YIELD, rows + together_, arranged)
     return Part(dict(_yield_values(together_[0])) if arranged.combinations == 1 else {}, (table,))
 
 
-def _of_check(name, margins, status):
-    for number, (margin, code) in enumerate(zip(margins, status, strict=True)):
+def _of_check(arranged, name, status):
+    column = CHECK + name
+    margins = (arranged.of(column), arranged.at_worst(column, -1), arranged.at_worst(column, 1))
+    for number, (margin, *ends, code) in enumerate(zip(*(each[:, arranged.sample] for each in margins), status, strict=True)):
         count = int(np.sum(np.isfinite(margin) | (code == 2)))
         if count:
-            passes = int(np.sum(margin >= 0))
-            yield number, name, passes, count, *share(passes, count), capability(margin)
+            passes, surely, possibly = (int(np.sum(each >= 0)) for each in (margin, *ends))
+            yield number, name, passes, count, *share_between(surely, passes, possibly, count), capability(margin), possibly - surely
 
 
-def _all(number, passing):
-    count, passes = int(np.sum(np.isfinite(passing))), int(np.sum(passing == 1))
-    return number, ALL, passes, count, *share(passes, count), np.nan
+def _all(arranged):
+    """Row of all checks together of each combination."""
+    rows = (each[:, arranged.sample] for each in (arranged.passing, *arranged.passing_ends))
+    return [_together(number, *case) for number, case in enumerate(zip(*rows, strict=True))]
+
+
+def _together(number, *cases):
+    count = int(np.sum(np.isfinite(cases[0])))
+    passes, surely, possibly = (int(np.sum(each == 1)) for each in cases)
+    return number, ALL, passes, count, *share_between(surely, passes, possibly, count), np.nan, possibly - surely
 
 
 def _yield_values(row):
     what = "share of the cases that are complete and pass every design check"
-    for value, (end, told) in zip(row[4:7], BOUNDS, strict=True):
+    found = Sampled(*row[4:7])
+    yield "yield", found.named("-", what)
+    for value, (end, told) in list(zip(found, BOUNDS, strict=True))[1:]:
         yield f"yield{end}", Value(value, "-", what + told)
 
 
 def responses(arranged):
-    """`Response`s over the grid: mean and mean -+ sigma of each shown value, its sigma, and the yield."""
+    """`Response`s over the grid: mean and mean -+ sigma of each shown value, its sigma, and the yield, with their intervals."""
     for name in arranged.shown:
         unit, what = arranged.study.unit(name), arranged.study.meaning(name) or name
         found = [summary(sample) for sample in arranged.of(name)[:, arranged.sample]]
-        mean, sigma = (np.array([getattr(each, part).value for each in found]) for part in ("mean", "sigma"))
+        (mean, *mean_ends), (sigma, *sigma_ends) = (np.array([getattr(each, part) for each in found]).T for part in ("mean", "sigma"))
         lines = ((f"mean.{name}", "mean", mean), (f"lower.{name}", "mean less one standard deviation", mean - sigma),
                  (f"upper.{name}", "mean and one standard deviation", mean + sigma))
-        yield Response(name, f"{name}: mean and standard deviation", tuple(Column(c, unit, f"{what}, {told}", y) for c, told, y in lines))
+        columns = tuple(Column(c, unit, f"{what}, {told}", y) for c, told, y in lines)
+        yield Response(name, f"{name}: mean and standard deviation", columns, ends=columns[0].bounds(*mean_ends))
         alone = Column(f"sigma.{name}", unit, f"{what}, standard deviation", sigma)
-        yield Response(alone.name, f"{name}: standard deviation", (alone,))
+        yield Response(alone.name, f"{name}: standard deviation", (alone,), ends=alone.bounds(*sigma_ends))
     if arranged.study.check_names:
-        shares = np.array([_all(0, case)[4] for case in arranged.passing[:, arranged.sample]])
-        yield Response("yield", "Yield", (Column("yield", "-", "share of the cases that pass every check", shares),))
+        shares, *ends = np.array([row[4:7] for row in _all(arranged)]).T
+        column = Column("yield", "-", "share of the cases that pass every check", shares)
+        yield Response("yield", "Yield", (column,), ends=column.bounds(*ends))
 
 
 # -- corners -------------------------------------------------------------------------------------------------------------------

@@ -1,6 +1,8 @@
 """The [optimise] table in numbers: what may change, what is wanted, what is required.
 
 A value of the result goes by its name, the margin of a design check by `check.NAME`: it is at least 0 exactly when the check passes.
+A value with an interval meets a requirement only where the whole interval does: a search tries many designs and would otherwise choose
+those that meet it by chance.
 """
 
 from dataclasses import dataclass
@@ -11,9 +13,10 @@ import numpy as np
 
 from drivewright import registry, runner, units
 from drivewright.errors import SpecError, UnknownName
+from drivewright.result import HIGH, LOW
 from drivewright.spec import MechanismSpec, document, from_document, set_key
 from drivewright.spec.fields import field_at, type_of
-from drivewright.studies.evaluate import looked_at
+from drivewright.studies.outputs import looked_at
 from drivewright.studies.study import CHECK
 from drivewright.studies.variables import READABLE, kind_of
 
@@ -60,9 +63,10 @@ class Problem:
         return np.where(np.isfinite(rows), rows, HOPELESS)
 
     def violations(self, values):
-        """(limits + 1, designs): how far beyond each limit, over its scale, and whether an objective is missing; 0 or less is met."""
+        """(limits + 1, designs): how far beyond each limit the worse end of the interval is, over the limit's scale, and whether an
+        objective is missing; 0 or less is met."""
         rows = [
-            (limit - values[name] if sense == ">=" else values[name] - limit) / scale
+            (limit - at_worst(values, name, sense) if sense == ">=" else at_worst(values, name, sense) - limit) / scale
             for (name, sense, limit), scale in zip(self.limits, self.scales, strict=True)
         ]
         missing = ~np.all([np.isfinite(values[name]) for name, _ in self.objectives], axis=0)
@@ -81,6 +85,17 @@ class Problem:
         return from_document(data, type(self.spec))
 
 
+def worse_end(name, sense):
+    """The output that is the worse end of a value's interval for a requirement."""
+    return f"{name}{LOW if sense == '>=' else HIGH}"
+
+
+def at_worst(values, name, sense):
+    """The value (designs,) at the worse end of its interval; the value itself where it has none."""
+    end = values.get(worse_end(name, sense), values[name])
+    return np.where(np.isfinite(end), end, values[name])
+
+
 def prepare(spec):
     """The `Problem` of a spec; each complaint names the key of the [optimise] table."""
     if spec.optimise is None:
@@ -94,11 +109,12 @@ def prepare(spec):
         for n, each in enumerate(search.objectives)
     )
     limits = tuple(limit for n, each in enumerate(search.requirements) for limit in _limits(known, each, f"optimise.requirements.{n}"))
-    names = dict.fromkeys([name for name, _ in objectives] + [name for name, _, _ in limits])
+    ends = [end for name, sense, _ in limits if (end := worse_end(name, sense)) in known and known[end].bounds == name]
+    names = dict.fromkeys([*(name for name, _ in objectives), *(name for name, _, _ in limits), *ends])
     return Problem(
         base, tuple(unknown.key for unknown in search.unknowns), tuple(kinds), np.array(bounds, float), objectives, limits,
         scales=np.array([abs(limit) or sizes[name] or 1.0 for name, _, limit in limits]),
-        about={name: tuple(known[name][1:]) for name in names},
+        about={name: (known[name].unit, known[name].meaning) for name in names},
         analyses=tuple(analysis for analysis in dict.fromkeys(givers.values()) if any(givers[name] == analysis for name in names)),
     )
 
@@ -113,7 +129,7 @@ def _with_settings(spec):
 
 
 def _known(spec):
-    """({name: analysis}, {name: Value}, {name: size}) of all that the spec itself gives."""
+    """({name: analysis}, {name: Output}, {name: size}) of all that the spec itself gives."""
     mechanism = registry.mechanism(spec.mechanism)
     answers = runner.ask(spec, mechanism.build(spec), runner.selection(mechanism.analyses))
     givers, known, sizes = {}, {}, {}

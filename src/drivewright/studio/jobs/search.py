@@ -15,7 +15,7 @@ from drivewright.studies.study import CHECK
 from drivewright.studio.jobs.figures import drawn
 from drivewright.studio.jobs.keys import is_locked, label, plain, written
 from drivewright.studio.jobs.study import Live, thinned
-from drivewright.view.text import quantity, sentence, shown
+from drivewright.view.text import quantity, sentence, shown, uncertain
 
 MOST_FRONT = 500  # designs of a front that a page is sent
 
@@ -118,7 +118,9 @@ def _unknowns(design, found):
 
 
 def _requirement(check):
-    return {"name": check.name, "ok": check.ok, "value": quantity(check.value, check.unit),
+    """Met is what the whole interval of the value meets."""
+    return {"name": check.name, "ok": check.ok and not check.undecided,
+            "value": uncertain(check.value, check.unit, *(check.bounds or (None, None))),
             "limit": f"{SIGNS[check.sense]} {quantity(check.limit, check.unit)}"}
 
 

@@ -13,6 +13,7 @@ from drivewright.spec import Study
 from drivewright.spec.fields import field_at, mark_of
 from drivewright.studies.evaluate import task_of
 from drivewright.studies.plan import Block, Plan
+from drivewright.studies.statistics import NORMAL
 from drivewright.studies.store import Memory
 from drivewright.studies.study import CHECK, MESSAGE
 from drivewright.studies.sweep import swept
@@ -28,9 +29,10 @@ def sensitivity(design, tell, locks=(), targets=None, share=0.01, workers=None, 
     """How each number of a run follows each key of the design, by central differences of `share` of the key.
 
     {"targets": [{"name", "label", "unit", "kind", "base", "relative", "bars": [{"key", "label", "step", "low", "high", "effect"}],
-    "still": [keys without effect], "failed": [keys]}], "failed": [{"key", "text"}], "remarks"}, the strongest key first.  low and high are
-    the target with the key a step down and up.  effect: of a check the change of its margin per per cent of the key; of a value its own
-    change in per cent per per cent.  Where the value is 0 the change itself; where the key is 0 its step stands for one per cent.
+    "still": [keys without effect], "unclear": [keys whose effect is within chance], "failed": [keys]}], "failed": [{"key", "text"}],
+    "remarks"}, the strongest key first.  low and high are the target with the key a step down and up.  effect: of a check the change of
+    its margin per per cent of the key; of a value its own change in per cent per per cent.  Where the value is 0 the change itself; where
+    the key is 0 its step stands for one per cent.
     """
     spec = design.spec()
     keys = {key: found for key, found in numeric(design, spec).items() if not is_locked(design.tables, key, locks)}
@@ -126,20 +128,29 @@ def _target(design, study, name, about, keys, steps):
     kind, text, unit, value = about
     column = study[name] if name in study.table.column_names else np.full(len(study), np.nan)
     relative = kind == "value" and value != 0
-    bars, still, failed = [], [], []
+    errors = study.errors(name) if name in study.table.column_names else None
+    bars, still, unclear, failed = [], [], [], []
     for k, (key, (of, at)) in enumerate(keys.items()):
         effect = _effect(column[0], column[1 + 2 * k], column[2 + 2 * k], at, steps[key])
         if not math.isfinite(effect):
             failed.append(key)
         elif effect == 0:
             still.append(key)
+        elif errors is not None and _within_chance(column, errors, 1 + 2 * k):
+            unclear.append(key)
         else:
             bars.append({"key": key, "label": label(design.tables, key), "step": quantity(max(steps[key]), of.unit),
                          "low": plain(column[1 + 2 * k], unit), "high": plain(column[2 + 2 * k], unit),
                          "effect": 100 * effect / abs(value) if relative else plain(effect, unit)})
     bars.sort(key=lambda bar: -abs(bar["effect"]))
     return {"name": name, "label": text, "unit": shown(unit)[1], "kind": kind, "base": plain(value, unit), "relative": relative,
-            "bars": bars, "still": still, "failed": failed}
+            "bars": bars, "still": still, "unclear": unclear, "failed": failed}
+
+
+def _within_chance(column, errors, row):
+    """Whether a number changes no more between the step down and the step up than two draws of one chaotic case would."""
+    error = float(np.hypot(*errors[row : row + 2]))
+    return abs(column[row + 1] - column[row]) <= NORMAL * error
 
 
 def _effect(base, low, high, at, steps):

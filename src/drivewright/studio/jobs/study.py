@@ -31,7 +31,8 @@ def study(design, tell, vary=(), samples=None, method=None, folder=None, workers
     """Every case of the [study] table, or of `vary` as on the command line ("key=1 mm:2 mm:5").
 
     {"columns": [{"name", "label", "unit", "role": key | value | check}], "rows" in the units people read, None where there is no number,
-    "cases": number of each row, "passes" whether it is complete and passes, "load": {key: text} of each row, "fronts":
+    "ends": {column: [[low, high] or None of each row]} of the 95 % intervals, "cases": number of each row, "passes" whether it is complete
+    and passes, "load": {key: text} of each row, "fronts":
     [{"name", "objectives": [{"name", "goal"}], "rows"}], "statements", "figures", "failed", "total"}.  A check is told by its margin.
     Of more than `MOST_ROWS` cases an even part is told, and every case on a front.
     """
@@ -86,7 +87,8 @@ def _rows(design, study, most, always=()):
     columns = [{"name": name, "label": _label(design, study, name), "unit": shown(study.unit(name))[1], "role": _role(study, name)}
                for name in names]
     data = [_cells(study[name][chosen], study.unit(name)) for name in names]
-    return {"columns": columns, "rows": [list(row) for row in zip(*data, strict=True)], "cases": study[CASE][chosen].tolist(),
+    ends = {name: _intervals(bounds, chosen, study.unit(name)) for name in names if (bounds := study.bounds(name)) is not None}
+    return {"columns": columns, "rows": [list(row) for row in zip(*data, strict=True)], "ends": ends, "cases": study[CASE][chosen].tolist(),
             "passes": _passes(study)[chosen].tolist(), "load": _loads(study, chosen), "total": len(study.plan)}
 
 
@@ -118,6 +120,12 @@ def _label(design, study, name):
 def _cells(data, unit):
     """Numbers in the unit people read, None for what is none; texts and flags as they are."""
     return [plain(cell, unit) if isinstance(cell, float) else cell for cell in np.asarray(data).tolist()]
+
+
+def _intervals(bounds, chosen, unit):
+    """[low, high] of each row in the unit people read, None where it has no interval."""
+    rows = zip(*(_cells(end[chosen], unit) for end in bounds), strict=True)
+    return [None if None in row else list(row) for row in rows]
 
 
 def _passes(study):

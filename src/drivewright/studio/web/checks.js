@@ -7,14 +7,18 @@ import { element, fixed } from "./player.js";
 /** Whether a check can only be met or not: one of a pure number 0 or 1 against 1. */
 const isYesNo = check => /^[01]$/.test(check.value) && /^[≥≤]\s*1$/.test(check.limit);
 
+/** The interval of a check's value, "" where it has none. */
+const intervalOf = ({low, high}, t) => low ? `${t("* to *", low, high)} · ` : "";
+
 /** [value, line under it] of a check as people read it; `share` is its margin as a part of the limit, null where there is none. */
 function told(check, share, t) {
   if (isYesNo(check)) return [check.value === "1" ? t("yes") : t("no"), check.ok ? "" : t("has to be met")];
   const rounding = /^[+−]0(?![.\d])/.test(check.margin) || Math.abs(share ?? 1) < 1e-9;
-  if (!check.margin || rounding) return [check.value, check.limit];
+  const interval = intervalOf(check, t);
+  if (!check.margin || rounding) return [check.value, `${interval}${check.limit}`];
   const shown = check.ok && typeof share === "number" && Math.abs(share) < 10;
   const part = shown ? ` (${fixed(100 * share, Math.abs(share) < 0.0995 ? 1 : 0)}\u00a0%)` : "";
-  return [check.value, `${check.limit} · ${t("margin")} ${check.margin}${part}`];
+  return [check.value, `${interval}${check.limit} · ${t("margin")} ${check.margin}${part}`];
 }
 
 /** One card; `show` writes only what differs. */
@@ -25,20 +29,20 @@ function createCard(name, t, clicked) {
   const node = pressable({class: "sd-card", "data-testid": `check-${name}`, "aria-pressed": "false"}, () => clicked(name), mark,
     element("span", {class: "sd-first"}, label, reference, value), element("span", {class: "sd-second"}, state, line), message);
   let before = "";
-  function look({ok, stale}) {
-    const verdict = ok ? "ok" : "bad", seen = stale ? "stale" : verdict, now = `${verdict} ${seen}`;
+  function look({ok, stale, undecided}) {
+    const verdict = !ok ? "bad" : undecided ? "warn" : "ok", seen = stale ? "stale" : verdict, now = `${verdict} ${seen}`;
     if (now === before) return;
     before = now;
-    for (const word of ["ok", "bad", "stale"]) node.classList.toggle(`is-${word}`, word === verdict || word === seen);
+    for (const word of ["ok", "bad", "warn", "stale"]) node.classList.toggle(`is-${word}`, word === verdict || word === seen);
     node.dataset.state = seen;
     setIcon(mark, seen);
-    put(state, ok ? t("passes") : t("fails"));
+    put(state, {ok: t("passes"), bad: t("fails"), warn: t("undecided")}[verdict]);
     node.title = stale ? t("not up to date") : "";
   }
   function show(check, share, other) {
     const [number, limits] = told(check, share, t);
     look(check);
-    put(label, t(check.label)); put(value, number); put(line, limits); put(message, t(check.message));
+    put(label, t(check.label)); put(value, number); put(line, limits); put(message, [check.message, check.undecided].filter(Boolean).map(text => t(text)).join(" · "));
     put(reference, other && other.value !== check.value ? told(other, null, t)[0] : "");
   }
   function press(on, near) {

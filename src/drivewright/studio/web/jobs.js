@@ -48,9 +48,10 @@ function bars(target, {store, t}) {
 
 /** What is shown of one target, null where there is none. */
 function effects(target, tools) {
-  const {t} = tools, {still, failed} = target || {}, strong = target ? bars(target, tools) : [], weak = strong.splice(BARS);
+  const {t} = tools, {still, unclear, failed} = target || {}, strong = target ? bars(target, tools) : [], weak = strong.splice(BARS);
   return [...strong, ...(weak.length ? [folded(t("weaker ones"), weak.length, ...weak)] : []),
     ...(still?.length ? [about(t("* dimensions have no effect.", still.length))] : []),
+    ...(unclear?.length ? [about(t("The effect of * dimensions is no larger than chance.", unclear.length))] : []),
     ...(failed?.length ? [about(t("* could not be computed.", failed.length))] : [])];
 }
 

@@ -25,6 +25,19 @@ export const withUnit = (number, unit) => unit ? `${number} ${unit}` : String(nu
 /** What stands behind a number that is shown. */
 export const unitText = unit => !unit || unit === "-" ? "" : unit === "deg" ? "°" : unit.startsWith("°") ? unit : `\u00a0${unit}`;
 
+/** A result with its interval, "10.2 (8.1 to 12.4) mm"; `low` is "" where it says nothing. */
+export const withInterval = ({shown, number, low, high, unit}, t) => low ? `${t("* (* to *)", number, low, high)}${unitText(unit)}` : shown;
+
+/** A number with the digits that an interval [low, high] supports: to the second digit of half its width, five at most. */
+export function supported(value, [low, high]) {
+  const half = (high - low) / 2, place = half > 0 ? Math.floor(Math.log10(Number(half.toPrecision(2)))) - 1 : -Infinity;
+  const digits = value === 0 ? 1 : Math.floor(Math.log10(Math.abs(value))) - place + 1;
+  return digits < 1 ? "0" : figure(value, Math.min(digits, 5));
+}
+
+/** How the interval of a result was made, "95 %, ensemble"; "" where it has none. */
+export const intervalHint = ({interval}, t) => interval ? t("95 % interval: *", t(interval)) : "";
+
 /** A number with its power of ten: "1.5e−7". */
 export const powered = (value, places) => value.toExponential(places).replace("e+", "e").replace(/-/g, "−");
 

@@ -1,6 +1,6 @@
 // The designs of a study as points: choose the axes, see what is feasible and what nothing beats, click to load a design.
 
-import { figure, powered, unitText } from "./numbers.js";
+import { figure, powered, supported, unitText } from "./numbers.js";
 import { button } from "./parts.js";
 import { element, fitCanvas, fixed, watchTheme } from "./player.js";
 import { ticks } from "./plots.js";
@@ -20,7 +20,7 @@ const axisText = (column, t) => t(column.label) + (column.unit && column.unit !=
 /** A study with which columns are numbers; the rows of a running one have no front yet. */
 function prepare(answer) {
   const numeric = answer.columns.map((_, n) => answer.rows.some(row => Number.isFinite(row[n])));
-  return {...answer, fronts: answer.fronts || [], feasible: answer.passes, numeric};
+  return {...answer, ends: answer.ends || {}, fronts: answer.fronts || [], feasible: answer.passes, numeric};
 }
 
 /** Least and greatest finite value of a column, a little wider; never empty. */
@@ -148,6 +148,14 @@ export function createScatter(host, {say, t, now = () => ({})}) {
     }
   }
 
+  /** The 95 % intervals of a row along both axes. */
+  function bars(context, n, colour) {
+    const {ends, columns, rows} = state.study, [x, y] = place(rows[n]), [across, up] = [state.x, state.y].map(k => ends[columns[k].name]?.[n]);
+    context.strokeStyle = colour; context.lineWidth = 1.4;
+    if (across) rule(context, toX(across[0]), y, toX(across[1]), y);
+    if (up) rule(context, x, toY(up[0]), x, toY(up[1]));
+  }
+
   /** Over the points: the current design, the chosen row, the row under the mouse. */
   function mark() {
     const {context, ratio, width, height} = upper;
@@ -160,6 +168,7 @@ export function createScatter(host, {say, t, now = () => ({})}) {
     if (Number.isFinite(x + y))
       cross(context, inside(x, MARGIN.left, width - MARGIN.right), inside(y, MARGIN.top, height - MARGIN.bottom), colours.cursor);
     for (const [n, colour] of [[state.chosen, colours.accent], [state.hover, colours.ink]]) if (n >= 0 && rows[n]) {
+      bars(context, n, colour);
       circle(context, ...place(rows[n]), 8);
       context.strokeStyle = colour; context.lineWidth = 2.2; context.stroke();
     }
@@ -181,16 +190,16 @@ export function createScatter(host, {say, t, now = () => ({})}) {
     legend.replaceChildren(...parts);
   }
 
-  function line([column, value]) {
+  function line([column, value, ends]) {
     const bad = column.role === "check" && (value === false || value < 0), unit = typeof value === "number" ? unitText(column.unit) : "";
     return element("div", {class: `sd-number${bad ? " is-bad" : ""}`}, element("span", {title: column.name}, t(column.label)), element("em"),
-      element("b", {}, `${shown(value)}${unit}`));
+      element("b", {}, `${ends ? t("* (* to *)", ...[value, ...ends].map(each => supported(each, ends))) : shown(value)}${unit}`));
   }
   /** Table of a row; what it is told for stays until another is chosen. */
   function table() {
     const {study, hover, chosen} = state, n = hover >= 0 ? hover : chosen;
     if (n < 0 || !study.rows[n]) return side.replaceChildren(element("p", {class: "pn-about"}, t("Point at a design to see it; click to load it.")));
-    const known = study.columns.map((column, k) => [column, study.rows[n][k] ?? ""]).filter(([, value]) => value !== "");
+    const known = study.columns.map((column, k) => [column, study.rows[n][k] ?? "", study.ends[column.name]?.[n]]).filter(([, value]) => value !== "");
     const list = [["key", t("Dimensions")], ["value", t("Values")], ["check", t("Margins of checks")]].flatMap(([role, title]) => {
       const some = known.filter(([column]) => column.role === role);
       return some.length ? [element("h4", {}, title), ...some.map(line)] : [];

@@ -2,6 +2,7 @@
 
 import { createChecks } from "./checks.js";
 import { createOptimise, createSensitivity, createStudy } from "./jobs.js";
+import { intervalHint, withInterval } from "./numbers.js";
 import { button, put, same } from "./parts.js";
 import { element } from "./player.js";
 
@@ -73,9 +74,9 @@ function createNumbers(host, {store, t}) {
     host.closest(".sd-section").classList.toggle("is-empty", !values.length);
     for (const value of values) {
       const row = rows.get(value.name), other = others.get(value.name);
-      put(row.name, t(value.meaning)); put(row.value, value.shown);
-      put(row.other, other && other.shown !== value.shown ? other.shown : "");
-      row.name.title = value.name;
+      put(row.name, t(value.meaning)); put(row.value, withInterval(value, t));
+      put(row.other, other && other.shown !== value.shown ? withInterval(other, t) : "");
+      row.name.title = value.name; row.value.title = intervalHint(value, t);
     }
   }
   return [store.on(["result", "reference"], update)];

@@ -1,0 +1,24 @@
+"""How many digits a number has: those that its 95 % interval supports, `EXACT` where it has none."""
+
+import math
+
+EXACT = 5
+
+
+def last_place(value, low, high, digits=EXACT):
+    """Power of ten of the last digit to print of a value and its interval: the second significant digit of half the width.
+
+    None where the interval says nothing: it has no bound, or lies within the `digits` that an exact value is printed with.
+    """
+    if low is None or high is None or not all(map(math.isfinite, (value, low, high))) or not high > low:
+        return None
+    half = (high - low) / 2
+    place = math.floor(math.log10(float(f"{half:.1e}"))) - 1
+    size = max(abs(value), half)
+    return None if place < math.floor(math.log10(float(f"{size:.{digits - 1}e}"))) - digits + 1 else place
+
+
+def to_place(value, place):
+    """A number rounded to a power of ten, as text: (12.345, -1) -> '12.3', (1234.5, 2) -> '1200'; never '-0'."""
+    text = f"{value:.{-place}f}" if place < 0 else f"{round(value / 10.0**place) * 10**place:d}"
+    return text.removeprefix("-") if not any(digit in text for digit in "123456789") else text
