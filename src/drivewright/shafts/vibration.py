@@ -3,12 +3,13 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import eigh
+from scipy.linalg import block_diag, eigh
 
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.assembly import AXIAL, TWIST, floor
 from drivewright.shafts.beam import FREEDOMS, PLANES
+from drivewright.shafts.equilibrium import saddle, scales
 from drivewright.shafts.influence import FLOOR, HELD
 from drivewright.shafts.model import EULER_BERNOULLI
 from drivewright.shafts.sections import area, second_moment
@@ -115,13 +116,29 @@ def in_plane(found, plane=1):
     return np.sort(np.concatenate([FREEDOMS * np.arange(len(found.z)) + w, FREEDOMS * np.arange(len(found.z)) + t]))
 
 
-def free_of(rigid, size):
-    """Basis (size, r) of the displacements that the rigid supports allow."""
-    if not len(rigid):
-        return np.eye(size)
-    _, singular, right = np.linalg.svd(rigid)
-    rank = int(np.sum(singular > 1e-12 * singular[0])) if len(singular) else 0
-    return right[rank:].T
+def condensed(stiff, constraints, compliance):
+    """(basis (n, r), K (r, r)): shapes that the rigid supports allow, and the stiffness of the supported shaft on them.
+
+    Shapes with all supports held, and for every spring the shape P that the shaft takes when it alone gives way: between the two
+    there is no stiffness, so K is N'HN beside P'HP + 1/C (Craig & Bampton 1968, recalled).  The latter are scaled to 1 on the diagonal.
+    """
+    rows = np.abs(constraints).max(axis=1, initial=0) > 0
+    constraints, compliance = constraints[rows], compliance[rows]
+    scale = scales(np.block([[stiff, constraints.T], [constraints, np.zeros((len(constraints),) * 2)]]))[: len(stiff)]
+    held = scale[:, None] * _null_space(constraints * scale)
+    yields = np.flatnonzero(compliance)
+    unit = np.eye(len(stiff) + len(constraints))[:, len(stiff) + yields]
+    shapes = saddle(stiff, constraints, 0 * compliance, unit)[: len(stiff)]
+    own = shapes.T @ stiff @ shapes
+    least = np.sqrt(compliance[yields] / (1 + compliance[yields] * np.diag(own)))
+    return np.hstack([held, shapes * least]), block_diag(
+        held.T @ stiff @ held, least[:, None] * own * least + np.diag(1 / (1 + compliance[yields] * np.diag(own))))
+
+
+def _null_space(rows):
+    """Orthonormal basis (n, r) of what no row (c, n) sees; rows are linearly independent."""
+    rows = rows / np.abs(rows).max(axis=1, keepdims=True)
+    return np.linalg.svd(rows)[2][len(rows) :].T if len(rows) else np.eye(rows.shape[1])
 
 
 def modes(equilibrium, count):
@@ -176,10 +193,10 @@ def _lowest(stiff, inertia, equilibrium, chosen, count):
 
     A trifle keeps K regular.  What it alone holds has no frequency: along the axis it is left out, across it is an error.
     """
-    trifle = (FLOOR * floor(equilibrium.model))[np.ix_(chosen, chosen)]
-    basis = free_of(equilibrium.model.rigid[:, chosen], len(chosen))
-    k, m = (basis.T @ whole @ basis for whole in (stiff[np.ix_(chosen, chosen)] + trifle, inertia[np.ix_(chosen, chosen)]))
-    inverse, vectors = _eigen(m, k)  # M may be singular (massless rings, no rotary inertia) or indefinite, K is positive
+    model = equilibrium.model
+    trifle = (FLOOR * floor(model))[np.ix_(chosen, chosen)]
+    basis, k = condensed(stiff[np.ix_(chosen, chosen)] + trifle, model.constraints[:, chosen], model.compliance)
+    inverse, vectors = _eigen(basis.T @ inertia[np.ix_(chosen, chosen)] @ basis, k)  # M may be singular (massless rings, no rotary inertia) or indefinite, K is positive
     vectors = basis @ vectors  # q'Kq = 1 for each
     held = np.sum(np.conj(vectors) * (trifle @ vectors), axis=0).real < HELD
     moving = inverse > 1e-9 * inverse[held].max(initial=0)
