@@ -19,7 +19,7 @@ from drivewright.shafts.beam import FREEDOMS
 
 TOLERANCE = 1e-11  # of the residual over the forces at work
 MAX_STEPS = 400  # a few as a rule; hundreds where a contact that carries next to nothing is left slowly
-PASSES = 4  # of the scaling of the system
+PASSES, EVEN = 20, 3.0  # of the scaling of the system, and how near to 1 is near enough
 LEFT = 1e-8  # of the forces at work: what a freedom that nothing holds may seem to carry
 
 
@@ -105,27 +105,36 @@ def _newton_step(model, v, held, load):
     gradient, hessian = _pull(model, v)
     off = gradient - load + model.constraints.T @ held
     apart = model.constraints @ v - model.compliance * held - model.given
-    found = saddle(hessian + floor(model), model.constraints, model.compliance, -np.concatenate([off, apart]))
+    try:
+        found = saddle(hessian + floor(model), model.constraints, model.compliance, -np.concatenate([off, apart]))
+    except np.linalg.LinAlgError:
+        raise SolverError("shaft: shaft and bearings are singular to rounding; a spring behind a clearance, or a table, is so much stiffer "
+                          "than the rest that its play is lost: below 1e15 N/m it does not differ from rigid") from None
     return found[: model.size], found[model.size :]
 
 
 def saddle(hessian, constraints, compliance, right):
     """(size + c, ...): v and m of  H v + R' m = right,  R v - C m = right below."""
     whole = np.block([[hessian, constraints.T], [constraints, -np.diag(compliance)]])
-    scale = scales(whole)
+    scale = scales(whole, len(hessian))
     right = (right.T * scale).T
     return (np.linalg.solve(scale[:, None] * whole * scale, right).T * scale).T
 
 
-def scales(matrix):
+def scales(matrix, size):
     """s (n,) with the largest entry of every row of the symmetric s_i A_ij s_j next to 1: rotations are no lengths, stiff is not soft.
 
-    The diagonal first, then what it leaves: each pass halves the powers of ten that are off.  Ruiz 2001, recalled.
+    The first `size` by their diagonal, the constraints below by their rows: a small compliance says nothing of theirs.  Then what is
+    left, each pass halving the powers of ten that are off (Ruiz 2001, recalled).
     """
-    size, diagonal = np.abs(matrix), np.abs(np.diag(matrix))
+    entries, diagonal = np.abs(matrix), np.abs(np.diag(matrix)).copy()
+    diagonal[size:] = 0.0
     scale = 1 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
+    scale[size:] = 1 / np.maximum((entries[size:, :size] * scale[:size]).max(axis=1), np.sqrt(np.diag(entries)[size:]))
     for _ in range(PASSES):
-        rows = scale * (size * scale).max(axis=1)
+        rows = scale * (entries * scale).max(axis=1)
+        if rows.max() < EVEN and rows.min() > 1 / EVEN:
+            break
         scale = scale / np.sqrt(np.where(rows > 0, rows, 1.0))
     return scale
 

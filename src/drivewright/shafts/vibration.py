@@ -16,6 +16,7 @@ from drivewright.shafts.sections import area, second_moment
 
 UNHELD = ("shaft: at rest its bearings do not resist a small motion, so it has no natural frequencies; give a load, a preload or no "
           "clearance")
+LEAST = 1e-12  # of the greatest 1/w^2: below it is rounding
 POINTS = 8  # over an element: its shapes are cubic on a cylinder
 SHARE, WEIGHT = (0.5 * (part + shift) for part, shift in zip(np.polynomial.legendre.leggauss(POINTS), (1.0, 0.0), strict=True))
 
@@ -124,7 +125,7 @@ def condensed(stiff, constraints, compliance):
     """
     rows = np.abs(constraints).max(axis=1, initial=0) > 0
     constraints, compliance = constraints[rows], compliance[rows]
-    scale = scales(np.block([[stiff, constraints.T], [constraints, np.zeros((len(constraints),) * 2)]]))[: len(stiff)]
+    scale = scales(np.block([[stiff, constraints.T], [constraints, np.zeros((len(constraints),) * 2)]]), len(stiff))[: len(stiff)]
     held = scale[:, None] * _null_space(constraints * scale)
     yields = np.flatnonzero(compliance)
     unit = np.eye(len(stiff) + len(constraints))[:, len(stiff) + yields]
@@ -196,7 +197,8 @@ def _lowest(stiff, inertia, equilibrium, chosen, count):
     model = equilibrium.model
     trifle = (FLOOR * floor(model))[np.ix_(chosen, chosen)]
     basis, k = condensed(stiff[np.ix_(chosen, chosen)] + trifle, model.constraints[:, chosen], model.compliance)
-    inverse, vectors = _eigen(basis.T @ inertia[np.ix_(chosen, chosen)] @ basis, k)  # M may be singular (massless rings, no rotary inertia) or indefinite, K is positive
+    # M may be singular (massless rings, no rotary inertia) or indefinite, K is positive
+    inverse, vectors = _eigen(basis.T @ inertia[np.ix_(chosen, chosen)] @ basis, k)
     vectors = basis @ vectors  # q'Kq = 1 for each
     held = np.sum(np.conj(vectors) * (trifle @ vectors), axis=0).real < HELD
     moving = inverse > 1e-9 * inverse[held].max(initial=0)
@@ -204,9 +206,16 @@ def _lowest(stiff, inertia, equilibrium, chosen, count):
     sideways = np.sum(np.abs(nodes[:, :2]) ** 2, axis=(0, 1)) > np.sum(np.abs(nodes[:, AXIAL]) ** 2, axis=0)
     if not held.any() or np.any(~held & moving & sideways):
         raise InputError(UNHELD)
+    least = LEAST * max(inverse[held].max(), 0.1 * _rounded(basis, inertia[np.ix_(chosen, chosen)], k))
     order = np.argsort(inverse)[::-1]
-    order = order[(held & (inverse > 1e-12 * inverse[held].max()))[order]][:count]
+    order = order[(held & (inverse > least))[order]][:count]
     return 1 / inverse[order], vectors[:, order]
+
+
+def _rounded(basis, inertia, k):
+    """The largest 1/w^2 that a shape could have were the parts of its motion not to cancel: where rounding comes from."""
+    parts = np.abs(basis)
+    return float(np.max(np.sum(parts * (np.abs(inertia) @ parts), axis=0) / np.diag(k), initial=0.0))
 
 
 def _eigen(m, k):
@@ -255,12 +264,22 @@ def _whirl(equilibrium, way, count):
 
 
 def torsional(equilibrium, count):
-    """The lowest torsional `Modes` of the free shaft, with the moments of inertia of its stations."""
+    """The lowest torsional `Modes` of the free shaft, with the moments of inertia of its stations.
+
+    The turning of the whole shaft is taken out, M - m m'/I with I = sum of all inertia, so a massless shaft with inertias on it is
+    no special case: as many modes as inertias, less one.
+    """
     found = equilibrium.model.beam
     chosen = FREEDOMS * np.arange(len(found.z)) + TWIST
     carried = beams.basis(found)[np.ix_(chosen, chosen)]
-    stiff, inertia = beams.stiffness(found)[np.ix_(chosen, chosen)], carried.T @ mass(found)[0][np.ix_(chosen, chosen)] @ carried
-    values, vectors = eigh(stiff, inertia, subset_by_index=[1, min(count, len(chosen) - 1)])  # the first one turns the whole shaft
-    whole = np.zeros((equilibrium.model.size, len(values)))
-    whole[chosen] = carried @ vectors
-    return Modes(np.sqrt(values) / (2 * np.pi), whole)
+    inertia = carried.T @ mass(found)[0][np.ix_(chosen, chosen)] @ carried
+    stiff, whole = beams.stiffness(found)[np.ix_(chosen, chosen)][1:, 1:], np.zeros((equilibrium.model.size, 0))
+    if not inertia[0, 0] > 0:
+        return Modes(np.zeros(0), whole)
+    mixed = inertia[0, 1:] / inertia[0, 0]
+    inverse, vectors = eigh(inertia[1:, 1:] - np.outer(mixed, inertia[0, 1:]), stiff)
+    lowest = np.argsort(inverse)[::-1][:count]
+    lowest = lowest[inverse[lowest] > LEAST * (np.diag(inertia)[1:] / np.diag(stiff)).sum()]
+    whole = np.zeros((equilibrium.model.size, len(lowest)))
+    whole[chosen] = carried @ np.vstack([-mixed @ vectors[:, lowest], vectors[:, lowest]])
+    return Modes(1 / np.sqrt(inverse[lowest]) / (2 * np.pi), whole)

@@ -21,6 +21,9 @@ def frequencies(model, done):
         (found, axial), critical = shafts.modes(fine, count), shafts.critical_speeds(fine, count)
     except InputError as error:
         return Answer(findings=(f"modes are absent: {error}",), outcome="left out")
+    if not len(found.frequencies) + len(axial.frequencies):
+        return Answer(findings=("modes are absent: nothing that can move has a mass; give a density, or a station a mass",),
+                      outcome="left out")
     values = {f"{kind}.{n}.frequency": Value(float(f), "Hz", f"natural frequency {n} {words}, at rest")
               for kind, words, some in (("modes", "of bending", found), ("axial_modes", "along the axis", axial))
               for n, f in enumerate(some.frequencies, 1)}
