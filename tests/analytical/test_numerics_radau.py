@@ -82,6 +82,10 @@ STIFF, MILD = VanDerPol(1e6, 0.3, 1.8), VanDerPol(50.0, 0.3, 1.8)
 START = [2.0, -0.66]
 BOTH = Event(), Event(), Event(switches=True)  # the last never happens: with it all runs use the same kernel
 BACK = Event(), Event(-1, switches=True), Event()
+TOLERANCE = 1e-6
+# The length of a step follows the estimated error to the power -1/4, and this the Jacobian, differenced over a billionth of y:
+# rounding, which differs from one processor to the next, is seen in its eighth digit, though the motion keeps fourteen.
+STEPS = 1e-4
 FALL = Functions(lambda t, y: np.array([y[1], -G]), lambda t, y: np.array([y[0]]), lambda index, t, y: y * [0, -0.8])
 
 
@@ -231,23 +235,31 @@ def test_a_stiff_system_that_is_set_back_repeats_itself():
 
 
 def test_after_a_switch_it_goes_on_as_if_begun_there():
-    whole = relax(MILD, 0, 3, [1.8, 0.0], 1e-6, 1e-8, watch=BACK)
+    whole = relax(MILD, 0, 3, [1.8, 0.0], TOLERANCE, 1e-2 * TOLERANCE, watch=BACK)
     switched = next(e.t for e in whole.events if e.index == 1)
-    later = whole.t[whole.t >= switched]
-    fresh = relax(MILD, switched, 3, [1.8, 0.0], 1e-6, 1e-8, watch=BACK, first_step=later[1] - later[0])
-    np.testing.assert_allclose(later[:20], fresh.t[:20], rtol=1e-12)
+    later = whole.t[whole.t >= switched][:20]
+    fresh = relax(MILD, switched, 3, [1.8, 0.0], TOLERANCE, 1e-2 * TOLERANCE, watch=BACK, first_step=later[1] - later[0])
+    # A Jacobian, an error or a polynomial that is remembered moves the steps by per cents.
+    np.testing.assert_allclose(np.diff(later), np.diff(fresh.t[:20]), rtol=STEPS)
 
 
 # ------------------------------------------------------------------------------------------------------ plain, batches
 
 
 def test_compiled_equals_uncompiled():
-    fast = relax(MILD, 0, 2, START, 1e-6, 1e-8, watch=BACK)
-    slow = relax(uncompiled(MILD), 0, 2, START, 1e-6, 1e-8, watch=BACK)
-    assert (fast.steps, fast.rejected) == (slow.steps, slow.rejected) and len(fast.events) >= 3
-    np.testing.assert_allclose(fast.t, slow.t, rtol=1e-9)
-    np.testing.assert_allclose(fast.y, slow.y, rtol=1e-8, atol=1e-9)
-    np.testing.assert_allclose([e.t for e in fast.events], [e.t for e in slow.events], rtol=1e-9)
+    t, tight = np.linspace(0, 2, 401), {"rtol": 1e-3 * TOLERANCE, "atol": 1e-3 * TOLERANCE}
+    fast, slow = (relax(each, 0, 2, START, TOLERANCE, 1e-2 * TOLERANCE, watch=BACK) for each in (MILD, uncompiled(MILD)))
+    assert (fast.steps, fast.rejected) == pytest.approx((slow.steps, slow.rejected), abs=2) and len(fast.events) >= 3
+    np.testing.assert_allclose([e.t for e in fast.events], [e.t for e in slow.events], **tight)
+    fast, slow = (relax(each, 0, 2, START, TOLERANCE, 1e-2 * TOLERANCE, watch=BACK, samples=t) for each in (MILD, uncompiled(MILD)))
+    # Next to a jump a shift in time counts as often as y is steep there: |dy| <= |y'| |dt|.
+    steep = 1 + np.abs([uncompiled(MILD).rate(0, y) for y in slow.y])
+    assert np.all(np.abs(fast.y - slow.y) <= 1e-3 * TOLERANCE * (steep + np.abs(slow.y)))
+
+
+def test_compiled_and_uncompiled_take_the_same_steps():
+    fast, slow = (relax(each, 0, 0.3, START, TOLERANCE, 1e-2 * TOLERANCE) for each in (MILD, uncompiled(MILD)))
+    np.testing.assert_allclose(np.diff(fast.t[:60]), np.diff(slow.t[:60]), rtol=STEPS)
 
 
 def test_batches_change_nothing(monkeypatch):

@@ -14,7 +14,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from drivewright._jit import implements, warmer
-from drivewright.bearings.life import ball_reference_life, basic_static_rating
+from drivewright.bearings.life import ball_reference_life, ball_static_rating
 from drivewright.bearings.newton import Measures, measures
 from drivewright.bearings.response import response
 from drivewright.bearings.solving import elements, geometric_static_rating, law_of, life_of, warm
@@ -174,7 +174,7 @@ def _(law, displacement, loads, angles, pressures, laminae):
         pressures[k, 1] = law.outer_pressure * np.cbrt(loads[k])
 
 
-geometric_static_rating.register(BallBearing)(basic_static_rating)
+geometric_static_rating.register(BallBearing)(ball_static_rating)
 
 
 @life_of.register(BallBearing)

@@ -6,7 +6,7 @@ compare the reference life with another program and the two lives with each othe
 
 import numpy as np
 
-from drivewright.bearings.solving import PERMISSIBLE, contact_of, law_of
+from drivewright.bearings.solving import PERMISSIBLE, contact_of, geometric_static_rating, law_of
 from drivewright.errors import InputError
 
 REVOLUTIONS = 1e6  # to which ratings refer
@@ -41,8 +41,11 @@ def basic_dynamic_rating(bearing):
     """C [N] of ISO 281: b_m f_c (cos a)^0.7 Z^(2/3) Dw^1.8 in mm, above 25.4 mm with 3.647 Dw^1.4 instead, b_m = 1.3.
 
     f_c = 38.2 (1 + h^(10/3))^(-3/10) g^0.3 (1 - g)^1.39/(1 + g)^(1/3) (2 f/(2 f - 1))^0.41 with f = 0.52 at both races and
-    h = 1.04 ((1 - g)/(1 + g))^1.72.  The standard states it for grooves up to 0.52 Dw inside and 0.53 Dw outside.
+    h = 1.04 ((1 - g)/(1 + g))^1.72.  The standard states it for grooves up to 0.52 Dw inside and 0.53 Dw outside.  Of balls alone: the
+    factors of rollers are not stated here.
     """
+    if contact_of(bearing) == "line":
+        raise InputError(f"bearing: no dynamic rating is known by the geometry of a {type(bearing).__name__}. Give dynamic_rating.")
     inner, outer = bearing.inner_conformity, bearing.outer_conformity
     if inner > 0.52 or outer > 0.53:
         raise InputError(
@@ -56,6 +59,11 @@ def basic_dynamic_rating(bearing):
 
 
 def basic_static_rating(bearing):
+    """C0 [N] of ISO 76 by the inner geometry of a bearing of balls or rollers."""
+    return geometric_static_rating(bearing)
+
+
+def ball_static_rating(bearing):
     """C0 [N]: the radial load F whose most loaded ball, Q = 5 F/(Z cos a), reaches 4200 MPa at one of its races."""
     law = law_of(bearing)
     ball = (PERMISSIBLE["point"][0] / max(law.inner_pressure, law.outer_pressure)) ** 3
@@ -70,7 +78,7 @@ def basic_life(bearing, load):
     """
     if not load > 0:
         raise InputError(f"bearing: the life wants a load above 0 N, got {load:g}.")
+    power = 10 / 3 if contact_of(bearing) == "line" else 3
     if bearing.dynamic_rating is None:
         return None
-    power = 10 / 3 if contact_of(bearing) == "line" else 3
     return REVOLUTIONS * (bearing.dynamic_rating / load) ** power

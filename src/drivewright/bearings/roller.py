@@ -14,7 +14,7 @@ from pydantic import Field, model_validator
 from drivewright._jit import implements, inner, warmer
 from drivewright.bearings.newton import Measures, measures
 from drivewright.bearings.response import response
-from drivewright.bearings.solving import PERMISSIBLE, elements, geometric_static_rating, law_of, life_of, warm
+from drivewright.bearings.solving import PERMISSIBLE, elements, geometric_static_rating, law_of, life_of, refuse_other, warm
 from drivewright.contact import effective_modulus, line_contact
 from drivewright.errors import SpecError
 from drivewright.spec import Integer, Number, Spec
@@ -225,6 +225,7 @@ def roller_reference_life(bearing, lamina_loads):
     ISO/TS 16281, recalled; a public transcription says the same.  Without profile and clearance it is (C/P)^4 within 2 %, Lundberg
     and Palmgren's law of line contact, from which ISO 281 rounds 10/3; with both it is some three times (C/P)^(10/3) at P = C/10.
     """
+    refuse_other(bearing, RollerBearing, "the life by the loads of laminae")
     if bearing.dynamic_rating is None:
         return None
     loads = np.asarray(lamina_loads, dtype=float)
@@ -260,6 +261,7 @@ def roller_static_rating(bearing):
 
     With E = 206 GPa it is 44 (1 - g) Z L Dw cos a (N, mm), the formula of ISO 76, recalled.
     """
+    refuse_other(bearing, RollerBearing, "this static rating")
     fullest = PERMISSIBLE["line"][0] ** 2 * np.pi * bearing.roller_length * contact_radii(bearing)[0] / _modulus(bearing)
     return float(fullest * bearing.rollers * np.cos(bearing.contact_angle) / GREATEST_SHARE)
 

@@ -40,6 +40,13 @@ def life_of(bearing, state):
     raise InputError(f"bearing: no reference life is known for a {type(bearing).__name__}.")
 
 
+def refuse_other(bearing, kind, what):
+    """InputError where `what` is known of another kind of bearing alone."""
+    if not isinstance(bearing, kind):
+        law_of(bearing)  # its own message where this is no bearing at all
+        raise InputError(f"bearing: {what} is stated for a {kind.__name__}, and this is a {type(bearing).__name__}.")
+
+
 # Peak pressure [Pa] at the static rating, which leaves 1e-4 of an element's diameter, and the power of it that the load is.  ISO 76,
 # recalled; the ratings that follow are those of the catalogues within a few per cent.
 PERMISSIBLE = {"point": (4.2e9, 3.0), "line": (4.0e9, 2.0)}
@@ -53,6 +60,7 @@ def contact_of(bearing):
 @singledispatch
 def geometric_static_rating(bearing):
     """C0 [N] by the inner geometry: the radial load at which the most loaded element, 5 F/(Z cos a), reaches the permissible pressure."""
+    law_of(bearing)
     raise InputError(f"bearing: no static rating is known for a {type(bearing).__name__}.")
 
 

@@ -6,6 +6,7 @@ from drivewright.shafts.model import COWPER, EULER_BERNOULLI, LineLoad, Load, Se
 
 # Their modules hold kernels, and the first kernel imports numba: loaded when first used.
 _WHERE = {
+    "audit": ("imbalance", "unit_imbalance"),
     "assembly": ("Model", "assemble", "refuse_mechanism", "work"),
     "equilibrium": ("Equilibrium", "solve"),
     "influence": ("Flexibility", "flexibility", "stiffness"),

@@ -23,6 +23,27 @@ class Mount(NamedTuple):
     rows: np.ndarray
     ring: np.ndarray  # unknowns of the ring on a seat that yields (at most 5), in the order of `ring_freedoms`
     ring_freedoms: tuple
+    first: int  # number of its first constraint: those of its springs, then those of its seat
+
+    @property
+    def sprung(self):
+        """Freedoms that a spring holds, or rigidly."""
+        return [i for i in range(5) if self.support.stiffness[i] > 0]
+
+    @property
+    def seated(self):
+        """Numbers, within the ring, of the freedoms that a spring of the seat holds."""
+        return [n for n, i in enumerate(self.ring_freedoms) if self.support.seat[i] > 0]
+
+    @property
+    def springs(self):
+        """The constraints of its springs."""
+        return slice(self.first, self.first + len(self.sprung))
+
+    @property
+    def seat(self):
+        """The constraints of its seat."""
+        return slice(self.springs.stop, self.springs.stop + len(self.seated))
 
     @property
     def turn(self):
@@ -31,18 +52,19 @@ class Mount(NamedTuple):
 
 
 class Model(NamedTuple):
-    """Beam and mounts; unknowns: those of the beam, then rings.  Shaft, springs and seats pull with the forces linear v - rest.
+    """Beam and mounts; unknowns v: those of the beam, then rings, whose displacements are basis v.  The shaft pulls with `linear` v.
 
-    Displacements of nodes and rings are basis v.  The combinations `rigid` (c, size) of the unknowns have the values `given` (c,).
+    Springs and seats are stated by their compliance, and their forces m (c,) are unknowns too: constraints v - compliance m = given.
+    So nothing is large where a support is stiff, and rigid is the compliance 0.
     """
 
     beam: object
     mounts: tuple
     basis: np.ndarray
     linear: np.ndarray
-    rest: np.ndarray
-    rigid: np.ndarray
-    given: np.ndarray
+    constraints: np.ndarray  # (c, size)
+    compliance: np.ndarray  # (c,) m/N, rad/(N m)
+    given: np.ndarray  # (c,)
     pinned: tuple  # freedoms (AXIAL, TWIST) of the first node that the last of them hold, for nothing else does: without force
 
     @property
@@ -59,27 +81,27 @@ def assemble(shaft, places=()):
     found = beams.beam(shaft, places)
     refuse_mechanism(shaft)
     size = found.size + sum(len(_yielding(support)) for support in shaft.supports)
-    linear, rest, basis = np.zeros((size, size)), np.zeros(size), np.eye(size)
+    linear, basis = np.zeros((size, size)), np.eye(size)
     basis[: found.size, : found.size] = beams.basis(found)
     linear[: found.size, : found.size] = beams.stiffness(found)
-    mounts, rigid, given, start = [], [], [], found.size
+    mounts, rows, start = [], [], found.size
     for support in shaft.supports:
-        mount = _mount(found, support, basis, start)
-        start += len(mount.ring)
-        mounts.append(mount)
-        for row, stiff, value in zip(mount.rows, support.stiffness, support.offset, strict=True):
-            if np.isinf(stiff):
-                rigid.append(row)
-                given.append(value)
-            else:
-                linear += stiff * np.outer(row, row)
-                rest += stiff * value * row
-        linear[mount.ring, mount.ring] += [support.seat[i] for i in mount.ring_freedoms]
+        mounts.append(_mount(found, support, basis, start, len(rows)))
+        start += len(mounts[-1].ring)
+        rows += _constraints(mounts[-1])
     free = not any(carries_axially(support, way) for support in shaft.supports for way in (1, -1))
     pinned = (AXIAL, TWIST) if free else (TWIST,)
-    rigid += [np.eye(1, size, freedom)[0] for freedom in pinned]
-    given += [0.0] * len(pinned)
-    return Model(found, tuple(mounts), basis, linear, rest, np.array(rigid), np.array(given), pinned)
+    rows += [(np.eye(1, size, freedom)[0], 0.0, 0.0) for freedom in pinned]
+    constraints, compliance, given = map(np.array, zip(*rows, strict=True))
+    return Model(found, tuple(mounts), basis, linear, constraints, compliance, given, pinned)
+
+
+def _constraints(mount):
+    """(row, compliance, given) of every spring of a support, then of its seat."""
+    support = mount.support
+    springs = [(mount.rows[i], 1 / support.stiffness[i], support.offset[i]) for i in mount.sprung]
+    seat = [(np.eye(1, mount.rows.shape[1], mount.ring[n])[0], 1 / support.seat[mount.ring_freedoms[n]], 0.0) for n in mount.seated]
+    return springs + seat
 
 
 def _yielding(support):
@@ -91,7 +113,7 @@ def _holds(support, freedom):
     return support.stiffness[freedom] > 0 or any(_resists(support, freedom, way) for way in (1, -1))
 
 
-def _mount(found, support, basis, start):
+def _mount(found, support, basis, start, first):
     """x, y averaged over the support's width, z and the tilts at its middle; less the ring's where the seat yields."""
     rows, node, freedoms = np.zeros((5, len(basis))), found.node(support.position), _yielding(support)
     rows[range(5), FREEDOMS * node + np.arange(5)] = 1.0  # of six: nothing here feels the turning
@@ -102,7 +124,7 @@ def _mount(found, support, basis, start):
     rows *= (MIRROR if support.mirrored else np.ones(5))[:, None]
     ring = start + np.arange(len(freedoms))
     rows[list(freedoms), ring] -= 1.0
-    return Mount(support, rows @ basis, ring, freedoms)
+    return Mount(support, rows @ basis, ring, freedoms, first)
 
 
 def refuse_mechanism(shaft):

@@ -6,7 +6,7 @@ from scipy.linalg import eigh
 from drivewright.shafts import beam as beams
 from drivewright.shafts.assembly import floor
 from drivewright.shafts.influence import FLOOR
-from drivewright.shafts.vibration import WEIGHT, free_of, shapes
+from drivewright.shafts.vibration import WEIGHT, condensed, shapes
 
 
 def buckling_factor(loaded):
@@ -20,10 +20,10 @@ def buckling_factor(loaded):
     tension = beams.tension_and_torque(found, equilibrium.unknowns)[:, 0]
     if not np.any(tension < 0):
         return None
-    held = free_of(model.rigid, model.size)
+    held, stiff = condensed(equilibrium.hessian + FLOOR * floor(model), model.constraints, model.compliance)
     basis = model.basis @ held
     geometric = basis[: found.size].T @ _geometric(found, tension) @ basis[: found.size]
-    factors = eigh(-geometric, held.T @ (equilibrium.hessian + FLOOR * floor(model)) @ held, eigvals_only=True)
+    factors = eigh(-geometric, stiff, eigvals_only=True)
     return float(1 / factors[-1]) if factors[-1] > 0 else None
 
 

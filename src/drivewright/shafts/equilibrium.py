@@ -1,7 +1,11 @@
 """Where a loaded shaft comes to rest on its supports.
 
 The energy of shaft and supports less the work of the loads is a convex function of the displacements; its minimum is found by
-Newton's method with the exact Hessian and a line search.  Linear and rigid supports are one step of the same.
+Newton's method with the exact Hessian and a line search.  Springs enter by their compliance C with their forces m as unknowns,
+
+    H v + R' m = load,    R v - C m = given,
+
+so a support may be as stiff as it likes, rigid (C = 0) included.  Linear and rigid supports are one step of the same.
 """
 
 from typing import NamedTuple
@@ -15,13 +19,14 @@ from drivewright.shafts.beam import FREEDOMS
 
 TOLERANCE = 1e-11  # of the residual over the forces at work
 MAX_STEPS = 400  # a few as a rule; hundreds where a contact that carries next to nothing is left slowly
+PASSES, EVEN = 20, 3.0  # of the scaling of the system, and how near to 1 is near enough
 LEFT = 1e-8  # of the forces at work: what a freedom that nothing holds may seem to carry
 
 
 class Equilibrium(NamedTuple):
     """The unknowns v, and of every support in the shaft's axes: reaction on the shaft, displacement, tangent stiffness there.
 
-    `hessian` is that of all unknowns; the rigid supports hold by `multipliers` (c,).
+    `hessian` is that of shaft and laws; springs and rigid supports hold by `multipliers` (c,), the forces m of `Model`.
     """
 
     model: Model
@@ -29,6 +34,7 @@ class Equilibrium(NamedTuple):
     reactions: np.ndarray  # (supports, 5) [N, N m]
     relative: np.ndarray  # (supports, 5) [m, rad]: of the shaft against the ring, or the seat where there is none
     tangent: np.ndarray  # (supports, 5, 5): springs and law together, without the seat
+    contact: np.ndarray  # (supports, 5, 5): that of the law alone
     hessian: np.ndarray
     multipliers: np.ndarray
     steps: int
@@ -43,14 +49,16 @@ def solve(model, force):
     """The `Equilibrium` under the forces (size,) on nodes and rings; SolverError where it is not found."""
     refuse_unbalanced(model, force)
     load = model.basis.T @ force
-    v = _first_guess(model, load)
+    v, held = _first_guess(model, load)
     for step in range(1, MAX_STEPS + 1):
-        gradient, hessian = _pull(model, v)
-        change, multipliers = _newton_step(model, v, gradient - load, hessian)
-        v = v + _length(model, v, change, gradient - load, load) * change
-        if _at_rest(model, v, load, multipliers):
-            _refuse_pinned(model, load, multipliers)
-            return _equilibrium(model, v, multipliers, step)
+        change, more = _newton_step(model, v, held, load)
+        share = _length(model, (v, held), (change, more), load)
+        v, held = v + share * change, held + share * more
+        if not np.all(np.isfinite(v)):
+            raise InputError("shaft: its bearings are so soft that the displacements are beyond all numbers; check the unit of a stiffness")
+        if _at_rest(model, v, held, load):
+            _refuse_pinned(model, load, held)
+            return _equilibrium(model, v, held, step)
         _refuse_runaway(model, v)
     raise SolverError(f"shaft: no equilibrium after {MAX_STEPS} steps of Newton's method; the last one moved the shaft by "
                       f"{1e3 * np.abs((model.basis @ change)[: model.beam.size]).max():.3g} mm. Look at clearances, and for loads far "
@@ -79,8 +87,8 @@ def _refuse_runaway(model, v):
 
 
 def _pull(model, v):
-    """(gradient, Hessian) of the energy of shaft, springs, seats and laws."""
-    gradient, hessian = model.linear @ v - model.rest, model.linear.copy()
+    """(gradient, Hessian) of the energy of shaft and laws."""
+    gradient, hessian = model.linear @ v, model.linear.copy()
     for mount in model.mounts:
         if mount.support.law is not None:
             _, force, stiffness = respond(mount.support.law, mount.rows @ v - mount.support.offset)
@@ -89,47 +97,80 @@ def _pull(model, v):
     return gradient, hessian
 
 
-def _newton_step(model, v, slope, hessian):
-    """(change of v, multipliers) to the minimum of the quadratic that touches the energy at v.
+def _newton_step(model, v, held, load):
+    """Changes of v and of the forces m to the minimum of the quadratic that touches the energy at v.
 
     What a law does not resist at the moment is held to where it is by a trifle that leaves the equilibrium alone.
     """
-    found = saddle(hessian + floor(model), model.rigid, np.concatenate([-slope, model.given - model.rigid @ v]))
+    gradient, hessian = _pull(model, v)
+    off = gradient - load + model.constraints.T @ held
+    apart = model.constraints @ v - model.compliance * held - model.given
+    try:
+        found = saddle(hessian + floor(model), model.constraints, model.compliance, -np.concatenate([off, apart]))
+    except np.linalg.LinAlgError:
+        raise SolverError("shaft: shaft and bearings are singular to rounding; a spring behind a clearance, or a table, is so much stiffer "
+                          "than the rest that its play is lost: below 1e15 N/m it does not differ from rigid") from None
     return found[: model.size], found[model.size :]
 
 
-def saddle(hessian, rigid, right):
-    """(size + c, ...): v and multipliers m of  H v + R' m = right,  R v = right below;  rows are scaled, for rotations are no lengths."""
-    whole = np.block([[hessian, rigid.T], [rigid, np.zeros((len(rigid),) * 2)]])
-    size, diagonal = len(hessian), np.abs(np.diag(hessian))
-    scale = np.ones(len(whole))
-    scale[:size] = 1 / np.sqrt(np.where(diagonal > 0, diagonal, diagonal.max()))
-    scale[size:] = 1 / np.maximum(np.abs(rigid * scale[:size]).max(axis=1, initial=0), 1e-300)
+def saddle(hessian, constraints, compliance, right):
+    """(size + c, ...): v and m of  H v + R' m = right,  R v - C m = right below."""
+    whole = np.block([[hessian, constraints.T], [constraints, -np.diag(compliance)]])
+    scale = scales(whole, len(hessian))
     right = (right.T * scale).T
     return (np.linalg.solve(scale[:, None] * whole * scale, right).T * scale).T
 
 
+def scales(matrix, size):
+    """s (n,) with the largest entry of every row of the symmetric s_i A_ij s_j next to 1: rotations are no lengths, stiff is not soft.
+
+    The first `size` by their diagonal, the constraints below by their rows: a small compliance says nothing of theirs.  Then what is
+    left, each pass halving the powers of ten that are off (Ruiz 2001, recalled).
+    """
+    entries, diagonal = np.abs(matrix), np.abs(np.diag(matrix)).copy()
+    diagonal[size:] = 0.0
+    scale = 1 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
+    scale[size:] = 1 / np.maximum((entries[size:, :size] * scale[:size]).max(axis=1), np.sqrt(np.diag(entries)[size:]))
+    for _ in range(PASSES):
+        rows = scale * (entries * scale).max(axis=1)
+        if rows.max() < EVEN and rows.min() > 1 / EVEN:
+            break
+        scale = scale / np.sqrt(np.where(rows > 0, rows, 1.0))
+    return scale
+
+
 def _first_guess(model, load):
-    """The shaft on springs of a usual stiffness in place of the laws."""
+    """(v, m) of the shaft on springs of a usual stiffness in place of the laws."""
     if not model.nonlinear:
-        return np.zeros(model.size)
-    usual, hessian, pull = np.diag([1e8, 1e8, 1e7, 1e2, 1e2]), model.linear.copy(), load + model.rest
+        return np.zeros(model.size), np.zeros(len(model.given))
+    usual, hessian, pull = np.diag([1e8, 1e8, 1e7, 1e2, 1e2]), model.linear.copy(), load.copy()
     for mount in model.mounts:
         if mount.support.law is not None:
             hessian += mount.rows.T @ usual @ mount.rows
-            pull = pull + mount.rows.T @ usual @ mount.support.offset
-    return saddle(hessian, model.rigid, np.concatenate([pull, model.given]))[: model.size]
+            pull += mount.rows.T @ usual @ mount.support.offset
+    found = saddle(hessian, model.constraints, model.compliance, np.concatenate([pull, model.given]))
+    return found[: model.size], found[model.size :]
 
 
-def _length(model, v, change, slope, load):
-    """Share of a step, 1 or less: where the energy along it, a convex function, has lost half of its steepness."""
-    steepness = slope @ change
-    if not model.nonlinear or steepness >= 0:
+def _length(model, state, change, load):
+    """Share of a step, 1 or less: where the energy along it, a convex function, has lost half of its steepness.
+
+    The springs' part of the slope is m . C dm, which no stiffness magnifies.
+    """
+    if not model.nonlinear:
+        return 1.0
+    (v, held), (dv, dm) = state, change
+
+    def slope(share):
+        return (_pull(model, v + share * dv)[0] - load) @ dv + (held + share * dm) @ (model.compliance * dm)
+
+    steepness = slope(0.0)
+    if steepness >= 0:
         return 1.0
     low, low_slope, share = 0.0, steepness, 1.0
     high, high_slope = 1.0, None
     for _ in range(40):
-        here = (_pull(model, v + share * change)[0] - load) @ change
+        here = slope(share)
         if abs(here) <= 0.5 * abs(steepness) or (here < 0 and share == 1.0):
             return share
         if here < 0:
@@ -140,33 +181,31 @@ def _length(model, v, change, slope, load):
     return share
 
 
-def _at_rest(model, v, load, multipliers):
+def _at_rest(model, v, held, load):
     """Whether the forces balance, to rounding of the largest of them; moments are weighed by the length of the shaft."""
     weigh = np.ones(model.size)
     weigh[: model.beam.size].reshape(-1, FREEDOMS)[:, 3:] = 1 / model.beam.shaft.length
     pull, hessian = _pull(model, v)
-    left = np.abs(weigh * (pull - load + model.rigid.T @ multipliers)).max()
-    size = np.abs(weigh * load).max(initial=0) + np.abs(weigh * model.rest).max(initial=0)
+    springs = model.constraints.T @ held
+    left = np.abs(weigh * (pull - load + springs)).max()
+    size = np.abs(weigh * load).max(initial=0) + np.abs(weigh * springs).max(initial=0)
     rounding = np.finfo(float).eps * np.abs(weigh * (np.abs(hessian) @ np.abs(v))).max(initial=0)
     return left <= max(TOLERANCE * size, 16 * rounding, 1e-12)
 
 
-def _equilibrium(model, v, multipliers, steps):
-    relative, tangent, reactions, number = [], [], [], 0
+def _equilibrium(model, v, held, steps):
+    reactions, relative, tangent, contact = [], [], [], []
     for mount in model.mounts:
-        support = mount.support
-        own = mount.rows @ v - support.offset
-        stiff = np.array(support.stiffness)
-        rigid = np.isinf(stiff)
-        springs = np.where(rigid, 0.0, stiff)
-        force, stiffness = springs * own, np.diag(stiff)
+        support, sprung = mount.support, mount.sprung
+        own, force, law = mount.rows @ v - support.offset, np.zeros(5), np.zeros((5, 5))
         if support.law is not None:
-            _, extra, slope = respond(support.law, own)
-            force, stiffness = force + extra, stiffness + slope
-        force[rigid] = multipliers[number : number + rigid.sum()]
-        number += rigid.sum()
+            _, force, law = respond(support.law, own)
+        force[sprung] += held[mount.springs]
+        own[sprung] = model.compliance[mount.springs] * held[mount.springs]
+        law = mount.turn[:, None] * law * mount.turn
         reactions.append(-mount.turn * force)
         relative.append(mount.turn * own)
-        tangent.append(mount.turn[:, None] * stiffness * mount.turn)
-    arrays = (np.array(each) for each in (reactions, relative, tangent))
-    return Equilibrium(model, v, *arrays, _pull(model, v)[1], multipliers, steps)
+        tangent.append(np.diag(support.stiffness) + law)
+        contact.append(law)
+    arrays = (np.array(each) for each in (reactions, relative, tangent, contact))
+    return Equilibrium(model, v, *arrays, _pull(model, v)[1], held, steps)

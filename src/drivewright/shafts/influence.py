@@ -1,8 +1,8 @@
 """Flexibility and stiffness at the stations of a shaft, and who contributes what.
 
 delta_ij is the displacement of station i by a unit force at station j, both in one direction across the shaft:
-delta_ij = int M_i M_j/EI + int V_i V_j/(kappa G A) + int N_i N_j/EA + sum over the supports of u_i' K u_j (the principle of
-virtual work), K being the tangent stiffness of a support and u its displacement.
+delta_ij = int M_i M_j/EI + int V_i V_j/(kappa G A) + int N_i N_j/EA + sum over the supports of m_i' C m_j + u_i' K u_j (the
+principle of virtual work), C and m being compliance and force of a spring, K and u tangent stiffness and displacement of a bearing.
 """
 
 from typing import NamedTuple
@@ -21,12 +21,16 @@ HELD = 1e-3  # part of a flexibility that this trifle may carry: beyond it the s
 
 
 class Flexibility(NamedTuple):
-    """All per unit force [1/N]: delta (s, s) [m/N]; its parts (p, s, s) by `names`; reactions (supports, s) against the load [-]."""
+    """All per unit force [1/N]: delta (s, s) [m/N]; its parts (p, s, s) by `names`; reactions (supports, s) against the load [-].
+
+    pressed (supports, 5, s): what the shaft exerts on the supports [N/N, N m/N].
+    """
 
     delta: np.ndarray
     names: tuple
     shares: np.ndarray
     reactions: np.ndarray
+    pressed: np.ndarray
     unknowns: np.ndarray  # (size, s): under each unit force
 
     @property
@@ -56,19 +60,21 @@ def flexibility(found, positions, direction):
         carried = np.sum(v * (trifle @ v), axis=0)
     if not np.all(np.isfinite(delta)) or np.any(carried > HELD * (np.abs(np.diag(delta)) + ROUNDING * size)):
         raise InputError("shaft: at rest its bearings do not resist a small force; give a load, a preload or no clearance")
-    names, shares = _shares(found, v)
-    return Flexibility(delta, names, shares, _reactions(found, answer, direction), v)
+    names, shares = _shares(found, v, answer[model.size :])
+    pressed = _pressed(found, v, answer[model.size :])
+    return Flexibility(delta, names, shares, np.einsum("f,pfs->ps", direction, pressed[:, :2]), pressed, v)
 
 
 def _solved(found, trifle, unit):
     try:
         with np.errstate(all="ignore"):
-            return saddle(found.hessian + trifle, found.model.rigid, np.vstack([unit, np.zeros((len(found.model.given), unit.shape[1]))]))
+            below = np.zeros((len(found.model.given), unit.shape[1]))
+            return saddle(found.hessian + trifle, found.model.constraints, found.model.compliance, np.vstack([unit, below]))
     except np.linalg.LinAlgError:
         return np.full((found.model.size + len(found.model.given), unit.shape[1]), np.inf)
 
 
-def _shares(found, v):
+def _shares(found, v, held):
     """(names, parts (p, s, s)): bending, shear, tension where there is any, then one for every support."""
     model = found.model
     bending, shear = np.zeros((2, v.shape[1], v.shape[1]))
@@ -80,27 +86,20 @@ def _shares(found, v):
     stretched = beams.stretch_energy(model.beam, v)
     if np.abs(stretched).max(initial=0) > ROUNDING * np.abs(bending).max(initial=0):
         names, parts = [*names, "tension"], [*parts, stretched]
-    for mount, tangent in zip(model.mounts, found.tangent, strict=True):
-        felt = mount.turn[:, None] * (mount.rows @ v)
-        finite = np.where(np.isfinite(tangent), tangent, 0.0)
-        yielded = v[mount.ring]
-        seat = np.array([mount.support.seat[i] for i in mount.ring_freedoms])
+    for mount, contact in zip(model.mounts, found.contact, strict=True):
+        felt, own = mount.turn[:, None] * (mount.rows @ v), slice(mount.first, mount.seat.stop)
         names.append(mount.support.name)
-        parts.append(felt.T @ finite @ felt + yielded.T @ (seat[:, None] * yielded))
+        parts.append(felt.T @ contact @ felt + held[own].T @ (model.compliance[own, None] * held[own]))
     return tuple(names), np.array(parts)
 
 
-def _reactions(found, answer, direction):
-    """(supports, s): force of each support on the shaft against the unit force."""
-    model, v, number = found.model, answer[: found.model.size], 0
+def _pressed(found, v, held):
+    """(supports, 5, s): what the shaft exerts on each support, in the shaft's axes."""
     rows = []
-    for mount, tangent in zip(model.mounts, found.tangent, strict=True):
-        felt = mount.turn[:, None] * (mount.rows @ v)
-        rigid = np.isinf(np.diag(tangent))
-        force = np.where(np.isfinite(tangent), tangent, 0.0) @ felt
-        force[rigid] = answer[model.size + number : model.size + number + rigid.sum()]
-        number += rigid.sum()
-        rows.append(np.asarray(direction) @ force[:2])
+    for mount, contact in zip(found.model.mounts, found.contact, strict=True):
+        force = contact @ (mount.turn[:, None] * (mount.rows @ v))
+        force[mount.sprung] += mount.turn[mount.sprung, None] * held[mount.springs]
+        rows.append(force)
     return np.array(rows)
 
 

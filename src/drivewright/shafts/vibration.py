@@ -3,18 +3,20 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import eigh
+from scipy.linalg import block_diag, eigh
 
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.assembly import AXIAL, TWIST, floor
 from drivewright.shafts.beam import FREEDOMS, PLANES
+from drivewright.shafts.equilibrium import saddle, scales
 from drivewright.shafts.influence import FLOOR, HELD
 from drivewright.shafts.model import EULER_BERNOULLI
 from drivewright.shafts.sections import area, second_moment
 
 UNHELD = ("shaft: at rest its bearings do not resist a small motion, so it has no natural frequencies; give a load, a preload or no "
           "clearance")
+LEAST = 1e-12  # of the greatest 1/w^2: below it is rounding
 POINTS = 8  # over an element: its shapes are cubic on a cylinder
 SHARE, WEIGHT = (0.5 * (part + shift) for part, shift in zip(np.polynomial.legendre.leggauss(POINTS), (1.0, 0.0), strict=True))
 
@@ -115,13 +117,29 @@ def in_plane(found, plane=1):
     return np.sort(np.concatenate([FREEDOMS * np.arange(len(found.z)) + w, FREEDOMS * np.arange(len(found.z)) + t]))
 
 
-def free_of(rigid, size):
-    """Basis (size, r) of the displacements that the rigid supports allow."""
-    if not len(rigid):
-        return np.eye(size)
-    _, singular, right = np.linalg.svd(rigid)
-    rank = int(np.sum(singular > 1e-12 * singular[0])) if len(singular) else 0
-    return right[rank:].T
+def condensed(stiff, constraints, compliance):
+    """(basis (n, r), K (r, r)): shapes that the rigid supports allow, and the stiffness of the supported shaft on them.
+
+    Shapes with all supports held, and for every spring the shape P that the shaft takes when it alone gives way: between the two
+    there is no stiffness, so K is N'HN beside P'HP + 1/C (Craig & Bampton 1968, recalled).  The latter are scaled to 1 on the diagonal.
+    """
+    rows = np.abs(constraints).max(axis=1, initial=0) > 0
+    constraints, compliance = constraints[rows], compliance[rows]
+    scale = scales(np.block([[stiff, constraints.T], [constraints, np.zeros((len(constraints),) * 2)]]), len(stiff))[: len(stiff)]
+    held = scale[:, None] * _null_space(constraints * scale)
+    yields = np.flatnonzero(compliance)
+    unit = np.eye(len(stiff) + len(constraints))[:, len(stiff) + yields]
+    shapes = saddle(stiff, constraints, 0 * compliance, unit)[: len(stiff)]
+    own = shapes.T @ stiff @ shapes
+    least = np.sqrt(compliance[yields] / (1 + compliance[yields] * np.diag(own)))
+    return np.hstack([held, shapes * least]), block_diag(
+        held.T @ stiff @ held, least[:, None] * own * least + np.diag(1 / (1 + compliance[yields] * np.diag(own))))
+
+
+def _null_space(rows):
+    """Orthonormal basis (n, r) of what no row (c, n) sees; rows are linearly independent."""
+    rows = rows / np.abs(rows).max(axis=1, keepdims=True)
+    return np.linalg.svd(rows)[2][len(rows) :].T if len(rows) else np.eye(rows.shape[1])
 
 
 def modes(equilibrium, count):
@@ -176,10 +194,11 @@ def _lowest(stiff, inertia, equilibrium, chosen, count):
 
     A trifle keeps K regular.  What it alone holds has no frequency: along the axis it is left out, across it is an error.
     """
-    trifle = (FLOOR * floor(equilibrium.model))[np.ix_(chosen, chosen)]
-    basis = free_of(equilibrium.model.rigid[:, chosen], len(chosen))
-    k, m = (basis.T @ whole @ basis for whole in (stiff[np.ix_(chosen, chosen)] + trifle, inertia[np.ix_(chosen, chosen)]))
-    inverse, vectors = _eigen(m, k)  # M may be singular (massless rings, no rotary inertia) or indefinite, K is positive
+    model = equilibrium.model
+    trifle = (FLOOR * floor(model))[np.ix_(chosen, chosen)]
+    basis, k = condensed(stiff[np.ix_(chosen, chosen)] + trifle, model.constraints[:, chosen], model.compliance)
+    # M may be singular (massless rings, no rotary inertia) or indefinite, K is positive
+    inverse, vectors = _eigen(basis.T @ inertia[np.ix_(chosen, chosen)] @ basis, k)
     vectors = basis @ vectors  # q'Kq = 1 for each
     held = np.sum(np.conj(vectors) * (trifle @ vectors), axis=0).real < HELD
     moving = inverse > 1e-9 * inverse[held].max(initial=0)
@@ -187,9 +206,16 @@ def _lowest(stiff, inertia, equilibrium, chosen, count):
     sideways = np.sum(np.abs(nodes[:, :2]) ** 2, axis=(0, 1)) > np.sum(np.abs(nodes[:, AXIAL]) ** 2, axis=0)
     if not held.any() or np.any(~held & moving & sideways):
         raise InputError(UNHELD)
+    least = LEAST * max(inverse[held].max(), 0.1 * _rounded(basis, inertia[np.ix_(chosen, chosen)], k))
     order = np.argsort(inverse)[::-1]
-    order = order[(held & (inverse > 1e-12 * inverse[held].max()))[order]][:count]
+    order = order[(held & (inverse > least))[order]][:count]
     return 1 / inverse[order], vectors[:, order]
+
+
+def _rounded(basis, inertia, k):
+    """The largest 1/w^2 that a shape could have were the parts of its motion not to cancel: where rounding comes from."""
+    parts = np.abs(basis)
+    return float(np.max(np.sum(parts * (np.abs(inertia) @ parts), axis=0) / np.diag(k), initial=0.0))
 
 
 def _eigen(m, k):
@@ -238,12 +264,22 @@ def _whirl(equilibrium, way, count):
 
 
 def torsional(equilibrium, count):
-    """The lowest torsional `Modes` of the free shaft, with the moments of inertia of its stations."""
+    """The lowest torsional `Modes` of the free shaft, with the moments of inertia of its stations.
+
+    The turning of the whole shaft is taken out, M - m m'/I with I = sum of all inertia, so a massless shaft with inertias on it is
+    no special case: as many modes as inertias, less one.
+    """
     found = equilibrium.model.beam
     chosen = FREEDOMS * np.arange(len(found.z)) + TWIST
     carried = beams.basis(found)[np.ix_(chosen, chosen)]
-    stiff, inertia = beams.stiffness(found)[np.ix_(chosen, chosen)], carried.T @ mass(found)[0][np.ix_(chosen, chosen)] @ carried
-    values, vectors = eigh(stiff, inertia, subset_by_index=[1, min(count, len(chosen) - 1)])  # the first one turns the whole shaft
-    whole = np.zeros((equilibrium.model.size, len(values)))
-    whole[chosen] = carried @ vectors
-    return Modes(np.sqrt(values) / (2 * np.pi), whole)
+    inertia = carried.T @ mass(found)[0][np.ix_(chosen, chosen)] @ carried
+    stiff, whole = beams.stiffness(found)[np.ix_(chosen, chosen)][1:, 1:], np.zeros((equilibrium.model.size, 0))
+    if not inertia[0, 0] > 0:
+        return Modes(np.zeros(0), whole)
+    mixed = inertia[0, 1:] / inertia[0, 0]
+    inverse, vectors = eigh(inertia[1:, 1:] - np.outer(mixed, inertia[0, 1:]), stiff)
+    lowest = np.argsort(inverse)[::-1][:count]
+    lowest = lowest[inverse[lowest] > LEAST * (np.diag(inertia)[1:] / np.diag(stiff)).sum()]
+    whole = np.zeros((equilibrium.model.size, len(lowest)))
+    whole[chosen] = carried @ np.vstack([-mixed @ vectors[:, lowest], vectors[:, lowest]])
+    return Modes(1 / np.sqrt(inverse[lowest]) / (2 * np.pi), whole)

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from drivewright.errors import SpecError, UnitError, brief
-from drivewright.studies.variables import READABLE, Variable, kind_of
+from drivewright.studies.variables import READABLE, Variable, column, kind_of
 
 
 def read_points(spec, file):
@@ -30,10 +30,10 @@ def _read(spec, key, unit, cells, file):
         raise error.located(file=str(file)) from None
     values = [_cell(kind, cell, f"case {number}, column '{key}'", file) for number, cell in enumerate(cells)]
     if kind.name == "quantity" and factor != 1 and isinstance(cells[0], str):  # rounded once, as the same text elsewhere
-        values = [kind.dimension.parse(f"{value!r} {unit}") for value in values]
+        values = [value if isinstance(value, str) else kind.dimension.parse(f"{value!r} {unit}") for value in values]
     elif kind.name == "quantity":
-        values = [value * factor for value in values]
-    return Variable(key, kind), np.array(values, dtype={"integer": np.int64, "flag": bool, "text": object}.get(kind.name, float))
+        values = [value if isinstance(value, str) else value * factor for value in values]
+    return Variable(key, kind), column(values, kind)
 
 
 def _factor(kind, unit, key):
@@ -52,8 +52,19 @@ def _factor(kind, unit, key):
     return 1.0
 
 
+def _is_word(kind, cell):
+    """Whether a quantity takes this word in place of a number: "rigid"."""
+    try:
+        found = kind.dimension.parse(str(cell).strip())
+    except UnitError:
+        return False
+    return isinstance(found, str) or not np.isfinite(found)
+
+
 def _cell(kind, cell, place, file):
     """A value of a column, still in the column's unit."""
+    if kind.name == "quantity" and isinstance(cell, str) and _is_word(kind, cell):
+        return cell.strip()
     try:
         if kind.name in ("quantity", "number"):
             value = float(cell)

@@ -198,7 +198,7 @@ def _form(vary):
 
 def _levels(kind, vary, place):
     if vary.values:
-        return _column([kind.read(value, f"{place}.values.{n}") for n, value in enumerate(vary.values)], kind)
+        return column([kind.read(value, f"{place}.values.{n}") for n, value in enumerate(vary.values)], kind)
     low, high = (_bound(kind, vary, side, place, needed=True) for side in ("lower", "upper"))
     if not kind.numeric:
         raise SpecError(f"{vary.key} takes {READABLE[kind.name]} and has no range; give values", place)
@@ -218,9 +218,9 @@ def _levels(kind, vary, place):
     return found.astype(np.int64) if kind.name == "integer" else found
 
 
-def _column(levels, kind):
-    """An array of levels; texts stay objects."""
-    if kind.name == "quantity" and any(isinstance(level, str) for level in levels):
+def column(levels, kind):
+    """An array of levels; texts stay objects, and quantities beside a word ("rigid", which is infinite) become texts."""
+    if kind.name == "quantity" and any(isinstance(level, str) or not np.isfinite(level) for level in levels):
         return np.array([level if isinstance(level, str) else kind.dimension.text(level) for level in levels], dtype=object)
     return np.array(levels, dtype={"integer": np.int64, "flag": bool, "text": object}.get(kind.name, float))
 
@@ -229,7 +229,10 @@ def _bound(kind, vary, name, place, needed=False):
     value = getattr(vary, name)
     if value is None and needed:
         raise SpecError(f"a range of steps needs lower and upper; {name} is missing", f"{place}.{name}")
-    return None if value is None else kind.read(value, f"{place}.{name}")
+    found = None if value is None else kind.read(value, f"{place}.{name}")
+    if kind.name == "quantity" and found is not None and (isinstance(found, str) or not np.isfinite(found)):
+        raise SpecError(f"wants a number with a unit here, got {brief(value)}; list a word among values", f"{place}.{name}")
+    return found
 
 
 def _distribution(kind, vary, nominal, place):

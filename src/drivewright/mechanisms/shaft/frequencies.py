@@ -21,6 +21,9 @@ def frequencies(model, done):
         (found, axial), critical = shafts.modes(fine, count), shafts.critical_speeds(fine, count)
     except InputError as error:
         return Answer(findings=(f"modes are absent: {error}",), outcome="left out")
+    if not len(found.frequencies) + len(axial.frequencies):
+        return Answer(findings=("modes are absent: nothing that can move has a mass; give a density, or a station a mass",),
+                      outcome="left out")
     values = {f"{kind}.{n}.frequency": Value(float(f), "Hz", f"natural frequency {n} {words}, at rest")
               for kind, words, some in (("modes", "of bending", found), ("axial_modes", "along the axis", axial))
               for n, f in enumerate(some.frequencies, 1)}
@@ -56,11 +59,9 @@ def refined(model, at_rest):
 def tangent_shaft(shaft, at_rest):
     """The shaft on linear supports: those of the equilibrium, each with its tangent stiffness there."""
     supports = []
-    for support, tangent in zip(shaft.supports, at_rest.tangent, strict=True):
+    for support, contact in zip(shaft.supports, at_rest.contact, strict=True):
         if support.law is not None:
-            rigid = np.isinf(support.stiffness)
-            law = shafts.Tangent(np.where(np.isfinite(tangent), tangent, 0.0))
-            support = support._replace(stiffness=tuple(np.where(rigid, np.inf, 0.0)), law=law, mirrored=False)
+            support = support._replace(law=shafts.Tangent(contact), mirrored=False)
         supports.append(support._replace(offset=(0.0,) * 5, push=(0.0,) * 5))
     return shaft._replace(supports=tuple(supports))
 

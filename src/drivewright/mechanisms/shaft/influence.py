@@ -5,7 +5,8 @@ import numpy as np
 from drivewright import bearings, shafts
 from drivewright.errors import InputError
 from drivewright.mechanisms.shaft.refusals import is_rolling
-from drivewright.result import Answer, Array, Column, Table, Value
+from drivewright.mechanisms.shaft.statics import BALANCED
+from drivewright.result import Answer, Array, Check, Column, Table, Value
 from drivewright.shafts.beam import line
 from drivewright.shafts.sections import second_moment
 
@@ -41,7 +42,10 @@ def flexibility(model, done):
         findings.append(f"array 'stiffness' is absent: {error}")
     if any(support.law is not None for support in model.shaft.supports):
         findings.append("bearings are not linear: flexibility and stiffness are tangents at the equilibrium of the given loads")
-    return Answer(values, (_unit_table(model, found, at_rest), _share_table(model, found)), (), tuple(findings), arrays, data=found)
+    off = shafts.unit_imbalance(found, model.shaft, model.places, model.direction)
+    check = Check("equilibrium.unit_loads", off, BALANCED, "<=", "-",
+                  "forces and moments that do not balance under a unit force at a station, the largest", ("shaft",))
+    return Answer(values, (_unit_table(model, found, at_rest), _share_table(model, found)), (check,), tuple(findings), arrays, data=found)
 
 
 def stiffened(model):

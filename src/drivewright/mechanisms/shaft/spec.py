@@ -67,7 +67,8 @@ class Material(Spec):
                               examples=["C45"])
     youngs_modulus: Pressure | None = Field(None, gt=0, description="Young's modulus; of the card, else 206 GPa", examples=["206 GPa"])
     poisson_ratio: Number | None = Field(None, gt=-1, lt=0.5, description="Poisson's ratio; of the card, else 0.3", examples=[0.3])
-    density: Density | None = Field(None, gt=0, description="density; of the card, else 7850 kg/m^3", examples=["7850 kg/m^3"])
+    density: Density | None = Field(None, ge=0, description="density, 0 of a massless shaft; of the card, else 7850 kg/m^3",
+                                    examples=["7850 kg/m^3"])
     yield_strength: Pressure | None = Field(None, gt=0, description="yield strength, for stress checks; of the card, else none",
                                             examples=["355 MPa"])
 
@@ -200,6 +201,9 @@ class Limits(Spec):
     buckling: Number = Field(3.0, gt=0, description="axial force at which the shaft buckles over the axial force")
     largest_slope: Angle = Field(
         "0.1 rad", gt=0, description="anywhere along the shaft: beyond it the linear theory of beams does not hold"
+    )
+    largest_deflection: Number = Field(
+        0.1, gt=0, description="anywhere along the shaft, over its length: beyond it the linear theory does not hold"
     )
     critical_speed: Number = Field(1.25, gt=0, description="first critical speed over the speed of the shaft")
     slenderness: Number = Field(1000.0, gt=0, description="length of the shaft over its least diameter; beyond it a unit may have slipped")

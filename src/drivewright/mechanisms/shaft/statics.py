@@ -8,6 +8,7 @@ from drivewright.result import Answer, Check, Column, Table, Value
 from drivewright.shafts.beam import FREEDOMS
 
 FINE = 21  # places along the shaft for its buckling
+BALANCED = 1e-9  # of all forces; Newton's method stops at 1e-11
 NO_FORCE = 1e-9  # of the largest load
 SAMPLES = 241  # along the shaft, besides the nodes
 
@@ -108,6 +109,10 @@ def _checks(model, loaded, drawn):
     if model.yield_strength and stress > 0:
         yield Check("yield_safety", model.yield_strength / (shock * stress), limits.yield_safety, ">=", "-",
                     f"yield strength over the largest nominal stress{under}", ("shaft",))
+    yield Check("equilibrium", shafts.imbalance(loaded, model.loads), BALANCED, "<=", "-",
+                "forces and moments on the shaft that do not balance, over the sum of all", ("shaft",))
+    yield Check("small_deflections", _farthest(loaded, drawn) / model.shaft.length, limits.largest_deflection, "<=", "-",
+                "largest deflection over the length of the shaft: beyond it the linear theory does not hold", ("shaft",))
     slope = float(np.hypot(*drawn.slope.T).max())
     yield Check(
         "small_slopes", slope, limits.largest_slope, "<=", "rad", "largest slope: beyond it the linear theory does not hold", ("shaft",)
@@ -130,6 +135,12 @@ def _checks(model, loaded, drawn):
         yield Check(f"deflection.{station.name}", size, limits.deflection, "<=", "m", f"deflection of station {station.name!r}", ("shaft",))
     for bearing, reaction in zip(model.spec.bearings, loaded.equilibrium.reactions, strict=True):
         yield from _bearing_checks(model, loaded, bearing, float(np.hypot(*reaction[:2])), under)
+
+
+def _farthest(loaded, drawn):
+    """The largest displacement of the shaft, across or along its axis."""
+    found, u = loaded.equilibrium.model.beam, loaded.equilibrium.u
+    return float(max(np.hypot(*drawn.deflection.T).max(), np.abs(u[2 : found.size : FREEDOMS]).max()))
 
 
 def _bearing_checks(model, loaded, bearing, force, under):
