@@ -21,6 +21,7 @@ from drivewright.studies.variables import kind_of
 LONGEST = 2000  # characters of a message
 FEW = 4  # cases that are not worth a second route
 ROUNDING = 1e-9  # of a value: no difference between two routes
+PLACE = (ImportError, MemoryError)  # faults of the place where a case is computed, not of the case
 OFFERED = "value."  # in front of a value that has the name of a key that varies
 
 
@@ -201,7 +202,7 @@ class Working:
             return self.found(self._spec(columns, n))
         except DrivewrightError as error:
             return Found({}, "failed", _short(error))
-        except (ImportError, MemoryError):  # of the place where it is computed, not of the case
+        except PLACE:
             raise
         except Exception as bug:  # one case in a million must not cost the others
             return Found({}, "failed", _short(f"a fault of the program, please report it: {type(bug).__name__}: {bug}"))
@@ -215,13 +216,15 @@ class Working:
 
     def found(self, spec):
         """`Found` of a spec."""
-        answers = runner.ask(spec, self.mechanism.build(spec), self.wanted).values()
+        asked = runner.ask(spec, self.mechanism.build(spec), self.wanted, through=PLACE)
+        answers = asked.values()
         stated = {name: value for answer in answers for name, value in answer.values.items()}
         values = looked_at(stated, [check for answer in answers for check in answer.checks])
         if self.task.names:
             values = {name: values[name] for name in self.task.names if name in values}
         partial = any(answer.outcome == "partial" for answer in answers)
         reasons = [finding for answer in answers if answer.outcome != "complete" for finding in answer.findings[-1:]]
+        reasons += runner.stops(asked)
         return Found(values, "partial" if partial else "complete", _short("; ".join(reasons)))
 
 

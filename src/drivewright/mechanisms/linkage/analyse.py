@@ -24,14 +24,6 @@ def no_outputs(spec):
     return no_run(spec) or (None if spec.outputs else "the spec declares no [[outputs]]")
 
 
-def partial(model):
-    """(findings, outcome) of the run."""
-    run = run_of(model)
-    if not run.advice:
-        return (), "complete"
-    return (f"the run ends at t = {run.end[1]:.6g} s of {model.duration:.6g} s: {run.advice}",), "partial"
-
-
 def window(model):
     """The record after the discarded turns; all of it where the run did not get so far."""
     seen, start = record_of(model), model.spec.start_of_window if model.spec.simulate else 0.0
@@ -51,7 +43,6 @@ def acceleration(seen, output):
 
 def motion(model, done):
     """Swing and peaks of the outputs, and the last turn as a table."""
-    findings, outcome = partial(model)
     seen, values = window(model), {}
     for output in model.spec.outputs:
         angle, name = seen.point(output.name, "angle"), output.name
@@ -62,7 +53,7 @@ def motion(model, done):
             values[f"{name}.max_acceleration"] = Value(
                 largest(seen.t, acceleration(seen, output)[0]), "m/s^2", f"largest acceleration of point {output.point!r}, magnitude")
     tables = (_motion_table(model),) if model.spec.outputs else ()
-    return Answer(values, tables, advice(model.spec), findings, outcome=outcome)
+    return Answer(values, tables, advice(model.spec))
 
 
 def end(model, done):

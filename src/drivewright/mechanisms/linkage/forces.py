@@ -4,26 +4,27 @@ import numpy as np
 
 from drivewright.mechanisms.linkage.analyse import ROWS, cycle_columns
 from drivewright.mechanisms.linkage.build import run_of
-from drivewright.multibody.observe import observe
+from drivewright.multibody.observe import Observed, observe
 from drivewright.multibody.reactions import reactions
 from drivewright.numerics.signals import time_mean
 from drivewright.result import Answer, Check, Column, Table, Value
 
 
-def last_states(model):
-    """(system, times, states) of the last whole turn, or of the run; of its last split of the coordinates, thinned to ROWS."""
-    last = run_of(model).stretches[-1]
-    turns = np.floor(last.t_end / model.period + 1e-9) if model.period else 0
+def seen_last(model):
+    """`Observed` over the last whole turn, or over the run, thinned to about ROWS; all stretches of the run that reach into it."""
+    run = run_of(model)
+    turns = np.floor(run.end[1] / model.period + 1e-9) if model.period else 0
     start = (turns - 1) * model.period if turns >= 1 else 0.0
-    rows = np.flatnonzero(last.t >= start * (1 - 1e-12))
-    rows = rows[:: max(1, -(-len(rows) // ROWS))]
-    return last.system, last.t[rows], last.y[rows]
+    rows = [(stretch, np.flatnonzero(stretch.t >= start * (1 - 1e-12))) for stretch in run.stretches]
+    thin = max(1, -(-sum(len(some) for _, some in rows) // ROWS))
+    parts = [observe(stretch.system, stretch.t[some[::thin]], stretch.y[some[::thin]]) for stretch, some in rows if len(some)]
+    return Observed(*(np.concatenate(each) for each in zip(*parts, strict=True)))
 
 
 def forces(model, done):
     """Largest force of every joint in the last turn, the forces over it, and what Newton's and Euler's equations leave over."""
-    system, t, y = last_states(model)
-    found = reactions(model.assembly, system, observe(system, t, y))
+    seen = seen_last(model)
+    t, found = seen.t, reactions(model.assembly, run_of(model).end[0], seen)
     values, checks, columns = {}, [], list(cycle_columns(model, t))
     for name, joint in found.joints.items():
         size = np.hypot(*joint.force.T)
