@@ -65,6 +65,12 @@ def stops(answers):
     return [f"{str(stop).rstrip('.')}. Partial for that reason: {', '.join(names)}" for stop, names in found.items()]
 
 
+def reasons(answers):
+    """Why answers are not complete, in short."""
+    left = [finding for answer in answers.values() if answer.outcome != "complete" for finding in answer.findings[-1:]]
+    return [*left, *stops(answers)]
+
+
 def selection(analyses, only=(), everything=False):
     """The analyses to do, each after those that it needs; UnknownName for a name that is none."""
     by_name = {a.name: a for a in analyses}

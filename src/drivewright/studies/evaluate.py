@@ -215,17 +215,16 @@ class Working:
             return from_document(self.task.tables, type(self.spec))
 
     def found(self, spec):
-        """`Found` of a spec."""
-        asked = runner.ask(spec, self.mechanism.build(spec), self.wanted, through=PLACE)
+        """`Found` of a spec: "partial" where an analysis failed or looked at a run that stopped, "failed" where that leaves no value."""
+        asked = runner.ask(spec, self.mechanism.build(spec), self.wanted, None, PLACE)
         answers = asked.values()
         stated = {name: value for answer in answers for name, value in answer.values.items()}
         values = looked_at(stated, [check for answer in answers for check in answer.checks])
         if self.task.names:
             values = {name: values[name] for name in self.task.names if name in values}
         partial = any(answer.outcome == "partial" for answer in answers)
-        reasons = [finding for answer in answers if answer.outcome != "complete" for finding in answer.findings[-1:]]
-        reasons += runner.stops(asked)
-        return Found(values, "partial" if partial else "complete", _short("; ".join(reasons)))
+        status = "complete" if not partial else "partial" if values else "failed"
+        return Found(values, status, _short("; ".join(runner.reasons(asked))))
 
 
 def looked_at(values, checks):
