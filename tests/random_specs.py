@@ -110,6 +110,8 @@ def _cut(tables):
     simulate = tables.get("simulate")
     if simulate and simulate.get("max_steps") is None:
         simulate["max_steps"] = COSTS["simulate.max_steps"]
+    if simulate and simulate.get("method") == "radau":
+        simulate["max_steps"] = min(simulate["max_steps"], COSTS["simulate.max_steps"] // 20)
     if simulate and simulate.get("turns") and simulate.get("discard", 0) >= simulate["turns"]:
         simulate["discard"] = 0
 

@@ -46,8 +46,8 @@ def run(task, cases, workers=1, progress=None):
     Threads gain where the task spends its time in compiled kernels, which run without the interpreter lock.  Every case runs with
     a copy of the caller's context (numpy's error handling), so the number of workers changes no answer; a random task must
     take its seed from its case.
-    Our own errors become rows with the reason, and so do cases that look at a run which stopped.  Any other exception is a bug: no further case begins, and that of the first case
-    in line to fail is raised, with a note that names the case.
+    Our own errors become rows with the reason, and so do cases that look at a run which stopped.  Any other exception is a bug: no
+    further case begins, and that of the first case in line to fail is raised, with a note that names the case.
     `progress(done, total, what)` is called from the caller's thread after each case; where it raises, no further case begins.
     Ctrl-C, or a KeyboardInterrupt from `progress`, lets the cases under way end (a second one does not wait for them) and returns
     the rows so far, `interrupted`; it goes on to the caller where there are none.

@@ -9,6 +9,8 @@ from dataclasses import replace
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 
+import numpy as np
+
 from drivewright import registry
 from drivewright.errors import DEBUG, DrivewrightError, MissingExtra, SolverError, UnknownName
 from drivewright.result import Answer, Result
@@ -33,7 +35,7 @@ def run(spec, only=(), everything=False, progress=None, model=None):
     model = mechanism.build(spec) if model is None else model
     answers = ask(spec, model, wanted, progress)
     findings = [*getattr(model, "findings", ()), *(finding for answer in answers.values() for finding in answer.findings)]
-    findings += stops(answers)
+    findings += [*stops(answers), *_holes(answers)]
     findings += [
         f"analysis '{a.name}' ({a.meaning}) runs on request: --only {a.name}"
         for a in mechanism.analyses
@@ -63,6 +65,26 @@ def stops(answers):
         for stop in answer.stopped:
             found.setdefault(stop, []).append(name)
     return [f"{str(stop).rstrip('.')}. Partial for that reason: {', '.join(names)}" for stop, names in found.items()]
+
+
+def _holes(answers):
+    """A sentence for every check and table with numbers that do not exist."""
+    for answer in answers.values():
+        for check in answer.checks:
+            if not (math.isfinite(check.value) and math.isfinite(check.limit)):
+                yield f"check '{check.name}' ({check.message}) does not exist for this design: {check.value} {check.sense} {check.limit}"
+        for table in answer.tables:
+            yield from _holes_of(table)
+
+
+def _holes_of(table):
+    """The same of one table: the columns with holes, and the rows of the worst."""
+    columns = {c.name: int(np.sum(~np.isfinite(c.data))) for c in table.columns if np.asarray(c.data).dtype.kind == "f"}
+    names = [name for name, count in columns.items() if count]
+    if names:
+        shown = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+        yield (f"table '{table.name}' ({table.title}): {shown} do{'es' if len(names) == 1 else ''} not exist in "
+               f"{max(columns.values())} of {len(table.columns[0].data)} rows")
 
 
 def reasons(answers):
@@ -136,15 +158,18 @@ def _failed(analysis, spec, error):
     """What an analysis had when it failed, with a finding that says why: its solver, the design, the memory, or a fault of ours."""
     partial = getattr(error, "partial", None)
     had = partial if isinstance(partial, Answer) else Answer()
-    if isinstance(error, SolverError):
-        told = f"gave up: {error}"
-    elif isinstance(error, DrivewrightError):
-        told = f"has no answer for this design: {error}"
-    elif isinstance(error, MemoryError):
-        told = "needs more memory than there is; ask for less (fewer turns, samples or elements), or leave it out"
-    else:
-        told = _fault(spec, error)
+    of_design = "gave up: " if isinstance(error, SolverError) else "has no answer for this design: "
+    told = f"{of_design if isinstance(error, DrivewrightError) else ''}{reason_of(spec, error)}"
     return replace(had, outcome="partial", findings=(*had.findings, f"analysis '{analysis.name}' ({analysis.meaning}) {told}"))
+
+
+def reason_of(spec, error):
+    """Why something about a spec failed, in words: those of our own error, else the predicate of a sentence on the machine or on us."""
+    if isinstance(error, DrivewrightError):
+        return str(error)
+    if isinstance(error, MemoryError):
+        return "needs more memory than there is; ask for less (fewer turns, samples or elements), or leave it out"
+    return _fault(spec, error)
 
 
 def _fault(spec, error):
@@ -174,6 +199,7 @@ def _result(spec, mechanism, answers, findings, seconds):
             "seed": spec.optimise.seed if spec.optimise else 0,
             "seconds": round(seconds, 4),
             "analyses": list(answers),
+            "failed": [name for name, answer in answers.items() if answer.outcome == "partial" and not answer.stopped],
             "versions": versions(),
             "sources": list(mechanism.sources),
         },

@@ -159,9 +159,12 @@ def test_a_design_that_an_analysis_cannot_answer_keeps_the_other_answers(kind):
     assert "analysis 'a' (running) has no answer for this design: dynamics.duration: holds no two teeth" in result.findings
 
 
+FAULTS = (ValueError("odd"), FloatingPointError("overflow"), np.linalg.LinAlgError("Singular matrix"), KeyError("x"),
+          RecursionError("deep"), AssertionError(), UserWarning("rank"))
+
+
 @pytest.mark.faults
-@pytest.mark.parametrize("error", [ValueError("odd"), FloatingPointError("overflow"), np.linalg.LinAlgError("Singular matrix"),
-                                   KeyError("x"), RecursionError("deep"), AssertionError(), UserWarning("rank")], ids=lambda e: type(e).__name__)
+@pytest.mark.parametrize("error", FAULTS, ids=lambda e: type(e).__name__)
 def test_a_fault_of_ours_is_a_finding_that_says_what_to_report(kind, error, capsys):
     kind(Analysis("a", raises(error), "balance"), Analysis("b", says(b=1.0), "apart"))
     result = runner.run(SPEC)

@@ -140,7 +140,7 @@ def test_every_way_to_end_is_a_row():
     assert set(study["status"][study["colour"] == "black"]) == {"failed"}
     messages = [study["message"][at[key]] for key in ((1, "red", 4.0), (7, "red", 4.0), (13, "red", 4.0), (1, "black", 4.0))]
     fault = messages[2]
-    assert fault.startswith("analysis 'main' (what it is) failed by a fault of the program, not of the spec: ZeroDivisionError: unlucky number")
+    assert fault.startswith("analysis 'main' (what it is) failed by a fault of the program, not of the spec: ZeroDivisionError: unlucky")
     assert messages == [
         "",
         "analysis 'main' (what it is) gave up: 7 steps were not enough; raise max_steps",

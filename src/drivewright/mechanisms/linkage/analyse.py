@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from drivewright.errors import SolverError
 from drivewright.mechanisms.linkage.advice import advice
 from drivewright.mechanisms.linkage.build import TURN, ideal_at, ideal_record, record_of, run_of
 from drivewright.multibody.measures import impact_load, largest, span
@@ -28,7 +29,10 @@ def window(model):
     """The record after the discarded turns; all of it where the run did not get so far."""
     seen, start = record_of(model), model.spec.start_of_window if model.spec.simulate else 0.0
     start = start if seen.t[-1] > start else 0.0
-    return seen.after(start * (1 - 1e-12))
+    kept = seen.after(start * (1 - 1e-12))
+    if len(kept.t) < 3:
+        raise SolverError(f"{len(kept.t)} states at t = {seen.t[-1]:.6g} s hold no peaks and means; see why the run ends there")
+    return kept
 
 
 def acceleration(seen, output):
