@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from random_specs import EXAMPLES
 
-import drivewright as dw
 from drivewright import runner
 from drivewright.errors import SpecError
 from drivewright.mechanisms.linkage.refusals import place

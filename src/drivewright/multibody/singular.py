@@ -98,7 +98,7 @@ def look_ahead(system, t, y):
         return Outlook(None, np.inf)
     behind = _behind(line)
     ahead = _way_ahead(behind)
-    for width in WIDTHS[REACH * WIDTHS > ahead]:
+    for width in WIDTHS[ahead < REACH * WIDTHS]:
         nodes = _nodes(line, behind, ahead, width)
         if nodes is not None and _closes_between(line, nodes):
             return Outlook(_charted(line, nodes, _centre(nodes), width), ahead * line.pace)

@@ -11,10 +11,10 @@ import numpy as np
 from drivewright import cases
 from drivewright._jit import inner, outer
 from drivewright.errors import DoesNotAssemble, InputError, UnknownName
-from drivewright.multibody.kinematics import close, turned
 from drivewright.multibody.continuation import continued
+from drivewright.multibody.kinematics import close, turned
 from drivewright.multibody.simulate import at_state
-from drivewright.multibody.system import CURVE, DISTANCE, LINEAR, PIECE, System, Work, motion, scratch
+from drivewright.multibody.system import CURVE, DISTANCE, LINEAR, PIECE, System, Work, scratch
 
 CHUNK = 10_000  # samples between two looks at the keyboard
 CIRCLE, UNIFORM, NORMAL = "circle", "uniform", "normal"
