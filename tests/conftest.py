@@ -38,6 +38,18 @@ def _numpy_errors_raise():
         yield
 
 
+@pytest.fixture(autouse=True)
+def _faults_fail(request, monkeypatch):
+    """A fault of ours in an analysis, which a run keeps as a finding, fails the test, unless it is marked `faults`."""
+    if request.node.get_closest_marker("faults"):
+        return
+
+    def fault(spec, error):
+        raise error
+
+    monkeypatch.setattr("drivewright.runner._fault", fault)
+
+
 @cache
 def missing(marker):
     """(why, the command that helps) for a marker whose requirement is not met, else None."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from drivewright.errors import DrivewrightError, InputError, brief
+from drivewright.stopped import collected
 
 
 class Outcome(NamedTuple):
@@ -45,8 +46,8 @@ def run(task, cases, workers=1, progress=None):
     Threads gain where the task spends its time in compiled kernels, which run without the interpreter lock.  Every case runs with
     a copy of the caller's context (numpy's error handling), so the number of workers changes no answer; a random task must
     take its seed from its case.
-    Our own errors become rows with the reason.  Any other exception is a bug: no further case begins, and that of the first case
-    in line to fail is raised, with a note that names the case.
+    Our own errors become rows with the reason, and so do cases that look at a run which stopped.  Any other exception is a bug: no
+    further case begins, and that of the first case in line to fail is raised, with a note that names the case.
     `progress(done, total, what)` is called from the caller's thread after each case; where it raises, no further case begins.
     Ctrl-C, or a KeyboardInterrupt from `progress`, lets the cases under way end (a second one does not wait for them) and returns
     the rows so far, `interrupted`; it goes on to the caller where there are none.
@@ -109,7 +110,9 @@ def _attempt(task, cases, number, rows):
     """Files the outcome of one case.  The worker does it itself, so that nothing finished is lost, whenever Ctrl-C comes."""
     case = cases[number]
     try:
-        rows[number] = Outcome(case, task(case))
+        with collected() as stopped:
+            value = task(case)
+        rows[number] = Outcome(case, value, "; ".join(map(str, stopped)))
     except DrivewrightError as error:
         rows[number] = Outcome(case, getattr(error, "partial", None), str(error) or type(error).__name__)
     except Exception as bug:

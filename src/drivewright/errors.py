@@ -13,10 +13,15 @@
 
 A message says what, where, how much, and what to try.  A design that can be computed but should not be built is
 no error: it is a failed check of the result.
+
+Once the spec is accepted and its model built, no exception of one analysis ends a run: it is a finding of that analysis, the outcome
+is "partial", and the other analyses keep their answers (`runner`).
 """
 
 import difflib
 import reprlib
+
+DEBUG = "DRIVEWRIGHT_DEBUG"  # in the environment: show the traceback of a fault of the program on stderr, where a run keeps going
 
 
 class DrivewrightError(Exception):

@@ -209,7 +209,8 @@ class Plot(NamedTuple):
 
 @dataclass(frozen=True)
 class Answer:
-    """What one analysis found.  `data` carries objects for the analyses that need this one; it is not written to disk."""
+    """What one analysis found.  `data` carries objects for the analyses that need this one; it is not written to disk.
+    `stopped` are the `Stop`s of the runs that it looked at; the runner fills them in."""
 
     values: Mapping[str, Value] = field(default_factory=dict)
     tables: tuple = ()
@@ -218,6 +219,7 @@ class Answer:
     arrays: Mapping[str, Array] = field(default_factory=dict)
     outcome: str = "complete"
     data: Any = None
+    stopped: tuple = ()
 
 
 @dataclass(frozen=True)

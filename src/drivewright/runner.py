@@ -1,15 +1,20 @@
 """One run: spec -> model -> analyses -> result.  The data goes one way; nothing is filled in later."""
 
 import math
+import os
 import platform
 import time
+import traceback
 from dataclasses import replace
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 
+import numpy as np
+
 from drivewright import registry
-from drivewright.errors import MissingExtra, SolverError, UnknownName
+from drivewright.errors import DEBUG, DrivewrightError, MissingExtra, SolverError, UnknownName
 from drivewright.result import Answer, Result
+from drivewright.stopped import collected
 
 
 def build(spec):
@@ -21,7 +26,8 @@ def run(spec, only=(), everything=False, progress=None, model=None):
     """Result of the default analyses of a spec, of exactly those named in `only` and what they need, or of all.
 
     `progress(done, total, name)` is called before each analysis.  What is left out is listed in the findings.
-    `model` is the spec's own, where it has been built already.  A solver that gives up makes the outcome "partial".
+    `model` is the spec's own, where it has been built already.  An analysis that fails in whatever way, or that looks at a run which
+    stopped, makes the outcome "partial", and a finding says why; the other analyses keep their answers.
     """
     started = time.perf_counter()
     mechanism = registry.mechanism(spec.mechanism)
@@ -29,22 +35,62 @@ def run(spec, only=(), everything=False, progress=None, model=None):
     model = mechanism.build(spec) if model is None else model
     answers = ask(spec, model, wanted, progress)
     findings = [*getattr(model, "findings", ()), *(finding for answer in answers.values() for finding in answer.findings)]
+    findings += [*stops(answers), *_holes(answers)]
     findings += [
         f"analysis '{a.name}' ({a.meaning}) runs on request: --only {a.name}"
         for a in mechanism.analyses
         if not only and not everything and not a.default
     ]
+    answers = {name: _until(answer) for name, answer in answers.items()}
     return _result(spec, mechanism, answers, findings, time.perf_counter() - started)
 
 
-def ask(spec, model, wanted, progress=None):
-    """{name: Answer} of the wanted analyses, one after another; each sees those before it."""
+def ask(spec, model, wanted, progress=None, through=()):
+    """{name: Answer} of the wanted analyses, one after another; each sees those before it.
+
+    Exceptions of the kinds `through` are not the analysis' own (a study calls memory and imports the place's) and are let through.
+    """
     answers = {}
     for number, analysis in enumerate(wanted):
         if progress:
             progress(number, len(wanted), analysis.name)
-        answers[analysis.name] = _answer(analysis, spec, model, answers)
+        answers[analysis.name] = _inherited(analysis, answers, *_answer(analysis, spec, model, answers, through))
     return answers
+
+
+def stops(answers):
+    """A sentence for every run that stopped, with the analyses that look at it."""
+    found = {}
+    for name, answer in answers.items():
+        for stop in answer.stopped:
+            found.setdefault(stop, []).append(name)
+    return [f"{str(stop).rstrip('.')}. Partial for that reason: {', '.join(names)}" for stop, names in found.items()]
+
+
+def _holes(answers):
+    """A sentence for every check and table with numbers that do not exist."""
+    for answer in answers.values():
+        for check in answer.checks:
+            if not (math.isfinite(check.value) and math.isfinite(check.limit)):
+                yield f"check '{check.name}' ({check.message}) does not exist for this design: {check.value} {check.sense} {check.limit}"
+        for table in answer.tables:
+            yield from _holes_of(table)
+
+
+def _holes_of(table):
+    """The same of one table: the columns with holes, and the rows of the worst."""
+    columns = {c.name: int(np.sum(~np.isfinite(c.data))) for c in table.columns if np.asarray(c.data).dtype.kind == "f"}
+    names = [name for name, count in columns.items() if count]
+    if names:
+        shown = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+        yield (f"table '{table.name}' ({table.title}): {shown} do{'es' if len(names) == 1 else ''} not exist in "
+               f"{max(columns.values())} of {len(table.columns[0].data)} rows")
+
+
+def reasons(answers):
+    """Why answers are not complete, in short."""
+    left = [finding for answer in answers.values() if answer.outcome != "complete" for finding in answer.findings[-1:]]
+    return [*left, *stops(answers)]
 
 
 def selection(analyses, only=(), everything=False):
@@ -68,17 +114,38 @@ def selection(analyses, only=(), everything=False):
     return tuple(chosen.values())
 
 
-def _answer(analysis, spec, model, answers):
-    """The analysis' answer; an empty one with a finding where its input or its extra is missing, or its solver gives up."""
-    unmet = (f"it needs '{name}', which is {answers[name].outcome}" for name in analysis.needs if not _usable(answers[name]))
-    reason = analysis.missing(spec) or next(unmet, None)
-    if reason is None:
+def _answer(analysis, spec, model, answers, through):
+    """(answer, stops of what it looks at): an empty answer with a finding where input or an extra is missing, or where it fails."""
+    with collected() as stopped:
         try:
-            return analysis.answer(model, answers)
+            unmet = (f"it needs '{name}', which is {answers[name].outcome}" for name in analysis.needs if not _usable(answers[name]))
+            reason = analysis.missing(spec) or next(unmet, None)
+            return (analysis.answer(model, answers) if reason is None else _left_out(analysis, reason)), tuple(stopped)
         except MissingExtra as error:
-            reason = str(error)
-        except SolverError as error:
-            return _given_up(analysis, error)
+            return _left_out(analysis, error), ()
+        except through:
+            raise
+        except Exception as error:
+            return _failed(analysis, spec, error), tuple(stopped)
+
+
+def _inherited(analysis, answers, answer, stopped):
+    """The answer with the stops of what it looked at, directly or through the analyses that it needs: it is no more complete than they."""
+    needed = [answers[name] for name in analysis.needs]
+    stopped = dict.fromkeys((*answer.stopped, *stopped, *(stop for other in needed for stop in other.stopped)))
+    cut = bool(stopped) or any(other.outcome == "partial" for other in needed)
+    return replace(answer, stopped=tuple(stopped), outcome="partial" if cut and answer.outcome == "complete" else answer.outcome)
+
+
+def _until(answer):
+    """The answer whose values say until when they were computed, where a run stopped."""
+    if not answer.stopped:
+        return answer
+    where = "; ".join(stop.where for stop in answer.stopped)
+    return replace(answer, values={name: v._replace(meaning=f"{v.meaning} ({where})") for name, v in answer.values.items()})
+
+
+def _left_out(analysis, reason):
     return Answer(findings=(f"analysis '{analysis.name}' ({analysis.meaning}) is left out: {reason}",), outcome="left out")
 
 
@@ -87,11 +154,30 @@ def _usable(answer):
     return answer.outcome == "complete" or (answer.outcome == "partial" and answer.data is not None)
 
 
-def _given_up(analysis, error):
-    """What a solver had when it gave up, with a finding that says why."""
-    had = error.partial if isinstance(error.partial, Answer) else Answer()
-    finding = f"analysis '{analysis.name}' ({analysis.meaning}) gave up: {error}"
-    return replace(had, outcome="partial", findings=(*had.findings, finding))
+def _failed(analysis, spec, error):
+    """What an analysis had when it failed, with a finding that says why: its solver, the design, the memory, or a fault of ours."""
+    partial = getattr(error, "partial", None)
+    had = partial if isinstance(partial, Answer) else Answer()
+    of_design = "gave up: " if isinstance(error, SolverError) else "has no answer for this design: "
+    told = f"{of_design if isinstance(error, DrivewrightError) else ''}{reason_of(spec, error)}"
+    return replace(had, outcome="partial", findings=(*had.findings, f"analysis '{analysis.name}' ({analysis.meaning}) {told}"))
+
+
+def reason_of(spec, error):
+    """Why something about a spec failed, in words: those of our own error, else the predicate of a sentence on the machine or on us."""
+    if isinstance(error, DrivewrightError):
+        return str(error)
+    if isinstance(error, MemoryError):
+        return "needs more memory than there is; ask for less (fewer turns, samples or elements), or leave it out"
+    return _fault(spec, error)
+
+
+def _fault(spec, error):
+    """What to say, and to report, of an exception that nobody expected."""
+    if os.environ.get(DEBUG):
+        traceback.print_exception(error)
+    return (f"failed by a fault of the program, not of the spec: {type(error).__name__}: {error}. Please report it with drivewright "
+            f"{versions()['drivewright']}, {spec.mechanism}, spec digest {spec.digest()}; drivewright --debug shows where it happened")
 
 
 def _result(spec, mechanism, answers, findings, seconds):
@@ -113,6 +199,7 @@ def _result(spec, mechanism, answers, findings, seconds):
             "seed": spec.optimise.seed if spec.optimise else 0,
             "seconds": round(seconds, 4),
             "analyses": list(answers),
+            "failed": [name for name, answer in answers.items() if answer.outcome == "partial" and not answer.stopped],
             "versions": versions(),
             "sources": list(mechanism.sources),
         },

@@ -1,6 +1,7 @@
 """What a shaft refuses, in which words; and what it computes with a failed check instead."""
 
 import copy
+import re
 
 import numpy as np
 import pytest
@@ -101,14 +102,20 @@ def test_an_inner_geometry_that_cannot_be_is_refused_under_its_key():
         dw.Shaft(**changed("bearings.0", {"name": "A", "position": "56.5 mm", "geometry": BALLS | {"inner_conformity": 0.5}}))
 
 
+def has_no_statics(spec, words):
+    """No equilibrium, and so no numbers that rest on one; what needs none is there, and the outcome says so."""
+    result = dw.run(spec)
+    assert any(re.search(words, finding) for finding in result.findings if "analysis 'statics'" in finding)
+    assert result.outcome == "partial" and not any(name.startswith(("bearings.", "max_")) for name in result.values)
+
+
 def test_an_axial_force_that_nothing_takes():
-    with pytest.raises(InputError, match="an axial force of 200 N, and no bearing that takes a force to the right"):
-        dw.run(dw.Shaft(**changed("loads.0.axial_force", "200 N")))
+    has_no_statics(dw.Shaft(**changed("loads.0.axial_force", "200 N")),
+                   "an axial force of 200 N, and no bearing that takes a force to the right")
 
 
 def test_torques_that_do_not_balance():
-    with pytest.raises(InputError, match="the torques do not balance: their sum is 5 N m"):
-        dw.run(dw.Shaft(**changed("loads.0.torque", "5 N m")))
+    has_no_statics(dw.Shaft(**changed("loads.0.torque", "5 N m")), "the torques do not balance: their sum is 5 N m")
 
 
 def test_a_station_on_a_rigid_bearing_has_flexibility_but_no_stiffness():
@@ -181,5 +188,4 @@ def test_tapered_bearings_that_both_push_the_same_way():
     tables["bearings"] = [
         {"name": n, "position": z, "bearing": "hypothetical-TRB-20x32x7"} for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))
     ]
-    with pytest.raises(InputError, match="push it to the left, and none of them takes an axial force to the left.*carries"):
-        dw.run(dw.Shaft(**tables))
+    has_no_statics(dw.Shaft(**tables), "push it to the left, and none of them takes an axial force to the left.*carries")

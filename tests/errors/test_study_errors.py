@@ -678,7 +678,7 @@ def test_a_column_that_is_none(study):
 def test_a_very_long_reason_is_cut(monkeypatch):
     monkeypatch.setattr(evaluate, "LONGEST", 40)
     (row,) = dw.sweep(SPEC, {"colour": ["black"]}, on="serial")["message"]
-    assert len(row) == 40 and row == "colour: black cannot be seen; take a ..."
+    assert len(row) == 40 and row == "analysis 'main' (what it is) has no  ..."
 
 
 @pytest.mark.parametrize(

@@ -30,13 +30,17 @@ class WeighSpec(MechanismSpec):
 
 def weigh(spec, done):
     size = len(spec.data.read_text()) * spec.times
-    if size == 13 * 7:
-        raise InputError("seven times thirteen is refused")
     limit = (Check("size", 0.001 * size, spec.largest_size, "<=", "m", "must fit"),) if spec.largest_size else ()
     return Answer({"size": Value(size, "-", "size"), "wet": Value(spec.wet, "-", "in water")}, checks=limit)
 
 
-WEIGH = Command(Mechanism("weigh", "weigh a file", WeighSpec, lambda spec: spec, (Analysis("size", weigh, "size"),), Path(".")), "data")
+def build(spec):
+    if len(spec.data.read_text()) * spec.times == 13 * 7:
+        raise InputError("seven times thirteen is refused")
+    return spec
+
+
+WEIGH = Command(Mechanism("weigh", "weigh a file", WeighSpec, build, (Analysis("size", weigh, "size"),), Path(".")), "data")
 BRINGING = Mechanism("scales", "scales", object, None, (), Path("."), commands=(WEIGH,))
 
 

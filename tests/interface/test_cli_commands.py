@@ -20,8 +20,10 @@ MODES = {"kind": "fine"}  # what the toy's analysis does in the test at hand
 def answer(spec, done):
     if MODES["kind"] == "gives up":
         raise SolverError("no convergence; raise `max_steps`", partial=Answer({"half": Value(0.5, "-", "half way")}))
-    if MODES["kind"] == "refuses":
-        raise InputError("the loop does not close")
+    if MODES["kind"] == "has no answer":
+        raise InputError("no force holds it")
+    if MODES["kind"] == "has a fault":
+        raise ZeroDivisionError("division by zero")
     if MODES["kind"] == "interrupted":
         raise KeyboardInterrupt
     limit = Check("reach", spec.length, 0.1, "<=", "m", "must fit the box")
@@ -144,7 +146,6 @@ def test_a_mistake_is_one_message_and_nothing_is_written(drivewright, toy, argum
     ("mode", "code", "wanted"),
     [
         ("cannot be built", 2, "toy.toml: no such toy can be built"),
-        ("refuses", 2, "toy.toml: the loop does not close"),
         ("solver gives up in build", 4, "no start position; turn the crank"),
     ],
 )
@@ -155,6 +156,28 @@ def test_a_failing_run_leaves_the_old_run_folder_as_it_was(drivewright, toy, mon
     assert wanted in refused(drivewright("run", "toy.toml", "--no-figures", "--set", "length=1 mm"), code)
     assert refused(drivewright("run", "toy.toml", "--set", "turns=0")) == "toy.toml: turns: must be at least 1, got 0"
     assert snapshot(toy) == before
+
+
+@pytest.mark.faults
+@pytest.mark.parametrize(("mode", "wanted"), [
+    ("has no answer", ("note: analysis 'reach' (how far) has no answer for this design: no force holds it",)),
+    ("has a fault", ("note: analysis 'reach' (how far) failed by a fault of the program, not of the spec: ZeroDivisionError",
+                     "Please report it")),
+])
+def test_an_analysis_that_fails_leaves_a_partial_result_on_disk(drivewright, toy, monkeypatch, mode, wanted):
+    monkeypatch.setitem(MODES, "kind", mode)
+    code, _, err = drivewright("run", "toy.toml", "--no-figures")
+    record = json.loads((toy / "out" / "toy" / "result.json").read_text())
+    assert code == 4 and record["outcome"] == "partial" and [text for text in wanted if text not in err] == [] and "Traceback" not in err
+    assert any(wanted[0].removeprefix("note: ") in finding for finding in record["findings"])
+
+
+@pytest.mark.faults
+def test_the_traceback_of_a_fault_is_shown_on_request(drivewright, toy, monkeypatch):
+    monkeypatch.setitem(MODES, "kind", "has a fault")
+    monkeypatch.setenv("DRIVEWRIGHT_DEBUG", "")
+    code, _, err = drivewright("--debug", "run", "toy.toml", "--no-figures")
+    assert code == 4 and "Traceback" in err and "ZeroDivisionError: division by zero" in err
 
 
 def test_a_disk_that_is_full_is_one_message_and_the_old_folder_stays(drivewright, toy, monkeypatch):

@@ -181,7 +181,7 @@ def test_a_model_without_a_stiffness_is_refused(fit, bench):
     data = write(bench / "loop.csv", parallelogram(), "torque [N m],angle [arcmin],crank [deg]", crank=[0.0] * 82)
     (bench / "cam.toml").write_bytes((EXAMPLE.parent / "disc_cam.toml").read_bytes())
     code, _, err = fit(data, "--model", "cam.toml")
-    assert code == 2 and "kind cam has no table 'stiffness' with columns angle and secant" in err
+    assert code == 4 and "kind cam has no table 'stiffness' with columns angle and secant" in err
 
 
 def test_the_worked_example_is_said_to_be_made_up_and_gives_what_it_says(fit):

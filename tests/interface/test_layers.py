@@ -14,7 +14,7 @@ ROWS = [
     "motion curves contact materials",
     "numerics",
     "runner result spec scene registry cases",
-    "units digits _jit errors",
+    "units digits _jit errors stopped",
 ]
 PLACE = {name: (row, column) for row, names in enumerate(ROWS) for column, name in enumerate(names.split())}
 # runner reads the version for the provenance; result asks the registry for a view; __init__ has lazy names.

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from spec_cases import ToySpec
 
-from drivewright import registry, runner
+from drivewright import cases, registry, runner
 from drivewright.errors import DrivewrightError, InputError, MissingExtra, SolverError, SpecError, UnknownName
 from drivewright.registry import Analysis
 from drivewright.result import Answer, Value
+from drivewright.stopped import Stop, collected, uses
 
 SPEC = ToySpec(length="40 mm", title="a toy")
 
@@ -144,13 +145,124 @@ def test_a_partial_answer_with_data_can_be_built_on(kind):
     assert result.outcome == "partial" and result["b"] == 7.0
 
 
-def test_the_user_s_mistake_found_by_an_analysis_is_no_partial_result(kind):
-    def refuse(model, done):
-        raise InputError("the loop does not close")
+def raises(error):
+    def answer(model, done):
+        raise error
 
-    kind(Analysis("a", refuse, ""))
-    with pytest.raises(InputError, match="does not close"):
+    return answer
+
+
+def test_a_design_that_an_analysis_cannot_answer_keeps_the_other_answers(kind):
+    kind(Analysis("a", raises(SpecError("holds no two teeth", "dynamics.duration")), "running"), Analysis("b", says(b=1.0), "apart"))
+    result = runner.run(SPEC)
+    assert result.outcome == "partial" and result["b"] == 1.0
+    assert "analysis 'a' (running) has no answer for this design: dynamics.duration: holds no two teeth" in result.findings
+
+
+FAULTS = (ValueError("odd"), FloatingPointError("overflow"), np.linalg.LinAlgError("Singular matrix"), KeyError("x"),
+          RecursionError("deep"), AssertionError(), UserWarning("rank"))
+
+
+@pytest.mark.faults
+@pytest.mark.parametrize("error", FAULTS, ids=lambda e: type(e).__name__)
+def test_a_fault_of_ours_is_a_finding_that_says_what_to_report(kind, error, capsys):
+    kind(Analysis("a", raises(error), "balance"), Analysis("b", says(b=1.0), "apart"))
+    result = runner.run(SPEC)
+    (finding,) = (f for f in result.findings if "balance" in f)
+    assert result.outcome == "partial" and result["b"] == 1.0 and not capsys.readouterr().err
+    wanted = ("analysis 'a' (balance) failed by a fault of the program, not of the spec", type(error).__name__, "toy", SPEC.digest(),
+              runner.versions()["drivewright"], "--debug")
+    assert [part for part in wanted if part not in finding] == []
+
+
+@pytest.mark.faults
+def test_a_fault_shows_its_place_where_that_is_asked_for(kind, monkeypatch, capsys):
+    monkeypatch.setenv("DRIVEWRIGHT_DEBUG", "1")
+    kind(Analysis("a", raises(ValueError("odd")), "balance"))
+    runner.run(SPEC)
+    told = capsys.readouterr().err
+    assert "Traceback" in told and "in answer" in told and told.endswith("ValueError: odd\n")
+
+
+def test_memory_is_the_machine_s_and_said_as_such(kind):
+    kind(Analysis("a", raises(MemoryError()), "solid"), Analysis("b", says(b=1.0), "apart"))
+    result = runner.run(SPEC)
+    assert result.outcome == "partial" and result["b"] == 1.0
+    assert any("'a' (solid) needs more memory than there is" in f for f in result.findings)
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), SystemExit(3)], ids=lambda e: type(e).__name__)
+def test_what_ends_the_program_ends_the_run(kind, error):
+    kind(Analysis("a", raises(error), ""))
+    with pytest.raises(type(error)):
         runner.run(SPEC)
+
+
+def test_a_study_says_which_exceptions_are_not_the_analysis_own(kind):
+    kind(Analysis("a", raises(MemoryError()), ""))
+    mechanism = registry.mechanism("toy")
+    with pytest.raises(MemoryError):
+        runner.ask(SPEC, Model(), mechanism.analyses, through=(MemoryError,))
+
+
+@pytest.mark.faults
+def test_a_fault_in_what_says_whether_it_can_be_done_is_the_analysis_own(kind):
+    kind(Analysis("a", says(), "one", missing=lambda spec: 1 / 0), Analysis("b", says(b=1.0), "apart"))
+    result = runner.run(SPEC)
+    assert result.outcome == "partial" and result["b"] == 1.0 and any("ZeroDivisionError" in f for f in result.findings)
+
+
+# -- what stopped early --------------------------------------------------------------------------------------------------------
+
+STOP = Stop("the run ends at t = 0.7 s of 3 s", "the limit of 40 steps is reached. Raise max_steps")
+
+
+def looks(answer, stop=STOP):
+    def looking(model, done):
+        uses(stop)
+        return answer(model, done)
+
+    return looking
+
+
+def test_whatever_looks_at_a_run_that_stopped_is_partial_and_says_until_when(kind):
+    kind(
+        Analysis("a", looks(says(a=1.0)), ""),
+        Analysis("b", says(b=1.0), ""),
+        Analysis("c", lambda model, done: says(c=done["a"].data["a"])(model, done), "", needs=("a",)),
+        Analysis("d", looks(says(d=4.0)), ""),
+        Analysis("e", looks(says(e=4.0), None), ""),
+    )
+    answers = runner.ask(SPEC, Model(), registry.mechanism("toy").analyses)
+    assert {name: answer.outcome for name, answer in answers.items()} == {
+        "a": "partial", "b": "complete", "c": "partial", "d": "partial", "e": "complete"}
+    result = runner.run(SPEC)
+    assert result.outcome == "partial" and f"{STOP.where}: {STOP.why}. Partial for that reason: a, c, d" in result.findings
+    assert result.values["c"].meaning == f"meaning of c ({STOP.where})" and result.values["b"].meaning == "meaning of b"
+    assert runner.run(SPEC, only="b").outcome == "complete"
+
+
+def test_one_only_analysis_tells_of_the_stop_too(kind):
+    kind(Analysis("a", looks(says(a=1.0)), ""), Analysis("d", looks(says(d=4.0)), ""))
+    for name in "ad":
+        assert runner.run(SPEC, only=name).outcome == "partial"
+
+
+def test_an_analysis_that_fails_on_a_stopped_run_says_both(kind):
+    kind(Analysis("a", looks(raises(SolverError("no peak"))), "peaks"))
+    result = runner.run(SPEC)
+    assert any("gave up: no peak" in f for f in result.findings) and any(f.startswith(STOP.where) for f in result.findings)
+
+
+@pytest.mark.parametrize("workers", [1, 3])
+def test_a_case_that_looks_at_a_stopped_run_is_a_row_with_the_reason(workers):
+    def task(case):
+        uses(STOP if case == 2 else None)
+        return 10 * case
+
+    with collected() as stopped:
+        found = cases.run(task, [1, 2, 3], workers)
+    assert [(row.value, row.reason) for row in found.rows] == [(10, ""), (20, str(STOP)), (30, "")] and not stopped
 
 
 def test_a_value_that_does_not_exist_is_absent_and_a_finding_says_so(kind):

@@ -7,7 +7,9 @@ import pytest
 
 import drivewright as dw
 from drivewright.mechanisms.linkage import nonlinear
-from drivewright.mechanisms.linkage.build import build
+from drivewright.mechanisms.linkage.build import build, record_of, run_of
+from drivewright.mechanisms.linkage.forces import forces, seen_last
+from drivewright.multibody.record import audit
 from drivewright.numerics.signals import intervals
 from drivewright.spec import from_document, read_document
 
@@ -96,6 +98,76 @@ def test_a_run_that_meets_its_step_limit_returns_what_it_has():
     assert result.outcome == "partial"
     assert any("max_steps" in finding for finding in result.findings)
     assert 0 < result["window.end"] < 0.8
+
+
+STOPPED = {"turns": 8, "max_steps": 700, "seed": 3}
+RUN = ("impact", "motion", "pins", "forces", "energy", "spectrum", "end")
+
+
+@pytest.fixture(scope="module")
+def stopped():
+    return slider_crank(simulate=STOPPED, springs=[{"connects": ["slider.B", "ground.O"], "stiffness": "1 N/mm"}])
+
+
+@pytest.mark.parametrize("name", RUN)
+def test_each_analysis_alone_says_that_its_run_stopped_and_when(stopped, name):
+    result = dw.run(stopped, only=name)
+    (stop,) = (finding for finding in result.findings if finding.startswith("the run ends at t = "))
+    assert result.outcome == "partial" and f"Partial for that reason: {name}" in stop and " s of 0.8 s: the limit of 700 steps" in stop
+    until = stop.partition(":")[0]
+    assert [key for key, value in result.values.items() if until not in value.meaning] == []
+    assert name in ("impact", "spectrum") or result.values or result.tables
+
+
+def test_what_does_not_look_at_the_run_stays_complete(stopped):
+    assert dw.run(stopped, only="rest").outcome == "complete"
+    both = dw.run(stopped, only=("rest", "end"))
+    assert not any("the run ends" in value.meaning for name, value in both.values.items() if name.startswith(("rest.", "modes.")))
+
+
+@pytest.mark.parametrize("samples", [8, 60, 61, 1000])
+def test_the_spectrum_exists_at_any_sampling(samples):
+    spec = slider_crank({"name": "wrist", "connects": ["rod.B", "slider.B"]}, simulate={"turns": 2, "samples_per_turn": samples})
+    result = dw.run(spec, only="spectrum")
+    found = table_of(result, "spectrum.slider")
+    assert result.outcome == "complete" and not [f for f in result.findings if "spectrum" in f]
+    # x = r cos a + sqrt(l^2 - r^2 sin^2 a): orders 1 and 2 of the acceleration by the series in r/l, to its fifth power
+    ratio, peak = 0.05 / 0.12, 0.05 * (20 * np.pi) ** 2
+    assert found["amplitude"][1] == pytest.approx(peak, rel=1e-6)
+    assert found["amplitude"][2] == pytest.approx(peak * (ratio + ratio**3 / 4 + 15 * ratio**5 / 128), rel=1e-2)
+
+
+def bar(length, angle, ends):
+    return {"mass": "1 kg", "inertia": f"{length * length / 12e6!r} kg m^2", "centroid": [f"{length / 2} mm", "0 mm"], "angle": angle,
+            "points": {ends[0]: ["0 mm", "0 mm"], ends[1]: [f"{length} mm", "0 mm"]}}
+
+
+@pytest.fixture(scope="module")
+def swing():
+    """Two rockers on a short coupler, swinging in gravity: either is now and then in a limit position, where the coordinates change."""
+    pins = {"O2": ["ground.O2", "left.O"], "A": ["left.A", "coupler.A"], "B": ["coupler.B", "right.B"], "O4": ["ground.O4", "right.O"]}
+    bodies = {"left": bar(100, "-60 deg", "OA") | {"angular_velocity": "200 rpm"}, "coupler": bar(60, "0 deg", "AB"),
+              "right": bar(100, "-120 deg", "OB")}
+    return build(from_document({
+        "mechanism": "linkage", "gravity": ["0 m/s^2", "-9.81 m/s^2"], "bodies": bodies,
+        "ground": {"points": {"O2": ["0 mm", "0 mm"], "O4": ["150 mm", "0 mm"]}},
+        "joints": [{"name": name, "connects": connects} for name, connects in pins.items()],
+        "simulate": {"duration": "2 s"}, "outputs": [{"name": "left", "body": "left"}]}))
+
+
+def test_a_record_of_many_stretches_is_one_signal_and_its_audit_closes(swing):
+    seen = record_of(swing)
+    assert len(run_of(swing).stretches) > 4 and np.all(np.diff(seen.t) > 0) and len(seen.t) % 2 == 1
+    assert audit(seen).error < 1e-6
+
+
+def test_forces_are_told_over_the_whole_run_whatever_its_stretches(swing):
+    seen = seen_last(swing)
+    assert seen.t[0] == 0.0 and seen.t[-1] == 2.0 and np.all(np.diff(seen.t) >= 0)
+    result = forces(swing, {})
+    left = next(column.data for column in result.tables[0].columns if column.name == "O2.force")
+    assert len(left) == len(seen.t) and result.values["forces.residual"].value < 1e-9
+
 
 
 def test_another_drive_angle_at_the_start_moves_the_section_to_its_zero():

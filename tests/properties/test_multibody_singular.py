@@ -61,7 +61,8 @@ def slider_crank(length=0.1, speed=TURN, start=30.0):
     bodies = (mb.Body("crank", 1.0, 1e-3, (length / 2, 0.0), theta), mb.Body("rod", 1.0, 1e-3, (length / 2, 0.0), -theta),
               mb.Body("slider", 1.0, 1e-3))
     joints = (mb.Revolute("O", mb.Marker("crank"), mb.Marker("ground")), mb.Revolute("A", mb.Marker("rod"), mb.Marker("crank", length)),
-              mb.Revolute("B", mb.Marker("rod", length), mb.Marker("slider")), mb.Prismatic("guide", mb.Marker("slider"), mb.Marker("ground")))
+              mb.Revolute("B", mb.Marker("rod", length), mb.Marker("slider")),
+              mb.Prismatic("guide", mb.Marker("slider"), mb.Marker("ground")))
     return mb.Model(bodies, joints, drives=(mb.Drive("O", mb.line(0.0, speed)),), gravity=(0.0, -G))
 
 
@@ -136,7 +137,8 @@ def _relations(name, seen):
         return {"rocker along the crank": np.sin((seen.point("rocker", "angle") - crank) / 2),
                 "coupler level": np.sin(seen.point("coupler", "angle"))}
     if name == "slider":
-        return {"rod against the crank": np.sin(seen.point("rod", "angle") + crank), "slider": seen.point("slider", "x") - 0.2 * np.cos(crank)}
+        return {"rod against the crank": np.sin(seen.point("rod", "angle") + crank),
+                "slider": seen.point("slider", "x") - 0.2 * np.cos(crank)}
     return {"kite symmetric about its diagonal": np.sin(seen.point("coupler", "angle") + seen.point("rocker", "angle") - crank)}
 
 
@@ -152,7 +154,8 @@ def test_a_parallelogram_stays_one(samples, speed, size):
     angle = np.radians(60) + speed * seen.t
     assert np.max(np.abs(seen.point("rocker", "angle") - angle)) < 1e-8
     assert np.max(np.abs(seen.point("coupler", "angle"))) < 1e-8
-    assert np.max(np.abs(seen.point("rocker", "w") - speed)) < 1e-8 * TURN and np.max(np.abs(seen.point("rocker", "alpha"))) < 1e-5 * TURN**2
+    assert np.max(np.abs(seen.point("rocker", "w") - speed)) < 1e-8 * TURN
+    assert np.max(np.abs(seen.point("rocker", "alpha"))) < 1e-5 * TURN**2
     # Gravity on crank, coupler and rocker alone works against the drive: both cranks and the coupler rise together.
     arm = size * 0.1 * np.cos(angle)
     assert np.max(np.abs(seen.drives[:, 0] - G * (0.5 + 1.0 + 1.0) * arm)) < 1e-5 * G * 0.25 * size

@@ -1,6 +1,7 @@
 """Commands.  They know the registry, the schema and the result; no kind of drive by name."""
 
 import json
+import os
 from collections import Counter
 from pathlib import Path
 from typing import Annotated
@@ -9,7 +10,7 @@ import typer
 
 from drivewright import registry
 from drivewright.cli import brought, show
-from drivewright.errors import InputError, UnknownName
+from drivewright.errors import DEBUG, InputError, UnknownName
 
 app = typer.Typer(
     cls=brought.Commands,
@@ -296,7 +297,12 @@ def doctor(warm: Annotated[bool, typer.Option("--warm", help="compile every kern
 
 
 @app.callback(invoke_without_command=True)
-def _root(version: Annotated[bool, typer.Option("--version", help="print the version")] = False):
+def _root(
+    version: Annotated[bool, typer.Option("--version", help="print the version")] = False,
+    debug: Annotated[bool, typer.Option("--debug", help="show the traceback of an analysis that fails by a fault of the program")] = False,
+):
+    if debug:
+        os.environ[DEBUG] = "1"  # of the processes that a study starts, too
     if version:
         from drivewright import __version__
 

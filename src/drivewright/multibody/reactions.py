@@ -87,11 +87,7 @@ def reactions(assembly, system, observed):
     """`Reactions` of the observed states of a system of the assembly."""
     parts = [observed._replace(**{name: getattr(observed, name)[k : k + CHUNK] for name in observed._fields})
              for k in range(0, len(observed.t), CHUNK)]
-    return joined_reactions([_solve(assembly, system, part) for part in parts])
-
-
-def joined_reactions(solved):
-    """One `Reactions` of several, one after another."""
+    solved = [_solve(assembly, system, part) for part in parts]
     joints = {name: Reaction(*(np.concatenate(pieces) for pieces in zip(*(one.joints[name] for one in solved), strict=True)))
               for name in solved[0].joints}
     tensions = {name: np.concatenate([one.tensions[name] for one in solved]) for name in solved[0].tensions}

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.integrate import cumulative_simpson, trapezoid
 
 from drivewright.multibody.observe import FIELDS, POWER_FIELDS, observe
+from drivewright.stopped import Stop
 
 CHUNK = 20_000
 IDLE = 1e-3  # part of the energy exchanged that drives do at least, for the power audit
@@ -18,7 +19,10 @@ POINT_FIELDS = ("angle", "w", "alpha", "x", "y", "vx", "vy", "ax", "ay")
 @dataclass(frozen=True)
 class Record:
     """Over the times t (m,): points {name: (m, POINT_FIELDS)}, pins (m, pins, PIN_FIELDS), powers (m, POWER_FIELDS), drives (m, drives),
-    energy (m,) kinetic and of gravity, kinetic (m,) alone; last (bodies, FIELDS) at the end."""
+    energy (m,) kinetic and of gravity, kinetic (m,) alone; last (bodies, FIELDS) at the end; stop where the run ended before its time.
+
+    A time stands twice where two events fall together.
+    """
 
     t: np.ndarray
     points: dict
@@ -28,6 +32,7 @@ class Record:
     energy: np.ndarray
     kinetic: np.ndarray
     last: np.ndarray
+    stop: Stop | None = None
 
     def point(self, name, field):
         return self.points[name][:, POINT_FIELDS.index(field)]
@@ -39,7 +44,7 @@ class Record:
     def take(self, keep):
         """The chosen rows."""
         return Record(self.t[keep], {k: v[keep] for k, v in self.points.items()}, self.pins[keep], self.powers[keep], self.drives[keep],
-                      self.energy[keep], self.kinetic[keep], self.last)
+                      self.energy[keep], self.kinetic[keep], self.last, self.stop)
 
 
 def record(run, markers, start=-np.inf):
@@ -50,7 +55,7 @@ def record(run, markers, start=-np.inf):
     return Record(
         np.concatenate(t), {name: np.concatenate([p[name] for p in points]) for name in markers}, np.concatenate(pins),
         np.concatenate(powers), np.concatenate(drives), np.concatenate(energy), np.concatenate(kinetic),
-        observe(system, [time], state[None]).bodies[0])
+        observe(system, [time], state[None]).bodies[0], run.stop)
 
 
 def _parts(assembly, stretch, markers, start):

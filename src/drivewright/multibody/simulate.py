@@ -18,6 +18,7 @@ from drivewright.multibody.singular import Outlook, look_ahead, passage
 from drivewright.multibody.system import motion, no_chart
 from drivewright.numerics.ode import Event, integrate
 from drivewright.numerics.radau import integrate_stiff
+from drivewright.stopped import Stop, uses
 
 GEAR = 1e-3  # absolute over relative tolerance, at lengths and angles of the size of 1
 WARY, CAREFUL = 3.0, 0.2  # length of a leg towards a singular position, and longest step in it, over the time until it is reached
@@ -47,19 +48,28 @@ class Leg(NamedTuple):
 
 @dataclass(frozen=True)
 class Run:
-    """A motion: stretches one after the other, the impacts (time, number of the pin, speed of approach), how it ended, and the singular
-    positions on the way."""
+    """A motion to the time `until` that was asked for: stretches one after the other, the impacts (time, number of the pin, speed of
+    approach), with `advice` why it ended before, and the singular positions on the way."""
 
     assembly: Assembly
     stretches: tuple
     impacts: np.ndarray  # (k, 3)
     advice: str
     steps: int
+    until: float
     passages: tuple = ()
+
+    def __post_init__(self):
+        uses(self.stop)
 
     @property
     def outcome(self):
         return "partial" if self.advice else "complete"
+
+    @property
+    def stop(self):
+        """The `Stop` of a run that ended before its time, else None."""
+        return Stop(f"the run ends at t = {self.end[1]:.6g} s of {self.until:.6g} s", self.advice) if self.advice else None
 
     @property
     def end(self):
@@ -81,7 +91,7 @@ def simulate(assembly, duration, settings=Settings(), *, samples=None, state=Non
     system = assembly.system
     y = assembly.state if state is None else touching(system, start, np.array(state, float))
     if duration == 0:
-        return Run(assembly, (Stretch(system, np.array([start]), y[None], start, y),), np.zeros((0, 3)), "", 0)
+        return Run(assembly, (Stretch(system, np.array([start]), y[None], start, y),), np.zeros((0, 3)), "", 0, start)
     return _legs(assembly, start, start + duration, y, settings, samples)
 
 
@@ -103,7 +113,7 @@ def _legs(assembly, t, end, y, settings, samples):
             if len(system.chart.offsets) and settings.singular == "stop":
                 goes_on, advice = False, stopped_at(system.chart.origin_time)
         if not goes_on:
-            return Run(assembly, tuple(stretches), np.concatenate(impacts), advice, steps, tuple(passages))
+            return Run(assembly, tuple(stretches), np.concatenate(impacts), advice, steps, end, tuple(passages))
 
 
 def _onward(system, t, y, end, weak):
@@ -215,7 +225,7 @@ def _driven(assembly, times, end, settings, refine):
     if found.outcome == "stuck":
         raise DoesNotAssemble(_stuck(assembly, found.reached, end))
     advice = stopped_at(found.passages[-1].time) if found.outcome == "stopped" else ""
-    return Run(assembly, found.stretches, np.zeros((0, 3)), advice, len(times), found.passages)
+    return Run(assembly, found.stretches, np.zeros((0, 3)), advice, len(times), end, found.passages)
 
 
 def _stuck(assembly, t, end):

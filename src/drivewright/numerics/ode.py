@@ -202,7 +202,7 @@ def _pick(batch, done, end, count):
     length = np.append(start[1:], end)[:done] - start  # shorter than the size where a switch cut the step
     theta = (length / size)[:, None] * np.arange(count) / count
     y = _polynomial(np.moveaxis(batch.dense[:done], 1, 0)[:, :, None], theta[:, :, None])
-    return (start[:, None] + theta * size[:, None]).ravel(), y.reshape(done * count, -1)
+    return (start[:, None] + theta * size[:, None]).ravel(), y.reshape(done * count, batch.dense.shape[-1])
 
 
 def _sample(batch, done, samples, end):

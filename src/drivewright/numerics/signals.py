@@ -1,12 +1,13 @@
 """Sampled signals x(t) with uneven steps: maxima, averages over time, spectra in orders of a period, stretches of a condition.
 
 Averages are those of the polygon, the straight lines between the samples: exact for it, and for a smooth signal with steps h in
-error by at most h^2 max|x''|/8.  Times may repeat there (both sides of a jump); elsewhere they must increase.
+error by at most h^2 max|x''|/8.  Times ascend and may repeat: the first and the last sample of a time are the values on its two sides,
+what lies between them counts for nothing, and no parabola or spline is laid across it.
 """
 
 import numpy as np
 from scipy.fft import next_fast_len, rfft
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicSpline, PPoly
 
 from drivewright.errors import InputError
 
@@ -16,10 +17,10 @@ def local_maxima(t, x):
 
     t, x (m,).  Exact for a parabola; for a smooth signal with steps up to h the value is off by at most h^3 max|x'''|/(9 sqrt 3).
     Two equal samples side by side are the shoulders of one maximum, more are a plateau, counted once at its middle.  The ends
-    never count.  After a sharp rise within a step h the vertex may lie (rise) k^2/(4 h (h + k)) above the samples where a step
-    k follows: sample evenly what has jumps.
+    never count.  Beside a jump at one time the sample itself counts.  After a sharp rise within a step h the vertex may lie
+    (rise) k^2/(4 h (h + k)) above the samples where a step k follows: sample such a rise evenly.
     """
-    t, x = _signal(t, x, jumps=False)
+    t, x = _signal(t, x)
     first = np.flatnonzero(np.append(True, np.diff(x) != 0))  # where each run of equal samples begins ...
     last = np.append(first[1:], x.size) - 1  # ... and ends
     level = x[first]
@@ -32,11 +33,15 @@ def local_maxima(t, x):
 
 
 def _vertex(t, x, i, j, k):
-    """(time, value) of the vertex of the parabola through the samples i, j, k, by divided differences about sample j."""
-    left, right = (x[j] - x[i]) / (t[j] - t[i]), (x[k] - x[j]) / (t[k] - t[j])
-    curvature = (right - left) / (t[k] - t[i])
-    slope = (left * (t[k] - t[j]) + right * (t[j] - t[i])) / (t[k] - t[i])
-    return t[j] - slope / (2 * curvature), x[j] - slope**2 / (4 * curvature)
+    """(time, value) of the vertex of the parabola through the samples i, j, k, by divided differences about sample j; the sample j
+    itself beside a jump, where two of the times are one."""
+    h, step = np.stack([t[j] - t[i], t[k] - t[j]]), np.stack([x[j] - x[i], x[k] - x[j]])
+    jump = np.any(h == 0, axis=0)
+    left, right = step / np.where(jump, 1.0, h)
+    curvature = (right - left) / np.where(jump, 1.0, t[k] - t[i])
+    slope = (left * h[1] + right * h[0]) / np.where(jump, 1.0, t[k] - t[i])
+    bend = np.where(jump, 1.0, curvature)
+    return t[j] - np.where(jump, 0.0, slope / (2 * bend)), x[j] - np.where(jump, 0.0, slope**2 / (4 * bend))
 
 
 def mean_of_largest(values, count):
@@ -93,9 +98,9 @@ def order_spectrum(t, x, period, orders):
     The samples are joined by a cubic spline, whose averages over even cells are transformed: exact for the spline but for
     oscillations faster than the samples, of which at most 1/15 folds back.  The spline is in error by about
     (5/384) h^4 max|x''''| for steps h: an amplitude by 2e-4 of itself with 33 scattered samples per oscillation, 1e-6 with 133.
-    It overshoots where long steps follow a jump within a short one: sample jumps evenly.
+    A jump at one time is kept; a rise within a short step, with long steps beside it, makes the spline overshoot: sample it evenly.
     """
-    t, x = _signal(t, x, jumps=False)
+    t, x = _signal(t, x)
     turns = _turns(t, period)
     if abs(turns - round(turns)) > 1e-6 or turns < 0.5:
         raise InputError(
@@ -103,7 +108,7 @@ def order_spectrum(t, x, period, orders):
             "Cut it there and keep the samples at both ends.")
     turns = round(turns)
     bins = _bins(orders, turns, t.size - 1)
-    return _amplitudes(CubicSpline(t, x).antiderivative(), t[0], t[-1], bins, t.size)
+    return _amplitudes(_spline(t, x).antiderivative(), t[0], t[-1], bins, t.size)
 
 
 def spectrogram(t, x, period, orders, turns=1):
@@ -112,12 +117,12 @@ def spectrogram(t, x, period, orders, turns=1):
     t, x (m,) over any time, the rest behind the last whole period is left out; orders (k,) multiples of 1/turns;
     amplitudes (windows, k).  A window has sharp ends: what does not repeat within it spreads over the orders.
     """
-    t, x = _signal(t, x, jumps=False)
+    t, x = _signal(t, x)
     count = int(_turns(t, period) + 1e-6) - turns + 1
     if turns < 1 or count < 1:
         raise InputError(f"spectrogram: no window of {turns} periods fits into a signal of {_turns(t, period):.4g}; lengthen the run.")
     samples = int(t.size * turns * period / (t[-1] - t[0]))
-    bins, integral = _bins(orders, turns, samples), CubicSpline(t, x).antiderivative()
+    bins, integral = _bins(orders, turns, samples), _spline(t, x).antiderivative()
     start = t[0] + period * np.arange(count)
     rows = [_amplitudes(integral, a, min(a + turns * period, t[-1]), bins, samples) for a in start]
     return start + 0.5 * turns * period, np.array(rows)
@@ -127,6 +132,13 @@ def _turns(t, period):
     if not period > 0:
         raise InputError(f"spectrum: the period must be above 0, got {period:g}.")
     return (t[-1] - t[0]) / period
+
+
+def _spline(t, x):
+    """The cubic spline through the samples, begun anew at every jump."""
+    ends = np.flatnonzero(np.diff(t) == 0) + 1  # a piece begins where the time before it is the same
+    pieces = [CubicSpline(a, b) for a, b in zip(np.split(t, ends), np.split(x, ends), strict=True) if a.size > 1]
+    return PPoly(np.concatenate([piece.c for piece in pieces], axis=1), np.unique(t))
 
 
 def _bins(orders, turns, samples):
@@ -165,8 +177,9 @@ def intervals(t, mask):
     return edge[change == 1], edge[change == -1]
 
 
-def _signal(t, x, jumps=True):
-    """t and x as floats; InputError unless they are finite, of one length, and t ascends over some time."""
+def _signal(t, x):
+    """t and x as floats, of each time its two sides at most; InputError unless they are finite, of one length, and t ascends over some
+    time."""
     t, x = np.asarray(t, dtype=float), np.asarray(x, dtype=float)
     if t.ndim != 1 or x.shape != t.shape or t.size < 3:
         raise InputError(f"signal: t and x must be rows of one length, 3 samples or more; got shapes {t.shape} and {x.shape}.")
@@ -174,8 +187,15 @@ def _signal(t, x, jumps=True):
         bad = int(np.argmin(np.isfinite(t) & np.isfinite(x)))
         raise InputError(f"signal: sample {bad} is not finite (t = {t[bad]:g}, x = {x[bad]:g}); cut the run before it.")
     step = np.diff(t)
-    wrong = step < 0 if jumps else step <= 0
-    if np.any(wrong) or t[-1] == t[0]:
-        bad = int(np.argmax(wrong))
-        raise InputError(f"signal: t must increase, but t[{bad + 1}] = {t[bad + 1]:g} follows {t[bad]:g}; sort and drop repeats.")
-    return t, x
+    if np.any(step < 0) or t[-1] == t[0]:
+        bad = int(np.argmax(step < 0))
+        raise InputError(f"signal: t must increase, but t[{bad + 1}] = {t[bad + 1]:g} follows {t[bad]:g}; sort the samples.")
+    return _sides(t, x, step) if np.any(step == 0) else (t, x)
+
+
+def _sides(t, x, step):
+    """The first and the last sample of every time; the one where both are equal."""
+    first, last = np.append(True, step > 0), np.append(step > 0, True)
+    before = np.maximum.accumulate(np.where(first, np.arange(t.size), 0))  # where the time of each sample begins
+    keep = first | (last & (x != x[before]))
+    return t[keep], x[keep]

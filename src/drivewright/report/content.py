@@ -1,14 +1,16 @@
 """What a report says, as plain text in plain dictionaries: the page and the PDF both print this and nothing else."""
 
+import html
 import math
+import textwrap
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from drivewright import registry
-from drivewright.errors import DrivewrightError
 from drivewright.result import UNDECIDED
-from drivewright.runner import versions
+from drivewright.runner import reason_of, versions
 from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_thumbnail, svg
 from drivewright.view.motion import fractions
 from drivewright.view.panels import drawable, known_plots, panels
@@ -45,28 +47,42 @@ def views(result, model=None):
         return Views(remarks=(f"mechanism {result.mechanism!r} is not installed here: neither motion nor drawings",))
     mechanism = registry.mechanism(result.mechanism)
     model = model or mechanism.build(result.spec)
-    scene, no_scene = _shown("motion", mechanism.scene, model, None)
-    drawings, no_drawings = _shown("drawings", mechanism.drawings, model, ())
+    scene, no_scene = _shown("motion", mechanism.scene, model, None, result.spec)
+    drawings, no_drawings = _shown("drawings", mechanism.drawings, model, (), result.spec)
     return Views(scene, tuple(known_plots(result).values()), tuple(drawings), no_scene + no_drawings)
 
 
-def _shown(what, make, model, nothing):
+def _shown(what, make, model, nothing, spec):
     """(what was made, remarks)."""
     try:
         return (make(model) if make else nothing), ()
-    except DrivewrightError as error:
-        return nothing, (f"no {what} to show: {error}",)
+    except Exception as error:  # a picture that fails must not cost the numbers
+        return nothing, (f"no {what} to show: {reason_of(spec, error)}",)
 
 
 def pictures(result, seen):
     """Every figure of a run: the scene for each observer, the plots, the drawings."""
     scene = seen.scene
-    frames = [Picture(f"scene-{frame.name}", sentence(frame.label), svg(draw_scene(scene, frame.name, [_telling_phase(scene)], GHOSTS)))
+    def drawn(name, title, draw):
+        try:
+            return Picture(name, title, svg(draw()))
+        except Exception as error:  # one figure that fails must not cost the others
+            return Picture(name, title, _instead(f"This figure is missing: {reason_of(result.spec, error)}"))
+
+    frames = [drawn(f"scene-{frame.name}", sentence(frame.label), partial(draw_scene, scene, frame.name, [_telling_phase(scene)], GHOSTS))
              for frame in (scene.frames if scene else ())]
-    curves = [Picture(f"plot-{plot.name}", plot.title, svg(draw_panels(panels(result, plot), _marks(result, plot, scene))))
+    curves = [drawn(f"plot-{plot.name}", plot.title, lambda plot=plot: draw_panels(panels(result, plot), _marks(result, plot, scene)))
               for plot in drawable(result, seen.plots)]
-    parts = [Picture(f"drawing-{drawing.name}", sentence(drawing.title), svg(draw_drawing(drawing))) for drawing in seen.drawings]
+    parts = [drawn(f"drawing-{drawing.name}", sentence(drawing.title), partial(draw_drawing, drawing)) for drawing in seen.drawings]
     return (*frames, *curves, *parts)
+
+
+def _instead(text):
+    """A picture that says in words why it is none."""
+    lines = textwrap.wrap(text, 90)
+    spans = "".join(f'<tspan x="10" dy="18">{html.escape(line)}</tspan>' for line in lines)
+    size = f'width="640" height="{18 * len(lines) + 20}" viewBox="0 0 640 {18 * len(lines) + 20}"'
+    return f'<svg xmlns="http://www.w3.org/2000/svg" {size}><text font-family="sans-serif" font-size="13" y="4">{spans}</text></svg>'
 
 
 def thumbnail(scene):

@@ -21,6 +21,7 @@ from drivewright.studies.variables import kind_of
 LONGEST = 2000  # characters of a message
 FEW = 4  # cases that are not worth a second route
 ROUNDING = 1e-9  # of a value: no difference between two routes
+PLACE = (ImportError, MemoryError)  # faults of the place where a case is computed, not of the case
 OFFERED = "value."  # in front of a value that has the name of a key that varies
 
 
@@ -201,7 +202,7 @@ class Working:
             return self.found(self._spec(columns, n))
         except DrivewrightError as error:
             return Found({}, "failed", _short(error))
-        except (ImportError, MemoryError):  # of the place where it is computed, not of the case
+        except PLACE:
             raise
         except Exception as bug:  # one case in a million must not cost the others
             return Found({}, "failed", _short(f"a fault of the program, please report it: {type(bug).__name__}: {bug}"))
@@ -214,16 +215,17 @@ class Working:
             return from_document(self.task.tables, type(self.spec))
 
     def found(self, spec):
-        """`Found` of a spec."""
-        answers = runner.ask(spec, self.mechanism.build(spec), self.wanted).values()
+        """`Found` of a spec: "partial" where an analysis failed or looked at a run that stopped, "failed" where that leaves no value."""
+        asked = runner.ask(spec, self.mechanism.build(spec), self.wanted, None, PLACE)
+        answers = asked.values()
         stated = {name: value for answer in answers for name, value in answer.values.items()}
         values = looked_at(stated, [check for answer in answers for check in answer.checks])
         if self.task.names:
             values = {name: values[name] for asked in self.task.names for name in (asked, *(f"{asked}{end}" for end in TOLD))
                       if name in values and (name == asked or values[name].bounds == asked)}
         partial = any(answer.outcome == "partial" for answer in answers)
-        reasons = [finding for answer in answers if answer.outcome != "complete" for finding in answer.findings[-1:]]
-        return Found(values, "partial" if partial else "complete", _short("; ".join(reasons)))
+        status = "complete" if not partial else "partial" if values else "failed"
+        return Found(values, status, _short("; ".join(runner.reasons(asked))))
 
 
 def _short(reason):

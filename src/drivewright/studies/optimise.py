@@ -14,11 +14,11 @@ from typing import Any
 
 import numpy as np
 
-from drivewright import units
+from drivewright import registry, units
 from drivewright.digits import last_place, to_place
 from drivewright.errors import InputError, SolverError
 from drivewright.result import Check, Column, Plot, Result, Table
-from drivewright.runner import run, versions
+from drivewright.runner import ask, build, reasons, run, selection, versions
 from drivewright.studies import store
 from drivewright.studies.outputs import looked_at
 from drivewright.studies.pareto import nondominated
@@ -191,12 +191,18 @@ def _nothing(problem, table, x):
     reasons = Counter(message for message in table[MESSAGE].to_pylist() if message)
     reason = reasons.most_common(1)[0][0]
     if reason == SILENT:
-        try:
-            run(problem.design(x))
-        except InputError as error:
-            reason = str(error)
+        reason = next(iter(_why_silent(problem.design(x))), reason)
     return (f"no feasible design after {table.num_rows} evaluations: none of them could be computed; the commonest reason: {reason}. Move "
             "the bounds of the unknowns to where the drive works")
+
+
+def _why_silent(spec):
+    """Why the compiled route has no numbers for a design, as its run tells."""
+    try:
+        wanted = registry.mechanism(spec.mechanism).analyses
+        return reasons(ask(spec, build(spec), selection(wanted)))
+    except InputError as error:
+        return [str(error)]
 
 
 def _blame(problem, reached, values):

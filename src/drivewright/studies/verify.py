@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 from drivewright import registry
-from drivewright.errors import InputError
-from drivewright.runner import run
+from drivewright.errors import DrivewrightError, InputError, MissingExtra, SolverError
+from drivewright.runner import reason_of, run
 
 
 class Comparison(NamedTuple):
@@ -27,11 +27,21 @@ def verify(spec):
     """Tuple of `Comparison`: the default analyses of a spec against its kind's independent route.
 
     A kind's `verify(model, result)` gives the rows as tuples (name, ours, other, unit, allowed, route).
-    InputError where the kind has none, MissingExtra where the route needs an optional dependency.
+    InputError where the kind has none, MissingExtra where the route needs an optional dependency, SolverError where it fails or where the
+    run lacks what it compares with.
     """
     mechanism = registry.mechanism(spec.mechanism)
     if mechanism.verify is None:
         able = [kind for kind in registry.kinds() if registry.mechanism(kind).verify]
         raise InputError(f"mechanism '{mechanism.kind}' has no independent route to verify it by; kinds that have one: {', '.join(able)}")
     model = mechanism.build(spec)
-    return tuple(Comparison(*row) for row in mechanism.verify(model, run(spec, model=model)))
+    result = run(spec, model=model)
+    try:
+        return tuple(Comparison(*row) for row in mechanism.verify(model, result))
+    except MissingExtra:
+        raise
+    except Exception as error:
+        if isinstance(error, DrivewrightError) and not result.provenance["failed"]:
+            raise
+        lacking = [f"the run lacks {', '.join(result.provenance['failed'])}"] if result.provenance["failed"] else []
+        raise SolverError("; ".join([f"the independent route failed: {reason_of(spec, error)}", *lacking])) from error

@@ -4,7 +4,6 @@ import json
 import time
 
 from drivewright import registry, runner
-from drivewright.errors import DrivewrightError
 from drivewright.report.content import summary
 from drivewright.report.pack import pack_plot_groups, pack_scene
 from drivewright.view.panels import known_plots
@@ -59,8 +58,10 @@ def _scene(spec, model):
     mechanism = registry.mechanism(spec.mechanism)
     try:
         return mechanism.scene(model) if mechanism.scene else None, []
-    except DrivewrightError as error:
-        return None, [f"no motion to show: {error}"]
+    except MemoryError:  # of this process, which may be tried again
+        raise
+    except Exception as error:  # a drawing that fails must not cost the numbers
+        return None, [f"no motion to show: {runner.reason_of(spec, error)}"]
 
 
 def page_result(result, scene, analyses):

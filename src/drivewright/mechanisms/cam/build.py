@@ -124,6 +124,8 @@ def build(spec):
     model = CamModel(spec, programme, tracks, _material(spec), tuple(_findings(spec, programme)))
     for track in tracks:  # lever past its dead point, lift through the cam's centre: said here, not in the middle of an analysis
         track.contact(*model.cycle.at(*model.cycle.samples()))
+    for number in range(len(tracks)):  # of a cam that is cut away altogether nothing is left to analyse
+        profile(model, number)
     return model
 
 

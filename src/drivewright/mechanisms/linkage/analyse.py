@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from drivewright.errors import SolverError
 from drivewright.mechanisms.linkage.advice import advice
 from drivewright.mechanisms.linkage.build import TURN, ideal_at, ideal_record, record_of, run_of
 from drivewright.multibody.measures import impact_load, largest, span
@@ -24,19 +25,14 @@ def no_outputs(spec):
     return no_run(spec) or (None if spec.outputs else "the spec declares no [[outputs]]")
 
 
-def partial(model):
-    """(findings, outcome) of the run."""
-    run = run_of(model)
-    if not run.advice:
-        return (), "complete"
-    return (f"the run ends at t = {run.end[1]:.6g} s of {model.duration:.6g} s: {run.advice}",), "partial"
-
-
 def window(model):
     """The record after the discarded turns; all of it where the run did not get so far."""
     seen, start = record_of(model), model.spec.start_of_window if model.spec.simulate else 0.0
     start = start if seen.t[-1] > start else 0.0
-    return seen.after(start * (1 - 1e-12))
+    kept = seen.after(start * (1 - 1e-12))
+    if len(kept.t) < 3:
+        raise SolverError(f"{len(kept.t)} states at t = {seen.t[-1]:.6g} s hold no peaks and means; see why the run ends there")
+    return kept
 
 
 def acceleration(seen, output):
@@ -51,7 +47,6 @@ def acceleration(seen, output):
 
 def motion(model, done):
     """Swing and peaks of the outputs, and the last turn as a table."""
-    findings, outcome = partial(model)
     seen, values = window(model), {}
     for output in model.spec.outputs:
         angle, name = seen.point(output.name, "angle"), output.name
@@ -62,7 +57,7 @@ def motion(model, done):
             values[f"{name}.max_acceleration"] = Value(
                 largest(seen.t, acceleration(seen, output)[0]), "m/s^2", f"largest acceleration of point {output.point!r}, magnitude")
     tables = (_motion_table(model),) if model.spec.outputs else ()
-    return Answer(values, tables, advice(model.spec), findings, outcome=outcome)
+    return Answer(values, tables, advice(model.spec))
 
 
 def end(model, done):

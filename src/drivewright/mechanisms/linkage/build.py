@@ -12,6 +12,7 @@ from drivewright.multibody.assembly import Assembly, assemble
 from drivewright.multibody.model import Dry, Ideal, Lubricated, MasslessLink, Revolute
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import Settings, simulate
+from drivewright.stopped import uses
 
 TURN = 2 * np.pi
 IDEAL_SAMPLES = 7201  # of the ideal mechanism in a turn
@@ -87,24 +88,45 @@ def build(spec):
         raise DoesNotAssemble(f"linkage: {error}") from None
 
 
-@lru_cache(maxsize=4)
 def run_of(model):
     """The run that the spec asks for, at every step."""
+    return _seen(_run(model))
+
+
+def record_of(model):
+    """Its record."""
+    return _seen(_record(model))
+
+
+def _seen(found):
+    """A run or record, which whoever takes it inherits the stop of: what is kept from before has been noted for another analysis."""
+    uses(found.stop)
+    return found
+
+
+@lru_cache(maxsize=4)
+def _run(model):
     return simulate(model.assembly, model.duration, model.settings)
 
 
 @lru_cache(maxsize=4)
-def record_of(model):
-    """Its record."""
-    return record(run_of(model), model.markers)
+def _record(model):
+    return record(_run(model), model.markers)
 
 
-@lru_cache(maxsize=4)
 def ideal_record(model):
     """The record of the ideal mechanism: over a turn of a drive at constant speed, else over the whole run."""
+    return _seen(_ideal_record(model))
+
+
+def take_ideal_record(model):
+    """The same, computed anew and not kept."""
     length = model.period or model.duration
     samples = np.linspace(0.0, length, IDEAL_SAMPLES)
     return record(simulate(model.ideal, length, model.settings, samples=samples), model.markers)
+
+
+_ideal_record = lru_cache(maxsize=4)(take_ideal_record)
 
 
 def ideal_at(model, times):

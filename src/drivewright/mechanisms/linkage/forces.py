@@ -4,26 +4,26 @@ import numpy as np
 
 from drivewright.mechanisms.linkage.analyse import ROWS, cycle_columns
 from drivewright.mechanisms.linkage.build import run_of
-from drivewright.multibody.observe import observe
-from drivewright.multibody.reactions import joined_reactions, reactions, unbounded_joints
+from drivewright.multibody.observe import joined, observe
+from drivewright.multibody.reactions import reactions, unbounded_joints
 from drivewright.multibody.simulate import clear_states
 from drivewright.numerics.signals import time_mean
 from drivewright.result import Answer, Check, Column, Table, Value
 
 
-def last_states(model):
-    """[(system, times, states)] of the last whole turn, or of the run, thinned to ROWS; folds left out."""
-    end = run_of(model).end[1]
-    turns = np.floor(end / model.period + 1e-9) if model.period else 0
+def seen_last(model):
+    """`Observed` over the last whole turn, or over the run, thinned to about ROWS; the middles of folds left out."""
+    run = run_of(model)
+    turns = np.floor(run.end[1] / model.period + 1e-9) if model.period else 0
     start = (turns - 1) * model.period if turns >= 1 else 0.0
-    return clear_states(run_of(model), start * (1 - 1e-12), ROWS)
+    return joined([observe(*states) for states in clear_states(run, start * (1 - 1e-12), ROWS)])
 
 
 def forces(model, done):
     """Largest force of every joint in the last turn, the forces over it, and what Newton's and Euler's equations leave over."""
-    states = last_states(model)
-    found = joined_reactions([reactions(model.assembly, system, observe(system, t, y)) for system, t, y in states])
-    t, unbounded = np.concatenate([t for _, t, _ in states]), _unbounded(model, states[0][1][0])
+    seen = seen_last(model)
+    t, found = seen.t, reactions(model.assembly, run_of(model).end[0], seen)
+    unbounded = _unbounded(model, t[0])
     values, checks, columns = {}, [], list(cycle_columns(model, t))
     for name, joint in found.joints.items():
         size = np.hypot(*joint.force.T)

@@ -7,7 +7,7 @@ import numpy as np
 from drivewright import cases
 from drivewright.errors import SolverError, UnknownName
 from drivewright.mechanisms.linkage.analyse import acceleration
-from drivewright.mechanisms.linkage.build import TURN, build, ideal_record, record_of
+from drivewright.mechanisms.linkage.build import TURN, build, ideal_record, record_of, take_ideal_record
 from drivewright.mechanisms.linkage.describe import output_marker
 from drivewright.mechanisms.linkage.refusals import refuse_nonsense
 from drivewright.multibody.measures import impact_load, largest
@@ -22,6 +22,7 @@ from drivewright.units import SI
 SAME = 1e-3  # of the cloud's size: visits nearer to each other count as one point of the orbit
 STILL = 1e-5  # of the range of the motion: a cloud smaller than this is one point
 ORDERS = 60
+PER_OSCILLATION = 20  # samples of the highest order, at least
 
 
 def no_period(spec, table):
@@ -137,6 +138,8 @@ class Turn:
     def __call__(self, state):
         # Every turn is run from time 0: the drive's angle is the same, and the state carries all that pins remember.
         run = simulate(self.model.assembly, self.model.period, self.settings, samples=np.empty(0), state=state)
+        if run.advice:
+            raise SolverError(f"a turn did not end: {run.stop}")
         end = restated(*run.end, self.model.assembly.system)  # the coordinates may have been split anew on the way
         end[self.spinning] %= TURN  # a link that spins would drown the separation in the rounding of its angle
         return end
@@ -152,7 +155,8 @@ def spectrum(model, done):
     turns = int(np.floor((seen.t[-1] - start) / model.period + 1e-9))
     if turns < 1:
         return Answer(findings=("the spectrum is left out: the window has no whole turn",))
-    times = start + np.linspace(0, turns * model.period, turns * 2 * model.spec.simulate.samples_per_turn + 1)
+    samples = max(2 * model.spec.simulate.samples_per_turn, PER_OSCILLATION * ORDERS)
+    times = start + np.linspace(0, turns * model.period, turns * samples + 1)
     run = simulate(model.assembly, model.duration, model.settings, samples=np.minimum(times, model.duration))
     even, ideal = record(run, model.markers), ideal_record(model)
     orders = np.arange(ORDERS + 1.0)
@@ -256,7 +260,7 @@ def acceleration_unit(output):
 
 def ideal_peak(model, output):
     """Largest acceleration of an output without play."""
-    seen = ideal_record.__wrapped__(model)
+    seen = take_ideal_record(model)
     return largest(seen.t, acceleration(seen, output)[0])
 
 

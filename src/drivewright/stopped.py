@@ -1,0 +1,39 @@
+"""What ended early says so in everything computed from it.
+
+A run that stopped, or a record of one, gives a `Stop` to `uses` whenever somebody takes it; the runner collects the stops of each
+analysis with `collected` and makes its answer partial.  So no analysis has to remember to ask.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import NamedTuple
+
+_stops: ContextVar[dict | None] = ContextVar("stops", default=None)
+
+
+class Stop(NamedTuple):
+    """Where something ended before its time, e.g. "the run ends at t = 0.7 s of 3 s", and why."""
+
+    where: str
+    why: str
+
+    def __str__(self) -> str:
+        return f"{self.where}: {self.why}"
+
+
+def uses(stop: Stop | None) -> None:
+    """Note that the analysis under way looks at something that stopped; nothing happens for None, and outside of an analysis."""
+    stops = _stops.get()
+    if stop is not None and stops is not None:
+        stops[stop] = None
+
+
+@contextmanager
+def collected() -> Iterator[dict]:
+    """The stops (as keys, in order) that are noted inside, also by the threads of `cases.run`."""
+    token = _stops.set({})
+    try:
+        yield _stops.get()
+    finally:
+        _stops.reset(token)
