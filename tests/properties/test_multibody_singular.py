@@ -158,7 +158,7 @@ def test_a_parallelogram_stays_one(samples, speed, size):
     assert np.max(np.abs(seen.point("rocker", "alpha"))) < 1e-5 * TURN**2
     # Gravity on crank, coupler and rocker alone works against the drive: both cranks and the coupler rise together.
     arm = size * 0.1 * np.cos(angle)
-    assert np.max(np.abs(seen.drives[:, 0] - G * (0.5 + 1.0 + 1.0) * arm)) < 1e-5 * G * 0.25 * size
+    assert np.max(np.abs(seen.drives[:, 0] - G * (0.5 + 1.0 + 1.0) * arm)) < 1e-5 * G * 0.25 * size + 1e-9 * (0.1 * TURN * size) ** 2
     assert np.max(np.abs(np.sin([angle[0] + speed * p.time for p in run.passages]))) < 1e-6
 
 
@@ -246,7 +246,7 @@ def test_the_other_branch_of_a_fold_can_be_chosen_too():
 
 def test_a_chart_equals_the_closed_loops_beside_the_fold():
     """Where both hold, interpolated positions, rates and accelerations are those of the loops themselves."""
-    run = mb.simulate(mb.assemble(windows(2)), 0.69, mb.Settings(rtol=1e-11))
+    run = mb.simulate(mb.assemble(windows(2)), 0.7, mb.Settings(rtol=1e-11))
     system, t, y = run.end
     charted = system if len(system.chart.offsets) else look_ahead(system, t, y).charted[0]
     y = restated(system, t, y, charted)

@@ -13,6 +13,7 @@ from drivewright.multibody.chart import clear_of_fold, configure_at
 from drivewright.multibody.continuation import Stretch, continued
 from drivewright.multibody.dynamics import FIRST_PIN
 from drivewright.multibody.loads import SLOWEST, gap_of
+from drivewright.multibody.observe import FIELDS, observe
 from drivewright.multibody.partition import at, split
 from drivewright.multibody.singular import Outlook, look_ahead, passage
 from drivewright.multibody.system import motion, no_chart
@@ -97,7 +98,7 @@ def simulate(assembly, duration, settings=Settings(), *, samples=None, state=Non
 
 def _legs(assembly, t, end, y, settings, samples):
     """The `Run` of a mechanism with freedom, leg by leg: to where the coordinates are split anew, or a chart leads across a fold."""
-    system, leg = assembly.system, Leg(end)
+    system, leg = assembly.system, _leg(assembly.system, t, y, end)
     stretches, impacts, passages, steps = [], [np.zeros((0, 3))], [], 0
     while True:
         inside = None if samples is None else samples[(samples <= leg.until) & ((samples > t) | (not stretches))]
@@ -119,11 +120,24 @@ def _legs(assembly, t, end, y, settings, samples):
 def _onward(system, t, y, end, weak):
     """(system, state, `Leg`) with which a run goes on from the end of a leg, where the split of its coordinates may have become weak."""
     if not weak:
-        return system, y, Leg(end)
+        return system, y, _leg(system, t, y, end)
     outlook = look_ahead(system, t, y) if len(system.chart.offsets) == 0 else Outlook(None, np.inf)
     if outlook.charted:
         return *outlook.charted, Leg(end)
-    return *resplit(system, t, y), Leg(min(end, t + WARY * outlook.time), CAREFUL * outlook.time)
+    system, y = resplit(system, t, y)
+    leg = _leg(system, t, y, end)
+    return system, y, Leg(min(leg.until, t + WARY * outlook.time), min(leg.max_step, CAREFUL * outlook.time))
+
+
+def _leg(system, t, y, end):
+    """The `Leg` from a state on.  Loops without drives may move so evenly that a step would lead over a singular position: there a leg is
+    as long as the bodies move by about a radian, or the mechanism's length, and a step a part of it.  Pins with play step finely."""
+    if len(system.rows) == 0 or len(system.driven) or len(system.contacts):
+        return Leg(end)
+    bodies, sizes = observe(system, [t], y[None]).bodies[0], [system.length, system.length, 1.0]
+    rate, gain = (np.max(np.abs(bodies[:, first : first + 3]) / sizes) for first in map(FIELDS.index, ("vx", "ax")))
+    pace = rate + np.sqrt(gain)
+    return Leg(min(end, t + 1.0 / pace), CAREFUL / pace) if pace > 0 else Leg(end)
 
 
 def stopped_at(time):
