@@ -39,7 +39,7 @@ def test_undercut_roller_sinks_by_the_lost_motion():
     follower, motion = cams.TranslatingRound(0.03, 0.02, 0.002), programme(0.02, angles=(60, 10, 70, 220))
     trimmed = curves.trim(cams.family(follower, motion))
     assert trimmed.undercut
-    at, lost = curves.largest_lost_motion(trimmed)
+    at, lost = curves.largest_profile_gap(trimmed)
     assert lost > 1e-4
     body = shapely.Polygon(trimmed.outline(1e-9).points(1e-9))
     lift = cams.Cycle(motion.function).after(0.0, variable(np.array([at])))

@@ -51,11 +51,11 @@ def test_lost_motion_at_a_square_corner():
     """With its centre at the corner of the path the roller is sqrt(2) r from the corner that is left: lost (sqrt(2) - 1) r."""
     half, radius = 0.02, 0.003
     left = curves.trim(curves.CircleFamily(square_path(half), radius))
-    lost = curves.lost_motion(left, np.array([1.0, 1.0 - 1e-9, 0.5, 0.05]))
+    lost = curves.profile_gap(left, np.array([1.0, 1.0 - 1e-9, 0.5, 0.05]))
     along = 0.05 * 2 * half  # distance of the planned centre from the corner of the path
     corner = (np.sqrt(2) - 1) * radius
     np.testing.assert_allclose(lost, [corner, corner, 0, np.hypot(radius, radius - along) - radius], rtol=1e-6, atol=1e-12)
-    place, most = curves.largest_lost_motion(left)
+    place, most = curves.largest_profile_gap(left)
     assert most == pytest.approx((np.sqrt(2) - 1) * radius, rel=1e-9)
 
 
@@ -65,7 +65,7 @@ def test_the_largest_lost_motion_is_found_off_the_samples():
     corners = np.array([-1j * b, a - 1j * b, a + 1j * b, -a + 1j * b, -a - 1j * b])
     sides = tuple(curves.Piece(float(k), k + 1.0, lambda t, k=k: corners[k] + (corners[(k + 1) % 5] - corners[k]) * (variable(t) - k),
                                f"side {k}", "line") for k in range(5))
-    place, most = curves.largest_lost_motion(curves.trim(curves.CircleFamily(sides, radius)))
+    place, most = curves.largest_profile_gap(curves.trim(curves.CircleFamily(sides, radius)))
     assert most == pytest.approx((np.sqrt(2) - 1) * radius, rel=1e-3)
     assert min(abs(place - corner) for corner in range(5)) < 1e-4
 
@@ -165,8 +165,8 @@ def test_a_flat_face_cuts_where_its_support_bends_too_little():
     x = (R + e * (2 * c**2 - 1)) * c + 4 * e * c * (1 - c**2)
     np.testing.assert_allclose(sorted(corner.point.real for corner in left.corners), [-x, x], rtol=1e-11)
     beta = np.array([0.0, 0.1])
-    np.testing.assert_allclose(curves.lost_motion(left, beta), R + e * np.cos(2 * beta) - x * np.cos(beta), rtol=1e-9)
-    assert curves.lost_motion(left, np.array([1.2]))[0] == 0
+    np.testing.assert_allclose(curves.profile_gap(left, beta), R + e * np.cos(2 * beta) - x * np.cos(beta), rtol=1e-9)
+    assert curves.profile_gap(left, np.array([1.2]))[0] == 0
 
 
 def test_a_jump_of_velocity_of_a_flat_face_gives_a_straight_piece():

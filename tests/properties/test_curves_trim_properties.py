@@ -70,9 +70,9 @@ def test_lost_motion_is_the_gap_to_the_polygon(seed):
     t = np.linspace(0, 2 * PI, 200)
     centre = family.path[0].at(t).d0
     gap = shapely.distance(shapely.points(centre.real, centre.imag), expected) - family.radius
-    lost = curves.lost_motion(left, t)
+    lost = curves.profile_gap(left, t)
     np.testing.assert_allclose(lost, gap, atol=1.5e-6)
-    assert curves.largest_lost_motion(left)[1] >= np.max(lost) - 1e-9
+    assert curves.largest_profile_gap(left)[1] >= np.max(lost) - 1e-9
     kept = np.ones(len(t), bool)
     for start, stop in left.removed:
         kept &= (t < start) | (t > stop)
@@ -129,7 +129,7 @@ def test_lost_motion_under_an_overhang():
     points = np.concatenate([span.piece.at(np.linspace(span.start, span.stop, 40001)).d0 for span in left.spans])
     t = np.linspace(0.1, 0.1 + 2 * PI, 97)
     nearest = np.array([np.min(np.abs(points - centre)) for centre in at(t).d0])
-    np.testing.assert_allclose(curves.lost_motion(left, t), nearest - 0.002, atol=3e-9)
+    np.testing.assert_allclose(curves.profile_gap(left, t), nearest - 0.002, atol=3e-9)
     assert nearest.max() > 0.0035
 
 
@@ -168,7 +168,7 @@ def test_flat_faces_leave_the_intersection_of_half_planes(seed):
     corner = 1j * (hull[1:] - hull[:-1]) / -np.imag(np.conj(hull[:-1]) * hull[1:])  # pole of each edge of the dual
     expected = 0.5 * np.sum(np.imag(np.conj(corner) * np.roll(corner, -1)))
     assert left.area == pytest.approx(expected, rel=1e-5)
-    lost = curves.lost_motion(left, np.linspace(0, 2 * PI, 20001)[:-1][::100])
+    lost = curves.profile_gap(left, np.linspace(0, 2 * PI, 20001)[:-1][::100])
     reach = np.max(np.real(np.conj(np.exp(1j * direction.d0[::100]))[:, None] * corner), axis=1)
     np.testing.assert_allclose(lost, support.d0[::100] - reach, atol=1e-7)
     assert left.undercut

@@ -49,7 +49,7 @@ def test_an_undercut_cam_lets_the_rod_fall_behind_by_what_it_has_lost():
     model = model_of("default", "train.start=far")
     main, error = model.cams[0], rod_error(model)[1]
     t = np.linspace(model.push_start, model.push_start + 2 * np.pi, 4001)
-    swing = curves.lost_motion(model.trimmed["main"], t) / (main.arm * np.cos(model.pressure_angle(main, t).d0))
+    swing = curves.profile_gap(model.trimmed["main"], t) / (main.arm * np.cos(model.pressure_angle(main, t).d0))
     behind = np.max(swing * model.spec.lever.output_arm / np.cos(model.swing(t).d0) ** 2)
     assert behind > 1e-3
     assert -error.min() == pytest.approx(behind, abs=0.1e-3)

@@ -1,9 +1,12 @@
 """The finished profile: what the follower's face leaves standing when it has gone once around the cam."""
 
+from collections.abc import Callable
+from typing import NamedTuple
+
 import numpy as np
 
 from drivewright.curves import CircleFamily, LineFamily, Piece, Span
-from drivewright.numerics.jets import Jet, variable
+from drivewright.numerics.jets import Jet, constant, variable
 
 
 def path(programme, draw):
@@ -18,6 +21,33 @@ def family(follower, programme, flank=1):
     if hasattr(follower, "face"):
         return LineFamily(path(programme, follower.face))
     return CircleFamily(path(programme, follower.pitch), follower.radius, "inside" if flank > 0 else "outside")
+
+
+class Sinking(NamedTuple):
+    """A follower that sinks along its travel beyond its programme: what `curves.lost_motion` wants.
+
+    place(angle, depth): members of the family, `depth` [m] of travel (of the arm's end where it swings) below the planned place;
+    fastest: the most that a point of the face comes nearer per depth.
+    """
+
+    place: Callable
+    fastest: float
+
+
+def sinking(follower, programme, flank=1):
+    """The `Sinking` of a follower into its cam; flank -1: outwards, into the outer wall of a groove."""
+    def lift(angle, depth):
+        return constant(programme(angle).s - flank * getattr(follower, "side", 1) * depth / follower.reach)
+
+    if not hasattr(follower, "face"):
+        return Sinking(lambda angle, depth: follower.pitch(variable(angle), lift(angle, depth)).d0, 1.0)
+
+    def face(angle, depth):
+        direction, support = follower.face(variable(angle), lift(angle, depth))
+        return np.stack([np.exp(1j * direction.d0), support.d0 + 0j])
+
+    # A line about a pivot, which lies outside the cam: no point of the cam is farther from it than twice its distance from the centre.
+    return Sinking(face, 2 * follower.pivot_distance / follower.reach if hasattr(follower, "pivot_distance") else 1.0)
 
 
 def spans(pieces):

@@ -16,7 +16,8 @@ from drivewright.curves.plane import (
     tangent,
 )
 from drivewright.curves.toolpath import offset_outline
-from drivewright.curves.trim import Corner, Span, Trimmed, largest_lost_motion, lost_motion, profile_loss, trim
+from drivewright.curves.trim import Corner, Span, Trimmed, trim
+from drivewright.curves.undercut import largest_lost_motion, largest_profile_gap, lost_motion, profile_gap, profile_loss
 
 __all__ = [
     "CircleFamily",
@@ -34,6 +35,7 @@ __all__ = [
     "envelope_of_circle",
     "envelope_of_line",
     "largest_lost_motion",
+    "largest_profile_gap",
     "lost_motion",
     "normal",
     "offset",
@@ -41,6 +43,7 @@ __all__ = [
     "outline_area",
     "outline_of_spans",
     "perimeter",
+    "profile_gap",
     "profile_loss",
     "simple_outline",
     "tangent",

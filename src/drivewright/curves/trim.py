@@ -87,36 +87,6 @@ def trim(family, interior=0j, samples=1440, least=96):
     return Trimmed(family, spans, corners, crossings, abs(area), perimeter, chain)
 
 
-def lost_motion(trimmed, t):
-    """How far [m] the follower can move beyond its planned place at the parameters t before it touches the real profile.
-
-    For a circle: distance from its planned centre to the profile minus the radius; for a line: its distance from the profile.
-    0 exactly where the planned contact point survives.
-    """
-    t = np.asarray(t, dtype=float)
-    flat = t.ravel()
-    lost = np.zeros(flat.shape)
-    missing = np.zeros(flat.shape, dtype=bool)
-    for start, stop in trimmed.removed:
-        missing |= (flat >= start) & (flat <= stop)
-    if missing.any():
-        lost[missing] = np.maximum(_gap_to_profile(trimmed, flat[missing]), 0.0)
-    return lost.reshape(t.shape)
-
-
-def largest_lost_motion(trimmed):
-    """(parameter, lost motion [m]) where it is greatest; (nan, 0.0) for an untrimmed profile."""
-    best = (np.nan, 0.0)
-    for start, stop in trimmed.removed:
-        for _ in range(3):  # each pass narrows the place by 32
-            t = np.linspace(start, stop, 65)
-            lost = lost_motion(trimmed, t)
-            k = int(np.argmax(lost))
-            start, stop = t[max(k - 1, 0)], t[min(k + 1, 64)]
-        best = max(best, (float(t[k]), float(lost[k])), key=lambda found: found[1])
-    return best
-
-
 def _refuse_swept(family, chain, interior):
     gap = float(_least_gap(family, chain, np.array([complex(interior)]))[0])
     if gap <= 0:
@@ -261,51 +231,3 @@ def _merged(intervals):
         else:
             merged.append((start, stop))
     return merged
-
-
-def _gap_to_profile(trimmed, t, count=257, steps=6):
-    """Least gap between the members at t and the surviving profile: the nearest of `count` points per span, refined by Newton."""
-    family, spans = trimmed.family, trimmed.spans
-    starts = np.array([piece.start for piece in trimmed.chain.pieces if piece.source is not None])
-    members = family.members(np.clip(np.searchsorted(starts, t, side="right") - 1, 0, len(starts) - 1), t)
-    s = np.concatenate([np.linspace(span.start, span.stop, count) for span in spans])
-    pieces = tuple(span.piece for span in spans)
-    index = np.repeat(np.arange(len(spans)), count)
-    gaps = family.gap(members[..., None], gather(pieces, index, s).d0)
-    best = np.argmin(gaps, axis=-1)
-    least, at = np.min(gaps, axis=-1), s[best]
-    low = np.where(best % count > 0, s[best - 1], at)
-    high = np.where(best % count < count - 1, s[np.minimum(best + 1, len(s) - 1)], at)
-    for _ in range(steps):
-        gap = family.gap(members, gather(pieces, index[best], at))
-        least = np.minimum(least, gap.d0)
-        at = _downhill(at, gap, low, high)
-    return least
-
-
-def _downhill(t, gap, low, high):
-    """One Newton step towards gap' = 0 inside [low, high]; none where that would be a maximum."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        step = np.where(gap.d2 > 0, -gap.d1 / gap.d2, 0.0)
-    return np.clip(t + np.where(np.isfinite(step), step, 0.0), low, high)
-
-
-def profile_loss(trimmed, samples=20_001):
-    """Greatest distance [m] of an intended point of contact from the real profile; 0.0 for an untrimmed one.
-
-    Not the lost motion: the follower sinks until it touches elsewhere, while the intended point lies off the profile altogether.
-    `samples` per stretch of the profile set the error, about (spacing)^2 / (8 loss).
-    """
-    from scipy.spatial import cKDTree
-
-    cut = np.zeros(len(trimmed.chain.t), dtype=bool)
-    moving = np.array([piece.source is not None for piece in trimmed.chain.pieces])[trimmed.chain.index]
-    for start, stop in trimmed.removed:
-        cut |= moving & (trimmed.chain.t > start) & (trimmed.chain.t < stop)
-    if not cut.any():
-        return 0.0
-    along = (span.piece.at(np.linspace(span.start, span.stop, samples)).d0 for span in trimmed.spans)
-    points = np.concatenate([np.broadcast_to(stretch, samples) for stretch in along])
-    flat = np.stack([points.real, points.imag], axis=1)
-    lost = trimmed.chain.z[cut]
-    return float(cKDTree(flat).query(np.stack([lost.real, lost.imag], axis=1))[0].max())

@@ -2,8 +2,10 @@
 
 import numpy as np
 
-from drivewright import curves
+from drivewright import cams, curves
+from drivewright.errors import DoesNotAssemble, SolverError
 from drivewright.mechanisms.cam.build import profile
+from drivewright.mechanisms.cam.spec import TURN
 from drivewright.result import Answer, Check, Column, Table, Value
 
 
@@ -30,7 +32,7 @@ def _one_profile(model, number):
     lost = _lost_motion(model, track, found) if found.trimmed else Answer()
     checks = (*_wall_checks(model, track, least), *lost.checks)
     findings = (*lost.findings, *([found.finding] if found.finding else []))
-    outcome = "partial" if found.finding else "complete"
+    outcome = "partial" if found.finding or lost.outcome == "partial" else "complete"
     return Answer(values | lost.values, (_inspection(model, track, found),), checks, findings, outcome=outcome)
 
 
@@ -47,13 +49,24 @@ def _radii(model, track, found):
 
 
 def _lost_motion(model, track, found):
-    """How far the follower sinks where the profile that it needs has been cut away."""
-    at, lost = curves.largest_lost_motion(found.trimmed)
-    meaning = "how far the follower can sink beyond its programme, square to the profile"
+    """How far the follower sinks where the profile that it needs has been cut away, and the gap it would leave in its planned place."""
+    gap = curves.largest_profile_gap(found.trimmed)[1]
+    meaning = f"gap between the follower in its planned place and the real profile{track.of}"
+    values = {f"{track.prefix}profile_gap": Value(gap, "m", meaning)}
+    try:
+        at, lost = curves.largest_lost_motion(found.trimmed, *cams.sinking(track.follower, model.programme, track.flank))
+    except (SolverError, DoesNotAssemble) as error:
+        finding = f"the {track.name} is undercut so deep that no lost motion can be told: {error}"
+        return Answer(values, findings=(finding,), outcome="partial")
+    meaning = f"how far the follower sinks beyond its programme{track.of}, along its travel (of the arm's end where it swings)"
+    values[f"{track.prefix}lost_motion"] = Value(lost, "m", meaning)
     check = Check(f"lost_motion{track.suffix}", lost, model.spec.limits.lost_motion, "<=", "m", meaning, (track.name,), True)
+    if not lost > 0:
+        return Answer(values, (), (check,))
+    values[f"{track.prefix}lost_motion.at"] = Value(at % TURN, "rad", f"cam angle at which it sinks farthest{track.of}")
     finding = (f"the {track.name} is undercut: near cam angle {np.degrees(at):.1f} deg the follower sinks {1e3 * lost:.3g} mm beyond its "
                "programme; a larger prime radius, a smaller face radius or a longer segment mends it")
-    return Answer({f"{track.prefix}lost_motion": Value(lost, "m", meaning)}, (), (check,), (finding,) if lost > 0 else ())
+    return Answer(values, (), (check,), (finding,))
 
 
 def _wall_checks(model, track, least):

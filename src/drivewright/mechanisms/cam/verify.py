@@ -23,15 +23,61 @@ def verify(model, result):
     shapely.prepare(body)
     lost = result.values.get("lost_motion")
     sunk = lost.value if lost else 0.0
-    laid, planned = _laid(model, body, angle), model.programme(angle).s
-    # Where the profile is undercut the follower sinks by the lost motion, more along its travel than square to the profile.
-    allowed = 1e-8 / model.follower.reach if not sunk else 3 * sunk / model.follower.reach
+    laid, planned = _laid(model, body, angle, sunk), model.programme(angle).s
+    allowed = (1e-8 + sunk) / model.follower.reach
     unit = "rad" if model.oscillating else "m"
     yield "lift: largest difference over the turn", 0.0, float(np.max(np.abs(laid - planned))), unit, allowed, LAID
     yield "profile.area", result["profile.area"], body.area, "m^2", 1e-6 * body.area, "area of the polygon"
     yield "profile.perimeter", result["profile.perimeter"], body.length, "m", 1e-6 * body.length, "length of the polygon"
     if not model.tracks[0].flat:
         yield from _at_the_extremes(model, result, body, sunk)
+    yield from _sunk(model, result)
+
+
+def _sunk(model, result):
+    """The lost motion of every undercut cam: the follower lowered on the polygon around the place that the analysis names."""
+    for number, track in enumerate(model.tracks):
+        at = result.values.get(f"{track.prefix}lost_motion.at")
+        if at is None:
+            continue
+        name, follower = f"{track.prefix}lost_motion", track.follower
+        trimmed, angle = profile(model, number).trimmed, at.value + np.linspace(-0.02, 0.02, 41)
+        way = track.flank * getattr(follower, "side", 1)
+        sinks = _lowered(track, trimmed.outline(CHORD).points(CHORD), angle, model.programme(angle).s, way / follower.reach, result[name])
+        yield name, result[name], float(np.max(sinks)), "m", 1e-4 * result[name] + 1e-8, LAID
+
+
+def _lowered(track, points, angle, lift, way, guess):
+    """Depth of travel [m] at which the face first touches the polygon, in small steps and then by bisection; nan where it does not."""
+    import shapely
+
+    body = shapely.Polygon(points)
+    shapely.prepare(body)
+    low, high = np.zeros(angle.shape), np.full(angle.shape, np.nan)
+    for depth in np.linspace(0.0, 2 * guess, 81)[1:]:
+        touched = np.isnan(high) & (_clear(track, body, angle, lift - way * depth) <= 0)
+        high[touched] = depth
+        low[np.isnan(high)] = depth
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        free = _clear(track, body, angle, lift - way * np.nan_to_num(middle)) > 0
+        low, high = np.where(free, middle, low), np.where(free, high, middle)
+    return high
+
+
+def _clear(track, body, angle, lift):
+    """Distance of the face from the material [m], negative in it; of an outer wall the body is the hole."""
+    import shapely
+
+    at = variable(angle), constant(lift)
+    if track.flat:
+        direction, support = track.follower.face(*at)
+        points = np.array(body.exterior.coords) @ (1, 1j)
+        return support.d0 - np.array([np.max((points * np.exp(-1j * d)).real) for d in direction.d0])
+    centers = track.follower.pitch(*at).d0
+    points = shapely.points(centers.real, centers.imag)
+    free = shapely.contains(body, points) == (track.flank < 0)
+    return np.where(free, 1.0, -1.0) * shapely.distance(body.exterior, points) - track.follower.radius
 
 
 def _fine_outline(model):
@@ -41,31 +87,16 @@ def _fine_outline(model):
     return curves.outline_of_spans(cams.spans(cams.path(model.programme, model.follower.pitch)), CHORD)
 
 
-def _laid(model, body, angle):
+def _laid(model, body, angle, sunk=0.0):
     """Lift at which the follower touches the body, by bisection at all angles at once."""
     planned = model.programme(angle).s
     room = 0.5 * np.ptp(model.programme.levels) + 1e-3 / model.follower.reach
-    low, high = planned - 0.2 * room, planned + 0.2 * room
+    low, high = planned - max(0.2 * room, 2 * sunk / model.follower.reach), planned + 0.2 * room
     for _ in range(36):
         middle = 0.5 * (low + high)
-        free = _gap(model, body, angle, middle) > 0
+        free = _clear(model.tracks[0], body, angle, middle) > 0
         low, high = np.where(free, low, middle), np.where(free, middle, high)
     return 0.5 * (low + high)
-
-
-def _gap(model, body, angle, lift):
-    """Distance of the face from the body [m], negative inside."""
-    at = variable(angle), constant(lift)
-    if model.tracks[0].flat:
-        direction, support = model.follower.face(*at)
-        points = np.array(body.exterior.coords) @ (1, 1j)
-        return support.d0 - np.array([np.max((points * np.exp(-1j * d)).real) for d in direction.d0])
-    import shapely
-
-    centers = _centers(model, angle, lift)
-    points = shapely.points(centers.real, centers.imag)
-    inside = shapely.contains(body, points)
-    return np.where(inside, -1.0, 1.0) * shapely.distance(body.exterior, points) - model.follower.radius
 
 
 def _centers(model, angle, lift):

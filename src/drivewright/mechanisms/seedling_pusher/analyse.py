@@ -84,7 +84,7 @@ def _one_cam(model, cam):
     prefix, spec = f"cam.{cam.name}", model.spec
     radius, where = least_convex_radius(model, cam)
     trimmed = model.trimmed[cam.name]
-    lost_at, lost = curves.largest_lost_motion(trimmed)
+    lost_at, lost = curves.largest_lost_motion(trimmed, *model.sinking(cam))
     reach = extremes(lambda t: np.abs(model.pitch(cam, t).d0), model.push_start, model.push_start + TURN)
     steepest = {phase: phase_extreme(model, cam, phase)[0] for phase in ("rise", "return")}
     values = {
@@ -99,7 +99,10 @@ def _one_cam(model, cam):
         f"{prefix}.min_convex_radius.at": Value(where % TURN, "rad", "carrier angle of it"),
         f"{prefix}.min_pitch_radius": Value(reach[1], "m", "least radius of the pitch curve"),
         f"{prefix}.max_pitch_radius": Value(reach[3], "m", "largest radius of the pitch curve"),
-        f"{prefix}.lost_motion": Value(lost, "m", "how far the roller can sink beyond its programme where the cam is undercut"),
+        f"{prefix}.lost_motion": Value(lost, "m", "how far the roller sinks beyond its programme, along its path, where undercut"),
+        f"{prefix}.profile_gap": Value(
+            curves.largest_profile_gap(trimmed)[1], "m", "gap between the roller in its planned place and the real profile"
+        ),
         f"{prefix}.profile_loss": Value(
             curves.profile_loss(trimmed), "m", "intended contact off the real profile where undercut"
         ),

@@ -183,6 +183,13 @@ class Pusher:
         """Outline of the real profile of each cam by name, in the frame of its formulas."""
         return {name: trimmed.outline(self.spec.manufacture.chord_tolerance) for name, trimmed in self.trimmed.items()}
 
+    def sinking(self, cam):
+        """How a roller sinks along its path into its cam, for `curves.lost_motion`."""
+        def place(t, depth):
+            return cam.pitch(self.pivot_angle(t), self.swing(t) - cam.side * depth / cam.arm).d0
+
+        return place, 1.0
+
     def family(self, cam):
         """The roller's motion around its cam, for enveloping."""
         at = partial(self._pitch_on, cam)

@@ -25,7 +25,7 @@ SAMPLES = 7201
 class LeverBetweenCams(NamedTuple):
     """Tables over the carrier angle from `start`, one turn in GRID steps: (quantity, point, value or slope).
 
-    Quantities: swing, its first and second derivative, leverage of main and return roller [m], lost motion of both [m].
+    Quantities: swing, its first and second derivative, leverage of main and return roller [m], gap of both to the real profile [m].
     """
 
     law: KelvinVoigt
@@ -126,8 +126,8 @@ def _tables(model):
         leverage = cam.arm * cos(model.pressure_angle(cam, t))
         rows.append((leverage.d0, leverage.d1))
     for cam in model.cams:
-        lost = curves.lost_motion(model.trimmed[cam.name], t)
-        rows.append((lost, np.gradient(lost, step)))  # the lost motion has a kink where the cam is undercut; no exact slope exists there
+        gap = curves.profile_gap(model.trimmed[cam.name], t)
+        rows.append((gap, np.gradient(gap, step)))  # the gap has a kink where the cam is undercut; no exact slope exists there
     return np.array([np.stack([value, slope * step], axis=1) for value, slope in rows])
 
 

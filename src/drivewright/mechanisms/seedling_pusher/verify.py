@@ -14,6 +14,7 @@ from drivewright.mechanisms.seedling_pusher.second_route import SecondRoute
 ROD_ERROR = 0.2e-3  # what facets and elasticity of the contact may cost the rod [m]
 ROLLED, CONSTRUCTED = "ellipses rolled by arc length", "roller path by construction, differences"
 ERODED = "shapely: eroded polygon of the constructed roller path"
+SUNK = "roller sunk on the eroded polygon along its arc"
 
 
 def verify(model, result):
@@ -91,13 +92,34 @@ def _profile(model, result, second, cam):
     prefix, centres = f"cam.{cam.name}", _pairs(second.roller(cam, second.cycle))
     shape = Polygon(LinearRing(centres).buffer(cam.roller_radius, quad_segs=256).interiors[0])
     ours = LinearRing(model.trimmed[cam.name].outline(1e-8).points(1e-8))
-    area, perimeter, lost = (result[f"{prefix}.{name}"] for name in ("profile_area", "profile_perimeter", "lost_motion"))
-    sunk, gap = (distance(curve, points(centres[::3])) - cam.roller_radius for curve in (shape.exterior, ours))
+    area, perimeter, gap = (result[f"{prefix}.{name}"] for name in ("profile_area", "profile_perimeter", "profile_gap"))
+    eroded, left = (distance(curve, points(centres[::3])) - cam.roller_radius for curve in (shape.exterior, ours))
     yield f"{prefix}.profile_area", area, shape.area, "m^2", 2e-5 * area, ERODED
     yield f"{prefix}.profile_perimeter", perimeter, shape.length, "m", 2e-5 * perimeter, ERODED
-    yield f"{prefix}.lost_motion", lost, float(sunk.max()), "m", 1e-6, ERODED
-    yield f"{prefix}, roller sunk to our profile", lost, float(gap.max()), "m", 2e-7, "our profile under the constructed rollers"
-    yield f"{prefix}, roller pressed into our profile", 0.0, float(gap.min()), "m", 2e-7, "our profile under the constructed rollers"
+    yield f"{prefix}.profile_gap", gap, float(eroded.max()), "m", 1e-6, ERODED
+    yield f"{prefix}.lost_motion", result[f"{prefix}.lost_motion"], _sunk(second, cam, shape), "m", 1e-6, SUNK
+    yield f"{prefix}, roller off our profile", gap, float(left.max()), "m", 2e-7, "our profile under the constructed rollers"
+    yield f"{prefix}, roller pressed into our profile", 0.0, float(left.min()), "m", 2e-7, "our profile under the constructed rollers"
+
+
+def _sunk(second, cam, shape):
+    """How far at most the roller sinks along its arc about the pivot until it rests on the polygon, by bisection of the arm's turn [m]."""
+    from shapely import distance, points
+
+    t = second.cycle[::3]
+    centre, pivot = second.roller(cam, t), second.pivot(t)
+
+    def clear(turn):
+        moved = pivot + (centre - pivot) * np.exp(1j * turn)
+        return distance(shape.exterior, points(_pairs(moved))) - cam.roller_radius
+
+    inwards = -np.sign((np.conj(centre) * 1j * (centre - pivot)).real)
+    low, high = np.zeros(len(t)), np.full(len(t), 0.5 * cam.roller_radius / cam.arm)
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        free = clear(inwards * middle) > 0
+        low, high = np.where(free, middle, low), np.where(free, high, middle)
+    return float(cam.arm * low.max())
 
 
 def _pairs(z):
@@ -151,5 +173,4 @@ def motion(model, result, run):
 def _freed(model, result, cam):
     """How far the rod can leave its programme at most where this cam is undercut: behind for the main, ahead for the return cam [m]."""
     prefix, arm = f"cam.{cam.name}", model.spec.lever.output_arm
-    steepest = max(result[f"{prefix}.max_pressure_angle.{phase}"] for phase in ("rise", "return"))
-    return result[f"{prefix}.lost_motion"] / (cam.arm * np.cos(steepest)) * arm / np.cos(result["lever.swing"]) ** 2
+    return result[f"{prefix}.lost_motion"] / cam.arm * arm / np.cos(result["lever.swing"]) ** 2
