@@ -220,6 +220,19 @@ def test_response_curves_have_bands():
     assert (least.low, least.high) == (low[row], high[row])
 
 
+def test_the_margin_of_the_worst_check_and_the_front_have_their_intervals():
+    study = sweep(spec(), LEVELS, on="serial")
+    found = answers(study, ("level", "area")).result
+    table, margin = found.tables["response"], study["check.low_enough"]
+    low, high = (end / np.abs(margin).max() for end in study.bounds("check.low_enough"))
+    settled = study["check.settled"]
+    assert table["checks.margin.low"].data == pytest.approx(np.minimum(low, settled))
+    assert table["checks.margin.high"].data == pytest.approx(np.minimum(high, settled))
+    pareto = found.tables["pareto"]
+    rows = pareto["case"].data.astype(int)
+    assert pareto["level.high"].data == pytest.approx(study.bounds("level")[1][rows])
+
+
 def test_a_grid_without_intervals_has_no_columns_for_them():
     study = sweep(spec(study={"values": ["area"]}), LEVELS, on="serial")
     found = answers(study).result
@@ -235,6 +248,7 @@ def test_spread_within_a_case_is_told_apart():
     study = sampled(1500, noise=0.4)
     found = answers(study).result
     keys, within = found.values["sigma_keys.level"], found.values["sigma_within.level"].value
+    assert found.values["sigma_within.level"].interval == "sample"
     true_keys = 0.011 * np.hypot(0.5 / 11, 0.05)
     assert within == pytest.approx(0.4 * 0.011 / np.sqrt(32), rel=0.05)
     assert keys.low <= true_keys <= keys.high and keys.interval == "sample"

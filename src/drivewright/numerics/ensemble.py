@@ -34,7 +34,7 @@ class Estimate:
     interval: str
     settled: bool
     effective: float
-    error: float
+    error: float = np.nan
 
 
 def estimate(samples: np.ndarray, *, rounding: float = ROUNDING, scale: float = 0.0) -> Estimate:
