@@ -310,6 +310,29 @@ def test_a_requirement_is_met_by_the_whole_interval():
     assert "(" in found.objective_rows()[0][1] or found.objective_rows()[0][0] == "area"
 
 
+@pytest.mark.parametrize(("side", "end", "limit"), [("at_most", 1, 0.0117), ("at_least", 0, 0.0111)])
+def test_the_front_takes_what_meets_the_requirements_by_its_whole_interval(side, end, limit):
+    goals = [{"value": "area", "goal": "minimise"}, {"value": "level", "goal": "maximise"}]
+    table = {"unknowns": [{"key": "size", "lower": "9 mm", "upper": "13 mm"}], "objectives": goals,
+             "requirements": [{"value": "level", side: f"{limit} m"}]}
+    study = sweep(spec(optimise=Optimise(**table)), LEVELS, on="serial")
+    pareto = answers(study).result.tables["pareto"]
+    sign, rows = (1 if side == "at_most" else -1), pareto["case"].data.astype(int)
+    surely = (sign * (study.bounds("level")[end] - limit) <= 0) & (study["check.low_enough"] >= 0)
+    by_value = (sign * (study["level"] - limit) <= 0) & (study["check.low_enough"] >= 0)
+    assert ((pareto["set"].data != "fails") == surely[rows]).all() and by_value.sum() > surely.sum() > 0
+
+
+def test_half_the_width_stands_for_a_standard_error_that_is_not_there(monkeypatch):
+    def answer(model, done):
+        return Answer({"level": Value(model.size, "m", "level", model.size - 1.96e-3, model.size + 1.96e-3, "fit")})
+
+    main = replace(chaos_toy.CHAOTIC.analyses[0], answer=answer)
+    chaos_toy.install(monkeypatch.setattr, replace(chaos_toy.CHAOTIC, analyses=(main,)))
+    study = sweep(spec(noise=0.03), LEVELS, on="serial")
+    assert study.errors("level") == pytest.approx(np.full(7, 1e-3), rel=1e-4) and study.errors("size") is None
+
+
 def test_the_requirement_to_blame_tells_the_end_of_the_interval():
     found = optimise(search("8.2 mm", noise=0.6), on="serial")
     assert not found.feasible
