@@ -6,16 +6,18 @@ EXACT = 5
 
 
 def last_place(value, low, high, digits=EXACT):
-    """Power of ten of the last digit to print of a value and its interval: the second significant digit of half the width.
+    """Power of ten of the last digit to print of a value and its interval: the second significant digit of half the width, but no more
+    than `digits` in all.
 
-    None where the interval says nothing: it has no bound, or lies within the `digits` that an exact value is printed with.
+    None where the interval says nothing: it has no bound, or is narrower than the rounding to `digits`.
     """
     if low is None or high is None or not all(map(math.isfinite, (value, low, high))) or not high > low:
         return None
     half = (high - low) / 2
-    place = math.floor(math.log10(float(f"{half:.1e}"))) - 1
-    size = max(abs(value), half)
-    return None if place < math.floor(math.log10(float(f"{size:.{digits - 1}e}"))) - digits + 1 else place
+    exact = math.floor(math.log10(float(f"{max(abs(value), half):.{digits - 1}e}"))) - digits + 1
+    if half < 0.5 * 10.0**exact:
+        return None
+    return max(math.floor(math.log10(float(f"{half:.1e}"))) - 1, exact)
 
 
 def to_place(value, place):

@@ -220,6 +220,19 @@ def test_response_curves_have_bands():
     assert (least.low, least.high) == (low[row], high[row])
 
 
+def test_the_margin_of_the_worst_check_and_the_front_have_their_intervals():
+    study = sweep(spec(), LEVELS, on="serial")
+    found = answers(study, ("level", "area")).result
+    table, margin = found.tables["response"], study["check.low_enough"]
+    low, high = (end / np.abs(margin).max() for end in study.bounds("check.low_enough"))
+    settled = study["check.settled"]
+    assert table["checks.margin.low"].data == pytest.approx(np.minimum(low, settled))
+    assert table["checks.margin.high"].data == pytest.approx(np.minimum(high, settled))
+    pareto = found.tables["pareto"]
+    rows = pareto["case"].data.astype(int)
+    assert pareto["level.high"].data == pytest.approx(study.bounds("level")[1][rows])
+
+
 def test_a_grid_without_intervals_has_no_columns_for_them():
     study = sweep(spec(study={"values": ["area"]}), LEVELS, on="serial")
     found = answers(study).result
@@ -235,6 +248,7 @@ def test_spread_within_a_case_is_told_apart():
     study = sampled(1500, noise=0.4)
     found = answers(study).result
     keys, within = found.values["sigma_keys.level"], found.values["sigma_within.level"].value
+    assert found.values["sigma_within.level"].interval == "sample"
     true_keys = 0.011 * np.hypot(0.5 / 11, 0.05)
     assert within == pytest.approx(0.4 * 0.011 / np.sqrt(32), rel=0.05)
     assert keys.low <= true_keys <= keys.high and keys.interval == "sample"
@@ -294,6 +308,29 @@ def test_a_requirement_is_met_by_the_whole_interval():
     assert np.all(values["level.high"][chosen] <= 0.012)
     assert np.any(values["level"][~chosen] <= 0.012), "or the interval would decide nothing"
     assert "(" in found.objective_rows()[0][1] or found.objective_rows()[0][0] == "area"
+
+
+@pytest.mark.parametrize(("side", "end", "limit"), [("at_most", 1, 0.0117), ("at_least", 0, 0.0111)])
+def test_the_front_takes_what_meets_the_requirements_by_its_whole_interval(side, end, limit):
+    goals = [{"value": "area", "goal": "minimise"}, {"value": "level", "goal": "maximise"}]
+    table = {"unknowns": [{"key": "size", "lower": "9 mm", "upper": "13 mm"}], "objectives": goals,
+             "requirements": [{"value": "level", side: f"{limit} m"}]}
+    study = sweep(spec(optimise=Optimise(**table)), LEVELS, on="serial")
+    pareto = answers(study).result.tables["pareto"]
+    sign, rows = (1 if side == "at_most" else -1), pareto["case"].data.astype(int)
+    surely = (sign * (study.bounds("level")[end] - limit) <= 0) & (study["check.low_enough"] >= 0)
+    by_value = (sign * (study["level"] - limit) <= 0) & (study["check.low_enough"] >= 0)
+    assert ((pareto["set"].data != "fails") == surely[rows]).all() and by_value.sum() > surely.sum() > 0
+
+
+def test_half_the_width_stands_for_a_standard_error_that_is_not_there(monkeypatch):
+    def answer(model, done):
+        return Answer({"level": Value(model.size, "m", "level", model.size - 1.96e-3, model.size + 1.96e-3, "fit")})
+
+    main = replace(chaos_toy.CHAOTIC.analyses[0], answer=answer)
+    chaos_toy.install(monkeypatch.setattr, replace(chaos_toy.CHAOTIC, analyses=(main,)))
+    study = sweep(spec(noise=0.03), LEVELS, on="serial")
+    assert study.errors("level") == pytest.approx(np.full(7, 1e-3), rel=1e-4) and study.errors("size") is None
 
 
 def test_the_requirement_to_blame_tells_the_end_of_the_interval():

@@ -87,6 +87,9 @@ def test_axis_labels():
     (1.5e7, 1.1e7, 1.9e7, ("1.50×10⁷", "1.10×10⁷", "1.90×10⁷")),
     (2.5e-9, -1.1e-9, 6.1e-9, ("2.5×10⁻⁹", "−1.1×10⁻⁹", "6.1×10⁻⁹")),
     (12.3456789, 12.34567, 12.34569, ("12.346", "", "")),
+    (12.3456, 12.3406, 12.3506, ("12.346", "12.341", "12.351")),
+    (12.3456, 12.34511, 12.34609, ("12.346", "", "")),
+    (12.3456, 12.34509, 12.34611, ("12.346", "12.345", "12.346")),
     (12.3456789, None, None, ("12.346", "", "")),
     (12.3456789, math.nan, 13.0, ("12.346", "", "")),
     (5.0, 5.0, 5.0, ("5", "", "")),
@@ -97,12 +100,17 @@ def test_digits_are_those_that_the_interval_supports(value, low, high, expected)
 
 @given(st.floats(-1e12, 1e12), st.floats(1e-6, 1e3))
 def test_a_printed_value_lies_within_a_twentieth_of_half_the_width(value, part):
-    """Half a unit of the second digit of the half width: at most 5 % of it; coarser only where five digits say as much as an exact one."""
+    """Half a unit of the second digit of the half width: at most 5 % of it; else half a unit of the fifth digit, as of an exact number."""
     half = part * max(abs(value), 1e-9)
-    place = last_place(value, value - half, value + half)
-    if place is not None:
+    place, size = last_place(value, value - half, value + half), max(abs(value), half)
+    exact = 10.0 ** (math.floor(math.log10(float(f"{size:.4e}"))) - 4)
+    if place is None:
+        assert half < 0.501 * exact
+    elif 10.0**place > 1.01 * exact:
         assert abs(float(to_place(value, place)) - value) <= 0.0501 * half
         assert 10.0 ** (place + 1) <= 1.05 * half < 10.0 ** (place + 2) * 1.05
+    else:
+        assert 10.0**place == pytest.approx(exact) and half >= 0.499 * exact
 
 
 def test_quantity_with_its_interval_and_without():

@@ -34,7 +34,7 @@ class Estimate:
     interval: str
     settled: bool
     effective: float
-    error: float
+    error: float = np.nan
 
 
 def estimate(samples: np.ndarray, *, rounding: float = ROUNDING, scale: float = 0.0) -> Estimate:
@@ -59,8 +59,8 @@ def estimate(samples: np.ndarray, *, rounding: float = ROUNDING, scale: float = 
     value = float(np.mean(samples))
     if samples.shape[1] < 2:
         return _of_members(samples[:, 0], False)
-    variance, effective = _noise(_about_halves(samples))
-    drift, limit = _drift(samples)
+    variance, effective = halves = _noise(_about_halves(samples))
+    drift, limit = _drift(samples, halves)
     reach = float(_student(effective - 1, (1 + LEVEL) / 2) * np.sqrt(variance / effective))
     reach = max(reach, drift / 2) if drift > limit else reach
     made = "ensemble" if len(samples) > 1 else "windows"
@@ -87,7 +87,7 @@ def estimate_statistic(samples: np.ndarray, statistic: Callable, *, rounding: fl
         return _of_members(of_members, False)
     change = statistic(samples[:, :half], axis=1) - statistic(samples[:, half:], axis=1)
     paired = _student(len(samples) - 1, 1 - FALSE_ALARM / 4) * np.std(change, ddof=1) / np.sqrt(len(samples))
-    drift, limit = _drift(samples, FALSE_ALARM / 2)
+    drift, limit = _drift(samples, _noise(_about_halves(samples)), FALSE_ALARM / 2)
     return _of_members(of_members, bool(abs(np.mean(change)) <= paired and drift <= limit and whole.effective >= ENOUGH))
 
 
@@ -125,8 +125,8 @@ def _student(freedom, share):
     return float(stdtrit(max(freedom, 1.0), share))
 
 
-def _drift(samples, false_alarm=FALSE_ALARM):
-    """(difference of the means of both halves, what chance allows).
+def _drift(samples, halves, false_alarm=FALSE_ALARM):
+    """(difference of the means of both halves, what chance allows); `halves` is the noise about them.
 
     A drift adds to the noise that it is held against, the more so the less it looks like what was taken off: a step is told from noise
     about half means, a ramp from noise about a straight line; the lesser counts.
@@ -135,7 +135,7 @@ def _drift(samples, false_alarm=FALSE_ALARM):
     first = count // 2
     difference = abs(np.mean(samples[:, :first]) - np.mean(samples[:, first:]))
     limits = [_student(effective - 1, 1 - false_alarm / 2) * np.sqrt(variance / effective * (count / first + count / (count - first)))
-              for variance, effective in map(_noise, (_about_halves(samples), _about_line(samples)))]
+              for variance, effective in (halves, _noise(_about_line(samples)))]
     return float(difference), float(min(limits))
 
 

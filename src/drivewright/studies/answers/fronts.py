@@ -79,7 +79,9 @@ def _told(study, goals, columns, sets, remarks):
 
 
 def _columns(study, goals, rows, sets):
-    """Objectives, keys, case and set of some rows."""
+    """Objectives, keys, case and set of some rows, and the ends of the objectives' intervals."""
     about = {name: study.meaning(name) or name for name in (*goals, "case")} | {key: key for key in study.plan.keys}
     return (*(Column(name, study.unit(name), meaning, plain(study[name])[rows]) for name, meaning in about.items()),
-            Column("set", "", "front, dominated, or fails a check or requirement", sets[rows].astype(str)))
+            Column("set", "", "front, dominated, or fails a check or requirement", sets[rows].astype(str)),
+            *(end for name in goals if (bounds := study.bounds(name)) is not None
+              for end in Column(name, study.unit(name), about[name], rows).bounds(*(each[rows] for each in bounds))))

@@ -151,16 +151,25 @@ def responses(arranged):
 
 def _of_checks(arranged):
     """Margins of different units are compared as parts of the largest size that each check's margin has in the study."""
-    margins = [arranged.of(CHECK + name)[:, 0] for name in arranged.study.check_names]
-    sizes = [np.max(np.abs(finite(margin)), initial=0.0) for margin in margins]
-    parts = np.array([margin / (size or 1.0) for margin, size in zip(margins, sizes, strict=True)])
+    columns = [CHECK + name for name in arranged.study.check_names]
+    margins = [arranged.of(column)[:, 0] for column in columns]
+    sizes = [np.max(np.abs(finite(margin)), initial=0.0) or 1.0 for margin in margins]
+    parts = np.array([margin / size for margin, size in zip(margins, sizes, strict=True)])
     known = np.any(np.isfinite(parts), axis=0) if len(parts) else np.zeros(0, dtype=bool)
     if not np.any(known):
         return
-    worst = np.where(known, np.min(np.where(np.isfinite(parts), parts, np.inf), axis=0), np.nan)
+    worst = _least(parts, known)
     meaning = "least margin of all checks, each over the largest in the study; a check fails below 0"
-    yield Response("checks.margin", "Margin of the worst check", (Column("checks.margin", "-", meaning, worst),),
-                   limits=((0.0, "limit"),))
+    column, ends = Column("checks.margin", "-", meaning, worst), ()
+    if any(arranged.bounds(each) for each in columns):
+        scaled = ([arranged.at_worst(each, sign)[:, 0] / size for each, size in zip(columns, sizes, strict=True)] for sign in (-1, 1))
+        ends = column.bounds(*(_least(np.array(each), known) for each in scaled))
+    yield Response("checks.margin", "Margin of the worst check", (column,), limits=((0.0, "limit"),), ends=ends)
     failing = np.where(known, np.sum(parts < 0, axis=0), np.nan)
     if np.any(failing > 0):
         yield Response("checks.failing", "Checks that fail", (Column("checks.failing", "-", "number of checks that fail", failing),), True)
+
+
+def _least(parts, known):
+    """The least of the margins (checks, combinations) that exist."""
+    return np.where(known, np.min(np.where(np.isfinite(parts), parts, np.inf), axis=0), np.nan)

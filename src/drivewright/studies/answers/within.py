@@ -8,29 +8,30 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.result import HIGH, LOW, Value
-from drivewright.studies.answers.parts import Part, table_of_rows
-from drivewright.studies.statistics import Sampled, finite, summary
+from drivewright.studies.answers.parts import BOUNDS, Part, table_of_rows
+from drivewright.studies.statistics import Sampled, summary
 
 WITHIN = (
     ("value", "", "value of the result"), ("unit", "", "unit of the row's numbers"),
-    ("sigma", "", "standard deviation over the cases, all together"), ("sigma.within", "", "standard deviation within a case"),
-    ("sigma.keys", "", "standard deviation by the keys that vary"), ("sigma.keys" + LOW, "", "the same, at least"),
-    ("sigma.keys" + HIGH, "", "the same, at most"), ("share.within", "-", "share of the variance that is within a case"),
+    ("sigma", "", "standard deviation over the cases, all together"),
+    *((name + end, unit, meaning + told) for name, unit, meaning in (
+        ("sigma.within", "", "standard deviation within a case"), ("sigma.keys", "", "standard deviation by the keys that vary"),
+        ("share.within", "-", "share of the variance that is within a case")) for end, told in BOUNDS),
 )
 
 
 class Apart(NamedTuple):
     """Standard deviations: of all cases together, within a case, and by the keys, with its interval."""
 
-    sigma: float
-    within: float
+    sigma: Sampled
+    within: Sampled
     keys: Sampled
 
     @property
     def share(self):
-        """Of the variance of all cases, that within a case."""
-        return min((self.within / self.sigma) ** 2, 1.0) if self.sigma > 0 else np.nan
+        """Of the variance of all cases, that within a case; its interval is from the ends of both, too wide rather than too narrow."""
+        over = (self.sigma.value, self.sigma.high, self.sigma.low)
+        return Sampled(*(min((within / sigma) ** 2, 1.0) if sigma > 0 else np.nan for within, sigma in zip(self.within, over, strict=True)))
 
 
 def variances(arranged, name):
@@ -46,11 +47,15 @@ def variances(arranged, name):
 def told_apart(sample, noise):
     """`Apart` of the values of a sample (n,) and the variance (n,) of each within its case.
 
-    sigma_keys^2 = sigma^2 - mean(noise), and so for the ends of the interval of sigma, below by 0.
+    sigma_keys^2 = sigma^2 - mean(noise), and so for the ends of the interval of sigma, which is much the wider one; not below 0.
     """
-    found, within = summary(sample), float(np.mean(noise[np.isfinite(sample)])) if len(finite(sample)) else np.nan
-    keys = Sampled(*(float(np.sqrt(max(end**2 - within, 0.0))) if np.isfinite(end) else np.nan for end in found.sigma))
-    return Apart(found.sigma.value, float(np.sqrt(within)), keys)
+    found, within = summary(sample), summary(noise[np.isfinite(sample)]).mean
+    keys = Sampled(*(_root(end**2 - within.value) for end in found.sigma))
+    return Apart(found.sigma, Sampled(*map(_root, within)), keys)
+
+
+def _root(square):
+    return float(np.sqrt(max(square, 0.0))) if np.isfinite(square) else np.nan
 
 
 def within_cases(arranged):
@@ -58,11 +63,11 @@ def within_cases(arranged):
     noises = {name: noise for name in arranged.study.value_names if (noise := variances(arranged, name)) is not None}
     rows = [(number, name, arranged.study.unit(name), told_apart(*row)) for name, noise in noises.items()
             for number, row in enumerate(zip(arranged.of(name)[:, arranged.sample], noise[:, arranged.sample], strict=True))]
-    rows = [row for row in rows if np.isfinite(row[3].sigma)]
+    rows = [row for row in rows if np.isfinite(row[3].sigma.value)]
     if not rows:
         return Part()
-    table = table_of_rows("within_cases", "Spread within a case and by the keys", WITHIN,
-                          [(n, name, unit, each.sigma, each.within, *each.keys, each.share) for n, name, unit, each in rows], arranged)
+    cells = [(number, name, unit, each.sigma.value, *each.within, *each.keys, *each.share) for number, name, unit, each in rows]
+    table = table_of_rows("within_cases", "Spread within a case and by the keys", WITHIN, cells, arranged)
     alone = arranged.combinations == 1
     return Part(dict(_values(arranged, rows)) if alone else {}, (table,), findings=tuple(_findings(rows)) if alone else ())
 
@@ -70,7 +75,7 @@ def within_cases(arranged):
 def _values(arranged, rows):
     for _, name, unit, found in rows:
         what = arranged.study.meaning(name) or name
-        yield f"sigma_within.{name}", Value(found.within, unit, f"{what}: standard deviation within a case")
+        yield f"sigma_within.{name}", found.within.named(unit, f"{what}: standard deviation within a case")
         yield f"sigma_keys.{name}", found.keys.named(unit, f"{what}: standard deviation by the keys that vary")
 
 
@@ -79,6 +84,6 @@ def _findings(rows):
         if found.keys.value == 0:
             yield (f"{name}: the cases differ no more than one case by itself, so nothing can be said of what its keys cause; more windows "
                    "or members narrow the intervals of the cases")
-        elif found.share > 0.01:
-            yield (f"{name}: {found.share:.0%} of the variance over the cases is spread within a case; it is taken off the shares of the "
-                   "keys")
+        elif found.share.value > 0.01:
+            yield (f"{name}: {found.share.value:.0%} of the variance over the cases is spread within a case; it is taken off the shares of "
+                   "the keys")
