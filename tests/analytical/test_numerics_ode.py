@@ -240,3 +240,10 @@ def test_rescaling_time_and_length_changes_nothing():
 def test_messages(call, word):
     with pytest.raises(InputError, match=word):
         call()
+
+
+@pytest.mark.parametrize("per_step", [1, 2, 3])
+@pytest.mark.parametrize("limits", [{"max_steps": 0}, {"min_step": 0.5}])
+def test_a_run_without_a_single_step_is_its_start(per_step, limits):
+    found = integrate(Functions(lambda t, y: -1e6 * y), 0, 1, [1.0, 2.0], per_step=per_step, **limits)
+    assert found.advice and found.t.tolist() == [0.0] and found.y.tolist() == [[1.0, 2.0]]

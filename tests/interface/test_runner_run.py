@@ -11,7 +11,7 @@ from spec_cases import ToySpec
 from drivewright import cases, registry, runner
 from drivewright.errors import DrivewrightError, InputError, MissingExtra, SolverError, SpecError, UnknownName
 from drivewright.registry import Analysis
-from drivewright.result import Answer, Value
+from drivewright.result import Answer, Check, Column, Table, Value
 from drivewright.stopped import Stop, collected, uses
 
 SPEC = ToySpec(length="40 mm", title="a toy")
@@ -143,6 +143,7 @@ def test_a_partial_answer_with_data_can_be_built_on(kind):
     )
     result = runner.run(SPEC)
     assert result.outcome == "partial" and result["b"] == 7.0
+    assert runner.ask(SPEC, Model(), registry.mechanism("toy").analyses)["b"].outcome == "partial", "no more complete than what it needs"
 
 
 def raises(error):
@@ -212,6 +213,21 @@ def test_a_fault_in_what_says_whether_it_can_be_done_is_the_analysis_own(kind):
     assert result.outcome == "partial" and result["b"] == 1.0 and any("ZeroDivisionError" in f for f in result.findings)
 
 
+def test_checks_and_tables_with_numbers_that_do_not_exist_say_so(kind):
+    def answer(model, done):
+        columns = [Column(name, "m", name, np.array(data)) for name, data in (
+            ("x", [0.0, 1.0, 2.0]), ("y", [math.nan, 1.0, math.inf]), ("z", [1.0, math.nan, 3.0]), ("n", [1, 2, 3]))]
+        checks = Check("gap", math.nan, 1.0, "<=", "m", "the gap"), Check("size", 2.0, math.inf, ">=", "m", "the size")
+        tables = Table("curve", "The curve", tuple(columns)), Table("whole", "A whole one", tuple(columns[:1]))
+        return Answer(tables=tables, checks=checks)
+
+    kind(Analysis("a", answer, ""))
+    found = [finding for finding in runner.run(SPEC).findings if "exist" in finding]
+    assert found == ["check 'gap' (the gap) does not exist for this design: nan <= 1.0",
+                     "check 'size' (the size) does not exist for this design: 2.0 >= inf",
+                     "table 'curve' (The curve): y, z do not exist in 2 of 3 rows"]
+
+
 # -- what stopped early --------------------------------------------------------------------------------------------------------
 
 STOP = Stop("the run ends at t = 0.7 s of 3 s", "the limit of 40 steps is reached. Raise max_steps")
@@ -252,6 +268,16 @@ def test_an_analysis_that_fails_on_a_stopped_run_says_both(kind):
     kind(Analysis("a", looks(raises(SolverError("no peak"))), "peaks"))
     result = runner.run(SPEC)
     assert any("gave up: no peak" in f for f in result.findings) and any(f.startswith(STOP.where) for f in result.findings)
+
+
+def test_a_stop_is_noted_where_it_was_used_and_nowhere_else():
+    uses(STOP)  # outside of an analysis nothing happens
+    with collected() as outer:
+        with collected() as inner:
+            uses(STOP)
+        assert list(inner) == [STOP] and not outer
+        uses(STOP._replace(why="again"))
+    assert [stop.why for stop in outer] == ["again"] and list(inner) == [STOP]
 
 
 @pytest.mark.parametrize("workers", [1, 3])
