@@ -28,7 +28,7 @@ def energy(model, done):
     limit, checks = model.spec.limits.energy_error, []
     checks.append(Check("energy_audit", found.error, limit, "<=", "-", values["energy.error"].meaning))
     if model.assembly.model.drives:
-        words = "work of the drives against change of energy and losses: largest gap over the work that the drives do and take"
+        words = "largest gap between work of the drives and change of energy with losses, over the work of the drives"
         checks.append(Check("power_audit", found.power_error, limit, "<=", "-", words))
     torque = _torque(model)
     return Answer(values | torque.values, (Table("energy", "Energy audit", columns), *torque.tables), (*checks, *torque.checks))
