@@ -58,7 +58,7 @@ def _lost_motion(model, track, found):
     except (SolverError, DoesNotAssemble) as error:
         finding = f"the {track.name} is undercut so deep that no lost motion can be told: {error}"
         return Answer(values, findings=(finding,), outcome="partial")
-    meaning = f"how far the follower sinks beyond its programme{track.of}, along its travel (of the arm's end where it swings)"
+    meaning = f"how far the follower sinks beyond its programme, along its travel (of the arm's end where it swings){track.of}"
     values[f"{track.prefix}lost_motion"] = Value(lost, "m", meaning)
     check = Check(f"lost_motion{track.suffix}", lost, model.spec.limits.lost_motion, "<=", "m", meaning, (track.name,), True)
     if not lost > 0:
