@@ -145,6 +145,41 @@ def test_kelvin_voigt_refuses_a_body_without_mass():
         impact.kelvin_voigt_damping(0.5, 1.0, 0.0)
 
 
+# ------------------------------------------------------------------------------------------------------ lasting contact
+
+
+@pytest.mark.parametrize("h", [5e-4, 0.17, 1.6, 14.4, 300.0])
+@pytest.mark.parametrize("exponent, mass", [(1.0, 0.3), (1.5, 2.0), (2.2, 0.1)])
+def test_the_lasting_factor_delivers_the_restitution_of_the_impact(h, exponent, mass):
+    """F = F_el (1 + h_w d'/w) integrated over a free impact, without a pull; the body leaves where the force is gone."""
+    stiffness, speed, factor = 3e9, 0.7, impact.lasting_factor(h)
+
+    def force(d, v):
+        elastic = stiffness * d**exponent
+        w = np.sqrt(2 * elastic * d / ((exponent + 1) * mass))
+        return elastic * (1 + factor * v / w) if d > 0 else 0.0
+
+    depth = (0.5 * (exponent + 1) * mass * speed**2 / stiffness) ** (1 / (exponent + 1))
+    e = bounce(force, mass, speed, 30 * (1 + factor) ** 2 * depth / speed)
+    assert impact.delivered_restitution(h) == pytest.approx(e, rel=2e-5)
+
+
+def test_the_lasting_factor_of_small_and_of_no_loss():
+    """h -> 0: e = 1 - 2 h/3 and h_w = 2 (1 - e)/pi."""
+    assert impact.lasting_factor(0.0) == 0.0
+    assert impact.lasting_factor(1e-5) == pytest.approx(4e-5 / (3 * np.pi), rel=1e-4)
+    assert np.all(np.diff([impact.lasting_factor(h) for h in np.geomspace(1e-6, 1e3, 60)]) > 0)
+
+
+@pytest.mark.parametrize("depth", [1e-8, 1e-6, 2e-5, 1.7e-4, 3e-4])
+def test_the_energy_of_the_cylinder_law_is_its_work(depth):
+    ends = np.linspace(0, depth**0.25, 4001) ** 4
+    forces = np.array([plain(impact.cylinder_force)(d, *BEARING) for d in ends])
+    work = np.sum(0.5 * (forces[1:] + forces[:-1]) * np.diff(ends))
+    assert plain(impact.cylinder_energy)(depth, forces[-1], *BEARING) == pytest.approx(work, rel=2e-6)
+    assert plain(impact.cylinder_energy)(0.0, 0.0, *BEARING) == 0.0
+
+
 # ------------------------------------------------------------------------------------------------------- elastic force
 
 

@@ -31,7 +31,9 @@ def test_exudyn_and_the_absolute_equations_agree(name):
     found = verify.verify(model(name, "simulate.turns=1.5", "simulate.discard=0"), None)
     assert differing(found) == []
     assert {verify.EXUDYN, verify.ABSOLUTE} <= routes(found)
-    assert all(allowed <= 2e-5 for *_, unit, allowed, route in found if route == verify.EXUDYN)
+    for _, ours, other, unit, allowed, route in found:
+        if route == verify.EXUDYN:  # with dry pins its own answer still changes by 1e-5 rad with the step, and comes to ours
+            assert allowed <= (2e-5 if unit == "m" else 5e-5) and abs(ours - other) <= 2e-5
 
 
 def test_a_four_bar_in_closed_form():
@@ -82,7 +84,7 @@ def test_exudyn_notices_another_restitution():
     one, other = (model("slider_crank_clearance", f"joints.wrist.restitution={e}") for e in (0.9, 0.89))
     mine, theirs = ([row for row in verify.verify(m, None) if row[5] == verify.EXUDYN] for m in (one, other))
     mixed = [(*a[:2], b[2], *a[3:]) for a, b in zip(mine, theirs, strict=True)]
-    assert "bodies.slider.x after 0.12 turns" in differing(mixed)
+    assert any(name.startswith("bodies.slider.x after 0.0") for name in differing(mixed))
 
 
 @pytest.mark.parametrize("change", ['joints.wrist.model="massless-link"', "joints.wrist.friction=0.1", 'joints.wrist.normal="cylinder"',

@@ -19,8 +19,8 @@ from drivewright.contact.normal import HuntCrossley, KelvinVoigt, Spring, hunt_c
 
 # Their modules hold kernels, and the first kernel imports numba: loaded when first used.
 _WHERE = {
-    "impact": ("ImpactLaw", "cylinder_depth", "cylinder_force", "delivered_restitution", "impact_law", "impact_law_names",
-               "journal_stiffness", "kelvin_voigt_damping", "kelvin_voigt_restitution"),
+    "impact": ("ImpactLaw", "cylinder_depth", "cylinder_energy", "cylinder_force", "delivered_restitution", "impact_law",
+               "impact_law_names", "journal_stiffness", "kelvin_voigt_damping", "kelvin_voigt_restitution", "lasting_factor"),
     "friction": ("ambrosio", "coulomb", "lugre", "lugre_rate", "stribeck"),
     "film": ("long_bearing", "short_bearing"),
     "reynolds": ("Film", "FilmMap", "closed_form_map", "film_deviation", "film_map", "solve_film"),

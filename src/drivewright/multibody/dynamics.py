@@ -8,11 +8,11 @@ import numpy as np
 
 from drivewright._jit import implements, inner
 from drivewright.multibody.chart import configure, interpolated, offset_of, pose
-from drivewright.multibody.kinematics import curve_at, determinant
-from drivewright.multibody.loads import SLOWEST, apart, gap_of, load, worn_off
+from drivewright.multibody.kinematics import curve_at, determinant, move
+from drivewright.multibody.loads import LASTING, SLOWEST, approach, contact_signs, load
 from drivewright.multibody.system import DRIFT, LUGRE, Motion
 from drivewright.numerics.ode import events, rate, switch
-from drivewright.numerics.small import cholesky_solve
+from drivewright.numerics.small import cholesky_factor, cholesky_substitute
 
 DECADE = 0.1  # part of its determinant to which a split may fall, or whose inverse it may reach, before another one is made
 FIRST_PIN = 2  # among the event functions: before it stand the split's own and the singular position
@@ -30,13 +30,14 @@ def _(motion, t, y, values):
 
 @implements(switch, Motion)
 def _(motion, index, t, y):
-    touch_or_let_go(motion.system, motion.work, index, t, y)
+    contact_event(motion.system, motion.work, index, t, y)
 
 
 @inner
 def accelerations(system, work, t, y, dy):
     """dy of the state y: rates of the stored coordinates, accelerations of the independent ones, rates of what elements remember."""
     closed = configure(system, work, t, y)
+    inertia(system, work)
     load(system, work, t, y, dy)
     accelerate(system, work)
     for k in range(system.stored.size):
@@ -48,22 +49,38 @@ def accelerations(system, work, t, y, dy):
 @inner
 def depths(system, work, t, y, values):
     """Whether the split of the coordinates, or the chart, still serves (below 0 it does not); how far the state stands from the singular
-    position of the chart; then the depth of every pin with play: it touches where this rises through 0 and lets go where it falls."""
+    position of the chart; then the depth of every pin with play: it touches where this rises through 0 and lets go where it falls; then
+    the other `contact_signs` of all pins, one kind after the other."""
+    pins = system.contacts.size
     if system.chart.offsets.size > 0:
         interpolated(system, work, t, y)
+        inertia(system, work)
         values[1] = offset_of(system, t, y)
         values[0] = 1.0 - (values[1] / system.chart.reach) ** 2
     else:
         if not stands(system, work, t, y):  # at the end of a step the last rates were those of this very state
             pose(system, work, t, y)
+            if touches(system, y):
+                move(system, work)
+                inertia(system, work)
         values[0], values[1] = validity_of_split(system, work), 1.0
+    for n in range(pins):
+        depth, reversal, hold = contact_signs(system, n, work, y)
+        values[FIRST_PIN + n], values[FIRST_PIN + pins + n], values[FIRST_PIN + 2 * pins + n] = depth, reversal, hold
+
+
+@inner
+def touches(system, y):
+    """Whether a pin with play touches."""
     for n in range(system.contacts.size):
-        values[n + FIRST_PIN] = gap_of(system, work, n)
+        if y[system.contacts[n].memory] != 0.0:
+            return True
+    return False
 
 
 @inner
 def stands(system, work, t, y):
-    """Whether the bodies are placed for this state already: driven and independent coordinates are the same."""
+    """Whether the bodies are placed for this state already: driven and independent coordinates are the same, and these have their rates."""
     for d in range(system.driven.size):
         driven = system.driven[d]
         value, _, _ = curve_at(system.curves, system.pieces, driven.curve, t)
@@ -72,9 +89,9 @@ def stands(system, work, t, y):
     m = 0
     for k in range(system.stored.size):
         if m < system.independent.size and system.stored[k] == system.independent[m]:  # both ascend
-            m += 1
-            if work.coordinates[system.stored[k]].q != y[k]:
+            if work.coordinates[system.stored[k]].q != y[k] or work.coordinates[system.stored[k]].v != y[system.stored.size + m]:
                 return False
+            m += 1
     return True
 
 
@@ -92,48 +109,65 @@ def validity_of_split(system, work):
 
 
 @inner
-def touch_or_let_go(system, work, index, t, y):
-    """A pin touches: remember the speed of approach.  It lets go: forget it."""
-    contact = system.contacts[index - FIRST_PIN]
-    configure(system, work, t, y)
-    dx, dy, vx, vy, _, _, _, _ = apart(work.poses, contact)
-    _, lean = worn_off(system.wear[index - FIRST_PIN], work.poses[contact.i].angle, dx, dy)
-    across = (dx * vy - dy * vx) / np.hypot(dx, dy) - np.hypot(dx, dy) * work.poses[contact.i].w
-    approach = (dx * vx + dy * vy) / np.hypot(dx, dy) - lean * across
-    if y[contact.memory] > 0.0 and approach > 0.0:  # a touch, seen twice by rounding
+def contact_event(system, work, index, t, y):
+    """A pin touches: remember the speed of approach.  It lets go, or is compressed anew without having let go: forget it."""
+    pins, pin = system.contacts.size, index - FIRST_PIN
+    if pin >= pins:
+        if pin < 2 * pins:
+            y[system.contacts[pin - pins].memory] = LASTING
         return
-    y[contact.memory] = 0.0 if y[contact.memory] > 0.0 else max(approach, SLOWEST)
+    contact = system.contacts[pin]
+    configure(system, work, t, y)
+    _, rate, _, _, _, _, _ = approach(system, pin, work, 0.0)
+    if y[contact.memory] != 0.0 and rate > 0.0:  # a touch, seen twice by rounding
+        return
+    y[contact.memory] = 0.0 if y[contact.memory] != 0.0 else max(rate, SLOWEST)
     if contact.law == LUGRE:
         y[contact.bristle] = 0.0
 
 
 @inner
+def inertia(system, work):
+    """Levers R = d(body)/d(independent) of the bodies, and the factor of the mass matrix  sum R^T M R."""
+    free = system.independent.size
+    for m in range(free):
+        for n in range(m + 1):
+            work.mass[m, n] = 0.0
+    for i in range(1, system.bodies.size):
+        body = system.bodies[i]
+        if body.driven:  # its levers stay zero
+            continue
+        reduce_body(system, work, i)
+        if body.mass == 0.0 and body.inertia == 0.0:
+            continue
+        for m in range(free):
+            one = work.reduced[i, m]
+            for n in range(m + 1):
+                two = work.reduced[i, n]
+                work.mass[m, n] += body.mass * (one.x * two.x + one.y * two.y) + body.inertia * one.t * two.t
+    cholesky_factor(work.mass)
+
+
+@inner
 def accelerate(system, work):
-    """Solve  sum R^T M R a = sum R^T (F - M b)  for the independent accelerations (in work.force), R = d(body)/d(independent)."""
+    """Solve  sum R^T M R a = sum R^T (F - M b)  for the independent accelerations (in work.force), after `inertia`."""
     free = system.independent.size
     for m in range(free):
         work.force[m] = 0.0
-        for n in range(free):
-            work.mass[m, n] = 0.0
     for i in range(1, system.bodies.size):
         body, forces = system.bodies[i], work.poses[i]
-        if body.driven or (body.mass == 0.0 and body.inertia == 0.0 and forces.fx == 0.0 and forces.fy == 0.0 and forces.ft == 0.0):
-            continue
-        reduce_body(system, work, i)
         fx, fy, ft = forces.fx, forces.fy, forces.ft
+        if body.driven or (body.mass == 0.0 and body.inertia == 0.0 and fx == 0.0 and fy == 0.0 and ft == 0.0):
+            continue
         if body.mass != 0.0 or body.inertia != 0.0:
             bx, by, bt = residual_bend(system, work, i)
             fx += body.mass * (system.gravity_x - bx)
             fy += body.mass * (system.gravity_y - by)
             ft -= body.inertia * bt
-            for m in range(free):
-                one = work.reduced[m]
-                for n in range(m + 1):
-                    two = work.reduced[n]
-                    work.mass[m, n] += body.mass * (one.x * two.x + one.y * two.y) + body.inertia * one.t * two.t
         for m in range(free):
-            work.force[m] += work.reduced[m].x * fx + work.reduced[m].y * fy + work.reduced[m].t * ft
-    cholesky_solve(work.mass, work.force)
+            lever = work.reduced[i, m]
+            work.force[m] += lever.x * fx + lever.y * fy + lever.t * ft
+    cholesky_substitute(work.mass, work.force)
 
 
 @inner
@@ -147,7 +181,7 @@ def reduce_body(system, work, i):
             x += held.x * work.follow[r, m]
             y += held.y * work.follow[r, m]
             t += held.t * work.follow[r, m]
-        reduced = work.reduced[m]
+        reduced = work.reduced[i, m]
         reduced.x, reduced.y, reduced.t = x, y, t
 
 

@@ -7,7 +7,7 @@ from scipy.linalg import eig, null_space
 
 from drivewright._jit import plain
 from drivewright.errors import InputError
-from drivewright.multibody.loads import gap_of
+from drivewright.multibody.loads import LASTING, approach, elastic_of, gap_of, loading_speed
 from drivewright.multibody.simulate import resplit
 from drivewright.multibody.statics import (
     Place,
@@ -119,7 +119,7 @@ def _place(assembly, state, time, running):
     here = resting(assembly, state, time)
     y = np.array(state, float) if running else here.y
     system, y = resplit(assembly.system if running else here.system, time, y)
-    y[system.contacts.memory] = 1.0
+    y[system.contacts.memory] = LASTING
     return Place(system, motion(system).work, time, y)
 
 
@@ -132,7 +132,7 @@ def _step(here, length):
 
 def _scaled_damping(here, scale, length):
     """-d(force)/d(rates), both scaled, by central differences of the fourth order."""
-    speeds = [RATE * length, *(SHARE * contact.slip_speed for contact in here.system.contacts if contact.law)]
+    speeds = [RATE * length, *(SHARE * contact.slip_speed for contact in here.system.contacts if contact.law), *_pressed_speeds(here)]
     first = len(here.system.stored)
 
     def force(m, change):
@@ -146,6 +146,16 @@ def _scaled_damping(here, scale, length):
     step = min(speeds)
     columns = [(4 * slope(m, step / 2) - slope(m, step)) / 3 for m in range(len(scale))]
     return np.array(columns).T.reshape(len(scale), len(scale))
+
+
+def _pressed_speeds(here):
+    """Rates so small beside `loading_speed` that pins which are pressed keep touching."""
+    system, work = here.system, here.work
+    reduced(here)
+    for n, contact in enumerate(system.contacts):
+        depth, _, mobility, *_ = plain(approach)(system, n, work, LASTING)
+        if depth > 0 and mobility > 0:
+            yield SHARE * float(plain(loading_speed)(contact, depth, plain(elastic_of)(contact, depth), mobility))
 
 
 def _check_balance(here, now, assembly, stiffness, scale, length):

@@ -5,11 +5,12 @@ import numpy as np
 from drivewright._jit import inner, outer
 from drivewright.contact.film import long_bearing, short_bearing
 from drivewright.contact.friction import ambrosio, coulomb, lugre, lugre_rate
-from drivewright.contact.impact import cylinder_force
+from drivewright.contact.impact import cylinder_energy, cylinder_force
 from drivewright.multibody.kinematics import curve_at, turned
 from drivewright.multibody.system import AMBROSIO, ANGLE, COULOMB, LONG_FILM, LUGRE, NO_FILM, TIME
 
 SLOWEST = 1e-4  # approach speed that counts at least, where a law divides by it [m/s]
+LASTING = -1.0  # in the memory of a contact that no longer remembers an approach; 0: no contact
 THINNEST = 1e-4  # least film thickness over clearance that the film formulas see
 
 
@@ -164,16 +165,74 @@ def worn_off(wear, turned_by, dx, dy):
 
 
 @outer
-def normal_of(contact, depth, rate, onset):
-    """F = K d^n (1 + h d'/d0') + c d', or the cylinder law instead of K d^n; a contact never pulls."""
+def normal_of(contact, depth, rate, memory, mobility):
+    """Normal force of a depth > 0 that changes at a rate; a contact never pulls.
+
+    K d^n (1 + h d'/d0') + c d' from the touch at d0' = memory on, K d^n (1 + h_w d'/w) + c d' in a lasting contact, w of
+    `loading_speed`; or the cylinder law instead of K d^n.  `contact.impact.lasting_factor` says how h_w goes with h.
+    """
+    elastic, speed = elastic_of(contact, depth), memory
+    if memory < 0.0:
+        speed = loading_speed(contact, depth, elastic, mobility)
+    if speed > 0.0:
+        elastic += elastic * _loss(contact, rate, speed, memory) / speed
+    return max(elastic + contact.damping * rate, 0.0)
+
+
+@outer
+def elastic_of(contact, depth):
+    """Elastic force of a depth > 0."""
     if contact.cylinder:
-        elastic = cylinder_force(depth, contact.clearance, contact.bearing_radius, contact.bearing_radius - contact.clearance,
+        return cylinder_force(depth, contact.clearance, contact.bearing_radius, contact.bearing_radius - contact.clearance,
+                              contact.stiffness, contact.length)
+    if contact.exponent == 1.5:
+        return contact.stiffness * depth * np.sqrt(depth)
+    return contact.stiffness * depth**contact.exponent
+
+
+@inner
+def loading_speed(contact, depth, elastic, mobility):
+    """w = sqrt(2 E/m): the speed at which a free body touches that comes so deep without loss; mobility = 1/m, 0 where no force moves it."""
+    if contact.cylinder:
+        energy = cylinder_energy(depth, elastic, contact.clearance, contact.bearing_radius, contact.bearing_radius - contact.clearance,
                                  contact.stiffness, contact.length)
-    elif contact.exponent == 1.5:
-        elastic = contact.stiffness * depth * np.sqrt(depth)
     else:
-        elastic = contact.stiffness * depth**contact.exponent
-    return max(elastic * (1.0 + contact.hysteresis * rate / onset) + contact.damping * rate, 0.0)
+        energy = elastic * depth / (contact.exponent + 1.0)
+    return np.sqrt(2.0 * energy * mobility) if mobility > 0.0 else 0.0
+
+
+@inner
+def _loss(contact, rate, speed, memory):
+    """What the rate adds to the elastic force, times speed over it: h_w d', or h d' from a touch on.
+
+    The laws take d0' for the largest rate: so it is in an impact.  Where a load goes on to press faster than the bodies touched, the
+    rate counts as no more than twice d0': as d0' (1 + u/sqrt(1 + u^2)), u = |d'|/d0' - 1, with two continuous derivatives.
+    """
+    if memory < 0.0:
+        return contact.lasting * rate
+    over = abs(rate) / speed - 1.0
+    if over > 0.0:
+        return contact.hysteresis * speed * np.sign(rate) * (1.0 + over / np.sqrt(1.0 + over * over))
+    return contact.hysteresis * rate
+
+
+@inner
+def contact_signs(system, n, work, y):
+    """(depth, rate d' while the contact remembers its approach, what has the sign of its force before it is kept from pulling).
+
+    Where the second rises through 0 another compression begins; where the third changes sign the force has a kink.  They are 1 where
+    there is nothing to watch for.
+    """
+    contact, memory = system.contacts[n], y[system.contacts[n].memory]
+    if memory == 0.0 or (contact.hysteresis == 0.0 and contact.damping == 0.0):
+        return gap_of(system, work, n), 1.0, 1.0
+    depth, rate, mobility, _, _, _, _ = approach(system, n, work, memory)
+    reversal = rate if memory > 0.0 and contact.hysteresis > 0.0 else 1.0
+    elastic = elastic_of(contact, max(depth, 0.0))
+    if contact.damping > 0.0:
+        return depth, reversal, elastic + contact.damping * rate
+    speed = loading_speed(contact, max(depth, 0.0), elastic, mobility) if memory < 0.0 else memory
+    return depth, reversal, speed + _loss(contact, rate, speed, memory)
 
 
 @outer
@@ -190,30 +249,61 @@ def friction_of(contact, normal, slip, bristle):
 
 
 @inner
-def touch(system, n, work, y):
-    """(depth, normal, friction, slip, bristle rate, nx, ny, lean) of a pin with play; n points from the journal to the bearing's centre.
+def approach(system, n, work, memory):
+    """(depth, its rate d', mobility, slip, nx, ny, lean) of a pin with play; n points from the journal to the bearing's centre.
 
-    Contact lies at -R n from the bearing's centre.  A worn wall leans: beside -N n the bearing gets N lean t at the journal's centre,
-    through which the normal of a round journal always goes.  Slip is the bearing's wall against the journal along t = (-ny, nx).
+    A worn wall leans: its slope enters the rate.  Slip is the bearing's wall against the journal along t = (-ny, nx).
+    The mobility, asked for in lasting contacts alone, is what a unit force along the gap gives to d'':  1/m = b^T M^-1 b with
+    b = d(depth)/d(independent coordinates).
     """
     contact = system.contacts[n]
-    dx, dy, vx, vy, _, _, _, _ = apart(work.poses, contact)
+    dx, dy, vx, vy, px, py, qx, qy = apart(work.poses, contact)
     distance = np.hypot(dx, dy)
     worn, lean = worn_off(system.wear[n], work.poses[contact.i].angle, dx, dy)
     depth = distance - contact.clearance - worn
     if distance == 0.0:
-        return depth, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0
+        return depth, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0
     nx, ny = dx / distance, dy / distance
     # The wall's point is at -R n from the bearing's centre, and at d - R n = -(R - |d|) n from the journal's.
-    radius = contact.bearing_radius
-    slip = nx * vy - ny * vx - radius * work.poses[contact.i].w + (radius - distance) * work.poses[contact.j].w
-    onset = y[contact.memory]
-    if onset <= 0.0 or depth <= 0.0:
+    radius, spin = contact.bearing_radius, work.poses[contact.i].w
+    slip = nx * vy - ny * vx - radius * spin + (radius - distance) * work.poses[contact.j].w
+    rate = nx * vx + ny * vy - lean * (nx * vy - ny * vx - distance * spin)
+    mobility = 0.0
+    if memory < 0.0 and depth > 0.0:
+        for m in range(work.pressed.size):
+            one, two = work.reduced[contact.i, m], work.reduced[contact.j, m]
+            ux, uy = one.x - one.t * py - two.x + two.t * qy, one.y + one.t * px - two.y - two.t * qx
+            work.pressed[m] = nx * ux + ny * uy - lean * (nx * uy - ny * ux - distance * one.t)
+        mobility = response(work)
+    return depth, rate, mobility, slip, nx, ny, lean
+
+
+@inner
+def response(work):
+    """b^T M^-1 b of b in work.pressed, which is used up."""
+    total = 0.0
+    for m in range(work.pressed.size):
+        for k in range(m):
+            work.pressed[m] -= work.mass[m, k] * work.pressed[k]
+        work.pressed[m] /= work.mass[m, m]
+        total += work.pressed[m] * work.pressed[m]
+    return total
+
+
+@inner
+def touch(system, n, work, y):
+    """(depth, normal, friction, slip, bristle rate, nx, ny, lean) of a pin with play, as in `approach`.
+
+    Contact lies at -R n from the bearing's centre.  Where the wall leans the bearing gets beside -N n also N lean t at the journal's
+    centre, through which the normal of a round journal always goes.
+    """
+    contact, memory = system.contacts[n], y[system.contacts[n].memory]
+    depth, rate, mobility, slip, nx, ny, lean = approach(system, n, work, memory)
+    if memory == 0.0 or depth <= 0.0:
         return depth, 0.0, 0.0, slip, 0.0, nx, ny, lean
-    across = nx * vy - ny * vx - distance * work.poses[contact.i].w
-    normal = normal_of(contact, depth, nx * vx + ny * vy - lean * across, onset)
-    rubbing, rate = friction_of(contact, normal, slip, y[contact.bristle])
-    return depth, normal, rubbing, slip, rate, nx, ny, lean
+    normal = normal_of(contact, depth, rate, memory, mobility)
+    rubbing, bristle_rate = friction_of(contact, normal, slip, y[contact.bristle])
+    return depth, normal, rubbing, slip, bristle_rate, nx, ny, lean
 
 
 @outer

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright.contact.impact import lasting_factor
 from drivewright.errors import InputError, UnknownName
 from drivewright.multibody import system as arrays
 from drivewright.multibody.model import (
@@ -260,7 +261,8 @@ def _contact(joint, places):
     film = {"film": _FILM[oil.film], "viscosity": oil.viscosity, "roughness": oil.roughness} if oil else {}
     return _pair(joint.first, joint.second, places, f"joint {joint.name!r}") | film | {
         "memory": -1, "bristle": -1, "cylinder": dry.cylinder, "clearance": dry.clearance, "bearing_radius": dry.bearing_radius,
-        "stiffness": dry.stiffness, "exponent": dry.exponent, "hysteresis": dry.hysteresis, "damping": dry.damping, "length": dry.length,
+        "stiffness": dry.stiffness, "exponent": dry.exponent, "hysteresis": dry.hysteresis, "lasting": lasting_factor(dry.hysteresis),
+        "damping": dry.damping, "length": dry.length,
         "law": _FRICTION[rub.law] if rub.coefficient > 0 else arrays.NO_FRICTION, "friction": rub.coefficient, "slip_speed": rub.speed,
         "dead_speed": rub.dead_speed, "static_friction": rub.static_coefficient, "bristle_stiffness": rub.bristle_stiffness,
         "bristle_damping": rub.bristle_damping, "viscous": rub.viscous}

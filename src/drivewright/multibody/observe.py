@@ -6,7 +6,7 @@ import numpy as np
 
 from drivewright._jit import inner, outer
 from drivewright.multibody.chart import configure, lead
-from drivewright.multibody.dynamics import accelerate
+from drivewright.multibody.dynamics import accelerate, inertia
 from drivewright.multibody.loads import apply, film_of, hold, press, touch, unload
 from drivewright.multibody.system import COLUMN, DRIFT, NO_FILM, motion
 
@@ -70,6 +70,7 @@ def observe_all(motion, t, y, dy, bodies, pins, powers, drives):
 def settle(system, work, t, y, dy, powers):
     """Everything about the system at a state: poses, rates, loads with their powers, and the accelerations of all coordinates."""
     configure(system, work, t, y)
+    inertia(system, work)
     unload(work)
     hold(system, work)
     powers[0] = _power(work)

@@ -12,7 +12,7 @@ from drivewright.multibody.assembly import Assembly
 from drivewright.multibody.chart import clear_of_fold, configure_at
 from drivewright.multibody.continuation import Stretch, continued
 from drivewright.multibody.dynamics import FIRST_PIN
-from drivewright.multibody.loads import SLOWEST, gap_of
+from drivewright.multibody.loads import LASTING, gap_of
 from drivewright.multibody.observe import FIELDS, observe
 from drivewright.multibody.partition import at, split
 from drivewright.multibody.singular import Outlook, look_ahead, passage
@@ -161,16 +161,17 @@ def clear_states(run, start=-np.inf, most=None):
 
 
 def touching(system, t, y):
-    """A state in which every pin that begins within its wall remembers an approach, the slowest: without one the wall would not hold it."""
+    """A state in which every pin that begins within its wall, without an approach to remember, is in lasting contact."""
     work = at_state(system, t, y)
     for n, contact in enumerate(system.contacts):
-        if y[contact.memory] <= 0.0 <= plain(gap_of)(system, work, n):
-            y[contact.memory] = SLOWEST
+        if y[contact.memory] == 0.0 <= plain(gap_of)(system, work, n):
+            y[contact.memory] = LASTING
     return y
 
 
 def _integrate(system, t, leg, y, settings, steps, samples, speed):
-    watch = [Event(-1, terminal=True), Event(), *[Event(switches=True)] * len(system.contacts)]
+    pins, switches = len(system.contacts), Event(switches=True)
+    watch = [Event(-1, terminal=True), Event(), *[switches] * pins, *[Event(1, switches=True)] * pins, *[switches] * pins]
     longest = min(leg.max_step, settings.max_step or (2 * np.pi / speed / 100 if speed else np.inf))
     solve = integrate_stiff if settings.method == "radau" else integrate
     return solve(motion(system), t, leg.until, y, settings.rtol, tolerances(system, settings, speed), samples=samples, watch=watch,
@@ -200,7 +201,7 @@ def _impacts(system, run):
     t, index, y = run.crossings
     rows, last = [], np.zeros(len(system.contacts))
     for time, pin, state in zip(t, index - FIRST_PIN, y, strict=True):
-        if pin >= 0:
+        if 0 <= pin < len(system.contacts):
             memory = state[system.contacts[pin].memory]
             if memory > 0.0 and memory != last[pin]:
                 rows.append((time, pin, memory))

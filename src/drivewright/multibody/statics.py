@@ -13,8 +13,8 @@ from drivewright._jit import outer
 from drivewright.errors import InputError, SolverError
 from drivewright.multibody import system as arrays
 from drivewright.multibody.chart import configure
-from drivewright.multibody.dynamics import validity_of_split
-from drivewright.multibody.loads import load
+from drivewright.multibody.dynamics import inertia, validity_of_split
+from drivewright.multibody.loads import LASTING, load
 from drivewright.multibody.partition import at
 from drivewright.multibody.simulate import resplit
 from drivewright.multibody.system import DRIFT, System, Work, motion
@@ -114,10 +114,10 @@ def resting(assembly, state, time):
 
 
 def at_rest(system, y):
-    """A state without rates, every pin remembering a touch, so that its walls press wherever they overlap."""
+    """A state without rates, every pin in lasting contact, so that its walls press wherever they overlap."""
     still = np.zeros_like(y)
     still[: len(system.stored)] = y[: len(system.stored)]
-    still[system.contacts.memory] = 1.0
+    still[system.contacts.memory] = LASTING
     return still
 
 
@@ -141,6 +141,7 @@ def _driven_by(system, start, slope):
 def loaded(system, work, t, y, dy):
     """Everything but the accelerations of a state in `work`; False where the loops cannot be closed."""
     closed = configure(system, work, t, y)
+    inertia(system, work)
     load(system, work, t, y, dy)
     return closed
 

@@ -43,7 +43,7 @@ NO_FRICTION, COULOMB, AMBROSIO, LUGRE = range(4)
 NO_FILM, LONG_FILM, SHORT_FILM = range(3)
 CONTACT = _record(
     "i j memory bristle law film cylinder",
-    "ax ay bx by clearance bearing_radius stiffness exponent hysteresis damping friction slip_speed dead_speed static_friction "
+    "ax ay bx by clearance bearing_radius stiffness exponent hysteresis lasting damping friction slip_speed dead_speed static_friction "
     "bristle_stiffness bristle_damping viscous viscosity length roughness")
 
 
@@ -110,9 +110,10 @@ class Work(NamedTuple):
     pivots: np.ndarray
     columns: np.ndarray  # (3, rows)
     follow: np.ndarray  # (rows, independent + driven): d(dependent)/d(independent and, in a chart, driven)
-    reduced: np.ndarray  # (independent,): levers of one body, the dependent coordinates following
-    mass: np.ndarray  # (independent, independent)
+    reduced: np.ndarray  # (bodies, independent): levers of the bodies, the dependent coordinates following
+    mass: np.ndarray  # (independent, independent): factor L of the mass matrix L L^T
     force: np.ndarray  # (independent,)
+    pressed: np.ndarray  # (independent,): scratch, what a unit force of a contact does
     node: np.ndarray  # (stored + independent,): state of a node of the chart
     sums: np.ndarray  # (rows, 3 + independent + driven): dependent coordinates, rates, drift and `follow`, summed over the nodes
 
@@ -143,8 +144,8 @@ def scratch(system):
     levers.t = turning(system.bodies, n)
     return Work(
         np.zeros(n, COORDINATE).view(np.recarray), poses, levers, np.zeros((rows, n)), np.zeros((rows, rows)), np.zeros(rows, np.int64),
-        np.zeros((3, rows)), np.zeros((rows, free + given)), np.zeros(free, LEVER).view(np.recarray), np.zeros((free, free)),
-        np.zeros(free), np.zeros(len(system.stored) + free), np.zeros((rows, 3 + free + given)))
+        np.zeros((3, rows)), np.zeros((rows, free + given)), np.zeros((bodies, free), LEVER).view(np.recarray),
+        np.zeros((free, free)), np.zeros(free), np.zeros(free), np.zeros(len(system.stored) + free), np.zeros((rows, 3 + free + given)))
 
 
 def no_chart(independent=0, dependent=0):

@@ -20,12 +20,12 @@ from drivewright.numerics.dopri5 import (
     GOES_ON,
     MIN_STEP,
     NOT_FINITE,
-    STOP,
     Batch,
     Settings,
     Unwatched,
     _copy,
     _go_back,
+    _happen,
     _point,
     _watch,
     begin,
@@ -33,7 +33,6 @@ from drivewright.numerics.dopri5 import (
     rate,
     rate_at,
     refresh,
-    switch_at,
 )
 
 _EPS = np.finfo(float).eps
@@ -198,16 +197,14 @@ def advance(system, watched, switched, settings, watch, clock, y, work, values, 
         _copy(work.trial, y)
         rate_at(system, clock[T], y, work.f[0])
         events_at(watched, clock[T], y, batch.after)
+        known = hits
         hits, ender = _watch(watched, watch, values, batch.after, batch.trial, accepted, batch, hits)
         _copy(batch.after, values)
         accepted += 1
         if ender >= 0:
             _go_back(clock, y, batch, ender)
-            index = int(batch.hits[ender, 1])
-            if watch.effects[index] == STOP:
+            if _happen(switched, watch, clock[T], y, batch, known, hits, ender):
                 return EVENT, accepted, rejected, hits
-            switch_at(switched, index, clock[T], y)
-            _copy(y, batch.found[ender])
             refresh(system, watched, clock, y, work.f, values)
             clock[JACOBIAN], clock[OLD_STEP] = MISSING, 0.0
         if clock[T] >= settings.t1:

@@ -53,6 +53,13 @@ def lu_solve(lu, pivots, b):
 @outer
 def cholesky_solve(a, b):
     """Overwrite b with x of a x = b, a symmetric and positive definite (its lower half is used up); nan in b where it is not."""
+    cholesky_factor(a)
+    cholesky_substitute(a, b)
+
+
+@outer
+def cholesky_factor(a):
+    """Overwrite the lower half of a, symmetric and positive definite, with its factor L, a = L L^T; nan where it is not."""
     n = a.shape[0]
     for j in range(n):
         for k in range(j):
@@ -62,6 +69,12 @@ def cholesky_solve(a, b):
             for k in range(j):
                 a[i, j] -= a[i, k] * a[j, k]
             a[i, j] /= a[j, j]
+
+
+@outer
+def cholesky_substitute(a, b):
+    """Overwrite b with x of L L^T x = b, L in the lower half of a."""
+    n = a.shape[0]
     for i in range(n):
         for k in range(i):
             b[i] -= a[i, k] * b[k]

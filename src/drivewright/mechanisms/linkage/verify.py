@@ -18,7 +18,8 @@ from drivewright.multibody.simulate import Settings, clear_states, simulate
 SHOWN = 400  # states at which joints are looked at
 POSE = slice(0, 6)  # of FIELDS: place, angle, and their rates
 FREE = (0.05, 0.95)  # a pin in flight lies that far off its centre, over the play
-STEPS = {"smooth": 4000, "dry": 12000}  # of Exudyn, per turn; a second run takes half (a quarter of) the step
+BEFORE = 0.98  # of the way to the touch from which on a contact lasts
+STEPS = {"smooth": 4000, "dry": 24000}  # of Exudyn, per turn; a second run takes half (a quarter of) the step
 PART = {"smooth": 1.0, "dry": 0.12}  # of a turn that is compared: after impacts two motions part exponentially
 LONGEST = 0.5  # of a mechanism without turns [s]
 ABSOLUTE = "equations of the bodies in absolute coordinates, reactions of the joints by least squares"
@@ -138,11 +139,11 @@ def _exudyn(model):
     if found is None:
         return
     system, t, y, start = found
-    length = min(PART[kind] * (model.period or LONGEST), model.duration)
+    length = _until_lasting(model, system, t, y, min(PART[kind] * (model.period or LONGEST), model.duration))
     ours = _ours(model, system, t, y, length)
     step, finer = (model.period or LONGEST) / STEPS[kind], 4 if kind == "dry" else 2
     coarse, fine = (prototype.run(model.assembly.model, start, length, h, samples=2) for h in (step, step / finer))
-    yield from _apart(model, ours, coarse, fine, kind)
+    yield from _apart(model, ours, coarse, fine, kind, length)
 
 
 def _start(model):
@@ -169,6 +170,20 @@ def _in_flight(model, stretch):
     return int(rows[0]) if len(rows) else None
 
 
+def _until_lasting(model, system, t, y, length):
+    """The length, or less: to the end of the flight before the first contact that lasts, for which Exudyn keeps the approach speed."""
+    if not model.pins:
+        return length
+    found = simulate(model.assembly, length, Settings(1e-10), state=y, start=t)
+    times = np.concatenate([part.t for part in found.stretches])
+    memories = np.concatenate([part.y[:, part.system.contacts.memory] for part in found.stretches])
+    lasting = np.flatnonzero(np.any(memories < 0, axis=1))
+    if not len(lasting):
+        return length
+    flight = np.flatnonzero(np.all(memories[: lasting[0]] == 0, axis=1))
+    return BEFORE * (times[flight[-1]] - t)
+
+
 def _ours(model, system, t, y, length):
     """{body: pose and rates} after `length` [s], from a state."""
     if model.assembly.freedom == 0:
@@ -180,13 +195,13 @@ def _ours(model, system, t, y, length):
     return {body.name: bodies[model.assembly.names.index(body.name), POSE] for body in model.assembly.model.bodies}
 
 
-def _apart(model, ours, coarse, fine, kind):
+def _apart(model, ours, coarse, fine, kind, length):
     """Rows of every moving body: place and angle."""
     size = max(float(np.max(np.abs(pose[:2]))) for pose in ours.values())
     still = 3e-7 * size if kind == "smooth" else 0.02 * min(j.model.clearance for j in model.assembly.model.joints if j.name in model.pins)
     changes = {name: np.abs(coarse.bodies[name][-1] - fine.bodies[name][-1]) for name in ours}
     place, angle = (max(float(np.max(change[part])) for change in changes.values()) for part in (slice(0, 2), slice(2, 3)))
-    after = f"after {PART[kind]:g} turns" if model.period else "at the end"
+    after = f"after {length / model.period:.3g} turns" if model.period else "at the end"
     for name, pose in ours.items():
         for k, field in enumerate(FIELDS[:3]):
             allowed, unit = (place, "m") if k < 2 else (angle, "rad")
