@@ -81,7 +81,7 @@ def test_members_start_nearer_to_each_other_than_anybody_makes_them():
     np.testing.assert_array_equal(starts[0], model.assembly.state)
     ways = [np.linalg.norm((start - starts[0])[: len(model.assembly.system.stored)]) for start in starts[1:]]
     assert all(0 < way <= 1e-3 * 0.5e-3 / 0.05 for way in ways)  # the crank is 50 mm long: angles count in its lengths
-    assert len({way for way in ways}) == 3 or not np.allclose(starts[1], starts[2], rtol=0, atol=1e-12)
+    assert len(set(ways)) == 3 or not np.allclose(starts[1], starts[2], rtol=0, atol=1e-12)
 
 
 # ------------------------------------------------------------------------------------------------------------ pieces
@@ -98,7 +98,8 @@ def test_means_of_turns_are_those_of_the_polygon():
 @pytest.mark.parametrize("period", [1, 2, 3])
 def test_a_motion_of_several_turns_is_seen(period):
     t = np.linspace(0, 13.0, 20_001)
-    seen, model = seen_of(t, 2 * np.pi / period), SimpleNamespace(period=1.0, spec=SimpleNamespace(outputs=[SimpleNamespace(name="o", point=None)]))
+    seen, output = seen_of(t, 2 * np.pi / period), SimpleNamespace(name="o", point=None)
+    model = SimpleNamespace(period=1.0, spec=SimpleNamespace(outputs=[output]))
     assert ensemble.repeats(model, seen) == period
     assert ensemble.repeats(model, seen_of(t, 2 * np.pi / np.sqrt(2))) == 0
 

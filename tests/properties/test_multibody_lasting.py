@@ -126,7 +126,8 @@ def test_a_contact_loses_energy_always_and_never_pulls(clearance, factor):
                        for k in map(assembly.names.index, ("slider", "rod")))
         reach = ROD / 2 * np.exp(1j * rod[4])
         away = rod[0] + 1j * rod[1] + reach - slider[0] - 1j * slider[1]
-        rate = np.real(np.conj(away / np.maximum(abs(away), 1e-12)) * (rod[2] + 1j * rod[3] + 1j * rod[5] * reach - slider[2] - 1j * slider[3]))
+        apart = rod[2] + 1j * rod[3] + 1j * rod[5] * reach - slider[2] - 1j * slider[3]
+        rate = np.real(np.conj(away / np.maximum(abs(away), 1e-12)) * apart)
         elastic = np.where(memory != 0, stiffness * np.maximum(depth, 0) ** 1.5, 0)
         assert np.all(normal >= 0)
         lost.append((normal - elastic) * rate)
@@ -177,7 +178,8 @@ def test_the_mass_of_a_lasting_contact_is_that_which_its_force_moves():
 
 
 @pytest.mark.parametrize("friction", [Friction("coulomb", 0.1, 0.01), Friction("lugre", 0.1, 0.01, static_coefficient=0.15,
-                                                                                bristle_stiffness=1e4, bristle_damping=1.0)], ids=lambda f: f.law)
+                                                                                bristle_stiffness=1e4, bristle_damping=1.0)],
+                         ids=lambda friction: friction.law)
 def test_a_cut_in_lasting_contact_goes_on_as_if_uncut(friction):
     assembly = slider_crank(2e-5, 0.1778, friction)
     whole = simulate(assembly, 1.2 * TURN, Settings(rtol=1e-10))

@@ -72,10 +72,10 @@ def depths(system, work, t, y, values):
 @inner
 def touches(system, y):
     """Whether a pin with play touches."""
+    found = False
     for n in range(system.contacts.size):
-        if y[system.contacts[n].memory] != 0.0:
-            return True
-    return False
+        found |= y[system.contacts[n].memory] != 0.0
+    return found
 
 
 @inner
@@ -119,7 +119,7 @@ def contact_event(system, work, index, t, y):
     contact = system.contacts[pin]
     configure(system, work, t, y)
     _, rate, _, _, _, _, _ = approach(system, pin, work, 0.0)
-    if y[contact.memory] != 0.0 and rate > 0.0:  # a touch, seen twice by rounding
+    if (y[contact.memory] != 0.0) == (rate > 0.0):  # a touch, or a letting go, seen twice by rounding
         return
     y[contact.memory] = 0.0 if y[contact.memory] != 0.0 else max(rate, SLOWEST)
     if contact.law == LUGRE:

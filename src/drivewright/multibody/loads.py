@@ -192,7 +192,7 @@ def elastic_of(contact, depth):
 
 @inner
 def loading_speed(contact, depth, elastic, mobility):
-    """w = sqrt(2 E/m): the speed at which a free body touches that comes so deep without loss; mobility = 1/m, 0 where no force moves it."""
+    """w = sqrt(2 E/m): the speed at which a free body touches that comes so deep without loss; mobility = 1/m, 0 if no force moves it."""
     if contact.cylinder:
         energy = cylinder_energy(depth, elastic, contact.clearance, contact.bearing_radius, contact.bearing_radius - contact.clearance,
                                  contact.stiffness, contact.length)

@@ -185,7 +185,8 @@ def _pin(model, run, seen, number, name, ends, found):
                         f"{name}.hits": len(at) * (model.period or 0.0) / span})
     found.whole.update({f"{name}.{key}": float(means_of_turns(seen.t, x, seen.t[[0, -1]])[0]) for key, x in means.items()})
     if len(ends) > 1:
-        found.turns.update({f"{name}.force": _largest_of_turns(seen.t, force, ends), f"{name}.hits": np.histogram(at, ends)[0].astype(float),
+        found.turns.update({f"{name}.force": _largest_of_turns(seen.t, force, ends),
+                            f"{name}.hits": np.histogram(at, ends)[0].astype(float),
                             f"{name}.depth": np.maximum(_largest_of_turns(seen.t, pin["depth"], ends), 0.0)})
         found.turns.update({f"{name}.{key}": means_of_turns(seen.t, x, ends) for key, x in means.items()})
 
