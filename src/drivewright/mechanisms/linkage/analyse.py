@@ -5,10 +5,10 @@ import numpy as np
 from drivewright.errors import SolverError
 from drivewright.mechanisms.linkage.advice import advice
 from drivewright.mechanisms.linkage.build import TURN, ideal_at, ideal_record, record_of, run_of
-from drivewright.multibody.measures import impact_load, largest, span
+from drivewright.mechanisms.linkage.ensemble import acceleration, settled_check, statistics
+from drivewright.multibody.measures import largest, span
 from drivewright.multibody.observe import FIELDS, PIN_FIELDS
 from drivewright.multibody.record import POINT_FIELDS
-from drivewright.numerics.signals import time_mean
 from drivewright.result import Answer, Check, Column, Table, Value
 
 ROWS = 4000  # of a table of the last turn, at most
@@ -33,13 +33,6 @@ def window(model):
     if len(kept.t) < 3:
         raise SolverError(f"{len(kept.t)} states at t = {seen.t[-1]:.6g} s hold no peaks and means; see why the run ends there")
     return kept
-
-
-def acceleration(seen, output):
-    """(samples, unit, word) of an output's acceleration: the point's where one is given, else that of the angle."""
-    if output.point is None:
-        return seen.point(output.name, "alpha"), "rad/s^2", "angular acceleration"
-    return np.hypot(seen.point(output.name, "ax"), seen.point(output.name, "ay")), "m/s^2", "acceleration"
 
 
 # -- bodies and outputs --------------------------------------------------------------------------------------------------------
@@ -132,28 +125,37 @@ def no_play(spec):
 
 def impact(model, done):
     """K_d of every output with its window and robust companions."""
-    seen, ideal, values, checks = window(model), ideal_record(model), {}, []
+    seen, values, checks, drawn = window(model), {}, [], []
     for output in model.spec.outputs:
-        data, unit, word = acceleration(seen, output)
-        peak = largest(ideal.t, acceleration(ideal, output)[0])
-        load, name = impact_load(seen.t, data, peak, model.period), output.name
-        told = {
-            "ideal_peak": Value(peak, unit, f"largest {word} of {name!r} without play"),
-            "peak_acceleration_ratio": Value(largest(seen.t, data) / peak if peak else np.nan, "-",
-                                             f"largest {word} over that without play"),
-            "impact_load_coefficient": Value(load.coefficient, "-", f"mean of the five largest peaks of the {word} over the ideal peak"),
-            "percentile_ratio": Value(load.percentile, "-", f"level that the {word} keeps below 95 % of the time, over the ideal peak"),
-            "rms_ratio": Value(load.rms, "-", f"root mean square of the {word} over the ideal peak"),
-            "turn_peak_mean": Value(load.turn_mean, "-", f"mean over the turns of the largest {word}, over the ideal peak"),
-            "turn_peak_spread": Value(load.turn_spread, "-", "standard deviation of the same"),
-        }
+        name, told = output.name, _load_values(model, output)
         values |= {f"{name}.{key}": value for key, value in told.items() if np.isfinite(value.value)}
-        limit = model.spec.limits.impact_load_coefficient
-        if limit and np.isfinite(load.coefficient):
-            checks.append(Check(f"impact_load.{name}", load.coefficient, limit, "<=", "-", "impact load coefficient", (output.body,)))
+        drawn += [value for value in told.values() if np.isfinite(value.value)]
+        limit, load = model.spec.limits.impact_load_coefficient, told["impact_load_coefficient"]
+        if limit and np.isfinite(load.value):
+            checks.append(Check.of(load, f"impact_load.{name}", limit, "<=", "impact load coefficient", (output.body,)))
     values["window.start"] = Value(float(seen.t[0]), "s", "start of the window of peaks and means")
     values["window.end"] = Value(float(seen.t[-1]), "s", "its end")
-    return Answer(values, (), tuple(checks))
+    return Answer(values, (), (*checks, settled_check("settled", drawn)))
+
+
+def _load_values(model, output):
+    """{key: Value} of one output."""
+    name, ideal, found = output.name, ideal_record(model), statistics(model)
+    data, unit, word = acceleration(ideal, output)
+    peak = largest(ideal.t, data)
+
+    def of_run(field, meaning):
+        return Value.of(found.of_run(f"{name}.{field}", f"{name}.peak"), "-", meaning)
+
+    return {
+        "ideal_peak": Value(peak, unit, f"largest {word} of {name!r} without play"),
+        "peak_acceleration_ratio": of_run("ratio", f"largest {word} over that without play"),
+        "impact_load_coefficient": of_run("coefficient", f"mean of the five largest peaks of the {word} over the ideal peak"),
+        "percentile_ratio": of_run("percentile", f"level that the {word} keeps below 95 % of the time, over the ideal peak"),
+        "rms_ratio": of_run("rms", f"root mean square of the {word} over the ideal peak"),
+        "turn_peak_mean": Value.of(found.mean(f"{name}.turn_mean"), "-", f"mean over the turns of the largest {word}, over the ideal peak"),
+        "turn_peak_spread": of_run("turn_spread", "standard deviation of the same"),
+    }
 
 
 # -- pins with play ------------------------------------------------------------------------------------------------------------
@@ -165,28 +167,30 @@ def no_pins(spec):
 
 def pins(model, done):
     """Largest force and penetration, impacts and contact share of every pin with play; orbit and force over the last turn."""
-    run, seen, turn = run_of(model), window(model), last_turn(model)
-    start, end = seen.t[0], seen.t[-1]
-    values, tables, checks = {}, [_impact_table(model, run)], []
+    turn, limits = last_turn(model), model.spec.limits
+    values, tables, checks = {}, [_impact_table(model, run_of(model))], []
     for number, name in enumerate(model.pins):
-        pin = dict(zip(PIN_FIELDS, np.moveaxis(seen.pins[:, number], 1, 0), strict=True))
-        force, depth = float(np.max(np.hypot(pin["fx"], pin["fy"]))), max(float(np.max(pin["depth"])), 0.0)
-        hits = np.sum((run.impacts[:, 1] == number) & (run.impacts[:, 0] >= start) & (run.impacts[:, 0] <= end))
-        touching = time_mean(seen.t, pin["depth"] > 0)
-        lost = time_mean(seen.t, np.abs(pin["friction"] * pin["slip"]))
-        values[f"joints.{name}.max_force"] = Value(force, "N", f"largest force in joint {name!r}")
-        values[f"joints.{name}.max_penetration"] = Value(depth, "m", f"largest penetration in joint {name!r}")
-        if model.period:
-            values[f"joints.{name}.impacts_per_turn"] = Value(float(hits * model.period / (end - start)), "-", f"impacts of joint {name!r}")
-        values[f"joints.{name}.contact_share"] = Value(float(touching), "-", f"share of the time in which joint {name!r} touches")
-        values[f"joints.{name}.friction_power"] = Value(float(lost), "W", f"mean power lost by friction in joint {name!r}")
+        told = _pin_values(model, name)
+        values |= {f"joints.{name}.{key}": value for key, value in told.items()}
         tables.append(_pin_table(model, turn, number, name))
-        for limit, key, value, unit in ((model.spec.limits.joint_force, "force", force, "N"),
-                                        (model.spec.limits.penetration, "penetration", depth, "m")):
-            limit = model.assembly.system.contacts[number].clearance if key == "penetration" and not limit else limit
+        for limit, key in ((limits.joint_force, "force"),
+                           (limits.penetration or model.assembly.system.contacts[number].clearance, "penetration")):
             if limit:
-                checks.append(Check(f"{key}.{name}", value, limit, "<=", unit, f"largest {key} in joint {name!r}", (name,)))
-    return Answer(values, tuple(tables), tuple(checks))
+                checks.append(Check.of(told[f"max_{key}"], f"{key}.{name}", limit, "<=", f"largest {key} in joint {name!r}", (name,)))
+    return Answer(values, tuple(tables), (*checks, settled_check("settled.joints", values.values())))
+
+
+def _pin_values(model, name):
+    """{key: Value} of one pin with play."""
+    found = statistics(model)
+    told = {
+        "max_force": Value.of(found.of_run(f"{name}.force", f"{name}.force"), "N", f"largest force in joint {name!r}"),
+        "max_penetration": Value.of(found.of_run(f"{name}.depth", f"{name}.depth"), "m", f"largest penetration in joint {name!r}"),
+        "impacts_per_turn": Value.of(found.mean(f"{name}.hits"), "-", f"impacts of joint {name!r}"),
+        "contact_share": Value.of(found.mean(f"{name}.touching"), "-", f"share of the time in which joint {name!r} touches"),
+        "friction_power": Value.of(found.mean(f"{name}.lost"), "W", f"mean power lost by friction in joint {name!r}"),
+    }
+    return told if model.period else {key: value for key, value in told.items() if key != "impacts_per_turn"}
 
 
 def _impact_table(model, run):

@@ -68,6 +68,11 @@ class LinkageModel:
         return Settings(asked.relative_tolerance, asked.absolute_tolerance, None, asked.min_step, asked.max_steps, asked.method, 2,
                         asked.singular)
 
+    @property
+    def ensemble(self) -> int:
+        """Number of runs behind the statistics of a motion that does not repeat itself."""
+        return self.spec.simulate.ensemble if self.spec.simulate else 1
+
     def crank_angle(self, t):
         """Angle of the drive at constant speed, counted from the start of the joint's zero [rad]."""
         driven = self.assembly.system.driven[0]

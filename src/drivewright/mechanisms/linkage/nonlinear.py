@@ -9,11 +9,13 @@ from drivewright.errors import SolverError, UnknownName
 from drivewright.mechanisms.linkage.analyse import acceleration
 from drivewright.mechanisms.linkage.build import TURN, build, ideal_record, record_of, take_ideal_record
 from drivewright.mechanisms.linkage.describe import output_marker
+from drivewright.mechanisms.linkage.ensemble import settled_check, shifted
 from drivewright.mechanisms.linkage.refusals import refuse_nonsense
 from drivewright.multibody.measures import impact_load, largest
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import Settings, restated, simulate, tolerances
 from drivewright.numerics.chaos import largest_exponent, orbit_period
+from drivewright.numerics.ensemble import estimate
 from drivewright.numerics.signals import order_spectrum
 from drivewright.result import Answer, Column, Table, Value
 from drivewright.spec import dimension_at
@@ -22,6 +24,7 @@ from drivewright.units import SI
 SAME = 1e-3  # of the cloud's size: visits nearer to each other count as one point of the orbit
 STILL = 1e-5  # of the range of the motion: a cloud smaller than this is one point
 ORDERS = 60
+PAIRS_OF_TWINS = 2  # of the ensemble, for the Lyapunov exponent: every turn of a pair is a sample
 PER_OSCILLATION = 20  # samples of the highest order, at least
 
 
@@ -115,15 +118,28 @@ def lyapunov(model, done):
     scales = tolerances(system, model.settings, TURN / model.period) / model.settings.rtol
     inside = np.arange(len(scales)) < free
     inside[: len(system.stored)] = ~np.isin(system.stored, system.dependent)  # a dependent coordinate has no neighbours of its own
-    turn = Turn(model)
-    found = largest_exponent(turn, model.assembly.state, scales, cycles=asked.turns, discard=asked.discard,
-                             rng=np.random.default_rng(model.spec.simulate.seed), continuous=inside)
-    values = {"lyapunov_exponent.per_turn": Value(found.per_cycle, "-", "largest Lyapunov exponent per turn; above 0: chaos"),
-              "lyapunov_exponent.error": Value(found.error, "-", "its standard error")}
+
+    def one(number):
+        return largest_exponent(Turn(model), shifted(model, number), scales, cycles=asked.turns, discard=asked.discard,
+                                rng=np.random.default_rng(model.spec.simulate.seed + number), continuous=inside)
+
+    pairs = [row.value for row in cases.run(one, range(min(PAIRS_OF_TWINS, model.ensemble)), workers=None).rows if row.ok]
+    if not pairs:
+        return Answer(findings=("the Lyapunov exponent is left out: the motion leaves the finite numbers",), outcome="partial")
+    return _exponent_answer(pairs)
+
+
+def _exponent_answer(pairs):
+    """Value, interval and convergence of exponents from motions that start almost alike, each with a twin."""
+    history = np.mean([found.history for found in pairs], axis=0)
+    turns = np.arange(1.0, len(history) + 1)
+    growth = np.diff([found.history * turns for found in pairs], axis=1, prepend=0.0)
+    exponent = Value.of(estimate(growth), "-", "largest Lyapunov exponent per turn; above 0: chaos")
+    error = float(np.sqrt(np.sum([found.error**2 for found in pairs])) / len(pairs))
+    values = {"lyapunov_exponent.per_turn": exponent, "lyapunov_exponent.error": Value(error, "-", "its standard error")}
     table = Table("lyapunov", "Largest Lyapunov exponent: convergence", (
-        Column("turn", "-", "turns counted", np.arange(1.0, len(found.history) + 1)),
-        Column("exponent", "-", "mean growth per turn so far", np.asarray(found.history))))
-    return Answer(values, (table,))
+        Column("turn", "-", "turns counted", turns), Column("exponent", "-", "mean growth per turn so far", history)))
+    return Answer(values, (table,), (settled_check("settled.lyapunov", [exponent]),))
 
 
 class Turn:

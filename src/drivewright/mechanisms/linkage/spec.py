@@ -123,6 +123,8 @@ class Simulate(Spec):
     min_step: Time = Field("0 s", ge=0, description="step below which the run ends with what it has; 0: at the limit of the arithmetic")
     samples_per_turn: Integer = Field(720, ge=8, le=1_000_000, description="rows of the tables (a run without turns: for all of it)")
     seed: Integer = Field(1, ge=0, le=2**31 - 1, description="seed of the random numbers; same seed, same answer")
+    ensemble: Integer = Field(4, ge=1, le=10_000, description="runs behind the statistics of a motion with play that does not repeat "
+                                                              "itself; their starts differ by a thousandth of the clearance")
 
 
 class Output(Spec):
