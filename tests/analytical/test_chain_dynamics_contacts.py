@@ -35,7 +35,7 @@ def put(drive, x, y, angle, psi=0.4, centre=(0.02, -0.01), v=(0.0, 0.0, 0.0), bo
 
 def flank(drive, seat):
     drive.touches.seat[0] = seat
-    plain(load_flanks)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1)
+    plain(load_flanks)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, 1e-6)
     plain(lose_flanks)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, 1e-6)
 
 
@@ -45,7 +45,7 @@ def roller(drive, seat):
 
 
 def guide(drive, seat):
-    plain(load_guide)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.arcs, 0, 0, 1, drive.power)
+    plain(load_guide)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.arcs, 0, 0, 1, drive.power, 1e-6)
 
 
 def at_tooth(dx, dy, turn, psi=0.4, tooth=2, offset=0.7e-3):
