@@ -115,7 +115,7 @@ def kick_bodies(b, gravity, power, dt):
 @inner
 def drift_bodies(b, clock, dt):
     """Places and predicted rates of sprockets and guides one step on; driven angles by their law."""
-    later = clock[0] + dt
+    later = (clock[1] + 1.0) * dt  # not summed up: a sum of so many steps loses digits
     for n in range(b.q.size):
         if b.slides[n]:
             b.q[n] += dt * b.hq[n]
