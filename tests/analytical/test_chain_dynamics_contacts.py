@@ -8,7 +8,15 @@ from drivewright.chains.dynamics.bodies import follow, load_guide, load_rollers
 from drivewright.chains.dynamics.model import Chain, Contact, Drive, Guide, Model, Sprocket
 from drivewright.chains.dynamics.roller import RollerTooth
 from drivewright.chains.dynamics.state import FRICTION, lower
-from drivewright.chains.dynamics.step import acceleration, drift_plates, load_flanks, load_gravity, load_joints, lose_flanks
+from drivewright.chains.dynamics.step import (
+    acceleration,
+    drift_plates,
+    load_flanks,
+    load_gravity,
+    load_joints,
+    lose_flanks,
+    over_the_step,
+)
 from drivewright.chains.link import link, seat_height, seat_support
 from drivewright.chains.tooth import Tooth
 
@@ -33,19 +41,19 @@ def put(drive, x, y, angle, psi=0.4, centre=(0.02, -0.01), v=(0.0, 0.0, 0.0), bo
     plain(load_gravity)(drive.chain, p, drive.touches)
 
 
-def flank(drive, seat):
+def flank(drive, seat, dt=1e-6):
     drive.touches.seat[0] = seat
-    plain(load_flanks)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1)
-    plain(lose_flanks)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, 1e-6)
+    plain(load_flanks)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, dt)
+    plain(lose_flanks)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, dt)
 
 
-def roller(drive, seat):
+def roller(drive, seat, dt=1e-6):
     drive.touches.seat[0] = seat
-    plain(load_rollers)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, 1e-6)
+    plain(load_rollers)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, dt)
 
 
-def guide(drive, seat):
-    plain(load_guide)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.arcs, 0, 0, 1, drive.power)
+def guide(drive, seat, dt=1e-6):
+    plain(load_guide)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.arcs, 0, 0, 1, drive.power, dt)
 
 
 def at_tooth(dx, dy, turn, psi=0.4, tooth=2, offset=0.7e-3):
@@ -118,6 +126,27 @@ def test_damping_power_is_that_of_the_forces(name):
     torque = (moving.touches.torque - still.touches.torque)[0]
     on_body = -0.05 * extra[0] - 0.11 * extra[1] + (0.0 if guides else -3.0 * torque)
     assert np.dot(extra, v) + on_body == pytest.approx(-lost, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["right flank", "left flank", "belly", "roller seat"])
+def test_a_contact_acts_with_its_mean_over_the_step(name):
+    tooth, guides, touch, pose, seat = CASES[name]
+    drive = lowered(tooth, guides, joint=link(9.525e-3, 0.0, A, 2e-4) if tooth is ROLLER else JOINT)
+    v, dt = np.array([0.0, -0.3, 0.0]), 4e-2  # through the whole depth within the step
+
+    def depth(time):
+        put(drive, *(np.array(pose) + time * v), body=2 if guides else 0)
+        touch(drive, seat)
+        return np.sqrt(2 * drive.touches.stored[0] / K)
+
+    rate, here = (depth(1e-8) - depth(-1e-8)) / 2e-8, depth(0.0)
+    put(drive, *pose, v=v, body=2 if guides else 0)
+    drive.bodies.w[0] = 0.0
+    touch(drive, seat, dt)
+    t = drive.touches  # in so long a step the other flank comes near, too
+    force = {"right flank": t.right[0], "left flank": t.left[0]}.get(name, np.hypot(t.fx[0], t.fy[0]))
+    assert force == pytest.approx(K * plain(over_the_step)(here, rate, dt)[0], rel=1e-4)
+    assert abs(force / (K * here) - 1) > 0.05
 
 
 def test_friction_on_a_guide_opposes_sliding_and_saturates():

@@ -10,11 +10,16 @@ import pytest
 import drivewright as dw
 from drivewright import registry
 from drivewright.chains.closure import Drive, departure, phase_map
+from drivewright.chains.dynamics.ensemble import Ensemble
+from drivewright.chains.dynamics.measure import BODY, PLATE, ROW
+from drivewright.chains.dynamics.motion import LOSSES, Motion
+from drivewright.chains.dynamics.simulate import Settings, tooth_time
 from drivewright.chains.link import link, seat_height, seat_support
 from drivewright.mechanisms.silent_chain import dynamics, many, stress
 from drivewright.mechanisms.silent_chain.geometry import geometry
 from drivewright.mechanisms.silent_chain.moving import link_of, moving
 from drivewright.mechanisms.silent_chain.scene import link_shapes
+from drivewright.numerics.ensemble import Estimate
 from drivewright.spec import from_document
 from drivewright.spec.reading import change_key
 
@@ -364,6 +369,15 @@ def test_the_chain_and_its_contacts_as_they_are_told():
     assert (touch.stiffness, touch.damping) == pytest.approx((6e7, 180.0))
     assert (chain.joint_stiffness, chain.joint_damping) == pytest.approx((2e7, 3e-6))
     assert moving(build('contact.damping="50 N s/m"')).sprockets[1].contact.damping == 50.0
+    force = run("contact", 'contact.stiffness="6e4 N/mm"')["pin.force"]  # rocking on two joints: stiffness T A, dampers 2 c
+    critical = np.sqrt(force * (P + 2.4 * MM) * drawn.inertia)
+    assert chain.articulation_damping == pytest.approx(0.003 * critical, rel=1e-9)
+    for ratio in (0.0, 0.1):
+        damping = moving(build(f"contact.articulation_damping_ratio={ratio}", 'contact.stiffness="6e4 N/mm"')).chain.articulation_damping
+        assert damping == pytest.approx(ratio * critical, rel=1e-9)
+    hinge = build('joint.kind="revolute"', 'plate.link_mass="2 g"', 'plate.link_inertia="5e-8 kg m^2"')
+    force = run("contact", 'joint.kind="revolute"', 'plate.link_mass="2 g"')["pin.force"]
+    assert moving(hinge).chain.articulation_damping == pytest.approx(0.02 * np.sqrt(force * P * 5e-8), rel=1e-9)
     assert (chain.count, chain.mass, chain.inertia, chain.centre_offset) == (66, drawn.mass, drawn.inertia, drawn.height)
     assert np.mean(chain.hole_pitches) == pytest.approx(P * 1.002 + 2.4 * MM, rel=1e-12)
     ends = sorted(-point[1] for point in (model.plate.flank("left").start, model.plate.flank("left").end))
@@ -483,15 +497,21 @@ def test_plates_and_rollers_of_a_roller_chain_stand_side_by_side():
 # ------------------------------------------------------------------------------------------------------------------ many runs and stress
 
 
+def known(value, settled=True):
+    """An estimate."""
+    return Estimate(value, value - 0.5, value + 0.25, "ensemble", settled, 8.0)
+
+
 def test_the_campbell_diagram_s_rows(monkeypatch):
     asked = []
 
-    def campbell(system, speeds, teeth, settings):
+    def campbell(system, speeds, revolutions, settings, members):
         asked.extend(speeds)
+        assert (revolutions, members) == (2, 4)
         frequency = np.arange(9.0)
         level = lambda w: SimpleNamespace(  # noqa: E731
-            mean=1.0, fluctuation=2.0, amplitudes=(w, 2 * w, 3 * w), tension=4.0, frequency=frequency,
-            spectrum=np.array([9.0, 1, 5, 1, 7, 1, 6, 2, 8]))
+            mean=known(1.0), fluctuation=known(2.0, settled=w > -100), tension=known(4.0), frequency=frequency,
+            amplitudes=tuple(known(k * w) for k in (1, 2, 3)), spectrum=np.array([9.0, 1, 5, 1, 7, 1, 6, 2, 8]))
         return SimpleNamespace(rows=[SimpleNamespace(case=w, value=level(w), ok=True) for w in speeds], failed=())
 
     monkeypatch.setattr(many, "campbell", campbell)
@@ -501,6 +521,10 @@ def test_the_campbell_diagram_s_rows(monkeypatch):
     columns = {column.name: column.data for column in (*table.columns, *diagram.columns)}
     assert columns["speed"] == pytest.approx(-np.array(asked))
     assert columns["mesh_order_3"] == pytest.approx(3 * np.array(asked))
+    for name, value in (("fluctuation", 2.0), ("tension", 4.0)):
+        assert columns[f"{name}.low"] == pytest.approx([value - 0.5] * 12)
+        assert columns[f"{name}.high"] == pytest.approx([value + 0.25] * 12)
+    assert "1970 rpm" in answer.findings[0] and " 895" not in answer.findings[0]
     assert columns["mesh_frequency"] == pytest.approx(columns["speed"] * 23 / (2 * np.pi))
     peaks = [columns[f"peak_{k}"][0] for k in range(1, 5)]
     assert peaks == pytest.approx([4, 6, 2, np.nan], nan_ok=True)  # highest first; ends are no peaks
@@ -511,14 +535,20 @@ def test_percentiles_and_rest_are_told_as_they_were_found(monkeypatch):
 
     def monte_carlo(system, scatter, samples, duration, settings, percentiles, seed):
         asked.update(scatter=scatter, duration=duration)
-        return SimpleNamespace(mean=(1.0, 2.0, 3.0), fluctuation=(4.0, 5.0, 6.0), outcomes=SimpleNamespace(rows=[], failed=()))
+        ends = np.array([[0.0], [-0.5], [0.25]])
+        return SimpleNamespace(mean=ends + [1.0, 2.0, 3.0], fluctuation=ends + [4.0, 5.0, np.inf],
+                               outcomes=SimpleNamespace(rows=[row], failed=()))
 
+    row = SimpleNamespace(value=SimpleNamespace(mean=known(7.0), fluctuation=known(8.0)), ok=True)
     monkeypatch.setattr(many, "monte_carlo", monte_carlo)
     model = build('scatter.tooth_thickness="3 um"', 'scatter.pitch="1 um"', 'dynamics.settling="20 ms"')
-    values = many.scatter(model, {}).values
+    answer = many.scatter(model, {})
+    values, drives = answer.values, {column.name: column.data[0] for column in answer.tables[0].columns}
     assert (asked["scatter"].tooth_thickness, asked["scatter"].pitch) == pytest.approx((3e-6, 1e-6))
-    assert asked["duration"] == pytest.approx(0.02 + 66 * 2 * np.pi / (23 * 150), rel=1e-12)  # every plate once around
-    assert [values[f"scatter.{name}.p{p:02d}"].value for name in ("mean", "fluctuation") for p in (5, 50, 95)] == [1, 2, 3, 4, 5, 6]
+    assert asked["duration"] == pytest.approx(0.02 + 2 * 66 * 2 * np.pi / (23 * 150), rel=1e-12)  # every plate twice around
+    assert [values[f"scatter.{name}.p{p:02d}"].value for name in ("mean", "fluctuation") for p in (5, 50)] == [1, 2, 4, 5]
+    assert values["scatter.mean.p50"][3:6] == (1.5, 2.25, "sample")
+    assert (drives["mean.low"], drives["fluctuation"], drives["fluctuation.high"]) == (6.5, 8.0, 8.25)
 
     rest = SimpleNamespace(mean=1.0, fluctuation=2.0, flank_force=np.arange(12.0).reshape(2, 3, 2), driver_angle=np.array([0.1, -0.1]),
                            centre_distance=np.ones(2), contacts=np.ones(2), tension=np.arange(6.0).reshape(2, 3),
@@ -531,36 +561,60 @@ def test_percentiles_and_rest_are_told_as_they_were_found(monkeypatch):
     assert answer.tables[0].columns[0].data == pytest.approx([0, 0.2])
 
 
+def made_up(model, member):
+    """A run of two settling samples and two revolutions of made-up signals; the numbers of the members differ."""
+    system, per_tooth = moving(model), 24
+    n = 2 + 2 * 66 * per_tooth + 1
+    t = np.arange(n) * tooth_time(system) / per_tooth
+    rows, bodies = np.ones((n, len(ROW))), np.zeros((n, 2, len(BODY)))
+    wave = (1 + 0.01 * member) * np.sin(2 * np.pi * t / tooth_time(system))
+    rows[:, ROW.index("t")], rows[:, ROW.index("utilisation")], rows[:, ROW.index("contacts")] = t, 0.2 + 0.1 * np.abs(wave), 20.0
+    for name in LOSSES:
+        rows[:, ROW.index(name)] = 0.0
+    rows[-1, ROW.index("drive")] = -1e-5 * (1 + member)  # J of 2 J that are stored
+    bodies[:, 1, BODY.index("q")] = 1e-4 + 3e-6 * wave
+    bodies[:, 1, BODY.index("psi")] = 5e-6 * wave
+    plate = np.zeros((n, len(PLATE)))
+    plate[:, PLATE.index("left flank")], plate[:, PLATE.index("right flank")] = 40 + wave, 50 + 2 * wave
+    settings = Settings(settle=t[2], tolerance=model.spec.dynamics.largest_drift)
+    return Motion(system, settings, 1e-6, 1, rows, bodies, 90 + 4 * wave[:, None], plate)
+
+
 def test_the_running_chain_s_numbers(monkeypatch):
-    """A made-up run of ramps: its statistics leave out the first samples."""
-    model, asked, n = build('dynamics.settling="20 ms"'), {}, 100
-    columns = {name: (k + 1.0) * np.linspace(0, 1, n) for k, name in
-               enumerate(("left x", "left y", "right x", "right y", "left flank", "right flank", "utilisation", "contacts"))}
-    mean, steady = lambda x: float(np.mean(x[20:])), slice(20, n)  # noqa: E731
+    """A made-up ensemble of sines at the mesh frequency: its statistics leave out the first samples, and are those of revolutions."""
+    model, asked = build('dynamics.settling="20 ms"', "dynamics.ensemble=6"), {}
 
-    def simulate(system, duration, settings):
-        asked.update(duration=duration, settle=settings.settle)
-        return SimpleNamespace(
-            model=system, t=np.linspace(0, 1, n), steady=steady, mean=mean, fluctuation=lambda x: float(np.ptp(x[20:])),
-            column=columns.__getitem__, centre_distance=model.closure.mean + 1e-4 * np.linspace(0, 1, n) ** 2, rows=np.zeros(n), slide=1,
-            tension=np.linspace(5, 9, n)[:, None] * [1, 7],
-            transmission_error=lambda sprocket: sprocket * np.linspace(0, 4, n), mesh_order_amplitude=0.25, energy_drift=1e-5,
-            energy_gap=np.zeros(n), advice="", outcome="complete",
-            spectrum=lambda x: (np.array([0.0, 1.0, 8.0, 9.0]), np.array([3.0, 0.25, 0.1, 0.05])))
+    def made(system, duration, settings, members, solve):
+        asked.update(duration=duration, settle=settings.settle, members=members, solve=solve)
+        return Ensemble(tuple(made_up(model, member) for member in range(6)))
 
-    monkeypatch.setattr(dynamics, "simulate", simulate)
+    monkeypatch.setattr(dynamics, "ensemble", made)
     answer = dynamics.dynamics(model, {})
-    value = {name.removeprefix("dynamics."): each.value for name, each in answer.values.items()}
-    mesh, share = 23 * 150 / (2 * np.pi), 79 / 99
-    assert (asked["settle"], asked["duration"]) == pytest.approx((0.02, 0.02 + 66 / mesh))
-    assert value["mesh_frequency"] == pytest.approx(mesh)
-    assert value["centre_distance.mesh_order_amplitude"] == 0.25
-    assert (value["tension.mean"], value["tension.maximum"]) == pytest.approx((9 - 2 * share, 9.0))
-    assert value["transmission_error"] == pytest.approx(4 * share)
-    assert (value["flank_force.maximum"], value["friction_utilisation"]) == pytest.approx((6.0, 7.0))
+    value = {name.removeprefix("dynamics."): each for name, each in answer.values.items()}
+    number = {name: each.value for name, each in value.items()}
+    mesh = 23 * 150 / (2 * np.pi)
+    assert (asked["settle"], asked["duration"], asked["members"]) == pytest.approx((0.02, 0.02 + 2 * 66 / mesh, 6))
+    assert asked["solve"] is dynamics.simulate
+    assert number["mesh_frequency"] == pytest.approx(mesh)
+    assert number["centre_distance.mean"] == pytest.approx(model.closure.mean + 1e-4, abs=1e-12)
+    assert number["centre_distance.mesh_order_amplitude"] == pytest.approx(3.075e-6, rel=2e-5)
+    for name in ("fluctuation", "range"):
+        found, reach = value[f"centre_distance.{name}"], 2.570582 * 0.1122497e-6 / np.sqrt(6)  # Student's t, five degrees
+        assert found.value == pytest.approx(6.15e-6, rel=1e-9)
+        assert found.interval == "ensemble"
+    assert value["centre_distance.range"].high - 6.15e-6 == pytest.approx(reach, rel=1e-5)
+    assert value["centre_distance.fluctuation"].settled and answer.checks[-1].name == "settled" and answer.checks[-1].ok
+    assert (number["tension.mean"], number["tension.maximum"]) == pytest.approx((90.0, 94.1))
+    assert number["transmission_error"] == pytest.approx(10.25e-6)
+    assert (number["flank_force.maximum"], number["friction_utilisation"]) == pytest.approx((52.05, 0.3025))
+    assert number["energy_drift"] == pytest.approx(6e-5 / 2 / answer.data.t[-1])  # the worst of the members
     running, spectrum = ({column.name: column.data for column in table.columns} for table in answer.tables)
-    assert len(running["time"]) == 80 and running["plate.right_flank"][-1] == 6.0 and running["plate.left_y"][-1] == 2.0
-    assert spectrum["order"] == pytest.approx([0, 1, 8]) and spectrum["frequency"] == pytest.approx([0, mesh, 8 * mesh])
+    assert len(running["time"]) == 2 * 66 * 24 + 1 and running["plate.right_flank"][4] == pytest.approx(52.0)
+    at = np.flatnonzero(np.isclose(spectrum["order"], 1.0))[0]
+    assert spectrum["order"][-1] == 8 and spectrum["frequency"] == pytest.approx(spectrum["order"] * mesh)
+    assert spectrum["centre_distance"][at] == pytest.approx(3.075e-6, rel=2e-5)
+    assert spectrum["centre_distance.high"][at] - 3.075e-6 == pytest.approx(2.570582 * 0.05612486e-6 / np.sqrt(6), rel=1e-3)
+    assert len(answer.findings) == 1 and "coefficient of friction" in answer.findings[0]
 
 
 def test_the_life_of_a_plate_in_revolutions_and_seconds(monkeypatch):

@@ -26,6 +26,7 @@ MODEL = Model(CHAIN, (DRIVER, DRIVEN))
     ({"mass": -1.0}, "mass must be finite and above 0, got -1"),
     ({"joint_stiffness": np.nan}, "joint_stiffness must be finite and above 0, got nan"),
     ({"joint_damping": -1e-6}, "joint_damping must be finite and 0 or more"),
+    ({"articulation_damping": -1e-6}, "articulation_damping must be finite and 0 or more"),
     ({"toe": 1e-3, "crotch": 2e-3}, "the toe .0.001 m below the pins. must lie deeper than the crotch"),
     ({"deviations": (1e-6,) * 5}, "5 pitch deviations for 24 plates"),
 ])
@@ -93,8 +94,8 @@ def test_settings(duration, settings, told):
 
 
 def test_sweeps():
-    with pytest.raises(InputError, match="needs 1 tooth to look at"):
-        campbell(MODEL, [-10.0], teeth=0)
+    with pytest.raises(InputError, match="needs 1 revolution"):
+        campbell(MODEL, [-10.0], revolutions=0)
     with pytest.raises(InputError, match="needs 2 samples or more"):
         monte_carlo(MODEL, Scatter(), 1, 0.01)
     one, same, other = (scattered(MODEL, Scatter(1e-6, 2e-6), seed) for seed in (1, 1, 2))

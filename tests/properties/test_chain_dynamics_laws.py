@@ -144,7 +144,7 @@ def test_action_and_reaction_of_every_body(reference):
 
 
 def test_energy_adds_up(reference):
-    assert reference.energy_drift < 2e-5
+    assert reference.energy_drift < 1.2e-4  # a second; a revolution of the chain takes 0.11 s
     assert np.ptp(reference.column("contact damping")) > 100 * np.max(np.abs(reference.energy_gap))
 
 

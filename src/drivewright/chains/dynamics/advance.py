@@ -72,11 +72,11 @@ def load(chain, p, j, t, b, teeth, arcs, runs, gravity, power, dt):
     for r in range(runs.size[0]):
         n, first, last = runs.body[r], runs.first[r], runs.last[r]
         if n >= sprockets:
-            load_guide(chain, p, t, b, arcs, n - sprockets, first, last, power)
+            load_guide(chain, p, t, b, arcs, n - sprockets, first, last, power, dt)
         elif teeth.rolls[n]:
             load_rollers(chain, p, t, b, teeth, n, first, last, dt)
         else:
-            load_flanks(chain, p, t, b, teeth, n, first, last)
+            load_flanks(chain, p, t, b, teeth, n, first, last, dt)
         take_on(p, t, b, n, first, last)
     impulse(chain, p, b, gravity, power)
 
@@ -87,7 +87,7 @@ def kick(chain, p, j, t, b, teeth, runs, gravity, power, dt):
     kick_plates(chain, p, j, dt)
     close_rates(chain, p)
     kick_bodies(b, gravity, power, dt)
-    if chain.joint_damping > 0.0:
+    if chain.joint_damping + chain.articulation_damping > 0.0:
         lose_joints(chain, p, j, dt)
     for r in range(runs.size[0]):
         n = runs.body[r]

@@ -14,7 +14,7 @@ from drivewright.chains.dynamics.state import (
     TURN_DAMPING,
     TURNING_IMPULSE,
 )
-from drivewright.chains.dynamics.step import total
+from drivewright.chains.dynamics.step import over_the_step, total
 
 
 @inner
@@ -42,19 +42,21 @@ def load_rollers(chain, p, t, b, teeth, n, first, last, dt):
         wx, wy = nx * s + ny * c, ny * s - nx * c
         zx, zy = p.vx[i] - p.w[i] * ry - b.vx[n] + spin * gy, p.vy[i] + p.w[i] * rx - b.vy[n] - spin * gx
         rate = -(wx * zx + wy * zy)
-        on = depth > 0.0 and teeth.seat_at[n] + out < teeth.low[n]
-        force = max(k * depth + damping * rate, 0.0) if on else 0.0
+        mean, share = over_the_step(depth, rate, dt)
+        on = share > 0.0 and teeth.seat_at[n] + out < teeth.low[n]
+        elastic = k * mean if on else 0.0
+        force = max(elastic + damping * rate * share, 0.0) if on else 0.0
         t.fx[i], t.fy[i] = force * wx, force * wy
         t.torque[i] = -force * (gx * wy - gy * wx)
-        t.power[i] = (force - k * depth) * rate if on else 0.0
+        t.power[i] = (force - elastic) * rate
         t.lost[i] += dt * t.power[i]
-        t.stored[i] += 0.5 * k * depth * depth if on else 0.0
+        t.stored[i] += 0.5 * k * max(depth, 0.0) ** 2 if on else 0.0
         t.right[i], t.left[i] = (force, 0.0) if seated else (0.0, force)
         p.moment[i] += force * (rx * wy - ry * wx)
 
 
 @inner
-def load_guide(chain, p, t, b, arcs, n, first, last, power):
+def load_guide(chain, p, t, b, arcs, n, first, last, power, dt):
     """Plates first .. last-1 on the arc of guide n, the body `n` + number of sprockets: the plate's back or belly, half a pitch either way.
 
     r leads from the arc's centre to the nearest point of that line, which may be its end: where two plates make a corner towards the
@@ -74,16 +76,18 @@ def load_guide(chain, p, t, b, arcs, n, first, last, power):
         vx, vy = c * zx + s * zy - w * py, c * zy - s * zx + w * px
         depth, rate = arcs.radius[n] - far, -(nx * vx + ny * vy)
         within = (c * nx - s * ny) * arcs.middle_x[n] + (s * nx + c * ny) * arcs.middle_y[n] >= arcs.opening[n]
-        on = depth > 0.0 and side * ry > 0.0 and within
-        force = max(k * depth + damping * rate, 0.0) if on else 0.0
+        mean, share = over_the_step(depth, rate, dt)
+        on = share > 0.0 and side * ry > 0.0 and within
+        elastic = k * mean if on else 0.0
+        force = max(elastic + damping * rate * share, 0.0) if on else 0.0
         slide = side * (ny * vx - nx * vy)
         drag = -arcs.friction[n] * force * slide / np.sqrt(slide * slide + arcs.slip[n] ** 2)
         fx, fy = nx * force + side * ny * drag, ny * force - side * nx * drag
         t.fx[i], t.fy[i] = c * fx - s * fy, s * fx + c * fy
         t.torque[i] = side * far * drag
-        t.stored[i] += 0.5 * k * depth * depth if on else 0.0
+        t.stored[i] += 0.5 * k * max(depth, 0.0) ** 2 if on else 0.0
         p.moment[i] += px * fy - py * fx
-        power[GUIDE_DAMPING] -= (force - k * depth) * rate if on else 0.0
+        power[GUIDE_DAMPING] -= (force - elastic) * rate
         power[FRICTION] += drag * slide
 
 
@@ -111,7 +115,7 @@ def kick_bodies(b, gravity, power, dt):
 @inner
 def drift_bodies(b, clock, dt):
     """Places and predicted rates of sprockets and guides one step on; driven angles by their law."""
-    later = clock[0] + dt
+    later = (clock[1] + 1.0) * dt  # not summed up: a sum of so many steps loses digits
     for n in range(b.q.size):
         if b.slides[n]:
             b.q[n] += dt * b.hq[n]

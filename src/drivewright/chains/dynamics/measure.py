@@ -7,7 +7,7 @@ import numpy as np
 from drivewright.chains.dynamics.shots import BODIES, PLATES, SCALARS
 from drivewright.chains.dynamics.state import SUMS
 
-ROW = ("t", "kinetic", "potential", "momentum x", "momentum y", "angular momentum", "contacts", "open joints", "utilisation",
+ROW = ("t", "kinetic", "potential", "elastic", "momentum x", "momentum y", "angular momentum", "contacts", "open joints", "utilisation",
        "joint damping", "contact damping", *SUMS)
 BODY = BODIES[:7]
 PLATE = ("x", "y", "angle", "left x", "left y", "right x", "right y", "left flank", "right flank")
@@ -36,7 +36,8 @@ def measured(drive, shots, joints, plate):
     tension, across, stretched = joint_forces(drive.chain, p)
     columns = {name: shots.scalars[:, k] for k, name in enumerate(SCALARS)} | momenta(drive.chain, p)
     columns["kinetic"] = plates_kinetic(drive.chain, p) + bodies_kinetic(drive.bodies, b)
-    columns["potential"] = stretched + np.sum(p["stored"], axis=1) + weight(drive, p) + bodies_potential(drive, b)
+    columns["elastic"] = stretched + np.sum(p["stored"], axis=1)
+    columns["potential"] = columns["elastic"] + weight(drive, p) + bodies_potential(drive, b)
     columns["contacts"] = np.sum(p["left"] > 0, axis=1) + np.sum(p["right"] > 0, axis=1)
     columns["open joints"] = np.sum(tension <= 0, axis=1)
     columns["utilisation"] = utilisation(tension, across)

@@ -31,7 +31,8 @@ class Chain:
     beta k_j times the rate of the joint's stretch); centre_offset [m]: mass centre above the line of the plate's own pins;
     toe, crotch [m]: how far below that line the flank ends and begins (endless flanks meet teeth that real ones clear);
     elongation: relative to the pitch; deviations (N,) [m] of
-    the single hole pitches.  Pins move in the plates by both, the flanks stay.
+    the single hole pitches: pins move in the plates by both, the flanks stay; articulation_damping [N m s]: torque of a joint over the
+    rate at which its plates turn against each other.
     """
 
     link: Link
@@ -45,6 +46,7 @@ class Chain:
     crotch: float = -np.inf
     elongation: float = 0.0
     deviations: tuple = ()
+    articulation_damping: float = 0.0
 
     @property
     def hole_pitches(self):
@@ -177,6 +179,7 @@ def _check_chain(chain):
     for name in ("mass", "inertia", "joint_stiffness"):
         _above("chain", name, getattr(chain, name))
     _from_zero("chain", "joint_damping", chain.joint_damping)
+    _from_zero("chain", "articulation_damping", chain.articulation_damping)
     _finite("chain: centre_offset", (chain.centre_offset, chain.elongation))
     if not chain.toe > chain.crotch:
         raise InputError(f"chain: the toe ({chain.toe:g} m below the pins) must lie deeper than the crotch ({chain.crotch:g} m).")

@@ -77,6 +77,26 @@ class Motion:
         """Whole teeth of the driver in the steady part."""
         return (self.steady.stop - 1 - self.steady.start) // self.per_tooth
 
+    @property
+    def tooth_time(self):
+        """Time in which the driver turns by one tooth at full speed  [s]."""
+        return float(self.t[1] - self.t[0]) * self.per_tooth
+
+    @property
+    def revolutions(self):
+        """Whole revolutions of the chain in the steady part."""
+        return self.teeth // self.model.chain.count
+
+    def windows(self, parts=1):
+        """Rows (slices) of the revolutions of the chain in the steady part, each in so many equal parts.
+
+        A steady part that holds no revolution is one window as a whole.
+        """
+        each = (self.model.chain.count if self.revolutions else self.teeth) * self.per_tooth
+        part, count = each // parts, max(1, self.revolutions)
+        starts = [self.steady.start + k * each + n * part for k in range(count) for n in range(parts)]
+        return tuple(slice(first, first + part + 1) for first in starts)
+
     def mean(self, signal):
         """Mean of a signal (m,) over the steady part."""
         return time_mean(self.t[self.steady], signal[self.steady])
@@ -92,8 +112,14 @@ class Motion:
 
     def spectrum(self, signal):
         """(mesh orders, amplitudes) of a signal (m,) up to a third of the samples per tooth, in steps of 1/teeth."""
-        orders = np.arange(1, self.teeth * self.per_tooth // 3 + 1) / self.teeth
-        return orders, self.orders(signal, orders)
+        return self.orders_in(self.steady, signal)
+
+    def orders_in(self, rows, signal):
+        """The same of some rows that span whole teeth."""
+        teeth = (rows.stop - 1 - rows.start) // self.per_tooth
+        orders = np.arange(1, teeth * self.per_tooth // 3 + 1) / teeth
+        t = self.t[rows]
+        return orders, order_spectrum(t, signal[rows], (t[-1] - t[0]) / teeth, orders)
 
     @property
     def mesh_order_amplitude(self):
@@ -114,8 +140,12 @@ class Motion:
 
     @property
     def energy_drift(self):
-        """Largest gap over the largest kinetic energy."""
-        return float(np.max(np.abs(self.energy_gap)) / np.max(self.column("kinetic")))
+        """Largest gap over the largest stored energy and over the time of the run, a revolution of the chain at least  [1/s].
+
+        Stored is what moves and what joints, flanks and guides are pressed with; the sprockets that are driven store nothing.
+        """
+        time = max(float(self.t[-1] - self.t[0]), self.model.chain.count * self.tooth_time)
+        return float(np.max(np.abs(self.energy_gap)) / np.max(self.column("kinetic") + self.column("elastic")) / time)
 
     @property
     def momentum_residual(self):
@@ -135,7 +165,7 @@ class Motion:
             bad = int(np.argmin(np.all(np.isfinite(self.rows), axis=1)))
             return f"the motion is lost at t = {self.t[max(bad - 1, 0)]:.4g} s; shorten the step of {self.step:.3g} s"
         if self.energy_drift > self.settings.tolerance:
-            return (f"energy drifts by {self.energy_drift:.2g} of the largest kinetic energy, more than {self.settings.tolerance:.2g}; "
+            return (f"energy drifts by {self.energy_drift:.2g} of what is stored in a second, more than {self.settings.tolerance:.2g}; "
                     f"shorten the step of {self.step:.3g} s")
         return ""
 

@@ -3,6 +3,9 @@
 Assembled, plates sit where ideal teeth would seat them, free ones have the pitch that closes the loop, and guides are passed through.
 In the first part of the run-in teeth, pitches and guides become what they are; all the time, ever more faintly, rates are drawn to those
 of a chain that follows itself at its mean speed.  What remains in the end is the motion itself.
+
+The slowest to find their place are the strands, strings that nothing else damps much: a drag of twice their angular frequency lets them
+settle soonest, so the run-in lasts two of their periods, most of it under about such a drag.
 """
 
 import numpy as np
@@ -11,8 +14,26 @@ from drivewright.chains.dynamics.advance import run
 from drivewright.chains.dynamics.shots import empty_shots
 
 PARTS = 400  # of the run-in, between which rates are damped
-DAMPING = 400.0  # largest rate of damping, times the duration
-FADED = 0.6  # part of the run-in in which the parts take on their own measures
+FADED = 1 / 3  # part of the run-in in which the parts take on their own measures
+BLOWS, STRANDS = 400.0, 40.0  # rates of damping at the start, times the duration: of what that throws up, and of the strands
+PERIODS = 2  # of the slowest strand, that the run-in lasts; no more than a revolution of the chain, but
+SHORTEST = 0.02  # [s]
+
+
+def run_in_time(model, begin):
+    """Duration of the run-in [s]: periods of the longest strand as a moving string, 2 L c/(c^2 - v^2)."""
+    density, pitch = model.chain.line_density, model.chain.link.pitch
+    strand = _longest_strand(begin) * pitch
+    wave = np.sqrt(begin.tension / density)
+    slow = max(wave * wave - begin.speed**2, 0.0)
+    revolution = len(begin.poses) * pitch / max(abs(begin.speed), 1e-300)
+    return max(SHORTEST, revolution if slow * revolution < 2 * PERIODS * strand * wave else 2 * PERIODS * strand * wave / slow)
+
+
+def _longest_strand(begin):
+    """Most plates between two seated ones, with half of the joints at both ends."""
+    seated = np.sort(np.concatenate(begin.seated))
+    return np.max(np.diff(np.append(seated, seated[0] + len(begin.poses))))
 
 
 def steps_of(duration, step):
@@ -27,10 +48,12 @@ def run_in(drive, begin, steps, step, again):
     drive.bodies.ramp[:], drive.bodies.speed[:] = 0.0, drive.bodies.w
     shots = empty_shots(1, len(drive.bodies), drive.chain.count)
     for part in range(PARTS):
-        faded = min(1.0, (part + 1) / (FADED * PARTS))
+        done = (part + 1) / PARTS
+        faded = min(1.0, done / FADED)
         _set_measures(drive, first, own, faded * faded * (3 - 2 * faded))
         run(drive, shots, 0, 1, steps, again, step)
-        _damp(drive, begin, 1 - np.exp(-DAMPING * (1 - (part + 1) / PARTS) ** 2 / PARTS))
+        rate = BLOWS * max(0.0, 1 - done / (1.2 * FADED)) ** 2 + STRANDS * (1 - done)
+        _damp(drive, begin, 1 - np.exp(-rate / PARTS))
     drive.bodies.ramp[:], drive.bodies.speed[:] = ramps
     drive.bodies.psi0[:] = drive.bodies.psi
     for sums in (drive.clock, drive.sums, drive.joints.lost, drive.touches.lost):

@@ -10,7 +10,7 @@ from drivewright.chains.dynamics.assembly import start
 from drivewright.chains.dynamics.measure import empty_log, measured
 from drivewright.chains.dynamics.model import Model
 from drivewright.chains.dynamics.motion import Motion
-from drivewright.chains.dynamics.run_in import PARTS, run_in, steps_of
+from drivewright.chains.dynamics.run_in import PARTS, run_in, run_in_time, steps_of
 from drivewright.chains.dynamics.shots import Shots, empty_shots
 from drivewright.chains.dynamics.stability import refuse_seats, refuse_step
 from drivewright.chains.dynamics.state import lower
@@ -26,16 +26,16 @@ DRIFT = 0.02  # of a tooth that a sprocket may turn in between
 class Settings:
     """How to run.  The step [s] is shortened to fit a whole number of times between samples, these into a tooth of the driver.
 
-    run_in [s]: before the clock starts, teeth, pitches and guides take on their measures under fading damping;
-    settle [s]: what statistics leave out at the start; tolerance: energy drift over the largest kinetic energy that fails a run;
+    run_in [s]: before the clock starts, teeth, pitches and guides take on their measures under fading damping; None: see `run_in_time`;
+    settle [s]: what statistics leave out at the start; tolerance [1/s]: energy drift over the stored energy that fails a run;
     joints whose tension is recorded; plate whose forces are.
     """
 
     step: float = 1e-6
-    run_in: float = 0.02
+    run_in: float | None = None
     settle: float = 0.0
     samples_per_tooth: int = 24
-    tolerance: float = 1e-4
+    tolerance: float = 1e-3
     joints: tuple = (0,)
     plate: int = 0
 
@@ -50,15 +50,28 @@ def simulate(model, duration, settings=Settings(), *, begin=None, progress=None)
     refuse_seats(model)
     every, step, samples = stepping(model, duration, settings)
     again = _again(model, step)
-    drive = _begun(model, begin, settings.run_in, step, again)
+    drive = _begun(model, begin, settings, step, again)
     log = _in_chunks(drive, settings, samples, every, again, step, progress)
     return Motion(model, settings, step, every, log.rows, log.bodies, log.tension, log.plate)
 
 
-def _begun(model, begin, duration, step, again):
+def first_start(model, settings):
+    """The `Start` from which `simulate` runs a drive in, so that the clock starts with sprocket 1 at its angle."""
+    _, step, _ = stepping(model, tooth_time(model), settings)
+    return start(model, PARTS * _run_in_steps(model, settings, step) * step)
+
+
+def _run_in_steps(model, settings, step):
+    """Steps of each part of the run-in."""
+    duration = getattr(settings, "run_in", 0.0)
+    duration = run_in_time(model, start(model)) if duration is None else duration
+    return steps_of(duration, step) if duration > 0 else 0
+
+
+def _begun(model, begin, settings, step, again):
     """The drive run in, sprocket 1 at its angle."""
-    steps = steps_of(duration, step) if duration > 0 else 0
-    begin = start(model, PARTS * steps * step) if begin is None else begin
+    begin = first_start(model, settings) if begin is None else begin
+    steps = _run_in_steps(model, settings, step)
     drive = placed(model, begin, step)
     if steps:
         run_in(drive, begin, steps, step, again)
@@ -137,7 +150,7 @@ def _refuse(model, duration, settings):
         raise InputError(f"simulate: the duration must be finite and above 0 s, got {duration:g}.")
     if not 0 <= settings.settle < duration:
         raise InputError(f"simulate: {settings.settle:g} s of settling do not lie within the duration of {duration:g} s.")
-    if not (np.isfinite(settings.run_in) and settings.run_in >= 0):
+    if settings.run_in is not None and not (np.isfinite(settings.run_in) and settings.run_in >= 0):
         raise InputError(f"simulate: run_in must be finite and 0 s or more, got {settings.run_in:g}.")
     if settings.samples_per_tooth < 20:
         raise InputError(f"simulate: {settings.samples_per_tooth} samples per tooth alias its harmonics; take 20 or more.")

@@ -14,15 +14,16 @@ from drivewright.errors import InputError
 def fastest(model):
     """(omega^2 [1/s^2], gamma [1/s]) of the stiffest plate, bounds from above.
 
-    Joints: 4 k_j (1/m + a^2/I), every plate having two and every joint two plates, a half the hole pitch; contacts: k on each flank
-    of a plate and on the sprocket.
+    Joints: 4 k_j (1/m + a^2/I), every plate having two and every joint two plates, a half the hole pitch, and 4 c/I of their
+    articulation; contacts: k on each flank of a plate and on the sprocket.
     """
     chain = model.chain
     arm = np.hypot(0.5 * np.max(chain.hole_pitches), chain.centre_offset)
     ease = 1 / chain.mass + arm**2 / chain.inertia
     touching = [_touch(body, ease) for body in (*model.sprockets, *model.guides)]
     joint = 4 * chain.joint_stiffness * ease
-    return joint + max(k for k, _ in touching), chain.joint_damping * joint + max(c for _, c in touching)
+    articulation = 4 * chain.articulation_damping / chain.inertia
+    return joint + max(k for k, _ in touching), chain.joint_damping * joint + articulation + max(c for _, c in touching)
 
 
 def _touch(body, ease):

@@ -52,7 +52,8 @@ class Plates(NamedTuple):
 
 
 class Joints(NamedTuple):
-    """Per joint: force on the plate ahead (the one behind gets the opposite), where it acts, rate of stretch, damping power and its sum.
+    """Per joint: force on the plate ahead (the one behind gets the opposite), where it acts, torque of its articulation, rate of stretch,
+    damping power and its sum.
 
     `fx_` ... are the same memory one joint earlier.
     """
@@ -61,10 +62,12 @@ class Joints(NamedTuple):
     fy: np.ndarray
     mx: np.ndarray
     my: np.ndarray
+    turn: np.ndarray
     fx_: np.ndarray
     fy_: np.ndarray
     mx_: np.ndarray
     my_: np.ndarray
+    turn_: np.ndarray
     rx: np.ndarray
     ry: np.ndarray
     power: np.ndarray
@@ -136,6 +139,7 @@ class Chain(NamedTuple):
     blocks: int
     joint_stiffness: float
     joint_damping: float  # beta k_j
+    articulation_damping: float
     rolling: float  # 2 r
     offset: float
     cos: float
@@ -181,8 +185,8 @@ def _chain(chain):
     ca, sa = np.cos(link.flank_angle), np.sin(link.flank_angle)
     along = [(link.flank * sa - depth) / ca for depth in (chain.toe, chain.crotch)]
     blocks = chain.count // WIDTH + 1  # one more place than plates at least, for the copy of the first
-    values = (chain.joint_stiffness, chain.joint_damping * chain.joint_stiffness, 2 * link.radius, chain.centre_offset, ca, sa, link.flank,
-              *along, 0.5 * link.pitch, chain.mass, chain.inertia)
+    values = (chain.joint_stiffness, chain.joint_damping * chain.joint_stiffness, chain.articulation_damping, 2 * link.radius,
+              chain.centre_offset, ca, sa, link.flank, *along, 0.5 * link.pitch, chain.mass, chain.inertia)
     return Chain(int(chain.count), blocks, *map(float, values))  # whole numbers among them would be compiled for anew
 
 
@@ -203,7 +207,7 @@ def _plates(model, chain):
 
 
 def _joints(chain):
-    rows = [_lanes(chain) for _ in range(4)]
+    rows = [_lanes(chain) for _ in range(5)]
     return Joints(*(a[1:] for a in rows), *(a[:-1] for a in rows), *(_lanes(chain)[:-1] for _ in range(4)))
 
 

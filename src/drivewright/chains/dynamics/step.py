@@ -1,6 +1,7 @@
 """Kernels of the explicit step.  Loops over plates and joints have no branches and only unit strides, so that they become vector code.
 
 Leapfrog: rates at half steps, places and loads at whole ones; loads that depend on rates take them predicted from the last acceleration.
+A contact's force is its mean over the step, see `over_the_step`.
 """
 
 import numpy as np
@@ -13,9 +14,11 @@ def load_joints(chain, p, j):
     """Rolling joints: stretch d = P - Q - 2r u, force f = k d + beta k d' on both plates where the two pins touch, midway between them.
 
     u is the mean of the two plates' directions.  The rate d' seen by both plates turning together is the relative velocity of the
-    two plates there: so the force is pure rolling, and conserves angular momentum with damping too.
+    two plates there: so the force is pure rolling, and conserves angular momentum with damping too.  Articulation, the turning of the
+    two plates against each other, is resisted by the torque c (w - w1).
     """
     k, damping, rolling, offset = chain.joint_stiffness, chain.joint_damping, chain.rolling, chain.offset
+    articulation = chain.articulation_damping
     for i in range(8 * chain.blocks):
         c, s, c1, s1 = p.c[i], p.s[i], p.c1[i], p.s1[i]
         x, y, x1, y1 = p.x[i], p.y[i], p.x1[i], p.y1[i]
@@ -33,13 +36,14 @@ def load_joints(chain, p, j):
         j.my[i] = my
         j.rx[i] = rx
         j.ry[i] = ry
+        j.turn[i] = articulation * (w - w1)
     n = chain.count - 1
-    j.fx_[0], j.fy_[0], j.mx_[0], j.my_[0] = j.fx[n], j.fy[n], j.mx[n], j.my[n]
+    j.fx_[0], j.fy_[0], j.mx_[0], j.my_[0], j.turn_[0] = j.fx[n], j.fy[n], j.mx[n], j.my[n], j.turn[n]
 
 
 @inner
 def lose_joints(chain, p, j, dt):
-    """Power beta k d'.d'' and work of the joints' damping: its force, at the predicted rate d', on the way between the half steps, d''.
+    """Power and work of the joints' damping: its force and torque, at the predicted rates, on the way between the half steps.
 
     So the leapfrog's balance of energy is exact, however fast the joints shake.
     """
@@ -48,7 +52,7 @@ def lose_joints(chain, p, j, dt):
         mx, my, w, w1 = j.mx[i], j.my[i], p.w[i], p.w1[i]
         rx = (p.vx[i] - w * (my - p.y[i])) - (p.vx1[i] - w1 * (my - p.y1[i]))
         ry = (p.vy[i] + w * (mx - p.x[i])) - (p.vy1[i] + w1 * (mx - p.x1[i]))
-        power = damping * (rx * j.rx[i] + ry * j.ry[i])
+        power = damping * (rx * j.rx[i] + ry * j.ry[i]) + j.turn[i] * (w - w1)
         j.power[i] = power
         j.lost[i] += dt * power
 
@@ -64,7 +68,20 @@ def load_gravity(chain, p, t):
 
 
 @inner
-def load_flanks(chain, p, t, b, teeth, n, first, last):
+def over_the_step(depth, rate, dt):
+    """(mean depth where positive, share of time with depth above 0) while a depth passes by `rate` from half a step before to half after.
+
+    The leapfrog's impulse dt F is then the integral of a linear contact's force, wherever in the step it closes or opens: taken at the
+    whole step instead, each closing loses and each opening gains energy of the order k (rate dt)^2, by chance.
+    """
+    half = 0.5 * dt * abs(rate) + 1e-300
+    inside = min(max(depth + half, 0.0), 2.0 * half)
+    share = inside / (2.0 * half)
+    return 0.5 * share * inside + max(depth - half, 0.0), share
+
+
+@inner
+def load_flanks(chain, p, t, b, teeth, n, first, last, dt):
     """Both flanks of the plates first .. last-1 on the involute teeth of sprocket n.
 
     In the plate's frame D is its pin frame's origin seen from the sprocket's centre, delta how far it is turned against its seat.
@@ -88,19 +105,22 @@ def load_flanks(chain, p, t, b, teeth, n, first, last):
         rate_r = ca * dx - sa * dy - turning
         rate_l = -ca * dx - sa * dy + turning
         at_r, at_l = rb - sa * ex - ca * ey, rb + sa * ex - ca * ey
-        on_r = (right > low) & (right < high) & (at_r > deep) & (at_r < top) & (pen_r > 0.0)
-        on_l = (left > low) & (left < high) & (at_l > deep) & (at_l < top) & (pen_l > 0.0)
-        pen_r, pen_l = (pen_r if on_r else 0.0), (pen_l if on_l else 0.0)
-        fr = max(k * pen_r + damping * rate_r, 0.0) if on_r else 0.0
-        fl = max(k * pen_l + damping * rate_l, 0.0) if on_l else 0.0
+        on_r = (right > low) & (right < high) & (at_r > deep) & (at_r < top)
+        on_l = (left > low) & (left < high) & (at_l > deep) & (at_l < top)
+        mean_r, share_r = over_the_step(pen_r, rate_r, dt)
+        mean_l, share_l = over_the_step(pen_l, rate_l, dt)
+        elastic_r, elastic_l = (k * mean_r if on_r else 0.0), (k * mean_l if on_l else 0.0)
+        fr = max(elastic_r + damping * rate_r * share_r, 0.0) if on_r else 0.0
+        fl = max(elastic_l + damping * rate_l * share_l, 0.0) if on_l else 0.0
+        pen_r, pen_l = (max(pen_r, 0.0) if on_r else 0.0), (max(pen_l, 0.0) if on_l else 0.0)
         fx, fy = ca * (fl - fr), sa * (fl + fr)
         t.right[i] = fr
         t.left[i] = fl
         t.fx[i] = c * fx - s * fy
         t.fy[i] = s * fx + c * fy
         t.torque[i] = rb * (fl - fr)
-        t.damped_right[i] = fr - k * pen_r
-        t.damped_left[i] = fl - k * pen_l
+        t.damped_right[i] = fr - elastic_r
+        t.damped_left[i] = fl - elastic_l
         t.stored[i] += 0.5 * k * (pen_r * pen_r + pen_l * pen_l)
         p.moment[i] += fr * at_r - fl * at_l + offset * fx
 
@@ -153,7 +173,8 @@ def acceleration(p, j, i):
     """Accelerations (x, y, angle) of plate i: its own load and the joints on both sides."""
     x, y = p.x[i], p.y[i]
     fx, fy, gx, gy = j.fx[i], j.fy[i], j.fx_[i], j.fy_[i]
-    moment = p.moment[i] - (j.mx[i] - x) * fy + (j.my[i] - y) * fx + (j.mx_[i] - x) * gy - (j.my_[i] - y) * gx
+    turn = j.turn_[i] - j.turn[i]
+    moment = p.moment[i] + turn - (j.mx[i] - x) * fy + (j.my[i] - y) * fx + (j.mx_[i] - x) * gy - (j.my_[i] - y) * gx
     return (p.fx[i] + gx - fx) * p.by_mass[i], (p.fy[i] + gy - fy) * p.by_mass[i], moment * p.by_inertia[i]
 
 

@@ -3,61 +3,80 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.stats import binom
 
 from drivewright.cases import Outcomes, run
+from drivewright.chains.dynamics.ensemble import (
+    Ensemble,
+    amplitude_of,
+    centre_distance,
+    ensemble,
+    greatest_of,
+    mean_of,
+    of_members,
+    range_of,
+)
 from drivewright.chains.dynamics.model import Model, at_speed, with_sprocket
-from drivewright.chains.dynamics.simulate import Settings, simulate, tooth_time
+from drivewright.chains.dynamics.simulate import Settings, tooth_time
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import InputError, SolverError
+from drivewright.numerics.ensemble import Estimate
+
+ORDERS = (1.0, 2.0, 3.0)  # of the mesh frequency
 
 
 @dataclass(frozen=True)
 class Level:
-    """One run in numbers: driver's speed [rad/s], mean, fluctuation and amplitudes at mesh orders (k,) of the centre distance [m], its
-    spectrum over frequency [Hz], largest tension [N], friction utilisation, energy drift."""
+    """One drive in numbers, means over revolutions of the chain: driver's speed [rad/s]; mean, peak-to-peak and amplitudes at mesh orders
+    of the centre distance [m], its spectrum over frequency [Hz] with half the width of its interval; greatest tension [N], friction
+    utilisation; energy drift [1/s]."""
 
     speed: float
-    mean: float
-    fluctuation: float
-    amplitudes: np.ndarray
+    mean: Estimate
+    fluctuation: Estimate
+    amplitudes: tuple
     frequency: np.ndarray
     spectrum: np.ndarray
-    tension: float
-    utilisation: float
+    reach: np.ndarray
+    tension: Estimate
+    utilisation: Estimate
     energy_drift: float
 
 
-def level(motion, orders=(1.0, 2.0, 3.0)):
-    """The `Level` of a run; SolverError, with the level as its partial, where the run is not complete."""
-    distance, steady = motion.centre_distance, motion.steady
-    if not np.all(np.isfinite(motion.rows)):
-        raise SolverError(motion.advice)
-    mesh, amplitude = motion.spectrum(distance)
-    time = (motion.t[steady][-1] - motion.t[steady][0]) / motion.teeth
+def level(runs: Ensemble, orders=ORDERS) -> Level:
+    """The `Level` of an ensemble; SolverError, with the level as its partial, where a run is not complete."""
+    if not all(np.all(np.isfinite(each.rows)) for each in runs.members):
+        raise SolverError(runs.advice)
+    first, (mesh, amplitudes) = runs.first, runs.mesh_orders
+    spectrum, reach = of_members(amplitudes)
     found = Level(
-        motion.model.sprockets[motion.model.driver].drive.speed, motion.mean(distance), motion.fluctuation(distance),
-        motion.orders(distance, orders), mesh / time, amplitude, float(np.max(motion.tension[steady])),
-        float(np.max(motion.column("utilisation")[steady])), motion.energy_drift)
-    if motion.advice:
-        raise SolverError(motion.advice, partial=found)
+        first.model.sprockets[first.model.driver].drive.speed, runs.estimate(mean_of(centre_distance), range_of(centre_distance)),
+        runs.estimate(range_of(centre_distance)), tuple(runs.estimate(amplitude_of(centre_distance, order)) for order in orders),
+        mesh / first.tooth_time, spectrum, reach, runs.estimate(greatest_of(lambda each: np.max(each.tension, axis=1))),
+        runs.estimate(greatest_of(lambda each: each.column("utilisation"))), runs.energy_drift)
+    if runs.advice:
+        raise SolverError(runs.advice, partial=found)
     return found
 
 
-def campbell(model, speeds, teeth=40, settle=20, settings=Settings(), workers=None, progress=None) -> Outcomes:
+def campbell(model, speeds, revolutions=2, settings=Settings(), members=4, workers=None, progress=None) -> Outcomes:
     """`Outcomes` of `Level` at each speed of the driver [rad/s]: a Campbell diagram is `spectrum` over `frequency` and speed.
 
-    Every run lasts settle + teeth teeth of the driver, but settles for settings.settle [s] at least.
+    Every speed is an ensemble of so many members that last settings.settle [s] and so many revolutions of the chain.
     """
-    if settle < 0 or teeth < 1:
-        raise InputError(f"campbell: needs 1 tooth to look at and 0 or more to settle, got {teeth} and {settle}.")
+    if revolutions < 1:
+        raise InputError(f"campbell: needs 1 revolution of the chain or more to look at, got {revolutions}.")
 
     def task(speed):
         turned = at_speed(model, speed)
-        time = tooth_time(turned)
-        quiet = max(settle * time, settings.settle)
-        return level(simulate(turned, quiet + teeth * time, replace(settings, settle=quiet)))
+        return level(ensemble(turned, settings.settle + revolutions * revolution_time(turned), settings, members, workers=1))
 
     return run(task, [float(speed) for speed in speeds], workers, progress)
+
+
+def revolution_time(model):
+    """Time of a revolution of the chain at full speed  [s]."""
+    return model.chain.count * tooth_time(model)
 
 
 @dataclass(frozen=True)
@@ -70,7 +89,8 @@ class Scatter:
 
 @dataclass(frozen=True)
 class Spread:
-    """Percentiles of mean and fluctuation of the centre distance  [m] over all samples that ran; outcomes of all."""
+    """Percentiles of mean and fluctuation of the centre distance  [m] over all samples that ran: rows value, low, high (3, k), nan where
+    so few samples do not bound them; outcomes of all."""
 
     percentiles: tuple
     mean: np.ndarray
@@ -90,14 +110,28 @@ def scattered(model, scatter, seed) -> Model:
     return made
 
 
-def monte_carlo(model, scatter, samples, duration, settings=Settings(), percentiles=(5, 50, 95), seed=0, workers=None, progress=None):
-    """The `Spread` over so many drives of `scatter`, each run for `duration` [s]."""
+def monte_carlo(model, scatter, samples, duration, settings=Settings(), percentiles=(5, 50, 95), seed=0, members=1, workers=None,
+                progress=None):
+    """The `Spread` over so many drives of `scatter`, each an ensemble of so many runs for `duration` [s]."""
     if samples < 2 or min(scatter.tooth_thickness, scatter.pitch) < 0:
         raise InputError(f"monte_carlo: needs 2 samples or more and deviations of 0 or more, got {samples} and {scatter}.")
-    outcomes = run(lambda each: level(simulate(scattered(model, scatter, (seed, each)), duration, settings)),
+    outcomes = run(lambda each: level(ensemble(scattered(model, scatter, (seed, each)), duration, settings, members, workers=1)),
                    range(samples), workers, progress)
     levels = [row.value for row in outcomes.rows if row.ok]
     if not levels:
         raise SolverError(f"monte_carlo: none of {samples} drives ran through; the first said: {outcomes.rows[0].reason}", partial=outcomes)
-    return Spread(tuple(percentiles), np.percentile([each.mean for each in levels], percentiles),
-                  np.percentile([each.fluctuation for each in levels], percentiles), outcomes)
+    return Spread(tuple(percentiles), quantiles([each.mean.value for each in levels], percentiles),
+                  quantiles([each.fluctuation.value for each in levels], percentiles), outcomes)
+
+
+def quantiles(sample, percentiles):
+    """Percentiles of a sample (n,) with their 95 % intervals: rows value, low, high (3, k).
+
+    Low and high are the order statistics that enclose the percentile with 2.5 % left on either side, by the binomial distribution of how
+    many of n lie below it, whatever the distribution of the sample; nan where there is no such one.
+    """
+    ordered, shares = np.sort(np.asarray(sample, float)), np.asarray(percentiles, float) / 100
+    count, padded = len(ordered), np.concatenate([[np.nan], np.sort(sample), [np.nan]])
+    low = binom.ppf(0.025, count, shares).astype(int)  # P(fewer than low lie below) <= 2.5 %
+    high = binom.ppf(0.975, count, shares).astype(int) + 1
+    return np.stack([np.percentile(ordered, percentiles), padded[low], padded[np.minimum(high, count + 1)]])

@@ -75,10 +75,12 @@ def _joint(parts, state, i, gain):
     """Rolling joint behind plate i: d = P - Q - 2 r u, with u the mean of both directions; V = k |d|^2/2.
 
     With a, b from the mass centres to the pins: d by the angles is perp(a) - r perp(u) and -perp(b) - r perp(u); by them twice
-    -a + r u/2, b + r u/2, and mixed r u/2.  The damper sees the relative velocity of both plates midway between the pins.
+    -a + r u/2, b + r u/2, and mixed r u/2.  The damper sees the relative velocity of both plates midway between the pins; articulation
+    has one of its own.
     """
     field, chain, half, x, v = parts.field, parts.chain, parts.half, state.plates, state.plate_rates
     k, damping, r, offset = chain.joint_stiffness, chain.joint_damping, 0.5 * chain.rolling, chain.offset
+    articulation = chain.articulation_damping
     j = i + 1 if i + 1 < len(x) else 0
     c, s, c1, s1 = field.directions[i, 0], field.directions[i, 1], field.directions[j, 0], field.directions[j, 1]
     ax, ay = half[i] * c + offset * s, half[i] * s - offset * c
@@ -92,17 +94,18 @@ def _joint(parts, state, i, gain):
     ry = v[i, 1] + v[i, 2] * mx - v[j, 1] - v[j, 2] * nx
     gx, gy = fx + damping * rx, fy + damping * ry
     field.joints[i, 0], field.joints[i, 1] = gx, gy
-    field.powers[JOINT] += damping * (rx * rx + ry * ry)
-    _put(field.plates[i], gx, gy, mx * gy - my * gx)
-    _put(field.plates[j], -gx, -gy, ny * gx - nx * gy)
+    turn = articulation * (v[i, 2] - v[j, 2])
+    field.powers[JOINT] += damping * (rx * rx + ry * ry) + turn * (v[i, 2] - v[j, 2])
+    _put(field.plates[i], gx, gy, mx * gy - my * gx + turn)
+    _put(field.plates[j], -gx, -gy, ny * gx - nx * gy - turn)
     px, py, qx, qy = uy - ay, ax - ux, by + uy, -bx - ux  # d by the angles
     extra, stiff = gain * damping, k + gain * damping
     ex, ey, hx, hy = k * px - extra * my, k * py + extra * mx, k * qx + extra * ny, k * qy - extra * nx
     own, other, cross = field.ring.diagonal[i], field.ring.diagonal[j], field.ring.side[i]
-    turning = 0.5 * (fx * ux + fy * uy)
-    own_turn = k * (px * px + py * py) + extra * (mx * mx + my * my) - fx * ax - fy * ay + turning
-    other_turn = k * (qx * qx + qy * qy) + extra * (nx * nx + ny * ny) + fx * bx + fy * by + turning
-    cross_turn = k * (px * qx + py * qy) - extra * (mx * nx + my * ny) + turning
+    turning, slowed = 0.5 * (fx * ux + fy * uy), gain * articulation
+    own_turn = k * (px * px + py * py) + extra * (mx * mx + my * my) - fx * ax - fy * ay + turning + slowed
+    other_turn = k * (qx * qx + qy * qy) + extra * (nx * nx + ny * ny) + fx * bx + fy * by + turning + slowed
+    cross_turn = k * (px * qx + py * qy) - extra * (mx * nx + my * ny) + turning - slowed
     _put_block(own, stiff, ex, ey, ex, ey, own_turn)
     _put_block(other, stiff, -hx, -hy, -hx, -hy, other_turn)
     _put_block(cross, -stiff, hx, hy, -ex, -ey, cross_turn)

@@ -24,7 +24,7 @@ class Settings:
     """How to run.  The step [s] is shortened to fit a whole number of times between samples, these into a tooth of the driver.
 
     rho: by how much the highest frequencies shrink per step, 1 not at all, 0 at once; solved: Newton step [m] that is taken for the last;
-    settle [s]: what statistics leave out at the start; tolerance: energy drift over the largest kinetic energy that fails a run;
+    settle [s]: what statistics leave out at the start; tolerance [1/s]: energy drift over the stored energy that fails a run;
     joints whose tension is recorded; plate whose forces are.
     """
 
@@ -38,7 +38,7 @@ class Settings:
     plate: int = 0
 
 
-def simulate(model, duration, settings=Settings(), *, begin_with=None, progress=None):
+def simulate(model, duration, settings=Settings(), *, begin=None, progress=None):
     """The `Motion` of a model over `duration` [s], from a `Start` (None: assembled).
 
     progress(done, total) is called with samples.  SolverError, with the motion so far, where a step does not settle.
@@ -46,7 +46,7 @@ def simulate(model, duration, settings=Settings(), *, begin_with=None, progress=
     _refuse(model, duration, settings)
     refuse_seats(model)
     every, step, samples = stepping(model, duration, settings)
-    run, way = begun(model, begin_with), scheme(step, settings.rho, settings.solved)
+    run, way = begun(model, begin), scheme(step, settings.rho, settings.solved)
     rows, bodies = np.zeros((samples, len(ROW))), np.zeros((samples, len(run.parts.bodies), len(BODY)))
     tension, plate = np.zeros((samples, len(settings.joints))), np.zeros((samples, len(PLATE)))
     for k in range(samples):
@@ -91,8 +91,8 @@ def _record(run, model, settings, row, bodies, tension, plate):
     teeth = pairs[parts.bodies["kind"][pairs["body"]] != ARC]
     x, v, m, inertia = state.plates, state.plate_rates, model.chain.mass, model.chain.inertia
     values = {
-        "t": run.clock[0], "kinetic": _kinetic(run, m, inertia), "potential": energy, "momentum x": m * np.sum(v[:, 0]),
-        "momentum y": m * np.sum(v[:, 1]),
+        "t": run.clock[0], "kinetic": _kinetic(run, m, inertia), "potential": energy,
+        "elastic": energy - _outer_potential(run), "momentum x": m * np.sum(v[:, 0]), "momentum y": m * np.sum(v[:, 1]),
         "angular momentum": m * np.sum(x[:, 0] * v[:, 1] - x[:, 1] * v[:, 0]) + inertia * np.sum(v[:, 2]),
         "contacts": np.sum(teeth["right"] > 0) + np.sum(teeth["left"] > 0), "open joints": np.sum(along <= 0),
         "utilisation": _utilisation(along, across), **dict(zip(_WORKS, run.works, strict=True)),
@@ -111,6 +111,15 @@ def _kinetic(run, m, inertia):
     slides, turns = bodies["slide_column"] >= 0, bodies["turn_column"] >= 0
     of_bodies = np.sum((bodies["mass"] * u[:, 0] ** 2)[slides]) + np.sum((bodies["inertia"] * u[:, 1] ** 2)[turns])
     return 0.5 * (m * np.sum(v[:, :2] ** 2) + inertia * np.sum(v[:, 2] ** 2) + of_bodies)
+
+
+def _outer_potential(run):
+    """Energy of weights, and of springs and steady forces of what slides: all that is not elastic."""
+    parts, q = run.parts, run.state.bodies[:, 0]
+    b, g = parts.bodies, parts.gravity
+    pull = b["force"] + b["mass"] * (g[0] * b["ux"] + g[1] * b["uy"])
+    sliding = np.sum((0.5 * b["spring"] * q * q - pull * q)[b["slide_column"] >= 0])
+    return sliding - parts.chain.mass * np.sum(run.state.plates[:, :2] @ g)
 
 
 def _joint_forces(run):

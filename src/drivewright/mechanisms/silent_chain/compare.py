@@ -7,7 +7,8 @@ from drivewright.chains.closure import Drive, phase_map
 from drivewright.chains.link import link
 from drivewright.chains.stress.rolling import rolling_contact
 from drivewright.mechanisms.silent_chain.build import offset_of
-from drivewright.mechanisms.silent_chain.contact import no_contact, strand_force
+from drivewright.mechanisms.silent_chain.contact import no_contact
+from drivewright.mechanisms.silent_chain.strands import strand_force
 from drivewright.result import Answer, Column, Table, Value
 
 OVER_PITCH = (0.02, 0.04, 0.07, 0.1, 0.126, 0.17, 0.25, 0.35, 0.5, 0.78)  # rolling radii looked at, unless told otherwise

@@ -2,10 +2,9 @@
 
 import numpy as np
 
-from drivewright.chains import standards
 from drivewright.chains.stress import pins, rolling
 from drivewright.errors import InputError
-from drivewright.mechanisms.silent_chain.moving import link_of
+from drivewright.mechanisms.silent_chain.strands import centrifugal, chain_speed, pulls, strand_force
 from drivewright.result import Answer, Check, Value
 
 
@@ -37,43 +36,10 @@ def contact(model, done):
     return Answer(values, (), tuple(checks), tuple(findings))
 
 
-def strand_force(model):
-    """Of the tight strand: half the preload along it, half the load's pull, and the centrifugal force of the chain [N]."""
-    tight, _ = _pulls(model)
-    return tight + centrifugal(model)
-
-
-def centrifugal(model):
-    """Mass per length times speed squared [N]."""
-    return standards.centrifugal_tension(link_of(model).mass / model.link.pitch, chain_speed(model))
-
-
-def chain_speed(model):
-    """Mean speed of the chain [m/s]."""
-    return standards.chain_speed(model.link.pitch, model.teeth[0], model.spec.drive.speed)
-
-
-def _pulls(model):
-    """Of the tight and of the slack strand [N], without the centrifugal force."""
-    drive = model.spec.drive
-    pull = drive.load_torque * 2 * np.pi / (model.teeth[1] * model.link.pitch)
-    along = drive.preload / slope(model)
-    return 0.5 * (along + pull), 0.5 * (along - pull)
-
-
-def slope(model):
-    """Cosine of the angle of the strands to the line of centres, by pitch circles; 1 where there are none."""
-    try:
-        distance = standards.centre_distance(model.link.pitch, *model.teeth, model.spec.links)
-    except InputError:
-        return 1.0
-    return float(np.cos(standards.strand_angle(model.link.pitch, *model.teeth, distance)))
-
-
 def _strands(model):
     if not model.spec.drive:
         return {}
-    tight, slack = _pulls(model)
+    tight, slack = pulls(model)
     return {
         "chain.speed": Value(chain_speed(model), "m/s", "mean speed of the chain"),
         "strand.centrifugal_force": Value(centrifugal(model), "N", "mass per length times speed squared"),

@@ -1,12 +1,10 @@
 """The drive by formula: length of the chain, pitch circles, wraps, unevenness, strands as moving strings."""
 
-
 from drivewright.chains import standards
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES
-from drivewright.mechanisms.silent_chain.contact import chain_speed, strand_force
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
-from drivewright.mechanisms.silent_chain.moving import link_of
+from drivewright.mechanisms.silent_chain.strands import chain_speed, link_of, strand_force
 from drivewright.result import Answer, Check, Value
 
 MODES = 2  # of a strand that are told

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from drivewright.chains.dynamics.simulate import Settings, tooth_time
-from drivewright.chains.dynamics.sweep import Scatter, campbell, monte_carlo
+from drivewright.chains.dynamics.simulate import Settings
+from drivewright.chains.dynamics.sweep import Scatter, campbell, monte_carlo, revolution_time
 from drivewright.chains.implicit.equilibrium import compliance_of, equilibrium
 from drivewright.mechanisms.silent_chain.dynamics import explicit_step
 from drivewright.mechanisms.silent_chain.moving import moving
@@ -11,7 +11,7 @@ from drivewright.result import Answer, Column, Table, Value
 
 SPEEDS = 12  # of the Campbell diagram, unless told otherwise, up to
 BEYOND = 1.5  # times the design's speed
-TEETH = 60  # of a run of the Campbell diagram
+REVOLUTIONS = 2  # of the chain, in a run of the Campbell diagram
 PEAKS = 4  # of a spectrum, in the Campbell diagram
 POSITIONS = 24  # in a tooth, at rest
 PERCENTILES = (5, 50, 95)
@@ -22,23 +22,39 @@ def speeds(model, done):
     drive, said = model.spec.drive, model.spec.compare.speeds
     chosen = np.array(said) if said else drive.speed * BEYOND * np.arange(1, SPEEDS + 1) / SPEEDS
     system = moving(model)
-    found = campbell(system, -chosen, TEETH, settings=_settings(model, system))
+    found = campbell(system, -chosen, REVOLUTIONS, _settings(model, system), model.spec.dynamics.ensemble)
     rows = [(-row.case, row.value) for row in found.rows if row.ok]
     findings = tuple(f"at {-row.case * 30 / np.pi:.4g} rpm: {row.reason}" for row in found.failed)
+    findings += tuple(_drifting([(f"{speed * 30 / np.pi:.4g} rpm", level) for speed, level in rows]))
     if not rows:
         return Answer(findings=findings, outcome="partial")
     table = Table("speeds", "Centre distance over the speed", (
         Column("speed", "rad/s", "speed of the driving sprocket", np.array([speed for speed, _ in rows])),
-        Column("mean", "m", "mean centre distance", np.array([level.mean for _, level in rows])),
-        Column("fluctuation", "m", "greatest less least centre distance", np.array([level.fluctuation for _, level in rows])),
-        *(Column(f"mesh_order_{k + 1}", "m", f"amplitude at {k + 1} times the mesh frequency",
-                 np.array([level.amplitudes[k] for _, level in rows])) for k in range(3)),
-        Column("tension", "N", "greatest tension in a joint", np.array([level.tension for _, level in rows]))))
+        *bounded("mean", "m", "mean centre distance", [level.mean for _, level in rows]),
+        *bounded("fluctuation", "m", "peak-to-peak of the centre distance in a revolution of the chain",
+                 [level.fluctuation for _, level in rows]),
+        *(column for k in range(3) for column in bounded(
+            f"mesh_order_{k + 1}", "m", f"amplitude at {k + 1} times the mesh frequency", [level.amplitudes[k] for _, level in rows])),
+        *bounded("tension", "N", "greatest tension in a joint in a revolution", [level.tension for _, level in rows])))
     diagram = Table("campbell", "Campbell diagram: highest peaks of the spectra of the centre distance", (
         Column("speed", "rad/s", "speed of the driving sprocket", np.array([speed for speed, _ in rows])),
         *(Column(f"peak_{k + 1}", "Hz", f"peak {k + 1}", np.array([_peaks(level)[k] for _, level in rows])) for k in range(PEAKS)),
         Column("mesh_frequency", "Hz", "mesh frequency", np.array([speed for speed, _ in rows]) * model.teeth[0] / (2 * np.pi))))
     return Answer({}, (table, diagram), (), findings)
+
+
+def bounded(name, unit, meaning, estimates):
+    """A column of the values of estimates, and those of the ends of their intervals."""
+    value, low, high = np.array([(each.value, each.low, each.high) for each in estimates]).T
+    column = Column(name, unit, meaning, value)
+    return column, *column.bounds(low, high)
+
+
+def _drifting(levels):
+    """Finding: where the fluctuation had not settled."""
+    names = [name for name, level in levels if not level.fluctuation.settled]
+    if names:
+        yield f"not settled, and of no meaning beyond these runs: the fluctuation at {', '.join(names)}; give dynamics.settling more"
 
 
 def _peaks(level):
@@ -50,24 +66,26 @@ def _peaks(level):
 
 
 def scatter(model, done):
-    """Percentiles of mean and fluctuation of the centre distance over drives as they come from manufacture."""
+    """Percentiles of mean and fluctuation of the centre distance over drives as they come from manufacture; each drive runs once."""
     system, said = moving(model), model.spec.scatter
     settings = _settings(model, system)
-    duration = settings.settle + model.spec.links * tooth_time(system)
+    duration = settings.settle + REVOLUTIONS * revolution_time(system)
     found = monte_carlo(system, Scatter(said.tooth_thickness, said.pitch), said.samples, duration, settings, PERCENTILES, said.seed)
     values = {}
     for k, percent in enumerate(PERCENTILES):
-        values[f"scatter.mean.p{percent:02d}"] = Value(found.mean[k], "m", f"mean centre distance, {percent} % of the drives are below")
-        values[f"scatter.fluctuation.p{percent:02d}"] = Value(found.fluctuation[k], "m",
-                                                              f"fluctuation of the centre distance, {percent} % are below")
+        for name, numbers, what in (("mean", found.mean, "mean centre distance"),
+                                    ("fluctuation", found.fluctuation, "peak-to-peak of the centre distance in a revolution")):
+            value, low, high = np.asarray(numbers)[:, k]
+            meaning = f"{what}, {percent} % of the drives are below"
+            values[f"scatter.{name}.p{percent:02d}"] = Value(value, "m", meaning, low, high, "sample").plain()
     rows = [row.value for row in found.outcomes.rows if row.ok]
     table = Table(
         "scatter",
         "Drives as they come from manufacture",
         (
             Column("drive", "-", "drive", np.arange(float(len(rows)))),
-            Column("mean", "m", "mean centre distance", np.array([r.mean for r in rows])),
-            Column("fluctuation", "m", "fluctuation of the centre distance", np.array([r.fluctuation for r in rows])),
+            *bounded("mean", "m", "mean centre distance", [r.mean for r in rows]),
+            *bounded("fluctuation", "m", "peak-to-peak of the centre distance in a revolution", [r.fluctuation for r in rows]),
         ),
     )
     findings = tuple(f"drive {row.case}: {row.reason}" for row in found.outcomes.failed)

@@ -5,13 +5,13 @@ import numpy as np
 from drivewright.chains.dynamics.model import Chain, Contact, Drive, Guide, Model, Slide, Sprocket
 from drivewright.chains.dynamics.roller import RollerTooth
 from drivewright.chains.link import seat_support
-from drivewright.chains.plate import LinkMass, link_mass
 from drivewright.chains.roller_sprocket import design_roller_sprocket
 from drivewright.chains.standards import pitch_diameter
 from drivewright.chains.tooth import Tooth
+from drivewright.mechanisms.silent_chain.strands import link_of, strand_force
 
+ROLLING, HINGED = 0.003, 0.02  # articulation damping over critical: little more than steel itself has, and with a pin that slides
 IN_LINE = 3  # plate on pin, pin on pin, pin on plate: contacts that make a joint
-ROUGH_PLATE = (1.86, 0.95)  # length and height of a plate that cannot be drawn, over the pitch; its area is a pitch squared
 
 
 def moving(model):
@@ -24,28 +24,6 @@ def moving(model):
     return Model(_chain(model), (_driver(model, touch), *driven), guides, spec.drive.gravity)
 
 
-def link_of(model):
-    """`LinkMass` of a pitch of chain: mass [kg], height of its centre [m], inertia [kg m^2]."""
-    said = model.spec.plate
-    drawn = _rough(model) if model.spec.roller or model.undrawn else _drawn(model)
-    mass = said.link_mass or drawn.mass
-    return LinkMass(mass, drawn.height, said.link_inertia or drawn.inertia * mass / drawn.mass)
-
-
-def _drawn(model):
-    """Mean of the two kinds of links in turn."""
-    said, density = model.spec.plate, model.spec.material.density
-    both = [link_mass(model.plate, plates, density, model.chain_width) for plates in said.lacing]
-    return LinkMass(*(0.5 * sum(each) for each in zip(*both, strict=True)))
-
-
-def _rough(model):
-    """Bars of the outer measures of a plate, with a plate's area."""
-    p, spec = model.spec.pitch, model.spec
-    mass = spec.material.density * 0.5 * model.chain_width * p * p
-    return LinkMass(mass, 0.0, mass * (ROUGH_PLATE[0] ** 2 + ROUGH_PLATE[1] ** 2) * p * p / 12)
-
-
 def _chain(model):
     spec, found = model.spec, link_of(model)
     flank = {}
@@ -53,7 +31,19 @@ def _chain(model):
         heights = np.sort([model.plate.flank("right").start[1], model.plate.flank("right").end[1]])
         flank = {"toe": -float(heights[0]), "crotch": -float(heights[1])}
     return Chain(model.link, spec.links, found.mass, found.inertia, spec.contact.stiffness / IN_LINE, spec.contact.joint_damping,
-                 centre_offset=found.height, elongation=spec.closure.elongation, **flank)
+                 centre_offset=found.height, elongation=spec.closure.elongation, articulation_damping=_articulation(model, found),
+                 **flank)
+
+
+def _articulation(model, found):
+    """Damping of a joint against the turning of its plates [N m s].
+
+    A plate of inertia I between joints that stand still rocks under the force T of the strand with the stiffness T A, A from pin to pin;
+    both its joints damp it, with 2 c: c = ratio sqrt(T A I).
+    """
+    said = model.spec.contact.articulation_damping_ratio
+    ratio = (ROLLING if model.link.radius else HINGED) if said is None else said
+    return ratio * np.sqrt(strand_force(model) * model.link.hole_pitch * found.inertia)
 
 
 def _driver(model, touch):

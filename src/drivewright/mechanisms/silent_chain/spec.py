@@ -211,6 +211,10 @@ class Contact(Spec):
     damping: Damping | None = Field(None, ge=0, description="of flank and tooth; joint_damping times stiffness unless given",
                                     examples=["200 N s/m"])
     joint_damping: Time = Field("2 us", ge=0, description="damping of a joint over its stiffness")
+    articulation_damping_ratio: Number | None = Field(
+        None, ge=0, description="of the turning of neighbouring plates against each other, by friction and oil of the joint, over critical "
+                                "for a plate that rocks between its joints; 0.003 where pins roll, 0.02 in a hinge unless given",
+        examples=[0.003])
 
 
 class Dynamics(Spec):
@@ -220,9 +224,12 @@ class Dynamics(Spec):
         "explicit", description="implicit: for damping too large, or contacts too stiff, for short explicit steps")
     step: Time | None = Field(None, gt=0, description="of time; 1 us (explicit) unless given", examples=["1 us"])
     settling: Time = Field("50 ms", ge=0, description="left out of the statistics")
-    duration: Time | None = Field(None, gt=0, description="that is evaluated; a revolution of the chain unless given", examples=["0.25 s"])
+    duration: Time | None = Field(None, gt=0, description="that is evaluated; two revolutions of the chain unless given",
+                                  examples=["0.25 s"])
+    ensemble: Integer = Field(4, ge=1, le=64, description="runs whose starts differ by nanometres: intervals of statistics come from them")
     thickness_deviation: Length = Field("0 mm", description="of all teeth, on each flank, positive: too thick")
-    largest_drift: Number = Field(1e-3, gt=0, description="of the energy balance over the kinetic energy; beyond it the run has failed")
+    largest_drift: Number = Field(1e-3, gt=0, description="of the energy balance in a second, over the energy stored; beyond it the run "
+                                                          "has failed")
 
 
 class Compare(Spec):

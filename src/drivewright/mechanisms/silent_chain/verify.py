@@ -228,7 +228,7 @@ def _running(model):
     step, time = min(STEP, 0.5 * largest_step(system)), SHARE * tooth_time(system)
     begin = start(system)
     ours = simulate(system, time, Settings(step, run_in=0.0), begin=begin)
-    other = implicit.simulate(system, time, implicit.Settings(step, rho=1.0), begin_with=begin)
+    other = implicit.simulate(system, time, implicit.Settings(step, rho=1.0), begin=begin)
     after = f"after {SHARE:g} tooth"
     if system.sprockets[1].slide:
         a, b = (motion.body(1, "q") for motion in (ours, other))
