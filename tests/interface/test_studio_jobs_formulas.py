@@ -40,6 +40,9 @@ class Columns(dict):
     def __len__(self):
         return len(next(iter(self.values())))
 
+    def bounds(self, name):
+        """No column of these has intervals."""
+
 
 # -- keys ----------------------------------------------------------------------------------------------------------------------
 

@@ -85,8 +85,8 @@ def is_honest(found):
 
 
 def test_an_endless_run_is_refused_before_it_begins():
-    with pytest.raises(DrivewrightError, match="steps of a link"):
-        dw.run(from_document(changed('dynamics.duration="2000 s"')), only=("dynamics",))
+    result = dw.run(from_document(changed('dynamics.duration="2000 s"')), only=("dynamics",))
+    assert result.outcome == "partial" and any("steps of a link" in finding for finding in result.findings)
 
 
 @pytest.mark.slow

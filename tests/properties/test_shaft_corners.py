@@ -1,5 +1,7 @@
 """Shafts that are legal and odd: what a designer meets at the edge of the model is computed, left out with a reason, or refused."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -73,8 +75,8 @@ def test_play_beside_a_rigid_axial_hold(held):
 def test_a_spring_preload_that_nothing_holds_is_refused():
     bearings = [{"name": "A", "position": "56.5 mm", "geometry": BALLS, "free": ["axial"], "preload": "100 N"},
                 {"name": "B", "position": "136.5 mm", "roller_geometry": ROLLERS}]
-    with pytest.raises(dw.InputError, match="do not balance.*nothing takes"):
-        dw.run(shaft(bearings=bearings))
+    result = dw.run(shaft(bearings=bearings))
+    assert result.outcome == "partial" and any(re.search("do not balance.*nothing takes", finding) for finding in result.findings)
 
 
 def test_a_preload_on_a_bearing_without_axial_stiffness_is_refused():

@@ -114,7 +114,19 @@ def _legs(assembly, t, end, y, settings, samples):
             if len(system.chart.offsets) and settings.singular == "stop":
                 goes_on, advice = False, stopped_at(system.chart.origin_time)
         if not goes_on:
-            return Run(assembly, tuple(stretches), np.concatenate(impacts), advice, steps, end, tuple(passages))
+            return Run(assembly, _joined(stretches), np.concatenate(impacts), advice, steps, end, tuple(passages))
+
+
+def _joined(stretches):
+    """The stretches with neighbours of one and the same system made one."""
+    groups = []
+    for part in stretches:
+        if groups and groups[-1][-1].system is part.system:
+            groups[-1].append(part)
+        else:
+            groups.append([part])
+    return tuple(Stretch(group[0].system, np.concatenate([part.t for part in group]), np.concatenate([part.y for part in group]),
+                         group[-1].t_end, group[-1].y_end) for group in groups)
 
 
 def _onward(system, t, y, end, weak):

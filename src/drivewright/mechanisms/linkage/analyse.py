@@ -6,7 +6,7 @@ from drivewright.errors import SolverError
 from drivewright.mechanisms.linkage.advice import advice
 from drivewright.mechanisms.linkage.build import TURN, ideal_at, ideal_record, record_of, run_of
 from drivewright.mechanisms.linkage.ensemble import acceleration, settled_check, statistics
-from drivewright.multibody.measures import largest, span
+from drivewright.multibody.measures import largest
 from drivewright.multibody.observe import FIELDS, PIN_FIELDS
 from drivewright.multibody.record import POINT_FIELDS
 from drivewright.result import Answer, Check, Column, Table, Value
@@ -40,15 +40,18 @@ def window(model):
 
 def motion(model, done):
     """Swing and peaks of the outputs, and the last turn as a table."""
-    seen, values = window(model), {}
+    window(model)  # refuses a run that holds no numbers
+    values, found = {}, statistics(model)
     for output in model.spec.outputs:
-        angle, name = seen.point(output.name, "angle"), output.name
-        values[f"{name}.max_angular_acceleration"] = Value(
-            largest(seen.t, seen.point(name, "alpha")), "rad/s^2", f"largest angular acceleration of {output.body!r}, magnitude")
-        values[f"{name}.swing"] = Value(span(seen.t, angle), "rad", f"range of the angle of {output.body!r} in the window")
+        name = output.name
+        values[f"{name}.max_angular_acceleration"] = Value.of(
+            found.of_run(f"{name}.alpha", f"{name}.alpha"), "rad/s^2", f"largest angular acceleration of {output.body!r}, magnitude")
+        values[f"{name}.swing"] = Value.of(
+            found.of_run(f"{name}.swing", f"{name}.swing"), "rad", f"range of the angle of {output.body!r} in the window")
         if output.point:
-            values[f"{name}.max_acceleration"] = Value(
-                largest(seen.t, acceleration(seen, output)[0]), "m/s^2", f"largest acceleration of point {output.point!r}, magnitude")
+            values[f"{name}.max_acceleration"] = Value.of(
+                found.of_run(f"{name}.acceleration", f"{name}.acceleration"), "m/s^2",
+                f"largest acceleration of point {output.point!r}, magnitude")
     tables = (_motion_table(model),) if model.spec.outputs else ()
     return Answer(values, tables, advice(model.spec))
 

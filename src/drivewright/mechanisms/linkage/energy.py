@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from drivewright.mechanisms.linkage.analyse import ROWS, cycle_columns, last_turn, window
+from drivewright.mechanisms.linkage.analyse import ROWS, cycle_columns, last_turn
 from drivewright.mechanisms.linkage.build import record_of
+from drivewright.mechanisms.linkage.ensemble import statistics
 from drivewright.multibody.observe import POWER_FIELDS
 from drivewright.multibody.record import audit, audit_of_samples
 from drivewright.result import Answer, Check, Column, Table, Value
@@ -38,11 +39,12 @@ def _torque(model):
     """Torque (force) of the drives over the last turn, and the largest in the window."""
     if not model.assembly.model.drives:
         return Answer()
-    seen, turn = window(model), last_turn(model)
+    turn = last_turn(model)
     names = [drive.joint for drive in model.assembly.model.drives]
-    values = {"drive.max_torque": Value(float(np.max(np.abs(seen.drives))), "N m", "largest torque of the drive, either way")}
+    torque = Value.of(statistics(model).of_run("drive.torque", "drive.torque"), "N m", "largest torque of the drive, either way")
+    values = {"drive.max_torque": torque}
     columns = (*cycle_columns(model, turn.t), *(Column(f"torque_{name}", "N m", f"torque of the drive at joint {name!r}", turn.drives[:, k])
                                                 for k, name in enumerate(names)))
     limit = model.spec.limits.drive_torque
-    checks = (Check("drive_torque", values["drive.max_torque"].value, limit, "<=", "N m", "largest torque of the drive"),) if limit else ()
+    checks = (Check.of(torque, "drive_torque", limit, "<=", "largest torque of the drive"),) if limit else ()
     return Answer(values, (Table("drive", "Torque of the drive over the last turn", columns),), checks)

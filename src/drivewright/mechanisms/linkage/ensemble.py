@@ -9,7 +9,7 @@ import numpy as np
 from drivewright import cases
 from drivewright.errors import SolverError
 from drivewright.mechanisms.linkage.build import ideal_record, record_of, run_of
-from drivewright.multibody.measures import ImpactLoad, impact_load, largest, peaks
+from drivewright.multibody.measures import ImpactLoad, impact_load, largest, peaks, span
 from drivewright.multibody.observe import PIN_FIELDS
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import simulate
@@ -86,6 +86,8 @@ def statistics(model: Any) -> Statistics:
     start = model.spec.start_of_window if model.spec.simulate else 0.0
     seen = _after(record_of(model), start)
     first, period = member(model, run_of(model), seen, start), repeats(model, seen)
+    if model.assembly.freedom == 0:  # kinematics is exact
+        return Statistics((replace(first, turns={}),), 0)
     if period or run_of(model).advice or not _counted(first):
         return Statistics((first,), period)
     return Statistics((first, *_others(model, start)), 0)
@@ -160,10 +162,27 @@ def member(model, run, seen, start):
     ends = start + (model.period or 0.0) * np.arange(count + 1)
     found = Member({}, {})
     for output in model.spec.outputs:
+        _motion(seen, output, ends, found)
         _output(model, seen, output, ends, found)
+    if model.assembly.model.drives:
+        torque = np.max(np.abs(seen.drives), axis=1)
+        found.whole["drive.torque"] = float(np.max(torque))
+        found.turns.update({"drive.torque": _largest_of_turns(seen.t, torque, ends)} if len(ends) > 1 else {})
     for number, name in enumerate(model.pins):
         _pin(model, run, seen, number, name, ends, found)
     return found
+
+
+def _motion(seen, output, ends, found):
+    """Largest magnitudes and the range of the angle of an output, in SI."""
+    name, angle = output.name, seen.point(output.name, "angle")
+    sizes = {"alpha": np.abs(seen.point(name, "alpha")), "acceleration": np.abs(acceleration(seen, output)[0])}
+    found.whole.update({f"{name}.{key}": largest(seen.t, x) for key, x in sizes.items()} | {f"{name}.swing": span(seen.t, angle)})
+    if len(ends) > 1:
+        found.turns.update({f"{name}.{key}": _largest_of_turns(*peaks(seen.t, x), ends) for key, x in sizes.items()})
+        low, high = np.min(angle), np.max(angle)
+        above, below = _largest_of_turns(seen.t, angle - low, ends), _largest_of_turns(seen.t, high - angle, ends)
+        found.turns[f"{name}.swing"] = above + below - (high - low)
 
 
 def _output(model, seen, output, ends, found):

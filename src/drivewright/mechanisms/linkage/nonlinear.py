@@ -16,7 +16,7 @@ from drivewright.multibody.record import record
 from drivewright.multibody.simulate import Settings, restated, simulate, tolerances
 from drivewright.numerics.chaos import largest_exponent, orbit_period
 from drivewright.numerics.ensemble import estimate
-from drivewright.numerics.signals import order_spectrum
+from drivewright.numerics.signals import order_spectrum, spectrogram
 from drivewright.result import Answer, Column, Table, Value
 from drivewright.spec import dimension_at
 from drivewright.units import SI
@@ -24,6 +24,7 @@ from drivewright.units import SI
 SAME = 1e-3  # of the cloud's size: visits nearer to each other count as one point of the orbit
 STILL = 1e-5  # of the range of the motion: a cloud smaller than this is one point
 ORDERS = 60
+ABOVE_ERROR = 1000.0  # separation of twins over the relative tolerance: below, the integrator's error would be taken for growth
 PAIRS_OF_TWINS = 2  # of the ensemble, for the Lyapunov exponent: every turn of a pair is a sample
 PER_OSCILLATION = 20  # samples of the highest order, at least
 
@@ -121,7 +122,8 @@ def lyapunov(model, done):
 
     def one(number):
         return largest_exponent(Turn(model), shifted(model, number), scales, cycles=asked.turns, discard=asked.discard,
-                                rng=np.random.default_rng(model.spec.simulate.seed + number), continuous=inside)
+                                rng=np.random.default_rng(model.spec.simulate.seed + number), continuous=inside,
+                                separation=float(np.clip(ABOVE_ERROR * model.settings.rtol, 1e-8, 1e-4)))
 
     pairs = [row.value for row in cases.run(one, range(min(PAIRS_OF_TWINS, model.ensemble)), workers=None).rows if row.ok]
     if not pairs:
@@ -179,11 +181,20 @@ def spectrum(model, done):
     for output in model.spec.outputs:
         data, unit, word = acceleration(even, output)
         same, _, _ = acceleration(ideal, output)
+        amplitude, low, high = _amplitudes(spectrogram(even.t, data, model.period, orders)[1])
+        column = Column("amplitude", unit, f"amplitude of the {word}", amplitude)
         tables.append(Table(f"spectrum.{output.name}", f"Spectrum of the {word} of {output.name!r}", (
-            Column("order", "-", "oscillations per turn", orders),
-            Column("amplitude", unit, f"amplitude of the {word}", order_spectrum(even.t, data, model.period, orders)),
+            Column("order", "-", "oscillations per turn", orders), column, *(column.bounds(low, high) if turns > 1 else ()),
             Column("ideal_amplitude", unit, "the same without play", order_spectrum(ideal.t, same, model.period, orders)))))
     return Answer(tables=tuple(tables))
+
+
+def _amplitudes(turns):
+    """(amplitude, low, high) of each order from the amplitudes (turns, orders) of single turns: the root of their mean square, so that
+    what is irregular keeps its size however many turns there are, with its interval.  A motion that repeats itself has the same in all."""
+    found = [estimate(power, scale=float(np.max(turns**2))) for power in (turns**2).T]
+    power = np.array([[one.value, one.low, one.high] for one in found])
+    return np.sqrt(np.maximum(power, 0.0)).T
 
 
 # -- many runs -----------------------------------------------------------------------------------------------------------------
