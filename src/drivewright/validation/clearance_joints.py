@@ -35,8 +35,8 @@ FOLDER = "28 800 r/h, knife folder, massless links in A, B and O4, c_theta = 0.1
 TWO_ROUTES = "The multibody kernel and the closed form of the four-bar agree on 19.16 with the other program's samples, at every tolerance."
 LAW = "hysteresis of Lankarani and Nikravesh, restitution 0.9, no friction"
 SIGN = "Estimates of 40 turns with an error of a fifth and more: the sign is compared."
-LASTING = ("The other program keeps the approach speed of the first touch for as long as the contact lasts; here a lasting contact is damped by "
-           "its own energy. Which law a real pin follows is not known; at 0.5 mm both motions are chaotic.")
+LASTING = ("The other program keeps the approach speed of the first touch for as long as the contact lasts; here a lasting contact is "
+           "damped by its own energy. Which law a real pin follows is not known; at 0.5 mm both motions are chaotic.")
 SLIDER = "crank 50 mm, rod 120 mm, 0.21 kg, 2.5e-4 kg m^2, slider 0.14 kg, 5000 rpm, bearing 10 mm, play 0.5 mm, steel"
 
 
