@@ -142,7 +142,7 @@ def table():
 
     from drivewright import cases, load
     from drivewright.mechanisms.linkage.build import build
-    from drivewright.mechanisms.linkage.nonlinear import ideal_peak, load_of, varied
+    from drivewright.mechanisms.linkage.many import ideal_peak, load_of, varied
 
     spec = load(Path(__file__).parent.parent / "examples" / "knife_folder.toml")
     output = spec.outputs[0]

@@ -17,7 +17,7 @@ from drivewright.errors import UnknownName
 class Value(NamedTuple):
     """One number [SI unit] and what it means; where it is uncertain with its 95 % interval.
 
-    `interval` says how that was made: "ensemble" or "windows" of a chaotic run, "sample", "fit", "periodic" (rounding).  A bound that is
+    `interval` says how that was made: "ensemble" or "windows" of a chaotic run, "visits", "sample", "fit", "periodic" (rounding).  A bound that is
     None is not known; a value without interval is exact to its printed digits.  What has not `settled`, a statistic that still drifted
     when its run ended, is no property of the design yet: it is in the result, but never among the headline values.
     `error` is the standard error, for those who average over many values; result.json does not have it.
@@ -142,7 +142,7 @@ class Check(NamedTuple):
     @property
     def undecided(self):
         """Whether the limit lies within the interval of the value; `ok` is decided by the value all the same."""
-        return self.bounds is not None and self.bounds[0] < self.limit < self.bounds[1]
+        return self.bounds is not None and self.bounds[0] < float(self.limit) < self.bounds[1]
 
     @property
     def bounds(self):
@@ -210,7 +210,8 @@ class Plot(NamedTuple):
 @dataclass(frozen=True)
 class Answer:
     """What one analysis found.  `data` carries objects for the analyses that need this one; it is not written to disk.
-    `stopped` are the `Stop`s of the runs that it looked at; the runner fills them in."""
+    `stopped` are the `Stop`s of the runs that it looked at, `failure` says why it failed, as in its last finding; the runner fills them in.
+    """
 
     values: Mapping[str, Value] = field(default_factory=dict)
     tables: tuple = ()
@@ -220,6 +221,7 @@ class Answer:
     outcome: str = "complete"
     data: Any = None
     stopped: tuple = ()
+    failure: str = ""
 
 
 @dataclass(frozen=True)

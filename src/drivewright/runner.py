@@ -34,7 +34,7 @@ def run(spec, only=(), everything=False, progress=None, model=None):
     wanted = selection(mechanism.analyses, only, everything)
     model = mechanism.build(spec) if model is None else model
     answers = ask(spec, model, wanted, progress)
-    findings = [*getattr(model, "findings", ()), *(finding for answer in answers.values() for finding in answer.findings)]
+    findings = [*getattr(model, "findings", ()), *_told(answers)]
     findings += [*stops(answers), *_holes(answers)]
     findings += [
         f"analysis '{a.name}' ({a.meaning}) runs on request: --only {a.name}"
@@ -56,6 +56,21 @@ def ask(spec, model, wanted, progress=None, through=()):
             progress(number, len(wanted), analysis.name)
         answers[analysis.name] = _inherited(analysis, answers, *_answer(analysis, spec, model, answers, through))
     return answers
+
+
+def _told(answers):
+    """The findings of all analyses; those that failed for one and the same reason say it once."""
+    alike = {}
+    for name, answer in answers.items():
+        alike.setdefault(answer.failure, []).append(name)
+    for name, answer in answers.items():
+        names = alike[answer.failure] if answer.failure else [name]
+        if len(names) == 1:
+            yield from answer.findings
+            continue
+        yield from answer.findings[:-1]
+        if name == names[0]:
+            yield f"analyses {', '.join(map(repr, names))} fail alike; each {answer.failure}"
 
 
 def stops(answers):
@@ -160,7 +175,8 @@ def _failed(analysis, spec, error):
     had = partial if isinstance(partial, Answer) else Answer()
     of_design = "gave up: " if isinstance(error, SolverError) else "has no answer for this design: "
     told = f"{of_design if isinstance(error, DrivewrightError) else ''}{reason_of(spec, error)}"
-    return replace(had, outcome="partial", findings=(*had.findings, f"analysis '{analysis.name}' ({analysis.meaning}) {told}"))
+    finding = f"analysis '{analysis.name}' ({analysis.meaning}) {told}"
+    return replace(had, outcome="partial", findings=(*had.findings, finding), failure=told)
 
 
 def reason_of(spec, error):

@@ -131,7 +131,7 @@ def told(coefficient=K, **changes):
                             connects=("crank.P", "bob.P"))
     asked = SimpleNamespace(joint="P", cycles=1000, jumps=1, bins=90)
     spec = SimpleNamespace(**{"joints": [joint], "wear": asked, "outputs": (), "simulate": None, "period": 0.5} | changes)
-    return SimpleNamespace(spec=spec, pins=["P"], period=0.5, markers={})
+    return SimpleNamespace(spec=spec, pins=["P"], period=0.5, markers={}, ensemble=1)
 
 
 def test_the_volume_of_a_turn_is_that_of_force_and_slip():

@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import lfilter
 
 from drivewright.errors import InputError
-from drivewright.numerics.ensemble import ENOUGH, FALSE_ALARM, estimate, estimate_statistic
+from drivewright.numerics.ensemble import ENOUGH, FALSE_ALARM, draw, estimate, estimate_statistic, of_members
 from drivewright.result import Value
 
 TRIALS = 2000
@@ -202,3 +202,21 @@ def test_value_without_interval_and_not_settled():
     value = Value.of(estimate([2.0]), "m", "fluctuation")
     assert value.record() == {"value": 2.0, "unit": "m", "meaning": "fluctuation", "settled": False}
     assert ENOUGH > 1
+
+
+def test_one_more_draw_lies_in_the_interval_of_a_draw_as_often_as_it_says():
+    rng, hits = np.random.default_rng(5), 0
+    for _ in range(4000):
+        numbers = rng.normal(3.0, 2.0, 5)
+        found = draw(numbers[:4])
+        assert found.value == numbers[0] and found.low < found.value < found.high
+        hits += found.low < numbers[4] < found.high
+    assert 0.94 < hits / 4000 < 0.96
+    assert not np.isfinite(draw(np.array([1.5])).low)
+
+
+def test_means_of_members_cover_as_often_as_they_say():
+    numbers = np.random.default_rng(6).normal(1.0, 0.3, (4, 20_000))
+    mean, reach = of_members(numbers)
+    assert 0.945 < np.mean(np.abs(mean - 1.0) < reach) < 0.955
+    assert np.all(np.isnan(of_members(numbers[:1])[1]))

@@ -34,10 +34,13 @@ def computed(*changes, only=("cams",)):
 @pytest.mark.parametrize(
     ("change", "key", "words"),
     [
+        ('events.take="gate"', "events.gate_point", 'missing, though events.take is "gate"'),
+        ('events.take="angle"', "events.take_angle", 'missing, though events.take is "angle"'),
         ("train.axis_ratio=0", None, "must be greater than 0, got 0"),
         ("train.axis_ratio=-0.5", None, "must be greater than 0, got -0.5"),
         ("train.axis_ratio=1.000001", None, "must be at most 1, got 1"),
         ("train.axis_ratio=1e-9", None, "0 <= e < 1"),
+        ("train.axis_ratio=1.2e-4", None, "take a rounder ellipse"),
         ("train.semi_major=0 mm", None, "must be greater than 0 mm, got 0 mm"),
         ("train.semi_major=-16 mm", None, "must be greater than 0 mm, got -16 mm"),
         ("arm.tip_distance=0 mm", None, "must be greater than 0 mm, got 0 mm"),

@@ -128,6 +128,13 @@ def test_what_is_left_out_says_why_and_takes_its_dependants_along(kind):
     )
 
 
+def test_analyses_that_fail_for_one_reason_say_it_once(kind):
+    kind(Analysis("a", gives_up, "balance"), Analysis("c", says(c=1.0), "apart"), Analysis("d", gives_up, "forces"))
+    result = runner.run(SPEC)
+    assert result.findings[1:] == ("analyses 'a', 'd' fail alike; each gave up: no convergence after 50 steps; raise `max_steps`",)
+    assert result.outcome == "partial" and result.provenance["failed"] == ["a", "d"]
+
+
 def test_a_solver_that_gives_up_leaves_a_partial_result_with_what_it_had(kind):
     log = kind(Analysis("a", gives_up, "balance"), Analysis("b", says(b=1.0), "on top", needs=("a",)), Analysis("c", says(c=1.0), "apart"))
     result = runner.run(SPEC)

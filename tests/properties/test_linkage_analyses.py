@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import drivewright as dw
-from drivewright.mechanisms.linkage import nonlinear
+from drivewright.mechanisms.linkage import many, nonlinear
 from drivewright.mechanisms.linkage.build import build, record_of, run_of
 from drivewright.mechanisms.linkage.forces import forces, seen_last
 from drivewright.multibody.record import audit
@@ -206,7 +206,7 @@ def test_a_bifurcation_diagram_over(over, start, stop):
     asked = {"over": over, "start": start, "stop": stop, "steps": 2, "turns": 4, "discard": 2, "output": "slider"}
     table = table_of(dw.run(slider_crank(bifurcation=asked), only="bifurcation"), "bifurcation")
     assert len(table["position"]) == 6 and len(set(table["parameter"])) == 2  # visits at the turns 2, 3 and 4
-    last = dw.run(nonlinear.varied(slider_crank(poincare={"output": "slider"}, simulate={"turns": 4, "relative_tolerance": 1e-7}),
+    last = dw.run(many.varied(slider_crank(poincare={"output": "slider"}, simulate={"turns": 4, "relative_tolerance": 1e-7}),
                                    {over: table["parameter"][-1]}), only="poincare")
     assert table["position"][-1] == pytest.approx(last["poincare.position"], abs=1e-9)
 

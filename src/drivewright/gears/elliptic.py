@@ -8,6 +8,8 @@ from drivewright.errors import InputError
 from drivewright.gears.rolling import RollingPair, check_length
 from drivewright.numerics.jets import Jet, compose
 
+NARROWEST = 1e-6  # of 1 - e: beyond, an ellipse is a line to the focus, and speeds jump where it touches
+
 
 @dataclass(frozen=True)
 class EllipticGearPair(RollingPair):
@@ -29,6 +31,9 @@ class EllipticGearPair(RollingPair):
     def __post_init__(self):
         if not 0 <= self.eccentricity < 1:
             raise InputError(f"EllipticGearPair: eccentricity = {self.eccentricity:.6g}; an ellipse needs 0 <= e < 1 (0 is a circle).")
+        if 1 - self.eccentricity < NARROWEST:
+            raise InputError(f"EllipticGearPair: eccentricity = {self.eccentricity:.9g}; the ratio of speeds would swing by "
+                             f"{(1 + self.eccentricity) / (1 - self.eccentricity):.3g} to 1; take a rounder ellipse.")
         if self.start not in ("near", "far"):
             raise InputError(f"EllipticGearPair: start = {self.start!r}; it is 'near' (short focal radius in contact at 0) or 'far'.")
         if self.semi_major is not None:

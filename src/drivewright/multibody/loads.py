@@ -152,8 +152,8 @@ def worn_off(wear, turned_by, dx, dy):
     which keeps the energy.  It holds while the profile is flat: its slope by the angle well below the clearance.
     h is a quadratic B-spline over the bins: its integral is that of the bins, and its slope has no jumps in which a journal would rattle.
     """
-    bins = wear.size
-    if bins == 0:
+    bins, distance = wear.size, np.hypot(dx, dy)
+    if bins == 0 or distance == 0.0:  # in the middle there is no side
         return 0.0, 0.0
     place = (np.arctan2(-dy, -dx) - turned_by) * bins / (2 * np.pi)
     node = np.floor(place + 0.5)
@@ -161,7 +161,7 @@ def worn_off(wear, turned_by, dx, dy):
     before, here, after = wear[k - 1], wear[k], wear[(k + 1) % bins]  # k - 1 may be -1: the last one
     depth = 0.5 * (0.5 - u) ** 2 * before + (0.75 - u * u) * here + 0.5 * (0.5 + u) ** 2 * after
     slope = (u - 0.5) * before - 2 * u * here + (u + 0.5) * after
-    return depth, slope * bins / (2 * np.pi) / np.hypot(dx, dy)
+    return depth, slope * bins / (2 * np.pi) / distance
 
 
 @outer

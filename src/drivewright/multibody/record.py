@@ -51,11 +51,16 @@ def record(run, markers, start=-np.inf):
     """The `Record` of a run for markers {name: Marker}, from a time on."""
     parts = [part for stretch in run.stretches for part in _parts(run.assembly, stretch, markers, start)]
     t, points, pins, powers, drives, energy, kinetic = zip(*parts, strict=True)
-    system, time, state = run.end
     return Record(
         np.concatenate(t), {name: np.concatenate([p[name] for p in points]) for name in markers}, np.concatenate(pins),
         np.concatenate(powers), np.concatenate(drives), np.concatenate(energy), np.concatenate(kinetic),
-        observe(system, [time], state[None]).bodies[0], run.stop)
+        last_of(run), run.stop)
+
+
+def last_of(run):
+    """(bodies, FIELDS) at the end of a run."""
+    system, time, state = run.end
+    return observe(system, [time], state[None]).bodies[0]
 
 
 def _parts(assembly, stretch, markers, start):

@@ -79,16 +79,33 @@ def estimate_statistic(samples: np.ndarray, statistic: Callable, *, rounding: fl
     """
     samples = _checked(samples)
     whole = estimate(samples, rounding=rounding, scale=scale)
-    of_members = np.asarray(statistic(samples, axis=1), dtype=float)
+    numbers = np.asarray(statistic(samples, axis=1), dtype=float)
     if whole.interval == "periodic":
-        return _periodic(float(np.mean(of_members)), rounding * max(float(np.max(np.abs(samples))), scale), samples.size)
+        return _periodic(float(np.mean(numbers)), rounding * max(float(np.max(np.abs(samples))), scale), samples.size)
     half = samples.shape[1] // 2
     if half < 1 or len(samples) < 2:
-        return _of_members(of_members, False)
+        return _of_members(numbers, False)
     change = statistic(samples[:, :half], axis=1) - statistic(samples[:, half:], axis=1)
     paired = _student(len(samples) - 1, 1 - FALSE_ALARM / 4) * np.std(change, ddof=1) / np.sqrt(len(samples))
     drift, limit = _drift(samples, _noise(_about_halves(samples)), FALSE_ALARM / 2)
-    return _of_members(of_members, bool(abs(np.mean(change)) <= paired and drift <= limit and whole.effective >= ENOUGH))
+    return _of_members(numbers, bool(abs(np.mean(change)) <= paired and drift <= limit and whole.effective >= ENOUGH))
+
+
+def of_members(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(mean, half the width of its 95 % interval) of the members' numbers (members, ...), which share nothing: Student's; nan of one."""
+    count = len(numbers)
+    spread = np.std(numbers, axis=0, ddof=1) if count > 1 else np.full(numbers.shape[1:], np.nan)
+    return np.mean(numbers, axis=0), _student(count - 1, (1 + LEVEL) / 2) * spread / np.sqrt(count)
+
+
+def draw(numbers: np.ndarray) -> Estimate:
+    """The first of the numbers (members,), with the interval in which one more of them lies: mean -+ t s sqrt(1 + 1/members)."""
+    count, value = len(numbers), float(numbers[0])
+    if count < 2:
+        return Estimate(value, np.nan, np.nan, "", True, 1.0)
+    spread = float(np.std(numbers, ddof=1))
+    reach = _student(count - 1, (1 + LEVEL) / 2) * spread * np.sqrt(1 + 1 / count)
+    return Estimate(value, float(np.mean(numbers)) - reach, float(np.mean(numbers)) + reach, "ensemble", True, 1.0, spread)
 
 
 def _checked(samples):

@@ -7,7 +7,7 @@ import numpy as np
 
 from drivewright import cases, registry
 from drivewright.contact.impact import delivered_restitution, impact_law
-from drivewright.mechanisms.linkage import nonlinear
+from drivewright.mechanisms.linkage import many, nonlinear
 from drivewright.mechanisms.linkage.build import build, ideal_record
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.measures import largest
@@ -101,7 +101,7 @@ def _link_loads(case):
 
 
 def _loads(model):
-    return dict(zip((*nonlinear.LOAD_WORDS, "ideal_peak"), nonlinear.load_of(model, model.spec.outputs[0]), strict=True))
+    return dict(zip((*many.LOAD_WORDS, "ideal_peak"), many.load_of(model, model.spec.outputs[0]), strict=True))
 
 
 def _sampled(model):

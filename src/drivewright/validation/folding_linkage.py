@@ -6,7 +6,7 @@ The motions run on the multibody kernel, through the mechanism `linkage`.  `vali
 import numpy as np
 
 from drivewright import cases
-from drivewright.mechanisms.linkage import nonlinear
+from drivewright.mechanisms.linkage import many
 from drivewright.mechanisms.linkage.build import build
 from drivewright.mechanisms.linkage.second_route import ROCKER_TURN, FourBar, ideal_motion
 from drivewright.spec import from_document
@@ -93,7 +93,7 @@ def _load_coefficient(point):
     speed, play, damping = point
     stiff = damping > STIFF * (1e-3 * float(play)) ** 2
     model = build(folder(*point, method="radau" if stiff else "dopri5"))
-    return nonlinear.load_of(model, model.spec.outputs[0])[0]
+    return many.load_of(model, model.spec.outputs[0])[0]
 
 
 def digits(value, count=3):

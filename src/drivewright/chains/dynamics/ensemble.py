@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.special import stdtrit
 
 from drivewright.cases import run as run_cases
 from drivewright.chains.dynamics.motion import Motion
@@ -129,13 +128,6 @@ def amplitude_of(signal: Callable, order: float = 1.0) -> Callable:
 def centre_distance(run):
     """Signal: distance of the sliding sprocket from the driver."""
     return run.centre_distance
-
-
-def of_members(numbers):
-    """(mean, half the width of its 95 % interval) of the members' numbers (members, ...), which share nothing: Student's."""
-    count = len(numbers)
-    spread = np.std(numbers, axis=0, ddof=1) if count > 1 else np.full(numbers.shape[1:], np.nan)
-    return np.mean(numbers, axis=0), stdtrit(max(count - 1, 1), 0.975) * spread / np.sqrt(count)
 
 
 def ensemble(model, duration, settings=Settings(), members=4, *, seed=0, solve=simulate, workers=None, progress=None) -> Ensemble:

@@ -13,14 +13,13 @@ from drivewright.chains.dynamics.ensemble import (
     ensemble,
     greatest_of,
     mean_of,
-    of_members,
     range_of,
 )
 from drivewright.chains.dynamics.model import Model, at_speed, with_sprocket
 from drivewright.chains.dynamics.simulate import Settings, tooth_time
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import InputError, SolverError
-from drivewright.numerics.ensemble import Estimate
+from drivewright.numerics.ensemble import Estimate, of_members
 
 ORDERS = (1.0, 2.0, 3.0)  # of the mesh frequency
 

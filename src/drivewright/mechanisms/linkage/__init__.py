@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from drivewright.mechanisms.linkage import analyse, energy, forces, nonlinear, rest, singular, tolerance, verify, wear
+from drivewright.mechanisms.linkage import analyse, energy, forces, many, nonlinear, rest, singular, tolerance, verify, wear
 from drivewright.mechanisms.linkage.build import build
 from drivewright.mechanisms.linkage.plates import drawings, parts
 from drivewright.mechanisms.linkage.plots import plots
@@ -23,7 +23,7 @@ ANALYSES = (
     Analysis("impact", analyse.impact, "impact load coefficient of every output", missing=analyse.no_play),
     Analysis("motion", analyse.motion, "outputs over the run", missing=analyse.no_run),
     Analysis("pins", analyse.pins, "forces, impacts and orbits of pins with play", missing=analyse.no_pins),
-    Analysis("forces", forces.forces, "forces in all joints over the last turn", missing=analyse.no_run),
+    Analysis("forces", forces.forces, "forces in all joints", missing=analyse.no_run),
     Analysis("energy", energy.energy, "energy audit and drive torque", missing=analyse.no_run),
     Analysis("singular", singular.singular, "singular positions passed", missing=analyse.no_run),
     Analysis("spectrum", nonlinear.spectrum, "accelerations in orders of the drive", missing=_no_turns),
@@ -32,8 +32,8 @@ ANALYSES = (
     Analysis("end", analyse.end, "bodies at the end of the run", missing=analyse.no_run),
     Analysis("oil", rest.oil, "closed form of each oil film beside Reynolds' equation", missing=rest.no_oil),
     Analysis("rest", rest.rest, "equilibrium, holding torques, natural frequencies", default=False),
-    Analysis("bifurcation", nonlinear.bifurcation, "bifurcation diagram", default=False, missing=_asked("bifurcation")),
-    Analysis("load_table", nonlinear.load_table, "impact load over speed and clearance", default=False,
+    Analysis("bifurcation", many.bifurcation, "bifurcation diagram", default=False, missing=_asked("bifurcation")),
+    Analysis("load_table", many.load_table, "impact load over speed and clearance", default=False,
              missing=_asked("table", analyse.no_play)),
     Analysis("tolerances", tolerance.tolerances, "outputs under clearances and random dimensions", missing=tolerance.no_tolerances),
     Analysis("wear", wear.wear, "wear of a bearing, fed back into its contact", default=False, missing=wear.no_wear),

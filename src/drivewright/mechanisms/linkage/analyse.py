@@ -5,10 +5,12 @@ import numpy as np
 from drivewright.errors import SolverError
 from drivewright.mechanisms.linkage.advice import advice
 from drivewright.mechanisms.linkage.build import TURN, ideal_at, ideal_record, record_of, run_of
-from drivewright.mechanisms.linkage.ensemble import acceleration, settled_check, statistics
+from drivewright.mechanisms.linkage.ensemble import other_runs, settled_check, statistics
+from drivewright.mechanisms.linkage.member import acceleration, window_of
 from drivewright.multibody.measures import largest
 from drivewright.multibody.observe import FIELDS, PIN_FIELDS
-from drivewright.multibody.record import POINT_FIELDS
+from drivewright.multibody.record import POINT_FIELDS, last_of
+from drivewright.numerics.ensemble import draw
 from drivewright.result import Answer, Check, Column, Table, Value
 
 ROWS = 4000  # of a table of the last turn, at most
@@ -27,11 +29,9 @@ def no_outputs(spec):
 
 def window(model):
     """The record after the discarded turns; all of it where the run did not get so far."""
-    seen, start = record_of(model), model.spec.start_of_window if model.spec.simulate else 0.0
-    start = start if seen.t[-1] > start else 0.0
-    kept = seen.after(start * (1 - 1e-12))
+    kept = window_of(model, run_of(model))
     if len(kept.t) < 3:
-        raise SolverError(f"{len(kept.t)} states at t = {seen.t[-1]:.6g} s hold no peaks and means; see why the run ends there")
+        raise SolverError(f"{len(kept.t)} states at t = {kept.t[-1]:.6g} s hold no peaks and means; see why the run ends there")
     return kept
 
 
@@ -57,15 +57,16 @@ def motion(model, done):
 
 
 def end(model, done):
-    """Pose and rates of every body at the end of the run."""
-    last, values = record_of(model).last, {}
+    """Pose and rates of every body at the end of the run; of a motion that does not repeat itself with what another run would show."""
+    values, last = {}, np.array([record_of(model).last, *(last_of(run) for run in other_runs(model))])
     told = (("x", "x", "m", "centroid, x"), ("y", "y", "m", "centroid, y"), ("angle", "angle", "rad", "angle, not wrapped"),
             ("vx", "vx", "m/s", "velocity of the centroid, x"), ("vy", "vy", "m/s", "velocity of the centroid, y"),
             ("angular_velocity", "w", "rad/s", "angular velocity"))
     for number, name in enumerate(model.assembly.names):
         if name in model.spec.bodies:
             for key, field, unit, meaning in told:
-                values[f"bodies.{name}.{key}"] = Value(float(last[number, FIELDS.index(field)]), unit, f"{meaning}, at the end of the run")
+                drawn = draw(last[:, number, FIELDS.index(field)])
+                values[f"bodies.{name}.{key}"] = Value.of(drawn, unit, f"{meaning}, at the end of the run")
     return Answer(values)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from drivewright.errors import DoesNotAssemble
 from drivewright.mechanisms.linkage.describe import describe, output_marker
 from drivewright.multibody.assembly import Assembly, assemble
-from drivewright.multibody.model import Dry, Ideal, Lubricated, MasslessLink, Revolute
+from drivewright.multibody.model import Dry, Ideal, Lubricated, Marker, MasslessLink, Revolute
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import Settings, simulate
 from drivewright.stopped import uses
@@ -46,7 +46,9 @@ class LinkageModel:
 
     @property
     def markers(self):
-        """Marker of every output."""
+        """Marker of every output; of every body where there is none."""
+        if not self.spec.outputs:
+            return {name: Marker(name) for name in self.spec.bodies}
         return {output.name: output_marker(self.spec, output) for output in self.spec.outputs}
 
     @property

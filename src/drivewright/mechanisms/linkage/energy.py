@@ -3,10 +3,10 @@
 import numpy as np
 
 from drivewright.mechanisms.linkage.analyse import ROWS, cycle_columns, last_turn
-from drivewright.mechanisms.linkage.build import record_of
+from drivewright.mechanisms.linkage.build import run_of
 from drivewright.mechanisms.linkage.ensemble import statistics
+from drivewright.mechanisms.linkage.member import audited, energy_of
 from drivewright.multibody.observe import POWER_FIELDS
-from drivewright.multibody.record import audit, audit_of_samples
 from drivewright.result import Answer, Check, Column, Table, Value
 
 MEANING = {"springs": "springs, dampers and bushings", "applied": "applied torques and forces", "pins": "pins with play",
@@ -15,22 +15,20 @@ MEANING = {"springs": "springs, dampers and bushings", "applied": "applied torqu
 
 def energy(model, done):
     """Work of every kind of element against the change of energy; torque of the drive."""
-    seen = record_of(model)
-    found = audit_of_samples(seen) if model.assembly.freedom == 0 else audit(seen)  # kinematics has samples, not steps
+    found, numbers = audited(model, run_of(model)), statistics(model, energy_of)
     rows = slice(None, None, max(1, len(found.t) // ROWS))
     columns = (Column("time", "s", "time", found.t[rows]), Column("stored", "J", "kinetic energy and energy of gravity, from the start",
                                                                   (found.gap + np.sum(found.works, axis=1))[rows]))
     columns += tuple(Column(f"work_{name}", "J", f"work of {MEANING[name]}", found.works[rows, k]) for k, name in enumerate(POWER_FIELDS))
     columns += (Column("gap", "J", "change of energy less all work: the audit's error", found.gap[rows]),)
-    values = {f"energy.{name}": Value(float(found.works[-1, k]), "J", f"work of {MEANING[name]} over the run")
-              for k, name in enumerate(POWER_FIELDS)}
-    values["energy.gap"] = Value(float(np.max(np.abs(found.gap))), "J", "largest gap of the energy audit")
-    values["energy.error"] = Value(found.error, "-", "largest gap over the energy exchanged")
+    values = {f"energy.{name}": Value.of(numbers.of_run(name), "J", f"work of {MEANING[name]} over the run") for name in POWER_FIELDS}
+    values["energy.gap"] = Value(numbers.worst("gap"), "J", "largest gap of the energy audit")
+    values["energy.error"] = Value(numbers.worst("error"), "-", "largest gap over the energy exchanged")
     limit, checks = model.spec.limits.energy_error, []
-    checks.append(Check("energy_audit", found.error, limit, "<=", "-", values["energy.error"].meaning))
+    checks.append(Check("energy_audit", values["energy.error"].value, limit, "<=", "-", values["energy.error"].meaning))
     if model.assembly.model.drives:
         words = "largest gap between work of the drives and change of energy with losses, over the work of the drives"
-        checks.append(Check("power_audit", found.power_error, limit, "<=", "-", words))
+        checks.append(Check("power_audit", numbers.worst("power_error"), limit, "<=", "-", words))
     torque = _torque(model)
     return Answer(values | torque.values, (Table("energy", "Energy audit", columns), *torque.tables), (*checks, *torque.checks))
 

@@ -1,13 +1,14 @@
-"""Forces in all joints over the last turn, from the equations of every body in absolute coordinates: a second route to the motion."""
+"""Forces in all joints, from the equations of every body in absolute coordinates: a second route to the motion."""
 
 import numpy as np
 
 from drivewright.mechanisms.linkage.analyse import ROWS, cycle_columns
 from drivewright.mechanisms.linkage.build import run_of
+from drivewright.mechanisms.linkage.ensemble import statistics
+from drivewright.mechanisms.linkage.member import joints_of, starting
 from drivewright.multibody.observe import joined, observe
 from drivewright.multibody.reactions import reactions, unbounded_joints
 from drivewright.multibody.simulate import clear_states
-from drivewright.numerics.signals import time_mean
 from drivewright.result import Answer, Check, Column, Table, Value
 
 
@@ -20,26 +21,26 @@ def seen_last(model):
 
 
 def forces(model, done):
-    """Largest force of every joint in the last turn, the forces over it, and what Newton's and Euler's equations leave over."""
-    seen = seen_last(model)
+    """Largest force of every joint in the window, the forces over the last turn, and what Newton's and Euler's equations leave over."""
+    seen, numbers = seen_last(model), statistics(model, joints_of)
     t, found = seen.t, reactions(model.assembly, run_of(model).end[0], seen)
-    unbounded = _unbounded(model, t[0])
+    unbounded = _unbounded(model, starting(model, run_of(model).end[1]))
     values, checks, columns = {}, [], list(cycle_columns(model, t))
     for name, joint in found.joints.items():
         size = np.hypot(*joint.force.T)
         if name.endswith(" (link)"):  # the other end of a link without mass: the same force
             continue
-        if name not in model.pins and name not in unbounded:  # of pins with play the whole window is known
-            values[f"joints.{name}.max_force"] = Value(float(size.max()), "N", f"largest force in joint {name!r} in the last turn")
+        if name not in model.pins and name not in unbounded:  # those have it from the analysis `pins`
+            values[f"joints.{name}.max_force"] = Value.of(numbers.of_run(f"{name}.force"), "N", f"largest force in joint {name!r}")
         columns += [Column(f"{name}.force", "N", f"force in joint {name!r}", size),
                     Column(f"{name}.force_x", "N", f"force of joint {name!r} on its first body, x", joint.force[:, 0]),
                     Column(f"{name}.force_y", "N", f"force of joint {name!r} on its first body, y", joint.force[:, 1])]
     for name, tension in found.tensions.items():
         columns.append(Column(f"{name}.tension", "N", f"tension of the massless link of joint {name!r}; below 0 contact is lost", tension))
-        share = time_mean(t, tension < -model.spec.limits.link_compression)
-        values[f"joints.{name}.pushed_share"] = Value(share, "-", f"share of the last turn in which the link of joint {name!r} is pushed")
-        checks.append(Check(f"contact.{name}", float(tension.min()), -model.spec.limits.link_compression, ">=", "N",
-                            f"least tension of the massless link of joint {name!r}: a pin that is pushed has lost contact", (name,)))
+        share, least = numbers.mean(f"{name}.pushed"), Value.of(numbers.of_run(f"{name}.tension"), "N", "")
+        values[f"joints.{name}.pushed_share"] = Value.of(share, "-", f"share of the time in which the link of joint {name!r} is pushed")
+        checks.append(Check.of(least, f"contact.{name}", -model.spec.limits.link_compression, ">=",
+                               f"least tension of the massless link of joint {name!r}: a pin that is pushed has lost contact", (name,)))
     words = "what Newton's and Euler's equations of the bodies leave over, as a part of the largest force"
     values["forces.residual"] = Value(float(found.residual.max()), "-", words)
     return Answer(values, (Table("forces", "Forces in the joints over the last turn", tuple(columns)),), tuple(checks),

@@ -1,25 +1,19 @@
-"""Nonlinear motion: Poincare section, bifurcation diagram, Lyapunov exponent, spectrum in orders, table of impact load coefficients."""
-
-from dataclasses import replace
+"""Nonlinear motion: Poincare section, Lyapunov exponent, spectrum in orders."""
 
 import numpy as np
 
 from drivewright import cases
 from drivewright.errors import SolverError, UnknownName
-from drivewright.mechanisms.linkage.analyse import acceleration
-from drivewright.mechanisms.linkage.build import TURN, build, ideal_record, record_of, take_ideal_record
+from drivewright.mechanisms.linkage.build import TURN, ideal_record, record_of
 from drivewright.mechanisms.linkage.describe import output_marker
 from drivewright.mechanisms.linkage.ensemble import settled_check, shifted
-from drivewright.mechanisms.linkage.refusals import refuse_nonsense
-from drivewright.multibody.measures import impact_load, largest
+from drivewright.mechanisms.linkage.member import acceleration
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import Settings, restated, simulate, tolerances
 from drivewright.numerics.chaos import largest_exponent, orbit_period
 from drivewright.numerics.ensemble import estimate
 from drivewright.numerics.signals import order_spectrum, spectrogram
 from drivewright.result import Answer, Column, Table, Value
-from drivewright.spec import dimension_at
-from drivewright.units import SI
 
 SAME = 1e-3  # of the cloud's size: visits nearer to each other count as one point of the orbit
 STILL = 1e-5  # of the range of the motion: a cloud smaller than this is one point
@@ -75,7 +69,7 @@ def output_named(spec, name):
     raise UnknownName("output", name, [output.name for output in spec.outputs])
 
 
-def _units(output):
+def units_of(output):
     return ("rad", "rad/s") if output.point is None else ("m", "m/s")
 
 
@@ -84,18 +78,30 @@ def poincare(model, done):
     output = output_named(model.spec, model.spec.poincare.output)
     t, position, velocity, run = section(model, output, model.duration, model.settings)
     kept = t >= model.spec.start_of_window * (1 - 1e-9)
-    where, rate = _units(output)
+    where, rate = units_of(output)
     words = f"of {output.name!r} at crank angle zero"
-    values = {"poincare.position": Value(float(position[-1]), where, f"position {words} after the last whole turn"),
-              "poincare.velocity": Value(float(velocity[-1]), rate, f"velocity {words} after the last whole turn")}
     points = np.stack([position[kept], velocity[kept]], axis=1)
-    if len(points) >= 6:
+    enough, period = len(points) >= 6, 0
+    if enough:
         period = orbit_period(points / np.maximum(np.ptp(points, axis=0), STILL * _spans(model, output)), SAME)
+    visits = kept if enough and not period else np.full(len(t), False)
+    values = {"poincare.position": _visit(position, visits, where, f"position {words} after the last whole turn"),
+              "poincare.velocity": _visit(velocity, visits, rate, f"velocity {words} after the last whole turn")}
+    if enough:
         values["poincare.period"] = Value(float(period), "-", "turns after which the motion repeats itself; 0: it does not")
     table = Table("poincare", f"Poincare section of {output.name!r}", (
         Column("position", where, f"position {words}", position[kept]), Column("velocity", rate, f"velocity {words}", velocity[kept]),
         Column("turn", "-", "turn of the drive", np.round(t[kept] / model.period))))
     return Answer(values, (table,))
+
+
+def _visit(visited, drawn, unit, meaning):
+    """The last of the visits (m,); of a motion that does not repeat itself with the range in which 95 % of those drawn lie."""
+    last = Value(float(visited[-1]), unit, meaning)
+    if not np.any(drawn):
+        return last
+    low, high = np.percentile(visited[drawn], [2.5, 97.5])
+    return last._replace(low=float(min(low, last.value)), high=float(max(high, last.value)), interval="visits")
 
 
 def _spans(model, output):
@@ -195,107 +201,3 @@ def _amplitudes(turns):
     found = [estimate(power, scale=float(np.max(turns**2))) for power in (turns**2).T]
     power = np.array([[one.value, one.low, one.high] for one in found])
     return np.sqrt(np.maximum(power, 0.0)).T
-
-
-# -- many runs -----------------------------------------------------------------------------------------------------------------
-
-
-def varied(spec, changes):
-    """The spec with keys {dotted key: SI value} changed; the changed tables and the whole are checked as on reading."""
-    for key, value in changes.items():
-        spec = _changed(spec, key.split("."), SI(value) if dimension_at(type(spec), key)[1] else value)
-    refuse_nonsense(spec)
-    return spec
-
-
-def _changed(node, path, value):
-    """A copy of a table, a list of named tables or a table of tables with the value at the path changed."""
-    step, *rest = path
-    if isinstance(node, tuple):
-        return tuple(_changed(one, rest, value) if step in (getattr(one, "name", None), str(n)) else one for n, one in enumerate(node))
-    if isinstance(node, dict):
-        return type(node)({**node, step: _changed(node[step], rest, value)})
-    return node.model_copy(update={step: _changed(getattr(node, step), rest, value)}) if rest else node.replace(**{step: value})
-
-
-def bifurcation(model, done):
-    """Points of the Poincare section over a key of the spec."""
-    asked = model.spec.bifurcation
-    output, dimension = output_named(model.spec, asked.output), dimension_at(type(model.spec), asked.over)[1]
-    start, stop = (dimension.parse(bound) if dimension else float(bound) for bound in (asked.start, asked.stop))
-    rows = cases.run(lambda value: _visits(model.spec, asked, output, value), np.linspace(start, stop, asked.steps).tolist(), workers=None)
-    found = [(row.case, *row.value) for row in rows.rows if row.ok]
-    failed = tuple(f"bifurcation: {asked.over} = {row.case:.6g} is left out: {row.reason}" for row in rows.failed)
-    where, rate = _units(output)
-    words = f"of {output.name!r} at crank angle zero"
-    columns = [np.concatenate([np.empty(0), *parts]) for parts in zip(*((np.full(len(p), v), p, r) for v, p, r in found), strict=True)]
-    columns = columns or [np.empty(0)] * 3
-    table = Table("bifurcation", f"Bifurcation over {asked.over}", (
-        Column("parameter", dimension.unit if dimension else "-", asked.over, columns[0]),
-        Column("position", where, f"position {words}", columns[1]), Column("velocity", rate, f"velocity {words}", columns[2])))
-    return Answer(tables=(table,), findings=failed, outcome="partial" if rows.interrupted else "complete")
-
-
-def _visits(spec, asked, output, value):
-    """(positions, velocities) of the Poincare section of one run, the first turns discarded."""
-    model = build(varied(spec, {asked.over: value}))
-    settings = replace(model.settings, per_step=1)
-    t, position, velocity, run = section(model, output, asked.turns * model.period, settings)
-    if run.advice:
-        raise SolverError(run.advice)
-    kept = t >= asked.discard * model.period * (1 - 1e-9)
-    return position[kept], velocity[kept]
-
-
-def load_table(model, done):
-    """Impact load coefficient and its companions over speeds and clearances."""
-    asked, spec = model.spec.table, model.spec
-    output = output_named(spec, asked.output)
-    played = [joint.name for joint in spec.joints if joint.pin not in (None, "ideal", "bushing")]
-    points = [(speed, clearance) for speed in asked.speeds for clearance in asked.clearances]
-
-    def task(point):
-        changes = {"drive.speed": point[0]} | {f"joints.{name}.clearance": point[1] for name in played}
-        return load_of(build(varied(spec, changes)), output, ideal[point[0]])
-
-    ideal = {speed: ideal_peak(build(varied(spec, {"drive.speed": speed})), output) for speed in asked.speeds}
-    rows = cases.run(task, points, workers=None)
-    good = [row for row in rows.rows if row.ok]
-    failed = tuple(f"table: {row.case[0]:.6g} rad/s, {1e3 * row.case[1]:.4g} mm is left out: {row.reason}" for row in rows.failed)
-    load = np.array([row.value for row in good]).reshape(-1, 7)
-    columns = (Column("speed", "rad/s", "speed of the drive", np.array([row.case[0] for row in good])),
-               Column("clearance", "m", "radial clearance of every joint with play", np.array([row.case[1] for row in good])),
-               *(Column(name, "-", words, load[:, k]) for k, (name, words) in enumerate(LOAD_WORDS.items())),
-               Column("ideal_peak", acceleration_unit(output), "largest acceleration without play", load[:, 6]))
-    return Answer(tables=(Table("load_table", f"Impact load of {output.name!r}", columns),), findings=failed,
-                  outcome="partial" if rows.interrupted else "complete")
-
-
-LOAD_WORDS = {
-    "coefficient": "impact load coefficient",
-    "largest": "largest peak over the ideal one",
-    "percentile": "95th percentile over it",
-    "rms": "root mean square over it",
-    "turn_mean": "mean largest peak of a turn over it",
-    "turn_spread": "standard deviation of it",
-}
-
-
-def acceleration_unit(output):
-    return "rad/s^2" if output.point is None else "m/s^2"
-
-
-def ideal_peak(model, output):
-    """Largest acceleration of an output without play."""
-    seen = take_ideal_record(model)
-    return largest(seen.t, acceleration(seen, output)[0])
-
-
-def load_of(model, output, peak=None):
-    """(*ImpactLoad, ideal peak) of one output of a model, whose ideal peak may be known already; only the window is observed."""
-    peak = ideal_peak(model, output) if peak is None else peak
-    run = simulate(model.assembly, model.duration, replace(model.settings, per_step=1))
-    if run.advice:
-        raise SolverError(run.advice)
-    seen = record(run, {output.name: output_marker(model.spec, output)}, model.spec.start_of_window * (1 - 1e-12))
-    return (*impact_load(seen.t, acceleration(seen, output)[0], peak, model.period), peak)

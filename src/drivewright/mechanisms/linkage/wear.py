@@ -8,15 +8,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from drivewright import cases
 from drivewright.contact.wear import deposit, worn
-from drivewright.mechanisms.linkage.analyse import acceleration, no_run
-from drivewright.mechanisms.linkage.build import TURN, ideal_record
+from drivewright.mechanisms.linkage.analyse import no_run
+from drivewright.mechanisms.linkage.build import TURN
+from drivewright.mechanisms.linkage.ensemble import Statistics, repeats, shifted
+from drivewright.mechanisms.linkage.member import Member, acceleration, ends_of_turns, ideal_peak_of, means_of_turns, starting
 from drivewright.mechanisms.linkage.refusals import place
-from drivewright.multibody.measures import impact_load, largest
+from drivewright.multibody.measures import impact_load
 from drivewright.multibody.model import Marker
 from drivewright.multibody.observe import PIN_FIELDS
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import simulate
+from drivewright.numerics.ensemble import of_members
 from drivewright.result import Answer, Column, Table, Value
 
 BEARING = "bearing of "  # before a joint's name: the marker that tells the bearing's angle; outputs have no blanks in their names
@@ -27,13 +31,31 @@ SMALL = 0.1  # depth of a jump over the clearance, likewise: the motion should n
 @dataclass(frozen=True)
 class Stage:
     """The bearing before a jump: turns behind it, depth (bins,) [m], what a turn of this run takes off (bins,) [m], largest force [N],
-    and the impact load coefficient of every output."""
+    impact load coefficient of every output, and the means over each turn of force times slip [W]."""
 
     cycles: float
     depth: np.ndarray
     per_turn: np.ndarray
     force: float
     loads: tuple
+    rubbing: np.ndarray
+
+
+@dataclass(frozen=True)
+class History:
+    """A bearing that wears, one run a stage: the stages, depth (bins,) [m] at the end, why it ended early, and whether every run repeated
+    itself."""
+
+    stages: tuple
+    depth: np.ndarray
+    advice: str
+    periodic: bool
+
+    def member(self, joint) -> Member:
+        """Its numbers, and by the turns of the last run whether they drift."""
+        turns = {"rubbing": self.stages[-1].rubbing} if self.stages else {}
+        return Member(turns, {"max_depth": float(np.max(self.depth)), "clearance_growth": clearance_growth(self.depth),
+                              "volume": volume_of(joint, self.depth)})
 
 
 def no_wear(spec):
@@ -58,34 +80,59 @@ def with_wear(assembly, pin, depth):
 
 
 def wear(model, done):
-    """Depth over the angle of the bearing, force and impact load over the turns."""
-    asked, joint = model.spec.wear, _joint(model.spec)
-    jump, stages, depth, advice = asked.cycles / asked.jumps, [], np.zeros(asked.bins), ""
-    for number in range(asked.jumps):
-        seen, advice = worn_run(model, depth)
+    """Depth over the angle of the bearing, force and impact load over the turns: of a bearing, or the mean of an ensemble of bearings."""
+    joint, asked = _joint(model.spec), model.spec.wear
+    first, *others = histories = _histories(model)
+    count = len(first.stages)
+    found = Statistics(tuple(each.member(joint) for each in histories), int(first.periodic))
+    tables = (_profiles(joint, histories), _development(model, joint, histories)) if count else ()
+    jump = asked.cycles / asked.jumps
+    findings = _findings(joint, first.depth, max((jump * np.max(stage.per_turn) for stage in first.stages), default=0.0))
+    if first.advice:
+        findings = (*findings, f"wear ends after {count} of {asked.jumps} jumps: {first.advice}")
+    return Answer(_values(joint, found, count * jump), tables, findings=findings,
+                  outcome="partial" if first.advice else "complete")
+
+
+def _histories(model):
+    """The `History` of a bearing, and where its motion does not repeat itself, of the others of the ensemble."""
+    first = history(model, 0)
+    if first.periodic or first.advice:
+        return [first]
+    rows = cases.run(lambda number: history(model, number), range(1, model.ensemble), workers=None).rows
+    return [first, *(row.value for row in rows if row.ok and not row.value.advice)]
+
+
+def history(model, number):
+    """The `History` of one bearing, whose runs start like those of this member of the ensemble."""
+    asked = model.spec.wear
+    stages, depth, advice, periodic = [], np.zeros(asked.bins), "", True
+    for jump in range(asked.jumps):
+        seen, advice = worn_run(model, depth, number)
         if advice:
             break
-        per_turn = depth_per_turn(seen, model, asked.bins)
-        stages.append(Stage(number * jump, depth, per_turn, _largest_force(seen, model), _loads(seen, model)))
-        depth = worn(depth, per_turn, jump)
-    values = _values(joint, depth, len(stages) * jump)
-    tables = (_profiles(joint, stages, depth), _history(model, joint, stages)) if stages else ()
-    findings = _findings(joint, depth, max((jump * np.max(stage.per_turn) for stage in stages), default=0.0))
-    if advice:
-        findings = (*findings, f"wear ends after {len(stages)} of {asked.jumps} jumps: {advice}")
-    return Answer(values, tables, findings=findings, outcome="partial" if advice else "complete")
+        cycles = asked.cycles / asked.jumps
+        stages.append(Stage(jump * cycles, depth, depth_per_turn(seen, model, asked.bins), _largest_force(seen, model), _loads(seen, model),
+                            _rubbing(seen, model)))
+        depth, periodic = worn(depth, stages[-1].per_turn, cycles), periodic and repeats(model, seen) > 0
+    return History(tuple(stages), depth, advice, periodic)
 
 
 # -- one run -------------------------------------------------------------------------------------------------------------------
 
 
-def worn_run(model, depth):
+def worn_run(model, depth, number=0):
     """(record of the window of a run with a worn bearing, advice where the run ended early)."""
     pin, joint = model.pins.index(model.spec.wear.joint), _joint(model.spec)
-    run = simulate(with_wear(model.assembly, pin, depth), model.duration, model.settings)
+    run = simulate(with_wear(model.assembly, pin, depth), model.duration, model.settings, state=shifted(model, number))
     markers = model.markers | {BEARING + joint.name: Marker(place(joint.connects[0])[0])}
-    start = model.spec.start_of_window if model.spec.simulate else 0.0
-    return record(run, markers).after(start * (1 - 1e-12)), run.advice
+    return record(run, markers, starting(model, run.end[1])), run.advice
+
+
+def _rubbing(seen, model):
+    """Means over the turns of force times slip [W]."""
+    pin = _pin(seen, model)
+    return means_of_turns(seen.t, pin["normal"] * np.abs(pin["slip"]), ends_of_turns(model, seen.t[0], seen.t[-1]))
 
 
 def _pin(seen, model):
@@ -112,27 +159,30 @@ def _largest_force(seen, model):
 
 
 def _loads(seen, model):
-    if not model.spec.outputs:
-        return ()
-    ideal, loads = ideal_record(model), []
-    for output in model.spec.outputs:
-        peak = largest(ideal.t, acceleration(ideal, output)[0])
-        loads.append(impact_load(seen.t, acceleration(seen, output)[0], peak, model.period).coefficient)
-    return tuple(loads)
+    return tuple(impact_load(seen.t, acceleration(seen, output)[0], ideal_peak_of(model, output), model.period).coefficient
+                 for output in model.spec.outputs)
 
 
 # -- what is told --------------------------------------------------------------------------------------------------------------
 
 
-def _values(joint, depth, cycles):
+def _values(joint, found, cycles):
     name = joint.name
-    volume = TURN * joint.bearing_radius * joint.length * np.mean(depth)
+
+    def of(key, unit, meaning):
+        return Value.of(found.of_run(key, "rubbing"), unit, meaning)
+
     return {
-        f"wear.{name}.max_depth": Value(float(np.max(depth)), "m", f"largest depth worn off the bearing of joint {name!r}"),
-        f"wear.{name}.volume": Value(float(volume), "m^3", f"volume worn off the bearing of joint {name!r}"),
-        f"wear.{name}.clearance_growth": Value(clearance_growth(depth), "m", f"largest growth of the radial clearance of joint {name!r}: "
-                                                                             "half of what two opposite sides lost"),
+        f"wear.{name}.max_depth": of("max_depth", "m", f"largest depth worn off the bearing of joint {name!r}"),
+        f"wear.{name}.volume": of("volume", "m^3", f"volume worn off the bearing of joint {name!r}"),
+        f"wear.{name}.clearance_growth": of("clearance_growth", "m", f"largest growth of the radial clearance of joint {name!r}: "
+                                                                     "half of what two opposite sides lost"),
         f"wear.{name}.cycles": Value(float(cycles), "-", "turns of the drive behind it")}
+
+
+def volume_of(joint, depth):
+    """Volume [m^3] behind the depths (..., bins) [m]."""
+    return TURN * joint.bearing_radius * joint.length * np.mean(depth, axis=-1)
 
 
 def clearance_growth(depth):
@@ -141,27 +191,36 @@ def clearance_growth(depth):
     return float(0.5 * np.max(depth + np.interp(angles, np.arange(2 * len(depth)), np.tile(depth, 2))))
 
 
-def _profiles(joint, stages, depth):
-    after = [*(stage.depth for stage in stages[1:]), depth]
-    middle = len(after) // 2
-    angle = np.arange(len(depth)) * TURN / len(depth)
+def _profiles(joint, histories):
+    after = np.array([[*(stage.depth for stage in each.stages[1:]), each.depth] for each in histories])
+    middle, bins = after.shape[1] // 2, after.shape[2]
     return Table(f"wear.{joint.name}", f"Wear of the bearing of joint {joint.name!r}", (
-        Column("angle", "rad", f"place on the bearing, in the frame of {place(joint.connects[0])[0]!r}", angle),
-        Column("first", "m", "depth after the first jump", after[0]),
-        Column("middle", "m", f"depth after jump {middle + 1} of {len(after)}", after[middle]),
-        Column("last", "m", "depth at the end", after[-1])))
+        Column("angle", "rad", f"place on the bearing, in the frame of {place(joint.connects[0])[0]!r}", np.arange(bins) * TURN / bins),
+        *_columns("first", "m", "depth after the first jump", after[:, 0]),
+        *_columns("middle", "m", f"depth after jump {middle + 1} of {after.shape[1]}", after[:, middle]),
+        *_columns("last", "m", "depth at the end", after[:, -1])))
 
 
-def _history(model, joint, stages):
-    volume = TURN * joint.bearing_radius * joint.length
-    loads = [Column(f"impact_load.{output.name}", "-", f"impact load coefficient of {output.name!r}",
-                    np.array([stage.loads[k] for stage in stages])) for k, output in enumerate(model.spec.outputs)]
+def _development(model, joint, histories):
+    """Force, impact load and wear before every jump."""
+    def stages(number):
+        return np.array([[number(stage) for stage in each.stages] for each in histories])
+
+    loads = [_columns(f"impact_load.{output.name}", "-", f"impact load coefficient of {output.name!r}", stages(lambda at, k=k: at.loads[k]))
+             for k, output in enumerate(model.spec.outputs)]
     return Table(f"wear.{joint.name}.cycles", f"Joint {joint.name!r} while it wears", (
-        Column("cycles", "-", "turns of the drive behind it", np.array([stage.cycles for stage in stages])),
-        Column("max_depth", "m", "largest depth", np.array([np.max(stage.depth) for stage in stages])),
-        Column("volume", "m^3", "volume worn off", np.array([volume * np.mean(stage.depth) for stage in stages])),
-        Column("volume_per_turn", "m^3", "volume that a turn wears off", np.array([volume * np.mean(stage.per_turn) for stage in stages])),
-        Column("max_force", "N", f"largest force in joint {joint.name!r}", np.array([stage.force for stage in stages])), *loads))
+        Column("cycles", "-", "turns of the drive behind it", np.array([stage.cycles for stage in histories[0].stages])),
+        *_columns("max_depth", "m", "largest depth", stages(lambda at: np.max(at.depth))),
+        *_columns("volume", "m^3", "volume worn off", stages(lambda at: volume_of(joint, at.depth))),
+        *_columns("volume_per_turn", "m^3", "volume that a turn wears off", stages(lambda at: volume_of(joint, at.per_turn))),
+        *_columns("max_force", "N", f"largest force in joint {joint.name!r}", stages(lambda at: at.force)), *sum(loads, ())))
+
+
+def _columns(name, unit, meaning, numbers):
+    """The mean of numbers (bearings, rows), with its interval where there are several."""
+    mean, reach = of_members(numbers)
+    column = Column(name, unit, meaning, mean)
+    return (column, *column.bounds(mean - reach, mean + reach)) if len(numbers) > 1 else (column,)
 
 
 def _findings(joint, depth, step):

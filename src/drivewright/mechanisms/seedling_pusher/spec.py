@@ -2,9 +2,10 @@
 
 from typing import Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from drivewright import materials, motion
+from drivewright.errors import SpecError
 from drivewright.spec import Flag, Integer, Machining, MechanismSpec, Number, Spec, Text
 from drivewright.units import Angle, Damping, Force, Length, Mass, Pressure, Speed, Stiffness
 
@@ -163,3 +164,10 @@ class SeedlingPusherSpec(MechanismSpec):
     contact: Contact = Field(Contact(), description="contacts with play, for the dynamics")
     manufacture: Machining = Field(Machining(), description="exports")
     limits: Limits = Field(Limits(), description="requirements")
+
+    @model_validator(mode="after")
+    def _says_where_it_takes(self):
+        for take, key, example in (("angle", "take_angle", '"300 deg"'), ("gate", "gate_point", '["140 mm", "0 mm"]')):
+            if self.events.take == take and getattr(self.events, key) is None:
+                raise SpecError(f'missing, though events.take is "{take}"; give it, e.g. {key} = {example}', f"events.{key}")
+        return self

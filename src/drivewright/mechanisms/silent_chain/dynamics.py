@@ -8,7 +8,6 @@ from drivewright.chains.dynamics.ensemble import (
     ensemble,
     greatest_of,
     mean_of,
-    of_members,
     range_of,
 )
 from drivewright.chains.dynamics.simulate import Settings, simulate, tooth_time
@@ -16,6 +15,7 @@ from drivewright.chains.dynamics.stability import largest_step, refuse_step
 from drivewright.chains.implicit import simulate as implicit
 from drivewright.errors import InputError, SolverError, SpecError
 from drivewright.mechanisms.silent_chain.moving import moving
+from drivewright.numerics.ensemble import of_members
 from drivewright.result import Answer, Check, Column, Table, Value
 
 IMPLICIT_STEP = 1e-5  # [s]
