@@ -17,9 +17,9 @@ from drivewright.errors import UnknownName
 class Value(NamedTuple):
     """One number [SI unit] and what it means; where it is uncertain with its 95 % interval.
 
-    `interval` says how that was made: "ensemble" or "windows" of a chaotic run, "visits", "sample", "fit", "periodic" (rounding).  A bound that is
-    None is not known; a value without interval is exact to its printed digits.  What has not `settled`, a statistic that still drifted
-    when its run ended, is no property of the design yet: it is in the result, but never among the headline values.
+    `interval` says how that was made: "ensemble" or "windows" of a chaotic run, "visits", "sample", "fit", "periodic" (rounding).  A bound
+    that is None is not known; a value without interval is exact to its printed digits.  What has not `settled`, a statistic that still
+    drifted when its run ended, is no property of the design yet: it is in the result, but never among the headline values.
     `error` is the standard error, for those who average over many values; result.json does not have it.
     """
 
