@@ -26,7 +26,8 @@ LINEAR, HALFWAY = 0.05, np.array([0.15, 0.3])  # places between a singular start
 SAME = 1e-5  # difference of rates, per unit of x, within which a branch has the rates that are asked for
 ASTRAY = 0.1  # correction of a guess, over the half width, that may lead to another branch
 FOLDED = 1e-6  # singular value over the largest that counts as zero in a singular position
-TWICE = 1e-6  # discriminant of the tangents, over its terms, below which two branches touch
+FOURTH = np.array([-1, 16, -30, 16, -1]) / 12  # second difference of the fourth order
+TWICE = 1e-6  # discriminant of the tangents, over the squares of the quadratic form, below which two branches touch
 
 
 class Passage(NamedTuple):
@@ -103,7 +104,9 @@ def look_ahead(system, t, y):
     for width in WIDTHS[ahead < REACH * WIDTHS]:
         nodes = _nodes(line, behind, ahead, width)
         if nodes is not None and _closes_between(line, nodes):
-            return Outlook(_charted(line, nodes, _centre(nodes), width), ahead * line.pace)
+            centre = _centre(line, nodes)
+            if _fold(line, nodes, centre) < FOLDED:
+                return Outlook(_charted(line, nodes, centre, width), ahead * line.pace)
     return Outlook(None, ahead * line.pace)
 
 
@@ -213,17 +216,25 @@ def _nodes(line, behind, ahead, width):
     if found is None:
         return None
     nodes = sorted(found)
-    centre = _centre(nodes)
+    centre = _centre(line, nodes)
     if abs(centre - ahead) <= 0.02 * width:
         return nodes
     again = [line.close(x, _carried(nodes, x, len(nodes))) for x in centre + width * NODES]
     return again if max(place.correction for place in again) < ASTRAY * width else None
 
 
-def _centre(nodes):
-    """x of the singular position: there the smallest singular value, counted negative beyond, is zero."""
+def _centre(line, nodes):
+    """x of the singular position, where the smallest singular value is zero: branches that cross, it falls evenly; where they touch, as a
+    square."""
+    found = [_crossing(nodes, power) for power in (1.0, 0.5)]
+    return min(found, key=lambda x: _fold(line, nodes, x))
+
+
+def _crossing(nodes, power):
+    """x where that power of the smallest singular value, counted negative beyond, is zero."""
     x = np.array([place.x for place in nodes])
-    signed = np.array([place.smallest for place in nodes]) * np.where(np.arange(len(nodes)) < len(nodes) // 2, 1.0, -1.0)
+    beyond = np.where(np.arange(len(nodes)) < len(nodes) // 2, 1.0, -1.0)
+    signed = np.array([place.smallest for place in nodes]) ** power * beyond
     low, high = x[len(x) // 2 - 1], x[len(x) // 2]
     for _ in range(60):
         middle = (low + high) / 2
@@ -243,6 +254,13 @@ def _coordinates(line, x, dependent):
     q[line.system.independent] = line.y[line.free] + x * line.direction
     q[line.system.dependent] = dependent
     return q
+
+
+def _fold(line, nodes, x):
+    """Smallest singular value over the largest on the polynomial through the nodes, at x."""
+    work = at(line.system, _coordinates(line, x, _carried(nodes, x, len(nodes))), line.t + x * line.pace)
+    values = np.linalg.svd(scaled_jacobian(line.system, work, line.system.stored), compute_uv=False)
+    return float(values[-1] / values[0])
 
 
 def _miss(line, x, dependent):
@@ -313,13 +331,12 @@ def _tangents(system, q, t):
         return 2**folded, False
     plane, across = null_space(columns, rcond=FOLDED), null_space(columns.T, rcond=FOLDED)[:, 0]
     form = _second_order(system, q, t, moved, plane, across)
-    terms = abs(form[0, 0] * form[1, 1]) + form[0, 1] ** 2
-    return 2, bool(form[0, 1] ** 2 - form[0, 0] * form[1, 1] < TWICE * terms)
+    return 2, bool(form[0, 1] ** 2 - form[0, 0] * form[1, 1] < TWICE * np.sum(form**2))  # neither side depends on the base of the plane
 
 
 def _second_order(system, q, t, moved, plane, across):
     """(2, 2) quadratic form whose zeros are the tangents: second derivative of the row that folds, in the plane of all that is free."""
-    step = 1e-3
+    step = 1e-2
 
     def residual(way):
         there = q.copy()
@@ -327,7 +344,7 @@ def _second_order(system, q, t, moved, plane, across):
         return across @ (_free_misses(system, there) / system.rows.extent)
 
     def second(way):
-        return (residual(way) - 2 * residual(0.0 * way) + residual(-way)) / step**2
+        return sum(weight * residual(k * way) for k, weight in zip(range(-2, 3), FOURTH, strict=True)) / step**2
 
     one, two = plane.T
     mixed = (second(one + two) - second(one - two)) / 4

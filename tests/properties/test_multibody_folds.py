@@ -1,0 +1,210 @@
+"""Folds beside everything else that moves: more freedoms, pins with play, touching branches, samples, and which states are told."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from test_multibody_singular import TURN, G, folded, four_bar, slider_crank, turned, windows
+
+import drivewright.multibody as mb
+from drivewright.multibody.chart import offsets_of
+from drivewright.multibody.simulate import at_state
+
+FRAME, CRANK = 0.15, 0.1
+
+
+def parallelogram(speed=TURN, **more):
+    return four_bar(FRAME, CRANK, FRAME, CRANK, speed, **more)
+
+
+def sampled(model, times, rtol=1e-10):
+    """(run, record) at the times."""
+    run = mb.simulate(mb.assemble(model), times[-1], mb.Settings(rtol=rtol), samples=times)
+    assert run.outcome == "complete", run.advice
+    return run, mb.record(run, {body.name: mb.Marker(body.name) for body in model.bodies})
+
+
+# -- more than the fold ----------------------------------------------------------------------------------------------------------
+
+DRY = mb.Dry(2e-4, 8e-3, 1e8, 1.5, 0.3, friction=mb.Friction("coulomb", 0.1, 0.01))
+BRISTLES = mb.Friction("lugre", 0.2, 0.01, static_coefficient=0.3, bristle_stiffness=1e4, bristle_damping=10.0)
+PINS = {"ideal": mb.Ideal(), "dry": DRY, "bristles": replace(DRY, friction=BRISTLES)}
+
+
+def hung(pin, speed, loop=True):
+    """A body hung from the coupler of a driven parallelogram; without the loop a second drive keeps the coupler level instead."""
+    model = parallelogram(speed)
+    bob = mb.Body("bob", 0.5, 1e-4, (0.02, 0.0), angle=-0.7, angular_velocity=0.0)
+    model = replace(model, bodies=(*model.bodies, bob),
+                    joints=(*model.joints, mb.Revolute("hook", mb.Marker("coupler", 0.06), mb.Marker("bob"), pin)))
+    if loop:
+        return model
+    return replace(model, bodies=tuple(body for body in model.bodies if body.name != "rocker"),
+                   joints=tuple(joint for joint in model.joints if joint.name not in ("B", "O4")),
+                   drives=(*model.drives, mb.Drive("A", mb.line(0.0, -speed))))
+
+
+@pytest.mark.parametrize("speed", [TURN, -TURN])
+@pytest.mark.parametrize("name", PINS)
+def test_what_hangs_from_a_folding_loop_moves_as_without_the_loop(name, speed):
+    times = np.linspace(0.0, 1.2, 121)
+    run, seen = sampled(hung(PINS[name], speed), times)
+    _, twin = sampled(hung(PINS[name], speed, loop=False), times)
+    assert len(run.passages) == (2 if speed > 0 else 3) and (len(run.impacts) > 2) == (name != "ideal")
+    for field, allowed in (("angle", 1e-6), ("x", 1e-7), ("y", 1e-7), ("w", 1e-4)):
+        assert seen.point("bob", field) == pytest.approx(twin.point("bob", field), rel=0, abs=allowed), field
+    for passed in run.passages:  # the chart counts from the fold, whatever else is in the state
+        assert offsets_of(passed.system, [passed.time], passed.state[None]) == pytest.approx([0.0], abs=1e-9)
+
+
+@pytest.mark.parametrize("name", PINS)
+def test_the_energy_balance_closes_over_folds_with_freedoms_and_play(name):
+    run = mb.simulate(mb.assemble(hung(PINS[name], TURN)), 1.2, mb.Settings(rtol=1e-10, per_step=2))
+    found = mb.audit(mb.record(run, {}))
+    assert found.error < 1e-8 and found.power_error < 1e-8
+    assert (found.works[-1, 2] < -1e-4) == (name != "ideal")
+
+
+def carousel(turn):
+    """A free parallelogram whose frame is a driven turntable about the crank's axis: where it folds depends on crank and time."""
+    base = parallelogram()
+    rates = {"crank": 9.0, "coupler": turn, "rocker": 9.0}
+    return replace(
+        base, gravity=(0.0, 0.0),
+        bodies=(mb.Body("table"), *(replace(body, angular_velocity=rates[body.name]) for body in base.bodies)),
+        joints=(mb.Revolute("T", mb.Marker("table"), mb.Marker("ground")), *base.joints[:3],
+                mb.Revolute("O4", mb.Marker("rocker"), mb.Marker("table", FRAME))),
+        drives=(mb.Drive("T", mb.line(0.0, turn)),))
+
+
+@pytest.mark.parametrize("turn", [2.0, -3.0, 14.0])
+def test_a_free_parallelogram_on_a_turntable_is_a_pendulum_in_its_field(turn):
+    """I phi'' = -C turn^2 sin(phi - turn t), of the crank: I about the pins, C = m2 r c2 + m3 c3 f of coupler and rocker."""
+    times = np.linspace(0.0, 1.5, 151)
+    run, seen = sampled(carousel(turn), times)
+    inertia = 2e-3 + 1.0 * 0.05**2 + 1.0 * CRANK**2 + 2.0 * 0.05**2
+    field = 1.0 * CRANK * 0.075 + 2.0 * 0.05 * FRAME
+    exact = solve_ivp(lambda t, y: [y[1], -field * turn**2 / inertia * np.sin(y[0] - turn * t)], (0.0, 1.5), [np.pi / 3, 9.0],
+                      method="DOP853", rtol=1e-12, atol=1e-12, dense_output=True).sol
+    assert len(run.passages) == np.count_nonzero(np.diff(np.floor((exact(np.linspace(0, 1.5, 100001))[0]
+                                                                   - turn * np.linspace(0, 1.5, 100001)) / np.pi))) > 0
+    assert seen.point("crank", "angle") == pytest.approx(exact(times)[0], rel=0, abs=1e-6)
+    assert seen.point("rocker", "angle") == pytest.approx(exact(times)[0], rel=0, abs=1e-6)
+    assert seen.point("coupler", "angle") == pytest.approx(turn * times, rel=0, abs=1e-6)
+    for passed in run.passages:
+        assert np.sin(exact(passed.time)[0] - turn * passed.time) == pytest.approx(0.0, abs=1e-6)
+        for delay in (-1e-4, 1e-4):  # on the way: beyond the fold later, with the speed of the fastest coordinate
+            y = passed.state.copy()
+            y[: len(passed.system.stored)] += delay * _rates(passed)[passed.system.stored]
+            offset = offsets_of(passed.system, [passed.time + delay], y[None])[0]
+            assert offset == pytest.approx(delay / passed.system.chart.pace, rel=1e-2)
+
+
+def _rates(passed):
+    return at_state(passed.system, passed.time, passed.state).coordinates.v
+
+
+# -- branches that touch ---------------------------------------------------------------------------------------------------------
+
+
+def touching(speed, bend, driven=True):
+    """A cam turns the parallelogram's crank by bend cam^2: it comes to the fold, rests there and turns back."""
+    reach = 0.8
+    lift = mb.Curve(np.array([-reach, 10.0]), np.array([[0.0, -2 * bend * reach, bend, 0, 0, 0]]))
+    base, start = parallelogram(start=np.degrees(bend * reach**2)), -np.copysign(reach, speed)
+    return replace(base, bodies=(mb.Body("cam", 1.0, 1e-3, angle=start, angular_velocity=None if driven else speed), *base.bodies),
+                   joints=(mb.Revolute("C", mb.Marker("cam"), mb.Marker("ground", 0.0, 0.5)), *base.joints,
+                           mb.CamPair("pair", "cam", mb.Marker("crank"), lift)),
+                   drives=(mb.Drive("C", mb.line(0.0, speed)),) if driven else (), gravity=(0.0, 0.0))
+
+
+@pytest.mark.parametrize(("speed", "bend"), [(1.0, 0.5), (-1.0, 0.2), (3.0, 2.0)])
+def test_where_branches_touch_the_acceleration_decides(speed, bend):
+    """Parallelogram and anti-parallelogram have the same rates there; along both the smallest singular value falls as a square."""
+    run, seen = turned(touching(speed, bend), 1.6 / TURN)
+    assert seen.point("cam", "angle")[-1] == pytest.approx(np.copysign(0.8, speed), rel=1e-9)
+    for name in ("crank", "rocker"):
+        assert seen.point(name, "angle") == pytest.approx(bend * seen.point("cam", "angle") ** 2, rel=0, abs=1e-9)
+        assert seen.point(name, "alpha") == pytest.approx(np.full(len(seen.t), 2 * bend * speed**2), rel=1e-6)
+    (passed,) = run.passages
+    assert passed.time == pytest.approx(0.8 / abs(speed), abs=1e-7) and passed.smallest < 1e-9
+    assert (passed.tangents, passed.touching) == (2, True)
+
+
+def test_touching_branches_of_a_free_mechanism_keep_its_energy():
+    run, seen = sampled(touching(2.0, 0.5, driven=False), np.linspace(0.0, 0.7, 71))
+    assert len(run.passages) == 1 and run.passages[0].touching
+    assert np.ptp(seen.energy) < 1e-8 * seen.energy[0]
+    assert seen.point("rocker", "angle") == pytest.approx(0.5 * seen.point("cam", "angle") ** 2, rel=0, abs=1e-8)
+
+
+CROSSING = {"parallelogram": parallelogram(), "kite": four_bar(0.1, 0.1, 0.15, 0.15), "slider": slider_crank()}
+
+
+@pytest.mark.parametrize("name", CROSSING)
+def test_branches_that_cross_do_not_touch(name):
+    run, _ = turned(CROSSING[name], 1)
+    assert run.passages and {(passed.tangents, passed.touching) for passed in run.passages} == {(2, False)}
+
+
+# -- when, and how many ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("model", [parallelogram(), replace(windows(1, tip_speed=6.0), gravity=(0.0, 0.0))], ids=["driven", "free"])
+def test_samples_are_answered_one_for_one_wherever_charts_begin_and_end(model):
+    assembly = mb.assemble(model)
+    run = mb.simulate(assembly, 0.8)
+    ends, folds = [part.t_end for part in run.stretches], [passed.time for passed in run.passages]
+    assert len(ends) > 2 and folds
+    times = np.unique([0.0, 0.1, *ends, *folds, *np.nextafter(ends, 0.0), *np.linspace(0.0, 0.8, 7)])
+    run, seen = sampled(model, times)
+    assert np.array_equal(seen.t, times) and len(run.passages) == len(folds)
+    first, second = (seen.point(body.name, "angle") for body in model.bodies if body.name in ("crank", "rocker", "upright0", "upright1"))
+    assert first == pytest.approx(second, rel=0, abs=1e-8)
+
+
+@pytest.mark.parametrize(("beyond", "passed"), [(-1e-3, 0), (1e-3, 1)])
+def test_a_fold_counts_once_it_is_passed_and_a_run_may_end_in_its_chart(beyond, passed):
+    for model, fold in ((parallelogram(), 1 / 3), (folded(rocker=TURN), 0.5), (replace(windows(1), gravity=(0.0, 0.0)), np.pi / 2)):
+        for settings in (mb.Settings(), mb.Settings(rtol=1e-11)):
+            run = mb.simulate(mb.assemble(model), fold + beyond, settings)
+            assert run.end[1] == fold + beyond and run.outcome == "complete"
+            assert [each.time for each in run.passages] == pytest.approx([fold] * passed, abs=1e-6)
+            assert len(run.stretches[-1].system.chart.offsets)
+            x = offsets_of(run.end[0], [run.end[1]], run.end[2][None])[0] * run.end[0].chart.pace
+            assert x == pytest.approx(beyond, rel=1e-3)
+
+
+def test_a_run_that_stops_says_when_the_fold_would_come():
+    run = mb.simulate(mb.assemble(parallelogram()), 1.0, mb.Settings(singular="stop"))
+    assert "at t = 0.333333 s" in run.advice and 0.2 < run.end[1] < 1 / 3
+    run = mb.simulate(mb.assemble(replace(windows(1), gravity=(0.0, 0.0))), 3.0, mb.Settings(singular="stop"))
+    assert "at t = 1.5708 s" in run.advice and 1.4 < run.end[1] < np.pi / 2
+
+
+def test_a_free_mechanism_folds_alike_in_metres_and_micrometres():
+    """Lengths and gravity in other units: the same angles at the same times."""
+    def in_units(size):
+        def marker(m):
+            return mb.Marker(m.body, size * m.x, size * m.y)
+
+        base = windows(2)
+        joints = tuple(replace(joint, first=marker(joint.first), second=marker(joint.second)) for joint in base.joints)
+        bodies = tuple(replace(b, inertia=b.inertia * size**2, centroid=(size * b.centroid[0], 0.0)) for b in base.bodies)
+        return replace(base, gravity=(0.0, -G * size), joints=joints, bodies=bodies)
+
+    found = [mb.simulate(mb.assemble(in_units(size)), 4.0, mb.Settings(rtol=1e-10)) for size in (1.0, 1e-6, 1e6)]
+    for run in found:
+        assert [passed.time for passed in run.passages] == pytest.approx([passed.time for passed in found[0].passages], abs=1e-6)
+        assert run.steps == pytest.approx(found[0].steps, rel=0.2)
+    assert len(found[0].passages) >= 2
+
+
+@pytest.mark.parametrize("excess", [1e-3, 1e-5])
+def test_a_sharp_bend_is_told_finely_whatever_the_grid(excess):
+    """The rocker turns back within a thousandth of a turn; over the rows told, its rates are the slope of its angle, on both sides."""
+    run, seen = turned(four_bar(FRAME, CRANK, FRAME, CRANK * (1 + excess)), 1)
+    assert not run.passages and run.outcome == "complete"
+    angle, w = seen.point("rocker", "angle"), seen.point("rocker", "w")
+    assert np.max(np.abs(np.diff(angle) - np.diff(seen.t) * (w[1:] + w[:-1]) / 2)) < 1e-3
