@@ -9,7 +9,8 @@ from test_multibody_singular import TURN, G, folded, four_bar, slider_crank, tur
 
 import drivewright.multibody as mb
 from drivewright.multibody.chart import offsets_of
-from drivewright.multibody.simulate import at_state
+from drivewright.multibody.reactions import unbounded_joints
+from drivewright.multibody.simulate import at_state, clear_states
 
 FRAME, CRANK = 0.15, 0.1
 
@@ -208,3 +209,75 @@ def test_a_sharp_bend_is_told_finely_whatever_the_grid(excess):
     assert not run.passages and run.outcome == "complete"
     angle, w = seen.point("rocker", "angle"), seen.point("rocker", "w")
     assert np.max(np.abs(np.diff(angle) - np.diff(seen.t) * (w[1:] + w[:-1]) / 2)) < 1e-3
+
+
+# -- states that are told ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["dry", "bristles"])
+@pytest.mark.parametrize("model", [parallelogram(), folded(rocker=TURN)], ids=["before", "in the fold"])
+def test_a_driven_mechanism_takes_what_its_pins_remember_through_the_folds(model, name):
+    """A second pin, with play, beside that of coupler and rocker: its journal stays in the middle."""
+    second = mb.Revolute("B2", mb.Marker("coupler", FRAME), mb.Marker("rocker", CRANK), PINS[name])
+    assembly = mb.assemble(replace(model, joints=(*model.joints, second)))
+    run = mb.simulate(assembly, 1.2)
+    assert len(assembly.state) == 3 + (name == "bristles") and len(run.passages) >= 2
+    for state in (*(part.y for part in run.stretches), *(part.y_end for part in run.stretches), *(each.state for each in run.passages)):
+        assert state.shape[-1] == len(assembly.state) and np.all(state[..., len(assembly.system.stored):] == 0.0)
+    seen = mb.record(run, {"rocker": mb.Marker("rocker")})
+    assert seen.point("rocker", "w") == pytest.approx(np.full(len(seen.t), TURN), rel=1e-8)
+    assert seen.pins[:, 0, 0] == pytest.approx(np.full(len(seen.t), -DRY.clearance), abs=1e-12) and not np.any(seen.pins[:, 0, 1])
+
+
+@pytest.mark.parametrize("model", [parallelogram(), parallelogram(-TURN), hung(mb.Ideal(), TURN)], ids=["forth", "back", "hung"])
+def test_clear_states_leave_out_the_middle_of_folds_and_nothing_else(model):
+    run = mb.simulate(mb.assemble(model), 1.2, mb.Settings(rtol=1e-9))
+    folds, wanted, left_out = np.array([passed.time for passed in run.passages]), [], 0
+    for part in run.stretches:
+        away, chart = np.min(np.abs(part.t[:, None] - folds), axis=1), part.system.chart
+        clear = away > 0.2 * chart.reach * chart.pace if len(chart.offsets) else np.full(len(part.t), True)
+        wanted.append(part.t[clear])
+        left_out += len(part.t) - len(wanted[-1])
+    told = np.concatenate([t for _, t, _ in clear_states(run)])
+    assert np.array_equal(told, np.concatenate(wanted)) and left_out >= len(folds)
+    assert np.array_equal(np.concatenate([t for _, t, _ in clear_states(run, start=0.4)]), told[told >= 0.4])
+    for most in (1, 3, 7, 100, len(told) - 1, len(told)):
+        thinned = np.concatenate([t for _, t, _ in clear_states(run, most=most)])
+        assert most / 2 <= len(thinned) <= most
+        assert np.array_equal(thinned, told[:: -(-len(told) // most)])
+    for system, t, y in clear_states(run, most=20):  # each with its own states
+        angle = mb.observe(system, t, y).bodies[:, run.assembly.names.index("rocker"), 2]
+        assert angle == pytest.approx(np.pi / 3 + model.drives[0].motion.coefficients[0][1] * t, rel=0, abs=1e-8)
+
+
+# -- forces in the fold --------------------------------------------------------------------------------------------------------------
+
+
+def unbounded(model):
+    """For each fold in a turn, the joints that cannot carry their load there."""
+    run, _ = turned(model, 1)
+    return [unbounded_joints(run.assembly, each.system, mb.observe(each.system, [each.time], each.state[None])) for each in run.passages]
+
+
+ALL = ("O2", "A", "B", "O4")
+# About O4, with the bars along x: the rocker's weight at half its length and half of the coupler's at its end.
+HELD = 2.0 * G * CRANK / 2 + 0.5 * G * CRANK
+
+
+@pytest.mark.parametrize("size", [1.0, 1e-5, 1e5])
+@pytest.mark.parametrize(("part", "wanted"), [(0.0, [ALL, ALL]), (1.0, [(), ALL]), (-1.0, [ALL, ()]), (1.001, [ALL, ALL]),
+                                              (0.999, [ALL, ALL])])
+def test_bars_in_line_carry_what_turns_the_rocker_only_where_it_is_balanced(part, wanted, size):
+    """A torque on the rocker that holds its weight where the bars point to the left, or, reversed, to the right."""
+    hold = mb.Torque("hold", "rocker", mb.Load(mb.line(-part * HELD * size**2, 0.0)))
+    assert unbounded(replace(parallelogram(size=size), forces=(hold,), gravity=(0.0, -G * size))) == wanted
+
+
+def test_a_load_along_the_bars_is_carried_in_the_fold():
+    assert unbounded(replace(parallelogram(), gravity=(-G, 0.0))) == [(), ()]
+
+
+def test_a_joint_beside_the_loop_stays_bounded_in_its_fold():
+    run, _ = sampled(hung(mb.Ideal(), TURN), np.linspace(0.0, 1.0, 3))
+    for passed in run.passages:
+        assert unbounded_joints(run.assembly, passed.system, mb.observe(passed.system, [passed.time], passed.state[None])) == ALL

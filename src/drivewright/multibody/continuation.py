@@ -57,9 +57,9 @@ def continued(system, times, end, y, stop=False, refine=False):
         if len(system.chart.offsets) == 0:
             stretch, code = _carried(system, t, ahead, end, y)
         else:
-            stretch, code = _across(system, ahead, end), REACHED if end <= _leave(system) else WEAK
+            stretch, code = _across(system, ahead, end, y), REACHED if end <= _leave(system) else WEAK
             if t < system.chart.origin_time < stretch.t_end:
-                passages.append(_passage(system))
+                passages.append(_passage(system, y))
                 if stop:
                     return Continuation(tuple(stretches), tuple(passages), t, "stopped")
         stretches.append(stretch)
@@ -94,26 +94,27 @@ def _leave(system):
     return system.chart.origin_time + system.chart.reach * system.chart.pace
 
 
-def _across(system, times, end):
+def _across(system, times, end, y):
     """`Stretch` up to where the chart is left."""
     leave = min(_leave(system), end)
     inside = times[times <= leave]
-    states = _states(system, np.append(inside, leave))
+    states = _states(system, np.append(inside, leave), y)
     return Stretch(system, inside, states[:-1], leave, states[-1])
 
 
-def _passage(system):
+def _passage(system, y):
     """The `Passage` of the singular position in a driven system's chart."""
     time = system.chart.origin_time
-    return passage(system, time, _states(system, np.array([time]))[0])
+    return passage(system, time, _states(system, np.array([time]), y)[0])
 
 
-def _states(system, times):
-    """States (m, n) of a driven system at times within its chart."""
-    moving, y = motion(system), np.zeros((len(times), len(system.stored)))
+def _states(system, times, y):
+    """States (m, n) of a driven system at times within its chart; what elements remember is as in the state y."""
+    moving, states = motion(system), np.tile(y, (len(times), 1))
     q, v = np.empty((2, len(times), len(system.sizes)))
-    configure_all(moving.system, moving.work, times, y, q, v)
-    return np.ascontiguousarray(q[:, system.stored])
+    configure_all(moving.system, moving.work, times, states, q, v)
+    states[:, : len(system.stored)] = q[:, system.stored]
+    return states
 
 
 @outer

@@ -167,9 +167,10 @@ def _passages(system, run):
 def clear_states(run, start=-np.inf, most=None):
     """(system, times, states) of each stretch of a run from a time on, without the middles of folds; at most so many of all, if told."""
     clear = [np.flatnonzero((part.t >= start) & clear_of_fold(part.system, part.t, part.y)) for part in run.stretches]
-    stride = max(1, -(-sum(map(len, clear)) // most)) if most else 1
-    pairs = ((part, rows[::stride]) for part, rows in zip(run.stretches, clear, strict=True) if len(rows))
-    return [(part.system, part.t[rows], part.y[rows]) for part, rows in pairs]
+    counts = np.cumsum([0, *map(len, clear)])
+    stride = max(1, -(-counts[-1] // most)) if most else 1
+    chosen = (rows[-before % stride :: stride] for rows, before in zip(clear, counts[:-1], strict=True))  # evenly across the stretches
+    return [(part.system, part.t[rows], part.y[rows]) for part, rows in zip(run.stretches, chosen, strict=True) if len(rows)]
 
 
 def touching(system, t, y):
