@@ -44,7 +44,7 @@ def _median(run):
 
 def _drive_angle(model, passages):
     angles = np.mod([float(model.crank_angle(each.time)) for each in passages], TURN)
-    return np.where(angles > TURN * (1 - 1e-9), 0.0, angles)
+    return np.where(np.minimum(angles, TURN - angles) < 1e-9 * TURN, 0.0, angles)  # a rounding beside a whole turn is one
 
 
 def _rates(model, passed):
