@@ -88,6 +88,29 @@ def test_free_impact_delivers_the_restitution_of_its_law(law, asked, mass, speed
     assert first_bounce(dry, mass, speed) == pytest.approx(delivered_restitution(factor), abs=1e-4)
 
 
+@pytest.mark.parametrize("speed", [1e-5, 1e-6])
+def test_a_touch_slower_than_the_slowest_is_told_and_damped_as_that(speed):
+    """F = F_el (1 + h d'/1e-4): as if the factor were smaller in the same proportion."""
+    dry = Dry(5e-8, 0.01, 6e10, 1.5, 0.8)
+    assembly = assemble(journal(dry, velocity=(speed, 0.0)))
+    found = simulate(assembly, 1.5 * dry.clearance / speed, Settings(rtol=1e-11, atol=1e-16))
+    assert found.impacts[:, 2] == pytest.approx([1e-4], rel=1e-12)
+    after = seen_at(found, 1.5 * dry.clearance / speed).body(1, "vx")[0]
+    assert -after / speed == pytest.approx(delivered_restitution(0.8 * speed / 1e-4), rel=1e-6)
+
+
+def test_bristles_are_relaxed_when_a_pin_touches():
+    """What is left of a former contact does not count in the next one."""
+    assembly = assemble(pair(Dry(5e-4, 0.01, 6e8, 1.5, 0.5, friction=FRICTIONS[3])))
+    ends = []
+    for left in (0.0, 3e-5):
+        y = assembly.state.copy()
+        y[assembly.system.contacts.bristle] = left
+        ends.append(simulate(assembly, 3e-3, Settings(rtol=1e-10), state=y))
+    assert len(ends[0].impacts) > 0
+    np.testing.assert_allclose(ends[1].end[2], ends[0].end[2], rtol=1e-7, atol=1e-9)
+
+
 @pytest.mark.parametrize("changes", [{"exponent": 1.0, "stiffness": 1e10}, {"exponent": 2.2, "stiffness": 1e14},
                                      {"cylinder": True, "stiffness": 1e11, "length": 0.02}])
 def test_restitution_does_not_depend_on_the_elastic_law(changes):

@@ -8,6 +8,7 @@ from scipy.integrate import solve_ivp
 from test_multibody_singular import TURN, G, folded, four_bar, slider_crank, turned, windows
 
 import drivewright.multibody as mb
+from drivewright.errors import DoesNotAssemble
 from drivewright.multibody.chart import offsets_of
 from drivewright.multibody.reactions import unbounded_joints
 from drivewright.multibody.simulate import at_state, clear_states
@@ -33,10 +34,10 @@ BRISTLES = mb.Friction("lugre", 0.2, 0.01, static_coefficient=0.3, bristle_stiff
 PINS = {"ideal": mb.Ideal(), "dry": DRY, "bristles": replace(DRY, friction=BRISTLES)}
 
 
-def hung(pin, speed, loop=True):
+def hung(pin, speed, loop=True, base=None, spin=0.0):
     """A body hung from the coupler of a driven parallelogram; without the loop a second drive keeps the coupler level instead."""
-    model = parallelogram(speed)
-    bob = mb.Body("bob", 0.5, 1e-4, (0.02, 0.0), angle=-0.7, angular_velocity=0.0)
+    model = base or parallelogram(speed)
+    bob = mb.Body("bob", 0.5, 1e-4, (0.02, 0.0), angle=-0.7, angular_velocity=spin)
     model = replace(model, bodies=(*model.bodies, bob),
                     joints=(*model.joints, mb.Revolute("hook", mb.Marker("coupler", 0.06), mb.Marker("bob"), pin)))
     if loop:
@@ -57,6 +58,37 @@ def test_what_hangs_from_a_folding_loop_moves_as_without_the_loop(name, speed):
         assert seen.point("bob", field) == pytest.approx(twin.point("bob", field), rel=0, abs=allowed), field
     for passed in run.passages:  # the chart counts from the fold, whatever else is in the state
         assert offsets_of(passed.system, [passed.time], passed.state[None]) == pytest.approx([0.0], abs=1e-9)
+
+
+@pytest.mark.parametrize(("name", "spin"), [("ideal", 0.0), ("ideal", 3.0), ("ideal", 40.0), ("dry", 0.0)])
+def test_a_start_in_a_fold_does_not_depend_on_what_hangs_from_the_loop(name, spin):
+    times = np.linspace(0.0, 0.6, 31)
+    (run, seen), (_, twin) = (sampled(hung(PINS[name], TURN, loop, folded(rocker=TURN), spin), times) for loop in (True, False))
+    assert len(run.passages) == 1
+    assert seen.point("rocker", "angle") == pytest.approx(TURN * times, rel=0, abs=1e-8)
+    assert seen.point("bob", "angle") == pytest.approx(twin.point("bob", "angle"), rel=0, abs=1e-6)
+
+
+def test_a_fold_is_as_wide_as_the_loop_moves_however_fast_a_body_beside_it_spins():
+    reach = []
+    for spin in (0.0, 2000.0):
+        run, seen = sampled(hung(mb.Ideal(), TURN, spin=spin), np.linspace(0.0, 0.4, 41))
+        assert seen.point("rocker", "angle") == pytest.approx(np.pi / 3 + TURN * seen.t, rel=0, abs=1e-9)
+        assert seen.point("rocker", "alpha") == pytest.approx(np.zeros(41), abs=1e-6)
+        reach += [passed.system.chart.reach * passed.system.chart.pace for passed in run.passages]
+    assert len(reach) == 2 and reach[1] == pytest.approx(reach[0], rel=1e-9)
+
+
+def test_charts_count_from_the_fold_whichever_coordinate_is_independent():
+    rates = {"crank": TURN, "coupler": 0.0, "rocker": TURN}
+    free = replace(parallelogram(), drives=(), gravity=(0.0, 0.0),
+                   bodies=tuple(replace(body, angular_velocity=rates[body.name]) for body in parallelogram().bodies))
+    run = mb.simulate(mb.assemble(free), 1.4, mb.Settings(rtol=1e-10))
+    assert [passed.time for passed in run.passages] == pytest.approx([1 / 3, 5 / 6, 4 / 3], abs=1e-6)
+    for passed in run.passages:
+        ahead = mb.simulate(mb.assemble(free), passed.time + 1e-3, mb.Settings(rtol=1e-10)).end
+        assert offsets_of(passed.system, [passed.time], passed.state[None]) == pytest.approx([0.0], abs=1e-9)
+        assert offsets_of(ahead[0], [ahead[1]], ahead[2][None]) == pytest.approx([1e-3 / ahead[0].chart.pace], rel=1e-3)
 
 
 @pytest.mark.parametrize("name", PINS)
@@ -106,6 +138,9 @@ def _rates(passed):
     return at_state(passed.system, passed.time, passed.state).coordinates.v
 
 
+CROSSING = {"parallelogram": parallelogram(), "kite": four_bar(0.1, 0.1, 0.15, 0.15), "slider": slider_crank()}
+
+
 # -- branches that touch ---------------------------------------------------------------------------------------------------------
 
 
@@ -133,6 +168,21 @@ def test_where_branches_touch_the_acceleration_decides(speed, bend):
     assert (passed.tangents, passed.touching) == (2, True)
 
 
+@pytest.mark.parametrize("turned_by", [0.3, 0.8, 2.0])
+def test_what_meets_does_not_depend_on_the_base_of_the_plane(monkeypatch, turned_by):
+    """The quadratic form whose zeros are the tangents, in a plane whose base is arbitrary."""
+    from scipy.linalg import null_space
+
+    def rotated(matrix, **more):
+        found, c, s = null_space(matrix, **more), np.cos(turned_by), np.sin(turned_by)
+        return found @ np.array([[c, -s], [s, c]]) if found.shape[1] == 2 else found
+
+    monkeypatch.setattr("drivewright.multibody.singular.null_space", rotated)
+    for model, touches in ((touching(1.0, 0.5), True), (parallelogram(), False), (CROSSING["kite"], False)):
+        run = mb.simulate(mb.assemble(model), 0.9)
+        assert {(passed.tangents, passed.touching) for passed in run.passages} == {(2, touches)}
+
+
 def test_touching_branches_of_a_free_mechanism_keep_its_energy():
     run, seen = sampled(touching(2.0, 0.5, driven=False), np.linspace(0.0, 0.7, 71))
     assert len(run.passages) == 1 and run.passages[0].touching
@@ -140,13 +190,17 @@ def test_touching_branches_of_a_free_mechanism_keep_its_energy():
     assert seen.point("rocker", "angle") == pytest.approx(0.5 * seen.point("cam", "angle") ** 2, rel=0, abs=1e-8)
 
 
-CROSSING = {"parallelogram": parallelogram(), "kite": four_bar(0.1, 0.1, 0.15, 0.15), "slider": slider_crank()}
-
-
 @pytest.mark.parametrize("name", CROSSING)
 def test_branches_that_cross_do_not_touch(name):
     run, _ = turned(CROSSING[name], 1)
     assert run.passages and {(passed.tangents, passed.touching) for passed in run.passages} == {(2, False)}
+
+
+@pytest.mark.parametrize("rate", [0.5, 0.9, 1.001, 0.0, -4.9, -5.01])
+def test_a_start_in_a_fold_with_the_rates_of_neither_branch_is_refused(rate):
+    """Those of the parallelogram are 1, of the anti-parallelogram -5 times the crank's."""
+    with pytest.raises(DoesNotAssemble, match="those of none of its branches"):
+        mb.assemble(folded(rocker=rate * TURN))
 
 
 # -- when, and how many ----------------------------------------------------------------------------------------------------------
@@ -163,6 +217,27 @@ def test_samples_are_answered_one_for_one_wherever_charts_begin_and_end(model):
     assert np.array_equal(seen.t, times) and len(run.passages) == len(folds)
     first, second = (seen.point(body.name, "angle") for body in model.bodies if body.name in ("crank", "rocker", "upright0", "upright1"))
     assert first == pytest.approx(second, rel=0, abs=1e-8)
+
+
+def test_a_sample_at_the_very_end_of_a_chart_is_answered():
+    """A later sample changes no step before it, so that the chart ends at the same time again."""
+    times = np.array([0.0, 0.1, 0.8])
+    run, _ = sampled(parallelogram(), times)
+    leave = next(part.t_end for part in run.stretches if len(part.system.chart.offsets))
+    run, seen = sampled(parallelogram(), np.insert(times, 2, leave))
+    assert leave in [part.t_end for part in run.stretches]
+    assert np.array_equal(seen.t, np.insert(times, 2, leave))
+
+
+@pytest.mark.parametrize("samples", [2, 3, 4, 6])
+@pytest.mark.parametrize(("name", "folds"), [("parallelogram", 4), ("kite", 2), ("slider", 4)])
+def test_the_branch_does_not_depend_on_how_few_samples_are_asked_for(name, folds, samples):
+    model = CROSSING[name]
+    run, seen = turned(model, 2, samples)
+    _, fine = turned(model, 2, 1 + 60 * (samples - 1))
+    assert len(run.passages) == folds and len(seen.t) == samples
+    for body in model.bodies:
+        assert seen.point(body.name, "angle") == pytest.approx(fine.point(body.name, "angle")[::60], rel=0, abs=1e-7)
 
 
 @pytest.mark.parametrize(("beyond", "passed"), [(-1e-3, 0), (1e-3, 1)])

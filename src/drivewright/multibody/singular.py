@@ -46,7 +46,7 @@ class Passage(NamedTuple):
 
 
 class Line(NamedTuple):
-    """States z + x direction at t + x pace, x counting in radians, or lengths of the mechanism, of the fastest coordinate."""
+    """States z + x direction at t + x pace, x counting in radians, or lengths of the mechanism, of the fastest coordinate in loops."""
 
     system: System
     work: Work
@@ -111,18 +111,29 @@ def look_ahead(system, t, y):
 
 
 def _line(system, t, y):
-    """The `Line` along the motion of a state, the coordinates split by its tangent; None at rest."""
+    """The `Line` along the motion of a state, the coordinates split by its tangent; None where the loops are at rest."""
     moving = motion(system)
     if not configure_at(moving.system, moving.work, t, y):
         return None
     rates = moving.work.coordinates.v.copy()
-    speed = float(np.max(np.abs(rates) / system.sizes, initial=0.0))
-    if speed == 0.0 or len(system.rows) == 0:
+    speed = _speed(system, moving.work.coordinates.q, rates)
+    if speed == 0.0:
         return None
     fresh = split_into(system, _dependent(system, moving.work), moving.work)
     remembered = y[len(system.stored) + len(system.independent):]
     state = np.concatenate([moving.work.coordinates.q[fresh.stored], rates[fresh.independent], remembered])
     return Line(fresh, motion(fresh).work, t, state, rates[fresh.independent] / speed, 1.0 / speed)
+
+
+def _speed(system, q, v):
+    """Rate of the fastest coordinate in loops, 0 without them."""
+    return float(np.max(np.abs(v / system.sizes)[_looped(system, q)], initial=0.0))
+
+
+def _looped(system, q):
+    """Which coordinates the loops know of; of others they have no derivatives, wherever the bodies are."""
+    columns = [scaled_jacobian(system, at(system, place), np.arange(len(q))) for place in (q, q + 0.3 * system.sizes)]
+    return np.max(np.abs(columns), axis=(0, 1), initial=0.0) > 1e-12
 
 
 def _memories(system):
@@ -172,11 +183,13 @@ def _weights(nodes, x):
 
 def chart_through(system, q, v):
     """The system with a chart through the singular position at the coordinates q, along the branch with the rates v; None where there is
-    none.  Nothing but its rates tells it from the other branches there; of several freedoms it is not known what the others do."""
-    free, speed = len(system.independent), float(np.max(np.abs(v) / system.sizes))
-    if free > 1:
+    none.  Nothing but its rates tells it from the other branches there; of several freedoms of the loops it is not known what the others
+    do."""
+    inside, speed = system.stored[_looped(system, q)[system.stored]], _speed(system, q, v)
+    free = len(system.independent) - (len(system.stored) - len(inside))
+    if free > 1 or speed == 0.0:
         return None
-    dependent = np.setdiff1d(system.stored, system.stored[np.argsort(-np.abs(v / system.sizes)[system.stored])[:free]])
+    dependent = np.setdiff1d(inside, inside[np.argsort(-np.abs(v / system.sizes)[inside])[:free]])
     fresh = split_into(system, dependent, at(system, q))
     state = np.concatenate([q[fresh.stored], v[fresh.independent], np.zeros(_memories(system))])
     line = Line(fresh, motion(fresh).work, 0.0, state, v[fresh.independent] / speed, 1.0 / speed)
