@@ -259,6 +259,19 @@ def test_a_run_that_stops_says_when_the_fold_would_come():
     assert "at t = 1.5708 s" in run.advice and 1.4 < run.end[1] < np.pi / 2
 
 
+@pytest.mark.parametrize(("rtol", "method"), [(1e-3, "dopri5"), (1e-3, "radau"), (1e-8, "dopri5")])
+@pytest.mark.parametrize("angle", [np.pi - 0.3, 0.05, 0.3, 1.07])
+def test_no_fold_is_missed_on_the_way_from_rest(angle, rtol, method):
+    """N windows are a pendulum, theta'' = -g W cos(theta)/M: it turns between two folds, now slow, now near to one."""
+    weight, mass = 3.5, 3.0
+    sol = solve_ivp(lambda t, y: [y[1], -G * weight / mass * np.cos(y[0])], (0.0, 3.0), [angle, 0.0], method="DOP853", rtol=1e-12,
+                    atol=1e-12, dense_output=True).sol
+    t = np.linspace(0.0, 3.0, 100001)
+    wanted = t[1:][np.diff(np.floor(sol(t)[0] / np.pi)) != 0]
+    run = mb.simulate(mb.assemble(windows(2, tip_speed=0.0, angle=angle)), 3.0, mb.Settings(rtol=rtol, method=method))
+    assert [passed.time for passed in run.passages] == pytest.approx(wanted, abs=2e-3 if rtol > 1e-6 else 1e-4)
+
+
 def test_a_free_mechanism_folds_alike_in_metres_and_micrometres():
     """Lengths and gravity in other units: the same angles at the same times."""
     def in_units(size):

@@ -15,7 +15,7 @@ from drivewright.multibody.dynamics import FIRST_PIN
 from drivewright.multibody.loads import LASTING, gap_of
 from drivewright.multibody.observe import FIELDS, observe
 from drivewright.multibody.partition import at, split
-from drivewright.multibody.singular import Outlook, look_ahead, passage
+from drivewright.multibody.singular import Outlook, look_ahead, passage, room
 from drivewright.multibody.system import motion, no_chart
 from drivewright.numerics.ode import Event, integrate
 from drivewright.numerics.radau import integrate_stiff
@@ -143,12 +143,14 @@ def _onward(system, t, y, end, weak):
 
 def _leg(system, t, y, end):
     """The `Leg` from a state on.  Loops without drives may move so evenly that a step would lead over a singular position: there a leg is
-    as long as the bodies move by about a radian, or the mechanism's length, and a step a part of it.  Pins with play step finely."""
+    as long as the bodies move by half the way to one, or about a radian, or the mechanism's length, and a step a part of it.  Pins with
+    play step finely."""
     if len(system.rows) == 0 or len(system.driven) or len(system.contacts):
         return Leg(end)
     bodies, sizes = observe(system, [t], y[None]).bodies[0], [system.length, system.length, 1.0]
     rate, gain = (np.max(np.abs(bodies[:, first : first + 3]) / sizes) for first in map(FIELDS.index, ("vx", "ax")))
-    pace = rate + np.sqrt(gain)
+    way = min(1.0, room(system, t, y))
+    pace = rate / way + np.sqrt(gain / way)
     return Leg(min(end, t + 1.0 / pace), CAREFUL / pace) if pace > 0 else Leg(end)
 
 

@@ -21,6 +21,7 @@ NODES = np.array([-1.0, -0.85, -0.7, -0.55, 0.55, 0.7, 0.85, 1.0])  # of a chart
 WIDTHS = 0.12 * 0.5 ** np.arange(6)  # half widths to try [rad], [lengths of the mechanism]
 REACH = 0.95  # part of the half width in which a chart serves
 BACK = 0.01  # step back along the line by which the way to the singular position is estimated [rad], [lengths]
+NEAR = 1e-4  # ... and by which it is estimated how far that is, whichever way
 CLOSED = 1e-10  # largest miss of the loops between the nodes [rad], [lengths]
 LINEAR, HALFWAY = 0.05, np.array([0.15, 0.3])  # places between a singular start and the nodes: the first ones by the rates alone
 SAME = 1e-5  # difference of rates, per unit of x, within which a branch has the rates that are asked for
@@ -110,6 +111,22 @@ def look_ahead(system, t, y):
     return Outlook(None, ahead * line.pace)
 
 
+def room(system, t, y):
+    """How far a state is from a singular position [rad], [lengths of the mechanism], whichever independent coordinate moves and whichever
+    way, estimated from how the smallest singular value changes; infinite where it does not."""
+    first, found = len(system.stored), np.inf
+    for m, k in enumerate(system.independent):
+        moved = y.copy()
+        moved[first : first + len(system.independent)] = 0.0
+        moved[first + m] = system.sizes[k]
+        line = _line(system, t, moved)
+        if line is not None:
+            here, before = _behind(line, 1, NEAR)
+            change = abs(before.smallest - here.smallest) if np.isfinite(before.correction) else here.smallest
+            found = min(found, NEAR * here.smallest / change if change > 0 else np.inf)
+    return found
+
+
 def _line(system, t, y):
     """The `Line` along the motion of a state, the coordinates split by its tangent; None where the loops are at rest."""
     moving = motion(system)
@@ -151,13 +168,13 @@ def _dependent(system, work):
     return np.sort(system.stored[pivots[free:]])
 
 
-def _behind(line):
-    """Places of the line at the state itself and on the way to it."""
+def _behind(line, count=2, step=BACK):
+    """Places of the line at the state itself and so many on the way to it."""
     here = line.close(0.0, line.y[line.held])
     rates = line.work.coordinates.v[line.system.dependent] * line.pace
     places = [here]
-    for k in (1, 2):
-        places.append(line.close(-k * BACK, _carried(places, -k * BACK) if k > 1 else here.dependent - BACK * rates))
+    for k in range(1, count + 1):
+        places.append(line.close(-k * step, _carried(places, -k * step) if k > 1 else here.dependent - step * rates))
     return places
 
 
