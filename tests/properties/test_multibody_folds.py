@@ -89,6 +89,21 @@ def test_charts_count_from_the_fold_whichever_coordinate_is_independent():
         ahead = mb.simulate(mb.assemble(free), passed.time + 1e-3, mb.Settings(rtol=1e-10)).end
         assert offsets_of(passed.system, [passed.time], passed.state[None]) == pytest.approx([0.0], abs=1e-9)
         assert offsets_of(ahead[0], [ahead[1]], ahead[2][None]) == pytest.approx([1e-3 / ahead[0].chart.pace], rel=1e-3)
+    rates["rocker"] = -5 * TURN  # the anti-parallelogram, in which coupler and rocker are faster than the crank
+    free = replace(free, bodies=tuple(replace(body, angle=0.0, angular_velocity=rates.get(body.name) if body.name != "coupler" else None)
+                                      for body in free.bodies))
+    system, t, y = mb.simulate(mb.assemble(free), 1e-3, mb.Settings(rtol=1e-10)).end
+    assert system.independent[0] != system.stored[0]
+    assert offsets_of(system, [t], y[None]) == pytest.approx([1e-3 / system.chart.pace], rel=1e-2)
+
+
+def test_a_start_in_a_fold_of_a_loop_with_two_freedoms_is_refused():
+    """Its rates do not say what the branch does where only one of them moves on."""
+    base = carousel(2.0)
+    bodies = tuple(replace(body, angle=0.0, inertia=1e-3) for body in base.bodies)
+    with pytest.raises(DoesNotAssemble, match="starts in a singular position"):
+        mb.assemble(replace(base, drives=(), bodies=tuple(replace(body, angular_velocity=2.0) if body.name == "table" else body
+                                                          for body in bodies)))
 
 
 @pytest.mark.parametrize("name", PINS)
