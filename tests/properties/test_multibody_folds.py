@@ -156,6 +156,20 @@ def _rates(passed):
 CROSSING = {"parallelogram": parallelogram(), "kite": four_bar(0.1, 0.1, 0.15, 0.15), "slider": slider_crank()}
 
 
+@pytest.mark.parametrize("method", ["dopri5", "radau"])
+@pytest.mark.parametrize("excess", [0.1, 1e-3, -1e-2])
+def test_a_drive_that_cannot_pass_is_told_with_a_freedom_left_too(excess, method):
+    """A coupler too long for the fold at 0 deg, or too short for that at 180 deg: there coupler and rocker are in line."""
+    base = four_bar(FRAME, CRANK, FRAME * (1 + excess), CRANK)
+    run = mb.simulate(mb.assemble(hung(mb.Ideal(), TURN, base=base)), 1.0, mb.Settings(method=method))
+    apart = FRAME * (1 + excess) + np.copysign(CRANK, -excess)
+    angle = np.arccos((FRAME**2 + CRANK**2 - apart**2) / (2 * FRAME * CRANK))
+    limit = (angle if excess < 0 else TURN - angle) / TURN - 1 / 6
+    assert run.outcome == "partial" and run.end[1] == pytest.approx(limit, abs=1e-6) and not run.passages
+    told = f"{np.degrees(angle if excess < 0 else TURN - angle):.2f} deg"
+    assert f"cannot go on beyond t = {run.end[1]:.6g} s of 1 s, drive 'O2' at {told}" in run.advice and "does not close there" in run.advice
+
+
 # -- branches that touch ---------------------------------------------------------------------------------------------------------
 
 

@@ -15,7 +15,7 @@ from drivewright.multibody.dynamics import FIRST_PIN
 from drivewright.multibody.loads import LASTING, gap_of
 from drivewright.multibody.observe import FIELDS, observe
 from drivewright.multibody.partition import at, split
-from drivewright.multibody.singular import Outlook, look_ahead, passage, room
+from drivewright.multibody.singular import Outlook, look_ahead, passage, room, smallest_singular_values
 from drivewright.multibody.system import motion, no_chart
 from drivewright.numerics.ode import Event, integrate
 from drivewright.numerics.radau import integrate_stiff
@@ -23,6 +23,7 @@ from drivewright.stopped import Stop, uses
 
 GEAR = 1e-3  # absolute over relative tolerance, at lengths and angles of the size of 1
 WARY, CAREFUL = 3.0, 0.2  # length of a leg towards a singular position, and longest step in it, over the time until it is reached
+STRETCHED = 1e-4  # smallest singular value of loops in which a drive is stuck
 GRID = 720  # samples of a turn where the drives leave no freedom and so no steps to report
 
 
@@ -109,12 +110,19 @@ def _legs(assembly, t, end, y, settings, samples):
         impacts.append(_impacts(system, run))
         passages += _passages(system, run)
         t, y, steps, advice = run.t_end, run.y_end, steps + run.steps, run.advice
+        if run.outcome == "min_step" and _stretched(system, t, y):
+            advice = _stuck(assembly, t, end)
         if goes_on:
             system, y, leg = _onward(system, t, y, end, run.outcome == "event")
             if len(system.chart.offsets) and settings.singular == "stop":
                 goes_on, advice = False, stopped_at(system.chart.origin_time)
         if not goes_on:
             return Run(assembly, _joined(stretches), np.concatenate(impacts), advice, steps, end, tuple(passages))
+
+
+def _stretched(system, t, y):
+    """Whether a drive has brought a loop so far that it hardly closes: rates grow without bound there, and steps become too short."""
+    return len(system.driven) > 0 and len(system.rows) > 0 and smallest_singular_values(system, [t], y[None])[0] < STRETCHED
 
 
 def _joined(stretches):
