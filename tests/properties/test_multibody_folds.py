@@ -97,6 +97,18 @@ def test_charts_count_from_the_fold_whichever_coordinate_is_independent():
     assert offsets_of(system, [t], y[None]) == pytest.approx([1e-3 / system.chart.pace], rel=1e-2)
 
 
+def test_a_kite_starts_in_its_fold():
+    """Crank and frame on each other, coupler and rocker too: what the coupler's joint does to the loop is zero there, but nowhere else."""
+    base = four_bar(0.1, 0.1, 0.15, 0.15)
+    model = replace(base, bodies=tuple(replace(body, angle=0.0, angular_velocity=rate * TURN)
+                                       for body, rate in zip(base.bodies, (1.0, 1 / 6, 5 / 6), strict=True)))
+    run, seen = turned(model, 0.9)
+    half = TURN * seen.t / 2
+    along = 0.1 * np.cos(half) + np.sqrt(0.15**2 - (0.1 * np.sin(half)) ** 2)
+    rocker = np.angle(along * np.exp(1j * half) - 0.1)
+    assert run.outcome == "complete" and np.max(np.abs(np.sin((seen.point("rocker", "angle") - rocker) / 2))) < 1e-8
+
+
 def test_a_start_in_a_fold_of_a_loop_with_two_freedoms_is_refused():
     """Its rates do not say what the branch does where only one of them moves on."""
     base = carousel(2.0)
