@@ -218,7 +218,7 @@ def test_what_meets_does_not_depend_on_the_base_of_the_plane(monkeypatch, turned
         found, c, s = null_space(matrix, **more), np.cos(turned_by), np.sin(turned_by)
         return found @ np.array([[c, -s], [s, c]]) if found.shape[1] == 2 else found
 
-    monkeypatch.setattr("drivewright.multibody.singular.null_space", rotated)
+    monkeypatch.setattr("drivewright.multibody.passages.null_space", rotated)
     for model, touches in ((touching(1.0, 0.5), True), (parallelogram(), False), (CROSSING["kite"], False)):
         run = mb.simulate(mb.assemble(model), 0.9)
         assert {(passed.tangents, passed.touching) for passed in run.passages} == {(2, touches)}

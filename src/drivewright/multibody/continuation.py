@@ -14,7 +14,8 @@ from drivewright.multibody.chart import configure, configure_all, configure_at
 from drivewright.multibody.dynamics import validity_of_split
 from drivewright.multibody.kinematics import determinant
 from drivewright.multibody.partition import at, split_into
-from drivewright.multibody.singular import Outlook, look_ahead, passage
+from drivewright.multibody.passages import passage
+from drivewright.multibody.singular import Outlook, look_ahead
 from drivewright.multibody.system import System, motion
 
 LONGEST = 0.05  # way of the fastest coordinate in a step [rad], [lengths of the mechanism]

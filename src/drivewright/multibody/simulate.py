@@ -15,7 +15,8 @@ from drivewright.multibody.dynamics import FIRST_PIN
 from drivewright.multibody.loads import LASTING, gap_of
 from drivewright.multibody.observe import FIELDS, observe
 from drivewright.multibody.partition import at, split
-from drivewright.multibody.singular import Outlook, look_ahead, passage, room, smallest_singular_values
+from drivewright.multibody.passages import passage, smallest_singular_values
+from drivewright.multibody.singular import Outlook, look_ahead, room
 from drivewright.multibody.system import motion, no_chart
 from drivewright.numerics.ode import Event, integrate
 from drivewright.numerics.radau import integrate_stiff

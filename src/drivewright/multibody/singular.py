@@ -10,12 +10,11 @@ branch goes through; where two branches only come near each other it does not, a
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import null_space, qr
+from scipy.linalg import qr
 
 from drivewright.multibody.chart import configure_at
-from drivewright.multibody.kinematics import measured
 from drivewright.multibody.partition import at, misses, scaled_jacobian, split_into
-from drivewright.multibody.system import LUGRE, MISS, Chart, System, Work, motion, scratch
+from drivewright.multibody.system import LUGRE, Chart, System, Work, motion
 
 NODES = np.array([-1.0, -0.85, -0.7, -0.55, 0.55, 0.7, 0.85, 1.0])  # of a chart, in parts of its half width
 WIDTHS = 0.12 * 0.5 ** np.arange(6)  # half widths to try [rad], [lengths of the mechanism]
@@ -27,23 +26,6 @@ LINEAR, HALFWAY = 0.05, np.array([0.15, 0.3])  # places between a singular start
 SAME = 1e-5  # difference of rates, per unit of x, within which a branch has the rates that are asked for
 ASTRAY = 0.1  # correction of a guess, over the half width, that may lead to another branch
 FOLDED = 1e-6  # singular value over the largest that counts as zero in a singular position
-FOURTH = np.array([-1, 16, -30, 16, -1]) / 12  # second difference of the fourth order
-TWICE = 1e-6  # discriminant of the tangents, over the squares of the quadratic form, below which two branches touch
-
-
-class Passage(NamedTuple):
-    """A singular position on the way: when, the coordinates there, the system with its chart, and what meets there.
-
-    smallest: singular value of the loops' Jacobian without dimensions; tangents: number of directions that meet (at most, where several
-    loops fold at once); touching: two branches have the same tangent, so that the second order decides.
-    """
-
-    time: float
-    system: System
-    state: np.ndarray
-    smallest: float
-    tangents: int
-    touching: bool
 
 
 class Line(NamedTuple):
@@ -325,65 +307,3 @@ def _normal(line, nodes, width):
     in_time = slope(delay=step * line.pace) / (2 * step * line.pace) if driven else 0.0
     along = gradient @ line.direction + in_time * line.pace
     return gradient / along, float(in_time / along)
-
-
-# -------------------------------------------------------------------------------------------------------- what meets there
-
-
-def passage(system, t, y):
-    """The `Passage` of a state that stands in the singular position of its system's chart."""
-    q = _configured(system, t, y).coordinates.q
-    return Passage(float(t), system, np.array(y), _smallest(system, q, t), *_tangents(system, q, t))
-
-
-def smallest_singular_values(system, t, y):
-    """(m,) of the loops' Jacobian without dimensions, at states y (m, n) at the times t (m,); infinite without loops."""
-    return np.array([_smallest(system, _configured(system, time, state).coordinates.q, time) for time, state in zip(t, y, strict=True)])
-
-
-def _configured(system, t, y):
-    moving = motion(system)
-    configure_at(moving.system, moving.work, t, y)
-    return moving.work
-
-
-def _smallest(system, q, t):
-    columns = scaled_jacobian(system, at(system, q, t), system.stored)
-    return float(np.linalg.svd(columns, compute_uv=False)[-1]) if len(columns) else np.inf
-
-
-def _tangents(system, q, t):
-    """(number of directions in which a motion can go through, whether two of them coincide)."""
-    moved = np.concatenate([system.stored, system.driven.coordinate])
-    columns = scaled_jacobian(system, at(system, q, t), moved)
-    folded = int(np.sum(np.linalg.svd(columns, compute_uv=False) < FOLDED * np.linalg.norm(columns, 2)))
-    if folded != 1 or len(moved) - len(columns) != 1:
-        return 2**folded, False
-    plane, across = null_space(columns, rcond=FOLDED), null_space(columns.T, rcond=FOLDED)[:, 0]
-    form = _second_order(system, q, t, moved, plane, across)
-    return 2, bool(form[0, 1] ** 2 - form[0, 0] * form[1, 1] < TWICE * np.sum(form**2))  # neither side depends on the base of the plane
-
-
-def _second_order(system, q, t, moved, plane, across):
-    """(2, 2) quadratic form whose zeros are the tangents: second derivative of the row that folds, in the plane of all that is free."""
-    step = 1e-2
-
-    def residual(way):
-        there = q.copy()
-        there[moved] += step * system.sizes[moved] * way
-        return across @ (_free_misses(system, there) / system.rows.extent)
-
-    def second(way):
-        return sum(weight * residual(k * way) for k, weight in zip(range(-2, 3), FOURTH, strict=True)) / step**2
-
-    one, two = plane.T
-    mixed = (second(one + two) - second(one - two)) / 4
-    return np.array([[second(one), mixed], [mixed, second(two)]])
-
-
-def _free_misses(system, q):
-    """Residuals at the coordinates q, driven ones where q has them."""
-    work = scratch(system)
-    work.coordinates.q = q
-    measured(system, work)
-    return work.columns[MISS]

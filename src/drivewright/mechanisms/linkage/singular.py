@@ -4,7 +4,7 @@ import numpy as np
 
 from drivewright.mechanisms.linkage.build import TURN, run_of
 from drivewright.multibody.observe import FIELDS, observe
-from drivewright.multibody.singular import smallest_singular_values
+from drivewright.multibody.passages import smallest_singular_values
 from drivewright.result import Answer, Column, Table, Value
 
 SAMPLES = 200  # states of a run whose smallest singular values give the median
