@@ -99,9 +99,9 @@ def of_members(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def draw(numbers: np.ndarray) -> Estimate:
-    """The first of the numbers (members,), with the interval in which one more of them lies: mean -+ t s sqrt(1 + 1/members)."""
+    """The first of the numbers (members,), with the interval in which one more lies: mean -+ t s sqrt(1 + 1/members), if they differ."""
     count, value = len(numbers), float(numbers[0])
-    if count < 2:
+    if np.ptp(numbers) == 0.0:
         return Estimate(value, np.nan, np.nan, "", True, 1.0)
     spread = float(np.std(numbers, ddof=1))
     reach = _student(count - 1, (1 + LEVEL) / 2) * spread * np.sqrt(1 + 1 / count)

@@ -42,6 +42,8 @@ class Statistics:
         if self._single(turns):
             return self._alone(name)
         numbers = np.array([member.whole[name] for member in self.members if turns in member.turns])
+        if np.ptp(numbers) == 0.0:  # not the chaotic part of the motion
+            return Estimate(float(numbers[0]), np.nan, np.nan, "", True, 1.0)
         settled = estimate_statistic(self._turns(turns), np.max).settled
         return replace(estimate_statistic(numbers[:, None], np.mean), settled=settled)
 
