@@ -219,6 +219,13 @@ def test_a_statistic_of_one_member_has_no_interval_and_of_a_constant_no_width():
     assert estimate_statistic(np.full((3, 4), 2.0), np.max).interval == "periodic"
 
 
+def test_numbers_of_members_have_students_interval():
+    """Means 2 and 5; t(2) = 4.3027 times the standard deviations 1 and 2 of three, over sqrt(3)."""
+    mean, reach = of_members(np.array([[1.0, 3.0], [2.0, 5.0], [3.0, 7.0]]))
+    np.testing.assert_allclose(mean, [2.0, 5.0])
+    np.testing.assert_allclose(reach, 4.3027 * np.array([1.0, 2.0]) / np.sqrt(3), rtol=1e-4)
+
+
 # -- as a value of a result ----------------------------------------------------------------------------------------------------
 
 
