@@ -243,6 +243,17 @@ def test_a_massless_shaft_swings_with_its_stations():
     assert "modes.3.frequency" not in result.values and "torsional_modes.2.frequency" not in result.values
 
 
+@pytest.mark.parametrize("power", [3, 5, 6, 7, 8, 10, 16, 60])
+def test_a_massless_shaft_on_three_springs_swings_by_its_flexibility(power):
+    """Held more than enough, each spring works against the others and the shaft: w^2 of K = inv(flexibility) and the masses."""
+    bearings = [{"name": name, "position": place, "radial_stiffness": f"{factor}e{power} N/m"}
+                for name, place, factor in (("A", "30 mm", 1), ("B", "136.5 mm", 3), ("C", "300 mm", 0.7))]
+    result = dw.run(shaft({}, bearings=bearings, material={"density": "0 kg/m^3"}, loads=[{"station": "m2", "force": "500 N"}]),
+                    only=("statics", "flexibility", "modes"))
+    for n in (1, 2):
+        assert result[f"modes.{n}.frequency"] == pytest.approx(result[f"massless_modes.{n}.frequency"], rel=1e-9)
+
+
 def test_light_shafts_approach_the_massless_one():
     heavy = [{"name": "m1", "position": "0 mm", "mass": "3 kg", "polar_inertia": "1 kg m^2", "diametral_inertia": "0.5 kg m^2"},
              {"name": "m2", "position": "245 mm", "mass": "8 kg", "polar_inertia": "1 kg m^2"}]
