@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from drivewright._jit import plain
-from drivewright.chains.dynamics.bodies import follow, load_guide, load_rollers
+from drivewright.chains.dynamics.bodies import follow, load_guide, load_rollers, turn_acceleration
 from drivewright.chains.dynamics.model import Chain, Contact, Drive, Guide, Model, Sprocket
 from drivewright.chains.dynamics.roller import RollerTooth
 from drivewright.chains.dynamics.state import FRICTION, lower
@@ -15,6 +15,7 @@ from drivewright.chains.dynamics.step import (
     load_gravity,
     load_joints,
     lose_flanks,
+    lose_joints,
     over_the_step,
 )
 from drivewright.chains.link import link, seat_height, seat_support
@@ -147,6 +148,82 @@ def test_a_contact_acts_with_its_mean_over_the_step(name):
     force = {"right flank": t.right[0], "left flank": t.left[0]}.get(name, np.hypot(t.fx[0], t.fy[0]))
     assert force == pytest.approx(K * plain(over_the_step)(here, rate, dt)[0], rel=1e-4)
     assert abs(force / (K * here) - 1) > 0.05
+
+
+def dampened(name, damping):
+    """(drive of a case with damping in what it touches, its kernel, pose, seat, number of what it touches)."""
+    tooth, guides, touch, pose, seat = CASES[name]
+    guides = tuple(Guide(g.centre, g.radius, g.start, g.end, g.side, g.distance, Contact(K, damping)) for g in guides)
+    drive = lowered(tooth, guides, damping=damping, joint=link(9.525e-3, 0.0, A, 2e-4) if tooth is ROLLER else JOINT)
+    return drive, touch, pose, seat, 2 if guides else 0
+
+
+def pressed(drive, name):
+    t = drive.touches
+    return {"right flank": t.right[0], "left flank": t.left[0]}.get(name, np.hypot(t.fx[0], t.fy[0]))
+
+
+SINGLE = ["right flank", "left flank", "belly", "back", "roller seat", "roller flank"]
+
+
+@pytest.mark.parametrize("name", SINGLE)
+def test_damping_acts_for_the_part_of_the_step_in_contact(name):
+    """c d' times the share of the way on which the depth is above 0, here 0.7, beside the mean of K d."""
+    still, touch, pose, seat, body = dampened(name, 0.0)
+    v, moving = np.array([0.0, -0.3, 0.0]), dampened(name, 90.0)[0]
+
+    def depth(time):
+        put(still, *(np.array(pose) + time * v), body=body)
+        touch(still, seat)
+        return np.sqrt(2 * still.touches.stored[0] / K)
+
+    rate, here, forces = (depth(1e-8) - depth(-1e-8)) / 2e-8, depth(0.0), []
+    for drive in (still, moving):
+        put(drive, *pose, v=v, body=body)
+        drive.bodies.w[0] = 0.0
+        touch(drive, seat, here / (0.2 * rate))
+        forces.append(pressed(drive, name))
+    assert rate > 0.05 and forces[1] - forces[0] == pytest.approx(90.0 * rate * 0.7, rel=1e-4)
+
+
+@pytest.mark.parametrize("name", SINGLE)
+def test_no_contact_ever_pulls(name):
+    """Left so fast that damping would hold the plate back: no force."""
+    drive, touch, pose, seat, body = dampened(name, 1e5)
+    put(drive, *pose, v=(0.0, 3.0, 0.0), body=body)
+    drive.bodies.w[0] = 0.0
+    touch(drive, seat)
+    assert drive.touches.stored[0] > 0
+    assert [drive.touches.fx[0], drive.touches.fy[0], drive.touches.torque[0], drive.plates.moment[0]] == [0.0] * 4
+    assert (drive.touches.right[0], drive.touches.left[0]) == (0.0, 0.0)
+
+
+def test_articulation_resists_the_turning_of_two_plates_against_each_other_alone():
+    """c (w - w1) on one plate, the opposite on the other; the power lost is c (w - w1)^2."""
+    quiet, drive = lowered(), lowered()
+    drive = drive._replace(chain=drive.chain._replace(articulation_damping=2e-4))
+    spin, turned = np.array([7.0, -4.0, 1.0, 2.5, -3.0, 6.0, 0.5, 9.0]), []
+    for each in (quiet, drive):
+        each.plates.w[:8], each.plates.w[8] = spin, spin[0]
+        plain(load_gravity)(each.chain, each.plates, each.touches)
+        plain(load_joints)(each.chain, each.plates, each.joints)
+        turned.append([plain(acceleration)(each.plates, each.joints, i) for i in range(8)])
+        plain(lose_joints)(each.chain, each.plates, each.joints, 1e-6)
+    extra, against = np.diff(turned, axis=0)[0], spin - np.roll(spin, -1)
+    np.testing.assert_allclose(6.4e-8 * extra[:, 2], 2e-4 * (np.roll(against, 1) - against), rtol=1e-6, atol=1e-9)
+    np.testing.assert_array_equal(extra[:, :2], 0.0)
+    np.testing.assert_allclose((drive.joints.power - quiet.joints.power)[:8], 2e-4 * against**2, rtol=1e-12)
+    np.testing.assert_allclose(drive.joints.lost[:8], 1e-6 * 2e-4 * against**2, rtol=1e-12)
+
+
+def test_a_sprocket_is_calm_at_its_own_rate():
+    """Damping resists what differs from `calm`: there the torque given is all that acts, elsewhere c (calm - w) besides."""
+    chain = Chain(JOINT, 8, 2.5e-3, 6.4e-8, 3e6)
+    free = Sprocket(INVOLUTE, Contact(K), (5.0, 0.0), inertia=0.4, torque=0.3, damping=0.02, calm=-50.0)
+    bodies = lower(Model(chain, (Sprocket(INVOLUTE, Contact(K), drive=Drive(1.0, 1.0)), free))).bodies
+    for rate, moment in ((-50.0, 0.3), (-80.0, 0.3 + 0.02 * 30), (10.0, 0.3 - 0.02 * 60)):
+        bodies.w[1] = rate
+        assert plain(turn_acceleration)(bodies, 1) == pytest.approx(moment / 0.4, rel=1e-12)
 
 
 def test_friction_on_a_guide_opposes_sliding_and_saturates():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from drivewright.chains.dynamics.assembly import start
-from drivewright.chains.dynamics.model import Chain, Contact, Drive, Model, Slide, Sprocket
+from drivewright.chains.dynamics.model import Chain, Contact, Drive, Model, Slide, Sprocket, with_sprocket
 from drivewright.chains.dynamics.simulate import Settings, simulate
 from drivewright.chains.dynamics.stability import fastest, largest_step
 from drivewright.chains.link import link, seat_support
@@ -100,3 +100,11 @@ def test_fastest_mode_of_the_joints_bounds_the_exact_one():
     assert exact <= fastest(model)[0] - contact
     assert fastest(model)[0] - contact < 2.0 * exact
     assert largest_step(drive(beta=0.0)) == pytest.approx(2 / np.sqrt(fastest(drive(beta=0.0))[0]), rel=1e-12)
+
+
+def test_a_light_sprocket_is_in_the_fastest_mode():
+    """Two contacts k of one plate drive the sprocket too: 2 k (rb^2/I + 1/m) beside what they do to the plate."""
+    model = drive()
+    base, (light, lighter) = model.sprockets[1].tooth.base_radius, ((with_sprocket(model, 1, **change)) for change in (
+        {"inertia": 1e-9, "mass": 1e-3}, {"inertia": 0.5e-9, "mass": 0.5e-3}))
+    assert fastest(lighter)[0] - fastest(light)[0] == pytest.approx(2 * 1e7 * (base**2 / 1e-9 + 1 / 1e-3), rel=1e-9)

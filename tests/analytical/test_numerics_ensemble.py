@@ -5,9 +5,10 @@ from functools import cache, partial
 import numpy as np
 import pytest
 from scipy.signal import lfilter
+from scipy.special import stdtrit
 
 from drivewright.errors import InputError
-from drivewright.numerics.ensemble import ENOUGH, FALSE_ALARM, draw, estimate, estimate_statistic, of_members
+from drivewright.numerics.ensemble import ENOUGH, FALSE_ALARM, _autocorrelation_time, draw, estimate, estimate_statistic, of_members
 from drivewright.result import Value
 
 TRIALS = 2000
@@ -111,6 +112,18 @@ def test_alternating_windows_are_not_counted_twice():
     assert found.low <= 2 <= found.high
 
 
+def test_the_standard_error_of_one_run_is_that_of_its_interval():
+    for samples in autoregressive(20, 1, 64, 0.5):
+        found = estimate(samples)
+        if found.settled:  # that of a drift is widened
+            assert (found.high - found.low) / 2 == pytest.approx(stdtrit(found.effective - 1, 0.975) * found.error, rel=1e-12)
+
+
+def test_sums_of_pairs_of_lags_never_rise_again():
+    """1, 0.1 and then at most 0.1 until the sum is negative: tau = 2 (1 + 0.1 + 0.1) - 1."""
+    assert _autocorrelation_time(np.array([1.0, 0.0, 0.1, 0.0, 0.4, 0.2, -1.0, 0.0])) == pytest.approx(1.4, rel=1e-12)
+
+
 # -- periodic ------------------------------------------------------------------------------------------------------------------
 
 
@@ -179,11 +192,38 @@ def test_growth_of_the_spread_is_found_where_the_mean_stays():
     assert share(not estimate_statistic(x, np.max).settled for x in autoregressive(TRIALS, 8, 32, 0.0)) <= 3 * FALSE_ALARM
 
 
+def test_a_step_of_the_mean_unsettles_a_statistic_that_does_not_feel_it():
+    """The range of each half stays, and the mean moves by a standard deviation."""
+    rows = autoregressive(200, 8, 32, 0.0)
+    moved = rows + np.repeat([0.0, 1.0], 16)
+    assert share(estimate_statistic(x, np.ptp).settled for x in rows) >= 0.95
+    assert share(not estimate_statistic(x, np.ptp).settled for x in moved) >= 0.99
+
+
+@pytest.mark.parametrize("shape", [(2, 2), (2, 1), (5, 1)])
+def test_statistics_of_few_windows_are_never_settled(shape):
+    rng = np.random.default_rng(3)
+    assert not any(estimate_statistic(rng.normal(size=shape), np.max).settled for _ in range(200))
+
+
+def test_both_tests_of_a_statistic_share_the_false_alarm():
+    """Half of it each: no more than 1 % of 4000 settled ensembles, and four standard deviations of that count."""
+    alarms = share(not estimate_statistic(x, np.max).settled for x in autoregressive(4000, 8, 16, 0.0, seed=11))
+    assert alarms <= FALSE_ALARM + 4 * np.sqrt(FALSE_ALARM / 4000)
+
+
 def test_a_statistic_of_one_member_has_no_interval_and_of_a_constant_no_width():
     alone = estimate_statistic([1.0, 2.0, 3.0, 2.0], np.max)
     assert (alone.value, alone.interval, alone.settled) == (3.0, "", False)
     assert np.isnan(alone.low) and np.isnan(alone.high)
     assert estimate_statistic(np.full((3, 4), 2.0), np.max).interval == "periodic"
+
+
+def test_numbers_of_members_have_students_interval():
+    """Means 2 and 5; t(2) = 4.3027 times the standard deviations 1 and 2 of three, over sqrt(3)."""
+    mean, reach = of_members(np.array([[1.0, 3.0], [2.0, 5.0], [3.0, 7.0]]))
+    np.testing.assert_allclose(mean, [2.0, 5.0])
+    np.testing.assert_allclose(reach, 4.3027 * np.array([1.0, 2.0]) / np.sqrt(3), rtol=1e-4)
 
 
 # -- as a value of a result ----------------------------------------------------------------------------------------------------

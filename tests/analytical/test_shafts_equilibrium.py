@@ -72,6 +72,22 @@ def test_a_mirrored_support_is_the_same_in_its_own_axes():
     assert two.shares == pytest.approx(one.shares, rel=1e-8, abs=1e-18)
 
 
+def test_springs_of_a_mirrored_support_beside_its_law():
+    """z and the tilts turn their signs on the way in and on the way out: what the shaft feels and exerts is the same."""
+    k, springs = full_tangent(), (2e7, 3e7, 1e7, 4e3, 5e3)
+    load, found = shafts.Load(0.22, (200.0, -500.0, 80.0), (3.0, -2.0, 0.0)), []
+    for turn in (np.ones(5), T):
+        held = shafts.Support("B", 0.1, springs, law=shafts.Tangent(turn[:, None] * k * turn), mirrored=turn[2] < 0)
+        found.append(loaded(shaft([support("A", 0.3, 4e7), held], [shafts.Station("q", 0.22)]), load).equilibrium)
+    plain, turned = found
+    assert turned.reactions == pytest.approx(plain.reactions, rel=1e-8) and np.abs(plain.reactions[1]).min() > 1
+    assert turned.relative == pytest.approx(plain.relative, rel=1e-8, abs=1e-14)
+    assert -plain.reactions[1] == pytest.approx((k + np.diag(springs)) @ plain.relative[1], rel=1e-8)
+    one, two = (shafts.flexibility(each, [0.22], (0.6, -0.8)) for each in found)
+    assert two.delta == pytest.approx(one.delta, rel=1e-9, abs=0) and two.pressed == pytest.approx(one.pressed, rel=1e-8, abs=1e-12)
+    assert np.abs(one.pressed[1, 3:]).min() > 1e-3
+
+
 def test_a_coupled_support_on_a_seat_balances_and_its_shares_add_up():
     """Forces of support and seat are those of their matrices; the part of the seat is in the share of its support."""
     load = shafts.Load(0.22, (200.0, -500.0, 80.0), (3.0, -2.0, 0.0))

@@ -18,11 +18,11 @@ from drivewright.chains.tooth import Tooth
 PITCH, ANGLE, N = 9.525e-3, np.pi / 6, 14
 
 
-def ring(radius=1.2e-3, beta=0.0, offset=0.0, seed=3):
+def ring(radius=1.2e-3, beta=0.0, offset=0.0, seed=3, articulation=0.0):
     """A free ring of plates, shaken and turning, far from two sprockets."""
     joint = link(PITCH, radius, ANGLE, 2e-4)
     tooth = Tooth(9, 0.0118, -5e-3)
-    chain = Chain(joint, N, 2.5e-3, 6.4e-8, 1e6, beta, centre_offset=offset)
+    chain = Chain(joint, N, 2.5e-3, 6.4e-8, 1e6, beta, centre_offset=offset, articulation_damping=articulation)
     far = [Sprocket(tooth, Contact(1e6), (9.0 + k, 9.0), inertia=1.0, drive=Drive(1.0, 1.0) if k == 0 else None) for k in (0, 1)]
     drive, random = lower(Model(chain, tuple(far))), np.random.default_rng(seed)
     p, turn = drive.plates, 2 * np.pi / N
@@ -49,8 +49,9 @@ def rows_of(drive, samples, every, dt):
 
 @pytest.mark.parametrize("offset", [0.0, 1.3e-3])
 @pytest.mark.parametrize("beta", [0.0, 3e-6])
-def test_a_free_ring_keeps_both_momenta(beta, offset):
-    seen = rows_of(ring(beta=beta, offset=offset), 40, 25, 1e-6)
+@pytest.mark.parametrize("articulation", [0.0, 1e-5])
+def test_a_free_ring_keeps_both_momenta(beta, offset, articulation):
+    seen = rows_of(ring(beta=beta, offset=offset, articulation=articulation), 40, 25, 1e-6)
     for name in ("momentum x", "momentum y", "angular momentum"):
         assert np.ptp(seen[name]) < 1e-12 * np.max(np.abs(seen[name])), name
     assert np.ptp(seen["potential"]) > 1e-5  # the ring does move
@@ -80,8 +81,9 @@ def test_energy_is_kept_to_second_order_in_the_step():
     np.testing.assert_allclose(order, 2.0, atol=0.15)
 
 
-def test_damping_takes_what_energy_the_ring_loses():
-    seen = rows_of(ring(beta=3e-6), 60, 25, 1e-6)
+@pytest.mark.parametrize("damping", [{"beta": 3e-6}, {"articulation": 1e-5}, {"beta": 3e-6, "articulation": 1e-5}])
+def test_damping_takes_what_energy_the_ring_loses(damping):
+    seen = rows_of(ring(**damping), 60, 25, 1e-6)
     energy = seen["kinetic"] + seen["potential"]
     lost = energy - energy[0]
     assert lost[-1] < -1e-3 * energy[0]

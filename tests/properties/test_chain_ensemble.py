@@ -20,9 +20,10 @@ from drivewright.chains.dynamics.ensemble import (
     mean_of,
     range_of,
 )
-from drivewright.chains.dynamics.motion import Motion
+from drivewright.chains.dynamics.motion import LOSSES, Motion
 from drivewright.chains.dynamics.run_in import SHORTEST, run_in_time
 from drivewright.chains.dynamics.simulate import Settings, first_start, tooth_time
+from drivewright.chains.dynamics.state import SUMS
 from drivewright.chains.dynamics.sweep import quantiles, revolution_time
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import build
@@ -193,6 +194,80 @@ def test_a_drift_of_the_mean_is_told_and_a_pattern_that_goes_round_is_none(syste
     assert seen(0.0).estimate(mean, spread).settled
     drifting = seen(4e-6).estimate(mean, spread)
     assert not drifting.settled and drifting.interval == "ensemble"
+
+
+def by_revolution(system, levels, ripple=0.0):
+    """Members whose centre distance keeps a level in every revolution: levels (members, revolutions), and a ripple of tooth after tooth."""
+    def signal(x, member):
+        row = np.asarray(levels[member])
+        return 0.2 + row[np.minimum(x.astype(int), len(row) - 1)] + ripple * np.sin(82 * 2 * np.pi * x)
+
+    return Ensemble(tuple(synthetic(system, signal, float(len(levels[0])), k) for k in range(len(levels))))
+
+
+def with_settings(run, settings):
+    """A synthetic run with other settings."""
+    made = replace(run, settings=settings)
+    made.__dict__["centre_distance"] = run.centre_distance
+    return made
+
+
+MEAN, RIPPLE = mean_of(centre_distance), range_of(centre_distance)
+
+
+def test_memory_as_long_as_a_revolution_cannot_settle_by_a_small_drift_alone(system):
+    """The level of each half is its own all along: small beside the ripple, but no two samples of it are independent."""
+    alone = by_revolution(system, [[1e-7, -1e-7]], 2e-5)
+    assert alone._drift(MEAN) < 0.01 * np.max(alone.windows(RIPPLE)) and not alone.estimate(MEAN, RIPPLE).settled
+    many = by_revolution(system, [[way, -way] * 8 for way in (1e-7, -1e-7)], 2e-5)  # sixteen revolutions that alternate
+    assert many.estimate(MEAN, RIPPLE).settled
+
+
+def test_a_large_drift_is_chance_only_where_there_are_samples_enough(system):
+    """Levels that last a revolution leave two samples of each of four members: too few to call a drift of a third chance."""
+    levels = 1e-6 * np.array([[1.3, -1.0], [-0.7, 1.0], [1.3, 1.0], [-0.7, -1.0]])
+    runs = by_revolution(system, levels)
+    assert runs._drift(MEAN) == pytest.approx(0.3e-6, rel=0.01)
+    assert not runs.is_settled(MEAN, 1e-6)
+    assert runs.is_settled(MEAN, 1e-5)  # the same drift where it does not matter
+
+
+def test_runs_that_are_not_chaotic_settle_by_their_drift(system):
+    for drift, settled in ((1e-6, True), (4e-6, False)):
+        run = synthetic(system, lambda x, _, drift=drift: 0.2 + drift * (x - 1) + 1e-5 * np.sin(164 * np.pi * x))
+        assert Ensemble((run,), chaotic=False).is_settled(MEAN, 2e-5) == settled
+
+
+def test_one_revolution_and_a_half_cannot_tell(system):
+    assert not Ensemble((synthetic(system, lambda x, _: 0.2 + 1e-6 * np.sin(164 * np.pi * x), 1.5),), chaotic=False).is_settled(MEAN, 1.0)
+
+
+@pytest.mark.parametrize("apart, before, members", [(0.9e-2, 0.5, 1), (1.1e-2, 0.0, 4)])
+def test_runs_that_stay_together_are_one(system, apart, before, members):
+    """Nowhere further apart than a hundredth of the range of the steady part; what was before it does not count."""
+    settings = Settings(settle=0.5 * revolution_time(system))
+
+    undisturbed = first_start(system, settings).poses
+
+    def solved(model, duration, settings, begin):
+        off = lambda x: np.where(x < 0.4, before, np.where(np.abs(x - 1.2) < 0.01, apart, 0.0))  # noqa: E731
+        signal = lambda x, other: 0.2 + 1e-5 * (0.5 * np.sin(164 * np.pi * x) + other * off(x))  # noqa: E731
+        made = synthetic(system, signal, 2.6, float(np.any(begin.poses != undisturbed)))
+        return with_settings(made, settings)
+
+    found = ensemble(system, 1.0, settings, 4, solve=solved, workers=1)
+    assert (len(found.members), found.chaotic) == (members, members > 1)
+
+
+def test_the_drift_of_an_ensemble_is_that_of_its_worst_member():
+    runs = Ensemble(tuple(SimpleNamespace(energy_drift=drift) for drift in (1e-5, 3e-4, 2e-5)))
+    assert runs.energy_drift == 3e-4
+
+
+def test_every_work_is_in_the_balance_of_energy():
+    """The sums of a run are works, but for the impulses; the dampings of joints and contacts are counted by themselves."""
+    works = {name for name in SUMS if "impulse" not in name} | {"joint damping", "contact damping"}
+    assert set(LOSSES) == works and len(LOSSES) == len(works)
 
 
 def test_what_repeats_is_periodic_and_its_interval_is_rounding(system):

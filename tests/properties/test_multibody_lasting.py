@@ -6,13 +6,16 @@ import numpy as np
 import pytest
 
 from drivewright._jit import plain
-from drivewright.contact.impact import delivered_restitution, impact_law, impact_law_names, lasting_factor
+from drivewright.contact.impact import cylinder_force, delivered_restitution, impact_law, impact_law_names, lasting_factor
+from drivewright.mechanisms.linkage.wear import with_wear
 from drivewright.multibody import loads
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.linearise import linearise, modes
 from drivewright.multibody.model import GROUND, Body, Drive, Dry, Friction, Marker, Model, Prismatic, Revolute, line
 from drivewright.multibody.observe import observe
 from drivewright.multibody.simulate import Settings, simulate
+from drivewright.multibody.statics import Place, carried, reduced
+from drivewright.multibody.system import motion
 
 G = 9.81
 CRANK, ROD, SPEED = 0.05, 0.12, 5000 * 2 * np.pi / 60
@@ -175,6 +178,74 @@ def test_the_mass_of_a_lasting_contact_is_that_which_its_force_moves():
     found = modes(linearise(assemble(model)))
     stiff = np.argmax(found.frequencies)
     assert found.ratios[stiff] == pytest.approx(lasting_factor(0.5) / 2 * np.sqrt(5 / 6), rel=1e-4)
+
+
+# ------------------------------------------------------------------------------------------- rate and mass of a gap, two routes
+
+
+def bumps(bins=24):
+    angle = 2 * np.pi * np.arange(bins) / bins
+    return 1e-5 * (2 + np.sin(3 * angle) + 0.5 * np.cos(angle))
+
+
+def two_free():
+    """Bearing and journal off the centroids of two free bodies that turn."""
+    return Model(
+        (Body("ring", 0.8, 2e-3, (0.02, 0.01), angle=0.3, velocity=(0.5, 0.1), angular_velocity=30.0),
+         Body("shaft", 0.5, 8e-4, (-0.01, 0.015), angle=-1.0, velocity=(-0.4, 0.9), angular_velocity=-80.0)),
+        (Revolute("pin", Marker("ring"), Marker("shaft"), Dry(1e-4, 0.01, 1e9, 1.5, 0.3)),))
+
+
+def chain():
+    """A lever and a rod on it, whose end is a journal in the ground's bearing: a mass matrix that is not diagonal."""
+    bodies = (Body("lever", 1.2, 3e-3, (0.04, 0.01), angular_velocity=7.0), Body("rod", 0.7, 2e-3, (0.05, -0.02), angular_velocity=-4.0))
+    return Model(bodies,
+                 (Revolute("O", Marker(GROUND), Marker("lever")), Revolute("A", Marker("lever", 0.1), Marker("rod")),
+                  Revolute("pin", Marker(GROUND, 0.2, 0.01), Marker("rod", 0.1, 0.02), Dry(1e-4, 0.01, 1e9, 1.5, 0.3))))
+
+
+@pytest.mark.parametrize("model, aside", [(two_free(), 4e-4), (chain(), 4e-3)], ids=["two free", "chain"])
+@pytest.mark.parametrize("worn", [False, True])
+def test_rate_and_mass_of_a_gap_are_those_of_its_depth(model, aside, worn):
+    """b = d(depth)/d(coordinates) by differences of the depth: d' = b . rates and 1/m = b M^-1 b."""
+    assembly = with_wear(assemble(model), 0, bumps()) if worn else assemble(model)
+    y = assembly.state.copy()
+    y[: len(assembly.system.stored)] += aside * np.array([1.0, -0.6, 0.3, -0.2, 0.7, 0.5])[: len(assembly.system.stored)]
+    here = Place(assembly.system, motion(assembly.system).work, 0.0, y)
+
+    def depth(shift):
+        place = carried(here, 0.0, shift)
+        reduced(place)
+        return plain(loads.gap_of)(place.system, place.work, 0)
+
+    free = len(assembly.system.independent)
+    slope = np.array([(8 * (depth(h) - depth(-h)) - depth(2 * h) + depth(-2 * h)) / 1.2e-5 for h in 1e-6 * np.eye(free)])
+    now = reduced(here)
+    found, rate, mobility, *_ = plain(loads.approach)(here.system, 0, here.work, LASTING)
+    assert found > 1e-5 and np.min(np.abs(slope)) > 1e-4
+    assert rate == pytest.approx(slope @ y[len(assembly.system.stored) :][:free], rel=2e-5)
+    assert mobility == pytest.approx(slope @ np.linalg.solve(now.mass, slope), rel=2e-5)
+
+
+@pytest.mark.parametrize("depth", [2e-5, 1.7e-4])
+def test_a_lasting_contact_of_a_cylinder_is_damped_by_the_work_to_its_depth(depth):
+    """F = F_el (1 + h_w d'/w), m w^2/2 the work of F_el; also where the depth goes on straight beyond Hertz' theory."""
+    dry, mass = Dry(5e-4, 0.01, 1e11, 1.5, 0.5, cylinder=True, length=0.02), 0.7
+    contact = ball(dry).system.contacts[0]
+    path = np.linspace(0, depth**0.25, 4001) ** 4
+    forces = np.array([plain(cylinder_force)(d, 5e-4, 0.01, 0.0095, 1e11, 0.02) for d in path])
+    speed = np.sqrt(2 / mass * np.sum(0.5 * (forces[1:] + forces[:-1]) * np.diff(path)))
+    for rate in (0.3 * speed, -0.4 * speed):
+        exact = forces[-1] * (1 + lasting_factor(0.5) * rate / speed)
+        assert plain(loads.normal_of)(contact, depth, rate, LASTING, 1 / mass) == pytest.approx(exact, rel=2e-6)
+
+
+def test_an_impact_takes_as_much_when_it_parts_faster_than_it_touched():
+    """What the rate adds is odd in the rate, beyond the approach speed too."""
+    contact, normal, elastic = ball(Dry(5e-4, 0.01, 1e8, 1.5, 0.2)).system.contacts[0], plain(loads.normal_of), 1e8 * 1e-5**1.5
+    for rate in (0.5, 1.5, 10.0):
+        one, other = (normal(contact, 1e-5, way * rate, 1.0, 0.0) / elastic - 1 for way in (1, -1))
+        assert one == pytest.approx(-other, rel=1e-12) and 0.09 < one < 0.4
 
 
 @pytest.mark.parametrize("friction", [Friction("coulomb", 0.1, 0.01), Friction("lugre", 0.1, 0.01, static_coefficient=0.15,

@@ -119,6 +119,65 @@ def test_an_idle_bearing_is_told_and_has_no_life():
     assert "bearings.C.static_safety" not in result.values
 
 
+# -- beyond all measure --------------------------------------------------------------------------------------------------------
+
+
+def threads(diameter, **more):
+    """The shaft on ball bearings, one seat far off the axis."""
+    bearings = [{"name": "A", "position": "56.5 mm", "bearing": "61804", "seat_offset": ["1.067 mm", "-3 mm"]},
+                {"name": "B", "position": "136.5 mm", "bearing": "61804", "free": ["axial"]}]
+    return shaft(segments=[{"length": "340 mm", "diameter": diameter, **more}], bearings=bearings)
+
+
+@pytest.mark.parametrize("spec, told", [
+    (threads("0.000468465 mm"), "gave up: shaft: shaft and bearings are singular to rounding"),
+    (threads("1e-90 mm"), "no answer for this design: shaft: from 0 to 56.5 mm, with a diameter of 1e-90 mm, its bending is beyond all"),
+    (threads("1e90 mm"), "with a diameter of 1e\\+90 mm, its bending is beyond all numbers; check the units"),
+    (shaft(material={"youngs_modulus": "1e-300 Pa"}), "its bending is beyond all numbers; .* Young's modulus"),
+])
+def test_a_shaft_beyond_measure_is_told_in_our_words(spec, told):
+    result = dw.run(spec)
+    assert result.outcome == "partial" and any(re.search(told, finding) for finding in result.findings)
+
+
+def test_a_thread_on_springs_sags_as_it_should():
+    """Springs enter by their compliance: half a micrometre thick, F a^2 (a + l)/(3 E I) at the overhanging load."""
+    spec = shaft(segments=[{"length": "340 mm", "diameter": "0.000468465 mm"}], analysis={"theory": "euler-bernoulli"},
+                 loads=[{"position": "340 mm", "force": "1 N"}], stations=[{"name": "end", "position": "340 mm"}])
+    arm, span, stiff = 0.34 - 0.1365, 0.08, 206e9 * np.pi / 64 * 4.68465e-7**4
+    assert dw.run(spec, only=("statics",))["stations.end.deflection"] == pytest.approx(arm**2 * (arm + span) / (3 * stiff), rel=1e-9)
+
+
+def test_a_wall_as_thin_as_rounding_is_told():
+    """Beside ball bearings nothing is left of its bending: whatever gives up first says so."""
+    bearings = pair("bearing", "61804", free=["axial", "tilt"])
+    for load in ({"station": "m2", "force": "500 N"}, {"position": "340 mm", "axial_force": "-500 N"}):
+        for seat in ({}, {"seat_offset": ["1.067 mm", "-3 mm"]}):
+            result = dw.run(shaft(segments=[{"length": "340 mm", "diameter": "20 mm", "bore": "19.9999999999999 mm"}],
+                                  bearings=[{"name": "A", "position": "56.5 mm", "bearing": "61804", **seat}, bearings[1]], loads=[load]))
+            assert result.outcome == "partial" or not result.check("equilibrium").ok
+            assert not [name for name in result.values if not np.isfinite(result[name])]
+
+
+def test_a_wall_that_stretches_by_kilometres_is_not_pushed_out_of_its_bearings():
+    """F l/EA of the piece right of the bearing that holds; the check of small deflections fails."""
+    spec = shaft(segments=[{"length": "340 mm", "diameter": "20 mm", "bore": "19.999999999 mm"}], stations=[],
+                 bearings=[SPRINGS[0] | {"axial_stiffness": "1e7 N/m"}, SPRINGS[1]], loads=[{"position": "340 mm", "axial_force": "500 N"}])
+    result = dw.run(spec, only=("statics",))
+    exact = 500 * (0.34 - 0.0565) / (206e9 * np.pi / 4 * (0.02 - 0.019999999999) * 0.039999999999)
+    assert result.check("small_deflections").value == pytest.approx(exact / 0.34, rel=1e-3) and not result.check("small_deflections").ok
+
+
+def test_the_width_of_a_bearing_goes_to_nothing_without_a_jump():
+    """By shear the deflection changes in proportion to the width; down to less than the nodes of a shaft can tell apart."""
+    keys, widths = ("bearings.B.reaction", "flexibility.m2.m2"), (1e-12, 1e-7, 5e-7, 1e-6, 1e-5, 1e-3, 0.1)
+    point, *wide = ([dw.run(shaft(bearings=[SPRINGS[0], SPRINGS[1] | {"width": f"{width} mm"}]), only=("statics", "flexibility"))[key]
+                     for key in keys] for width in (0.0, *widths))
+    assert wide[-1][1] != point[1]
+    for found, width in zip(wide, widths, strict=True):
+        assert found == pytest.approx(point, rel=1e-9 + 1e-4 * width, abs=0)
+
+
 # -- stations on bearings ------------------------------------------------------------------------------------------------------
 
 
@@ -232,6 +291,15 @@ def test_what_fails_first_knows_the_rating_of_the_inner_geometry():
 def test_verify_of_cases_that_the_solid_cannot_hold_as_they_are(change):
     rows = dw.verify(shaft(**change))
     assert rows and all(row.ok for row in rows)
+
+
+def test_the_solid_stands_on_a_band_where_a_seat_is_a_point():
+    from drivewright.mechanisms.shaft.solid import bands
+
+    for width, band in (("0 mm", 2e-3), ("1e-9 mm", 2e-3), ("5 mm", 5e-3)):
+        model = dw.build(shaft(bearings=[SPRINGS[0] | {"width": width}, SPRINGS[1]]))
+        seats = tuple(bands(model, shafts.load(model.shaft, model.loads).equilibrium))
+        assert [seat.width for seat in seats] == pytest.approx([band, 2e-3], rel=1e-12)
 
 
 @pytest.mark.needs_fe

@@ -89,6 +89,14 @@ def test_the_compiled_batch_meets_the_single_shaft_at_every_stiffness():
         assert found.reactions == pytest.approx(carried[number], abs=1e-10)
 
 
+def test_the_displacement_in_a_stiff_spring_is_its_force_over_its_stiffness():
+    for power in (8, 20, 200):
+        found = dw.run(shaft(springs(f"1e{power} N/m")), only=("statics",))
+        for name in PLACES:
+            exact = found[f"bearings.{name}.reaction"] / 10.0**power
+            assert found[f"bearings.{name}.displacement"] == pytest.approx(exact, rel=1e-9, abs=0)
+
+
 def test_the_shares_of_stiff_springs_are_their_compliance():
     """r_A r_A'/k_A, to the last power of ten."""
     for power in (8, 20, 200):
@@ -97,6 +105,32 @@ def test_the_shares_of_stiff_springs_are_their_compliance():
         for row, name in enumerate(PLACES):
             part = shares.values[shares.labels[0].index(name)]
             assert part == pytest.approx(np.outer(pressed[row], pressed[row]) / 10.0**power, rel=1e-9)
+
+
+@pytest.mark.parametrize("freedom", ["axial_stiffness", "tilt_stiffness"])
+def test_a_stiff_freedom_hides_no_difference_between_the_planes(freedom):
+    """A shaft in its play is stiff downwards and soft sideways, whatever holds it along its axis or against tilting."""
+    unit = {"axial_stiffness": "N/m", "tilt_stiffness": "N m/rad"}[freedom]
+    keys = ("modes.1.frequency", "modes.2.frequency", "critical_speeds.forward.1", "critical_speeds.backward.1")
+    found = []
+    for value in ("1e13", "1e17", "1e100"):
+        play = {"radial_stiffness": "3e7 N/m", "radial_clearance": "10 um", freedom: f"{value} {unit}"}
+        result = dw.run(shaft(play, loads=[{"station": "m2", "force": "500 N"}]), only=("statics", "modes"))
+        found.append([result[key] for key in keys])
+    assert found[0][1] > 1.01 * found[0][0]
+    for other in found[1:]:
+        assert other == pytest.approx(found[0], rel=1e-6)
+
+
+def test_a_bearing_that_tilts_more_easily_one_way_is_not_round():
+    """Clamped by 1e20 N/m and tilt springs of 3 and 6 kN m/rad: two lowest modes, each that of its own plane."""
+    def lowest(*tilts):
+        support = shafts.Support("A", 0.0, (1e20, 1e20, 1e20, *tilts))
+        one = cantilever(1.0)._replace(supports=(support,))
+        return shafts.modes(shafts.load(one, shafts.Loads()).equilibrium, 2)[0].frequencies
+
+    soft, stiff, both = lowest(3e3, 3e3)[0], lowest(6e3, 6e3)[0], lowest(6e3, 3e3)
+    assert both == pytest.approx([soft, stiff], rel=1e-9) and stiff > 1.1 * soft
 
 
 # -- rigid as a level ----------------------------------------------------------------------------------------------------------
@@ -207,6 +241,17 @@ def test_a_massless_shaft_swings_with_its_stations():
     twist = 206e9 / 2.6 * np.pi / 32 * 0.02**4 / 0.2
     assert result["torsional_modes.1.frequency"] == pytest.approx(np.sqrt(twist * (1 / 0.01 + 1 / 0.03)) / 2 / np.pi, rel=1e-9)
     assert "modes.3.frequency" not in result.values and "torsional_modes.2.frequency" not in result.values
+
+
+@pytest.mark.parametrize("power", [3, 5, 6, 7, 8, 10, 16, 60])
+def test_a_massless_shaft_on_three_springs_swings_by_its_flexibility(power):
+    """Held more than enough, each spring works against the others and the shaft: w^2 of K = inv(flexibility) and the masses."""
+    bearings = [{"name": name, "position": place, "radial_stiffness": f"{factor}e{power} N/m"}
+                for name, place, factor in (("A", "30 mm", 1), ("B", "136.5 mm", 3), ("C", "300 mm", 0.7))]
+    result = dw.run(shaft({}, bearings=bearings, material={"density": "0 kg/m^3"}, loads=[{"station": "m2", "force": "500 N"}]),
+                    only=("statics", "flexibility", "modes"))
+    for n in (1, 2):
+        assert result[f"modes.{n}.frequency"] == pytest.approx(result[f"massless_modes.{n}.frequency"], rel=1e-9)
 
 
 def test_light_shafts_approach_the_massless_one():

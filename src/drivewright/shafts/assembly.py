@@ -117,10 +117,12 @@ def _mount(found, support, basis, start, first):
     """x, y averaged over the support's width, z and the tilts at its middle; less the ring's where the seat yields."""
     rows, node, freedoms = np.zeros((5, len(basis))), found.node(support.position), _yielding(support)
     rows[range(5), FREEDOMS * node + np.arange(5)] = 1.0  # of six: nothing here feels the turning
-    if support.width:
+    if support.width > beams.POINT * found.shaft.length:
         ends = support.position - support.width / 2, support.position + support.width / 2
+        even = beams.uniform(found, *ends)
+        even /= even[:, 0] @ found.pieces[:, 0]
         for plane in (0, 1):
-            rows[plane, : found.size] = beams.nodal(found, plane, beams.uniform(found, *ends, 1 / support.width))
+            rows[plane, : found.size] = beams.nodal(found, plane, even)
     rows *= (MIRROR if support.mirrored else np.ones(5))[:, None]
     ring = start + np.arange(len(freedoms))
     rows[list(freedoms), ring] -= 1.0

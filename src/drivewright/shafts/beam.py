@@ -17,7 +17,9 @@ from drivewright.shafts.sections import NODES, WEIGHTS, area, second_moment, sof
 
 FREEDOMS = 6  # a node: x, y, z, rotations about x, y, z
 PLANES = ((0, 4, 1.0), (1, 3, -1.0))  # (deflection, rotation, its sign as a slope)
+ALL_NUMBERS = 1e250  # beyond it, and below its inverse, there is no room left to compute with
 BAND = 4  # elements over the width of a support
+POINT = 1e-6  # of the shaft's length: what is narrower is a point, for nodes so near are one
 
 
 class Beam(NamedTuple):
@@ -39,15 +41,23 @@ class Beam(NamedTuple):
 
 
 def beam(shaft, places=()):
-    """The `Beam` of a shaft with nodes at every step, support, station and at the further `places`."""
+    """The `Beam` of a shaft with nodes at every step, support, station and at the further `places`; InputError beyond all numbers."""
     z = _nodes(shaft, places)
     pieces = _pieces(shaft, z[:-1], z[1:])
-    flexibility, slip = clamped(pieces, shaft)
+    with np.errstate(all="ignore"):
+        flexibility, slip = clamped(pieces, shaft)
+        wrong = ~np.all((flexibility < ALL_NUMBERS) & (flexibility > 1 / ALL_NUMBERS), axis=(1, 2))
+    if wrong.any():
+        first = int(np.argmax(wrong))
+        left, right, diameter = 1e3 * z[first], 1e3 * z[first + 1], 1e3 * pieces[first, 1]
+        raise InputError(f"shaft: from {left:.6g} to {right:.6g} mm, with a diameter of {diameter:.6g} mm, its bending is beyond all "
+                         "numbers; check the units of diameters, bores and Young's modulus")
     return Beam(shaft, z, pieces, flexibility, slip)
 
 
 def _nodes(shaft, places):
-    bands = [np.linspace(s.position - s.width / 2, s.position + s.width / 2, BAND + 1) for s in shaft.supports if s.width]
+    bands = [np.linspace(s.position - s.width / 2, s.position + s.width / 2, BAND + 1) for s in shaft.supports
+             if s.width > POINT * shaft.length]
     wanted = np.concatenate([shaft.ends, [s.position for s in (*shaft.supports, *shaft.stations)], *bands, np.asarray(places, float)])
     near = 1e-9 * shaft.length
     if wanted.min() < -near or wanted.max() > shaft.length + near:

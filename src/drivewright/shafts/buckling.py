@@ -3,6 +3,7 @@
 import numpy as np
 from scipy.linalg import eigh
 
+from drivewright.errors import SolverError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.assembly import floor
 from drivewright.shafts.influence import FLOOR
@@ -23,7 +24,11 @@ def buckling_factor(loaded):
     held, stiff = condensed(equilibrium.hessian + FLOOR * floor(model), model.constraints, model.compliance)
     basis = model.basis @ held
     geometric = basis[: found.size].T @ _geometric(found, tension) @ basis[: found.size]
-    factors = eigh(-geometric, stiff, eigvals_only=True)
+    try:
+        factors = eigh(-geometric, stiff, eigvals_only=True)
+    except np.linalg.LinAlgError:
+        raise SolverError("shaft: beside its bearings the shaft is so soft that its buckling is lost in rounding; check the units of "
+                          "diameters, bores and Young's modulus") from None
     return float(1 / factors[-1]) if factors[-1] > 0 else None
 
 

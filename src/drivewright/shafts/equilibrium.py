@@ -55,7 +55,8 @@ def solve(model, force):
         share = _length(model, (v, held), (change, more), load)
         v, held = v + share * change, held + share * more
         if not np.all(np.isfinite(v)):
-            raise InputError("shaft: its bearings are so soft that the displacements are beyond all numbers; check the unit of a stiffness")
+            raise InputError("shaft: it, or its bearings, are so soft that the displacements are beyond all numbers; check the units of "
+                             "stiffnesses, diameters and Young's modulus")
         if _at_rest(model, v, held, load):
             _refuse_pinned(model, load, held)
             return _equilibrium(model, v, held, step)
@@ -77,10 +78,10 @@ def _refuse_pinned(model, load, multipliers):
 
 
 def _refuse_runaway(model, v):
-    """InputError where bearings under radial load push the shaft, or a ring, out along its axis."""
+    """InputError where bearings under radial load push the whole shaft, or a ring off it, out along the axis; a shaft may stretch."""
     axial = (model.basis @ v)[AXIAL : model.beam.size : FREEDOMS]
-    rings = [v[at] for mount in model.mounts for at, freedom in zip(mount.ring, mount.ring_freedoms, strict=True) if freedom == AXIAL]
-    if max(np.abs(axial).max(), np.abs(rings).max(initial=0)) > 10 * model.beam.shaft.length:
+    rings = [mount.rows[AXIAL] @ v for mount in model.mounts if AXIAL in mount.ring_freedoms]
+    if max(np.abs(axial).min(), np.abs(rings).max(initial=0)) > 10 * model.beam.shaft.length:
         way = "right" if axial.sum() > 0 else "left"
         raise InputError(f"shaft: its bearings push it to the {way}, and none of them takes an axial force to the {way}; "
                          "turn one of two round (carries), give more preload, or give a bearing an axial_stiffness")
@@ -105,20 +106,21 @@ def _newton_step(model, v, held, load):
     gradient, hessian = _pull(model, v)
     off = gradient - load + model.constraints.T @ held
     apart = model.constraints @ v - model.compliance * held - model.given
-    try:
-        found = saddle(hessian + floor(model), model.constraints, model.compliance, -np.concatenate([off, apart]))
-    except np.linalg.LinAlgError:
-        raise SolverError("shaft: shaft and bearings are singular to rounding; a spring behind a clearance, or a table, is so much stiffer "
-                          "than the rest that its play is lost: below 1e15 N/m it does not differ from rigid") from None
+    found = saddle(hessian + floor(model), model.constraints, model.compliance, -np.concatenate([off, apart]))
     return found[: model.size], found[model.size :]
 
 
 def saddle(hessian, constraints, compliance, right):
-    """(size + c, ...): v and m of  H v + R' m = right,  R v - C m = right below."""
+    """(size + c, ...): v and m of  H v + R' m = right,  R v - C m = right below; SolverError where rounding makes that singular."""
     whole = np.block([[hessian, constraints.T], [constraints, -np.diag(compliance)]])
     scale = scales(whole, len(hessian))
     right = (right.T * scale).T
-    return (np.linalg.solve(scale[:, None] * whole * scale, right).T * scale).T
+    try:
+        return (np.linalg.solve(scale[:, None] * whole * scale, right).T * scale).T
+    except np.linalg.LinAlgError:
+        raise SolverError("shaft: shaft and bearings are singular to rounding; a rolling bearing, a table or a spring behind a clearance "
+                          "is so much stiffer than the shaft that the shaft is lost beside it: check the units of diameters and of "
+                          "Young's modulus; a spring above 1e15 N/m does not differ from rigid") from None
 
 
 def scales(matrix, size):

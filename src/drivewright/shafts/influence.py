@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.errors import InputError
+from drivewright.errors import InputError, SolverError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.assembly import floor
 from drivewright.shafts.beam import FREEDOMS
@@ -70,7 +70,7 @@ def _solved(found, trifle, unit):
         with np.errstate(all="ignore"):
             below = np.zeros((len(found.model.given), unit.shape[1]))
             return saddle(found.hessian + trifle, found.model.constraints, found.model.compliance, np.vstack([unit, below]))
-    except np.linalg.LinAlgError:
+    except SolverError:
         return np.full((found.model.size + len(found.model.given), unit.shape[1]), np.inf)
 
 

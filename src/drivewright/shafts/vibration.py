@@ -8,6 +8,7 @@ from scipy.linalg import block_diag, eigh
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.assembly import AXIAL, TWIST, floor
+from drivewright.shafts.assembly import FLOOR as TRIFLE
 from drivewright.shafts.beam import FREEDOMS, PLANES
 from drivewright.shafts.equilibrium import saddle, scales
 from drivewright.shafts.influence import FLOOR, HELD
@@ -17,6 +18,7 @@ from drivewright.shafts.sections import area, second_moment
 UNHELD = ("shaft: at rest its bearings do not resist a small motion, so it has no natural frequencies; give a load, a preload or no "
           "clearance")
 LEAST = 1e-12  # of the greatest 1/w^2: below it is rounding
+ROUND = 1e-9  # of a stiffness: what two planes may differ by
 POINTS = 8  # over an element: its shapes are cubic on a cylinder
 SHARE, WEIGHT = (0.5 * (part + shift) for part, shift in zip(np.polynomial.legendre.leggauss(POINTS), (1.0, 0.0), strict=True))
 
@@ -99,14 +101,16 @@ def _add_stations(found, whole, gyroscopic):
 
 
 def is_round(equilibrium):
-    """Whether the supports are the same in both planes, which then do not feel each other."""
+    """Whether the supports are the same in both planes, which then do not feel each other.
+
+    Each stiffness is held against its own kind: one that is stiff along the axis, or against tilting, hides no other.
+    """
     for mount, tangent in zip(equilibrium.model.mounts, equilibrium.tangent, strict=True):
-        finite = np.where(np.isfinite(tangent), tangent, 1e300)
-        size = np.abs(np.where(np.isfinite(tangent), tangent, 0.0)).max(initial=1.0)
-        cross = np.abs(np.where(np.eye(5, dtype=bool), 0.0, np.where(np.isfinite(tangent), tangent, 0.0)))
-        if mount.ring_freedoms or cross.max() > 1e-9 * size:
+        size = np.sqrt(np.maximum(np.diag(tangent), np.diag(TRIFLE)))
+        cross = np.abs(np.where(np.eye(5, dtype=bool), 0.0, tangent))
+        if mount.ring_freedoms or np.any(cross > ROUND * np.outer(size, size)):
             return False
-        if abs(finite[0, 0] - finite[1, 1]) > 1e-9 * size or abs(finite[3, 3] - finite[4, 4]) > 1e-9 * size:
+        if not np.allclose(size[[0, 3]] ** 2, size[[1, 4]] ** 2, rtol=ROUND, atol=0.0):
             return False
     return True
 

@@ -5,6 +5,7 @@ import numpy as np
 from drivewright import shafts
 from drivewright.errors import InputError
 from drivewright.result import Answer, Array, Check, Value
+from drivewright.shafts.beam import POINT
 from drivewright.solids import shaft_check
 
 ALLOWED, AT_SHOULDERS = 0.01, 0.05  # of the diagonals: what a beam does not know of the ground under a bearing, and of shoulders
@@ -15,15 +16,16 @@ def no_solid(spec):
 
 
 def bands(model, at_rest):
-    """A `Band` for every bearing: its width, or the one of the analysis, and its radial tangent stiffness along the unit loads, its
-    housing in series.  At an end of the shaft the band lies inside it."""
+    """A `Band` for every bearing: its width, or where it is a point the one of the analysis, and its radial tangent stiffness along the
+    unit loads, its housing in series.  At an end of the shaft the band lies inside it."""
     way = np.concatenate([model.direction, np.zeros(3)])
     for support, tangent in zip(model.shaft.supports, at_rest.tangent, strict=True):
         rigid = np.isinf(np.diag(tangent)) @ np.abs(way) > 0
         stiffness = np.inf if rigid else float(way @ np.where(np.isfinite(tangent), tangent, 0.0) @ way)
         if stiffness > 0:
             yielding = 1 / stiffness + float(np.sum(model.direction**2 / np.array(support.seat[:2])))
-            width = support.width or min(model.spec.analysis.solid_band, model.shaft.length / 10)
+            own = support.width > POINT * model.shaft.length
+            width = support.width if own else min(model.spec.analysis.solid_band, model.shaft.length / 10)
             middle = float(np.clip(support.position, width / 2, model.shaft.length - width / 2))
             yield shaft_check.Band(middle, width, 1 / yielding if yielding else np.inf)
 
