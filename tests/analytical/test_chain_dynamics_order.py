@@ -7,8 +7,9 @@ import pytest
 from scipy.integrate import quad
 
 from drivewright._jit import plain
+from drivewright.chains.dynamics.ensemble import disturbed
 from drivewright.chains.dynamics.model import Chain, Contact, Drive, Model, Slide, Sprocket
-from drivewright.chains.dynamics.simulate import Settings, simulate
+from drivewright.chains.dynamics.simulate import Settings, first_start, simulate
 from drivewright.chains.dynamics.stability import fastest
 from drivewright.chains.dynamics.step import over_the_step
 from drivewright.chains.implicit.simulate import Settings as Implicit
@@ -86,6 +87,17 @@ def test_drift_of_a_running_drive_falls_with_the_square_of_the_step(damping, art
         run = simulate(model, 0.05, Settings(step=step, tolerance=1.0))
         drifts.append(np.polyfit(run.t, run.energy_gap, 1)[0])
     assert slope(steps, drifts) == pytest.approx(2.0, abs=0.1)
+
+
+@pytest.mark.slow
+def test_without_any_damping_the_drift_falls_with_the_square_of_the_step_once_it_resolves_the_chatter_of_the_flanks():
+    model, steps, gaps = drive(beta=0.0), np.array([2e-7, 1e-7, 5e-8]), []
+    for step in steps:
+        settings = Settings(step=step, tolerance=1e3)
+        begin = first_start(model, settings)
+        runs = (simulate(model, 0.03, settings, begin=disturbed(begin, (0, member)) if member else begin) for member in range(4))
+        gaps.append(np.mean([np.max(np.abs(run.energy_gap)) for run in runs]))
+    assert slope(steps, gaps) == pytest.approx(2.0, abs=0.2)
 
 
 def test_articulation_damping_stills_the_rocking_of_the_plates_and_is_counted():
