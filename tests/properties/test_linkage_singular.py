@@ -139,3 +139,22 @@ def test_a_sharp_bend_does_not_open_the_energy_balance():
     """Rows lie as close as the bend is sharp, unevenly: the rocker turns back within a thousandth of a turn."""
     result = dw.run(parallelogram(rocker=100.01), only="energy")
     assert result["energy.error"] < 1e-4 and result["energy.gap"] == np.max(np.abs(columns(result, "energy")["gap"])) > 0
+
+
+def test_a_run_that_stops_before_a_fold_passes_none_and_tells_its_stop_once():
+    spec = parallelogram(turns=6.0, simulate={"turns": 6.0, "singular": "stop"}, outputs=[{"name": "rocker", "body": "rocker"}],
+                         limits={"least_turns": 0.5})
+    found = dw.run(spec, only=("motion", "forces", "singular"))
+    assert found.outcome == "partial" and found["singular.count"] == 0 and "singular_positions" not in found.tables
+    assert not any("grows without bound" in finding or "passes" in finding for finding in found.findings)
+    assert not next(check for check in found.checks if check.name == "window").ok  # a third of a turn
+    assert found.values["rocker.swing"].meaning.count("the run ends at") == 1
+    assert found["rocker.swing"] == pytest.approx(2 * np.pi / 3, abs=0.2)
+
+
+def test_a_start_in_line_by_rough_guesses_is_told_as_such():
+    bodies = {"crank": bar(100, "OA", 0), "coupler": bar(150, "AB", 57), "rocker": bar(100, "OB", 106)}
+    found = dw.run(parallelogram(bodies=bodies), only=("end", "singular"))
+    assert found.outcome == "partial" and len(found.findings) == 1
+    assert "starts in a singular position, drive 'O2' at 0.00 deg" in found.findings[0]
+    assert "Start a few degrees away" in found.findings[0] and "'singular', 'end' fail alike" in found.findings[0]

@@ -41,7 +41,8 @@ class Stretch:
 
 @dataclass(frozen=True)
 class Continuation:
-    """Stretches one after another, the singular positions passed, the time reached, and whether it is stuck there or asked to stop."""
+    """Stretches one after another, the singular positions passed, the time reached, and whether it is stuck or was asked to stop there,
+    before a singular position."""
 
     stretches: tuple
     passages: tuple
@@ -60,9 +61,9 @@ def continued(system, times, end, y, stop=False, refine=False):
         else:
             stretch, code = _across(system, ahead, end, y), REACHED if end <= _leave(system) else WEAK
             if t < system.chart.origin_time < stretch.t_end:
-                passages.append(_passage(system, y))
                 if stop:
-                    return Continuation(tuple(stretches), tuple(passages), t, "stopped")
+                    return Continuation(tuple(stretches), (), system.chart.origin_time, "stopped")
+                passages.append(_passage(system, y))
         stretches.append(stretch)
         t, y = stretch.t_end, stretch.y_end
         if code != WEAK:

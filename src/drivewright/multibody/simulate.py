@@ -263,7 +263,7 @@ def _driven(assembly, times, end, settings, refine):
     found = continued(assembly.system, times, end, assembly.state, settings.singular == "stop", refine)
     if found.outcome == "stuck":
         raise DoesNotAssemble(_stuck(assembly, found.reached, end))
-    advice = stopped_at(found.passages[-1].time) if found.outcome == "stopped" else ""
+    advice = stopped_at(found.reached) if found.outcome == "stopped" else ""
     return Run(assembly, found.stretches, np.zeros((0, 3)), advice, len(times), end, found.passages)
 
 
@@ -276,5 +276,9 @@ def _stuck(assembly, t, end):
         turning = any(link.turn == driven.coordinate for link in assembly.tree.links)
         told.append(f"{drive.joint!r} at {np.degrees(value) % 360:.2f} deg" if turning else f"{drive.joint!r} at {1e3 * value:.4g} mm")
     joints = sorted({assembly.wide.joints[row.joint].name for row in assembly.system.rows})
+    if t <= 0.0:
+        return (f"the mechanism starts in a singular position, drive {' and '.join(told)}: links of the loop through joint"
+                f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} stand in line there, and nothing says to which side they "
+                "bend. Start a few degrees away")
     return (f"the mechanism cannot go on beyond t = {t:.6g} s of {end:.6g} s, drive {' and '.join(told)}: the loop through joint"
             f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} does not close there. Change a length, or drive over less")

@@ -11,9 +11,9 @@ from drivewright.result import Check
 BOUNCY = ("lankarani-nikravesh", "hunt-crossley")  # deliver more restitution than asked, the more the less is asked
 
 
-def advice(spec):
-    """All checks of a LinkageSpec before anything is computed."""
-    return (*clearance_share(spec), *restitution(spec), *inertia_extent(spec), *window(spec))
+def advice(spec, end=math.inf):
+    """All checks of a LinkageSpec that want no results but the time at which its run ends."""
+    return (*clearance_share(spec), *restitution(spec), *inertia_extent(spec), *window(spec, end))
 
 
 def shortest_link(spec):
@@ -75,10 +75,10 @@ def widest_gyration(points, centroid):
     return math.sqrt(best) if best > (1e-6 * size) ** 2 else None
 
 
-def window(spec):
-    """Turns that are left for peaks and means."""
+def window(spec, end=math.inf):
+    """Turns that are left for peaks and means of a run that may end before its time."""
     if spec.simulate is None or spec.period is None:
         return ()
-    turns = (spec.duration - spec.start_of_window) / spec.period
+    turns = max(min(spec.duration, end) - spec.start_of_window, 0.0) / spec.period
     message = "turns after discard; the five largest peaks of fewer are not all main peaks"
     return (Check("window", turns, spec.limits.least_turns, ">=", "-", message),)

@@ -5,7 +5,7 @@ import numpy as np
 from drivewright.errors import SolverError
 from drivewright.mechanisms.linkage.advice import advice
 from drivewright.mechanisms.linkage.build import TURN, ideal_at, ideal_record, record_of, run_of
-from drivewright.mechanisms.linkage.ensemble import other_runs, settled_check, statistics
+from drivewright.mechanisms.linkage.ensemble import other_runs, settled_check, statistics, unsettled
 from drivewright.mechanisms.linkage.member import acceleration, window_of
 from drivewright.multibody.measures import largest
 from drivewright.multibody.observe import FIELDS, PIN_FIELDS
@@ -53,7 +53,7 @@ def motion(model, done):
                 found.of_run(f"{name}.acceleration", f"{name}.acceleration"), "m/s^2",
                 f"largest acceleration of point {output.point!r}, magnitude")
     tables = (_motion_table(model),) if model.spec.outputs else ()
-    return Answer(values, tables, advice(model.spec))
+    return Answer(values, tables, advice(model.spec, run_of(model).end[1]))
 
 
 def end(model, done):
@@ -139,7 +139,7 @@ def impact(model, done):
             checks.append(Check.of(load, f"impact_load.{name}", limit, "<=", "impact load coefficient", (output.body,)))
     values["window.start"] = Value(float(seen.t[0]), "s", "start of the window of peaks and means")
     values["window.end"] = Value(float(seen.t[-1]), "s", "its end")
-    return Answer(values, (), (*checks, settled_check("settled", drawn)))
+    return Answer(values, (), (*checks, settled_check("settled", drawn)), unsettled(values))
 
 
 def _load_values(model, output):
@@ -181,7 +181,7 @@ def pins(model, done):
                            (limits.penetration or model.assembly.system.contacts[number].clearance, "penetration")):
             if limit:
                 checks.append(Check.of(told[f"max_{key}"], f"{key}.{name}", limit, "<=", f"largest {key} in joint {name!r}", (name,)))
-    return Answer(values, tuple(tables), (*checks, settled_check("settled.joints", values.values())))
+    return Answer(values, tuple(tables), (*checks, settled_check("settled.joints", values.values())), unsettled(values))
 
 
 def _pin_values(model, name):

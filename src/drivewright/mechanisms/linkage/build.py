@@ -12,7 +12,7 @@ from drivewright.multibody.assembly import Assembly, assemble
 from drivewright.multibody.model import Dry, Ideal, Lubricated, Marker, MasslessLink, Revolute
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import Settings, simulate
-from drivewright.stopped import uses
+from drivewright.stopped import collected, uses
 
 TURN = 2 * np.pi
 IDEAL_SAMPLES = 7201  # of the ideal mechanism in a turn
@@ -122,8 +122,15 @@ def _record(model):
 
 
 def ideal_record(model):
-    """The record of the ideal mechanism: over a turn of a drive at constant speed, else over the whole run."""
-    return _seen(_ideal_record(model))
+    """The record of the ideal mechanism: over a turn of a drive at constant speed, else over the whole run.
+
+    Its stop is told only where the run itself may have come further.
+    """
+    with collected():
+        found = _ideal_record(model)
+    if model.played and found.stop:
+        uses(found.stop._replace(where=f"without play, {found.stop.where}"))
+    return found
 
 
 def take_ideal_record(model):

@@ -19,6 +19,7 @@ from drivewright.result import Check
 
 SHIFT = 1e-3  # of the least clearance by which the starts of the members differ: below what is manufactured
 SAME = 1e-6  # of its range to which place and rate of an output repeat themselves in a periodic motion
+MOST_NAMED = 3  # statistics that have not settled
 STILL = 1e-6  # part of the mechanism's length, or of its drive's speed, over which nothing moves that repeats itself
 
 
@@ -31,7 +32,10 @@ class Statistics:
 
     def mean(self, name: str) -> Estimate:
         """Mean over the turns: every turn of every member is a sample."""
-        return self._alone(name) if self._single(name) else estimate(self._turns(name))
+        if self._single(name):
+            return self._alone(name)
+        turns = self._turns(name)
+        return _exact(turns.flat[0]) if np.ptp(turns) == 0.0 else estimate(turns)
 
     def of_run(self, name: str, turns: str = "") -> Estimate:
         """What a run of this length shows, a largest value for instance: every member is a sample.
@@ -43,7 +47,7 @@ class Statistics:
             return self._alone(name)
         numbers = np.array([member.whole[name] for member in self.members if turns in member.turns])
         if np.ptp(numbers) == 0.0:  # not the chaotic part of the motion
-            return Estimate(float(numbers[0]), np.nan, np.nan, "", True, 1.0)
+            return _exact(numbers[0])
         settled = estimate_statistic(self._turns(turns), np.max).settled
         return replace(estimate_statistic(numbers[:, None], np.mean), settled=settled)
 
@@ -65,11 +69,23 @@ class Statistics:
         return Estimate(value, value - reach, value + reach, "periodic" if self.period else "", True, 1.0, 0.0)
 
 
+def _exact(value):
+    """Of what all turns and members share."""
+    return Estimate(float(value), np.nan, np.nan, "", True, 1.0)
+
+
 def settled_check(name: str, estimates: Any, parts: tuple = ()) -> Check:
     """The check that the statistics of a run no longer drift."""
     drifting = sum(not found.settled for found in estimates)
     return Check(name, float(drifting), 0.0, "<=", "-", "statistics that still drifted at the end of the run, or have too few turns; raise "
                                                         "simulate.turns, or discard more of them", parts)
+
+
+def unsettled(values: dict) -> tuple[str, ...]:
+    """A finding that names the values which still drifted; none where all have settled."""
+    names = [name for name, value in values.items() if not value.settled]
+    shown = ", ".join(names[:MOST_NAMED]) + (f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else "")
+    return (f"not settled, and so no headline values: {shown}; give simulate.turns more, or discard more of them",) if names else ()
 
 
 @lru_cache(maxsize=12)
