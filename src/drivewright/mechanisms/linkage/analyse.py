@@ -45,12 +45,12 @@ def motion(model, done):
     for output in model.spec.outputs:
         name = output.name
         values[f"{name}.max_angular_acceleration"] = Value.of(
-            found.of_run(f"{name}.alpha", f"{name}.alpha"), "rad/s^2", f"largest angular acceleration of {output.body!r}, magnitude")
+            found.of_run(f"{name}.alpha"), "rad/s^2", f"largest angular acceleration of {output.body!r}, magnitude")
         values[f"{name}.swing"] = Value.of(
-            found.of_run(f"{name}.swing", f"{name}.swing"), "rad", f"range of the angle of {output.body!r} in the window")
+            found.of_run(f"{name}.swing"), "rad", f"range of the angle of {output.body!r} in the window")
         if output.point:
             values[f"{name}.max_acceleration"] = Value.of(
-                found.of_run(f"{name}.acceleration", f"{name}.acceleration"), "m/s^2",
+                found.of_run(f"{name}.acceleration"), "m/s^2",
                 f"largest acceleration of point {output.point!r}, magnitude")
     tables = (_motion_table(model),) if model.spec.outputs else ()
     return Answer(values, tables, advice(model.spec, run_of(model).end[1]))
@@ -188,8 +188,8 @@ def _pin_values(model, name):
     """{key: Value} of one pin with play."""
     found = statistics(model)
     told = {
-        "max_force": Value.of(found.of_run(f"{name}.force", f"{name}.force"), "N", f"largest force in joint {name!r}"),
-        "max_penetration": Value.of(found.of_run(f"{name}.depth", f"{name}.depth"), "m", f"largest penetration in joint {name!r}"),
+        "max_force": Value.of(found.of_run(f"{name}.force"), "N", f"largest force in joint {name!r}"),
+        "max_penetration": Value.of(found.of_run(f"{name}.depth"), "m", f"largest penetration in joint {name!r}"),
         "impacts_per_turn": Value.of(found.mean(f"{name}.hits"), "-", f"impacts of joint {name!r}"),
         "contact_share": Value.of(found.mean(f"{name}.touching"), "-", f"share of the time in which joint {name!r} touches"),
         "friction_power": Value.of(found.mean(f"{name}.lost"), "W", f"mean power lost by friction in joint {name!r}"),

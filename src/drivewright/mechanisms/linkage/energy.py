@@ -39,7 +39,7 @@ def _torque(model):
         return Answer()
     turn = last_turn(model)
     names = [drive.joint for drive in model.assembly.model.drives]
-    torque = Value.of(statistics(model).of_run("drive.torque", "drive.torque"), "N m", "largest torque of the drive, either way")
+    torque = Value.of(statistics(model).of_run("drive.torque"), "N m", "largest torque of the drive, either way")
     values = {"drive.max_torque": torque}
     columns = (*cycle_columns(model, turn.t), *(Column(f"torque_{name}", "N m", f"torque of the drive at joint {name!r}", turn.drives[:, k])
                                                 for k, name in enumerate(names)))

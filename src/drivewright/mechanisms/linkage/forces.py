@@ -30,7 +30,7 @@ def forces(model, done):
         size = np.hypot(*joint.force.T)
         if name.endswith(" (link)"):  # the other end of a link without mass: the same force
             continue
-        if name not in model.pins and name not in unbounded:  # those have it from the analysis `pins`
+        if name not in model.pins and name not in unbounded:  # pins with play have it from `pins`
             values[f"joints.{name}.max_force"] = Value.of(numbers.of_run(f"{name}.force"), "N", f"largest force in joint {name!r}")
         columns += [Column(f"{name}.force", "N", f"force in joint {name!r}", size),
                     Column(f"{name}.force_x", "N", f"force of joint {name!r} on its first body, x", joint.force[:, 0]),
