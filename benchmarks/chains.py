@@ -21,8 +21,14 @@ def system(radius):
 
     flank = float(2.6 + (1.2 - radius) * np.cos(np.pi / 6))
     kind = "arc" if radius > 0.25e3 * PITCH else "round-pin"
-    changes = (f'joint.kind="{kind}"', f'joint.rolling_radius="{radius} mm"', f'plate.apothem="{flank!r} mm"', 'plate.link_mass="2.5 g"',
-               'plate.link_inertia="6.4e-8 kg m^2"', 'driven.mass="0.6 kg"')
+    changes = (
+        f'joint.kind="{kind}"',
+        f'joint.rolling_radius="{radius} mm"',
+        f'plate.apothem="{flank!r} mm"',
+        'plate.link_mass="2.5 g"',
+        'plate.link_inertia="6.4e-8 kg m^2"',
+        'driven.mass="0.6 kg"',
+    )
     return moving(build(load(registry.mechanism("silent-chain").presets()["default"], changes)))
 
 
@@ -36,17 +42,25 @@ def running():
     seconds = best(lambda: simulate(drive, DURATION, settings), 5)
     motion = simulate(drive, DURATION, settings)
     per = [1e9 * s * motion.step / DURATION / drive.chain.count for s in seconds]
-    yield f"82 links, 0.3 s at 2000 rpm in steps of {1e6 * motion.step:.3g} us, one core: {per[0]:.1f} ns per link and step", seconds, (
-        f"{FLOPS} flops; this kind of machine allows {SCALAR:g} ns one link at a time, {VECTOR:g} ns with vectors: "
-        f"{per[0] / VECTOR:.1f} times that; energy drift {motion.energy_drift:.1e}")
+    yield (
+        f"82 links, 0.3 s at 2000 rpm in steps of {1e6 * motion.step:.3g} us, one core: {per[0]:.1f} ns per link and step",
+        seconds,
+        (
+            f"{FLOPS} flops; this kind of machine allows {SCALAR:g} ns one link at a time, {VECTOR:g} ns with vectors: "
+            f"{per[0] / VECTOR:.1f} times that; energy drift {motion.energy_drift:.1e}"
+        ),
+    )
     drives = [system(radius) for radius in RADII]
 
     def one(each):
         return simulate(each, DURATION, replace(settings, step=min(STEP, 0.5 * largest_step(each)))).energy_drift
 
     seconds, rows = best(lambda: run(one, drives, CORES), 2), run(one, drives, CORES).rows
-    yield "eight groups of the paper, 0.3 s each, two threads", seconds, (
-        f"wanted under 10 s; {sum(row.ok for row in rows)} ran, largest energy drift {max(row.value or 0.0 for row in rows):.1e}")
+    yield (
+        "eight groups of the paper, 0.3 s each, two threads",
+        seconds,
+        (f"wanted under 10 s; {sum(row.ok for row in rows)} ran, largest energy drift {max(row.value or 0.0 for row in rows):.1e}"),
+    )
 
 
 def closures():
@@ -61,16 +75,23 @@ def closures():
     for strands in ("straight", "equilibrium"):
         drive = Drive(joint, 35, 37, 82, strands)
         means[strands] = close(drive).mean
-        yield f"closure over a tooth, 48 positions, strands {strands}", best(lambda drive=drive: close(drive), 20), (
-            f"mean {1e3 * means[strands]:.6f} mm, rest of the loop {close(drive).residual:.0e} m")
-    drives = [Drive(link(PITCH, r, np.pi / 6, 0.0), 35, z, n)
-              for r in np.linspace(0, 7.4e-3, 5) for z in (33, 35, 37, 39) for n in range(78, 88)]
+        yield (
+            f"closure over a tooth, 48 positions, strands {strands}",
+            best(lambda drive=drive: close(drive), 20),
+            (f"mean {1e3 * means[strands]:.6f} mm, rest of the loop {close(drive).residual:.0e} m"),
+        )
+    drives = [
+        Drive(link(PITCH, r, np.pi / 6, 0.0), 35, z, n) for r in np.linspace(0, 7.4e-3, 5) for z in (33, 35, 37, 39) for n in range(78, 88)
+    ]
     seconds = best(lambda: phase_map(drives, 24, CORES), 3)
     failed = len(phase_map(drives, 24, CORES).failed)
     yield f"phase map of {len(drives)} designs, two threads: {len(drives) / seconds[0]:,.0f} per second", seconds, f"{failed} do not close"
     loaded = with_sprocket(system(1.2), 1, torque=0.0)  # without the torque that the damping of its turning takes up when it runs
-    yield "at rest with 150 N, teeth and joints elastic, 24 positions", best(lambda: equilibrium(loaded, 24), 5), (
-        f"mean {1e3 * equilibrium(loaded, 24).mean:.6f} mm, {equilibrium(loaded, 24).residual:.0e} N unbalanced at most")
+    yield (
+        "at rest with 150 N, teeth and joints elastic, 24 positions",
+        best(lambda: equilibrium(loaded, 24), 5),
+        (f"mean {1e3 * equilibrium(loaded, 24).mean:.6f} mm, {equilibrium(loaded, 24).residual:.0e} N unbalanced at most"),
+    )
 
 
 def lives():
@@ -108,8 +129,15 @@ def roller_drive(joint):
     chain = m.Chain(Link(PITCH, 0.0, np.pi / 6, 0.0), 24, 2.5e-3, 6.4e-8, joint, 2e-6)
     contact = m.Contact(STIFFNESS, DAMPING)
     first = m.Sprocket(teeth[0], contact, angle=0.0, tip_radius=teeth[0].pitch_radius + 2e-3, drive=m.Drive(SPEED, SPEED))
-    second = m.Sprocket(teeth[1], contact, (0.0692, 0.0), tip_radius=teeth[1].pitch_radius + 2e-3, mass=0.2, inertia=2e-5,
-                        slide=m.Slide(0.0, FORCE, damping=100.0))
+    second = m.Sprocket(
+        teeth[1],
+        contact,
+        (0.0692, 0.0),
+        tip_radius=teeth[1].pitch_radius + 2e-3,
+        mass=0.2,
+        inertia=2e-5,
+        slide=m.Slide(0.0, FORCE, damping=100.0),
+    )
     return m.Model(chain, (first, second))
 
 
@@ -196,9 +224,17 @@ def _contact(mbs, item, wheel, rollers, tooth):
             rows += [np.concatenate(pair) for pair in zip(at[:-1], at[1:], strict=True)]
         size = float(np.hypot(*(rows[0][2:] - rows[0][:2])))
         memory = mbs.AddNode(item.NodeGenericData(initialCoordinates=[-1.0, 0.0, 0.0] * len(rows), numberOfDataCoordinates=3 * len(rows)))
-        mbs.AddObject(item.ObjectContactCurveCircles(
-            markerNumbers=[wheel, *rollers], nodeNumber=memory, circlesRadii=[ROLLER] * len(rollers), segmentsData=np.array(rows),
-            contactStiffness=STIFFNESS / size, contactDamping=DAMPING / size, contactModel=0))
+        mbs.AddObject(
+            item.ObjectContactCurveCircles(
+                markerNumbers=[wheel, *rollers],
+                nodeNumber=memory,
+                circlesRadii=[ROLLER] * len(rollers),
+                segmentsData=np.array(rows),
+                contactStiffness=STIFFNESS / size,
+                contactDamping=DAMPING / size,
+                contactModel=0,
+            )
+        )
 
 
 def beside():
@@ -210,9 +246,14 @@ def beside():
     seconds = best(lambda: simulate(model, TIME, settings), 5)
     motion = simulate(model, TIME, settings)
     links = model.chain.count * motion.every * (len(motion.t) - 1)
-    yield f"ours, 24 links, rollers, 0.1 ms: {1e9 * seconds[0] / links:.0f} ns per link and step", seconds, (
-        f"steps of {motion.step:.1e} s, start included; centre distance {1e3 * motion.centre_distance[-1]:.5f} mm at "
-        f"{1e3 * motion.t[-1]:.4f} ms")
+    yield (
+        f"ours, 24 links, rollers, 0.1 ms: {1e9 * seconds[0] / links:.0f} ns per link and step",
+        seconds,
+        (
+            f"steps of {motion.step:.1e} s, start included; centre distance {1e3 * motion.centre_distance[-1]:.5f} mm at "
+            f"{1e3 * motion.t[-1]:.4f} ms"
+        ),
+    )
     try:
         import exudyn  # noqa: F401 - whether it is there
     except ImportError as error:
@@ -221,9 +262,12 @@ def beside():
     for step in (1e-6, 5e-7):
         runs = [exudyns(step) for _ in range(3)]
         shortest = min(seconds for seconds, _ in runs)
-        yield (f"Exudyn, the same contact stiffness, rigid joints: {1e9 * shortest / (model.chain.count * round(TIME / step)):,.0f} ns per "
-               "link and step", (shortest, sorted(seconds for seconds, _ in runs)[1]),
-               f"implicit, steps of {step:.1e} s; centre distance {1e3 * runs[0][1]:.5f} mm at {1e3 * TIME:.4f} ms; sprockets as polygons")
+        yield (
+            f"Exudyn, the same contact stiffness, rigid joints: {1e9 * shortest / (model.chain.count * round(TIME / step)):,.0f} ns per "
+            "link and step",
+            (shortest, sorted(seconds for seconds, _ in runs)[1]),
+            f"implicit, steps of {step:.1e} s; centre distance {1e3 * runs[0][1]:.5f} mm at {1e3 * TIME:.4f} ms; sprockets as polygons",
+        )
 
 
 SECTIONS = (

@@ -36,6 +36,7 @@ def profile():
     yield "profile of twelve pins, trimmed on both sides", best(ours), f"area {1e6 * exact.area:.6f} mm^2, {len(exact.corners)} corners"
     yield "profile, and the contact map of 41 positions", best(mapped), "wanted under 0.3 s"
     for steps in (480, 5760):
+
         def theirs(steps=steps):
             points = found.path(np.linspace(0, TURN, steps, endpoint=False)).d0.T.ravel()
             line = LineString(np.stack([np.append(points, points[0]).real, np.append(points, points[0]).imag], axis=1))
@@ -57,8 +58,11 @@ def stiffness():
         built.drive.nodes  # noqa: B018 - the profile is timed above
         from drivewright.mechanisms.indexer.stiffness import solved
 
-        yield f"stiffness at 41 positions, {model}, contacts included", best(
-            lambda built=built: solved(built, built.angles, 1000.0)), "wanted under 0.2 s"
+        yield (
+            f"stiffness at 41 positions, {model}, contacts included",
+            best(lambda built=built: solved(built, built.angles, 1000.0)),
+            "wanted under 0.2 s",
+        )
     yield from _peer(spec, registry.mechanism("indexer").build(spec))
 
 
@@ -84,14 +88,22 @@ def _peer(spec, built):
     system = System(linear, tuple(_part(group, assembly.basis) for group in assembly.groups), load_of(assembly, torque))
 
     def theirs():
-        return minimize(lambda y: energy(system, y[None])[0], np.zeros(linear.shape[1]), method="trust-exact",
-                        jac=lambda y: slope_and_hessian(system, y[None])[0][0], hess=lambda y: slope_and_hessian(system, y[None])[1][0],
-                        options={"gtol": 1e-6, "maxiter": 2000})
+        return minimize(
+            lambda y: energy(system, y[None])[0],
+            np.zeros(linear.shape[1]),
+            method="trust-exact",
+            jac=lambda y: slope_and_hessian(system, y[None])[0][0],
+            hess=lambda y: slope_and_hessian(system, y[None])[1][0],
+            options={"gtol": 1e-6, "maxiter": 2000},
+        )
 
     found = theirs()
     turn = (system.load[0] @ found.x) / torque
-    yield "SciPy, trust-exact, same energy and derivatives, from rest", best(theirs, 1), (
-        f"{torque / turn:.6f} N m/rad after {found.nit} steps; {'converged' if found.success else found.message}")
+    yield (
+        "SciPy, trust-exact, same energy and derivatives, from rest",
+        best(theirs, 1),
+        (f"{torque / turn:.6f} N m/rad after {found.nit} steps; {'converged' if found.success else found.message}"),
+    )
 
 
 def designs():
@@ -102,8 +114,11 @@ def designs():
     rng = np.random.default_rng(1)
     sizes = rng.uniform(0.005, 0.012, 1000), rng.uniform(0.006, 0.014, 1000), TURN * rng.uniform(0.4, 0.8, 1000)
     seconds = best(lambda: rate_designs(law("modified-sine"), 12, 0.12, *sizes), 1)
-    yield f"1000 designs, play, contacts and pressure angle: {1000 / seconds[0]:.0f} designs per second", seconds, (
-        "wanted under 60 s; two threads; play every 0.9 deg of the whole turn")
+    yield (
+        f"1000 designs, play, contacts and pressure angle: {1000 / seconds[0]:.0f} designs per second",
+        seconds,
+        ("wanted under 60 s; two threads; play every 0.9 deg of the whole turn"),
+    )
 
 
 SECTIONS = (

@@ -19,12 +19,17 @@ def slider_crank(clearance=0.5e-3):
 
     modulus = contact.effective_modulus(207e9, 0.3, 207e9, 0.3)
     dry = mb.Dry(clearance, BEARING, float(contact.journal_stiffness(BEARING, BEARING - clearance, modulus)), 1.5, LOSS)
-    bodies = (mb.Body("crank", 0.3, 1e-4, (CRANK / 2, 0.0)), mb.Body("rod", ROD_MASS, ROD_INERTIA, (HALF, 0.0)),
-              mb.Body("slider", SLIDER_MASS, 1e-4))
-    joints = (mb.Revolute("main", mb.Marker("ground"), mb.Marker("crank")),
-              mb.Revolute("crank_pin", mb.Marker("crank", CRANK), mb.Marker("rod")),
-              mb.Revolute("wrist", mb.Marker("rod", ROD), mb.Marker("slider"), dry),
-              mb.Prismatic("guide", mb.Marker("slider"), mb.Marker("ground")))
+    bodies = (
+        mb.Body("crank", 0.3, 1e-4, (CRANK / 2, 0.0)),
+        mb.Body("rod", ROD_MASS, ROD_INERTIA, (HALF, 0.0)),
+        mb.Body("slider", SLIDER_MASS, 1e-4),
+    )
+    joints = (
+        mb.Revolute("main", mb.Marker("ground"), mb.Marker("crank")),
+        mb.Revolute("crank_pin", mb.Marker("crank", CRANK), mb.Marker("rod")),
+        mb.Revolute("wrist", mb.Marker("rod", ROD), mb.Marker("slider"), dry),
+        mb.Prismatic("guide", mb.Marker("slider"), mb.Marker("ground")),
+    )
     return mb.Model(bodies, joints, drives=(mb.Drive("main", mb.line(0.0, SPEED)),))
 
 
@@ -59,6 +64,7 @@ def scipys(method, rtol, turns):
     state, t, memory, steps = np.array([CRANK + ROD + OFFSET, 0.0, 0.0, -SPEED * CRANK / ROD]), 0.0, 0.0, 0
     began = time.perf_counter()
     while t < turns * PERIOD:
+
         def event(t, y, memory):
             return gap(t, y)[0] + (APART if memory > 0.0 else -APART)  # lest SciPy meets the same event again at once
 
@@ -113,8 +119,11 @@ def work_precision():
     """Time per turn, and error of the slider after a fifth of a turn, three impacts, before chaos takes over."""
     exact = ours(1e-12, 0.2)[0]
     rows = [(f"ours, rtol {rtol:g}", lambda turns, rtol=rtol: ours(rtol, turns)) for rtol in (1e-6, 1e-8, 1e-10)]
-    rows += [(f"SciPy {method}, rtol {rtol:g}", lambda turns, method=method, rtol=rtol: scipys(method, rtol, turns))
-             for rtol in (1e-6, 1e-8) for method in ("LSODA", "DOP853", "RK45")]
+    rows += [
+        (f"SciPy {method}, rtol {rtol:g}", lambda turns, method=method, rtol=rtol: scipys(method, rtol, turns))
+        for rtol in (1e-6, 1e-8)
+        for method in ("LSODA", "DOP853", "RK45")
+    ]
     try:
         import exudyn  # noqa: F401
 
@@ -161,8 +170,11 @@ def table():
         found = cases.run(lambda case, rtol=rtol, peaks=peaks: load_of(model(*case, rtol), output, peaks[case[0]])[0], points, workers=None)
         seconds = time.perf_counter() - began
         middle = [f"{row.value:.3f}" for row in found.rows if row.case[0] == 28_800]
-        yield f"55 cases x 16 turns, rtol {rtol:g}", (seconds, seconds), (
-            f"wanted under 3 s; coefficients at 28 800 an hour: {', '.join(middle)}")
+        yield (
+            f"55 cases x 16 turns, rtol {rtol:g}",
+            (seconds, seconds),
+            (f"wanted under 3 s; coefficients at 28 800 an hour: {', '.join(middle)}"),
+        )
 
 
 def bifurcation(clearances=200, turns=300):
@@ -180,5 +192,8 @@ def bifurcation(clearances=200, turns=300):
     found = cases.run(one, np.linspace(0.1e-3, 0.6e-3, clearances).tolist(), workers=None)
     seconds = time.perf_counter() - began
     steps = sum(row.value for row in found.rows)
-    yield f"{clearances} clearances x {turns} turns", (seconds, seconds), (
-        f"wanted under 180 s; {steps / clearances / turns:.0f} steps a turn, {1e6 * seconds / steps:.2f} us a step")
+    yield (
+        f"{clearances} clearances x {turns} turns",
+        (seconds, seconds),
+        (f"wanted under 180 s; {steps / clearances / turns:.0f} steps a turn, {1e6 * seconds / steps:.2f} us a step"),
+    )

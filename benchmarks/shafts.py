@@ -13,8 +13,12 @@ sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "properties"))  
 MODULUS, POISSON, CORES = 206e9, 0.3, 2
 UNIFORM = {"sections": [[0.34, 0.02, 0.0]], "supports": [0.0565, 0.1365], "stiffness": [3e7, 3e7], "stations": [0.0, 0.245]}
 # Nine nodes: five ends of sections, three bearings, two stations, of which one at an end.
-STEPPED = {"sections": [[0.08, 0.03, 0.0], [0.12, 0.042, 0.0], [0.1, 0.05, 0.0], [0.11, 0.035, 0.0]],
-           "supports": [0.05, 0.18, 0.37], "stiffness": [5e7, 2e8, 8e6], "stations": [0.0, 0.25]}
+STEPPED = {
+    "sections": [[0.08, 0.03, 0.0], [0.12, 0.042, 0.0], [0.1, 0.05, 0.0], [0.11, 0.035, 0.0]],
+    "supports": [0.05, 0.18, 0.37],
+    "stiffness": [5e7, 2e8, 8e6],
+    "stations": [0.0, 0.25],
+}
 # Counted in the source, divisions as one: closed form with two stations; the stepped shaft above.
 CLOSED_FLOPS, SWEPT_FLOPS = 300, 700
 
@@ -27,9 +31,15 @@ def designs(shaft, count):
     def near(values):
         return np.asarray(values) * rng.uniform(0.98, 1.02, (count, len(values)))
 
-    return {"lengths": 1.05 * near(lengths), "diameters": near(diameters), "supports": near(shaft["supports"]),
-            "radial_stiffness": near(shaft["stiffness"]), "stations": near(shaft["stations"]),
-            "youngs_modulus": MODULUS, "poisson": POISSON}
+    return {
+        "lengths": 1.05 * near(lengths),
+        "diameters": near(diameters),
+        "supports": near(shaft["supports"]),
+        "radial_stiffness": near(shaft["stiffness"]),
+        "stations": near(shaft["stations"]),
+        "youngs_modulus": MODULUS,
+        "poisson": POISSON,
+    }
 
 
 def batches():
@@ -39,16 +49,23 @@ def batches():
     memory, arithmetic = machine()
     yield "memory of this machine, two threads", None, f"{memory / 1e9:.1f} GB/s, a copy of 256 MB counted twice"
     yield "arithmetic of this machine, two threads", None, f"{arithmetic / 1e9:.0f} Gflop/s, multiply and add in the first cache"
-    for name, shaft, count, flops, wanted in (("closed form, two bearings, uniform", UNIFORM, 2_000_000, CLOSED_FLOPS, 1e7),
-                                              ("stepped, 9 nodes, three bearings", STEPPED, 400_000, SWEPT_FLOPS, 5e5)):
+    for name, shaft, count, flops, wanted in (
+        ("closed form, two bearings, uniform", UNIFORM, 2_000_000, CLOSED_FLOPS, 1e7),
+        ("stepped, 9 nodes, three bearings", STEPPED, 400_000, SWEPT_FLOPS, 5e5),
+    ):
         many = designs(shaft, count)
         traffic = 8 * sum(np.shape(value)[1] for value in many.values() if np.ndim(value) == 2) + 32
         for workers in (1, CORES):
             seconds = best(lambda many=many, workers=workers: flexibilities(**many, workers=workers))
             rate = count / seconds[0]
-            yield f"{name}, {workers} thread{'s' * (workers > 1)}: {rate:,.0f} designs per second", seconds, (
-                f"wanted {wanted:.0e} on two; {flops} flops and {traffic} B a design: {100 * rate * flops / arithmetic:.0f} % of the "
-                f"arithmetic, {100 * rate * traffic / memory:.0f} % of the memory of both cores")
+            yield (
+                f"{name}, {workers} thread{'s' * (workers > 1)}: {rate:,.0f} designs per second",
+                seconds,
+                (
+                    f"wanted {wanted:.0e} on two; {flops} flops and {traffic} B a design: {100 * rate * flops / arithmetic:.0f} % of the "
+                    f"arithmetic, {100 * rate * traffic / memory:.0f} % of the memory of both cores"
+                ),
+            )
 
 
 def accuracy():
@@ -57,8 +74,10 @@ def accuracy():
 
     many = designs(UNIFORM, 10_000)
     closed = flexibilities(**many)
-    third = {"supports": np.c_[many["supports"], many["lengths"] / 2],
-             "radial_stiffness": np.c_[many["radial_stiffness"], np.zeros(10_000)]}
+    third = {
+        "supports": np.c_[many["supports"], many["lengths"] / 2],
+        "radial_stiffness": np.c_[many["radial_stiffness"], np.zeros(10_000)],
+    }
     yield "closed form against sweep, 10 000 designs", None, f"largest difference {_apart(flexibilities(**many | third), closed):.1e}"
     many = designs(STEPPED, 10_000)
     sliced = {"lengths": np.repeat(many["lengths"] / 5, 5, axis=1), "diameters": np.repeat(many["diameters"], 5, axis=1)}
@@ -80,8 +99,9 @@ def peers():
     lengths, diameters, _ = np.transpose(STEPPED["sections"])
 
     def ours():
-        return flexibilities(lengths, diameters, STEPPED["supports"], STEPPED["stiffness"], STEPPED["stations"], MODULUS, POISSON,
-                             EULER_BERNOULLI)[0]
+        return flexibilities(
+            lengths, diameters, STEPPED["supports"], STEPPED["stiffness"], STEPPED["stations"], MODULUS, POISSON, EULER_BERNOULLI
+        )[0]
 
     alone = best(ours, 200)
     yield f"ours, a batch of one: {1 / alone[0]:,.0f} designs per second", alone, "Euler-Bernoulli, as PyNite has it"
@@ -89,8 +109,11 @@ def peers():
         import pynite_shaft
 
         theirs = best(lambda: pynite_shaft.flexibility(shaft), 10)
-        yield (f"PyNite, one by one: {1 / theirs[0]:,.0f} designs per second", theirs,
-               f"largest difference from ours {_apart(pynite_shaft.flexibility(shaft), ours()):.1e}")
+        yield (
+            f"PyNite, one by one: {1 / theirs[0]:,.0f} designs per second",
+            theirs,
+            f"largest difference from ours {_apart(pynite_shaft.flexibility(shaft), ours()):.1e}",
+        )
     except ImportError as error:
         yield "PyNite", None, f"not available: {error}"
     helper = Path(__file__).parent.parent / "tests" / "properties" / "ross_shaft.py"
@@ -99,9 +122,12 @@ def peers():
         yield "ROSS", None, f"not available: {told.stderr.splitlines()[-1]}"
         return
     found = json.loads(told.stdout.splitlines()[-1])[0]
-    yield (f"ROSS, one by one: {1 / found['seconds']:,.0f} designs per second", (found["seconds"],) * 2,
-           f"largest difference from ours {_apart(np.array(found['flexibility']), ours()):.1e}; from its assembled matrix: its own "
-           "static run takes every bearing for rigid")
+    yield (
+        f"ROSS, one by one: {1 / found['seconds']:,.0f} designs per second",
+        (found["seconds"],) * 2,
+        f"largest difference from ours {_apart(np.array(found['flexibility']), ours()):.1e}; from its assembled matrix: its own "
+        "static run takes every bearing for rigid",
+    )
 
 
 def bearing():
@@ -114,8 +140,11 @@ def bearing():
     held = np.zeros(5, dtype=bool)
     shortest, median = (seconds / len(turn) for seconds in best(lambda: equilibria(law, forces, held)))
     steps = equilibria(law, forces, held)[1]
-    yield f"bearing of 12 balls, five freedoms: {1e6 * shortest:.1f} us", (shortest, median), (
-        f"wanted under 20 us; {steps.mean():.1f} steps of Newton's method, {steps.min()} to {steps.max()}")
+    yield (
+        f"bearing of 12 balls, five freedoms: {1e6 * shortest:.1f} us",
+        (shortest, median),
+        (f"wanted under 20 us; {steps.mean():.1f} steps of Newton's method, {steps.min()} to {steps.max()}"),
+    )
 
 
 def coupled():

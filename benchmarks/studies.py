@@ -109,8 +109,11 @@ def overhead():
         pairs = [(best(alone, 1)[0], best(kept, 1)[0]) for _ in range(3)]
     bare, whole = (min(times) / MANY for times in zip(*pairs, strict=True))
     yield f"{MANY} closures of a chain, spec and run alone, per case", (bare, float(np.median([p[0] for p in pairs])) / MANY), ""
-    yield "the same as a study on disk, one worker, per case", (whole, float(np.median([p[1] for p in pairs])) / MANY), (
-        f"{1e6 * (whole - bare):.0f} us a case more; wanted under 50")
+    yield (
+        "the same as a study on disk, one worker, per case",
+        (whole, float(np.median([p[1] for p in pairs])) / MANY),
+        (f"{1e6 * (whole - bare):.0f} us a case more; wanted under 50"),
+    )
 
 
 def million():

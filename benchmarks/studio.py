@@ -13,8 +13,10 @@ import numpy as np
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 CHANGES, MANY, SECONDS = 60, 1000, 4.0
-SLIDERS = {"seedling_pusher": ("train.axis_ratio", "cams.roller_radius", "lever.output_arm"),
-           "four_bar": ("bodies.crank.points.A.0", "bodies.coupler.points.B.0")}
+SLIDERS = {
+    "seedling_pusher": ("train.axis_ratio", "cams.roller_radius", "lever.output_arm"),
+    "four_bar": ("bodies.crank.points.A.0", "bodies.coupler.points.B.0"),
+}
 
 MOVE = """async ([key, changes, pause]) => {
   const slider = document.querySelector(`[data-testid="slider-${key}"]`), stage = () => document.querySelector('[data-gen]');
@@ -109,8 +111,12 @@ def latency():
 
 def frames():
     """Frames of the page: playing, and with a new value in every frame."""
-    for name, key in (("seedling_pusher", ""), ("seedling_pusher", "cams.roller_radius"), ("four_bar", "bodies.crank.points.A.0"),
-                      ("hyvo_chain", "")):
+    for name, key in (
+        ("seedling_pusher", ""),
+        ("seedling_pusher", "cams.roller_radius"),
+        ("four_bar", "bodies.crank.points.A.0"),
+        ("hyvo_chain", ""),
+    ):
         with opened(name) as (page, _):
             page.evaluate(FRAMES, [key, 1.0])
             _settled(page)

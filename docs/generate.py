@@ -94,8 +94,16 @@ def worked_studies():
             shutil.rmtree(drawn, ignore_errors=True)
             shutil.copytree(report.parent / "figures", drawn)
             chosen = sorted(drawn.glob("*.svg"), key=_first)[:FIGURES]
-            lines += ["", f"## {study.spec.title}", "", *_head(path), "", f"`{path.name}`: {len(study)} cases. Figures of its report:", "",
-                      *(f"![{svg.stem}](worked-studies/{path.stem}/{svg.name})" for svg in chosen)]
+            lines += [
+                "",
+                f"## {study.spec.title}",
+                "",
+                *_head(path),
+                "",
+                f"`{path.name}`: {len(study)} cases. Figures of its report:",
+                "",
+                *(f"![{svg.stem}](worked-studies/{path.stem}/{svg.name})" for svg in chosen),
+            ]
     return "\n".join(lines) + "\n"
 
 

@@ -52,8 +52,10 @@ def answer(spec, done):
     found = estimate(drawn)
     level = Value.of(found, "m", "level of the drive")
     values = {"level": level, "area": Value(spec.size**2, "m^2", "size squared")}
-    checks = (Check.of(level, "low_enough", LIMIT, "<=", "the level stays below its limit"),
-              Check("settled", float(found.settled), 1.0, ">=", "-", "the level has settled"))
+    checks = (
+        Check.of(level, "low_enough", LIMIT, "<=", "the level stays below its limit"),
+        Check("settled", float(found.settled), 1.0, ">=", "-", "the level has settled"),
+    )
     return Answer(values, (course(drawn),), checks, arrays={"drawn": Array("m", ("member", "window"), (), drawn)})
 
 
@@ -76,13 +78,24 @@ def scene(spec):
     return Scene(np.arange(float(count)), "number of the window", "-", 1.0, (disc,), frames, table="course")
 
 
-PLOTS = (Plot("course", "Course of the level", "course", "window", ("level",)),
-         Plot("points", "Levels of the windows", "course", "window", ("level",), style="points"),
-         Plot("stems", "Stems of the windows", "course", "window", ("level",), style="stems"),
-         Plot("bars", "Bars of the windows", "course", "name", ("level",), style="bars"),
-         Plot("ranked", "Ranks of the windows", "course", "name", ("level",), style="ranked"))
-CHAOTIC = Mechanism("chaotic-toy", "a toy with chaotic numbers", Chaotic, lambda spec: spec, (Analysis("main", answer, "what it is"),),
-                    Path(__file__).parent, scene=scene, plots=PLOTS, headline=("level", "area"))
+PLOTS = (
+    Plot("course", "Course of the level", "course", "window", ("level",)),
+    Plot("points", "Levels of the windows", "course", "window", ("level",), style="points"),
+    Plot("stems", "Stems of the windows", "course", "window", ("level",), style="stems"),
+    Plot("bars", "Bars of the windows", "course", "name", ("level",), style="bars"),
+    Plot("ranked", "Ranks of the windows", "course", "name", ("level",), style="ranked"),
+)
+CHAOTIC = Mechanism(
+    "chaotic-toy",
+    "a toy with chaotic numbers",
+    Chaotic,
+    lambda spec: spec,
+    (Analysis("main", answer, "what it is"),),
+    Path(__file__).parent,
+    scene=scene,
+    plots=PLOTS,
+    headline=("level", "area"),
+)
 
 
 def install(patch=setattr, mechanism=CHAOTIC):

@@ -22,8 +22,16 @@ NEAR, FAR, EXTREME = 0.3, 2.0, 9.0  # powers of ten that a quantity is scaled by
 CHANCES = (0.7, 0.25, 0.05)  # of each
 LEFT_ALONE = {"format", "mechanism", "title", "study", "optimise", "name", "seed"}
 COSTS = {  # key: the most that is asked for
-    "simulate.turns": 4.0, "simulate.max_steps": 20_000, "simulate.samples_per_turn": 2000, "lyapunov.turns": 32, "lyapunov.discard": 4,
-    "tolerances.samples": 300, "bifurcation.steps": 3, "bifurcation.turns": 4, "wear.jumps": 2, "contact.turns": 2,
+    "simulate.turns": 4.0,
+    "simulate.max_steps": 20_000,
+    "simulate.samples_per_turn": 2000,
+    "lyapunov.turns": 32,
+    "lyapunov.discard": 4,
+    "tolerances.samples": 300,
+    "bifurcation.steps": 3,
+    "bifurcation.turns": 4,
+    "wear.jumps": 2,
+    "contact.turns": 2,
 }
 
 
@@ -157,7 +165,7 @@ def _changed_list(fact, value, rng):
         return None
     n = int(rng.integers(len(value)))
     inner = _changed(fact.items[min(n, len(fact.items) - 1)], value[n], rng)
-    return None if inner is None else [*value[:n], inner, *value[n + 1:]]
+    return None if inner is None else [*value[:n], inner, *value[n + 1 :]]
 
 
 def _factor(rng):

@@ -75,7 +75,9 @@ _SAARSTAHL = Source("Saarstahl, specification sheets of C45E and 42CrMo4 (after 
 _LUCEFIN = Source("Lucefin Group, technical card 16MnCr5, rev. 2018: test blank of 30 mm, core hardened, for reference", recalled=False)
 _ZARETSKY = Source(
     "E. V. Zaretsky, In search of a fatigue limit: a critique of ISO 281:2007, Tribology & Lubrication Technology 2010, quoting "
-    "ISO 281 for 52100 steel in clean mineral oil; the author himself doubts that there is a limit", recalled=False)
+    "ISO 281 for 52100 steel in clean mineral oil; the author himself doubts that there is a limit",
+    recalled=False,
+)
 _DUCTILE = Source("sn-castiron.nl, Cast iron (EN-GJS), table after DIN EN 1563", recalled=False)
 _ACETAL = Source("apacinfrastructure.com.au, Material specifications, acetal unreinforced; creeps and softens with heat", recalled=False)
 _EN_10083_3 = _recalled("EN 10083-3, minimum for this diameter")
@@ -88,17 +90,20 @@ _ISO_6336 = _recalled("ISO 6336-5, contact stress number of case-hardened gear f
 _BEARING = _recalled("handbooks of rolling bearings; lower end of the values given for the hardened state")
 _IRON = _recalled("handbooks of cast iron")
 
-_CARDS = {card.name: card for card in (
-    _card("S355J2", "hot rolled, up to 16 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (355e6, _EN_10025), None),
-    _card("C45", "quenched and tempered, 16 to 40 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (430e6, _SAARSTAHL), None),
-    _card("42CrMo4", "quenched and tempered, 40 to 100 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (650e6, _SAARSTAHL), None),
-    _card("34CrNiMo6", "quenched and tempered, 40 to 100 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (800e6, _EN_10083_3), None),
-    _card("16MnCr5", "case hardened, core of 30 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (490e6, _LUCEFIN), (1500e6, _ISO_6336)),
-    _card("100Cr6", "hardened, 58 to 62 HRC", _E_STEEL, _NU_STEEL, (7810.0, _BEARING), (1700e6, _BEARING), (1500e6, _ZARETSKY)),
-    _card("X5CrNi18-10", "solution annealed", (200e9, _EN_10088), (0.3, _STEEL), (7900.0, _EN_10088), (190e6, _EN_10088), None),
-    _card("EN-GJL-250", "as cast", (110e9, _EN_1561), (0.26, _EN_1561), (7200.0, _EN_1561), (165e6, _EN_1561), None),
-    _card("EN-GJS-600-3", "as cast", (175e9, _DUCTILE), (0.28, _DUCTILE), (7200.0, _IRON), (370e6, _DUCTILE), None),
-    _card("CuSn12-C", "sand cast", (95e9, _EN_1982), (0.34, _EN_1982), (8600.0, _EN_1982), (140e6, _EN_1982), None),
-    _card("EN AW-6082", "T6, extruded", (70e9, _EN_755), (0.33, _EN_755), (2700.0, _EN_755), (250e6, _EN_755), None),
-    _card("POM", "unreinforced, 23 degC, short load", (2.82e9, _ACETAL), (0.363, _ACETAL), (1410.0, _ACETAL), (59.3e6, _ACETAL), None),
-)}
+_CARDS = {
+    card.name: card
+    for card in (
+        _card("S355J2", "hot rolled, up to 16 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (355e6, _EN_10025), None),
+        _card("C45", "quenched and tempered, 16 to 40 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (430e6, _SAARSTAHL), None),
+        _card("42CrMo4", "quenched and tempered, 40 to 100 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (650e6, _SAARSTAHL), None),
+        _card("34CrNiMo6", "quenched and tempered, 40 to 100 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (800e6, _EN_10083_3), None),
+        _card("16MnCr5", "case hardened, core of 30 mm", _E_STEEL, _NU_STEEL, _RHO_STEEL, (490e6, _LUCEFIN), (1500e6, _ISO_6336)),
+        _card("100Cr6", "hardened, 58 to 62 HRC", _E_STEEL, _NU_STEEL, (7810.0, _BEARING), (1700e6, _BEARING), (1500e6, _ZARETSKY)),
+        _card("X5CrNi18-10", "solution annealed", (200e9, _EN_10088), (0.3, _STEEL), (7900.0, _EN_10088), (190e6, _EN_10088), None),
+        _card("EN-GJL-250", "as cast", (110e9, _EN_1561), (0.26, _EN_1561), (7200.0, _EN_1561), (165e6, _EN_1561), None),
+        _card("EN-GJS-600-3", "as cast", (175e9, _DUCTILE), (0.28, _DUCTILE), (7200.0, _IRON), (370e6, _DUCTILE), None),
+        _card("CuSn12-C", "sand cast", (95e9, _EN_1982), (0.34, _EN_1982), (8600.0, _EN_1982), (140e6, _EN_1982), None),
+        _card("EN AW-6082", "T6, extruded", (70e9, _EN_755), (0.33, _EN_755), (2700.0, _EN_755), (250e6, _EN_755), None),
+        _card("POM", "unreinforced, 23 degC, short load", (2.82e9, _ACETAL), (0.363, _ACETAL), (1410.0, _ACETAL), (59.3e6, _ACETAL), None),
+    )
+}

@@ -35,8 +35,7 @@ class Value(NamedTuple):
     @classmethod
     def of(cls, estimate: Any, unit: str, meaning: str) -> "Value":
         """The value of a `numerics.ensemble.Estimate`: whatever has value, low, high, interval and settled."""
-        return cls(estimate.value, unit, meaning, estimate.low, estimate.high, estimate.interval, estimate.settled,
-                   estimate.error).plain()
+        return cls(estimate.value, unit, meaning, estimate.low, estimate.high, estimate.interval, estimate.settled, estimate.error).plain()
 
     def plain(self) -> "Value":
         """The same in Python's own floats; a bound that is not finite is None, and without any bound there is no interval."""
@@ -78,8 +77,10 @@ class Column(NamedTuple):
 
     def bounds(self, low: np.ndarray, high: np.ndarray) -> tuple:
         """The columns NAME.low and NAME.high with the ends of its 95 % intervals, nan where it has none; they go beside it."""
-        return (self._replace(name=f"{self.name}{LOW}", meaning=f"{self.meaning}, at least", data=np.asarray(low, float)),
-                self._replace(name=f"{self.name}{HIGH}", meaning=f"{self.meaning}, at most", data=np.asarray(high, float)))
+        return (
+            self._replace(name=f"{self.name}{LOW}", meaning=f"{self.meaning}, at least", data=np.asarray(low, float)),
+            self._replace(name=f"{self.name}{HIGH}", meaning=f"{self.meaning}, at most", data=np.asarray(high, float)),
+        )
 
 
 @dataclass(frozen=True)
@@ -279,12 +280,24 @@ class Result:
         from drivewright import __version__
 
         values = {k: v.record() for k, v in self.values.items() if math.isfinite(v.value)}
-        arrays = {k: {"unit": a.unit, "axes": list(a.axes), "labels": [list(x) for x in a.labels], "values": _listed(a.values)}
-                  for k, a in self.arrays.items()}
+        arrays = {
+            k: {"unit": a.unit, "axes": list(a.axes), "labels": [list(x) for x in a.labels], "values": _listed(a.values)}
+            for k, a in self.arrays.items()
+        }
         checks = [check.record() for check in self.checks if math.isfinite(check.value) and math.isfinite(check.limit)]
-        return {"format": 1, "drivewright": __version__, "mechanism": self.mechanism, "title": self.title, "digest": self.digest,
-                "values": values, "arrays": arrays, "checks": checks,
-                "findings": list(self.findings), "outcome": self.outcome, "provenance": dict(self.provenance)}
+        return {
+            "format": 1,
+            "drivewright": __version__,
+            "mechanism": self.mechanism,
+            "title": self.title,
+            "digest": self.digest,
+            "values": values,
+            "arrays": arrays,
+            "checks": checks,
+            "findings": list(self.findings),
+            "outcome": self.outcome,
+            "provenance": dict(self.provenance),
+        }
 
 
 def _listed(values):

@@ -98,8 +98,10 @@ def _holes_of(table):
     names = [name for name, count in columns.items() if count]
     if names:
         shown = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
-        yield (f"table '{table.name}' ({table.title}): {shown} do{'es' if len(names) == 1 else ''} not exist in "
-               f"{max(columns.values())} of {len(table.columns[0].data)} rows")
+        yield (
+            f"table '{table.name}' ({table.title}): {shown} do{'es' if len(names) == 1 else ''} not exist in "
+            f"{max(columns.values())} of {len(table.columns[0].data)} rows"
+        )
 
 
 def reasons(answers):
@@ -192,8 +194,10 @@ def _fault(spec, error):
     """What to say, and to report, of an exception that nobody expected."""
     if os.environ.get(DEBUG):
         traceback.print_exception(error)
-    return (f"failed by a fault of the program, not of the spec: {type(error).__name__}: {error}. Please report it with drivewright "
-            f"{versions()['drivewright']}, {spec.mechanism}, spec digest {spec.digest()}; drivewright --debug shows where it happened")
+    return (
+        f"failed by a fault of the program, not of the spec: {type(error).__name__}: {error}. Please report it with drivewright "
+        f"{versions()['drivewright']}, {spec.mechanism}, spec digest {spec.digest()}; drivewright --debug shows where it happened"
+    )
 
 
 def _result(spec, mechanism, answers, findings, seconds):

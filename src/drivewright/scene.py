@@ -108,8 +108,14 @@ def capsule(start, end, radius):
     angle = float(np.arctan2(y1 - y0, x1 - x0))
     side = radius * np.array([-np.sin(angle), np.cos(angle)])
     a, b = np.array(start, float), np.array(end, float)
-    return Outline((Line(tuple(a - side), tuple(b - side)), Arc(tuple(b), radius, angle - np.pi / 2, np.pi),
-                    Line(tuple(b + side), tuple(a + side)), Arc(tuple(a), radius, angle + np.pi / 2, np.pi)))
+    return Outline(
+        (
+            Line(tuple(a - side), tuple(b - side)),
+            Arc(tuple(b), radius, angle - np.pi / 2, np.pi),
+            Line(tuple(b + side), tuple(a + side)),
+            Arc(tuple(a), radius, angle + np.pi / 2, np.pi),
+        )
+    )
 
 
 class Shape(NamedTuple):
@@ -242,4 +248,3 @@ class Part:
     solids: tuple
     pose: tuple = (0.0, 0.0, 0.0)
     colour: str = "steel"
-

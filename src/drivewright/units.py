@@ -98,8 +98,39 @@ def _unit(text):
         raise UnitError(f"{brief(text)} is no unit known here{nearest(words[0], UNITS_PEOPLE_WRITE) if words else ''}") from None
 
 
-UNITS_PEOPLE_WRITE = ("mm", "um", "cm", "m", "in", "deg", "rad", "rev", "rpm", "arcmin", "N", "kN", "MPa", "GPa", "Pa", "kg", "g", "ms",
-                      "s", "min", "h", "Hz", "J", "W", "kW", "Nm", "millimetre", "millimeter", "degree", "radian", "newton")
+UNITS_PEOPLE_WRITE = (
+    "mm",
+    "um",
+    "cm",
+    "m",
+    "in",
+    "deg",
+    "rad",
+    "rev",
+    "rpm",
+    "arcmin",
+    "N",
+    "kN",
+    "MPa",
+    "GPa",
+    "Pa",
+    "kg",
+    "g",
+    "ms",
+    "s",
+    "min",
+    "h",
+    "Hz",
+    "J",
+    "W",
+    "kW",
+    "Nm",
+    "millimetre",
+    "millimeter",
+    "degree",
+    "radian",
+    "newton",
+)
 
 
 @dataclass(frozen=True)
@@ -150,9 +181,12 @@ class Dimension:
 
     def _remedy(self, dimensionality):
         """How to get from the unit that was given to one that fits, where the mix-up is a classic."""
-        mixups = {("angular speed", "frequency"): "; a frequency counts events: write rev/s, rpm or rad/s",
-                  ("frequency", "angular speed"): "; write Hz or 1/s", ("rotational stiffness", "torque"): "; write N m/rad or N m/deg",
-                  ("torque", "rotational stiffness"): "; write N m"}
+        mixups = {
+            ("angular speed", "frequency"): "; a frequency counts events: write rev/s, rpm or rad/s",
+            ("frequency", "angular speed"): "; write Hz or 1/s",
+            ("rotational stiffness", "torque"): "; write N m/rad or N m/deg",
+            ("torque", "rotational stiffness"): "; write N m",
+        }
         return mixups.get((self.name, _name_of(dimensionality)), REMEDIES.get(self.name, ""))
 
     def __get_pydantic_core_schema__(self, source, handler):
@@ -258,8 +292,12 @@ DIMENSIONS = tuple(
         ("torsional compliance", "rad/(N m)", "arcmin/(kN m)"),
     )
 )
-REMEDIES = {"rotational damping": "; write N m s/rad, a torque per angular speed", "viscosity": "; write Pa s, the dynamic viscosity",
-            "wear coefficient": "; write mm^3/(N m), volume per force and sliding distance", "slowness": "; write s/m"}
+REMEDIES = {
+    "rotational damping": "; write N m s/rad, a torque per angular speed",
+    "viscosity": "; write Pa s, the dynamic viscosity",
+    "wear coefficient": "; write mm^3/(N m), volume per force and sliding distance",
+    "slowness": "; write s/m",
+}
 BY_NAME = {dimension.name: dimension for dimension in DIMENSIONS}
 BY_UNIT = {dimension.unit: dimension for dimension in DIMENSIONS}
 
@@ -312,5 +350,17 @@ def display(si_unit):
 
 
 # Typed apart from the registry so that drawing a figure does not import pint; a test holds the two together.
-_SHOWN_FACTOR = {"mm": 1e-3, "deg": math.pi / 180, "rpm": math.pi / 30, "N/mm": 1e3, "MPa": 1e6, "mm^2": 1e-6, "1/mm": 1e3, "mm^3": 1e-9,
-                 "mm^3/(N m)": 1e-9, "um/kN": 1e-9, "N m/arcmin": 10800 / math.pi, "arcmin/(kN m)": math.pi / 10800e3}
+_SHOWN_FACTOR = {
+    "mm": 1e-3,
+    "deg": math.pi / 180,
+    "rpm": math.pi / 30,
+    "N/mm": 1e3,
+    "MPa": 1e6,
+    "mm^2": 1e-6,
+    "1/mm": 1e3,
+    "mm^3": 1e-9,
+    "mm^3/(N m)": 1e-9,
+    "um/kN": 1e-9,
+    "N m/arcmin": 10800 / math.pi,
+    "arcmin/(kN m)": math.pi / 10800e3,
+}

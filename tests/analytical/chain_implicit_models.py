@@ -14,8 +14,22 @@ PITCH = 9.525e-3
 FLANK = np.pi / 6
 
 
-def drive(radius=1.2e-3, teeth=(35, 37), links=82, stiffness=1e9, joint=None, force=150.0, apothem=2.6e-3, speed=-200.0, damping=0.0,
-          beta=2e-6, offset=0.0, gravity=(0.0, 0.0), torque=0.0, **chain):
+def drive(
+    radius=1.2e-3,
+    teeth=(35, 37),
+    links=82,
+    stiffness=1e9,
+    joint=None,
+    force=150.0,
+    apothem=2.6e-3,
+    speed=-200.0,
+    damping=0.0,
+    beta=2e-6,
+    offset=0.0,
+    gravity=(0.0, 0.0),
+    torque=0.0,
+    **chain,
+):
     """The drive of the paper, masses assumed; both strands at force/2."""
     joined = link(PITCH, radius, FLANK, apothem)
     involutes = [Tooth(z, 0.5 * PITCH * z / np.pi * np.cos(FLANK), seat_support(joined, z)) for z in teeth]
@@ -24,8 +38,17 @@ def drive(radius=1.2e-3, teeth=(35, 37), links=82, stiffness=1e9, joint=None, fo
     plates = Chain(joined, links, mass, mass * (15e-3**2 + 9e-3**2) / 12, stiffness if joint is None else joint, beta, offset, **chain)
     contact, centre = Contact(stiffness, damping), (0.5 * (links - sum(teeth) / 2) * PITCH, 0.0)
     first = Sprocket(involutes[0], contact, angle=0.0, tip_radius=tips[0], drive=Drive(speed, speed))
-    second = Sprocket(involutes[1], contact, centre, None, tips[1], mass=0.6, inertia=0.3 * tips[1] ** 2, torque=torque,
-                      slide=Slide(0.0, force, 0.0, 100.0))
+    second = Sprocket(
+        involutes[1],
+        contact,
+        centre,
+        None,
+        tips[1],
+        mass=0.6,
+        inertia=0.3 * tips[1] ** 2,
+        torque=torque,
+        slide=Slide(0.0, force, 0.0, 100.0),
+    )
     return Model(plates, (first, second), (), gravity)
 
 
@@ -46,8 +69,19 @@ def with_guides(model):
 def _guide(pose, side):
     out = np.array([-np.sin(pose[2]), np.cos(pose[2])]) * (1 if side == "outside" else -1)
     polar = np.arctan2(-out[1], -out[0])
-    return Guide(tuple(pose[:2] + out * (80e-3 + 1.2e-3 - 2e-5)), 80e-3, polar - 0.06, polar + 0.06, side, 1.2e-3, Contact(1e7), 0.3, 0.05,
-                 mass=0.1, slide=Slide(0.9, 3.0, 1e3, 2.0))
+    return Guide(
+        tuple(pose[:2] + out * (80e-3 + 1.2e-3 - 2e-5)),
+        80e-3,
+        polar - 0.06,
+        polar + 0.06,
+        side,
+        1.2e-3,
+        Contact(1e7),
+        0.3,
+        0.05,
+        mass=0.1,
+        slide=Slide(0.9, 3.0, 1e3, 2.0),
+    )
 
 
 def with_rollers(**changes):

@@ -8,11 +8,7 @@ from drivewright.bearings import quick
 from drivewright.indexing.drivetrain import Drivetrain, GearMesh, SplitShaft, pin_contact, power_bearing
 from drivewright.indexing.motion import index_motion
 from drivewright.indexing.pin_wheel import PinWheel, contacts
-from drivewright.indexing.solid import (
-    CamBody,
-    ShaftBody,
-    solid_stiffness,
-)
+from drivewright.indexing.solid import CamBody, ShaftBody, solid_stiffness
 from drivewright.shafts import Section
 
 WIDTH, E, NU = 0.018, 206e9, 0.3
@@ -40,5 +36,3 @@ def drive(cams=2, **changes):
 
 def solved(train, solids, torque=-1000.0, side="inside", theta=ANGLES, **settings):
     return solid_stiffness(wheel(side), train, solids, theta, [contacts(wheel(side), each) for each in theta], torque, **settings)
-
-

@@ -8,8 +8,18 @@ from drivewright.bearings import BallBearing, law_of, respond, solve
 from drivewright.contact import effective_modulus, point_contact, relative_radii
 
 # Inner geometry and expected values stand in a public repository whose names point to a commercial program (second-hand).
-OTHER = BallBearing(balls=7, ball_diameter="11.5 mm", pitch_diameter="43.5 mm", inner_conformity=0.52, outer_conformity=0.53,
-                    radial_clearance="0 mm", contact_angle="0 deg", dynamic_rating="23.4 kN", youngs_modulus="210 GPa", poisson_ratio=0.3)
+OTHER = BallBearing(
+    balls=7,
+    ball_diameter="11.5 mm",
+    pitch_diameter="43.5 mm",
+    inner_conformity=0.52,
+    outer_conformity=0.53,
+    radial_clearance="0 mm",
+    contact_angle="0 deg",
+    dynamic_rating="23.4 kN",
+    youngs_modulus="210 GPa",
+    poisson_ratio=0.3,
+)
 # A 20x32x7 bearing fitted to its catalogue ratings, and numbers computed for it by an earlier program of ours.
 SMALL = BallBearing(balls=12, ball_diameter="3.572 mm", pitch_diameter="26 mm", youngs_modulus="206 GPa")
 UPRIGHT = ("tilt_x", "tilt_y")
@@ -26,8 +36,10 @@ def axial(force):
 # --------------------------------------------------------------------------------------------------------- other programs
 
 
-@pytest.mark.parametrize(("clearance", "force", "freedom", "displacement"), [
-    ("0 mm", radial(1000), 0, 15.1101e-6), ("0 mm", axial(1000), 2, 133.538e-6), ("10 um", radial(1000), 0, 21.223e-6)])
+@pytest.mark.parametrize(
+    ("clearance", "force", "freedom", "displacement"),
+    [("0 mm", radial(1000), 0, 15.1101e-6), ("0 mm", axial(1000), 2, 133.538e-6), ("10 um", radial(1000), 0, 21.223e-6)],
+)
 def test_displacement_of_the_other_program(clearance, force, freedom, displacement):
     bearing = OTHER.replace(radial_clearance=clearance)
     assert_allclose(solve(bearing, force=force).displacement[freedom], displacement, rtol=3e-5)
@@ -43,9 +55,17 @@ def test_constant_of_both_races():
     assert_allclose(law_of(SMALL).constant, 182771 * 1e3**1.5, rtol=2e-6)
 
 
-@pytest.mark.parametrize(("force", "displacement", "secant", "tangent"), [
-    (50, 2.15, 2.33, 3.49), (100, 3.41, 2.93, 4.40), (200, 5.41, 3.70, 5.545), (500, 9.97, 5.02, 7.53), (1000, 15.82, 6.32, 9.48),
-    (2000, 25.11, 7.96, 11.95)])
+@pytest.mark.parametrize(
+    ("force", "displacement", "secant", "tangent"),
+    [
+        (50, 2.15, 2.33, 3.49),
+        (100, 3.41, 2.93, 4.40),
+        (200, 5.41, 3.70, 5.545),
+        (500, 9.97, 5.02, 7.53),
+        (1000, 15.82, 6.32, 9.48),
+        (2000, 25.11, 7.96, 11.95),
+    ],
+)
 def test_small_bearing_under_radial_load(force, displacement, secant, tangent):
     state = solve(SMALL, force=radial(force))
     assert_allclose(state.displacement[0] * 1e6, displacement, atol=0.0051)
@@ -60,8 +80,9 @@ def test_clearance_with_the_ring_held_against_one_shoulder(force, tangent):
     assert_allclose(state.stiffness[0, 0] / 1e7, tangent, atol=0.0051)
 
 
-@pytest.mark.parametrize(("thrust", "stiffness"), [
-    (0, (7.5, 4.2, 0.32, 391)), (200, (9.6, 10.6, 1.6, 1289)), (500, (13.5, 13.6, 3.4, 2853))])
+@pytest.mark.parametrize(
+    ("thrust", "stiffness"), [(0, (7.5, 4.2, 0.32, 391)), (200, (9.6, 10.6, 1.6, 1289)), (500, (13.5, 13.6, 3.4, 2853))]
+)
 def test_small_bearing_under_both_loads_held_upright(thrust, stiffness):
     diagonal = np.diag(solve(SMALL, force=[500, 0, thrust, 0, 0], held=UPRIGHT).stiffness)
     digits = np.array([0.051, 0.051, 0.0051 if thrust == 0 else 0.051, 0.51])
@@ -93,8 +114,17 @@ def energy(bearing, u):
     return total
 
 
-LOOSE = BallBearing(balls=9, ball_diameter="8 mm", pitch_diameter="40 mm", inner_conformity=0.515, outer_conformity=0.525,
-                    contact_angle="30 deg", radial_clearance="15 um", first_element="7 deg", tilt_radius="18 mm")
+LOOSE = BallBearing(
+    balls=9,
+    ball_diameter="8 mm",
+    pitch_diameter="40 mm",
+    inner_conformity=0.515,
+    outer_conformity=0.525,
+    contact_angle="30 deg",
+    radial_clearance="15 um",
+    first_element="7 deg",
+    tilt_radius="18 mm",
+)
 
 
 @pytest.mark.parametrize("displacement", [(2e-5, -1e-5, 1.5e-5, 4e-4, -9e-4), (-3e-5, 4e-6, 2e-5, -1e-3, 1e-3), (2e-4, 0, -3e-4, 0, 2e-3)])

@@ -7,8 +7,18 @@ from numpy.testing import assert_allclose
 from drivewright.bearings import BallBearing, basic_dynamic_rating, basic_life, basic_static_rating, solve
 from drivewright.bearings.life import ball_reference_life
 
-OTHER = BallBearing(balls=7, ball_diameter="11.5 mm", pitch_diameter="43.5 mm", inner_conformity=0.52, outer_conformity=0.53,
-                    radial_clearance="0 mm", contact_angle="0 deg", dynamic_rating="23.4 kN", youngs_modulus="210 GPa", poisson_ratio=0.3)
+OTHER = BallBearing(
+    balls=7,
+    ball_diameter="11.5 mm",
+    pitch_diameter="43.5 mm",
+    inner_conformity=0.52,
+    outer_conformity=0.53,
+    radial_clearance="0 mm",
+    contact_angle="0 deg",
+    dynamic_rating="23.4 kN",
+    youngs_modulus="210 GPa",
+    poisson_ratio=0.3,
+)
 
 
 @pytest.mark.parametrize(("force", "life"), [([1000, 0, 0, 0, 0], 13163.0e6), ([0, 0, 1000, 0, 0], 2222.73e6)])
@@ -66,9 +76,25 @@ def rating_factor(gamma, **changes):
     return basic_dynamic_rating(bearing) / (1.3 * 6 ** (2 / 3) * 10**1.8)
 
 
-@pytest.mark.parametrize(("gamma", "factor"), [
-    (0.05, 46.7), (0.06, 49.1), (0.08, 52.8), (0.10, 55.5), (0.12, 57.5), (0.14, 58.8), (0.16, 59.6), (0.18, 59.9), (0.20, 59.9),
-    (0.22, 59.6), (0.24, 59.0), (0.26, 58.2), (0.28, 57.1), (0.30, 56.0)])
+@pytest.mark.parametrize(
+    ("gamma", "factor"),
+    [
+        (0.05, 46.7),
+        (0.06, 49.1),
+        (0.08, 52.8),
+        (0.10, 55.5),
+        (0.12, 57.5),
+        (0.14, 58.8),
+        (0.16, 59.6),
+        (0.18, 59.9),
+        (0.20, 59.9),
+        (0.22, 59.6),
+        (0.24, 59.0),
+        (0.26, 58.2),
+        (0.28, 57.1),
+        (0.30, 56.0),
+    ],
+)
 def test_factor_of_the_standard(gamma, factor):
     """f_c of ISO 281, recalled, printed to 0.1."""
     assert_allclose(rating_factor(gamma), factor, atol=0.08)
@@ -84,14 +110,16 @@ def test_rating_of_an_inclined_contact():
 
 def test_large_balls():
     """Above 25.4 mm the diameter counts with 1.4 instead of 1.8."""
-    below, at, above = (basic_dynamic_rating(BallBearing(balls=8, ball_diameter=f"{d} mm", pitch_diameter=f"{5 * d} mm"))
-                        for d in (12.7, 25.4, 50.8))
+    below, at, above = (
+        basic_dynamic_rating(BallBearing(balls=8, ball_diameter=f"{d} mm", pitch_diameter=f"{5 * d} mm")) for d in (12.7, 25.4, 50.8)
+    )
     assert_allclose(at / below, 2**1.8, rtol=1e-12)
     assert_allclose(above / at, 2**1.4, rtol=1e-12)
 
 
-@pytest.mark.parametrize(("diameter", "balls", "dynamic", "static"), [
-    ("3.572 mm", 12, 3.954, 2.39), ("3.5 mm", 13, 4.009, 2.50), ("3.5 mm", 12, 3.801, 2.31)])
+@pytest.mark.parametrize(
+    ("diameter", "balls", "dynamic", "static"), [("3.572 mm", 12, 3.954, 2.39), ("3.5 mm", 13, 4.009, 2.50), ("3.5 mm", 12, 3.801, 2.31)]
+)
 def test_small_bearing(diameter, balls, dynamic, static):
     """A catalogue gives 4.03 and 2.32 kN for a 20x32x7 bearing whose inner geometry is not public."""
     bearing = BallBearing(balls=balls, ball_diameter=diameter, pitch_diameter="26 mm", youngs_modulus="206 GPa")

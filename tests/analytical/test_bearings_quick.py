@@ -41,8 +41,7 @@ def test_tangent_and_secant_belong_to_one_power_law(formula):
     assert ("read" if "liu" in formula.__name__ else "recalled") in stiffness.source
 
 
-@pytest.mark.parametrize(("formulas", "count", "size", "angle"), [
-    (BALL, 2 / 3, 1 / 3, 5 / 3), (ROLLER, 0.9, 0.8, 1.9)])
+@pytest.mark.parametrize(("formulas", "count", "size", "angle"), [(BALL, 2 / 3, 1 / 3, 5 / 3), (ROLLER, 0.9, 0.8, 1.9)])
 def test_exponents_are_those_of_the_fullest_element(formulas, count, size, angle):
     for formula in formulas:
         one = formula(800.0, 10, 6e-3).value
@@ -64,8 +63,9 @@ def test_imperial_and_metric_constants_agree():
 
 def test_beside_the_five_freedom_model_of_a_61804():
     """Kraemer 10 % high, the others within 2 %, at usual loads."""
-    bearing = BallBearing(balls=12, ball_diameter="3.572 mm", pitch_diameter="26 mm", inner_conformity=0.52, outer_conformity=0.53,
-                          youngs_modulus="206 GPa")
+    bearing = BallBearing(
+        balls=12, ball_diameter="3.572 mm", pitch_diameter="26 mm", inner_conformity=0.52, outer_conformity=0.53, youngs_modulus="206 GPa"
+    )
     for force, expected in zip((50, 100, 200, 500, 1000, 2000), (3.49e7, 4.40e7, 5.55e7, 7.53e7, 9.48e7, 11.95e7), strict=True):
         exact = solve(bearing, force=[force, 0, 0, 0, 0]).stiffness[0, 0]
         assert exact == pytest.approx(expected, abs=0.006e7)
@@ -81,10 +81,17 @@ def test_beside_the_lamina_model_of_an_nu207e():
         assert quick.liu_roller(force, 14, 8.5e-3).tangent / exact == pytest.approx(0.863, abs=0.002)
 
 
-@pytest.mark.parametrize(("arguments", "complaint"), [
-    ((0.0, 12, 4e-3), "the force must be above 0, got 0 N"), ((np.array([5.0, -2.0]), 12, 4e-3), "got -2 N"),
-    ((10.0, 0, 4e-3), "number of rolling elements must be above 0"), ((10.0, 12, -4e-3), "got -0.004 m"),
-    ((10.0, 12, 4e-3, 15.0), "below 90 deg, got 859.437 deg .the formulas want radians"), ((np.nan, 12, 4e-3), "got nan N")])
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        ((0.0, 12, 4e-3), "the force must be above 0, got 0 N"),
+        ((np.array([5.0, -2.0]), 12, 4e-3), "got -2 N"),
+        ((10.0, 0, 4e-3), "number of rolling elements must be above 0"),
+        ((10.0, 12, -4e-3), "got -0.004 m"),
+        ((10.0, 12, 4e-3, 15.0), "below 90 deg, got 859.437 deg .the formulas want radians"),
+        ((np.nan, 12, 4e-3), "got nan N"),
+    ],
+)
 def test_nonsense_is_refused(arguments, complaint):
     for formula in BALL + ROLLER:
         with pytest.raises(InputError, match=complaint):

@@ -132,8 +132,9 @@ def test_compiled_and_plain_python_agree():
 
 def test_size_of_the_world_does_not_matter():
     """Lengths three times as large with moduli five times as large: forces 45 times, moments 135 times."""
-    large = ODD.replace(roller_diameter="10.5 mm", roller_length="12 mm", pitch_diameter="78 mm", radial_clearance="9 um",
-                        youngs_modulus="1050 GPa")
+    large = ODD.replace(
+        roller_diameter="10.5 mm", roller_length="12 mm", pitch_diameter="78 mm", radial_clearance="9 um", youngs_modulus="1050 GPa"
+    )
     force, larger = respond(law_of(ODD), SOMEWHERE)[1], respond(law_of(large), SOMEWHERE * [3, 3, 3, 1, 1])[1]
     assert larger == pytest.approx(force * [45, 45, 45, 135, 135], rel=1e-11)
     pressures = [solve(each, displacement=SOMEWHERE * [by, by, by, 1, 1]).pressures for each, by in ((large, 3), (ODD, 1))]
@@ -202,6 +203,7 @@ def test_laminae_converge_in_second_order():
 def test_default_laminae_resolve_the_profile():
     """Load of a crowned roller within 1 %, its stiffness within 3 %, of the integral, from a light load to a heavy one."""
     for depth in (1e-6, 3e-6, 1e-5):
+
         def overlap(x, depth=depth):
             return max(depth + 2 * 0.00035 * 0.0035 * np.log(1 - (2 * x / 0.0032) ** 2), 0.0)
 
@@ -237,8 +239,9 @@ def test_many_rollers_without_clearance_share_as_in_the_makers_table():
     assert held_tilt(many, [700, 0, 0, 0, 0]).element_loads.max() * 400 / 700 == pytest.approx(4.0850, abs=1e-4)
 
 
-@pytest.mark.parametrize(("profile", "force", "expected"), [
-    ("none", 500, 2.26e8), ("log", 500, 1.91e8), ("none", 50, 1.79e8), ("log", 50, 0.94e8)])
+@pytest.mark.parametrize(
+    ("profile", "force", "expected"), [("none", 500, 2.26e8), ("log", 500, 1.91e8), ("none", 50, 1.79e8), ("log", 50, 0.94e8)]
+)
 def test_cylindrical_bearing_of_the_sheet(profile, force, expected):
     state = solve(CYLINDRICAL.replace(profile=profile), force=[force, 0, 0, 0, 0])
     assert state.stiffness[0, 0] == pytest.approx(expected, abs=0.006e8)
@@ -346,9 +349,18 @@ def test_clearance_in_the_wrong_unit_is_refused():
         CYLINDRICAL.replace(radial_clearance="-20 mm")
 
 
-@pytest.mark.parametrize(("key", "value", "complaint"), [
-    ("rollers", 2, "at least 3"), ("roller_length", "0 mm", "greater than 0"), ("contact_angle", "90 deg", "less than"),
-    ("profile", "round", "one of"), ("poisson_ratio", 0.5, "less than"), ("laminae", 0, "at least 1"), ("roller_diameter", 3.5, "mm")])
+@pytest.mark.parametrize(
+    ("key", "value", "complaint"),
+    [
+        ("rollers", 2, "at least 3"),
+        ("roller_length", "0 mm", "greater than 0"),
+        ("contact_angle", "90 deg", "less than"),
+        ("profile", "round", "one of"),
+        ("poisson_ratio", 0.5, "less than"),
+        ("laminae", 0, "at least 1"),
+        ("roller_diameter", 3.5, "mm"),
+    ],
+)
 def test_nonsense_is_refused_by_name(key, value, complaint):
     with pytest.raises(SpecError, match=f"{key}: .*{complaint}"):
         CYLINDRICAL.replace(**{key: value})

@@ -28,8 +28,12 @@ CASES = {  # follower, programme, more, prefix of the undercut track
     "steep arm": (ARM | {"prime_radius": "35 mm", "roller_radius": "16 mm"}, STEEP, {}, ""),
     "flat lever": (LEVER | {"face": "flat", "prime_radius": "30 mm"}, GENTLE, {}, ""),
     "second cam": (ROLLER, RISE, {"closure": "conjugate", "conjugate": {"prime_radius": "60 mm"}}, "conjugate."),
-    "second cam of an arm": (ARM, SWING, {"closure": "conjugate", "conjugate": {"prime_radius": "60 mm", "arm_length": "70 mm"}},
-                             "conjugate."),
+    "second cam of an arm": (
+        ARM,
+        SWING,
+        {"closure": "conjugate", "conjugate": {"prime_radius": "60 mm", "arm_length": "70 mm"}},
+        "conjugate.",
+    ),
     "outer wall": (ROLLER, DIP, {"closure": "groove"}, "outer."),
 }
 
@@ -97,8 +101,10 @@ def test_a_larger_cam_loses_in_proportion(ran):
 def square(half):
     """Pieces of a square path, counter-clockwise, parameter 0 ... 4; the corner (half, half) is at 1."""
     corners = half * np.array([1 - 1j, 1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j])
-    return tuple(curves.Piece(float(k), float(k + 1), lambda t, a=a, b=b, k=k: a + (b - a) * (variable(t) - k), "side", "smooth")
-                 for k, (a, b) in enumerate(zip(corners[:-1], corners[1:], strict=True)))
+    return tuple(
+        curves.Piece(float(k), float(k + 1), lambda t, a=a, b=b, k=k: a + (b - a) * (variable(t) - k), "side", "smooth")
+        for k, (a, b) in enumerate(zip(corners[:-1], corners[1:], strict=True))
+    )
 
 
 @pytest.mark.parametrize("lean", [0.0, 20.0, 40.0])

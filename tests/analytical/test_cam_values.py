@@ -16,8 +16,12 @@ TURN = 2 * np.pi
 
 
 def document(follower, segments, **tables):
-    return {"mechanism": "cam", "follower": {"motion": "translating", **follower},
-            "programme": [dict(zip(("angle", "law", "rise"), row, strict=False)) for row in segments], **tables}
+    return {
+        "mechanism": "cam",
+        "follower": {"motion": "translating", **follower},
+        "programme": [dict(zip(("angle", "law", "rise"), row, strict=False)) for row in segments],
+        **tables,
+    }
 
 
 def run(follower, segments, only=("motion", "geometry", "profile"), **tables):
@@ -130,10 +134,16 @@ def test_flat_face(key):
     assert (result["max_pressure_angle.at"], result["face.end"]) == (0, result["min_half_face"])
 
 
-@pytest.mark.parametrize(("face", "same"), [
-    ({"face": "shoe", "face_radius": "12 mm", "prime_radius": "50 mm", "offset": "3 mm", "face_offset": "2 mm"},
-     {"face": "roller", "roller_radius": "12 mm", "prime_radius": "50 mm", "offset": "5 mm"}),
-    ({**ROLLER}, {"face": "roller", "roller_radius": "8 mm", "base_radius": "32 mm"})])
+@pytest.mark.parametrize(
+    ("face", "same"),
+    [
+        (
+            {"face": "shoe", "face_radius": "12 mm", "prime_radius": "50 mm", "offset": "3 mm", "face_offset": "2 mm"},
+            {"face": "roller", "roller_radius": "12 mm", "prime_radius": "50 mm", "offset": "5 mm"},
+        ),
+        ({**ROLLER}, {"face": "roller", "roller_radius": "8 mm", "base_radius": "32 mm"}),
+    ],
+)
 def test_the_same_slide_said_otherwise(face, same):
     one, other = run(face, SEGMENTS), run(same, SEGMENTS)
     assert {name: value.value for name, value in one.values.items()} == {name: value.value for name, value in other.values.items()}
@@ -251,8 +261,9 @@ def test_conjugate_pair_shares_the_force():
     assert result["crossovers"] == 2
     assert result["conjugate.max_contact_force"] > 0
     # Required force along the travel from either surface: N cos(alpha), to opposite sides.
-    net = (first["contact_force"].data * np.cos(result.tables["geometry"]["pressure_angle"].data)
-           - second["contact_force"].data * np.cos(result.tables["geometry.conjugate"]["pressure_angle"].data))
+    net = first["contact_force"].data * np.cos(result.tables["geometry"]["pressure_angle"].data) - second["contact_force"].data * np.cos(
+        result.tables["geometry.conjugate"]["pressure_angle"].data
+    )
     assert np.allclose(net, result.tables["load"]["required_force"].data, atol=1e-9)
 
 
@@ -298,7 +309,9 @@ def test_presets_pass_every_check(name):
         assert all(np.all(np.isfinite(column.data)) and column.unit and column.meaning for column in table.columns)
 
 
-@pytest.mark.parametrize(("name", "value", "expected"), [
-    ("disc_cam", "spring.jump_speed", 74.119), ("oscillating_cam", "crossovers", 4), ("yoke_cam", "yoke.breadth", 0.108)])
+@pytest.mark.parametrize(
+    ("name", "value", "expected"),
+    [("disc_cam", "spring.jump_speed", 74.119), ("oscillating_cam", "crossovers", 4), ("yoke_cam", "yoke.breadth", 0.108)],
+)
 def test_examples_show_their_number(name, value, expected):
     assert dw.run(dw.load(EXAMPLES / f"{name}.toml"))[value] == pytest.approx(expected, rel=1e-4)

@@ -18,9 +18,16 @@ def differing(found):
     return [name for name, ours, other, _, allowed, _ in found if not abs(ours - other) <= allowed]
 
 
-@pytest.mark.parametrize(("preset", "changes"), [
-    ("default", {"rotation": "clockwise"}), ("oscillating", {}), ("oscillating", {"rotation": "clockwise"}), ("flat", {}),
-    ("default", {"follower": {"face": "knife", "prime_radius": "40 mm", "offset": "6 mm"}})])
+@pytest.mark.parametrize(
+    ("preset", "changes"),
+    [
+        ("default", {"rotation": "clockwise"}),
+        ("oscillating", {}),
+        ("oscillating", {"rotation": "clockwise"}),
+        ("flat", {}),
+        ("default", {"follower": {"face": "knife", "prime_radius": "40 mm", "offset": "6 mm"}}),
+    ],
+)
 def test_the_other_route_agrees(preset, changes):
     spec = dw.load(MECHANISM.presets()[preset]).replace(**changes)
     found = rows(spec)

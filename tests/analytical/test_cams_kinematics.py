@@ -66,9 +66,21 @@ def translating_flat(sense, tilt):
     return follower, variable(THETA), (support - 0.035) / np.cos(tilt)
 
 
-FOLLOWERS = [case(sense, *more) for sense in (1, -1) for case, *more in (
-    (translating_roller, 0.0), (translating_roller, 0.009), (translating_roller, -0.006, -1), (oscillating_roller,),
-    (oscillating_roller, -1), (oscillating_flat, 0.005), (oscillating_flat, -0.004), (translating_flat, 0.0), (translating_flat, 0.12))]
+FOLLOWERS = [
+    case(sense, *more)
+    for sense in (1, -1)
+    for case, *more in (
+        (translating_roller, 0.0),
+        (translating_roller, 0.009),
+        (translating_roller, -0.006, -1),
+        (oscillating_roller,),
+        (oscillating_roller, -1),
+        (oscillating_flat, 0.005),
+        (oscillating_flat, -0.004),
+        (translating_flat, 0.0),
+        (translating_flat, 0.12),
+    )
+]
 NAMES = [f"{type(case[0]).__name__}-{number}" for number, case in enumerate(FOLLOWERS)]
 
 

@@ -69,11 +69,17 @@ def test_jump_speed_at_its_ends():
     assert cams.jump_speed(parabolic, 1.0, LOAD) == pytest.approx(expected, rel=1e-9)
 
 
-FOLLOWERS = [cams.TranslatingRound(0.045, 0.008, 0.006), cams.TranslatingRound(0.045, 0.008, 0.006, sense=-1),
-             cams.TranslatingRound(0.06, 0.008, 0.004, side=-1), cams.TranslatingFlat(0.05, 0.15, sense=-1),
-             cams.OscillatingRound(0.045, 0.008, 0.085, 0.06), cams.OscillatingRound(0.045, 0.008, 0.085, 0.06, sense=-1),
-             cams.OscillatingRound(0.06, 0.008, 0.085, 0.06, side=-1), cams.OscillatingFlat(0.05, 0.09, 0.06, 0.004),
-             cams.OscillatingFlat(0.05, 0.09, 0.06, 0.004, sense=-1)]
+FOLLOWERS = [
+    cams.TranslatingRound(0.045, 0.008, 0.006),
+    cams.TranslatingRound(0.045, 0.008, 0.006, sense=-1),
+    cams.TranslatingRound(0.06, 0.008, 0.004, side=-1),
+    cams.TranslatingFlat(0.05, 0.15, sense=-1),
+    cams.OscillatingRound(0.045, 0.008, 0.085, 0.06),
+    cams.OscillatingRound(0.045, 0.008, 0.085, 0.06, sense=-1),
+    cams.OscillatingRound(0.06, 0.008, 0.085, 0.06, side=-1),
+    cams.OscillatingFlat(0.05, 0.09, 0.06, 0.004),
+    cams.OscillatingFlat(0.05, 0.09, 0.06, 0.004, sense=-1),
+]
 SURFACES = [(f, {}) for f in FOLLOWERS] + [(FOLLOWERS[0], {"flank": -1}), (FOLLOWERS[5], {"flank": -1})]
 
 
@@ -220,12 +226,14 @@ def test_a_jump_of_velocity_is_an_impulse():
 
 def test_steady_state_against_an_adaptive_integrator():
     """Four turns of a well damped follower from rest, by the other route, end in the periodic state."""
-    programme = Programme((Segment(1.2, "modified-trapezoid", H), Segment(1.1, "dwell"), Segment(1.5, "parabolic", -H),
-                           Segment(2 * np.pi - 3.8, "dwell")))
+    programme = Programme(
+        (Segment(1.2, "modified-trapezoid", H), Segment(1.1, "dwell"), Segment(1.5, "parabolic", -H), Segment(2 * np.pi - 3.8, "dwell"))
+    )
     cycle, speed, w, damping = cams.Cycle(programme.function), 10.0, 85.0, 0.15
     state = np.zeros(2)
     for _ in range(4):
         for piece, (start, stop) in enumerate(zip(cycle.motion.breaks[:-1], cycle.motion.breaks[1:], strict=True)):
+
             def slope(t, y, piece=piece):
                 forcing = -(speed**2) * cycle.motion.on_piece(piece, t * speed).a
                 return np.array([y[1], -2 * damping * w * y[1] - w**2 * y[0] + forcing])
@@ -243,8 +251,10 @@ def test_propagator_is_a_group():
     assert np.linalg.det(one) == pytest.approx(np.exp(-2 * 0.2 * 30 * 0.01), rel=1e-13)
 
 
-@pytest.mark.parametrize(("speed", "frequency", "damping", "word"), [
-    (10.0, 50.0, 0.0, "resonance"), (10.0, 50.0, 1.0, "damping_ratio"), (0.0, 50.0, 0.1, "speed"), (1.0, 1e5, 0.1, "rigid")])
+@pytest.mark.parametrize(
+    ("speed", "frequency", "damping", "word"),
+    [(10.0, 50.0, 0.0, "resonance"), (10.0, 50.0, 1.0, "damping_ratio"), (0.0, 50.0, 0.1, "speed"), (1.0, 1e5, 0.1, "rigid")],
+)
 def test_vibration_refuses(speed, frequency, damping, word):
     with pytest.raises(InputError, match=word):
         cams.periodic(HARMONIC, 1.0, speed, frequency, damping)

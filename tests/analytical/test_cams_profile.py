@@ -16,10 +16,15 @@ def programme(rise, law="cycloidal", angles=(80, 30, 120, 130)):
     return Programme((Segment(a, law, rise), Segment(b, "dwell"), Segment(c, law, -rise), Segment(d, "dwell")))
 
 
-ROUND = [(cams.TranslatingRound(0.04, 0.008, 0.006), 0.018), (cams.TranslatingRound(0.04, 0.008, -0.01, sense=-1), 0.018),
-         (cams.TranslatingRound(0.075, 0.03, 0.004), 0.015), (cams.TranslatingRound(0.055, 0.008, 0.003, side=-1), 0.012),
-         (cams.OscillatingRound(0.04, 0.008, 0.085, 0.06), 0.3), (cams.OscillatingRound(0.04, 0.008, 0.085, 0.06, sense=-1), 0.3),
-         (cams.OscillatingRound(0.06, 0.009, 0.085, 0.06, side=-1), 0.25)]
+ROUND = [
+    (cams.TranslatingRound(0.04, 0.008, 0.006), 0.018),
+    (cams.TranslatingRound(0.04, 0.008, -0.01, sense=-1), 0.018),
+    (cams.TranslatingRound(0.075, 0.03, 0.004), 0.015),
+    (cams.TranslatingRound(0.055, 0.008, 0.003, side=-1), 0.012),
+    (cams.OscillatingRound(0.04, 0.008, 0.085, 0.06), 0.3),
+    (cams.OscillatingRound(0.04, 0.008, 0.085, 0.06, sense=-1), 0.3),
+    (cams.OscillatingRound(0.06, 0.009, 0.085, 0.06, side=-1), 0.25),
+]
 
 
 @pytest.mark.parametrize(("follower", "rise"), ROUND)
@@ -87,8 +92,12 @@ def test_groove_is_two_parallel_walls():
     assert 1 / contact[0].curvature.d0[0] + 1 / contact[1].curvature.d0[0] == pytest.approx(-0.016, rel=1e-9)
 
 
-FLAT = [(cams.TranslatingFlat(0.06), 0.012), (cams.TranslatingFlat(0.06, 0.1, 0.003, sense=-1), 0.012),
-        (cams.OscillatingFlat(0.04, 0.09, 0.06, 0.006), 0.15), (cams.OscillatingFlat(0.05, 0.09, 0.06, -0.004, sense=-1), 0.12)]
+FLAT = [
+    (cams.TranslatingFlat(0.06), 0.012),
+    (cams.TranslatingFlat(0.06, 0.1, 0.003, sense=-1), 0.012),
+    (cams.OscillatingFlat(0.04, 0.09, 0.06, 0.006), 0.15),
+    (cams.OscillatingFlat(0.05, 0.09, 0.06, -0.004, sense=-1), 0.12),
+]
 
 
 @pytest.mark.parametrize(("follower", "rise"), FLAT)
@@ -152,8 +161,14 @@ def test_face_ends_hold_every_contact(follower):
 
 
 def test_yoke_breadth():
-    shifted = Programme((Segment(np.radians(150), "modified-sine", 0.02), Segment(np.radians(30), "dwell"),
-                         Segment(np.radians(150), "modified-sine", -0.02), Segment(np.radians(30), "dwell")))
+    shifted = Programme(
+        (
+            Segment(np.radians(150), "modified-sine", 0.02),
+            Segment(np.radians(30), "dwell"),
+            Segment(np.radians(150), "modified-sine", -0.02),
+            Segment(np.radians(30), "dwell"),
+        )
+    )
     found = cams.breadth(cams.Cycle(shifted.function))
     assert found.mean == pytest.approx(0.02, rel=1e-12)
     assert found.error < 1e-16

@@ -113,15 +113,25 @@ def test_a_seated_plate_touches_neither_flank_and_a_deeper_one_both_alike():
 def test_damping_power_is_that_of_the_forces(name):
     tooth, guides, touch, pose, seat = CASES[name]
     joint = link(9.525e-3, 0.0, A, 2e-4) if tooth is ROLLER else JOINT
-    still, moving = (lowered(tooth, tuple(Guide(g.centre, g.radius, g.start, g.end, g.side, g.distance, Contact(K, c)) for g in guides),
-                             damping=c, joint=joint) for c in (0.0, 80.0))
+    still, moving = (
+        lowered(
+            tooth,
+            tuple(Guide(g.centre, g.radius, g.start, g.end, g.side, g.distance, Contact(K, c)) for g in guides),
+            damping=c,
+            joint=joint,
+        )
+        for c in (0.0, 80.0)
+    )
     v = np.array([0.02, -0.3, 4.0])
     for drive in (still, moving):
         put(drive, *pose, v=v, body=2 if guides else 0)
         drive.bodies.vx[:], drive.bodies.vy[:], drive.bodies.w[:] = 0.05, 0.11, 0.0 if guides else -3.0
         touch(drive, seat)
-    extra = [(moving.touches.fx - still.touches.fx)[0], (moving.touches.fy - still.touches.fy)[0],
-             (moving.plates.moment - still.plates.moment)[0]]
+    extra = [
+        (moving.touches.fx - still.touches.fx)[0],
+        (moving.touches.fy - still.touches.fy)[0],
+        (moving.plates.moment - still.plates.moment)[0],
+    ]
     lost = moving.touches.power[0] if not guides else -moving.power[5]
     assert lost > 1e-3
     torque = (moving.touches.torque - still.touches.torque)[0]
@@ -241,15 +251,19 @@ def test_friction_on_a_guide_opposes_sliding_and_saturates():
 
 @pytest.mark.parametrize("side", [0, 1])
 def test_friction_power_is_that_of_the_forces_on_a_turning_plate(side):
-    rough, smooth = (lowered(guides=(Guide((0.02, -0.01), 0.03, 0.0, np.pi, GUIDES[side].side, 4e-3, Contact(K), friction=mu),))
-                     for mu in (0.3, 0.0))
+    rough, smooth = (
+        lowered(guides=(Guide((0.02, -0.01), 0.03, 0.0, np.pi, GUIDES[side].side, 4e-3, Contact(K), friction=mu),)) for mu in (0.3, 0.0)
+    )
     v = np.array([0.4, 0.1, 30.0])
     for drive in (rough, smooth):
         put(drive, *CASES[("belly", "back")[side]][3], v=v, body=2)
         drive.power[:] = 0.0
         guide(drive, 0.0)
-    extra = [(rough.touches.fx - smooth.touches.fx)[0], (rough.touches.fy - smooth.touches.fy)[0],
-             (rough.plates.moment - smooth.plates.moment)[0]]
+    extra = [
+        (rough.touches.fx - smooth.touches.fx)[0],
+        (rough.touches.fy - smooth.touches.fy)[0],
+        (rough.plates.moment - smooth.plates.moment)[0],
+    ]
     assert rough.power[FRICTION] < -1.0
     assert np.dot(extra, v) == pytest.approx(rough.power[FRICTION], rel=1e-9)
     x, y, angle = CASES[("belly", "back")[side]][3]
@@ -330,7 +344,7 @@ def test_a_ramp_is_smooth_and_its_angle_the_integral():
         psi.append(b.psi[0])
         w.append(b.w[0])
     assert (w[0], w[-1]) == (-20.0, -200.0)
-    assert w[1000] == pytest.approx(-110.0 , rel=1e-9)
+    assert w[1000] == pytest.approx(-110.0, rel=1e-9)
     assert w[500] == pytest.approx(-20 - 180 * (0.25 - 1 / (2 * np.pi)), rel=1e-9)
     np.testing.assert_allclose(np.gradient(psi, time)[1:-1], w[1:-1], atol=0.02)
     np.testing.assert_allclose(psi[-1] - 0.3, -110 * 0.01 - 200 * 0.01, rtol=1e-12)

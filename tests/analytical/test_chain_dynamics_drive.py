@@ -18,9 +18,13 @@ def drive(radius=1.2e-3, speed=-60.0, stiffness=1e7, force=150.0, thick=0.0, bet
     base = [PITCH * z / (2 * np.pi) * np.cos(ANGLE) for z in teeth]
     tooth = [Tooth(z, rb, seat_support(joint, z) - thick) for z, rb in zip(teeth, base, strict=True)]
     plates = Chain(joint, count, 2.5e-3, 6.4e-8, stiffness / 3, beta, **{"toe": 4e-3} | chain)
-    return Model(plates, (
-        Sprocket(tooth[0], Contact(stiffness), drive=Drive(speed, speed)),
-        Sprocket(tooth[1], Contact(stiffness), (0.0692, 0.0), mass=0.2, inertia=2e-5, slide=Slide(0.0, force, damping=damping))))
+    return Model(
+        plates,
+        (
+            Sprocket(tooth[0], Contact(stiffness), drive=Drive(speed, speed)),
+            Sprocket(tooth[1], Contact(stiffness), (0.0692, 0.0), mass=0.2, inertia=2e-5, slide=Slide(0.0, force, damping=damping)),
+        ),
+    )
 
 
 @pytest.fixture(scope="module")
@@ -105,6 +109,8 @@ def test_fastest_mode_of_the_joints_bounds_the_exact_one():
 def test_a_light_sprocket_is_in_the_fastest_mode():
     """Two contacts k of one plate drive the sprocket too: 2 k (rb^2/I + 1/m) beside what they do to the plate."""
     model = drive()
-    base, (light, lighter) = model.sprockets[1].tooth.base_radius, ((with_sprocket(model, 1, **change)) for change in (
-        {"inertia": 1e-9, "mass": 1e-3}, {"inertia": 0.5e-9, "mass": 0.5e-3}))
+    base, (light, lighter) = (
+        model.sprockets[1].tooth.base_radius,
+        ((with_sprocket(model, 1, **change)) for change in ({"inertia": 1e-9, "mass": 1e-3}, {"inertia": 0.5e-9, "mass": 0.5e-3})),
+    )
     assert fastest(lighter)[0] - fastest(light)[0] == pytest.approx(2 * 1e7 * (base**2 / 1e-9 + 1 / 1e-3), rel=1e-9)

@@ -74,9 +74,13 @@ def drive(damping=0.0, beta=2e-6, slide=300.0, **chain):
     for z in (27, 29):
         tooth, height = Tooth(z, PITCH * z / (2 * np.pi) * np.cos(ANGLE), seat_support(joint, z)), seat_height(joint, z)
         sprockets.append(Sprocket(tooth, Contact(1e8, damping), tip_radius=height - 1.9e-3, form_radius=height - 6.2e-3))
-    return Model(Chain(joint, 72, 2.5e-3, 6.4e-8, 1e8 / 3, beta, toe=6e-3, crotch=1.4e-3, **chain), (
-        replace(sprockets[0], drive=Drive(-200.0, -200.0)),
-        replace(sprockets[1], centre=(0.2095, 0.0), mass=0.3, inertia=2e-4, slide=Slide(0.0, 150.0, damping=slide))))
+    return Model(
+        Chain(joint, 72, 2.5e-3, 6.4e-8, 1e8 / 3, beta, toe=6e-3, crotch=1.4e-3, **chain),
+        (
+            replace(sprockets[0], drive=Drive(-200.0, -200.0)),
+            replace(sprockets[1], centre=(0.2095, 0.0), mass=0.3, inertia=2e-4, slide=Slide(0.0, 150.0, damping=slide)),
+        ),
+    )
 
 
 @pytest.mark.parametrize(("damping", "articulation"), [(0.0, 0.0), (100.0, 2e-5)])

@@ -37,10 +37,22 @@ def drive(teeth=(27, 29), count=72, joint=JOINT, kind=None, wheels=(), **chain):
     chain = {"articulation_damping": 1e-5} | chain
     plates = Chain(joint, count, 2.5e-3, 6.4e-8, K / 3, 2e-6, **({} if joint.radius == 0 else {"toe": 6e-3, "crotch": 1.4e-3}) | chain)
     further = tuple(Sprocket(contact=TOUCH, centre=at, inertia=1e-5, damping=1e-4, **kind(z)) for z, at in wheels)
-    return Model(plates, (
-        Sprocket(contact=TOUCH, drive=Drive(-SPEED, -SPEED), **kind(teeth[0])),
-        Sprocket(contact=TOUCH, centre=(0.2095, 0.0), mass=0.3, inertia=2e-4, damping=0.01, slide=Slide(0.0, 150.0, damping=300.0),
-                 **kind(teeth[1])), *further))
+    return Model(
+        plates,
+        (
+            Sprocket(contact=TOUCH, drive=Drive(-SPEED, -SPEED), **kind(teeth[0])),
+            Sprocket(
+                contact=TOUCH,
+                centre=(0.2095, 0.0),
+                mass=0.3,
+                inertia=2e-4,
+                damping=0.01,
+                slide=Slide(0.0, 150.0, damping=300.0),
+                **kind(teeth[1]),
+            ),
+            *further,
+        ),
+    )
 
 
 def fixed(model, shorter=0.0):
@@ -73,15 +85,19 @@ def by_force(run):
     return run.mean(run.body(1, "fx"))
 
 
-@pytest.mark.parametrize(("model", "pull"), [
-    (drive(), 150.0),
-    (drive(count=73), 150.0),
-    (drive(teeth=(29, 27)), 150.0),
-    (drive(teeth=(28, 28)), 150.0),
-    (drive(elongation=3e-3), 150.0),
-    (drive(joint=link(PITCH, 0.0, ANGLE, 2.6e-3), toe=6e-3), 150.0),
-    (drive(joint=link(PITCH, 0.0, ANGLE, 2.6e-3), kind=roller_tooth), 150.0),
-], ids=["plain", "odd", "larger driver", "equal", "worn", "round pins", "rollers"])
+@pytest.mark.parametrize(
+    ("model", "pull"),
+    [
+        (drive(), 150.0),
+        (drive(count=73), 150.0),
+        (drive(teeth=(29, 27)), 150.0),
+        (drive(teeth=(28, 28)), 150.0),
+        (drive(elongation=3e-3), 150.0),
+        (drive(joint=link(PITCH, 0.0, ANGLE, 2.6e-3), toe=6e-3), 150.0),
+        (drive(joint=link(PITCH, 0.0, ANGLE, 2.6e-3), kind=roller_tooth), 150.0),
+    ],
+    ids=["plain", "odd", "larger driver", "equal", "worn", "round pins", "rollers"],
+)
 def test_a_drive_of_two_sprockets_runs_and_carries_its_preload(model, pull):
     assert by_force(ran(model)) == pytest.approx(-pull, rel=0.05)
 
@@ -141,8 +157,18 @@ def test_a_fixed_guide_bends_the_strand_by_its_force(side, sign):
 def test_a_sprung_tensioner_takes_up_the_slack():
     slack = 1e-3
     low = start(drive()).poses[:, 1].min() + 0.0005
-    guide = Guide((0.105, low - 3e-3 - 0.15), 0.15, np.pi / 2 - 0.4, np.pi / 2 + 0.4, "outside", 3e-3, Contact(1e7, 50.0), friction=0.1,
-                  mass=0.05, slide=Slide(np.pi / 2, 50.0, 1e3, 20.0))
+    guide = Guide(
+        (0.105, low - 3e-3 - 0.15),
+        0.15,
+        np.pi / 2 - 0.4,
+        np.pi / 2 + 0.4,
+        "outside",
+        3e-3,
+        Contact(1e7, 50.0),
+        friction=0.1,
+        mass=0.05,
+        slide=Slide(np.pi / 2, 50.0, 1e3, 20.0),
+    )
     run = ran(replace(fixed(drive(), slack), guides=(guide,)), 0.4)
     q = run.mean(run.body(2, "q"))
     # straight to both ends from the arc of radius R: two strands are longer by 2 q^2/L less what the arc cuts off

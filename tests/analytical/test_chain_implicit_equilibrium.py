@@ -51,8 +51,9 @@ def test_a_tooth_further_all_is_as_before():
 
 def test_strands_carry_half_the_force_each(rest):
     """Cut between the sprockets: two joints, whose forces along the slide add up to its force."""
-    upper, lower = (np.abs([force[_at(plates, side), 0] for plates, force in zip(rest.plates, rest.joint_force, strict=True)])
-                    for side in (1, -1))
+    upper, lower = (
+        np.abs([force[_at(plates, side), 0] for plates, force in zip(rest.plates, rest.joint_force, strict=True)]) for side in (1, -1)
+    )
     assert upper + lower == pytest.approx(150.0 * np.ones(24), rel=2e-6)
     assert upper == pytest.approx(75.0 * np.ones(24), rel=3e-3)
     assert rest.flank_force.min() == 0.0

@@ -24,8 +24,11 @@ def damped(model, damping):
     return model
 
 
-@pytest.mark.parametrize("make", [lambda: damped(small(**SOFT, torque=0.2), 5.0),
-                                  lambda: with_guides(small(**SOFT)), lambda: with_rollers(**SOFT)], ids=["teeth", "guides", "rollers"])
+@pytest.mark.parametrize(
+    "make",
+    [lambda: damped(small(**SOFT, torque=0.2), 5.0), lambda: with_guides(small(**SOFT)), lambda: with_rollers(**SOFT)],
+    ids=["teeth", "guides", "rollers"],
+)
 def test_motion_is_the_explicit_one(make):
     """All columns of both runs, over half a tooth."""
     model = make()

@@ -126,8 +126,9 @@ def test_profile_and_involute_agree_beside_a_flank():
 
 
 @pytest.mark.parametrize("teeth", [35, 37, 19])
-@pytest.mark.parametrize("chain", [CHAIN, CLASSICAL, link(P, 1.6e-3, A, CHAIN.flank - 0.5 * (P + 3.2e-3) * np.cos(A))],
-                         ids=["group 3", "classical", "group 7"])
+@pytest.mark.parametrize(
+    "chain", [CHAIN, CLASSICAL, link(P, 1.6e-3, A, CHAIN.flank - 0.5 * (P + 3.2e-3) * np.cos(A))], ids=["group 3", "classical", "group 7"]
+)
 def test_default_plates_seat_without_touching_elsewhere(chain, teeth):
     plate, sprocket = design_plate(chain), design_sprocket(chain, teeth)
     assert min(sprocket.contact_margins) > 0.1e-3

@@ -128,7 +128,8 @@ def test_teeth_stand_where_they_are_told_to():
     small, large = (build(*ROLLER, f"roller.tooth_space={share}").sprockets[0] for share in (0.0, 1.0))
     assert large.seat_radius > small.seat_radius
     assert build(*ROLLER, "roller.tooth_space=0.3").sprockets[0].seat_radius == pytest.approx(
-        0.7 * small.seat_radius + 0.3 * large.seat_radius, rel=1e-9)
+        0.7 * small.seat_radius + 0.3 * large.seat_radius, rel=1e-9
+    )
 
 
 def test_any_matching_cutter_leaves_the_teeth_on_which_the_plates_sit():
@@ -190,8 +191,9 @@ def test_teeth_are_as_thick_as_the_seated_plates_leave_room_for():
         wheel = model.sprockets[number]
         assert found.check(f"overlap.{side}").value == -found[f"least_gap.{side}"]
         assert found.check(f"contact.above_form.{side}").value == pytest.approx(np.hypot(x, height) - wheel.form_radius, abs=1e-12)
-        assert found.check(f"contact.below_tip.{side}").value == pytest.approx(wheel.tip_radius - wheel.tip_chamfer - np.hypot(x, height),
-                                                                               abs=1e-12)
+        assert found.check(f"contact.below_tip.{side}").value == pytest.approx(
+            wheel.tip_radius - wheel.tip_chamfer - np.hypot(x, height), abs=1e-12
+        )
         ends = sorted(point[1] for point in (model.plate.flank("right").start, model.plate.flank("right").end))
         assert found.check(f"contact.on_flank.{side}").value == pytest.approx(min(y - ends[0], ends[1] - y), abs=1e-12)
         told = [found[f"{name}_radius.{side}"] for name in ("tip", "root", "form")]
@@ -237,8 +239,10 @@ def test_the_least_gap_is_that_of_the_worst_position(monkeypatch):
 def test_thick_teeth_are_found_to_overlap_the_plates():
     model = build()
     for number, side in enumerate(("drive", "driven")):
-        sides = [each._replace(tooth=each.tooth._replace(support=each.tooth.support - 20e-6 * (k == number)))
-                 for k, each in enumerate(model.sides)]
+        sides = [
+            each._replace(tooth=each.tooth._replace(support=each.tooth.support - 20e-6 * (k == number)))
+            for k, each in enumerate(model.sides)
+        ]
         thick = type(model)(model.spec, model.link, model.offset, model.standard_apothem, model.cutter, tuple(sides))
         found = {check.name: check for check in geometry(thick, {}).checks}
         assert found[f"overlap.{side}"].value == pytest.approx(20e-6, abs=5e-7)
@@ -334,8 +338,9 @@ def test_a_phase_map_looks_four_links_to_either_side():
     table = answer.tables["phase_map"]
     assert sorted(set(table["links"].data)) == list(range(62, 71))
     assert sorted(set(table["rolling_radius"].data)) == pytest.approx([0, 1.2 * MM, 0.78 * P])
-    rows = phase_map([Drive(link(P, r, 0.5, 0.0), 23, 31, int(n)) for r, n in
-                      zip(table["rolling_radius"].data, table["links"].data, strict=True)], 24).rows
+    rows = phase_map(
+        [Drive(link(P, r, 0.5, 0.0), 23, 31, int(n)) for r, n in zip(table["rolling_radius"].data, table["links"].data, strict=True)], 24
+    ).rows
     assert table["transmission_error"].data == pytest.approx([row.value.transmission_ripple for row in rows], rel=1e-12)
     best = np.argmin(table["fluctuation"].data)
     assert answer["phase_map.least_fluctuation"] == table["fluctuation"].data[best]
@@ -419,10 +424,12 @@ def test_teeth_of_the_moving_system():
 
 
 def test_further_sprockets_and_guides():
-    changes = ('sprockets=[{name="idler", teeth=19, centre=["90 mm", "15 mm"], load_torque="0.5 N m"}]',
-               'guides=[{name="rail", centre=["90 mm", "-330 mm"], radius="290 mm", start="80 deg", end="100 deg"}, '
-               '{name="shoe", centre=["90 mm", "330 mm"], radius="290 mm", start="260 deg", end="280 deg", side="inside", force="30 N", '
-               'direction="-80 deg", stiffness="2 N/mm", damping="7 N s/m", mass="40 g"}]')
+    changes = (
+        'sprockets=[{name="idler", teeth=19, centre=["90 mm", "15 mm"], load_torque="0.5 N m"}]',
+        'guides=[{name="rail", centre=["90 mm", "-330 mm"], radius="290 mm", start="80 deg", end="100 deg"}, '
+        '{name="shoe", centre=["90 mm", "330 mm"], radius="290 mm", start="260 deg", end="280 deg", side="inside", force="30 N", '
+        'direction="-80 deg", stiffness="2 N/mm", damping="7 N s/m", mass="40 g"}]',
+    )
     model = build(*changes)
     system, radius = moving(model), pitch_radius(19)
     idler = system.sprockets[2]
@@ -510,8 +517,13 @@ def test_the_campbell_diagram_s_rows(monkeypatch):
         assert (revolutions, members) == (2, 4)
         frequency = np.arange(9.0)
         level = lambda w: SimpleNamespace(  # noqa: E731
-            mean=known(1.0), fluctuation=known(2.0, settled=w > -100), tension=known(4.0), frequency=frequency,
-            amplitudes=tuple(known(k * w) for k in (1, 2, 3)), spectrum=np.array([9.0, 1, 5, 1, 7, 1, 6, 2, 8]))
+            mean=known(1.0),
+            fluctuation=known(2.0, settled=w > -100),
+            tension=known(4.0),
+            frequency=frequency,
+            amplitudes=tuple(known(k * w) for k in (1, 2, 3)),
+            spectrum=np.array([9.0, 1, 5, 1, 7, 1, 6, 2, 8]),
+        )
         return SimpleNamespace(rows=[SimpleNamespace(case=w, value=level(w), ok=True) for w in speeds], failed=())
 
     monkeypatch.setattr(many, "campbell", campbell)
@@ -536,8 +548,9 @@ def test_percentiles_and_rest_are_told_as_they_were_found(monkeypatch):
     def monte_carlo(system, scatter, samples, duration, settings, percentiles, seed):
         asked.update(scatter=scatter, duration=duration)
         ends = np.array([[0.0], [-0.5], [0.25]])
-        return SimpleNamespace(mean=ends + [1.0, 2.0, 3.0], fluctuation=ends + [4.0, 5.0, np.inf],
-                               outcomes=SimpleNamespace(rows=[row], failed=()))
+        return SimpleNamespace(
+            mean=ends + [1.0, 2.0, 3.0], fluctuation=ends + [4.0, 5.0, np.inf], outcomes=SimpleNamespace(rows=[row], failed=())
+        )
 
     row = SimpleNamespace(value=SimpleNamespace(mean=known(7.0), fluctuation=known(8.0)), ok=True)
     monkeypatch.setattr(many, "monte_carlo", monte_carlo)
@@ -550,9 +563,16 @@ def test_percentiles_and_rest_are_told_as_they_were_found(monkeypatch):
     assert values["scatter.mean.p50"][3:6] == (1.5, 2.25, "sample")
     assert (drives["mean.low"], drives["fluctuation"], drives["fluctuation.high"]) == (6.5, 8.0, 8.25)
 
-    rest = SimpleNamespace(mean=1.0, fluctuation=2.0, flank_force=np.arange(12.0).reshape(2, 3, 2), driver_angle=np.array([0.1, -0.1]),
-                           centre_distance=np.ones(2), contacts=np.ones(2), tension=np.arange(6.0).reshape(2, 3),
-                           transmission_error=lambda sprocket: np.array([2.0, -1.5]) * sprocket)
+    rest = SimpleNamespace(
+        mean=1.0,
+        fluctuation=2.0,
+        flank_force=np.arange(12.0).reshape(2, 3, 2),
+        driver_angle=np.array([0.1, -0.1]),
+        centre_distance=np.ones(2),
+        contacts=np.ones(2),
+        tension=np.arange(6.0).reshape(2, 3),
+        transmission_error=lambda sprocket: np.array([2.0, -1.5]) * sprocket,
+    )
     monkeypatch.setattr(many, "equilibrium", lambda *given: rest)
     monkeypatch.setattr(many, "compliance_of", lambda *given: SimpleNamespace(rigid_mean=7.0))
     answer = many.quasi_static(model, {})
@@ -619,8 +639,9 @@ def test_the_running_chain_s_numbers(monkeypatch):
 
 def test_the_life_of_a_plate_in_revolutions_and_seconds(monkeypatch):
     model = build()
-    lives = SimpleNamespace(rows=np.array([2, 0, 1]), life=np.array([1e7, np.inf, 1e5]),
-                            damage=np.array([1e-7, 0, 1e-5]), stress=np.ones(3))
+    lives = SimpleNamespace(
+        rows=np.array([2, 0, 1]), life=np.array([1e7, np.inf, 1e5]), damage=np.array([1e-7, 0, 1e-5]), stress=np.ones(3)
+    )
     rim = SimpleNamespace(points=np.array([[0.0, 0.0], [1.0, 2.0], [3.0, 5.0]]))
     found = SimpleNamespace(basis=SimpleNamespace(body=SimpleNamespace(rim=rim)), thinned=None, whole=True, time=np.array([0.5, 0.6, 0.75]))
     monkeypatch.setattr(stress, "plate_life", lambda *given: lives)

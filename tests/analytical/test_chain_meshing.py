@@ -121,8 +121,16 @@ def test_group_three_and_its_cutters():
     assert m.positioning_diameter(seated, 35) == pytest.approx(106.6886832989 * MM, rel=1e-12)
     assert m.positioning_diameter(sprocket(37, 30)[0], 37) == pytest.approx(112.750435724 * MM, rel=1e-11)
     assert cut_tooth(35, cutter, x, ANGLE).contact_radius == pytest.approx(49.59688789127 * MM, rel=1e-12)
-    printed = {(35, 25): -0.475936, (37, 25): -0.4206063388, (35, 20): 0.114870, (37, 20): 0.227164, (35, 27): -0.721021,
-               (37, 27): -0.686696, (35, 31.5): -1.305890, (37, 31.5): -1.317714}
+    printed = {
+        (35, 25): -0.475936,
+        (37, 25): -0.4206063388,
+        (35, 20): 0.114870,
+        (37, 20): 0.227164,
+        (35, 27): -0.721021,
+        (37, 27): -0.686696,
+        (35, 31.5): -1.305890,
+        (37, 31.5): -1.317714,
+    }
     for (z, angle), expected in printed.items():
         assert sprocket(z, angle)[3] == pytest.approx(expected, abs=6e-7)
     assert matching_cutter(P, ANGLE, np.deg2rad(25)).pitch == pytest.approx(9.10164525676 * MM, rel=1e-11)

@@ -25,8 +25,15 @@ def gear(teeth, shift, rounding=0.25, tip=1.0, chamfer=0.0, dedendum=1.25, modul
     """A gear of the common rack, by its shift and tip height in modules."""
     hob, a = Cutter(np.pi * module, np.radians(pressure)), np.radians(pressure)
     r = 0.5 * module * teeth
-    return Sprocket(cut_tooth(teeth, hob, shift, a), a, hob, r + (tip + shift) * module, r + (shift - dedendum) * module,
-                    rounding * module, chamfer * module)
+    return Sprocket(
+        cut_tooth(teeth, hob, shift, a),
+        a,
+        hob,
+        r + (tip + shift) * module,
+        r + (shift - dedendum) * module,
+        rounding * module,
+        chamfer * module,
+    )
 
 
 @pytest.mark.parametrize("degrees", CUTTERS)

@@ -72,7 +72,8 @@ def test_two_sprockets_are_a_loop_of_two_circles(teeth1, teeth2, ratio):
     assert loop.lengths == pytest.approx(np.full(2, s.strand_length(P, teeth1, teeth2, ratio * P)), rel=1e-13)
     assert loop.links(P, (teeth1, teeth2)) == pytest.approx(s.chain_links(P, teeth1, teeth2, ratio * P), rel=1e-13)
     assert loop.links(P, (0, teeth2)) == pytest.approx(  # a smooth roller carries an arc, not a polygon
-        loop.links(P, (teeth1, teeth2)) + loop.wraps[0] * (circles[0][2] / P - teeth1 / (2 * np.pi)), rel=1e-13)
+        loop.links(P, (teeth1, teeth2)) + loop.wraps[0] * (circles[0][2] / P - teeth1 / (2 * np.pi)), rel=1e-13
+    )
 
 
 def test_what_the_approximate_number_leaves():
@@ -206,7 +207,8 @@ def test_ratings_of_a_power_law_are_read_off_exactly():
 def test_ratings_between_entries_of_any_table():
     table = s.rating_table([20], [1.0, 4.0, 9.0], [100.0, 300.0, 200.0])
     assert [s.rated_power(table, 20, speed) for speed in (1.0, 2.0, 4.0, 6.0, 9.0)] == pytest.approx(
-        [100, np.sqrt(100 * 300), 300, np.sqrt(300 * 200), 200], rel=1e-13)
+        [100, np.sqrt(100 * 300), 300, np.sqrt(300 * 200), 200], rel=1e-13
+    )
 
 
 def test_the_best_used_chain_comes_first():

@@ -82,7 +82,7 @@ def test_meeting_energy_of_rigid_links_struck_at_the_joint(normal_angle):
     def end(link, side):
         """Rows that give the velocity of a link's end from the velocities of all links."""
         rows = np.zeros((2, 3 * links))
-        rows[:, 3 * link:3 * link + 3] = [[1, 0, 0], [0, 1, side * 0.5 * P]]
+        rows[:, 3 * link : 3 * link + 3] = [[1, 0, 0], [0, 1, side * 0.5 * P]]
         return rows
 
     hinges = [end(0, -1)] + [end(i, 1) - end(i + 1, -1) for i in range(links - 1)]
@@ -134,5 +134,6 @@ def test_the_pure_numbers_do_not_know_the_units():
     """Lengths 3 times, times 5 times, masses 7 times as large in numbers."""
     speed, force, per_length, energy = 3 / 5, 7 * 3 / 25, 7 / 3, 7 * 9 / 25
     assert s.resonance_speed(700 * force, Q * per_length, 0.43 * 3, P * 3) == pytest.approx(
-        speed * s.resonance_speed(700.0, Q, 0.43, P), rel=1e-13)
+        speed * s.resonance_speed(700.0, Q, 0.43, P), rel=1e-13
+    )
     assert s.meeting_energy(3 * P, Q * per_length, W / 5) == pytest.approx(energy * s.meeting_energy(P, Q, W), rel=1e-13)

@@ -65,22 +65,21 @@ def test_the_gap_is_smooth_and_seats_the_roller(pitch, roller, teeth):
         distance = np.hypot(points[:, 0], points[:, 1] - centre)
         assert distance.argmin() == len(points) // 2
         assert distance.min() == pytest.approx(0.5 * roller, rel=1e-12)
-        assert np.all(np.diff(distance[len(points) // 2:]) > 0)  # play grows from the bottom to the tip
+        assert np.all(np.diff(distance[len(points) // 2 :]) > 0)  # play grows from the bottom to the tip
         assert np.all(np.abs(angle) < np.pi / teeth)
 
 
 @pytest.mark.parametrize(("pitch", "roller", "teeth"), CASES)
 def test_the_least_gap_lies_inside_the_greatest(pitch, roller, teeth):
     outlines, tip = gaps(pitch, roller, teeth)
-    right = {form: radius_and_angle(points[len(points) // 2:]) for form, points in outlines.items()}
+    right = {form: radius_and_angle(points[len(points) // 2 :]) for form, points in outlines.items()}
     radius = np.linspace(0.5 * s.root_diameter(pitch, teeth, roller) + 1e-3 * pitch, 0.5 * tip, 200)
     least, greatest = (np.interp(radius, *right[form]) for form in ("least", "greatest"))
     assert np.all(least < greatest)
 
 
 def test_measures_of_the_gap():
-    assert s.tooth_gap(17, 11.91 * MM, "least") == pytest.approx(
-        (6.01455 * MM, np.radians(134.705882353), 27.1548 * MM), rel=1e-9)
+    assert s.tooth_gap(17, 11.91 * MM, "least") == pytest.approx((6.01455 * MM, np.radians(134.705882353), 27.1548 * MM), rel=1e-9)
     seat = 6.01455 + 0.069 * 11.91 ** (1 / 3)
     assert s.tooth_gap(17, 11.91 * MM, "greatest") == pytest.approx((seat * MM, np.radians(114.705882353), 44.68632 * MM), rel=1e-9)
 

@@ -39,8 +39,10 @@ def test_the_crotch_breaks_first_after_the_curve_s_cycles():
     assert np.abs(basis().body.rim.points[found.rows[first]]) == pytest.approx([1.57e-3, 1.44e-3], abs=0.1e-3)
     # Brown and Miller on the 45 deg plane of a pulsating uniaxial stress s: 1.65 s/(2 E), with the mean normal stress s/4
     cycles = 2 * found.life[first]
-    right = (1.65 * (material.fatigue_strength - peak.stress / 4) / material.youngs_modulus * cycles**material.fatigue_strength_exponent
-             + 1.75 * material.fatigue_ductility * cycles**material.fatigue_ductility_exponent)
+    right = (
+        1.65 * (material.fatigue_strength - peak.stress / 4) / material.youngs_modulus * cycles**material.fatigue_strength_exponent
+        + 1.75 * material.fatigue_ductility * cycles**material.fatigue_ductility_exponent
+    )
     assert right == pytest.approx(1.65 * peak.stress / (2 * material.youngs_modulus), rel=0.01)
 
 

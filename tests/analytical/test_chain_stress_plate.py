@@ -10,16 +10,7 @@ from drivewright.chains.link import link
 from drivewright.chains.plate import design_plate
 from drivewright.chains.plate_holes import HingePin
 from drivewright.chains.stress import bearing
-from drivewright.chains.stress.plate import (
-    Loads,
-    amounts,
-    plate_basis,
-    plate_body,
-    stress_history,
-    stress_picture,
-    unbalanced,
-    worst,
-)
+from drivewright.chains.stress.plate import Loads, amounts, plate_basis, plate_body, stress_history, stress_picture, unbalanced, worst
 from drivewright.errors import InputError
 from drivewright.solids.plane import mises, order_error
 

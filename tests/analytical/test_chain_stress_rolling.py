@@ -10,10 +10,9 @@ from drivewright.errors import InputError, UnknownName
 X, Z = np.meshgrid(np.linspace(-2, 2, 401), np.linspace(0.0, 2.0, 201))
 
 
-@pytest.mark.parametrize(("radius", "pressure", "half_width", "shear"), [
-    (1.2e-3, 1414.77e6, 0.0150e-3, 424.8e6),
-    (7.4e-3, 569.72e6, 0.03725e-3, 171.1e6),
-])
+@pytest.mark.parametrize(
+    ("radius", "pressure", "half_width", "shear"), [(1.2e-3, 1414.77e6, 0.0150e-3, 424.8e6), (7.4e-3, 569.72e6, 0.03725e-3, 171.1e6)]
+)
 def test_pins_of_a_chain(radius, pressure, half_width, shear):
     """200 N over 6 mm of steel."""
     found = rolling_contact(200.0, 6e-3, (radius, radius), 206e9, 0.3)

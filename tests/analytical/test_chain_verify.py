@@ -31,10 +31,17 @@ def differing(found):
     return [name for name, ours, other, _, allowed, _ in found if not abs(ours - other) <= allowed]
 
 
-@pytest.mark.parametrize(("chosen", "least"), [
-    (spec(), 24), (spec("classical"), 24), (spec("roller"), 2), (spec(closure={"strands": "straight"}), 23),
-    (spec(cutter={"half_angle": "25 deg"}, joint={"offset": "minimax"}, links=83), 24),
-    (spec(joint={"offset": "0.1 mm"}, meshing={"ideal": "rack"}), 24)])
+@pytest.mark.parametrize(
+    ("chosen", "least"),
+    [
+        (spec(), 24),
+        (spec("classical"), 24),
+        (spec("roller"), 2),
+        (spec(closure={"strands": "straight"}), 23),
+        (spec(cutter={"half_angle": "25 deg"}, joint={"offset": "minimax"}, links=83), 24),
+        (spec(joint={"offset": "0.1 mm"}, meshing={"ideal": "rack"}), 24),
+    ],
+)
 def test_the_other_routes_agree(chosen, least):
     found = rows(chosen)
     assert len(found) >= least
@@ -48,11 +55,24 @@ def test_running_agrees_with_implicit_steps():
     assert differing(found) == []
 
 
-@pytest.mark.parametrize(("changes", "noticed"), [
-    ({"joint": {"rolling_radius": "1.21 mm"}}, {"hole_pitch", "pin_offset", "seated_pitch.driven", "modification.driven",
-                                                "gap of a seated plate.drive", "rolling radius of the pins"}),
-    ({"teeth": [36, 37]}, {"pin_offset", "seated_pitch.drive", "modification.drive", "contact_radius.drive", "centre_distance.mean"}),
-    ({"contact": {"force": "120 N"}, "joint": {"contact_length": "5 mm"}}, {"pin.force"})])
+@pytest.mark.parametrize(
+    ("changes", "noticed"),
+    [
+        (
+            {"joint": {"rolling_radius": "1.21 mm"}},
+            {
+                "hole_pitch",
+                "pin_offset",
+                "seated_pitch.driven",
+                "modification.driven",
+                "gap of a seated plate.drive",
+                "rolling radius of the pins",
+            },
+        ),
+        ({"teeth": [36, 37]}, {"pin_offset", "seated_pitch.drive", "modification.drive", "contact_radius.drive", "centre_distance.mean"}),
+        ({"contact": {"force": "120 N"}, "joint": {"contact_length": "5 mm"}}, {"pin.force"}),
+    ],
+)
 def test_a_wrong_result_is_noticed(changes, noticed):
     wrong = set(differing(rows(spec(), dw.run(spec(**changes), only=ONLY))))
     assert noticed <= wrong

@@ -24,9 +24,11 @@ def pressure_force(pressure, zeros):
 
 def endless(eps, wedge, squeeze):
     """Force over P of a bearing of endless length: the 1-D pressure whose integral with H^3 is 0, as its open ends demand."""
+
     def pressure(x):
         H = 1 - eps * np.cos(x)
         return -wedge * np.sin(x) * (1 + H) / ((2 + eps**2) * H**2) + squeeze / (2 * eps) * (1 / H**2 - 2 / (2 + 3 * eps**2))
+
     return 12 * pressure_force(pressure, [0.0])
 
 
@@ -143,8 +145,9 @@ def test_how_far_the_book_is_from_the_endless_bearing():
 
 
 @pytest.mark.parametrize("eps", [0.0, 0.1, 0.6, 0.93])
-@pytest.mark.parametrize("wedge, squeeze", [
-    (1.0, 0.0), (-0.7, 0.0), (0.6, 0.5), (-0.6, 0.5), (0.6, -0.5), (-0.2, -0.9), (0.0, 1.0), (0.0, -1.0)])
+@pytest.mark.parametrize(
+    "wedge, squeeze", [(1.0, 0.0), (-0.7, 0.0), (0.6, 0.5), (-0.6, 0.5), (0.6, -0.5), (-0.2, -0.9), (0.0, 1.0), (0.0, -1.0)]
+)
 def test_short_bearing_is_the_integral_of_its_pressure(eps, wedge, squeeze):
     pressure = lambda x: (squeeze * np.cos(x) - wedge * np.sin(x)) / (1 - eps * np.cos(x)) ** 3  # noqa: E731
     zeros = np.mod(np.arctan2(-wedge, squeeze) + np.array([-0.5, 0.5]) * np.pi + np.pi, 2 * np.pi) - np.pi
@@ -182,8 +185,13 @@ def test_the_grid_converges_in_second_order(eps, direction):
 
 def test_a_short_bearing_tends_to_ocvirk():
     eps, directions = [0.2, 0.6], [0.0, 0.7, np.pi / 2, 2.3, np.pi]
-    off = [reynolds.film_deviation(reynolds.closed_form_map(film.short_bearing, slenderness, eps, directions),
-                                   reynolds.film_map(slenderness, eps, directions, (240, 17))) for slenderness in (0.06, 0.03)]
+    off = [
+        reynolds.film_deviation(
+            reynolds.closed_form_map(film.short_bearing, slenderness, eps, directions),
+            reynolds.film_map(slenderness, eps, directions, (240, 17)),
+        )
+        for slenderness in (0.06, 0.03)
+    ]
     assert np.max(off[1]) < 0.004 and np.max(off[0]) < 0.01
 
 
@@ -256,18 +264,29 @@ def test_reynolds_condition_is_met_at_every_node():
 
 def test_reynolds_condition_changes_nothing_in_a_short_bearing():
     e, v, spin = STATES[0]
-    forces = [reynolds.solve_film(e, v, spin, 0.08, 0.0004, *OIL[2:], cavitation=name, shape=(120, 7)).force
-              for name in ("gumbel", "reynolds")]
+    forces = [
+        reynolds.solve_film(e, v, spin, 0.08, 0.0004, *OIL[2:], cavitation=name, shape=(120, 7)).force for name in ("gumbel", "reynolds")
+    ]
     assert forces[0] == pytest.approx(forces[1], rel=1e-3)
 
 
-@pytest.mark.parametrize("change, message", [
-    ({"eccentricity": (5e-4, 0.0)}, r"the eccentricity must lie in \[0, 1\) of the clearance and L/D be above 0, got 1.25"),
-    ({"cavitation": "jfo"}, "cavitation is 'gumbel' or 'reynolds', got 'jfo'"),
-    ({"shape": (6, 3)}, "a grid of 6 x 3 nodes is too coarse"),
-])
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        ({"eccentricity": (5e-4, 0.0)}, r"the eccentricity must lie in \[0, 1\) of the clearance and L/D be above 0, got 1.25"),
+        ({"cavitation": "jfo"}, "cavitation is 'gumbel' or 'reynolds', got 'jfo'"),
+        ({"shape": (6, 3)}, "a grid of 6 x 3 nodes is too coarse"),
+    ],
+)
 def test_refusals(change, message):
-    given = {"eccentricity": (1e-4, 0.0), "velocity": (0.0, 0.1), "spin": 1.0, "viscosity": 0.1, "length": 0.02, "radius": 0.01,
-             "clearance": 4e-4}
+    given = {
+        "eccentricity": (1e-4, 0.0),
+        "velocity": (0.0, 0.1),
+        "spin": 1.0,
+        "viscosity": 0.1,
+        "length": 0.02,
+        "radius": 0.01,
+        "clearance": 4e-4,
+    }
     with pytest.raises(InputError, match=message):
         reynolds.solve_film(**(given | change))

@@ -86,6 +86,10 @@ def test_lugre_over_a_cycle_takes_energy():
 
 def test_compiled_equals_plain():
     for slip in (-0.02, 3e-4, 0.5):
-        for law, given in ((friction.coulomb, (0.2, 70.0, slip, 0.01)), (friction.ambrosio, (0.2, 70.0, slip, 1e-4, 0.3)),
-                           (friction.lugre_rate, (4e-7, slip, *BRISTLES)), (friction.lugre, (4e-7, 0.1, slip, 70.0, 1e5, 30.0, 0.4))):
+        for law, given in (
+            (friction.coulomb, (0.2, 70.0, slip, 0.01)),
+            (friction.ambrosio, (0.2, 70.0, slip, 1e-4, 0.3)),
+            (friction.lugre_rate, (4e-7, slip, *BRISTLES)),
+            (friction.lugre, (4e-7, 0.1, slip, 70.0, 1e5, 30.0, 0.4)),
+        ):
             assert law(*given) == pytest.approx(plain(law)(*given), rel=1e-14)

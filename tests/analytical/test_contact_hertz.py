@@ -54,9 +54,11 @@ def test_line_scaling():
 
 def half_plane_stress(z, p0=1.0, b=1.0):
     """Stresses across and along the depth z below the middle, by summing Flamant's line loads over the pressure."""
+
     def stress(u):
         s, load = b * np.sin(u), p0 * np.cos(u) ** 2 * b
         return -2 * z / np.pi * load / (s**2 + z**2) ** 2 * np.array([s**2, 0 * s + z**2])
+
     return integrate_pieces(stress, np.linspace(-np.pi / 2, np.pi / 2, 9), 40)
 
 

@@ -19,8 +19,8 @@ BEARING = (0.5e-3, 10e-3, 9.5e-3, 1.1e11, 0.018)  # clearance, radii, E*, length
 def bounce(force, mass, speed, time):
     """Coefficient of restitution of a free impact, by integration of m d'' = -max(F(d, d'), 0)."""
     system = Functions(
-        lambda t, y: np.array([y[1], -max(force(max(y[0], 0.0), y[1]), 0.0) / mass]),
-        lambda t, y: np.array([1.0 if y[1] > 0 else y[0]]))
+        lambda t, y: np.array([y[1], -max(force(max(y[0], 0.0), y[1]), 0.0) / mass]), lambda t, y: np.array([1.0 if y[1] > 0 else y[0]])
+    )
     run = integrate(system, 0, time, [0.0, speed], 1e-10, [1e-15, 1e-11], watch=[Event(-1, terminal=True)], max_step=time / 100)
     assert run.outcome == "event"
     return -run.y_end[1] / speed
@@ -29,11 +29,14 @@ def bounce(force, mass, speed, time):
 # ------------------------------------------------------------------------------------------------------------ the laws
 
 
-@pytest.mark.parametrize("name, delivered", [
-    ("lankarani-nikravesh", (0.9132, 0.7960, 0.7252, 0.6653)),
-    ("hunt-crossley", (0.9090, 0.7680, 0.6630, 0.5158)),
-    ("flores-2011", (0.8939, 0.6832, 0.4704, 0.0694)),
-])
+@pytest.mark.parametrize(
+    "name, delivered",
+    [
+        ("lankarani-nikravesh", (0.9132, 0.7960, 0.7252, 0.6653)),
+        ("hunt-crossley", (0.9090, 0.7680, 0.6630, 0.5158)),
+        ("flores-2011", (0.8939, 0.6832, 0.4704, 0.0694)),
+    ],
+)
 def test_delivered_restitution_of_the_laws(name, delivered):
     law = impact.impact_law(name)
     assert [impact.delivered_restitution(law.factor(e)) for e in (0.9, 0.7, 0.5, 0.1)] == pytest.approx(delivered, abs=5.1e-5)
@@ -132,7 +135,8 @@ def test_kelvin_voigt_there_and_back(e):
     damping = impact.kelvin_voigt_damping(e, 5e5, 2.0)
     assert impact.kelvin_voigt_restitution(damping, 5e5, 2.0) == pytest.approx(e, rel=1e-12)
     assert damping == impact.kelvin_voigt_damping(e, 5e5 * 9, 2.0) / 3 or damping == pytest.approx(
-        impact.kelvin_voigt_damping(e, 5e5 * 9, 2.0) / 3, rel=1e-13)
+        impact.kelvin_voigt_damping(e, 5e5 * 9, 2.0) / 3, rel=1e-13
+    )
 
 
 def test_kelvin_voigt_at_critical_damping_is_smooth():

@@ -76,15 +76,26 @@ def test_wear_at_is_periodic_and_linear():
         assert wear.wear_at(depths, angle) == pytest.approx(depth, rel=1e-12) == plain(wear.wear_at)(depths, angle)
 
 
-@pytest.mark.parametrize("change, message", [
-    ({"slip": np.zeros(2)}, r"rows of the same two or more samples, got the shapes \(3,\), \(3,\), \(3,\), \(2,\)"),
-    ({"time": [0.0, 2.0, 1.0]}, "time falls back after 2 s; sort the samples"),
-    ({"force": [1.0, -1.0, 0.0]}, "forces must be finite and not below 0"),
-    ({"angle": [np.nan, 0.0, 0.0]}, "angles of loaded samples finite"),
-    ({"bins": 2}, "2 bins do not tell"),
-])
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        ({"slip": np.zeros(2)}, r"rows of the same two or more samples, got the shapes \(3,\), \(3,\), \(3,\), \(2,\)"),
+        ({"time": [0.0, 2.0, 1.0]}, "time falls back after 2 s; sort the samples"),
+        ({"force": [1.0, -1.0, 0.0]}, "forces must be finite and not below 0"),
+        ({"angle": [np.nan, 0.0, 0.0]}, "angles of loaded samples finite"),
+        ({"bins": 2}, "2 bins do not tell"),
+    ],
+)
 def test_refusals(change, message):
-    given = {"time": [0.0, 1.0, 2.0], "angle": np.zeros(3), "force": np.ones(3), "slip": np.ones(3), "coefficient": K, "radius": RADIUS,
-             "length": LENGTH, "bins": 9}
+    given = {
+        "time": [0.0, 1.0, 2.0],
+        "angle": np.zeros(3),
+        "force": np.ones(3),
+        "slip": np.ones(3),
+        "coefficient": K,
+        "radius": RADIUS,
+        "length": LENGTH,
+        "bins": 9,
+    }
     with pytest.raises(InputError, match=message):
         wear.deposit(**(given | change))

@@ -19,8 +19,14 @@ def ellipse(a=0.05, b=0.03):
 
 def slot(length=0.04, radius=0.01):
     """A rounded bar: two lines and two true half circles."""
-    return Outline((Line((0, -radius), (length, -radius)), Arc((length, 0), radius, -PI / 2, PI),
-                    Line((length, radius), (0, radius)), Arc((0, 0), radius, PI / 2, PI)))
+    return Outline(
+        (
+            Line((0, -radius), (length, -radius)),
+            Arc((length, 0), radius, -PI / 2, PI),
+            Line((length, radius), (0, radius)),
+            Arc((0, 0), radius, PI / 2, PI),
+        )
+    )
 
 
 def test_area_and_length_of_true_arcs_and_lines():

@@ -18,8 +18,7 @@ def smooth(z, start, stop, shape="smooth"):
 def square(half):
     corners = half * np.array([1 - 1j, 1 + 1j, -1 + 1j, -1 - 1j])
     return tuple(
-        smooth(lambda t, a=a, b=b: a + (b - a) * variable(t), 0.0, 1.0, "line")
-        for a, b in zip(corners, np.roll(corners, -1), strict=True)
+        smooth(lambda t, a=a, b=b: a + (b - a) * variable(t), 0.0, 1.0, "line") for a, b in zip(corners, np.roll(corners, -1), strict=True)
     )
 
 

@@ -63,8 +63,12 @@ def test_the_largest_lost_motion_is_found_off_the_samples():
     """A rectangle, started in the middle of a side, whose sides take equal parameter steps: its corners lie off every sample."""
     a, b, radius = 0.03, 0.011, 0.003
     corners = np.array([-1j * b, a - 1j * b, a + 1j * b, -a + 1j * b, -a - 1j * b])
-    sides = tuple(curves.Piece(float(k), k + 1.0, lambda t, k=k: corners[k] + (corners[(k + 1) % 5] - corners[k]) * (variable(t) - k),
-                               f"side {k}", "line") for k in range(5))
+    sides = tuple(
+        curves.Piece(
+            float(k), k + 1.0, lambda t, k=k: corners[k] + (corners[(k + 1) % 5] - corners[k]) * (variable(t) - k), f"side {k}", "line"
+        )
+        for k in range(5)
+    )
     place, most = curves.largest_profile_gap(curves.trim(curves.CircleFamily(sides, radius)))
     assert most == pytest.approx((np.sqrt(2) - 1) * radius, rel=1e-3)
     assert min(abs(place - corner) for corner in range(5)) < 1e-4
@@ -195,8 +199,10 @@ def test_messages_name_place_and_remedy():
     with pytest.raises(InputError, match="4 mm over the interior point .* Enlarge the base circle"):
         curves.trim(curves.CircleFamily(circle_path(0.006), 0.01))
     with pytest.raises(InputError, match=r"'a' ends at t = 3 and piece 'b' starts at t = 3, 1 mm apart"):
-        jump = (curves.Piece(0.0, 3.0, lambda t: 0.03 * exp(1j * variable(t)), "a"),
-                curves.Piece(3.0, 2 * PI, lambda t: 0.031 * exp(1j * variable(t)), "b"))
+        jump = (
+            curves.Piece(0.0, 3.0, lambda t: 0.03 * exp(1j * variable(t)), "a"),
+            curves.Piece(3.0, 2 * PI, lambda t: 0.031 * exp(1j * variable(t)), "b"),
+        )
         curves.trim(curves.CircleFamily(jump, 0.005))
     with pytest.raises(InputError, match="radius = -0.001 m; it must be positive"):
         curves.CircleFamily(circle_path(0.03), -1e-3)

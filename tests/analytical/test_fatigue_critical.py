@@ -9,8 +9,14 @@ from drivewright._jit import plain
 from drivewright.fatigue import critical, planes
 
 E, NU, SF, B, EF, C = 206e9, 0.3, 1470e6, -0.087, 0.4604, -0.58
-CARD = fatigue.StrainLife(youngs_modulus="206 GPa", poisson_ratio=NU, fatigue_strength="1470 MPa", fatigue_strength_exponent=B,
-                          fatigue_ductility=EF, fatigue_ductility_exponent=C)
+CARD = fatigue.StrainLife(
+    youngs_modulus="206 GPa",
+    poisson_ratio=NU,
+    fatigue_strength="1470 MPa",
+    fatigue_strength_exponent=B,
+    fatigue_ductility=EF,
+    fatigue_ductility_exponent=C,
+)
 
 
 def block(first, second, strain=None):
@@ -39,8 +45,9 @@ def life_of(p, mean=0.0):
     return np.exp(brentq(lambda y: np.log(parameter(np.exp(y), mean) / p), -40, 200, xtol=1e-13))
 
 
-@pytest.mark.parametrize(("stress", "life", "digits"), [(162.03e6, 1.07e14, 3), (245.18e6, 7.7e11, 2), (303.13e6, 6.0e10, 2),
-                                                        (468.66e6, 2.9e8, 2)])
+@pytest.mark.parametrize(
+    ("stress", "life", "digits"), [(162.03e6, 1.07e14, 3), (245.18e6, 7.7e11, 2), (303.13e6, 6.0e10, 2), (468.66e6, 2.9e8, 2)]
+)
 def test_repeated_uniaxial_stress(stress, life, digits):
     found = fatigue.brown_miller(*block(diagonal(0), diagonal(stress)), CARD)
     assert float(f"{found.life:.{digits - 1}e}") == life
@@ -114,9 +121,11 @@ def test_uniaxial_factor_of_the_most_damaged_plane():
 def test_repeated_stress_on_the_most_damaged_plane_against_one_angle():
     # With a mean the most damaged plane leans to where the normal stress is high; about the axis all planes are alike.
     s = 600e6
+
     def life(a):
         amplitude = s / 2 / E * (1.3 * np.sin(2 * a) + 0.35 + 0.65 * np.cos(2 * a))
         return life_of(amplitude, s / 2 * np.cos(a) ** 2)
+
     best = minimize_scalar(life, bounds=(0.2, 0.8), method="bounded", options={"xatol": 1e-9})
     found = fatigue.brown_miller(*block(diagonal(0, 0, s), diagonal(0)), CARD, "max-damage")
     assert found.life == pytest.approx(best.fun, rel=1e-9)
@@ -209,9 +218,11 @@ def test_of_a_cone_of_tied_planes_the_most_damaged(samples):
     stress = 1e6 * np.array([diagonal(0, 0, 500), diagonal(0, 0, -500), [[600, 60, 20], [60, 300, 30], [20, 30, 350]]])[samples]
     strain = fatigue.elastic_strain(stress, CARD)
     found = fatigue.brown_miller(strain, stress, CARD)
+
     def damage(a):
         around = np.array([np.cos(a), np.sin(a), 0])
         return second_route(strain, stress, (around + [0, 0, 1]) / np.sqrt(2), (around - [0, 0, 1]) / np.sqrt(2))
+
     at = max(np.linspace(0, 2 * np.pi, 73), key=damage)
     best = minimize_scalar(lambda a: -damage(a), bounds=(at - 0.1, at + 0.1), method="bounded", options={"xatol": 1e-9})
     assert damage(at + 1.5) < 0.99 * damage(at)
@@ -235,8 +246,9 @@ def test_out_of_phase_by_hand():
     strain = np.zeros((360, 3, 3))
     strain[:, 0, 1] = strain[:, 1, 0] = 2e-3 * np.sin(t)
     strain[:, 1, 1] = 1e-3 * np.cos(t)
-    table = planes.cycle_table(planes.block_of(strain, 0 * strain), critical.brown_miller_curve(CARD),
-                               np.array([0.0, 1, 0]), np.array([1.0, 0, 0]))
+    table = planes.cycle_table(
+        planes.block_of(strain, 0 * strain), critical.brown_miller_curve(CARD), np.array([0.0, 1, 0]), np.array([1.0, 0, 0])
+    )
     assert table[:, :3] == pytest.approx(np.array([[4e-3, 1e-3, 0.0]]), rel=1e-12)
 
 

@@ -8,8 +8,15 @@ from drivewright import fatigue
 from drivewright.units import SI
 
 CARD = fatigue.StrainLife(
-    youngs_modulus="206 GPa", poisson_ratio=0.28, fatigue_strength="1470 MPa", fatigue_strength_exponent=-0.087, fatigue_ductility=0.46,
-    fatigue_ductility_exponent=-0.58, cyclic_strength="1617 MPa", cyclic_hardening_exponent=0.15)
+    youngs_modulus="206 GPa",
+    poisson_ratio=0.28,
+    fatigue_strength="1470 MPa",
+    fatigue_strength_exponent=-0.087,
+    fatigue_ductility=0.46,
+    fatigue_ductility_exponent=-0.58,
+    cyclic_strength="1617 MPa",
+    cyclic_hardening_exponent=0.15,
+)
 
 
 def test_the_two_terms_by_hand():
@@ -138,8 +145,19 @@ def test_uniform_material_law_at_full_ductility_and_of_light_metals():
     assert light.cyclic_strength == pytest.approx(644e6, rel=1e-12) and light.cyclic_hardening_exponent == 0.11
 
 
-@pytest.mark.parametrize(("life", "text"), [(314159.0, "3.14e5"), (1e9, "1e9"), (1.01e9, ">1e9 (extrapolated)"), (812.3, "812"),
-                                            (np.inf, "unlimited"), (0.0, "0"), (0.012, "0.012"), (2.5e-7, "2.5e-7")])
+@pytest.mark.parametrize(
+    ("life", "text"),
+    [
+        (314159.0, "3.14e5"),
+        (1e9, "1e9"),
+        (1.01e9, ">1e9 (extrapolated)"),
+        (812.3, "812"),
+        (np.inf, "unlimited"),
+        (0.0, "0"),
+        (0.012, "0.012"),
+        (2.5e-7, "2.5e-7"),
+    ],
+)
 def test_lives_as_text(life, text):
     assert fatigue.life_text(life, CARD) == text
     assert fatigue.life_text(2e6, CARD.replace(longest_life=SI(1e6))) == ">1e6 (extrapolated)"

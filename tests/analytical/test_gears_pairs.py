@@ -144,20 +144,25 @@ def test_size_scales_and_angles_do_not():
     assert large.perimeter() == pytest.approx(1e3 * small.perimeter(), rel=1e-14)
 
 
-@pytest.mark.parametrize(("make", "message"), [
-    (lambda: gears.EllipticGearPair(1.0), "eccentricity = 1; an ellipse needs 0 <= e < 1"),
-    (lambda: gears.EllipticGearPair(-0.1), "eccentricity = -0.1"),
-    (lambda: gears.EllipticGearPair(float("nan")), "eccentricity = nan"),
-    (lambda: gears.EllipticGearPair(0.3, start="left"), "start = 'left'; it is 'near'"),
-    (lambda: gears.EllipticGearPair(0.3, -1.0), "semi_major = -1 m; it must be positive"),
-    (lambda: gears.EllipticGearPair(0.3).perimeter(), "give semi_major"),
-    (lambda: gears.NonCircularPair(lambda x: 0.68 + 0.1 * jets.cos(x), 0.1),
-     r"mean ratio is 0.68; the nearest fraction .* is 2/3, .* fails to close by 7.2 deg. Multiply the ratio by 0.980392157"),
-    (lambda: gears.NonCircularPair(lambda x: 2 / 3 + 0.1 * jets.cos(x), 0.1), r"does not repeat after 180 deg .* mean ratio of 2/3"),
-    (lambda: gears.NonCircularPair(lambda x: 1 + 0.1 * jets.cos(0.5 * x), 0.1), "does not repeat after 360 deg"),
-    (lambda: gears.NonCircularPair(lambda x: 1 + 1.1 * jets.cos(x), 0.1), "ratio = -0.1 at driver angle 180 deg"),
-    (lambda: gears.NonCircularPair(lambda x: 1.0, 0.0), "centre_distance = 0 m"),
-])
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: gears.EllipticGearPair(1.0), "eccentricity = 1; an ellipse needs 0 <= e < 1"),
+        (lambda: gears.EllipticGearPair(-0.1), "eccentricity = -0.1"),
+        (lambda: gears.EllipticGearPair(float("nan")), "eccentricity = nan"),
+        (lambda: gears.EllipticGearPair(0.3, start="left"), "start = 'left'; it is 'near'"),
+        (lambda: gears.EllipticGearPair(0.3, -1.0), "semi_major = -1 m; it must be positive"),
+        (lambda: gears.EllipticGearPair(0.3).perimeter(), "give semi_major"),
+        (
+            lambda: gears.NonCircularPair(lambda x: 0.68 + 0.1 * jets.cos(x), 0.1),
+            r"mean ratio is 0.68; the nearest fraction .* is 2/3, .* fails to close by 7.2 deg. Multiply the ratio by 0.980392157",
+        ),
+        (lambda: gears.NonCircularPair(lambda x: 2 / 3 + 0.1 * jets.cos(x), 0.1), r"does not repeat after 180 deg .* mean ratio of 2/3"),
+        (lambda: gears.NonCircularPair(lambda x: 1 + 0.1 * jets.cos(0.5 * x), 0.1), "does not repeat after 360 deg"),
+        (lambda: gears.NonCircularPair(lambda x: 1 + 1.1 * jets.cos(x), 0.1), "ratio = -0.1 at driver angle 180 deg"),
+        (lambda: gears.NonCircularPair(lambda x: 1.0, 0.0), "centre_distance = 0 m"),
+    ],
+)
 def test_messages(make, message):
     with pytest.raises(InputError, match=message):
         make()

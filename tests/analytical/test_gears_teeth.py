@@ -161,14 +161,17 @@ def test_drawing_has_profile_pitch_curve_and_bore():
         gear.drawing("sun", bore=0.04)
 
 
-@pytest.mark.parametrize(("make", "message"), [
-    (lambda: gears.Rack(0.0), "pressure_angle = 0 rad; it lies between"),
-    (lambda: gears.Rack(addendum=0.0), "addendum = 0 modules; it must be positive"),
-    (lambda: gears.Rack(backlash=2.0), "backlash = 2 modules"),
-    (lambda: gears.Rack(rounding=0.6), "rounding = 0.6 modules leaves a tip land of -0.1794 modules; .* at most 0.4719"),
-    (lambda: gears.Rack(dedendum=0.1, rounding=0.3), "begins 0.09739 modules above the pitch line"),
-    (lambda: gears.cut_gear(gears.EllipticGearPair(0.1, 0.02), 1, 20.5), "20.5 teeth on gear 1 give 20.5 on its mate"),
-])
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: gears.Rack(0.0), "pressure_angle = 0 rad; it lies between"),
+        (lambda: gears.Rack(addendum=0.0), "addendum = 0 modules; it must be positive"),
+        (lambda: gears.Rack(backlash=2.0), "backlash = 2 modules"),
+        (lambda: gears.Rack(rounding=0.6), "rounding = 0.6 modules leaves a tip land of -0.1794 modules; .* at most 0.4719"),
+        (lambda: gears.Rack(dedendum=0.1, rounding=0.3), "begins 0.09739 modules above the pitch line"),
+        (lambda: gears.cut_gear(gears.EllipticGearPair(0.1, 0.02), 1, 20.5), "20.5 teeth on gear 1 give 20.5 on its mate"),
+    ],
+)
 def test_messages(make, message):
     with pytest.raises(InputError, match=message):
         make()

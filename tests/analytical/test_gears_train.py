@@ -7,8 +7,25 @@ from drivewright.errors import InputError
 from drivewright.gears import EllipticGearPair, GearTrain
 
 ECCENTRICITY = np.sqrt(1 - 0.985**2)
-TABLE = {30: 21.4077, 60: 47.6488, 65: 52.6967, 86: 76.5794, 87: 77.8338, 90: 81.6639, 120: 125.2498, 123: 130.0510, 150: 174.3070,
-         180: 219.1554, 210: 254.5432, 240: 281.7357, 253: 291.7316, 270: 303.6895, 300: 322.8529, 330: 341.0806, 360: 360.0}
+TABLE = {
+    30: 21.4077,
+    60: 47.6488,
+    65: 52.6967,
+    86: 76.5794,
+    87: 77.8338,
+    90: 81.6639,
+    120: 125.2498,
+    123: 130.0510,
+    150: 174.3070,
+    180: 219.1554,
+    210: 254.5432,
+    240: 281.7357,
+    253: 291.7316,
+    270: 303.6895,
+    300: 322.8529,
+    330: 341.0806,
+    360: 360.0,
+}
 
 
 def train(bend=89.0, start="near", semi_major=0.016272):
@@ -24,8 +41,10 @@ def test_table_of_the_planet():
     np.testing.assert_allclose(rotation, [-12.36, -12.30, -9.42, 44.58], atol=6e-3)
 
 
-@pytest.mark.parametrize(("bend", "start", "expected"), [
-    (89, "near", [110.52, 251.36]), (-91, "near", [110.52, 251.36]), (91, "near", [108.635, 249.48]), (-89, "near", [108.635, 249.48])])
+@pytest.mark.parametrize(
+    ("bend", "start", "expected"),
+    [(89, "near", [110.52, 251.36]), (-91, "near", [110.52, 251.36]), (91, "near", [108.635, 249.48]), (-89, "near", [108.635, 249.48])],
+)
 def test_collinear_states(bend, start, expected):
     """Each assembly has two; (s, -180 deg + s) share them, as the mesh's angle then differs by half a turn."""
     np.testing.assert_allclose(np.rad2deg(train(bend, start).collinear_angles()), expected, atol=5e-3)

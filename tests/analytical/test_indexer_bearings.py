@@ -52,10 +52,9 @@ def test_lives_of_the_bearings_from_their_own_table(group, power, rating):
     assert result[f"{group}.basic_life.time"] == pytest.approx(turns / 1.5, rel=1e-9)  # 90 turns a minute
 
 
-@pytest.mark.parametrize("changes", [
-    ("crank_bearings.bearing=", 'crank_bearings.law="elements"', 'crank_bearings.stiffness="3e8 N/m"'),
-    (),
-])
+@pytest.mark.parametrize(
+    "changes", [("crank_bearings.bearing=", 'crank_bearings.law="elements"', 'crank_bearings.stiffness="3e8 N/m"'), ()]
+)
 def test_clearance_is_across_the_diameter(changes):
     """Radial clearance of 20 um lets a ring move by 10 um either way."""
     law = bearing_law(build(spec(*changes, 'crank_bearings.radial_clearance="20 um"')).train.crank)
@@ -91,4 +90,13 @@ def test_seats_are_as_wide_as_the_bearing_and_of_the_thinner_shaft():
         return found.sections[int(np.searchsorted(ends, z)) - 1].start
 
     assert [at(z) for z in (0.0204, 0.0206, 0.0294, 0.0296, 0.0499, 0.0501, 0.0749, 0.0751, 0.0999)] == [
-        0.02, 0.02, 0.02, 0.025, 0.025, 0.03, 0.03, 0.025, 0.025]
+        0.02,
+        0.02,
+        0.02,
+        0.025,
+        0.025,
+        0.03,
+        0.03,
+        0.025,
+        0.025,
+    ]

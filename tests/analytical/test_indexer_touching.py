@@ -9,8 +9,10 @@ from drivewright.numerics.jets import exp, variable
 
 
 def polygon(corners):
-    return tuple(curves.Span(curves.Piece(0.0, 1.0, lambda t, a=a, b=b: a + (b - a) * variable(t), "", "line"), 0.0, 1.0)
-                 for a, b in zip(corners, np.roll(corners, -1), strict=True))
+    return tuple(
+        curves.Span(curves.Piece(0.0, 1.0, lambda t, a=a, b=b: a + (b - a) * variable(t), "", "line"), 0.0, 1.0)
+        for a, b in zip(corners, np.roll(corners, -1), strict=True)
+    )
 
 
 @pytest.mark.parametrize("order", [1, -1])

@@ -54,8 +54,10 @@ def test_walls_of_the_prototype_by_hand():
 
 def test_a_crank_that_leaves_no_sleeve_is_told():
     """Bore of 35 mm on an eccentricity of 10 mm: 15 mm at most."""
-    told = [any("leaves no sleeve" in each for each in found(f'shafts.diameters={each}', only=("profile",)).findings)
-            for each in ('["14 mm", "14.9 mm", "14 mm", "14 mm"]', '["14 mm", "15.1 mm", "14 mm", "14 mm"]')]
+    told = [
+        any("leaves no sleeve" in each for each in found(f"shafts.diameters={each}", only=("profile",)).findings)
+        for each in ('["14 mm", "14.9 mm", "14 mm", "14 mm"]', '["14 mm", "15.1 mm", "14 mm", "14 mm"]')
+    ]
     assert told == [False, True]
 
 
@@ -64,9 +66,17 @@ def test_lobe_tops_of_the_dwell_are_the_sharpest():
     assert found(only=("profile",))["profile.min_convex_radius"] == pytest.approx(10e-3, rel=1e-9)
 
 
-@pytest.mark.parametrize(("preset", "suffix", "changes"), [
-    ("default", "", ()), ("default", "", ('side="outside"', 'pin_radius="7 mm"')),
-    ("cycloid", "", ()), ("cycloid", "", ('side="outside"',)), ("parallel", "", ()), ("parallel", ".second", ())])
+@pytest.mark.parametrize(
+    ("preset", "suffix", "changes"),
+    [
+        ("default", "", ()),
+        ("default", "", ('side="outside"', 'pin_radius="7 mm"')),
+        ("cycloid", "", ()),
+        ("cycloid", "", ('side="outside"',)),
+        ("parallel", "", ()),
+        ("parallel", ".second", ()),
+    ],
+)
 def test_curvature_is_that_of_the_points_counter_clockwise(preset, suffix, changes):
     """1/R of the circle through three points in a row, left turns positive on the way counter-clockwise round the cam."""
     table = found(*changes, preset=preset, only=("profile",)).tables[f"profile{suffix}"]
@@ -108,8 +118,9 @@ def test_pressure_angles_either_way_are_those_of_their_direction():
 
 def test_a_wheel_that_turns_evenly_is_judged_by_its_worse_way():
     result = found(preset="cycloid", only=("contacts",))
-    forward, backward, told = (column(result, "contacts", name) for name in
-                               ("pressure_angle_forward", "pressure_angle_backward", "pressure_angle"))
+    forward, backward, told = (
+        column(result, "contacts", name) for name in ("pressure_angle_forward", "pressure_angle_backward", "pressure_angle")
+    )
     assert np.max(np.abs(forward - backward)) > 1e-3
     np.testing.assert_array_equal(told, np.maximum(forward, backward))
 
@@ -162,8 +173,13 @@ def test_pressures_of_the_pins_are_those_of_their_own_contacts():
 def test_after_the_play_and_reversed_the_mirror_holds_too():
     """K(theta, T) = K(180 deg - theta, -T), also after the play, where the wheel is turned the other way."""
     names = ("secant_after_play", "secant_reversed", "free_rotation", "secant")
-    ours, theirs = ([column(found(f'load.angle="{angle} deg"', f'load.torque="{torque} N m"', only=("stiffness",)), "stiffness", name)[0]
-                     for name in names] for angle, torque in ((13.5, 1000), (166.5, -1000)))
+    ours, theirs = (
+        [
+            column(found(f'load.angle="{angle} deg"', f'load.torque="{torque} N m"', only=("stiffness",)), "stiffness", name)[0]
+            for name in names
+        ]
+        for angle, torque in ((13.5, 1000), (166.5, -1000))
+    )
     np.testing.assert_allclose(ours, theirs, rtol=1e-6)
     assert ours[0] > 0 and ours[2] > 0 and np.isnan(ours[3])
     back = column(found('load.angle="13.5 deg"', 'load.torque="-1000 N m"', only=("stiffness",)), "stiffness", "secant")[0]
@@ -172,8 +188,14 @@ def test_after_the_play_and_reversed_the_mirror_holds_too():
 
 def test_the_sweep_of_the_optimiser_is_the_run():
     """Motion angle and factors to rounding; play and pressure angles as the sweep promises, and either way in its own column."""
-    names = ("motion.motion_angle", "motion.velocity_factor", "motion.acceleration_factor", "pressure_angle.forward.maximum",
-             "play.forward.maximum", "profile.min_convex_radius")
+    names = (
+        "motion.motion_angle",
+        "motion.velocity_factor",
+        "motion.acceleration_factor",
+        "pressure_angle.forward.maximum",
+        "play.forward.maximum",
+        "profile.min_convex_radius",
+    )
     base = 'motion.law="cycloidal"'
     evaluate = registry.mechanism("indexer").batch(spec(base), ("motion.motion_to_dwell", "pin_radius"), names)
     quick = {name: value[0] for name, value in evaluate(np.array([[2.0, 7e-3]])).items()}

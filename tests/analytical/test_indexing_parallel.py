@@ -80,7 +80,7 @@ def test_pressure_angle_of_the_driving_roller(direction):
             psi = np.angle(found.centre)
             angles += list(np.arctan(np.abs((R * (1 + rate) - C * np.cos(psi)) / (C * np.sin(psi)))))
             told = oscillating.pressure_angle(variable(0 * psi), Jet(psi, rate + 0 * psi, 0 * psi, 0 * psi), C, R, side=-1).d0
-            np.testing.assert_allclose(np.abs(told), angles[len(angles) - len(psi):], rtol=1e-9)
+            np.testing.assert_allclose(np.abs(told), angles[len(angles) - len(psi) :], rtol=1e-9)
         assert alpha == pytest.approx(min(angles), rel=1e-9)
 
 

@@ -66,8 +66,10 @@ def test_measures_of_the_cam():
     assert 1e3 * profile.perimeter == pytest.approx(1018.66, rel=5e-4)
 
 
-@pytest.mark.parametrize(("pin_radius", "at_45", "at_90", "least"),
-                         [(18.635, 3, 8, 0), (10, 6, 12, 3), (8.5, 7, 12, 7), (8, 7, 12, 7), (7.5, 7, 12, 7), (6, 9, 12, 8)])
+@pytest.mark.parametrize(
+    ("pin_radius", "at_45", "at_90", "least"),
+    [(18.635, 3, 8, 0), (10, 6, 12, 3), (8.5, 7, 12, 7), (8, 7, 12, 7), (7.5, 7, 12, 7), (6, 9, 12, 8)],
+)
 def test_pins_that_touch(pin_radius, at_45, at_90, least):
     drive = wheel(1e-3 * pin_radius)
     counts = [len(touching_pins(drive, theta)) for theta in index_angles(drive)]
@@ -109,8 +111,12 @@ def test_shapely_leaves_the_same_profile(side):
     drive = wheel(8e-3, side=side)
     theta = np.linspace(0, TURN, 1441)
     path = np.concatenate([drive.path(theta).d0[:-1, pin] for pin in range(12)])
-    swept = shapely.union_all([shapely.LineString(np.stack([z.real, z.imag], axis=1)).buffer(8e-3, quad_segs=64)
-                               for z in np.split(np.append(path, path[0]), np.arange(1440, 12 * 1440, 1440))])
+    swept = shapely.union_all(
+        [
+            shapely.LineString(np.stack([z.real, z.imag], axis=1)).buffer(8e-3, quad_segs=64)
+            for z in np.split(np.append(path, path[0]), np.arange(1440, 12 * 1440, 1440))
+        ]
+    )
     joints = shapely.union_all(shapely.points(np.stack([path[::1440].real, path[::1440].imag], axis=1)).tolist()).buffer(8e-3, quad_segs=64)
     swept = shapely.union(swept, joints)
     hole = next(shapely.Polygon(ring) for ring in swept.interiors if shapely.Polygon(ring).contains(shapely.Point(0, 0)))

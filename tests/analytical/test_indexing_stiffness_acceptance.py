@@ -24,8 +24,29 @@ ROLLER = power_bearing(lambda f: quick.liu_roller(f, 14, 8.5e-3))
 BALL = power_bearing(lambda f: quick.liu_ball(f, 11, 4.762e-3))
 SET_A = Drivetrain(0.11, pin_contact(0.018, 5e8), ROLLER, BALL, None, SHAFT, GearMesh(0.0275, 2.8e8, np.radians(20)))
 ANGLES = np.radians(np.arange(41) * 4.5)
-APPENDIX = (242.36, 243.15, 243.53, 240.55, 230.04, 215.12, 194.77, 172.59, 150.10, 131.99, 116.66, 103.99, 93.69, 83.82, 77.31, 72.29,
-            68.40, 67.15, 66.23, 65.03, 64.64)
+APPENDIX = (
+    242.36,
+    243.15,
+    243.53,
+    240.55,
+    230.04,
+    215.12,
+    194.77,
+    172.59,
+    150.10,
+    131.99,
+    116.66,
+    103.99,
+    93.69,
+    83.82,
+    77.31,
+    72.29,
+    68.40,
+    67.15,
+    66.23,
+    65.03,
+    64.64,
+)
 
 
 @cache
@@ -46,8 +67,13 @@ def test_the_whole_curve():
 ROWS = [  # drive, torque, mean, range, {angle: value}, N m/arcmin; the sheet rounds to three or four digits
     (SET_A, 300.0, 109, 128, {0: 181, 45: 92, 63: 63, 90: 53, 135: 92, 180: 181}),
     (SET_A, 1000.0, 142.1, 178.9, {0: 242.4, 45: 116.7, 67.5: 72.3, 90: 64.6, 135: 116.9, 180: 242.4}),
-    (SET_A._replace(crank=PowerBearing(4.5e8), support=PowerBearing(1.2e8)), 1000.0, 145.0, 200.9,
-     {0: 261, 45: 113, 63: 73, 90: 61, 135: 113, 180: 261}),
+    (
+        SET_A._replace(crank=PowerBearing(4.5e8), support=PowerBearing(1.2e8)),
+        1000.0,
+        145.0,
+        200.9,
+        {0: 261, 45: 113, 63: 73, 90: 61, 135: 113, 180: 261},
+    ),
 ]
 STIFF = {"spacing": 0.122, "shaft": SHAFT._replace(sections=(Section(0.1, 0.06, 0.06),)), "gear": GearMesh(0.0305, 5e9, np.radians(20))}
 ROWS += [
@@ -66,8 +92,16 @@ def test_bonded_rows(drive, torque, mean, spread, values):
 
 def test_budgets():
     """arcmin/(kN m) at 0 and 90 deg, to the last digit but one unit."""
-    printed = {"support": (2.62, 6.14), "crank": (0.67, 1.98), "bending": (0.65, 1.28), "pin": (0.13, 0.93), "torsion": (0.06, 4.34),
-               "gear": (0.0, 0.79), "housing": (0.0, 0.0), "wheel": (0.0, 0.0)}
+    printed = {
+        "support": (2.62, 6.14),
+        "crank": (0.67, 1.98),
+        "bending": (0.65, 1.28),
+        "pin": (0.13, 0.93),
+        "torsion": (0.06, 4.34),
+        "gear": (0.0, 0.79),
+        "housing": (0.0, 0.0),
+        "wheel": (0.0, 0.0),
+    }
     found = solved()
     for name in GROUPS:
         assert found.shares[name][[0, 20]] * ARCMIN * 1e3 == pytest.approx(np.array(printed[name]), abs=6e-3)
@@ -181,7 +215,8 @@ def test_printed_support_loads():
     """(11) with the wrong sign, (12) with b1 for b2: right only for b1 = b2, and along y."""
     first, second, gear = 300.0 - 200.0j, 150.0 + 420.0j, 90.0
     for lengths in (LENGTHS, statics.Lengths(0.02, 0.03, 0.025, 0.05)):
-        printed, right = (f(first, second, g, lengths) for f, g in
-                          ((statics.support_loads_printed, gear), (statics.support_loads, 1j * gear)))
+        printed, right = (
+            f(first, second, g, lengths) for f, g in ((statics.support_loads_printed, gear), (statics.support_loads, 1j * gear))
+        )
         assert printed[1] == pytest.approx(right[1]) and printed[0].real == pytest.approx(-right[0].real)
         assert (printed[0].imag == pytest.approx(right[0].imag)) == (lengths.b1 == lengths.b2)

@@ -35,16 +35,25 @@ SCRIPT = Path(__file__).parents[1] / "properties" / "jax_folder.py"
 def folder(clearance=2e-4, damping=0.0, rocker_inertia=ABOUT_PIVOT, first=0.0):
     """The knife folder of the press."""
     return FourBar(
-        lengths=np.array([0.484, 0.066, 0.158, 0.424]), masses=np.array([1.0, 1.113, 6.883]),
-        inertias=np.array([2316e-6, rocker_inertia]), centroids=np.array([0.0, 0.079, 0.243]),
-        clearances=np.array([first, clearance, clearance, clearance]), body_damping=0.1, link_damping=damping)
+        lengths=np.array([0.484, 0.066, 0.158, 0.424]),
+        masses=np.array([1.0, 1.113, 6.883]),
+        inertias=np.array([2316e-6, rocker_inertia]),
+        centroids=np.array([0.0, 0.079, 0.243]),
+        clearances=np.array([first, clearance, clearance, clearance]),
+        body_damping=0.1,
+        link_damping=damping,
+    )
 
 
 def uneven(**changes):
     """Nothing zero, nothing equal."""
     return folder(damping=1e-4)._replace(
-        masses=np.array([1.3, 1.113, 6.883]), centroids=np.array([0.011, 0.07, 0.243]),
-        clearances=np.array([1.5e-4, 2e-4, 2.5e-4, 1e-4]), centroid_damping=0.7, **changes)
+        masses=np.array([1.3, 1.113, 6.883]),
+        centroids=np.array([0.011, 0.07, 0.243]),
+        clearances=np.array([1.5e-4, 2e-4, 2.5e-4, 1e-4]),
+        centroid_damping=0.7,
+        **changes,
+    )
 
 
 def states(count, seed=3):
@@ -97,9 +106,13 @@ def test_the_mirrored_assembly_moves_as_much(turn):
     assert below[2][ROCKER_TURN].real == pytest.approx(-a[ROCKER_TURN, ::100].real, abs=1e-12) and crank.size == 3601
 
 
-@pytest.mark.parametrize(("coupler", "rocker", "crank", "message"), [
-    (0.1, 0.4, [0, 3.0], r"crank angle 171\.9 deg A and O4 are 0\.549\d* m apart.* 0\.3 \.\. 0\.5 m"),
-    (0.1, 0.55, [3.0, 0.1], r"crank angle 5\.7 deg A and O4 are 0\.418\d* m apart.* 0\.45 \.\. 0\.65 m")])
+@pytest.mark.parametrize(
+    ("coupler", "rocker", "crank", "message"),
+    [
+        (0.1, 0.4, [0, 3.0], r"crank angle 171\.9 deg A and O4 are 0\.549\d* m apart.* 0\.3 \.\. 0\.5 m"),
+        (0.1, 0.55, [3.0, 0.1], r"crank angle 5\.7 deg A and O4 are 0\.418\d* m apart.* 0\.45 \.\. 0\.65 m"),
+    ],
+)
 def test_a_bar_that_cannot_turn_says_where(coupler, rocker, crank, message):
     short = folder()._replace(lengths=np.array([0.484, 0.066, coupler, rocker]))
     with pytest.raises(DoesNotAssemble, match=message):
@@ -128,8 +141,13 @@ def jet_motion(bar, crank, alphas, rates, second, speed=SPEED):
     e4 = d / reach * (x + 1j * bar.branch * jets.sqrt(1 - x * x))
     e3 = (d - l4 * e4) / l3
     s2, s3, s4 = bar.centroids
-    return (links[0] + s2 * e2, links[0] + l2 * e2 + links[1] + s3 * e3, l1 - links[3] - s4 * e4,
-            jets.atan2(e3.imag, e3.real), jets.atan2(e4.imag, e4.real))
+    return (
+        links[0] + s2 * e2,
+        links[0] + l2 * e2 + links[1] + s3 * e3,
+        l1 - links[3] - s4 * e4,
+        jets.atan2(e3.imag, e3.real),
+        jets.atan2(e4.imag, e4.real),
+    )
 
 
 @pytest.mark.parametrize("branch", [1.0, -1.0])
@@ -210,8 +228,9 @@ def energies(bar, y):
 def test_energy_is_kept_while_the_crank_stands():
     """T + V without damping; with one kind of damping alone it falls."""
     base = uneven()._replace(body_damping=0.0, link_damping=0.0, centroid_damping=0.0)
-    kept, *falling = (_energy_gained(base._replace(**change)) for change in (
-        {}, {"body_damping": 0.1}, {"link_damping": 1e-6}, {"centroid_damping": 0.7}))
+    kept, *falling = (
+        _energy_gained(base._replace(**change)) for change in ({}, {"body_damping": 0.1}, {"link_damping": 1e-6}, {"centroid_damping": 0.7})
+    )
     assert abs(kept) < 1e-7 and max(falling) < -1e-3
 
 
@@ -224,9 +243,15 @@ def _energy_gained(bar):
     return (energies(bar, run.y_end)[1] - energies(bar, start)[1]) / history[:, 0].max()
 
 
-@pytest.mark.parametrize(("rocker_inertia", "clearance", "damping", "coefficient", "rms"), [
-    (ABOUT_PIVOT, 1e-4, 3e-5, 1.26804, 0.57814), (ABOUT_PIVOT, 2e-4, 1e-4, 1.65908, 0.58444),
-    (ABOUT_PIVOT, 2e-4, 2e-4, 0.99409, 0.57614), (0.4487, 4e-4, 1e-3, 1.21328, 0.58116)])
+@pytest.mark.parametrize(
+    ("rocker_inertia", "clearance", "damping", "coefficient", "rms"),
+    [
+        (ABOUT_PIVOT, 1e-4, 3e-5, 1.26804, 0.57814),
+        (ABOUT_PIVOT, 2e-4, 1e-4, 1.65908, 0.58444),
+        (ABOUT_PIVOT, 2e-4, 2e-4, 0.99409, 0.57614),
+        (0.4487, 4e-4, 1e-3, 1.21328, 0.58116),
+    ],
+)
 def test_impact_load_of_the_folder(rocker_inertia, clearance, damping, coefficient, rms):
     """An independent computation, printed to five digits, that looked at 4000 places per turn."""
     load = impact_load(folder(clearance, damping, rocker_inertia), SPEED, START, samples=4000)
@@ -246,9 +271,14 @@ def test_impact_load_between_the_samples():
 @pytest.mark.needs_peers
 def test_lagrange_by_automatic_differentiation():
     bars = [uneven(), uneven(branch=-1.0), folder(damping=1e-4)]
-    cases = [{"bar": {name: np.asarray(value).tolist() for name, value in bar._asdict().items()}, "speed": SPEED,
-              "states": [{"crank": crank, "alphas": list(alphas), "rates": list(rates)} for crank, alphas, rates in states(10, seed)]}
-             for seed, bar in enumerate(bars)]
+    cases = [
+        {
+            "bar": {name: np.asarray(value).tolist() for name, value in bar._asdict().items()},
+            "speed": SPEED,
+            "states": [{"crank": crank, "alphas": list(alphas), "rates": list(rates)} for crank, alphas, rates in states(10, seed)],
+        }
+        for seed, bar in enumerate(bars)
+    ]
     done = subprocess.run([sys.executable, SCRIPT], input=json.dumps(cases), capture_output=True, text=True, check=False, timeout=120)
     assert done.returncode == 0, done.stderr
     for bar, case, answers in zip(bars, cases, json.loads(done.stdout), strict=True):

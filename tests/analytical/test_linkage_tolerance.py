@@ -20,20 +20,29 @@ def folder(coupler=0.158, ground=0.484):
     """The knife folder: crank 66 mm, coupler, rocker 424 mm."""
     return Model(
         (Body("crank", 1.0), Body("coupler", 1.0, 1e-3, (0.079, 0.01), angle=-1.0), Body("knife", 6.0, 0.04, (0.243, -0.02), angle=3.4)),
-        (Revolute("O2", Marker(GROUND), Marker("crank")), Revolute("A", Marker("crank", 0.066), Marker("coupler")),
-         Revolute("B", Marker("coupler", coupler), Marker("knife", ARM)), Revolute("O4", Marker("knife"), Marker(GROUND, ground))),
-        drives=(Drive("O2", line(0.0, 10.0)),))
+        (
+            Revolute("O2", Marker(GROUND), Marker("crank")),
+            Revolute("A", Marker("crank", 0.066), Marker("coupler")),
+            Revolute("B", Marker("coupler", coupler), Marker("knife", ARM)),
+            Revolute("O4", Marker("knife"), Marker(GROUND, ground)),
+        ),
+        drives=(Drive("O2", line(0.0, 10.0)),),
+    )
 
 
 def rolling():
     """A wheel that rolls on a circle in the slot of a crank, and leads a slider by a pin: all kinds of rows and coordinates."""
     return Model(
         (Body("crank", 1.0, 0.0, (0.01, 0.0), angle=0.3), Body("wheel", 1.0, 0.1, (0.002, 0.001), angle=0.4), Body("slider", 1.0)),
-        (Revolute("O", Marker(GROUND, 0.01, 0.02), Marker("crank")), PinSlot("C", Marker("wheel"), Marker("crank")),
-         Rolling("track", Marker("wheel"), Marker(GROUND, 0.004, 0.0), 0.03, track_radius=0.06),
-         PinSlot("slot", Marker("wheel", 0.02, 0.01), Marker("slider"), (0.1, 1.0)),
-         Prismatic("guide", Marker("slider"), Marker(GROUND, 0.0, 0.1), (1.0, 0.2))),
-        drives=(Drive("O", line(0.0, 1.0)),))
+        (
+            Revolute("O", Marker(GROUND, 0.01, 0.02), Marker("crank")),
+            PinSlot("C", Marker("wheel"), Marker("crank")),
+            Rolling("track", Marker("wheel"), Marker(GROUND, 0.004, 0.0), 0.03, track_radius=0.06),
+            PinSlot("slot", Marker("wheel", 0.02, 0.01), Marker("slider"), (0.1, 1.0)),
+            Prismatic("guide", Marker("slider"), Marker(GROUND, 0.0, 0.1), (1.0, 0.2)),
+        ),
+        drives=(Drive("O", line(0.0, 1.0)),),
+    )
 
 
 MARKS = {"knife": Marker("knife"), "tip": Marker("knife", 0.418, 0.161)}
@@ -164,9 +173,15 @@ def test_sources_are_the_plays_of_any_model_and_the_points_with_all_that_hang_on
     assert third == Source("knife.B", 3e-4, "normal", (("B", 1),), (0.0, -1.0), ("tip",))
 
 
-@pytest.mark.parametrize(("tables", "reason"), [
-    ({"tolerances": None}, r"no \[tolerances\]"), ({"outputs": []}, r"no \[\[outputs\]\]"), ({"drive": None}, "no drive"),
-    ({"joints": [], "tolerances": SimpleNamespace(dimensions=())}, "no joint states a clearance")])
+@pytest.mark.parametrize(
+    ("tables", "reason"),
+    [
+        ({"tolerances": None}, r"no \[tolerances\]"),
+        ({"outputs": []}, r"no \[\[outputs\]\]"),
+        ({"drive": None}, "no drive"),
+        ({"joints": [], "tolerances": SimpleNamespace(dimensions=())}, "no joint states a clearance"),
+    ],
+)
 def test_what_is_missing_is_named(tables, reason):
     assert re.search(reason, tolerance.no_tolerances(spec(**tables)))
     assert tolerance.no_tolerances(spec()) is None

@@ -48,10 +48,15 @@ def test_angles_of_the_ideal_folder_over_a_turn(ideal):
     assert (angle.min(), angle.max()) == pytest.approx((188.8297, 207.5609), abs=1e-3)
 
 
-@pytest.mark.parametrize(("about", "play", "damping", "coarse", "converged", "rms"), [
-    ("O4", "0.1 mm", "3e-5 N m s/rad", 1.26804, 1.26978, 0.57814),
-    ("O4", "0.2 mm", "1e-4 N m s/rad", 1.65908, 1.65996, 0.58444), ("O4", "0.2 mm", "2e-4 N m s/rad", 0.99409, 0.99409, 0.57614),
-    ("centroid", "0.4 mm", "1e-3 N m s/rad", 1.21328, 1.21334, 0.58116)])
+@pytest.mark.parametrize(
+    ("about", "play", "damping", "coarse", "converged", "rms"),
+    [
+        ("O4", "0.1 mm", "3e-5 N m s/rad", 1.26804, 1.26978, 0.57814),
+        ("O4", "0.2 mm", "1e-4 N m s/rad", 1.65908, 1.65996, 0.58444),
+        ("O4", "0.2 mm", "2e-4 N m s/rad", 0.99409, 0.99409, 0.57614),
+        ("centroid", "0.4 mm", "1e-3 N m s/rad", 1.21328, 1.21334, 0.58116),
+    ],
+)
 def test_impact_load_of_massless_links(about, play, damping, coarse, converged, rms):
     """An earlier program, which saw 4000 samples of each turn: peaks lie above its numbers by at most 0.14 %."""
     found = linked(play, damping, f'bodies.knife.inertia_about="{about}"')
@@ -79,9 +84,20 @@ def test_the_ideal_slider_peaks_at_the_outer_dead_centre():
 
 def test_names_that_others_rely_on():
     found = slider("simulate.turns=6", "simulate.discard=1")
-    names = ["slider.swing", "slider.max_angular_acceleration", "slider.max_acceleration", "slider.peak_acceleration_ratio",
-             "slider.impact_load_coefficient", "slider.rms_ratio", "joints.wrist.max_force", "joints.wrist.max_penetration",
-             "joints.wrist.impacts_per_turn", "poincare.position", "poincare.velocity", "energy.error"]
+    names = [
+        "slider.swing",
+        "slider.max_angular_acceleration",
+        "slider.max_acceleration",
+        "slider.peak_acceleration_ratio",
+        "slider.impact_load_coefficient",
+        "slider.rms_ratio",
+        "joints.wrist.max_force",
+        "joints.wrist.max_penetration",
+        "joints.wrist.impacts_per_turn",
+        "poincare.position",
+        "poincare.velocity",
+        "energy.error",
+    ]
     names += [f"bodies.{body}.{key}" for body in ("crank", "rod", "slider") for key in ("x", "y", "angle", "vx", "vy", "angular_velocity")]
     assert [name for name in names if not np.isfinite(found[name])] == []
     assert 0 < found["energy.error"] < 1e-6

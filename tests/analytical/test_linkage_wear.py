@@ -24,7 +24,9 @@ def rotor(clearance=PLAY, bearing="ground", friction=0.1, hysteresis=0.2, expone
     return Model(
         (Body("crank", 1.0, 1e-3), Body("bob", 0.3, 2e-4, (0.03, 0.0))),
         (Revolute("O", Marker(GROUND), Marker("crank")), Revolute("P", *(ends if bearing == "ground" else ends[::-1]), dry)),
-        drives=(Drive("O", line(0.2, 60.0)),), gravity=(0.0, -9.81))
+        drives=(Drive("O", line(0.2, 60.0)),),
+        gravity=(0.0, -9.81),
+    )
 
 
 def run(assembly, duration=0.05, rtol=1e-8):
@@ -117,8 +119,16 @@ class Seen:
         self.t, self.turned = t, turning
         world = angle + turning
         zeros = np.zeros_like(t)
-        columns = {"depth": zeros, "normal": force, "friction": zeros, "slip": slip, "nx": -np.cos(world), "ny": -np.sin(world),
-                   "fx": force, "fy": zeros}
+        columns = {
+            "depth": zeros,
+            "normal": force,
+            "friction": zeros,
+            "slip": slip,
+            "nx": -np.cos(world),
+            "ny": -np.sin(world),
+            "fx": force,
+            "fy": zeros,
+        }
         self.pins = np.stack([columns[name] for name in PIN_FIELDS], axis=1)[:, None]
 
     def point(self, name, field):
@@ -127,8 +137,15 @@ class Seen:
 
 
 def told(coefficient=K, **changes):
-    joint = SimpleNamespace(name="P", pin="dry", wear_coefficient=coefficient, bearing_radius=RADIUS, length=LENGTH, clearance=PLAY,
-                            connects=("crank.P", "bob.P"))
+    joint = SimpleNamespace(
+        name="P",
+        pin="dry",
+        wear_coefficient=coefficient,
+        bearing_radius=RADIUS,
+        length=LENGTH,
+        clearance=PLAY,
+        connects=("crank.P", "bob.P"),
+    )
     asked = SimpleNamespace(joint="P", cycles=1000, jumps=1, bins=90)
     spec = SimpleNamespace(**{"joints": [joint], "wear": asked, "outputs": (), "simulate": None, "period": 0.5} | changes)
     return SimpleNamespace(spec=spec, pins=["P"], period=0.5, markers={}, ensemble=1)
@@ -161,11 +178,13 @@ def test_growth_of_the_clearance_is_half_of_both_sides():
 @pytest.fixture
 def answer(monkeypatch):
     """Answer of the analysis with real runs of the rotor."""
+
     def ask(coefficient=K, cycles=1000, jumps=1):
         model = told(coefficient, wear=SimpleNamespace(joint="P", cycles=cycles, jumps=jumps, bins=90))
         model.assembly, model.duration, model.settings = assemble(rotor()), 0.05, Settings(per_step=2)
         model.period = 0.05
         return wear.wear(model, {})
+
     return ask
 
 
@@ -205,8 +224,9 @@ def test_steep_profiles_and_long_jumps_are_told(answer):
     assert "0.2 mm, 0.2 times the clearance" in far and "more jumps" in far
 
 
-@pytest.mark.parametrize(("changes", "reason"), [
-    ({"pin": "lubricated"}, "'P' is lubricated"), ({"wear_coefficient": None}, "states no wear_coefficient")])
+@pytest.mark.parametrize(
+    ("changes", "reason"), [({"pin": "lubricated"}, "'P' is lubricated"), ({"wear_coefficient": None}, "states no wear_coefficient")]
+)
 def test_what_does_not_wear_is_named(changes, reason):
     spec = told().spec
     assert wear.no_wear(spec) is None

@@ -68,8 +68,9 @@ def test_torque_factor_of_a_polynomial_from_the_roots_of_its_slope(name, power):
     assert_allclose(law(name).peaks().AVm, np.max(np.abs(product(stationary[(stationary > 0) & (stationary < 1)]))), rtol=1e-9)
 
 
-@pytest.mark.parametrize(("b", "c", "d"), [
-    (0.25, 0, 0.75), (0.25, 0.5, 0.25), (0.1, 0.2, 0.7), (0.6, 0.3, 0.1), (0.5, 0, 0.5), (0.3, 0.7, 0)])
+@pytest.mark.parametrize(
+    ("b", "c", "d"), [(0.25, 0, 0.75), (0.25, 0.5, 0.25), (0.1, 0.2, 0.7), (0.6, 0.3, 0.1), (0.5, 0, 0.5), (0.3, 0.7, 0)]
+)
 def test_scca_factors(b, c, d):
     """Ca, Cv, Cj of the sine-constant-cosine family (Norton; recalled)."""
     Ca = 4 * PI**2 / ((PI**2 - 8) * (b**2 - d**2) - 2 * PI * (PI - 2) * b + PI**2)
@@ -118,11 +119,17 @@ def test_an_index_of_twelve_by_the_modified_sine():
 
 
 TWINS = [
-    ("scca", {"b": 0.25, "c": 0, "d": 0.75}, "modified-sine"), ("scca", {"b": 0.25, "c": 0.5, "d": 0.25}, "modified-trapezoid"),
-    ("scca", {"b": 0.5, "c": 0, "d": 0.5}, "cycloidal"), ("scca", {"b": 0, "c": 1, "d": 0}, "parabolic"),
-    ("scca", {"b": 0, "c": 0, "d": 1}, "simple-harmonic"), ("mcv", {"c": 0}, "modified-sine"), ("mcv", {"c": 1 / 3}, "mcv33"),
-    ("polynomial", {}, "polynomial-345"), ("polynomial", {"start": (0,) * 3, "end": (0,) * 3}, "polynomial-4567"),
-    ("polynomial", {"start": (0,) * 4, "end": (0,) * 4}, "polynomial-56789"), ("polynomial", {"start": (), "end": ()}, "uniform"),
+    ("scca", {"b": 0.25, "c": 0, "d": 0.75}, "modified-sine"),
+    ("scca", {"b": 0.25, "c": 0.5, "d": 0.25}, "modified-trapezoid"),
+    ("scca", {"b": 0.5, "c": 0, "d": 0.5}, "cycloidal"),
+    ("scca", {"b": 0, "c": 1, "d": 0}, "parabolic"),
+    ("scca", {"b": 0, "c": 0, "d": 1}, "simple-harmonic"),
+    ("mcv", {"c": 0}, "modified-sine"),
+    ("mcv", {"c": 1 / 3}, "mcv33"),
+    ("polynomial", {}, "polynomial-345"),
+    ("polynomial", {"start": (0,) * 3, "end": (0,) * 3}, "polynomial-4567"),
+    ("polynomial", {"start": (0,) * 4, "end": (0,) * 4}, "polynomial-56789"),
+    ("polynomial", {"start": (), "end": ()}, "uniform"),
     ("spline", {"points": [(0, 0), (0.3, law("polynomial-345")(0.3).s), (1, 1)]}, "polynomial-345"),
 ]
 

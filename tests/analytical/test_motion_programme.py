@@ -17,8 +17,15 @@ TURN = 2 * math.pi
 
 def pusher(rise_law="polynomial-345", lift=0.018):
     """Rest to 65 deg, push until 86, dwell until 87, back until 123, rest."""
-    return Programme([Segment(65 * DEG, "dwell"), Segment(21 * DEG, rise_law, lift), Segment(DEG, "dwell"),
-                      Segment(36 * DEG, law(rise_law), -lift), Segment(237 * DEG, "dwell")])
+    return Programme(
+        [
+            Segment(65 * DEG, "dwell"),
+            Segment(21 * DEG, rise_law, lift),
+            Segment(DEG, "dwell"),
+            Segment(36 * DEG, law(rise_law), -lift),
+            Segment(237 * DEG, "dwell"),
+        ]
+    )
 
 
 def test_lift_and_derivatives_in_closed_form():

@@ -76,8 +76,11 @@ def test_a_standing_pendulum_falls_with_a_growing_root():
 def test_the_double_pendulum_in_closed_form():
     """Equal point masses on equal threads: w^2 = (2 -+ sqrt(2)) g / l, the lower bob going +-sqrt(2) times as far by angle."""
     length = 0.25
-    model = Model((Body("upper", 1.3, 0.0, (length, 0.0), angle=-1.2), Body("lower", 1.3, 0.0, (length, 0.0), angle=-1.8)),
-                  (Revolute("O", Marker("ground"), Marker("upper")), Revolute("A", Marker("upper", length), Marker("lower"))), gravity=DOWN)
+    model = Model(
+        (Body("upper", 1.3, 0.0, (length, 0.0), angle=-1.2), Body("lower", 1.3, 0.0, (length, 0.0), angle=-1.8)),
+        (Revolute("O", Marker("ground"), Marker("upper")), Revolute("A", Marker("upper", length), Marker("lower"))),
+        gravity=DOWN,
+    )
     found = found_modes(model)
     assert found.frequencies == pytest.approx(np.sqrt(np.array([2 - np.sqrt(2), 2 + np.sqrt(2)]) * G / length) / TAU, rel=1e-9)
     turns = found.bodies[:, 1:, 2]
@@ -119,8 +122,9 @@ def test_masses_joined_by_a_spring_alone_have_a_mode_that_goes_nowhere_back():
 
 
 def test_a_coasting_wheel_in_oil_has_a_standing_and_a_decaying_mode():
-    model = Model((Body("wheel", 2.0, 0.5),), (Revolute("O", Marker("ground"), Marker("wheel")),),
-                  (RotationalSpring("oil", "wheel", damping=0.2),))
+    model = Model(
+        (Body("wheel", 2.0, 0.5),), (Revolute("O", Marker("ground"), Marker("wheel")),), (RotationalSpring("oil", "wheel", damping=0.2),)
+    )
     found = found_modes(model)
     assert found.eigenvalues == pytest.approx([0.0, -0.4], abs=1e-9)
 
@@ -154,8 +158,9 @@ def test_a_rod_resting_in_its_bearing_bounces_on_the_slope_of_the_contact_law():
 def test_friction_in_a_loaded_bearing_damps_with_its_slope_at_no_slip():
     """Torque mu N R tanh(R w / v_d): damping mu N R^2 / v_d of a turn about the bearing's centre."""
     pin = Dry(1e-3, 0.02, 1e8, 1.5, 0.0, friction=Friction("coulomb", 0.1, 0.01))
-    model = Model((Body("rod", 2.0, 0.01, (0.1, 0.0), angle=-np.pi / 2),),
-                  (Revolute("pin", Marker("rod"), Marker("ground"), pin),), gravity=DOWN)
+    model = Model(
+        (Body("rod", 2.0, 0.01, (0.1, 0.0), angle=-np.pi / 2),), (Revolute("pin", Marker("rod"), Marker("ground"), pin),), gravity=DOWN
+    )
     linear = linearise(assemble(model))
     turn = np.array([{"rod.angle": 1.0, "rod.x": 0.1, "rod.y": 0.0}[name] for name in linear.names])
     assert turn @ linear.damping @ turn == pytest.approx(0.1 * 2.0 * G * 0.02**2 / 0.01, rel=1e-5)
@@ -171,17 +176,23 @@ def test_a_massless_link_without_damping_is_a_thread_on_which_the_rod_swings():
 
 
 def test_a_held_drive_leaves_the_rest_to_swing():
-    model = Model((Body("crank", 1.0, 0.01), Body("bob", 2.0, 0.0, (0.2, 0.0), angle=-1.0)),
-                  (Revolute("O", Marker("ground"), Marker("crank")), Revolute("A", Marker("crank", 0.3), Marker("bob"))),
-                  drives=(Drive("O", line(0.4, 50.0)),), gravity=DOWN)
+    model = Model(
+        (Body("crank", 1.0, 0.01), Body("bob", 2.0, 0.0, (0.2, 0.0), angle=-1.0)),
+        (Revolute("O", Marker("ground"), Marker("crank")), Revolute("A", Marker("crank", 0.3), Marker("bob"))),
+        drives=(Drive("O", line(0.4, 50.0)),),
+        gravity=DOWN,
+    )
     assert found_modes(model, time=0.01).frequencies == pytest.approx([np.sqrt(G / 0.2) / TAU], rel=1e-9)
 
 
 def governor(speed):
     """A bob on a radial spring in a driven slot."""
-    return Model((Body("table", 1.0, 0.1), Body("bob", 0.5, 0.0)),
-                 (Revolute("O", Marker("ground"), Marker("table")), Prismatic("slot", Marker("bob"), Marker("table", 0.1))),
-                 (Spring("s", Marker("bob"), Marker("table"), 400.0, 0.1),), (Drive("O", line(0.0, speed)),))
+    return Model(
+        (Body("table", 1.0, 0.1), Body("bob", 0.5, 0.0)),
+        (Revolute("O", Marker("ground"), Marker("table")), Prismatic("slot", Marker("bob"), Marker("table", 0.1))),
+        (Spring("s", Marker("bob"), Marker("table"), 400.0, 0.1),),
+        (Drive("O", line(0.0, speed)),),
+    )
 
 
 def test_a_spinning_bob_on_a_spring_is_softened_by_the_centrifugal_force():
@@ -211,10 +222,17 @@ def test_a_freely_spinning_slide_has_coriolis_terms():
 
 
 def test_a_mechanism_with_a_loop_swings_in_a_simulation_as_its_linearisation_says():
-    bars = (Body("left", 0.4, 1e-3, (0.1, 0.01), angle=-1.5), Body("plate", 1.0, 0.02, (0.2, -0.03)),
-            Body("right", 0.5, 1e-3, (0.12, 0.0), angle=-1.6))
-    pins = (Revolute("O", Marker("ground"), Marker("left")), Revolute("A", Marker("left", 0.2), Marker("plate")),
-            Revolute("B", Marker("plate", 0.35), Marker("right", 0.25)), Revolute("C", Marker("right"), Marker("ground", 0.4)))
+    bars = (
+        Body("left", 0.4, 1e-3, (0.1, 0.01), angle=-1.5),
+        Body("plate", 1.0, 0.02, (0.2, -0.03)),
+        Body("right", 0.5, 1e-3, (0.12, 0.0), angle=-1.6),
+    )
+    pins = (
+        Revolute("O", Marker("ground"), Marker("left")),
+        Revolute("A", Marker("left", 0.2), Marker("plate")),
+        Revolute("B", Marker("plate", 0.35), Marker("right", 0.25)),
+        Revolute("C", Marker("right"), Marker("ground", 0.4)),
+    )
     assembly = assemble(Model(bars, pins, gravity=DOWN))
     rest = equilibrium(assembly)
     frequency = modes(linearise(assembly, rest.state)).frequencies[0]

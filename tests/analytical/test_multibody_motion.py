@@ -113,8 +113,10 @@ def test_double_pendulum_against_the_textbook():
 
     t, start = np.linspace(0, 2, 21), (1.4, -0.8, 0.5, 2.0)
     book = solve_ivp(rates, (0, 2), start, method="DOP853", rtol=1e-12, atol=1e-13, t_eval=t).y
-    bodies = tuple(Body(name, m, 0.0, centroid=(l, 0.0), angle=q - np.pi / 2, angular_velocity=w)
-                   for name, m, l, q, w in (("upper", m1, l1, start[0], start[2]), ("lower", m2, l2, start[1], start[3])))
+    bodies = tuple(
+        Body(name, m, 0.0, centroid=(l, 0.0), angle=q - np.pi / 2, angular_velocity=w)
+        for name, m, l, q, w in (("upper", m1, l1, start[0], start[2]), ("lower", m2, l2, start[1], start[3]))
+    )
     pins = Revolute("O", Marker(GROUND), Marker("upper")), Revolute("A", Marker("upper", l1), Marker("lower"))
     seen = Seen(Model(bodies, pins, gravity=(0, -G)), t)
     near(seen("upper", "angle") + np.pi / 2, book[0], rel=1e-7)
@@ -137,8 +139,11 @@ def test_mass_on_a_spring(damping):
     mass, stiffness, free, slope = 1.5, 240.0, 0.3, 0.6
     rail = np.cos(slope), np.sin(slope)
     model = Model(
-        (Body("block", mass, 0.01, velocity=(0.4 * rail[0], 0.4 * rail[1])),), (Prismatic("rail", Marker("block"), Marker(GROUND), rail),),
-        forces=(Spring("s", Marker("block"), Marker(GROUND, -0.5 * rail[0], -0.5 * rail[1]), stiffness, free, damping),), gravity=(0, -G))
+        (Body("block", mass, 0.01, velocity=(0.4 * rail[0], 0.4 * rail[1])),),
+        (Prismatic("rail", Marker("block"), Marker(GROUND), rail),),
+        forces=(Spring("s", Marker("block"), Marker(GROUND, -0.5 * rail[0], -0.5 * rail[1]), stiffness, free, damping),),
+        gravity=(0, -G),
+    )
     t = np.linspace(0, 2, 21)
     seen = Seen(model, t)
     rest = free - 0.5 - mass * G * np.sin(slope) / stiffness
@@ -150,8 +155,11 @@ def test_mass_on_a_spring(damping):
 @pytest.mark.parametrize("damping", [0.0, 0.05])
 def test_two_free_rotors_on_a_rotational_spring(damping):
     j1, j2, stiffness, rest = 0.02, 0.05, 8.0, 0.4
-    model = Model((Body("one", 1.0, j1, angle=1.0, angular_velocity=3.0), Body("two", 2.0, j2, angular_velocity=-1.0)), (),
-                  forces=(RotationalSpring("s", "one", "two", stiffness, rest, damping),))
+    model = Model(
+        (Body("one", 1.0, j1, angle=1.0, angular_velocity=3.0), Body("two", 2.0, j2, angular_velocity=-1.0)),
+        (),
+        forces=(RotationalSpring("s", "one", "two", stiffness, rest, damping),),
+    )
     t = np.linspace(0, 1, 21)
     seen = Seen(model, t)
     near(seen("one", "angle") - seen("two", "angle"), rest + damped(t, stiffness, damping, j1 * j2 / (j1 + j2), 1.0 - rest, 4.0))
@@ -178,9 +186,16 @@ def planetary(sun_teeth, planet_teeth, forces=(), drives=()):
     ring = sun_teeth + 2 * planet_teeth
     return Model(
         (Body("sun", 1.0, 0.003), Body("arm", 0.5, 0.002), Body("planet", 0.4, 0.0005)),
-        (Revolute("S", Marker(GROUND), Marker("sun")), Revolute("C", Marker(GROUND), Marker("arm")),
-         Revolute("P", Marker("arm", 0.1), Marker("planet")), Gear("sp", "sun", "planet", -sun_teeth / planet_teeth, "arm"),
-         Gear("pr", "planet", GROUND, planet_teeth / ring, "arm")), forces, drives)
+        (
+            Revolute("S", Marker(GROUND), Marker("sun")),
+            Revolute("C", Marker(GROUND), Marker("arm")),
+            Revolute("P", Marker("arm", 0.1), Marker("planet")),
+            Gear("sp", "sun", "planet", -sun_teeth / planet_teeth, "arm"),
+            Gear("pr", "planet", GROUND, planet_teeth / ring, "arm"),
+        ),
+        forces,
+        drives,
+    )
 
 
 def test_planetary_train_obeys_willis():
@@ -217,10 +232,14 @@ def test_pinion_drives_a_rack():
     radius, axis = 0.05, (np.cos(0.52), np.sin(0.52))
     model = Model(
         (Body("pinion", 1.0, 0.001), Body("rack", 2.0, 0.01)),
-        (Revolute("O", Marker(GROUND), Marker("pinion")),
-         Prismatic("guide", Marker("rack"), Marker(GROUND, radius * axis[1], -radius * axis[0]), axis),
-         Rolling("mesh", Marker("pinion"), Marker("rack"), radius, axis)),
-        drives=(Drive("O", polynomial(0.0, 2.0, 1.5)),), gravity=(0, -G))
+        (
+            Revolute("O", Marker(GROUND), Marker("pinion")),
+            Prismatic("guide", Marker("rack"), Marker(GROUND, radius * axis[1], -radius * axis[0]), axis),
+            Rolling("mesh", Marker("pinion"), Marker("rack"), radius, axis),
+        ),
+        drives=(Drive("O", polynomial(0.0, 2.0, 1.5)),),
+        gravity=(0, -G),
+    )
     t = np.linspace(0, 1, 6)
     seen = Seen(model, t)
     near(seen("rack", "vx"), radius * (2 + 3 * t) * axis[0])
@@ -236,8 +255,13 @@ def test_disc_rolls_on_a_circle_like_a_pendulum(track):
     sense = np.sign(radius + track)
     model = Model(
         (Body("arm", 0.0, 0.0, angle=phi - np.pi / 2), Body("disc", mass, 0.5 * mass * radius**2, angle=0.2)),
-        (Revolute("O", Marker(GROUND), Marker("arm")), Revolute("A", Marker("arm", apart), Marker("disc")),
-         Rolling("track", Marker("disc"), Marker(GROUND), radius, track_radius=track)), gravity=(0, -G))
+        (
+            Revolute("O", Marker(GROUND), Marker("arm")),
+            Revolute("A", Marker("arm", apart), Marker("disc")),
+            Rolling("track", Marker("disc"), Marker(GROUND), radius, track_radius=track),
+        ),
+        gravity=(0, -G),
+    )
     t = np.linspace(0, 3, 31)
     seen = Seen(model, t)
     assert "track" in seen.assembly.findings[0]  # the arm holds the distance already
@@ -250,8 +274,11 @@ def test_disc_rolls_on_a_circle_like_a_pendulum(track):
 def test_disc_rolls_in_a_ring_without_an_arm():
     """The centre starts beside the ring's; the assembly finds the track, the energy of the rolling disc stays."""
     radius, track, mass = 0.1, -0.5, 2.0
-    model = Model((Body("disc", mass, 0.5 * mass * radius**2),),
-                  (Rolling("track", Marker("disc"), Marker(GROUND, -0.3, 0.2), radius, track_radius=track),), gravity=(0, -G))
+    model = Model(
+        (Body("disc", mass, 0.5 * mass * radius**2),),
+        (Rolling("track", Marker("disc"), Marker(GROUND, -0.3, 0.2), radius, track_radius=track),),
+        gravity=(0, -G),
+    )
     seen = Seen(model, np.linspace(0, 2, 21))
     dx, dy = seen("disc", "x") + 0.3, seen("disc", "y") - 0.2
     near(np.hypot(dx, dy), 0.4)
@@ -265,8 +292,13 @@ def test_hypocycloid_of_two_to_one_is_a_straight_line():
     radius = 0.1
     model = Model(
         (Body("arm", 1.0, 0.01), Body("disc", 1.0, 0.01)),
-        (Revolute("O", Marker(GROUND), Marker("arm")), Revolute("A", Marker("arm", radius), Marker("disc")),
-         Rolling("track", Marker("disc"), Marker(GROUND), radius, track_radius=-2 * radius)), drives=(Drive("O", line(0.0, 2 * np.pi)),))
+        (
+            Revolute("O", Marker(GROUND), Marker("arm")),
+            Revolute("A", Marker("arm", radius), Marker("disc")),
+            Rolling("track", Marker("disc"), Marker(GROUND), radius, track_radius=-2 * radius),
+        ),
+        drives=(Drive("O", line(0.0, 2 * np.pi)),),
+    )
     seen = Seen(model, np.linspace(0, 3, 40))
     angle = seen("disc", "angle")
     near(seen("disc", "y") + radius * np.sin(angle), 0.0, size=radius)
@@ -289,10 +321,15 @@ def test_cam_with_a_sliding_follower(axis):
     mass, inertia, stiffness = 0.7, 0.002, 900.0
     model = Model(
         (Body("cam", 1.0, inertia, angle=0.3), Body("follower", mass, 0.01)),
-        (Revolute("O", Marker(GROUND), Marker("cam")), Prismatic("guide", Marker("follower"), Marker(GROUND, 0.1, 0.05), axis),
-         CamPair("pair", "cam", Marker("follower"), LIFT, origin=(0.1, 0.05), axis=axis)),
+        (
+            Revolute("O", Marker(GROUND), Marker("cam")),
+            Prismatic("guide", Marker("follower"), Marker(GROUND, 0.1, 0.05), axis),
+            CamPair("pair", "cam", Marker("follower"), LIFT, origin=(0.1, 0.05), axis=axis),
+        ),
         forces=(Spring("s", Marker("follower"), Marker(GROUND, 0.1 - axis[0], 0.05 - axis[1]), stiffness, 0.9),),
-        drives=(Drive("O", polynomial(0.0, 4.0, 3.0)),), gravity=(0, -G))
+        drives=(Drive("O", polynomial(0.0, 4.0, 3.0)),),
+        gravity=(0, -G),
+    )
     t = np.linspace(0, 0.4, 9)
     seen = Seen(model, t)
     s, slope, bend = lift(0.3 + 4 * t + 3 * t**2)
@@ -308,9 +345,14 @@ def test_cam_with_a_swinging_follower_on_a_turning_carrier():
     """Cam and rocker sit on an arm that turns as well: all counts relative to it."""
     model = Model(
         (Body("arm", 1.0, 0.01), Body("cam", 1.0, 0.002, angle=0.3), Body("rocker", 0.7, 0.005, centroid=(0.05, 0.0), angle=0.8)),
-        (Revolute("O", Marker(GROUND), Marker("arm")), Revolute("C", Marker("arm", 0.1), Marker("cam")),
-         Revolute("R", Marker("arm", 0.2, 0.05), Marker("rocker")), CamPair("pair", "cam", Marker("rocker"), LIFT, carrier="arm")),
-        drives=(Drive("O", line(0.0, 2.5)), Drive("C", line(0.0, 4.0))))
+        (
+            Revolute("O", Marker(GROUND), Marker("arm")),
+            Revolute("C", Marker("arm", 0.1), Marker("cam")),
+            Revolute("R", Marker("arm", 0.2, 0.05), Marker("rocker")),
+            CamPair("pair", "cam", Marker("rocker"), LIFT, carrier="arm"),
+        ),
+        drives=(Drive("O", line(0.0, 2.5)), Drive("C", line(0.0, 4.0))),
+    )
     t = np.linspace(0, 0.4, 9)
     seen = Seen(model, t)
     sense = np.sign(seen("cam", "w")[0] - 2.5)
@@ -329,8 +371,13 @@ def test_scotch_yoke_is_exactly_sinusoidal():
     r, w, mass = 0.07, 9.0, 1.2
     model = Model(
         (Body("crank", 1.0, 0.01, angle=0.4), Body("yoke", mass, 0.01)),
-        (Revolute("O", Marker(GROUND), Marker("crank")), Prismatic("guide", Marker("yoke"), Marker(GROUND)),
-         PinSlot("slot", Marker("crank", r), Marker("yoke"), (0.0, 1.0))), drives=(Drive("O", line(0.0, w)),))
+        (
+            Revolute("O", Marker(GROUND), Marker("crank")),
+            Prismatic("guide", Marker("yoke"), Marker(GROUND)),
+            PinSlot("slot", Marker("crank", r), Marker("yoke"), (0.0, 1.0)),
+        ),
+        drives=(Drive("O", line(0.0, w)),),
+    )
     t = np.linspace(0, 1, 12)
     seen, angle = Seen(model, t), 0.4 + w * t
     near(seen("yoke", "x"), r * np.cos(angle))
@@ -352,7 +399,8 @@ def test_slotted_rocker(pin_first):
     model = Model(
         (Body("crank", 1.0, 0.01, angle=0.4 if pin_first else np.angle(far + r * np.exp(2j))), Body("rocker", 1.0, inertia, angle=start)),
         (Revolute("O", Marker(GROUND), Marker("crank")), Revolute("B", Marker(GROUND, d), Marker("rocker")), slot),
-        drives=(Drive("O" if pin_first else "B", line(0.0, w)),))
+        drives=(Drive("O" if pin_first else "B", line(0.0, w)),),
+    )
     t = np.linspace(0, 2, 25)
     seen = Seen(model, t)
     turned = (0.4 if pin_first else 2.0) + w * t
@@ -368,8 +416,11 @@ def test_slotted_rocker(pin_first):
 
 def bead(bead_first, drives=(), rate=None):
     guide = Prismatic("slide", Marker("bead"), Marker("rod", 0.1)) if bead_first else Prismatic("slide", Marker("rod", 0.1), Marker("bead"))
-    return Model((Body("rod", 1.0, 0.02, angle=0.3, angular_velocity=rate), Body("bead", 0.5, 0.001, angle=0.3)),
-                 (Revolute("O", Marker(GROUND), Marker("rod")), guide), drives=drives)
+    return Model(
+        (Body("rod", 1.0, 0.02, angle=0.3, angular_velocity=rate), Body("bead", 0.5, 0.001, angle=0.3)),
+        (Revolute("O", Marker(GROUND), Marker("rod")), guide),
+        drives=drives,
+    )
 
 
 @pytest.mark.parametrize("bead_first", [True, False])
@@ -402,11 +453,20 @@ def test_driven_cylinder_lifts_a_boom(piston_first):
     guide = Prismatic("guide", *ends)
     speed = 0.05 if piston_first else -0.05
     model = Model(
-        (Body("boom", mass, 0.1, centroid=(0.5, 0.0), angle=1.0), Body("cylinder", 0.0, 0.0, angle=lean),
-         Body("piston", 0.0, 0.0, angle=lean)),
-        (Revolute("O", Marker(GROUND), Marker("boom")), Revolute("C", Marker(GROUND, a), Marker("cylinder")), guide,
-         Revolute("P", Marker("boom", b), Marker("piston"))),
-        drives=(Drive("guide", line(0.0, speed)),), gravity=(0, -G))
+        (
+            Body("boom", mass, 0.1, centroid=(0.5, 0.0), angle=1.0),
+            Body("cylinder", 0.0, 0.0, angle=lean),
+            Body("piston", 0.0, 0.0, angle=lean),
+        ),
+        (
+            Revolute("O", Marker(GROUND), Marker("boom")),
+            Revolute("C", Marker(GROUND, a), Marker("cylinder")),
+            guide,
+            Revolute("P", Marker("boom", b), Marker("piston")),
+        ),
+        drives=(Drive("guide", line(0.0, speed)),),
+        gravity=(0, -G),
+    )
     t = np.linspace(0, 2, 11)
     seen = Seen(model, t)
     reach = length + 0.05 * t
@@ -424,8 +484,9 @@ def test_driven_cylinder_lifts_a_boom(piston_first):
 def test_driven_slide_against_the_ground(ground_first):
     """The displacement counts for the body that moves, whichever end of the joint it is, and the drive's force with it."""
     ends = (Marker(GROUND, 0.1, 0.2), Marker("block")) if ground_first else (Marker("block"), Marker(GROUND, 0.1, 0.2))
-    model = Model((Body("block", 2.0, 0.1),), (Prismatic("guide", *ends, (0.6, 0.8)),),
-                  drives=(Drive("guide", polynomial(0.03, 0.5, 1.0)),))
+    model = Model(
+        (Body("block", 2.0, 0.1),), (Prismatic("guide", *ends, (0.6, 0.8)),), drives=(Drive("guide", polynomial(0.03, 0.5, 1.0)),)
+    )
     t = np.linspace(0, 1, 5)
     seen = Seen(model, t)
     near(seen("block", "x"), 0.1 + 0.6 * (0.03 + 0.5 * t + t**2))
@@ -443,7 +504,8 @@ def test_arm_with_two_driven_joints(forward):
     model = Model(
         (Body("upper", 1.0, 0.01, centroid=(0.1, 0), angle=0.2), Body("fore", 0.8, 0.005, centroid=(0.15, 0), angle=0.9)),
         (Revolute("shoulder", Marker(GROUND), Marker("upper")), Revolute("elbow", *ends)),
-        drives=(Drive("shoulder", line(0.0, 2.0)), Drive("elbow", line(0.0, 3.0))))
+        drives=(Drive("shoulder", line(0.0, 2.0)), Drive("elbow", line(0.0, 3.0))),
+    )
     t = np.linspace(0, 1, 6)
     seen = Seen(model, t)
     rate = 2.0 + (3.0 if forward else -3.0)
@@ -458,8 +520,11 @@ def test_arm_with_two_driven_joints(forward):
 
 def test_driven_joint_between_two_free_bodies_keeps_the_angular_momentum():
     """Both on one axle that floats: the drive only parts them."""
-    model = Model((Body("one", 1.0, 0.03), Body("two", 2.0, 0.01)), (Revolute("axle", Marker("one"), Marker("two")),),
-                  drives=(Drive("axle", polynomial(0.0, 2.0, 1.0)),))
+    model = Model(
+        (Body("one", 1.0, 0.03), Body("two", 2.0, 0.01)),
+        (Revolute("axle", Marker("one"), Marker("two")),),
+        drives=(Drive("axle", polynomial(0.0, 2.0, 1.0)),),
+    )
     t = np.linspace(0, 1, 6)
     seen = Seen(model, t)
     near(seen("one", "w") - seen("two", "w"), 2 + 2 * t)
@@ -484,8 +549,11 @@ def test_profile_drive():
 def test_periodic_curve_repeats():
     """A torque over the angle of period 1 rad, triangle-shaped, integrated to its energy."""
     saw = Curve(np.array([0.0, 0.5, 1.0]), np.array([[0.0, 2.0, 0, 0, 0, 0], [1.0, -2.0, 0, 0, 0, 0]]), period=1.0)
-    model = Model((Body("rotor", 1.0, 0.04, angle=-3.0, angular_velocity=6.0),), (Revolute("O", Marker(GROUND), Marker("rotor")),),
-                  forces=(Torque("m", "rotor", Load(saw, "angle")),))
+    model = Model(
+        (Body("rotor", 1.0, 0.04, angle=-3.0, angular_velocity=6.0),),
+        (Revolute("O", Marker(GROUND), Marker("rotor")),),
+        forces=(Torque("m", "rotor", Load(saw, "angle")),),
+    )
     seen = Seen(model, np.linspace(0, 1.5, 40))
     q = seen("rotor", "angle")
     u = q - np.floor(q)
@@ -498,8 +566,9 @@ def test_periodic_curve_repeats():
 
 
 def rotor(load, **more):
-    return Model((Body("rotor", 1.0, 0.05, **more),), (Revolute("O", Marker(GROUND), Marker("rotor")),),
-                 forces=(Torque("m", "rotor", load),))
+    return Model(
+        (Body("rotor", 1.0, 0.05, **more),), (Revolute("O", Marker(GROUND), Marker("rotor")),), forces=(Torque("m", "rotor", load),)
+    )
 
 
 def test_torque_over_time():
@@ -522,8 +591,11 @@ def test_motor_runs_up_along_its_curve():
 
 def test_torque_between_two_bodies():
     """A motor between two rotors sees their relative speed, and turns both."""
-    model = Model((Body("stator", 1.0, 0.2), Body("rotor", 1.0, 0.05)), (Revolute("axle", Marker("stator"), Marker("rotor")),),
-                  forces=(Torque("m", "rotor", Load(line(0.6, -0.6 / 30), "speed"), on="stator"),))
+    model = Model(
+        (Body("stator", 1.0, 0.2), Body("rotor", 1.0, 0.05)),
+        (Revolute("axle", Marker("stator"), Marker("rotor")),),
+        forces=(Torque("m", "rotor", Load(line(0.6, -0.6 / 30), "speed"), on="stator"),),
+    )
     t = np.linspace(0, 2, 9)
     seen = Seen(model, t)
     near(seen("rotor", "w") - seen("stator", "w"), 30 * (1 - np.exp(-t * 0.6 / 30 / 0.04)))
@@ -542,9 +614,13 @@ def test_follower_force_turns_with_the_body_and_a_fixed_one_does_not():
 
 def test_follower_force_on_a_lever_is_a_constant_torque_and_a_fixed_one_a_pendulum():
     """The lever's centroid is not where the force is."""
+
     def lever(follows, direction):
-        return Model((Body("lever", 1.0, 0.05, centroid=(0.1, 0.05), angle=1.2),), (Revolute("O", Marker(GROUND), Marker("lever")),),
-                     forces=(Force("f", Marker("lever", 0.4), direction, Load(line(1.0, 0.0)), follows),))
+        return Model(
+            (Body("lever", 1.0, 0.05, centroid=(0.1, 0.05), angle=1.2),),
+            (Revolute("O", Marker(GROUND), Marker("lever")),),
+            forces=(Force("f", Marker("lever", 0.4), direction, Load(line(1.0, 0.0)), follows),),
+        )
 
     t, about = np.linspace(0, 2, 11), 0.05 + 0.1**2 + 0.05**2
     near(Seen(lever(True, (0.0, 0.3)), t)("lever", "w"), 0.12 / about * t)

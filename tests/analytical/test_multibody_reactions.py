@@ -70,42 +70,72 @@ def four_bar(pin_b=None, driven=True, **drive):
     pins = {"model": pin_b} if pin_b else {}
     return Model(
         (body("crank"), body("coupler", angle=0.4), body("rocker", angle=1.9)),
-        (Revolute("O", Marker("ground"), Marker("crank")), Revolute("A", Marker("crank", 0.1), Marker("coupler")),
-         Revolute("B", Marker("coupler", 0.3), Marker("rocker", 0.2), **pins), Revolute("C", Marker("rocker"), Marker("ground", 0.35))),
+        (
+            Revolute("O", Marker("ground"), Marker("crank")),
+            Revolute("A", Marker("crank", 0.1), Marker("coupler")),
+            Revolute("B", Marker("coupler", 0.3), Marker("rocker", 0.2), **pins),
+            Revolute("C", Marker("rocker"), Marker("ground", 0.35)),
+        ),
         (Spring("s", Marker("coupler", 0.1, 0.05), Marker("ground", 0.1, 0.4), 300.0, 0.2, 5.0),),
-        (Drive("O", Curve(np.array([0.0, 1.0]), np.array([[0.0, 40.0, 9.0, 0, 0, 0]]))),) if driven else (), G)
+        (Drive("O", Curve(np.array([0.0, 1.0]), np.array([[0.0, 40.0, 9.0, 0, 0, 0]]))),) if driven else (),
+        G,
+    )
 
 
 def chain():
     push = Force("f", Marker("b", 0.1, 0.1), (1.0, 2.0), Load(line(3.0, 1.0), "angle"), follows=True)
     return Model(
         (body("a", angle=0.5), body("b", angle=-0.3), body("c")),
-        (Revolute("O", Marker("ground", 0.1, 0.2), Marker("a")), Prismatic("P", Marker("b", 0.1), Marker("a", 0.2, 0.1), axis=(0.6, 0.8)),
-         Revolute("Q", Marker("c", -0.1, 0.05), Marker("b", 0.3))),
-        (Torque("m", "c", Load(line(2.0, 0.3)), on="a"), push), gravity=G)
+        (
+            Revolute("O", Marker("ground", 0.1, 0.2), Marker("a")),
+            Prismatic("P", Marker("b", 0.1), Marker("a", 0.2, 0.1), axis=(0.6, 0.8)),
+            Revolute("Q", Marker("c", -0.1, 0.05), Marker("b", 0.3)),
+        ),
+        (Torque("m", "c", Load(line(2.0, 0.3)), on="a"), push),
+        gravity=G,
+    )
 
 
 def six_bar(driven):
     base = four_bar(driven=driven)
     return Model(
         (*base.bodies, body("rod", angle=0.3), Body("slider", 0.8, 0.001)),
-        (*base.joints, Revolute("D", Marker("rocker", 0.15, 0.06), Marker("rod")), Revolute("E", Marker("rod", 0.4), Marker("slider")),
-         Prismatic("F", Marker("slider"), Marker("ground", 0.0, 0.1))), base.forces, base.drives, G)
+        (
+            *base.joints,
+            Revolute("D", Marker("rocker", 0.15, 0.06), Marker("rod")),
+            Revolute("E", Marker("rod", 0.4), Marker("slider")),
+            Prismatic("F", Marker("slider"), Marker("ground", 0.0, 0.1)),
+        ),
+        base.forces,
+        base.drives,
+        G,
+    )
 
 
 def pin_slot():
     return Model(
         (body("crank", angle=0.8), body("swing", angle=0.3)),
-        (Revolute("O", Marker("ground"), Marker("crank")), Revolute("C", Marker("ground", -0.3), Marker("swing")),
-         PinSlot("S", Marker("crank", 0.1), Marker("swing", 0.0, 0.01), axis=(1.0, 0.1))), gravity=G)
+        (
+            Revolute("O", Marker("ground"), Marker("crank")),
+            Revolute("C", Marker("ground", -0.3), Marker("swing")),
+            PinSlot("S", Marker("crank", 0.1), Marker("swing", 0.0, 0.01), axis=(1.0, 0.1)),
+        ),
+        gravity=G,
+    )
 
 
 def geared():
     return Model(
         (body("arm"), body("planet", angle=0.4), body("sun")),
-        (Revolute("O", Marker("ground"), Marker("arm")), Revolute("S", Marker("ground"), Marker("sun")),
-         Revolute("P", Marker("arm", 0.3), Marker("planet")), Gear("teeth", "sun", "planet", -2.5, carrier="arm")),
-        (RotationalSpring("t", "planet", "ground", 3.0, 0.1, 0.2),), gravity=G)
+        (
+            Revolute("O", Marker("ground"), Marker("arm")),
+            Revolute("S", Marker("ground"), Marker("sun")),
+            Revolute("P", Marker("arm", 0.3), Marker("planet")),
+            Gear("teeth", "sun", "planet", -2.5, carrier="arm"),
+        ),
+        (RotationalSpring("t", "planet", "ground", 3.0, 0.1, 0.2),),
+        gravity=G,
+    )
 
 
 def rolling(track_radius, held=False):
@@ -116,27 +146,52 @@ def rolling(track_radius, held=False):
     pins = (Revolute("H", Marker("base"), Marker("arm")), Revolute("hub", Marker("arm", away), Marker("wheel"))) if held else ()
     return Model(
         (body("base", mass=3.0), *arm, Body("wheel", 1.2, 0.005, (0.03, 0.01), **start)),
-        (Revolute("O", Marker("ground", 0.0, -0.2), Marker("base", 0.0, -0.2)), *pins,
-         Rolling("roll", Marker("wheel"), Marker("base"), 0.1, track_radius=track_radius)),
-        (Spring("s", Marker("wheel"), Marker("ground", 0.5, 0.1), 200.0, 0.1),), gravity=G)
+        (
+            Revolute("O", Marker("ground", 0.0, -0.2), Marker("base", 0.0, -0.2)),
+            *pins,
+            Rolling("roll", Marker("wheel"), Marker("base"), 0.1, track_radius=track_radius),
+        ),
+        (Spring("s", Marker("wheel"), Marker("ground", 0.5, 0.1), 200.0, 0.1),),
+        gravity=G,
+    )
 
 
 def cam(axis):
-    joint = Prismatic("guide", Marker("follower"), Marker("frame", 0.1, 0.3), axis) if axis else Revolute(
-        "guide", Marker("follower"), Marker("frame", 0.1, 0.3))
+    joint = (
+        Prismatic("guide", Marker("follower"), Marker("frame", 0.1, 0.3), axis)
+        if axis
+        else Revolute("guide", Marker("follower"), Marker("frame", 0.1, 0.3))
+    )
     return Model(
         (body("frame"), body("cam", angle=0.1), body("follower", angle=0.0 if axis else 0.03)),
-        (Revolute("O", Marker("ground"), Marker("frame")), Revolute("C", Marker("frame", 0.2), Marker("cam")), joint,
-         CamPair("pair", "cam", Marker("follower", 0.02, 0.01), quintic(6.0), carrier="frame", origin=(0.12, 0.31), axis=axis)), gravity=G)
+        (
+            Revolute("O", Marker("ground"), Marker("frame")),
+            Revolute("C", Marker("frame", 0.2), Marker("cam")),
+            joint,
+            CamPair("pair", "cam", Marker("follower", 0.02, 0.01), quintic(6.0), carrier="frame", origin=(0.12, 0.31), axis=axis),
+        ),
+        gravity=G,
+    )
 
 
 LINKED = MasslessLink(1e-3, damping=0.01, angle=0.7)
 CASES = {
-    "open chain": chain(), "free four-bar": four_bar(driven=False), "driven four-bar": four_bar(), "free six-bar": six_bar(False),
-    "driven six-bar": six_bar(True), "pin-slot": pin_slot(), "planetary gear": geared(), "rolling on a line": rolling(0.0),
-    "rolling outside": rolling(0.25), "rolling inside": rolling(-0.35), "rolling on an arm": rolling(0.25, True),
-    "rolling in a ring on an arm": rolling(-0.35, True), "cam and slide": cam((0.6, 0.8)), "cam and lever": cam(None),
-    "massless link": four_bar(LINKED), "bushing": four_bar(Bushing(1e4, 20.0, 5.0, 0.1)),
+    "open chain": chain(),
+    "free four-bar": four_bar(driven=False),
+    "driven four-bar": four_bar(),
+    "free six-bar": six_bar(False),
+    "driven six-bar": six_bar(True),
+    "pin-slot": pin_slot(),
+    "planetary gear": geared(),
+    "rolling on a line": rolling(0.0),
+    "rolling outside": rolling(0.25),
+    "rolling inside": rolling(-0.35),
+    "rolling on an arm": rolling(0.25, True),
+    "rolling in a ring on an arm": rolling(-0.35, True),
+    "cam and slide": cam((0.6, 0.8)),
+    "cam and lever": cam(None),
+    "massless link": four_bar(LINKED),
+    "bushing": four_bar(Bushing(1e4, 20.0, 5.0, 0.1)),
     "free body": Model((body("a", velocity=(1.0, 2.0), angular_velocity=3.0),), (), gravity=G),
 }
 
@@ -178,8 +233,12 @@ def test_chunks_of_states_change_nothing(monkeypatch):
 
 
 def test_a_spinning_crank_pulls_its_pin_outwards_and_weighs_on_it():
-    model = Model((Body("crank", 2.0, 0.1, (0.3, 0.0)),), (Revolute("O", Marker("ground"), Marker("crank")),),
-                  drives=(Drive("O", line(0.4, 7.0)),), gravity=(0.0, -9.81))
+    model = Model(
+        (Body("crank", 2.0, 0.1, (0.3, 0.0)),),
+        (Revolute("O", Marker("ground"), Marker("crank")),),
+        drives=(Drive("O", line(0.4, 7.0)),),
+        gravity=(0.0, -9.81),
+    )
     _, observed, found = solved(model)
     angle = 0.4 + 7.0 * observed.t
     outwards = 2.0 * 0.3 * 49.0 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
@@ -198,8 +257,12 @@ def test_a_slide_carries_the_moment_of_an_overhanging_weight():
 @pytest.mark.parametrize("swapped", [False, True])
 def test_a_driven_slide_asks_for_mass_times_acceleration_and_the_weight_along_it(swapped):
     ends = (Marker("ground"), Marker("slider")) if swapped else (Marker("slider"), Marker("ground"))
-    model = Model((Body("slider", 2.0, 0.1),), (Prismatic("guide", *ends, axis=(0.6, 0.8)),),
-                  drives=(Drive("guide", Curve(np.array([0.0, 1.0]), np.array([[0.1, 0.2, 1.5, 0, 0, 0]]))),), gravity=(0.0, -10.0))
+    model = Model(
+        (Body("slider", 2.0, 0.1),),
+        (Prismatic("guide", *ends, axis=(0.6, 0.8)),),
+        drives=(Drive("guide", Curve(np.array([0.0, 1.0]), np.array([[0.1, 0.2, 1.5, 0, 0, 0]]))),),
+        gravity=(0.0, -10.0),
+    )
     _, observed, found = solved(model)
     assert observed.body(1, "ax") * 0.6 + observed.body(1, "ay") * 0.8 == pytest.approx(np.full(STATES, 3.0))
     assert observed.drives[:, 0] == pytest.approx(np.full(STATES, 2.0 * 3.0 + 16.0))
@@ -208,9 +271,15 @@ def test_a_driven_slide_asks_for_mass_times_acceleration_and_the_weight_along_it
 
 def test_gears_share_the_torque_by_their_inertias():
     ratio, torque = -2.5, 4.0
-    model = Model((Body("one", 1.0, 0.3), Body("two", 1.0, 0.05)),
-                  (Revolute("O", Marker("ground"), Marker("one")), Revolute("C", Marker("ground", 0.2), Marker("two")),
-                   Gear("teeth", "one", "two", ratio)), (Torque("motor", "one", Load(line(torque, 0.0))),))
+    model = Model(
+        (Body("one", 1.0, 0.3), Body("two", 1.0, 0.05)),
+        (
+            Revolute("O", Marker("ground"), Marker("one")),
+            Revolute("C", Marker("ground", 0.2), Marker("two")),
+            Gear("teeth", "one", "two", ratio),
+        ),
+        (Torque("motor", "one", Load(line(torque, 0.0))),),
+    )
     _, observed, found = solved(model)
     acceleration = torque / (0.3 + ratio**2 * 0.05)
     assert observed.body(1, "alpha") == pytest.approx(acceleration)

@@ -38,12 +38,23 @@ def pendulum(angle, gravity=G):
 
 def four_bar(stiffness=400.0):
     return Model(
-        (Body("crank", 0.5, 1e-3, (0.05, 0.0), angle=0.3), Body("coupler", 1.0, 0.01, (0.15, 0.05), angle=0.4),
-         Body("rocker", 0.8, 5e-3, (0.1, 0.0), angle=1.9)),
-        (Revolute("O", Marker("ground"), Marker("crank")), Revolute("A", Marker("crank", CRANK), Marker("coupler")),
-         Revolute("B", Marker("coupler", COUPLER), Marker("rocker", ROCKER)), Revolute("C", Marker("rocker"), Marker("ground", BASE))),
-        (Spring("s", Marker("coupler", 0.1, 0.12), Marker("ground", -0.1, 0.3), stiffness, 0.15, 30.0),
-         RotationalSpring("t", "rocker", "crank", 0.7, 1.0)), gravity=G)
+        (
+            Body("crank", 0.5, 1e-3, (0.05, 0.0), angle=0.3),
+            Body("coupler", 1.0, 0.01, (0.15, 0.05), angle=0.4),
+            Body("rocker", 0.8, 5e-3, (0.1, 0.0), angle=1.9),
+        ),
+        (
+            Revolute("O", Marker("ground"), Marker("crank")),
+            Revolute("A", Marker("crank", CRANK), Marker("coupler")),
+            Revolute("B", Marker("coupler", COUPLER), Marker("rocker", ROCKER)),
+            Revolute("C", Marker("rocker"), Marker("ground", BASE)),
+        ),
+        (
+            Spring("s", Marker("coupler", 0.1, 0.12), Marker("ground", -0.1, 0.3), stiffness, 0.15, 30.0),
+            RotationalSpring("t", "rocker", "crank", 0.7, 1.0),
+        ),
+        gravity=G,
+    )
 
 
 def energy_of_four_bar(theta, stiffness):
@@ -93,8 +104,12 @@ def test_a_spring_loaded_four_bar_rests_where_its_energy_is_least(stiffness):
     assembly = assemble(four_bar(stiffness))
     found = equilibrium(assembly)
     theta = angles_of(assembly, found.state)["crank"]
-    least = minimize(lambda x: energy_of_four_bar(x[0], stiffness), [theta + 0.05], method="Nelder-Mead",
-                     options={"xatol": 1e-9, "fatol": 1e-13 * stiffness})
+    least = minimize(
+        lambda x: energy_of_four_bar(x[0], stiffness),
+        [theta + 0.05],
+        method="Nelder-Mead",
+        options={"xatol": 1e-9, "fatol": 1e-13 * stiffness},
+    )
     assert theta == pytest.approx(least.x[0], abs=2e-6)
     assert abs(theta - 0.3) > 0.05
     assert found.stable
@@ -112,10 +127,16 @@ def test_the_generalised_force_is_minus_the_slope_of_the_energy():
 
 def test_a_lever_balances_where_the_lever_arms_of_the_weights_agree():
     """Neutral: it rests in any position, which is no stable rest; half a gram more on one side and it sinks."""
+
     def lever(second):
-        return Model((Body("beam", 0.0, 0.01, angle=0.2),), (Revolute("O", Marker("ground"), Marker("beam")),),
-                     (Force("left", Marker("beam", -0.2), (0.0, -1.0), Load(line(30.0, 0.0))),
-                      Force("right", Marker("beam", 0.6), (0.0, -1.0), Load(line(second, 0.0)))))
+        return Model(
+            (Body("beam", 0.0, 0.01, angle=0.2),),
+            (Revolute("O", Marker("ground"), Marker("beam")),),
+            (
+                Force("left", Marker("beam", -0.2), (0.0, -1.0), Load(line(30.0, 0.0))),
+                Force("right", Marker("beam", 0.6), (0.0, -1.0), Load(line(second, 0.0))),
+            ),
+        )
 
     assembly = assemble(lever(10.0))
     found = equilibrium(assembly)
@@ -126,11 +147,15 @@ def test_a_lever_balances_where_the_lever_arms_of_the_weights_agree():
 
 
 def test_a_weight_stretches_its_springs_in_series_and_side_by_side():
-    guides = (Prismatic("u", Marker("upper"), Marker("ground"), (0.0, 1.0)),
-              Prismatic("l", Marker("lower"), Marker("ground", 0.0, -0.6), (0.0, 1.0)))
-    springs = (Spring("a", Marker("upper"), Marker("ground", 0.0, 2.0), 300.0, 1.0),
-               Spring("b", Marker("upper"), Marker("ground", 0.0, 2.0), 200.0, 1.0),
-               Spring("c", Marker("lower"), Marker("upper"), 100.0, 0.5))
+    guides = (
+        Prismatic("u", Marker("upper"), Marker("ground"), (0.0, 1.0)),
+        Prismatic("l", Marker("lower"), Marker("ground", 0.0, -0.6), (0.0, 1.0)),
+    )
+    springs = (
+        Spring("a", Marker("upper"), Marker("ground", 0.0, 2.0), 300.0, 1.0),
+        Spring("b", Marker("upper"), Marker("ground", 0.0, 2.0), 200.0, 1.0),
+        Spring("c", Marker("lower"), Marker("upper"), 100.0, 0.5),
+    )
     assembly = assemble(Model((Body("upper", 1.0, 1.0), Body("lower", 2.0, 1.0)), guides, springs, gravity=(0.0, -10.0)))
     found = equilibrium(assembly)
     place = resting(assembly, found.state, 0.0)
@@ -143,8 +168,13 @@ def test_a_weight_stretches_its_springs_in_series_and_side_by_side():
 
 def test_a_block_settles_into_the_wall_of_its_bearing_until_it_carries_the_weight():
     pin = Dry(1e-3, 0.02, 1e8, 1.5, 0.4)
-    assembly = assemble(Model((Body("rod", 2.0, 0.01, (0.1, 0.0), angle=-1.2),), (Revolute("pin", Marker("ground"), Marker("rod"), pin),),
-                              gravity=(0.0, -10.0)))
+    assembly = assemble(
+        Model(
+            (Body("rod", 2.0, 0.01, (0.1, 0.0), angle=-1.2),),
+            (Revolute("pin", Marker("ground"), Marker("rod"), pin),),
+            gravity=(0.0, -10.0),
+        )
+    )
     found = equilibrium(assembly)
     seen = observe(assembly.system, np.zeros(1), found.state[None])
     assert seen.pin(0, "normal") == pytest.approx([20.0], rel=1e-6)
@@ -154,8 +184,11 @@ def test_a_block_settles_into_the_wall_of_its_bearing_until_it_carries_the_weigh
 
 def test_a_massless_link_hangs_along_its_force():
     pin = MasslessLink(1e-3, damping=0.1, angle=0.5)
-    assembly = assemble(Model((Body("rod", 2.0, 0.01, (0.1, 0.0), angle=-1.2),), (Revolute("pin", Marker("ground"), Marker("rod"), pin),),
-                              gravity=(3.0, -4.0)))
+    assembly = assemble(
+        Model(
+            (Body("rod", 2.0, 0.01, (0.1, 0.0), angle=-1.2),), (Revolute("pin", Marker("ground"), Marker("rod"), pin),), gravity=(3.0, -4.0)
+        )
+    )
     found = equilibrium(assembly)
     angles = angles_of(assembly, found.state)
     assert [angles["link:pin"], angles["rod"]] == pytest.approx([np.arctan2(-4.0, 3.0)] * 2, abs=1e-8)
@@ -166,9 +199,16 @@ def test_a_massless_link_hangs_along_its_force():
 def slider_crank(curve=line(0.7, 3.0)):
     return Model(
         (Body("crank", 0.5, 1e-3, (0.04, 0.01)), Body("rod", 0.8, 2e-3, (0.1, -0.02), angle=-0.2), Body("slider", 1.5, 1e-3)),
-        (Revolute("O", Marker("ground"), Marker("crank")), Revolute("A", Marker("crank", 0.1), Marker("rod")),
-         Revolute("B", Marker("rod", 0.35), Marker("slider")), Prismatic("guide", Marker("slider"), Marker("ground", 0.0, 0.02))),
-        (Force("gas", Marker("slider"), (-1.0, 0.0), Load(line(200.0, 0.0))),), (Drive("O", curve),), gravity=(0.5, -9.81))
+        (
+            Revolute("O", Marker("ground"), Marker("crank")),
+            Revolute("A", Marker("crank", 0.1), Marker("rod")),
+            Revolute("B", Marker("rod", 0.35), Marker("slider")),
+            Prismatic("guide", Marker("slider"), Marker("ground", 0.0, 0.02)),
+        ),
+        (Force("gas", Marker("slider"), (-1.0, 0.0), Load(line(200.0, 0.0))),),
+        (Drive("O", curve),),
+        gravity=(0.5, -9.81),
+    )
 
 
 def work_of_slider_crank(angle):
@@ -192,16 +232,23 @@ def test_the_torque_that_holds_a_slider_crank_is_that_of_virtual_work(time):
 def test_the_gas_torque_of_a_slider_crank_in_closed_form():
     """T = F r sin(a + b) / cos(b), sin(b) = r sin(a) / l with the guide through the crank's centre."""
     model = slider_crank()
-    model = Model(tuple(Body(b.name, angle=b.angle, inertia=1e-3) for b in model.bodies),
-                  (*model.joints[:3], Prismatic("guide", Marker("slider"), Marker("ground"))), model.forces, model.drives)
+    model = Model(
+        tuple(Body(b.name, angle=b.angle, inertia=1e-3) for b in model.bodies),
+        (*model.joints[:3], Prismatic("guide", Marker("slider"), Marker("ground"))),
+        model.forces,
+        model.drives,
+    )
     lean = np.arcsin(0.1 * np.sin(0.7) / 0.35)
     assert balance(assemble(model)) == pytest.approx([-200.0 * 0.1 * np.sin(0.7 + lean) / np.cos(lean)], rel=1e-10)
 
 
 def test_what_is_free_finds_its_equilibrium_while_the_drive_is_held():
-    model = Model((Body("crank", 1.0, 0.01, angle=0.4), Body("rod", 2.0, 0.01, (0.2, 0.0), angle=0.1)),
-                  (Revolute("O", Marker("ground"), Marker("crank")), Revolute("A", Marker("crank", 0.3), Marker("rod"))),
-                  drives=(Drive("O", line(0.0, 5.0)),), gravity=(0.0, -10.0))
+    model = Model(
+        (Body("crank", 1.0, 0.01, angle=0.4), Body("rod", 2.0, 0.01, (0.2, 0.0), angle=0.1)),
+        (Revolute("O", Marker("ground"), Marker("crank")), Revolute("A", Marker("crank", 0.3), Marker("rod"))),
+        drives=(Drive("O", line(0.0, 5.0)),),
+        gravity=(0.0, -10.0),
+    )
     assembly = assemble(model)
     found = equilibrium(assembly, time=0.1)
     angles = angles_of(assembly, found.state, 0.1)
@@ -212,9 +259,12 @@ def test_what_is_free_finds_its_equilibrium_while_the_drive_is_held():
 
 def test_two_drives_share_a_load_by_their_places():
     """An arm on an arm, both driven: the outer one carries its own weight's moment, the inner one that of both."""
-    model = Model((Body("upper", 1.0, 0.01, (0.2, 0.0)), Body("fore", 2.0, 0.01, (0.1, 0.0))),
-                  (Revolute("shoulder", Marker("ground"), Marker("upper")), Revolute("elbow", Marker("fore"), Marker("upper", 0.4))),
-                  drives=(Drive("elbow", line(0.5, 1.0)), Drive("shoulder", line(0.3, 2.0))), gravity=(0.0, -10.0))
+    model = Model(
+        (Body("upper", 1.0, 0.01, (0.2, 0.0)), Body("fore", 2.0, 0.01, (0.1, 0.0))),
+        (Revolute("shoulder", Marker("ground"), Marker("upper")), Revolute("elbow", Marker("fore"), Marker("upper", 0.4))),
+        drives=(Drive("elbow", line(0.5, 1.0)), Drive("shoulder", line(0.3, 2.0))),
+        gravity=(0.0, -10.0),
+    )
     elbow = 2.0 * 10.0 * 0.1 * np.cos(0.8)
     shoulder = elbow + 1.0 * 10.0 * 0.2 * np.cos(0.3) + 2.0 * 10.0 * 0.4 * np.cos(0.3)
     assert balance(assemble(model)) == pytest.approx([elbow, shoulder], rel=1e-10)
@@ -228,8 +278,9 @@ def test_rates_of_the_state_do_not_count():
 
 
 def test_a_load_that_drives_on_for_ever_has_no_equilibrium_and_the_message_says_where():
-    assembly = assemble(Model((Body("rod", 2.0, 0.03),), (Revolute("O", Marker("ground"), Marker("rod")),),
-                              (Torque("motor", "rod", Load(line(3.0, 0.0))),)))
+    assembly = assemble(
+        Model((Body("rod", 2.0, 0.03),), (Revolute("O", Marker("ground"), Marker("rod")),), (Torque("motor", "rod", Load(line(3.0, 0.0))),))
+    )
     with pytest.raises(SolverError, match=r"no equilibrium.*'rod.angle'.*rad.*add a spring") as caught:
         equilibrium(assembly)
     assert caught.value.partial.shape == assembly.state.shape
@@ -242,6 +293,11 @@ def test_a_mechanism_without_a_drive_is_asked_for_its_equilibrium_instead():
 
 def test_a_torque_over_the_angle_finds_the_crossing_of_two_curves():
     bend = Curve(np.array([0.0, 1.0]), np.array([[3.0, -4.0, 0.5, 0.0, 0.0, 0.0]]))
-    assembly = assemble(Model((Body("rod", 2.0, 0.03, angle=0.2),), (Revolute("O", Marker("ground"), Marker("rod")),),
-                              (Torque("motor", "rod", Load(bend, "angle")),)))
+    assembly = assemble(
+        Model(
+            (Body("rod", 2.0, 0.03, angle=0.2),),
+            (Revolute("O", Marker("ground"), Marker("rod")),),
+            (Torque("motor", "rod", Load(bend, "angle")),),
+        )
+    )
     assert angles_of(assembly, equilibrium(assembly).state)["rod"] == pytest.approx(4.0 - np.sqrt(10.0), abs=1e-9)

@@ -176,17 +176,20 @@ def test_an_orbit_that_leaves_says_when_and_keeps_what_it_had():
     assert caught.value.partial.shape == (112,)  # 100 eps 4e3 n reaches 1e-8 at n = 113
 
 
-@pytest.mark.parametrize("options, words", [
-    ({"cycles": 31}, "takes 32 cycles or more, got 31"),
-    ({"discard": -1}, "and -1 to discard"),
-    ({"scales": [1.0, 0.0]}, "every scale must be above 0, got 0"),
-    ({"scales": [1.0, np.nan]}, "every scale must be above 0, got nan"),
-    ({"separation": 0.1}, "separation of 0.1 must be small"),
-    ({"scales": [1.0, 1e-9]}, "far above the rounding of the state, 4.4e-08 of the scales"),
-    ({"scales": [1.0, 1e-7]}, "4.4e-10 of the scales"),
-    ({"continuous": [True]}, r"shapes \(2,\) and \(1,\)"),
-    ({"continuous": [False, False]}, "0 continuous"),
-])
+@pytest.mark.parametrize(
+    "options, words",
+    [
+        ({"cycles": 31}, "takes 32 cycles or more, got 31"),
+        ({"discard": -1}, "and -1 to discard"),
+        ({"scales": [1.0, 0.0]}, "every scale must be above 0, got 0"),
+        ({"scales": [1.0, np.nan]}, "every scale must be above 0, got nan"),
+        ({"separation": 0.1}, "separation of 0.1 must be small"),
+        ({"scales": [1.0, 1e-9]}, "far above the rounding of the state, 4.4e-08 of the scales"),
+        ({"scales": [1.0, 1e-7]}, "4.4e-10 of the scales"),
+        ({"continuous": [True]}, r"shapes \(2,\) and \(1,\)"),
+        ({"continuous": [False, False]}, "0 continuous"),
+    ],
+)
 def test_messages(options, words):
     with pytest.raises(InputError, match=words):
         exponent(henon, [0.1, 0.2], **options)

@@ -13,8 +13,18 @@ from drivewright.result import Value
 
 TRIALS = 2000
 # (members, windows, coefficient): from 4 members on any length, one run from 16 effective samples on.
-SIZES = ((1, 64, 0.0), (1, 64, 0.5), (1, 256, 0.8), (2, 32, 0.5), (4, 6, 0.0), (4, 8, 0.5), (4, 32, 0.8), (8, 4, 0.5), (8, 16, 0.8),
-         (16, 8, 0.9))
+SIZES = (
+    (1, 64, 0.0),
+    (1, 64, 0.5),
+    (1, 256, 0.8),
+    (2, 32, 0.5),
+    (4, 6, 0.0),
+    (4, 8, 0.5),
+    (4, 32, 0.8),
+    (8, 4, 0.5),
+    (8, 16, 0.8),
+    (16, 8, 0.9),
+)
 
 
 def autoregressive(trials, members, windows, coefficient, seed=1):
@@ -75,8 +85,11 @@ def test_a_drift_is_found(size, deviations):
     assert share(not estimate(x + drift).settled for x in autoregressive(500, *size)) >= 0.95
 
 
-@pytest.mark.parametrize("samples", [np.arange(8.0), np.tile(np.arange(6.0), (4, 1)), np.repeat([1.0, 2.0], 4), np.exp(-np.arange(20) / 8)],
-                         ids=["ramp", "same ramp in all", "step", "decay"])
+@pytest.mark.parametrize(
+    "samples",
+    [np.arange(8.0), np.tile(np.arange(6.0), (4, 1)), np.repeat([1.0, 2.0], 4), np.exp(-np.arange(20) / 8)],
+    ids=["ramp", "same ramp in all", "step", "decay"],
+)
 def test_a_drift_without_noise_is_not_settled_and_its_interval_holds_both_halves(samples):
     found, rows = estimate(samples), np.atleast_2d(samples)
     assert not found.settled
@@ -233,8 +246,14 @@ def test_value_of_an_estimate():
     found = estimate(autoregressive(1, 8, 16, 0.5)[0] + 10)
     value = Value.of(found, "m", "fluctuation")
     assert value == Value(found.value, "m", "fluctuation", found.low, found.high, "ensemble", True, found.error)
-    assert value.record() == {"value": found.value, "unit": "m", "meaning": "fluctuation", "low": found.low, "high": found.high,
-                              "interval": "ensemble"}
+    assert value.record() == {
+        "value": found.value,
+        "unit": "m",
+        "meaning": "fluctuation",
+        "low": found.low,
+        "high": found.high,
+        "interval": "ensemble",
+    }
     assert all(type(each) is float for each in (value.value, value.low, value.high))
 
 

@@ -23,9 +23,15 @@ def same(jet, expected, tolerance=1e-11):
 
 
 FUNCTIONS = {
-    "exp": (jets.exp, np.exp), "log": (jets.log, np.log), "sin": (jets.sin, np.sin), "cos": (jets.cos, np.cos),
-    "tan": (jets.tan, np.tan), "atan": (jets.atan, np.arctan), "sqrt": (jets.sqrt, np.sqrt),
-    "power": (lambda x: x**2.7, lambda x: x**2.7), "square": (lambda x: x**2, lambda x: x**2),
+    "exp": (jets.exp, np.exp),
+    "log": (jets.log, np.log),
+    "sin": (jets.sin, np.sin),
+    "cos": (jets.cos, np.cos),
+    "tan": (jets.tan, np.tan),
+    "atan": (jets.atan, np.arctan),
+    "sqrt": (jets.sqrt, np.sqrt),
+    "power": (lambda x: x**2.7, lambda x: x**2.7),
+    "square": (lambda x: x**2, lambda x: x**2),
     "reciprocal": (lambda x: 3 / x, lambda x: 3 / x),
     "quotient": (lambda x: jets.sin(x) / (2 + x * x), lambda x: np.sin(x) / (2 + x * x)),
     "chain": (lambda x: jets.exp(jets.sin(3 * x) - x), lambda x: np.exp(np.sin(3 * x) - x)),

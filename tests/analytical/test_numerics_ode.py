@@ -37,6 +37,7 @@ def _(system, t, y, values):
 
 def uncompiled(system):
     """The same system as ordinary functions, written once more."""
+
     def derivative(t, y):
         return np.array([y[1], -system.damping * y[1] - y[0] - system.cubic * y[0] * y[0] * y[0] + system.push * np.cos(t)])
 
@@ -230,13 +231,16 @@ def test_rescaling_time_and_length_changes_nothing():
     assert millimetres.events[0].t == pytest.approx(1e3 * metres.events[0].t, rel=1e-12)
 
 
-@pytest.mark.parametrize("call, word", [
-    (lambda: integrate(FALL, 1, 1, [1.0, 0.0]), "t1 = 1 must lie after t0 = 1"),
-    (lambda: integrate(FALL, 0, 1, [np.nan, 0.0]), "finite numbers, got"),
-    (lambda: integrate(FALL, 0, 1, [1.0, 0.0], samples=[0.5, 1.5]), r"samples 0.5 .. 1.5 must ascend within \[0, 1\]"),
-    (lambda: integrate(FALL, 0, 1, [1.0, 0.0], atol=0.0), "must be above 0; atol is the size"),
-    (lambda: integrate((1.0, 2.0), 0, 1, [1.0, 0.0]), "rate: no formula for a tuple; it has one for: .*Functions"),
-])
+@pytest.mark.parametrize(
+    "call, word",
+    [
+        (lambda: integrate(FALL, 1, 1, [1.0, 0.0]), "t1 = 1 must lie after t0 = 1"),
+        (lambda: integrate(FALL, 0, 1, [np.nan, 0.0]), "finite numbers, got"),
+        (lambda: integrate(FALL, 0, 1, [1.0, 0.0], samples=[0.5, 1.5]), r"samples 0.5 .. 1.5 must ascend within \[0, 1\]"),
+        (lambda: integrate(FALL, 0, 1, [1.0, 0.0], atol=0.0), "must be above 0; atol is the size"),
+        (lambda: integrate((1.0, 2.0), 0, 1, [1.0, 0.0]), "rate: no formula for a tuple; it has one for: .*Functions"),
+    ],
+)
 def test_messages(call, word):
     with pytest.raises(InputError, match=word):
         call()

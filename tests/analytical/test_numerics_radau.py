@@ -50,7 +50,8 @@ def uncompiled(system):
     return Functions(
         lambda t, y: np.array([y[1], system.mu * ((1.0 - y[0] * y[0]) * y[1] - y[0])]),
         lambda t, y: np.array([y[0] - system.level, y[0] + 1.5, 1.0]),
-        lambda index, t, y: np.array([system.back, 0.0]))
+        lambda index, t, y: np.array([system.back, 0.0]),
+    )
 
 
 class Stated(NamedTuple):
@@ -323,11 +324,14 @@ def test_a_rate_that_is_no_number_is_told_from_a_stiff_one(start):
     assert run.y_end[0] == pytest.approx(np.exp(0.5 - start), rel=1e-6)
 
 
-@pytest.mark.parametrize("call, word", [
-    (lambda: integrate_stiff(FALL, 1, 1, [1.0, 0.0]), "t1 = 1 must lie after t0 = 1"),
-    (lambda: integrate_stiff(FALL, 0, 1, [1.0, 0.0], atol=0.0), "must be above 0; atol is the size"),
-    (lambda: integrate_stiff((1.0, 2.0), 0, 1, [1.0, 0.0]), "rate: no formula for a tuple; it has one for: .*Functions"),
-])
+@pytest.mark.parametrize(
+    "call, word",
+    [
+        (lambda: integrate_stiff(FALL, 1, 1, [1.0, 0.0]), "t1 = 1 must lie after t0 = 1"),
+        (lambda: integrate_stiff(FALL, 0, 1, [1.0, 0.0], atol=0.0), "must be above 0; atol is the size"),
+        (lambda: integrate_stiff((1.0, 2.0), 0, 1, [1.0, 0.0]), "rate: no formula for a tuple; it has one for: .*Functions"),
+    ],
+)
 def test_messages(call, word):
     with pytest.raises(InputError, match=word):
         call()

@@ -24,11 +24,17 @@ def test_poles_and_touching_roots_are_no_roots():
     assert bracketed_roots(lambda x: (x - 0.31) ** 2, np.linspace(0, 1, 20)).size == 0
 
 
-@pytest.mark.parametrize("f, grid, root, most", [
-    (lambda x: np.exp(x) - 2, [-3.0, 4.0], np.log(2), 9), (lambda x: np.arctan(x - 0.1234), [-10.0, 30.0], 0.1234, 10),
-    (lambda x: np.expm1(40 * (x - 0.7)), [0.0, 1.0], 0.7, 12), (lambda x: x**2 - 2, [1.0, 2.0], np.sqrt(2), 7),
-    (lambda x: (x - 0.3) ** 9, [0.0, 1.0], 0.3, 52), (lambda x: np.cbrt(x - 0.3), [0.0, 1.0], 0.3, 52),
-])
+@pytest.mark.parametrize(
+    "f, grid, root, most",
+    [
+        (lambda x: np.exp(x) - 2, [-3.0, 4.0], np.log(2), 9),
+        (lambda x: np.arctan(x - 0.1234), [-10.0, 30.0], 0.1234, 10),
+        (lambda x: np.expm1(40 * (x - 0.7)), [0.0, 1.0], 0.7, 12),
+        (lambda x: x**2 - 2, [1.0, 2.0], np.sqrt(2), 7),
+        (lambda x: (x - 0.3) ** 9, [0.0, 1.0], 0.3, 52),
+        (lambda x: np.cbrt(x - 0.3), [0.0, 1.0], 0.3, 52),
+    ],
+)
 def test_few_calls_where_f_is_smooth_and_never_many_more_than_bisection(f, grid, root, most):
     calls = []
     assert bracketed_roots(lambda x: calls.append(1) or f(x), grid) == pytest.approx([root], rel=3e-16)
@@ -77,11 +83,14 @@ def test_newton_does_not_see_units():
     np.testing.assert_allclose(ours / scale, newton(circle_and_hyperbola, [2.0, 0.3]), rtol=1e-14)
 
 
-@pytest.mark.parametrize("f, start, word", [
-    (lambda x: (x**2 + 1, np.diag(2 * x)), [0.7], "There may be no solution near the start"),
-    (lambda x: (x * 0 + 1, np.zeros((1, 1))), [0.7], "singular at step 1"),
-    (lambda x: (np.exp(-x), np.diag(-np.exp(-x))), [0.0], "no solution after 50 steps"),
-])
+@pytest.mark.parametrize(
+    "f, start, word",
+    [
+        (lambda x: (x**2 + 1, np.diag(2 * x)), [0.7], "There may be no solution near the start"),
+        (lambda x: (x * 0 + 1, np.zeros((1, 1))), [0.7], "singular at step 1"),
+        (lambda x: (np.exp(-x), np.diag(-np.exp(-x))), [0.0], "no solution after 50 steps"),
+    ],
+)
 def test_newton_gives_up_with_advice_and_its_last_point(f, start, word):
     with pytest.raises(SolverError, match=word) as caught:
         newton(f, start)

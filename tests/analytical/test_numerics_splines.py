@@ -25,9 +25,9 @@ def test_interpolates_and_is_smooth_and_breaks_at_the_points(degree, ends):
             assert left[-1] == pytest.approx(right[0], abs=2e-9)
 
 
-@pytest.mark.parametrize("degree, ends, orders", [
-    (3, "natural", (2,)), (5, "natural", (3, 4)), (3, "clamped", (1,)), (5, "clamped", (1, 2)),
-])
+@pytest.mark.parametrize(
+    "degree, ends, orders", [(3, "natural", (2,)), (5, "natural", (3, 4)), (3, "clamped", (1,)), (5, "clamped", (1, 2))]
+)
 def test_end_conditions(degree, ends, orders):
     spline = interpolating_spline(X, Y, degree, ends)
     for order in orders:
@@ -88,15 +88,18 @@ def test_smoothing_does_not_see_units():
     np.testing.assert_allclose(1e6 * ours(x), smoothing_spline(x, y, 5e-4)(x), rtol=1e-9)
 
 
-@pytest.mark.parametrize("call, word", [
-    (lambda: interpolating_spline(X, Y, 4), "degree must be 3 or 5, got 4"),
-    (lambda: interpolating_spline(X, Y, 3, "free"), "'natural', got 'free'"),
-    (lambda: interpolating_spline(X, Y, 3, "periodic"), "Repeat the first value"),
-    (lambda: interpolating_spline(np.where(X == 1.2, 0.5, X), Y), r"x\[3\] = 0.5 follows 0.9"),
-    (lambda: interpolating_spline(X[:5], Y[:5], 5), "at least 6 points, got 5"),
-    (lambda: interpolating_spline(X, Y[:-1]), r"shapes \(9,\) and \(8,\)"),
-    (lambda: smoothing_spline(X, Y, 0.0), "tolerance must be above 0"),
-])
+@pytest.mark.parametrize(
+    "call, word",
+    [
+        (lambda: interpolating_spline(X, Y, 4), "degree must be 3 or 5, got 4"),
+        (lambda: interpolating_spline(X, Y, 3, "free"), "'natural', got 'free'"),
+        (lambda: interpolating_spline(X, Y, 3, "periodic"), "Repeat the first value"),
+        (lambda: interpolating_spline(np.where(X == 1.2, 0.5, X), Y), r"x\[3\] = 0.5 follows 0.9"),
+        (lambda: interpolating_spline(X[:5], Y[:5], 5), "at least 6 points, got 5"),
+        (lambda: interpolating_spline(X, Y[:-1]), r"shapes \(9,\) and \(8,\)"),
+        (lambda: smoothing_spline(X, Y, 0.0), "tolerance must be above 0"),
+    ],
+)
 def test_messages(call, word):
     with pytest.raises(InputError, match=word):
         call()

@@ -11,13 +11,34 @@ MOTION = index_motion("modified-sine", 12, 2.0)
 
 
 def hourglass(motion=MOTION, hand="right", **changes):
-    return globoidal(motion, **{"pin_circle_radius": 0.08, "roller_radius": 0.012, "roller_length": 0.016, "centre_distance": 0.125,
-                                "cam_length": 0.06, "hand": hand, **changes})
+    return globoidal(
+        motion,
+        **{
+            "pin_circle_radius": 0.08,
+            "roller_radius": 0.012,
+            "roller_length": 0.016,
+            "centre_distance": 0.125,
+            "cam_length": 0.06,
+            "hand": hand,
+            **changes,
+        },
+    )
 
 
 def drum(motion=MOTION, hand="right", **changes):
-    return barrel(motion, **{"pin_circle_radius": 0.09, "roller_radius": 0.012, "roller_length": 0.016, "cam_radius": 0.05,
-                             "cam_length": 0.075, "centre_distance": 0.088, "hand": hand, **changes})
+    return barrel(
+        motion,
+        **{
+            "pin_circle_radius": 0.09,
+            "roller_radius": 0.012,
+            "roller_length": 0.016,
+            "cam_radius": 0.05,
+            "cam_length": 0.075,
+            "centre_distance": 0.088,
+            "hand": hand,
+            **changes,
+        },
+    )
 
 
 BOTH = pytest.mark.parametrize("make", [hourglass, drum])
@@ -60,10 +81,14 @@ def test_curvature_is_that_of_the_surface(make, travel, u, flank):
     """Curvature across the contact line by finite differences of the normal; roller plus cam is the relative one."""
     cam = make()
     found = contact(cam, travel, u, flank)
-    along, onward = (derivative(f, x) for f, x in ((lambda s: contact(cam, travel, s, flank).point, u),
-                                                   (lambda t: contact(cam, t, u, flank).point, travel)))
-    normal_along, normal_onward = (derivative(f, x) for f, x in ((lambda s: contact(cam, travel, s, flank).normal, u),
-                                                                 (lambda t: contact(cam, t, u, flank).normal, travel)))
+    along, onward = (
+        derivative(f, x)
+        for f, x in ((lambda s: contact(cam, travel, s, flank).point, u), (lambda t: contact(cam, t, u, flank).point, travel))
+    )
+    normal_along, normal_onward = (
+        derivative(f, x)
+        for f, x in ((lambda s: contact(cam, travel, s, flank).normal, u), (lambda t: contact(cam, t, u, flank).normal, travel))
+    )
     line = along / np.linalg.norm(along)
     across = np.cross(found.normal, line)
     share = np.linalg.solve([[onward @ line, along @ line], [onward @ across, along @ across]], [0, 1])

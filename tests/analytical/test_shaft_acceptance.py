@@ -13,8 +13,15 @@ import drivewright as dw
 
 DIAMETER = "20.00001169 mm"
 MASSES = {"m1": "3 kg", "m2": "8 kg", "m3": "25 kg", "m4": "10 kg"}
-BALLS = {"balls": 12, "ball_diameter": "3.572 mm", "pitch_diameter": "26 mm", "inner_conformity": 0.52, "outer_conformity": 0.53,
-         "youngs_modulus": "206 GPa", "poisson_ratio": 0.3}
+BALLS = {
+    "balls": 12,
+    "ball_diameter": "3.572 mm",
+    "pitch_diameter": "26 mm",
+    "inner_conformity": 0.52,
+    "outer_conformity": 0.53,
+    "youngs_modulus": "206 GPa",
+    "poisson_ratio": 0.3,
+}
 EULER = "euler-bernoulli"
 
 
@@ -42,8 +49,11 @@ def rubber_roller(l5=53.0, l6=82.0, l7=66.5, l8=259.5):
 
 
 LAYOUTS = {
-    "1": pressure_roller(), "R1": rubber_roller(), "R2": (259.0, {"C": 95.0, "D": 148.0}, {"m3": 0.0, "m4": 230.0}),
-    "R3": (490.0, {"C": 135.0, "D": 201.5}, {"m3": 53.0, "m4": 461.0})}
+    "1": pressure_roller(),
+    "R1": rubber_roller(),
+    "R2": (259.0, {"C": 95.0, "D": 148.0}, {"m3": 0.0, "m4": 230.0}),
+    "R3": (490.0, {"C": 135.0, "D": 201.5}, {"m3": 53.0, "m4": 461.0}),
+}
 
 
 def shaft(layout, stiffness="3.0e7 N/m", load=None, bearing=None, limits=None, **analysis):
@@ -55,7 +65,9 @@ def shaft(layout, stiffness="3.0e7 N/m", load=None, bearing=None, limits=None, *
         "segments": [{"length": f"{length} mm", "diameter": DIAMETER}],
         "bearings": [{"name": name, "position": f"{at} mm", **keys.get(name, keys)} for name, at in places.items()],
         "stations": [{"name": name, "position": f"{at} mm", "mass": MASSES.get(name, "0 kg")} for name, at in stations.items()],
-        "loads": [{"station": load[0], "force": load[1]}] if load else [], "analysis": analysis}
+        "loads": [{"station": load[0], "force": load[1]}] if load else [],
+        "analysis": analysis,
+    }
     return dw.Shaft(**table, limits=limits or {})
 
 
@@ -76,14 +88,31 @@ def delta(*arguments, **keys):
 # -- flexibility and stiffness -------------------------------------------------------------------------------------------------
 
 EULER_BERNOULLI = {  # flexibility rigid, elastic; stiffness rigid, elastic
-    "1": ("8.977392e-8, 5.051947e-8, 4.571845e-7", "2.034432e-7, -8.208730e-8, 7.035621e-7",
-          "1.187769e7, -1.312500e6, 2.332334e6", "5.158209e6, 6.018281e5, 1.491556e6"),
-    "R1": ("5.652083e-7, -2.618019e-7, 1.882006e-7", "6.195285e-7, -2.303044e-7, 2.107088e-7",
-           "4.974600e6, 6.920061e6, 1.493983e7", "2.718823e6, 2.971668e6, 7.993913e6"),
-    "R2": ("2.751880e-7, 4.253084e-8, 1.870174e-7", "6.422107e-7, -2.536718e-7, 4.830777e-7",
-           "3.766254e6, -8.565080e5, 5.541879e6", "1.964623e6, 1.031655e6, 2.611799e6"),
-    "R3": ("2.057192e-7, 1.457684e-7, 4.522858e-6", "4.226242e-7, -3.461964e-7, 5.831515e-6",
-           "4.974600e6, -1.603278e5, 2.262664e5", "2.487118e6, 1.476514e5, 1.802476e5")}
+    "1": (
+        "8.977392e-8, 5.051947e-8, 4.571845e-7",
+        "2.034432e-7, -8.208730e-8, 7.035621e-7",
+        "1.187769e7, -1.312500e6, 2.332334e6",
+        "5.158209e6, 6.018281e5, 1.491556e6",
+    ),
+    "R1": (
+        "5.652083e-7, -2.618019e-7, 1.882006e-7",
+        "6.195285e-7, -2.303044e-7, 2.107088e-7",
+        "4.974600e6, 6.920061e6, 1.493983e7",
+        "2.718823e6, 2.971668e6, 7.993913e6",
+    ),
+    "R2": (
+        "2.751880e-7, 4.253084e-8, 1.870174e-7",
+        "6.422107e-7, -2.536718e-7, 4.830777e-7",
+        "3.766254e6, -8.565080e5, 5.541879e6",
+        "1.964623e6, 1.031655e6, 2.611799e6",
+    ),
+    "R3": (
+        "2.057192e-7, 1.457684e-7, 4.522858e-6",
+        "4.226242e-7, -3.461964e-7, 5.831515e-6",
+        "4.974600e6, -1.603278e5, 2.262664e5",
+        "2.487118e6, 1.476514e5, 1.802476e5",
+    ),
+}
 
 
 @pytest.mark.parametrize("layout", EULER_BERNOULLI)
@@ -102,9 +131,15 @@ def test_what_elastic_bearings_do_to_the_diagonal(layout, ratios):
     meets((elastic[0] / rigid[0], elastic[2] / rigid[2]), ratios)
 
 
-@pytest.mark.parametrize(("layout", "bearing", "texts"), [
-    ("1", "A", "9.70430e-8, -7.71367e-8, 6.13138e-8"), ("1", "B", "1.66263e-8, -5.54701e-8, 1.85064e-7"),
-    ("R1", "C", "5.22112e-8, 3.32079e-8, 2.11212e-8"), ("R1", "D", "2.10897e-9, -1.71033e-9, 1.38703e-9")])
+@pytest.mark.parametrize(
+    ("layout", "bearing", "texts"),
+    [
+        ("1", "A", "9.70430e-8, -7.71367e-8, 6.13138e-8"),
+        ("1", "B", "1.66263e-8, -5.54701e-8, 1.85064e-7"),
+        ("R1", "C", "5.22112e-8, 3.32079e-8, 2.11212e-8"),
+        ("R1", "D", "2.10897e-9, -1.71033e-9, 1.38703e-9"),
+    ],
+)
 def test_share_of_each_bearing(layout, bearing, texts):
     """By the shares of the run on two springs, and as what one spring alone adds to rigid bearings."""
     array = run(layout).arrays["flexibility.shares"]
@@ -123,9 +158,13 @@ def test_the_cross_flexibility_changes_its_sign(layout, below, above):
     assert (low < 0) == (layout == "1")
 
 
-@pytest.mark.parametrize(("layout", "rigid", "elastic"), [
-    ("1", "9.414345e-8, 4.704625e-8, 4.687721e-7", "2.078127e-7, -8.556052e-8, 7.151497e-7"),
-    ("R1", "5.698598e-7, -2.618019e-7, 1.905999e-7", "6.241800e-7, -2.303044e-7, 2.131081e-7")])
+@pytest.mark.parametrize(
+    ("layout", "rigid", "elastic"),
+    [
+        ("1", "9.414345e-8, 4.704625e-8, 4.687721e-7", "2.078127e-7, -8.556052e-8, 7.151497e-7"),
+        ("R1", "5.698598e-7, -2.618019e-7, 1.905999e-7", "6.241800e-7, -2.303044e-7, 2.131081e-7"),
+    ],
+)
 def test_flexibility_with_shear(layout, rigid, elastic):
     meets(delta(layout, "rigid", theory="timoshenko"), rigid)
     meets(delta(layout, theory="timoshenko"), elastic)
@@ -153,7 +192,8 @@ LINES = {  # (shaft, load, bearings): nm/N at PLACES
     ("R1", "m3", "rigid"): "967.2366 565.2083 261.3049 0.0000 -261.8019 -336.6441 -162.0965 0.0000 79.8583",
     ("R1", "m3", "3.0e7 N/m"): "1029.7023 619.5285 309.3239 41.7178 -230.3044 -319.9774 -161.1060 -8.3845 67.0169",
     ("R1", "m4", "rigid"): "-431.0153 -261.8019 -130.9009 0.0000 188.2006 257.8632 125.7878 0.0000 -62.0683",
-    ("R1", "m4", "3.0e7 N/m"): "-396.3095 -230.3044 -101.8853 26.5337 210.7088 274.5298 136.2800 6.7996 -57.0242"}
+    ("R1", "m4", "3.0e7 N/m"): "-396.3095 -230.3044 -101.8853 26.5337 210.7088 274.5298 136.2800 6.7996 -57.0242",
+}
 PLACES = {"1": (0, 28.25, 56.5, 96.5, 136.5, 190, 245, 340), "R1": (0, 53, 94, 135, 201.5, 298, 400, 461, 490)}
 
 
@@ -179,18 +219,41 @@ def test_the_table_of_unit_loads_has_the_rigid_lines_too():
 # -- sweeps --------------------------------------------------------------------------------------------------------------------
 
 SWEEPS = [  # parameter [mm], what answers it, entry, rigid and elastic flexibility
-    ("l1", lambda v: pressure_roller(l1=v), 0, {20: "8.24101e-9 6.24077e-8", 40: "3.95569e-8 1.22890e-7", 80: "2.10970e-7 3.77637e-7",
-                                                100: "3.70846e-7 5.91679e-7"}),
-    ("l3", lambda v: pressure_roller(l3=v), 2, {50: "6.69582e-8 1.68000e-7", 80: "2.10970e-7 3.77637e-7", 140: "8.88381e-7 1.24255e-6",
-                                                170: "1.48853e-6 1.96457e-6"}),
-    ("l5", lambda v: rubber_roller(l5=v, l6=135 - v), 0, {0: "1.73097e-6 1.80334e-6", 25: "1.08691e-6 1.15033e-6",
-                                                          80: "2.37449e-7 2.83928e-7", 110: "4.51968e-8 8.40347e-8"}),
-    ("l7", lambda v: rubber_roller(l7=v, l8=326 - v), 2, {30: "4.98344e-8 7.75973e-8", 100: "3.22790e-7 3.41946e-7",
-                                                          163: "4.46122e-7 4.62788e-7", 260: "1.86096e-7 2.08665e-7"})]
+    (
+        "l1",
+        lambda v: pressure_roller(l1=v),
+        0,
+        {20: "8.24101e-9 6.24077e-8", 40: "3.95569e-8 1.22890e-7", 80: "2.10970e-7 3.77637e-7", 100: "3.70846e-7 5.91679e-7"},
+    ),
+    (
+        "l3",
+        lambda v: pressure_roller(l3=v),
+        2,
+        {50: "6.69582e-8 1.68000e-7", 80: "2.10970e-7 3.77637e-7", 140: "8.88381e-7 1.24255e-6", 170: "1.48853e-6 1.96457e-6"},
+    ),
+    (
+        "l5",
+        lambda v: rubber_roller(l5=v, l6=135 - v),
+        0,
+        {0: "1.73097e-6 1.80334e-6", 25: "1.08691e-6 1.15033e-6", 80: "2.37449e-7 2.83928e-7", 110: "4.51968e-8 8.40347e-8"},
+    ),
+    (
+        "l7",
+        lambda v: rubber_roller(l7=v, l8=326 - v),
+        2,
+        {30: "4.98344e-8 7.75973e-8", 100: "3.22790e-7 3.41946e-7", 163: "4.46122e-7 4.62788e-7", 260: "1.86096e-7 2.08665e-7"},
+    ),
+]
 
 
-@pytest.mark.parametrize(("layout", "entry", "texts"), [
-    pytest.param(make(value), entry, texts, id=f"{name}={value}") for name, make, entry, table in SWEEPS for value, texts in table.items()])
+@pytest.mark.parametrize(
+    ("layout", "entry", "texts"),
+    [
+        pytest.param(make(value), entry, texts, id=f"{name}={value}")
+        for name, make, entry, table in SWEEPS
+        for value, texts in table.items()
+    ],
+)
 def test_sweeps_of_the_lengths(layout, entry, texts):
     found = [three(dw.run(shaft(layout, k, theory=EULER), only=("flexibility",)).arrays["flexibility"]) for k in ("rigid", "3.0e7 N/m")]
     meets([each[entry] for each in found], texts)
@@ -198,25 +261,39 @@ def test_sweeps_of_the_lengths(layout, entry, texts):
 
 def test_lengths_that_do_not_matter():
     """l1 is not felt by m2, and where l5 or a tail alone changes the shaft only moves along."""
-    at_hand = [dw.run(shaft(layout, theory=EULER), only=("flexibility",)).arrays["flexibility"].values
-               for layout in (pressure_roller(), pressure_roller(l1=80), rubber_roller(), rubber_roller(l5=10))]
+    at_hand = [
+        dw.run(shaft(layout, theory=EULER), only=("flexibility",)).arrays["flexibility"].values
+        for layout in (pressure_roller(), pressure_roller(l1=80), rubber_roller(), rubber_roller(l5=10))
+    ]
     assert at_hand[0][1, 1] == pytest.approx(at_hand[1][1, 1], rel=1e-11)
     assert at_hand[2] == pytest.approx(at_hand[3], rel=1e-11)
 
 
-@pytest.mark.parametrize(("stiffness", "texts"), [
-    ("1e7 N/m", "4.30782e-7 -3.47301e-7 1.19632e-6 7.28169e-7 -1.67309e-7 2.55725e-7"),
-    ("1e8 N/m", "1.23875e-7 1.07374e-8 5.31098e-7 5.81504e-7 -2.52353e-7 1.94953e-7"),
-    ("1e9 N/m", "9.31840e-8 4.65413e-8 4.64576e-7 5.66838e-7 -2.60857e-7 1.88876e-7")])
+@pytest.mark.parametrize(
+    ("stiffness", "texts"),
+    [
+        ("1e7 N/m", "4.30782e-7 -3.47301e-7 1.19632e-6 7.28169e-7 -1.67309e-7 2.55725e-7"),
+        ("1e8 N/m", "1.23875e-7 1.07374e-8 5.31098e-7 5.81504e-7 -2.52353e-7 1.94953e-7"),
+        ("1e9 N/m", "9.31840e-8 4.65413e-8 4.64576e-7 5.66838e-7 -2.60857e-7 1.88876e-7"),
+    ],
+)
 def test_stiffness_of_the_bearings(stiffness, texts):
     meets((*delta("1", stiffness), *delta("R1", stiffness)), texts)
 
 
-@pytest.mark.parametrize(("layout", "parameter", "texts"), [
-    ("1", "distance.m1-A", "1.6235 0.4493 0.0000"), ("1", "distance.A-B", "-0.2997 -3.0088 -0.2013"),
-    ("1", "distance.B-m2", "0.0000 0.7132 2.1508"), ("1", "bearings.stiffness", "-0.5587 -1.6154 -0.3502"),
-    ("1", "youngs_modulus", "-0.4413 0.6154 -0.6498"), ("R1", "bearings.stiffness", "-0.0877 0.1368 -0.1068"),
-    ("R1", "youngs_modulus", "-0.9123 -1.1368 -0.8932"), ("R1", "distance.m3-C", "2.0487 1.1152 0.0000")])
+@pytest.mark.parametrize(
+    ("layout", "parameter", "texts"),
+    [
+        ("1", "distance.m1-A", "1.6235 0.4493 0.0000"),
+        ("1", "distance.A-B", "-0.2997 -3.0088 -0.2013"),
+        ("1", "distance.B-m2", "0.0000 0.7132 2.1508"),
+        ("1", "bearings.stiffness", "-0.5587 -1.6154 -0.3502"),
+        ("1", "youngs_modulus", "-0.4413 0.6154 -0.6498"),
+        ("R1", "bearings.stiffness", "-0.0877 0.1368 -0.1068"),
+        ("R1", "youngs_modulus", "-0.9123 -1.1368 -0.8932"),
+        ("R1", "distance.m3-C", "2.0487 1.1152 0.0000"),
+    ],
+)
 def test_sensitivities(layout, parameter, texts):
     result, (one, two) = run(layout, only=("sensitivities",)), LAYOUTS[layout][2]
     meets([result[f"sensitivity.{pair}.{parameter}"] for pair in (f"{one}.{one}", f"{one}.{two}", f"{two}.{two}")], texts)
@@ -234,9 +311,15 @@ def test_the_section_counts_four_times_the_modulus_and_stiffnesses_sum_to_minus_
 # -- vibration -----------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("layout", "theory", "texts", "third"), [
-    ("1", EULER, "64.477 207.033 953.7", 953.55), ("1", "timoshenko", "63.950 205.103 938.5", 937.98),
-    ("R1", EULER, "38.965 141.764 776.7", 776.53), ("R1", "timoshenko", "38.835 140.079 766.3", 765.98)])
+@pytest.mark.parametrize(
+    ("layout", "theory", "texts", "third"),
+    [
+        ("1", EULER, "64.477 207.033 953.7", 953.55),
+        ("1", "timoshenko", "63.950 205.103 938.5", 937.98),
+        ("R1", EULER, "38.965 141.764 776.7", 776.53),
+        ("R1", "timoshenko", "38.835 140.079 766.3", 765.98),
+    ],
+)
 def test_natural_frequencies(layout, theory, texts, third):
     """The printed third mode is that of elements of some 55 mm, up to 0.06 % above where finer meshes lead."""
     coarse, usual = (dw.run(shaft(layout, theory=theory, **mesh), only=("modes",)) for mesh in ({"element_length": "55 mm"}, {}))
@@ -277,9 +360,15 @@ def test_error_of_the_massless_shaft_is_told():
 # -- what fails first ----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("layout", "station", "reaction", "moment", "crushed", "bent"), [
-    ("1", "m1", "1.70625", "0.0565", "1360", "4935"), ("1", "m2", "2.35625", "0.1085", "985", "2570"),
-    ("R1", "m3", "1.25153", "0.0820", "1854", "3400"), ("R1", "m4", "0.79601", "0.052935", "2915", "5267")])
+@pytest.mark.parametrize(
+    ("layout", "station", "reaction", "moment", "crushed", "bent"),
+    [
+        ("1", "m1", "1.70625", "0.0565", "1360", "4935"),
+        ("1", "m2", "2.35625", "0.1085", "985", "2570"),
+        ("R1", "m3", "1.25153", "0.0820", "1854", "3400"),
+        ("R1", "m4", "0.79601", "0.052935", "2915", "5267"),
+    ],
+)
 def test_what_fails_first(layout, station, reaction, moment, crushed, bent):
     rated = {"radial_stiffness": "3.0e7 N/m", "static_rating": "2.32 kN"}
     result = dw.run(shaft(layout, bearing=rated, load=(station, "1 N"), theory=EULER), only=("statics", "failure"))
@@ -320,8 +409,10 @@ def test_shaft_and_bearings_together():
     """Bearings that only carry across the shaft, as in the other computation: their rings slide and tilt along."""
     result = coupled("1", ("m2", "500 N"), RADIAL)
     meets((result["bearings.A.reaction"], result["bearings.B.reaction"]), "-678.125 1178.125")
-    meets([1e6 * result[name] for name in ("bearings.A.displacement", "bearings.B.displacement", "stations.m2.deflection")],
-          "-12.2115 17.6478 286.737")
+    meets(
+        [1e6 * result[name] for name in ("bearings.A.displacement", "bearings.B.displacement", "stations.m2.deflection")],
+        "-12.2115 17.6478 286.737",
+    )
 
 
 @pytest.mark.parametrize(("layout", "station", "text"), [("1", "m2", "549.483"), ("R1", "m3", "589.789")])
@@ -348,9 +439,15 @@ def test_secant_and_tangent_with_the_load_behind_them():
         assert stiffness["secant"] / stiffness["tangent"] == pytest.approx(2 / 3, abs=2e-3)
 
 
-@pytest.mark.parametrize(("stiffness", "texts"), [
-    ("7.53e7 N/m", "1.351e-7 5.553e-7 5.868e-7 1.972e-7"), ("1.12e8 N/m", "1.202e-7 5.232e-7 5.798e-7 1.942e-7"),
-    ("1.91e8 N/m", "1.076e-7 4.959e-7 5.737e-7 1.917e-7"), ("5.0e8 N/m", "9.659e-8 4.720e-7 5.685e-7 1.896e-7")])
+@pytest.mark.parametrize(
+    ("stiffness", "texts"),
+    [
+        ("7.53e7 N/m", "1.351e-7 5.553e-7 5.868e-7 1.972e-7"),
+        ("1.12e8 N/m", "1.202e-7 5.232e-7 5.798e-7 1.942e-7"),
+        ("1.91e8 N/m", "1.076e-7 4.959e-7 5.737e-7 1.917e-7"),
+        ("5.0e8 N/m", "9.659e-8 4.720e-7 5.685e-7 1.896e-7"),
+    ],
+)
 def test_shafts_on_the_stiffness_of_four_bearings(stiffness, texts):
     """Deep groove, angular contact, cylindrical, tapered: their tangents at 500 N."""
     one, two = delta("1", stiffness), delta("R1", stiffness)
@@ -363,10 +460,12 @@ def test_shafts_on_the_stiffness_of_four_bearings(stiffness, texts):
 def test_labels_and_axes_of_the_arrays():
     arrays = run("R1").arrays
     stations, bearings = ("m3", "m4"), ("C", "D")
-    told = {"flexibility": ("m/N", ("station", "station"), (stations, stations)),
-            "stiffness": ("N/m", ("station", "station"), (stations, stations)),
-            "flexibility.shares": ("m/N", ("part", "station", "station"), (("bending", "shear", *bearings), stations, stations)),
-            "reactions.unit_load": ("-", ("bearing", "station"), (bearings, stations))}
+    told = {
+        "flexibility": ("m/N", ("station", "station"), (stations, stations)),
+        "stiffness": ("N/m", ("station", "station"), (stations, stations)),
+        "flexibility.shares": ("m/N", ("part", "station", "station"), (("bending", "shear", *bearings), stations, stations)),
+        "reactions.unit_load": ("-", ("bearing", "station"), (bearings, stations)),
+    }
     assert {name: tuple(arrays[name][:3]) for name in told} == told
     for name in told:
         assert arrays[name].values.shape == tuple(len(labels) for labels in arrays[name].labels)
@@ -375,8 +474,15 @@ def test_labels_and_axes_of_the_arrays():
 
 def test_names_of_the_values():
     result = dw.run(shaft("1", load=("m1", "500 N")))
-    for name, unit in {"stations.m1.deflection": "m", "stations.m2.slope": "rad", "bearings.A.reaction": "N", "condition_number": "-",
-                       "bearings.B.stiffness.tangent": "N/m", "bearings.B.stiffness.secant": "N/m", "modes.1.frequency": "Hz"}.items():
+    for name, unit in {
+        "stations.m1.deflection": "m",
+        "stations.m2.slope": "rad",
+        "bearings.A.reaction": "N",
+        "condition_number": "-",
+        "bearings.B.stiffness.tangent": "N/m",
+        "bearings.B.stiffness.secant": "N/m",
+        "modes.1.frequency": "Hz",
+    }.items():
         assert result.values[name].unit == unit and np.isfinite(result[name])
     assert result["stations.m1.deflection"] == pytest.approx(500 * delta("1", theory="timoshenko")[0], rel=1e-9)
     assert result["stations.m1.deflection_y"] == pytest.approx(-result["stations.m1.deflection"], rel=1e-12)

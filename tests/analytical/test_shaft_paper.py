@@ -35,9 +35,15 @@ def test_every_verdict_is_the_pinned_one(rows):
 # -- section 5.3 ---------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("mass", "claim", "truth", "historical", "verdict"), [
-    ("m1", "no significant change", "126.6", "26", EXPLAINED), ("m2", "decreases", "53.9", "-65.7", EXPLAINED),
-    ("m4", "decreases", "12.0", "-3.6", EXPLAINED), ("m3", "increases", "9.6", "7.4", AGREES)])
+@pytest.mark.parametrize(
+    ("mass", "claim", "truth", "historical", "verdict"),
+    [
+        ("m1", "no significant change", "126.6", "26", EXPLAINED),
+        ("m2", "decreases", "53.9", "-65.7", EXPLAINED),
+        ("m4", "decreases", "12.0", "-3.6", EXPLAINED),
+        ("m3", "increases", "9.6", "7.4", AGREES),
+    ],
+)
 def test_claims_of_section_5_3(rows, mass, claim, truth, historical, verdict):
     """Change of the flexibility of a mass under its own load [%]: by mechanics, and by the printed equations."""
     name = f"elastic over rigid flexibility of {mass}"
@@ -49,8 +55,15 @@ def test_claims_of_section_5_3(rows, mass, claim, truth, historical, verdict):
     assert "no evidence" in printed.why
 
 
-@pytest.mark.parametrize(("mass", "texts"), [
-    ("m1", ("89.77392", "203.4432")), ("m2", ("457.1845", "703.5621")), ("m3", ("565.2083", "619.5285")), ("m4", ("188.2006", "210.7088"))])
+@pytest.mark.parametrize(
+    ("mass", "texts"),
+    [
+        ("m1", ("89.77392", "203.4432")),
+        ("m2", ("457.1845", "703.5621")),
+        ("m3", ("565.2083", "619.5285")),
+        ("m4", ("188.2006", "210.7088")),
+    ],
+)
 def test_own_load_diagonals(mass, texts):
     """Rigid and elastic [nm/N]."""
     assert [1e9 * diagonal(mass, np.inf), 1e9 * diagonal(mass)] == [near(text) for text in texts]
@@ -79,8 +92,10 @@ def test_the_printed_equations_by_hand():
     assert literal("m4") == pytest.approx(-L7 / SPAN / k, rel=1e-9)
 
 
-@pytest.mark.parametrize(("preset", "places", "load"), [
-    ("pressure-roller", (L1, L1 + L2), "m1"), ("pressure-roller", (L1, L1 + L2), "m2"), (RUBBER, (L5 + L6, L5 + L6 + SPAN), "m4")])
+@pytest.mark.parametrize(
+    ("preset", "places", "load"),
+    [("pressure-roller", (L1, L1 + L2), "m1"), ("pressure-roller", (L1, L1 + L2), "m2"), (RUBBER, (L5 + L6, L5 + L6 + SPAN), "m4")],
+)
 def test_what_bearings_add_is_a_line_through_their_displacements(preset, places, load):
     """The erratum to eqs. (16), (17): z = w_A + (w_B - w_A)(x - x_A)/L, with signs."""
     table = shaft_paper.spec_run(preset, None, ("flexibility",)).tables["unit_load"]
@@ -100,17 +115,21 @@ def test_conclusion_3_at_any_stiffness(mass):
 # -- formulas ------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("name", "printed", "ours", "verdict"), [
-    ("second moment of area of 20 mm, in mm^4", "7854", 7853.98, AGREES),
-    ("slope at A, force at m1, in urad/N", "eq. (1): 0.931235", 0.931235, AGREES),
-    ("moment at A over the force at m1, in m", "0.0565", 0.0565, AGREES),
-    ("flexibility of m1, bearings rigid", "eq. (3): 89.7739 um/kN", 8.97739e-8, AGREES),
-    ("flexibility of m2, bearings rigid", "eq. (4): 457.184 um/kN", 4.57184e-7, AGREES),
-    ("slope at C, force at m3, in urad/N", "eq. (5): 1.12346", 5.50747, EXPLAINED),
-    ("flexibility of m3, bearings rigid", "eq. (6): 205.719 um/kN", 5.65208e-7, EXPLAINED),
-    ("slope at C, force at m3, in urad/N, corrected", "l6 (l7 + l8)/(3 EI): 5.50747", 5.50747, AGREES),
-    ("flexibility of m3, bearings rigid, corrected", "l6^2 (l6 + l7 + l8)/(3 EI): 565.208 um/kN", 5.65208e-7, AGREES),
-    ("rank of the flexibility with indices 31, 32; 41, 42", "2, implied by its inverse K2", 0, EXPLAINED)])
+@pytest.mark.parametrize(
+    ("name", "printed", "ours", "verdict"),
+    [
+        ("second moment of area of 20 mm, in mm^4", "7854", 7853.98, AGREES),
+        ("slope at A, force at m1, in urad/N", "eq. (1): 0.931235", 0.931235, AGREES),
+        ("moment at A over the force at m1, in m", "0.0565", 0.0565, AGREES),
+        ("flexibility of m1, bearings rigid", "eq. (3): 89.7739 um/kN", 8.97739e-8, AGREES),
+        ("flexibility of m2, bearings rigid", "eq. (4): 457.184 um/kN", 4.57184e-7, AGREES),
+        ("slope at C, force at m3, in urad/N", "eq. (5): 1.12346", 5.50747, EXPLAINED),
+        ("flexibility of m3, bearings rigid", "eq. (6): 205.719 um/kN", 5.65208e-7, EXPLAINED),
+        ("slope at C, force at m3, in urad/N, corrected", "l6 (l7 + l8)/(3 EI): 5.50747", 5.50747, AGREES),
+        ("flexibility of m3, bearings rigid, corrected", "l6^2 (l6 + l7 + l8)/(3 EI): 565.208 um/kN", 5.65208e-7, AGREES),
+        ("rank of the flexibility with indices 31, 32; 41, 42", "2, implied by its inverse K2", 0, EXPLAINED),
+    ],
+)
 def test_printed_formulas(rows, name, printed, ours, verdict):
     row = rows[name]
     assert (str(row.printed), row.verdict) == (printed, verdict)
@@ -129,15 +148,19 @@ def macaulay(x, loads, reactions, signs=(1.0, 1.0)):
     places = [place for place, _ in reactions]
 
     def cubic(x):
-        return (sum(sign * force * max(x - s, 0.0) ** 3 for sign, (s, force) in zip(signs, loads, strict=True))
-                - sum(force * max(x - s, 0.0) ** 3 for s, force in reactions)) / 6
+        return (
+            sum(sign * force * max(x - s, 0.0) ** 3 for sign, (s, force) in zip(signs, loads, strict=True))
+            - sum(force * max(x - s, 0.0) ** 3 for s, force in reactions)
+        ) / 6
 
     c1, c2 = np.linalg.solve([[place, 1.0] for place in places], [-cubic(place) for place in places])
     return (c1 * x + c2 + cubic(x)) / EI
 
 
-@pytest.mark.parametrize(("preset", "loads", "bearings", "end"), [
-    ("pressure-roller", (0.0, L1 + L2 + L3), (L1, L1 + L2), 0.340), (RUBBER, (L5, L5 + L6 + L7), (L5 + L6, L5 + L6 + SPAN), 0.490)])
+@pytest.mark.parametrize(
+    ("preset", "loads", "bearings", "end"),
+    [("pressure-roller", (0.0, L1 + L2 + L3), (L1, L1 + L2), 0.340), (RUBBER, (L5, L5 + L6 + L7), (L5 + L6, L5 + L6 + SPAN), 0.490)],
+)
 def test_two_constants_and_equal_signs_of_the_loads(preset, loads, bearings, end):
     """Errata to eqs. (7) to (14): with them the lines are the beam's to the end of the shaft; with the printed sign of F2 they are not."""
     forces = [(place, 1.0) for place in loads]
@@ -153,8 +176,9 @@ def test_two_constants_and_equal_signs_of_the_loads(preset, loads, bearings, end
     assert abs(macaulay(end, forces, reactions, (1.0, -1.0)) - beam[-1]) > 0.05 * np.abs(beam).max()
 
 
-@pytest.mark.parametrize(("mass", "flexibility", "percent"), [
-    ("m1", "37.16", "-59"), ("m2", "263.2", "-42"), ("m3", "113.6", "-80"), ("m4", "30.56", "-84")])
+@pytest.mark.parametrize(
+    ("mass", "flexibility", "percent"), [("m1", "37.16", "-59"), ("m2", "263.2", "-42"), ("m3", "113.6", "-80"), ("m4", "30.56", "-84")]
+)
 def test_fixed_supports(rows, mass, flexibility, percent):
     assert 1e9 * rows[f"flexibility of {mass}, bearings clamped"].ours == near(flexibility)
     row = rows[f"flexibility of {mass}, clamped over simply supported"]
@@ -171,9 +195,14 @@ def test_masses_do_not_feel_each_other_past_a_fixed_support(preset):
 # -- bearings ------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("case", "ratio", "verdict"), [
-    ("equal rollers, no axial load", 1.058, AGREES), ("tapered with 17 rollers of 4 mm, no axial load", 0.860, EXPLAINED),
-    ("equal rollers, 300 N axially", 0.614, EXPLAINED)])
+@pytest.mark.parametrize(
+    ("case", "ratio", "verdict"),
+    [
+        ("equal rollers, no axial load", 1.058, AGREES),
+        ("tapered with 17 rollers of 4 mm, no axial load", 0.860, EXPLAINED),
+        ("equal rollers, 300 N axially", 0.614, EXPLAINED),
+    ],
+)
 def test_the_cylindrical_roller_bearing_is_not_always_the_stiffest(rows, case, ratio, verdict):
     row = rows[f"cylindrical roller bearing over the stiffest other, {case}"]
     assert row.ours == pytest.approx(ratio, abs=0.0005)
@@ -202,9 +231,15 @@ def test_a_61804_has_the_printed_stiffness_at_a_light_load_only(rows):
 # -- presets -------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("preset", "bearings", "stations"), [
-    ("pressure-roller", {"A": 56.5, "B": 136.5}, {"m1": 0, "m2": 245}), ("rubber-roller-r1", {"C": 135, "D": 461}, {"m3": 53, "m4": 201.5}),
-    ("rubber-roller-r2", {"C": 95, "D": 148}, {"m3": 0, "m4": 230}), ("rubber-roller-r3", {"C": 135, "D": 201.5}, {"m3": 53, "m4": 461})])
+@pytest.mark.parametrize(
+    ("preset", "bearings", "stations"),
+    [
+        ("pressure-roller", {"A": 56.5, "B": 136.5}, {"m1": 0, "m2": 245}),
+        ("rubber-roller-r1", {"C": 135, "D": 461}, {"m3": 53, "m4": 201.5}),
+        ("rubber-roller-r2", {"C": 95, "D": 148}, {"m3": 0, "m4": 230}),
+        ("rubber-roller-r3", {"C": 135, "D": 201.5}, {"m3": 53, "m4": 461}),
+    ],
+)
 def test_presets_are_the_readings(preset, bearings, stations):
     spec = dw.load(PRESETS[preset])
     assert {b.name: 1e3 * b.position for b in spec.bearings} == pytest.approx(bearings)

@@ -11,16 +11,26 @@ from drivewright.mechanisms.shaft.verify import _flexibility, verify
 
 E, D, SPAN = 206e9, 0.02, 0.3
 I = np.pi / 64 * D**4
-BALLS = {"balls": 12, "ball_diameter": "3.572 mm", "pitch_diameter": "26 mm", "youngs_modulus": "206 GPa", "inner_conformity": 0.515,
-         "outer_conformity": 0.53}
+BALLS = {
+    "balls": 12,
+    "ball_diameter": "3.572 mm",
+    "pitch_diameter": "26 mm",
+    "youngs_modulus": "206 GPa",
+    "inner_conformity": 0.515,
+    "outer_conformity": 0.53,
+}
 ANGULAR = {"balls": 14, "ball_diameter": "5 mm", "pitch_diameter": "30 mm", "contact_angle": "25 deg"}
 ROLLERS = {"rollers": 15, "roller_diameter": "4 mm", "roller_length": "8 mm", "pitch_diameter": "30 mm"}
-UNIFORM = {"segments": [{"length": "400 mm", "diameter": "20 mm"}],
-           "bearings": [{"name": "A", "position": "50 mm", "radial_stiffness": "4e7 N/m"},
-                        {"name": "B", "position": "350 mm", "radial_stiffness": "4e7 N/m", "axial_stiffness": "1e7 N/m"}],
-           "stations": [{"name": "p", "position": "200 mm", "mass": "2 kg"}, {"name": "q", "position": "400 mm", "mass": "1 kg"}],
-           "loads": [{"station": "p", "force": "500 N", "angle": "30 deg", "axial_force": "200 N"}],
-           "analysis": {"theory": "euler-bernoulli", "direction": "30 deg"}}
+UNIFORM = {
+    "segments": [{"length": "400 mm", "diameter": "20 mm"}],
+    "bearings": [
+        {"name": "A", "position": "50 mm", "radial_stiffness": "4e7 N/m"},
+        {"name": "B", "position": "350 mm", "radial_stiffness": "4e7 N/m", "axial_stiffness": "1e7 N/m"},
+    ],
+    "stations": [{"name": "p", "position": "200 mm", "mass": "2 kg"}, {"name": "q", "position": "400 mm", "mass": "1 kg"}],
+    "loads": [{"station": "p", "force": "500 N", "angle": "30 deg", "axial_force": "200 N"}],
+    "analysis": {"theory": "euler-bernoulli", "direction": "30 deg"},
+}
 
 
 def spec(**changes):
@@ -44,13 +54,26 @@ def test_a_skew_load_in_the_middle():
     result = run(material={"yield_strength": "300 MPa"}, limits={"deflection": "1 mm", "slope": "1 deg"})
     f, sag, slope = 500.0, 500 * SPAN**3 / (48 * E * I) + 250 / 4e7, 500 * SPAN**2 / (16 * E * I)
     c, s = np.cos(np.pi / 6), np.sin(np.pi / 6)
-    wanted = {"stations.p.deflection": sag, "stations.p.deflection_x": sag * c, "stations.p.deflection_y": sag * s,
-              "stations.q.slope": -slope, "stations.q.deflection": 250 / 4e7 - 0.05 * slope,
-              "bearings.A.slope": slope, "bearings.A.reaction": f / 2,
-              "bearings.A.reaction_x": -f / 2 * c, "bearings.B.reaction_y": -f / 2 * s, "bearings.A.radial_force": f / 2,
-              "bearings.B.displacement": 250 / 4e7, "bearings.B.axial_force": -200.0, "shaft.max_moment": f * SPAN / 4,
-              "shaft.max_moment.at": 0.2, "shaft.max_deflection": sag, "shaft.max_deflection.at": 0.2,
-              "bearings.A.stiffness.secant": 4e7, "shaft.max_stress": 32 * f * SPAN / 4 / (np.pi * D**3) + 200 / (np.pi / 4 * D**2)}
+    wanted = {
+        "stations.p.deflection": sag,
+        "stations.p.deflection_x": sag * c,
+        "stations.p.deflection_y": sag * s,
+        "stations.q.slope": -slope,
+        "stations.q.deflection": 250 / 4e7 - 0.05 * slope,
+        "bearings.A.slope": slope,
+        "bearings.A.reaction": f / 2,
+        "bearings.A.reaction_x": -f / 2 * c,
+        "bearings.B.reaction_y": -f / 2 * s,
+        "bearings.A.radial_force": f / 2,
+        "bearings.B.displacement": 250 / 4e7,
+        "bearings.B.axial_force": -200.0,
+        "shaft.max_moment": f * SPAN / 4,
+        "shaft.max_moment.at": 0.2,
+        "shaft.max_deflection": sag,
+        "shaft.max_deflection.at": 0.2,
+        "bearings.A.stiffness.secant": 4e7,
+        "shaft.max_stress": 32 * f * SPAN / 4 / (np.pi * D**3) + 200 / (np.pi / 4 * D**2),
+    }
     assert {name: result[name] for name in wanted} == pytest.approx(wanted, rel=1e-6)
     assert "bearings.A.axial_force" not in result.values and "bearings.A.moment" not in result.values
     assert result.check("yield_safety").value == pytest.approx(300e6 / result["shaft.max_stress"], rel=1e-9)
@@ -98,11 +121,16 @@ def test_a_spring_with_play_gives_way_by_half_its_clearance_first():
 def test_a_housing_is_in_series_with_every_kind_of_bearing(tmp_path):
     (tmp_path / "k.csv").write_text("displacement [um],force [N]\n0,0\n100,4000\n")
     soft = {"housing_stiffness": "1e7 N/m", "housing_axial_stiffness": "5e6 N/m"}
-    kinds = {"spring": {"radial_stiffness": "4e7 N/m"}, "play": {"radial_stiffness": "4e7 N/m", "radial_clearance": "0.02 um"},
-             "table": {"table": str(tmp_path / "k.csv")}}
+    kinds = {
+        "spring": {"radial_stiffness": "4e7 N/m"},
+        "play": {"radial_stiffness": "4e7 N/m", "radial_clearance": "0.02 um"},
+        "table": {"table": str(tmp_path / "k.csv")},
+    }
     for kind in kinds.values():
-        held = [{"name": "A", "position": "50 mm", **kind, **soft}, {"name": "B", "position": "350 mm", **kind, **soft,
-                                                                      "axial_stiffness": "1e7 N/m"}]
+        held = [
+            {"name": "A", "position": "50 mm", **kind, **soft},
+            {"name": "B", "position": "350 mm", **kind, **soft, "axial_stiffness": "1e7 N/m"},
+        ]
         result = run(bearings=held)
         wanted = 500 * SPAN**3 / (48 * E * I) + 250 / 4e7 + 250 / 1e7 + (1e-8 if "radial_clearance" in kind else 0)
         assert result["stations.p.deflection"] == pytest.approx(wanted, rel=1e-7)
@@ -115,8 +143,9 @@ def test_a_rolling_bearing_in_a_soft_housing():
     """Across: what it yields besides; along: the axial load moves the whole shaft further by F/k."""
     firm = on({"geometry": ANGULAR, "carries": "right"}, loads=[{"position": "50 mm", "force": "100 N", "axial_force": "400 N"}])
     firm["bearings"][1] = UNIFORM["bearings"][1] | {"axial_stiffness": None}
-    soft = firm | {"bearings": [firm["bearings"][0] | {"housing_stiffness": "1e7 N/m", "housing_axial_stiffness": "5e6 N/m"},
-                                firm["bearings"][1]]}
+    soft = firm | {
+        "bearings": [firm["bearings"][0] | {"housing_stiffness": "1e7 N/m", "housing_axial_stiffness": "5e6 N/m"}, firm["bearings"][1]]
+    }
     found = []
     for changes in (firm, soft):
         loaded = dw.shafts.load((model := dw.build(spec(**changes))).shaft, model.loads)
@@ -145,10 +174,21 @@ def test_seats_out_of_line_in_the_axes_of_the_bearing():
 
 
 def test_loads_of_the_spec_in_the_shafts_axes():
-    loads = [{"position": "100 mm", "force": "10 N", "angle": "90 deg", "axial_force": "3 N", "torque": "2 N m", "moment": "4 N m",
-              "moment_angle": "60 deg"}]
-    lines = [{"start": "100 mm", "end": "200 mm", "force": "5 N/mm", "end_force": "8 N/mm"},
-             {"start": "200 mm", "end": "300 mm", "force": "5 N/mm", "angle": "0 deg"}]
+    loads = [
+        {
+            "position": "100 mm",
+            "force": "10 N",
+            "angle": "90 deg",
+            "axial_force": "3 N",
+            "torque": "2 N m",
+            "moment": "4 N m",
+            "moment_angle": "60 deg",
+        }
+    ]
+    lines = [
+        {"start": "100 mm", "end": "200 mm", "force": "5 N/mm", "end_force": "8 N/mm"},
+        {"start": "200 mm", "end": "300 mm", "force": "5 N/mm", "angle": "0 deg"},
+    ]
     found = dw.build(spec(loads=loads, line_loads=lines)).loads
     assert found.points[0].force == pytest.approx((0.0, 10.0, 3.0))
     assert found.points[0].moment == pytest.approx((4 * np.cos(np.pi / 3), 4 * np.sin(np.pi / 3), 2.0))
@@ -159,8 +199,9 @@ def test_loads_of_the_spec_in_the_shafts_axes():
 def test_the_mate_pushes_a_gear_away_whichever_way_it_turns(torque):
     gear = {"name": "g", "position": "100 mm", "pitch_diameter": "60 mm", "torque": f"{torque} N m", "helix_angle": "15 deg"}
     load = tooth_force(spec(gears=[gear]).gears[0])
-    assert load.force == pytest.approx((-1000 * np.tan(np.radians(20)) / np.cos(np.radians(15)), torque / 0.03,
-                                        torque / 0.03 * np.tan(np.radians(15))))
+    assert load.force == pytest.approx(
+        (-1000 * np.tan(np.radians(20)) / np.cos(np.radians(15)), torque / 0.03, torque / 0.03 * np.tan(np.radians(15)))
+    )
     assert load.moment == pytest.approx((0.0, -torque * np.tan(np.radians(15)), torque))
 
 
@@ -269,8 +310,9 @@ def preloaded_pair(*carries):
 
 def test_modes_on_mirrored_bearings_are_those_of_the_flexibility_they_have():
     """Massless shaft on the tangents of the loaded bearings, by the flexibility and by the modes of a shaft that weighs next to nothing."""
-    result = run("flexibility", "modes", **preloaded_pair("right", "left"), material={"density": "0.001 kg/m^3"},
-                 analysis={"direction": "-90 deg"})
+    result = run(
+        "flexibility", "modes", **preloaded_pair("right", "left"), material={"density": "0.001 kg/m^3"}, analysis={"direction": "-90 deg"}
+    )
     wanted = result["massless_modes.1.frequency"]
     across = [result[f"modes.{n}.frequency"] for n in (1, 2)]
     assert min(abs(f / wanted - 1) for f in across) < 1e-4
@@ -304,8 +346,11 @@ def test_shapes_are_one_at_their_largest():
 
 def test_a_rolling_bearing_in_its_tables_is_the_bearing_alone():
     """Under a force that lies along no axis of symmetry."""
-    free = on({"geometry": BALLS, "free": ["axial", "tilt"]}, loads=[{"station": "p", "force": "500 N", "angle": "-80 deg"}],
-              analysis={"direction": "0 deg"})
+    free = on(
+        {"geometry": BALLS, "free": ["axial", "tilt"]},
+        loads=[{"station": "p", "force": "500 N", "angle": "-80 deg"}],
+        analysis={"direction": "0 deg"},
+    )
     result = run("statics", "rolling", **free)
     way = np.array([np.cos(np.radians(-80)), np.sin(np.radians(-80))])
     alone = bearings.solve(bearings.BallBearing(**BALLS), force=[*(250 * way), 0, 0, 0])
@@ -359,17 +404,26 @@ def test_what_a_bearing_has_to_say_is_told():
 
 # -- the other routes ----------------------------------------------------------------------------------------------------------
 
-SKEW = {"segments": [{"length": "90 mm", "diameter": "25 mm", "bore": "8 mm"},
-                     {"length": "120 mm", "diameter": "30 mm", "end_diameter": "40 mm", "bore": "20 mm"},
-                     {"length": "110 mm", "diameter": "28 mm"}],
-        "bearings": [{"name": "B", "position": "170 mm", "radial_stiffness": "9e7 N/m"},
-                     {"name": "C", "position": "290 mm", "radial_stiffness": "2e7 N/m", "tilt_stiffness": "4e3 N m/rad"},
-                     {"name": "A", "position": "40 mm", "radial_stiffness": "4e7 N/m"}],
-        "stations": [{"name": "p", "position": "0 mm"}, {"name": "q", "position": "230 mm"}],
-        "loads": [{"position": "120 mm", "force": "300 N", "angle": "20 deg", "moment": "40 N m", "moment_angle": "70 deg"},
-                  {"position": "100 mm", "torque": "9 N m"}, {"position": "300 mm", "torque": "-9 N m"}],
-        "line_loads": [{"start": "100 mm", "end": "250 mm", "force": "2 N/mm", "end_force": "9 N/mm", "angle": "-50 deg"}],
-        "gravity": ["3 m/s^2", "-9.81 m/s^2", "0 m/s^2"]}
+SKEW = {
+    "segments": [
+        {"length": "90 mm", "diameter": "25 mm", "bore": "8 mm"},
+        {"length": "120 mm", "diameter": "30 mm", "end_diameter": "40 mm", "bore": "20 mm"},
+        {"length": "110 mm", "diameter": "28 mm"},
+    ],
+    "bearings": [
+        {"name": "B", "position": "170 mm", "radial_stiffness": "9e7 N/m"},
+        {"name": "C", "position": "290 mm", "radial_stiffness": "2e7 N/m", "tilt_stiffness": "4e3 N m/rad"},
+        {"name": "A", "position": "40 mm", "radial_stiffness": "4e7 N/m"},
+    ],
+    "stations": [{"name": "p", "position": "0 mm"}, {"name": "q", "position": "230 mm"}],
+    "loads": [
+        {"position": "120 mm", "force": "300 N", "angle": "20 deg", "moment": "40 N m", "moment_angle": "70 deg"},
+        {"position": "100 mm", "torque": "9 N m"},
+        {"position": "300 mm", "torque": "-9 N m"},
+    ],
+    "line_loads": [{"start": "100 mm", "end": "250 mm", "force": "2 N/mm", "end_force": "9 N/mm", "angle": "-50 deg"}],
+    "gravity": ["3 m/s^2", "-9.81 m/s^2", "0 m/s^2"],
+}
 
 
 @pytest.mark.parametrize("theory", ["timoshenko", "euler-bernoulli"])
@@ -377,8 +431,12 @@ def test_loads_and_reactions_alone_give_the_deflection_of_everything(theory):
     """Forces, couples, spread loads and weight, bearings in any order: agreement to rounding, and limits that would tell a difference."""
     model = dw.build(dw.Shaft(**SKEW, analysis={"theory": theory}))
     rows = list(verify(model, dw.run(model.spec, only=("statics",))))
-    assert {name for name, *_ in rows} >= {"sum of the reactions along x", "moment of the reactions, y", "stations.p.deflection_x",
-                                          "stations.q.deflection_y"}
+    assert {name for name, *_ in rows} >= {
+        "sum of the reactions along x",
+        "moment of the reactions, y",
+        "stations.p.deflection_x",
+        "stations.q.deflection_y",
+    }
     for name, ours, other, _, limit, _ in rows:
         assert abs(ours - other) <= limit and limit < 1e-4 * abs(ours), name
 
@@ -404,7 +462,7 @@ def test_a_bearing_alone_is_checked_within_a_limit_that_matters():
 def test_a_couple_on_a_cantilever_by_the_integrals():
     """Right of a clamped place a couple bends the shaft by x^2/2EI, a force by x^3/6EI."""
     shaft = dw.build(spec()).shaft
-    assert second_route.influence(shaft, 0.3, 0.1, couple=True) == pytest.approx(-0.2**2 / (2 * E * I), rel=1e-12)
+    assert second_route.influence(shaft, 0.3, 0.1, couple=True) == pytest.approx(-(0.2**2) / (2 * E * I), rel=1e-12)
     assert second_route.influence(shaft, 0.3, 0.1) == pytest.approx(0.2**3 / (6 * E * I), rel=1e-12)
 
 
@@ -433,8 +491,12 @@ def test_bands_of_the_solid_are_the_bearings():
 @pytest.mark.needs_fe
 def test_beam_and_solid_are_compared_over_both_diagonals():
     """A stiff place between the bearings beside a soft one on the overhang."""
-    result = run("solid", bearings=[b | {"radial_stiffness": "rigid", "width": "4 mm"} for b in UNIFORM["bearings"]],
-                 stations=[{"name": "p", "position": "70 mm"}, {"name": "q", "position": "200 mm"}], analysis={"theory": "timoshenko"})
+    result = run(
+        "solid",
+        bearings=[b | {"radial_stiffness": "rigid", "width": "4 mm"} for b in UNIFORM["bearings"]],
+        stations=[{"name": "p", "position": "70 mm"}, {"name": "q", "position": "200 mm"}],
+        analysis={"theory": "timoshenko"},
+    )
     beam, found = (result.arrays[name].values for name in ("solid.beam", "solid.flexibility"))
     apart = np.abs(beam - found) / np.sqrt(np.outer(np.diag(found), np.diag(found)))
     assert found[1, 1] > 2 * found[0, 0] and apart.max() > 1.5 * (np.abs(beam - found) / found.max()).max()

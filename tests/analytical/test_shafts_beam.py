@@ -64,8 +64,10 @@ def test_a_triangular_load_divides_one_to_two():
 
 def test_a_force_has_the_same_effect_in_every_plane():
     stations = [shafts.Station("m", 0.15)]
-    x, y = (moved(shafts.load(simple(stations=stations), shafts.Loads((shafts.Load(0.15, force),))), 0.15, freedom)
-            for force, freedom in (((700.0, 0, 0), 0), ((0, 700.0, 0), 1)))
+    x, y = (
+        moved(shafts.load(simple(stations=stations), shafts.Loads((shafts.Load(0.15, force),))), 0.15, freedom)
+        for force, freedom in (((700.0, 0, 0), 0), ((0, 700.0, 0), 1))
+    )
     a, b = 0.15, L - 0.15
     assert x == pytest.approx(700 * a**2 * b**2 / (3 * E * I * L), rel=1e-10) and x == pytest.approx(y, rel=1e-12)
 

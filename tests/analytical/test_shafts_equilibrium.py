@@ -54,9 +54,24 @@ def mirrored_and_plain():
     k, offset, push = full_tangent(), np.array([1e-5, -2e-5, 3e-5, 2e-4, -1e-4]), np.array([10.0, 20.0, 30.0, 0.4, 0.5])
     seat = (5e7, 4e7, 3e7, 8e3, 6e3)
     stations = [shafts.Station("p", 0.0), shafts.Station("q", 0.22)]
-    return [shaft([support("A", 0.3, 4e7), shafts.Support("B", 0.1, law=shafts.Tangent(turn[:, None] * k * turn), mirrored=turn[2] < 0,
-                                                           offset=tuple(turn * offset), seat=seat, push=tuple(turn * push))], stations)
-            for turn in (np.ones(5), T)]
+    return [
+        shaft(
+            [
+                support("A", 0.3, 4e7),
+                shafts.Support(
+                    "B",
+                    0.1,
+                    law=shafts.Tangent(turn[:, None] * k * turn),
+                    mirrored=turn[2] < 0,
+                    offset=tuple(turn * offset),
+                    seat=seat,
+                    push=tuple(turn * push),
+                ),
+            ],
+            stations,
+        )
+        for turn in (np.ones(5), T)
+    ]
 
 
 def test_a_mirrored_support_is_the_same_in_its_own_axes():
@@ -95,7 +110,7 @@ def test_a_coupled_support_on_a_seat_balances_and_its_shares_add_up():
     found = loaded(one, load).equilibrium
     held = one.supports[1]
     assert -found.reactions[1] == pytest.approx(held.law.k @ found.relative[1], rel=1e-8)
-    node = found.u[FREEDOMS * found.model.beam.node(0.1):][:5]
+    node = found.u[FREEDOMS * found.model.beam.node(0.1) :][:5]
     ring = node - held.offset - found.relative[1]
     assert np.multiply(held.seat, ring) == pytest.approx(np.array(held.push) - found.reactions[1], rel=1e-7)
     assert found.reactions[:, :2].sum(axis=0) == pytest.approx([-200.0, 500.0], rel=1e-8)
@@ -106,9 +121,13 @@ def test_a_coupled_support_on_a_seat_balances_and_its_shares_add_up():
 
 def test_unit_reactions_are_what_one_newton_more_changes():
     """On rigid, elastic and coupled supports, in a slanting direction."""
-    way, one = np.array([0.6, -0.8]), shaft(
-        [support("A", 0.05), shafts.Support("B", 0.2, law=shafts.Tangent(full_tangent())), support("C", 0.38, tilt=3e3)],
-        [shafts.Station("p", 0.12)])
+    way, one = (
+        np.array([0.6, -0.8]),
+        shaft(
+            [support("A", 0.05), shafts.Support("B", 0.2, law=shafts.Tangent(full_tangent())), support("C", 0.38, tilt=3e3)],
+            [shafts.Station("p", 0.12)],
+        ),
+    )
     zero, unit = (loaded(one, shafts.Load(0.12, (force * 0.6, force * -0.8, 0.0))).equilibrium for force in (0.0, 1.0))
     found = shafts.flexibility(zero, [0.12], way)
     assert found.reactions[:, 0] == pytest.approx(-(unit.reactions - zero.reactions)[:, :2] @ way, rel=1e-8)
@@ -120,8 +139,10 @@ def moved_by(equilibrium, position, freedom):
 
 
 def test_a_shaft_stretched_by_coupled_bearings_has_a_share_of_tension():
-    one = shaft([shafts.Support(n, z, law=shafts.Tangent(full_tangent(seed))) for n, z, seed in (("A", 0.1, 3), ("B", 0.3, 4))],
-                [shafts.Station("p", 0.0)])
+    one = shaft(
+        [shafts.Support(n, z, law=shafts.Tangent(full_tangent(seed))) for n, z, seed in (("A", 0.1, 3), ("B", 0.3, 4))],
+        [shafts.Station("p", 0.0)],
+    )
     found = shafts.flexibility(loaded(one).equilibrium, [0.0], (0.0, -1.0))
     share = found.shares[found.names.index("tension"), 0, 0]
     assert found.shares.sum(axis=0) == pytest.approx(found.delta, rel=1e-9, abs=0)
@@ -170,8 +191,9 @@ def test_an_angular_bearing_takes_its_way_and_no_other(mirrored):
 
 
 def test_a_roller_bearing_takes_one_way_only():
-    rollers = bearings.law_of(bearings.RollerBearing(rollers=15, roller_diameter="4 mm", roller_length="8 mm", pitch_diameter="30 mm",
-                                                     contact_angle="14 deg"))
+    rollers = bearings.law_of(
+        bearings.RollerBearing(rollers=15, roller_diameter="4 mm", roller_length="8 mm", pitch_diameter="30 mm", contact_angle="14 deg")
+    )
     for mirrored, side in ((False, "left"), (True, "right")):
         one = shaft([support("A", 0.05), shafts.Support("B", 0.3, law=rollers, mirrored=mirrored)])
         way = 1.0 if mirrored else -1.0
@@ -190,16 +212,25 @@ def test_a_seat_that_slides_takes_no_axial_force():
 def test_a_sliding_seat_under_rollers_that_slide_anyway_changes_nothing():
     """Cylindrical rollers do not resist along the axis: a ring free to slide would be held by nothing, and is none."""
     rollers = bearings.law_of(bearings.RollerBearing(rollers=15, roller_diameter="4 mm", roller_length="8 mm", pitch_diameter="30 mm"))
-    found = [loaded(shaft([support("A", 0.05, 3e7), shafts.Support("B", 0.3, law=rollers, seat=(RIGID, RIGID, along, RIGID, RIGID))],
-                          [shafts.Station("p", L)]), shafts.Load(L, (0.0, -200.0, 0.0))).equilibrium for along in (RIGID, 0.0)]
+    found = [
+        loaded(
+            shaft(
+                [support("A", 0.05, 3e7), shafts.Support("B", 0.3, law=rollers, seat=(RIGID, RIGID, along, RIGID, RIGID))],
+                [shafts.Station("p", L)],
+            ),
+            shafts.Load(L, (0.0, -200.0, 0.0)),
+        ).equilibrium
+        for along in (RIGID, 0.0)
+    ]
     one, two = (shafts.flexibility(each, [L], (0.0, -1.0)).delta for each in found)
     assert two == pytest.approx(one, rel=1e-9, abs=0) and found[1].model.size == found[0].model.size
 
 
 def test_one_rolling_bearing_holds_by_its_tilt_stiffness_unless_its_seat_turns():
     """One bearing takes the moment of the overhanging load, with the sign that holds the shaft up."""
-    found = loaded(shaft([angular(False, seat=(RIGID, RIGID, RIGID, RIGID, RIGID), offset=(0, 0, -1e-5, 0, 0))]),
-                   shafts.Load(0.35, (0.0, -20.0, 0.0))).equilibrium
+    found = loaded(
+        shaft([angular(False, seat=(RIGID, RIGID, RIGID, RIGID, RIGID), offset=(0, 0, -1e-5, 0, 0))]), shafts.Load(0.35, (0.0, -20.0, 0.0))
+    ).equilibrium
     assert found.reactions[0, 1] == pytest.approx(20.0, rel=1e-8) and found.reactions[0, 3] == pytest.approx(-20.0 * 0.05, rel=1e-7)
     with pytest.raises(InputError, match="'B'.* leave it free to swing"):
         shafts.assemble(shaft([angular(False, seat=(RIGID, RIGID, RIGID, 0.0, 0.0))]))
@@ -272,7 +303,7 @@ def test_a_hanging_cone_pulls_at_the_ends_of_its_pieces_by_its_moment():
     """Held at the left, gravity to the right: the whole weight there, and at the free end int rho A z/L of it."""
     one = shaft([support("A", 0.0, axial=RIGID), support("B", L)], sections=CONE)
     found = loaded(one, gravity=(0.0, 0.0, 9.81))
-    total, far = (9.81 * RHO * np.pi / 4 * along_cone(lambda d, p=p: GAUSS[0]**p * (d**2 - 0.015**2)) for p in (0, 1))
+    total, far = (9.81 * RHO * np.pi / 4 * along_cone(lambda d, p=p: GAUSS[0] ** p * (d**2 - 0.015**2)) for p in (0, 1))
     assert found.equilibrium.reactions[0, 2] == pytest.approx(-total, rel=1e-9) and far > 0.55 * total
     assert moved(found, L, 2) == pytest.approx(far / E * along_cone(lambda d: 4 / (np.pi * (d**2 - 0.015**2))), rel=1e-9)
 
@@ -300,8 +331,11 @@ def test_bending_of_a_cone_under_its_weight_is_exact_between_the_nodes():
 
 # -- radial curves -------------------------------------------------------------------------------------------------------------
 
-LAWS = {"play": shafts.with_play(3e7, 8e-6), "table": shafts.tabulated([0.0, 1e-5, 3e-5, 4e-5], [0.0, 200.0, 1000.0, 1700.0]),
-        "tangent": shafts.Tangent(full_tangent())}
+LAWS = {
+    "play": shafts.with_play(3e7, 8e-6),
+    "table": shafts.tabulated([0.0, 1e-5, 3e-5, 4e-5], [0.0, 200.0, 1000.0, 1700.0]),
+    "tangent": shafts.Tangent(full_tangent()),
+}
 
 
 @pytest.mark.parametrize("law", LAWS)

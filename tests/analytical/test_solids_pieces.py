@@ -87,8 +87,15 @@ def test_heading_of_an_arc_is_the_difference_of_near_points():
 
 def test_joined_drops_waste_closes_tiny_gaps_and_turns_counter_clockwise():
     waste = Spline(np.array([(0.0, 0.0), (0.0, 0.0), (0.0, 1e-3), (0.0, 1e-3), (0.0, 2e-3), (0.0, 2e-3 + 3e-10)]), (0, 1), (0, 1))
-    clockwise = Outline((waste, Line((0.0, 2e-3 + 8e-10), (3e-3, 2e-3)), Line((3e-3, 2e-3), (3e-3, 2e-3)), Line((3e-3, 2e-3), (3e-3, 0.0)),
-                         Line((3e-3, 0.0), (0.0, 0.0))))
+    clockwise = Outline(
+        (
+            waste,
+            Line((0.0, 2e-3 + 8e-10), (3e-3, 2e-3)),
+            Line((3e-3, 2e-3), (3e-3, 2e-3)),
+            Line((3e-3, 2e-3), (3e-3, 0.0)),
+            Line((3e-3, 0.0), (0.0, 0.0)),
+        )
+    )
     outline = chain.joined(clockwise, "plate")
     assert len(outline.pieces) == 4
     assert chain.outline_area(outline) == pytest.approx(6e-6, rel=1e-6)

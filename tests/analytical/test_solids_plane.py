@@ -46,8 +46,13 @@ def kirsch(points, radius, pull, lean):
     hoop = pull / 2 * (1 + a - (1 + 3 * a**2) * np.cos(t))
     slide = -pull / 2 * (1 + 2 * a - 3 * a**2) * np.sin(t)
     c, s = np.cos(turn), np.sin(turn)
-    return np.column_stack([radial * c**2 + hoop * s**2 - 2 * slide * s * c, radial * s**2 + hoop * c**2 + 2 * slide * s * c,
-                            (radial - hoop) * s * c + slide * (c**2 - s**2)])
+    return np.column_stack(
+        [
+            radial * c**2 + hoop * s**2 - 2 * slide * s * c,
+            radial * s**2 + hoop * c**2 + 2 * slide * s * c,
+            (radial - hoop) * s * c + slide * (c**2 - s**2),
+        ]
+    )
 
 
 @pytest.mark.parametrize("lean", [0.0, 0.7])
@@ -172,4 +177,5 @@ def test_the_picture_s_triangles_fill_the_plate():
 
 def test_mises():
     assert mises([[5.0, 0, 0], [0, -5.0, 0], [0, 0, 5.0], [5.0, 5.0, 0], [5.0, -5.0, 0]]) == pytest.approx(
-        [5, 5, 5 * np.sqrt(3), 5, 5 * np.sqrt(3)])
+        [5, 5, 5 * np.sqrt(3), 5, 5 * np.sqrt(3)]
+    )

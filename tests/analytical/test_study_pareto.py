@@ -1,6 +1,5 @@
 """Pareto fronts: against the definition, pair by pair, and on fronts known in closed form."""
 
-
 import numpy as np
 import pytest
 

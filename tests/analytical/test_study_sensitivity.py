@@ -127,8 +127,9 @@ def test_units_and_zeros_change_no_share():
     assert regression(x[mixed], y[mixed]).coefficients == pytest.approx(regression(x, y).coefficients, rel=1e-9)
 
 
-@pytest.mark.parametrize(("function", "truth", "low", "high"), [
-    (ishigami, ishigami_indices()[0], -np.pi, np.pi), (sobol_g, sobol_g_indices()[0], 0.0, 1.0)])
+@pytest.mark.parametrize(
+    ("function", "truth", "low", "high"), [(ishigami, ishigami_indices()[0], -np.pi, np.pi), (sobol_g, sobol_g_indices()[0], 0.0, 1.0)]
+)
 @pytest.mark.parametrize("latin", [False, True])
 def test_ranks_find_first_order_indices(function, truth, low, high, latin):
     """Within four standard deviations of 1/sqrt(n), and better with a hundred times the cases."""
@@ -173,8 +174,9 @@ def test_a_key_that_does_not_vary_causes_nothing():
 # -- a sample made for it ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("function", "exact", "low", "high"), [
-    (ishigami, ishigami_indices(), -np.pi, np.pi), (sobol_g, sobol_g_indices(), 0.0, 1.0)])
+@pytest.mark.parametrize(
+    ("function", "exact", "low", "high"), [(ishigami, ishigami_indices(), -np.pi, np.pi), (sobol_g, sobol_g_indices(), 0.0, 1.0)]
+)
 def test_sobol_indices_of_functions_that_interact(function, exact, low, high):
     found = indices(*saltelli(function, len(exact[0]), 2**13, low, high))
     assert found.first == pytest.approx(exact[0], abs=6e-3)

@@ -7,8 +7,15 @@ from drivewright.chains import closure
 from drivewright.chains.link import link
 from drivewright.validation import AGREES, EXPLAINED, OPEN, hyvo_paper
 
-PRINTED = ("seated pitch pp1'' = pp01''", "constant k", "boundary radius r10", "reference deviation delta12", "pin offset e, group 3",
-           "slope of delta_p2 over r1, in 1e-4", "radius below which p'' grows with the angle up to the seat")
+PRINTED = (
+    "seated pitch pp1'' = pp01''",
+    "constant k",
+    "boundary radius r10",
+    "reference deviation delta12",
+    "pin offset e, group 3",
+    "slope of delta_p2 over r1, in 1e-4",
+    "radius below which p'' grows with the angle up to the seat",
+)
 
 
 @pytest.fixture(scope="module")
@@ -16,8 +23,16 @@ def rows():
     return {row.name: row for row in hyvo_paper.source.rows()}
 
 
-@pytest.mark.parametrize(("name", "value"), list(zip(PRINTED, (
-    9.563499838727e-3, 11.46484882912, 5.054799380642e-3, 4.0618538598e-6, 0.267776183764e-3, 4.1374452, 4.78174992e-3), strict=True)))
+@pytest.mark.parametrize(
+    ("name", "value"),
+    list(
+        zip(
+            PRINTED,
+            (9.563499838727e-3, 11.46484882912, 5.054799380642e-3, 4.0618538598e-6, 0.267776183764e-3, 4.1374452, 4.78174992e-3),
+            strict=True,
+        )
+    ),
+)
 def test_numbers_of_forty_digit_arithmetic(rows, name, value):
     assert rows[name].ours == pytest.approx(value, rel=1e-7)
 

@@ -15,9 +15,17 @@ def row(ours, printed="50.22 deg", unit="rad", **more):
     return Row("quantity", rounded(printed, unit), ours, unit, AGREES, "published table", "table 1", **more)
 
 
-@pytest.mark.parametrize(("text", "unit", "low", "high"), [
-    ("50.22 deg", "rad", 50.215 * DEGREE, 50.225 * DEGREE), ("253 deg", "rad", 252.5 * DEGREE, 253.5 * DEGREE),
-    ("0.2 mm", "m", 0.15e-3, 0.25e-3), ("-23.15", "-", -23.155, -23.145), ("60.0", "-", 59.95, 60.05), ("+3 kN", "N", 2500, 3500)])
+@pytest.mark.parametrize(
+    ("text", "unit", "low", "high"),
+    [
+        ("50.22 deg", "rad", 50.215 * DEGREE, 50.225 * DEGREE),
+        ("253 deg", "rad", 252.5 * DEGREE, 253.5 * DEGREE),
+        ("0.2 mm", "m", 0.15e-3, 0.25e-3),
+        ("-23.15", "-", -23.155, -23.145),
+        ("60.0", "-", 59.95, 60.05),
+        ("+3 kN", "N", 2500, 3500),
+    ],
+)
 def test_a_printed_number_is_all_that_rounds_to_it(text, unit, low, high):
     printed = rounded(text, unit)
     assert (printed.low, printed.high) == pytest.approx((low, high), rel=1e-12)

@@ -14,8 +14,21 @@ from drivewright.validation import AGREES, EXPLAINED, KINDS, OPEN
 
 DOCS = Path(__file__).parents[2] / "docs" / "validation.md"
 PRESETS = registry.mechanism("seedling-pusher").presets()
-LAWS = ("constant-velocity", "parabolic", "simple-harmonic", "cycloidal", "modified-sine", "modified-trapezoid", "double-harmonic",
-        "polynomial-345", "polynomial-4567", "polynomial-56789", "mcv20", "mcv33", "mcv50")
+LAWS = (
+    "constant-velocity",
+    "parabolic",
+    "simple-harmonic",
+    "cycloidal",
+    "modified-sine",
+    "modified-trapezoid",
+    "double-harmonic",
+    "polynomial-345",
+    "polynomial-4567",
+    "polynomial-56789",
+    "mcv20",
+    "mcv33",
+    "mcv50",
+)
 
 
 LONG = {"folding-linkage", "clearance-joints"}  # sources whose rows take minutes
@@ -73,20 +86,28 @@ def test_no_two_rows_share_a_name(sources, rows):
     assert {name: len(source.rows()) for name, source in sources.items()} == {name: len(found) for name, found in rows.items()}
 
 
-@pytest.mark.parametrize(("name", "printed", "ours", "verdict"), [
-    ("planet collinear, bend turned", "253 deg", 251.36, OPEN), ("planet collinear, bend interior", "253 deg", 249.48, OPEN),
-    ("tip lowest, bend turned", "86 deg", 87.71, EXPLAINED), ("tip lowest, bend interior", "86 deg", 86.90, EXPLAINED),
-    ("tip lowest, first set, bend turned", "86 deg", 86.97, EXPLAINED), ("tip lowest, first set, bend interior", "86 deg", 85.96, AGREES),
-    ("push minus take angle", "50.22 deg", 48.18, EXPLAINED), ("take angle", "17.6 deg", 19.64, EXPLAINED),
-    ("push angle", "67.82 deg", 67.82, AGREES),
-    ("pressure angle, main cam, bend turned", "38.67 deg", 31.03, OPEN),
-    ("pressure angle, return cam, bend turned", "30.74 deg", 30.80, OPEN),
-    ("pressure angle, main cam, bend interior", "38.67 deg", 30.76, OPEN),
-    ("pressure angle, return cam, bend interior", "30.74 deg", 30.757, OPEN),
-    ("pressure angle, main cam, other law and sense", "38.67 deg", 38.48, OPEN),
-    ("lever swing", "eq. (1): 17.8189 deg", 17.819, AGREES),
-    ("rest angle phi01", "88.64 deg, literally in mm", 48.53, EXPLAINED),
-    ("rest angle phi02", "88.88 deg, literally in mm", 63.08, EXPLAINED)])
+@pytest.mark.parametrize(
+    ("name", "printed", "ours", "verdict"),
+    [
+        ("planet collinear, bend turned", "253 deg", 251.36, OPEN),
+        ("planet collinear, bend interior", "253 deg", 249.48, OPEN),
+        ("tip lowest, bend turned", "86 deg", 87.71, EXPLAINED),
+        ("tip lowest, bend interior", "86 deg", 86.90, EXPLAINED),
+        ("tip lowest, first set, bend turned", "86 deg", 86.97, EXPLAINED),
+        ("tip lowest, first set, bend interior", "86 deg", 85.96, AGREES),
+        ("push minus take angle", "50.22 deg", 48.18, EXPLAINED),
+        ("take angle", "17.6 deg", 19.64, EXPLAINED),
+        ("push angle", "67.82 deg", 67.82, AGREES),
+        ("pressure angle, main cam, bend turned", "38.67 deg", 31.03, OPEN),
+        ("pressure angle, return cam, bend turned", "30.74 deg", 30.80, OPEN),
+        ("pressure angle, main cam, bend interior", "38.67 deg", 30.76, OPEN),
+        ("pressure angle, return cam, bend interior", "30.74 deg", 30.757, OPEN),
+        ("pressure angle, main cam, other law and sense", "38.67 deg", 38.48, OPEN),
+        ("lever swing", "eq. (1): 17.8189 deg", 17.819, AGREES),
+        ("rest angle phi01", "88.64 deg, literally in mm", 48.53, EXPLAINED),
+        ("rest angle phi02", "88.88 deg, literally in mm", 63.08, EXPLAINED),
+    ],
+)
 def test_numbers_of_the_pusher_paper(paper, name, printed, ours, verdict):
     row = paper[name]
     assert (str(row.printed), row.verdict) == (printed, verdict)
@@ -126,8 +147,11 @@ def pressure_angles():
     found = []
     for law, orbit, preset in cases:
         model = build(load(PRESETS[preset], [f"push.law={law}", f"cams.orbit={orbit}"]))
-        found += [np.max(np.abs(over_pieces(model, lambda t, k, m=model, cam=cam: m.pressure_angle(cam, t, k).d0, phase)))
-                  for cam in model.cams for phase in ("rise", "return")]
+        found += [
+            np.max(np.abs(over_pieces(model, lambda t, k, m=model, cam=cam: m.pressure_angle(cam, t, k).d0, phase)))
+            for cam in model.cams
+            for phase in ("rise", "return")
+        ]
     return np.degrees(found).reshape(len(LAWS), 2, 2, 2, 2)
 
 
@@ -185,7 +209,8 @@ def check_page(sources, page):
         if there != here and len(cells[0]) == len(cells[1]) == 7:
             assert differ_by_rounding(*cells), f"{there}\n{here}\npython -m drivewright.validation > docs/validation.md"
             assert [c for n, c in enumerate(cells[0]) if n not in (OURS, DEVIATION)] == [
-                c for n, c in enumerate(cells[1]) if n not in (OURS, DEVIATION)]
+                c for n, c in enumerate(cells[1]) if n not in (OURS, DEVIATION)
+            ]
         else:
             assert there == here, "python -m drivewright.validation > docs/validation.md"
 

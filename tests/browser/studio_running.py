@@ -66,8 +66,12 @@ def drawn(page, seconds=90):
 
 def analysed(page, seconds=120):
     """Wait until all default analyses of the newest design are shown."""
-    until(page, """(() => { const {design, result, work} = window.drivewright?.state || {};
-        return design && result && result.full && result.gen === design.gen && work.state === 'idle'; })()""", seconds)
+    until(
+        page,
+        """(() => { const {design, result, work} = window.drivewright?.state || {};
+        return design && result && result.full && result.gen === design.gen && work.state === 'idle'; })()""",
+        seconds,
+    )
 
 
 def field(page, key):

@@ -71,8 +71,16 @@ def lifted(**more):
     still = np.zeros((5, 3))
     edge = Body("edge", "edge", (Shape("base", polygon([(-0.15, -0.1), (0.15, -0.1), (0.15, 0.1), (-0.15, 0.1)])),), still, "ground")
     raised = still + (0.03, 0.02, 0.0)
-    return pack_scene(Scene(np.linspace(0, 1, 5), "time", "s", 1.0, (edge, block(raised, rest=still, magnified=50.0, **more)),
-                            (Frame("machine", "machine frame", still),)))
+    return pack_scene(
+        Scene(
+            np.linspace(0, 1, 5),
+            "time",
+            "s",
+            1.0,
+            (edge, block(raised, rest=still, magnified=50.0, **more)),
+            (Frame("machine", "machine frame", still),),
+        )
+    )
 
 
 def framed(size):

@@ -32,8 +32,11 @@ def shown(page, phase=0.0):
 
 def colour_at(page, x, y):
     """Colour of the canvas at a CSS pixel."""
-    return page.evaluate("""([x, y]) => { const c = document.querySelector('.dw-canvas'), k = c.width / c.clientWidth;
-      return [...c.getContext('2d').getImageData(x * k, y * k, 1, 1).data]; }""", [x, y])
+    return page.evaluate(
+        """([x, y]) => { const c = document.querySelector('.dw-canvas'), k = c.width / c.clientWidth;
+      return [...c.getContext('2d').getImageData(x * k, y * k, 1, 1).data]; }""",
+        [x, y],
+    )
 
 
 def test_it_plays_by_itself_and_the_picture_changes(open_page, report):
@@ -114,8 +117,10 @@ def test_running_values_are_the_tables(open_page, report):
     page = still(open_page(report), 0.4)
     motion = four_bar_result().tables["motion"]
     angle = 0.4 * 2 * math.pi
-    expected = [np.degrees(np.interp(angle, motion["angle"].data, motion["rocker"].data)),
-                np.interp(angle, motion["angle"].data, motion["rocker_speed"].data) * 30 / math.pi]
+    expected = [
+        np.degrees(np.interp(angle, motion["angle"].data, motion["rocker"].data)),
+        np.interp(angle, motion["angle"].data, motion["rocker_speed"].data) * 30 / math.pi,
+    ]
     texts = [page.locator(".dw-plot-values b").nth(n).inner_text().replace("−", "-") for n in (0, 1)]
     assert [float(t) for t in texts] == pytest.approx(expected, abs=0.051)
 

@@ -18,15 +18,27 @@ from drivewright.view.palette import colour
 from drivewright.view.panels import panels
 
 X = np.linspace(0, 2 * np.pi, 41)
-TABLE = Table("motion", "Motion", (
-    Column("angle", "rad", "crank angle", X), Column("up", "N", "force", 10 + np.sin(X)),
-    Column("ideal", "N", "ideal force", 10 + np.cos(X)),
-    Column("wide", "-", "size", np.exp(X)), Column("on", "-", "contact", (X < 3.0).astype(float))))
+TABLE = Table(
+    "motion",
+    "Motion",
+    (
+        Column("angle", "rad", "crank angle", X),
+        Column("up", "N", "force", 10 + np.sin(X)),
+        Column("ideal", "N", "ideal force", 10 + np.cos(X)),
+        Column("wide", "-", "size", np.exp(X)),
+        Column("on", "-", "contact", (X < 3.0).astype(float)),
+    ),
+)
 RESULT = replace(four_bar_result(), tables={"motion": TABLE})
 LINE = Plot("line", "Line", "motion", "angle", ("up",))
-PLOTS = (LINE, LINE._replace(name="points", style="points"), LINE._replace(name="stems", style="stems"),
-         LINE._replace(name="shaded", shade="on"), LINE._replace(name="compared", reference=("ideal",)),
-         Plot("log", "Log", "motion", "angle", ("wide",), log=True))
+PLOTS = (
+    LINE,
+    LINE._replace(name="points", style="points"),
+    LINE._replace(name="stems", style="stems"),
+    LINE._replace(name="shaded", shade="on"),
+    LINE._replace(name="compared", reference=("ideal",)),
+    Plot("log", "Log", "motion", "angle", ("wide",), log=True),
+)
 COUNT = """([n, hex, near]) => {
   const c = document.querySelectorAll('.dw-plot-canvas')[n], d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
   const want = [1, 3, 5].map(k => parseInt(hex.slice(k, k + 2), 16));
@@ -55,7 +67,7 @@ def test_every_style_leaves_its_ink(page):
 
 
 def test_a_logarithmic_plot_puts_its_cursor_where_the_logarithm_is(page):
-    panel, = panels(RESULT, PLOTS[5])
+    (panel,) = panels(RESULT, PLOTS[5])
     height = page.evaluate("() => document.querySelectorAll('.dw-plot-canvas')[5].getBoundingClientRect().height") - 6 - 36
     there = page.evaluate(DOT)
     low, value, high = np.log([panel.low, np.exp(np.pi), panel.high])

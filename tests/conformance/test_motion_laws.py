@@ -19,12 +19,25 @@ PARAMETERS = {
 }
 # name: (order of continuity, symmetric, monotone).  By hand: a dwell before and after, the shape of the acceleration.
 CLAIMS = {
-    "constant-velocity": (0, True, True), "uniform": (0, True, True), "parabolic": (1, True, True), "simple-harmonic": (1, True, True),
-    "double-harmonic": (1, False, True), "cycloidal": (2, True, True), "modified-sine": (2, True, True),
-    "modified-trapezoid": (2, True, True), "scca": (2, True, True),
-    "mcv": (2, True, True), "mcv50": (2, True, True), "mcv33": (2, True, True), "mcv20": (2, True, True),
-    "polynomial-345": (2, True, True), "polynomial-4567": (3, True, True), "polynomial-56789": (4, True, True),
-    "polynomial": (2, False, False), "spline": (2, False, True), "table": (4, False, False),
+    "constant-velocity": (0, True, True),
+    "uniform": (0, True, True),
+    "parabolic": (1, True, True),
+    "simple-harmonic": (1, True, True),
+    "double-harmonic": (1, False, True),
+    "cycloidal": (2, True, True),
+    "modified-sine": (2, True, True),
+    "modified-trapezoid": (2, True, True),
+    "scca": (2, True, True),
+    "mcv": (2, True, True),
+    "mcv50": (2, True, True),
+    "mcv33": (2, True, True),
+    "mcv20": (2, True, True),
+    "polynomial-345": (2, True, True),
+    "polynomial-4567": (3, True, True),
+    "polynomial-56789": (4, True, True),
+    "polynomial": (2, False, False),
+    "spline": (2, False, True),
+    "table": (4, False, False),
 }
 
 
@@ -45,7 +58,7 @@ def test_each_derivative_integrates_to_the_one_before(law):
     nodes, weights = np.polynomial.legendre.leggauss(24)
     scale = [np.max(np.abs(part)) for part in law(np.linspace(0, 1, 201))]
     for k in pieces(law):
-        low, high = law.breaks[k:k + 2]
+        low, high = law.breaks[k : k + 2]
         for part in (0.31, 0.77, 1.0):  # not only the whole piece: over a full wave a wrong sign integrates to the same nothing
             end = low + part * (high - low)
             inside = law.on_piece(k, low + (end - low) * (nodes + 1) / 2)

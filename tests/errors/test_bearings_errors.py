@@ -15,23 +15,29 @@ GIVEN = {"balls": 7, "ball_diameter": "11.5 mm", "pitch_diameter": "43.5 mm"}
 BEARING = BallBearing(**GIVEN)
 
 
-@pytest.mark.parametrize(("changes", "message"), [
-    ({"balls": 2}, "balls: must be at least 3, got 2"),
-    ({"balls": 7.5}, "balls: must be a whole number, got 7.5"),
-    ({"ball_diameter": "0 mm"}, "ball_diameter: must be greater than 0 mm, got 0 mm"),
-    ({"balls": 12}, "ball_diameter: 12 balls of 11.5 mm do not fit on the pitch circle, where they are 11.2586 mm apart; take fewer"),
-    ({"inner_conformity": 0.5}, "inner_conformity: must be greater than 0.5, got 0.5"),
-    ({"outer_conformity": 0.48}, "outer_conformity: must be greater than 0.5, got 0.48"),
-    ({"radial_clearance": "1.2 mm"}, "radial_clearance: 1.2 mm leaves no contact angle: with grooves whose centres are 0.575 mm apart it "
-                                     "must stay within +-1.15 mm; check the unit"),
-    ({"radial_clearance": "-1.2 mm"}, "radial_clearance: -1.2 mm leaves no contact angle"),
-    ({"radial_clearance": "0.9 mm", "contact_angle": "40 deg"}, r"radial_clearance: 0.9 mm leaves .* within +-0.880951 mm"),
-    ({"contact_angle": "90 deg"}, "contact_angle: must be less than 90 deg, got 90 deg"),
-    ({"contact_angle": "-1 deg"}, "contact_angle: must be at least 0 deg, got -1 deg"),
-    ({"dynamic_rating": "0 N"}, "dynamic_rating: must be greater than 0 N"),
-    ({"poisson_ratio": 0.5}, "poisson_ratio: must be less than 0.5, got 0.5"),
-    ({"clearance": "1 um"}, "clearance: unknown key .did you mean 'radial_clearance'"),
-])
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"balls": 2}, "balls: must be at least 3, got 2"),
+        ({"balls": 7.5}, "balls: must be a whole number, got 7.5"),
+        ({"ball_diameter": "0 mm"}, "ball_diameter: must be greater than 0 mm, got 0 mm"),
+        ({"balls": 12}, "ball_diameter: 12 balls of 11.5 mm do not fit on the pitch circle, where they are 11.2586 mm apart; take fewer"),
+        ({"inner_conformity": 0.5}, "inner_conformity: must be greater than 0.5, got 0.5"),
+        ({"outer_conformity": 0.48}, "outer_conformity: must be greater than 0.5, got 0.48"),
+        (
+            {"radial_clearance": "1.2 mm"},
+            "radial_clearance: 1.2 mm leaves no contact angle: with grooves whose centres are 0.575 mm apart it "
+            "must stay within +-1.15 mm; check the unit",
+        ),
+        ({"radial_clearance": "-1.2 mm"}, "radial_clearance: -1.2 mm leaves no contact angle"),
+        ({"radial_clearance": "0.9 mm", "contact_angle": "40 deg"}, r"radial_clearance: 0.9 mm leaves .* within +-0.880951 mm"),
+        ({"contact_angle": "90 deg"}, "contact_angle: must be less than 90 deg, got 90 deg"),
+        ({"contact_angle": "-1 deg"}, "contact_angle: must be at least 0 deg, got -1 deg"),
+        ({"dynamic_rating": "0 N"}, "dynamic_rating: must be greater than 0 N"),
+        ({"poisson_ratio": 0.5}, "poisson_ratio: must be less than 0.5, got 0.5"),
+        ({"clearance": "1 um"}, "clearance: unknown key .did you mean 'radial_clearance'"),
+    ],
+)
 def test_impossible_bearings(changes, message):
     with pytest.raises(SpecError, match=message.replace("+-", r"\+-")):
         BallBearing(**{**GIVEN, **changes})
@@ -133,8 +139,10 @@ def _(law, displacement, force, stiffness):
 
 
 def test_a_force_that_nothing_resists():
-    message = (r"nothing resists -z, where -7 N of the force \[10, 0, -7, 0, 0\] pushes: the inner ring moves without end. "
-               r"Push it the other way, hold it with held=\('z',\)")
+    message = (
+        r"nothing resists -z, where -7 N of the force \[10, 0, -7, 0, 0\] pushes: the inner ring moves without end. "
+        r"Push it the other way, hold it with held=\('z',\)"
+    )
     with pytest.raises(InputError, match=message):
         solve(Rail(), force=[10, 0, -7, 0, 0])
     with pytest.raises(InputError, match=r"nothing resists \+tilt_x, where 2 N m of the force"):
@@ -163,24 +171,37 @@ def test_no_equilibrium_found():
 # -- every public function with every bearing ----------------------------------------------------------------------------------
 
 BEARINGS = {
-    "ball": BEARING, "angular": BallBearing(balls=13, ball_diameter="3.5 mm", pitch_diameter="26 mm", contact_angle="25 deg"),
+    "ball": BEARING,
+    "angular": BallBearing(balls=13, ball_diameter="3.5 mm", pitch_diameter="26 mm", contact_angle="25 deg"),
     "rollers": bearings.RollerBearing(rollers=16, roller_diameter="3.5 mm", roller_length="3.2 mm", pitch_diameter="26 mm"),
-    "tapered": bearings.RollerBearing(rollers=17, roller_diameter="3.5 mm", roller_length="4 mm", pitch_diameter="26 mm",
-                                      contact_angle="14 deg", dynamic_rating="10 kN"),
+    "tapered": bearings.RollerBearing(
+        rollers=17, roller_diameter="3.5 mm", roller_length="4 mm", pitch_diameter="26 mm", contact_angle="14 deg", dynamic_rating="10 kN"
+    ),
 }
 NONE = {"text": "61804", "nothing": None, "law": law_of(BEARING)}
 CALLS = {
-    "basic_dynamic_rating": basic_dynamic_rating, "basic_static_rating": bearings.basic_static_rating,
-    "basic_life": lambda b: basic_life(b, 1000.0), "geometric_static_rating": bearings.geometric_static_rating,
-    "contact_of": bearings.contact_of, "law_of": law_of, "solve": lambda b: solve(b, force=[100, 0, 0, 0, 0], held=("z",)),
+    "basic_dynamic_rating": basic_dynamic_rating,
+    "basic_static_rating": bearings.basic_static_rating,
+    "basic_life": lambda b: basic_life(b, 1000.0),
+    "geometric_static_rating": bearings.geometric_static_rating,
+    "contact_of": bearings.contact_of,
+    "law_of": law_of,
+    "solve": lambda b: solve(b, force=[100, 0, 0, 0, 0], held=("z",)),
     "life_of": lambda b: bearings.life_of(b, solve(b, displacement=[1e-5, 0, 0, 0, 0])),
     "roller_static_rating": bearings.roller_static_rating,
     "roller_reference_life": lambda b: bearings.roller_reference_life(b, np.ones((b.rollers if hasattr(b, "rollers") else 3, 41))),
-    "measures": lambda b: bearings.measures(law_of(b)), "respond": lambda b: bearings.respond(law_of(b), np.zeros(5)),
+    "measures": lambda b: bearings.measures(law_of(b)),
+    "respond": lambda b: bearings.respond(law_of(b), np.zeros(5)),
     "equilibria": lambda b: bearings.equilibria(law_of(b), np.array([[100.0, 0, 0, 0, 0]]), np.array([False, False, True, False, False])),
 }
-REFUSED = {("basic_dynamic_rating", "rollers"), ("basic_dynamic_rating", "tapered"), ("roller_static_rating", "ball"),
-           ("roller_static_rating", "angular"), ("roller_reference_life", "ball"), ("roller_reference_life", "angular")}
+REFUSED = {
+    ("basic_dynamic_rating", "rollers"),
+    ("basic_dynamic_rating", "tapered"),
+    ("roller_static_rating", "ball"),
+    ("roller_static_rating", "angular"),
+    ("roller_reference_life", "ball"),
+    ("roller_reference_life", "angular"),
+}
 
 
 @pytest.mark.parametrize("call", CALLS)

@@ -21,27 +21,33 @@ DRIVEN = Sprocket(TEETH[1], Contact(1e7), (0.0692, 0.0), mass=0.2, inertia=2e-5,
 MODEL = Model(CHAIN, (DRIVER, DRIVEN))
 
 
-@pytest.mark.parametrize(("change", "told"), [
-    ({"count": 4}, "count must be a whole number from 6 up, got 4"),
-    ({"mass": -1.0}, "mass must be finite and above 0, got -1"),
-    ({"joint_stiffness": np.nan}, "joint_stiffness must be finite and above 0, got nan"),
-    ({"joint_damping": -1e-6}, "joint_damping must be finite and 0 or more"),
-    ({"articulation_damping": -1e-6}, "articulation_damping must be finite and 0 or more"),
-    ({"toe": 1e-3, "crotch": 2e-3}, "the toe .0.001 m below the pins. must lie deeper than the crotch"),
-    ({"deviations": (1e-6,) * 5}, "5 pitch deviations for 24 plates"),
-])
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"count": 4}, "count must be a whole number from 6 up, got 4"),
+        ({"mass": -1.0}, "mass must be finite and above 0, got -1"),
+        ({"joint_stiffness": np.nan}, "joint_stiffness must be finite and above 0, got nan"),
+        ({"joint_damping": -1e-6}, "joint_damping must be finite and 0 or more"),
+        ({"articulation_damping": -1e-6}, "articulation_damping must be finite and 0 or more"),
+        ({"toe": 1e-3, "crotch": 2e-3}, "the toe .0.001 m below the pins. must lie deeper than the crotch"),
+        ({"deviations": (1e-6,) * 5}, "5 pitch deviations for 24 plates"),
+    ],
+)
 def test_chains(change, told):
     with pytest.raises(InputError, match=told):
         replace(MODEL, chain=replace(CHAIN, **change))
 
 
-@pytest.mark.parametrize(("change", "told"), [
-    ({"contact": Contact(0.0)}, "sprocket 2: contact stiffness must be finite and above 0, got 0"),
-    ({"inertia": 0.0}, "sprocket 2: inertia of a sprocket without a drive must be finite and above 0"),
-    ({"mass": 0.0}, "sprocket 2: mass of what slides"),
-    ({"tip_radius": 0.01, "form_radius": 0.02}, "sprocket 2: tip radius 0.01 m must exceed form radius 0.02 m"),
-    ({"slide": Slide(0.0, 1.0, damping=-1.0)}, "sprocket 2: slide damping must be finite and 0 or more"),
-])
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"contact": Contact(0.0)}, "sprocket 2: contact stiffness must be finite and above 0, got 0"),
+        ({"inertia": 0.0}, "sprocket 2: inertia of a sprocket without a drive must be finite and above 0"),
+        ({"mass": 0.0}, "sprocket 2: mass of what slides"),
+        ({"tip_radius": 0.01, "form_radius": 0.02}, "sprocket 2: tip radius 0.01 m must exceed form radius 0.02 m"),
+        ({"slide": Slide(0.0, 1.0, damping=-1.0)}, "sprocket 2: slide damping must be finite and 0 or more"),
+    ],
+)
 def test_sprockets(change, told):
     with pytest.raises(InputError, match=told):
         with_sprocket(MODEL, 1, **change)
@@ -81,13 +87,16 @@ def test_loops_that_do_not_close():
         start(with_sprocket(MODEL, 1, slide=Slide(0.0, -150.0)))
 
 
-@pytest.mark.parametrize(("duration", "settings", "told"), [
-    (0.0, Settings(), "duration must be finite and above 0 s"),
-    (0.01, Settings(settle=0.02), "0.02 s of settling do not lie within"),
-    (0.01, Settings(samples_per_tooth=5), "5 samples per tooth alias"),
-    (0.01, Settings(joints=(24,)), "there is no joint 24; the chain has 0 .. 23"),
-    (0.01, Settings(plate=-1), "there is no plate -1"),
-])
+@pytest.mark.parametrize(
+    ("duration", "settings", "told"),
+    [
+        (0.0, Settings(), "duration must be finite and above 0 s"),
+        (0.01, Settings(settle=0.02), "0.02 s of settling do not lie within"),
+        (0.01, Settings(samples_per_tooth=5), "5 samples per tooth alias"),
+        (0.01, Settings(joints=(24,)), "there is no joint 24; the chain has 0 .. 23"),
+        (0.01, Settings(plate=-1), "there is no plate -1"),
+    ],
+)
 def test_settings(duration, settings, told):
     with pytest.raises(InputError, match=told):
         simulate(MODEL, duration, settings)

@@ -16,9 +16,16 @@ def refused(match, function, *arguments, **named):
         function(*arguments, **named)
 
 
-@pytest.mark.parametrize(("pitch", "teeth", "match"), [
-    (-P, 20, "pitch must be finite and above 0, got -0.009525"), (NAN, 20, "pitch must be finite and above 0, got nan"),
-    (P, 20.5, "tooth numbers must be whole and 5 or more, got 20.5"), (P, np.array([20, 4]), "got 4"), (P, np.inf, "got inf")])
+@pytest.mark.parametrize(
+    ("pitch", "teeth", "match"),
+    [
+        (-P, 20, "pitch must be finite and above 0, got -0.009525"),
+        (NAN, 20, "pitch must be finite and above 0, got nan"),
+        (P, 20.5, "tooth numbers must be whole and 5 or more, got 20.5"),
+        (P, np.array([20, 4]), "got 4"),
+        (P, np.inf, "got inf"),
+    ],
+)
 def test_pitch_and_teeth(pitch, teeth, match):
     refused(match, s.pitch_diameter, pitch, teeth)
 
@@ -51,14 +58,20 @@ def test_loops():
     refused("turn of circle 2 must be .1 .counter-clockwise. or -1, got 0", s.loop_length, [(0, 0, 1), (5, 0, 1, 0)])
     refused("circle 1 wants a finite centre and a radius of 0 or more", s.loop_length, [(0, NAN, 1), (5, 0, 1)])
     refused("circle 2 wants a finite centre and a radius of 0 or more", s.loop_length, [(0, 0, 1), (5, 0, -1)])
-    refused("no strand fits between circle 1 and the next: their centres are 1 m apart, and it takes more than 2 m",
-            s.loop_length, [(0, 0, 1), (1, 0, 3)])
+    refused(
+        "no strand fits between circle 1 and the next: their centres are 1 m apart, and it takes more than 2 m",
+        s.loop_length,
+        [(0, 0, 1), (1, 0, 3)],
+    )
     refused("2 tooth numbers for 3 circles", s.taut_loop([(0, 0, 1), (5, 0, 1), (2, 4, 1)]).links, P, (20, 20))
 
 
 def test_a_loop_that_misses_a_circle_or_crosses_itself():
-    refused(r"turns 2 times in all.*largest wrap is 3\d\d deg on circle 2. Leave out circles that the loop misses",
-            s.loop_length, [(0, 0, 1), (2.5, 0, 0.2), (5, 0, 1), (2.5, 4, 1)])
+    refused(
+        r"turns 2 times in all.*largest wrap is 3\d\d deg on circle 2. Leave out circles that the loop misses",
+        s.loop_length,
+        [(0, 0, 1), (2.5, 0, 0.2), (5, 0, 1), (2.5, 4, 1)],
+    )
     refused("turns 0 times in all instead of once", s.loop_length, [(0, 0, 1), (5, 0, 1, -1)])
 
 
@@ -72,8 +85,15 @@ def test_rollers_and_pins():
 def test_gaps():
     refused("form of a gap is 'least' or 'greatest', got 'mean'", s.tooth_gap, 20, 6.35e-3, "mean")
     wide, tips = s.tooth_gap(20, 6.35e-3, "greatest"), s.tip_range(P, 20, 6.35e-3)
-    refused(r"with 20 teeth the flanks meet below the tip diameter 0.0664\d+ m, near 0.0646 m. Take a tip diameter below",
-            s.gap_outline, P, 20, 6.35e-3, wide, tips[1])
+    refused(
+        r"with 20 teeth the flanks meet below the tip diameter 0.0664\d+ m, near 0.0646 m. Take a tip diameter below",
+        s.gap_outline,
+        P,
+        20,
+        6.35e-3,
+        wide,
+        tips[1],
+    )
     assert len(s.gap_outline(P, 20, 6.35e-3, wide, 0.0645)) == 3 * 41 - 2  # the advice holds
     for tip in (0.4, 0.056):
         refused("flanks do not reach the tip diameter 0.(4|056) m, or it lies below them", s.gap_outline, P, 20, 6.35e-3, wide, tip)
@@ -104,8 +124,14 @@ def test_forces():
 
 
 def test_strands():
-    refused("at 40 m/s it is faster than its waves, 37.79.*the tension must exceed the centrifugal one",
-            s.strand_frequency, 1000.0, 0.7, 0.4, 40.0)
+    refused(
+        "at 40 m/s it is faster than its waves, 37.79.*the tension must exceed the centrifugal one",
+        s.strand_frequency,
+        1000.0,
+        0.7,
+        0.4,
+        40.0,
+    )
     refused("mode must be a whole number from 1 up, got 0", s.strand_frequency, 1000.0, 0.7, 0.4, 4.0, 0)
     refused("harmonic must be a whole number from 1 up, got 1.5", s.resonance_speed, 1000.0, 0.7, 0.4, P, 1, 1.5)
     refused("pull must be finite and above 0, got -1", s.resonance_speed, -1.0, 0.7, 0.4, P)
@@ -127,6 +153,12 @@ def test_nothing_is_read_off_outside_of_a_table():
 def test_selection():
     refused("no table covers 30 teeth at 5 rad/s", s.suitable_chains, {"08B": TABLE}, 10.0, 30, 5.0)
     stronger = TABLE._replace(powers=2 * TABLE.powers)
-    refused(r"no chain is rated for 5000 W with 25 teeth at 60 rad/s; the strongest, 10B, reaches 4000 W. Take more strands",
-            s.suitable_chains, {"08B": TABLE, "10B": stronger}, 5000.0, 25, 60.0)
+    refused(
+        r"no chain is rated for 5000 W with 25 teeth at 60 rad/s; the strongest, 10B, reaches 4000 W. Take more strands",
+        s.suitable_chains,
+        {"08B": TABLE, "10B": stronger},
+        5000.0,
+        25,
+        60.0,
+    )
     refused("service factor must be finite and above 0, got 0", s.design_power, 100.0, 0.0)

@@ -23,14 +23,26 @@ def drawing(outline, *holes):
 
 def bay(radius):
     """Plate with a half-round bay of this radius in its upper edge, 30 mm wide, about (15, 30) mm."""
-    return Outline((Line((0.0, 0.0), (0.03, 0.0)), Line((0.03, 0.0), (0.03, 0.03)), Line((0.03, 0.03), (0.015 + radius, 0.03)),
-                    Arc((0.015, 0.03), radius, 0.0, -np.pi), Line((0.015 - radius, 0.03), (0.0, 0.03)), Line((0.0, 0.03), (0.0, 0.0))))
+    return Outline(
+        (
+            Line((0.0, 0.0), (0.03, 0.0)),
+            Line((0.03, 0.0), (0.03, 0.03)),
+            Line((0.03, 0.03), (0.015 + radius, 0.03)),
+            Arc((0.015, 0.03), radius, 0.0, -np.pi),
+            Line((0.015 - radius, 0.03), (0.0, 0.03)),
+            Line((0.0, 0.03), (0.0, 0.0)),
+        )
+    )
 
 
 def test_gap_is_named_with_place_and_size():
     broken = Outline((Line((0.0, 0.0), (0.02, 0.0)), Line((0.02, 2e-5), (0.02, 0.01)), Line((0.02, 0.01), (0.0, 0.0))))
-    with pytest.raises(InputError, match=re.escape("part 'plate': a gap of 0.02 mm between pieces 0 and 1 of the outline at (20, 0) mm; "
-                                                   "pieces must meet within 1e-06 mm")):
+    with pytest.raises(
+        InputError,
+        match=re.escape(
+            "part 'plate': a gap of 0.02 mm between pieces 0 and 1 of the outline at (20, 0) mm; pieces must meet within 1e-06 mm"
+        ),
+    ):
         chain.joined(broken, "part 'plate'")
     unclosed = Outline((Line((0.0, 0.0), (0.02, 0.0)), Line((0.02, 0.0), (0.02, 0.01))))
     with pytest.raises(InputError, match=r"gap of 22\.3607 mm between pieces 1 and 0"):
@@ -61,8 +73,17 @@ def test_writers_want_shapes(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("setting, value", [("cutter_diameter", 0.0), ("feed", -1.0), ("step_down", float("nan")), ("depth", 0.0),
-                                            ("lead_radius", 0.0), ("spindle_speed", float("inf"))])
+@pytest.mark.parametrize(
+    "setting, value",
+    [
+        ("cutter_diameter", 0.0),
+        ("feed", -1.0),
+        ("step_down", float("nan")),
+        ("depth", 0.0),
+        ("lead_radius", 0.0),
+        ("spindle_speed", float("inf")),
+    ],
+)
 def test_gcode_wants_positive_settings(setting, value):
     with pytest.raises(InputError, match=f"G-code: {setting} is {value:g}; it must be positive and finite"):
         gcode(drawing(SQUARE), **{**SETTINGS, setting: value})

@@ -19,14 +19,17 @@ def parallel(pins=8, circle=0.06, pin=9e-3, distance=0.085):
     return ParallelIndexer(pins, circle, pin, distance, index_motion("modified-sine", pins)).levels[0]
 
 
-@pytest.mark.parametrize(("drive", "words"), [
-    (wheel(pin=0.032), "pin_radius = 32 mm: the pins overlap, their centres are 62.12 mm apart. Take less than 31.06 mm"),
-    (wheel(pins=2), "pins = 2: a wheel needs at least 3 pins"),
-    (wheel(eccentricity=0.115), "eccentricity + pin_radius = 123 mm reaches the middle of the pin circle of radius 120 mm"),
-    (parallel(pin=0.025), "pin_radius = 25 mm: the pins overlap, their centres are 45.92 mm apart. Take less than 22.96 mm"),
-    (parallel(distance=0.065), "centre_distance = 65 mm: the rollers reach 69 mm from the wheel's axis and sweep that of the cams"),
-    (parallel(distance=0.03), "Take more than 69 mm"),
-])
+@pytest.mark.parametrize(
+    ("drive", "words"),
+    [
+        (wheel(pin=0.032), "pin_radius = 32 mm: the pins overlap, their centres are 62.12 mm apart. Take less than 31.06 mm"),
+        (wheel(pins=2), "pins = 2: a wheel needs at least 3 pins"),
+        (wheel(eccentricity=0.115), "eccentricity + pin_radius = 123 mm reaches the middle of the pin circle of radius 120 mm"),
+        (parallel(pin=0.025), "pin_radius = 25 mm: the pins overlap, their centres are 45.92 mm apart. Take less than 22.96 mm"),
+        (parallel(distance=0.065), "centre_distance = 65 mm: the rollers reach 69 mm from the wheel's axis and sweep that of the cams"),
+        (parallel(distance=0.03), "Take more than 69 mm"),
+    ],
+)
 def test_no_cam_is_left(drive, words):
     with pytest.raises(InputError, match=words.replace("+", r"\+")):
         _ = drive.profile

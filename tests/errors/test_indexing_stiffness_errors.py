@@ -15,20 +15,23 @@ SHAFT = SplitShaft((Section(0.1, 0.02, 0.02),), 0.0, (0.025, 0.1), (0.05, 0.075)
 ONE = Contacts(np.array([0]), np.array([0.12j]), np.array([1.0 + 0j]), np.array([-0.12]), np.zeros(1), np.zeros(1), np.array([True]))
 
 
-@pytest.mark.parametrize(("drive", "parts"), [
-    (DRIVE._replace(spacing=0.0), ("spacing = 0 m", "above 0")),
-    (DRIVE._replace(housing=-1e8), ("housing = -1e+08 N/m", "leave it out for a rigid part")),
-    (DRIVE._replace(crank=PowerBearing(-4e7)), ("crank.constant", "above 0")),
-    (DRIVE._replace(support=PowerBearing(4e7, 0.8)), ("support.exponent = 0.8", "1 or more")),
-    (DRIVE._replace(support=PowerBearing(4e7, 1.0, -1e-6)), ("support.clearance = -1e-06 m", "0 or more")),
-    (DRIVE._replace(pins=PinContact(series=0.0)), ("pins.series = 0 N/m",)),
-    (DRIVE._replace(gear=GearMesh(0.06, 2e8, 0.35)), ("60 mm", "110 mm apart", "below half")),
-    (DRIVE._replace(gear=GearMesh(0.02, 2e8, 0.35, -1e-5)), ("gear.backlash = -1e-05 m", "0 or more")),
-    (DRIVE._replace(gear=GearMesh(0.02, 2e8, 20.0)), ("pressure angle", "1146 deg", "radians")),
-    (DRIVE._replace(shaft=SHAFT._replace(cams=(0.05,))), ("places for 1 cams", "has 2")),
-    (DRIVE._replace(shaft=SHAFT._replace(supports=(0.1, 0.025))), ("front support at 100 mm", "25 mm")),
-    (DRIVE._replace(shaft=SHAFT._replace(cams=(0.05, 0.05))), ("50 mm", "different places")),
-])
+@pytest.mark.parametrize(
+    ("drive", "parts"),
+    [
+        (DRIVE._replace(spacing=0.0), ("spacing = 0 m", "above 0")),
+        (DRIVE._replace(housing=-1e8), ("housing = -1e+08 N/m", "leave it out for a rigid part")),
+        (DRIVE._replace(crank=PowerBearing(-4e7)), ("crank.constant", "above 0")),
+        (DRIVE._replace(support=PowerBearing(4e7, 0.8)), ("support.exponent = 0.8", "1 or more")),
+        (DRIVE._replace(support=PowerBearing(4e7, 1.0, -1e-6)), ("support.clearance = -1e-06 m", "0 or more")),
+        (DRIVE._replace(pins=PinContact(series=0.0)), ("pins.series = 0 N/m",)),
+        (DRIVE._replace(gear=GearMesh(0.06, 2e8, 0.35)), ("60 mm", "110 mm apart", "below half")),
+        (DRIVE._replace(gear=GearMesh(0.02, 2e8, 0.35, -1e-5)), ("gear.backlash = -1e-05 m", "0 or more")),
+        (DRIVE._replace(gear=GearMesh(0.02, 2e8, 20.0)), ("pressure angle", "1146 deg", "radians")),
+        (DRIVE._replace(shaft=SHAFT._replace(cams=(0.05,))), ("places for 1 cams", "has 2")),
+        (DRIVE._replace(shaft=SHAFT._replace(supports=(0.1, 0.025))), ("front support at 100 mm", "25 mm")),
+        (DRIVE._replace(shaft=SHAFT._replace(cams=(0.05, 0.05))), ("50 mm", "different places")),
+    ],
+)
 def test_parts_without_a_meaning(drive, parts):
     with pytest.raises(InputError) as caught:
         check(drive, 2)

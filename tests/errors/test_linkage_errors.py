@@ -15,12 +15,14 @@ TABLES = {
     "bodies": {
         "crank": {"mass": "0.2 kg", "inertia": "1e-4 kg m^2", "points": {"O2": ["0 mm", "0 mm"], "A": ["40 mm", "0 mm"]}},
         "coupler": {"mass": "0.3 kg", "inertia": "2e-4 kg m^2", "points": {"A": ["0 mm", "0 mm"], "B": ["100 mm", "0 mm"]}},
-        "rocker": {"mass": "0.4 kg", "inertia": "3e-4 kg m^2", "points": {"O4": ["0 mm", "0 mm"], "B": ["90 mm", "0 mm"]}}},
+        "rocker": {"mass": "0.4 kg", "inertia": "3e-4 kg m^2", "points": {"O4": ["0 mm", "0 mm"], "B": ["90 mm", "0 mm"]}},
+    },
     "joints": [
         {"name": "O2", "connects": ["ground.O2", "crank.O2"]},
         {"name": "A", "connects": ["crank.A", "coupler.A"]},
         {"name": "B", "connects": ["coupler.B", "rocker.B"], "model": "dry", "clearance": "0.1 mm"},
-        {"name": "O4", "connects": ["ground.O4", "rocker.O4"]}],
+        {"name": "O4", "connects": ["ground.O4", "rocker.O4"]},
+    ],
     "drive": {"joint": "O2", "speed": "300 rpm"},
     "simulate": {"turns": 6, "discard": 1},
     "outputs": [{"name": "swing", "body": "rocker", "point": "B"}],
@@ -81,8 +83,12 @@ CASES = [
     ("joints.B.normal", "flores", "joints.2.normal", "did you mean 'flores-2011'"),
     ("joints.B.normal", "kelvin-voigt", "joints.B.stiffness", "wants a linear stiffness of the contact"),
     ("joints.B.clearance", "10 mm", "joints.B.clearance", "10 mm leaves no journal in a bearing of radius 10 mm"),
-    ("joints.B.link_damping", "0.1 N s/rad", "joints.2.link_damping",
-     "wants a rotational damping, got '0.1 N s/rad'; write N m s/rad, a torque per angular speed"),
+    (
+        "joints.B.link_damping",
+        "0.1 N s/rad",
+        "joints.2.link_damping",
+        "wants a rotational damping, got '0.1 N s/rad'; write N m s/rad, a torque per angular speed",
+    ),
     ("joints.B.link_damping", "0.1 N s/m", "joints.2.link_damping", "(damping); write N m s/rad"),
     ("joints.B.viscosity", "40 mm^2/s", "joints.2.viscosity", "wants a viscosity, got '40 mm^2/s'; write Pa s, the dynamic viscosity"),
     ("joints.B.diametral_clearance", "0.2 mm", "joints.2.diametral_clearance", "unknown key; known here: name, kind, "),
@@ -134,8 +140,12 @@ def test_a_massless_body_between_two_massless_links_is_refused_with_the_reason()
     links = [(f"joints.{joint}.{key}", value) for joint in "AB" for key, value in LINK.items()]
     key, message = complaint(*bare, *links)
     assert key == "bodies.coupler.mass" and "'A' and 'B': two clearances in series" in message and "are singular" in message
-    for cure in (("bodies.coupler.mass", "1 g"), ("bodies.coupler.inertia", "1e-9 kg m^2"), ("joints.A.model", "ideal"),
-                 ("joints.A.clearance", "0 mm")):
+    for cure in (
+        ("bodies.coupler.mass", "1 g"),
+        ("bodies.coupler.inertia", "1e-9 kg m^2"),
+        ("joints.A.model", "ideal"),
+        ("joints.A.clearance", "0 mm"),
+    ):
         assert spec_with(*bare, *links, cure)
 
 
@@ -179,31 +189,37 @@ def test_a_kelvin_voigt_restitution_needs_masses():
 SWEEP = {"over": "joints.B.clearance", "start": "0.01 mm", "stop": "0.5 mm", "output": "swing"}
 
 
-@pytest.mark.parametrize(("change", "key", "words"), [
-    ({"over": "joints.C.clearance"}, "bifurcation.over", "no joint is called 'C'"),
-    ({"over": "bodies.crnk.mass"}, "bifurcation.over", "no body is called 'crnk' (did you mean 'crank'?)"),
-    ({"over": "joints.B.clerance"}, "bifurcation.over", "is no key of this spec"),
-    ({"turns": 200}, "bifurcation.discard", "200 turns are all of the 200"),
-    ({"steps": 1}, "bifurcation.steps", "must be at least 2"),
-    ({"output": "swnig"}, "bifurcation.output", "did you mean 'swing'"),
-])
+@pytest.mark.parametrize(
+    ("change", "key", "words"),
+    [
+        ({"over": "joints.C.clearance"}, "bifurcation.over", "no joint is called 'C'"),
+        ({"over": "bodies.crnk.mass"}, "bifurcation.over", "no body is called 'crnk' (did you mean 'crank'?)"),
+        ({"over": "joints.B.clerance"}, "bifurcation.over", "is no key of this spec"),
+        ({"turns": 200}, "bifurcation.discard", "200 turns are all of the 200"),
+        ({"steps": 1}, "bifurcation.steps", "must be at least 2"),
+        ({"output": "swnig"}, "bifurcation.output", "did you mean 'swing'"),
+    ],
+)
 def test_a_bifurcation_of_nothing_is_refused(change, key, words):
     assert spec_with(("bifurcation", SWEEP))
     where, message = complaint(("bifurcation", SWEEP | change))
     assert where == key and words in message
 
 
-@pytest.mark.parametrize(("content", "words"), [
-    ("time [s],force [N]\n0,1\n1,2\n", "no column 'torque [unit]' in the first line 'time [s],force [N]'"),
-    ("phase [s],torque [N m]\n0,1\n1,2\n", "no column 'time [unit]' or 'angle [unit]' or 'speed [unit]'"),
-    ("time [s],torque [N]\n0,1\n1,2\n", "column 'torque': wants a torque, got 'N' (force)"),
-    ("time,torque [N m]\n0,1\n1,2\n", "column 'time': "),
-    ("time [s],torque [N m]\n0,1\n1,x\n", "line 3: the torque is 'x', not a finite number"),
-    ("time [s],torque [N m]\n0,1\n1\n", "line 3: the torque is nothing"),
-    ("time [s],torque [N m]\n0,1\n0,2\n", "row 2: the time must increase"),
-    ("time [s],torque [N m]\n0,1\n", "1 rows are too few"),
-    ("", "no column"),
-])
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ("time [s],force [N]\n0,1\n1,2\n", "no column 'torque [unit]' in the first line 'time [s],force [N]'"),
+        ("phase [s],torque [N m]\n0,1\n1,2\n", "no column 'time [unit]' or 'angle [unit]' or 'speed [unit]'"),
+        ("time [s],torque [N]\n0,1\n1,2\n", "column 'torque': wants a torque, got 'N' (force)"),
+        ("time,torque [N m]\n0,1\n1,2\n", "column 'time': "),
+        ("time [s],torque [N m]\n0,1\n1,x\n", "line 3: the torque is 'x', not a finite number"),
+        ("time [s],torque [N m]\n0,1\n1\n", "line 3: the torque is nothing"),
+        ("time [s],torque [N m]\n0,1\n0,2\n", "row 2: the time must increase"),
+        ("time [s],torque [N m]\n0,1\n", "1 rows are too few"),
+        ("", "no column"),
+    ],
+)
 def test_a_bad_load_table_is_refused_with_its_place(tmp_path, content, words):
     (tmp_path / "load.csv").write_text(content)
     _, message = complaint(("torques", [{"body": "rocker", "file": "load.csv"}]), folder=tmp_path)

@@ -32,9 +32,14 @@ def test_names_and_parameters():
     refused(["'cycloidal'", "'b'", "its parameters: none"], law, "cycloidal", b=0.5)
 
 
-@pytest.mark.parametrize(("parameters", "message"), [
-    ({"b": 0.5, "c": 0.5, "d": 0.1}, "b + c + d = 1.1"), ({"b": -0.5, "c": 1, "d": 0.5}, "part b = -0.5"),
-    ({"b": math.nan, "c": 1, "d": 0}, "part b = nan")])
+@pytest.mark.parametrize(
+    ("parameters", "message"),
+    [
+        ({"b": 0.5, "c": 0.5, "d": 0.1}, "b + c + d = 1.1"),
+        ({"b": -0.5, "c": 1, "d": 0.5}, "part b = -0.5"),
+        ({"b": math.nan, "c": 1, "d": 0}, "part b = nan"),
+    ],
+)
 def test_scca_parts(parameters, message):
     refused([message], law, "scca", **parameters)
 
@@ -48,23 +53,35 @@ def test_acceleration_pieces_that_make_no_motion():
     refused(["do not rise"], integrate, [hold(1, 0)])
 
 
-@pytest.mark.parametrize(("parameters", "message"), [
-    ({"interior": [(0.0, 0, 0.3)]}, "7 conditions contradict"),
-    ({"start": (), "end": (), "interior": [(0.5, 1, 0.0), (0.5, 1, 0.0)]}, "4 conditions"),
-    ({"interior": [(1.4, 0, 0.3)]}, "u in 0..1"), ({"interior": [(0.4, -1, 0.3)]}, "order -1"),
-    ({"interior": [(0.4, 0.5, 0.3)]}, "order 0.5"), ({"start": (math.nan,)}, "finite value")])
+@pytest.mark.parametrize(
+    ("parameters", "message"),
+    [
+        ({"interior": [(0.0, 0, 0.3)]}, "7 conditions contradict"),
+        ({"start": (), "end": (), "interior": [(0.5, 1, 0.0), (0.5, 1, 0.0)]}, "4 conditions"),
+        ({"interior": [(1.4, 0, 0.3)]}, "u in 0..1"),
+        ({"interior": [(0.4, -1, 0.3)]}, "order -1"),
+        ({"interior": [(0.4, 0.5, 0.3)]}, "order 0.5"),
+        ({"start": (math.nan,)}, "finite value"),
+    ],
+)
 def test_polynomial_conditions(parameters, message):
     refused(["'polynomial'", message], law, "polynomial", **parameters)
 
 
-@pytest.mark.parametrize(("points", "options", "message"), [
-    ([(0, 0), (1, 1)], {}, "at least 3 points"), ([0, 0.5, 1], {}, "shape (3,)"),
-    ([(0, 0), (0.5, 0.5), (0.4, 0.6), (1, 1)], {}, "point 3: u is 0.4 after 0.5"),
-    ([(0, 0), (0.5, math.nan), (1, 1)], {}, "point 2: the lift is nan"),
-    ([(0, 0), (0.5, 0.5), (0.9, 1)], {}, "to 0.9; they must run from 0 to 1"),
-    ([(0, 0), (0.5, 0.5), (1, 0.8)], {}, "s runs from 0 to 0.8"),
-    ([(0, 0.2), (0.5, 0.5), (1, 0.3)], {"ends": "periodic"}, "from 0.2 to 0.2"),
-    ([(0, 0), (0.5, 0.5), (1, 1)], {"degree": 4}, "degree 4"), ([(0, 0), (0.5, 0.5), (1, 1)], {"ends": "free"}, "ends 'free'")])
+@pytest.mark.parametrize(
+    ("points", "options", "message"),
+    [
+        ([(0, 0), (1, 1)], {}, "at least 3 points"),
+        ([0, 0.5, 1], {}, "shape (3,)"),
+        ([(0, 0), (0.5, 0.5), (0.4, 0.6), (1, 1)], {}, "point 3: u is 0.4 after 0.5"),
+        ([(0, 0), (0.5, math.nan), (1, 1)], {}, "point 2: the lift is nan"),
+        ([(0, 0), (0.5, 0.5), (0.9, 1)], {}, "to 0.9; they must run from 0 to 1"),
+        ([(0, 0), (0.5, 0.5), (1, 0.8)], {}, "s runs from 0 to 0.8"),
+        ([(0, 0.2), (0.5, 0.5), (1, 0.3)], {"ends": "periodic"}, "from 0.2 to 0.2"),
+        ([(0, 0), (0.5, 0.5), (1, 1)], {"degree": 4}, "degree 4"),
+        ([(0, 0), (0.5, 0.5), (1, 1)], {"ends": "free"}, "ends 'free'"),
+    ],
+)
 def test_spline_points(points, options, message):
     refused(["'spline'", message], law, "spline", points=points, **options)
 
@@ -87,16 +104,19 @@ def test_a_table_file_in_other_units_says_the_same(tmp_path):
     assert swing.lift_unit == "rad" and swing(1 / 3).s == pytest.approx(math.radians(5))
 
 
-@pytest.mark.parametrize(("old", "new", "message"), [
-    ("240,3", "100,3", ["cam.csv", "row 3 (line 4): the angle in deg is 100 after 120"]),
-    ("240,3", "240,nan", ["cam.csv", "row 3 (line 4): the lift is nan"]),
-    ("240,3", "240,x", ["cam.csv", "row 3 (line 4): the lift is 'x', not a number"]),
-    ("240,3", "240", ["cam.csv", "row 3 (line 4): the lift is nothing"]),
-    ("360,1", "360,1.5", ["first and the last row disagree", "starts at 0.001 and ends at 0.0015", "+0.0005"]),
-    ("0,1\n120", "5,1\n120", ["row 1 (line 2): the angle starts at 5 deg"]),
-    ("120,5\n240,3\n", "", ["2 rows are too few", "at least 3"]),
-    ("angle [deg],", "angle,", ["no column 'angle [unit]'", "'angle,lift [mm]'", "'angle [deg],lift [mm]'"]),
-])
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("240,3", "100,3", ["cam.csv", "row 3 (line 4): the angle in deg is 100 after 120"]),
+        ("240,3", "240,nan", ["cam.csv", "row 3 (line 4): the lift is nan"]),
+        ("240,3", "240,x", ["cam.csv", "row 3 (line 4): the lift is 'x', not a number"]),
+        ("240,3", "240", ["cam.csv", "row 3 (line 4): the lift is nothing"]),
+        ("360,1", "360,1.5", ["first and the last row disagree", "starts at 0.001 and ends at 0.0015", "+0.0005"]),
+        ("0,1\n120", "5,1\n120", ["row 1 (line 2): the angle starts at 5 deg"]),
+        ("120,5\n240,3\n", "", ["2 rows are too few", "at least 3"]),
+        ("angle [deg],", "angle,", ["no column 'angle [unit]'", "'angle,lift [mm]'", "'angle [deg],lift [mm]'"]),
+    ],
+)
 def test_table_files(tmp_path, old, new, message):
     refused(message, table, tmp_path, ROWS.replace(old, new))
 
@@ -134,8 +154,9 @@ def test_programmes():
     refused(["sum to 229.183", "130.816882 deg less", "cycle of 360 deg", "add a dwell of 130.816882 deg"], Programme, [up, down])
     refused(["130.816882 deg more", "shorten"], Programme, [up, up, rest, rest])
     refused(["cycle is nan"], Programme, [up, down, rest], math.nan)
-    refused(["ends at a lift of 0.002, 0.002 (m, or rad for a swing) above its start at 0", "Change one by -0.002"],
-            Programme, [up, down, rest])
+    refused(
+        ["ends at a lift of 0.002, 0.002 (m, or rad for a swing) above its start at 0", "Change one by -0.002"], Programme, [up, down, rest]
+    )
     fine = Programme([up, Segment(2.0, "cycloidal", -0.01), rest])
     refused(["programme on a piece: theta = 2.5", "0 .. 2", "call the motion itself"], fine.on_piece, 0, 2.5)
     refused(["no piece 3", "0 .. 2"], fine.on_piece, 3, 2.5)
@@ -147,7 +168,13 @@ def test_tables_in_programmes():
     angle = np.linspace(0, 2, 9)
     rows = law("table", angle=angle, lift=0.01 * (1 - law("cycloidal")(angle / 2).s))
     rest = Segment(TURN - 4, "dwell")
-    refused(["segment 2: its table ends at 114.591559 deg", "spans 120.321137 deg"], Programme,
-            [Segment(2.0, "cycloidal", 0.01), Segment(2.1, rows), Segment(TURN - 4.1, "dwell")])
-    refused(["segment 2: its table starts at a lift of 0.01", "ends at 0.012", "-0.002"], Programme,
-            [Segment(2.0, "cycloidal", 0.012), Segment(2.0, rows), rest])
+    refused(
+        ["segment 2: its table ends at 114.591559 deg", "spans 120.321137 deg"],
+        Programme,
+        [Segment(2.0, "cycloidal", 0.01), Segment(2.1, rows), Segment(TURN - 4.1, "dwell")],
+    )
+    refused(
+        ["segment 2: its table starts at a lift of 0.01", "ends at 0.012", "-0.002"],
+        Programme,
+        [Segment(2.0, "cycloidal", 0.012), Segment(2.0, rows), rest],
+    )

@@ -30,12 +30,20 @@ from drivewright.multibody.simulate import simulate
 
 def four_bar(crank=0.1, coupler=0.3, rocker=0.25, frame=0.35, angles=(0.5, 0.3, 1.2), drives=("O2",), extra=(), **more):
     return Model(
-        tuple(Body(name, 1.0, 0.01, (length / 2, 0.0), angle=angle)
-              for name, length, angle in zip(("crank", "coupler", "rocker"), (crank, coupler, rocker), angles, strict=True)),
-        (Revolute("O2", Marker(GROUND), Marker("crank")), Revolute("A", Marker("crank", crank), Marker("coupler")),
-         Revolute("B", Marker("coupler", coupler), Marker("rocker", rocker)),
-         Revolute("O4", Marker(GROUND, frame), Marker("rocker")), *extra),
-        drives=tuple(Drive(name, line(0.0, 1.0)) for name in drives), **more)
+        tuple(
+            Body(name, 1.0, 0.01, (length / 2, 0.0), angle=angle)
+            for name, length, angle in zip(("crank", "coupler", "rocker"), (crank, coupler, rocker), angles, strict=True)
+        ),
+        (
+            Revolute("O2", Marker(GROUND), Marker("crank")),
+            Revolute("A", Marker("crank", crank), Marker("coupler")),
+            Revolute("B", Marker("coupler", coupler), Marker("rocker", rocker)),
+            Revolute("O4", Marker(GROUND, frame), Marker("rocker")),
+            *extra,
+        ),
+        drives=tuple(Drive(name, line(0.0, 1.0)) for name in drives),
+        **more,
+    )
 
 
 def refusal(kind, action, *words):
@@ -69,8 +77,9 @@ def test_drive_beyond_reach_names_the_drive_and_the_angle():
     """A crank that cannot go round: it stops where coupler and rocker are stretched."""
     model = four_bar(crank=0.3, coupler=0.2, rocker=0.15, frame=0.35, angles=(0.4, 0.3, 1.2))
     last = np.degrees(np.arccos((0.3**2 + 0.35**2 - 0.35**2) / (2 * 0.3 * 0.35)))
-    refusal(DoesNotAssemble, lambda: simulate(assemble(model), 3.0), "cannot go on beyond t = ",
-            f"'O2' at {last:.2f} deg", "Change a length")
+    refusal(
+        DoesNotAssemble, lambda: simulate(assemble(model), 3.0), "cannot go on beyond t = ", f"'O2' at {last:.2f} deg", "Change a length"
+    )
     assert simulate(assemble(model), np.radians(last) - 0.41).outcome == "complete"
 
 
@@ -78,9 +87,14 @@ def test_slide_driven_beyond_reach_names_the_way():
     """A rod of 0.2 m from a crank of 0.05 m holds the slider back at 0.25 m."""
     model = Model(
         (Body("crank", 1.0, 0.01, angle=0.8), Body("rod", 1.0, 0.01, angle=-0.2), Body("slider", 1.0, 0.01)),
-        (Revolute("O", Marker(GROUND), Marker("crank")), Revolute("A", Marker("crank", 0.05), Marker("rod")),
-         Revolute("B", Marker("rod", 0.2), Marker("slider")), Prismatic("guide", Marker("slider"), Marker(GROUND))),
-        drives=(Drive("guide", line(0.22, 0.01)),))
+        (
+            Revolute("O", Marker(GROUND), Marker("crank")),
+            Revolute("A", Marker("crank", 0.05), Marker("rod")),
+            Revolute("B", Marker("rod", 0.2), Marker("slider")),
+            Prismatic("guide", Marker("slider"), Marker(GROUND)),
+        ),
+        drives=(Drive("guide", line(0.22, 0.01)),),
+    )
     refusal(DoesNotAssemble, lambda: simulate(assemble(model), 5.0), "'guide' at 250 mm")
 
 
@@ -108,9 +122,14 @@ def test_start_in_a_dead_point():
     """A slider-crank driven by its slider, crank and rod in line."""
     model = Model(
         (Body("crank", 1.0, 0.01), Body("rod", 1.0, 0.01), Body("slider", 1.0, 0.01)),
-        (Revolute("O", Marker(GROUND), Marker("crank")), Revolute("A", Marker("crank", 0.05), Marker("rod")),
-         Revolute("B", Marker("rod", 0.2), Marker("slider")), Prismatic("guide", Marker("slider"), Marker(GROUND))),
-        drives=(Drive("guide", line(0.25, -0.01)),))
+        (
+            Revolute("O", Marker(GROUND), Marker("crank")),
+            Revolute("A", Marker("crank", 0.05), Marker("rod")),
+            Revolute("B", Marker("rod", 0.2), Marker("slider")),
+            Prismatic("guide", Marker("slider"), Marker(GROUND)),
+        ),
+        drives=(Drive("guide", line(0.25, -0.01)),),
+    )
     refusal(DoesNotAssemble, lambda: assemble(model), "singular position", "few degrees away")
 
 
@@ -145,14 +164,27 @@ def test_play_between_two_moving_bodies_cannot_be_driven():
         refusal(InputError, lambda broken=broken: assemble(broken), "'A' has play", "make it ideal")
 
 
-@pytest.mark.parametrize("joint", [Revolute("X", Marker("crank"), Marker("lever")), Prismatic("X", Marker("lever"), Marker(GROUND)),
-                                   Gear("X", "crank", "lever", 2.0), Revolute("X", Marker("lever"), Marker(GROUND), Dry(1e-4, 0.01, 1e9))])
+@pytest.mark.parametrize(
+    "joint",
+    [
+        Revolute("X", Marker("crank"), Marker("lever")),
+        Prismatic("X", Marker("lever"), Marker(GROUND)),
+        Gear("X", "crank", "lever", 2.0),
+        Revolute("X", Marker("lever"), Marker(GROUND), Dry(1e-4, 0.01, 1e9)),
+    ],
+)
 def test_joint_of_an_unknown_body(joint):
     refusal(UnknownName, lambda: assemble(four_bar(extra=(joint,))), "'lever'", "'X'", "crank")
 
 
-@pytest.mark.parametrize("force", [Spring("X", Marker("crank"), Marker("lever"), 1.0), Torque("X", "lever", Load(line(1.0, 0.0))),
-                                   Force("X", Marker("lever"), (1.0, 0.0), Load(line(1.0, 0.0)))])
+@pytest.mark.parametrize(
+    "force",
+    [
+        Spring("X", Marker("crank"), Marker("lever"), 1.0),
+        Torque("X", "lever", Load(line(1.0, 0.0))),
+        Force("X", Marker("lever"), (1.0, 0.0), Load(line(1.0, 0.0))),
+    ],
+)
 def test_force_on_an_unknown_body(force):
     refusal(UnknownName, lambda: assemble(four_bar(forces=(force,))), "'lever'", "'X'")
 

@@ -11,8 +11,10 @@ from drivewright.errors import InputError, SpecError
 
 BASE = {
     "segments": [{"length": "340 mm", "diameter": "20 mm"}],
-    "bearings": [{"name": "A", "position": "56.5 mm", "radial_stiffness": "3e7 N/m"},
-                 {"name": "B", "position": "136.5 mm", "radial_stiffness": "3e7 N/m"}],
+    "bearings": [
+        {"name": "A", "position": "56.5 mm", "radial_stiffness": "3e7 N/m"},
+        {"name": "B", "position": "136.5 mm", "radial_stiffness": "3e7 N/m"},
+    ],
     "stations": [{"name": "m1", "position": "0 mm", "mass": "3 kg"}, {"name": "m2", "position": "245 mm", "mass": "8 kg"}],
     "loads": [{"station": "m2", "force": "500 N"}],
 }
@@ -110,8 +112,9 @@ def has_no_statics(spec, words):
 
 
 def test_an_axial_force_that_nothing_takes():
-    has_no_statics(dw.Shaft(**changed("loads.0.axial_force", "200 N")),
-                   "an axial force of 200 N, and no bearing that takes a force to the right")
+    has_no_statics(
+        dw.Shaft(**changed("loads.0.axial_force", "200 N")), "an axial force of 200 N, and no bearing that takes a force to the right"
+    )
 
 
 def test_torques_that_do_not_balance():
@@ -167,8 +170,10 @@ def test_a_bearing_table_that_does_not_rise(tmp_path):
 @pytest.mark.parametrize("free", [[], ["axial"], ["axial", "tilt"]])
 def test_light_loads_in_a_clearance_are_computed_or_left_out_with_a_reason(force, free):
     tables = changed("loads.0.force", force)
-    tables["bearings"] = [{"name": n, "position": z, "bearing": "61804", "radial_clearance": "12 um", "free": free}
-                          for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))]
+    tables["bearings"] = [
+        {"name": n, "position": z, "bearing": "61804", "radial_clearance": "12 um", "free": free}
+        for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))
+    ]
     result = dw.run(dw.Shaft(**tables))
     assert result["bearings.B.reaction"] == pytest.approx(
         2.35625 * float(force.split()[0]) * {"mN": 1e-3, "N": 1, "kN": 1e3}[force.split()[1]], rel=0.05

@@ -31,10 +31,15 @@ def test_sizes_and_holes():
         plane_mesh(SQUARE, (circle((4e-3, 2e-3), 1e-3),), size=1e-3)
 
 
-@pytest.mark.parametrize(("change", "text"), [
-    ({"thickness": 0.0}, "thickness 0 m"), ({"modulus": -1.0}, "modulus -1 Pa"), ({"poisson": 0.7}, "ratio 0.7"),
-    ({"order": 1}, "order 1; choose"),
-])
+@pytest.mark.parametrize(
+    ("change", "text"),
+    [
+        ({"thickness": 0.0}, "thickness 0 m"),
+        ({"modulus": -1.0}, "modulus -1 Pa"),
+        ({"poisson": 0.7}, "ratio 0.7"),
+        ({"order": 1}, "order 1; choose"),
+    ],
+)
 def test_materials(change, text):
     mesh = plane_mesh(SQUARE, size=2e-3)
     with pytest.raises(InputError, match=text):

@@ -19,25 +19,36 @@ def solid(*solids):
 
 
 @pytest.mark.needs_fe
-@pytest.mark.parametrize("solids, message", [
-    ((), "part 'plate' is empty; give it a prism or a bar"),
-    ((Prism(PLATE, (), 0.0, 0.0),), "part 'plate': a prism of thickness 0 mm; it must be positive"),
-    ((Bar((0, 0), (0, 0), 0.0, 0.01),), "part 'plate': a bar of length 0 mm and diameter 10 mm; both must be positive"),
-    ((Prism(PLATE, (circle((0.1, 0), 0.004),), 0.0, 0.01),), "part 'plate': hole 0 lies outside the outline or leaves nothing of it"),
-])
+@pytest.mark.parametrize(
+    "solids, message",
+    [
+        ((), "part 'plate' is empty; give it a prism or a bar"),
+        ((Prism(PLATE, (), 0.0, 0.0),), "part 'plate': a prism of thickness 0 mm; it must be positive"),
+        ((Bar((0, 0), (0, 0), 0.0, 0.01),), "part 'plate': a bar of length 0 mm and diameter 10 mm; both must be positive"),
+        ((Prism(PLATE, (circle((0.1, 0), 0.004),), 0.0, 0.01),), "part 'plate': hole 0 lies outside the outline or leaves nothing of it"),
+    ],
+)
 def test_impossible_parts_are_refused_by_name(solids, message):
     with pytest.raises(InputError, match=re.escape(message)):
         solid(*solids)
 
 
-@pytest.mark.parametrize("prism, message", [
-    (Prism(PLATE, (circle((0.1, 0), 0.004),), 0.0, 0.01), "part 'plate': hole 0 lies outside the outline or leaves nothing of it"),
-    (Prism(PLATE, (circle((0.01, 0.01), 0.1),), 0.0, 0.01), "part 'plate': hole 0 lies outside the outline or leaves nothing of it"),
-    (Prism(PLATE, (circle((0.02, 0.01), 0.002), polygon([(0.01, -1), (0.012, -1), (0.012, 1), (0.01, 1)])), 0.0, 0.01),
-     "part 'plate': hole 1 cuts the outline into 2 pieces; make it smaller"),
-    (Prism(polygon([(0, 0), (0.02, 0.01), (0.02, 0), (0, 0.01)]), (), 0.0, 0.01), "part 'plate': the outline crosses or touches itself"),
-    (Prism(PLATE, (polygon([(0, 0), (0.02, 0.01), (0.02, 0), (0, 0.01)]),), 0.0, 0.01), "hole 0 of part 'plate': the outline crosses"),
-])
+@pytest.mark.parametrize(
+    "prism, message",
+    [
+        (Prism(PLATE, (circle((0.1, 0), 0.004),), 0.0, 0.01), "part 'plate': hole 0 lies outside the outline or leaves nothing of it"),
+        (Prism(PLATE, (circle((0.01, 0.01), 0.1),), 0.0, 0.01), "part 'plate': hole 0 lies outside the outline or leaves nothing of it"),
+        (
+            Prism(PLATE, (circle((0.02, 0.01), 0.002), polygon([(0.01, -1), (0.012, -1), (0.012, 1), (0.01, 1)])), 0.0, 0.01),
+            "part 'plate': hole 1 cuts the outline into 2 pieces; make it smaller",
+        ),
+        (
+            Prism(polygon([(0, 0), (0.02, 0.01), (0.02, 0), (0, 0.01)]), (), 0.0, 0.01),
+            "part 'plate': the outline crosses or touches itself",
+        ),
+        (Prism(PLATE, (polygon([(0, 0), (0.02, 0.01), (0.02, 0), (0, 0.01)]),), 0.0, 0.01), "hole 0 of part 'plate': the outline crosses"),
+    ],
+)
 def test_impossible_holes_are_refused_without_a_kernel(prism, message):
     with pytest.raises(InputError, match=re.escape(message)):
         chain.region(prism, "part 'plate'")
@@ -78,8 +89,12 @@ def test_without_the_extra_the_message_names_it(monkeypatch):
     from drivewright.solids.loading import load
 
     monkeypatch.setattr(importlib, "import_module", fail(ModuleNotFoundError("No module named 'netgen'")))
-    with pytest.raises(MissingExtra, match=re.escape("STEP export needs the extra 'fe', which is not installed (No module named 'netgen'); "
-                                                     "try: pip install 'drivewright[fe]'")):
+    with pytest.raises(
+        MissingExtra,
+        match=re.escape(
+            "STEP export needs the extra 'fe', which is not installed (No module named 'netgen'); try: pip install 'drivewright[fe]'"
+        ),
+    ):
         load("netgen.occ", "STEP export")
 
 

@@ -1,6 +1,5 @@
 """What the core of studies should also do; each of these fails today."""
 
-
 from dataclasses import replace
 
 import numpy as np

@@ -20,25 +20,28 @@ def rows(header="torque [N m],angle [arcmin]", count=10):
     return header + "\n" + "".join(f"{n},{0.5 * n}\n" for n in range(count))
 
 
-@pytest.mark.parametrize(("text", "wanted"), [
-    ("", r"test.csv: is empty; the first line wants the columns, e.g. torque \[N m\],angle \[arcmin\]"),
-    ("# only words\n\n", "is empty"),
-    (rows("torque,angle [arcmin]"), r"test.csv: column 'torque': has no unit; write 'torque \[N m\]'"),
-    (rows("torque [N],angle [arcmin]"), r"column 'torque': wants a torque, got 'N' \(force\)"),
-    (rows("torque [N m/rad],angle [arcmin]"), r"column 'torque': wants a torque, got 'N m/rad' \(rotational stiffness\); write N m"),
-    (rows("torque [N m],angle [mm]"), "column 'angle': wants an angle, got 'mm'"),
-    (rows("torque [N m],angle [furlong]"), "column 'angle': 'furlong' is no unit known here"),
-    (rows("torque [N m],angel [arcmin]"), r"no column 'angle \[arcmin\]' in the first line .*did you mean 'angel'"),
-    (rows("moment [N m],angle [arcmin]"), r"no column 'torque \[N m\]'"),
-    (rows("angle [rad],angle [arcmin]"), "column 'angle' is there twice"),
-    ("torque [N m],force [N],angle [deg]\n1,2,3\n", "has both a torque and a force; keep one"),
-    (rows("force [N],angle [deg]"), "test.csv: the load is a force; give the length of its arm as well"),
-    (rows() + "nan,3\n", "test.csv: line 12: the torque is 'nan', not a finite number"),
-    ("# note\n\n" + rows() + "3,inf\n", "test.csv: line 14: the angle is 'inf', not a finite number"),
-    (rows() + "3\n", "line 12: the angle is missing, not a finite number"),
-    ("cycle,torque [N m],angle [deg]\n1.5,2,3\n", "line 2: the cycle is '1.5', not a whole number"),
-    ("branch,torque [N m],angle [deg]\nup,2,3\n", "line 2: the branch is 'up', not 'loading' or 'unloading'"),
-])
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("", r"test.csv: is empty; the first line wants the columns, e.g. torque \[N m\],angle \[arcmin\]"),
+        ("# only words\n\n", "is empty"),
+        (rows("torque,angle [arcmin]"), r"test.csv: column 'torque': has no unit; write 'torque \[N m\]'"),
+        (rows("torque [N],angle [arcmin]"), r"column 'torque': wants a torque, got 'N' \(force\)"),
+        (rows("torque [N m/rad],angle [arcmin]"), r"column 'torque': wants a torque, got 'N m/rad' \(rotational stiffness\); write N m"),
+        (rows("torque [N m],angle [mm]"), "column 'angle': wants an angle, got 'mm'"),
+        (rows("torque [N m],angle [furlong]"), "column 'angle': 'furlong' is no unit known here"),
+        (rows("torque [N m],angel [arcmin]"), r"no column 'angle \[arcmin\]' in the first line .*did you mean 'angel'"),
+        (rows("moment [N m],angle [arcmin]"), r"no column 'torque \[N m\]'"),
+        (rows("angle [rad],angle [arcmin]"), "column 'angle' is there twice"),
+        ("torque [N m],force [N],angle [deg]\n1,2,3\n", "has both a torque and a force; keep one"),
+        (rows("force [N],angle [deg]"), "test.csv: the load is a force; give the length of its arm as well"),
+        (rows() + "nan,3\n", "test.csv: line 12: the torque is 'nan', not a finite number"),
+        ("# note\n\n" + rows() + "3,inf\n", "test.csv: line 14: the angle is 'inf', not a finite number"),
+        (rows() + "3\n", "line 12: the angle is missing, not a finite number"),
+        ("cycle,torque [N m],angle [deg]\n1.5,2,3\n", "line 2: the cycle is '1.5', not a whole number"),
+        ("branch,torque [N m],angle [deg]\nup,2,3\n", "line 2: the branch is 'up', not 'loading' or 'unloading'"),
+    ],
+)
 def test_a_file_that_is_no_torsion_test_is_refused(tmp_path, text, wanted):
     with pytest.raises(SpecError, match=wanted):
         read(file(tmp_path, text))
@@ -62,14 +65,17 @@ def test_a_file_is_read_in_its_units_whatever_the_order_of_its_columns(tmp_path)
     assert plain.torque[0] == pytest.approx(1) and plain.angle[0] == pytest.approx(np.radians(1)) and plain[2:] == (None, None, None)
 
 
-@pytest.mark.parametrize(("torque", "angle", "wanted"), [
-    (TORQUE[:7], ANGLE[:7], "7 samples are too few for a stiffness with an uncertainty; give at least 8"),
-    (TORQUE, ANGLE[:-1], r"torque \(60,\) and angle \(59,\) must be rows of the same length"),
-    (np.full(60, 300.0), ANGLE, "the torque is 300 N m in all samples; a stiffness needs a torque that changes"),
-    (TORQUE, np.full(60, 0.25), "the angle is 0.25 rad in all samples"),
-    (np.where(TORQUE > 400, np.nan, TORQUE), ANGLE, "must be finite"),
-    (TORQUE, -ANGLE, "the angle falls by 1e-05 rad per N m of rising torque.*turn the sign of one of the columns"),
-])
+@pytest.mark.parametrize(
+    ("torque", "angle", "wanted"),
+    [
+        (TORQUE[:7], ANGLE[:7], "7 samples are too few for a stiffness with an uncertainty; give at least 8"),
+        (TORQUE, ANGLE[:-1], r"torque \(60,\) and angle \(59,\) must be rows of the same length"),
+        (np.full(60, 300.0), ANGLE, "the torque is 300 N m in all samples; a stiffness needs a torque that changes"),
+        (TORQUE, np.full(60, 0.25), "the angle is 0.25 rad in all samples"),
+        (np.where(TORQUE > 400, np.nan, TORQUE), ANGLE, "must be finite"),
+        (TORQUE, -ANGLE, "the angle falls by 1e-05 rad per N m of rising torque.*turn the sign of one of the columns"),
+    ],
+)
 def test_readings_without_a_stiffness_are_refused(torque, angle, wanted):
     with pytest.raises(InputError, match=wanted):
         evaluate(Readings(torque, angle))

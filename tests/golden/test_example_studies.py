@@ -16,8 +16,15 @@ from drivewright.studies.plan import plan_of
 from drivewright.studies.varying import varied
 
 FOLDER = Path(__file__).parents[2] / "examples" / "studies"
-CASES = {"clearance_bifurcation": 50, "hyvo_phase_map": 288, "indexer_play": 65, "knife_kd_calibrated": 110, "knife_kd_map": 165,
-         "pusher_pareto": 20_000, "shaft_tolerance": 1143}
+CASES = {
+    "clearance_bifurcation": 50,
+    "hyvo_phase_map": 288,
+    "indexer_play": 65,
+    "knife_kd_calibrated": 110,
+    "knife_kd_map": 165,
+    "pusher_pareto": 20_000,
+    "shaft_tolerance": 1143,
+}
 NAMES = tuple(CASES)
 
 
@@ -56,8 +63,9 @@ BY_ANOTHER_PROGRAM = {80: (1.30, 2.31), 81: (8.10, 8.08), 83: (8.19, 8.16), 84: 
 
 
 def test_phase_map_agrees_with_another_program():
-    study = smaller("hyvo_phase_map", {"links": list(BY_ANOTHER_PROGRAM), "joint.rolling_radius": ["1.0 mm", "1.6 mm"],
-                                       "closure.strands": ["straight"]})
+    study = smaller(
+        "hyvo_phase_map", {"links": list(BY_ANOTHER_PROGRAM), "joint.rolling_radius": ["1.0 mm", "1.6 mm"], "closure.strands": ["straight"]}
+    )
     found = 1e6 * study["centre_distance.fluctuation"].reshape(4, 2)
     over = found / np.array(list(BY_ANOTHER_PROGRAM.values()))
     assert np.all((over > 0.99) & (over < 1.03))
@@ -98,9 +106,13 @@ def rows_of_the_table(path, keep):
 
 def test_calibrated_load_coefficients_agree_with_other_programs(tmp_path):
     """0.01 mm by the closed form of the four-bar, sampled finely; the others by a program written apart from this one."""
-    by_another_program = {("growing with speed", "10800", "0.4"): 7.564, ("growing with speed", "28800", "0.01"): 1.2344,
-                          ("growing with speed", "28800", "0.2"): 1.997, ("growing with speed", "28800", "0.4"): 5.177,
-                          ("growing with speed", "41400", "0.4"): 5.028}
+    by_another_program = {
+        ("growing with speed", "10800", "0.4"): 7.564,
+        ("growing with speed", "28800", "0.01"): 1.2344,
+        ("growing with speed", "28800", "0.2"): 1.997,
+        ("growing with speed", "28800", "0.4"): 5.177,
+        ("growing with speed", "41400", "0.4"): 5.028,
+    }
     points = rows_of_the_table(tmp_path / "points.csv", by_another_program)
     study = smaller("knife_kd_calibrated", points=str(points), values=IDEAL)
     assert study["knife.impact_load_coefficient"] == pytest.approx(list(by_another_program.values()), rel=0.01)

@@ -24,11 +24,7 @@ PINNED = {
     "jansen_leg": {"foot.max_acceleration": 9.374857905206746, "drive.max_torque": 0.03531556050871491},
     "knife_folder": {"knife.impact_load_coefficient": 1.6599560257699812, "knife_tip.peak_acceleration_ratio": 1.508782965780165},
     "pressure_roller_shaft": {"stations.m2.deflection": 0.000357575392, "modes.1.frequency": 63.9497231},
-    "rubber_roller_shaft": {
-        "stations.m3.deflection": 0.000312090678,
-        "flexibility.m3.m3": 6.24181357e-07,
-        "modes.1.frequency": 38.8348779,
-    },
+    "rubber_roller_shaft": {"stations.m3.deflection": 0.000312090678, "flexibility.m3.m3": 6.24181357e-07, "modes.1.frequency": 38.8348779},
     "rubber_roller_61804": {
         "stations.m3.deflection": 0.000398758557,
         "bearings.C.reference_life": 34034277,
@@ -60,11 +56,7 @@ PINNED = {
     "roller_chain": {"centre_distance.mean": 0.32017224765, "layout.centre_distance": 0.3201723026, "strand.tight_force": 244.208655},
     # Chaotic: only what does not depend on which way the pin bounces.
     "slider_crank_clearance": {"slider.ideal_peak": 19419.360511402672, "bodies.crank.angular_velocity": 523.5987755982989},
-    "seedling_pusher_improved": {
-        "needle.angle_difference": 0.953388,
-        "cam.max_pressure_angle": 0.310305,
-        "cam.curvature_ratio": 1.680426,
-    },
+    "seedling_pusher_improved": {"needle.angle_difference": 0.953388, "cam.max_pressure_angle": 0.310305, "cam.curvature_ratio": 1.680426},
 }
 
 

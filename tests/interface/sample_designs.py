@@ -54,8 +54,11 @@ def bar(length):
 
 def support(x):
     """Triangle and base line of a fixed pin."""
-    return (Shape("ground", polygon([(x - 0.006, -0.010), (x, 0.0), (x + 0.006, -0.010)])),
-            Shape("ground", polygon([(x - 0.010, -0.010), (x + 0.010, -0.010)], closed=False)), Shape("hole", circle((x, 0), 0.0016)))
+    return (
+        Shape("ground", polygon([(x - 0.006, -0.010), (x, 0.0), (x + 0.006, -0.010)])),
+        Shape("ground", polygon([(x - 0.010, -0.010), (x + 0.010, -0.010)], closed=False)),
+        Shape("hole", circle((x, 0), 0.0016)),
+    )
 
 
 def four_bar_scene():
@@ -69,11 +72,15 @@ def four_bar_scene():
         Body("frame", "frame", (*support(0.0), *support(GROUND)), still, "ground"),
         Body("coupler", "coupler", (Shape("body", plate()), hole, far), poses(pin[:, 0], pin[:, 1], wrapped), "blue"),
         Body("crank", "crank", (bar(CRANK), hole), poses(0.0, 0.0, angle), "orange"),
-        Body("rocker", "rocker", (bar(ROCKER), Shape("pitch", circle((0, 0), 0.02))), poses(GROUND, 0.0, rocker), "green"))
+        Body("rocker", "rocker", (bar(ROCKER), Shape("pitch", circle((0, 0), 0.02))), poses(GROUND, 0.0, rocker), "green"),
+    )
     soil = (Shape("ground", polygon([(-0.08, -0.03), (0.30, -0.03)], closed=False)),)
     field = poses(-0.14 * angle / (2 * np.pi), 0.0, 0.0)
-    frames = (Frame("machine", "machine frame", still), Frame("field", "field frame", field, (-0.14, 0.0), soil),
-              Frame("coupler", "seen from the coupler", poses(pin[:, 0], pin[:, 1], wrapped)))
+    frames = (
+        Frame("machine", "machine frame", still),
+        Frame("field", "field frame", field, (-0.14, 0.0), soil),
+        Frame("coupler", "seen from the coupler", poses(pin[:, 0], pin[:, 1], wrapped)),
+    )
     marks = ((0.0, "forward"), (2.6, "return"), (5.0, "dwell"))
     return Scene(angle, "crank angle", "rad", 0.3, bodies, frames, (Trace("tip", "coupler point", "coupler", POINT),), "motion", marks)
 
@@ -87,38 +94,83 @@ def four_bar_result(title="Four-bar sample"):
     radius = 0.02 / np.where(np.abs(np.sin(3 * angle)) < 1e-9, np.nan, np.sin(3 * angle))
     x = pin[:, 0] + POINT[0] * np.cos(coupler) - POINT[1] * np.sin(coupler)
     y = pin[:, 1] + POINT[0] * np.sin(coupler) + POINT[1] * np.cos(coupler)
-    motion = Table("motion", "Motion over one turn", (
-        Column("angle", "rad", "crank angle", angle), Column("rocker", "rad", "rocker angle", rocker),
-        Column("coupler", "rad", "coupler angle", coupler), Column("rocker_speed", "rad/s", "rocker speed", speed),
-        Column("acceleration", "rad/s^2", "rocker acceleration", np.gradient(speed, angle) * SPEED),
-        Column("transmission", "rad", "transmission angle", transmission), Column("radius", "m", "radius of curvature", radius),
-        Column("x", "m", "coupler point, x", x), Column("y", "m", "coupler point, y", y)))
-    links = Table("links", "Links", (Column("link", "-", "link", np.array(["crank", "coupler", "rocker"])),
-                                     Column("length", "m", "length", np.array([CRANK, COUPLER, ROCKER]))))
+    motion = Table(
+        "motion",
+        "Motion over one turn",
+        (
+            Column("angle", "rad", "crank angle", angle),
+            Column("rocker", "rad", "rocker angle", rocker),
+            Column("coupler", "rad", "coupler angle", coupler),
+            Column("rocker_speed", "rad/s", "rocker speed", speed),
+            Column("acceleration", "rad/s^2", "rocker acceleration", np.gradient(speed, angle) * SPEED),
+            Column("transmission", "rad", "transmission angle", transmission),
+            Column("radius", "m", "radius of curvature", radius),
+            Column("x", "m", "coupler point, x", x),
+            Column("y", "m", "coupler point, y", y),
+        ),
+    )
+    links = Table(
+        "links",
+        "Links",
+        (
+            Column("link", "-", "link", np.array(["crank", "coupler", "rocker"])),
+            Column("length", "m", "length", np.array([CRANK, COUPLER, ROCKER])),
+        ),
+    )
     least = float(transmission.min())
-    checks = (Check("transmission", least, np.radians(40), ">=", "rad", "the rocker is pushed at a good angle all the way", ("rocker",)),
-              Check("acceleration", float(np.nanmax(np.abs(motion["acceleration"].data))), 30.0, "<=", "rad/s^2",
-                    "the rocker shakes <its> frame: use a longer rocker", ("rocker", "frame")),
-              Check("min_radius", np.inf, 0.006, ">=", "m", "no convex arc: nothing to undercut"))
-    values = {"rocker.swing": Value(float(np.ptp(rocker)), "rad", "angle swept by the rocker"),
-              "transmission.least": Value(least, "rad", "least transmission angle"),
-              "stress.peak": Value(512.3e6, "Pa", "peak contact pressure"), "deviation": Value(2.4669517247e-06, "m", "pitch deviation"),
-              "ratio": Value(3.125, "-", "length ratio")}
+    checks = (
+        Check("transmission", least, np.radians(40), ">=", "rad", "the rocker is pushed at a good angle all the way", ("rocker",)),
+        Check(
+            "acceleration",
+            float(np.nanmax(np.abs(motion["acceleration"].data))),
+            30.0,
+            "<=",
+            "rad/s^2",
+            "the rocker shakes <its> frame: use a longer rocker",
+            ("rocker", "frame"),
+        ),
+        Check("min_radius", np.inf, 0.006, ">=", "m", "no convex arc: nothing to undercut"),
+    )
+    values = {
+        "rocker.swing": Value(float(np.ptp(rocker)), "rad", "angle swept by the rocker"),
+        "transmission.least": Value(least, "rad", "least transmission angle"),
+        "stress.peak": Value(512.3e6, "Pa", "peak contact pressure"),
+        "deviation": Value(2.4669517247e-06, "m", "pitch deviation"),
+        "ratio": Value(3.125, "-", "length ratio"),
+    }
     stations = (("m1", "m2"), ("m1", "m2"))
     arrays = {"flexibility": Array("m/N", ("station", "station"), stations, np.array([[1.5e-8, 0.2e-8], [0.2e-8, 2.5e-8]]))}
-    provenance = {"seed": 0, "seconds": 0.412, "analyses": ["motion"], "versions": {"python": "3.11", "numpy": "2"},
-                  "sources": ["Norton, Design of Machinery (recalled)"]}
+    provenance = {
+        "seed": 0,
+        "seconds": 0.412,
+        "analyses": ["motion"],
+        "versions": {"python": "3.11", "numpy": "2"},
+        "sources": ["Norton, Design of Machinery (recalled)"],
+    }
     spec = SimpleNamespace(to_toml=lambda moved=False: SPEC_TEXT, write=lambda path: path.write_text(SPEC_TEXT))
-    return Result(spec, "four-bar-sample", title, "5d41402abc4b2a76b9719d911017c592ae2f", values,
-                  {"motion": motion, "links": links}, checks, ("analysis 'forces' is left out: no [load] & no mass",), provenance, arrays)
+    return Result(
+        spec,
+        "four-bar-sample",
+        title,
+        "5d41402abc4b2a76b9719d911017c592ae2f",
+        values,
+        {"motion": motion, "links": links},
+        checks,
+        ("analysis 'forces' is left out: no [load] & no mass",),
+        provenance,
+        arrays,
+    )
 
 
-PLOTS = (Plot("rocker", "Rocker angle", "motion", "angle", ("rocker",)),
-         Plot("speed", "Rocker speed and acceleration", "motion", "angle", ("rocker_speed", "acceleration"), ()),
-         Plot("transmission", "Angles at the rocker pin", "motion", "angle", ("transmission", "coupler"), ((np.radians(40), "least"),)),
-         Plot("radius", "Radius of curvature", "motion", "angle", ("radius",), ((0.006, "roller"),)),
-         Plot("track", "Coupler curve", "motion", "x", ("y",), (), True),
-         Plot("links", "Lengths of the links", "links", "link", ("length",)), Plot("forces", "Forces", "forces", "angle", ("force",)))
+PLOTS = (
+    Plot("rocker", "Rocker angle", "motion", "angle", ("rocker",)),
+    Plot("speed", "Rocker speed and acceleration", "motion", "angle", ("rocker_speed", "acceleration"), ()),
+    Plot("transmission", "Angles at the rocker pin", "motion", "angle", ("transmission", "coupler"), ((np.radians(40), "least"),)),
+    Plot("radius", "Radius of curvature", "motion", "angle", ("radius",), ((0.006, "roller"),)),
+    Plot("track", "Coupler curve", "motion", "x", ("y",), (), True),
+    Plot("links", "Lengths of the links", "links", "link", ("length",)),
+    Plot("forces", "Forces", "forces", "angle", ("force",)),
+)
 
 
 def eccentric_drawing():
@@ -127,8 +179,13 @@ def eccentric_drawing():
     radius = 0.030 + 0.006 * (1 - np.cos(angle)) / 2
     profile = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
     pitch = profile * (1 + 0.006 / radius[:, None])
-    outlines = {"profile": Outline((Spline(profile, (0, 1), (0, 1)),)), "pitch": Outline((Spline(pitch, (0, 1), (0, 1)),)),
-                "base": circle((0, 0), 0.030), "hole": circle((0, 0), 0.008), "axis": polygon([(-0.045, 0), (0.045, 0)], closed=False)}
+    outlines = {
+        "profile": Outline((Spline(profile, (0, 1), (0, 1)),)),
+        "pitch": Outline((Spline(pitch, (0, 1), (0, 1)),)),
+        "base": circle((0, 0), 0.030),
+        "hole": circle((0, 0), 0.008),
+        "axis": polygon([(-0.045, 0), (0.045, 0)], closed=False),
+    }
     return Drawing("cam", "cam disc", tuple(Shape(layer, outline) for layer, outline in outlines.items()), 0.008)
 
 

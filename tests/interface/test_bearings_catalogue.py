@@ -73,8 +73,13 @@ def test_numbers_of_the_papers_bearing():
 
 def test_bearings_of_the_catalogue_have_their_stiffness():
     """Tangents at given loads, on a shaft that does not tilt."""
-    cases = [("61904", 500, 0, 81783e3), ("61904", 10000, 0, 221994e3), ("hypothetical-ACBB15-20x32x7", 500, 400, 1.12e8),
-             ("hypothetical-ACBB25-20x32x7", 500, 400, 7.35e7), ("hypothetical-CRB-20x32x7", 500, 0, 1.911e8)]
+    cases = [
+        ("61904", 500, 0, 81783e3),
+        ("61904", 10000, 0, 221994e3),
+        ("hypothetical-ACBB15-20x32x7", 500, 400, 1.12e8),
+        ("hypothetical-ACBB25-20x32x7", 500, 400, 7.35e7),
+        ("hypothetical-CRB-20x32x7", 500, 0, 1.911e8),
+    ]
     for name, radial, axial, expected in cases:
         state = solve(bearing(name), force=[radial, 0, axial, 0, 0], held=("tilt_x", "tilt_y"))
         assert state.stiffness[0, 0] == pytest.approx(expected, rel=2e-5 if name == "61904" else 2e-3)
@@ -98,19 +103,22 @@ def test_unknown_names_come_with_the_nearest():
         entry("61804").source("ball")
 
 
-@pytest.mark.parametrize(("old", "new", "complaint"), [
-    ("rollers = 13", "rollers = 30", r"bearings\.NJ-my-205\.roller\.roller_diameter: 30 rollers of 7\.5 mm overlap"),
-    ("rollers = 13\n", "", r"bearings\.NJ-my-205\.roller\.rollers: is missing"),
-    ('"8 mm"', "8", r"bearings\.NJ-my-205\.roller\.roller_length: a bare number"),
-    ("rollers = 13", "roller = 13", r"bearings\.NJ-my-205\.roller\.roller: unknown key \(did you mean 'rollers'\?\)"),
-    ('"39 mm"', '"60 mm"', r"roller\.pitch_diameter: must lie between bore and outer diameter, got 60 mm against 25 and 52 mm"),
-    ('"rollers", ', "", r"bearings\.NJ-my-205\.sources: no source names rollers; each number wants one source"),
-    ('"rollers", ', '"rollers", "width", ', r"sources: a source names, but the entry lacks, width"),
-    ('"rollers", ', '"rollers", "bore", ', r"sources: two sources name bore"),
-    ('"read"', '"trust me"', r'sources\.0\.flag: must be one of "read"'),
-    ("[bearings.NJ-my-205.roller]", "[bearings.NJ-my-205.needle]", r"bearings\.NJ-my-205\.needle: unknown key"),
-    ('description = "from the maker"', "description = from the maker", "is not valid TOML"),
-])
+@pytest.mark.parametrize(
+    ("old", "new", "complaint"),
+    [
+        ("rollers = 13", "rollers = 30", r"bearings\.NJ-my-205\.roller\.roller_diameter: 30 rollers of 7\.5 mm overlap"),
+        ("rollers = 13\n", "", r"bearings\.NJ-my-205\.roller\.rollers: is missing"),
+        ('"8 mm"', "8", r"bearings\.NJ-my-205\.roller\.roller_length: a bare number"),
+        ("rollers = 13", "roller = 13", r"bearings\.NJ-my-205\.roller\.roller: unknown key \(did you mean 'rollers'\?\)"),
+        ('"39 mm"', '"60 mm"', r"roller\.pitch_diameter: must lie between bore and outer diameter, got 60 mm against 25 and 52 mm"),
+        ('"rollers", ', "", r"bearings\.NJ-my-205\.sources: no source names rollers; each number wants one source"),
+        ('"rollers", ', '"rollers", "width", ', r"sources: a source names, but the entry lacks, width"),
+        ('"rollers", ', '"rollers", "bore", ', r"sources: two sources name bore"),
+        ('"read"', '"trust me"', r'sources\.0\.flag: must be one of "read"'),
+        ("[bearings.NJ-my-205.roller]", "[bearings.NJ-my-205.needle]", r"bearings\.NJ-my-205\.needle: unknown key"),
+        ('description = "from the maker"', "description = from the maker", "is not valid TOML"),
+    ],
+)
 def test_a_bad_file_is_named_with_its_key(own, old, new, complaint):
     path = own((old, new))
     with pytest.raises(SpecError, match=rf"mine\.toml: .*{complaint}"):

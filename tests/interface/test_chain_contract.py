@@ -33,8 +33,14 @@ preload = "150 N"
 """
 SIDED = ("seated_pitch", "ideal_pitch", "pitch_deviation", "seated_apothem", "modification", "positioning_diameter", "contact_radius")
 MESHING = (
-    "hole_pitch", "pin_offset", "pitch_deviation.reference", "k", "rolling_radius.boundary", "rolling_radius.monotone_limit",
-    "standard_apothem", *(f"{name}.{side}" for name in SIDED for side in ("drive", "driven")),
+    "hole_pitch",
+    "pin_offset",
+    "pitch_deviation.reference",
+    "k",
+    "rolling_radius.boundary",
+    "rolling_radius.monotone_limit",
+    "standard_apothem",
+    *(f"{name}.{side}" for name in SIDED for side in ("drive", "driven")),
 )
 PRESETS = Path(dw.__file__).parent / "mechanisms/silent_chain/presets"
 
@@ -54,12 +60,22 @@ def test_meshing_of_group_three():
     found = run("meshing")
     assert set(MESHING) <= set(found.values)
     expected = {
-        "hole_pitch": 11.925 * MM, "pin_offset": 0.267776183764 * MM, "seated_pitch.driven": 9.5619049365922 * MM,
-        "pitch_deviation.driven": 2.4669517247e-6, "pitch_deviation.reference": 4.0618538598e-6, "k": 11.46484882912,
-        "rolling_radius.boundary": 5.054799380642 * MM, "rolling_radius.monotone_limit": 4.78174992 * MM,
-        "standard_apothem": 3.773118576423 * MM, "seated_apothem.drive": 3.756447657234 * MM, "modification.drive": -1.105074529736,
-        "positioning_diameter.drive": 106.6886832989 * MM, "positioning_diameter.driven": 112.750435724 * MM,
-        "contact_radius.drive": 49.59688789127 * MM, "ideal_pitch.drive": 9.563499838727 * MM, "ideal_pitch.driven": 9.559437984867 * MM,
+        "hole_pitch": 11.925 * MM,
+        "pin_offset": 0.267776183764 * MM,
+        "seated_pitch.driven": 9.5619049365922 * MM,
+        "pitch_deviation.driven": 2.4669517247e-6,
+        "pitch_deviation.reference": 4.0618538598e-6,
+        "k": 11.46484882912,
+        "rolling_radius.boundary": 5.054799380642 * MM,
+        "rolling_radius.monotone_limit": 4.78174992 * MM,
+        "standard_apothem": 3.773118576423 * MM,
+        "seated_apothem.drive": 3.756447657234 * MM,
+        "modification.drive": -1.105074529736,
+        "positioning_diameter.drive": 106.6886832989 * MM,
+        "positioning_diameter.driven": 112.750435724 * MM,
+        "contact_radius.drive": 49.59688789127 * MM,
+        "ideal_pitch.drive": 9.563499838727 * MM,
+        "ideal_pitch.driven": 9.559437984867 * MM,
     }
     for name, value in expected.items():
         assert found[name] == pytest.approx(value, rel=2e-10), name
@@ -147,8 +163,12 @@ def test_the_force_of_the_pins_unless_given():
     assert not run("contact", 'drive.load_torque="30 N m"').check("strand.taut").ok
 
 
-DYNAMICS = ("dynamics.centre_distance.mean", "dynamics.centre_distance.fluctuation", "dynamics.centre_distance.mesh_order_amplitude",
-            "dynamics.energy_drift")
+DYNAMICS = (
+    "dynamics.centre_distance.mean",
+    "dynamics.centre_distance.fluctuation",
+    "dynamics.centre_distance.mesh_order_amplitude",
+    "dynamics.energy_drift",
+)
 
 
 def test_dynamics():

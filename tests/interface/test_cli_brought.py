@@ -47,10 +47,12 @@ BRINGING = Mechanism("scales", "scales", object, None, (), Path("."), commands=(
 @pytest.fixture(autouse=True)
 def scales(monkeypatch, tmp_path):
     """A mechanism of the kind "scales" that brings `weigh`, and a file to weigh, thirteen characters long."""
-    ours = [EntryPoint("scales", f"{__name__}:BRINGING", "drivewright.mechanisms"),
-            EntryPoint("weigh", f"{__name__}:BRINGING", "drivewright.commands"),
-            EntryPoint("run", f"{__name__}:BRINGING", "drivewright.commands"),
-            EntryPoint("broken", f"{__name__}:BRINGING", "drivewright.commands")]
+    ours = [
+        EntryPoint("scales", f"{__name__}:BRINGING", "drivewright.mechanisms"),
+        EntryPoint("weigh", f"{__name__}:BRINGING", "drivewright.commands"),
+        EntryPoint("run", f"{__name__}:BRINGING", "drivewright.commands"),
+        EntryPoint("broken", f"{__name__}:BRINGING", "drivewright.commands"),
+    ]
     real = registry.entry_points
     monkeypatch.setattr(registry, "entry_points", lambda group: [*real(group=group), *(p for p in ours if p.group == group)])
     registry.plugins.cache_clear()
@@ -107,14 +109,17 @@ def test_json_strict_and_out(drivewright, scales):
     assert drivewright("weigh", "thing.txt", "--largest-size", "30 mm", "--strict")[0] == 0
 
 
-@pytest.mark.parametrize(("arguments", "wanted"), [
-    (["nope.txt"], "nope.txt: there is no file"),
-    (["thing.txt", "--largest-size", "3"], 'thing.txt: --largest-size: a bare number; a length wants its unit, e.g. "3 mm"'),
-    (["thing.txt", "--largest-size", "3 N"], "thing.txt: --largest-size: wants a length, got '3 N' (force)"),
-    (["thing.txt", "--largest-size", "-3 mm"], "thing.txt: --largest-size: must be greater than 0 mm"),
-    (["thing.txt", "--times", "much"], "thing.txt: --times: "),
-    (["thing.txt", "--times", "7"], "thing.txt: seven times thirteen is refused"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "wanted"),
+    [
+        (["nope.txt"], "nope.txt: there is no file"),
+        (["thing.txt", "--largest-size", "3"], 'thing.txt: --largest-size: a bare number; a length wants its unit, e.g. "3 mm"'),
+        (["thing.txt", "--largest-size", "3 N"], "thing.txt: --largest-size: wants a length, got '3 N' (force)"),
+        (["thing.txt", "--largest-size", "-3 mm"], "thing.txt: --largest-size: must be greater than 0 mm"),
+        (["thing.txt", "--times", "much"], "thing.txt: --times: "),
+        (["thing.txt", "--times", "7"], "thing.txt: seven times thirteen is refused"),
+    ],
+)
 def test_a_mistake_is_one_message_and_nothing_is_written(drivewright, scales, arguments, wanted):
     code, out, err = drivewright("weigh", *arguments)
     assert code == 2 and out == "" and err.count("\n") == 1 and err.startswith(f"drivewright: {wanted}")
@@ -149,7 +154,9 @@ def test_every_declared_command_is_brought_and_every_brought_one_declared():
 
 
 def test_ordinary_commands_import_no_mechanism(tmp_path):
-    code = ("import sys\nfrom drivewright.cli import main\ntry: main(['--version'])\nexcept SystemExit: pass\n"
-            "print([m for m in sys.modules if m.startswith('drivewright.mechanisms.') or m == 'numpy'])")
+    code = (
+        "import sys\nfrom drivewright.cli import main\ntry: main(['--version'])\nexcept SystemExit: pass\n"
+        "print([m for m in sys.modules if m.startswith('drivewright.mechanisms.') or m == 'numpy'])"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path, check=True)
     assert done.stdout.splitlines()[-1] == "[]"

@@ -144,10 +144,7 @@ def test_a_mistake_is_one_message_and_nothing_is_written(drivewright, toy, argum
 
 @pytest.mark.parametrize(
     ("mode", "code", "wanted"),
-    [
-        ("cannot be built", 2, "toy.toml: no such toy can be built"),
-        ("solver gives up in build", 4, "no start position; turn the crank"),
-    ],
+    [("cannot be built", 2, "toy.toml: no such toy can be built"), ("solver gives up in build", 4, "no start position; turn the crank")],
 )
 def test_a_failing_run_leaves_the_old_run_folder_as_it_was(drivewright, toy, monkeypatch, mode, code, wanted):
     assert drivewright("run", "toy.toml", "--no-figures")[0] == 0
@@ -159,11 +156,16 @@ def test_a_failing_run_leaves_the_old_run_folder_as_it_was(drivewright, toy, mon
 
 
 @pytest.mark.faults
-@pytest.mark.parametrize(("mode", "wanted"), [
-    ("has no answer", ("note: analysis 'reach' (how far) has no answer for this design: no force holds it",)),
-    ("has a fault", ("note: analysis 'reach' (how far) failed by a fault of the program, not of the spec: ZeroDivisionError",
-                     "Please report it")),
-])
+@pytest.mark.parametrize(
+    ("mode", "wanted"),
+    [
+        ("has no answer", ("note: analysis 'reach' (how far) has no answer for this design: no force holds it",)),
+        (
+            "has a fault",
+            ("note: analysis 'reach' (how far) failed by a fault of the program, not of the spec: ZeroDivisionError", "Please report it"),
+        ),
+    ],
+)
 def test_an_analysis_that_fails_leaves_a_partial_result_on_disk(drivewright, toy, monkeypatch, mode, wanted):
     monkeypatch.setitem(MODES, "kind", mode)
     code, _, err = drivewright("run", "toy.toml", "--no-figures")

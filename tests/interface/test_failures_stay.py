@@ -39,13 +39,23 @@ def test_one_figure_that_fails_is_missing_and_the_others_are_there(cam, monkeypa
     assert [picture.name for picture in cut] == [picture.name for picture in whole]
     missing = [picture for picture, before in zip(cut, whole, strict=True) if picture.svg != before.svg]
     assert missing and {picture.name.split("-")[0] for picture in missing} == {"drawing"}
-    assert all("This figure is missing: failed by a fault of the program" in " ".join(picture.svg.replace("<", " <").split())
-               or "ZeroDivisionError" in picture.svg for picture in missing) and "<width>" not in missing[0].svg
+    assert (
+        all(
+            "This figure is missing: failed by a fault of the program" in " ".join(picture.svg.replace("<", " <").split())
+            or "ZeroDivisionError" in picture.svg
+            for picture in missing
+        )
+        and "<width>" not in missing[0].svg
+    )
 
 
-@pytest.mark.parametrize(("error", "words"), [
-    (ZeroDivisionError("x"), "no motion to show: failed by a fault of the program, not of the spec: ZeroDivisionError: x"),
-    (DoesNotAssemble("the loop stays open"), "no motion to show: the loop stays open")])
+@pytest.mark.parametrize(
+    ("error", "words"),
+    [
+        (ZeroDivisionError("x"), "no motion to show: failed by a fault of the program, not of the spec: ZeroDivisionError: x"),
+        (DoesNotAssemble("the loop stays open"), "no motion to show: the loop stays open"),
+    ],
+)
 def test_a_scene_that_fails_is_a_remark(cam, monkeypatch, error, words):
     fake = registry.Mechanism(**{**vars(registry.mechanism("cam")), "scene": raises(error)})
     monkeypatch.setattr(registry, "mechanism", lambda name: fake)
@@ -59,6 +69,7 @@ def test_a_scene_that_fails_is_a_remark(cam, monkeypatch, error, words):
 @pytest.fixture
 def verified(monkeypatch):
     """`verify` of the disc cam with a route and an outcome of the caller's."""
+
     def run(error, failed=()):
         kind = registry.mechanism("cam")
         fake = SimpleNamespace(kind="cam", verify=raises(error), build=kind.build)
@@ -69,11 +80,15 @@ def verified(monkeypatch):
     return run
 
 
-@pytest.mark.parametrize(("error", "failed", "kind", "words"), [
-    (ValueError("odd"), (), SolverError, "the independent route failed: failed by a fault of the program, not of the spec: ValueError"),
-    (InputError("no value is called 'x'"), ("geometry",), SolverError, "no value is called 'x'; the run lacks geometry"),
-    (InputError("the twin knows no gear"), (), InputError, "^the twin knows no gear"),
-    (MissingExtra("verify", "peers"), ("geometry",), MissingExtra, "needs the extra 'peers'")])
+@pytest.mark.parametrize(
+    ("error", "failed", "kind", "words"),
+    [
+        (ValueError("odd"), (), SolverError, "the independent route failed: failed by a fault of the program, not of the spec: ValueError"),
+        (InputError("no value is called 'x'"), ("geometry",), SolverError, "no value is called 'x'; the run lacks geometry"),
+        (InputError("the twin knows no gear"), (), InputError, "^the twin knows no gear"),
+        (MissingExtra("verify", "peers"), ("geometry",), MissingExtra, "needs the extra 'peers'"),
+    ],
+)
 def test_an_independent_route_that_fails(verified, error, failed, kind, words):
     with pytest.raises(kind, match=words):
         verified(error, failed)
@@ -83,7 +98,8 @@ def test_what_could_not_be_checked_is_not_manufactured(monkeypatch, tmp_path):
     spec, kind = dw.load(EXAMPLES / "disc_cam.toml"), registry.mechanism("cam")
     analyses = tuple(
         registry.Analysis(a.name, raises(SolverError("the trimming does not end")), a.meaning) if a.name == "profile" else a
-        for a in kind.analyses)
+        for a in kind.analyses
+    )
     fake = registry.Mechanism(**{**vars(kind), "analyses": analyses})
     monkeypatch.setattr(registry, "mechanism", lambda name: fake)
     with pytest.raises(InputError, match="not checked in full and not exported: analysis 'profile' .*does not end.*--anyway"):

@@ -103,8 +103,15 @@ def test_a_parallelogram_comes_back_through_the_command_line(fit, bench):
 def test_other_units_and_a_force_give_the_same_numbers(fit, bench):
     readings = parallelogram(3e5, 6e-4, 900.0, 41, 4)
     plain = values(fit(write(bench / "a.csv", readings), "--json", "--no-figures"))
-    other = values(fit(write(bench / "b.csv", readings, "force [kN],angle [deg]",
-                             (1 / 0.4 / 1e3, 180 / np.pi)), "--arm", "400 mm", "--json", "--no-figures"))
+    other = values(
+        fit(
+            write(bench / "b.csv", readings, "force [kN],angle [deg]", (1 / 0.4 / 1e3, 180 / np.pi)),
+            "--arm",
+            "400 mm",
+            "--json",
+            "--no-figures",
+        )
+    )
     assert plain.keys() == other.keys() and "stiffness.per_branch.bootstrap.low" in plain
     sure = [name for name in plain if not name.endswith((".uncertainty", ".low", ".high", "drift"))]
     assert {name: other[name] for name in sure} == pytest.approx({name: plain[name] for name in sure}, rel=1e-8)
@@ -112,8 +119,21 @@ def test_other_units_and_a_force_give_the_same_numbers(fit, bench):
 
 def test_the_rig_is_taken_off_with_its_uncertainty(fit, bench):
     data = write(bench / "loop.csv", parallelogram(3e5, 6e-4, 900.0))
-    found = values(fit(data, "--loading-bar-stiffness", "2e6 N m/rad", "--loading-bar-uncertainty", "1e5 N m/rad", "--support-stiffness",
-                       "1000 N m/arcmin", "--support-uncertainty", "20 N m/arcmin", "--json", "--no-figures"))
+    found = values(
+        fit(
+            data,
+            "--loading-bar-stiffness",
+            "2e6 N m/rad",
+            "--loading-bar-uncertainty",
+            "1e5 N m/rad",
+            "--support-stiffness",
+            "1000 N m/arcmin",
+            "--support-uncertainty",
+            "20 N m/arcmin",
+            "--json",
+            "--no-figures",
+        )
+    )
     support = 1000 / ARCMIN
     k = 1 / (1 / 3e5 - 1 / 2e6 - 1 / support)
     assert found["stiffness.corrected"] == pytest.approx(k, rel=1e-9)
@@ -160,16 +180,19 @@ def test_a_stiffness_carries_its_interval_of_95_percent():
     assert torsion._estimate("k", "stiffness", estimates, 0.9)["k"].interval == ""
 
 
-@pytest.mark.parametrize(("options", "wanted"), [
-    (["--rated-torque", "1000"], '--rated-torque: a bare number; a torque wants its unit, e.g. "1000 N m"'),
-    (["--rated-torque", "1000 N m/rad"], "--rated-torque: wants a torque, got '1000 N m/rad' (rotational stiffness); write N m"),
-    (["--rated-torque", "0 N m"], "--rated-torque: must be greater than 0"),
-    (["--support-uncertainty", "1 N m/rad"], "--support-uncertainty: is the uncertainty of a stiffness that is not given"),
-    (["--support-stiffness", "1e5 N m/rad"], "series correction: 1/k = 1/300000 - 1/100000 rad/(N m) = -6.67e-06 is not positive"),
-    (["--confidence", "1"], "--confidence: must be less than 1"),
-    (["--arm", "1 m"], "the load is a torque already"),
-    (["--model", "nope.toml"], "--model: there is no file"),
-])
+@pytest.mark.parametrize(
+    ("options", "wanted"),
+    [
+        (["--rated-torque", "1000"], '--rated-torque: a bare number; a torque wants its unit, e.g. "1000 N m"'),
+        (["--rated-torque", "1000 N m/rad"], "--rated-torque: wants a torque, got '1000 N m/rad' (rotational stiffness); write N m"),
+        (["--rated-torque", "0 N m"], "--rated-torque: must be greater than 0"),
+        (["--support-uncertainty", "1 N m/rad"], "--support-uncertainty: is the uncertainty of a stiffness that is not given"),
+        (["--support-stiffness", "1e5 N m/rad"], "series correction: 1/k = 1/300000 - 1/100000 rad/(N m) = -6.67e-06 is not positive"),
+        (["--confidence", "1"], "--confidence: must be less than 1"),
+        (["--arm", "1 m"], "the load is a torque already"),
+        (["--model", "nope.toml"], "--model: there is no file"),
+    ],
+)
 def test_a_mistake_is_one_message_and_leaves_nothing(fit, bench, options, wanted):
     data = write(bench / "loop.csv", parallelogram(3e5, 6e-4, 900.0))
     code, out, err = fit(data, *options)

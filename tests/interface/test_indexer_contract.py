@@ -81,7 +81,11 @@ def test_the_tables_have_their_columns(prototype):
 
 def test_the_checks_of_the_paper_s_prototype(prototype):
     assert {name: prototype.check(name).ok for name in ("play.forward", "play.backward", "pressure_angle", "static_rating.support")} == {
-        "play.forward": False, "play.backward": False, "pressure_angle": False, "static_rating.support": False}
+        "play.forward": False,
+        "play.backward": False,
+        "pressure_angle": False,
+        "static_rating.support": False,
+    }
     assert prototype.check("static_rating.crank").value == pytest.approx(1.47, rel=0.02)
 
 
@@ -124,8 +128,10 @@ def test_where_nothing_holds_a_value_is_absent_and_a_finding_says_why():
 
 def test_the_symmetry_theorem_through_the_command_s_own_path():
     for angle, other in ((45.0, 135.0), (67.5, 112.5), (85.5, 94.5), (160.0, 20.0)):
-        pair = [dw.run(dw.load(PRESETS / "default.toml", (f'load.angle="{at} deg"', f'load.torque="{torque} N m"')), only=("stiffness",))
-                for at, torque in ((angle, 1000), (other, -1000))]
+        pair = [
+            dw.run(dw.load(PRESETS / "default.toml", (f'load.angle="{at} deg"', f'load.torque="{torque} N m"')), only=("stiffness",))
+            for at, torque in ((angle, 1000), (other, -1000))
+        ]
         assert pair[0]["stiffness.mean"] == pytest.approx(pair[1]["stiffness.mean"], rel=1e-9)
 
 
@@ -143,18 +149,23 @@ def test_a_report_is_written_where_nothing_carries_the_torque(tmp_path):
 def test_a_cycloid_with_cusps_of_its_centre_curve():
     """Eccentricity times pins is the pin circle's radius: the centre curve has N - 1 cusps, arcs of the pin fill the valleys."""
     found = dw.run(spec('kind="cycloid"', "motion.law=", "motion.motion_to_dwell="), only=("profile", "play"))
-    near = [dw.run(spec('kind="cycloid"', "motion.law=", "motion.motion_to_dwell=", f'eccentricity="{e} mm"'), only=("profile",))
-            for e in (9.99, 10.01)]
+    near = [
+        dw.run(spec('kind="cycloid"', "motion.law=", "motion.motion_to_dwell=", f'eccentricity="{e} mm"'), only=("profile",))
+        for e in (9.99, 10.01)
+    ]
     area, low, high = found["profile.area"], near[0]["profile.area"], near[1]["profile.area"]
     assert low < area < high and area == pytest.approx(0.5 * (low + high), rel=2e-6)
     assert found["profile.min_radius"] == pytest.approx(0.102, rel=1e-9) and found["play.forward.maximum"] < 1e-6
 
 
-@pytest.mark.parametrize(("change", "words"), [
-    ('load.angle="45 deg"', "one input angle was asked for"),
-    ('hand="left"', "does not use hand"),
-    ('limits.life="100 h"', "load.speed is not given"),
-])
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ('load.angle="45 deg"', "one input angle was asked for"),
+        ('hand="left"', "does not use hand"),
+        ('limits.life="100 h"', "load.speed is not given"),
+    ],
+)
 def test_what_is_given_and_not_used_is_told(change, words):
     assert any(words in finding for finding in dw.build(spec(change)).findings)
 
@@ -184,29 +195,31 @@ def test_every_kind_tells_profile_motion_pressure_angle_and_stress(kind):
     assert "curvature" in [column.name for column in found.tables["profile"].columns]
 
 
-@pytest.mark.parametrize(("change", "words"), [
-    ('pins=2', "at least 3"),
-    ('motion.law="spline"', "points of its own"),
-    ('motion.motion_to_dwell=1e9', "1000"),
-
-    ('eccentricity="-1 mm"', "greater than 0"),
-    ('pin_radius="40 mm"', "overlap"),
-    ('cams=5', "at most 4"),
-    ('pins=9', "divide"),
-    ('motion.motion_to_dwell=0.0', "above 0"),
-    ('motion.motion_to_dwell=-1.0', "above 0"),
-    ('motion.law="uniform"', "no dwell"),
-    ('motion.law="constant-velocity"', "velocity jumps"),
-    ('motion.law="modified-sin"', "modified-sine"),
-    ('load.torque="0 N m"', "no stiffness"),
-    ('load.torque="1000 N m/rad"', "torque"),
-    ('eccentricity=', "needs it"),
-    ('eccentricity="115 mm"', "nothing is left"),
-    ('crank_bearings.bearing="NU207E"', "shaft_spacing"),
-    ('kind="cycloid"', "uniform"),
-    ('kind="globoidal"', "centre_distance"),
-    ('kind="wheel"', "pin-wheel"),
-])
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ("pins=2", "at least 3"),
+        ('motion.law="spline"', "points of its own"),
+        ("motion.motion_to_dwell=1e9", "1000"),
+        ('eccentricity="-1 mm"', "greater than 0"),
+        ('pin_radius="40 mm"', "overlap"),
+        ("cams=5", "at most 4"),
+        ("pins=9", "divide"),
+        ("motion.motion_to_dwell=0.0", "above 0"),
+        ("motion.motion_to_dwell=-1.0", "above 0"),
+        ('motion.law="uniform"', "no dwell"),
+        ('motion.law="constant-velocity"', "velocity jumps"),
+        ('motion.law="modified-sin"', "modified-sine"),
+        ('load.torque="0 N m"', "no stiffness"),
+        ('load.torque="1000 N m/rad"', "torque"),
+        ("eccentricity=", "needs it"),
+        ('eccentricity="115 mm"', "nothing is left"),
+        ('crank_bearings.bearing="NU207E"', "shaft_spacing"),
+        ('kind="cycloid"', "uniform"),
+        ('kind="globoidal"', "centre_distance"),
+        ('kind="wheel"', "pin-wheel"),
+    ],
+)
 def test_what_has_no_meaning_is_refused_in_one_line(change, words):
     with pytest.raises(DrivewrightError) as error:
         dw.build(spec(change))

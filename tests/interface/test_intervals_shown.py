@@ -84,8 +84,10 @@ def find_plot_columns(table):
 # -- checks --------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("low", "high", "sense", "undecided"), [
-    (9.0, 11.0, "<=", True), (9.0, 11.0, ">=", True), (7.0, 9.5, "<=", False), (10.5, 12.0, "<=", False), (10.0, 12.0, "<=", False)])
+@pytest.mark.parametrize(
+    ("low", "high", "sense", "undecided"),
+    [(9.0, 11.0, "<=", True), (9.0, 11.0, ">=", True), (7.0, 9.5, "<=", False), (10.5, 12.0, "<=", False), (10.0, 12.0, "<=", False)],
+)
 def test_a_check_is_undecided_where_its_limit_lies_within(low, high, sense, undecided):
     value = Value((low + high) / 2, "m", "length", low, high, "ensemble")
     check = Check.of(value, "long", 10.0, sense, "not too long", ("rod",))
@@ -160,8 +162,9 @@ def ends_of(result):
 
 def vertical(axis):
     """(low, high) of all upright strokes."""
-    return np.hstack([np.array([segment[:, 1] for segment in lines.get_segments()]).T for lines in axis.collections
-                      if hasattr(lines, "get_segments")])
+    return np.hstack(
+        [np.array([segment[:, 1] for segment in lines.get_segments()]).T for lines in axis.collections if hasattr(lines, "get_segments")]
+    )
 
 
 def test_a_line_has_a_band():
@@ -192,14 +195,14 @@ def test_lines_split_by_a_column_keep_their_own_ends():
     columns = (Column("x", "-", "x", x), Column("g", "-", "g", group), y, *y.bounds(y.data - 0.1, y.data + 0.3))
     result = run()
     result.tables["t"] = Table("t", "T", columns)
-    shown, = panels(result, Plot("t", "T", "t", "x", ("y",), by="g"))
+    (shown,) = panels(result, Plot("t", "T", "t", "x", ("y",), by="g"))
     assert [series.ends[0].tolist() for series in shown.series] == [pytest.approx([-0.1, 0.9, 1.9]), pytest.approx([2.9, 3.9, 4.9])]
     assert [series.ends[1].tolist() for series in shown.series] == [pytest.approx([0.3, 1.3, 2.3]), pytest.approx([3.3, 4.3, 5.3])]
-    cloud, = panels(result, Plot("t", "T", "t", "x", ("y",), style="points", by="g"))
+    (cloud,) = panels(result, Plot("t", "T", "t", "x", ("y",), style="points", by="g"))
     assert np.isnan(cloud.series[0].ends[0][3:]).all() and np.isfinite(cloud.series[0].ends[0][:3]).all()
 
 
 def test_the_whole_table_draws_ends_as_a_band_and_not_as_lines():
     result = run()
-    shown, = panels(result, find_plot(result, "course")._replace(y=find_plot_columns(result.tables["course"])))
+    (shown,) = panels(result, find_plot(result, "course")._replace(y=find_plot_columns(result.tables["course"])))
     assert [series.name for series in shown.series] == ["level"] and len(shown.series[0].ends) == 2

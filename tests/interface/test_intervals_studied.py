@@ -41,8 +41,10 @@ def spec(**keys):
 
 
 def sampled(count=200, method="random", **keys):
-    return sweep(spec(study={"samples": count, "method": method, "seed": 3, "vary": [_entry(key, what) for key, what in SAMPLE.items()]},
-                      **keys), on="serial")
+    return sweep(
+        spec(study={"samples": count, "method": method, "seed": 3, "vary": [_entry(key, what) for key, what in SAMPLE.items()]}, **keys),
+        on="serial",
+    )
 
 
 def _entry(key, what):
@@ -151,16 +153,21 @@ def test_a_study_of_an_earlier_version_opens(tmp_path):
 
 def offering(known):
     """A `batch` that knows some outputs, by running the closed form of the toy."""
+
     def batch(given, keys, names):
         if not set(names) <= known or keys != ("size",):
             return None
 
         def evaluate(designs):
-            rows = [looked_at(found.values, found.checks) for (size,) in designs
-                    for found in [chaos_toy.answer(given.model_copy(update={"size": size}), {})]]
+            rows = [
+                looked_at(found.values, found.checks)
+                for (size,) in designs
+                for found in [chaos_toy.answer(given.model_copy(update={"size": size}), {})]
+            ]
             return {name: np.array([row[name].value for row in rows]) for name in names}
 
         return evaluate
+
     return batch
 
 
@@ -212,7 +219,7 @@ def test_response_curves_have_bands():
     from drivewright.view.panels import panels
 
     plot = next(plot for plot in found.plots if plot.name == "curve.level")
-    panel, = panels(found.result, plot)
+    (panel,) = panels(found.result, plot)
     assert panel.series[0].ends[0] == pytest.approx(1e3 * low) and len(panel.series) == 1
     assert any(picture.name == "plot-curve.level" for picture in pictures(found.result, Views(plots=found.plots)))
     least = found.result.values["least.level"]
@@ -293,8 +300,13 @@ def test_yield_is_bounded_by_the_intervals():
 
 
 def search(limit, **keys):
-    table = {"unknowns": [{"key": "size", "lower": "9 mm", "upper": "13 mm"}], "objectives": [{"value": "area", "goal": "maximise"}],
-             "requirements": [{"value": "level", "at_most": limit}], "generations": 12, "population": 12}
+    table = {
+        "unknowns": [{"key": "size", "lower": "9 mm", "upper": "13 mm"}],
+        "objectives": [{"value": "area", "goal": "maximise"}],
+        "requirements": [{"value": "level", "at_most": limit}],
+        "generations": 12,
+        "population": 12,
+    }
     return spec(optimise=Optimise(**table), **keys)
 
 
@@ -313,8 +325,11 @@ def test_a_requirement_is_met_by_the_whole_interval():
 @pytest.mark.parametrize(("side", "end", "limit"), [("at_most", 1, 0.0117), ("at_least", 0, 0.0111)])
 def test_the_front_takes_what_meets_the_requirements_by_its_whole_interval(side, end, limit):
     goals = [{"value": "area", "goal": "minimise"}, {"value": "level", "goal": "maximise"}]
-    table = {"unknowns": [{"key": "size", "lower": "9 mm", "upper": "13 mm"}], "objectives": goals,
-             "requirements": [{"value": "level", side: f"{limit} m"}]}
+    table = {
+        "unknowns": [{"key": "size", "lower": "9 mm", "upper": "13 mm"}],
+        "objectives": goals,
+        "requirements": [{"value": "level", side: f"{limit} m"}],
+    }
     study = sweep(spec(optimise=Optimise(**table)), LEVELS, on="serial")
     pareto = answers(study).result.tables["pareto"]
     sign, rows = (1 if side == "at_most" else -1), pareto["case"].data.astype(int)
@@ -350,7 +365,14 @@ def test_the_worse_end_is_the_upper_one_of_at_most_and_the_lower_one_of_at_least
 
 def test_a_value_without_interval_is_its_own_end():
     with pytest.raises(SpecError, match="does not exist|unknown|nearest|value of the result"):
-        prepare(spec(optimise=Optimise(unknowns=[{"key": "size", "lower": "9 mm", "upper": "13 mm"}],
-                                       objectives=[{"value": "area", "goal": "minimise"}], requirements=[{"value": "none", "at_most": 1}])))
+        prepare(
+            spec(
+                optimise=Optimise(
+                    unknowns=[{"key": "size", "lower": "9 mm", "upper": "13 mm"}],
+                    objectives=[{"value": "area", "goal": "minimise"}],
+                    requirements=[{"value": "none", "at_most": 1}],
+                )
+            )
+        )
     assert "area.low" not in prepare(search("12 mm")).names
     assert uniform("1 mm", "2 mm")["distribution"] == "uniform"

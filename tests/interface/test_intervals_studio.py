@@ -76,10 +76,15 @@ def test_sensitivity_names_the_keys_whose_effect_is_no_larger_than_chance():
 
 
 def test_a_requirement_is_told_as_met_by_its_whole_interval():
-    table = {"unknowns": [{"key": "load", "lower": 0.999, "upper": 1.001}], "objectives": [{"value": "area", "goal": "minimise"}],
-             "requirements": [{"value": "level", "at_most": "12 mm"}], "generations": 2, "population": 8}
+    table = {
+        "unknowns": [{"key": "load", "lower": 0.999, "upper": 1.001}],
+        "objectives": [{"value": "area", "goal": "minimise"}],
+        "requirements": [{"value": "level", "at_most": "12 mm"}],
+        "generations": 2,
+        "population": 8,
+    }
     found = JOBS["optimise"](design(size="11.9 mm", optimise=table), nothing, on="serial")
-    requirement, = found["requirements"]
+    (requirement,) = found["requirements"]
     assert found["feasible"] is requirement["ok"] is False
     assert " to " in requirement["value"]
 
@@ -98,10 +103,16 @@ def in_node(body):
 
 
 def test_numbers_of_the_page_have_the_digits_of_their_interval():
-    cases = [(10.234, 8.09, 12.38, "10.2"), (8.09, 8.09, 12.38, "8.1"), (0.31, -50.0, 56.0, "0"), (10.0123456, 10.0, 10.02, "10.012"),
-             (12345.6, 12000.0, 12690.0, "12350")]
+    cases = [
+        (10.234, 8.09, 12.38, "10.2"),
+        (8.09, 8.09, 12.38, "8.1"),
+        (0.31, -50.0, 56.0, "0"),
+        (10.0123456, 10.0, 10.02, "10.012"),
+        (12345.6, 12000.0, 12690.0, "12350"),
+    ]
     assert in_node(f"{json.dumps([[v, [low, high]] for v, low, high, _ in cases])}.map(each => numbers.supported(...each))") == [
-        told for *_, told in cases]
+        told for *_, told in cases
+    ]
 
 
 def test_a_result_reads_with_its_interval_and_its_hint():

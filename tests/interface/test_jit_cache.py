@@ -31,7 +31,7 @@ def work(law, n):
         total += force(law, -1.0)
     return total
 '''
-THEIRS = '''
+THEIRS = """
 from typing import NamedTuple
 from drivewright._jit import implements
 from kernels_of_ours import force
@@ -43,14 +43,14 @@ class Theirs(NamedTuple):
 @implements(force, Theirs)
 def _(law, gap):
     return -factor(law.k) * gap
-'''
-HELPER = '''
+"""
+HELPER = """
 from drivewright._jit import kernel
 
 @kernel
 def factor(k):
     return {factor} * k
-'''
+"""
 START = "import platformdirs, pathlib; platformdirs.user_cache_path = lambda *a, **k: pathlib.Path({cache!r})\n"
 REPORT = "print({call}, sum(work.stats.cache_hits.values()), sum(work.stats.cache_misses.values()))"
 
@@ -90,8 +90,10 @@ def test_an_edit_in_another_file_gives_the_new_number(python):
 
 
 def test_a_law_of_a_script_is_compiled_and_not_filed(python):
-    script = ("from typing import NamedTuple\nfrom kernels_of_ours import *\nclass Own(NamedTuple):\n    k: float\n"
-              "@implements(force, Own)\ndef _(law, gap):\n    return law.k\n" + REPORT.format(call="work(Own(3.0), 2)"))
+    script = (
+        "from typing import NamedTuple\nfrom kernels_of_ours import *\nclass Own(NamedTuple):\n    k: float\n"
+        "@implements(force, Own)\ndef _(law, gap):\n    return law.k\n" + REPORT.format(call="work(Own(3.0), 2)")
+    )
     assert python(script) == "6.0 0 1"
     assert not list((python.folder / "cache").rglob("*.nbc"))
 
@@ -159,7 +161,7 @@ def test_warm_runs_each_warmer_and_reports_it(monkeypatch):
     def compiles_something():
         calls.append(1)
 
-    (name, seconds), = _jit.warm()
+    ((name, seconds),) = _jit.warm()
     assert calls == [1] and name.endswith(".compiles_something") and seconds >= 0
 
 

@@ -117,6 +117,7 @@ def test_an_unknown_type_is_named_with_the_known_ones():
 
 def test_inside_a_kernel_too():
     from numba.core.errors import TypingError
+
     with pytest.raises(TypingError, match="area: no formula for a float64; it has one for: Disc, Framed"):
         sum_of_areas(3.0, SCALES)
 

@@ -70,10 +70,11 @@ def test_the_contract_s_words_mean_what_they_say():
     assert found.gravity == (0.0, -9.81) and (crank.mass, crank.inertia, crank.angle) == (1.0, 0.0, 0.0)
     assert coupler.inertia == pytest.approx(2316e-6, rel=1e-15) and coupler.centroid == (0.079, 0.0)
     assert knife.inertia == pytest.approx(0.4487 - 6.883 * 0.243**2, rel=1e-12)
-    assert joint(spec, "A") == model.Revolute("A", model.Marker("crank", 0.066, 0.0), model.Marker("coupler", 0.0, 0.0),
-                                              model.MasslessLink(2e-4, 1e-4, 0.2))
+    assert joint(spec, "A") == model.Revolute(
+        "A", model.Marker("crank", 0.066, 0.0), model.Marker("coupler", 0.0, 0.0), model.MasslessLink(2e-4, 1e-4, 0.2)
+    )
     assert [f.damping for f in found.forces] == [0.1, 0.1] and {f.first for f in found.forces} == {"coupler", "knife"}
-    drive, = found.drives
+    (drive,) = found.drives
     assert drive.joint == "O2" and value(drive.motion, 0.25) == pytest.approx(4 * math.pi, rel=1e-14)
     assert driven_bodies(spec) == ("crank", "ground")
     assert spec.duration == pytest.approx(2.0, rel=1e-14) and spec.start_of_window == pytest.approx(5 / 8, rel=1e-14)
@@ -111,8 +112,9 @@ def test_the_benchmark_s_contact():
     assert dry(("poisson", 0.0)).stiffness == pytest.approx(0.91 * found.stiffness, rel=1e-14)
 
 
-@pytest.mark.parametrize(("law", "hysteresis"), [
-    ("flores-2011", 8 * 0.4 / 3.0), ("lankarani-nikravesh", 0.75 * 0.64), ("hunt-crossley", 0.6), ("elastic", 0.0)])
+@pytest.mark.parametrize(
+    ("law", "hysteresis"), [("flores-2011", 8 * 0.4 / 3.0), ("lankarani-nikravesh", 0.75 * 0.64), ("hunt-crossley", 0.6), ("elastic", 0.0)]
+)
 def test_the_normal_law_sets_the_loss(law, hysteresis):
     assert dry(("normal", law), ("restitution", 0.6)).hysteresis == pytest.approx(hysteresis, rel=1e-12)
 
@@ -143,8 +145,14 @@ def test_friction_says_its_law():
     assert dry(("friction", 0.1)).friction == model.Friction("coulomb", 0.1, 0.01)
     ramp = dry(("friction", 0.1), ("friction_law", "ambrosio"), ("friction_speed", "20 mm/s"), ("friction_dead_speed", "3 mm/s")).friction
     assert ramp == model.Friction("ambrosio", 0.1, 0.02, 0.003)
-    bristles = dry(("friction", 0.1), ("friction_law", "lugre"), ("static_friction", 0.2), ("bristle_deflection", "20 um"),
-                   ("bristle_damping", "3 s/m"), ("viscous_friction", "4 s/m")).friction
+    bristles = dry(
+        ("friction", 0.1),
+        ("friction_law", "lugre"),
+        ("static_friction", 0.2),
+        ("bristle_deflection", "20 um"),
+        ("bristle_damping", "3 s/m"),
+        ("viscous_friction", "4 s/m"),
+    ).friction
     assert bristles.static_coefficient == 0.2 and bristles.bristle_stiffness == pytest.approx(5e4, rel=1e-14)
     assert (bristles.bristle_damping, bristles.viscous) == (3.0, 4.0)
     assert dry(("friction", 0.1), ("friction_law", "lugre")).friction.static_coefficient == 0.1
@@ -153,8 +161,9 @@ def test_friction_says_its_law():
 def test_oil_and_rubber():
     oil = dry(("model", "lubricated"), ("viscosity", "0.4 Pa s"), ("film", "short"), ("roughness", "2 um"))
     assert oil == model.Lubricated(dry(), 0.4, "short", pytest.approx(2e-6, rel=1e-15))
-    rubber = dry(("model", "bushing"), ("stiffness", "2 kN/mm"), ("rotational_damping", "3 N m s/rad"),
-                 ("rotational_stiffness", "4 N m/rad"))
+    rubber = dry(
+        ("model", "bushing"), ("stiffness", "2 kN/mm"), ("rotational_damping", "3 N m s/rad"), ("rotational_stiffness", "4 N m/rad")
+    )
     assert rubber == model.Bushing(2e6, 0.0, 4.0, 3.0)
 
 
@@ -170,14 +179,23 @@ def test_the_guide_and_the_other_joints(tmp_path):
     assert joint(slot, "guide") == model.PinSlot("guide", model.Marker("slider"), model.Marker("ground"), (1.0, 0.0))
     wheel = [("joints.guide.kind", "rolling"), ("joints.guide.radius", "30 mm"), ("joints.guide.track_radius", "-70 mm")]
     assert joint(linkage("slider_crank_clearance", *wheel), "guide").track_radius == -0.07
-    gear = [("joints.guide.kind", "gear"), ("joints.guide.connects", ["crank", "slider"]), ("joints.guide.ratio", -2),
-            ("joints.guide.carrier", "rod")]
+    gear = [
+        ("joints.guide.kind", "gear"),
+        ("joints.guide.connects", ["crank", "slider"]),
+        ("joints.guide.ratio", -2),
+        ("joints.guide.carrier", "rod"),
+    ]
     assert joint(linkage("slider_crank_clearance", *gear), "guide") == model.Gear("guide", "crank", "slider", -2.0, "rod")
     angles = np.arange(0, 361, 20)
     rows = "".join(f"{a},{10 * (1 - math.cos(math.radians(a))):.15g}\n" for a in angles)
     (tmp_path / "lift.csv").write_text("angle [deg],lift [mm]\n" + rows)
-    cam = [("joints.guide.kind", "cam"), ("joints.guide.connects", ["crank", "slider.B"]), ("joints.guide.lift", "lift.csv"),
-           ("joints.guide.axis", [0, 2]), ("joints.guide.carrier", "rod.B")]
+    cam = [
+        ("joints.guide.kind", "cam"),
+        ("joints.guide.connects", ["crank", "slider.B"]),
+        ("joints.guide.lift", "lift.csv"),
+        ("joints.guide.axis", [0, 2]),
+        ("joints.guide.carrier", "rod.B"),
+    ]
     pair = joint(linkage("slider_crank_clearance", *cam, folder=tmp_path), "guide")
     assert (pair.cam, pair.follower, pair.carrier) == ("crank", model.Marker("slider"), "rod")
     assert (pair.origin, pair.axis) == ((0.12, 0.0), (0.0, 1.0))
@@ -193,8 +211,10 @@ def test_the_guide_and_the_other_joints(tmp_path):
 def test_springs_torques_and_forces(tmp_path):
     (tmp_path / "cut.csv").write_text("angle [deg],factor\n0,1\n90,3\n360,1\n")
     (tmp_path / "load.csv").write_text("time [ms],torque [N mm]\n0,1000\n20,3000\n")
-    more = [("torques", [{"body": "rocker", "on": "coupler", "file": "load.csv"}, {"body": "crank", "torque": "2 N m"}]),
-            ("forces", [{"body": "coupler", "point": "C", "force": ["3 N", "-4 N"], "follows": True, "file": "cut.csv"}])]
+    more = [
+        ("torques", [{"body": "rocker", "on": "coupler", "file": "load.csv"}, {"body": "crank", "torque": "2 N m"}]),
+        ("forces", [{"body": "coupler", "point": "C", "force": ["3 N", "-4 N"], "follows": True, "file": "cut.csv"}]),
+    ]
     spring, timed, steady, cut = describe(linkage("four_bar", *more, folder=tmp_path)).forces
     assert spring == model.Spring("return", model.Marker("rocker", 0.045, 0.0), model.Marker("ground"), 500.0, 0.06, 1.0)
     assert (timed.name, timed.body, timed.on, timed.load.over) == ("torque 1", "rocker", "coupler", "time")
@@ -290,15 +310,23 @@ def test_the_legs_loops_close_over_the_turn_and_the_foot_is_flat_on_the_ground()
     f = corner(e, length(spec, "shin_rod", "E", "F"), y, length(spec, "foot", "Y", "F"), -1)
     tip = y + complex(*spec.bodies["foot"].points["tip"]) * (f - y) / abs(f - y)
     assert np.all(np.isfinite(tip))
-    starts = {"upper_rod": x - pin, "lower_rod": y - pin, "upper_frame": x - pivot, "lower_rocker": y - pivot, "shin_rod": f - e,
-              "foot": f - y}
+    starts = {
+        "upper_rod": x - pin,
+        "lower_rod": y - pin,
+        "upper_frame": x - pivot,
+        "lower_rocker": y - pivot,
+        "shin_rod": f - e,
+        "foot": f - y,
+    }
     for body, direction in starts.items():
         assert spec.bodies[body].angle == pytest.approx(np.angle(direction[0]), abs=math.radians(1.0)), body
     down = tip.imag < tip.imag.min() + 1e-3
     assert np.mean(down) == pytest.approx(0.43, abs=0.01) and np.ptp(tip.real[down]) == pytest.approx(0.0572, abs=1e-4)
     assert np.ptp(tip.real) == pytest.approx(0.0679, abs=1e-4) and np.ptp(tip.imag) > 0.02
-    sides = {"upper_frame": (("Q", "X", 41.5), ("Q", "E", 40.1), ("X", "E", 55.8)),
-             "foot": (("Y", "F", 36.7), ("F", "tip", 65.7), ("Y", "tip", 49.0))}
+    sides = {
+        "upper_frame": (("Q", "X", 41.5), ("Q", "E", 40.1), ("X", "E", 55.8)),
+        "foot": (("Y", "F", 36.7), ("F", "tip", 65.7), ("Y", "tip", 49.0)),
+    }
     for body, three in sides.items():
         for a, b, wanted in three:
             assert length(spec, body, a, b) == pytest.approx(wanted * 1e-3, rel=1e-8)

@@ -40,8 +40,9 @@ def test_without_the_plug_in_there_is_no_such_law():
 
 
 def test_a_hundred_thousand_points_take_less_than_a_frame():
-    programme = motion.Programme([motion.Segment(2.0, "modified-sine", 0.1), motion.Segment(1.0, "dwell"),
-                                  motion.Segment(2 * np.pi - 3, "polynomial-56789", -0.1)])
+    programme = motion.Programme(
+        [motion.Segment(2.0, "modified-sine", 0.1), motion.Segment(1.0, "dwell"), motion.Segment(2 * np.pi - 3, "polynomial-56789", -0.1)]
+    )
     theta, seconds = np.random.default_rng(3).uniform(0, 2 * np.pi, 100_000), []
     for _ in range(5):
         start = time.perf_counter()

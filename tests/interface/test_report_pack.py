@@ -50,7 +50,7 @@ def test_cycle_and_marks_in_the_unit_people_read():
 
 
 def test_a_cycle_of_uneven_steps_that_runs_backwards():
-    angle = -SCENE.cycle**2 / SCENE.cycle[-1] - 0.7
+    angle = -(SCENE.cycle**2) / SCENE.cycle[-1] - 0.7
     scene = replace(SCENE, cycle=angle, marks=((angle[0] - 1.0, "on"),))
     packed = pack_scene(scene)
     assert array(packed["u"]) == pytest.approx((SCENE.cycle / SCENE.cycle[-1]) ** 2, abs=1e-6)
@@ -92,8 +92,13 @@ def test_plots_over_the_cycle_are_linked_and_others_are_not():
 
 def shifted(start, span=2 * np.pi, rows=100):
     x = start + np.linspace(0, span, rows)
-    return replace(RESULT, tables={**RESULT.tables, "forces": Table("forces", "Forces", (
-        Column("angle", "rad", "crank angle", x), Column("force", "N", "force", np.cos(x))))})
+    return replace(
+        RESULT,
+        tables={
+            **RESULT.tables,
+            "forces": Table("forces", "Forces", (Column("angle", "rad", "crank angle", x), Column("force", "N", "force", np.cos(x)))),
+        },
+    )
 
 
 def test_a_table_of_its_own_over_the_same_angle_is_linked_wherever_it_starts():
@@ -142,11 +147,11 @@ def test_what_is_drawn_larger_tells_where_it_would_rest():
     body = SCENE.bodies[1]
     rest = body.poses * (1.0, 0.0, 1.0)
     free = pack_scene(replace(SCENE, bodies=(replace(body, rest=rest, magnified=40.0),), traces=()))
-    sent, = free["bodies"]
+    (sent,) = free["bodies"]
     assert sent["magnified"] == 40.0 and "most" not in sent
     assert array(free["motions"][sent["rest"]], 3)[:, :2] == pytest.approx(rest[:, :2], abs=1e-7)
     assert array(free["motions"][sent["rest"]], 3)[:, 2] == pytest.approx(array(free["motions"][sent["motion"]], 3)[:, 2], abs=1e-7)
-    held, = pack_scene(replace(SCENE, bodies=(replace(body, rest=rest, most=1.0),), traces=()))["bodies"]
+    (held,) = pack_scene(replace(SCENE, bodies=(replace(body, rest=rest, most=1.0),), traces=()))["bodies"]
     assert held["most"] == 1.0
     plain = pack_scene(SCENE)["bodies"][1]
     assert not {"rest", "most", "magnified"} & set(plain)
@@ -156,7 +161,10 @@ def test_what_is_drawn_larger_tells_where_it_would_rest():
 def test_groups_hold_the_same_panels_plot_by_plot():
     groups, flat = pack_plot_groups(RESULT, SCENE, PLOTS), pack_plots(RESULT, SCENE, PLOTS)
     assert [(plot["name"], plot["title"], len(plot["panels"])) for plot in groups["plots"]] == [
-        ("rocker", "Rocker angle", 1), ("speed", "Rocker speed and acceleration", 2), ("transmission", "Angles at the rocker pin", 1),
-        ("radius", "Radius of curvature", 1)]
+        ("rocker", "Rocker angle", 1),
+        ("speed", "Rocker speed and acceleration", 2),
+        ("transmission", "Angles at the rocker pin", 1),
+        ("radius", "Radius of curvature", 1),
+    ]
     assert json.dumps([panel for plot in groups["plots"] for panel in plot["panels"]]) == json.dumps(flat["panels"])
     assert groups["cycle"] == flat["cycle"] and pack_plot_groups(RESULT, replace(SCENE, table="nowhere"), PLOTS) is None

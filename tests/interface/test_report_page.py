@@ -48,11 +48,25 @@ def test_everything_is_on_the_page(tmp_path):
     result = four_bar_result()
     _, page = written(tmp_path, result)
     text = re.sub(r"\s+", " ", page.text.replace("\u00a0", " "))
-    for part in ("1 of 3 checks fails", "Angle swept by the rocker", "55.134", "512.3 MPa", "2.4669517247e-06 m", "limit ≥ 40°",
-                 "margin +4.994°", "margin −3.52", "The rocker is pushed at a good angle",
-                 "analysis 'forces' is left out: no [load] & no mass",
-                 "Norton, Design of Machinery (recalled)", "digest 5d41402abc4b", "flexibility", "1.5×10⁻⁸", "tables/motion.parquet",
-                 "python 3.11, numpy 2", "0.412"):
+    for part in (
+        "1 of 3 checks fails",
+        "Angle swept by the rocker",
+        "55.134",
+        "512.3 MPa",
+        "2.4669517247e-06 m",
+        "limit ≥ 40°",
+        "margin +4.994°",
+        "margin −3.52",
+        "The rocker is pushed at a good angle",
+        "analysis 'forces' is left out: no [load] & no mass",
+        "Norton, Design of Machinery (recalled)",
+        "digest 5d41402abc4b",
+        "flexibility",
+        "1.5×10⁻⁸",
+        "tables/motion.parquet",
+        "python 3.11, numpy 2",
+        "0.412",
+    ):
         assert part in text, part
     assert SPEC_TEXT.strip().split("\n")[-1] in page.text
 
@@ -114,10 +128,18 @@ def test_a_report_with_player_stays_under_a_megabyte(tmp_path):
     assert len(text.encode()) < 700_000
 
 
-@pytest.mark.parametrize(("passed", "outcome", "state", "words"), [
-    ([True, False, True], "complete", "bad", "1 of 3 checks fails"), ([False, False], "partial", "bad", "2 of 2 checks fail"),
-    ([True, True], "complete", "good", "all 2 checks pass"), ([True], "complete", "good", "1 check passes"),
-    ([True], "partial", "warn", "partial result"), ([], "complete", "warn", "no checks"), ([], "partial", "warn", "partial result")])
+@pytest.mark.parametrize(
+    ("passed", "outcome", "state", "words"),
+    [
+        ([True, False, True], "complete", "bad", "1 of 3 checks fails"),
+        ([False, False], "partial", "bad", "2 of 2 checks fail"),
+        ([True, True], "complete", "good", "all 2 checks pass"),
+        ([True], "complete", "good", "1 check passes"),
+        ([True], "partial", "warn", "partial result"),
+        ([], "complete", "warn", "no checks"),
+        ([], "partial", "warn", "partial result"),
+    ],
+)
 def test_verdicts(passed, outcome, state, words):
     assert verdict(passed, outcome) == {"state": state, "text": words}
 

@@ -11,7 +11,7 @@ from drivewright.errors import MissingExtra
 from drivewright.report.content import Picture, Views
 from drivewright.report.pdf import write_pdf
 
-NASTY = "#panic[x] *b* $x$ \\u{41} \" ` @ref <l> = heading // no comment"
+NASTY = '#panic[x] *b* $x$ \\u{41} " ` @ref <l> = heading // no comment'
 
 
 def test_without_typst_the_extra_is_named(tmp_path, monkeypatch):

@@ -31,16 +31,35 @@ NASTY = '</script><img src=x onerror=alert(1)> & "quoted", {{ 7*7 }} =1+1'
 
 
 def spec(**study):
-    return from_document({"mechanism": "silent-chain", "title": "A <b>chain</b>", "pitch": "9.525 mm", "links": 82, "teeth": [35, 37],
-                          "joint": {"kind": "round-pin", "rolling_radius": "1.2 mm"},
-                          "plate": {"flank_angle": "30 deg", "apothem": "2.6 mm"}, "study": study})
+    return from_document(
+        {
+            "mechanism": "silent-chain",
+            "title": "A <b>chain</b>",
+            "pitch": "9.525 mm",
+            "links": 82,
+            "teeth": [35, 37],
+            "joint": {"kind": "round-pin", "rolling_radius": "1.2 mm"},
+            "plate": {"flank_angle": "30 deg", "apothem": "2.6 mm"},
+            "study": study,
+        }
+    )
 
 
-GRID = {"vary": [{"key": "joint.rolling_radius", "values": ["0.6 mm", "1.2 mm", "2.4 mm"]},
-                 {"key": "drive.speed", "lower": "100 rpm", "upper": "10000 rpm", "steps": 9, "spacing": "logarithmic"}]}
-SAMPLE = {"samples": 40, "method": "random", "vary": [{"key": "joint.rolling_radius", "tolerance": "0.06 mm"},
-                                                     {"key": "plate.apothem", "lower": "2.5 mm", "upper": "2.7 mm"},
-                                                     {"key": "pitch", "distribution": "triangular", "lower": "9.5 mm", "upper": "9.56 mm"}]}
+GRID = {
+    "vary": [
+        {"key": "joint.rolling_radius", "values": ["0.6 mm", "1.2 mm", "2.4 mm"]},
+        {"key": "drive.speed", "lower": "100 rpm", "upper": "10000 rpm", "steps": 9, "spacing": "logarithmic"},
+    ]
+}
+SAMPLE = {
+    "samples": 40,
+    "method": "random",
+    "vary": [
+        {"key": "joint.rolling_radius", "tolerance": "0.06 mm"},
+        {"key": "plate.apothem", "lower": "2.5 mm", "upper": "2.7 mm"},
+        {"key": "pitch", "distribution": "triangular", "lower": "9.5 mm", "upper": "9.56 mm"},
+    ],
+}
 
 
 def study_of(given, folder=None, failing=0):
@@ -52,11 +71,17 @@ def study_of(given, folder=None, failing=0):
     message = np.array([""] * n, dtype=object)
     status[:failing], message[:failing] = "failed", [f"{NASTY}: the teeth miss by {k / 7:.3f} mm" for k in range(failing)]
     play = np.where(np.arange(n) < failing, np.nan, radius**2 * 10 + 1e-6 * np.arange(n))
-    arrays = {"case": (np.arange(n), "-", "number of the case"), "status": (status, "", "s"), "message": (message, "", "m"),
-              **{key: (column, "m" if key != "drive.speed" else "rad/s", "varied") for key, column in columns.items()},
-              "play": (play, "m", "play of the joint"), "check.play": (1e-4 - play, "m", "margin")}
-    fields = [pa.field(name, pa.array(data).type, metadata={"unit": unit, "meaning": meaning})
-              for name, (data, unit, meaning) in arrays.items()]
+    arrays = {
+        "case": (np.arange(n), "-", "number of the case"),
+        "status": (status, "", "s"),
+        "message": (message, "", "m"),
+        **{key: (column, "m" if key != "drive.speed" else "rad/s", "varied") for key, column in columns.items()},
+        "play": (play, "m", "play of the joint"),
+        "check.play": (1e-4 - play, "m", "margin"),
+    }
+    fields = [
+        pa.field(name, pa.array(data).type, metadata={"unit": unit, "meaning": meaning}) for name, (data, unit, meaning) in arrays.items()
+    ]
     made = [pa.array(data, mask=np.isnan(data) if data.dtype.kind == "f" else None) for data, _, _ in arrays.values()]
     return Study(given, plan, pa.Table.from_arrays(made, schema=pa.schema(fields)), folder, 12.5)
 
@@ -73,9 +98,22 @@ def report(study, folder, found=None):
 def test_the_page_says_what_varied_what_became_of_it_and_how_to_do_it_again(tmp_path):
     study = study_of(spec(**GRID), failing=5)
     _, page, text = report(study, tmp_path)
-    for part in ("A <b>chain</b>", "joint.rolling_radius", "0.6 mm, 1.2 mm, 2.4 mm", "100 rpm … 10 000 rpm, 9 levels in equal ratios",
-                 "3 × 9 levels = 27 cases", "22 of 27 cases complete", "5 failed", "drivewright sweep study.toml",
-                 study.plan.digest[:12], study.spec.digest()[:12], "12.5 s", "numpy", "figures/plot-map.play.svg", "[[study.vary]]"):
+    for part in (
+        "A <b>chain</b>",
+        "joint.rolling_radius",
+        "0.6 mm, 1.2 mm, 2.4 mm",
+        "100 rpm … 10 000 rpm, 9 levels in equal ratios",
+        "3 × 9 levels = 27 cases",
+        "22 of 27 cases complete",
+        "5 failed",
+        "drivewright sweep study.toml",
+        study.plan.digest[:12],
+        study.spec.digest()[:12],
+        "12.5 s",
+        "numpy",
+        "figures/plot-map.play.svg",
+        "[[study.vary]]",
+    ):
         assert part in text, part
     assert f"{NASTY}: the teeth miss by 0.000 mm (and the like with other numbers)" in page.text
     assert not [a for tag, a in page.tags if "onerror" in a]
@@ -149,7 +187,10 @@ def test_reasons_that_differ_in_numbers_only_are_one_and_the_commonest_comes_fir
     place = study.table.column_names.index("message")
     table = study.table.set_column(place, study.table.schema.field(place), pa.array(messages + [""] * 22))
     assert [(row["count"], row["text"]) for row in reasons(replace(study, table=table))] == [
-        (3, "gap 1.5 mm at -3e-2 (and the like with other numbers)"), (1, "no oil"), (1, "no reason given")]
+        (3, "gap 1.5 mm at -3e-2 (and the like with other numbers)"),
+        (1, "no oil"),
+        (1, "no reason given"),
+    ]
 
 
 def test_what_varied_in_words():

@@ -167,8 +167,15 @@ def test_a_design_that_an_analysis_cannot_answer_keeps_the_other_answers(kind):
     assert "analysis 'a' (running) has no answer for this design: dynamics.duration: holds no two teeth" in result.findings
 
 
-FAULTS = (ValueError("odd"), FloatingPointError("overflow"), np.linalg.LinAlgError("Singular matrix"), KeyError("x"),
-          RecursionError("deep"), AssertionError(), UserWarning("rank"))
+FAULTS = (
+    ValueError("odd"),
+    FloatingPointError("overflow"),
+    np.linalg.LinAlgError("Singular matrix"),
+    KeyError("x"),
+    RecursionError("deep"),
+    AssertionError(),
+    UserWarning("rank"),
+)
 
 
 @pytest.mark.faults
@@ -178,8 +185,14 @@ def test_a_fault_of_ours_is_a_finding_that_says_what_to_report(kind, error, caps
     result = runner.run(SPEC)
     (finding,) = (f for f in result.findings if "balance" in f)
     assert result.outcome == "partial" and result["b"] == 1.0 and not capsys.readouterr().err
-    wanted = ("analysis 'a' (balance) failed by a fault of the program, not of the spec", type(error).__name__, "toy", SPEC.digest(),
-              runner.versions()["drivewright"], "--debug")
+    wanted = (
+        "analysis 'a' (balance) failed by a fault of the program, not of the spec",
+        type(error).__name__,
+        "toy",
+        SPEC.digest(),
+        runner.versions()["drivewright"],
+        "--debug",
+    )
     assert [part for part in wanted if part not in finding] == []
 
 
@@ -222,17 +235,21 @@ def test_a_fault_in_what_says_whether_it_can_be_done_is_the_analysis_own(kind):
 
 def test_checks_and_tables_with_numbers_that_do_not_exist_say_so(kind):
     def answer(model, done):
-        columns = [Column(name, "m", name, np.array(data)) for name, data in (
-            ("x", [0.0, 1.0, 2.0]), ("y", [math.nan, 1.0, math.inf]), ("z", [1.0, math.nan, 3.0]), ("n", [1, 2, 3]))]
+        columns = [
+            Column(name, "m", name, np.array(data))
+            for name, data in (("x", [0.0, 1.0, 2.0]), ("y", [math.nan, 1.0, math.inf]), ("z", [1.0, math.nan, 3.0]), ("n", [1, 2, 3]))
+        ]
         checks = Check("gap", math.nan, 1.0, "<=", "m", "the gap"), Check("size", 2.0, math.inf, ">=", "m", "the size")
         tables = Table("curve", "The curve", tuple(columns)), Table("whole", "A whole one", tuple(columns[:1]))
         return Answer(tables=tables, checks=checks)
 
     kind(Analysis("a", answer, ""))
     found = [finding for finding in runner.run(SPEC).findings if "exist" in finding]
-    assert found == ["check 'gap' (the gap) does not exist for this design: nan <= 1.0",
-                     "check 'size' (the size) does not exist for this design: 2.0 >= inf",
-                     "table 'curve' (The curve): y, z do not exist in 2 of 3 rows"]
+    assert found == [
+        "check 'gap' (the gap) does not exist for this design: nan <= 1.0",
+        "check 'size' (the size) does not exist for this design: 2.0 >= inf",
+        "table 'curve' (The curve): y, z do not exist in 2 of 3 rows",
+    ]
 
 
 # -- what stopped early --------------------------------------------------------------------------------------------------------
@@ -258,7 +275,12 @@ def test_whatever_looks_at_a_run_that_stopped_is_partial_and_says_until_when(kin
     )
     answers = runner.ask(SPEC, Model(), registry.mechanism("toy").analyses)
     assert {name: answer.outcome for name, answer in answers.items()} == {
-        "a": "partial", "b": "complete", "c": "partial", "d": "partial", "e": "complete"}
+        "a": "partial",
+        "b": "complete",
+        "c": "partial",
+        "d": "partial",
+        "e": "complete",
+    }
     result = runner.run(SPEC)
     assert result.outcome == "partial" and f"{STOP.where}: {STOP.why}. Partial for that reason: a, c, d" in result.findings
     assert result.values["c"].meaning == f"meaning of c ({STOP.where})" and result.values["b"].meaning == "meaning of b"

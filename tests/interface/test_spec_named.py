@@ -57,19 +57,22 @@ def test_names_are_keys_all_the_way():
     assert spec.sizes == {"größe": 0.005, "new": 0.0254} and spec.spare == {}
 
 
-@pytest.mark.parametrize(("change", "key", "words"), [
-    ("parts.bein.mass=3 m", "parts.bein.mass", "wants a mass, got '3 m' (length)"),
-    ("parts.bein.mass=-3 kg", "parts.bein.mass", "must be at least 0 kg, got -3 kg"),
-    ("parts.bein.mas=3 kg", "parts.bein.mas", "unknown key (did you mean 'mass'?)"),
-    ("parts.biene.points={}", "parts.biene.mass", "is missing (mass)"),
-    ("parts.left-arm.points.B=[1]", "parts.left-arm.points.B.0", "a bare number"),
-    ("parts.left-arm.points.B.1=4 kg", "parts.left-arm.points.B.1", "wants a length"),
-    ("parts.left-arm.points=7", "parts.left-arm.points", "must be a table, got 7"),
-    ("parts=[]", "parts", "must be a table, got []"),
-    ("sizes.new=7", "sizes.new", "a bare number"),
-    ("sizes.two words=7 mm", 'sizes."two words"', "'two words' is no name here: letters, digits, _ and - only"),
-    ("parts.bein.called=a.b", "parts.bein.called", "'a.b' is no name here"),
-])
+@pytest.mark.parametrize(
+    ("change", "key", "words"),
+    [
+        ("parts.bein.mass=3 m", "parts.bein.mass", "wants a mass, got '3 m' (length)"),
+        ("parts.bein.mass=-3 kg", "parts.bein.mass", "must be at least 0 kg, got -3 kg"),
+        ("parts.bein.mas=3 kg", "parts.bein.mas", "unknown key (did you mean 'mass'?)"),
+        ("parts.biene.points={}", "parts.biene.mass", "is missing (mass)"),
+        ("parts.left-arm.points.B=[1]", "parts.left-arm.points.B.0", "a bare number"),
+        ("parts.left-arm.points.B.1=4 kg", "parts.left-arm.points.B.1", "wants a length"),
+        ("parts.left-arm.points=7", "parts.left-arm.points", "must be a table, got 7"),
+        ("parts=[]", "parts", "must be a table, got []"),
+        ("sizes.new=7", "sizes.new", "a bare number"),
+        ("sizes.two words=7 mm", 'sizes."two words"', "'two words' is no name here: letters, digits, _ and - only"),
+        ("parts.bein.called=a.b", "parts.bein.called", "'a.b' is no name here"),
+    ],
+)
 def test_a_wrong_key_below_a_name_is_named(change, key, words):
     with pytest.raises(SpecError) as caught:
         sack(change)
@@ -92,9 +95,18 @@ def test_a_complaint_of_a_rule_between_keys_brings_its_own_key():
     assert caught.value.key == "pairs.a.low"
 
 
-@pytest.mark.parametrize(("key", "found"), [
-    ("parts.anything.mass", "mass"), ("parts.a.points.B", "length"), ("parts.a.points.B.0", "length"), ("sizes.a", "length"),
-    ("parts.a.mas", False), ("parts.mass", None), ("sizes.a.b", False)])
+@pytest.mark.parametrize(
+    ("key", "found"),
+    [
+        ("parts.anything.mass", "mass"),
+        ("parts.a.points.B", "length"),
+        ("parts.a.points.B.0", "length"),
+        ("sizes.a", "length"),
+        ("parts.a.mas", False),
+        ("parts.mass", None),
+        ("sizes.a.b", False),
+    ],
+)
 def test_the_dimension_below_a_name(key, found):
     exists, dimension = dimension_at(Sack, key)
     assert exists == (found is not False) and (dimension.name if dimension else None) == (found or None)

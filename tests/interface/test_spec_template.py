@@ -101,7 +101,7 @@ def test_limits_units_defaults_and_choices_are_in_words(toy):
         "# points  [list of list of number; no default]",
         "# second table  [file; no default]",
         "# place  [list of 2 x length; no default]",
-        "# radial play  [length >= 0; default \"0.1 mm\"]",  # explained where the list begins, not again
+        '# radial play  [length >= 0; default "0.1 mm"]',  # explained where the list begins, not again
         "# lower bound, in the key's own unit  [number or quantity]",
     ):
         assert wanted in text, wanted

@@ -52,8 +52,13 @@ def test_rows_keep_the_order_of_the_cases_not_that_of_the_finish(workers):
 def test_our_own_errors_are_rows_with_the_reason_and_the_partial_value(workers):
     found = run(touchy, range(6), workers)
     assert found.rows == (
-        Outcome(0, 0), Outcome(1, None, "case 1 misses by 1 mm"), Outcome(2, 20, "case 2 gave up"),
-        Outcome(3, -3), Outcome(4, None, "case 4 misses by 4 mm"), Outcome(5, 50, "case 5 gave up"))
+        Outcome(0, 0),
+        Outcome(1, None, "case 1 misses by 1 mm"),
+        Outcome(2, 20, "case 2 gave up"),
+        Outcome(3, -3),
+        Outcome(4, None, "case 4 misses by 4 mm"),
+        Outcome(5, 50, "case 5 gave up"),
+    )
     assert [row.ok for row in found.rows] == [True, False, False] * 2
     assert [row.case for row in found.failed] == [1, 2, 4, 5]
 
@@ -173,6 +178,7 @@ def test_progress_can_stop_the_study(workers):
         def progress(done, total, what):
             if done == 2:
                 raise error
+
         return progress
 
     def task(case):

@@ -79,8 +79,10 @@ def _waited(condition, process, seconds=60):
 @pytest.fixture(scope="module")
 def servers(tmp_path_factory):
     offering = (sys.executable, "-c", OFFERING)
-    with started((tmp_path_factory.mktemp("here"), COMMAND),
-                 (tmp_path_factory.mktemp("elsewhere"), offering, "--host", "0.0.0.0", "--token", "open-sesame")) as both:
+    with started(
+        (tmp_path_factory.mktemp("here"), COMMAND),
+        (tmp_path_factory.mktemp("elsewhere"), offering, "--host", "0.0.0.0", "--token", "open-sesame"),
+    ) as both:
         yield both
 
 
@@ -119,10 +121,17 @@ def test_the_page_names_our_modules_only(here):
     assert not re.search(r"""(?:src|href)=["'](?:https?:)?//""", text)  # nothing from outside
 
 
-@pytest.mark.parametrize(("name", "kind", "source"), [
-    ("player.js", "text/javascript", "report/player.js"), ("plots.js", "text/javascript", "report/plots.js"),
-    ("main.js", "text/javascript", "studio/web/main.js"), ("player.css", "text/css", "report/player.css"),
-    ("studio.css", "text/css", "studio/web/studio.css"), ("mark.svg", "image/svg+xml", "studio/web/mark.svg")])
+@pytest.mark.parametrize(
+    ("name", "kind", "source"),
+    [
+        ("player.js", "text/javascript", "report/player.js"),
+        ("plots.js", "text/javascript", "report/plots.js"),
+        ("main.js", "text/javascript", "studio/web/main.js"),
+        ("player.css", "text/css", "report/player.css"),
+        ("studio.css", "text/css", "studio/web/studio.css"),
+        ("mark.svg", "image/svg+xml", "studio/web/mark.svg"),
+    ],
+)
 def test_modules_come_with_their_type_and_are_not_guessed_at(here, name, kind, source):
     status, headers, body = ask(here, f"/web/{name}")
     assert (status, headers.get_content_type(), headers["X-Content-Type-Options"]) == (200, kind, "nosniff")
@@ -130,10 +139,29 @@ def test_modules_come_with_their_type_and_are_not_guessed_at(here, name, kind, s
     assert body == (EXAMPLES.parent / "src" / "drivewright" / source).read_bytes()
 
 
-@pytest.mark.parametrize("path", [
-    "/web/", "/web/nothing.js", "/web/../app.py", "/web/%2e%2e/app.py", "/web/..%2fapp.py", "/web/..%5capp.py", "/web//etc/passwd",
-    "/web/%2fetc%2fpasswd", "/web/player.js%00.css", "/web/app.py", "/web/PLAYER.JS", "/download/", "/download/x", "/download/..%2fx",
-    "/docs", "/redoc", "/openapi.json", "/elsewhere"])
+@pytest.mark.parametrize(
+    "path",
+    [
+        "/web/",
+        "/web/nothing.js",
+        "/web/../app.py",
+        "/web/%2e%2e/app.py",
+        "/web/..%2fapp.py",
+        "/web/..%5capp.py",
+        "/web//etc/passwd",
+        "/web/%2fetc%2fpasswd",
+        "/web/player.js%00.css",
+        "/web/app.py",
+        "/web/PLAYER.JS",
+        "/download/",
+        "/download/x",
+        "/download/..%2fx",
+        "/docs",
+        "/redoc",
+        "/openapi.json",
+        "/elsewhere",
+    ],
+)
 def test_there_is_nothing_else(here, path):
     status, _, body = ask(here, path)
     assert status == 404 and b"The studio's server" not in body and b"root:" not in body
@@ -225,8 +253,10 @@ def refused(capsys, *options, spec=SPEC):
 def test_a_port_that_is_taken(here, capsys):
     code, said = refused(capsys, "--port", str(here.port))
     assert code == 2
-    assert (f"studio: 127.0.0.1, port {here.port}: cannot listen there (taken, or not allowed); "
-            "choose another --port, or --host of this machine") in re.sub(r"\s+", " ", said)
+    assert (
+        f"studio: 127.0.0.1, port {here.port}: cannot listen there (taken, or not allowed); "
+        "choose another --port, or --host of this machine"
+    ) in re.sub(r"\s+", " ", said)
 
 
 @pytest.mark.parametrize("options", [("--host", "192.0.2.1"), ("--port", "70000"), ("--port", "-1"), ("--host", "no.such.host.invalid")])

@@ -86,9 +86,14 @@ async def settled():
 
 def found(*names, value=1.0, unit="deg"):
     """A result of the page with one check, value and plot of each name."""
-    return {"checks": [{"name": name, "value": value} for name in names], "values": [{"name": name, "value": value} for name in names],
-            "headline": [], "verdict": {"state": "good", "text": "all pass"}, "fractions": dict.fromkeys(names, value),
-            "plots": {"cycle": {"unit": unit, "value": value}, "plots": [{"name": name, "value": value} for name in names]}}
+    return {
+        "checks": [{"name": name, "value": value} for name in names],
+        "values": [{"name": name, "value": value} for name in names],
+        "headline": [],
+        "verdict": {"state": "good", "text": "all pass"},
+        "fractions": dict.fromkeys(names, value),
+        "plots": {"cycle": {"unit": unit, "value": value}, "plots": [{"name": name, "value": value} for name in names]},
+    }
 
 
 @pytest.fixture
@@ -100,6 +105,7 @@ def bench(monkeypatch):
 
 def story(test):
     """A test that runs in a loop of its own."""
+
     def told(bench):
         async def tell():
             await test(bench)
@@ -254,8 +260,10 @@ async def test_analyses_tell_how_far_they_are_and_what_they_took(bench):
     bench.calls[1].heard((1, 2, "forces"))
     assert bench.said == [{"what": "work", "state": "analysing", "text": "forces", "done": 1, "total": 2}]
     await bench.calls[1].answer((found("motion", "forces"), {"motion": 0.001, "forces": 3.0}))
-    assert bench.said[1:] == [{"what": "result", "gen": 1, "full": True, "result": found("motion", "forces")},
-                              {"what": "work", "state": "idle", "text": ""}]
+    assert bench.said[1:] == [
+        {"what": "result", "gen": 1, "full": True, "result": found("motion", "forces")},
+        {"what": "work", "state": "idle", "text": ""},
+    ]
 
 
 def test_a_design_is_analysed_when_it_has_rested_only(bench, monkeypatch):
@@ -355,8 +363,10 @@ async def test_analyses_that_find_the_design_impossible_come_to_rest(bench):
     await bench.look(1)
     await bench.calls[0].answer(None)
     await bench.calls[1].fail(SpecError("no film", key="oil"))
-    assert bench.said[-2:] == [{"what": "impossible", "gen": 1, "key": "oil", "message": "in words: oil: no film"},
-                               {"what": "work", "state": "idle", "text": ""}]
+    assert bench.said[-2:] == [
+        {"what": "impossible", "gen": 1, "key": "oil", "message": "in words: oil: no film"},
+        {"what": "work", "state": "idle", "text": ""},
+    ]
 
 
 @pytest.mark.parametrize(("error", "text"), [(Lost("gone"), "in words: gone"), (Failed("Traceback\nValueError: x"), "ValueError: x")])
@@ -443,9 +453,13 @@ async def test_a_reference_is_drawn_and_analysed(bench):
     assert bench.said == [{"what": "reference", "title": "quick-return", "json": '{"scene": 1}', "result": found("motion")}]
 
 
-@pytest.mark.parametrize(("error", "message"), [
-    (DoesNotAssemble("open loop"), {"what": "refused", "key": "", "text": "", "message": "in words: open loop"}),
-    (Failed("Traceback\nKeyError: 1"), {"what": "work", "state": "lost", "text": "KeyError: 1"})])
+@pytest.mark.parametrize(
+    ("error", "message"),
+    [
+        (DoesNotAssemble("open loop"), {"what": "refused", "key": "", "text": "", "message": "in words: open loop"}),
+        (Failed("Traceback\nKeyError: 1"), {"what": "work", "state": "lost", "text": "KeyError: 1"}),
+    ],
+)
 def test_a_reference_that_is_none(bench, error, message):
     @story
     async def tell(bench):
@@ -487,8 +501,11 @@ async def test_a_job_tells_its_way_with_the_generation_it_was_asked_for(bench):
     call.heard((2, 3, "second", {"rows": 2}))
     await call.answer({"rows": 3})
     assert bench.told("job") == [
-        job("running", done=0, total=0, text="", answer=None), job("running", done=1, total=3, text="first"),
-        job("running", done=2, total=3, text="second", answer={"rows": 2}), job("done", text="", answer={"rows": 3})]
+        job("running", done=0, total=0, text="", answer=None),
+        job("running", done=1, total=3, text="first"),
+        job("running", done=2, total=3, text="second", answer={"rows": 2}),
+        job("done", text="", answer={"rows": 3}),
+    ]
 
 
 def test_in_its_process_a_job_is_called_by_its_name(monkeypatch):
@@ -503,9 +520,14 @@ def test_in_its_process_a_job_is_called_by_its_name(monkeypatch):
     assert news == [(1, 4, "", None), (2, 4, "half", {"rows": 1})]
 
 
-@pytest.mark.parametrize(("error", "text"), [
-    (SpecError("no such value", key="values.x"), "in words: values.x: no such value"), (Lost("gone"), "in words: gone"),
-    (Failed("Traceback\n  File\nKeyError: 'x'"), "KeyError: 'x'")])
+@pytest.mark.parametrize(
+    ("error", "text"),
+    [
+        (SpecError("no such value", key="values.x"), "in words: values.x: no such value"),
+        (Lost("gone"), "in words: gone"),
+        (Failed("Traceback\n  File\nKeyError: 'x'"), "KeyError: 'x'"),
+    ],
+)
 def test_a_job_that_fails_says_why(bench, error, text):
     @story
     async def tell(bench):
@@ -567,8 +589,10 @@ async def test_a_replaced_job_says_nothing_after_the_new_one_has_begun(bench):
 async def test_files_become_addresses(bench):
     call = await begun(bench, "export")
     await call.answer({"files": [{"name": "cam.dxf", "data": b"0"}, {"name": "cam.svg", "data": b"1"}], "remarks": ["x"]})
-    assert bench.said[-1]["answer"] == {"remarks": ["x"], "files": [{"name": "cam.dxf", "url": "/download/cam.dxf"},
-                                                                     {"name": "cam.svg", "url": "/download/cam.svg"}]}
+    assert bench.said[-1]["answer"] == {
+        "remarks": ["x"],
+        "files": [{"name": "cam.dxf", "url": "/download/cam.dxf"}, {"name": "cam.svg", "url": "/download/cam.svg"}],
+    }
     assert bench.offered == {"/download/cam.dxf": b"0", "/download/cam.svg": b"1"}
 
 

@@ -295,9 +295,15 @@ def test_a_locked_key_refuses_every_change(toy):
     for key in ("length", "joints.1.clearance", "spring.preload"):
         toy.lock(key, True)
     assert toy.locks == {"length", "joints.rocker.clearance", "spring.preload"}
-    for act, *arguments in ((toy.set, "length", "3 mm"), (toy.set, "length", "nonsense"), (toy.unset, "length"), (toy.take, "spring"),
-                            (toy.drop, "joints", 1), (toy.set, "joints.1.name", "other"),
-                            (toy.text, toy.design.toml().replace("40 mm", "4 mm"))):
+    for act, *arguments in (
+        (toy.set, "length", "3 mm"),
+        (toy.set, "length", "nonsense"),
+        (toy.unset, "length"),
+        (toy.take, "spring"),
+        (toy.drop, "joints", 1),
+        (toy.set, "joints.1.name", "other"),
+        (toy.text, toy.design.toml().replace("40 mm", "4 mm")),
+    ):
         assert "is locked" in refused(toy, act, *arguments).message
     assert refused(toy, toy.set, "length", "3").key == "length"
     toy.set("joints.1.at", "1, 2")
@@ -357,9 +363,12 @@ def test_another_kind_forgets_the_locks_and_can_be_undone():
 def test_edited_text(toy):
     toy.text(toy.design.toml().replace("turns = 4", "turns = 8"))
     assert at(toy, "turns") == 8
-    for text, key, words in (("length = 3 mm", None, "at line 1"), ("", "mechanism", "is missing"),
-                             (toy.design.toml().replace("turns = 8", "turns = 88"), "turns", "must be at most 9, got 88"),
-                             ('mechanism = "no such"', "mechanism", "no mechanism is called 'no such'")):
+    for text, key, words in (
+        ("length = 3 mm", None, "at line 1"),
+        ("", "mechanism", "is missing"),
+        (toy.design.toml().replace("turns = 8", "turns = 88"), "turns", "must be at most 9, got 88"),
+        ('mechanism = "no such"', "mechanism", "no mechanism is called 'no such'"),
+    ):
         error = refused(toy, toy.text, text)
         assert error.key == key and words in error.message
     toy.undo()
@@ -387,8 +396,12 @@ def test_any_walk_can_be_walked_back(name, seed):
         key = pick.choice(list(fields))
         lists = [group["key"] for group in form(document.design)["groups"] if group["role"] == "list"]
         some = pick.choice(lists)
-        acts = [(document.set, key, pick.choice(["7", "-1", "0.5", "nonsense", "true", "", fields[key]["text"], "3 mm", "1, 2"])),
-                (document.unset, key), (document.add, some), (document.drop, some, 0)]
+        acts = [
+            (document.set, key, pick.choice(["7", "-1", "0.5", "nonsense", "true", "", fields[key]["text"], "3 mm", "1, 2"])),
+            (document.unset, key),
+            (document.add, some),
+            (document.drop, some, 0),
+        ]
         act, *arguments = pick.choice(acts)
         frozen = deepcopy(document.design.tables)
         try:
@@ -435,9 +448,19 @@ def test_a_missing_file_names_no_folder(toy, tmp_path):
     assert str(tmp_path) in error.message and without_folder(error.message, tmp_path).startswith("there is no file 'missing.csv'")
 
 
-@pytest.mark.parametrize(("name", "taken", "found"), [
-    ("arm", {"arm"}, "arm2"), ("arm", {"arm", "arm2"}, "arm3"), ("arm2", set(), "arm3"), ("arm2", {"arm2", "arm3"}, "arm4"),
-    ("arm_1", {"arm_1"}, "arm_2"), ("arm_7", {"arm_8"}, "arm_9"), ("7", {"7"}, "8"), (None, set(), "a2")])
+@pytest.mark.parametrize(
+    ("name", "taken", "found"),
+    [
+        ("arm", {"arm"}, "arm2"),
+        ("arm", {"arm", "arm2"}, "arm3"),
+        ("arm2", set(), "arm3"),
+        ("arm2", {"arm2", "arm3"}, "arm4"),
+        ("arm_1", {"arm_1"}, "arm_2"),
+        ("arm_7", {"arm_8"}, "arm_9"),
+        ("7", {"7"}, "8"),
+        (None, set(), "a2"),
+    ],
+)
 def test_a_fresh_name(name, taken, found):
     assert fresh(name, taken) == found
 

@@ -1,6 +1,5 @@
 """Who may talk to the studio: hosts, origins, the token, counted bytes - for pages and websockets."""
 
-
 import loops
 import pytest
 

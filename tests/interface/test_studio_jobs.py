@@ -88,8 +88,9 @@ def test_sensitivity_is_that_of_direct_differences_and_of_the_formula():
     bars = {bar["key"]: bar for bar in separation["bars"]}
     keys = {*bars, *separation["still"]}
     assert {"drive.speed", "spring.preload", "manufacture.bore"} <= keys and not [key for key in keys if key.startswith("follower")]
-    speeds = [runner.run(cam.changed({"drive.speed": speed}).spec()).check("separation").margin
-              for speed in ("594 rpm", "600 rpm", "606 rpm")]
+    speeds = [
+        runner.run(cam.changed({"drive.speed": speed}).spec()).check("separation").margin for speed in ("594 rpm", "600 rpm", "606 rpm")
+    ]
     bar = bars["drive.speed"]
     assert np.allclose([bar["low"], separation["base"], bar["high"]], speeds, rtol=1e-9)
     assert bar["effect"] == pytest.approx((speeds[2] - speeds[0]) / 2, rel=1e-9) and bar["effect"] < 0
@@ -116,8 +117,14 @@ def test_sensitivity_stays_within_limits_and_says_what_cannot_change_alone():
     # The offset is 0: its step is 2 % of the largest length beside it, and counts as 2 per cent.
     offset = next(bar for bar in angle["bars"] if bar["key"] == "follower.offset")
     assert offset["step"] == "0.8\u00a0mm" and offset["effect"] == pytest.approx((offset["high"] - offset["low"]) / 2)
-    answer, _ = asked("sensitivity", cam, locks=(*CAM_KEPT, "follower.offset", "follower.prime_radius"), share=1.2, on="serial",
-                      targets=["check.undercut"])
+    answer, _ = asked(
+        "sensitivity",
+        cam,
+        locks=(*CAM_KEPT, "follower.offset", "follower.prime_radius"),
+        share=1.2,
+        on="serial",
+        targets=["check.undercut"],
+    )
     (roller,) = answer["targets"][0]["bars"]
     assert answer["failed"] == [] and roller["key"] == "follower.roller_radius"  # the radius must be positive: half of it down, 120 % up
     assert roller["effect"] == pytest.approx((roller["high"] - roller["low"]) / 170)
@@ -147,8 +154,9 @@ RADII = ("follower.prime_radius=38 mm:44 mm:4", "follower.roller_radius=8 mm,-1 
 def test_rows_of_a_study_are_those_of_a_sweep():
     cam = design("disc_cam")
     answer, told = asked("study", cam, vary=RADII, on="serial")
-    swept = dw.sweep(cam.spec(), {"follower.prime_radius": dw.linspace("38 mm", "44 mm", 4), "follower.roller_radius": ["8 mm", "-1 mm"]},
-                     on="serial")
+    swept = dw.sweep(
+        cam.spec(), {"follower.prime_radius": dw.linspace("38 mm", "44 mm", 4), "follower.roller_radius": ["8 mm", "-1 mm"]}, on="serial"
+    )
     names = [column["name"] for column in answer["columns"]]
     assert names[:2] == list(swept.plan.keys) and set(swept.check_names) == {name[6:] for name in names if name.startswith("check.")}
     assert [column["role"] for column in answer["columns"]][:2] == ["key", "key"]
@@ -218,11 +226,17 @@ def test_a_search_for_speed_ends_below_the_acceleration_allowed(monkeypatch):
     cam = design("disc_cam")
     lift, angle, allowed = 0.02, math.pi / 2, 140.0
     cam.tables["optimise"] = {
-        "seed": 1, "population": 8, "generations": 2, "settings": [{"key": "load.mass", "value": "0.5 kg"}],
-        "unknowns": [{"key": "drive.speed", "lower": "300 rpm", "upper": "700 rpm"},
-                     {"key": "spring.preload", "lower": "30 N", "upper": "60 N"}],
+        "seed": 1,
+        "population": 8,
+        "generations": 2,
+        "settings": [{"key": "load.mass", "value": "0.5 kg"}],
+        "unknowns": [
+            {"key": "drive.speed", "lower": "300 rpm", "upper": "700 rpm"},
+            {"key": "spring.preload", "lower": "30 N", "upper": "60 N"},
+        ],
         "objectives": [{"value": "max_velocity", "goal": "maximise"}, {"value": "max_jerk", "goal": "minimise"}],
-        "requirements": [{"value": "max_acceleration", "at_most": f"{allowed} m/s^2"}]}
+        "requirements": [{"value": "max_acceleration", "at_most": f"{allowed} m/s^2"}],
+    }
     kept, problems, prepare = Memory(), [], search.prepare
     monkeypatch.setattr(search, "Memory", lambda: kept)
     monkeypatch.setattr(search, "prepare", lambda spec: problems.append(prepare(spec)) or problems[0])
@@ -342,8 +356,9 @@ def test_figures_are_what_the_page_does_not_draw_itself(monkeypatch):
     assert linked and names == {name for name in every - linked if not name.startswith("scene-")} and "drawing-crank" in names
     known = registry.mechanism(bar.kind).analyses
     assert set(result.provenance["analyses"]) == {a.name for a in known if a.default} | {"rest"}
-    assert {each["name"]: each["missing"] for each in answer["requests"]} == \
-        {a.name: a.missing(bar.spec()) for a in known if not a.default and a.name != "rest"}
+    assert {each["name"]: each["missing"] for each in answer["requests"]} == {
+        a.name: a.missing(bar.spec()) for a in known if not a.default and a.name != "rest"
+    }
     assert "no [wear] table" in next(each["missing"] for each in answer["requests"] if each["name"] == "wear")
     assert told[-1][2] == "drawing" and told[-1][0] == told[-1][1] == len(result.provenance["analyses"])
 
@@ -389,8 +404,9 @@ def test_what_should_not_be_made_is_refused_in_words():
         asked("export", small, format="dwg")
 
 
-@pytest.mark.parametrize("title, name", [("../up \\ a: b?\n[x]", "up-a-b-x.toml"), ("", "cam.toml"), ("凸轮 1", "凸轮-1.toml"),
-                                         ("n" * 300, "n" * 80 + ".toml")])
+@pytest.mark.parametrize(
+    "title, name", [("../up \\ a: b?\n[x]", "up-a-b-x.toml"), ("", "cam.toml"), ("凸轮 1", "凸轮-1.toml"), ("n" * 300, "n" * 80 + ".toml")]
+)
 def test_a_saved_design_is_the_design_whatever_its_title(title, name):
     cam = design("disc_cam").changed({"title": title})
     found, data = one_file(asked("save", cam)[0])

@@ -71,16 +71,22 @@ def test_whole_numbers_texts_and_words_do_not_vary_by_per_cent():
 
 def test_a_label_has_the_names_of_elements_and_no_underscores():
     tables = {"wear_marks": [{"name": "B"}, {"name": ""}, {}], "speeds": ["1 rpm"]}
-    assert [label(tables, key) for key in ("wear_marks.0.end_gap", "wear_marks.1.a", "wear_marks.2", "wear_marks.7.a", "speeds.0")] == \
-        ["wear marks · B · end gap", "wear marks · 1 · a", "wear marks · 2", "wear marks · 7 · a", "speeds · 0"]
+    assert [label(tables, key) for key in ("wear_marks.0.end_gap", "wear_marks.1.a", "wear_marks.2", "wear_marks.7.a", "speeds.0")] == [
+        "wear marks · B · end gap",
+        "wear marks · 1 · a",
+        "wear marks · 2",
+        "wear marks · 7 · a",
+        "speeds · 0",
+    ]
 
 
 # -- search --------------------------------------------------------------------------------------------------------------------
 
 
 def problem(sign=-1.0, violation=(0.0,)):
-    return SimpleNamespace(objectives=[("gap", sign)], about={"gap": ("m", "smallest gap")},
-                           total_violation=lambda values: np.array(violation))
+    return SimpleNamespace(
+        objectives=[("gap", sign)], about={"gap": ("m", "smallest gap")}, total_violation=lambda values: np.array(violation)
+    )
 
 
 def test_the_course_of_a_search_has_every_improvement_and_the_end():
@@ -105,11 +111,15 @@ def test_what_a_search_wants_is_told_with_its_direction():
     assert search._objective(problem(1.0))["goal"] == "minimise"
 
 
-@pytest.mark.parametrize("front, feasible, left_out, said", [
-    (3, True, ["a.b"], "3 designs that no other beats, of 40. Locked and left as they are: a.b"),
-    (1, True, ["a", "b"], "the best of 40 designs. Locked and left as they are: a, b"),
-    (1, False, [], "no design of 40 meets every requirement; this one comes nearest"),
-    (2, False, [], "no design of 40 meets every requirement; this one comes nearest")])
+@pytest.mark.parametrize(
+    "front, feasible, left_out, said",
+    [
+        (3, True, ["a.b"], "3 designs that no other beats, of 40. Locked and left as they are: a.b"),
+        (1, True, ["a", "b"], "the best of 40 designs. Locked and left as they are: a, b"),
+        (1, False, [], "no design of 40 meets every requirement; this one comes nearest"),
+        (2, False, [], "no design of 40 meets every requirement; this one comes nearest"),
+    ],
+)
 def test_the_message_of_a_search(front, feasible, left_out, said):
     assert search._message(SimpleNamespace(front=[0] * front, feasible=feasible, evaluations=40), left_out) == said
 
@@ -166,7 +176,8 @@ def test_a_front_is_told_by_rows_and_with_its_directions():
     names = ("speed", "mass", CASE, "other")
     table = Columns({CASE: SimpleNamespace(data=[9, 3])}, columns=[SimpleNamespace(name=name) for name in names])
     assert studying._fronts(study, SimpleNamespace(tables={"front": table})) == [
-        {"name": "front", "objectives": [{"name": "speed", "goal": "maximise"}, {"name": "mass", "goal": "minimise"}], "rows": [2, 0]}]
+        {"name": "front", "objectives": [{"name": "speed", "goal": "maximise"}, {"name": "mass", "goal": "minimise"}], "rows": [2, 0]}
+    ]
     study.spec.optimise = None
     assert studying._fronts(study, SimpleNamespace(tables={"front": table}))[0]["objectives"][0]["goal"] == "minimise"
     assert studying._fronts(study, SimpleNamespace(tables={})) == []
@@ -182,8 +193,15 @@ def cases(count):
     status = np.where(np.arange(count) % 4 == 2, "failed", "complete")
     about = {"follower.offset": "m", f"{CHECK}wall": "m"}
     columns = {"follower.offset": offsets, f"{CHECK}wall": margins, CASE: 10 + np.arange(count), STATUS: status}
-    return cam, Columns(columns, spec=cam.changed({"study.values": []}).spec(), plan=plan, value_names=(), check_names=("wall",),
-                        unit=about.__getitem__, meaning=lambda name: "margin of: thin wall")
+    return cam, Columns(
+        columns,
+        spec=cam.changed({"study.values": []}).spec(),
+        plan=plan,
+        value_names=(),
+        check_names=("wall",),
+        unit=about.__getitem__,
+        meaning=lambda name: "margin of: thin wall",
+    )
 
 
 def test_rows_are_thinned_with_all_that_belongs_to_them():
@@ -193,8 +211,10 @@ def test_rows_are_thinned_with_all_that_belongs_to_them():
     assert rows["load"] == [{"follower.offset": f"{n} mm"} for n in (0, 4, 5, 8)]
     assert np.allclose(rows["rows"], [[0, 0], [4, 0], [5, -100], [8, 0]])
     assert rows["passes"] == [True, True, False, True] and studying._rows(cam, study, 9)["passes"][2:4] == [False, True]
-    assert rows["columns"] == [{"name": "follower.offset", "label": "follower · offset", "unit": "mm", "role": "key"},
-                               {"name": f"{CHECK}wall", "label": "Thin wall", "unit": "mm", "role": "check"}]
+    assert rows["columns"] == [
+        {"name": "follower.offset", "label": "follower · offset", "unit": "mm", "role": "key"},
+        {"name": f"{CHECK}wall", "label": "Thin wall", "unit": "mm", "role": "check"},
+    ]
 
 
 def test_the_even_part_has_both_ends_and_no_row_twice():

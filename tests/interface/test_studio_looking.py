@@ -27,11 +27,20 @@ CHAIN = (analysis("motion"), analysis("forces", "motion"), analysis("wear", "for
 SECONDS = {"motion": 0.004, "forces": 0.003, "wear": 0.008, "oil": 0.002}
 
 
-@pytest.mark.parametrize(("budget", "names"), [
-    (0.0, []), (0.0019, []), (0.002, ["oil"]),
-    (0.0059, ["oil"]), (0.0061, ["motion", "oil"]),  # forces is quicker than motion, but costs both
-    (0.0089, ["motion", "oil"]), (0.0091, ["motion", "forces", "oil"]),
-    (0.0169, ["motion", "forces", "oil"]), (0.0171, ["motion", "forces", "wear", "oil"])])
+@pytest.mark.parametrize(
+    ("budget", "names"),
+    [
+        (0.0, []),
+        (0.0019, []),
+        (0.002, ["oil"]),
+        (0.0059, ["oil"]),
+        (0.0061, ["motion", "oil"]),  # forces is quicker than motion, but costs both
+        (0.0089, ["motion", "oil"]),
+        (0.0091, ["motion", "forces", "oil"]),
+        (0.0169, ["motion", "forces", "oil"]),
+        (0.0171, ["motion", "forces", "wear", "oil"]),
+    ],
+)
 def test_the_quickest_go_first_each_with_what_it_needs(budget, names):
     assert affordable(CHAIN, SECONDS, budget) == names
 
@@ -61,9 +70,17 @@ def named(value, *names):
 
 
 def result(value, *names, unit="deg", **more):
-    return {"checks": named(value, *names), "values": named(value, *names), "headline": named(value, *names[:1]), "findings": [value],
-            "verdict": {"state": "good", "text": "all pass"}, "fractions": dict.fromkeys(names, value), "seconds": value,
-            "plots": {"cycle": {"unit": unit, "span": value}, "plots": named(value, *names)}, **more}
+    return {
+        "checks": named(value, *names),
+        "values": named(value, *names),
+        "headline": named(value, *names[:1]),
+        "findings": [value],
+        "verdict": {"state": "good", "text": "all pass"},
+        "fractions": dict.fromkeys(names, value),
+        "seconds": value,
+        "plots": {"cycle": {"unit": unit, "span": value}, "plots": named(value, *names)},
+        **more,
+    }
 
 
 def test_new_answers_replace_their_own_and_the_others_are_stale():
@@ -92,8 +109,10 @@ def test_bars_follow_the_checks_that_were_renewed():
     assert merged(result(1, "a", "b"), result(2, "b"))["fractions"] == {"a": 1, "b": 2}
 
 
-@pytest.mark.parametrize(("old", "new"), [(None, result(2, "a")["plots"]), (result(1, "a")["plots"], None),
-                                          (result(1, "a")["plots"], result(2, "a", unit="s")["plots"])])
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [(None, result(2, "a")["plots"]), (result(1, "a")["plots"], None), (result(1, "a")["plots"], result(2, "a", unit="s")["plots"])],
+)
 def test_plots_over_another_cycle_stay_until_all_are_there(old, new):
     assert merged(result(1, "a", plots=old), result(2, "a", plots=new))["plots"] is old
 
@@ -105,9 +124,20 @@ def check(name, value, limit, sense="<="):
     return Check(name, value, limit, sense, "mm", "says so")
 
 
-@pytest.mark.parametrize(("value", "limit", "sense", "part"), [
-    (3.0, 4.0, "<=", 0.25), (5.0, 4.0, "<=", -0.25), (5.0, 4.0, ">=", 0.25), (-3.0, -4.0, ">=", 0.25), (-5.0, -4.0, ">=", -0.25),
-    (1.0, 0.0, ">=", None), (float("inf"), 4.0, ">=", None), (1.0, 1e-9, ">=", None), (float("nan"), 4.0, ">=", None)])
+@pytest.mark.parametrize(
+    ("value", "limit", "sense", "part"),
+    [
+        (3.0, 4.0, "<=", 0.25),
+        (5.0, 4.0, "<=", -0.25),
+        (5.0, 4.0, ">=", 0.25),
+        (-3.0, -4.0, ">=", 0.25),
+        (-5.0, -4.0, ">=", -0.25),
+        (1.0, 0.0, ">=", None),
+        (float("inf"), 4.0, ">=", None),
+        (1.0, 1e-9, ">=", None),
+        (float("nan"), 4.0, ">=", None),
+    ],
+)
 def test_a_margin_as_a_part_of_its_limit(value, limit, sense, part):
     assert looking._fraction(check("x", value, limit, sense)) == (part if part is None else pytest.approx(part, rel=1e-12))
 
@@ -191,6 +221,7 @@ def test_a_design_that_is_none_says_so_before_anything_is_told(four_bar):
 @pytest.fixture
 def without_a_scene(four_bar, monkeypatch):
     """The mechanism, whose motion cannot be shown."""
+
     def scene(model):
         raise DoesNotAssemble("the loop stays open")
 
@@ -223,8 +254,14 @@ def test_findings_and_the_outcome_come_along(monkeypatch):
     checks = (check("near", 3.0, 4.0), check("zero", 1.0, 0.0, ">="))
     made = SimpleNamespace(checks=checks, findings=("beware",), outcome="partial", provenance={"seconds": 2.5})
     assert page_result(made, None, ["a"]) == {
-        "verdict": "good", "plots": None, "findings": ["beware"], "outcome": "partial", "seconds": 2.5, "analyses": ["a"],
-        "fractions": {"near": 0.25, "zero": None}}
+        "verdict": "good",
+        "plots": None,
+        "findings": ["beware"],
+        "outcome": "partial",
+        "seconds": 2.5,
+        "analyses": ["a"],
+        "fractions": {"near": 0.25, "zero": None},
+    }
 
 
 def test_warming_loads_every_kind_and_tells_nothing(monkeypatch):

@@ -144,7 +144,6 @@ def test_an_address_that_unfolds_without_end():
 # -- files ---------------------------------------------------------------------------------------------------------------------
 
 
-
 def sample_with_file(name):
     """The text of the example that names a data file, with another name in its place."""
     text = (EXAMPLES / "oscillating_cam.toml").read_text(encoding="utf-8")
@@ -171,8 +170,10 @@ def test_a_spec_opens_with_its_data_files(tab):
 @pytest.mark.parametrize("name", ["/etc/passwd", "/etc/no-such-file", "../../../../../etc/passwd", "lift.csv", str(EXAMPLES / "lift.csv")])
 def test_a_page_cannot_read_the_disk_nor_learn_what_is_on_it(tab, name):
     messages = set()
-    for what in ({"what": "open", "files": [{"name": "a.toml", "text": sample_with_file(name)}]},
-                 {"what": "text", "toml": sample_with_file(name)}):
+    for what in (
+        {"what": "open", "files": [{"name": "a.toml", "text": sample_with_file(name)}]},
+        {"what": "text", "toml": sample_with_file(name)},
+    ):
         (refused,) = tab.say(**what)
         assert refused["what"] == "refused"
         messages.add((refused["key"], refused["message"]))
@@ -242,14 +243,25 @@ def test_what_is_no_request_is_nothing(tab, message):
     assert tab.heard == [] and tab.toml == before
 
 
-@pytest.mark.parametrize("message", [
-    {"what": "set"}, {"what": "set", "key": None, "text": None}, {"what": "set", "key": "drive.speed", "text": "1 rpm", "more": 1},
-    {"what": "load", "changes": 3}, {"what": "open", "files": 3}, {"what": "drop", "list": "joints", "index": "x"},
-    {"what": "job", "name": "rm"}, {"what": "job", "name": "study", "options": {"folder": "/tmp/x"}},
-    {"what": "drop", "list": "joints", "index": 1e999},
-    {"what": "job", "name": "optimise", "options": {"on": "tcp://127.0.0.1:1"}}, {"what": "text", "toml": "[a" + ".a" * 3000 + "]"},
-    {"what": "open", "files": [{"name": "x" * 300 + "/../" + "y" * 400 + ".toml", "text": "format = 1"}]},
-    {"what": "put", "table": "x.y"}, {"what": "fresh", "kind": "../x"}])
+@pytest.mark.parametrize(
+    "message",
+    [
+        {"what": "set"},
+        {"what": "set", "key": None, "text": None},
+        {"what": "set", "key": "drive.speed", "text": "1 rpm", "more": 1},
+        {"what": "load", "changes": 3},
+        {"what": "open", "files": 3},
+        {"what": "drop", "list": "joints", "index": "x"},
+        {"what": "job", "name": "rm"},
+        {"what": "job", "name": "study", "options": {"folder": "/tmp/x"}},
+        {"what": "drop", "list": "joints", "index": 1e999},
+        {"what": "job", "name": "optimise", "options": {"on": "tcp://127.0.0.1:1"}},
+        {"what": "text", "toml": "[a" + ".a" * 3000 + "]"},
+        {"what": "open", "files": [{"name": "x" * 300 + "/../" + "y" * 400 + ".toml", "text": "format = 1"}]},
+        {"what": "put", "table": "x.y"},
+        {"what": "fresh", "kind": "../x"},
+    ],
+)
 def test_an_odd_request_is_answered_and_changes_nothing(tab, message):
     before = tab.toml
     (refused,) = tab.say(**message)

@@ -99,8 +99,11 @@ def untranslated(paths):
     left = []
     for (path, spec), (_, texts), found in zip(specs, asked, translated(asked), strict=True):
         own = {part for name in names(type(spec), spec) for part in re.findall("[A-Za-z]{2,}", name)}
-        left += [(path.name, english, text) for english, text in zip(texts, found, strict=True)
-                 if set(re.findall("[A-Za-z]{2,}", text)) - own - LATIN]
+        left += [
+            (path.name, english, text)
+            for english, text in zip(texts, found, strict=True)
+            if set(re.findall("[A-Za-z]{2,}", text)) - own - LATIN
+        ]
     return left
 
 
@@ -199,7 +202,8 @@ def test_texts_with_parts_that_vary():
         ("7 of 12", "第7个，共12个"),
         ("1,200.5 of 3", "第1,200.5个，共3个"),
     ]
-    found = in_node("""
+    found = in_node(
+        """
         const {state, asked} = data, t = createWords({state});
         const all = () => asked.map(text => t(...[text].flat()));
         const found = [all(), all()];
@@ -210,7 +214,9 @@ def test_texts_with_parts_that_vary():
         state.lang = "en";
         found.push([t("Undo"), t("* of *", 3, 10)]);
         console.log(JSON.stringify(found));
-    """, {"state": state, "asked": [text for text, _ in pairs]})
+    """,
+        {"state": state, "asked": [text for text, _ in pairs]},
+    )
     first = [text for _, text in pairs]
     assert found == [first, first, ["重来", "Crank"], ["撤销"], ["Undo", "3 of 10"]]
 

@@ -18,8 +18,24 @@ PATIENCE = 240  # seconds; a machine may be busy, and compiles the first time
 
 
 def command(folder, workers):
-    return [sys.executable, "-m", "drivewright", "sweep", str(EXAMPLE), "--only", "closure", "--set", "closure.strands=straight",
-            "--vary", f"joint.rolling_radius=1.0 mm:1.6 mm:{CASES}", "--out", str(folder), "--workers", str(workers), "--no-figures"]
+    return [
+        sys.executable,
+        "-m",
+        "drivewright",
+        "sweep",
+        str(EXAMPLE),
+        "--only",
+        "closure",
+        "--set",
+        "closure.strands=straight",
+        "--vary",
+        f"joint.rolling_radius=1.0 mm:1.6 mm:{CASES}",
+        "--out",
+        str(folder),
+        "--workers",
+        str(workers),
+        "--no-figures",
+    ]
 
 
 def acknowledged(folder, mode="ro"):

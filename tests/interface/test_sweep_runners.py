@@ -100,8 +100,9 @@ def test_nobody_at_an_address_is_told(monkeypatch):
         sweep(chain(), LEVELS, on="tcp://127.0.0.1:9")
 
 
-@pytest.mark.parametrize(("on", "words"), [("local:0", "number of workers from 1 up"), ("local:x", "number of workers"),
-                                           ("here", "is no place to compute")])
+@pytest.mark.parametrize(
+    ("on", "words"), [("local:0", "number of workers from 1 up"), ("local:x", "number of workers"), ("here", "is no place to compute")]
+)
 def test_a_place_that_is_none_is_refused(on, words):
     with pytest.raises(InputError, match=words):
         pools.pool(on=on)
@@ -171,8 +172,10 @@ def test_the_cases_of_a_batch_without_an_answer_are_rows():
 # -- handing out ---------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("ranges", "total", "left"), [
-    ([], 5, [(0, 5)]), ([(0, 5)], 5, []), ([(1, 2), (4, 1)], 7, [(0, 1), (3, 4), (5, 7)]), ([(0, 3)], 3, []), ([], 0, [])])
+@pytest.mark.parametrize(
+    ("ranges", "total", "left"),
+    [([], 5, [(0, 5)]), ([(0, 5)], 5, []), ([(1, 2), (4, 1)], 7, [(0, 1), (3, 4), (5, 7)]), ([(0, 3)], 3, []), ([], 0, [])],
+)
 def test_gaps_are_what_the_ranges_leave(ranges, total, left):
     assert gaps(ranges, total) == left
 

@@ -34,8 +34,10 @@ def test_validate_shows_a_source(capsys):
 def test_validate_knows_its_sources(capsys):
     code, out, err = run(capsys, "validate", "nobody")
     assert (code, out) == (2, "")
-    known = ("clearance-joints, elliptic-gears, folding-linkage, hyvo-paper, indexer-paper, modified-sine-help, motion-laws, "
-             "pusher-paper, shaft-paper")
+    known = (
+        "clearance-joints, elliptic-gears, folding-linkage, hyvo-paper, indexer-paper, modified-sine-help, motion-laws, "
+        "pusher-paper, shaft-paper"
+    )
     assert f"no validation source is called 'nobody'; known: {known}" in err
 
 

@@ -21,11 +21,16 @@ from drivewright.view.panels import drawable, panels
 RESULT, SCENE = four_bar_result(), four_bar_scene()
 MARKS = tuple((np.degrees(value), label) for value, label in SCENE.marks)
 FIGURES = {
-    **{plot.name: (lambda plot=plot: draw_panels(panels(RESULT, plot), MARKS if plot.x == "angle" else ()))
-       for plot in drawable(RESULT, PLOTS)},
-    "table": lambda: plot_table(RESULT, "motion"), "machine": lambda: draw_scene(SCENE, "machine", [0.3], [0, 0.25, 0.5]),
-    "field": lambda: draw_scene(SCENE, "field", [0.3], [0, 0.5]), "two": lambda: draw_scene(SCENE, None, [0.1, 0.6]),
-    "drawing": lambda: draw_drawing(eccentric_drawing()), "thumbnail": lambda: draw_thumbnail(SCENE),
+    **{
+        plot.name: (lambda plot=plot: draw_panels(panels(RESULT, plot), MARKS if plot.x == "angle" else ()))
+        for plot in drawable(RESULT, PLOTS)
+    },
+    "table": lambda: plot_table(RESULT, "motion"),
+    "machine": lambda: draw_scene(SCENE, "machine", [0.3], [0, 0.25, 0.5]),
+    "field": lambda: draw_scene(SCENE, "field", [0.3], [0, 0.5]),
+    "two": lambda: draw_scene(SCENE, None, [0.1, 0.6]),
+    "drawing": lambda: draw_drawing(eccentric_drawing()),
+    "thumbnail": lambda: draw_thumbnail(SCENE),
 }
 
 
@@ -141,11 +146,13 @@ def test_svg_is_well_formed_repeatable_and_free_of_the_readers_settings():
 
 
 def test_no_window_no_pyplot_and_no_matplotlib_before_a_figure_is_drawn():
-    code = ("import sys; sys.path.insert(0, sys.argv[1]); from sample_designs import *; import drivewright.view as v\n"
-            "from drivewright.report import folder\n"
-            "assert 'matplotlib' not in sys.modules, 'too early'\n"
-            "v.svg(v.plot_table(four_bar_result(), 'motion')); v.svg(v.draw_scene(four_bar_scene()))\n"
-            "assert 'matplotlib.pyplot' not in sys.modules")
+    code = (
+        "import sys; sys.path.insert(0, sys.argv[1]); from sample_designs import *; import drivewright.view as v\n"
+        "from drivewright.report import folder\n"
+        "assert 'matplotlib' not in sys.modules, 'too early'\n"
+        "v.svg(v.plot_table(four_bar_result(), 'motion')); v.svg(v.draw_scene(four_bar_scene()))\n"
+        "assert 'matplotlib.pyplot' not in sys.modules"
+    )
     environment = {**os.environ, "MPLBACKEND": "tkagg"}
     command = [sys.executable, "-c", code, os.path.dirname(__file__)]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=60)

@@ -16,8 +16,9 @@ from drivewright.view import draw_panels, svg
 from drivewright.view.meshes import facing, silhouette
 from drivewright.view.panels import panels
 
-PLOT = Plot("solid", "Deformed solid under 500 N", "solid", "z", ("y", "x", "size"), equal=True, style="mesh",
-            reference=("rest_z", "rest_y"))
+PLOT = Plot(
+    "solid", "Deformed solid under 500 N", "solid", "z", ("y", "x", "size"), equal=True, style="mesh", reference=("rest_z", "rest_y")
+)
 TAIL = ((0.03, 0.02, 0.02001, 0.0), (0.03, 0.02001, 0.02, 0.0)) * 2 + ((0.03, 0.02, 0.02, 0.0),)  # all but straight, in five rings
 RINGS = ((0.05, 0.03, 0.03, 0.0), *TAIL)
 
@@ -26,16 +27,28 @@ def surface(tolerance=2e-5, bend=0.3):
     """A stepped shaft along z that droops by bend z^2 [m], of which the hundredth is its displacement."""
     points, corners = facets.triangles(Part("s", (Turned((0.0, 0.0), 0.0, RINGS),)), tolerance)
     z, y, x = points[corners.ravel()].T
-    return Table("solid", "Solid", tuple(Column(name, "m", meaning, data) for name, meaning, data in (
-        ("z", "position along the shaft", z), ("y", "height", y - bend * z**2), ("x", "depth", -x),
-        ("size", "displacement, drawn 100 times as large", 0.01 * bend * z**2), ("rest_z", "position", z), ("rest_y", "height", y))))
+    return Table(
+        "solid",
+        "Solid",
+        tuple(
+            Column(name, "m", meaning, data)
+            for name, meaning, data in (
+                ("z", "position along the shaft", z),
+                ("y", "height", y - bend * z**2),
+                ("x", "depth", -x),
+                ("size", "displacement, drawn 100 times as large", 0.01 * bend * z**2),
+                ("rest_z", "position", z),
+                ("rest_y", "height", y),
+            )
+        ),
+    )
 
 
 RESULT = replace(four_bar_result(), tables={"solid": surface()})
 
 
 def test_the_panel_holds_up_depth_and_colour_in_their_units():
-    panel, = panels(RESULT, PLOT)
+    (panel,) = panels(RESULT, PLOT)
     up, depth, size, right_before, up_before = panel.series
     assert (panel.style, panel.equal, panel.x.unit, up.unit, size.unit) == ("mesh", True, "mm", "mm", "µm")
     assert panel.x.data.max() == pytest.approx(200) and size.data.max() == pytest.approx(0.01 * 0.3 * 0.2**2 * 1e6)
@@ -57,7 +70,7 @@ def test_the_figure_is_to_scale_labelled_and_small():
 
 
 def test_only_what_faces_the_viewer_is_painted_and_colours_follow_the_displacement():
-    drawn, = (c for c in draw_panels(panels(RESULT, PLOT)).axes[0].collections if isinstance(c, PolyCollection))
+    (drawn,) = (c for c in draw_panels(panels(RESULT, PLOT)).axes[0].collections if isinstance(c, PolyCollection))
     triangles = np.array([path.vertices[:3] for path in drawn.get_paths()])
     assert 0 < len(triangles) < len(RESULT.tables["solid"].columns[0].data) / 3 / 1.8
     green = drawn.get_facecolors()[:, 1]  # viridis: green rises with the value
@@ -86,16 +99,22 @@ def test_the_nearest_comes_last_and_the_back_is_left_out():
 
 def test_the_side_towards_the_viewer_is_at_low_x():
     # z to the right and y up: x points away from the viewer
-    square = Table("solid", "S", tuple(Column(name, "m", name, np.array(data, float)) for name, data in (
-        ("z", [0, 1, 0] * 2), ("y", [0, 0, 1] * 2), ("x", [5] * 3 + [-5] * 3), ("size", [1e-6] * 3 + [2e-6] * 3))))
+    square = Table(
+        "solid",
+        "S",
+        tuple(
+            Column(name, "m", name, np.array(data, float))
+            for name, data in (("z", [0, 1, 0] * 2), ("y", [0, 0, 1] * 2), ("x", [5] * 3 + [-5] * 3), ("size", [1e-6] * 3 + [2e-6] * 3))
+        ),
+    )
     figure = draw_panels(panels(replace(RESULT, tables={"solid": square}), PLOT._replace(reference=())))
-    drawn, = figure.axes[0].collections
+    (drawn,) = figure.axes[0].collections
     assert drawn.get_facecolors()[-1, 1] > drawn.get_facecolors()[0, 1]
 
 
 def test_silhouette_of_two_steps_has_their_corners():
     table = surface(bend=0.0)
-    ring, = silhouette(table["z"].data, table["y"].data)
+    (ring,) = silhouette(table["z"].data, table["y"].data)
     for corner in ((0, 0.015), (0.05, 0.015), (0.05, 0.01), (0.2, 0.01), (0.2, -0.01), (0.05, -0.01), (0.05, -0.015), (0, -0.015)):
         assert np.hypot(*(ring - corner).T).min() < 5e-5
     assert len(ring) <= 12

@@ -16,7 +16,7 @@ BY_NAME = {plot.name: plot for plot in PLOTS}
 
 
 def test_columns_of_one_unit_share_a_panel_in_display_units():
-    angles, = panels(RESULT, BY_NAME["transmission"])
+    (angles,) = panels(RESULT, BY_NAME["transmission"])
     assert [s.name for s in angles.series] == ["transmission", "coupler"]
     assert angles.label == "Angle [°]" and angles.x.unit == "°"
     assert angles.series[0].data == pytest.approx(np.degrees(RESULT.tables["motion"]["transmission"].data))
@@ -40,9 +40,16 @@ def test_many_columns_of_one_unit_are_split_so_that_every_line_has_its_colour():
 
 
 def test_equal_meanings_are_told_apart_by_their_names():
-    table = Table("load", "Load", (Column("t", "s", "time", np.arange(3.0)), Column("main.force", "N", "normal force", np.arange(3.0)),
-                                   Column("return.force", "N", "normal force", np.arange(3.0))))
-    panel, = panels(replace(RESULT, tables={"load": table}), Plot("load", "Load", "load", "t", ("main.force", "return.force")))
+    table = Table(
+        "load",
+        "Load",
+        (
+            Column("t", "s", "time", np.arange(3.0)),
+            Column("main.force", "N", "normal force", np.arange(3.0)),
+            Column("return.force", "N", "normal force", np.arange(3.0)),
+        ),
+    )
+    (panel,) = panels(replace(RESULT, tables={"load": table}), Plot("load", "Load", "load", "t", ("main.force", "return.force")))
     assert [s.label for s in panel.series] == ["Normal force · main", "Normal force · return"]
 
 
@@ -95,8 +102,15 @@ def test_stacked_bars_show_the_whole_stack(monkeypatch):
     from drivewright.result import Column, Plot, Result, Table
     from drivewright.view import figures, panels
 
-    table = Table("t", "T", (Column("part", "-", "entry", np.array(["a", "b"])), Column("one", "m", "one", np.array([2e-3, 3e-3])),
-                             Column("two", "m", "two", np.array([1e-3, -4e-3]))))
+    table = Table(
+        "t",
+        "T",
+        (
+            Column("part", "-", "entry", np.array(["a", "b"])),
+            Column("one", "m", "one", np.array([2e-3, 3e-3])),
+            Column("two", "m", "two", np.array([1e-3, -4e-3])),
+        ),
+    )
     plot = Plot("t", "T", "t", "part", ("one", "two"), style="bars")
     result = Result(None, "nothing", "t", "", {}, {"t": table}, (), (), {})
     (panel,) = panels.panels(result, plot)

@@ -112,7 +112,7 @@ def test_texts_and_whole_numbers_are_axes_of_a_map():
 
 
 def test_a_logarithmic_map_hatches_what_has_no_logarithm():
-    panel, = shown(long_table([1.0, 2], [0.1, 0.2], np.array([[1e3, 1e6], [0, -1]])), mapped(log=True))
+    (panel,) = shown(long_table([1.0, 2], [0.1, 0.2], np.array([[1e3, 1e6], [0, -1]])), mapped(log=True))
     assert (panel.low, panel.high) == (pytest.approx(1e-3), pytest.approx(1.0))
     assert grid(panel)[2].mask.tolist() == [[False, False], [True, True]]
     figure = draw_panels((panel,))
@@ -141,13 +141,19 @@ def test_bins_are_about_the_root_of_the_sample_or_fewer():
 
 def test_a_histogram_counts_marks_and_limits():
     samples = np.append(np.linspace(1e-3, 3e-3, 101), [NAN, NAN])
-    figure = drawn(table(s=("m", "play", samples)),
-                   Plot("h", "Play", "t", "s", ("s",), style="histogram", limits=((3.2e-3, "largest"), (9.0, "absurd"))))
-    axis, = figure.axes
+    figure = drawn(
+        table(s=("m", "play", samples)),
+        Plot("h", "Play", "t", "s", ("s",), style="histogram", limits=((3.2e-3, "largest"), (9.0, "absurd"))),
+    )
+    (axis,) = figure.axes
     assert sum(patch.get_height() for patch in axis.patches) == 101
     assert (axis.get_xlabel(), axis.get_ylabel()) == ("Play [mm]", "Cases")
-    assert labels(axis) == ["101 cases, 2 without a value", "Mean 2\u00a0mm, standard deviation 0.586\u00a0mm",
-                            "5 % … 95 %: 1.1 … 2.9\u00a0mm", "absurd 9000\u00a0mm: far above"]
+    assert labels(axis) == [
+        "101 cases, 2 without a value",
+        "Mean 2\u00a0mm, standard deviation 0.586\u00a0mm",
+        "5 % … 95 %: 1.1 … 2.9\u00a0mm",
+        "absurd 9000\u00a0mm: far above",
+    ]
     assert [line.get_xdata()[0] for line in axis.lines] == pytest.approx([2.0, 1.1, 2.9, 3.2])
     assert [text.get_text() for text in axis.texts] == ["largest 3.2\u00a0mm"] and axis.lines[-1].is_dashed()
 
@@ -160,14 +166,18 @@ def test_a_narrow_sample_is_told_with_the_figures_that_it_needs():
 
 LONG = "chain.stations.12.bearing.inner_ring.groove_curvature_radius.of_a_name_without_an_end"
 KEYS = np.array(["b", LONG, "none", "a"])
-EFFECTS = table(key=("", "key", KEYS), effect=("m", "effect", np.array([1.0, -3, NAN, 2]) * 1e-3),
-                low=("m", "low", np.array([0.5, -4, 0, 1.5]) * 1e-3), high=("m", "high", np.array([1.5, -1, 0, 2.5]) * 1e-3),
-                other=("m", "without the others", np.array([5.0, 1, 1, 1]) * 1e-3))
+EFFECTS = table(
+    key=("", "key", KEYS),
+    effect=("m", "effect", np.array([1.0, -3, NAN, 2]) * 1e-3),
+    low=("m", "low", np.array([0.5, -4, 0, 1.5]) * 1e-3),
+    high=("m", "high", np.array([1.5, -1, 0, 2.5]) * 1e-3),
+    other=("m", "without the others", np.array([5.0, 1, 1, 1]) * 1e-3),
+)
 RANKED = Plot("r", "R", "t", "key", ("effect",), style="ranked", reference=("low", "high"))
 
 
 def test_the_largest_magnitude_is_on_top_and_what_has_no_value_below():
-    axis, = drawn(EFFECTS, RANKED).axes
+    (axis,) = drawn(EFFECTS, RANKED).axes
     names = [text.get_text().replace("\n", "") for text in axis.get_yticklabels()]
     assert names == [LONG, "a", "b", "none"] and axis.yaxis_inverted()
     assert [bar.get_width() for bar in axis.patches] == pytest.approx([-3, 2, 1, 0])
@@ -177,7 +187,7 @@ def test_the_largest_magnitude_is_on_top_and_what_has_no_value_below():
 
 
 def test_error_bars_are_those_of_the_first_column_row_by_row():
-    axis, = drawn(EFFECTS, RANKED._replace(y=("effect", "other"))).axes
+    (axis,) = drawn(EFFECTS, RANKED._replace(y=("effect", "other"))).axes
     ends = np.array(axis.collections[0].get_segments())
     assert ends[:, :, 0] == pytest.approx(np.array([[-4, -1], [1.5, 2.5], [0.5, 1.5]]))
     first = axis.containers[0].patches
@@ -188,7 +198,7 @@ def test_error_bars_are_those_of_the_first_column_row_by_row():
 
 def test_very_many_rows_are_cut_and_counted():
     many = table(key=("", "key", np.array([f"k{n}" for n in range(50)])), effect=("-", "effect", np.arange(50.0)))
-    axis, = drawn(many, Plot("r", "R", "t", "key", ("effect",), style="ranked")).axes
+    (axis,) = drawn(many, Plot("r", "R", "t", "key", ("effect",), style="ranked")).axes
     assert len(axis.patches) == MOST_ROWS and axis.patches[0].get_width() == 49
     assert f"{50 - MOST_ROWS} smaller ones are not shown" in axis.get_xlabel()
 
@@ -204,9 +214,12 @@ def test_names_are_broken_behind_dots_and_none_is_lost():
 
 
 def test_no_point_is_lost_where_a_group_has_an_x_twice():
-    found = table(mass=("kg", "mass", np.array([1.0, 1, 1, 2])), play=("m", "play", np.array([1.0, 2, 3, 4]) * 1e-3),
-                  state=("", "state", np.array(["front", "dominated", "dominated", "fails"])))
-    panel, = shown(found, Plot("p", "P", "t", "mass", ("play",), style="points", by="state"))
+    found = table(
+        mass=("kg", "mass", np.array([1.0, 1, 1, 2])),
+        play=("m", "play", np.array([1.0, 2, 3, 4]) * 1e-3),
+        state=("", "state", np.array(["front", "dominated", "dominated", "fails"])),
+    )
+    (panel,) = shown(found, Plot("p", "P", "t", "mass", ("play",), style="points", by="state"))
     assert [(s.label, s.role, s.marker) for s in panel.series] == list(zip(("Front", "Dominated", "Fails"), SERIES, MARKERS, strict=False))
     assert [s.data[np.isfinite(s.data)].tolist() for s in panel.series] == [[1], [2, 3], [4]]
     axis = draw_panels((panel,)).axes[0]
@@ -217,11 +230,15 @@ def test_no_point_is_lost_where_a_group_has_an_x_twice():
 
 def test_groups_of_numbers_rise_and_very_many_groups_share_the_last():
     n = 200
-    found = table(x=("-", "teeth", np.arange(n)), y=("m", "play", np.ones(n)), a=("rad", "angle", np.radians(np.arange(n) % 3)[::-1]),
-                  t=("", "kind", np.array([f"kind {k % 25}" for k in range(n)], dtype=object)))
-    panel, = shown(found, Plot("p", "P", "t", "x", ("y",), style="points", by="a"))
+    found = table(
+        x=("-", "teeth", np.arange(n)),
+        y=("m", "play", np.ones(n)),
+        a=("rad", "angle", np.radians(np.arange(n) % 3)[::-1]),
+        t=("", "kind", np.array([f"kind {k % 25}" for k in range(n)], dtype=object)),
+    )
+    (panel,) = shown(found, Plot("p", "P", "t", "x", ("y",), style="points", by="a"))
     assert [s.label for s in panel.series] == ["A 0°", "A 1°", "A 2°"]
-    panel, = shown(found, Plot("p", "P", "t", "x", ("y",), style="points", by="t"))
+    (panel,) = shown(found, Plot("p", "P", "t", "x", ("y",), style="points", by="t"))
     assert [s.label for s in panel.series][-2:] == ["Kind 18", "6 more"] and len(panel.series) == MOST_GROUPS
     assert len({(s.role, s.marker) for s in panel.series}) == MOST_GROUPS
     assert sum(np.isfinite(s.data).sum() for s in panel.series) == n
@@ -242,15 +259,25 @@ def test_points_over_texts_share_their_places_and_whole_numbers_have_whole_ticks
 def full():
     rng = np.random.default_rng(2)
     x, y = np.linspace(0, 1e-3, 8), np.radians(np.linspace(0, 30, 6))
-    cloud = table(x=("kg", "mass", rng.random(60)), y=("m", "play", rng.random(60)), g=("", "g", np.array(["front", "fails", "more"] * 20)),
-                  k=("", "kind of $joint$", np.array([f"kind {n % 20} of joint" for n in range(60)])))
+    cloud = table(
+        x=("kg", "mass", rng.random(60)),
+        y=("m", "play", rng.random(60)),
+        g=("", "g", np.array(["front", "fails", "more"] * 20)),
+        k=("", "kind of $joint$", np.array([f"kind {n % 20} of joint" for n in range(60)])),
+    )
     hump = long_table(x, y, np.exp(np.sin(3e3 * x)[None] + y[:, None]) * 1e6)
-    return {"map": (hump, mapped(limits=((2e6, "allowed"),))), "table": (long_table(x[:3], y, rng.normal(size=(6, 3))), mapped()),
-            "histogram": (table(s=("m", "play", rng.normal(5, 1, 300))),
-                          Plot("h", "H", "t", "s", ("s",), ((8.0, "limit"),), style="histogram")),
-            "ranked": (EFFECTS, RANKED), "grouped": (EFFECTS, RANKED._replace(y=("effect", "other"))),
-            "points": (cloud, Plot("p", "P", "t", "x", ("y",), style="points", by="g")),
-            "texts": (cloud, Plot("p", "P", "t", "k", ("y",), style="points", by="g"))}
+    return {
+        "map": (hump, mapped(limits=((2e6, "allowed"),))),
+        "table": (long_table(x[:3], y, rng.normal(size=(6, 3))), mapped()),
+        "histogram": (
+            table(s=("m", "play", rng.normal(5, 1, 300))),
+            Plot("h", "H", "t", "s", ("s",), ((8.0, "limit"),), style="histogram"),
+        ),
+        "ranked": (EFFECTS, RANKED),
+        "grouped": (EFFECTS, RANKED._replace(y=("effect", "other"))),
+        "points": (cloud, Plot("p", "P", "t", "x", ("y",), style="points", by="g")),
+        "texts": (cloud, Plot("p", "P", "t", "k", ("y",), style="points", by="g")),
+    }
 
 
 @pytest.mark.parametrize("name", full())
@@ -269,19 +296,31 @@ def sparse():
     nothing, one, some, text = np.zeros(0), np.array([2.0]), np.arange(6.0), np.array(["a"])
     kinds = [np.array([form.format(n) for n in range(20)]) for form in ("name {} $", "{}$_x$")]
     for name, x, y, z in (
-            ("no row", nothing, nothing, nothing), ("one row", one, one, one), ("one nan", one, one, np.array([NAN])),
-            ("text", text, text, one), ("1 x n", some, np.full(6, 3.0), some),
-            ("constant", some, some, np.full(6, 0.3)), ("zero", some, some, np.zeros(6)),
-            ("all nan", some, some, np.full(6, NAN)), ("infinite", some[:3], some[:3], np.array([np.inf, -np.inf, 1.0])),
-            ("whole", np.arange(4), np.arange(4), np.arange(4)), ("yes and no", np.arange(2), np.arange(2), np.array([True, False])),
-            ("twenty", *kinds, np.arange(20.0))):
+        ("no row", nothing, nothing, nothing),
+        ("one row", one, one, one),
+        ("one nan", one, one, np.array([NAN])),
+        ("text", text, text, one),
+        ("1 x n", some, np.full(6, 3.0), some),
+        ("constant", some, some, np.full(6, 0.3)),
+        ("zero", some, some, np.zeros(6)),
+        ("all nan", some, some, np.full(6, NAN)),
+        ("infinite", some[:3], some[:3], np.array([np.inf, -np.inf, 1.0])),
+        ("whole", np.arange(4), np.arange(4), np.arange(4)),
+        ("yes and no", np.arange(2), np.arange(2), np.array([True, False])),
+        ("twenty", *kinds, np.arange(20.0)),
+    ):
         yield name, table(x=("m", "x", x), y=("m", "y", y), z=("m", "z", z), k=("", "k", np.asarray(x).astype(str)))
 
 
-STYLES = (mapped(), mapped(log=True), mapped(limits=((0.5, "limit"),)),
-          Plot("h", "H", "t", "z", ("z",), ((0.5, "limit"),), style="histogram"),
-          Plot("r", "R", "t", "k", ("z",), style="ranked"), Plot("r", "R", "t", "k", ("z", "z"), style="ranked", reference=("z", "z")),
-          Plot("p", "P", "t", "x", ("z",), style="points", by="k"))
+STYLES = (
+    mapped(),
+    mapped(log=True),
+    mapped(limits=((0.5, "limit"),)),
+    Plot("h", "H", "t", "z", ("z",), ((0.5, "limit"),), style="histogram"),
+    Plot("r", "R", "t", "k", ("z",), style="ranked"),
+    Plot("r", "R", "t", "k", ("z", "z"), style="ranked", reference=("z", "z")),
+    Plot("p", "P", "t", "x", ("z",), style="points", by="k"),
+)
 
 
 @pytest.mark.parametrize(("name", "found"), list(sparse()), ids=[name for name, _ in sparse()])

@@ -26,8 +26,12 @@ def exported(text):
 
 def test_every_import_is_of_something_served():
     served = modules()
-    wanted = {(name, source, each.strip()) for name, text in served.items()
-              for names, source in IMPORTS.findall(text) for each in names.split(",")}
+    wanted = {
+        (name, source, each.strip())
+        for name, text in served.items()
+        for names, source in IMPORTS.findall(text)
+        for each in names.split(",")
+    }
     assert len(wanted) > 60
     assert sorted((name, source, each) for name, source, each in wanted if each not in exported(served.get(source, ""))) == []
 

@@ -64,8 +64,9 @@ def table(motion, rows, digits=None, span=2 * np.pi):
 
 
 def rise_and_return(u):
-    programme = Programme([Segment(2.0, "cycloidal", 1.0), Segment(1.0, "dwell"), Segment(2.2, "polynomial-345", -1.0),
-                           Segment(2 * np.pi - 5.2, "dwell")])
+    programme = Programme(
+        [Segment(2.0, "cycloidal", 1.0), Segment(1.0, "dwell"), Segment(2.2, "polynomial-345", -1.0), Segment(2 * np.pi - 5.2, "dwell")]
+    )
     return programme(2 * np.pi * u).s
 
 

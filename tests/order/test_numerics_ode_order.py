@@ -12,6 +12,7 @@ from drivewright.numerics.ode import Functions, integrate
 
 def trees(order):
     """All rooted trees with `order` nodes, each the sorted tuple of the trees hanging from its root."""
+
     def forests(nodes, most):
         if nodes == 0:
             yield ()
@@ -19,6 +20,7 @@ def trees(order):
             for tree in trees(size):
                 for rest in forests(nodes - size, size):
                     yield tuple(sorted((tree, *rest), key=repr))
+
     return sorted(set(forests(order - 1, order - 1)), key=repr)
 
 

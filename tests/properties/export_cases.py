@@ -31,8 +31,9 @@ def cam(knots=400):
 def cam_area():
     """Area of the cam, (1/2) int r^2 dtheta segment by segment with Gauss's rule."""
     x, w = np.polynomial.legendre.leggauss(60)
-    return sum(np.dot(w, cam_radius((x + 1) / 2, before, after) ** 2) * np.radians(stop - start) / 4
-               for start, stop, before, after in SEGMENTS)
+    return sum(
+        np.dot(w, cam_radius((x + 1) / 2, before, after) ** 2) * np.radians(stop - start) / 4 for start, stop, before, after in SEGMENTS
+    )
 
 
 def lobed(depth=0.3, lobes=3, size=0.030, knots=900):
@@ -87,15 +88,28 @@ def assembly():
     """Cam with hub, elliptic wheel, lever of plates and a bar; every part placed away from the origin."""
     bore = circle((0, 0), 0.006)
     hub = Prism(circle((0, 0), 0.014), (bore,), 0.012, 0.006)
-    lever = (Prism(circle((0, 0), 0.012), (), 0.0, 0.008), Prism(circle((0.06, 0), 0.008), (), 0.0, 0.008),
-             Bar((0, 0), (0.06, 0), 0.004, 0.006))
-    return (Part("cam.main", (Prism(cam(), (bore,), 0.0, 0.012), hub), (0.02, 0.01, 0.3), "orange"),
-            Part("gear.sun", (Prism(wheel(), (bore,), 0.0, 0.008),), (0.10, -0.02, 1.1), "blue"),
-            Part("lever", lever, (-0.09, 0.0, 0.2), "green"))
+    lever = (
+        Prism(circle((0, 0), 0.012), (), 0.0, 0.008),
+        Prism(circle((0.06, 0), 0.008), (), 0.0, 0.008),
+        Bar((0, 0), (0.06, 0), 0.004, 0.006),
+    )
+    return (
+        Part("cam.main", (Prism(cam(), (bore,), 0.0, 0.012), hub), (0.02, 0.01, 0.3), "orange"),
+        Part("gear.sun", (Prism(wheel(), (bore,), 0.0, 0.008),), (0.10, -0.02, 1.1), "blue"),
+        Part("lever", lever, (-0.09, 0.0, 0.2), "green"),
+    )
 
 
 def drawing():
     """The cam as a drawing with a bore, its base circle and an axis."""
-    return Drawing("cam.main", "Main cam <1>", (
-        Shape("profile", cam()), Shape("hole", circle((0.002, -0.001), 0.006)), Shape("base", circle((0, 0), BASE)),
-        Shape("axis", polygon([(-0.045, 0.001), (0.045, 0.001)], closed=False))), 0.012)
+    return Drawing(
+        "cam.main",
+        "Main cam <1>",
+        (
+            Shape("profile", cam()),
+            Shape("hole", circle((0.002, -0.001), 0.006)),
+            Shape("base", circle((0, 0), BASE)),
+            Shape("axis", polygon([(-0.045, 0.001), (0.045, 0.001)], closed=False)),
+        ),
+        0.012,
+    )

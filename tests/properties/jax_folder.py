@@ -29,11 +29,18 @@ def configuration(bar, crank, alphas):
     theta4 = jnp.arctan2(sine, c + d * sine)
     theta3 = jnp.arctan2(-b - l4 * jnp.sin(theta4), a - l4 * jnp.cos(theta4))
     s2, s3, s4 = bar.centroids
-    return jnp.array([
-        rx[0] + s2 * jnp.cos(crank), ry[0] + s2 * jnp.sin(crank),
-        rx[0] + l2 * jnp.cos(crank) + rx[1] + s3 * jnp.cos(theta3), ry[0] + l2 * jnp.sin(crank) + ry[1] + s3 * jnp.sin(theta3),
-        l1 - rx[3] - s4 * jnp.cos(theta4), -ry[3] - s4 * jnp.sin(theta4),
-        theta3, theta4])
+    return jnp.array(
+        [
+            rx[0] + s2 * jnp.cos(crank),
+            ry[0] + s2 * jnp.sin(crank),
+            rx[0] + l2 * jnp.cos(crank) + rx[1] + s3 * jnp.cos(theta3),
+            ry[0] + l2 * jnp.sin(crank) + ry[1] + s3 * jnp.sin(theta3),
+            l1 - rx[3] - s4 * jnp.cos(theta4),
+            -ry[3] - s4 * jnp.sin(theta4),
+            theta3,
+            theta4,
+        ]
+    )
 
 
 def accelerations(bar, speed, crank, alphas, rates):

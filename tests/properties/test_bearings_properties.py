@@ -11,13 +11,31 @@ from drivewright.units import SI
 
 FREE = np.zeros(5, dtype=bool)
 DEEP = BallBearing(balls=9, ball_diameter="8 mm", pitch_diameter="40 mm", radial_clearance="12 um", dynamic_rating="15 kN")
-STEEP = BallBearing(balls=13, ball_diameter="7 mm", pitch_diameter="42 mm", inner_conformity=0.515, outer_conformity=0.525,
-                    contact_angle="30 deg", first_element="11 deg", tilt_radius="19 mm")
+STEEP = BallBearing(
+    balls=13,
+    ball_diameter="7 mm",
+    pitch_diameter="42 mm",
+    inner_conformity=0.515,
+    outer_conformity=0.525,
+    contact_angle="30 deg",
+    first_element="11 deg",
+    tilt_radius="19 mm",
+)
 TIGHT = BallBearing(balls=8, ball_diameter="8 mm", pitch_diameter="36 mm", radial_clearance="-9 um", first_element="-20 deg")
 BEARINGS = pytest.mark.parametrize("bearing", [DEEP, STEEP, TIGHT], ids=["deep", "steep", "tight"])
-LOADS = pytest.mark.parametrize("force", [
-    (700, 0, 0, 0, 0), (0, 0, 900, 0, 0), (0, 0, 0, 6, 0), (300, -200, 400, 2, -3), (-50, 20, -80, 0.1, 0.4), (1e-3, 0, 0, 0, 2e-6),
-    (5e5, 0, 2e5, 0, 0), (0, 0, 0, 0, 0)])
+LOADS = pytest.mark.parametrize(
+    "force",
+    [
+        (700, 0, 0, 0, 0),
+        (0, 0, 900, 0, 0),
+        (0, 0, 0, 6, 0),
+        (300, -200, 400, 2, -3),
+        (-50, 20, -80, 0.1, 0.4),
+        (1e-3, 0, 0, 0, 2e-6),
+        (5e5, 0, 2e5, 0, 0),
+        (0, 0, 0, 0, 0),
+    ],
+)
 
 
 def random_bearing(rng):
@@ -25,8 +43,16 @@ def random_bearing(rng):
     balls, pitch, angle = int(rng.integers(3, 30)), 10 ** rng.uniform(-2.5, 0), rng.choice([0, rng.uniform(0, 1.4)])
     ball, (inner, outer) = pitch * np.sin(np.pi / balls) * rng.uniform(0.3, 0.99), rng.uniform(0.505, 0.56, 2)
     play = rng.choice([0, rng.uniform(0, 0.9), rng.uniform(-0.03, 0)]) * 2 * (inner + outer - 1) * ball * np.cos(angle)
-    return BallBearing(balls=balls, ball_diameter=SI(ball), pitch_diameter=SI(pitch), inner_conformity=inner, outer_conformity=outer,
-                       radial_clearance=SI(play), contact_angle=SI(angle), first_element=SI(rng.uniform(-3, 3)))
+    return BallBearing(
+        balls=balls,
+        ball_diameter=SI(ball),
+        pitch_diameter=SI(pitch),
+        inner_conformity=inner,
+        outer_conformity=outer,
+        radial_clearance=SI(play),
+        contact_angle=SI(angle),
+        first_element=SI(rng.uniform(-3, 3)),
+    )
 
 
 def random_loads(rng, law, count):
@@ -144,8 +170,11 @@ def test_a_moment_acts_by_the_right_hand():
 def test_a_larger_bearing_under_as_many_times_the_area(bearing):
     """All lengths times s, loads times s^2, moments times s^3: the same pressures and angles, displacements times s."""
     s, force = 3.7, np.array([300, -200, 400, 2, -3.0])
-    lengths = {name: SI(s * value) for name in ("ball_diameter", "pitch_diameter", "radial_clearance", "tilt_radius")
-               if (value := getattr(bearing, name)) is not None}
+    lengths = {
+        name: SI(s * value)
+        for name in ("ball_diameter", "pitch_diameter", "radial_clearance", "tilt_radius")
+        if (value := getattr(bearing, name)) is not None
+    }
     large = solve(bearing.replace(**lengths), force=force * [s**2, s**2, s**2, s**3, s**3])
     small = solve(bearing, force=force)
     assert_allclose(large.pressures, small.pressures, rtol=1e-8, atol=1e3)
@@ -156,8 +185,12 @@ def test_a_larger_bearing_under_as_many_times_the_area(bearing):
 def test_a_softer_material_under_as_much_less_load():
     """E and the loads divided by ten: the same displacements."""
     force = np.array([300, -200, 400, 2, -3.0])
-    assert_allclose(solve(STEEP.replace(youngs_modulus="21 GPa"), force=force / 10).displacement, solve(STEEP, force=force).displacement,
-                    rtol=1e-9, atol=1e-16)
+    assert_allclose(
+        solve(STEEP.replace(youngs_modulus="21 GPa"), force=force / 10).displacement,
+        solve(STEEP, force=force).displacement,
+        rtol=1e-9,
+        atol=1e-16,
+    )
 
 
 @BEARINGS

@@ -20,7 +20,8 @@ FACES = {
     "shoe": {"face": "shoe", "face_radius": 15.0, "face_offset": 2.0, "prime_radius": 60.0},
     "flat": {"face": "flat", "base_radius": 60.0},
     "lever": {"face": "roller", "roller_radius": 8.0, "prime_radius": 45.0, **LEVER},
-    "flat lever": {"face": "flat", "base_radius": 50.0, "face_offset": 3.0, **LEVER}}
+    "flat lever": {"face": "flat", "base_radius": 50.0, "face_offset": 3.0, **LEVER},
+}
 RISE = {"lever": "18 deg", "flat lever": "8 deg"}
 ONLY = ("motion", "geometry", "profile", "forces", "spring", "vibration")
 
@@ -33,9 +34,16 @@ def spec(name, scale=1.0, segments=SEGMENTS, unit="mm", **more):
         return f"{part * float(swing.split()[0]):.12g} deg" if swing else f"{12 * scale * part:.12g} {unit}"
 
     programme = [{"angle": f"{a} deg", "law": law, **({"rise": rise(part)} if part else {})} for a, law, part in segments]
-    data = {"mechanism": "cam", "follower": follower, "programme": programme, "drive": {"speed": "300 rpm"},
-            "load": {"mass": "0.6 kg", "force": "12 N"}, "spring": {"stiffness": "3 N/mm", "preload": "40 N"},
-            "vibration": {"natural_frequency": "70 Hz"}, **more}
+    data = {
+        "mechanism": "cam",
+        "follower": follower,
+        "programme": programme,
+        "drive": {"speed": "300 rpm"},
+        "load": {"mass": "0.6 kg", "force": "12 N"},
+        "spring": {"stiffness": "3 N/mm", "preload": "40 N"},
+        "vibration": {"natural_frequency": "70 Hz"},
+        **more,
+    }
     return from_document(data, CamSpec)
 
 

@@ -116,9 +116,13 @@ def drive(turn=0.0, shift=(0.0, 0.0), scale=1.0, offset=0.0):
     contact = Contact(1e7 / scale**2, 5.0 / scale)
     slide = Slide(turn, 150.0 / scale**2, 1e4 / scale**2, 200.0 / scale)
     centre = (shift[0] + 0.0692 * np.cos(turn), shift[1] + 0.0692 * np.sin(turn))
-    return Model(chain, (
-        Sprocket(teeth[0], contact, shift, angle=turn, drive=Drive(-150 / scale, -150 / scale)),
-        Sprocket(teeth[1], contact, centre, mass=0.2, inertia=2e-5, torque=0.3 / scale**2, damping=1e-3 / scale, slide=slide)))
+    return Model(
+        chain,
+        (
+            Sprocket(teeth[0], contact, shift, angle=turn, drive=Drive(-150 / scale, -150 / scale)),
+            Sprocket(teeth[1], contact, centre, mass=0.2, inertia=2e-5, torque=0.3 / scale**2, damping=1e-3 / scale, slide=slide),
+        ),
+    )
 
 
 @pytest.fixture(scope="module")

@@ -21,9 +21,13 @@ def drive(speed=-200.0, thick=0.0, stiffness=1e8, beta=2e-6, damping=300.0, angl
     for z in (27, 29):
         tooth, height = Tooth(z, PITCH * z / (2 * np.pi) * np.cos(ANGLE), seat_support(joint, z) - thick), seat_height(joint, z)
         sprockets.append(Sprocket(tooth, Contact(stiffness), tip_radius=height - 1.9e-3, form_radius=height - 6.2e-3))
-    return Model(Chain(joint, 72, 2.5e-3, 6.4e-8, stiffness / 3, beta, **{"toe": 6e-3, "crotch": 1.4e-3} | chain), (
-        replace(sprockets[0], drive=Drive(speed, speed), angle=angle),
-        replace(sprockets[1], centre=(0.2095, 0.0), mass=0.3, inertia=2e-4, slide=Slide(0.0, 150.0, damping=damping))))
+    return Model(
+        Chain(joint, 72, 2.5e-3, 6.4e-8, stiffness / 3, beta, **{"toe": 6e-3, "crotch": 1.4e-3} | chain),
+        (
+            replace(sprockets[0], drive=Drive(speed, speed), angle=angle),
+            replace(sprockets[1], centre=(0.2095, 0.0), mass=0.3, inertia=2e-4, slide=Slide(0.0, 150.0, damping=damping)),
+        ),
+    )
 
 
 def swing(model, begin):

@@ -33,8 +33,17 @@ from drivewright.spec.reading import change_key
 
 HYVO = Path(__file__).parents[2] / "examples" / "hyvo_chain.toml"
 FLUCTUATION, RANGE = "dynamics.centre_distance.fluctuation", "dynamics.centre_distance.range"
-OF_CHAOS = ("centre_distance.mean", "centre_distance.fluctuation", "centre_distance.range", "centre_distance.mesh_order_amplitude",
-            "transmission_error", "tension.mean", "tension.maximum", "flank_force.maximum", "friction_utilisation")
+OF_CHAOS = (
+    "centre_distance.mean",
+    "centre_distance.fluctuation",
+    "centre_distance.range",
+    "centre_distance.mesh_order_amplitude",
+    "transmission_error",
+    "tension.mean",
+    "tension.maximum",
+    "flank_force.maximum",
+    "friction_utilisation",
+)
 
 
 def hyvo(*changes):
@@ -103,8 +112,15 @@ def test_less_than_two_revolutions_cannot_tell():
 
 
 def test_a_run_that_is_not_chaotic_stands_alone():
-    found = run('drive.speed="300 rpm"', 'drive.preload="600 N"', "contact.articulation_damping_ratio=2", "driven.damping_ratio=1",
-                'contact.stiffness="2e4 N/mm"', 'contact.joint_damping="20 us"', 'dynamics.settling="0.1 s"')
+    found = run(
+        'drive.speed="300 rpm"',
+        'drive.preload="600 N"',
+        "contact.articulation_damping_ratio=2",
+        "driven.damping_ratio=1",
+        'contact.stiffness="2e4 N/mm"',
+        'contact.joint_damping="20 us"',
+        'dynamics.settling="0.1 s"',
+    )
     assert found.values[FLUCTUATION].interval in ("windows", "periodic")
     assert found.check("settled").ok
     assert found.values[FLUCTUATION].high - found.values[FLUCTUATION].low < 0.05 * found[FLUCTUATION]
@@ -119,8 +135,9 @@ def system():
 
 
 def test_the_same_seed_gives_the_same_runs_in_any_number_of_threads(system):
-    one, same, other = (ensemble(system, 6e-3, Settings(run_in=2e-3), 3, seed=seed, workers=workers)
-                        for seed, workers in ((0, 1), (0, 3), (1, 2)))
+    one, same, other = (
+        ensemble(system, 6e-3, Settings(run_in=2e-3), 3, seed=seed, workers=workers) for seed, workers in ((0, 1), (0, 3), (1, 2))
+    )
     for a, b in zip(one.members, same.members, strict=True):
         np.testing.assert_array_equal(a.rows, b.rows)
     np.testing.assert_array_equal(one.first.rows, other.first.rows)  # the first is undisturbed
@@ -198,6 +215,7 @@ def test_a_drift_of_the_mean_is_told_and_a_pattern_that_goes_round_is_none(syste
 
 def by_revolution(system, levels, ripple=0.0):
     """Members whose centre distance keeps a level in every revolution: levels (members, revolutions), and a ripple of tooth after tooth."""
+
     def signal(x, member):
         row = np.asarray(levels[member])
         return 0.2 + row[np.minimum(x.astype(int), len(row) - 1)] + ripple * np.sin(82 * 2 * np.pi * x)
@@ -293,8 +311,9 @@ def test_the_stored_energy_of_a_slow_run_is_that_of_its_joints(system):
     made = synthetic(system, lambda x, _: x)
     columns = {"kinetic": 1e-6, "elastic": 2e-2, "drive": -3e-5}
     ramp = np.linspace(0, 1, len(made.t))
-    fake = SimpleNamespace(t=made.t, model=system, tooth_time=made.tooth_time, energy_gap=3e-5 * ramp,
-                           column=lambda name: np.full(len(ramp), columns[name]))
+    fake = SimpleNamespace(
+        t=made.t, model=system, tooth_time=made.tooth_time, energy_gap=3e-5 * ramp, column=lambda name: np.full(len(ramp), columns[name])
+    )
     assert Motion.energy_drift.fget(fake) == pytest.approx(3e-5 / 2.0001e-2 / (made.t[-1]), rel=1e-9)
     fake.t = made.t[:100]  # a short run is held against a revolution
     assert Motion.energy_drift.fget(fake) == pytest.approx(3e-5 / 2.0001e-2 / revolution_time(system), rel=1e-6)

@@ -38,9 +38,9 @@ def test_values():
     assert normal_force(HuntCrossley(2e9, 1.5, 0.6), -4e-4, -0.5) == pytest.approx(2e9 * 8e-6 * 1.3, rel=1e-14)
 
 
-@pytest.mark.parametrize("law", [
-    (KelvinVoigt(3e6, 40.0), KelvinVoigt(3e3, 40e-3)), (HuntCrossley(2e9, 1.5, 0.6), HuntCrossley(2e9 / 1e3**1.5, 1.5, 0.6e-3)),
-])
+@pytest.mark.parametrize(
+    "law", [(KelvinVoigt(3e6, 40.0), KelvinVoigt(3e3, 40e-3)), (HuntCrossley(2e9, 1.5, 0.6), HuntCrossley(2e9 / 1e3**1.5, 1.5, 0.6e-3))]
+)
 def test_millimetres_give_the_same_force(law):
     metres, millimetres = law
     assert normal_force(millimetres, -2e-2, -500.0) == pytest.approx(normal_force(metres, -2e-5, -0.5), rel=1e-13)
@@ -49,8 +49,8 @@ def test_millimetres_give_the_same_force(law):
 def impact(law, mass, speed):
     """Speed of separation after a free impact, by integration of m g'' = F."""
     system = Functions(
-        lambda t, y: np.array([y[1], normal_force(law, y[0], y[1]) / mass]),
-        lambda t, y: np.array([y[0] if y[1] > 0 else -1.0]))
+        lambda t, y: np.array([y[1], normal_force(law, y[0], y[1]) / mass]), lambda t, y: np.array([y[0] if y[1] > 0 else -1.0])
+    )
     n = law.n if isinstance(law, HuntCrossley) else 1.0
     time = 10 / speed * ((n + 1) * mass * speed**2 / (2 * law.k)) ** (1 / (n + 1))  # several times the undamped contact
     run = integrate(system, 0, time, [0.0, -speed], 1e-11, [1e-16, 1e-12], watch=[Event(1, terminal=True)], max_step=time / 400)

@@ -77,8 +77,9 @@ def test_indexing_cams_of_both_sides(name):
         check(curves.drawn_outline(level.family, 10 * FINE), level.profile.outline(FINE), 10 * FINE)
 
 
-@pytest.mark.parametrize("teeth, rack", [(7, Rack()), pytest.param(11, Rack(addendum=1.25), marks=pytest.mark.slow),
-                                         (23, Rack(backlash=0.1))])
+@pytest.mark.parametrize(
+    "teeth, rack", [(7, Rack()), pytest.param(11, Rack(addendum=1.25), marks=pytest.mark.slow), (23, Rack(backlash=0.1))]
+)
 def test_undercut_and_pointed_gears_are_trimmed_alike(teeth, rack):
     pair = EllipticGearPair(0.35, 0.02)
     exact = cut_gear(pair, 1, teeth, rack)
@@ -121,6 +122,7 @@ def test_a_corner_parts_the_splines():
 
     top = np.sqrt((radius + 4e-3) ** 2 - a**2)
     half = np.arctan2(top, a)
+
     def left(t):
         return arc(a)(t - 2 * half + np.pi)
 

@@ -179,7 +179,8 @@ def test_flat_faces_leave_the_intersection_of_half_planes(seed):
 def test_mirror_rescaling_and_turning_change_nothing(seed, material):
     def moved(change):
         family = curves.CircleFamily(
-            tuple(curves.Piece(p.start, p.stop, lambda t, p=p: change(p.at(t)), p.label) for p in wavy(seed)), RADIUS, material)
+            tuple(curves.Piece(p.start, p.stop, lambda t, p=p: change(p.at(t)), p.label) for p in wavy(seed)), RADIUS, material
+        )
         return curves.trim(family)
 
     plain = moved(lambda z: z)

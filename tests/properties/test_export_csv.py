@@ -10,10 +10,18 @@ from drivewright.result import Column, Table
 from drivewright.units import to_si
 
 ANGLE = np.radians(np.linspace(0, 360, 73))
-TABLE = Table("inspection", "Inspection table", (
-    Column("angle", "rad", "cam angle", ANGLE), Column("radius", "m", "profile radius", 0.03 + 0.01 * np.sin(ANGLE) ** 2),
-    Column("pressure", "Pa", "Hertz stress", np.where(ANGLE > 1, 5.09e8, np.nan)), Column("ratio", "-", "gear ratio", np.cos(ANGLE)),
-    Column("tooth", "-", "number", np.arange(73)), Column("phase", "-", "name", np.array(["rise, upper"] * 73))))
+TABLE = Table(
+    "inspection",
+    "Inspection table",
+    (
+        Column("angle", "rad", "cam angle", ANGLE),
+        Column("radius", "m", "profile radius", 0.03 + 0.01 * np.sin(ANGLE) ** 2),
+        Column("pressure", "Pa", "Hertz stress", np.where(ANGLE > 1, 5.09e8, np.nan)),
+        Column("ratio", "-", "gear ratio", np.cos(ANGLE)),
+        Column("tooth", "-", "number", np.arange(73)),
+        Column("phase", "-", "name", np.array(["rise, upper"] * 73)),
+    ),
+)
 DIMENSIONS = {"angle": "angle", "radius": "length", "pressure": "pressure"}
 
 

@@ -119,8 +119,14 @@ def test_a_sampled_curve_is_one_polyline_and_a_plate_stays_lines(tmp_path):
 
 
 def test_clockwise_arcs_keep_their_side(tmp_path):
-    bay = Outline((Arc((0.0, 0.0), 0.01, 0.0, -np.pi), Line((-0.01, 0.0), (-0.02, 0.03)), Line((-0.02, 0.03), (0.02, 0.03)),
-                   Line((0.02, 0.03), (0.01, 0.0))))
+    bay = Outline(
+        (
+            Arc((0.0, 0.0), 0.01, 0.0, -np.pi),
+            Line((-0.01, 0.0), (-0.02, 0.03)),
+            Line((-0.02, 0.03), (0.02, 0.03)),
+            Line((0.02, 0.03), (0.01, 0.0)),
+        )
+    )
     above = bay._replace(pieces=(bay.pieces[0]._replace(sweep=np.pi), *bay.pieces[1:]))
     for outline, sign in ((bay, 1), (above, -1)):
         write_dxf(Drawing("bay", "Bay", (Shape("profile", outline),)), tmp_path / "b.dxf")

@@ -110,8 +110,7 @@ def test_corners_of_a_plate_stay_sharp_and_cost_one_arc_each():
 
 def test_dwells_are_arcs_about_the_camshaft_with_the_cutter_added():
     moves = run(gcode(drawing(), **SETTINGS))
-    radii = {round(np.hypot(*(move.points[0][:2] - move.center)), 3) for move in moves
-             if move.code == 2 and np.hypot(*move.center) < 1e-3}
+    radii = {round(np.hypot(*(move.points[0][:2] - move.center)), 3) for move in moves if move.code == 2 and np.hypot(*move.center) < 1e-3}
     assert radii == {1e3 * BASE + 3.0, 1e3 * (BASE + LIFT) + 3.0}
 
 

@@ -61,8 +61,14 @@ def test_spline_becomes_beziers_within_the_tolerance():
 
 def test_arcs_bend_to_their_own_side():
     for sweep in (np.pi, -np.pi):
-        outline = Outline((Arc((0.0, 0.0), 0.01, 0.0, sweep), Line((-0.01, 0.0), (-0.02, 0.03)), Line((-0.02, 0.03), (0.02, 0.03)),
-                           Line((0.02, 0.03), (0.01, 0.0))))
+        outline = Outline(
+            (
+                Arc((0.0, 0.0), 0.01, 0.0, sweep),
+                Line((-0.01, 0.0), (-0.02, 0.03)),
+                Line((-0.02, 0.03), (0.02, 0.03)),
+                Line((0.02, 0.03), (0.01, 0.0)),
+            )
+        )
         assert abs(area(trace(path_data(outline, "bay")))) == pytest.approx(900 - np.sign(sweep) * 50 * np.pi, rel=1e-4)
 
 

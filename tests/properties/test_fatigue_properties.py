@@ -119,8 +119,11 @@ def test_a_map_is_its_nodes(plane):
 
 
 @pytest.mark.parametrize("plane", PLANES)
-@pytest.mark.parametrize("history", [np.zeros((5, 3, 3)), np.full((4, 3, 3), 77e6), np.full((1, 3, 3), 77e6),
-                                     np.array([0, 300e6, -1e9])[:, None, None] * np.eye(3)], ids=["zero", "constant", "one", "hydrostatic"])
+@pytest.mark.parametrize(
+    "history",
+    [np.zeros((5, 3, 3)), np.full((4, 3, 3), 77e6), np.full((1, 3, 3), 77e6), np.array([0, 300e6, -1e9])[:, None, None] * np.eye(3)],
+    ids=["zero", "constant", "one", "hydrostatic"],
+)
 def test_what_shears_nothing_lives_for_ever(plane, history):
     turn = next(rotations(1, 9))
     history = turn @ history @ turn.T

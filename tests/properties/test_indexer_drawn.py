@@ -50,12 +50,20 @@ def test_the_holes_of_both_cams_sit_on_the_crank_pins(changes):
         pins = []
         for side in (1, 2):
             x, y, turn = named[f"crank{side}"].poses[frame]
-            pins.append([complex(x, y) + np.exp(1j * turn) * centre_and_radius(shape.outline)[0]
-                         for shape in named[f"crank{side}"].shapes if shape.layer == "body"])
+            pins.append(
+                [
+                    complex(x, y) + np.exp(1j * turn) * centre_and_radius(shape.outline)[0]
+                    for shape in named[f"crank{side}"].shapes
+                    if shape.layer == "body"
+                ]
+            )
         for number in range(model.spec.cams):
             x, y, turn = named[f"cam{number + 1}"].poses[frame]
-            holes = [complex(x, y) + np.exp(1j * turn) * centre_and_radius(shape.outline)[0]
-                     for shape in named[f"cam{number + 1}"].shapes if shape.layer == "hole"]
+            holes = [
+                complex(x, y) + np.exp(1j * turn) * centre_and_radius(shape.outline)[0]
+                for shape in named[f"cam{number + 1}"].shapes
+                if shape.layer == "hole"
+            ]
             assert len(holes) == 2
             # A cam turned half round has its left hole on the right crank.
             centre = complex(x, y)

@@ -27,12 +27,15 @@ def exact(drive):
     return Ratings(*loose, min(pins), max(pins), np.nanmax(forward), np.nanmax(backward), np.nanmin([forward, backward]), np.nan)
 
 
-@pytest.mark.parametrize(("name", "pins", "pin", "eccentricity", "ratio", "side"), [
-    ("modified-sine", 12, 8e-3, 10e-3, 1.0, "inside"),
-    ("cycloidal", 12, 5.3e-3, 9.1e-3, 2.4, "inside"),
-    ("modified-trapezoid", 12, 9e-3, 10e-3, 3.0, "inside"),  # its lobe tops are just not undercut
-    ("simple-harmonic", 9, 11e-3, 12e-3, 1.6, "outside"),
-])
+@pytest.mark.parametrize(
+    ("name", "pins", "pin", "eccentricity", "ratio", "side"),
+    [
+        ("modified-sine", 12, 8e-3, 10e-3, 1.0, "inside"),
+        ("cycloidal", 12, 5.3e-3, 9.1e-3, 2.4, "inside"),
+        ("modified-trapezoid", 12, 9e-3, 10e-3, 3.0, "inside"),  # its lobe tops are just not undercut
+        ("simple-harmonic", 9, 11e-3, 12e-3, 1.6, "outside"),
+    ],
+)
 def test_the_exact_route_gives_the_same(name, pins, pin, eccentricity, ratio, side):
     motion = IndexMotion(law(name), pins, TURN * ratio / (1 + ratio))
     quick = Ratings(*(column[0] for column in rate_designs(motion.law, pins, 0.12, pin, eccentricity, motion.motion_angle, side)))

@@ -56,8 +56,9 @@ def test_play_is_an_angle_and_knows_no_unit_of_length():
     np.testing.assert_allclose(play(wheel(), theta, FORWARD), play(wheel(scale=2.5), theta, FORWARD), rtol=1e-6)
 
 
-@pytest.mark.parametrize(("angle", "direction"),
-                         [(9.0, 1), (13.5, 1), (20.0, 1), (27.0, 1), (158.0, -1), (150.0, -1), (60.0, 1), (250.0, -1)])
+@pytest.mark.parametrize(
+    ("angle", "direction"), [(9.0, 1), (13.5, 1), (20.0, 1), (27.0, 1), (158.0, -1), (150.0, -1), (60.0, 1), (250.0, -1)]
+)
 def test_nothing_penetrates_before_and_something_does_just_after(angle, direction):
     drive, theta = wheel(), np.deg2rad(angle)
     free = play(drive, theta, direction)[0]

@@ -16,8 +16,12 @@ MOTION = index_motion("modified-sine", N, 1.0)
 ANGLES = np.radians([13.0, 45.0, 77.0, 131.0])
 SHAFT = SplitShaft((Section(0.06, 0.02, 0.02), Section(0.055, 0.03, 0.026)), 0.005, (0.025, 0.1), (0.05, 0.08), 206e9, 0.3)
 LINEAR = Drivetrain(L, PinContact(series=4e8), PowerBearing(3e8), PowerBearing(1e8), 2.5e8, SHAFT, None, PowerBearing(3e8))
-GEARED = LINEAR._replace(pins=pin_contact(0.018, 5e8), crank=PowerBearing(2e9, 10 / 9), support=PowerBearing(2e10, 1.5, 2e-6),
-                         gear=GearMesh(0.025, 2.8e8, np.radians(20), 1e-5))
+GEARED = LINEAR._replace(
+    pins=pin_contact(0.018, 5e8),
+    crank=PowerBearing(2e9, 10 / 9),
+    support=PowerBearing(2e10, 1.5, 2e-6),
+    gear=GearMesh(0.025, 2.8e8, np.radians(20), 1e-5),
+)
 
 
 def touching(theta, seed=0, gaps=0.0, sense=1.0, wheel=R, crank=E):
@@ -78,8 +82,14 @@ def by_forces(drive, theta, contacts, torque, cams, sense, active):
         for height in (np.zeros(3 + cams), [shaft.gear, *shaft.supports, *shaft.cams]):
             weight = np.ones(cams + 3) if not np.any(height) else np.array(height)
             vector([(crank[s, j], weight[3 + j], True) for j in range(cams)] + [(support[s, i], -weight[1 + i], True) for i in (0, 1)])
-    soft = np.concatenate([np.full(pins, 1 / drive.pins.series), np.full(4 * cams, 1 / drive.crank.constant),
-                           np.full(8, 1 / drive.support.constant + 1 / drive.housing), np.full(2, 1 / drive.wheel.constant)])
+    soft = np.concatenate(
+        [
+            np.full(pins, 1 / drive.pins.series),
+            np.full(4 * cams, 1 / drive.crank.constant),
+            np.full(8, 1 / drive.support.constant + 1 / drive.housing),
+            np.full(2, 1 / drive.wheel.constant),
+        ]
+    )
     compliance = np.diag(soft)
     bend, twist = bending_flexibility(shaft)[1:, 1:], torsion_flexibility(shaft)
     for s in (0, 1):
@@ -93,11 +103,11 @@ def by_forces(drive, theta, contacts, torque, cams, sense, active):
     a, c = np.array(balance)[:, chosen], compliance[np.ix_(chosen, chosen)]
     scale = np.sqrt(np.diag(c)).mean() ** 2
     kkt = block_diag(c / scale, np.zeros((len(a), len(a))))
-    kkt[len(c):, : len(c)], kkt[: len(c), len(c):] = a, a.T
+    kkt[len(c) :, : len(c)], kkt[: len(c), len(c) :] = a, a.T
     answer = np.linalg.lstsq(kkt, np.concatenate([np.zeros(len(c)), right]), rcond=None)[0]
     force = np.zeros(size)
     force[chosen] = answer[: len(c)]
-    approach = -(np.array(balance)[:, :pins].T @ answer[len(c):]) * scale
+    approach = -(np.array(balance)[:, :pins].T @ answer[len(c) :]) * scale
     return force @ compliance @ force / torque**2, force[:pins].reshape(cams, k), approach.reshape(cams, k)
 
 
@@ -175,13 +185,24 @@ def test_tangent_is_the_slope_of_the_curve():
 def test_other_units_change_nothing():
     """Lengths by 1000, forces by 7: the stiffness by 7000 (millimetres and another unit of force)."""
     a, b = 1e3, 7.0
-    shaft = SHAFT._replace(sections=tuple(Section(*(a * x for x in each)) for each in SHAFT.sections), gear=a * SHAFT.gear,
-                           supports=tuple(a * z for z in SHAFT.supports), cams=tuple(a * z for z in SHAFT.cams), modulus=206e9 * b / a**2)
+    shaft = SHAFT._replace(
+        sections=tuple(Section(*(a * x for x in each)) for each in SHAFT.sections),
+        gear=a * SHAFT.gear,
+        supports=tuple(a * z for z in SHAFT.supports),
+        cams=tuple(a * z for z in SHAFT.cams),
+        modulus=206e9 * b / a**2,
+    )
     crank, support = GEARED.crank, GEARED.support
     drive = Drivetrain(
-        a * L, PinContact(GEARED.pins.line * b / a ** (10 / 9), 5e8 * b / a), PowerBearing(crank.constant * b / a**crank.exponent, 10 / 9),
-        PowerBearing(support.constant * b / a**1.5, 1.5, a * support.clearance), 2.5e8 * b / a, shaft,
-        GearMesh(a * 0.025, 2.8e8 * b / a, np.radians(20), a * 1e-5), PowerBearing(3e8 * b / a))
+        a * L,
+        PinContact(GEARED.pins.line * b / a ** (10 / 9), 5e8 * b / a),
+        PowerBearing(crank.constant * b / a**crank.exponent, 10 / 9),
+        PowerBearing(support.constant * b / a**1.5, 1.5, a * support.clearance),
+        2.5e8 * b / a,
+        shaft,
+        GearMesh(a * 0.025, 2.8e8 * b / a, np.radians(20), a * 1e-5),
+        PowerBearing(3e8 * b / a),
+    )
     ours = solved(GEARED)
     theirs = solve(drive, ANGLES, [touching(t, wheel=a * R, crank=a * E) for t in ANGLES], a * E, 900.0 * a * b, model="bonded")
     assert theirs.secant == pytest.approx(a * b * ours.secant, rel=1e-9)
@@ -210,8 +231,13 @@ def test_one_position_as_among_many():
 
 def test_whatever_is_softer_never_stiffens():
     base = solved(GEARED, model="unilateral").secant
-    softer = [GEARED._replace(crank=PowerBearing(1e9, 10 / 9)), GEARED._replace(housing=1e8), GEARED._replace(wheel_torsion=1e6),
-              GEARED._replace(wheel=PowerBearing(1e8)), GEARED._replace(shaft=SHAFT._replace(modulus=150e9))]
+    softer = [
+        GEARED._replace(crank=PowerBearing(1e9, 10 / 9)),
+        GEARED._replace(housing=1e8),
+        GEARED._replace(wheel_torsion=1e6),
+        GEARED._replace(wheel=PowerBearing(1e8)),
+        GEARED._replace(shaft=SHAFT._replace(modulus=150e9)),
+    ]
     for drive in softer:
         assert np.all(solved(drive, model="unilateral").secant < base)
     assert np.all(solved(LINEAR, model="unilateral").secant < solved(LINEAR).secant)  # what may pull too carries more

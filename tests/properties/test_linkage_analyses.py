@@ -28,14 +28,24 @@ def slider_crank(joint=PLAY, **tables):
         "mechanism": "linkage",
         "ground": {"points": {"O": ["0 mm", "0 mm"]}},
         "bodies": {
-            "crank": {"mass": "0.3 kg", "inertia": "1e-4 kg m^2", "centroid": ["25 mm", "0 mm"],
-                      "points": {"O": ["0 mm", "0 mm"], "A": ["50 mm", "0 mm"]}},
-            "rod": {"mass": "0.21 kg", "inertia": "2.5e-4 kg m^2", "centroid": ["60 mm", "0 mm"],
-                    "points": {"A": ["0 mm", "0 mm"], "B": ["120 mm", "0 mm"]}},
+            "crank": {
+                "mass": "0.3 kg",
+                "inertia": "1e-4 kg m^2",
+                "centroid": ["25 mm", "0 mm"],
+                "points": {"O": ["0 mm", "0 mm"], "A": ["50 mm", "0 mm"]},
+            },
+            "rod": {
+                "mass": "0.21 kg",
+                "inertia": "2.5e-4 kg m^2",
+                "centroid": ["60 mm", "0 mm"],
+                "points": {"A": ["0 mm", "0 mm"], "B": ["120 mm", "0 mm"]},
+            },
             "slider": {"mass": "0.14 kg", "points": {"B": ["0 mm", "0 mm"]}},
         },
         "joints": [
-            {"name": "main", "connects": ["ground.O", "crank.O"]}, {"name": "crank_pin", "connects": ["crank.A", "rod.A"]}, joint,
+            {"name": "main", "connects": ["ground.O", "crank.O"]},
+            {"name": "crank_pin", "connects": ["crank.A", "rod.A"]},
+            joint,
             {"name": "guide", "kind": "prismatic", "connects": ["slider.B", "ground.O"], "axis": [1, 0]},
         ],
         "drive": {"joint": "main", "speed": "600 rpm"},
@@ -84,8 +94,14 @@ def test_the_journal_stays_within_its_clearance_but_for_the_penetration(dry):
 
 
 def test_a_flying_pin_touches_for_the_time_that_its_record_says():
-    result = dw.run(slider_crank(PLAY | {"friction": 0.0, "clearance": "0.5 mm"}, drive={"joint": "main", "speed": "5000 rpm"},
-                                 simulate={"turns": 1, "relative_tolerance": 1e-7, "ensemble": 1}), only="pins")
+    result = dw.run(
+        slider_crank(
+            PLAY | {"friction": 0.0, "clearance": "0.5 mm"},
+            drive={"joint": "main", "speed": "5000 rpm"},
+            simulate={"turns": 1, "relative_tolerance": 1e-7, "ensemble": 1},
+        ),
+        only="pins",
+    )
     pin = table_of(result, "pin.wrist")
     starts, ends = intervals(pin["time"], pin["depth"] > 0)
     share = np.sum(ends - starts) / (pin["time"][-1] - pin["time"][0])
@@ -140,21 +156,37 @@ def test_the_spectrum_exists_at_any_sampling(samples):
 
 
 def bar(length, angle, ends):
-    return {"mass": "1 kg", "inertia": f"{length * length / 12e6!r} kg m^2", "centroid": [f"{length / 2} mm", "0 mm"], "angle": angle,
-            "points": {ends[0]: ["0 mm", "0 mm"], ends[1]: [f"{length} mm", "0 mm"]}}
+    return {
+        "mass": "1 kg",
+        "inertia": f"{length * length / 12e6!r} kg m^2",
+        "centroid": [f"{length / 2} mm", "0 mm"],
+        "angle": angle,
+        "points": {ends[0]: ["0 mm", "0 mm"], ends[1]: [f"{length} mm", "0 mm"]},
+    }
 
 
 @pytest.fixture(scope="module")
 def swing():
     """Two rockers on a short coupler, swinging in gravity: either is now and then in a limit position, where the coordinates change."""
     pins = {"O2": ["ground.O2", "left.O"], "A": ["left.A", "coupler.A"], "B": ["coupler.B", "right.B"], "O4": ["ground.O4", "right.O"]}
-    bodies = {"left": bar(100, "-60 deg", "OA") | {"angular_velocity": "200 rpm"}, "coupler": bar(60, "0 deg", "AB"),
-              "right": bar(100, "-120 deg", "OB")}
-    return build(from_document({
-        "mechanism": "linkage", "gravity": ["0 m/s^2", "-9.81 m/s^2"], "bodies": bodies,
-        "ground": {"points": {"O2": ["0 mm", "0 mm"], "O4": ["150 mm", "0 mm"]}},
-        "joints": [{"name": name, "connects": connects} for name, connects in pins.items()],
-        "simulate": {"duration": "2 s"}, "outputs": [{"name": "left", "body": "left"}]}))
+    bodies = {
+        "left": bar(100, "-60 deg", "OA") | {"angular_velocity": "200 rpm"},
+        "coupler": bar(60, "0 deg", "AB"),
+        "right": bar(100, "-120 deg", "OB"),
+    }
+    return build(
+        from_document(
+            {
+                "mechanism": "linkage",
+                "gravity": ["0 m/s^2", "-9.81 m/s^2"],
+                "bodies": bodies,
+                "ground": {"points": {"O2": ["0 mm", "0 mm"], "O4": ["150 mm", "0 mm"]}},
+                "joints": [{"name": name, "connects": connects} for name, connects in pins.items()],
+                "simulate": {"duration": "2 s"},
+                "outputs": [{"name": "left", "body": "left"}],
+            }
+        )
+    )
 
 
 def test_a_record_of_many_stretches_is_one_signal_and_its_audit_closes(swing):
@@ -169,7 +201,6 @@ def test_forces_are_told_over_the_whole_run_whatever_its_stretches(swing):
     result = forces(swing, {})
     left = next(column.data for column in result.tables[0].columns if column.name == "O2.force")
     assert len(left) == len(seen.t) and result.values["forces.residual"].value < 1e-9
-
 
 
 def test_another_drive_angle_at_the_start_moves_the_section_to_its_zero():
@@ -191,31 +222,55 @@ def _turned(spec, angle):
 
 def test_contracting_motion_has_a_negative_exponent_and_repeats_itself():
     heavy = PLAY | {"clearance": "0.05 mm", "restitution": 0.3, "friction": 0.2}
-    result = dw.run(slider_crank(heavy, lyapunov={"turns": 40, "discard": 20}, poincare={"output": "slider"},
-                                 simulate={"turns": 30, "discard": 15, "relative_tolerance": 1e-8}), only=("lyapunov", "poincare"))
+    result = dw.run(
+        slider_crank(
+            heavy,
+            lyapunov={"turns": 40, "discard": 20},
+            poincare={"output": "slider"},
+            simulate={"turns": 30, "discard": 15, "relative_tolerance": 1e-8},
+        ),
+        only=("lyapunov", "poincare"),
+    )
     assert result["lyapunov_exponent.per_turn"] < 0
     position = table_of(result, "poincare")["position"]
     assert result["poincare.period"] == 2  # the pin hits one wall in one turn, the other in the next
     assert max(np.ptp(position[::2]), np.ptp(position[1::2])) < 1e-7
 
 
-@pytest.mark.parametrize(("over", "start", "stop"), [
-    ("joints.wrist.clearance", "0.1 mm", "0.2 mm"), ("drive.speed", "500 rpm", "700 rpm"),
-    ("joints.wrist.restitution", 0.5, 0.9), ("joints.wrist.friction", 0.0, 0.2)])
+@pytest.mark.parametrize(
+    ("over", "start", "stop"),
+    [
+        ("joints.wrist.clearance", "0.1 mm", "0.2 mm"),
+        ("drive.speed", "500 rpm", "700 rpm"),
+        ("joints.wrist.restitution", 0.5, 0.9),
+        ("joints.wrist.friction", 0.0, 0.2),
+    ],
+)
 def test_a_bifurcation_diagram_over(over, start, stop):
     asked = {"over": over, "start": start, "stop": stop, "steps": 2, "turns": 4, "discard": 2, "output": "slider"}
     table = table_of(dw.run(slider_crank(bifurcation=asked), only="bifurcation"), "bifurcation")
     assert len(table["position"]) == 6 and len(set(table["parameter"])) == 2  # visits at the turns 2, 3 and 4
-    last = dw.run(many.varied(slider_crank(poincare={"output": "slider"}, simulate={"turns": 4, "relative_tolerance": 1e-7}),
-                                   {over: table["parameter"][-1]}), only="poincare")
+    last = dw.run(
+        many.varied(
+            slider_crank(poincare={"output": "slider"}, simulate={"turns": 4, "relative_tolerance": 1e-7}), {over: table["parameter"][-1]}
+        ),
+        only="poincare",
+    )
     assert table["position"][-1] == pytest.approx(last["poincare.position"], abs=1e-9)
 
 
 def test_the_load_table_holds_the_same_numbers_as_single_runs():
-    spec = slider_crank({"name": "wrist", "connects": ["rod.B", "slider.B"], "model": "massless-link", "clearance": "0.1 mm",
-                         "link_damping": "1e-4 N m s/rad"},
-                        table={"speeds": ["500 rpm", "600 rpm"], "clearances": ["0.1 mm"], "output": "rod"},
-                        simulate={"turns": 8, "discard": 2, "relative_tolerance": 1e-8})
+    spec = slider_crank(
+        {
+            "name": "wrist",
+            "connects": ["rod.B", "slider.B"],
+            "model": "massless-link",
+            "clearance": "0.1 mm",
+            "link_damping": "1e-4 N m s/rad",
+        },
+        table={"speeds": ["500 rpm", "600 rpm"], "clearances": ["0.1 mm"], "output": "rod"},
+        simulate={"turns": 8, "discard": 2, "relative_tolerance": 1e-8},
+    )
     table = table_of(dw.run(spec, only="load_table"), "load_table")
     assert table["speed"].tolist() == pytest.approx([500 * np.pi / 30, 600 * np.pi / 30])
     assert table["coefficient"][1] == pytest.approx(dw.run(spec, only="impact")["rod.impact_load_coefficient"], rel=1e-4)

@@ -12,8 +12,15 @@ from drivewright.mechanisms.linkage.build import build, run_of
 from drivewright.spec import load
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "slider_crank_clearance.toml"
-STATISTICS = ("slider.impact_load_coefficient", "slider.peak_acceleration_ratio", "slider.turn_peak_mean", "joints.wrist.max_force",
-              "joints.wrist.max_penetration", "joints.wrist.impacts_per_turn", "joints.wrist.contact_share")
+STATISTICS = (
+    "slider.impact_load_coefficient",
+    "slider.peak_acceleration_ratio",
+    "slider.turn_peak_mean",
+    "joints.wrist.max_force",
+    "joints.wrist.max_penetration",
+    "joints.wrist.impacts_per_turn",
+    "joints.wrist.contact_share",
+)
 
 
 def slider(*changes, only=("impact", "pins")):
@@ -69,8 +76,10 @@ def test_a_statistic_without_rest_is_told_and_is_no_headline():
 
 
 def test_the_exponent_has_an_interval():
-    chaos, calm = (slider(f'joints.wrist.clearance="{play}"', "lyapunov.turns=32", only=("lyapunov",)).values["lyapunov_exponent.per_turn"]
-                   for play in ("0.1 mm", "0.02 mm"))
+    chaos, calm = (
+        slider(f'joints.wrist.clearance="{play}"', "lyapunov.turns=32", only=("lyapunov",)).values["lyapunov_exponent.per_turn"]
+        for play in ("0.1 mm", "0.02 mm")
+    )
     assert chaos.interval == calm.interval == "ensemble"
     assert 0 < chaos.low < chaos.value < chaos.high
     assert calm.low < calm.value < calm.high < 0
@@ -87,8 +96,15 @@ def test_members_start_nearer_to_each_other_than_anybody_makes_them():
 
 def test_forces_of_all_joints_and_works_of_a_chaotic_run_carry_intervals():
     found = slider('joints.wrist.clearance="0.1 mm"', only=("forces", "energy", "end", "poincare"))
-    for name in ("joints.main.max_force", "joints.crank_pin.max_force", "joints.guide.max_force", "energy.pins", "energy.drives",
-                 "bodies.slider.x", "bodies.rod.angular_velocity"):
+    for name in (
+        "joints.main.max_force",
+        "joints.crank_pin.max_force",
+        "joints.guide.max_force",
+        "energy.pins",
+        "energy.drives",
+        "bodies.slider.x",
+        "bodies.rod.angular_velocity",
+    ):
         value = found.values[name]
         assert value.interval == "ensemble" and value.low < value.value < value.high, name
     for name in ("poincare.position", "poincare.velocity"):
@@ -131,8 +147,17 @@ def test_the_load_table_carries_intervals_where_the_motion_is_chaotic():
 
 
 def test_a_bearing_that_wears_in_chaos_is_the_mean_of_several():
-    changes = ('joints.wrist.wear_coefficient="1e-14 m^3/(N m)"', 'joints.wrist.bearing_length="10 mm"', 'joints.wrist.friction=0.1',
-               'wear.joint="wrist"', "wear.cycles=1000", "wear.jumps=2", "wear.bins=36", "simulate.turns=16", "simulate.discard=4")
+    changes = (
+        'joints.wrist.wear_coefficient="1e-14 m^3/(N m)"',
+        'joints.wrist.bearing_length="10 mm"',
+        "joints.wrist.friction=0.1",
+        'wear.joint="wrist"',
+        "wear.cycles=1000",
+        "wear.jumps=2",
+        "wear.bins=36",
+        "simulate.turns=16",
+        "simulate.discard=4",
+    )
     chaos = slider('joints.wrist.clearance="0.1 mm"', *changes, only=("wear",))
     depth, table = chaos.values["wear.wrist.max_depth"], chaos.tables["wear.wrist"]
     assert depth.interval == "ensemble" and 0 < depth.low < depth.value < depth.high
@@ -164,7 +189,7 @@ def test_a_motion_of_several_turns_is_seen(period):
 
 def seen_of(t, speed, turning=0.0):
     """A marker that swings about, and along, as a cosine, and turns on besides."""
-    x, rate, gain = np.cos(speed * t), -speed * np.sin(speed * t), -speed**2 * np.cos(speed * t)
+    x, rate, gain = np.cos(speed * t), -speed * np.sin(speed * t), -(speed**2) * np.cos(speed * t)
     fields = {"angle": x + turning * t, "w": rate + turning, "alpha": gain, "x": x, "vx": rate, "ax": gain}
     still = np.zeros_like(t)
     return SimpleNamespace(t=t, point=lambda name, field: fields.get(field, still))

@@ -53,14 +53,22 @@ def test_ideal_four_bar():
         places = {"crank": 0j, "coupler": 0.066 * e2 + 0.079 * e3, "rocker": 0.484 - 0.243 * e4}
         angles = dict(zip(places, np.angle([e2, e3, -e4]), strict=True))
         rates = {"crank": (0j, 1.0), "coupler": (v[COUPLER], v[COUPLER_TURN].real), "rocker": (v[ROCKER], v[ROCKER_TURN].real)}
-        return {name: (z.real, z.imag, angles[name], rates[name][0].real * speed, rates[name][0].imag * speed, rates[name][1] * speed)
-                for name, z in places.items()}
+        return {
+            name: (z.real, z.imag, angles[name], rates[name][0].real * speed, rates[name][0].imag * speed, rates[name][1] * speed)
+            for name, z in places.items()
+        }
 
     model = Model(
         bodies=(Body("crank", 1.0, 1e-3), Body("coupler", 1.113, 2316e-6, (0.079, 0.0)), Body("rocker", 6.883, 0.0423, (0.243, 0.0))),
-        joints=(Revolute("O2", Marker(GROUND), Marker("crank")), Revolute("A", Marker("crank", 0.066), Marker("coupler")),
-                Revolute("B", Marker("coupler", 0.158), Marker("rocker", 0.424)), Revolute("O4", Marker("rocker"), Marker(GROUND, 0.484))),
-        drives=(Drive("O2", line(0.3, 50.0)),), gravity=(0.0, -9.81))
+        joints=(
+            Revolute("O2", Marker(GROUND), Marker("crank")),
+            Revolute("A", Marker("crank", 0.066), Marker("coupler")),
+            Revolute("B", Marker("coupler", 0.158), Marker("rocker", 0.424)),
+            Revolute("O4", Marker("rocker"), Marker(GROUND, 0.484)),
+        ),
+        drives=(Drive("O2", line(0.3, 50.0)),),
+        gravity=(0.0, -9.81),
+    )
     duration = 2 * np.pi / 3 / 50
     run = prototype().run(model, poses(0.3, 50.0), duration, 1e-5, samples=10)
     assert run.time[-1] == pytest.approx(duration, rel=1e-12) and run.time.size == 11
@@ -73,10 +81,15 @@ def test_ideal_four_bar():
 def test_spring_damper_and_force_on_a_slide():
     """x'' = (F - k (x - x0) - c x')/m along an axis at 30 degrees, from rest."""
     along = np.exp(1j * np.pi / 6)
-    forces = (Spring("s", Marker("slide", 0.01, 0.0), Marker(GROUND, -along.real, -along.imag), 80.0, 0.9, 1.5),
-              Force("f", Marker("slide"), (along.real, along.imag), Load(line(3.0, 0.0))))
-    model = Model((Body("slide", 0.5, 1e-3, (0.01, 0.0)),),
-                  (Prismatic("guide", Marker("slide", 0.01, 0.0), Marker(GROUND), (along.real, along.imag)),), forces)
+    forces = (
+        Spring("s", Marker("slide", 0.01, 0.0), Marker(GROUND, -along.real, -along.imag), 80.0, 0.9, 1.5),
+        Force("f", Marker("slide"), (along.real, along.imag), Load(line(3.0, 0.0))),
+    )
+    model = Model(
+        (Body("slide", 0.5, 1e-3, (0.01, 0.0)),),
+        (Prismatic("guide", Marker("slide", 0.01, 0.0), Marker(GROUND), (along.real, along.imag)),),
+        forces,
+    )
     run = prototype().run(model, {"slide": (0, 0, 0.2, 0, 0, 0)}, 0.3, 1e-4)
     rest, decay = (3.0 - 80.0 * 0.1) / 80.0, 1.5 / (2 * 0.5)
     omega = np.sqrt(80.0 / 0.5 - decay**2)
@@ -115,8 +128,10 @@ def test_a_pin_in_a_slot_falls_and_turns():
 def bounce(speed, **law):
     """Speed after an impact, over the one before, of a mass on a slide whose pin meets a bearing on the ground."""
     contact = Dry(1e-4, 0.01, law.pop("stiffness", 1e11), **law)
-    model = Model((Body("block", 0.3, 1e-4),), (
-        Prismatic("guide", Marker("block"), Marker(GROUND)), Revolute("pin", Marker(GROUND), Marker("block"), contact)))
+    model = Model(
+        (Body("block", 0.3, 1e-4),),
+        (Prismatic("guide", Marker("block"), Marker(GROUND)), Revolute("pin", Marker(GROUND), Marker("block"), contact)),
+    )
     run = prototype().run(model, {"block": (5e-5, 0, 0, speed, 0, 0)}, 1e-4 / speed, 2e-7)
     return -run.bodies["block"][-1, 3] / speed
 
@@ -146,12 +161,20 @@ def slider_crank(hysteresis=0.0, friction=Friction("none"), offset=-1e-4, **cont
     wrist = Dry(CLEARANCE, RADIUS, STIFFNESS, hysteresis=hysteresis, friction=friction, **contact)
     model = Model(
         bodies=(Body("crank", 0.3, 1e-4), Body("rod", ROD_MASS, ROD_INERTIA, (ROD / 2, 0.0)), Body("slider", SLIDER_MASS, 1e-4)),
-        joints=(Revolute("O", Marker(GROUND), Marker("crank")), Revolute("A", Marker("crank", CRANK), Marker("rod")),
-                Revolute("wrist", Marker("rod", ROD), Marker("slider"), wrist), Prismatic("guide", Marker("slider"), Marker(GROUND))),
-        drives=(Drive("O", line(0.0, SPEED)),))
+        joints=(
+            Revolute("O", Marker(GROUND), Marker("crank")),
+            Revolute("A", Marker("crank", CRANK), Marker("rod")),
+            Revolute("wrist", Marker("rod", ROD), Marker("slider"), wrist),
+            Prismatic("guide", Marker("slider"), Marker(GROUND)),
+        ),
+        drives=(Drive("O", line(0.0, SPEED)),),
+    )
     turning = -CRANK / ROD * SPEED
-    start = {"crank": (0, 0, 0, 0, 0, SPEED), "rod": (CRANK + ROD / 2, 0, 0, 0, (CRANK * SPEED + ROD / 2 * turning), turning),
-             "slider": (CRANK + ROD + offset, 0, 0, 0, 0, 0)}
+    start = {
+        "crank": (0, 0, 0, 0, 0, SPEED),
+        "rod": (CRANK + ROD / 2, 0, 0, 0, (CRANK * SPEED + ROD / 2 * turning), turning),
+        "slider": (CRANK + ROD + offset, 0, 0, 0, 0, 0),
+    }
     return model, start
 
 
@@ -217,13 +240,17 @@ def test_friction_has_its_arm():
 # -- what the twin cannot say ----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("changes", "message"), [
-    ({"offset": 0.0}, r"'wrist' starts 0 m off centre with a play of 0.0005 m"),
-    ({"offset": -6e-4}, r"'wrist' starts 0.0006 m off centre .* half the play"),
-    ({"hysteresis": 1.6}, r"'wrist' has a hysteresis of 1.6; .* below 1.5"),
-    ({"cylinder": True}, r"'wrist' has the cylinder law"),
-    ({"friction": Friction("coulomb", 0.1)}, r"'wrist' has friction 'coulomb' with a dead speed of 0 m/s.*'ambrosio'"),
-    ({"friction": Friction("ambrosio", 0.1, dead_speed=1e-3)}, r"'wrist' has friction 'ambrosio' with a dead speed of 0.001 m/s")])
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"offset": 0.0}, r"'wrist' starts 0 m off centre with a play of 0.0005 m"),
+        ({"offset": -6e-4}, r"'wrist' starts 0.0006 m off centre .* half the play"),
+        ({"hysteresis": 1.6}, r"'wrist' has a hysteresis of 1.6; .* below 1.5"),
+        ({"cylinder": True}, r"'wrist' has the cylinder law"),
+        ({"friction": Friction("coulomb", 0.1)}, r"'wrist' has friction 'coulomb' with a dead speed of 0 m/s.*'ambrosio'"),
+        ({"friction": Friction("ambrosio", 0.1, dead_speed=1e-3)}, r"'wrist' has friction 'ambrosio' with a dead speed of 0.001 m/s"),
+    ],
+)
 def test_contacts_that_exudyn_does_not_have(changes, message):
     with pytest.raises(InputError, match=message):
         prototype().run(*slider_crank(**changes), 1e-4, 1e-6)
@@ -236,12 +263,21 @@ def test_the_distance_off_centre_knows_how_bodies_stand():
         prototype().run(Model(bodies, (pin,)), {"a": (0, 0, np.pi / 2, 0, 0, 0), "b": (0.002, 0, 0, 0, 0, 0)}, 1e-3, 1e-4)
 
 
-@pytest.mark.parametrize(("part", "message"), [
-    ({"joints": (Revolute("pin", Marker("a"), Marker(GROUND), MasslessLink(1e-4)),)}, r"joint 'pin' is a MasslessLink"),
-    ({"joints": (Gear("mesh", "a", "b", -2.0),)}, r"no Gear \('mesh'\)"),
-    ({"forces": (Torque("motor", "a", Load(line(1.0, 2.0), "speed")),)}, r"'motor' is not constant"),
-    ({"joints": (Revolute("pin", Marker("a"), Marker(GROUND)),),
-      "drives": (Drive("pin", Curve(np.array([0.0, 1.0]), np.array([[0.0, 1, 1, 0, 0, 0]]))),)}, r"drive of 'pin' does not turn")])
+@pytest.mark.parametrize(
+    ("part", "message"),
+    [
+        ({"joints": (Revolute("pin", Marker("a"), Marker(GROUND), MasslessLink(1e-4)),)}, r"joint 'pin' is a MasslessLink"),
+        ({"joints": (Gear("mesh", "a", "b", -2.0),)}, r"no Gear \('mesh'\)"),
+        ({"forces": (Torque("motor", "a", Load(line(1.0, 2.0), "speed")),)}, r"'motor' is not constant"),
+        (
+            {
+                "joints": (Revolute("pin", Marker("a"), Marker(GROUND)),),
+                "drives": (Drive("pin", Curve(np.array([0.0, 1.0]), np.array([[0.0, 1, 1, 0, 0, 0]]))),),
+            },
+            r"drive of 'pin' does not turn",
+        ),
+    ],
+)
 def test_elements_that_the_twin_does_not_have(part, message):
     model = Model(**{"bodies": (Body("a", 1.0, 1.0), Body("b", 1.0, 1.0)), "joints": (), **part})
     with pytest.raises(InputError, match=message):

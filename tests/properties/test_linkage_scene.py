@@ -302,8 +302,12 @@ def test_plates_have_their_holes_where_the_pins_are(drawn):
     plates = {drawing.name: drawing for drawing in LINKAGE.drawings(model)}
     assert set(plates) == {name for name, body in model.spec.bodies.items() if len(body.points) > 1}
     for name, drawing in plates.items():
-        pins = {tuple(model.spec.bodies[name].points[text.split(".")[1]]) for joint in model.spec.joints for text in joint.connects
-                if text.split(".")[0] == name}
+        pins = {
+            tuple(model.spec.bodies[name].points[text.split(".")[1]])
+            for joint in model.spec.joints
+            for text in joint.connects
+            if text.split(".")[0] == name
+        }
         found = centres(drawing)
         assert len(found) == len(pins) and all(np.hypot(*(found - pin).T).min() < 1e-9 for pin in pins)
         edge = shapely.Polygon(drawing.on("profile")[0].points(1e-7))
@@ -327,7 +331,7 @@ def test_solids_are_the_plates_at_the_start_one_above_the_other(drawn):
     plates = {drawing.name: drawing for drawing in LINKAGE.drawings(model)}
     tops = -np.inf
     for name, drawing in plates.items():
-        solid, = parts[name].solids
+        (solid,) = parts[name].solids
         assert solid.outline.points() == pytest.approx(drawing.on("profile")[0].points()) and solid.thickness == drawing.thickness
         assert solid.z > tops
         tops = solid.z + solid.thickness
@@ -352,8 +356,9 @@ def test_holes_that_meet_are_refused():
 # -- outlines ------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("points", [[(1, 2)], [(0, 0), (3, 1)], [(0, 0), (2, 2), (1, 1)], [(0, 0), (4, 1), (2, 5), (2, 2)],
-                                    [(2, 5), (4, 1), (0, 0)]])
+@pytest.mark.parametrize(
+    "points", [[(1, 2)], [(0, 0), (3, 1)], [(0, 0), (2, 2), (1, 1)], [(0, 0), (4, 1), (2, 5), (2, 2)], [(2, 5), (4, 1), (0, 0)]]
+)
 def test_a_rounded_outline_is_the_hull_grown_by_its_radius(points):
     grown = shapely.convex_hull(shapely.MultiPoint(points)).buffer(0.3, quad_segs=400)
     made = shapely.Polygon(rounded(points, 0.3).points(1e-6))

@@ -10,31 +10,49 @@ TURN, G = 2 * np.pi, 9.81
 
 
 def bar(length, ends, angle, mass=1.0):
-    return {"mass": f"{mass} kg", "inertia": "1e-3 kg m^2", "centroid": [f"{length / 2} mm", "0 mm"], "angle": f"{angle} deg",
-            "points": {ends[0]: ["0 mm", "0 mm"], ends[1]: [f"{length} mm", "0 mm"]}}
+    return {
+        "mass": f"{mass} kg",
+        "inertia": "1e-3 kg m^2",
+        "centroid": [f"{length / 2} mm", "0 mm"],
+        "angle": f"{angle} deg",
+        "points": {ends[0]: ["0 mm", "0 mm"], ends[1]: [f"{length} mm", "0 mm"]},
+    }
 
 
 def parallelogram(speed="60 rpm", start=60.0, turns=1.25, rocker=100.0, **tables):
     """Cranks of 0.1 m on a frame of 0.15 m, from 60 deg."""
-    names = {"O2": ["ground.O2", "crank.O"], "A": ["crank.A", "coupler.A"], "B": ["coupler.B", "rocker.B"],
-             "O4": ["ground.O4", "rocker.O"]}
-    spec = {"mechanism": "linkage", "gravity": ["0 m/s^2", "-9.81 m/s^2"],
-            "ground": {"points": {"O2": ["0 mm", "0 mm"], "O4": ["150 mm", "0 mm"]}},
-            "bodies": {"crank": bar(100, "OA", start), "coupler": bar(150, "AB", 0), "rocker": bar(rocker, "OB", start, 2.0)},
-            "joints": [{"name": name, "connects": connects} for name, connects in names.items()],
-            "drive": {"joint": "O2", "speed": speed}, "simulate": {"turns": turns}}
+    names = {"O2": ["ground.O2", "crank.O"], "A": ["crank.A", "coupler.A"], "B": ["coupler.B", "rocker.B"], "O4": ["ground.O4", "rocker.O"]}
+    spec = {
+        "mechanism": "linkage",
+        "gravity": ["0 m/s^2", "-9.81 m/s^2"],
+        "ground": {"points": {"O2": ["0 mm", "0 mm"], "O4": ["150 mm", "0 mm"]}},
+        "bodies": {"crank": bar(100, "OA", start), "coupler": bar(150, "AB", 0), "rocker": bar(rocker, "OB", start, 2.0)},
+        "joints": [{"name": name, "connects": connects} for name, connects in names.items()],
+        "drive": {"joint": "O2", "speed": speed},
+        "simulate": {"turns": turns},
+    }
     return from_document(spec | tables)
 
 
 def slider_crank(turns=1.25):
     """Crank and rod of 0.1 m: the slider passes the crank's axis."""
-    spec = {"mechanism": "linkage", "ground": {"points": {"O": ["0 mm", "0 mm"]}},
-            "bodies": {"crank": bar(100, "OA", 30), "rod": bar(100, "AB", -30),
-                       "slider": {"mass": "1 kg", "inertia": "1e-3 kg m^2", "points": {"B": ["0 mm", "0 mm"]}}},
-            "joints": [{"name": "O", "connects": ["ground.O", "crank.O"]}, {"name": "A", "connects": ["crank.A", "rod.A"]},
-                       {"name": "B", "connects": ["rod.B", "slider.B"]},
-                       {"name": "guide", "kind": "prismatic", "connects": ["slider.B", "ground.O"], "axis": [1, 0]}],
-            "drive": {"joint": "O", "speed": "60 rpm"}, "simulate": {"turns": turns}}
+    spec = {
+        "mechanism": "linkage",
+        "ground": {"points": {"O": ["0 mm", "0 mm"]}},
+        "bodies": {
+            "crank": bar(100, "OA", 30),
+            "rod": bar(100, "AB", -30),
+            "slider": {"mass": "1 kg", "inertia": "1e-3 kg m^2", "points": {"B": ["0 mm", "0 mm"]}},
+        },
+        "joints": [
+            {"name": "O", "connects": ["ground.O", "crank.O"]},
+            {"name": "A", "connects": ["crank.A", "rod.A"]},
+            {"name": "B", "connects": ["rod.B", "slider.B"]},
+            {"name": "guide", "kind": "prismatic", "connects": ["slider.B", "ground.O"], "axis": [1, 0]},
+        ],
+        "drive": {"joint": "O", "speed": "60 rpm"},
+        "simulate": {"turns": turns},
+    }
     return from_document(spec)
 
 
@@ -42,11 +60,15 @@ def columns(result, table):
     return {column.name: column.data for column in result.tables[table].columns}
 
 
-@pytest.mark.parametrize(("spec", "times", "angles", "branch"), [
-    (parallelogram(), [1 / 3, 5 / 6], [np.pi, 0.0], {"crank 1", "coupler 0", "rocker 1"}),
-    (parallelogram("-60 rpm"), [1 / 6, 2 / 3, 7 / 6], [0.0, np.pi, 0.0], {"crank -1", "coupler 0", "rocker -1"}),
-    (slider_crank(), [1 / 6, 2 / 3, 7 / 6], [np.pi / 2, 3 * np.pi / 2, np.pi / 2], {"crank 1", "rod -1", "slider 0"})],
-    ids=["forth", "back", "slider"])
+@pytest.mark.parametrize(
+    ("spec", "times", "angles", "branch"),
+    [
+        (parallelogram(), [1 / 3, 5 / 6], [np.pi, 0.0], {"crank 1", "coupler 0", "rocker 1"}),
+        (parallelogram("-60 rpm"), [1 / 6, 2 / 3, 7 / 6], [0.0, np.pi, 0.0], {"crank -1", "coupler 0", "rocker -1"}),
+        (slider_crank(), [1 / 6, 2 / 3, 7 / 6], [np.pi / 2, 3 * np.pi / 2, np.pi / 2], {"crank 1", "rod -1", "slider 0"}),
+    ],
+    ids=["forth", "back", "slider"],
+)
 def test_the_table_of_singular_positions(spec, times, angles, branch):
     result = dw.run(spec, only="singular")
     found = columns(result, "singular_positions")
@@ -93,7 +115,7 @@ def test_forces_of_a_load_along_the_bars_are_finite_and_those_of_the_closed_form
     assert 0.25 > t[0] >= 0.0 and np.max(np.diff(t)) > 2e-3  # the middles of folds are left out
     angle = np.pi / 3 + TURN * t
     # The bodies' sum: ground joints carry  sum m (a - g).
-    total = -TURN**2 * (0.05 * 3 + 0.1) * np.exp(1j * angle) + 4 * G
+    total = -(TURN**2) * (0.05 * 3 + 0.1) * np.exp(1j * angle) + 4 * G
     ground = found["O2.force_x"] + found["O4.force_x"] + 1j * (found["O2.force_y"] + found["O4.force_y"])
     assert np.abs(ground) == pytest.approx(np.abs(total), rel=1e-7)
 
@@ -142,8 +164,9 @@ def test_a_sharp_bend_does_not_open_the_energy_balance():
 
 
 def test_a_run_that_stops_before_a_fold_passes_none_and_tells_its_stop_once():
-    spec = parallelogram(turns=6.0, simulate={"turns": 6.0, "singular": "stop"}, outputs=[{"name": "rocker", "body": "rocker"}],
-                         limits={"least_turns": 0.5})
+    spec = parallelogram(
+        turns=6.0, simulate={"turns": 6.0, "singular": "stop"}, outputs=[{"name": "rocker", "body": "rocker"}], limits={"least_turns": 0.5}
+    )
     found = dw.run(spec, only=("motion", "forces", "singular"))
     assert found.outcome == "partial" and found["singular.count"] == 0 and "singular_positions" not in found.tables
     assert not any("grows without bound" in finding or "passes" in finding for finding in found.findings)

@@ -56,9 +56,15 @@ def test_the_closed_form_notices_another_mechanism(change):
     assert len(differing(mixed)) == 4
 
 
-@pytest.mark.parametrize("changes", [
-    ('gravity=["1 m/s^2", "-9.81 m/s^2"]',), ('bodies.coupler.centroid=["79 mm", "1 mm"]',), ('joints.A.link_damping="2e-4 N m s/rad"',),
-    ('joints.A.model="dry"',)])
+@pytest.mark.parametrize(
+    "changes",
+    [
+        ('gravity=["1 m/s^2", "-9.81 m/s^2"]',),
+        ('bodies.coupler.centroid=["79 mm", "1 mm"]',),
+        ('joints.A.link_damping="2e-4 N m s/rad"',),
+        ('joints.A.model="dry"',),
+    ],
+)
 def test_what_the_closed_form_has_no_place_for(changes):
     assert list(four_bar.closed_form(model("knife_folder", *changes))) == []
 
@@ -74,8 +80,10 @@ def test_a_wrong_acceleration_leaves_newton_and_euler_unsatisfied():
 
 def test_a_joint_that_gapes_is_noticed():
     bar = model("four_bar", "simulate.turns=1.5", "simulate.discard=0")
-    seen = [(system, observed._replace(bodies=observed.bodies + 1e-6 * (np.arange(12) == 2) * (np.arange(4) == 2)[:, None]))
-            for system, observed in verify._seen(bar)]
+    seen = [
+        (system, observed._replace(bodies=observed.bodies + 1e-6 * (np.arange(12) == 2) * (np.arange(4) == 2)[:, None]))
+        for system, observed in verify._seen(bar)
+    ]
     assert differing(verify._closed_joints(bar, seen)) == ["joints without play, revolute: largest gap"]
 
 
@@ -87,8 +95,15 @@ def test_exudyn_notices_another_restitution():
     assert any(name.startswith("bodies.slider.x after 0.0") for name in differing(mixed))
 
 
-@pytest.mark.parametrize("change", ['joints.wrist.model="massless-link"', "joints.wrist.friction=0.1", 'joints.wrist.normal="cylinder"',
-                                    'bodies.crank.inertia="0 kg m^2"'])
+@pytest.mark.parametrize(
+    "change",
+    [
+        'joints.wrist.model="massless-link"',
+        "joints.wrist.friction=0.1",
+        'joints.wrist.normal="cylinder"',
+        'bodies.crank.inertia="0 kg m^2"',
+    ],
+)
 def test_what_exudyn_does_not_know(change):
     assert verify._known_to_exudyn(model("slider_crank_clearance"))
     assert not verify._known_to_exudyn(model("slider_crank_clearance", change))

@@ -37,11 +37,19 @@ def test_steels_are_alike_in_stiffness_and_apart_in_strength():
     assert strengths == sorted(strengths)
 
 
-@pytest.mark.parametrize("name, quantity, value", [
-    ("42CrMo4", "yield_strength", 650e6), ("C45", "yield_strength", 430e6), ("16MnCr5", "yield_strength", 490e6),
-    ("EN-GJS-600-3", "yield_strength", 370e6), ("EN-GJS-600-3", "modulus", 175e9), ("POM", "poisson", 0.363),
-    ("POM", "modulus", 2.82e9), ("100Cr6", "hertz_limit", 1.5e9),
-])
+@pytest.mark.parametrize(
+    "name, quantity, value",
+    [
+        ("42CrMo4", "yield_strength", 650e6),
+        ("C45", "yield_strength", 430e6),
+        ("16MnCr5", "yield_strength", 490e6),
+        ("EN-GJS-600-3", "yield_strength", 370e6),
+        ("EN-GJS-600-3", "modulus", 175e9),
+        ("POM", "poisson", 0.363),
+        ("POM", "modulus", 2.82e9),
+        ("100Cr6", "hertz_limit", 1.5e9),
+    ],
+)
 def test_numbers_that_were_read_and_not_recalled(name, quantity, value):
     assert getattr(material(name), quantity) == value and not material(name).source(quantity).recalled
 

@@ -7,20 +7,7 @@ import pytest
 
 from drivewright.contact.impact import delivered_restitution, impact_law, kelvin_voigt_restitution
 from drivewright.multibody.assembly import assemble
-from drivewright.multibody.model import (
-    GROUND,
-    Body,
-    Drive,
-    Dry,
-    Friction,
-    Ideal,
-    Marker,
-    Model,
-    PinSlot,
-    Prismatic,
-    Revolute,
-    line,
-)
+from drivewright.multibody.model import GROUND, Body, Drive, Dry, Friction, Ideal, Marker, Model, PinSlot, Prismatic, Revolute, line
 from drivewright.multibody.observe import observe
 from drivewright.multibody.simulate import Settings, simulate
 
@@ -47,8 +34,7 @@ def seen_at(found, t):
 
 def journal(dry, mass=0.5, velocity=(1.2, -0.9)):
     """A free body with a journal in a bearing of the ground."""
-    return Model((Body("body", mass, 1e-3, velocity=velocity),),
-                 (Revolute("pin", Marker(GROUND, 0.3, -0.1), Marker("body"), dry),))
+    return Model((Body("body", mass, 1e-3, velocity=velocity),), (Revolute("pin", Marker(GROUND, 0.3, -0.1), Marker("body"), dry),))
 
 
 def first_bounce(dry, mass, speed, mass2=None):
@@ -57,8 +43,10 @@ def first_bounce(dry, mass, speed, mass2=None):
     if mass2 is None:
         model = journal(dry, mass, tuple(speed * way))
     else:
-        model = Model((Body("ring", mass2, 1.0, velocity=(0.3, 0.2)), Body("pin", mass, 1.0, velocity=tuple((0.3, 0.2) + speed * way))),
-                      (Revolute("pin", Marker("ring"), Marker("pin"), dry),))
+        model = Model(
+            (Body("ring", mass2, 1.0, velocity=(0.3, 0.2)), Body("pin", mass, 1.0, velocity=tuple((0.3, 0.2) + speed * way))),
+            (Revolute("pin", Marker("ring"), Marker("pin"), dry),),
+        )
     _, found = run(model, 1.5 * dry.clearance / speed)  # well before the next wall, if the contact is short
     assembly = found.assembly
     assert len(found.impacts) == 1
@@ -76,8 +64,15 @@ def first_bounce(dry, mass, speed, mass2=None):
     return -after @ way / speed
 
 
-LAWS = [("flores-2011", 0.9), ("flores-2011", 0.5), ("lankarani-nikravesh", 0.7), ("hunt-crossley", 0.8), ("gonthier", 0.6),
-        ("herbert-mcwhannell", 0.9), ("elastic", 1.0)]
+LAWS = [
+    ("flores-2011", 0.9),
+    ("flores-2011", 0.5),
+    ("lankarani-nikravesh", 0.7),
+    ("hunt-crossley", 0.8),
+    ("gonthier", 0.6),
+    ("herbert-mcwhannell", 0.9),
+    ("elastic", 1.0),
+]
 
 
 @pytest.mark.parametrize("law, asked", LAWS)
@@ -111,8 +106,10 @@ def test_bristles_are_relaxed_when_a_pin_touches():
     np.testing.assert_allclose(ends[1].end[2], ends[0].end[2], rtol=1e-7, atol=1e-9)
 
 
-@pytest.mark.parametrize("changes", [{"exponent": 1.0, "stiffness": 1e10}, {"exponent": 2.2, "stiffness": 1e14},
-                                     {"cylinder": True, "stiffness": 1e11, "length": 0.02}])
+@pytest.mark.parametrize(
+    "changes",
+    [{"exponent": 1.0, "stiffness": 1e10}, {"exponent": 2.2, "stiffness": 1e14}, {"cylinder": True, "stiffness": 1e11, "length": 0.02}],
+)
 def test_restitution_does_not_depend_on_the_elastic_law(changes):
     dry = replace(Dry(5e-4, 0.01, 1e10, 1.5, 0.8), **changes)
     assert first_bounce(dry, 0.5, 1.5) == pytest.approx(delivered_restitution(0.8), abs=1e-4)
@@ -132,13 +129,20 @@ def test_two_free_bodies_keep_their_momentum_and_bounce_alike(mass2):
 def pair(dry, spin=(30.0, -80.0)):
     """Two free bodies; the bearing and the journal lie off their centroids."""
     return Model(
-        (Body("ring", 0.8, 2e-3, (0.02, 0.01), angle=0.3, velocity=(0.5, 0.1), angular_velocity=spin[0]),
-         Body("shaft", 0.5, 8e-4, (-0.01, 0.015), angle=-1.0, velocity=(-0.4, 0.9), angular_velocity=spin[1])),
-        (Revolute("pin", Marker("ring"), Marker("shaft"), dry),))
+        (
+            Body("ring", 0.8, 2e-3, (0.02, 0.01), angle=0.3, velocity=(0.5, 0.1), angular_velocity=spin[0]),
+            Body("shaft", 0.5, 8e-4, (-0.01, 0.015), angle=-1.0, velocity=(-0.4, 0.9), angular_velocity=spin[1]),
+        ),
+        (Revolute("pin", Marker("ring"), Marker("shaft"), dry),),
+    )
 
 
-FRICTIONS = [Friction("none"), Friction("coulomb", 0.2, 0.01), Friction("ambrosio", 0.2, 0.02, dead_speed=0.001),
-             Friction("lugre", 0.2, 0.01, static_coefficient=0.3, bristle_stiffness=1e4, bristle_damping=10.0, viscous=0.01)]
+FRICTIONS = [
+    Friction("none"),
+    Friction("coulomb", 0.2, 0.01),
+    Friction("ambrosio", 0.2, 0.02, dead_speed=0.001),
+    Friction("lugre", 0.2, 0.01, static_coefficient=0.3, bristle_stiffness=1e4, bristle_damping=10.0, viscous=0.01),
+]
 
 
 @pytest.mark.parametrize("friction", FRICTIONS, ids=lambda f: f.law)
@@ -197,8 +201,11 @@ def effective(friction, slip):
     return g + friction.viscous * v
 
 
-STEADY = [Friction("coulomb", MU, 0.05), Friction("ambrosio", MU, 0.1, dead_speed=0.01),
-          Friction("lugre", MU, 0.1, static_coefficient=0.4, bristle_stiffness=1e4, bristle_damping=10.0, viscous=0.5)]
+STEADY = [
+    Friction("coulomb", MU, 0.05),
+    Friction("ambrosio", MU, 0.1, dead_speed=0.01),
+    Friction("lugre", MU, 0.1, static_coefficient=0.4, bristle_stiffness=1e4, bristle_damping=10.0, viscous=0.5),
+]
 
 
 @pytest.mark.parametrize("friction", STEADY, ids=lambda f: f.law)
@@ -238,9 +245,11 @@ def test_spinning_journal_is_braked_on_the_radius_of_contact(friction):
     """The journal's centre runs in a vertical slot: J w' = -mu N r while it slides fast."""
     inertia = 2e-4
     dry = Dry(PLAY, RADIUS, STIFFNESS, friction=friction)
-    model = Model((Body("body", MASS, inertia, angular_velocity=200.0),),
-                  (PinSlot("slot", Marker("body"), Marker(GROUND), (0.0, 1.0)),
-                   Revolute("pin", Marker(GROUND), Marker("body"), dry)), gravity=(0, -G))
+    model = Model(
+        (Body("body", MASS, inertia, angular_velocity=200.0),),
+        (PinSlot("slot", Marker("body"), Marker(GROUND), (0.0, 1.0)), Revolute("pin", Marker(GROUND), Marker("body"), dry)),
+        gravity=(0, -G),
+    )
     assembly = assemble(model)
     depth = (MASS * G / STIFFNESS) ** (2 / 3)
     y = assembly.state.copy()
@@ -264,9 +273,14 @@ def slider_crank(friction=Friction("none"), clearance=0.5e-3, hysteresis=0.3):
     dry = Dry(clearance, 0.01, 6.6102e10, 1.5, hysteresis, friction=friction) if clearance else Ideal()
     return Model(
         (Body("crank", 1.0, 1e-4), Body("rod", 0.21, 2.5e-4, (ROD / 2, 0.0)), Body("slider", 0.14, 1e-6)),
-        (Revolute("O", Marker(GROUND), Marker("crank")), Revolute("A", Marker("crank", CRANK), Marker("rod")),
-         Revolute("wrist", Marker("rod", ROD), Marker("slider"), dry), Prismatic("guide", Marker("slider"), Marker(GROUND))),
-        drives=(Drive("O", line(0.0, SPEED)),))
+        (
+            Revolute("O", Marker(GROUND), Marker("crank")),
+            Revolute("A", Marker("crank", CRANK), Marker("rod")),
+            Revolute("wrist", Marker("rod", ROD), Marker("slider"), dry),
+            Prismatic("guide", Marker("slider"), Marker(GROUND)),
+        ),
+        drives=(Drive("O", line(0.0, SPEED)),),
+    )
 
 
 LUGRE = FRICTIONS[3]
@@ -311,9 +325,13 @@ def test_step_limit_gives_what_there_is():
 def test_two_pins_that_touch_at_the_same_moment():
     """A plate with two equal journals flies straight into two equal bearings: both hold, and it comes back."""
     dry = Dry(5e-4, 0.01, 6e10, 1.5, 0.5)
-    model = Model((Body("plate", 0.5, 1e-3, velocity=(1.5, 0.0)),),
-                  (Revolute("up", Marker(GROUND, 0, 0.1), Marker("plate", 0, 0.1), dry),
-                   Revolute("down", Marker(GROUND, 0, -0.1), Marker("plate", 0, -0.1), dry)))
+    model = Model(
+        (Body("plate", 0.5, 1e-3, velocity=(1.5, 0.0)),),
+        (
+            Revolute("up", Marker(GROUND, 0, 0.1), Marker("plate", 0, 0.1), dry),
+            Revolute("down", Marker(GROUND, 0, -0.1), Marker("plate", 0, -0.1), dry),
+        ),
+    )
     _, found = run(model, 1.5 * 5e-4 / 1.5)
     seen = seen_at(found, 1.5 * 5e-4 / 1.5)
     assert seen.body(1, "vx")[0] == pytest.approx(-1.5 * delivered_restitution(0.5), rel=1e-4)
@@ -332,9 +350,11 @@ def test_start_inside_the_wall_is_held():
 
 def test_second_bearing_of_a_driven_shaft():
     """No freedom, and yet a pin with play: it stays in the middle."""
-    model = Model((Body("shaft", 1.0, 0.1),),
-                  (Revolute("A", Marker(GROUND), Marker("shaft")), Revolute("B", Marker(GROUND), Marker("shaft"), Dry(5e-4, 0.01, 1e8))),
-                  drives=(Drive("A", line(0.0, 2.0)),))
+    model = Model(
+        (Body("shaft", 1.0, 0.1),),
+        (Revolute("A", Marker(GROUND), Marker("shaft")), Revolute("B", Marker(GROUND), Marker("shaft"), Dry(5e-4, 0.01, 1e8))),
+        drives=(Drive("A", line(0.0, 2.0)),),
+    )
     found = simulate(assemble(model), 1.0, samples=np.linspace(0, 1, 5))
     part = found.stretches[0]
     seen = observe(part.system, part.t, part.y)
@@ -349,9 +369,16 @@ def test_loaded_pin_approaches_the_ideal_one_in_first_order():
     for play in plays:
         stiffness = 5.0 / (0.1 * play) ** 1.5
         dry = Dry(play, 0.01, stiffness, damping=60.0 * np.sqrt(1e-4 / play))
-        model = Model((Body("lever", 1.0, 0.01, (0.15, 0.0)), Body("prop", 1.0, 0.01)),
-                      (Revolute("O", Marker(GROUND), Marker("lever")), Revolute("P", Marker(GROUND, 0.3), Marker("prop")),
-                       Revolute("pin", Marker("prop"), Marker("lever", 0.3), dry)), drives=(Drive("P", line(0.0, 0.3)),), gravity=(0, -G))
+        model = Model(
+            (Body("lever", 1.0, 0.01, (0.15, 0.0)), Body("prop", 1.0, 0.01)),
+            (
+                Revolute("O", Marker(GROUND), Marker("lever")),
+                Revolute("P", Marker(GROUND, 0.3), Marker("prop")),
+                Revolute("pin", Marker("prop"), Marker("lever", 0.3), dry),
+            ),
+            drives=(Drive("P", line(0.0, 0.3)),),
+            gravity=(0, -G),
+        )
         assembly, found = run(model, 0.5, 1e-8)
         sags.append(-seen_at(found, 0.5).body(assembly.names.index("lever"), "angle")[0])
     assert np.polyfit(np.log(plays), np.log(sags), 1)[0] == pytest.approx(1.0, abs=0.1)

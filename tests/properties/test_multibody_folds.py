@@ -38,13 +38,17 @@ def hung(pin, speed, loop=True, base=None, spin=0.0):
     """A body hung from the coupler of a driven parallelogram; without the loop a second drive keeps the coupler level instead."""
     model = base or parallelogram(speed)
     bob = mb.Body("bob", 0.5, 1e-4, (0.02, 0.0), angle=-0.7, angular_velocity=spin)
-    model = replace(model, bodies=(*model.bodies, bob),
-                    joints=(*model.joints, mb.Revolute("hook", mb.Marker("coupler", 0.06), mb.Marker("bob"), pin)))
+    model = replace(
+        model, bodies=(*model.bodies, bob), joints=(*model.joints, mb.Revolute("hook", mb.Marker("coupler", 0.06), mb.Marker("bob"), pin))
+    )
     if loop:
         return model
-    return replace(model, bodies=tuple(body for body in model.bodies if body.name != "rocker"),
-                   joints=tuple(joint for joint in model.joints if joint.name not in ("B", "O4")),
-                   drives=(*model.drives, mb.Drive("A", mb.line(0.0, -speed))))
+    return replace(
+        model,
+        bodies=tuple(body for body in model.bodies if body.name != "rocker"),
+        joints=tuple(joint for joint in model.joints if joint.name not in ("B", "O4")),
+        drives=(*model.drives, mb.Drive("A", mb.line(0.0, -speed))),
+    )
 
 
 @pytest.mark.parametrize("speed", [TURN, -TURN])
@@ -81,8 +85,12 @@ def test_a_fold_is_as_wide_as_the_loop_moves_however_fast_a_body_beside_it_spins
 
 def test_charts_count_from_the_fold_whichever_coordinate_is_independent():
     rates = {"crank": TURN, "coupler": 0.0, "rocker": TURN}
-    free = replace(parallelogram(), drives=(), gravity=(0.0, 0.0),
-                   bodies=tuple(replace(body, angular_velocity=rates[body.name]) for body in parallelogram().bodies))
+    free = replace(
+        parallelogram(),
+        drives=(),
+        gravity=(0.0, 0.0),
+        bodies=tuple(replace(body, angular_velocity=rates[body.name]) for body in parallelogram().bodies),
+    )
     run = mb.simulate(mb.assemble(free), 1.4, mb.Settings(rtol=1e-10))
     assert [passed.time for passed in run.passages] == pytest.approx([1 / 3, 5 / 6, 4 / 3], abs=1e-6)
     for passed in run.passages:
@@ -90,8 +98,12 @@ def test_charts_count_from_the_fold_whichever_coordinate_is_independent():
         assert offsets_of(passed.system, [passed.time], passed.state[None]) == pytest.approx([0.0], abs=1e-9)
         assert offsets_of(ahead[0], [ahead[1]], ahead[2][None]) == pytest.approx([1e-3 / ahead[0].chart.pace], rel=1e-3)
     rates["rocker"] = -5 * TURN  # the anti-parallelogram, in which coupler and rocker are faster than the crank
-    free = replace(free, bodies=tuple(replace(body, angle=0.0, angular_velocity=rates.get(body.name) if body.name != "coupler" else None)
-                                      for body in free.bodies))
+    free = replace(
+        free,
+        bodies=tuple(
+            replace(body, angle=0.0, angular_velocity=rates.get(body.name) if body.name != "coupler" else None) for body in free.bodies
+        ),
+    )
     system, t, y = mb.simulate(mb.assemble(free), 1e-3, mb.Settings(rtol=1e-10)).end
     assert system.independent[0] != system.stored[0]
     assert offsets_of(system, [t], y[None]) == pytest.approx([1e-3 / system.chart.pace], rel=1e-2)
@@ -100,8 +112,12 @@ def test_charts_count_from_the_fold_whichever_coordinate_is_independent():
 def test_a_kite_starts_in_its_fold():
     """Crank and frame on each other, coupler and rocker too: what the coupler's joint does to the loop is zero there, but nowhere else."""
     base = four_bar(0.1, 0.1, 0.15, 0.15)
-    model = replace(base, bodies=tuple(replace(body, angle=0.0, angular_velocity=rate * TURN)
-                                       for body, rate in zip(base.bodies, (1.0, 1 / 6, 5 / 6), strict=True)))
+    model = replace(
+        base,
+        bodies=tuple(
+            replace(body, angle=0.0, angular_velocity=rate * TURN) for body, rate in zip(base.bodies, (1.0, 1 / 6, 5 / 6), strict=True)
+        ),
+    )
     run, seen = turned(model, 0.9)
     half = TURN * seen.t / 2
     along = 0.1 * np.cos(half) + np.sqrt(0.15**2 - (0.1 * np.sin(half)) ** 2)
@@ -114,8 +130,9 @@ def test_a_start_in_a_fold_of_a_loop_with_two_freedoms_is_refused():
     base = carousel(2.0)
     bodies = tuple(replace(body, angle=0.0, inertia=1e-3) for body in base.bodies)
     with pytest.raises(DoesNotAssemble, match="starts in a singular position"):
-        mb.assemble(replace(base, drives=(), bodies=tuple(replace(body, angular_velocity=2.0) if body.name == "table" else body
-                                                          for body in bodies)))
+        mb.assemble(
+            replace(base, drives=(), bodies=tuple(replace(body, angular_velocity=2.0) if body.name == "table" else body for body in bodies))
+        )
 
 
 @pytest.mark.parametrize("name", PINS)
@@ -131,11 +148,16 @@ def carousel(turn):
     base = parallelogram()
     rates = {"crank": 9.0, "coupler": turn, "rocker": 9.0}
     return replace(
-        base, gravity=(0.0, 0.0),
+        base,
+        gravity=(0.0, 0.0),
         bodies=(mb.Body("table"), *(replace(body, angular_velocity=rates[body.name]) for body in base.bodies)),
-        joints=(mb.Revolute("T", mb.Marker("table"), mb.Marker("ground")), *base.joints[:3],
-                mb.Revolute("O4", mb.Marker("rocker"), mb.Marker("table", FRAME))),
-        drives=(mb.Drive("T", mb.line(0.0, turn)),))
+        joints=(
+            mb.Revolute("T", mb.Marker("table"), mb.Marker("ground")),
+            *base.joints[:3],
+            mb.Revolute("O4", mb.Marker("rocker"), mb.Marker("table", FRAME)),
+        ),
+        drives=(mb.Drive("T", mb.line(0.0, turn)),),
+    )
 
 
 @pytest.mark.parametrize("turn", [2.0, -3.0, 14.0])
@@ -145,10 +167,20 @@ def test_a_free_parallelogram_on_a_turntable_is_a_pendulum_in_its_field(turn):
     run, seen = sampled(carousel(turn), times)
     inertia = 2e-3 + 1.0 * 0.05**2 + 1.0 * CRANK**2 + 2.0 * 0.05**2
     field = 1.0 * CRANK * 0.075 + 2.0 * 0.05 * FRAME
-    exact = solve_ivp(lambda t, y: [y[1], -field * turn**2 / inertia * np.sin(y[0] - turn * t)], (0.0, 1.5), [np.pi / 3, 9.0],
-                      method="DOP853", rtol=1e-12, atol=1e-12, dense_output=True).sol
-    assert len(run.passages) == np.count_nonzero(np.diff(np.floor((exact(np.linspace(0, 1.5, 100001))[0]
-                                                                   - turn * np.linspace(0, 1.5, 100001)) / np.pi))) > 0
+    exact = solve_ivp(
+        lambda t, y: [y[1], -field * turn**2 / inertia * np.sin(y[0] - turn * t)],
+        (0.0, 1.5),
+        [np.pi / 3, 9.0],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-12,
+        dense_output=True,
+    ).sol
+    assert (
+        len(run.passages)
+        == np.count_nonzero(np.diff(np.floor((exact(np.linspace(0, 1.5, 100001))[0] - turn * np.linspace(0, 1.5, 100001)) / np.pi)))
+        > 0
+    )
     assert seen.point("crank", "angle") == pytest.approx(exact(times)[0], rel=0, abs=1e-6)
     assert seen.point("rocker", "angle") == pytest.approx(exact(times)[0], rel=0, abs=1e-6)
     assert seen.point("coupler", "angle") == pytest.approx(turn * times, rel=0, abs=1e-6)
@@ -190,10 +222,17 @@ def touching(speed, bend, driven=True):
     reach = 0.8
     lift = mb.Curve(np.array([-reach, 10.0]), np.array([[0.0, -2 * bend * reach, bend, 0, 0, 0]]))
     base, start = parallelogram(start=np.degrees(bend * reach**2)), -np.copysign(reach, speed)
-    return replace(base, bodies=(mb.Body("cam", 1.0, 1e-3, angle=start, angular_velocity=None if driven else speed), *base.bodies),
-                   joints=(mb.Revolute("C", mb.Marker("cam"), mb.Marker("ground", 0.0, 0.5)), *base.joints,
-                           mb.CamPair("pair", "cam", mb.Marker("crank"), lift)),
-                   drives=(mb.Drive("C", mb.line(0.0, speed)),) if driven else (), gravity=(0.0, 0.0))
+    return replace(
+        base,
+        bodies=(mb.Body("cam", 1.0, 1e-3, angle=start, angular_velocity=None if driven else speed), *base.bodies),
+        joints=(
+            mb.Revolute("C", mb.Marker("cam"), mb.Marker("ground", 0.0, 0.5)),
+            *base.joints,
+            mb.CamPair("pair", "cam", mb.Marker("crank"), lift),
+        ),
+        drives=(mb.Drive("C", mb.line(0.0, speed)),) if driven else (),
+        gravity=(0.0, 0.0),
+    )
 
 
 @pytest.mark.parametrize(("speed", "bend"), [(1.0, 0.5), (-1.0, 0.2), (3.0, 2.0)])
@@ -305,8 +344,15 @@ def test_a_run_that_stops_says_when_the_fold_would_come():
 def test_no_fold_is_missed_on_the_way_from_rest(angle, rtol, method):
     """N windows are a pendulum, theta'' = -g W cos(theta)/M: it turns between two folds, now slow, now near to one."""
     weight, mass = 3.5, 3.0
-    sol = solve_ivp(lambda t, y: [y[1], -G * weight / mass * np.cos(y[0])], (0.0, 3.0), [angle, 0.0], method="DOP853", rtol=1e-12,
-                    atol=1e-12, dense_output=True).sol
+    sol = solve_ivp(
+        lambda t, y: [y[1], -G * weight / mass * np.cos(y[0])],
+        (0.0, 3.0),
+        [angle, 0.0],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-12,
+        dense_output=True,
+    ).sol
     t = np.linspace(0.0, 3.0, 100001)
     wanted = t[1:][np.diff(np.floor(sol(t)[0] / np.pi)) != 0]
     run = mb.simulate(mb.assemble(windows(2, tip_speed=0.0, angle=angle)), 3.0, mb.Settings(rtol=rtol, method=method))
@@ -315,6 +361,7 @@ def test_no_fold_is_missed_on_the_way_from_rest(angle, rtol, method):
 
 def test_a_free_mechanism_folds_alike_in_metres_and_micrometres():
     """Lengths and gravity in other units: the same angles at the same times."""
+
     def in_units(size):
         def marker(m):
             return mb.Marker(m.body, size * m.x, size * m.y)
@@ -352,7 +399,7 @@ def test_a_driven_mechanism_takes_what_its_pins_remember_through_the_folds(model
     run = mb.simulate(assembly, 1.2)
     assert len(assembly.state) == 3 + (name == "bristles") and len(run.passages) >= 2
     for state in (*(part.y for part in run.stretches), *(part.y_end for part in run.stretches), *(each.state for each in run.passages)):
-        assert state.shape[-1] == len(assembly.state) and np.all(state[..., len(assembly.system.stored):] == 0.0)
+        assert state.shape[-1] == len(assembly.state) and np.all(state[..., len(assembly.system.stored) :] == 0.0)
     seen = mb.record(run, {"rocker": mb.Marker("rocker")})
     assert seen.point("rocker", "w") == pytest.approx(np.full(len(seen.t), TURN), rel=1e-8)
     assert seen.pins[:, 0, 0] == pytest.approx(np.full(len(seen.t), -DRY.clearance), abs=1e-12) and not np.any(seen.pins[:, 0, 1])
@@ -394,8 +441,9 @@ HELD = 2.0 * G * CRANK / 2 + 0.5 * G * CRANK
 
 
 @pytest.mark.parametrize("size", [1.0, 1e-5, 1e5])
-@pytest.mark.parametrize(("part", "wanted"), [(0.0, [ALL, ALL]), (1.0, [(), ALL]), (-1.0, [ALL, ()]), (1.001, [ALL, ALL]),
-                                              (0.999, [ALL, ALL])])
+@pytest.mark.parametrize(
+    ("part", "wanted"), [(0.0, [ALL, ALL]), (1.0, [(), ALL]), (-1.0, [ALL, ()]), (1.001, [ALL, ALL]), (0.999, [ALL, ALL])]
+)
 def test_bars_in_line_carry_what_turns_the_rocker_only_where_it_is_balanced(part, wanted, size):
     """A torque on the rocker that holds its weight where the bars point to the left, or, reversed, to the right."""
     hold = mb.Torque("hold", "rocker", mb.Load(mb.line(-part * HELD * size**2, 0.0)))

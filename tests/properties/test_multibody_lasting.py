@@ -25,17 +25,27 @@ LASTING = loads.LASTING
 
 def ball(dry, velocity=(0.0, 0.0), gravity=0.0, mass=0.5):
     """A free body with a journal in a bearing of the ground."""
-    return assemble(Model((Body("body", mass, 1e-3, velocity=velocity),),
-                          (Revolute("pin", Marker(GROUND), Marker("body"), dry),), gravity=(0.0, -gravity)))
+    return assemble(
+        Model(
+            (Body("body", mass, 1e-3, velocity=velocity),), (Revolute("pin", Marker(GROUND), Marker("body"), dry),), gravity=(0.0, -gravity)
+        )
+    )
 
 
 def slider_crank(clearance, hysteresis, friction=Friction("none")):
     dry = Dry(clearance, 0.01, 6.6102e10 * np.sqrt(5e-4 / clearance), 1.5, hysteresis, friction=friction)
-    return assemble(Model(
-        (Body("crank", 1.0, 1e-4), Body("rod", 0.21, 2.5e-4, (ROD / 2, 0.0)), Body("slider", 0.14, 1e-6)),
-        (Revolute("O", Marker(GROUND), Marker("crank")), Revolute("A", Marker("crank", CRANK), Marker("rod")),
-         Revolute("wrist", Marker("rod", ROD), Marker("slider"), dry), Prismatic("guide", Marker("slider"), Marker(GROUND))),
-        drives=(Drive("O", line(0.0, SPEED)),)))
+    return assemble(
+        Model(
+            (Body("crank", 1.0, 1e-4), Body("rod", 0.21, 2.5e-4, (ROD / 2, 0.0)), Body("slider", 0.14, 1e-6)),
+            (
+                Revolute("O", Marker(GROUND), Marker("crank")),
+                Revolute("A", Marker("crank", CRANK), Marker("rod")),
+                Revolute("wrist", Marker("rod", ROD), Marker("slider"), dry),
+                Prismatic("guide", Marker("slider"), Marker(GROUND)),
+            ),
+            drives=(Drive("O", line(0.0, SPEED)),),
+        )
+    )
 
 
 def memory_of(system, y):
@@ -74,9 +84,15 @@ def test_a_lasting_contact_that_is_left_free_bounces_with_the_same_restitution(c
 @pytest.mark.parametrize("method", ["dopri5", "radau"])
 def test_two_pins_that_touch_at_the_same_moment_both_hold(method):
     dry = Dry(5e-4, 0.01, 6e10, 1.5, 0.5)
-    assembly = assemble(Model((Body("plate", 0.5, 1e-3, velocity=(1.5, 0.0)),),
-                              (Revolute("up", Marker(GROUND, 0, 0.1), Marker("plate", 0, 0.1), dry),
-                               Revolute("down", Marker(GROUND, 0, -0.1), Marker("plate", 0, -0.1), dry))))
+    assembly = assemble(
+        Model(
+            (Body("plate", 0.5, 1e-3, velocity=(1.5, 0.0)),),
+            (
+                Revolute("up", Marker(GROUND, 0, 0.1), Marker("plate", 0, 0.1), dry),
+                Revolute("down", Marker(GROUND, 0, -0.1), Marker("plate", 0, -0.1), dry),
+            ),
+        )
+    )
     found = simulate(assembly, 1.5 * 5e-4 / 1.5, Settings(rtol=1e-10, method=method))
     assert found.end[2][4] == pytest.approx(-1.5 * delivered_restitution(0.5), rel=1e-4)
     assert sorted(found.impacts[:, 1]) == [0, 1]
@@ -125,8 +141,9 @@ def test_a_contact_loses_energy_always_and_never_pulls(clearance, factor):
     for part in found.stretches:
         pins, memory = observe(part.system, part.t, part.y), memory_of(part.system, part.y)
         depth, normal = pins.pin(0, "depth"), pins.pin(0, "normal")
-        slider, rod = (np.stack([pins.body(k, f) for f in ("x", "y", "vx", "vy", "angle", "w")])
-                       for k in map(assembly.names.index, ("slider", "rod")))
+        slider, rod = (
+            np.stack([pins.body(k, f) for f in ("x", "y", "vx", "vy", "angle", "w")]) for k in map(assembly.names.index, ("slider", "rod"))
+        )
         reach = ROD / 2 * np.exp(1j * rod[4])
         away = rod[0] + 1j * rod[1] + reach - slider[0] - 1j * slider[1]
         apart = rod[2] + 1j * rod[3] + 1j * rod[5] * reach - slider[2] - 1j * slider[3]
@@ -154,8 +171,9 @@ def test_a_bouncing_journal_comes_to_rest(method):
 
 def test_a_slow_touch_under_a_growing_load_is_not_glued():
     """Faster pressed than touched: the force is at most (1 + 2 h) times the elastic one, and continuous at the approach speed."""
-    contact = assemble(Model((Body("body", 0.5, 1e-3),), (Revolute("pin", Marker(GROUND), Marker("body"), Dry(5e-4, 0.01, 1e8, 1.5, 0.8)),))
-                       ).system.contacts[0]
+    contact = assemble(
+        Model((Body("body", 0.5, 1e-3),), (Revolute("pin", Marker(GROUND), Marker("body"), Dry(5e-4, 0.01, 1e8, 1.5, 0.8)),))
+    ).system.contacts[0]
     normal, elastic = plain(loads.normal_of), 1e8 * 1e-5**1.5
     rates = 1e-4 * np.array([0.5, 1 - 1e-7, 1 + 1e-7, 1.01, 100.0, 1e6])
     factor = [normal(contact, 1e-5, rate, 1e-4, 0.0) / elastic - 1 for rate in rates]
@@ -172,9 +190,11 @@ def test_a_gap_that_no_force_moves_is_elastic():
 def test_the_mass_of_a_lasting_contact_is_that_which_its_force_moves():
     """A pendulum's journal: (J + m l^2)/r^2 at its pin, on which the equivalent damping depends."""
     dry, arm = Dry(5e-4, 0.01, 6e10, 1.5, 0.5), 0.2
-    model = Model((Body("lever", 1.5, 0.02, (0.1, 0.0)), ),
-                  (Revolute("O", Marker(GROUND), Marker("lever")), Revolute("pin", Marker(GROUND, arm), Marker("lever", arm), dry)),
-                  gravity=(0.0, -G))
+    model = Model(
+        (Body("lever", 1.5, 0.02, (0.1, 0.0)),),
+        (Revolute("O", Marker(GROUND), Marker("lever")), Revolute("pin", Marker(GROUND, arm), Marker("lever", arm), dry)),
+        gravity=(0.0, -G),
+    )
     found = modes(linearise(assemble(model)))
     stiff = np.argmax(found.frequencies)
     assert found.ratios[stiff] == pytest.approx(lasting_factor(0.5) / 2 * np.sqrt(5 / 6), rel=1e-4)
@@ -191,17 +211,25 @@ def bumps(bins=24):
 def two_free():
     """Bearing and journal off the centroids of two free bodies that turn."""
     return Model(
-        (Body("ring", 0.8, 2e-3, (0.02, 0.01), angle=0.3, velocity=(0.5, 0.1), angular_velocity=30.0),
-         Body("shaft", 0.5, 8e-4, (-0.01, 0.015), angle=-1.0, velocity=(-0.4, 0.9), angular_velocity=-80.0)),
-        (Revolute("pin", Marker("ring"), Marker("shaft"), Dry(1e-4, 0.01, 1e9, 1.5, 0.3)),))
+        (
+            Body("ring", 0.8, 2e-3, (0.02, 0.01), angle=0.3, velocity=(0.5, 0.1), angular_velocity=30.0),
+            Body("shaft", 0.5, 8e-4, (-0.01, 0.015), angle=-1.0, velocity=(-0.4, 0.9), angular_velocity=-80.0),
+        ),
+        (Revolute("pin", Marker("ring"), Marker("shaft"), Dry(1e-4, 0.01, 1e9, 1.5, 0.3)),),
+    )
 
 
 def chain():
     """A lever and a rod on it, whose end is a journal in the ground's bearing: a mass matrix that is not diagonal."""
     bodies = (Body("lever", 1.2, 3e-3, (0.04, 0.01), angular_velocity=7.0), Body("rod", 0.7, 2e-3, (0.05, -0.02), angular_velocity=-4.0))
-    return Model(bodies,
-                 (Revolute("O", Marker(GROUND), Marker("lever")), Revolute("A", Marker("lever", 0.1), Marker("rod")),
-                  Revolute("pin", Marker(GROUND, 0.2, 0.01), Marker("rod", 0.1, 0.02), Dry(1e-4, 0.01, 1e9, 1.5, 0.3))))
+    return Model(
+        bodies,
+        (
+            Revolute("O", Marker(GROUND), Marker("lever")),
+            Revolute("A", Marker("lever", 0.1), Marker("rod")),
+            Revolute("pin", Marker(GROUND, 0.2, 0.01), Marker("rod", 0.1, 0.02), Dry(1e-4, 0.01, 1e9, 1.5, 0.3)),
+        ),
+    )
 
 
 @pytest.mark.parametrize("model, aside", [(two_free(), 4e-4), (chain(), 4e-3)], ids=["two free", "chain"])
@@ -248,9 +276,11 @@ def test_an_impact_takes_as_much_when_it_parts_faster_than_it_touched():
         assert one == pytest.approx(-other, rel=1e-12) and 0.09 < one < 0.4
 
 
-@pytest.mark.parametrize("friction", [Friction("coulomb", 0.1, 0.01), Friction("lugre", 0.1, 0.01, static_coefficient=0.15,
-                                                                                bristle_stiffness=1e4, bristle_damping=1.0)],
-                         ids=lambda friction: friction.law)
+@pytest.mark.parametrize(
+    "friction",
+    [Friction("coulomb", 0.1, 0.01), Friction("lugre", 0.1, 0.01, static_coefficient=0.15, bristle_stiffness=1e4, bristle_damping=1.0)],
+    ids=lambda friction: friction.law,
+)
 def test_a_cut_in_lasting_contact_goes_on_as_if_uncut(friction):
     assembly = slider_crank(2e-5, 0.1778, friction)
     whole = simulate(assembly, 1.2 * TURN, Settings(rtol=1e-10))

@@ -76,8 +76,15 @@ class Seen:
 
 def four_bar(clearances=(0.0,) * 4, alphas=(0.1, 0.2, 3.0, 0.3), damping=0.0, link_damping=1e-4, forward=True):
     """(multibody model, closed form) of the knife folder; `forward` False: the crank's pin and the rocker's stated the other way round."""
-    bar = FourBar(np.array([0.484, 0.066, 0.158, 0.424]), np.array([1.0, 1.113, 6.883]), np.array([2316e-6, 0.0423]),
-                  np.array([0.0, 0.079, 0.243]), np.array(clearances), body_damping=damping, link_damping=link_damping)
+    bar = FourBar(
+        np.array([0.484, 0.066, 0.158, 0.424]),
+        np.array([1.0, 1.113, 6.883]),
+        np.array([2316e-6, 0.0423]),
+        np.array([0.0, 0.079, 0.243]),
+        np.array(clearances),
+        body_damping=damping,
+        link_damping=link_damping,
+    )
 
     def pin(name, k, *ends):
         way = 1 if forward or k in (1, 2) else -1
@@ -85,12 +92,21 @@ def four_bar(clearances=(0.0,) * 4, alphas=(0.1, 0.2, 3.0, 0.3), damping=0.0, li
         return Revolute(name, *ends[::way], link)
 
     model = Model(
-        (Body("crank", 1.0, 0.0), Body("coupler", 1.113, 2316e-6, (0.079, 0.0), angle=-1.0),
-         Body("rocker", 6.883, 0.0423, (0.243, 0.0), angle=3.4)),
-        (pin("O2", 0, Marker(GROUND), Marker("crank")), pin("A", 1, Marker("crank", 0.066), Marker("coupler")),
-         pin("B", 2, Marker("coupler", 0.158), Marker("rocker", 0.424)), pin("O4", 3, Marker("rocker"), Marker(GROUND, 0.484))),
+        (
+            Body("crank", 1.0, 0.0),
+            Body("coupler", 1.113, 2316e-6, (0.079, 0.0), angle=-1.0),
+            Body("rocker", 6.883, 0.0423, (0.243, 0.0), angle=3.4),
+        ),
+        (
+            pin("O2", 0, Marker(GROUND), Marker("crank")),
+            pin("A", 1, Marker("crank", 0.066), Marker("coupler")),
+            pin("B", 2, Marker("coupler", 0.158), Marker("rocker", 0.424)),
+            pin("O4", 3, Marker("rocker"), Marker(GROUND, 0.484)),
+        ),
         forces=(RotationalSpring("c3", "coupler", damping=damping), RotationalSpring("c4", "rocker", damping=damping)),
-        drives=(Drive("O2", line(0.0, SPEED)),), gravity=(0, -9.81))
+        drives=(Drive("O2", line(0.0, SPEED)),),
+        gravity=(0, -9.81),
+    )
     return model, bar
 
 
@@ -104,8 +120,10 @@ def test_ideal_four_bar_is_its_twin(forward):
     turns = {"coupler": (e[1], COUPLER_TURN), "rocker": (-e[2], ROCKER_TURN)}
     for name, (place, row) in places.items():
         np.testing.assert_allclose(seen.place(name), place, rtol=0, atol=1e-9)
-        for found, wanted in ((seen(name, "vx") + 1j * seen(name, "vy"), SPEED * v[row]),
-                              (seen(name, "ax") + 1j * seen(name, "ay"), SPEED**2 * a[row])):
+        for found, wanted in (
+            (seen(name, "vx") + 1j * seen(name, "vy"), SPEED * v[row]),
+            (seen(name, "ax") + 1j * seen(name, "ay"), SPEED**2 * a[row]),
+        ):
             np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-9 * np.abs(wanted).max())
     for name, (way, row) in turns.items():
         np.testing.assert_allclose(np.exp(1j * seen(name, "angle")), way, rtol=0, atol=1e-9)
@@ -122,8 +140,15 @@ def test_massless_links_are_their_twin(clearances, forward):
     t = np.linspace(0, PERIOD, 41)
     seen = Seen(model, t, rtol=1e-11)
     start = np.array([0.1, 0.2, 3.0, 0.3, 0, 0, 0, 0])
-    twin = solve_ivp(lambda at, y: np.append(y[4:], link_accelerations(bar, SPEED * at, SPEED, y[:4], y[4:])), (0.0, PERIOD), start,
-                     method="DOP853", rtol=1e-11, atol=1e-12, t_eval=t).y.T
+    twin = solve_ivp(
+        lambda at, y: np.append(y[4:], link_accelerations(bar, SPEED * at, SPEED, y[:4], y[4:])),
+        (0.0, PERIOD),
+        start,
+        method="DOP853",
+        rtol=1e-11,
+        atol=1e-12,
+        t_eval=t,
+    ).y.T
     for k, name in enumerate(("O2", "A", "B", "O4")):
         if clearances[k]:
             angle = seen(f"link:{name}", "angle") - (0.0 if forward or k in (1, 2) else np.pi)
@@ -148,20 +173,31 @@ def test_massless_links_approach_the_ideal_pins_in_first_order():
 def swinging(lengths, rate, start=(0.3, None, None)):
     """A free four-bar of rods in gravity."""
     l1, l2, l3, l4 = lengths
-    rods = [Body(name, length, length**3 / 12, (length / 2, 0.0), angle=angle)
-            for name, length, angle in zip(("crank", "coupler", "rocker"), (l2, l3, l4), start, strict=True)]
+    rods = [
+        Body(name, length, length**3 / 12, (length / 2, 0.0), angle=angle)
+        for name, length, angle in zip(("crank", "coupler", "rocker"), (l2, l3, l4), start, strict=True)
+    ]
     rods[0] = replace(rods[0], angular_velocity=rate)
-    return Model(tuple(rods), (
-        Revolute("O2", Marker(GROUND), Marker("crank")), Revolute("A", Marker("crank", l2), Marker("coupler")),
-        Revolute("B", Marker("coupler", l3), Marker("rocker", l4)),
-        Revolute("O4", Marker(GROUND, l1), Marker("rocker"))), gravity=(0, -9.81))
+    return Model(
+        tuple(rods),
+        (
+            Revolute("O2", Marker(GROUND), Marker("crank")),
+            Revolute("A", Marker("crank", l2), Marker("coupler")),
+            Revolute("B", Marker("coupler", l3), Marker("rocker", l4)),
+            Revolute("O4", Marker(GROUND, l1), Marker("rocker")),
+        ),
+        gravity=(0, -9.81),
+    )
 
 
-@pytest.mark.parametrize("lengths, start, rate", [
-    ((0.5, 0.2, 0.45, 0.4), (0.3, 0.6, 1.2), 25.0),  # the crank goes round
-    ((0.5, 0.4, 0.35, 0.42), (1.0, 0.2, 1.6), 3.0),  # no link can go round: every one of them has its dead points
-    ((0.4, 0.5, 0.3, 0.45), (1.2, 0.1, 1.5), 9.0),
-])
+@pytest.mark.parametrize(
+    "lengths, start, rate",
+    [
+        ((0.5, 0.2, 0.45, 0.4), (0.3, 0.6, 1.2), 25.0),  # the crank goes round
+        ((0.5, 0.4, 0.35, 0.42), (1.0, 0.2, 1.6), 3.0),  # no link can go round: every one of them has its dead points
+        ((0.4, 0.5, 0.3, 0.45), (1.2, 0.1, 1.5), 9.0),
+    ],
+)
 def test_free_four_bar_keeps_its_energy_through_dead_points(lengths, start, rate):
     seen = Seen(swinging(lengths, rate, start), np.linspace(0, 4, 4001), rtol=1e-10)
     energy = seen.energy()
@@ -177,7 +213,9 @@ def test_free_four_bar_keeps_its_energy_through_dead_points(lengths, start, rate
 def test_double_pendulum_keeps_its_energy_over_many_swings():
     model = Model(
         (Body("upper", 1.0, 0.02, (0.3, 0.0), angle=1.0), Body("lower", 0.7, 0.01, (0.2, 0.1), angle=0.5, angular_velocity=2.0)),
-        (Revolute("O", Marker(GROUND), Marker("upper")), Revolute("A", Marker("upper", 0.5), Marker("lower"))), gravity=(1.0, -9.81))
+        (Revolute("O", Marker(GROUND), Marker("upper")), Revolute("A", Marker("upper", 0.5), Marker("lower"))),
+        gravity=(1.0, -9.81),
+    )
     energy = Seen(model, np.linspace(0, 20, 401), rtol=1e-11).energy()
     assert np.ptp(energy) < 1e-7
 
@@ -201,16 +239,31 @@ def machine(dry=None):
     """A free slider-crank with a geared wheel, a slotted rocker, springs, a motor and a force; `dry` puts play into the wrist."""
     pin = 0.04 * np.exp(0.5j)
     return Model(
-        (Body("crank", 1.0, 2e-3, (0.01, 0.005), angle=0.5, angular_velocity=40.0),
-         Body("rod", 0.3, 4e-4, (0.07, -0.01), angle=-np.arcsin(0.05 * np.sin(0.5) / 0.15)), Body("slider", 0.4, 1e-4, (0.01, 0.02)),
-         Body("wheel", 0.5, 3e-4, (0.005, 0.0), angle=0.2), Body("rocker", 0.2, 5e-4, (0.06, 0.01), angle=np.angle(pin + 0.12))),
-        (Revolute("O", Marker(GROUND), Marker("crank")), Revolute("A", Marker("crank", 0.05), Marker("rod")),
-         Revolute("wrist", Marker("rod", 0.15), Marker("slider"), dry or Ideal()), Prismatic("guide", Marker("slider"), Marker(GROUND)),
-         Revolute("V", Marker(GROUND, 0.0, 0.1), Marker("wheel")), Gear("mesh", "crank", "wheel", -1.7),
-         Revolute("R", Marker(GROUND, -0.12), Marker("rocker")), PinSlot("slot", Marker("crank", 0.04), Marker("rocker"))),
-        forces=(Spring("s", Marker("slider", 0.01, 0.01), Marker(GROUND, 0.3, 0.05), 300.0, 0.08, 2.0),
-                RotationalSpring("t", "rocker", "rod", 1.0, 0.1, 0.001), Torque("m", "crank", Load(line(0.5, -0.01), "speed")),
-                Force("f", Marker("rod", 0.1, 0.01), (3.0, 1.0), Load(line(1.0, -2.0)))), gravity=(2.0, -9.81))
+        (
+            Body("crank", 1.0, 2e-3, (0.01, 0.005), angle=0.5, angular_velocity=40.0),
+            Body("rod", 0.3, 4e-4, (0.07, -0.01), angle=-np.arcsin(0.05 * np.sin(0.5) / 0.15)),
+            Body("slider", 0.4, 1e-4, (0.01, 0.02)),
+            Body("wheel", 0.5, 3e-4, (0.005, 0.0), angle=0.2),
+            Body("rocker", 0.2, 5e-4, (0.06, 0.01), angle=np.angle(pin + 0.12)),
+        ),
+        (
+            Revolute("O", Marker(GROUND), Marker("crank")),
+            Revolute("A", Marker("crank", 0.05), Marker("rod")),
+            Revolute("wrist", Marker("rod", 0.15), Marker("slider"), dry or Ideal()),
+            Prismatic("guide", Marker("slider"), Marker(GROUND)),
+            Revolute("V", Marker(GROUND, 0.0, 0.1), Marker("wheel")),
+            Gear("mesh", "crank", "wheel", -1.7),
+            Revolute("R", Marker(GROUND, -0.12), Marker("rocker")),
+            PinSlot("slot", Marker("crank", 0.04), Marker("rocker")),
+        ),
+        forces=(
+            Spring("s", Marker("slider", 0.01, 0.01), Marker(GROUND, 0.3, 0.05), 300.0, 0.08, 2.0),
+            RotationalSpring("t", "rocker", "rod", 1.0, 0.1, 0.001),
+            Torque("m", "crank", Load(line(0.5, -0.01), "speed")),
+            Force("f", Marker("rod", 0.1, 0.01), (3.0, 1.0), Load(line(1.0, -2.0))),
+        ),
+        gravity=(2.0, -9.81),
+    )
 
 
 DRY = Dry(2e-4, 8e-3, 1e9, 1.5, 0.3, friction=Friction("coulomb", 0.1, 0.01))
@@ -219,6 +272,7 @@ TIMES = np.linspace(0, 0.12, 13)
 
 def moved(model, turn=0.0, shift=0j, mirror=False):
     """The same mechanism elsewhere: mirrored about the x axis, then turned, then shifted, with the gravity."""
+
     def in_body(z):
         return z.conjugate() if mirror else z
 
@@ -246,11 +300,22 @@ def moved(model, turn=0.0, shift=0j, mirror=False):
         return replace(e, **changes)
 
     sense = -1 if mirror else 1
-    bodies = tuple(replace(
-        b, centroid=pair(in_body(complex(*b.centroid))), angle=sense * b.angle + turn,
-        angular_velocity=None if b.angular_velocity is None else sense * b.angular_velocity) for b in model.bodies)
-    return replace(model, bodies=bodies, joints=tuple(map(element, model.joints)), forces=tuple(map(element, model.forces)),
-                   gravity=pair(in_world(complex(*model.gravity))))
+    bodies = tuple(
+        replace(
+            b,
+            centroid=pair(in_body(complex(*b.centroid))),
+            angle=sense * b.angle + turn,
+            angular_velocity=None if b.angular_velocity is None else sense * b.angular_velocity,
+        )
+        for b in model.bodies
+    )
+    return replace(
+        model,
+        bodies=bodies,
+        joints=tuple(map(element, model.joints)),
+        forces=tuple(map(element, model.forces)),
+        gravity=pair(in_world(complex(*model.gravity))),
+    )
 
 
 @pytest.fixture(scope="module", params=[None, DRY], ids=["ideal", "dry"])
@@ -282,7 +347,6 @@ class Turned:
     def __call__(self, body, field):
         sense = -1 if self.mirror else 1
         return sense * self.seen(body, field) + (self.turn if field == "angle" else 0.0)
-
 
     def place(self, body):
         z = self.seen.place(body)
@@ -322,23 +386,43 @@ def rescaled(model, length, mass, time):
     def element(e):
         changes = {k: marker(getattr(e, k)) for k in ("first", "second", "point") if isinstance(getattr(e, k, None), Marker)}
         if isinstance(e, Spring):
-            changes |= {"stiffness": e.stiffness * force / length, "free_length": e.free_length * length,
-                        "damping": e.damping * mass / time}
+            changes |= {
+                "stiffness": e.stiffness * force / length,
+                "free_length": e.free_length * length,
+                "damping": e.damping * mass / time,
+            }
         if isinstance(e, RotationalSpring):
             changes |= {"stiffness": e.stiffness * force * length, "damping": e.damping * force * length * time}
         if isinstance(e, (Torque, Force)):
             changes["load"] = load(e.load, force * length if isinstance(e, Torque) else force)
         if isinstance(getattr(e, "model", None), Dry):
             d = e.model
-            changes["model"] = replace(d, clearance=d.clearance * length, bearing_radius=d.bearing_radius * length,
-                                       stiffness=d.stiffness * force / length**d.exponent,
-                                       friction=replace(d.friction, speed=d.friction.speed * length / time))
+            changes["model"] = replace(
+                d,
+                clearance=d.clearance * length,
+                bearing_radius=d.bearing_radius * length,
+                stiffness=d.stiffness * force / length**d.exponent,
+                friction=replace(d.friction, speed=d.friction.speed * length / time),
+            )
         return replace(e, **changes)
 
-    bodies = tuple(replace(b, mass=b.mass * mass, inertia=b.inertia * mass * length**2, centroid=tuple(length * np.array(b.centroid)),
-                           angular_velocity=None if b.angular_velocity is None else b.angular_velocity / time) for b in model.bodies)
-    return replace(model, bodies=bodies, joints=tuple(map(element, model.joints)), forces=tuple(map(element, model.forces)),
-                   gravity=tuple(np.array(model.gravity) * length / time**2))
+    bodies = tuple(
+        replace(
+            b,
+            mass=b.mass * mass,
+            inertia=b.inertia * mass * length**2,
+            centroid=tuple(length * np.array(b.centroid)),
+            angular_velocity=None if b.angular_velocity is None else b.angular_velocity / time,
+        )
+        for b in model.bodies
+    )
+    return replace(
+        model,
+        bodies=bodies,
+        joints=tuple(map(element, model.joints)),
+        forces=tuple(map(element, model.forces)),
+        gravity=tuple(np.array(model.gravity) * length / time**2),
+    )
 
 
 @pytest.mark.parametrize("length, mass, time", [(1000.0, 1.0, 1.0), (1000.0, 1e-3, 1e3), (1.0, 7.0, 10.0), (0.3, 1.0, 0.1)])

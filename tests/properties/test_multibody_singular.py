@@ -33,8 +33,15 @@ def windows(count, tip_speed=1.0, angle=np.pi / 2):
 def pendulum(count, duration):
     """Angle from upright of the same as one pendulum: theta'' = g W sin(theta) / M."""
     mass, weight = (count + 1) / 3 + count, (count + 1) / 2 + count
-    found = solve_ivp(lambda t, y: [y[1], G * weight * np.sin(y[0]) / mass], (0, duration), [0.0, 1.0], rtol=1e-12, atol=1e-12,
-                      method="DOP853", dense_output=True)
+    found = solve_ivp(
+        lambda t, y: [y[1], G * weight * np.sin(y[0]) / mass],
+        (0, duration),
+        [0.0, 1.0],
+        rtol=1e-12,
+        atol=1e-12,
+        method="DOP853",
+        dense_output=True,
+    )
     return found.sol
 
 
@@ -47,22 +54,34 @@ def four_bar(frame, crank, coupler, rocker, speed=TURN, start=60.0, size=1.0):
     e = max((d / abs(d) * np.exp(sign * 1j * across) for sign in (1, -1)), key=lambda e: (e * np.exp(-1j * theta)).real)
     bar = np.angle(frame + rocker * e - crank * np.exp(1j * theta))
     inertia = 1e-3 * size**2
-    bodies = (mb.Body("crank", 1.0, inertia, (crank / 2, 0.0), theta), mb.Body("coupler", 1.0, inertia, (coupler / 2, 0.0), bar),
-              mb.Body("rocker", 2.0, inertia, (rocker / 2, 0.0), np.angle(e)))
-    joints = (mb.Revolute("O2", mb.Marker("crank"), mb.Marker("ground")), mb.Revolute("A", mb.Marker("coupler"), mb.Marker("crank", crank)),
-              mb.Revolute("B", mb.Marker("coupler", coupler), mb.Marker("rocker", rocker)),
-              mb.Revolute("O4", mb.Marker("rocker"), mb.Marker("ground", frame)))
+    bodies = (
+        mb.Body("crank", 1.0, inertia, (crank / 2, 0.0), theta),
+        mb.Body("coupler", 1.0, inertia, (coupler / 2, 0.0), bar),
+        mb.Body("rocker", 2.0, inertia, (rocker / 2, 0.0), np.angle(e)),
+    )
+    joints = (
+        mb.Revolute("O2", mb.Marker("crank"), mb.Marker("ground")),
+        mb.Revolute("A", mb.Marker("coupler"), mb.Marker("crank", crank)),
+        mb.Revolute("B", mb.Marker("coupler", coupler), mb.Marker("rocker", rocker)),
+        mb.Revolute("O4", mb.Marker("rocker"), mb.Marker("ground", frame)),
+    )
     return mb.Model(bodies, joints, drives=(mb.Drive("O2", mb.line(0.0, speed)),), gravity=(0.0, -G))
 
 
 def slider_crank(length=0.1, speed=TURN, start=30.0):
     """Crank and rod of the same length: the slider passes the crank's axis."""
     theta = np.radians(start)
-    bodies = (mb.Body("crank", 1.0, 1e-3, (length / 2, 0.0), theta), mb.Body("rod", 1.0, 1e-3, (length / 2, 0.0), -theta),
-              mb.Body("slider", 1.0, 1e-3))
-    joints = (mb.Revolute("O", mb.Marker("crank"), mb.Marker("ground")), mb.Revolute("A", mb.Marker("rod"), mb.Marker("crank", length)),
-              mb.Revolute("B", mb.Marker("rod", length), mb.Marker("slider")),
-              mb.Prismatic("guide", mb.Marker("slider"), mb.Marker("ground")))
+    bodies = (
+        mb.Body("crank", 1.0, 1e-3, (length / 2, 0.0), theta),
+        mb.Body("rod", 1.0, 1e-3, (length / 2, 0.0), -theta),
+        mb.Body("slider", 1.0, 1e-3),
+    )
+    joints = (
+        mb.Revolute("O", mb.Marker("crank"), mb.Marker("ground")),
+        mb.Revolute("A", mb.Marker("rod"), mb.Marker("crank", length)),
+        mb.Revolute("B", mb.Marker("rod", length), mb.Marker("slider")),
+        mb.Prismatic("guide", mb.Marker("slider"), mb.Marker("ground")),
+    )
     return mb.Model(bodies, joints, drives=(mb.Drive("O", mb.line(0.0, speed)),), gravity=(0.0, -G))
 
 
@@ -114,8 +133,12 @@ def test_driven_mechanisms_left_free_go_through_as_driven_ones(name):
     model = {"rhombus": four_bar(0.1, 0.1, 0.1, 0.1), "kite": four_bar(0.1, 0.1, 0.15, 0.15), "slider": slider_crank()}[name]
     start = mb.assemble(model)
     rates = {body.name: w for body, w in zip(model.bodies, _rates(start), strict=True)}
-    free = replace(model, drives=(), gravity=(0.0, 0.0), bodies=tuple(
-        replace(body, angular_velocity=rates[body.name]) if body.name != "slider" else body for body in model.bodies))
+    free = replace(
+        model,
+        drives=(),
+        gravity=(0.0, 0.0),
+        bodies=tuple(replace(body, angular_velocity=rates[body.name]) if body.name != "slider" else body for body in model.bodies),
+    )
     run = mb.simulate(mb.assemble(free), 2.0, mb.Settings(rtol=1e-10))
     seen = mb.record(run, {body.name: mb.Marker(body.name) for body in model.bodies})
     assert len(run.passages) >= 2 and np.ptp(seen.energy) < 1e-8 * seen.energy[0]
@@ -134,11 +157,15 @@ def _relations(name, seen):
     """What holds on the smooth branch by geometry alone."""
     crank = seen.point("crank", "angle")
     if name == "rhombus":
-        return {"rocker along the crank": np.sin((seen.point("rocker", "angle") - crank) / 2),
-                "coupler level": np.sin(seen.point("coupler", "angle"))}
+        return {
+            "rocker along the crank": np.sin((seen.point("rocker", "angle") - crank) / 2),
+            "coupler level": np.sin(seen.point("coupler", "angle")),
+        }
     if name == "slider":
-        return {"rod against the crank": np.sin(seen.point("rod", "angle") + crank),
-                "slider": seen.point("slider", "x") - 0.2 * np.cos(crank)}
+        return {
+            "rod against the crank": np.sin(seen.point("rod", "angle") + crank),
+            "slider": seen.point("slider", "x") - 0.2 * np.cos(crank),
+        }
     return {"kite symmetric about its diagonal": np.sin(seen.point("coupler", "angle") + seen.point("rocker", "angle") - crank)}
 
 

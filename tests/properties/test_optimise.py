@@ -143,28 +143,51 @@ def test_a_kind_without_batch_is_run_design_by_design():
 
 def search(example, key, lower, upper, objective, *requirements, changes=()):
     """A small search from an example: its spec with an [optimise] table."""
-    table = {"population": 8, "generations": 1, "unknowns": [{"key": key, "lower": lower, "upper": upper}],
-             "objectives": [{"value": objective}], "requirements": list(requirements)}
+    table = {
+        "population": 8,
+        "generations": 1,
+        "unknowns": [{"key": key, "lower": lower, "upper": upper}],
+        "objectives": [{"value": objective}],
+        "requirements": list(requirements),
+    }
     return from_document(document(dw.load(EXAMPLES / f"{example}.toml", changes)) | {"optimise": table}, folder=EXAMPLES)
 
 
-CHAIN = {"mechanism": "silent-chain", "pitch": "9.525 mm", "links": 82, "teeth": [35, 37], "joint": {"rolling_radius": "1.2 mm"},
-         "plate": {"apothem": "2.6 mm"}, "limits": {"teeth": 17}}
+CHAIN = {
+    "mechanism": "silent-chain",
+    "pitch": "9.525 mm",
+    "links": 82,
+    "teeth": [35, 37],
+    "joint": {"rolling_radius": "1.2 mm"},
+    "plate": {"apothem": "2.6 mm"},
+    "limits": {"teeth": 17},
+}
 
 
 def chain_of(*teeth, **more):
-    table = {"population": 8, "generations": 3, "unknowns": [{"key": "teeth.0", "lower": teeth[0], "upper": teeth[1]}],
-             "objectives": [{"value": "layout.pitch_diameter.drive"}], **more}
+    table = {
+        "population": 8,
+        "generations": 3,
+        "unknowns": [{"key": "teeth.0", "lower": teeth[0], "upper": teeth[1]}],
+        "objectives": [{"value": "layout.pitch_diameter.drive"}],
+        **more,
+    }
     return from_document(CHAIN | {"optimise": table})
 
 
 @pytest.mark.parametrize(
     ("spec", "analyses"),
     [
-        (search("disc_cam", "follower.roller_radius", "4 mm", "8 mm", "max_contact_pressure", {"value": "check.undercut"}),
-         ("geometry", "forces")),
-        (search("pressure_roller_shaft", "segments.0.diameter", "15 mm", "25 mm", "shaft.max_deflection", {"value": "check.yield_safety"}),
-         ("statics",)),
+        (
+            search("disc_cam", "follower.roller_radius", "4 mm", "8 mm", "max_contact_pressure", {"value": "check.undercut"}),
+            ("geometry", "forces"),
+        ),
+        (
+            search(
+                "pressure_roller_shaft", "segments.0.diameter", "15 mm", "25 mm", "shaft.max_deflection", {"value": "check.yield_safety"}
+            ),
+            ("statics",),
+        ),
         (search("pressure_roller_shaft", "bearings.B.position", "120 mm", "150 mm", "shaft.max_deflection"), ("statics",)),
         (search("four_bar", "bodies.rocker.mass", "0.1 kg", "0.4 kg", "joints.B.max_force", changes=["simulate.turns=2"]), ("forces",)),
         (search("cycloid_reducer", "eccentricity", "1 mm", "1.5 mm", "pressure_angle.maximum"), ("contacts",)),
@@ -251,8 +274,10 @@ def test_where_no_design_can_be_computed_the_reason_is_told(tmp_path, capsys):
         ({"unknowns": [{"key": "follower.prime_radius", "lower": "90 mm", "upper": "80 mm"}]}, "is not below upper bound"),
         ({"objectives": [{"value": "max_presure_angle"}]}, "did you mean 'max_pressure_angle'"),
         ({"unknowns": [{"key": "follower.motion", "lower": 1, "upper": 2}]}, "optimise.unknowns.0.key: follower.motion takes"),
-        ({"unknowns": 2 * [{"key": "follower.prime_radius", "lower": "30 mm", "upper": "80 mm"}]},
-         "optimise.unknowns.1.key: follower.prime_radius is there twice"),
+        (
+            {"unknowns": 2 * [{"key": "follower.prime_radius", "lower": "30 mm", "upper": "80 mm"}]},
+            "optimise.unknowns.1.key: follower.prime_radius is there twice",
+        ),
         ({"objectives": [{"value": "check.pressure_angel"}]}, "did you mean 'check.pressure_angle'"),
         ({"requirements": [{"value": "max_pressure_angle"}]}, "needs at_least, at_most, or both"),
         ({"requirements": [{"value": "max_pressure_angle", "at_most": "25 mm"}]}, "optimise.requirements.0.at_most: wants an angle"),
@@ -272,8 +297,11 @@ def test_a_wrong_table_is_refused_by_key(change, message):
 
 @pytest.mark.parametrize(
     ("teeth", "message"),
-    [((30.5, 34), "optimise.unknowns.0.lower: wants a whole number, got 30.5"), ((30, "34 mm"), "optimise.unknowns.0.upper: wants a whole"),
-     ((30, 30), "optimise.unknowns.0: lower bound 30 is not below upper bound 30")],
+    [
+        ((30.5, 34), "optimise.unknowns.0.lower: wants a whole number, got 30.5"),
+        ((30, "34 mm"), "optimise.unknowns.0.upper: wants a whole"),
+        ((30, 30), "optimise.unknowns.0: lower bound 30 is not below upper bound 30"),
+    ],
 )
 def test_bounds_of_whole_numbers_are_whole(teeth, message):
     with pytest.raises(SpecError) as error:

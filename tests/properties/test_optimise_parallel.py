@@ -134,8 +134,16 @@ def test_the_folder_holds_every_evaluation_with_units_and_reasons(tmp_path, undi
     table = store.joined(tables)
     assert table.equals(found.table) and table.num_rows == found.evaluations
     units = {field.name: field.metadata[b"unit"].decode() for field in table.schema}
-    assert units == {"case": "-", "status": "", "message": "", "generation": "-", "follower.prime_radius": "m", "min_convex_radius": "m",
-                     "max_pressure_angle": "rad", "violation": "-"}
+    assert units == {
+        "case": "-",
+        "status": "",
+        "message": "",
+        "generation": "-",
+        "follower.prime_radius": "m",
+        "min_convex_radius": "m",
+        "max_pressure_angle": "rad",
+        "violation": "-",
+    }
     assert all(field.metadata[b"meaning"] for field in table.schema)
     small = found.history["follower.prime_radius"] <= 8e-3
     failed = np.array(found.table["status"].to_pylist()) == "failed"
@@ -256,8 +264,16 @@ def test_the_command_writes_the_best_beside_the_ledger_and_can_be_given_again(tm
         assert left.value.code == 0
         written.append(((out / "best.toml").read_text(), parquet.read_table(out / "history.parquet")))
     assert written[0][0] == written[1][0] and written[0][1].equals(written[1][1])
-    assert {path.name for path in out.iterdir()} == {"best", "best.toml", "front.parquet", "history.parquet", "ledger.sqlite", "parts",
-                                                     "study.toml", ".lock"}
+    assert {path.name for path in out.iterdir()} == {
+        "best",
+        "best.toml",
+        "front.parquet",
+        "history.parquet",
+        "ledger.sqlite",
+        "parts",
+        "study.toml",
+        ".lock",
+    }
     assert (out / "best" / "result.json").is_file()
     front = parquet.read_table(out / "front.parquet")
     assert front.schema.field("follower.prime_radius").metadata[b"unit"] == b"m" and front.num_rows == 1

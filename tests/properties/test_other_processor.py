@@ -13,8 +13,11 @@ from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 import drivewright as dw
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-PLAIN = {"NUMBA_CPU_NAME": "generic", "OPENBLAS_CORETYPE": "Nehalem",
-         "NPY_DISABLE_CPU_FEATURES": " ".join(name for name in __cpu_dispatch__ if __cpu_features__.get(name))}
+PLAIN = {
+    "NUMBA_CPU_NAME": "generic",
+    "OPENBLAS_CORETYPE": "Nehalem",
+    "NPY_DISABLE_CPU_FEATURES": " ".join(name for name in __cpu_dispatch__ if __cpu_features__.get(name)),
+}
 DIGITS = 1e-8
 NOISE = 1e-12  # of the largest value of a unit: what is 0 but for rounding
 
@@ -30,6 +33,9 @@ def test_an_old_processor_gives_eight_digits_of_the_same(name):
     size = {}
     for value in here.values():
         size[value.unit] = max(size.get(value.unit, 0.0), abs(value.value))
-    missed = {key: (value.value, there[key]["value"]) for key, value in here.items() if not key.endswith("residual")
-              and abs(value.value - there[key]["value"]) > DIGITS * abs(value.value) + NOISE * size[value.unit]}
+    missed = {
+        key: (value.value, there[key]["value"])
+        for key, value in here.items()
+        if not key.endswith("residual") and abs(value.value - there[key]["value"]) > DIGITS * abs(value.value) + NOISE * size[value.unit]
+    }
     assert not missed

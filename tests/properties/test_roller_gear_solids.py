@@ -80,11 +80,14 @@ def test_a_groove_that_misses_the_body_is_refused():
 
 
 @pytest.mark.needs_fe
-@pytest.mark.parametrize("change, message", [
-    ({"section": polygon([(0, -0.001), (0.01, -0.001), (0.01, 0.02), (0, 0.02)])}, "reaches 1 mm below the axis"),
-    ({"grooves": (np.zeros((2, 3, 5, 3)),)}, r"groove 0 is an array \(2, 3, 5, 3\)"),
-    ({"grooves": (np.full((2, 5, 5, 3), np.nan),)}, "groove 0 has points that are not finite"),
-])
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        ({"section": polygon([(0, -0.001), (0.01, -0.001), (0.01, 0.02), (0, 0.02)])}, "reaches 1 mm below the axis"),
+        ({"grooves": (np.zeros((2, 3, 5, 3)),)}, r"groove 0 is an array \(2, 3, 5, 3\)"),
+        ({"grooves": (np.full((2, 5, 5, 3), np.nan),)}, "groove 0 has points that are not finite"),
+    ],
+)
 def test_grooved_bodies_are_checked(change, message):
     body = Grooved((0.0, 0.0), 0.0, polygon([(0, 0), (0.01, 0), (0.01, 0.02), (0, 0.02)]), ())
     with pytest.raises(InputError, match=message):

@@ -18,9 +18,12 @@ SPRINGS = [
 
 
 def shaft(**changes):
-    tables = {"segments": [{"length": "340 mm", "diameter": "20 mm"}], "bearings": SPRINGS,
-              "stations": [{"name": "m1", "position": "0 mm", "mass": "3 kg"}, {"name": "m2", "position": "245 mm", "mass": "8 kg"}],
-              "loads": [{"station": "m2", "force": "500 N"}]}
+    tables = {
+        "segments": [{"length": "340 mm", "diameter": "20 mm"}],
+        "bearings": SPRINGS,
+        "stations": [{"name": "m1", "position": "0 mm", "mass": "3 kg"}, {"name": "m2", "position": "245 mm", "mass": "8 kg"}],
+        "loads": [{"station": "m2", "force": "500 N"}],
+    }
     return dw.Shaft(**(tables | changes))
 
 
@@ -36,16 +39,22 @@ def pair(key, value, **more):
 @pytest.mark.parametrize("gap", [1e-4, 1e-7, 2e-9])
 def test_a_place_beside_another_costs_no_digits(theory, gap):
     """A station 2 nm beside a bearing: the same deflections and reactions as without it."""
-    beside = [{"name": "m1", "position": "0 mm", "mass": "3 kg"}, {"name": "m2", "position": "245 mm", "mass": "8 kg"},
-              {"name": "c", "position": f"{0.1365 + gap} m"}]
+    beside = [
+        {"name": "m1", "position": "0 mm", "mass": "3 kg"},
+        {"name": "m2", "position": "245 mm", "mass": "8 kg"},
+        {"name": "c", "position": f"{0.1365 + gap} m"},
+    ]
     one, two = (dw.run(shaft(analysis={"theory": theory}, **more), only=("statics", "flexibility")) for more in ({}, {"stations": beside}))
     assert two["bearings.B.reaction"] == pytest.approx(one["bearings.B.reaction"], rel=1e-12)
     assert two.arrays["flexibility"].values[:2, :2] == pytest.approx(one.arrays["flexibility"].values, rel=1e-10)
 
 
 def test_modes_of_a_shaft_with_short_pieces():
-    near = [{"name": "m1", "position": "0 mm", "mass": "3 kg"}, {"name": "m2", "position": "245 mm", "mass": "8 kg"},
-            {"name": "c", "position": "0.1365001 m"}]
+    near = [
+        {"name": "m1", "position": "0 mm", "mass": "3 kg"},
+        {"name": "m2", "position": "245 mm", "mass": "8 kg"},
+        {"name": "c", "position": "0.1365001 m"},
+    ]
     one, two = (dw.run(shaft(**more), only=("modes",)) for more in ({}, {"stations": near}))
     assert [two[f"modes.{n}.frequency"] for n in (1, 2)] == pytest.approx([one[f"modes.{n}.frequency"] for n in (1, 2)], rel=1e-6)
 
@@ -73,8 +82,10 @@ def test_play_beside_a_rigid_axial_hold(held):
 
 
 def test_a_spring_preload_that_nothing_holds_is_refused():
-    bearings = [{"name": "A", "position": "56.5 mm", "geometry": BALLS, "free": ["axial"], "preload": "100 N"},
-                {"name": "B", "position": "136.5 mm", "roller_geometry": ROLLERS}]
+    bearings = [
+        {"name": "A", "position": "56.5 mm", "geometry": BALLS, "free": ["axial"], "preload": "100 N"},
+        {"name": "B", "position": "136.5 mm", "roller_geometry": ROLLERS},
+    ]
     result = dw.run(shaft(bearings=bearings))
     assert result.outcome == "partial" and any(re.search("do not balance.*nothing takes", finding) for finding in result.findings)
 
@@ -124,17 +135,25 @@ def test_an_idle_bearing_is_told_and_has_no_life():
 
 def threads(diameter, **more):
     """The shaft on ball bearings, one seat far off the axis."""
-    bearings = [{"name": "A", "position": "56.5 mm", "bearing": "61804", "seat_offset": ["1.067 mm", "-3 mm"]},
-                {"name": "B", "position": "136.5 mm", "bearing": "61804", "free": ["axial"]}]
+    bearings = [
+        {"name": "A", "position": "56.5 mm", "bearing": "61804", "seat_offset": ["1.067 mm", "-3 mm"]},
+        {"name": "B", "position": "136.5 mm", "bearing": "61804", "free": ["axial"]},
+    ]
     return shaft(segments=[{"length": "340 mm", "diameter": diameter, **more}], bearings=bearings)
 
 
-@pytest.mark.parametrize("spec, told", [
-    (threads("0.000468465 mm"), "gave up: shaft: shaft and bearings are singular to rounding"),
-    (threads("1e-90 mm"), "no answer for this design: shaft: from 0 to 56.5 mm, with a diameter of 1e-90 mm, its bending is beyond all"),
-    (threads("1e90 mm"), "with a diameter of 1e\\+90 mm, its bending is beyond all numbers; check the units"),
-    (shaft(material={"youngs_modulus": "1e-300 Pa"}), "its bending is beyond all numbers; .* Young's modulus"),
-])
+@pytest.mark.parametrize(
+    "spec, told",
+    [
+        (threads("0.000468465 mm"), "gave up: shaft: shaft and bearings are singular to rounding"),
+        (
+            threads("1e-90 mm"),
+            "no answer for this design: shaft: from 0 to 56.5 mm, with a diameter of 1e-90 mm, its bending is beyond all",
+        ),
+        (threads("1e90 mm"), "with a diameter of 1e\\+90 mm, its bending is beyond all numbers; check the units"),
+        (shaft(material={"youngs_modulus": "1e-300 Pa"}), "its bending is beyond all numbers; .* Young's modulus"),
+    ],
+)
 def test_a_shaft_beyond_measure_is_told_in_our_words(spec, told):
     result = dw.run(spec)
     assert result.outcome == "partial" and any(re.search(told, finding) for finding in result.findings)
@@ -142,8 +161,12 @@ def test_a_shaft_beyond_measure_is_told_in_our_words(spec, told):
 
 def test_a_thread_on_springs_sags_as_it_should():
     """Springs enter by their compliance: half a micrometre thick, F a^2 (a + l)/(3 E I) at the overhanging load."""
-    spec = shaft(segments=[{"length": "340 mm", "diameter": "0.000468465 mm"}], analysis={"theory": "euler-bernoulli"},
-                 loads=[{"position": "340 mm", "force": "1 N"}], stations=[{"name": "end", "position": "340 mm"}])
+    spec = shaft(
+        segments=[{"length": "340 mm", "diameter": "0.000468465 mm"}],
+        analysis={"theory": "euler-bernoulli"},
+        loads=[{"position": "340 mm", "force": "1 N"}],
+        stations=[{"name": "end", "position": "340 mm"}],
+    )
     arm, span, stiff = 0.34 - 0.1365, 0.08, 206e9 * np.pi / 64 * 4.68465e-7**4
     assert dw.run(spec, only=("statics",))["stations.end.deflection"] == pytest.approx(arm**2 * (arm + span) / (3 * stiff), rel=1e-9)
 
@@ -153,16 +176,25 @@ def test_a_wall_as_thin_as_rounding_is_told():
     bearings = pair("bearing", "61804", free=["axial", "tilt"])
     for load in ({"station": "m2", "force": "500 N"}, {"position": "340 mm", "axial_force": "-500 N"}):
         for seat in ({}, {"seat_offset": ["1.067 mm", "-3 mm"]}):
-            result = dw.run(shaft(segments=[{"length": "340 mm", "diameter": "20 mm", "bore": "19.9999999999999 mm"}],
-                                  bearings=[{"name": "A", "position": "56.5 mm", "bearing": "61804", **seat}, bearings[1]], loads=[load]))
+            result = dw.run(
+                shaft(
+                    segments=[{"length": "340 mm", "diameter": "20 mm", "bore": "19.9999999999999 mm"}],
+                    bearings=[{"name": "A", "position": "56.5 mm", "bearing": "61804", **seat}, bearings[1]],
+                    loads=[load],
+                )
+            )
             assert result.outcome == "partial" or not result.check("equilibrium").ok
             assert not [name for name in result.values if not np.isfinite(result[name])]
 
 
 def test_a_wall_that_stretches_by_kilometres_is_not_pushed_out_of_its_bearings():
     """F l/EA of the piece right of the bearing that holds; the check of small deflections fails."""
-    spec = shaft(segments=[{"length": "340 mm", "diameter": "20 mm", "bore": "19.999999999 mm"}], stations=[],
-                 bearings=[SPRINGS[0] | {"axial_stiffness": "1e7 N/m"}, SPRINGS[1]], loads=[{"position": "340 mm", "axial_force": "500 N"}])
+    spec = shaft(
+        segments=[{"length": "340 mm", "diameter": "20 mm", "bore": "19.999999999 mm"}],
+        stations=[],
+        bearings=[SPRINGS[0] | {"axial_stiffness": "1e7 N/m"}, SPRINGS[1]],
+        loads=[{"position": "340 mm", "axial_force": "500 N"}],
+    )
     result = dw.run(spec, only=("statics",))
     exact = 500 * (0.34 - 0.0565) / (206e9 * np.pi / 4 * (0.02 - 0.019999999999) * 0.039999999999)
     assert result.check("small_deflections").value == pytest.approx(exact / 0.34, rel=1e-3) and not result.check("small_deflections").ok
@@ -171,8 +203,10 @@ def test_a_wall_that_stretches_by_kilometres_is_not_pushed_out_of_its_bearings()
 def test_the_width_of_a_bearing_goes_to_nothing_without_a_jump():
     """By shear the deflection changes in proportion to the width; down to less than the nodes of a shaft can tell apart."""
     keys, widths = ("bearings.B.reaction", "flexibility.m2.m2"), (1e-12, 1e-7, 5e-7, 1e-6, 1e-5, 1e-3, 0.1)
-    point, *wide = ([dw.run(shaft(bearings=[SPRINGS[0], SPRINGS[1] | {"width": f"{width} mm"}]), only=("statics", "flexibility"))[key]
-                     for key in keys] for width in (0.0, *widths))
+    point, *wide = (
+        [dw.run(shaft(bearings=[SPRINGS[0], SPRINGS[1] | {"width": f"{width} mm"}]), only=("statics", "flexibility"))[key] for key in keys]
+        for width in (0.0, *widths)
+    )
     assert wide[-1][1] != point[1]
     for found, width in zip(wide, widths, strict=True):
         assert found == pytest.approx(point, rel=1e-9 + 1e-4 * width, abs=0)
@@ -187,8 +221,11 @@ def test_stations_on_rigid_bearings(places):
     rigid = [{"name": n, "position": z, "radial_stiffness": "rigid"} for n, z in zip("AB", places, strict=True)]
     stepped = [{"length": "100 mm", "diameter": "20 mm"}, {"length": "240 mm", "diameter": "54 mm"}]
     on = [{"name": "a", "position": places[0]}, {"name": "b", "position": places[1]}, {"name": "m", "position": "190 mm"}]
-    result = dw.run(shaft(segments=stepped, bearings=rigid, stations=on, loads=[{"station": "m", "force": "1 kN"}],
-                          material={"yield_strength": "355 MPa"}))
+    result = dw.run(
+        shaft(
+            segments=stepped, bearings=rigid, stations=on, loads=[{"station": "m", "force": "1 kN"}], material={"yield_strength": "355 MPa"}
+        )
+    )
     delta = result.arrays["flexibility"].values
     assert np.abs(delta[:2, :2]).max() < 1e-9 * delta[2, 2] and "stiffness" not in result.arrays
     assert "stations.m.limit_load" in result.values and result.outcome == "complete"
@@ -247,8 +284,10 @@ def test_the_lowest_critical_speed_on_bearings_that_are_not_round_counts_both_wh
 
 
 def test_buckling_of_a_slender_shaft_is_eulers():
-    simple = [{"name": "A", "position": "0 mm", "radial_stiffness": "rigid", "axial_stiffness": "rigid"},
-              {"name": "B", "position": "1 m", "radial_stiffness": "rigid"}]
+    simple = [
+        {"name": "A", "position": "0 mm", "radial_stiffness": "rigid", "axial_stiffness": "rigid"},
+        {"name": "B", "position": "1 m", "radial_stiffness": "rigid"},
+    ]
     slender = {"segments": [{"length": "1 m", "diameter": "20 mm"}], "bearings": simple, "stations": [{"name": "m", "position": "0.5 m"}]}
     euler = np.pi**2 * 206e9 * np.pi / 64 * 0.02**4
     for force, factor in ((-1000.0, euler / 1000), (-euler, 1.0)):
@@ -286,8 +325,10 @@ def test_what_fails_first_knows_the_rating_of_the_inner_geometry():
 
 
 @pytest.mark.needs_fe
-@pytest.mark.parametrize("change", [{"bearings": [SPRINGS[0] | {"position": "0 mm"}, SPRINGS[1]]},
-                                    {"bearings": [SPRINGS[0] | {"tilt_stiffness": "1e5 N m/rad"}]}])
+@pytest.mark.parametrize(
+    "change",
+    [{"bearings": [SPRINGS[0] | {"position": "0 mm"}, SPRINGS[1]]}, {"bearings": [SPRINGS[0] | {"tilt_stiffness": "1e5 N m/rad"}]}],
+)
 def test_verify_of_cases_that_the_solid_cannot_hold_as_they_are(change):
     rows = dw.verify(shaft(**change))
     assert rows and all(row.ok for row in rows)

@@ -9,15 +9,28 @@ import drivewright as dw
 from drivewright.mechanisms.shaft.designs import batch
 
 TABLES = {
-    "segments": [{"length": "90 mm", "diameter": "25 mm", "bore": "8 mm"},
-                 {"length": "120 mm", "diameter": "30 mm", "end_diameter": "40 mm"}, {"length": "110 mm", "diameter": "28 mm"}],
-    "bearings": [{"name": "A", "position": "40 mm", "radial_stiffness": "4e7 N/m"},
-                 {"name": "B", "position": "250 mm", "radial_stiffness": "9e7 N/m"}],
+    "segments": [
+        {"length": "90 mm", "diameter": "25 mm", "bore": "8 mm"},
+        {"length": "120 mm", "diameter": "30 mm", "end_diameter": "40 mm"},
+        {"length": "110 mm", "diameter": "28 mm"},
+    ],
+    "bearings": [
+        {"name": "A", "position": "40 mm", "radial_stiffness": "4e7 N/m"},
+        {"name": "B", "position": "250 mm", "radial_stiffness": "9e7 N/m"},
+    ],
     "stations": [{"name": "p", "position": "0 mm"}, {"name": "q", "position": "160 mm"}],
 }
-KEYS = {"segments.0.length": 95.0, "segments.0.diameter": 27.0, "segments.1.diameter": 33.0, "segments.1.end_diameter": 37.0,
-        "segments.0.bore": 11.0, "bearings.A.position": 35.0, "bearings.1.position": 240.0, "stations.q.position": 150.0,
-        "stations.0.position": 8.0}
+KEYS = {
+    "segments.0.length": 95.0,
+    "segments.0.diameter": 27.0,
+    "segments.1.diameter": 33.0,
+    "segments.1.end_diameter": 37.0,
+    "segments.0.bore": 11.0,
+    "bearings.A.position": 35.0,
+    "bearings.1.position": 240.0,
+    "stations.q.position": 150.0,
+    "stations.0.position": 8.0,
+}
 
 
 def changed(key, value):

@@ -92,6 +92,7 @@ def test_stiffer_bearings_approach_rigid_ones_at_first_order():
 
 def test_rescaling_lengths_loads_and_stiffness_leaves_pure_numbers_alone():
     """All lengths times 2, springs times 2 (a modulus times a length), forces times 4: strains, and shares of a flexibility, stay."""
+
     def scaled(s):
         tables = copy.deepcopy(STEPPED)
 
@@ -100,8 +101,16 @@ def test_rescaling_lengths_loads_and_stiffness_leaves_pure_numbers_alone():
             return f"{float(number) * factor} {unit}"
 
         for entry in (*tables["segments"], *tables["bearings"], *tables["stations"], *tables["loads"]):
-            for key, power in (("length", 1), ("diameter", 1), ("end_diameter", 1), ("bore", 1), ("position", 1), ("radial_stiffness", 1),
-                               ("tilt_stiffness", 3), ("force", 2)):
+            for key, power in (
+                ("length", 1),
+                ("diameter", 1),
+                ("end_diameter", 1),
+                ("bore", 1),
+                ("position", 1),
+                ("radial_stiffness", 1),
+                ("tilt_stiffness", 3),
+                ("force", 2),
+            ):
                 if key in entry:
                     entry[key] = times(entry[key], s**power)
         return dw.run(dw.Shaft(**tables))
@@ -184,8 +193,11 @@ def test_the_batch_is_the_run_for_every_design():
             one.shaft.sections[1],
             one.shaft.sections[2]._replace(length=row[2]),
         )
-        supports = (one.shaft.supports[0]._replace(stiffness=(row[3], row[3], 0, 0, 0)), one.shaft.supports[1]._replace(position=row[0]),
-                    one.shaft.supports[2])
+        supports = (
+            one.shaft.supports[0]._replace(stiffness=(row[3], row[3], 0, 0, 0)),
+            one.shaft.supports[1]._replace(position=row[0]),
+            one.shaft.supports[2],
+        )
         stations = (one.shaft.stations[0], one.shaft.stations[1]._replace(position=row[4]))
         changed = one.shaft._replace(sections=sections, supports=supports, stations=stations)
         system = dw.shafts.assemble(changed)
@@ -267,9 +279,11 @@ def test_a_spring_behind_a_sliding_ring_keeps_its_preload():
 
 def test_bearings_the_wrong_way_round_leave_an_axial_force_to_nobody():
     tapered = {"rollers": 15, "roller_diameter": "4 mm", "roller_length": "8 mm", "pitch_diameter": "30 mm", "contact_angle": "14 deg"}
-    spec = dw.Shaft(segments=[{"length": "200 mm", "diameter": "20 mm"}],
-                    bearings=[{"name": n, "position": z, "roller_geometry": tapered} for n, z in (("A", "50 mm"), ("B", "150 mm"))],
-                    loads=[{"position": "180 mm", "axial_force": "-100 N"}])
+    spec = dw.Shaft(
+        segments=[{"length": "200 mm", "diameter": "20 mm"}],
+        bearings=[{"name": n, "position": z, "roller_geometry": tapered} for n, z in (("A", "50 mm"), ("B", "150 mm"))],
+        loads=[{"position": "180 mm", "axial_force": "-100 N"}],
+    )
     result = dw.run(spec)
     assert result.outcome == "partial" and any("no bearing that takes a force to the left" in finding for finding in result.findings)
 
@@ -294,8 +308,11 @@ def test_a_clearance_in_the_spec_goes_before_the_bearings_own():
 
 
 def test_life_in_time_and_the_checks_of_ratings():
-    spec = on_balls(bearings=[{"name": n, "position": z, "bearing": "61804"} for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))],
-                    drive={"speed": "600 rpm"}, limits={"life": "1e5 h", "shock_factor": 5})
+    spec = on_balls(
+        bearings=[{"name": n, "position": z, "bearing": "61804"} for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))],
+        drive={"speed": "600 rpm"},
+        limits={"life": "1e5 h", "shock_factor": 5},
+    )
     result = dw.run(spec)
     assert result["bearings.B.reference_life.time"] == pytest.approx(result["bearings.B.reference_life"] / 10, rel=1e-9)
     assert not result.check("life.B").ok
@@ -339,8 +356,19 @@ text = "drawing"
 
 
 def test_tooth_forces_make_the_torque_and_push_the_gear_away():
-    spec = shaft(gears=[{"name": "g", "position": "100 mm", "pitch_diameter": "60 mm", "torque": "30 N m", "mesh_angle": "30 deg",
-                         "helix_angle": "15 deg"}], loads=[])
+    spec = shaft(
+        gears=[
+            {
+                "name": "g",
+                "position": "100 mm",
+                "pitch_diameter": "60 mm",
+                "torque": "30 N m",
+                "mesh_angle": "30 deg",
+                "helix_angle": "15 deg",
+            }
+        ],
+        loads=[],
+    )
     load = tooth_force(spec.gears[0])
     r = 0.03 * np.array([np.cos(np.pi / 6), np.sin(np.pi / 6), 0.0])
     assert np.cross(r, load.force) == pytest.approx(load.moment, abs=1e-9) and load.moment[2] == pytest.approx(30.0)
@@ -389,8 +417,12 @@ def test_basic_life_is_there_only_under_a_radial_load():
     result = dw.run(on_balls(bearings=free))
     assert result["bearings.B.basic_life"] == pytest.approx(1e6 * (4030 / 1178.125) ** 3, rel=1e-6)
     assert result["bearings.B.reference_life"] == pytest.approx(result["bearings.B.basic_life"], rel=0.05)
-    pushed = dw.run(on_balls(bearings=[{"name": n, "position": z, "geometry": BALLS | rated} for n, z in places],
-                             loads=[{"station": "m2", "force": "500 N", "axial_force": "600 N"}]))
+    pushed = dw.run(
+        on_balls(
+            bearings=[{"name": n, "position": z, "geometry": BALLS | rated} for n, z in places],
+            loads=[{"station": "m2", "force": "500 N", "axial_force": "600 N"}],
+        )
+    )
     assert "bearings.A.basic_life" not in pushed.values and "bearings.A.reference_life" in pushed.values
 
 

@@ -10,17 +10,28 @@ from drivewright.mechanisms.shaft.scene import drawings, scene
 
 SECTIONS = ((0.09, 0.025, 0.025, 0.008), (0.12, 0.03, 0.04, 0.0), (0.11, 0.028, 0.028, 0.0))
 TABLES = {
-    "segments": [{"length": "90 mm", "diameter": "25 mm", "bore": "8 mm"},
-                 {"length": "120 mm", "diameter": "30 mm", "end_diameter": "40 mm"}, {"length": "110 mm", "diameter": "28 mm"}],
-    "bearings": [{"name": "A", "position": "40 mm", "radial_stiffness": "4e7 N/m"},
-                 {"name": "B", "position": "250 mm", "radial_stiffness": "9e7 N/m"}],
+    "segments": [
+        {"length": "90 mm", "diameter": "25 mm", "bore": "8 mm"},
+        {"length": "120 mm", "diameter": "30 mm", "end_diameter": "40 mm"},
+        {"length": "110 mm", "diameter": "28 mm"},
+    ],
+    "bearings": [
+        {"name": "A", "position": "40 mm", "radial_stiffness": "4e7 N/m"},
+        {"name": "B", "position": "250 mm", "radial_stiffness": "9e7 N/m"},
+    ],
     "stations": [{"name": "p", "position": "0 mm"}, {"name": "q", "position": "160 mm"}],
-    "loads": [{"station": "p", "force": "700 N"}, {"position": "120 mm", "force": "-300 N"},
-              {"station": "q", "force": "50 N", "angle": "0 deg"}, {"station": "q", "moment": "3 N m"}],
+    "loads": [
+        {"station": "p", "force": "700 N"},
+        {"position": "120 mm", "force": "-300 N"},
+        {"station": "q", "force": "50 N", "angle": "0 deg"},
+        {"station": "q", "moment": "3 N m"},
+    ],
 }
 
-GEARS = [{"name": "pinion", "position": "200 mm", "pitch_diameter": "80 mm", "torque": "10 N m"},
-         {"name": "wheel", "position": "300 mm", "pitch_diameter": "60 mm", "torque": "-10 N m"}]
+GEARS = [
+    {"name": "pinion", "position": "200 mm", "pitch_diameter": "80 mm", "torque": "10 N m"},
+    {"name": "wheel", "position": "300 mm", "pitch_diameter": "60 mm", "torque": "-10 N m"},
+]
 
 
 def model(**changes):

@@ -15,10 +15,12 @@ PLACES = {"A": "56.5 mm", "B": "136.5 mm"}
 
 def shaft(bearing, **changes):
     """The two-bearing shaft of the examples, both bearings with these keys."""
-    tables = {"segments": [{"length": "200 mm", "diameter": "20 mm"}, {"length": "140 mm", "diameter": "20 mm", "end_diameter": "15 mm"}],
-              "bearings": [{"name": name, "position": place} | bearing for name, place in PLACES.items()],
-              "stations": [{"name": "m1", "position": "0 mm", "mass": "3 kg"}, {"name": "m2", "position": "245 mm", "mass": "8 kg"}],
-              "loads": [{"station": "m2", "force": "500 N"}, {"station": "m1", "axial_force": "40 N"}]}
+    tables = {
+        "segments": [{"length": "200 mm", "diameter": "20 mm"}, {"length": "140 mm", "diameter": "20 mm", "end_diameter": "15 mm"}],
+        "bearings": [{"name": name, "position": place} | bearing for name, place in PLACES.items()],
+        "stations": [{"name": "m1", "position": "0 mm", "mass": "3 kg"}, {"name": "m2", "position": "245 mm", "mass": "8 kg"}],
+        "loads": [{"station": "m2", "force": "500 N"}, {"station": "m1", "axial_force": "40 N"}],
+    }
     return dw.Shaft(**(tables | changes))
 
 
@@ -34,8 +36,17 @@ def axial(stiffness):
     return {"radial_stiffness": "3e7 N/m", "axial_stiffness": stiffness}
 
 
-KEYS = ("stations.m2.displacement", "stations.m1.displacement", "bearings.A.radial_force", "flexibility.m1.m1", "flexibility.m2.m2",
-        "modes.1.frequency", "modes.2.frequency", "axial_modes.1.frequency", "critical_speeds.forward.1")
+KEYS = (
+    "stations.m2.displacement",
+    "stations.m1.displacement",
+    "bearings.A.radial_force",
+    "flexibility.m1.m1",
+    "flexibility.m2.m2",
+    "modes.1.frequency",
+    "modes.2.frequency",
+    "axial_modes.1.frequency",
+    "critical_speeds.forward.1",
+)
 
 
 @pytest.mark.parametrize("kind", [springs, housed, axial])
@@ -56,8 +67,9 @@ def test_stiff_becomes_rigid_from_one_side(kind):
 
 def cantilever(tilt):
     support = shafts.Support("A", 0.0, (np.inf, np.inf, np.inf, tilt, tilt))
-    return shafts.Shaft((shafts.Section(0.3, 0.02, 0.02),), 206e9, 0.3, 7850.0, (support,), (shafts.Station("end", 0.3, 2.0),),
-                        shafts.EULER_BERNOULLI)
+    return shafts.Shaft(
+        (shafts.Section(0.3, 0.02, 0.02),), 206e9, 0.3, 7850.0, (support,), (shafts.Station("end", 0.3, 2.0),), shafts.EULER_BERNOULLI
+    )
 
 
 @pytest.mark.parametrize("power", [3, 6, 12, 20, 100, 300, np.inf])
@@ -75,8 +87,16 @@ def test_a_stiff_tilt_spring_is_a_clamp(power):
 
 def test_the_compiled_batch_meets_the_single_shaft_at_every_stiffness():
     stiffness = 10.0 ** np.array([*DECADES, np.inf])
-    many, carried = shafts.flexibilities([[0.1, 0.24]], [[0.02, 0.025]], [[0.0565, 0.1365, 0.3]], np.repeat(stiffness[:, None], 3, 1),
-                                         [[0.0, 0.245]], 206e9, 0.3, reactions=True)
+    many, carried = shafts.flexibilities(
+        [[0.1, 0.24]],
+        [[0.02, 0.025]],
+        [[0.0565, 0.1365, 0.3]],
+        np.repeat(stiffness[:, None], 3, 1),
+        [[0.0, 0.245]],
+        206e9,
+        0.3,
+        reactions=True,
+    )
     diagonal = np.diagonal(many, axis1=1, axis2=2)
     assert np.all(np.diff(diagonal, axis=0) <= 0) and np.all(np.abs(diagonal[DECADES.index(20) :] / diagonal[-1] - 1) < 1e-9)
     assert carried.sum(axis=1) == pytest.approx(1.0, abs=1e-12)
@@ -124,6 +144,7 @@ def test_a_stiff_freedom_hides_no_difference_between_the_planes(freedom):
 
 def test_a_bearing_that_tilts_more_easily_one_way_is_not_round():
     """Clamped by 1e20 N/m and tilt springs of 3 and 6 kN m/rad: two lowest modes, each that of its own plane."""
+
     def lowest(*tilts):
         support = shafts.Support("A", 0.0, (1e20, 1e20, 1e20, *tilts))
         one = cantilever(1.0)._replace(supports=(support,))
@@ -149,32 +170,51 @@ def test_rigid_is_a_level_in_a_file_of_points(tmp_path):
     (tmp_path / "points.csv").write_text("bearings.A.radial_stiffness [N/mm],segments.0.diameter [mm]\n1e4,20\nrigid,22\n")
     spec = shaft({"radial_stiffness": "1e7 N/m"}, loads=[{"station": "m2", "force": "500 N"}])
     study = dw.sweep(spec.replace(study={"points": str(tmp_path / "points.csv"), "analyses": ["statics"]}))
-    alone = spec.replace(bearings=[{"name": "A", "position": "56.5 mm", "radial_stiffness": "rigid"},
-                                   {"name": "B", "position": "136.5 mm", "radial_stiffness": "1e7 N/m"}],
-                         segments=[{"length": "200 mm", "diameter": "22 mm"},
-                                   {"length": "140 mm", "diameter": "20 mm", "end_diameter": "15 mm"}])
+    alone = spec.replace(
+        bearings=[
+            {"name": "A", "position": "56.5 mm", "radial_stiffness": "rigid"},
+            {"name": "B", "position": "136.5 mm", "radial_stiffness": "1e7 N/m"},
+        ],
+        segments=[{"length": "200 mm", "diameter": "22 mm"}, {"length": "140 mm", "diameter": "20 mm", "end_diameter": "15 mm"}],
+    )
     assert study["stations.m2.deflection"][1] == dw.run(alone, only=("statics",))["stations.m2.deflection"]
 
 
 def test_a_range_does_not_end_at_rigid():
     with pytest.raises(dw.errors.SpecError, match="upper.*'rigid'"):
-        dw.sweep(shaft({"radial_stiffness": "1e7 N/m"}, study={"vary": [
-            {"key": "bearings.A.radial_stiffness", "lower": "1e6 N/m", "upper": "rigid", "steps": 3}]}))
+        dw.sweep(
+            shaft(
+                {"radial_stiffness": "1e7 N/m"},
+                study={"vary": [{"key": "bearings.A.radial_stiffness", "lower": "1e6 N/m", "upper": "rigid", "steps": 3}]},
+            )
+        )
 
 
 # -- what balances -------------------------------------------------------------------------------------------------------------
 
 
-LOADED = {"gravity": ["1 m/s^2", "-9.81 m/s^2", "0.5 m/s^2"],
-          "loads": [{"station": "m2", "force": "500 N", "angle": "30 deg", "axial_force": "40 N", "moment": "7 N m",
-                     "moment_angle": "50 deg"}],
-          "line_loads": [{"start": "20 mm", "end": "210 mm", "force": "3 N/mm", "end_force": "1 N/mm", "angle": "100 deg"}],
-          "gears": [{"name": "g", "position": "300 mm", "pitch_diameter": "40 mm", "torque": "9 N m", "helix_angle": "15 deg"},
-                    {"name": "h", "position": "20 mm", "pitch_diameter": "60 mm", "torque": "-9 N m", "mesh_angle": "200 deg"}]}
+LOADED = {
+    "gravity": ["1 m/s^2", "-9.81 m/s^2", "0.5 m/s^2"],
+    "loads": [{"station": "m2", "force": "500 N", "angle": "30 deg", "axial_force": "40 N", "moment": "7 N m", "moment_angle": "50 deg"}],
+    "line_loads": [{"start": "20 mm", "end": "210 mm", "force": "3 N/mm", "end_force": "1 N/mm", "angle": "100 deg"}],
+    "gears": [
+        {"name": "g", "position": "300 mm", "pitch_diameter": "40 mm", "torque": "9 N m", "helix_angle": "15 deg"},
+        {"name": "h", "position": "20 mm", "pitch_diameter": "60 mm", "torque": "-9 N m", "mesh_angle": "200 deg"},
+    ],
+}
 
 
-@pytest.mark.parametrize("bearing", [springs("3e7 N/m"), springs("1e250 N/m"), springs("rigid"), housed("1e8 N/m"),
-                                     springs("3e7 N/m") | {"tilt_stiffness": "3e3 N m/rad"}, springs("3e7 N/m") | {"width": "8 mm"}])
+@pytest.mark.parametrize(
+    "bearing",
+    [
+        springs("3e7 N/m"),
+        springs("1e250 N/m"),
+        springs("rigid"),
+        housed("1e8 N/m"),
+        springs("3e7 N/m") | {"tilt_stiffness": "3e3 N m/rad"},
+        springs("3e7 N/m") | {"width": "8 mm"},
+    ],
+)
 def test_forces_and_moments_balance_under_loads_of_every_kind(bearing):
     result = dw.run(shaft(bearing, **LOADED), only=("statics", "flexibility"))
     for name in ("equilibrium", "equilibrium.unit_loads"):
@@ -212,8 +252,11 @@ def test_a_spring_behind_a_play_that_is_too_stiff_for_its_digits_is_told():
 
 def test_a_shaft_that_sinks_farther_than_a_tenth_of_its_length_fails():
     """1000 N midway between two springs of 1e-6 N/m: 5e8 m without any slope."""
-    middle = {"loads": [{"position": "96.5 mm", "force": "1000 N"}], "segments": [{"length": "193 mm", "diameter": "20 mm"}],
-              "stations": [{"name": "m", "position": "96.5 mm", "mass": "1 kg"}]}
+    middle = {
+        "loads": [{"position": "96.5 mm", "force": "1000 N"}],
+        "segments": [{"length": "193 mm", "diameter": "20 mm"}],
+        "stations": [{"name": "m", "position": "96.5 mm", "mass": "1 kg"}],
+    }
     result = dw.run(shaft({"radial_stiffness": "1e-6 N/m"}, **middle))
     assert result["stations.m.deflection"] == pytest.approx(5e8, rel=1e-6)
     assert not result.check("small_deflections").ok and result.check("small_slopes").ok
@@ -232,10 +275,15 @@ def test_a_displacement_along_the_axis_counts_too():
 
 def test_a_massless_shaft_swings_with_its_stations():
     """K = inv(flexibility) with the masses; torsion of two inertias: w^2 = G Ip/l (1/I + 1/J)."""
-    inertia = [{"name": "m1", "position": "0 mm", "mass": "3 kg", "polar_inertia": "0.01 kg m^2"},
-               {"name": "m2", "position": "200 mm", "mass": "8 kg", "polar_inertia": "0.03 kg m^2"}]
-    result = dw.run(shaft({"radial_stiffness": "3e7 N/m"}, material={"density": "0 kg/m^3"}, stations=inertia,
-                          loads=[{"station": "m2", "force": "500 N"}]))
+    inertia = [
+        {"name": "m1", "position": "0 mm", "mass": "3 kg", "polar_inertia": "0.01 kg m^2"},
+        {"name": "m2", "position": "200 mm", "mass": "8 kg", "polar_inertia": "0.03 kg m^2"},
+    ]
+    result = dw.run(
+        shaft(
+            {"radial_stiffness": "3e7 N/m"}, material={"density": "0 kg/m^3"}, stations=inertia, loads=[{"station": "m2", "force": "500 N"}]
+        )
+    )
     for n in (1, 2):
         assert result[f"modes.{n}.frequency"] == pytest.approx(result[f"massless_modes.{n}.frequency"], rel=1e-9)
     twist = 206e9 / 2.6 * np.pi / 32 * 0.02**4 / 0.2
@@ -246,21 +294,39 @@ def test_a_massless_shaft_swings_with_its_stations():
 @pytest.mark.parametrize("power", [3, 5, 6, 7, 8, 10, 16, 60])
 def test_a_massless_shaft_on_three_springs_swings_by_its_flexibility(power):
     """Held more than enough, each spring works against the others and the shaft: w^2 of K = inv(flexibility) and the masses."""
-    bearings = [{"name": name, "position": place, "radial_stiffness": f"{factor}e{power} N/m"}
-                for name, place, factor in (("A", "30 mm", 1), ("B", "136.5 mm", 3), ("C", "300 mm", 0.7))]
-    result = dw.run(shaft({}, bearings=bearings, material={"density": "0 kg/m^3"}, loads=[{"station": "m2", "force": "500 N"}]),
-                    only=("statics", "flexibility", "modes"))
+    bearings = [
+        {"name": name, "position": place, "radial_stiffness": f"{factor}e{power} N/m"}
+        for name, place, factor in (("A", "30 mm", 1), ("B", "136.5 mm", 3), ("C", "300 mm", 0.7))
+    ]
+    result = dw.run(
+        shaft({}, bearings=bearings, material={"density": "0 kg/m^3"}, loads=[{"station": "m2", "force": "500 N"}]),
+        only=("statics", "flexibility", "modes"),
+    )
     for n in (1, 2):
         assert result[f"modes.{n}.frequency"] == pytest.approx(result[f"massless_modes.{n}.frequency"], rel=1e-9)
 
 
 def test_light_shafts_approach_the_massless_one():
-    heavy = [{"name": "m1", "position": "0 mm", "mass": "3 kg", "polar_inertia": "1 kg m^2", "diametral_inertia": "0.5 kg m^2"},
-             {"name": "m2", "position": "245 mm", "mass": "8 kg", "polar_inertia": "1 kg m^2"}]
+    heavy = [
+        {"name": "m1", "position": "0 mm", "mass": "3 kg", "polar_inertia": "1 kg m^2", "diametral_inertia": "0.5 kg m^2"},
+        {"name": "m2", "position": "245 mm", "mass": "8 kg", "polar_inertia": "1 kg m^2"},
+    ]
     keys = ("modes.1.frequency", "modes.3.frequency", "torsional_modes.1.frequency", "critical_speeds.forward.1")
-    none, *light = ([dw.run(shaft({"radial_stiffness": "3e7 N/m"}, material={"density": f"{d} kg/m^3"}, stations=heavy,
-                                  loads=[{"station": "m2", "force": "500 N"}]), only=("modes",))[key] for key in keys]
-                    for d in ("0", "1e-12", "1e-6", "1e-3"))
+    none, *light = (
+        [
+            dw.run(
+                shaft(
+                    {"radial_stiffness": "3e7 N/m"},
+                    material={"density": f"{d} kg/m^3"},
+                    stations=heavy,
+                    loads=[{"station": "m2", "force": "500 N"}],
+                ),
+                only=("modes",),
+            )[key]
+            for key in keys
+        ]
+        for d in ("0", "1e-12", "1e-6", "1e-3")
+    )
     for found in light:
         assert found == pytest.approx(none, rel=1e-6)
 

@@ -24,9 +24,14 @@ def shafts(seed, count, sections, bearings, stations, rigid=0.2, cones=0.0, shea
     stiffness = 10 ** rng.uniform(6, 10, (count, bearings))
     stiffness[rng.random(stiffness.shape) < rigid] = np.inf
     return {
-        "lengths": lengths, "diameters": diameters, "supports": supports, "radial_stiffness": stiffness,
-        "stations": rng.uniform(0.0, 1.0, (count, stations)) * whole, "youngs_modulus": rng.uniform(70e9, 210e9, count),
-        "poisson": rng.uniform(0.2, 0.35, count), "shear": shear,
+        "lengths": lengths,
+        "diameters": diameters,
+        "supports": supports,
+        "radial_stiffness": stiffness,
+        "stations": rng.uniform(0.0, 1.0, (count, stations)) * whole,
+        "youngs_modulus": rng.uniform(70e9, 210e9, count),
+        "poisson": rng.uniform(0.2, 0.35, count),
+        "shear": shear,
         "bores": diameters * rng.uniform(0.0, 0.4, diameters.shape) * (rng.random((count, 1)) < 0.5),
         "end_diameters": diameters * np.where(rng.random(diameters.shape) < cones, rng.uniform(0.6, 1.6, diameters.shape), 1.0),
     }
@@ -205,8 +210,10 @@ def test_one_more_bearing(stiffness):
     before = flexibilities(**many | {"stations": np.c_[many["stations"], place]})
     column, own = before[:, :3, 3:], before[:, 3:, 3:]
     factor = 1 / (own + 1 / stiffness) if stiffness else 0.0
-    third = {"supports": np.insert(many["supports"], 1, place, axis=1),
-             "radial_stiffness": np.insert(many["radial_stiffness"], 1, stiffness, axis=1)}
+    third = {
+        "supports": np.insert(many["supports"], 1, place, axis=1),
+        "radial_stiffness": np.insert(many["radial_stiffness"], 1, stiffness, axis=1),
+    }
     after = flexibilities(**many | third)
     scale = np.sqrt(np.einsum("nii->ni", before[:, :3, :3]))
     miss = np.abs(after - before[:, :3, :3] + column * column.swapaxes(1, 2) * factor)
@@ -246,8 +253,11 @@ def test_short_pieces_cost_no_digits():
 def test_cut_cones_are_the_same_cones():
     many = shafts(9, 100, 1, 3, 3, cones=1.0)
     middle = many["diameters"] + 0.3 * (many["end_diameters"] - many["diameters"])
-    halves = {"lengths": many["lengths"] * [[0.3, 0.7]], "diameters": np.hstack([many["diameters"], middle]),
-              "end_diameters": np.hstack([middle, many["end_diameters"]])}
+    halves = {
+        "lengths": many["lengths"] * [[0.3, 0.7]],
+        "diameters": np.hstack([many["diameters"], middle]),
+        "end_diameters": np.hstack([middle, many["end_diameters"]]),
+    }
     near(flexibilities(**many | halves), flexibilities(**many), 1e-12)
 
 
@@ -275,8 +285,10 @@ def test_two_stations_at_one_place_move_alike():
 def test_two_springs_at_one_place_are_one():
     many = shafts(12, 50, 2, 3, 2, rigid=0.0)
     many["supports"][:, 1] = many["supports"][:, 0]
-    joined = {"supports": many["supports"][:, 1:],
-              "radial_stiffness": np.c_[many["radial_stiffness"][:, :2].sum(axis=1), many["radial_stiffness"][:, 2]]}
+    joined = {
+        "supports": many["supports"][:, 1:],
+        "radial_stiffness": np.c_[many["radial_stiffness"][:, :2].sum(axis=1), many["radial_stiffness"][:, 2]],
+    }
     near(flexibilities(**many), flexibilities(**many | joined), 1e-13)
 
 
@@ -288,8 +300,13 @@ def test_shared_arguments_are_the_repeated_ones():
         repeated = {**many, name: np.repeat(one, 40, axis=0) if np.ndim(value) else np.full(40, value)}
         assert np.array_equal(flexibilities(**shared), flexibilities(**repeated), equal_nan=True), name
     number = {**many, "diameters": 0.03, "end_diameters": None, "bores": 0.01, "radial_stiffness": 1e8}
-    table = {**many, "diameters": np.full((1, 3), 0.03), "end_diameters": None, "bores": np.full((40, 3), 0.01),
-             "radial_stiffness": np.full((40, 1), 1e8)}
+    table = {
+        **many,
+        "diameters": np.full((1, 3), 0.03),
+        "end_diameters": None,
+        "bores": np.full((40, 3), 0.01),
+        "radial_stiffness": np.full((40, 1), 1e8),
+    }
     assert np.array_equal(flexibilities(**number), flexibilities(**table))
     view = {**many, "lengths": np.broadcast_to(many["lengths"][:1], (40, 3)), "stations": np.asfortranarray(many["stations"])}
     assert np.array_equal(flexibilities(**view), flexibilities(**many | {"lengths": many["lengths"][:1]}))
@@ -361,9 +378,18 @@ IMPOSSIBLE = {
 @pytest.mark.parametrize("swept", [False, True])
 @pytest.mark.parametrize("why", IMPOSSIBLE)
 def test_an_impossible_design_is_a_row_of_nan(why, swept):
-    good = {"lengths": [0.1, 0.2], "diameters": [0.03, 0.03], "end_diameters": [0.03, 0.03 + 0.01 * swept], "bores": [0.0, 0.0],
-            "supports": [0.02, 0.28, 0.28 - 0.1 * swept], "radial_stiffness": [1e8, 1e8, 1e8], "stations": [0.0, 0.3],
-            "youngs_modulus": 206e9, "poisson": 0.3, "shear": 0.9}
+    good = {
+        "lengths": [0.1, 0.2],
+        "diameters": [0.03, 0.03],
+        "end_diameters": [0.03, 0.03 + 0.01 * swept],
+        "bores": [0.0, 0.0],
+        "supports": [0.02, 0.28, 0.28 - 0.1 * swept],
+        "radial_stiffness": [1e8, 1e8, 1e8],
+        "stations": [0.0, 0.3],
+        "youngs_modulus": 206e9,
+        "poisson": 0.3,
+        "shear": 0.9,
+    }
     if not swept:
         good |= {"supports": good["supports"][:2], "radial_stiffness": [1e8, 1e8]}
     rows = {name: np.repeat(np.atleast_2d(value), 3, axis=0) for name, value in good.items()}
@@ -373,26 +399,38 @@ def test_an_impossible_design_is_a_row_of_nan(why, swept):
         assert np.all(np.isnan(delta[1])) and np.all(np.isfinite(delta[[0, 2]]))
 
 
-@pytest.mark.parametrize(("supports", "stiffness"), [
-    ([0.1], [1e8]), ([0.1, 0.1], [1e8, 2e8]), ([0.1, 0.1], [np.inf, np.inf]), ([0.1, 0.2], [1e8, 0.0]), ([0.1, 0.2], [0.0, np.inf]),
-    ([0.1, 0.2, 0.2], [0.0, 1e8, 2e8]), ([0.1, 0.15, 0.2], [0.0, 1e8, 0.0]), ([0.1, 0.1, 0.2], [np.inf, np.inf, 1e8]),
-])
+@pytest.mark.parametrize(
+    ("supports", "stiffness"),
+    [
+        ([0.1], [1e8]),
+        ([0.1, 0.1], [1e8, 2e8]),
+        ([0.1, 0.1], [np.inf, np.inf]),
+        ([0.1, 0.2], [1e8, 0.0]),
+        ([0.1, 0.2], [0.0, np.inf]),
+        ([0.1, 0.2, 0.2], [0.0, 1e8, 2e8]),
+        ([0.1, 0.15, 0.2], [0.0, 1e8, 0.0]),
+        ([0.1, 0.1, 0.2], [np.inf, np.inf, 1e8]),
+    ],
+)
 @pytest.mark.parametrize("steps", [0.0, 0.01])
 def test_what_does_not_stand_is_nan(supports, stiffness, steps):
     delta = flexibilities([0.1, 0.2], [0.03, 0.03 + steps], supports, stiffness, [0.0, 0.1, 0.15, 0.3], 206e9, 0.3)
     assert np.all(np.isnan(delta))
 
 
-@pytest.mark.parametrize(("change", "words"), [
-    ({"diameters": [0.02, 0.03]}, ["diameters has 2 entries", "lengths has 3", "single number"]),
-    ({"radial_stiffness": [1e8, 1e8, 1e8]}, ["radial_stiffness has 3 entries", "supports has 2"]),
-    ({"poisson": np.full(7, 0.3)}, ["disagree", "poisson 7", "lengths 5"]),
-    ({"stations": np.zeros((5, 1, 2))}, ["stations must have the shape (designs, entries)", "(5, 1, 2)"]),
-    ({"youngs_modulus": np.zeros((5, 2))}, ["youngs_modulus must have the shape (designs,)", "(5, 2)"]),
-    ({"supports": [["a", "b"]]}, ["supports must be numbers", "'a'"]),
-    ({"stations": [[0.1], [0.1, 0.2]]}, ["stations must be numbers, one row per design"]),
-    ({"workers": 0}, ["workers", "0"]),
-])
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"diameters": [0.02, 0.03]}, ["diameters has 2 entries", "lengths has 3", "single number"]),
+        ({"radial_stiffness": [1e8, 1e8, 1e8]}, ["radial_stiffness has 3 entries", "supports has 2"]),
+        ({"poisson": np.full(7, 0.3)}, ["disagree", "poisson 7", "lengths 5"]),
+        ({"stations": np.zeros((5, 1, 2))}, ["stations must have the shape (designs, entries)", "(5, 1, 2)"]),
+        ({"youngs_modulus": np.zeros((5, 2))}, ["youngs_modulus must have the shape (designs,)", "(5, 2)"]),
+        ({"supports": [["a", "b"]]}, ["supports must be numbers", "'a'"]),
+        ({"stations": [[0.1], [0.1, 0.2]]}, ["stations must be numbers, one row per design"]),
+        ({"workers": 0}, ["workers", "0"]),
+    ],
+)
 def test_shapes_that_do_not_fit_are_refused(change, words):
     many = shafts(18, 5, 3, 2, 2) | {"end_diameters": None, "bores": 0.0}
     with pytest.raises(InputError) as told:
@@ -400,14 +438,17 @@ def test_shapes_that_do_not_fit_are_refused(change, words):
     assert [word for word in words if word not in str(told.value)] == []
 
 
-@pytest.mark.parametrize(("change", "words"), [
-    ({"supports": (0.1, 0.1)}, ["two bearings", "0 stand at one place"]),
-    ({"supports": (0.1, 0.2, 0.3)}, ["supports", "must be 2", "(3,)"]),
-    ({"radial_stiffness": 1e8}, ["radial_stiffness", "must be 2", "()"]),
-    ({"radial_stiffness": (1e8, -3.0)}, ["radial_stiffness", "-3", "not above 0"]),
-    ({"bending_stiffness": [0.0]}, ["bending_stiffness", "not above 0"]),
-    ({"shear_stiffness": np.nan}, ["shear_stiffness", "nan"]),
-])
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"supports": (0.1, 0.1)}, ["two bearings", "0 stand at one place"]),
+        ({"supports": (0.1, 0.2, 0.3)}, ["supports", "must be 2", "(3,)"]),
+        ({"radial_stiffness": 1e8}, ["radial_stiffness", "must be 2", "()"]),
+        ({"radial_stiffness": (1e8, -3.0)}, ["radial_stiffness", "-3", "not above 0"]),
+        ({"bending_stiffness": [0.0]}, ["bending_stiffness", "not above 0"]),
+        ({"shear_stiffness": np.nan}, ["shear_stiffness", "nan"]),
+    ],
+)
 def test_the_closed_form_refuses(change, words):
     good = {"stations": (0.0, 0.3), "supports": (0.1, 0.2), "radial_stiffness": (1e8, 1e8), "bending_stiffness": 1e3}
     with pytest.raises(InputError) as told:

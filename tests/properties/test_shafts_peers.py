@@ -17,23 +17,41 @@ MODULUS, POISSON = 206e9, 0.3
 UNIFORM = {"sections": [[0.34, 0.02, 0.0]], "supports": [0.0565, 0.1365], "stiffness": [3e7, 3e7], "stations": [0.0, 0.245], "mass": 8.0}
 STEPPED = {
     "sections": [[0.08, 0.03, 0.0], [0.12, 0.042, 0.015], [0.1, 0.05, 0.015], [0.11, 0.035, 0.0]],
-    "supports": [0.05, 0.18, 0.37], "stiffness": [5e7, 2e8, 8e6], "stations": [0.25, 0.0, 0.41], "mass": 20.0,
+    "supports": [0.05, 0.18, 0.37],
+    "stiffness": [5e7, 2e8, 8e6],
+    "stations": [0.25, 0.0, 0.41],
+    "mass": 20.0,
 }
 CASES = [shaft | {"timoshenko": shear, "modulus": MODULUS, "poisson": POISSON} for shaft in (UNIFORM, STEPPED) for shear in (False, True)]
 
 
 def ours(shaft, stations=None, stiffness=None, reactions=False):
     lengths, diameters, bores = np.transpose(shaft["sections"])
-    return flexibilities(lengths, diameters, shaft["supports"], shaft["stiffness"] if stiffness is None else stiffness,
-                         shaft["stations"] if stations is None else stations, MODULUS, POISSON,
-                         COWPER if shaft["timoshenko"] else EULER_BERNOULLI, bores=bores, reactions=reactions)
+    return flexibilities(
+        lengths,
+        diameters,
+        shaft["supports"],
+        shaft["stiffness"] if stiffness is None else stiffness,
+        shaft["stations"] if stations is None else stations,
+        MODULUS,
+        POISSON,
+        COWPER if shaft["timoshenko"] else EULER_BERNOULLI,
+        bores=bores,
+        reactions=reactions,
+    )
 
 
 @pytest.fixture(scope="module")
 def ross():
     """Its answers to all cases, from one process: the import takes seconds and prints."""
-    told = subprocess.run([sys.executable, Path(__file__).with_name("ross_shaft.py")], input=json.dumps({"shafts": CASES, "repeat": 1}),
-                          capture_output=True, text=True, check=True, timeout=120)
+    told = subprocess.run(
+        [sys.executable, Path(__file__).with_name("ross_shaft.py")],
+        input=json.dumps({"shafts": CASES, "repeat": 1}),
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=120,
+    )
     return json.loads(told.stdout.splitlines()[-1])
 
 

@@ -16,28 +16,63 @@ from drivewright.units import SI
 
 MM, DEG = 1e-3, np.pi / 180
 RANGES = {  # around a usual chain, never its symmetric point
-    "pitch": (7 * MM, 13 * MM), "links": (75, 120), "teeth.0": (17, 41), "teeth.1": (17, 61), "joint.rolling_radius": (0.2 * MM, 4 * MM),
-    "joint.offset": (-0.3 * MM, 2 * MM), "plate.flank_angle": (24 * DEG, 36 * DEG), "plate.apothem": (1.5 * MM, 3.5 * MM),
-    "plate.standard_apothem": (2.5 * MM, 4.5 * MM), "cutter.half_angle": (20 * DEG, 35 * DEG), "cutter.pitch": (8 * MM, 11 * MM),
-    "drive.speed": (50.0, 400.0), "drive.preload": (50.0, 300.0), "drive.load_torque": (0.0, 20.0),
+    "pitch": (7 * MM, 13 * MM),
+    "links": (75, 120),
+    "teeth.0": (17, 41),
+    "teeth.1": (17, 61),
+    "joint.rolling_radius": (0.2 * MM, 4 * MM),
+    "joint.offset": (-0.3 * MM, 2 * MM),
+    "plate.flank_angle": (24 * DEG, 36 * DEG),
+    "plate.apothem": (1.5 * MM, 3.5 * MM),
+    "plate.standard_apothem": (2.5 * MM, 4.5 * MM),
+    "cutter.half_angle": (20 * DEG, 35 * DEG),
+    "cutter.pitch": (8 * MM, 11 * MM),
+    "drive.speed": (50.0, 400.0),
+    "drive.preload": (50.0, 300.0),
+    "drive.load_torque": (0.0, 20.0),
 }
 COUNTED = ("links", "teeth.0", "teeth.1")
-SIDED = ("seated_pitch", "ideal_pitch", "pitch_deviation", "seated_apothem", "modification", "positioning_diameter", "contact_radius",
-         "curvature_radius", "base_radius")
-CHAIN = ("hole_pitch", "pin_offset", "standard_apothem", "pitch_deviation.reference", "k", "rolling_radius.boundary",
-         "rolling_radius.monotone_limit")
+SIDED = (
+    "seated_pitch",
+    "ideal_pitch",
+    "pitch_deviation",
+    "seated_apothem",
+    "modification",
+    "positioning_diameter",
+    "contact_radius",
+    "curvature_radius",
+    "base_radius",
+)
+CHAIN = (
+    "hole_pitch",
+    "pin_offset",
+    "standard_apothem",
+    "pitch_deviation.reference",
+    "k",
+    "rolling_radius.boundary",
+    "rolling_radius.monotone_limit",
+)
 MESHING = (*CHAIN, *(f"{name}.{side}" for name in SIDED for side in ("drive", "driven")))
-LAYOUT = (*(f"layout.{name}.{side}" for name in ("pitch_diameter", "speed_fluctuation") for side in ("drive", "driven")),
-          "layout.chain_length", "layout.mesh_frequency", "layout.meeting_velocity")
+LAYOUT = (
+    *(f"layout.{name}.{side}" for name in ("pitch_diameter", "speed_fluctuation") for side in ("drive", "driven")),
+    "layout.chain_length",
+    "layout.mesh_frequency",
+    "layout.meeting_velocity",
+)
 CHECKS = ("check.offset", "check.teeth.drive", "check.teeth.driven")
 
 
 def chain(**tables):
     """A silent chain; a table given replaces keys of the usual one, None takes a key away."""
-    usual = {"joint": {"rolling_radius": "1.2 mm"}, "plate": {"apothem": "2.6 mm", "link_mass": "2.5 g", "link_inertia": "6e-8 kg m^2"},
-             "drive": {"speed": "2000 rpm", "preload": "150 N"}}
-    merged = {name: {key: value for key, value in {**usual.get(name, {}), **tables.get(name, {})}.items() if value is not None}
-              for name in usual | tables}
+    usual = {
+        "joint": {"rolling_radius": "1.2 mm"},
+        "plate": {"apothem": "2.6 mm", "link_mass": "2.5 g", "link_inertia": "6e-8 kg m^2"},
+        "drive": {"speed": "2000 rpm", "preload": "150 N"},
+    }
+    merged = {
+        name: {key: value for key, value in {**usual.get(name, {}), **tables.get(name, {})}.items() if value is not None}
+        for name in usual | tables
+    }
     return dw.SilentChain(pitch="9.525 mm", links=82, teeth=[35, 37], **merged)
 
 
@@ -75,11 +110,25 @@ def assert_same(found, wanted):
 # -- the numbers of a run ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("offset", "apothem", "reference", "ideal", "kind"), [*product(
-    ("match-drive", "minimax", "0.21 mm"), ("apothem", "standard_apothem"), ("pitch_line", "pin"), ("seat", "rack"), ("round-pin", "arc"))])
+@pytest.mark.parametrize(
+    ("offset", "apothem", "reference", "ideal", "kind"),
+    [
+        *product(
+            ("match-drive", "minimax", "0.21 mm"),
+            ("apothem", "standard_apothem"),
+            ("pitch_line", "pin"),
+            ("seat", "rack"),
+            ("round-pin", "arc"),
+        )
+    ],
+)
 def test_every_rule_gives_the_numbers_of_a_run(offset, apothem, reference, ideal, kind):
-    spec = chain(joint={"kind": kind, "offset": offset}, plate={"apothem": None, apothem: "3.1 mm"}, cutter={"half_angle": "27 deg"},
-                 meshing={"apothem_reference": reference, "ideal": ideal})
+    spec = chain(
+        joint={"kind": kind, "offset": offset},
+        plate={"apothem": None, apothem: "3.1 mm"},
+        cutter={"half_angle": "27 deg"},
+        meshing={"apothem_reference": reference, "ideal": ideal},
+    )
     keys, names = ("joint.rolling_radius", "pitch", "teeth.0", "plate.flank_angle", "teeth.1"), (*MESHING, "check.offset")
     rows = random_designs(keys, 4, seed=len(offset + apothem + reference + ideal))
     assert_same(batch(spec, keys, names)(rows), run_of_each(spec, keys, rows, names))
@@ -145,13 +194,47 @@ def test_margins_of_teeth_count_from_the_limit():
 
 # -- refused -------------------------------------------------------------------------------------------------------------------
 
-REFUSED = [("pitch", 0.0), ("pitch", -9 * MM), ("pitch", np.nan), ("pitch", np.inf), ("links", 37.0), ("links", 5.0), ("links", 2001.0),
-           ("links", 82.5), ("teeth.0", 5.0), ("teeth.1", 5.0), ("teeth.0", 35.5), ("teeth.1", 82.0), ("teeth.0", 82.0), ("teeth.0", -35.0),
-           ("joint.rolling_radius", 0.0), ("joint.offset", np.nan), ("joint.offset", -np.inf), ("plate.flank_angle", 0.0),
-           ("plate.flank_angle", 45 * DEG), ("plate.standard_apothem", 0.0), ("cutter.half_angle", 45 * DEG), ("cutter.half_angle", -1e-9),
-           ("cutter.pitch", 0.0), ("drive.speed", 0.0), ("drive.preload", -1.0), ("drive.load_torque", -1e-9), ("plate.apothem", np.nan)]
-TAKEN = [("links", 38.0), ("links", 2000.0), ("teeth.0", 6.0), ("teeth.1", 81.0), ("pitch", 1e-9), ("plate.flank_angle", 44.99 * DEG),
-         ("joint.offset", 0.0), ("plate.apothem", -1 * MM), ("drive.load_torque", 0.0), ("joint.rolling_radius", 0.5)]
+REFUSED = [
+    ("pitch", 0.0),
+    ("pitch", -9 * MM),
+    ("pitch", np.nan),
+    ("pitch", np.inf),
+    ("links", 37.0),
+    ("links", 5.0),
+    ("links", 2001.0),
+    ("links", 82.5),
+    ("teeth.0", 5.0),
+    ("teeth.1", 5.0),
+    ("teeth.0", 35.5),
+    ("teeth.1", 82.0),
+    ("teeth.0", 82.0),
+    ("teeth.0", -35.0),
+    ("joint.rolling_radius", 0.0),
+    ("joint.offset", np.nan),
+    ("joint.offset", -np.inf),
+    ("plate.flank_angle", 0.0),
+    ("plate.flank_angle", 45 * DEG),
+    ("plate.standard_apothem", 0.0),
+    ("cutter.half_angle", 45 * DEG),
+    ("cutter.half_angle", -1e-9),
+    ("cutter.pitch", 0.0),
+    ("drive.speed", 0.0),
+    ("drive.preload", -1.0),
+    ("drive.load_torque", -1e-9),
+    ("plate.apothem", np.nan),
+]
+TAKEN = [
+    ("links", 38.0),
+    ("links", 2000.0),
+    ("teeth.0", 6.0),
+    ("teeth.1", 81.0),
+    ("pitch", 1e-9),
+    ("plate.flank_angle", 44.99 * DEG),
+    ("joint.offset", 0.0),
+    ("plate.apothem", -1 * MM),
+    ("drive.load_torque", 0.0),
+    ("joint.rolling_radius", 0.5),
+]
 
 
 def with_apothem(key):
@@ -224,8 +307,14 @@ def test_beyond_the_batch():
 # -- bits ----------------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("keys", [("joint.rolling_radius",), ("joint.offset", "plate.flank_angle", "teeth.1", "links", "cutter.half_angle"),
-                                  ("teeth.0", "teeth.1", "pitch", "plate.apothem", "joint.rolling_radius", "drive.speed")])
+@pytest.mark.parametrize(
+    "keys",
+    [
+        ("joint.rolling_radius",),
+        ("joint.offset", "plate.flank_angle", "teeth.1", "links", "cutter.half_angle"),
+        ("teeth.0", "teeth.1", "pitch", "plate.apothem", "joint.rolling_radius", "drive.speed"),
+    ],
+)
 def test_a_row_has_the_same_bits_in_any_company(keys, monkeypatch):
     names = (*MESHING, *LAYOUT, *CHECKS)
     rows = random_designs(keys, 1000, seed=12)

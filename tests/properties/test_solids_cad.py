@@ -29,7 +29,7 @@ def wheel_with_collinear_lines():
     a, b = map(np.array, outline.pieces[number])
     cuts = [a, a + (b - a) / 4, a + (b - a) / 2, b]
     lines = [Line(tuple(p), tuple(q)) for p, q in zip(cuts[:-1], cuts[1:], strict=True)]
-    pieces = (*outline.pieces[:number], *lines, *outline.pieces[number + 1:])
+    pieces = (*outline.pieces[:number], *lines, *outline.pieces[number + 1 :])
     return Prism(Outline(pieces), (circle((0, 0), 0.006), circle((0.02, 0.0), 0.004)), 0.001, 0.006)
 
 
@@ -101,8 +101,9 @@ def test_spline_edges_pass_within_a_micrometre_of_every_knot_and_join_the_arcs_s
     solid = cad.solid(Part("cam", (Prism(outline, (), 0.0, HEIGHT),)))
     bottom = [edge for edge in dict.fromkeys(solid.edges) if abs(edge.center.z) < 1e-6]
     knots = np.concatenate([piece.knots for piece in outline.pieces if isinstance(piece, Spline)])
-    lines = shapely.MultiLineString([[(p.x, p.y) for p in map(edge.Value, np.linspace(*edge.parameter_interval, 4001).tolist())]
-                                     for edge in bottom])
+    lines = shapely.MultiLineString(
+        [[(p.x, p.y) for p in map(edge.Value, np.linspace(*edge.parameter_interval, 4001).tolist())] for edge in bottom]
+    )
     assert shapely.distance(shapely.points(1e3 * knots[::7]), lines).max() < 1e-4 + 1e-6  # mm: 0.1 micrometres, and the chords
     assert len(bottom) == 4
     for a in bottom:
@@ -112,6 +113,7 @@ def test_spline_edges_pass_within_a_micrometre_of_every_knot_and_join_the_arcs_s
 
 def turn(a, b):
     """Angle between the end of one edge and the start of the next, by differences of near points."""
+
     def step(edge, end):
         low, high = edge.parameter_interval
         h = 1e-6 * (high - low)
@@ -223,8 +225,11 @@ def test_stl_is_closed_outward_and_has_the_volume_of_the_parts(tmp_path):
     assert np.linalg.norm(facets["n"], axis=1) == pytest.approx(1.0, abs=1e-6)
 
 
-@pytest.mark.parametrize("solid", [cam_part().solids[0], wheel_with_collinear_lines(), Bar((0.01, 0.02), (0.04, -0.01), 0.003, 0.005)],
-                         ids=["cam", "wheel", "bar"])
+@pytest.mark.parametrize(
+    "solid",
+    [cam_part().solids[0], wheel_with_collinear_lines(), Bar((0.01, 0.02), (0.04, -0.01), 0.003, 0.005)],
+    ids=["cam", "wheel", "bar"],
+)
 def test_direct_facets_agree_with_the_kernel_and_are_closed(solid):
     part = Part("part", (solid,), (0.1, -0.05, 0.8))
     points, corners = facets.triangles(part, 1e-6)

@@ -86,11 +86,15 @@ def test_reactions_are_those_of_statics_and_rigid_bearings_are_the_limit_of_stif
 
 
 @needs_fe
-@pytest.mark.parametrize("sections, near", [
-    (((0.34, 0.02, 0.03, 0.0),), 3e-3),  # a cone, both bands on its flank
-    (((0.1, 0.02, 0.03, 0.008), (0.24, 0.03, 0.02, 0.008)), 4e-3),  # two hollow cones
-    (((0.34, 0.02, 0.02, 0.01),), 6e-3),  # a tube gives way under narrow bands
-], ids=["cone", "hollow cones", "tube"])
+@pytest.mark.parametrize(
+    "sections, near",
+    [
+        (((0.34, 0.02, 0.03, 0.0),), 3e-3),  # a cone, both bands on its flank
+        (((0.1, 0.02, 0.03, 0.008), (0.24, 0.03, 0.02, 0.008)), 4e-3),  # two hollow cones
+        (((0.34, 0.02, 0.02, 0.01),), 6e-3),  # a tube gives way under narrow bands
+    ],
+    ids=["cone", "hollow cones", "tube"],
+)
 def test_cones_and_bores_agree_with_the_beam(sections, near):
     found, wanted = solid(sections).flexibility, beam(sections, SEATS, PLACES)
     assert np.abs(gap(found, wanted)).max() < near
@@ -236,19 +240,22 @@ def test_the_table_of_the_deformed_surface():
     assert surface_table(solid(), 0, 1.0, exaggeration=0.5)["displacement"].meaning.endswith("drawn 0.5 times as large")
 
 
-@pytest.mark.parametrize("changes, message", [
-    ({"bands": SEATS[:1]}, "solid check: 1 bearing; it wants two or more, for bands hold mean displacements and no tilt"),
-    ({"bands": (SEATS[0], (0.3395, 0.002, 3e7))}, "band 1 reaches from 338.5 to 340.5 mm, beyond the shaft of 0 ... 340 mm"),
-    ({"bands": (SEATS[0], (0.1, 0.0, 3e7))}, "band 1 at 100 mm has width 0 mm and stiffness 3e+07 N/m; both must be positive"),
-    ({"bands": (SEATS[0], (0.1, 0.01, -1.0))}, "band 1 at 100 mm has width 10 mm and stiffness -1 N/m"),
-    ({"bands": (SEATS[0], (0.0575, 0.002, 3e7))}, "the bands at 56.5 and 57.5 mm overlap; make them narrower"),
-    ({"stations": (0.0, 0.4)}, "a station at 400 mm is off the shaft of 0 ... 340 mm"),
-    ({"stations": ()}, "no station; give at least one position to load"),
-    ({"poisson": 0.5}, "Poisson's ratio 0.5; a solid wants E > 0 and -1 < nu < 0.5"),
-    ({"modulus": 0.0}, "modulus 0 Pa"),
-    ({"max_size": 0.0}, "max_size 0 mm; elements want a positive size"),
-    ({"sections": [(0.34, 0.02, 0.02, 0.02)]}, "shaft: ring 0 has length 340 mm, diameters 20 and 20 mm, bore 20 mm"),
-])
+@pytest.mark.parametrize(
+    "changes, message",
+    [
+        ({"bands": SEATS[:1]}, "solid check: 1 bearing; it wants two or more, for bands hold mean displacements and no tilt"),
+        ({"bands": (SEATS[0], (0.3395, 0.002, 3e7))}, "band 1 reaches from 338.5 to 340.5 mm, beyond the shaft of 0 ... 340 mm"),
+        ({"bands": (SEATS[0], (0.1, 0.0, 3e7))}, "band 1 at 100 mm has width 0 mm and stiffness 3e+07 N/m; both must be positive"),
+        ({"bands": (SEATS[0], (0.1, 0.01, -1.0))}, "band 1 at 100 mm has width 10 mm and stiffness -1 N/m"),
+        ({"bands": (SEATS[0], (0.0575, 0.002, 3e7))}, "the bands at 56.5 and 57.5 mm overlap; make them narrower"),
+        ({"stations": (0.0, 0.4)}, "a station at 400 mm is off the shaft of 0 ... 340 mm"),
+        ({"stations": ()}, "no station; give at least one position to load"),
+        ({"poisson": 0.5}, "Poisson's ratio 0.5; a solid wants E > 0 and -1 < nu < 0.5"),
+        ({"modulus": 0.0}, "modulus 0 Pa"),
+        ({"max_size": 0.0}, "max_size 0 mm; elements want a positive size"),
+        ({"sections": [(0.34, 0.02, 0.02, 0.02)]}, "shaft: ring 0 has length 340 mm, diameters 20 and 20 mm, bore 20 mm"),
+    ],
+)
 def test_what_cannot_be_checked_is_refused(changes, message):
     given = {"sections": PAPER, "modulus": E, "poisson": NU, "bands": SEATS, "stations": PLACES} | changes
     with pytest.raises(InputError, match=re.escape(message)):

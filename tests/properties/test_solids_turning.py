@@ -13,8 +13,12 @@ from drivewright.solids import cad, facets, turning
 from drivewright.solids.volume import volume
 
 SPINDLE = ((0.03, 0.02, 0.02, 0.006), (0.02, 0.03, 0.03, 0.006), (0.04, 0.03, 0.018, 0.004), (0.015, 0.018, 0.018, 0.0))
-BODIES = {"spindle": SPINDLE, "cone": ((0.05, 0.01, 0.03, 0.0),), "tube": ((0.02, 0.02, 0.02, 0.012), (0.03, 0.02, 0.02, 0.012)),
-          "waist": ((0.01, 0.03, 0.03, 0.0), (0.01, 0.03, 0.01, 0.0), (0.01, 0.01, 0.03, 0.005))}
+BODIES = {
+    "spindle": SPINDLE,
+    "cone": ((0.05, 0.01, 0.03, 0.0),),
+    "tube": ((0.02, 0.02, 0.02, 0.012), (0.03, 0.02, 0.02, 0.012)),
+    "waist": ((0.01, 0.03, 0.03, 0.0), (0.01, 0.03, 0.01, 0.0), (0.01, 0.01, 0.03, 0.005)),
+}
 POSE = (0.1, -0.05, 0.8)
 
 
@@ -69,15 +73,18 @@ def test_the_axis_runs_along_x_from_the_start_and_turns_with_the_pose():
     assert moved[:, :2] == pytest.approx(place(points[:, :2], POSE)) and moved[:, 2] == pytest.approx(points[:, 2])
 
 
-@pytest.mark.parametrize("rings, message", [
-    ((), "part 'spindle': a turned body without rings"),
-    (((0.0, 0.02, 0.02, 0.0),), "ring 0 has length 0 mm, diameters 20 and 20 mm, bore 0 mm; it wants a positive length"),
-    (((0.1, 0.02, 0.02, 0.0), (0.1, 0.02, 0.01, 0.01)), "ring 1 has length 100 mm, diameters 20 and 10 mm, bore 10 mm"),
-    (((0.1, 0.02, 0.02, -0.001),), "bore -1 mm; it wants"),
-    (((0.1, np.nan, 0.02, 0.0),), "diameters nan and 20 mm"),
-    (((0.1, 0.02, 0.02, 0.015), (0.1, 0.012, 0.012, 0.0)), "rings 0 and 1 do not touch: a bore of 15 mm meets a diameter of 12 mm"),
-    (((0.1, 0.01, 0.012, 0.0), (0.1, 0.02, 0.02, 0.013)), "rings 0 and 1 do not touch: a bore of 13 mm meets a diameter of 12 mm"),
-])
+@pytest.mark.parametrize(
+    "rings, message",
+    [
+        ((), "part 'spindle': a turned body without rings"),
+        (((0.0, 0.02, 0.02, 0.0),), "ring 0 has length 0 mm, diameters 20 and 20 mm, bore 0 mm; it wants a positive length"),
+        (((0.1, 0.02, 0.02, 0.0), (0.1, 0.02, 0.01, 0.01)), "ring 1 has length 100 mm, diameters 20 and 10 mm, bore 10 mm"),
+        (((0.1, 0.02, 0.02, -0.001),), "bore -1 mm; it wants"),
+        (((0.1, np.nan, 0.02, 0.0),), "diameters nan and 20 mm"),
+        (((0.1, 0.02, 0.02, 0.015), (0.1, 0.012, 0.012, 0.0)), "rings 0 and 1 do not touch: a bore of 15 mm meets a diameter of 12 mm"),
+        (((0.1, 0.01, 0.012, 0.0), (0.1, 0.02, 0.02, 0.013)), "rings 0 and 1 do not touch: a bore of 13 mm meets a diameter of 12 mm"),
+    ],
+)
 def test_what_cannot_be_turned_is_refused(rings, message):
     with pytest.raises(InputError, match=re.escape(message)):
         facets.triangles(part(rings))

@@ -108,9 +108,14 @@ def test_yield_counts_what_passes_and_what_could_not_be_computed():
     """Of 100 cases a tenth fails to run, a tenth is not complete; a passes below the middle, b always, c exists in none that ran."""
     spec = spec_of(RANDOM, method="random", samples=100)
     there = np.arange(100) % 10 != 9
-    study = made(spec, status=["complete"] * 8 + ["partial", "failed"], y=straight,
-                 check_a=lambda c: np.where(there, 44.5 - np.arange(100), np.nan),
-                 check_b=lambda c: np.where(there, 2.0, np.nan), check_c=None)
+    study = made(
+        spec,
+        status=["complete"] * 8 + ["partial", "failed"],
+        y=straight,
+        check_a=lambda c: np.where(there, 44.5 - np.arange(100), np.nan),
+        check_b=lambda c: np.where(there, 2.0, np.nan),
+        check_c=None,
+    )
     result, _ = answers(study)
     found = {row["check"]: row for row in rows(result, "yield")}
     passing = int(np.sum(np.arange(45) % 10 < 8))
@@ -141,8 +146,9 @@ def test_another_unit_of_a_value_scales_its_spread_and_no_share():
 def test_a_map_over_two_keys_and_a_panel_for_each_level_of_a_third():
     grid = [{"key": ROLLER, "lower": "6 mm", "upper": "9 mm", "steps": 4}, STEEL, {"key": PRIME, "values": ["40 mm", "50 mm", "70 mm"]}]
     hard = lambda c: np.where(c["material"] == "42CrMo4", 1.0, 0.0)  # noqa: E731
-    study = made(spec_of(grid), y=lambda c: straight(c) + hard(c), check_a=lambda c: c[PRIME] - 0.045,
-                 check_b=lambda c: 100 * (c[ROLLER] - 6.5e-3))
+    study = made(
+        spec_of(grid), y=lambda c: straight(c) + hard(c), check_a=lambda c: c[PRIME] - 0.045, check_b=lambda c: 100 * (c[ROLLER] - 6.5e-3)
+    )
     result, plots = answers(study)
     by_name = {plot.name: plot for plot in plots}
     assert by_name["map.y.2"].style == "map" and by_name["map.y.2"].y == (PRIME, "y") and "42CrMo4" in by_name["map.y.2"].title
@@ -216,21 +222,45 @@ def test_a_sample_crossed_with_a_grid_is_told_level_by_level():
 
 def test_the_front_of_the_objectives_keeps_the_requirements():
     """y and z are best at the smallest roller, which a requirement in mm rules out; a check rules out the largest."""
-    search = {"unknowns": [{"key": ROLLER, "lower": "6 mm", "upper": "9 mm"}],
-              "objectives": [{"value": "y", "goal": "minimise"}, {"value": "z", "goal": "maximise"}],
-              "requirements": [{"value": "z", "at_most": "-7.5 mm"}]}
-    study = made(spec_of([{"key": ROLLER, "lower": "6 mm", "upper": "9 mm", "steps": 7}], search), y=lambda c: c[ROLLER],
-                 z=lambda c: -c[ROLLER], w=lambda c: c[ROLLER] ** 2, check_a=lambda c: 8.8e-3 - c[ROLLER])
+    search = {
+        "unknowns": [{"key": ROLLER, "lower": "6 mm", "upper": "9 mm"}],
+        "objectives": [{"value": "y", "goal": "minimise"}, {"value": "z", "goal": "maximise"}],
+        "requirements": [{"value": "z", "at_most": "-7.5 mm"}],
+    }
+    study = made(
+        spec_of([{"key": ROLLER, "lower": "6 mm", "upper": "9 mm", "steps": 7}], search),
+        y=lambda c: c[ROLLER],
+        z=lambda c: -c[ROLLER],
+        w=lambda c: c[ROLLER] ** 2,
+        check_a=lambda c: 8.8e-3 - c[ROLLER],
+    )
     result, plots = answers(study)
     found = {round(row["y"] * 1e3, 3): row["set"] for row in rows(result, "pareto")}
     assert found == {6.0: "fails", 6.5: "fails", 7.0: "fails", 7.5: "front", 8.0: "dominated", 8.5: "dominated", 9.0: "fails"}
-    assert result["front.cases"] == 1 and plots[-1]._replace(title="") == ("pareto", "", "pareto", "y", ("z",), (), False, "points", False,
-                                                                           (), "set", "", ())
+    assert result["front.cases"] == 1 and plots[-1]._replace(title="") == (
+        "pareto",
+        "",
+        "pareto",
+        "y",
+        ("z",),
+        (),
+        False,
+        "points",
+        False,
+        (),
+        "set",
+        "",
+        (),
+    )
 
 
 def test_two_named_values_trade_off_and_what_is_assumed_is_said():
-    study = made(spec_of([{"key": ROLLER, "lower": "6 mm", "upper": "9 mm", "steps": 7}]), y=lambda c: c[ROLLER], z=lambda c: 1 / c[ROLLER],
-                 w=lambda c: c[ROLLER])
+    study = made(
+        spec_of([{"key": ROLLER, "lower": "6 mm", "upper": "9 mm", "steps": 7}]),
+        y=lambda c: c[ROLLER],
+        z=lambda c: 1 / c[ROLLER],
+        w=lambda c: c[ROLLER],
+    )
     result, _ = answers(study, ("y", "z"))
     assert [row["set"] for row in rows(result, "pareto")] == ["front"] * 7
     assert [row["z"] for row in rows(answers(study, ("z", "y"))[0], "front")] == pytest.approx(1e3 / np.arange(9.0, 5.9, -0.5))
@@ -256,9 +286,11 @@ def test_nothing_that_a_study_can_hold_is_too_odd(method, samples, grid, states)
             consistent(answers(made(spec, states, keep, **values)))
 
 
-@pytest.mark.parametrize("grid", [
-    [{"key": ROLLER, "values": ["8 mm"]}], [STEEL], [LEVELS], [STEEL, LEVELS], [{"key": ROLLER, "values": ["8 mm", "8 mm"]}]],
-    ids=["one", "words", "levels", "words and levels", "twice"])
+@pytest.mark.parametrize(
+    "grid",
+    [[{"key": ROLLER, "values": ["8 mm"]}], [STEEL], [LEVELS], [STEEL, LEVELS], [{"key": ROLLER, "values": ["8 mm", "8 mm"]}]],
+    ids=["one", "words", "levels", "words and levels", "twice"],
+)
 @pytest.mark.parametrize("states", [["complete"], ["failed"], ["complete", "partial", "failed"]], ids=lambda states: states[-1])
 def test_nor_a_grid(grid, states):
     values = {"y": None if states == ["failed"] else lambda c: np.arange(len(next(iter(c.values())))), "none": None, "check_a": None}
@@ -294,8 +326,9 @@ def from_file(path, lines, vary=()):
 
 def test_a_file_of_points_is_a_sample_with_its_numbers_and_words(tmp_path):
     rng = np.random.default_rng(1)
-    lines = [f"{ROLLER} [mm],load.force [N],material"] + [f"{r},{f},{s}" for r, f, s in zip(
-        rng.uniform(6, 9, 50), rng.uniform(10, 20, 50), ["16MnCr5", "42CrMo4"] * 25, strict=True)]
+    lines = [f"{ROLLER} [mm],load.force [N],material"] + [
+        f"{r},{f},{s}" for r, f, s in zip(rng.uniform(6, 9, 50), rng.uniform(10, 20, 50), ["16MnCr5", "42CrMo4"] * 25, strict=True)
+    ]
     found = answers(made(from_file(tmp_path / "points.csv", lines), y=lambda c: c[ROLLER] * 1e3 + c[FORCE]))
     consistent(found)
     shares = {row["key"]: row["share"] for row in rows(found.result, "contributions", value="y")}
@@ -355,8 +388,11 @@ def test_such_a_file_crossed_with_levels_and_not_yet_whole(tmp_path):
     assert rows(result, "range", value="y")[0]["greatest.case"] == 6 and result["cases.missing"] == 1
 
 
-@pytest.mark.parametrize("points", [DESIGNED[:-1], [*DESIGNED, DESIGNED[0]], [*DESIGNED[:-1], DESIGNED[0]], [("42CrMo4", 6, 40)]],
-                         ids=["one less", "one twice", "one for another", "alone"])
+@pytest.mark.parametrize(
+    "points",
+    [DESIGNED[:-1], [*DESIGNED, DESIGNED[0]], [*DESIGNED[:-1], DESIGNED[0]], [("42CrMo4", 6, 40)]],
+    ids=["one less", "one twice", "one for another", "alone"],
+)
 def test_what_lacks_a_combination_is_no_grid(tmp_path, points):
     result, _ = answers(made(from_file(tmp_path / "points.csv", designed(points)), y=bent))
     assert "range" not in result.tables and len(rows(result, "tolerance", value="y")) == 1
@@ -364,8 +400,12 @@ def test_what_lacks_a_combination_is_no_grid(tmp_path, points):
 
 def test_words_alone_do_not_make_a_grid_of_numbers(tmp_path):
     """Four roller radii, each with another pair of words: the words do not decide the radius."""
-    lines = [f"{ROLLER} [mm],material,programme.0.law"] + [f"{r},{steel},{law}" for r, (steel, law) in zip(
-        (6.1, 7.3, 8.8, 6.7), [(a, b) for a in ("16MnCr5", "42CrMo4") for b in ("cycloidal", "modified-sine")], strict=True)]
+    lines = [f"{ROLLER} [mm],material,programme.0.law"] + [
+        f"{r},{steel},{law}"
+        for r, (steel, law) in zip(
+            (6.1, 7.3, 8.8, 6.7), [(a, b) for a in ("16MnCr5", "42CrMo4") for b in ("cycloidal", "modified-sine")], strict=True
+        )
+    ]
     result, _ = answers(made(from_file(tmp_path / "points.csv", lines), y=lambda c: c[ROLLER]))
     assert "range" not in result.tables and rows(result, "tolerance", value="y")[0]["least"] == pytest.approx(6.1e-3)
 

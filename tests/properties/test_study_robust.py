@@ -332,10 +332,9 @@ def test_the_libraries_work_with_one_thread_while_cases_are_computed():
     task = evaluate.task_of(chain(), ("joint.rolling_radius",))
     working = evaluate._working(task)
     table = working.table
-    working.table = lambda *rest: (
-        seen.extend(lib["num_threads"] for lib in threadpool_info() if lib["user_api"] == "blas"),
-        table(*rest),
-    )[1]
+    working.table = lambda *rest: (seen.extend(lib["num_threads"] for lib in threadpool_info() if lib["user_api"] == "blas"), table(*rest))[
+        1
+    ]
     evaluate.evaluate(task, 0, {"joint.rolling_radius": np.array([1.2e-3])})
     del working.table
     assert seen and set(seen) == {1}

@@ -97,8 +97,12 @@ def test_the_sense_of_turning_changes_nothing(noisy):
 def test_units_scale_and_nothing_else(noisy):
     """Metres, kilograms and radians are conventions: k goes with torque over angle, energy with their product."""
     before, after = evaluate(noisy), evaluate(Readings(noisy.torque * 8.85, noisy.angle * 3437.7))
-    for a, b, factors in zip(numbers(before), numbers(after), (8.85 / 3437.7, np.array([3437.7, 3437.7, 8.85 * 3437.7, 1, 8.85 / 3437.7]),
-                                                               np.array([8.85 / 3437.7] * 3 + [8.85] * 2)), strict=True):
+    for a, b, factors in zip(
+        numbers(before),
+        numbers(after),
+        (8.85 / 3437.7, np.array([3437.7, 3437.7, 8.85 * 3437.7, 1, 8.85 / 3437.7]), np.array([8.85 / 3437.7] * 3 + [8.85] * 2)),
+        strict=True,
+    ):
         np.testing.assert_allclose(a * factors, b, rtol=1e-5)
 
 

@@ -165,8 +165,13 @@ def test_other_units_of_length_mass_and_time_change_no_pure_number():
         part = getattr(spec, table)
         return part.replace(**{name: SI(getattr(part, name) * factor) for name, factor in factors.items()})
 
-    lengths = {"push": ("stroke",), "lever": ("pivot_distance", "arm_main", "arm_return", "output_arm", "rod_length"),
-               "cams": ("prime_radius_main", "prime_radius_return", "roller_radius"), "arm": ("tip_distance",), "train": ("semi_major",)}
+    lengths = {
+        "push": ("stroke",),
+        "lever": ("pivot_distance", "arm_main", "arm_return", "output_arm", "rod_length"),
+        "cams": ("prime_radius_main", "prime_radius_return", "roller_radius"),
+        "arm": ("tip_distance",),
+        "train": ("semi_major",),
+    }
     changes = {table: scaled(table, dict.fromkeys(names, length)) for table, names in lengths.items()}
     changes["drive"] = scaled("drive", {"speed": 1 / time})
     changes["load"] = scaled("load", {"mass": mass, "push_force": mass * length / time**2})

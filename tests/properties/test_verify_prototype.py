@@ -25,8 +25,10 @@ def rod_error(model):
     return run.angle, run.travel - model.rod(model.push_start + run.angle).d0, run
 
 
-@pytest.mark.parametrize(("preset", "changes"), [
-    ("default", []), ("design-b", ["cams.orbit=counter-clockwise"]), ("design-c", ["drive.speed=40 rpm", "push.law=modified-sine"])])
+@pytest.mark.parametrize(
+    ("preset", "changes"),
+    [("default", []), ("design-b", ["cams.orbit=counter-clockwise"]), ("design-c", ["drive.speed=40 rpm", "push.law=modified-sine"])],
+)
 def test_the_rod_follows_its_programme(preset, changes):
     model = model_of(preset, *changes)
     angle, error, run = rod_error(model)

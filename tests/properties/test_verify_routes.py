@@ -21,7 +21,8 @@ PUSHER = registry.mechanism("seedling-pusher")
 ONLY = ("train", "planting", "cams")
 CASES = {
     "interior": ("paper-interior", []),
-    "other sense": ("design-b", ["cams.orbit=counter-clockwise"]), "far": ("default", ["train.start=far"]),
+    "other sense": ("design-b", ["cams.orbit=counter-clockwise"]),
+    "far": ("default", ["train.start=far"]),
     "asymmetric": ("design-a", ["lever.arm_main=14.7 mm", "push.hold=0 deg", "push.law=modified-sine", "arm.tip_reference=planet"]),
 }
 
@@ -48,8 +49,13 @@ NOTICED = {
     "train.axis_ratio=0.984": {"train.collinear_angle", "tip.lowest_angle", "tip.track_height", "tip.track_width", "cam.main.profile_area"},
     "train.bend=88 deg": {"train.collinear_angle", "tip.lowest_angle", "tip.track_height"},
     "arm.tip_angle=36 deg": {"tip.lowest_angle", "tip.track_height", "tip.track_width"},
-    "push.law=cycloidal": {"cam.main.max_pressure_angle.rise", "cam.return.max_pressure_angle.return", "cam.main.min_convex_radius",
-                           "cam.return.min_convex_radius", "cam.return.lost_motion"},
+    "push.law=cycloidal": {
+        "cam.main.max_pressure_angle.rise",
+        "cam.return.max_pressure_angle.return",
+        "cam.main.min_convex_radius",
+        "cam.return.min_convex_radius",
+        "cam.return.lost_motion",
+    },
     "cams.roller_radius=6.1 mm": {"cam.main.profile_area", "cam.main.profile_perimeter", "cam.return.lost_motion"},
     "lever.arm_return=16.2 mm": {"cam.roller_distance", "cam.return.max_pressure_angle.rise"},
     "cams.orbit=counter-clockwise": {"cam.main.max_pressure_angle.rise", "cam.main.profile_perimeter"},

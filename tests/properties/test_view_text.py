@@ -32,8 +32,10 @@ def read(text):
     return float(mantissa) * 10.0 ** int("".join(DOWN[c] for c in power) or 0)
 
 
-@given(st.floats(allow_nan=False, allow_infinity=False, min_value=-1e200, max_value=1e200).filter(lambda x: x == 0 or abs(x) > 1e-200),
-       st.integers(2, 8))
+@given(
+    st.floats(allow_nan=False, allow_infinity=False, min_value=-1e200, max_value=1e200).filter(lambda x: x == 0 or abs(x) > 1e-200),
+    st.integers(2, 8),
+)
 def test_a_number_reads_back_within_its_digits(value, digits):
     assert read(number(value, digits)) == pytest.approx(value, rel=0.5000001 * 10.0 ** (1 - digits))
 
@@ -44,17 +46,40 @@ def test_no_power_of_ten_in_everyday_numbers(value):
     assert "×" not in text and not re.search(r"\.\d*0$", text)
 
 
-@pytest.mark.parametrize(("value", "text"), [
-    (48.1834, "48.183"), (0.0, "0"), (-3.5, "−3.5"), (12345.6, "12\u202f346"), (9999.96, "10\u202f000"), (1e6, "1×10⁶"),
-    (2.4669517e-6, "2.467×10⁻⁶"), (999999.6, "1×10⁶"), (0.00099999999, "0.001"), (math.inf, "∞"), (-math.inf, "−∞"),
-    (math.nan, "n/a"), (5600.0, "5600")])
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (48.1834, "48.183"),
+        (0.0, "0"),
+        (-3.5, "−3.5"),
+        (12345.6, "12\u202f346"),
+        (9999.96, "10\u202f000"),
+        (1e6, "1×10⁶"),
+        (2.4669517e-6, "2.467×10⁻⁶"),
+        (999999.6, "1×10⁶"),
+        (0.00099999999, "0.001"),
+        (math.inf, "∞"),
+        (-math.inf, "−∞"),
+        (math.nan, "n/a"),
+        (5600.0, "5600"),
+    ],
+)
 def test_particular_numbers(value, text):
     assert number(value) == text
 
 
-@pytest.mark.parametrize(("value", "unit", "text"), [
-    (math.radians(48.183), "rad", "48.183°"), (0.026469, "m", "26.469\u00a0mm"), (512.3e6, "Pa", "512.3\u00a0MPa"), (3.125, "-", "3.125"),
-    (339.3, "m/s^2", "339.3\u00a0m/s²"), (math.inf, "m", "∞"), (2 * math.pi, "rad/s", "60\u00a0rpm")])
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [
+        (math.radians(48.183), "rad", "48.183°"),
+        (0.026469, "m", "26.469\u00a0mm"),
+        (512.3e6, "Pa", "512.3\u00a0MPa"),
+        (3.125, "-", "3.125"),
+        (339.3, "m/s^2", "339.3\u00a0m/s²"),
+        (math.inf, "m", "∞"),
+        (2 * math.pi, "rad/s", "60\u00a0rpm"),
+    ],
+)
 def test_quantities_in_the_unit_people_read(value, unit, text):
     assert quantity(value, unit) == text
 
@@ -78,22 +103,25 @@ def test_axis_labels():
 # -- digits of an interval -------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("value", "low", "high", "expected"), [
-    (10.234, 8.09, 12.38, ("10.2", "8.1", "12.4")),
-    (10.0, 9.97, 10.03, ("10.000", "9.970", "10.030")),
-    (3.2, -50.0, 56.0, ("3", "−50", "56")),
-    (10234.0, 8123.0, 12345.0, ("10\u202f200", "8100", "12\u202f300")),
-    (-0.04, -3.0, 2.9, ("0.0", "−3.0", "2.9")),
-    (1.5e7, 1.1e7, 1.9e7, ("1.50×10⁷", "1.10×10⁷", "1.90×10⁷")),
-    (2.5e-9, -1.1e-9, 6.1e-9, ("2.5×10⁻⁹", "−1.1×10⁻⁹", "6.1×10⁻⁹")),
-    (12.3456789, 12.34567, 12.34569, ("12.346", "", "")),
-    (12.3456, 12.3406, 12.3506, ("12.346", "12.341", "12.351")),
-    (12.3456, 12.34511, 12.34609, ("12.346", "", "")),
-    (12.3456, 12.34509, 12.34611, ("12.346", "12.345", "12.346")),
-    (12.3456789, None, None, ("12.346", "", "")),
-    (12.3456789, math.nan, 13.0, ("12.346", "", "")),
-    (5.0, 5.0, 5.0, ("5", "", "")),
-])
+@pytest.mark.parametrize(
+    ("value", "low", "high", "expected"),
+    [
+        (10.234, 8.09, 12.38, ("10.2", "8.1", "12.4")),
+        (10.0, 9.97, 10.03, ("10.000", "9.970", "10.030")),
+        (3.2, -50.0, 56.0, ("3", "−50", "56")),
+        (10234.0, 8123.0, 12345.0, ("10\u202f200", "8100", "12\u202f300")),
+        (-0.04, -3.0, 2.9, ("0.0", "−3.0", "2.9")),
+        (1.5e7, 1.1e7, 1.9e7, ("1.50×10⁷", "1.10×10⁷", "1.90×10⁷")),
+        (2.5e-9, -1.1e-9, 6.1e-9, ("2.5×10⁻⁹", "−1.1×10⁻⁹", "6.1×10⁻⁹")),
+        (12.3456789, 12.34567, 12.34569, ("12.346", "", "")),
+        (12.3456, 12.3406, 12.3506, ("12.346", "12.341", "12.351")),
+        (12.3456, 12.34511, 12.34609, ("12.346", "", "")),
+        (12.3456, 12.34509, 12.34611, ("12.346", "12.345", "12.346")),
+        (12.3456789, None, None, ("12.346", "", "")),
+        (12.3456789, math.nan, 13.0, ("12.346", "", "")),
+        (5.0, 5.0, 5.0, ("5", "", "")),
+    ],
+)
 def test_digits_are_those_that_the_interval_supports(value, low, high, expected):
     assert numbers(value, low, high) == expected
 
@@ -119,9 +147,14 @@ def test_quantity_with_its_interval_and_without():
     assert uncertain(10.234e-3, "m", None, None) == quantity(10.234e-3, "m")
 
 
-@pytest.mark.parametrize(("value", "hint"), [
-    (Value(1.0, "m", "x"), ""), (Value(1.0, "m", "x", 0.0, 2.0, "fit"), "95\u00a0%, fit"),
-    (Value(1.0, "m", "x", 0.0, 2.0, "ensemble", False), "95\u00a0%, ensemble, not settled"),
-    (Value(1.0, "m", "x", settled=False), "not settled")])
+@pytest.mark.parametrize(
+    ("value", "hint"),
+    [
+        (Value(1.0, "m", "x"), ""),
+        (Value(1.0, "m", "x", 0.0, 2.0, "fit"), "95\u00a0%, fit"),
+        (Value(1.0, "m", "x", 0.0, 2.0, "ensemble", False), "95\u00a0%, ensemble, not settled"),
+        (Value(1.0, "m", "x", settled=False), "not settled"),
+    ],
+)
 def test_hint_says_how_the_interval_was_made(value, hint):
     assert interval_hint(value) == hint

@@ -11,8 +11,17 @@ _WHERE = {
     "life": ("basic_dynamic_rating", "basic_life", "basic_static_rating"),
     "roller": ("RollerBearing", "RollerLaw", "roller_reference_life", "roller_static_rating"),
     "catalogue": ("Entry", "bearing", "entry", "load_catalogue", "names"),
-    "quick": ("gargiulo_ball", "gargiulo_roller", "kraemer_ball", "kraemer_roller", "liu_ball", "liu_roller", "palmgren_ball",
-              "palmgren_roller", "Stiffness"),
+    "quick": (
+        "gargiulo_ball",
+        "gargiulo_roller",
+        "kraemer_ball",
+        "kraemer_roller",
+        "liu_ball",
+        "liu_roller",
+        "palmgren_ball",
+        "palmgren_roller",
+        "Stiffness",
+    ),
 }
 _MODULE = {name: module for module, names in _WHERE.items() for name in names}
 

@@ -53,13 +53,17 @@ class BallBearing(Spec):
         if self.ball_diameter > chord:
             raise SpecError(
                 f"{self.balls} balls of {1e3 * self.ball_diameter:.6g} mm do not fit on the pitch circle, where they are "
-                f"{1e3 * chord:.6g} mm apart; take fewer or smaller balls, or a larger pitch_diameter", key="ball_diameter")
+                f"{1e3 * chord:.6g} mm apart; take fewer or smaller balls, or a larger pitch_diameter",
+                key="ball_diameter",
+            )
         distance = self.groove_distance
         widest = 2 * distance * np.cos(self.contact_angle)
         if not abs(self.radial_clearance) < widest:
             raise SpecError(
                 f"{1e3 * self.radial_clearance:.6g} mm leaves no contact angle: with grooves whose centres are {1e3 * distance:.6g} mm "
-                f"apart it must stay within +-{1e3 * widest:.6g} mm; check the unit, or open the grooves", key="radial_clearance")
+                f"apart it must stay within +-{1e3 * widest:.6g} mm; check the unit, or open the grooves",
+                key="radial_clearance",
+            )
         return self
 
     @property

@@ -61,8 +61,11 @@ class Entry(Spec):
     def _fits_its_envelope(self):
         inside, outside = self.bore or 0.0, self.outer_diameter or float("inf")
         if not inside < self.bearing.pitch_diameter < outside:
-            raise SpecError(f"must lie between bore and outer diameter, got {1e3 * self.bearing.pitch_diameter:g} mm against "
-                            f"{1e3 * inside:g} and {1e3 * outside:g} mm", key=f"{'ball' if self.ball else 'roller'}.pitch_diameter")
+            raise SpecError(
+                f"must lie between bore and outer diameter, got {1e3 * self.bearing.pitch_diameter:g} mm against "
+                f"{1e3 * inside:g} and {1e3 * outside:g} mm",
+                key=f"{'ball' if self.ball else 'roller'}.pitch_diameter",
+            )
         return self
 
     @model_validator(mode="after")
@@ -71,8 +74,11 @@ class Entry(Spec):
             return self
         given = {key for key in ENVELOPE if getattr(self, key) is not None} | self.bearing.model_fields_set
         named = [key for source in self.sources for key in source.keys]
-        for complaint, keys in (("no source names", given - set(named)), ("a source names, but the entry lacks,", set(named) - given),
-                                ("two sources name", {key for key in named if named.count(key) > 1})):
+        for complaint, keys in (
+            ("no source names", given - set(named)),
+            ("a source names, but the entry lacks,", set(named) - given),
+            ("two sources name", {key for key in named if named.count(key) > 1}),
+        ):
             if keys:
                 raise SpecError(f"{complaint} {', '.join(sorted(keys))}; each number wants one source", key="sources")
         return self

@@ -50,7 +50,8 @@ def basic_dynamic_rating(bearing):
     if inner > 0.52 or outer > 0.53:
         raise InputError(
             f"bearing: no dynamic rating is known for grooves of {inner:g} and {outer:g} ball diameters; "
-            "ISO 281 goes to 0.52 inside and 0.53 outside. Give dynamic_rating.")
+            "ISO 281 goes to 0.52 inside and 0.53 outside. Give dynamic_rating."
+        )
     g, diameter = bearing.curvature_ratio, 1e3 * bearing.ball_diameter
     h = 1.04 * ((1 - g) / (1 + g)) ** 1.72
     factor = 0.41 * 0.95 * 98.0665 * (1 + h ** (10 / 3)) ** -0.3 * g**0.3 * (1 - g) ** 1.39 / np.cbrt(1 + g) * 26**0.41

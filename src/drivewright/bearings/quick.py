@@ -100,12 +100,16 @@ def _check(force, count, size, contact_angle):
             raise InputError(f"bearing: the {name} must be above 0, got {np.min(value):g}{unit}. Without load there is no stiffness.")
     if not np.all(np.abs(contact_angle) < np.pi / 2):
         worst = np.degrees(np.max(np.abs(contact_angle)))
-        raise InputError(f"bearing: the contact angle must lie below 90 deg, got {worst:g} deg (the formulas want radians); "
-                         "a thrust bearing has no radial stiffness.")
+        raise InputError(
+            f"bearing: the contact angle must lie below 90 deg, got {worst:g} deg (the formulas want radians); "
+            "a thrust bearing has no radial stiffness."
+        )
 
 
 _KRAEMER = "E. Kraemer, Dynamics of Rotors and Foundations (1993), recalled"
 _GARGIULO = "E. P. Gargiulo, A simple way to estimate bearing stiffness, Machine Design (1980), recalled"
 _PALMGREN = "A. Palmgren's approaches as in makers' catalogues (NSK), recalled"
-_LIU = ("Liu Mingtao et al., factors influencing the torsional stiffness of inner parallel indexing cam mechanism, 2017, "
-        "doi:10.13364/j.issn.1672-6510.20160015, eq. (5) and (6); read")
+_LIU = (
+    "Liu Mingtao et al., factors influencing the torsional stiffness of inner parallel indexing cam mechanism, 2017, "
+    "doi:10.13364/j.issn.1672-6510.20160015, eq. (5) and (6); read"
+)

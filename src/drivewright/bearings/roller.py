@@ -33,11 +33,17 @@ class RollerBearing(Spec):
 
     rollers: Integer = Field(ge=3, le=10000, description="number of rollers", examples=[16])
     roller_diameter: Length = Field(gt=0, description="diameter of a roller, at mid-length where it is tapered", examples=["3.5 mm"])
-    roller_length: Length = Field(gt=0, description="effective length of a roller: that of the contact, without chamfers",
-                                  examples=["3.2 mm"])
+    roller_length: Length = Field(
+        gt=0, description="effective length of a roller: that of the contact, without chamfers", examples=["3.2 mm"]
+    )
     pitch_diameter: Length = Field(gt=0, description="diameter of the circle of the rollers' middles", examples=["26 mm"])
-    contact_angle: Angle = Field("0 deg", ge=0, lt=RIGHT_ANGLE, description="angle of the line of contact against a plane across the axis; "
-                                 "above 0 a tapered bearing, whose inner ring carries axial load towards +z")
+    contact_angle: Angle = Field(
+        "0 deg",
+        ge=0,
+        lt=RIGHT_ANGLE,
+        description="angle of the line of contact against a plane across the axis; "
+        "above 0 a tapered bearing, whose inner ring carries axial load towards +z",
+    )
     radial_clearance: Length = Field("0 mm", description="play across the diameter; below 0 a preload")
     profile: Literal["log", "none"] = Field("log", description="crown of the rollers: logarithmic after ISO/TS 16281, or none")
     laminae: Integer = Field(41, ge=1, le=1001, description="slices of a roller")
@@ -54,10 +60,14 @@ class RollerBearing(Spec):
             raise SpecError(
                 f"{self.rollers} rollers of {1e3 * self.roller_diameter:.4g} mm overlap on a pitch circle of "
                 f"{1e3 * self.pitch_diameter:.4g} mm, which leaves {1e3 * room:.4g} mm each. Take fewer or thinner rollers.",
-                key="roller_diameter")
+                key="roller_diameter",
+            )
         if not abs(self.radial_clearance) < self.roller_diameter:
-            raise SpecError(f"{1e3 * self.radial_clearance:.4g} mm is more than a roller of {1e3 * self.roller_diameter:.4g} mm is thick; "
-                            "usual are some hundredths of a millimetre: check the unit.", key="radial_clearance")
+            raise SpecError(
+                f"{1e3 * self.radial_clearance:.4g} mm is more than a roller of {1e3 * self.roller_diameter:.4g} mm is thick; "
+                "usual are some hundredths of a millimetre: check the unit.",
+                key="radial_clearance",
+            )
         return self
 
     @property
@@ -97,11 +107,21 @@ def _(bearing):
     x, lever = lamina_places(bearing), float(bearing.pitch_diameter / 2 * np.sin(angle))
     places = bearing.first_element + 2 * np.pi * np.arange(bearing.rollers) / bearing.rollers
     inner_pressure, outer_pressure = (
-        float(line_contact(1.0, bearing.roller_length / bearing.laminae, radius, modulus).pressure) for radius in contact_radii(bearing))
+        float(line_contact(1.0, bearing.roller_length / bearing.laminae, radius, modulus).pressure) for radius in contact_radii(bearing)
+    )
     return RollerLaw(
-        LINE_CONSTANT * modulus * bearing.roller_length ** (8 / 9) / bearing.laminae, float(np.cos(angle)), float(np.sin(angle)),
-        np.cos(places), np.sin(places), lever - x, bearing.radial_clearance / 2 * np.cos(angle) + 2 * profile_drop(bearing, x),
-        inner_pressure, outer_pressure, bearing.roller_diameter, lever + bearing.roller_length / 2)
+        LINE_CONSTANT * modulus * bearing.roller_length ** (8 / 9) / bearing.laminae,
+        float(np.cos(angle)),
+        float(np.sin(angle)),
+        np.cos(places),
+        np.sin(places),
+        lever - x,
+        bearing.radial_clearance / 2 * np.cos(angle) + 2 * profile_drop(bearing, x),
+        inner_pressure,
+        outer_pressure,
+        bearing.roller_diameter,
+        lever + bearing.roller_length / 2,
+    )
 
 
 def _modulus(bearing):

@@ -11,27 +11,31 @@ from typing import Any
 import numpy as np
 
 from drivewright._jit import generic, kernel
-from drivewright.bearings.newton import (
-    MOST_STEPS,
-    NOT_CONVERGED,
-    UNRESISTED,
-    Measures,
-    begin,
-    equilibria,
-    equilibrium,
-    measures,
-)
+from drivewright.bearings.newton import MOST_STEPS, NOT_CONVERGED, UNRESISTED, Measures, begin, equilibria, equilibrium, measures
 from drivewright.bearings.response import FREEDOMS, respond, response
 from drivewright.errors import InputError, SolverError, UnknownName, brief
 
-__all__ = ["PERMISSIBLE", "Equilibrium", "Measures", "contact_of", "elements", "equilibria", "equilibrium", "geometric_static_rating",
-           "law_of", "life_of", "measures", "solve", "warm"]
+__all__ = [
+    "PERMISSIBLE",
+    "Equilibrium",
+    "Measures",
+    "contact_of",
+    "elements",
+    "equilibria",
+    "equilibrium",
+    "geometric_static_rating",
+    "law_of",
+    "life_of",
+    "measures",
+    "solve",
+    "warm",
+]
 
 
 @singledispatch
 def law_of(bearing):
     """The law of a bearing: the NamedTuple of numbers that its formulas take."""
-    raise InputError(f"bearing: {brief(bearing)} is no bearing; build one, e.g. BallBearing(balls=9, ball_diameter=\"8 mm\", ...).")
+    raise InputError(f'bearing: {brief(bearing)} is no bearing; build one, e.g. BallBearing(balls=9, ball_diameter="8 mm", ...).')
 
 
 @singledispatch
@@ -53,7 +57,7 @@ PERMISSIBLE = {"point": (4.2e9, 3.0), "line": (4.0e9, 2.0)}
 
 
 def contact_of(bearing):
-    """"point" or "line": how its elements touch."""
+    """ "point" or "line": how its elements touch."""
     return "line" if measures(law_of(bearing)).laminae else "point"
 
 
@@ -137,7 +141,9 @@ def _found(law, force, held, start):
     if steps == NOT_CONVERGED:
         raise SolverError(
             f"bearing: no equilibrium with the force {_listed(force)} after {MOST_STEPS} Newton steps. "
-            "Begin nearer with start=, or with less load.", partial={"displacement": place})
+            "Begin nearer with start=, or with less load.",
+            partial={"displacement": place},
+        )
     return place, steps
 
 
@@ -148,7 +154,8 @@ def _refuse(law, force, place):
     name, unit, sign = FREEDOMS[way], "N" if way < 3 else "N m", "-" if place[way] < 0 else "+"
     raise InputError(
         f"bearing: nothing resists {sign}{name}, where {force[way]:.6g} {unit} of the force {_listed(force)} pushes: the inner ring moves "
-        f"without end. Push it the other way, hold it with held=({name!r},), or take a bearing that carries such a load.")
+        f"without end. Push it the other way, hold it with held=({name!r},), or take a bearing that carries such a load."
+    )
 
 
 def _kept(held, force):
@@ -160,7 +167,8 @@ def _kept(held, force):
         if force[FREEDOMS.index(name)] != 0.0:
             raise InputError(
                 f"bearing: {name} is held, so its force is a reaction to be found, but {force[FREEDOMS.index(name)]:.6g} is given; "
-                f"set it to 0, or do not hold {name}.")
+                f"set it to 0, or do not hold {name}."
+            )
     return np.array([name in names for name in FREEDOMS])
 
 

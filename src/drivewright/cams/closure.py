@@ -17,6 +17,7 @@ class Breadth(NamedTuple):
 
 def breadth(cycle):
     """`Breadth` of the lift over a turn.  A yoke between two faces or rollers wants error = 0."""
+
     def total(angle, lift):
         return lift + cycle.after(np.pi, angle)
 

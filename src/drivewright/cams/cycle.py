@@ -74,7 +74,7 @@ class Cycle:
         inside = (piece[:-1] == piece[1:]) & (slope[:-1] > 0) & (slope[1:] < 0)
         reach = np.maximum(value[:-1] + slope[:-1] * np.diff(angle), value[1:] - slope[1:] * np.diff(angle))
         worth = inside & (reach > value.max() + EQUAL * np.max(np.abs(value)))
-        tops = [top for k in np.flatnonzero(worth) for top in self._between(quantity, piece[k], angle[k:k + 2])]
+        tops = [top for k in np.flatnonzero(worth) for top in self._between(quantity, piece[k], angle[k : k + 2])]
         return np.array(tops).reshape(-1, 3).T
 
     def _between(self, quantity, piece, ends):

@@ -96,8 +96,10 @@ class TranslatingRound:
         """Centre of the face in the cam frame [m], from the jets of the cam angle and of the lift [m]."""
         low = translating.rest_height(self.prime_radius, self.offset) + np.min(self.side * lift.d0)
         if low <= 0:
-            raise DoesNotAssemble(f"translating follower: the lift takes the roller's centre to {1e3 * low:.6g} mm above the cam's centre; "
-                                  f"enlarge prime_radius by more than {-1e3 * low:.6g} mm or reduce the lift.")
+            raise DoesNotAssemble(
+                f"translating follower: the lift takes the roller's centre to {1e3 * low:.6g} mm above the cam's centre; "
+                f"enlarge prime_radius by more than {-1e3 * low:.6g} mm or reduce the lift."
+            )
         pitch = translating.pitch_curve(angle, lift, self.prime_radius, self.offset, self.side)
         return pitch if self.sense > 0 else -pitch.conj()
 
@@ -193,7 +195,8 @@ class OscillatingFlat:
         if not abs(height) < self.pivot_distance:
             raise DoesNotAssemble(
                 f"oscillating flat follower: base radius {1e3 * self.base_radius:.6g} mm less face_offset {1e3 * self.face_offset:.6g} mm "
-                f"must be smaller than pivot_distance {1e3 * self.pivot_distance:.6g} mm. Move the pivot away or change the base radius.")
+                f"must be smaller than pivot_distance {1e3 * self.pivot_distance:.6g} mm. Move the pivot away or change the base radius."
+            )
         return np.arcsin(height / self.pivot_distance)
 
     def face(self, angle, lift):
@@ -203,7 +206,8 @@ class OscillatingFlat:
         if np.any(1 + self.sense * lift.d1 / angle.d1 <= 0):
             raise DoesNotAssemble(
                 f"oscillating flat follower: the lever turns as fast as the cam (d swing/d angle reaches {-self.sense}), and no profile "
-                "does that. Spread the motion over a larger cam angle or reduce the rise.")
+                "does that. Spread the motion over a larger cam angle or reduce the rise."
+            )
         support = self.pivot_distance * sin(psi) + self.face_offset
         _refuse_crossing(support.d0)
         return np.pi / 2 - psi - self.sense * angle, support
@@ -220,8 +224,10 @@ def _refuse_crossing(support):
     """A flat face must stay on its side of the cam's centre."""
     low = np.min(support)
     if low <= 0:
-        raise DoesNotAssemble(f"flat follower: the lift takes the face {-1e3 * low:.6g} mm beyond the cam's centre and nothing is left "
-                              "of the cam; enlarge the base radius (prime_radius) by more than that or reduce the fall.")
+        raise DoesNotAssemble(
+            f"flat follower: the lift takes the face {-1e3 * low:.6g} mm beyond the cam's centre and nothing is left "
+            "of the cam; enlarge the base radius (prime_radius) by more than that or reduce the fall."
+        )
 
 
 def _refuse_swing(psi, low, high):
@@ -231,4 +237,5 @@ def _refuse_swing(psi, low, high):
         raise DoesNotAssemble(
             f"oscillating follower: the lever swings from {np.degrees(least):.6g} to {np.degrees(greatest):.6g} deg against the line of "
             f"centres, but it drives only between {np.degrees(low):.6g} and {np.degrees(high):.6g} deg. Reduce the rise, or change "
-            "prime_radius or arm_length.")
+            "prime_radius or arm_length."
+        )

@@ -26,7 +26,8 @@ def rest_angle(prime_radius, pivot_distance, arm_length):
         raise DoesNotAssemble(
             f"oscillating follower: with pivot_distance {1e3 * pivot_distance:.6g} mm and arm_length {1e3 * arm_length:.6g} mm the "
             f"roller reaches radii from {1e3 * shortest:.6g} to {1e3 * longest:.6g} mm; prime_radius {1e3 * prime_radius:.6g} mm is not "
-            "between them. Change the prime radius, the arm or the pivot.")
+            "between them. Change the prime radius, the arm or the pivot."
+        )
     return np.arccos((pivot_distance**2 + arm_length**2 - prime_radius**2) / (2 * pivot_distance * arm_length))
 
 

@@ -36,6 +36,7 @@ class Sinking(NamedTuple):
 
 def sinking(follower, programme, flank=1):
     """The `Sinking` of a follower into its cam; flank -1: outwards, into the outer wall of a groove."""
+
     def lift(angle, depth):
         return constant(programme(angle).s - flank * getattr(follower, "side", 1) * depth / follower.reach)
 

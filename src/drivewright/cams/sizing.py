@@ -14,6 +14,7 @@ def least_base_radius(cycle, follower):
     Translating: max(0, -min(s + s'') cos tilt), exact, as the radius of curvature is R + (s + s'') cos tilt.  Oscillating: the
     base radius at which the least radius of curvature is zero.
     """
+
     def sharpest(radius):
         changed = replace(follower, base_radius=radius)
         return cycle.least(lambda angle, lift: flat_radius(*changed.face(angle, lift))).value
@@ -39,6 +40,7 @@ def face_ends(cycle, follower):
     Translating: from where the follower's line meets the face, positive on the side that the cam surface moves to on a rise;
     oscillating: from the foot of the pivot.
     """
+
     def along(angle, lift):
         if not isinstance(follower, TranslatingFlat):
             return follower.reach * follower.contact(angle, lift).leverage

@@ -20,7 +20,8 @@ def rest_height(prime_radius, offset):
     if not abs(offset) < prime_radius:
         raise DoesNotAssemble(
             f"translating follower: offset {1e3 * offset:.6g} mm is not within prime_radius {1e3 * prime_radius:.6g} mm; the follower "
-            "would pass beside the cam. Reduce the offset or enlarge the prime radius.")
+            "would pass beside the cam. Reduce the offset or enlarge the prime radius."
+        )
     return np.sqrt(prime_radius**2 - offset**2)
 
 

@@ -58,8 +58,10 @@ def periodic(cycle, reach, speed, frequency, damping=0.0):
     angle, piece, rest = transient(cycle, reach, speed, frequency, damping)
     turn = np.eye(2) - propagator(2 * np.pi / speed, frequency, damping)
     if np.linalg.norm(turn * [[1.0, frequency], [1 / frequency, 1.0]], -2) < 1e-9:
-        raise InputError(f"cam vibration: at damping_ratio {damping:.3g} the natural frequency is {frequency / speed:.6g} times the cam's "
-                         "speed, a resonance without a steady state. Give some damping or another speed.")
+        raise InputError(
+            f"cam vibration: at damping_ratio {damping:.3g} the natural frequency is {frequency / speed:.6g} times the cam's "
+            "speed, a resonance without a steady state. Give some damping or another speed."
+        )
     start = np.linalg.solve(turn, [rest.d0[-1], rest.d1[-1]])
     # A free swing superposed on the motion from rest brings the end back to the start.
     free = propagator(angle / speed, frequency, damping) @ start
@@ -96,8 +98,16 @@ def peak(response, speed, quantity):
 def _hermite(left, right, step):
     """Coefficients (6, n) of the polynomials in 0..1 with value, slope and bend of both ends."""
     rise, (v0, v1), (a0, a1) = right.d0 - left.d0, (step * left.d1, step * right.d1), (step**2 * left.d2, step**2 * right.d2)
-    return np.array([left.d0, v0, a0 / 2, 10 * rise - 6 * v0 - 4 * v1 - 1.5 * a0 + 0.5 * a1,
-                     -15 * rise + 8 * v0 + 7 * v1 + 1.5 * a0 - a1, 6 * rise - 3 * (v0 + v1) - 0.5 * (a0 - a1)])
+    return np.array(
+        [
+            left.d0,
+            v0,
+            a0 / 2,
+            10 * rise - 6 * v0 - 4 * v1 - 1.5 * a0 + 0.5 * a1,
+            -15 * rise + 8 * v0 + 7 * v1 + 1.5 * a0 - a1,
+            6 * rise - 3 * (v0 + v1) - 0.5 * (a0 - a1),
+        ]
+    )
 
 
 def _value(coefficients, x):
@@ -135,8 +145,12 @@ def _impulses(cycle, reach, speed):
 
 def _refuse(speed, frequency, damping):
     if not (speed > 0 and frequency > 0 and 0 <= damping < 1):
-        raise InputError(f"cam vibration: speed {speed:.6g} rad/s and natural frequency {frequency:.6g} rad/s must be positive and "
-                         f"damping_ratio {damping:.6g} within 0 .. 1 (1 excluded).")
+        raise InputError(
+            f"cam vibration: speed {speed:.6g} rad/s and natural frequency {frequency:.6g} rad/s must be positive and "
+            f"damping_ratio {damping:.6g} within 0 .. 1 (1 excluded)."
+        )
     if frequency > STIFFEST * speed:
-        raise InputError(f"cam vibration: the natural frequency is {frequency / speed:.4g} times the cam's speed; above {STIFFEST:g} times "
-                         "the follower moves as a rigid one. Leave the vibration out.")
+        raise InputError(
+            f"cam vibration: the natural frequency is {frequency / speed:.4g} times the cam's speed; above {STIFFEST:g} times "
+            "the follower moves as a rigid one. Leave the vibration out."
+        )

@@ -110,5 +110,4 @@ def modification(f_seated, seated, z, a, p2, a2):
     cot = 1 / np.tan(np.pi / z)
     base = p2 * z * np.cos(a2) / np.pi
     turned = 0.5 * base * (a - a2) + 0.5 * seated * (np.cos(a) - np.sin(a) * cot - np.cos(a2) + np.sin(a2) * cot) + f_seated  # fa'' (11)
-    return (-z / 2 + 0.75 * np.pi / np.tan(a2) - np.pi * turned / (np.sin(a2) * p2)
-            + 0.5 * np.pi * seated * (cot - 1 / np.tan(a2)) / p2)
+    return -z / 2 + 0.75 * np.pi / np.tan(a2) - np.pi * turned / (np.sin(a2) * p2) + 0.5 * np.pi * seated * (cot - 1 / np.tan(a2)) / p2

@@ -56,17 +56,20 @@ class Plate:
         for name in ("thickness", "shoulder_radius", "toe_radius", "crotch_radius"):
             value = getattr(self, name)
             if not (np.isfinite(value) and value >= 0) or (name == "thickness" and value == 0):
-                raise InputError(f"Plate: {name} = {value:.4g} m; it must be finite and "
-                                 f"{'positive' if name == 'thickness' else 'not negative'}.")
+                raise InputError(
+                    f"Plate: {name} = {value:.4g} m; it must be finite and {'positive' if name == 'thickness' else 'not negative'}."
+                )
         self.pins.check(self.link)
         self._refuse_thin()
 
     def _refuse_thin(self):
         outer, inner, crotch = self._outer(self.toe), self._inner(self.toe), self._inner(self.crotch)
         if not crotch > 0:
-            raise InputError(f"Plate: the inner flanks cross below the crotch at {self.crotch * 1e3:.4g} mm; they are "
-                             f"{crotch * 2e3:.4g} mm apart. "
-                             "Lower the crotch or take a larger inner_gap.")
+            raise InputError(
+                f"Plate: the inner flanks cross below the crotch at {self.crotch * 1e3:.4g} mm; they are "
+                f"{crotch * 2e3:.4g} mm apart. "
+                "Lower the crotch or take a larger inner_gap."
+            )
         if not inner < outer:
             raise InputError(
                 f"Plate: toe at {self.toe * 1e3:.4g} mm has the width {(outer - inner) * 1e3:.4g} mm. Take shorter toes or a "
@@ -92,10 +95,21 @@ class Plate:
         right = [(self._outer(b), b), (self._outer(t), t), (self._inner(t), t), (self._inner(c), c)]
         left = [(-x, y) for x, y in right]
         radii = [self.shoulder_radius, self.toe_radius, self.toe_radius, self.crotch_radius]
-        return rounded([right[0], *left, *right[:0:-1]], [radii[0], *radii, *radii[:0:-1]],
-                       ("back", "flank left", "toe left", "inner left", "crotch", "inner right", "toe right", "flank right"),
-                       ("shoulder right", "shoulder left", "toe outer left", "toe inner left", "crotch left",
-                        "crotch right", "toe inner right", "toe outer right"))
+        return rounded(
+            [right[0], *left, *right[:0:-1]],
+            [radii[0], *radii, *radii[:0:-1]],
+            ("back", "flank left", "toe left", "inner left", "crotch", "inner right", "toe right", "flank right"),
+            (
+                "shoulder right",
+                "shoulder left",
+                "toe outer left",
+                "toe inner left",
+                "crotch left",
+                "crotch right",
+                "toe inner right",
+                "toe outer right",
+            ),
+        )
 
     def hole(self, side):
         """The hole at the "left" or "right" end, counter-clockwise: {name: Line or Arc}; the own pin presses on "seat"."""
@@ -142,8 +156,11 @@ class Plate:
 
         around = shapely.LinearRing(self.outline.points(tolerance))
         left, right = (shapely.Polygon(hole.points(tolerance)) for hole in self.holes)
-        return {"between holes": left.distance(right), "hole to outline": left.distance(around),
-                "toe": self._outer(self.toe) - self._inner(self.toe)}
+        return {
+            "between holes": left.distance(right),
+            "hole to outline": left.distance(around),
+            "toe": self._outer(self.toe) - self._inner(self.toe),
+        }
 
     @property
     def moments(self):
@@ -170,8 +187,16 @@ def design_plate(link, pins=None, **lengths):
     Toes end higher where they would be narrower than a tenth of the pitch.
     For p = 9.525 mm: back 3.1, shoulder 2.6, toe -6, crotch -1.4, gap 0.3, roundings 0.35 (toe) and 0.6 (crotch), sheet 2 mm.
     """
-    ratios = {"back": 3.1, "toe": -6.0, "crotch": -1.4, "inner_gap": 0.3, "shoulder_radius": 2.6, "toe_radius": 0.35,
-              "crotch_radius": 0.6, "thickness": 2.0}
+    ratios = {
+        "back": 3.1,
+        "toe": -6.0,
+        "crotch": -1.4,
+        "inner_gap": 0.3,
+        "shoulder_radius": 2.6,
+        "toe_radius": 0.35,
+        "crotch_radius": 0.6,
+        "thickness": 2.0,
+    }
     standard = {name: value / 9.525 * link.pitch for name, value in ratios.items()}
     standard["toe"] = max(standard["toe"], _toe_end(link, standard["inner_gap"]))
     return Plate(link, default_pins(link) if pins is None else pins, **{**standard, **lengths})

@@ -42,8 +42,9 @@ class HingePin(NamedTuple):
         if link.radius:
             raise InputError(f"HingePin: the link's pins roll with r = {link.radius * 1e3:.4g} mm; take RoundPins or RockerPins, or r = 0.")
         if not 0 < self.radius < 0.5 * link.hole_pitch:
-            raise InputError(f"HingePin: radius = {self.radius * 1e3:.4g} mm; it lies between 0 and half the pitch, "
-                             f"{link.hole_pitch * 500:.4g} mm.")
+            raise InputError(
+                f"HingePin: radius = {self.radius * 1e3:.4g} mm; it lies between 0 and half the pitch, {link.hole_pitch * 500:.4g} mm."
+            )
 
     def hole(self, link):
         """Pieces {name: Arc} of the hole, counter-clockwise."""
@@ -79,9 +80,11 @@ class RoundPins(NamedTuple):
         if not 1 < self.clearance < 2:
             raise InputError(f"RoundPins: clearance = {self.clearance:.4g} pin radii; it lies between 1 (no play) and 2 (no throat).")
         if not (0 < self.turn < np.pi and self.back_turn >= 0 and self.rounding >= 0):
-            raise InputError(f"RoundPins: turn = {self.turn:.4g} rad, back_turn = {self.back_turn:.4g} rad, rounding = "
-                             f"{self.rounding:.4g}; "
-                             "turn lies between 0 and pi, the others are not negative.")
+            raise InputError(
+                f"RoundPins: turn = {self.turn:.4g} rad, back_turn = {self.back_turn:.4g} rad, rounding = "
+                f"{self.rounding:.4g}; "
+                "turn lies between 0 and pi, the others are not negative."
+            )
         reach = (2 + self.clearance) * link.radius
         if reach >= 0.5 * link.hole_pitch:
             raise InputError(
@@ -146,8 +149,10 @@ class RockerPins(NamedTuple):
     def check(self, link):
         b, t = self.back_radius, self.thickness
         if not (b > 0 and self.clearance > 0 and 0 < self.turn < np.pi):
-            raise InputError(f"RockerPins: back_radius = {b:.4g} m, clearance = {self.clearance:.4g} m, turn = {self.turn:.4g} rad; "
-                             "all are positive, turn below pi.")
+            raise InputError(
+                f"RockerPins: back_radius = {b:.4g} m, clearance = {self.clearance:.4g} m, turn = {self.turn:.4g} rad; "
+                "all are positive, turn below pi."
+            )
         if not (b + 0.5 * self.clearance < t < 2 * b and link.radius > b):
             raise InputError(
                 f"RockerPins: thickness = {t * 1e3:.4g} mm; with back_radius {b * 1e3:.4g} mm and clearance "
@@ -157,9 +162,11 @@ class RockerPins(NamedTuple):
                 f"rolling radius ({link.radius * 1e3:.4g} mm) exceeds back_radius."
             )
         if t + self.clearance >= 0.5 * link.pitch:
-            raise InputError(f"RockerPins: two holes that reach {(t + self.clearance) * 1e3:.4g} mm from the pitch points "
-                             "overlap in a plate of "
-                             f"pitch {link.pitch * 1e3:.4g} mm. Take a smaller thickness.")
+            raise InputError(
+                f"RockerPins: two holes that reach {(t + self.clearance) * 1e3:.4g} mm from the pitch points "
+                "overlap in a plate of "
+                f"pitch {link.pitch * 1e3:.4g} mm. Take a smaller thickness."
+            )
         back, forward = self.limits(link)
         if forward < self.turn or back > 0:
             raise InputError(
@@ -208,8 +215,9 @@ class RockerPins(NamedTuple):
         edge, own, face = self._edge(link), self._own(link), 0.5 * link.hole_pitch
         half = np.arcsin(edge / link.radius)
         back = float(np.arctan2(edge, face - link.radius * np.cos(half) - own))
-        return outline({"back": Arc((own, 0.0), self.back_radius, -back, 2 * back),
-                        "face": Arc((face, 0.0), link.radius, np.pi - half, 2 * half)})
+        return outline(
+            {"back": Arc((own, 0.0), self.back_radius, -back, 2 * back), "face": Arc((face, 0.0), link.radius, np.pi - half, 2 * half)}
+        )
 
     def limits(self, link):
         """Joint angles (back, forward) [rad]: the neighbour's rod meets the hole, or the contact reaches the edge of the rolling faces."""

@@ -13,8 +13,9 @@ def sheet_heights(plate, lacing, play=0.0):
     """
     a, b = lacing
     if not (a >= 1 and b >= 1 and abs(a - b) <= 1 and float(a).is_integer() and float(b).is_integer()):
-        raise InputError(f"lacing {a:g} x {b:g}: sheets that alternate need two whole numbers from 1 on that differ by one "
-                         "at most, such as 2 x 3.")
+        raise InputError(
+            f"lacing {a:g} x {b:g}: sheets that alternate need two whole numbers from 1 on that differ by one at most, such as 2 x 3."
+        )
     step = plate.thickness + play
     z = (np.arange(a + b) - 0.5 * (a + b)) * step + 0.5 * play
     return (z[::2], z[1::2]) if a >= b else (z[1::2], z[::2])

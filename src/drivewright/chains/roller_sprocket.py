@@ -29,23 +29,33 @@ class RollerSprocket:
         if not (float(self.teeth).is_integer() and self.teeth >= 5):
             raise InputError(f"RollerSprocket: teeth = {self.teeth:g}; the number is whole and at least 5.")
         if not 0 < self.roller_diameter < self.pitch:
-            raise InputError(f"RollerSprocket: roller_diameter = {self.roller_diameter * 1e3:.4g} mm; it lies between 0 and the pitch, "
-                             f"{self.pitch * 1e3:.4g} mm.")
+            raise InputError(
+                f"RollerSprocket: roller_diameter = {self.roller_diameter * 1e3:.4g} mm; it lies between 0 and the pitch, "
+                f"{self.pitch * 1e3:.4g} mm."
+            )
         if not self.seat_radius >= 0.5 * self.roller_diameter:
-            raise InputError(f"RollerSprocket: seat_radius = {self.seat_radius * 1e3:.4g} mm; a roller of "
-                             f"{self.roller_diameter * 1e3:.4g} mm diameter "
-                             "needs at least its radius.")
+            raise InputError(
+                f"RollerSprocket: seat_radius = {self.seat_radius * 1e3:.4g} mm; a roller of "
+                f"{self.roller_diameter * 1e3:.4g} mm diameter "
+                "needs at least its radius."
+            )
         if not (0 < self.seat_angle < np.pi and self.flank_radius > 0):
-            raise InputError(f"RollerSprocket: seat_angle = {np.degrees(self.seat_angle):.4g} deg, flank_radius = "
-                             f"{self.flank_radius * 1e3:.4g} mm; "
-                             "the angle lies between 0 and 180 deg, the radius is positive.")
+            raise InputError(
+                f"RollerSprocket: seat_angle = {np.degrees(self.seat_angle):.4g} deg, flank_radius = "
+                f"{self.flank_radius * 1e3:.4g} mm; "
+                "the angle lies between 0 and 180 deg, the radius is positive."
+            )
         if not self._lowest_tip < self.tip_radius < abs(self._flank_center) + self.flank_radius:
-            raise InputError(f"RollerSprocket: tip_radius = {self.tip_radius * 1e3:.5g} mm; the flank arcs reach from "
-                             f"{self._lowest_tip * 1e3:.5g} to "
-                             f"{(abs(self._flank_center) + self.flank_radius) * 1e3:.5g} mm.")
+            raise InputError(
+                f"RollerSprocket: tip_radius = {self.tip_radius * 1e3:.5g} mm; the flank arcs reach from "
+                f"{self._lowest_tip * 1e3:.5g} to "
+                f"{(abs(self._flank_center) + self.flank_radius) * 1e3:.5g} mm."
+            )
         if self.tip_thickness <= 0:
-            raise InputError(f"RollerSprocket: the teeth are pointed below the tip at {self.tip_radius * 1e3:.5g} mm; they overlap by "
-                             f"{-self.tip_thickness * 1e3:.4g} mm there. Take a smaller tip_radius, seat_radius or a larger flank_radius.")
+            raise InputError(
+                f"RollerSprocket: the teeth are pointed below the tip at {self.tip_radius * 1e3:.5g} mm; they overlap by "
+                f"{-self.tip_thickness * 1e3:.4g} mm there. Take a smaller tip_radius, seat_radius or a larger flank_radius."
+            )
 
     @property
     def pitch_radius(self):
@@ -111,8 +121,13 @@ class RollerSprocket:
         """Drawing for manufacture: profile, pitch circle and the bore (diameter [m])."""
         shapes = [Shape("profile", self.outline()), Shape("pitch", circle((0.0, 0.0), self.pitch_radius))]
         shapes += [Shape("hole", hole) for hole in self._bore(bore)]
-        return Drawing(name, f"sprocket, {self.teeth:g} teeth, pitch {self.pitch * 1e3:.5g} mm, roller {self.roller_diameter * 1e3:.4g} mm",
-                       tuple(shapes), thickness, milled=False)
+        return Drawing(
+            name,
+            f"sprocket, {self.teeth:g} teeth, pitch {self.pitch * 1e3:.5g} mm, roller {self.roller_diameter * 1e3:.4g} mm",
+            tuple(shapes),
+            thickness,
+            milled=False,
+        )
 
     def part(self, bore, thickness, name="sprocket", pose=(0.0, 0.0, 0.0)):
         """`Part`: prism of this thickness with a bore (diameter [m]), its middle plane at height 0."""
@@ -120,8 +135,9 @@ class RollerSprocket:
 
     def _bore(self, diameter):
         if not 0 <= diameter < 2 * self.root_radius:
-            raise InputError(f"RollerSprocket: a bore of {diameter * 1e3:.4g} mm breaks through the root of "
-                             f"{2e3 * self.root_radius:.4g} mm diameter.")
+            raise InputError(
+                f"RollerSprocket: a bore of {diameter * 1e3:.4g} mm breaks through the root of {2e3 * self.root_radius:.4g} mm diameter."
+            )
         return (circle((0.0, 0.0), 0.5 * diameter),) if diameter else ()
 
 
@@ -136,12 +152,15 @@ def design_roller_sprocket(teeth, pitch, roller_diameter, space=0.5, **lengths):
     if not 0 <= space <= 1:
         raise InputError(f"roller sprocket: space = {space:.4g}; it lies between 0 (smallest tooth space) and 1 (largest).")
     if not (teeth >= 5 and 0 < roller_diameter < pitch):
-        raise InputError(f"roller sprocket: {teeth:g} teeth, pitch {pitch:.4g} m, roller {roller_diameter:.4g} m; at least 5 "
-                         "teeth, and a roller smaller "
-                         "than the pitch.")
+        raise InputError(
+            f"roller sprocket: {teeth:g} teeth, pitch {pitch:.4g} m, roller {roller_diameter:.4g} m; at least 5 "
+            "teeth, and a roller smaller "
+            "than the pitch."
+        )
     least, greatest = (tooth_gap(teeth, roller_diameter, kind) for kind in ("least", "greatest"))
-    standard = {name: (1 - space) * getattr(least, name) + space * getattr(greatest, name)
-                for name in ("seat_radius", "seat_angle", "flank_radius")}
+    standard = {
+        name: (1 - space) * getattr(least, name) + space * getattr(greatest, name) for name in ("seat_radius", "seat_angle", "flank_radius")
+    }
     standard["tip_radius"] = 0.5 * tip_range(pitch, teeth, roller_diameter)[0]
     return RollerSprocket(teeth, pitch, roller_diameter, **{**standard, **lengths})
 
@@ -152,20 +171,26 @@ def roller_plate(pitch, end_radius, waist_radius):
     The centre of a waist arc stands sqrt((e + w)^2 - (p/2)^2) beside the plate's axis.
     """
     if not (0 < end_radius < 0.5 * pitch and waist_radius > 0):
-        raise InputError(f"roller plate: end_radius = {end_radius * 1e3:.4g} mm, waist_radius = {waist_radius * 1e3:.4g} mm; "
-                         "the ends are smaller than "
-                         f"half the pitch, {pitch * 500:.4g} mm, both are positive.")
+        raise InputError(
+            f"roller plate: end_radius = {end_radius * 1e3:.4g} mm, waist_radius = {waist_radius * 1e3:.4g} mm; "
+            "the ends are smaller than "
+            f"half the pitch, {pitch * 500:.4g} mm, both are positive."
+        )
     reach = end_radius + waist_radius
     beside = np.sqrt(reach**2 - 0.25 * pitch**2) if reach > 0.5 * pitch else 0.0
     if beside <= waist_radius:
-        raise InputError(f"roller plate: the two arcs of the waist meet; waist_radius = {waist_radius * 1e3:.4g} mm must exceed "
-                         f"{(0.125 * pitch**2 / end_radius - 0.5 * end_radius) * 1e3:.4g} mm.")
+        raise InputError(
+            f"roller plate: the two arcs of the waist meet; waist_radius = {waist_radius * 1e3:.4g} mm must exceed "
+            f"{(0.125 * pitch**2 / end_radius - 0.5 * end_radius) * 1e3:.4g} mm."
+        )
     lean = float(np.arctan2(beside, 0.5 * pitch))
     x, y = 0.5 * pitch, float(beside)
     waist = np.pi - 2 * lean
-    return Outline((
-        Arc((x, 0.0), end_radius, lean - np.pi, 2 * (np.pi - lean)),
-        Arc((0.0, y), waist_radius, -lean, -waist),
-        Arc((-x, 0.0), end_radius, lean, 2 * (np.pi - lean)),
-        Arc((0.0, -y), waist_radius, np.pi - lean, -waist),
-    ))
+    return Outline(
+        (
+            Arc((x, 0.0), end_radius, lean - np.pi, 2 * (np.pi - lean)),
+            Arc((0.0, y), waist_radius, -lean, -waist),
+            Arc((-x, 0.0), end_radius, lean, 2 * (np.pi - lean)),
+            Arc((0.0, -y), waist_radius, np.pi - lean, -waist),
+        )
+    )

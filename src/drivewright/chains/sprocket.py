@@ -121,8 +121,9 @@ class Sprocket:
         wanted = 0.5 * diameter / self.tooth.base_radius + self.half_angle - np.pi / self.tooth.teeth
         angle = bracketed_roots(lambda a: involute(a) - wanted, np.linspace(0.0, 1.5, 200)) if wanted > 0 else ()
         if not len(angle):
-            raise InputError(f"Sprocket: a measuring pin of {diameter * 1e3:.4g} mm touches no flank; the best one has "
-                             f"{self.best_pin * 1e3:.4g} mm.")
+            raise InputError(
+                f"Sprocket: a measuring pin of {diameter * 1e3:.4g} mm touches no flank; the best one has {self.best_pin * 1e3:.4g} mm."
+            )
         return float(self.tooth.base_radius / np.cos(angle[0]))
 
     def over_pins(self, diameter):
@@ -157,7 +158,7 @@ class Sprocket:
         low = Arc((0.0, 0.0), self.root_radius, middle, edge - middle).points(tolerance)
         flank = self.flank_points(self._flank_count(tolerance))
         tip = Arc((0.0, 0.0), self.tip_radius, 0.5 * np.pi - self._tip_polar, self._tip_polar).points(tolerance)
-        return np.concatenate([low, self._root.points(self._root_count(tolerance))[1:], flank[1:], tip[0 if self.tip_chamfer else 1:]])
+        return np.concatenate([low, self._root.points(self._root_count(tolerance))[1:], flank[1:], tip[0 if self.tip_chamfer else 1 :]])
 
     def _flank_count(self, tolerance):
         """Points of a flank, equidistant in s = sqrt(r^2 - rb^2), whose sagittas s ds^2/(8 rb^2) stay within a tolerance."""
@@ -178,8 +179,10 @@ class Sprocket:
         """Pieces of the tooth on the y axis and the root before it, counter-clockwise."""
         rise, ends = self._root, self._flank_ends
         headings = _polar(1.0, 0.5 * np.pi - self.flank_polar(ends) + self.pressure_angle(ends))
-        up = [Spline(rise.points(self._root_count(tolerance)), rise.hob.heading(0.0), rise.hob.heading(rise.end)),
-              Spline(self.flank_points(self._flank_count(tolerance)), *(tuple(map(float, way)) for way in headings))]
+        up = [
+            Spline(rise.points(self._root_count(tolerance)), rise.hob.heading(0.0), rise.hob.heading(rise.end)),
+            Spline(self.flank_points(self._flank_count(tolerance)), *(tuple(map(float, way)) for way in headings)),
+        ]
         if self.tip_chamfer:
             tip = Arc((0.0, 0.0), self.tip_radius, 0.5 * np.pi - self._tip_polar, 0.0).points(1.0)[0]
             up.append(Line(tuple(map(float, up[-1].knots[-1])), tuple(map(float, tip))))
@@ -193,9 +196,13 @@ class Sprocket:
         """Drawing for manufacture: profile, base circle, and the bore (diameter [m]) about the axis."""
         shapes = [Shape("profile", self.outline(tolerance)), Shape("base", circle((0.0, 0.0), self.tooth.base_radius))]
         shapes += [Shape("hole", hole) for hole in self._bore(bore)]
-        return Drawing(name, f"sprocket, {self.tooth.teeth:g} teeth, base pitch "
-                             f"{2e3 * np.pi * self.tooth.base_radius / self.tooth.teeth:.5g} mm",
-                       tuple(shapes), thickness, milled=False)
+        return Drawing(
+            name,
+            f"sprocket, {self.tooth.teeth:g} teeth, base pitch {2e3 * np.pi * self.tooth.base_radius / self.tooth.teeth:.5g} mm",
+            tuple(shapes),
+            thickness,
+            milled=False,
+        )
 
     def part(self, bore, thickness, name="sprocket", pose=(0.0, 0.0, 0.0), tolerance=1e-6):
         """`Part`: prism of this thickness with a bore (diameter [m]), its middle plane at height 0."""
@@ -203,8 +210,9 @@ class Sprocket:
 
     def _bore(self, diameter):
         if not 0 <= diameter < 2 * self.root_radius:
-            raise InputError(f"Sprocket: a bore of {diameter * 1e3:.4g} mm breaks through the root of "
-                             f"{2e3 * self.root_radius:.4g} mm diameter.")
+            raise InputError(
+                f"Sprocket: a bore of {diameter * 1e3:.4g} mm breaks through the root of {2e3 * self.root_radius:.4g} mm diameter."
+            )
         return (circle((0.0, 0.0), 0.5 * diameter),) if diameter else ()
 
 

@@ -62,9 +62,11 @@ def hob(teeth, cutter, half_angle, root_radius, rounding):
     place = space - height * np.tan(a2) + rounding / np.cos(a2)
     largest = full_rounding(teeth, cutter, half_angle, root_radius)
     if not 0 < rounding <= largest * (1 + 1e-12):
-        raise InputError(f"Sprocket: tip_rounding = {rounding * 1e3:.4g} mm; the hob's tip has room for more than 0 and at most "
-                         f"{max(largest, 0.0) * 1e3:.4g} mm at the root radius {root_radius * 1e3:.5g} mm. Take a smaller "
-                         "one, or a higher root.")
+        raise InputError(
+            f"Sprocket: tip_rounding = {rounding * 1e3:.4g} mm; the hob's tip has room for more than 0 and at most "
+            f"{max(largest, 0.0) * 1e3:.4g} mm at the root radius {root_radius * 1e3:.5g} mm. Take a smaller "
+            "one, or a higher root."
+        )
     if height >= 0:
         raise InputError(
             f"Sprocket: the rounding of the hob's tip, {rounding * 1e3:.4g} mm at the root radius {root_radius * 1e3:.5g} "

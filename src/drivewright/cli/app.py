@@ -29,9 +29,11 @@ Set = Annotated[list[str] | None, typer.Option("--set", help="key=value, repeata
 Only = Annotated[str, typer.Option("--only", help="analyses to run, comma separated, with what they need")]
 All = Annotated[bool, typer.Option("--all", help="every analysis")]
 Out = Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the spec>")]
-VARY = ("repeatable: KEY=FROM:TO:STEPS, KEY=V1,V2, KEY=FROM:TO or uniform(FROM, TO), KEY=normal(MEAN, SIGMA), "
-        "KEY=triangular(FROM, PEAK, TO), KEY=+-TOLERANCE; KEY+KEY=... for keys "
-        "with the same value; instead of what the spec's [study] varies")
+VARY = (
+    "repeatable: KEY=FROM:TO:STEPS, KEY=V1,V2, KEY=FROM:TO or uniform(FROM, TO), KEY=normal(MEAN, SIGMA), "
+    "KEY=triangular(FROM, PEAK, TO), KEY=+-TOLERANCE; KEY+KEY=... for keys "
+    "with the same value; instead of what the spec's [study] varies"
+)
 METHOD = "latin-hypercube, sobol, random, corners, one-at-a-time, tolerance, sobol-indices"
 Strict = Annotated[bool, typer.Option("--strict", help="exit 3 when a design check fails")]
 
@@ -153,8 +155,17 @@ def sweep(
 
     _refuse_both(only, all_)
     with show.located(spec):
-        loaded = asked(_load(spec, set_), vary or (), points, samples=sample, method=method, seed=seed, analyses=_names(only) or None,
-                       every_analysis=all_ or None, values=_names(values) or None)
+        loaded = asked(
+            _load(spec, set_),
+            vary or (),
+            points,
+            samples=sample,
+            method=method,
+            seed=seed,
+            analyses=_names(only) or None,
+            every_analysis=all_ or None,
+            values=_names(values) or None,
+        )
     with show.progress(spec.name) as step, show.located(spec):
         study = compute(loaded, out=out or Path("out") / f"{spec.stem}-study", workers=workers, on=on, confirmed=yes, progress=step)
         show.note(f"{study.folder}: {len(study)} of {len(study.plan)} cases")

@@ -56,10 +56,16 @@ def made(name):
     def call(out, figures, as_json, strict, **texts):
         _run(command, {key: text for key, text in texts.items() if text is not None}, out, figures, as_json, strict)
 
-    first = inspect.Parameter(command.argument, inspect.Parameter.KEYWORD_ONLY, annotation=Annotated[
-        str, typer.Argument(metavar=command.argument.upper(), help=fields[command.argument].description)])
-    options = [inspect.Parameter(key, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=_option(key, field))
-               for key, field in fields.items() if key != command.argument]
+    first = inspect.Parameter(
+        command.argument,
+        inspect.Parameter.KEYWORD_ONLY,
+        annotation=Annotated[str, typer.Argument(metavar=command.argument.upper(), help=fields[command.argument].description)],
+    )
+    options = [
+        inspect.Parameter(key, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=_option(key, field))
+        for key, field in fields.items()
+        if key != command.argument
+    ]
     endings = [inspect.Parameter(key, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kind) for key, kind, default in ENDINGS]
     call.__signature__ = inspect.Signature([first, *options, *endings])
     call.__annotations__ = {parameter.name: parameter.annotation for parameter in call.__signature__.parameters.values()}

@@ -149,8 +149,14 @@ def checks(found):
         return Text("ok", style="green") if check.ok else Text("FAILS", style="bold red")
 
     rows = [
-        (verdict(c), c.name, number(c.value, c.unit, *(c.bounds or ())), f"{c.sense} {number(c.limit, c.unit)}", _margin(c),
-         f"{c.message} ({UNDECIDED})" if c.undecided else c.message)
+        (
+            verdict(c),
+            c.name,
+            number(c.value, c.unit, *(c.bounds or ())),
+            f"{c.sense} {number(c.limit, c.unit)}",
+            _margin(c),
+            f"{c.message} ({UNDECIDED})" if c.undecided else c.message,
+        )
         for c in sorted(found, key=lambda c: c.ok)
     ]
     if rows:

@@ -19,8 +19,19 @@ from drivewright.contact.normal import HuntCrossley, KelvinVoigt, Spring, hunt_c
 
 # Their modules hold kernels, and the first kernel imports numba: loaded when first used.
 _WHERE = {
-    "impact": ("ImpactLaw", "cylinder_depth", "cylinder_energy", "cylinder_force", "delivered_restitution", "impact_law",
-               "impact_law_names", "journal_stiffness", "kelvin_voigt_damping", "kelvin_voigt_restitution", "lasting_factor"),
+    "impact": (
+        "ImpactLaw",
+        "cylinder_depth",
+        "cylinder_energy",
+        "cylinder_force",
+        "delivered_restitution",
+        "impact_law",
+        "impact_law_names",
+        "journal_stiffness",
+        "kelvin_voigt_damping",
+        "kelvin_voigt_restitution",
+        "lasting_factor",
+    ),
     "friction": ("ambrosio", "coulomb", "lugre", "lugre_rate", "stribeck"),
     "film": ("long_bearing", "short_bearing"),
     "reynolds": ("Film", "FilmMap", "closed_form_map", "film_deviation", "film_map", "solve_film"),
@@ -29,9 +40,23 @@ _WHERE = {
 _MODULE = {name: module for module, names in _WHERE.items() for name in names}
 
 __all__ = [
-    "HuntCrossley", "KelvinVoigt", "LineContact", "PointContact", "Spring", "cylinder_compression", "effective_modulus",
-    "effective_radius", "hunt_crossley_chi", "line_contact", "line_greatest_shear", "line_shear", "normal_force", "point_constant",
-    "point_contact", "relative_radii", *_MODULE,
+    "HuntCrossley",
+    "KelvinVoigt",
+    "LineContact",
+    "PointContact",
+    "Spring",
+    "cylinder_compression",
+    "effective_modulus",
+    "effective_radius",
+    "hunt_crossley_chi",
+    "line_contact",
+    "line_greatest_shear",
+    "line_shear",
+    "normal_force",
+    "point_constant",
+    "point_contact",
+    "relative_radii",
+    *_MODULE,
 ]
 
 

@@ -44,7 +44,8 @@ def effective_radius(radius1, radius2):
     if np.any(curvature <= 0):
         raise InputError(
             f"contact: radii {radius1} and {radius2} m give the relative curvature {np.min(curvature):.4g} 1/m, which must be above 0. "
-            "Convex radii are positive, concave ones negative and larger in size than the body in the hollow.")
+            "Convex radii are positive, concave ones negative and larger in size than the body in the hollow."
+        )
     return 1.0 / curvature
 
 
@@ -101,7 +102,8 @@ def relative_radii(radii1, radii2, angle=0.0):
     if np.any(low <= 1e-12 * np.abs(high)):
         raise InputError(
             f"contact: radii {radii1} and {radii2} m give the least relative curvature {np.min(low):.4g} 1/m, which must be above 0. "
-            "For 0 use line_contact; below 0 the bodies touch at more than one place.")
+            "For 0 use line_contact; below 0 the bodies touch at more than one place."
+        )
     return 1.0 / low, 1.0 / high
 
 

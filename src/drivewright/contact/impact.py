@@ -50,11 +50,14 @@ def impact_law(name) -> ImpactLaw:
 
 def _law(name, reliable, source):
     """Decorator: the formula e -> h of a built-in law, asked with e in (0, 1] only."""
+
     def keep(formula):
         def factor(restitution):
             return formula(_bounce(restitution, name))
+
         _BUILT_IN[name] = ImpactLaw(name, factor, reliable, source)
         return formula
+
     return keep
 
 
@@ -105,7 +108,8 @@ def delivered_restitution(factor):
     h = float(factor)
     if not (h >= 0 and math.isfinite(h)):
         raise InputError(
-            f"contact: the factor of an impact law must be finite and not below 0, got {h:g}; below 0 an impact would gain energy.")
+            f"contact: the factor of an impact law must be finite and not below 0, got {h:g}; below 0 an impact would gain energy."
+        )
     if h < 1e-3:  # rounding would spoil the equation; series of the root
         return 1 - h * (2 / 3 - h * (4 / 9 - h * 44 / 135))
     loss = h - math.log1p(h)
@@ -178,7 +182,8 @@ def journal_stiffness(bearing_radius, journal_radius, modulus):
     clearance = np.asarray(bearing_radius) - journal_radius
     if np.any(clearance <= 0):
         raise InputError(
-            f"contact: the journal's radius {journal_radius} m must be below the bearing's {bearing_radius} m; the difference is the play.")
+            f"contact: the journal's radius {journal_radius} m must be below the bearing's {bearing_radius} m; the difference is the play."
+        )
     return 4 / 3 * modulus * np.sqrt(bearing_radius * np.asarray(journal_radius) / clearance)
 
 

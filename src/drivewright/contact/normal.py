@@ -70,7 +70,8 @@ def hunt_crossley_chi(restitution, speed):
     if not 0 < e <= 1 or not speed > 0:
         raise InputError(
             f"contact: restitution must lie in (0, 1] and speed be above 0, got {restitution:g} and {speed:g} m/s. "
-            "A Hunt-Crossley impact always bounces a little; take e.g. 0.05 for a dead one.")
+            "A Hunt-Crossley impact always bounces a little; take e.g. 0.05 for a dead one."
+        )
     if e > 0.9999:  # rounding would spoil the equation; the next term of the series is (1 - e)^3
         return 1.5 * (1 - e) * (2 - e) / speed
 

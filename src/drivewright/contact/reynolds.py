@@ -84,8 +84,9 @@ def film_map(slenderness, eccentricities, directions, shape=SHAPE) -> FilmMap:
 
 def closed_form_map(film, slenderness, eccentricities, directions) -> FilmMap:
     """The same table by a closed form, `long_bearing` or `short_bearing`."""
-    forces = np.array([[film(eps, 0.0, np.cos(d), -np.sin(d), 0.0, 1.0, 2 * slenderness, 1.0, 1.0) for d in directions]
-                       for eps in eccentricities]) / (2 * slenderness)
+    forces = np.array(
+        [[film(eps, 0.0, np.cos(d), -np.sin(d), 0.0, 1.0, 2 * slenderness, 1.0, 1.0) for d in directions] for eps in eccentricities]
+    ) / (2 * slenderness)
     return FilmMap(np.asarray(eccentricities, dtype=float), np.asarray(directions, dtype=float), forces[..., 0], forces[..., 1])
 
 
@@ -101,7 +102,8 @@ class _Grid:
         around, along = shape
         if not (0 <= eps < 1 and slenderness > 0):
             raise InputError(
-                f"film: the eccentricity must lie in [0, 1) of the clearance and L/D be above 0, got {eps:g} and {slenderness:g}.")
+                f"film: the eccentricity must lie in [0, 1) of the clearance and L/D be above 0, got {eps:g} and {slenderness:g}."
+            )
         if around < 8 or along < 3:
             raise InputError(f"film: a grid of {around} x {along} nodes is too coarse; take at least 8 around and 3 along.")
         self.x, self.u = 2 * np.pi * np.arange(around) / around, np.linspace(0.0, 1.0, along)
@@ -114,8 +116,9 @@ class _Grid:
         dx, du = 2 * np.pi / n, 1.0 / (m - 1)
         between = (1 - self.eps * np.cos(self.x + 0.5 * dx)) ** 3 / dx**2
         before = np.roll(between, 1)
-        around = sparse.diags_array([between + before, -between[:-1], -between[:-1], -between[-1:], -between[-1:]],
-                                    offsets=[0, 1, -1, n - 1, 1 - n])
+        around = sparse.diags_array(
+            [between + before, -between[:-1], -between[:-1], -between[-1:], -between[-1:]], offsets=[0, 1, -1, n - 1, 1 - n]
+        )
         length = np.ones(m - 1)
         length[0] = 0.5
         self.weights = np.outer(np.ones(n), length).ravel()

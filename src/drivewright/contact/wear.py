@@ -37,13 +37,16 @@ def deposit(time, angle, force, slip, coefficient, radius, length, bins):
 
 def _check_history(time, angle, force, slip, bins):
     if not (time.ndim == 1 and time.shape == angle.shape == force.shape == slip.shape and time.size >= 2):
-        raise InputError(f"wear: time, angle, force and slip must be rows of the same two or more samples, got the shapes "
-                         f"{time.shape}, {angle.shape}, {force.shape}, {slip.shape}.")
+        raise InputError(
+            f"wear: time, angle, force and slip must be rows of the same two or more samples, got the shapes "
+            f"{time.shape}, {angle.shape}, {force.shape}, {slip.shape}."
+        )
     if np.any(np.diff(time) < 0):
         raise InputError(f"wear: time falls back after {time[np.argmax(np.diff(time) < 0)]:g} s; sort the samples.")
     if not (np.all(force >= 0) and np.all(np.isfinite(force)) and np.all(np.isfinite(slip)) and np.all(np.isfinite(angle[force > 0]))):
-        raise InputError("wear: forces must be finite and not below 0, slip and the angles of loaded samples finite; use 0 N where the "
-                         "bodies are apart.")
+        raise InputError(
+            "wear: forces must be finite and not below 0, slip and the angles of loaded samples finite; use 0 N where the bodies are apart."
+        )
     if bins < 3:
         raise InputError(f"wear: {bins} bins do not tell one side of the bearing from the other; take at least 3, better 72 or more.")
 

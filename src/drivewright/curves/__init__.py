@@ -5,16 +5,7 @@ from drivewright.curves.drawn import drawn_outline, simple_outline
 from drivewright.curves.families import CircleFamily, LineFamily
 from drivewright.curves.outlines import outline_area, outline_of_spans, perimeter
 from drivewright.curves.pieces import Member, Piece
-from drivewright.curves.plane import (
-    curvature,
-    curvature_rate,
-    derivative,
-    envelope_of_circle,
-    envelope_of_line,
-    normal,
-    offset,
-    tangent,
-)
+from drivewright.curves.plane import curvature, curvature_rate, derivative, envelope_of_circle, envelope_of_line, normal, offset, tangent
 from drivewright.curves.toolpath import offset_outline
 from drivewright.curves.trim import Corner, Span, Trimmed, trim
 from drivewright.curves.undercut import largest_lost_motion, largest_profile_gap, lost_motion, profile_gap, profile_loss

@@ -170,8 +170,10 @@ def _cross_joints(chain, index, t):
     sense = np.array([piece.sense for piece in chain.pieces])[index]
     over, under = sense * (t - stops[index]) > 0, sense * (t - starts[index]) < 0
     following, previous = chain.following[index], chain.previous[index]
-    return (np.where(over, following, np.where(under, previous, index)),
-            np.where(over, starts[following], np.where(under, stops[previous], t)))
+    return (
+        np.where(over, following, np.where(under, previous, index)),
+        np.where(over, starts[following], np.where(under, stops[previous], t)),
+    )
 
 
 def _cross(a, b):

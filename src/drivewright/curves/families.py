@@ -136,9 +136,7 @@ class LineFamily:
 
     def envelope(self):
         """Pieces of the envelope in the order of the motion, a straight piece put in wherever the contact point jumps."""
-        pieces = [
-            Piece(piece.start, piece.stop, self._branch(piece), piece.label, piece.shape, k) for k, piece in enumerate(self.motion)
-        ]
+        pieces = [Piece(piece.start, piece.stop, self._branch(piece), piece.label, piece.shape, k) for k, piece in enumerate(self.motion)]
         size = max(abs(_end(piece, piece.start).d0) for piece in pieces)
         joined = []
         for piece, following in _pairs(pieces):

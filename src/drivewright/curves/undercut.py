@@ -122,8 +122,10 @@ def _first_contact(trimmed, t, place, fastest):
         depth, gap, point = trial, ahead, near
         if np.any(depth > size):
             break
-    raise SolverError("undercut: the follower finds nothing to rest on where the profile is cut away; it falls through. "
-                      "Enlarge the prime radius or take a smaller face radius")
+    raise SolverError(
+        "undercut: the follower finds nothing to rest on where the profile is cut away; it falls through. "
+        "Enlarge the prime radius or take a smaller face radius"
+    )
 
 
 def profile_loss(trimmed, samples=20_001):

@@ -69,8 +69,13 @@ class LifeMap(NamedTuple):
 def brown_miller_curve(material):
     """The right-hand side for a `StrainLife`, a `Curve`."""
     elastic, plastic = (1 + nu + (1 - nu) / 2 for nu in (material.poisson_ratio, material.plastic_poisson_ratio))
-    return Curve(elastic / material.youngs_modulus, material.fatigue_strength, material.fatigue_strength_exponent,
-                 plastic * material.fatigue_ductility, material.fatigue_ductility_exponent)
+    return Curve(
+        elastic / material.youngs_modulus,
+        material.fatigue_strength,
+        material.fatigue_strength_exponent,
+        plastic * material.fatigue_ductility,
+        material.fatigue_ductility_exponent,
+    )
 
 
 def brown_miller(strain_history, stress_history, material, plane="max-shear"):
@@ -113,11 +118,15 @@ def _checked(function, strain, stress, plane, axes):
         raise UnknownName("choice of plane", plane, PLANES)
     strain, stress = symmetric(function, "strain", strain, axes), symmetric(function, "stress", stress, axes)
     if strain.shape != stress.shape:
-        raise InputError(f"{function}: strain and stress must belong together sample by sample, got the shapes {strain.shape} and "
-                         f"{stress.shape}. `elastic_strain` gives the strain of an elastic stress history.")
+        raise InputError(
+            f"{function}: strain and stress must belong together sample by sample, got the shapes {strain.shape} and "
+            f"{stress.shape}. `elastic_strain` gives the strain of an elastic stress history."
+        )
     if np.max(np.abs(strain)) > 10:
-        raise InputError(f"{function}: the largest strain is {np.max(np.abs(strain)):.4g}; strains are pure numbers, 0.001 for 0.1 %. "
-                         "Give strain first, then stress.")
+        raise InputError(
+            f"{function}: the largest strain is {np.max(np.abs(strain)):.4g}; strains are pure numbers, 0.001 for 0.1 %. "
+            "Give strain first, then stress."
+        )
     return np.ascontiguousarray(strain), np.ascontiguousarray(stress)
 
 

@@ -20,8 +20,13 @@ class Curve(NamedTuple):
 
 def uniaxial_curve(material):
     """C1 = C2 = 1: p is the strain amplitude."""
-    return Curve(1 / material.youngs_modulus, material.fatigue_strength, material.fatigue_strength_exponent,
-                 material.fatigue_ductility, material.fatigue_ductility_exponent)
+    return Curve(
+        1 / material.youngs_modulus,
+        material.fatigue_strength,
+        material.fatigue_strength_exponent,
+        material.fatigue_ductility,
+        material.fatigue_ductility_exponent,
+    )
 
 
 @inner
@@ -83,8 +88,10 @@ def strain_at_life(life, material, mean_stress=0.0):
     if np.any(life <= 0):
         raise InputError(f"strain_at_life: lives must be above 0, got {np.min(life):.6g}.")
     if np.any(mean >= material.fatigue_strength):
-        raise InputError(f"strain_at_life: a mean stress of {np.max(mean) / 1e6:.6g} MPa leaves no strain to endure; "
-                         f"it must stay below fatigue_strength, {material.fatigue_strength / 1e6:.6g} MPa.")
+        raise InputError(
+            f"strain_at_life: a mean stress of {np.max(mean) / 1e6:.6g} MPa leaves no strain to endure; "
+            f"it must stay below fatigue_strength, {material.fatigue_strength / 1e6:.6g} MPa."
+        )
     elastic = (material.fatigue_strength - mean) / material.youngs_modulus * (2 * life) ** material.fatigue_strength_exponent
     return elastic + material.fatigue_ductility * (2 * life) ** material.fatigue_ductility_exponent
 

@@ -21,10 +21,12 @@ class StrainLife(Spec):
     fatigue_strength_exponent: Number = Field(lt=0, description="fatigue strength exponent b", examples=[-0.087])
     fatigue_ductility: Number = Field(gt=0, description="fatigue ductility coefficient ef'", examples=[0.46])
     fatigue_ductility_exponent: Number = Field(lt=0, description="fatigue ductility exponent c", examples=[-0.58])
-    cyclic_strength: Pressure | None = Field(None, gt=0, description="cyclic strength coefficient K'; sf'/ef'^n' unless given",
-                                             examples=["1650 MPa"])
-    cyclic_hardening_exponent: Number | None = Field(None, gt=0, lt=1, description="cyclic hardening exponent n'; b/c unless given",
-                                                     examples=[0.15])
+    cyclic_strength: Pressure | None = Field(
+        None, gt=0, description="cyclic strength coefficient K'; sf'/ef'^n' unless given", examples=["1650 MPa"]
+    )
+    cyclic_hardening_exponent: Number | None = Field(
+        None, gt=0, lt=1, description="cyclic hardening exponent n'; b/c unless given", examples=[0.15]
+    )
     yield_strength: Pressure | None = Field(None, gt=0, description="cyclic yield stress; K' 0.002^n' unless given", examples=["835 MPa"])
     longest_life: Number = Field(1e9, gt=0, description="longest life that the numbers are believed for; beyond it they are extrapolated")
     estimated: Flag = Field(False, description="whether the numbers come from a rule instead of tests")
@@ -34,8 +36,11 @@ class StrainLife(Spec):
     def _falls_faster_when_plastic(self):
         b, c = self.fatigue_strength_exponent, self.fatigue_ductility_exponent
         if not c < b:
-            raise SpecError(f"{c:g} must lie below fatigue_strength_exponent, which is {b:g}: plastic strain falls faster with life than "
-                            "elastic strain; swap the two?", key="fatigue_ductility_exponent")
+            raise SpecError(
+                f"{c:g} must lie below fatigue_strength_exponent, which is {b:g}: plastic strain falls faster with life than "
+                "elastic strain; swap the two?",
+                key="fatigue_ductility_exponent",
+            )
         return self
 
     @property
@@ -86,13 +91,21 @@ def uniform_material_law(tensile_strength, youngs_modulus, poisson_ratio=0.3, fa
     if not ductility > 0:
         raise InputError(
             f"uniform_material_law: a tensile strength of {strength / 1e6:.6g} MPa is {strength / modulus:.4g} of Young's modulus; from "
-            "0.011 on the law leaves no ductility. Check the units, or bring a card from tests.")
+            "0.011 on the law leaves no ductility. Check the units, or bring a card from tests."
+        )
     return StrainLife(
-        youngs_modulus=SI(modulus), poisson_ratio=poisson_ratio, fatigue_strength=SI(rule.strength * strength),
-        fatigue_strength_exponent=rule.b, fatigue_ductility=rule.ductility * ductility, fatigue_ductility_exponent=rule.c,
-        cyclic_strength=SI(rule.cyclic * strength), cyclic_hardening_exponent=rule.n,
-        yield_strength=None if yield_strength is None else SI(_positive("yield_strength", yield_strength)), estimated=True,
-        source=f"recalled: uniform material law of Baumel and Seeger (1990), {family}, Rm = {strength / 1e6:.6g} MPa")
+        youngs_modulus=SI(modulus),
+        poisson_ratio=poisson_ratio,
+        fatigue_strength=SI(rule.strength * strength),
+        fatigue_strength_exponent=rule.b,
+        fatigue_ductility=rule.ductility * ductility,
+        fatigue_ductility_exponent=rule.c,
+        cyclic_strength=SI(rule.cyclic * strength),
+        cyclic_hardening_exponent=rule.n,
+        yield_strength=None if yield_strength is None else SI(_positive("yield_strength", yield_strength)),
+        estimated=True,
+        source=f"recalled: uniform material law of Baumel and Seeger (1990), {family}, Rm = {strength / 1e6:.6g} MPa",
+    )
 
 
 def _positive(name, value):

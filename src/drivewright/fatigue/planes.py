@@ -60,8 +60,19 @@ def room_for(size):
     turning, stack = np.empty(2 * size + 2, np.int64), np.empty(2 * size + 2, np.int64)
     start, end = np.empty(2 * size + 2, np.int64), np.empty(2 * size + 2, np.int64)
     signals = np.empty(2 * size), np.empty(2 * size), np.empty(2 * size)
-    return Room(signals[0], signals[1], signals[2], turning, stack, np.empty(2 * size + 2), start, end, np.empty((5, 4)),
-                np.empty(_HILLS), np.empty((_HILLS, 6)))
+    return Room(
+        signals[0],
+        signals[1],
+        signals[2],
+        turning,
+        stack,
+        np.empty(2 * size + 2),
+        start,
+        end,
+        np.empty((5, 4)),
+        np.empty(_HILLS),
+        np.empty((_HILLS, 6)),
+    )
 
 
 @kernel

@@ -17,8 +17,14 @@ _AROUND = 32  # planes of a cone to begin with
 
 @inner
 def _difference(strain, i, j):
-    return (strain[i, 0] - strain[j, 0], strain[i, 1] - strain[j, 1], strain[i, 2] - strain[j, 2],
-            strain[i, 3] - strain[j, 3], strain[i, 4] - strain[j, 4], strain[i, 5] - strain[j, 5])
+    return (
+        strain[i, 0] - strain[j, 0],
+        strain[i, 1] - strain[j, 1],
+        strain[i, 2] - strain[j, 2],
+        strain[i, 3] - strain[j, 3],
+        strain[i, 4] - strain[j, 4],
+        strain[i, 5] - strain[j, 5],
+    )
 
 
 @inner
@@ -154,5 +160,3 @@ def _around(block, curve, fixed, start, sense, cone, room):
         else:
             best, angle = (left, angle - step) if left > right else (right, angle + step)
     return best, angle
-
-

@@ -27,7 +27,8 @@ def symmetric(function, name, tensors, axes):
         mirrored = (*place[:-2], place[-1], place[-2])
         raise InputError(
             f"{function}: {name}{list(map(int, place))} is {array[place]:.6g} but its mirror is {array[mirrored]:.6g}; tensors are "
-            "symmetric, with the tensor shear, half of the engineering shear, on both sides.")
+            "symmetric, with the tensor shear, half of the engineering shear, on both sides."
+        )
     return array
 
 
@@ -53,8 +54,10 @@ def superposed(factors, unit_stress):
     """Plane-stress histories (nodes, n, 3, 3) of a linear body: factors (n, loads) times unit_stress (loads, nodes, 3), xx, yy, xy."""
     factors, unit_stress = np.asarray(factors, dtype=float), np.asarray(unit_stress, dtype=float)
     if factors.ndim != 2 or unit_stress.ndim != 3 or factors.shape[1] != len(unit_stress):
-        raise InputError(f"superposed: factors (samples, loads) and unit_stress (loads, nodes, 3) do not fit together; "
-                         f"got the shapes {factors.shape} and {unit_stress.shape}.")
+        raise InputError(
+            f"superposed: factors (samples, loads) and unit_stress (loads, nodes, 3) do not fit together; "
+            f"got the shapes {factors.shape} and {unit_stress.shape}."
+        )
     return plane_tensors(np.einsum("tl,lnc->ntc", factors, unit_stress))
 
 

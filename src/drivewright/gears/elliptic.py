@@ -32,8 +32,10 @@ class EllipticGearPair(RollingPair):
         if not 0 <= self.eccentricity < 1:
             raise InputError(f"EllipticGearPair: eccentricity = {self.eccentricity:.6g}; an ellipse needs 0 <= e < 1 (0 is a circle).")
         if 1 - self.eccentricity < NARROWEST:
-            raise InputError(f"EllipticGearPair: eccentricity = {self.eccentricity:.9g}; the ratio of speeds would swing by "
-                             f"{(1 + self.eccentricity) / (1 - self.eccentricity):.3g} to 1; take a rounder ellipse.")
+            raise InputError(
+                f"EllipticGearPair: eccentricity = {self.eccentricity:.9g}; the ratio of speeds would swing by "
+                f"{(1 + self.eccentricity) / (1 - self.eccentricity):.3g} to 1; take a rounder ellipse."
+            )
         if self.start not in ("near", "far"):
             raise InputError(f"EllipticGearPair: start = {self.start!r}; it is 'near' (short focal radius in contact at 0) or 'far'.")
         if self.semi_major is not None:

@@ -7,5 +7,23 @@ from drivewright.motion.programme import Joint, Piece, Programme, Segment, throu
 from drivewright.motion.ripple import Ripple
 from drivewright.motion.tables import TableLaw
 
-__all__ = ["Acceleration", "Joint", "Motion", "MotionLaw", "Peaks", "Piece", "Piecewise", "Programme", "Ripple", "Segment", "TableLaw",
-           "hold", "integrate", "law", "names", "register", "through", "wave"]
+__all__ = [
+    "Acceleration",
+    "Joint",
+    "Motion",
+    "MotionLaw",
+    "Peaks",
+    "Piece",
+    "Piecewise",
+    "Programme",
+    "Ripple",
+    "Segment",
+    "TableLaw",
+    "hold",
+    "integrate",
+    "law",
+    "names",
+    "register",
+    "through",
+    "wave",
+]

@@ -75,9 +75,11 @@ class MotionLaw:
 
 def register(*names):
     """Decorator: a function of a law's parameters is built in under these names; it returns a `Piecewise` or a `MotionLaw`."""
+
     def keep(build):
         BUILT_IN.update(dict.fromkeys(names, build))
         return build
+
     return keep
 
 
@@ -134,8 +136,9 @@ def _scca(b, c, d):
     if abs(b + c + d - 1) > CLOSURE:
         raise InputError(f"motion law 'scca': b + c + d = {b + c + d:.9g}, but these parts of the motion must sum to 1.")
     quarter = math.pi / 2
-    return integrate([wave(b / 2, 0, quarter), hold(c / 2, 1), wave(d, quarter, 3 * quarter), hold(c / 2, -1),
-                      wave(b / 2, 3 * quarter, 4 * quarter)])
+    return integrate(
+        [wave(b / 2, 0, quarter), hold(c / 2, 1), wave(d, quarter, 3 * quarter), hold(c / 2, -1), wave(b / 2, 3 * quarter, 4 * quarter)]
+    )
 
 
 @register("modified-sine")
@@ -155,8 +158,15 @@ def _modified_constant_velocity(c):
     if not c < 1:
         raise InputError(f"motion law 'mcv': the part of constant velocity c = {c:.9g} must leave room to accelerate; give 0 <= c < 1.")
     ramp, quarter = (1 - c) / 8, math.pi / 2
-    return integrate([wave(ramp, 0, quarter), wave(3 * ramp, quarter, 2 * quarter), hold(c, 0),
-                      wave(3 * ramp, 2 * quarter, 3 * quarter), wave(ramp, 3 * quarter, 4 * quarter)])
+    return integrate(
+        [
+            wave(ramp, 0, quarter),
+            wave(3 * ramp, quarter, 2 * quarter),
+            hold(c, 0),
+            wave(3 * ramp, 2 * quarter, 3 * quarter),
+            wave(ramp, 3 * quarter, 4 * quarter),
+        ]
+    )
 
 
 @register("mcv50")
@@ -206,8 +216,10 @@ def _polynomial(start=(0.0, 0.0), end=(0.0, 0.0), interior=()):
     conditions = [*at_ends, *interior]
     rows, values = _condition_rows(conditions)
     if np.linalg.cond(rows) > 1e13:
-        raise InputError(f"motion law 'polynomial': {len(values)} conditions contradict or repeat one another, or leave a polynomial of "
-                         f"degree {len(values) - 1} open (a derivative is asked for where no lower one is). Leave one out or add one.")
+        raise InputError(
+            f"motion law 'polynomial': {len(values)} conditions contradict or repeat one another, or leave a polynomial of "
+            f"degree {len(values) - 1} open (a derivative is asked for where no lower one is). Leave one out or add one."
+        )
     coefficients = np.linalg.solve(rows, values) * 2.0 ** np.arange(len(values))
     empty = np.zeros((1, 0))
     return Piecewise(np.array([0.0, 1.0]), coefficients[None], empty.astype(complex), empty)

@@ -148,7 +148,7 @@ class Piecewise:
     def peaks(self):
         """`Peaks`, exact to rounding; j and the others one-sided at jumps."""
         slope = self.derivative()
-        v, a = (self.extremes(lambda k, x, n=n: self.on_piece(k, x)[n:n + 2]) for n in (1, 2))
+        v, a = (self.extremes(lambda k, x, n=n: self.on_piece(k, x)[n : n + 2]) for n in (1, 2))
         j = self.extremes(lambda k, x: slope.on_piece(k, x)[2:4])
         power = self.extremes(lambda k, x: _power(self.on_piece(k, x)))
         v, a, j, power = (float(np.max(np.abs(both))) for both in (v, a, j, power))

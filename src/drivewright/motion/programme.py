@@ -172,8 +172,10 @@ def _refuse_angles(segments, cycle):
     missing = math.degrees(cycle - total)
     if abs(cycle - total) > CLOSURE * cycle:
         remedy = f"add a dwell of {missing:.9g} deg or lengthen a segment" if missing > 0 else "shorten a segment"
-        raise InputError(f"programme: the angles of its segments sum to {math.degrees(total):.9g} deg, {abs(missing):.9g} deg "
-                         f"{'less' if missing > 0 else 'more'} than the cycle of {math.degrees(cycle):.9g} deg; {remedy}.")
+        raise InputError(
+            f"programme: the angles of its segments sum to {math.degrees(total):.9g} deg, {abs(missing):.9g} deg "
+            f"{'less' if missing > 0 else 'more'} than the cycle of {math.degrees(cycle):.9g} deg; {remedy}."
+        )
 
 
 def _refuse_tables(segments, levels):
@@ -182,18 +184,24 @@ def _refuse_tables(segments, levels):
         if span is None:
             continue
         if abs(span - segment.angle) > CLOSURE * segment.angle:
-            raise InputError(f"programme, segment {number}: its table ends at {math.degrees(span):.9g} deg, but the segment spans "
-                             f"{math.degrees(segment.angle):.9g} deg; make the last angle of the table and the segment's angle equal.")
+            raise InputError(
+                f"programme, segment {number}: its table ends at {math.degrees(span):.9g} deg, but the segment spans "
+                f"{math.degrees(segment.angle):.9g} deg; make the last angle of the table and the segment's angle equal."
+            )
         first = segment.law(0.0).s
         if abs(first - level) > CLOSURE * np.max(np.abs([first, *levels])):
-            raise InputError(f"programme, segment {number}: its table starts at a lift of {first:.9g}, but the segment before ends at "
-                             f"{level:.9g}, a jump of {first - level:+.3g} (SI). The lifts of a table are absolute: shift them, or change "
-                             "the rise before.")
+            raise InputError(
+                f"programme, segment {number}: its table starts at a lift of {first:.9g}, but the segment before ends at "
+                f"{level:.9g}, a jump of {first - level:+.3g} (SI). The lifts of a table are absolute: shift them, or change "
+                "the rise before."
+            )
 
 
 def _refuse_open(levels, stroke):
     gap = levels[-1] - levels[0]
     if abs(gap) > CLOSURE * stroke:
-        raise InputError(f"programme: it ends at a lift of {levels[-1]:.9g}, {abs(gap):.9g} (m, or rad for a swing) "
-                         f"{'above' if gap > 0 else 'below'} its start at {levels[0]:.9g}; the rises of a closed cycle sum to zero. "
-                         f"Change one by {-gap:.9g}.")
+        raise InputError(
+            f"programme: it ends at a lift of {levels[-1]:.9g}, {abs(gap):.9g} (m, or rad for a swing) "
+            f"{'above' if gap > 0 else 'below'} its start at {levels[0]:.9g}; the rises of a closed cycle sum to zero. "
+            f"Change one by {-gap:.9g}."
+        )

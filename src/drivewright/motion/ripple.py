@@ -28,8 +28,10 @@ class Ripple(NamedTuple):
         """The finding in a sentence; empty where there is nothing to say."""
         if not self.noticed:
             return ""
-        return (f"the table's rows scatter by {self.scatter:.2g} (rms, SI) about a smooth curve, as rounded data do; the acceleration of "
-                f"the spline through them ripples by {self.acceleration:.0%}. Give the lifts with more digits, or fewer rows.")
+        return (
+            f"the table's rows scatter by {self.scatter:.2g} (rms, SI) about a smooth curve, as rounded data do; the acceleration of "
+            f"the spline through them ripples by {self.acceleration:.0%}. Give the lifts with more digits, or fewer rows."
+        )
 
 
 def ripple(x, y, function):
@@ -46,7 +48,7 @@ def _smoothed(x, y, closed):
 
     rows, step = min(MARGIN, len(x) - 1), 1 / (len(x) - 1)
     if closed:
-        x, y = np.concatenate([x[-rows - 1:-1] - 1, x, x[1:rows + 1] + 1]), np.concatenate([y[-rows - 1:-1], y, y[1:rows + 1]])
+        x, y = np.concatenate([x[-rows - 1 : -1] - 1, x, x[1 : rows + 1] + 1]), np.concatenate([y[-rows - 1 : -1], y, y[1 : rows + 1]])
     else:
         beyond = step * np.arange(1, rows + 1)
         x, y = np.concatenate([-beyond[::-1], x, 1 + beyond]), np.pad(y, rows, mode="edge")

@@ -48,8 +48,10 @@ def _spline(points, degree=5, ends="clamped"):
         raise InputError(f"{what}: the points run from u = {u[0]:.9g} to {u[-1]:.9g}; they must run from 0 to 1.")
     first, last = (s[0], s[0]) if ends == "periodic" else (0, 1)
     if not np.allclose(s[[0, -1]], (first, last), rtol=0, atol=CLOSURE):
-        raise InputError(f"{what}: s runs from {s[0]:.9g} to {s[-1]:.9g}; with {ends} ends it must run from {first:.9g} to {last:.9g}"
-                         f"{'' if ends == 'periodic' else ' (how far it moves is said by the segment)'}.")
+        raise InputError(
+            f"{what}: s runs from {s[0]:.9g} to {s[-1]:.9g}; with {ends} ends it must run from {first:.9g} to {last:.9g}"
+            f"{'' if ends == 'periodic' else ' (how far it moves is said by the segment)'}."
+        )
     return through_points(np.array([0.0, *u[1:-1], 1.0]), np.array([first, *s[1:-1], last]), degree, ends, what)
 
 
@@ -61,5 +63,7 @@ def refuse_disorder(x, y, what, places, x_name):
             raise InputError(f"{what}, {places[k]}: {name} is {column[k]}, not a finite number.")
     if np.any(np.diff(x) <= 0):
         k = np.flatnonzero(np.diff(x) <= 0)[0] + 1
-        raise InputError(f"{what}, {places[k]}: {x_name} is {x[k]:.9g} after {x[k - 1]:.9g}, but must increase from row to row. "
-                         "Sort the rows and drop repeats.")
+        raise InputError(
+            f"{what}, {places[k]}: {x_name} is {x[k]:.9g} after {x[k - 1]:.9g}, but must increase from row to row. "
+            "Sort the rows and drop repeats."
+        )

@@ -122,12 +122,16 @@ def _refuse_rows(rows):
         raise InputError(f"{rows.what}: {len(rows.angle)} rows are too few for a spline; give at least {LEAST_POINTS}.")
     refuse_disorder(np.degrees(rows.angle), rows.lift, rows.what, rows.places, "the angle in deg")
     if rows.angle[0] != 0:
-        raise InputError(f"{rows.what}, {rows.places[0]}: the angle starts at {math.degrees(rows.angle[0]):.9g} deg; "
-                         "it is counted from the start of the segment, so start at 0.")
+        raise InputError(
+            f"{rows.what}, {rows.places[0]}: the angle starts at {math.degrees(rows.angle[0]):.9g} deg; "
+            "it is counted from the start of the segment, so start at 0."
+        )
 
 
 def _refuse_open(rows):
     gap, stroke = rows.lift[-1] - rows.lift[0], np.ptp(rows.lift)
     if abs(gap) > CLOSURE * stroke:
-        raise InputError(f"{rows.what}: the first and the last row disagree: the lift starts at {rows.lift[0]:.9g} and ends at "
-                         f"{rows.lift[-1]:.9g} ({gap:+.3g}, SI), so the cycle does not close. Repeat the first lift in the last row.")
+        raise InputError(
+            f"{rows.what}: the first and the last row disagree: the lift starts at {rows.lift[0]:.9g} and ends at "
+            f"{rows.lift[-1]:.9g} ({gap:+.3g}, SI), so the cycle does not close. Repeat the first lift in the last row."
+        )

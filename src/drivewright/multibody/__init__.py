@@ -1,9 +1,9 @@
 """Planar multibody systems: bodies, joints with and without play, forces and drives; kinematics, statics, dynamics.
 
-    slider = Model(bodies, joints, forces, drives, gravity)     # frozen descriptions: see `multibody.model`
-    ready = assemble(slider)                                    # loops closed, coordinates chosen, start rates
-    run = simulate(ready, 0.1)                                  # kinematics where the drives leave no freedom, else dynamics
-    seen = record(run, {"pin": Marker("rod", 0.12, 0.0)})       # motion of points, pins, powers, energy
+slider = Model(bodies, joints, forces, drives, gravity)     # frozen descriptions: see `multibody.model`
+ready = assemble(slider)                                    # loops closed, coordinates chosen, start rates
+run = simulate(ready, 0.1)                                  # kinematics where the drives leave no freedom, else dynamics
+seen = record(run, {"pin": Marker("rod", 0.12, 0.0)})       # motion of points, pins, powers, energy
 """
 
 from drivewright.multibody.assembly import Assembly, assemble, idealised
@@ -39,7 +39,40 @@ from drivewright.multibody.record import Record, audit, record
 from drivewright.multibody.simulate import Run, Settings, simulate
 
 __all__ = [
-    "GROUND", "Assembly", "Body", "Bushing", "CamPair", "Curve", "Drive", "Dry", "Force", "Friction", "Gear", "Ideal", "ImpactLoad", "Load",
-    "Lubricated", "Marker", "MasslessLink", "Model", "PinSlot", "Prismatic", "Record", "Revolute", "Rolling", "RotationalSpring", "Run",
-    "Settings", "Spring", "Torque", "assemble", "audit", "idealised", "impact_load", "line", "observe", "record", "simulate",
+    "GROUND",
+    "Assembly",
+    "Body",
+    "Bushing",
+    "CamPair",
+    "Curve",
+    "Drive",
+    "Dry",
+    "Force",
+    "Friction",
+    "Gear",
+    "Ideal",
+    "ImpactLoad",
+    "Load",
+    "Lubricated",
+    "Marker",
+    "MasslessLink",
+    "Model",
+    "PinSlot",
+    "Prismatic",
+    "Record",
+    "Revolute",
+    "Rolling",
+    "RotationalSpring",
+    "Run",
+    "Settings",
+    "Spring",
+    "Torque",
+    "assemble",
+    "audit",
+    "idealised",
+    "impact_load",
+    "line",
+    "observe",
+    "record",
+    "simulate",
 ]

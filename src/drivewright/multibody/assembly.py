@@ -127,6 +127,7 @@ def _from_poses(tree, system, found):
 
 def _slide(body, work, i, p):
     """Displacement along a slide between two placed bodies."""
+
     def world(k, x, y):
         return np.array([poses.c[k] * x - poses.s[k] * y, poses.s[k] * x + poses.c[k] * y])
 
@@ -216,8 +217,10 @@ def _does_not_close(wide, system, q):
     miss = np.linalg.norm(work.columns[0][pair])
     bodies = " and ".join(repr(name) for name in dict.fromkeys(_bodies_of(joint)))
     how = f"{1e3 * miss:.4g} mm" if row.ex or row.ey or row.kind == arrays.DISTANCE else f"{np.degrees(miss):.4g} deg"
-    return (f"joint {joint.name!r} does not close: bodies {bodies} miss each other by {how} at best. Check the lengths and axes, or give "
-            "start angles nearer to the assembly that is meant")
+    return (
+        f"joint {joint.name!r} does not close: bodies {bodies} miss each other by {how} at best. Check the lengths and axes, or give "
+        "start angles nearer to the assembly that is meant"
+    )
 
 
 def _bodies_of(joint):
@@ -243,10 +246,15 @@ def _without_redundant_rows(wide, tree, system, q):
     whole = scaled_jacobian(system, at(system, q), range(len(q)))
     for k in dropped:
         if np.linalg.matrix_rank(whole[[*kept, k]], RANK) > np.linalg.matrix_rank(whole[kept], RANK):
-            raise DoesNotAssemble(f"the drive cannot move: joint {wide.joints[system.rows[k].joint].name!r} holds the mechanism fast. "
-                                  "Remove a joint or a drive, or free a direction (pin-slot instead of prismatic)")
-    findings = tuple(f"joint '{name}' repeats a constraint that the joints before it impose already; its share of the forces is not "
-                     "determined by rigid bodies" for name in names)
+            raise DoesNotAssemble(
+                f"the drive cannot move: joint {wide.joints[system.rows[k].joint].name!r} holds the mechanism fast. "
+                "Remove a joint or a drive, or free a direction (pin-slot instead of prismatic)"
+            )
+    findings = tuple(
+        f"joint '{name}' repeats a constraint that the joints before it impose already; its share of the forces is not "
+        "determined by rigid bodies"
+        for name in names
+    )
     return system._replace(rows=system.rows[kept]), findings, None
 
 
@@ -296,8 +304,12 @@ def start_rates(model, wide, tree, system, q):
     pick = np.eye(size)
     driven = system.driven.coordinate
     given, together = _given_rates(wide, tree, system, work), _concentric(model, wide, tree, system, q)
-    stages = [(pick[driven], work.coordinates.v[driven]), (work.jacobian / system.rows.extent[:, None], np.zeros(len(system.rows))),
-              given, together]
+    stages = [
+        (pick[driven], work.coordinates.v[driven]),
+        (work.jacobian / system.rows.extent[:, None], np.zeros(len(system.rows))),
+        given,
+        together,
+    ]
     x, free = np.zeros(size), np.diag(system.sizes)  # changes of all coordinates alike
     for matrix, wanted in stages:
         if len(wanted) and free.shape[1]:

@@ -114,8 +114,14 @@ def measure(system, work):
         gj -= ux * -pjy + uy * pjx
         for k in range(work.coordinates.size):
             one, two = work.levers[row.i, k], work.levers[row.j, k]
-            work.jacobian[r, k] = (ux * (one.x - two.x) + uy * (one.y - two.y) + gi * one.t + gj * two.t
-                                   + gk * work.levers[row.k, k].t + gl * work.levers[row.l, k].t)
+            work.jacobian[r, k] = (
+                ux * (one.x - two.x)
+                + uy * (one.y - two.y)
+                + gi * one.t
+                + gj * two.t
+                + gk * work.levers[row.k, k].t
+                + gl * work.levers[row.l, k].t
+            )
 
 
 @inner
@@ -255,10 +261,14 @@ def body_bends(system, work):
         slide, slip = slide_of(work, body)
         # d2/dt2 of R (a + s e) at zero accelerations: R (-w^2 (a + s e) + 2 s' w (e turned by 90 deg))
         wp, w = base.w, here.w
-        ax, ay = turned(base, wp * wp * (body.ax + slide * body.ex) + 2 * slip * wp * body.ey,
-                        wp * wp * (body.ay + slide * body.ey) - 2 * slip * wp * body.ex)
-        bx, by = turned(here, w * w * (body.bx + slide * body.fx) + 2 * slip * w * body.fy,
-                        w * w * (body.by + slide * body.fy) - 2 * slip * w * body.fx)
+        ax, ay = turned(
+            base,
+            wp * wp * (body.ax + slide * body.ex) + 2 * slip * wp * body.ey,
+            wp * wp * (body.ay + slide * body.ey) - 2 * slip * wp * body.ex,
+        )
+        bx, by = turned(
+            here, w * w * (body.bx + slide * body.fx) + 2 * slip * w * body.fy, w * w * (body.by + slide * body.fy) - 2 * slip * w * body.fx
+        )
         here.bx, here.by = base.bx - ax + bx, base.by - ay + by
 
 

@@ -9,16 +9,7 @@ from drivewright._jit import plain
 from drivewright.errors import InputError
 from drivewright.multibody.loads import LASTING, approach, elastic_of, gap_of, loading_speed
 from drivewright.multibody.simulate import resplit
-from drivewright.multibody.statics import (
-    Place,
-    equilibrium,
-    forces_at_work,
-    names_of,
-    reduced,
-    resting,
-    scaled_stiffness,
-    scales,
-)
+from drivewright.multibody.statics import Place, equilibrium, forces_at_work, names_of, reduced, resting, scaled_stiffness, scales
 from drivewright.multibody.system import motion
 
 STEP = 1e-3  # of the differences, in lengths of the mechanism
@@ -82,8 +73,9 @@ def modes(linear):
     both = np.outer(linear.scale, linear.scale)
     (mass, damping, stiffness), speed = _in_own_time(linear.mass * both, linear.damping * both, linear.stiffness * both)
     unit, none = np.eye(free), np.zeros((free, free))
-    (top, bottom), vectors = eig(np.block([[none, unit], [-stiffness, -damping]]), np.block([[unit, none], [none, mass]]),
-                                 homogeneous_eigvals=True)
+    (top, bottom), vectors = eig(
+        np.block([[none, unit], [-stiffness, -damping]]), np.block([[unit, none], [none, mass]]), homogeneous_eigvals=True
+    )
     moving = (np.abs(top) < INSTANT * np.abs(bottom)) & (np.abs(top) > STANDING * np.abs(bottom))
     roots, vectors = top[moving] / bottom[moving], vectors[:free, moving]
     once = roots.imag > -1e-9 * np.abs(roots)  # one of each conjugate pair
@@ -125,8 +117,7 @@ def _place(assembly, state, time, running):
 
 def _step(here, length):
     """Step of the scaled coordinates: small beside the mechanism, the clearances of its pins and how deep their walls are pressed."""
-    pins = [(contact.clearance, abs(plain(gap_of)(here.system, here.work, n)))
-            for n, contact in enumerate(here.system.contacts)]
+    pins = [(contact.clearance, abs(plain(gap_of)(here.system, here.work, n))) for n, contact in enumerate(here.system.contacts)]
     return min([STEP * length, *(SHARE * min(clearance, max(depth, LEAST * clearance)) for clearance, depth in pins)])
 
 
@@ -163,5 +154,7 @@ def _check_balance(here, now, assembly, stiffness, scale, length):
     part = np.linalg.norm(force) / whole
     if part > BALANCED:
         worst = int(np.argmax(np.abs(force)))
-        raise InputError(f"linearise: the state is not in balance: coordinate {names_of(assembly, here.system)[worst]!r} is pushed by "
-                         f"{abs(force[worst]):.4g} N, {part:.2g} of the forces at work. Linearise about equilibrium(...).state")
+        raise InputError(
+            f"linearise: the state is not in balance: coordinate {names_of(assembly, here.system)[worst]!r} is pushed by "
+            f"{abs(force[worst]):.4g} N, {part:.2g} of the forces at work. Linearise about equilibrium(...).state"
+        )

@@ -183,8 +183,9 @@ def normal_of(contact, depth, rate, memory, mobility):
 def elastic_of(contact, depth):
     """Elastic force of a depth > 0."""
     if contact.cylinder:
-        return cylinder_force(depth, contact.clearance, contact.bearing_radius, contact.bearing_radius - contact.clearance,
-                              contact.stiffness, contact.length)
+        return cylinder_force(
+            depth, contact.clearance, contact.bearing_radius, contact.bearing_radius - contact.clearance, contact.stiffness, contact.length
+        )
     if contact.exponent == 1.5:
         return contact.stiffness * depth * np.sqrt(depth)
     return contact.stiffness * depth**contact.exponent
@@ -194,8 +195,15 @@ def elastic_of(contact, depth):
 def loading_speed(contact, depth, elastic, mobility):
     """w = sqrt(2 E/m): the speed at which a free body touches that comes so deep without loss; mobility = 1/m, 0 if no force moves it."""
     if contact.cylinder:
-        energy = cylinder_energy(depth, elastic, contact.clearance, contact.bearing_radius, contact.bearing_radius - contact.clearance,
-                                 contact.stiffness, contact.length)
+        energy = cylinder_energy(
+            depth,
+            elastic,
+            contact.clearance,
+            contact.bearing_radius,
+            contact.bearing_radius - contact.clearance,
+            contact.stiffness,
+            contact.length,
+        )
     else:
         energy = elastic * depth / (contact.exponent + 1.0)
     return np.sqrt(2.0 * energy * mobility) if mobility > 0.0 else 0.0

@@ -57,8 +57,12 @@ class Places(NamedTuple):
 def lower(model, tree):
     """`System` of an expanded model; the split into dependent and independent coordinates is not made yet."""
     numbers = {GROUND: 0} | {link.body.name: k for k, link in enumerate(tree.links, start=1)}
-    places = Places(numbers, {GROUND: 0.0} | {b.name: b.angle for b in model.bodies},
-                    {GROUND: (0.0, 0.0)} | {b.name: b.centroid for b in model.bodies}, [])
+    places = Places(
+        numbers,
+        {GROUND: 0.0} | {b.name: b.angle for b in model.bodies},
+        {GROUND: (0.0, 0.0)} | {b.name: b.centroid for b in model.bodies},
+        [],
+    )
     bodies = [_record(arrays.BODY, parent=0, turn=-1, slide=-1, free=-1), *(_body(link, places) for link in tree.links)]
     names = [joint.name for joint in model.joints]
     rows = [row | {"joint": names.index(joint.name)} for joint in tree.closing for row in rows_of(joint, places)]
@@ -85,11 +89,23 @@ def lower(model, tree):
     length = arrays.length_of(bodies, rows, *(each for each in records.values() if "ax" in each.dtype.names))
     rows["extent"] = np.where(_measures_angles(rows), 1.0, length)
     return arrays.System(
-        bodies=bodies, rows=rows,
-        driven=table(arrays.DRIVEN, driven), stored=stored, independent=stored, dependent=np.zeros(0, np.int64), **records,
+        bodies=bodies,
+        rows=rows,
+        driven=table(arrays.DRIVEN, driven),
+        stored=stored,
+        independent=stored,
+        dependent=np.zeros(0, np.int64),
+        **records,
         wear=np.zeros((len(records["contacts"]), 0)),
-        curves=curves, pieces=pieces, gravity_x=float(model.gravity[0]), gravity_y=float(model.gravity[1]), length=length,
-        sizes=_sizes(tree, length), reference_determinant=0.0, chart=arrays.no_chart())
+        curves=curves,
+        pieces=pieces,
+        gravity_x=float(model.gravity[0]),
+        gravity_y=float(model.gravity[1]),
+        length=length,
+        sizes=_sizes(tree, length),
+        reference_determinant=0.0,
+        chart=arrays.no_chart(),
+    )
 
 
 def _measures_angles(rows):
@@ -135,8 +151,15 @@ def _unit(axis, joint):
 
 def _body(link, places):
     body, joint = link.body, link.joint
-    known = {"parent": places.numbers[link.parent], "turn": link.turn, "slide": link.slide, "free": link.free,
-             "inherits": float(link.inherits), "mass": body.mass, "inertia": body.inertia}
+    known = {
+        "parent": places.numbers[link.parent],
+        "turn": link.turn,
+        "slide": link.slide,
+        "free": link.free,
+        "inherits": float(link.inherits),
+        "mass": body.mass,
+        "inertia": body.inertia,
+    }
     if joint is None:
         return _record(arrays.BODY, **known)
     mine, theirs = (joint.first, joint.second) if joint.first.body == body.name else (joint.second, joint.first)
@@ -163,13 +186,17 @@ def rows_of(joint, places):
         return [pair | {"ex": 1.0}, pair | {"ey": 1.0}]
     if isinstance(joint, Rolling) and joint.track_radius:
         reach = joint.radius + joint.track_radius
-        return [pair | {"kind": arrays.DISTANCE, "constant": abs(reach)},
-                pair | {"kind": arrays.CIRCLE, "gi": joint.radius, "gj": joint.track_radius, "constant": np.nan}]
+        return [
+            pair | {"kind": arrays.DISTANCE, "constant": abs(reach)},
+            pair | {"kind": arrays.CIRCLE, "gi": joint.radius, "gj": joint.track_radius, "constant": np.nan},
+        ]
     x, y = _unit(joint.axis, joint)
     across = pair | {"k": j, "ex": -y, "ey": x}
     if isinstance(joint, Rolling):
-        return [across | {"constant": joint.radius},
-                pair | {"k": j, "ex": x, "ey": y, "gi": joint.radius, "gj": -joint.radius, "constant": np.nan}]
+        return [
+            across | {"constant": joint.radius},
+            pair | {"k": j, "ex": x, "ey": y, "gi": joint.radius, "gj": -joint.radius, "constant": np.nan},
+        ]
     if isinstance(joint, PinSlot):
         return [across]
     locked = places.angles[joint.first.body] - places.angles[joint.second.body]
@@ -211,8 +238,10 @@ def _turning_alone(joint, mover, base, tree):
     """A joint with play does not carry its body; its rotation can be driven where it is measured against the world."""
     link = tree.link(mover)
     if base != GROUND or link.turn < 0 or link.inherits:
-        raise InputError(f"joint {joint.name!r} has play and joins two moving bodies: its rotation cannot be driven; make it ideal, "
-                         "or drive the joint at the ground")
+        raise InputError(
+            f"joint {joint.name!r} has play and joins two moving bodies: its rotation cannot be driven; make it ideal, "
+            "or drive the joint at the ground"
+        )
     return link
 
 
@@ -224,34 +253,59 @@ def _pair(first, second, places, whose):
 
 def _spring(spring, places):
     return _pair(spring.first, spring.second, places, f"spring {spring.name!r}") | {
-        "stiffness": spring.stiffness, "free_length": spring.free_length, "damping": spring.damping}
+        "stiffness": spring.stiffness,
+        "free_length": spring.free_length,
+        "damping": spring.damping,
+    }
 
 
 def _twist(spring, places):
     whose = f"rotational spring {spring.name!r}"
-    return {"i": places.number(spring.first, whose), "j": places.number(spring.second, whose), "stiffness": spring.stiffness,
-            "rest": spring.rest, "damping": spring.damping}
+    return {
+        "i": places.number(spring.first, whose),
+        "j": places.number(spring.second, whose),
+        "stiffness": spring.stiffness,
+        "rest": spring.rest,
+        "damping": spring.damping,
+    }
 
 
 def _torque(torque, places):
     whose = f"torque {torque.name!r}"
-    return {"i": places.number(torque.body, whose), "j": places.number(torque.on, whose), "over": _OVER[torque.load.over],
-            "curve": places.curve(torque.load.curve)}
+    return {
+        "i": places.number(torque.body, whose),
+        "j": places.number(torque.on, whose),
+        "over": _OVER[torque.load.over],
+        "curve": places.curve(torque.load.curve),
+    }
 
 
 def _force(force, places):
     i = places.number(force.point.body, f"force {force.name!r}")
     (ax, ay), (ex, ey) = places.arm(force.point), force.direction
-    return {"i": i, "over": _OVER[force.load.over], "curve": places.curve(force.load.curve), "follows": force.follows,
-            "k": i if force.follows else 0, "ax": ax, "ay": ay, "ex": ex, "ey": ey}
+    return {
+        "i": i,
+        "over": _OVER[force.load.over],
+        "curve": places.curve(force.load.curve),
+        "follows": force.follows,
+        "k": i if force.follows else 0,
+        "ax": ax,
+        "ay": ay,
+        "ex": ex,
+        "ey": ey,
+    }
 
 
 def _bushing(joint, places):
     model = joint.model
     rest = places.angles[joint.first.body] - places.angles[joint.second.body]
     return _pair(joint.first, joint.second, places, f"joint {joint.name!r}") | {
-        "stiffness": model.stiffness, "damping": model.damping, "rotational_stiffness": model.rotational_stiffness,
-        "rotational_damping": model.rotational_damping, "rest": rest}
+        "stiffness": model.stiffness,
+        "damping": model.damping,
+        "rotational_stiffness": model.rotational_stiffness,
+        "rotational_damping": model.rotational_damping,
+        "rest": rest,
+    }
 
 
 def _contact(joint, places):
@@ -259,10 +313,28 @@ def _contact(joint, places):
     dry = oil.contact if oil else joint.model
     rub = dry.friction
     film = {"film": _FILM[oil.film], "viscosity": oil.viscosity, "roughness": oil.roughness} if oil else {}
-    return _pair(joint.first, joint.second, places, f"joint {joint.name!r}") | film | {
-        "memory": -1, "bristle": -1, "cylinder": dry.cylinder, "clearance": dry.clearance, "bearing_radius": dry.bearing_radius,
-        "stiffness": dry.stiffness, "exponent": dry.exponent, "hysteresis": dry.hysteresis, "lasting": lasting_factor(dry.hysteresis),
-        "damping": dry.damping, "length": dry.length,
-        "law": _FRICTION[rub.law] if rub.coefficient > 0 else arrays.NO_FRICTION, "friction": rub.coefficient, "slip_speed": rub.speed,
-        "dead_speed": rub.dead_speed, "static_friction": rub.static_coefficient, "bristle_stiffness": rub.bristle_stiffness,
-        "bristle_damping": rub.bristle_damping, "viscous": rub.viscous}
+    return (
+        _pair(joint.first, joint.second, places, f"joint {joint.name!r}")
+        | film
+        | {
+            "memory": -1,
+            "bristle": -1,
+            "cylinder": dry.cylinder,
+            "clearance": dry.clearance,
+            "bearing_radius": dry.bearing_radius,
+            "stiffness": dry.stiffness,
+            "exponent": dry.exponent,
+            "hysteresis": dry.hysteresis,
+            "lasting": lasting_factor(dry.hysteresis),
+            "damping": dry.damping,
+            "length": dry.length,
+            "law": _FRICTION[rub.law] if rub.coefficient > 0 else arrays.NO_FRICTION,
+            "friction": rub.coefficient,
+            "slip_speed": rub.speed,
+            "dead_speed": rub.dead_speed,
+            "static_friction": rub.static_coefficient,
+            "bristle_stiffness": rub.bristle_stiffness,
+            "bristle_damping": rub.bristle_damping,
+            "viscous": rub.viscous,
+        }
+    )

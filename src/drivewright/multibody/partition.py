@@ -47,8 +47,12 @@ def split_into(system, dependent, work):
         else:
             contact.bristle = contact.memory
     return system._replace(
-        dependent=np.asarray(dependent, np.int64), independent=independent, contacts=contacts,
-        reference_determinant=_determinant(scaled_jacobian(system, work, dependent)), chart=no_chart(len(independent), len(dependent)))
+        dependent=np.asarray(dependent, np.int64),
+        independent=independent,
+        contacts=contacts,
+        reference_determinant=_determinant(scaled_jacobian(system, work, dependent)),
+        chart=no_chart(len(independent), len(dependent)),
+    )
 
 
 def _determinant(square):

@@ -85,11 +85,15 @@ class Wrench(NamedTuple):
 
 def reactions(assembly, system, observed):
     """`Reactions` of the observed states of a system of the assembly."""
-    parts = [observed._replace(**{name: getattr(observed, name)[k : k + CHUNK] for name in observed._fields})
-             for k in range(0, len(observed.t), CHUNK)]
+    parts = [
+        observed._replace(**{name: getattr(observed, name)[k : k + CHUNK] for name in observed._fields})
+        for k in range(0, len(observed.t), CHUNK)
+    ]
     solved = [_solve(assembly, system, part) for part in parts]
-    joints = {name: Reaction(*(np.concatenate(pieces) for pieces in zip(*(one.joints[name] for one in solved), strict=True)))
-              for name in solved[0].joints}
+    joints = {
+        name: Reaction(*(np.concatenate(pieces) for pieces in zip(*(one.joints[name] for one in solved), strict=True)))
+        for name in solved[0].joints
+    }
     tensions = {name: np.concatenate([one.tensions[name] for one in solved]) for name in solved[0].tensions}
     return Reactions(joints, tensions, *(np.concatenate([getattr(one, name) for one in solved]) for name in ("drives", "residual")))
 
@@ -124,8 +128,9 @@ class _Equations(NamedTuple):
 
 def _equations(assembly, system, observed):
     wide = assembly.wide
-    places = Places({name: k for k, name in enumerate(assembly.names)}, {GROUND: (0.0, 0.0)} | {b.name: b.centroid for b in wide.bodies},
-                    observed)
+    places = Places(
+        {name: k for k, name in enumerate(assembly.names)}, {GROUND: (0.0, 0.0)} | {b.name: b.centroid for b in wide.bodies}, observed
+    )
     ideal = [joint for joint in wide.joints if closes(joint)]
     groups = [wrenches(joint, places) for joint in ideal]
     driven = [_drive(next(j for j in wide.joints if j.name == drive.joint), places) for drive in wide.drives]
@@ -222,8 +227,13 @@ def slope_of(curve, x):
 
 def _length(unknowns, places):
     """A length of the mechanism's size, so that moments and forces can be weighed against each other."""
-    arms = [np.hypot(*(wrench.point - places.centre(body)).T).max() for wrench in unknowns if wrench.force is not None
-            for body in (wrench.first, wrench.second) if body != GROUND]
+    arms = [
+        np.hypot(*(wrench.point - places.centre(body)).T).max()
+        for wrench in unknowns
+        if wrench.force is not None
+        for body in (wrench.first, wrench.second)
+        if body != GROUND
+    ]
     return max(arms, default=0.0) or 1.0
 
 
@@ -248,6 +258,7 @@ def _cross(a, b):
 
 def _wanted(system, observed, length):
     """(M a - F - M g, size of its largest part) of all bodies but the ground."""
+
     def seen(*names):
         return np.stack([observed.body(slice(1, None), name) for name in names], axis=-1)
 

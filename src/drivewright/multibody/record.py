@@ -43,8 +43,17 @@ class Record:
 
     def take(self, keep):
         """The chosen rows."""
-        return Record(self.t[keep], {k: v[keep] for k, v in self.points.items()}, self.pins[keep], self.powers[keep], self.drives[keep],
-                      self.energy[keep], self.kinetic[keep], self.last, self.stop)
+        return Record(
+            self.t[keep],
+            {k: v[keep] for k, v in self.points.items()},
+            self.pins[keep],
+            self.powers[keep],
+            self.drives[keep],
+            self.energy[keep],
+            self.kinetic[keep],
+            self.last,
+            self.stop,
+        )
 
 
 def record(run, markers, start=-np.inf):
@@ -52,9 +61,16 @@ def record(run, markers, start=-np.inf):
     parts = [part for stretch in run.stretches for part in _parts(run.assembly, stretch, markers, start)]
     t, points, pins, powers, drives, energy, kinetic = zip(*parts, strict=True)
     return Record(
-        np.concatenate(t), {name: np.concatenate([p[name] for p in points]) for name in markers}, np.concatenate(pins),
-        np.concatenate(powers), np.concatenate(drives), np.concatenate(energy), np.concatenate(kinetic),
-        last_of(run), run.stop)
+        np.concatenate(t),
+        {name: np.concatenate([p[name] for p in points]) for name in markers},
+        np.concatenate(pins),
+        np.concatenate(powers),
+        np.concatenate(drives),
+        np.concatenate(energy),
+        np.concatenate(kinetic),
+        last_of(run),
+        run.stop,
+    )
 
 
 def last_of(run):
@@ -77,8 +93,9 @@ def moved(assembly, seen, marker):
     cx, cy = next((body.centroid for body in assembly.wide.bodies if body.name == marker.body), (0.0, 0.0))
     dx, dy = marker.x - cx, marker.y - cy
     px, py = np.cos(angle) * dx - np.sin(angle) * dy, np.sin(angle) * dx + np.cos(angle) * dy
-    return np.stack([angle, w, alpha, x + px, y + py, vx - w * py, vy + w * px,
-                     ax - alpha * py - w * w * px, ay + alpha * px - w * w * py], axis=1)
+    return np.stack(
+        [angle, w, alpha, x + px, y + py, vx - w * py, vy + w * px, ax - alpha * py - w * w * px, ay + alpha * px - w * w * py], axis=1
+    )
 
 
 def energy_of(system, seen):

@@ -134,8 +134,16 @@ def _joined(stretches):
             groups[-1].append(part)
         else:
             groups.append([part])
-    return tuple(Stretch(group[0].system, np.concatenate([part.t for part in group]), np.concatenate([part.y for part in group]),
-                         group[-1].t_end, group[-1].y_end) for group in groups)
+    return tuple(
+        Stretch(
+            group[0].system,
+            np.concatenate([part.t for part in group]),
+            np.concatenate([part.y for part in group]),
+            group[-1].t_end,
+            group[-1].y_end,
+        )
+        for group in groups
+    )
 
 
 def _onward(system, t, y, end, weak):
@@ -165,8 +173,10 @@ def _leg(system, t, y, end):
 
 def stopped_at(time):
     """Advice of a run that was to stop in a singular position."""
-    return (f"the mechanism comes to a singular position at t = {time:.6g} s, where the run was to stop; "
-            "take simulate.singular = \"smooth\" to go through it")
+    return (
+        f"the mechanism comes to a singular position at t = {time:.6g} s, where the run was to stop; "
+        'take simulate.singular = "smooth" to go through it'
+    )
 
 
 def _passages(system, run):
@@ -198,9 +208,20 @@ def _integrate(system, t, leg, y, settings, steps, samples, speed):
     watch = [Event(-1, terminal=True), Event(), *[switches] * pins, *[Event(1, switches=True)] * pins, *[switches] * pins]
     longest = min(leg.max_step, settings.max_step or (2 * np.pi / speed / 100 if speed else np.inf))
     solve = integrate_stiff if settings.method == "radau" else integrate
-    return solve(motion(system), t, leg.until, y, settings.rtol, tolerances(system, settings, speed), samples=samples, watch=watch,
-                 max_steps=max(settings.max_steps - steps, 0), max_step=longest, min_step=settings.min_step,
-                 per_step=settings.per_step)
+    return solve(
+        motion(system),
+        t,
+        leg.until,
+        y,
+        settings.rtol,
+        tolerances(system, settings, speed),
+        samples=samples,
+        watch=watch,
+        max_steps=max(settings.max_steps - steps, 0),
+        max_step=longest,
+        min_step=settings.min_step,
+        per_step=settings.per_step,
+    )
 
 
 def speed_of(assembly):
@@ -243,7 +264,7 @@ def resplit(system, t, y):
 def restated(system, t, y, other):
     """A state of one split of the coordinates as a state of another one."""
     work = at_state(system, t, y)
-    memory = y[len(system.stored) + len(system.independent):]
+    memory = y[len(system.stored) + len(system.independent) :]
     return np.concatenate([work.coordinates.q[system.stored], work.coordinates.v[other.independent], memory])
 
 
@@ -277,8 +298,12 @@ def _stuck(assembly, t, end):
         told.append(f"{drive.joint!r} at {np.degrees(value) % 360:.2f} deg" if turning else f"{drive.joint!r} at {1e3 * value:.4g} mm")
     joints = sorted({assembly.wide.joints[row.joint].name for row in assembly.system.rows})
     if t <= 0.0:
-        return (f"the mechanism starts in a singular position, drive {' and '.join(told)}: links of the loop through joint"
-                f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} stand in line there, and nothing says to which side they "
-                "bend. Start a few degrees away")
-    return (f"the mechanism cannot go on beyond t = {t:.6g} s of {end:.6g} s, drive {' and '.join(told)}: the loop through joint"
-            f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} does not close there. Change a length, or drive over less")
+        return (
+            f"the mechanism starts in a singular position, drive {' and '.join(told)}: links of the loop through joint"
+            f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} stand in line there, and nothing says to which side they "
+            "bend. Start a few degrees away"
+        )
+    return (
+        f"the mechanism cannot go on beyond t = {t:.6g} s of {end:.6g} s, drive {' and '.join(told)}: the loop through joint"
+        f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} does not close there. Change a length, or drive over less"
+    )

@@ -119,7 +119,7 @@ def _line(system, t, y):
     if speed == 0.0:
         return None
     fresh = split_into(system, _dependent(system, moving.work), moving.work)
-    remembered = y[len(system.stored) + len(system.independent):]
+    remembered = y[len(system.stored) + len(system.independent) :]
     state = np.concatenate([moving.work.coordinates.q[fresh.stored], rates[fresh.independent], remembered])
     return Line(fresh, motion(fresh).work, t, state, rates[fresh.independent] / speed, 1.0 / speed)
 
@@ -284,9 +284,16 @@ def _charted(line, nodes, centre, width):
     """(system with the chart, state)."""
     normal, normal_time = _normal(line, nodes, width)
     chart = Chart(
-        offsets=np.array([place.x - centre for place in nodes]), guesses=np.array([place.dependent for place in nodes]),
-        direction=line.direction, normal=normal, origin=line.y[line.free] + centre * line.direction, pace=line.pace,
-        normal_time=normal_time, origin_time=line.t + centre * line.pace, reach=REACH * width)
+        offsets=np.array([place.x - centre for place in nodes]),
+        guesses=np.array([place.dependent for place in nodes]),
+        direction=line.direction,
+        normal=normal,
+        origin=line.y[line.free] + centre * line.direction,
+        pace=line.pace,
+        normal_time=normal_time,
+        origin_time=line.t + centre * line.pace,
+        reach=REACH * width,
+    )
     return line.system._replace(chart=chart), line.y
 
 

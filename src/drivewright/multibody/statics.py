@@ -133,8 +133,11 @@ def _driven_by(system, start, slope):
     driven, curves, pieces = system.driven.copy(), np.zeros(len(start), arrays.CURVE), np.zeros(len(start), arrays.PIECE)
     driven["sign"], driven["start"], driven["curve"] = 1.0, start, len(system.curves) + np.arange(len(start))
     curves["first"], curves["count"], pieces["c1"] = len(system.pieces) + np.arange(len(start)), 1, slope
-    return system._replace(driven=driven, curves=np.concatenate([system.curves, curves]).view(np.recarray),
-                           pieces=np.concatenate([system.pieces, pieces]).view(np.recarray))
+    return system._replace(
+        driven=driven,
+        curves=np.concatenate([system.curves, curves]).view(np.recarray),
+        pieces=np.concatenate([system.pieces, pieces]).view(np.recarray),
+    )
 
 
 @outer
@@ -194,9 +197,12 @@ def reduced(here):
     loads, weight = np.stack([poses.fx, poses.fy, poses.ft], axis=-1), mass * [system.gravity_x, system.gravity_y, 0.0]
     rest = loads + weight - mass * bent
     return Reduced(
-        mass=np.einsum("bcm,bc,bcn->mn", motions, mass, motions), force=np.einsum("bcm,bc->m", motions, rest),
-        size=float(np.sum((np.abs(loads) + np.abs(weight) + np.abs(mass * bent))[1:] / [1.0, 1.0, system.length])), motions=motions,
-        drives=-system.driven.sign * np.einsum("bcd,bc->d", led, rest))
+        mass=np.einsum("bcm,bc,bcn->mn", motions, mass, motions),
+        force=np.einsum("bcm,bc->m", motions, rest),
+        size=float(np.sum((np.abs(loads) + np.abs(weight) + np.abs(mass * bent))[1:] / [1.0, 1.0, system.length])),
+        motions=motions,
+        drives=-system.driven.sign * np.einsum("bcd,bc->d", led, rest),
+    )
 
 
 def scales(now, length):
@@ -206,6 +212,7 @@ def scales(now, length):
 
 def scaled_stiffness(here, scale, step):
     """-d(force)/d(coordinates), both scaled, by central differences over +-step."""
+
     def force(shift):
         return reduced(carried(here, here.t, shift)).force * scale
 
@@ -240,6 +247,8 @@ def _restless(assembly, here, force, residual):
     worst = int(np.argmax(np.abs(force)))
     name = names_of(assembly, here.system)[worst]
     gone = np.max(np.abs(here.y - at_rest(assembly.system, assembly.state)))
-    return (f"statics: no equilibrium found in {TRIES} steps. Coordinate {name!r} is still pushed by {abs(force[worst]):.4g} N, "
-            f"{residual:.2g} of the forces at work, after a way of {gone:.3g} rad or m. A mechanism that a load drives on for ever has no "
-            "equilibrium: add a spring or a stop, or drive that coordinate; otherwise start nearer to where it rests")
+    return (
+        f"statics: no equilibrium found in {TRIES} steps. Coordinate {name!r} is still pushed by {abs(force[worst]):.4g} N, "
+        f"{residual:.2g} of the forces at work, after a way of {gone:.3g} rad or m. A mechanism that a load drives on for ever has no "
+        "equilibrium: add a spring or a stop, or drive that coordinate; otherwise start nearer to where it rests"
+    )

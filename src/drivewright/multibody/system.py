@@ -44,7 +44,8 @@ NO_FILM, LONG_FILM, SHORT_FILM = range(3)
 CONTACT = _record(
     "i j memory bristle law film cylinder",
     "ax ay bx by clearance bearing_radius stiffness exponent hysteresis lasting damping friction slip_speed dead_speed static_friction "
-    "bristle_stiffness bristle_damping viscous viscosity length roughness")
+    "bristle_stiffness bristle_damping viscous viscosity length roughness",
+)
 
 
 # What a run finds at the state it was last asked about.
@@ -143,9 +144,21 @@ def scratch(system):
     poses.c = 1.0  # of the angle 0
     levers.t = turning(system.bodies, n)
     return Work(
-        np.zeros(n, COORDINATE).view(np.recarray), poses, levers, np.zeros((rows, n)), np.zeros((rows, rows)), np.zeros(rows, np.int64),
-        np.zeros((3, rows)), np.zeros((rows, free + given)), np.zeros((bodies, free), LEVER).view(np.recarray),
-        np.zeros((free, free)), np.zeros(free), np.zeros(free), np.zeros(len(system.stored) + free), np.zeros((rows, 3 + free + given)))
+        np.zeros(n, COORDINATE).view(np.recarray),
+        poses,
+        levers,
+        np.zeros((rows, n)),
+        np.zeros((rows, rows)),
+        np.zeros(rows, np.int64),
+        np.zeros((3, rows)),
+        np.zeros((rows, free + given)),
+        np.zeros((bodies, free), LEVER).view(np.recarray),
+        np.zeros((free, free)),
+        np.zeros(free),
+        np.zeros(free),
+        np.zeros(len(system.stored) + free),
+        np.zeros((rows, 3 + free + given)),
+    )
 
 
 def no_chart(independent=0, dependent=0):

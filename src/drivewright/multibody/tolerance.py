@@ -67,8 +67,10 @@ def posture(assembly, markers, sources, angle=None):
     Raises InputError where the drives leave a freedom, DoesNotAssemble where the drive does not get there.
     """
     if assembly.freedom:
-        raise InputError(f"tolerances: the drives leave the mechanism {assembly.freedom} degrees of freedom, so that its place is not a "
-                         "matter of its dimensions alone; drive them, or hold them by joints")
+        raise InputError(
+            f"tolerances: the drives leave the mechanism {assembly.freedom} degrees of freedom, so that its place is not a "
+            "matter of its dimensions alone; drive them, or hold them by joints"
+        )
     system, work = _brought(assembly, angle)
     return Posture(system, work, work.coordinates.q.copy(), _watched(assembly, markers), _shifts(assembly, system, list(markers), sources))
 
@@ -82,8 +84,10 @@ def _brought(assembly, angle):
         if found.outcome == "stuck":
             start = system.driven[0].start
             stop = np.degrees(start + found.reached * (angle - start))
-            raise DoesNotAssemble(f"tolerances: the mechanism does not close beyond {stop:.2f} deg of the drive, on the way from "
-                                  f"{np.degrees(start):.2f} to {np.degrees(angle):.2f} deg. Give an angle that it reaches")
+            raise DoesNotAssemble(
+                f"tolerances: the mechanism does not close beyond {stop:.2f} deg of the drive, on the way from "
+                f"{np.degrees(start):.2f} to {np.degrees(angle):.2f} deg. Give an angle that it reaches"
+            )
     return system, at_state(system, 0.0 if angle is None else 1.0, y)
 
 

@@ -106,6 +106,7 @@ def grow(model):
 
 def _chosen(model, driven):
     """The joints of a spanning forest."""
+
     def rank(joint):
         return (joint.name not in driven, not isinstance(joint, Prismatic), isinstance(joint, PinSlot))
 

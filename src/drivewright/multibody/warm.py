@@ -13,7 +13,11 @@ def warm_multibody():
     bodies = (Body("crank", 1.0, 1.0), Body("rod", 1.0, 1.0), Body("slider", 1.0, 1.0))
     ends = Marker("rod", 3.0), Marker("slider")
     for wrist in (Revolute("wrist", *ends), Revolute("wrist", *ends, Dry(1e-3, 0.1, 1e6))):
-        joints = (Revolute("main", Marker("crank"), Marker("ground")), Revolute("pin", Marker("crank", 1.0), Marker("rod")), wrist,
-                  Prismatic("guide", Marker("slider"), Marker("ground")))
+        joints = (
+            Revolute("main", Marker("crank"), Marker("ground")),
+            Revolute("pin", Marker("crank", 1.0), Marker("rod")),
+            wrist,
+            Prismatic("guide", Marker("slider"), Marker("ground")),
+        )
         ready = assemble(Model(bodies, joints, drives=(Drive("main", line(0.0, 1.0)),)))
         record(simulate(ready, 0.06), {"slider": Marker("slider")})

@@ -59,8 +59,10 @@ def _prepared(state, scales, continuous, cycles, discard, separation):
     state = np.array(state, dtype=float)
     free = np.ones(state.shape, dtype=bool) if continuous is None else np.asarray(continuous, dtype=bool)
     if state.ndim != 1 or free.shape != state.shape or not np.any(free):
-        raise InputError(f"largest_exponent: the state must be a row with a flag each, one continuous at least; "
-                         f"got shapes {state.shape} and {free.shape}, {np.count_nonzero(free)} continuous.")
+        raise InputError(
+            f"largest_exponent: the state must be a row with a flag each, one continuous at least; "
+            f"got shapes {state.shape} and {free.shape}, {np.count_nonzero(free)} continuous."
+        )
     scales = np.broadcast_to(np.asarray(scales, dtype=float), state.shape)[free]
     if not np.all(scales > 0):
         raise InputError(f"largest_exponent: every scale must be above 0, got {np.min(scales):g}; give the typical size of the motion.")
@@ -69,7 +71,8 @@ def _prepared(state, scales, continuous, cycles, discard, separation):
     if not (_resolved(state[free], scales, separation) and separation <= 1e-2):
         raise InputError(
             f"largest_exponent: a separation of {separation:g} must be small, at most 0.01, and far above the rounding of the state, "
-            f"{_rounding(state[free], scales):.1e} of the scales. Correct the scales, or wrap a large angle.")
+            f"{_rounding(state[free], scales):.1e} of the scales. Correct the scales, or wrap a large angle."
+        )
     return state, scales, free
 
 
@@ -92,7 +95,8 @@ def _left(growth, cycles):
     return SolverError(
         f"largest_exponent: after {cycles} cycles the state or its twin is no longer finite, or so large that the separation drowns in "
         "its rounding. Start nearer to the attractor, wrap an angle that grows, or correct the scales.",
-        partial=_running_mean(growth))
+        partial=_running_mean(growth),
+    )
 
 
 def _running_mean(growth):

@@ -111,8 +111,10 @@ def draw(numbers: np.ndarray) -> Estimate:
 def _checked(samples):
     samples = np.atleast_2d(np.asarray(samples, dtype=float))
     if samples.ndim != 2 or samples.size == 0 or not np.all(np.isfinite(samples)):
-        raise InputError(f"ensemble: samples must be finite numbers (members, windows), one or more; got shape {samples.shape}. "
-                         "Leave out the windows behind the place where a run stopped.")
+        raise InputError(
+            f"ensemble: samples must be finite numbers (members, windows), one or more; got shape {samples.shape}. "
+            "Leave out the windows behind the place where a run stopped."
+        )
     return samples
 
 
@@ -151,8 +153,10 @@ def _drift(samples, halves, false_alarm=FALSE_ALARM):
     count = samples.shape[1]
     first = count // 2
     difference = abs(np.mean(samples[:, :first]) - np.mean(samples[:, first:]))
-    limits = [_student(effective - 1, 1 - false_alarm / 2) * np.sqrt(variance / effective * (count / first + count / (count - first)))
-              for variance, effective in (halves, _noise(_about_line(samples)))]
+    limits = [
+        _student(effective - 1, 1 - false_alarm / 2) * np.sqrt(variance / effective * (count / first + count / (count - first)))
+        for variance, effective in (halves, _noise(_about_line(samples)))
+    ]
     return float(difference), float(min(limits))
 
 

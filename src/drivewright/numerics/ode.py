@@ -25,21 +25,7 @@ import numpy as np
 
 from drivewright._jit import formula_of, implements, plain
 from drivewright.errors import InputError, SolverError
-from drivewright.numerics.dopri5 import (
-    GOES_ON,
-    NOTE,
-    STOP,
-    SWITCH,
-    Batch,
-    Settings,
-    Unwatched,
-    Watch,
-    advance,
-    begin,
-    events,
-    rate,
-    switch,
-)
+from drivewright.numerics.dopri5 import GOES_ON, NOTE, STOP, SWITCH, Batch, Settings, Unwatched, Watch, advance, begin, events, rate, switch
 
 _BATCH = 500
 
@@ -48,7 +34,7 @@ _ADVICE = {
     "event": "",
     "max_steps": "the limit of {steps} steps is reached. Raise max_steps, loosen rtol, or look for a stiff or chattering part.",
     "min_step": "the step would fall below {min_step:.1e}. Look for a jump in the right-hand side or for a time constant far below "
-                "the others; loosen rtol and atol, or stop at the jump with a terminal event.",
+    "the others; loosen rtol and atol, or stop at the jump with a terminal event.",
     "not_finite": "the right-hand side is not finite. Check the start and the parameters, or stop before the singular place with an event.",
 }
 _OUTCOMES = ("max_steps", "finished", "event", "min_step", "not_finite")  # by code; a run that still goes on has met max_steps
@@ -129,8 +115,22 @@ class Trajectory:
         return self
 
 
-def integrate(system, t0, t1, y0, rtol=1e-8, atol=1e-10, *, samples=None, watch=(),
-              per_step=1, max_steps=100_000, max_step=np.inf, min_step=0.0, first_step=None):
+def integrate(
+    system,
+    t0,
+    t1,
+    y0,
+    rtol=1e-8,
+    atol=1e-10,
+    *,
+    samples=None,
+    watch=(),
+    per_step=1,
+    max_steps=100_000,
+    max_step=np.inf,
+    min_step=0.0,
+    first_step=None,
+):
     """Integrate y' = rate(system, t, y) from y(t0) = y0 to t1 > t0; returns a Trajectory, a partial one with advice.
 
     The error of a step, over atol + rtol |y| (atol a number or one per component), is kept below 1 in the root mean square.
@@ -146,8 +146,12 @@ def integrate(system, t0, t1, y0, rtol=1e-8, atol=1e-10, *, samples=None, watch=
     watched = system if watch else Unwatched(0)
     switched = system if any(event.switches for event in watch) else Unwatched(0)
     settings = Settings(
-        float(t1), float(rtol), np.broadcast_to(np.asarray(atol, dtype=float), y.shape).copy(), float(max_step),
-        max(min_step, 16 * np.finfo(float).eps * max(abs(t0), abs(t1))))
+        float(t1),
+        float(rtol),
+        np.broadcast_to(np.asarray(atol, dtype=float), y.shape).copy(),
+        float(max_step),
+        max(min_step, 16 * np.finfo(float).eps * max(abs(t0), abs(t1))),
+    )
     what = _watched(watch)
     clock, k, values = np.array([t0, 0.0, 1e-4]), np.empty((7, y.size)), np.empty(len(watch))
     code = start(system, watched, settings, clock, y, k, values)
@@ -156,8 +160,13 @@ def integrate(system, t0, t1, y0, rtol=1e-8, atol=1e-10, *, samples=None, watch=
     parts, crossings, steps, rejected = [], [], 0, 0
     while code == GOES_ON and steps < max_steps:
         size = min(_BATCH, max_steps - steps)
-        batch = Batch(np.empty((size, 2)), np.empty((size, 5, y.size)), np.empty((2 * size * len(watch), 3)),
-                      np.empty((2 * size * len(watch), y.size)), *scratch)
+        batch = Batch(
+            np.empty((size, 2)),
+            np.empty((size, 5, y.size)),
+            np.empty((2 * size * len(watch), 3)),
+            np.empty((2 * size * len(watch), y.size)),
+            *scratch,
+        )
         code, done, refused, hits = go_on(system, watched, switched, settings, what, clock, y, k, values, batch)
         crossings.append(_crossings(batch, hits))
         parts.append(_pick(batch, done, clock[0], per_step) if samples is None else _sample(batch, done, samples, clock[0]))
@@ -223,9 +232,16 @@ def _trajectory(t0, y0, parts, samples, t_end, y_end, crossings, code, settings,
     empty = Crossing(np.empty(0), np.empty(0, dtype=int), np.empty((0, y0.size)))
     crossings = Crossing(*(np.concatenate(pieces) for pieces in zip(empty, *crossings, strict=True)))
     return Trajectory(
-        t=np.concatenate([t for t, _ in parts]), y=np.concatenate([y for _, y in parts]), t_end=float(t_end), y_end=y_end,
-        crossings=crossings, outcome=outcome, advice=_ADVICE[outcome].format(steps=steps, min_step=settings.min_step),
-        steps=steps, rejected=rejected)
+        t=np.concatenate([t for t, _ in parts]),
+        y=np.concatenate([y for _, y in parts]),
+        t_end=float(t_end),
+        y_end=y_end,
+        crossings=crossings,
+        outcome=outcome,
+        advice=_ADVICE[outcome].format(steps=steps, min_step=settings.min_step),
+        steps=steps,
+        rejected=rejected,
+    )
 
 
 def _polynomial(dense, theta):

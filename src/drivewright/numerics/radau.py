@@ -137,12 +137,39 @@ def _work(n):
         return np.zeros((*shape, n), dtype=kind)
 
     return Work(
-        f=room(1), J=room(n), real=room(n), complex=room(n, kind=complex), real_pivots=room(kind=int), complex_pivots=room(kind=int),
-        real_rest=room(), complex_rest=room(kind=complex), scale=room(), z=room(3), w=room(3), rates=room(3), dense=room(5), trial=room())
+        f=room(1),
+        J=room(n),
+        real=room(n),
+        complex=room(n, kind=complex),
+        real_pivots=room(kind=int),
+        complex_pivots=room(kind=int),
+        real_rest=room(),
+        complex_rest=room(kind=complex),
+        scale=room(),
+        z=room(3),
+        w=room(3),
+        rates=room(3),
+        dense=room(5),
+        trial=room(),
+    )
 
 
-def integrate_stiff(system, t0, t1, y0, rtol=1e-8, atol=1e-10, *, samples=None, watch=(),
-                    per_step=1, max_steps=100_000, max_step=np.inf, min_step=0.0, first_step=None):
+def integrate_stiff(
+    system,
+    t0,
+    t1,
+    y0,
+    rtol=1e-8,
+    atol=1e-10,
+    *,
+    samples=None,
+    watch=(),
+    per_step=1,
+    max_steps=100_000,
+    max_step=np.inf,
+    min_step=0.0,
+    first_step=None,
+):
     """`ode.integrate` for stiff systems: the same arguments and the same Trajectory, by an implicit method.
 
     The error that is kept below the tolerance is that of the dense output, of order 3; the ends of the steps, of order 5, are far
@@ -155,8 +182,12 @@ def integrate_stiff(system, t0, t1, y0, rtol=1e-8, atol=1e-10, *, samples=None, 
     watched = system if watch else Unwatched(0)
     switched = system if any(event.switches for event in watch) else Unwatched(0)
     settings = Settings(
-        float(t1), float(rtol), np.broadcast_to(np.asarray(atol, dtype=float), y.shape).copy(), float(max_step),
-        max(min_step, 16 * _EPS * max(abs(t0), abs(t1))))
+        float(t1),
+        float(rtol),
+        np.broadcast_to(np.asarray(atol, dtype=float), y.shape).copy(),
+        float(max_step),
+        max(min_step, 16 * _EPS * max(abs(t0), abs(t1))),
+    )
     what = ode._watched(watch)
     clock, work, values = np.array([t0, 0.0, 1e-4, 0, MISSING, 0, 1.0, 0, 0]), _work(y.size), np.empty(len(watch))
     code = start(system, watched, settings, clock, y, work.f, values)
@@ -165,8 +196,13 @@ def integrate_stiff(system, t0, t1, y0, rtol=1e-8, atol=1e-10, *, samples=None, 
     parts, crossings, steps, rejected = [], [], 0, 0
     while code == GOES_ON and steps < max_steps:
         size = min(ode._BATCH, max_steps - steps)
-        batch = Batch(np.empty((size, 2)), np.empty((size, 5, y.size)), np.empty((2 * size * len(watch), 3)),
-                      np.empty((2 * size * len(watch), y.size)), *scratch)
+        batch = Batch(
+            np.empty((size, 2)),
+            np.empty((size, 5, y.size)),
+            np.empty((2 * size * len(watch), 3)),
+            np.empty((2 * size * len(watch), y.size)),
+            *scratch,
+        )
         code, done, refused, hits = go_on(sloped, watched, switched, settings, what, clock, y, work, values, batch)
         crossings.append(ode._crossings(batch, hits))
         picked = ode._pick(batch, done, clock[T], per_step) if samples is None else ode._sample(batch, done, samples, clock[T])

@@ -78,7 +78,9 @@ def newton(f_and_jacobian, x0, scale=1.0, tolerance=1e-12, max_steps=50):
         x, f, jacobian = _damped(f_and_jacobian, x, step, jacobian, scale, count)
     raise SolverError(
         f"newton: no solution after {max_steps} steps; the last step was {size:.1e} of the unknowns' size, the largest residual "
-        f"{np.max(np.abs(f)):.1e}. Start nearer to the solution or raise max_steps.", partial=x)
+        f"{np.max(np.abs(f)):.1e}. Start nearer to the solution or raise max_steps.",
+        partial=x,
+    )
 
 
 def _damped(f_and_jacobian, x, step, jacobian, scale, count):
@@ -92,7 +94,9 @@ def _damped(f_and_jacobian, x, step, jacobian, scale, count):
             return trial, f, next_jacobian
     raise SolverError(
         f"newton: stuck at step {count + 1}: no part of a step of length {length:.1e} (in units of the unknowns' size) brings f "
-        "nearer to zero. There may be no solution near the start; start elsewhere.", partial=x)
+        "nearer to zero. There may be no solution near the start; start elsewhere.",
+        partial=x,
+    )
 
 
 def _solve(jacobian, f, x, count):
@@ -101,7 +105,8 @@ def _solve(jacobian, f, x, count):
     except np.linalg.LinAlgError:
         raise SolverError(
             f"newton: the Jacobian is singular at step {count + 1}. Start elsewhere, or look for unknowns that f does not depend on.",
-            partial=x) from None
+            partial=x,
+        ) from None
 
 
 def extremes(f, a, b, samples=721):

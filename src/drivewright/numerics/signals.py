@@ -28,8 +28,9 @@ def local_maxima(t, x):
     first, last = first[top], last[top]
     before, after = (_vertex(t, x, first - 1, first, first + 1), _vertex(t, x, last - 1, last, last + 1))
     flat = last - first > 1
-    return tuple(np.where(flat, plateau, 0.5 * (a + b)) for a, b, plateau in
-                 zip(before, after, (0.5 * (t[first] + t[last]), x[first]), strict=True))
+    return tuple(
+        np.where(flat, plateau, 0.5 * (a + b)) for a, b, plateau in zip(before, after, (0.5 * (t[first] + t[last]), x[first]), strict=True)
+    )
 
 
 def _vertex(t, x, i, j, k):
@@ -105,7 +106,8 @@ def order_spectrum(t, x, period, orders):
     if abs(turns - round(turns)) > 1e-6 or turns < 0.5:
         raise InputError(
             f"order_spectrum: the signal covers {turns:.7g} periods, but must cover a whole number of them. "
-            "Cut it there and keep the samples at both ends.")
+            "Cut it there and keep the samples at both ends."
+        )
     turns = round(turns)
     bins = _bins(orders, turns, t.size - 1)
     return _amplitudes(_spline(t, x).antiderivative(), t[0], t[-1], bins, t.size)
@@ -151,7 +153,8 @@ def _bins(orders, turns, samples):
     if 2 * np.max(bins) >= samples:
         raise InputError(
             f"spectrum: order {np.max(orders):g} oscillates {np.max(bins):.0f} times among {samples} samples; "
-            "it takes more than 2 samples each, better 20. Sample more finely.")
+            "it takes more than 2 samples each, better 20. Sample more finely."
+        )
     return bins.astype(int)
 
 

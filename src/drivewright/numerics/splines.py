@@ -8,10 +8,7 @@ from scipy.interpolate import BSpline, PPoly, make_interp_spline, splrep
 from drivewright.errors import InputError
 
 # Derivatives that vanish at an end, by kind of end and degree; a spline of degree k needs (k - 1)/2 of them.
-_VANISHING = {
-    ("clamped", 3): (1,), ("clamped", 5): (1, 2),
-    ("natural", 3): (2,), ("natural", 5): (3, 4),
-}
+_VANISHING = {("clamped", 3): (1,), ("clamped", 5): (1, 2), ("natural", 3): (2,), ("natural", 5): (3, 4)}
 
 
 def interpolating_spline(x, y, degree=3, ends="natural"):
@@ -67,7 +64,8 @@ def _check_period(y):
     if gap > 1e-9 * np.ptp(y):
         raise InputError(
             f"spline: a periodic one must end where it starts, but the last value differs from the first by {gap:.3g}. "
-            "Repeat the first value at the end of the period, or choose other ends.")
+            "Repeat the first value at the end of the period, or choose other ends."
+        )
 
 
 def _pieces(spline, breaks, extrapolate):

@@ -63,16 +63,21 @@ def _shown(what, make, model, nothing, spec):
 def pictures(result, seen):
     """Every figure of a run: the scene for each observer, the plots, the drawings."""
     scene = seen.scene
+
     def drawn(name, title, draw):
         try:
             return Picture(name, title, svg(draw()))
         except Exception as error:  # one figure that fails must not cost the others
             return Picture(name, title, _instead(f"This figure is missing: {reason_of(result.spec, error)}"))
 
-    frames = [drawn(f"scene-{frame.name}", sentence(frame.label), partial(draw_scene, scene, frame.name, [_telling_phase(scene)], GHOSTS))
-             for frame in (scene.frames if scene else ())]
-    curves = [drawn(f"plot-{plot.name}", plot.title, lambda plot=plot: draw_panels(panels(result, plot), _marks(result, plot, scene)))
-              for plot in drawable(result, seen.plots)]
+    frames = [
+        drawn(f"scene-{frame.name}", sentence(frame.label), partial(draw_scene, scene, frame.name, [_telling_phase(scene)], GHOSTS))
+        for frame in (scene.frames if scene else ())
+    ]
+    curves = [
+        drawn(f"plot-{plot.name}", plot.title, lambda plot=plot: draw_panels(panels(result, plot), _marks(result, plot, scene)))
+        for plot in drawable(result, seen.plots)
+    ]
     parts = [drawn(f"drawing-{drawing.name}", sentence(drawing.title), partial(draw_drawing, drawing)) for drawing in seen.drawings]
     return (*frames, *curves, *parts)
 
@@ -115,21 +120,29 @@ def content(result, remarks=(), headlines=None):
     `headlines` names the values shown first; the mechanism's unless given.
     """
     return {
-        "title": result.title, "mechanism": result.mechanism, "version": program(), "digest": result.digest,
+        "title": result.title,
+        "mechanism": result.mechanism,
+        "version": program(),
+        "digest": result.digest,
         **summary(result, headlines),
         "arrays": [_array(name, array) for name, array in result.arrays.items()],
         "tables": [_table(table) for table in result.tables.values()],
-        "findings": [*result.findings, *remarks], "spec": result.spec.to_toml(moved=True),
-        "sources": [str(source) for source in result.provenance.get("sources", ())], "provenance": provenance(result),
-        "cite": f"Drivewright {program()}, {result.mechanism}: {result.title}, digest {result.digest[:12]}."}
+        "findings": [*result.findings, *remarks],
+        "spec": result.spec.to_toml(moved=True),
+        "sources": [str(source) for source in result.provenance.get("sources", ())],
+        "provenance": provenance(result),
+        "cite": f"Drivewright {program()}, {result.mechanism}: {result.title}, digest {result.digest[:12]}.",
+    }
 
 
 def summary(result, headlines=None):
     """Verdict, headline, checks and values of a result: what changes with every number of a design."""
     return {
         "verdict": verdict([bool(check.ok) for check in result.checks], result.outcome, sum(check.undecided for check in result.checks)),
-        "headline": headline(result, headlines), "checks": [_check(c) for c in sorted(result.checks, key=lambda c: c.ok)],
-        "values": [_value(name, value) for name, value in result.values.items() if math.isfinite(value.value)]}
+        "headline": headline(result, headlines),
+        "checks": [_check(c) for c in sorted(result.checks, key=lambda c: c.ok)],
+        "values": [_value(name, value) for name, value in result.values.items() if math.isfinite(value.value)],
+    }
 
 
 def program():
@@ -163,10 +176,18 @@ def _value(name, value):
     """`shown` in full; `number`, `unit` and the interval `low` .. `high` apart, "" where it says nothing, with its `hint`."""
     factor, unit = shown(value.unit)
     told, low, high = numbers(value.value * factor, *(None if end is None else end * factor for end in (value.low, value.high)))
-    return {"name": name, "meaning": sentence(value.meaning or name), "shown": uncertain(value.value, value.unit, value.low, value.high),
-            "number": told, "unit": unit, "low": low, "high": high, "hint": interval_hint(value),
-            "interval": value.interval,
-            "si": with_unit(repr(float(value.value)), unit_text(value.unit))}
+    return {
+        "name": name,
+        "meaning": sentence(value.meaning or name),
+        "shown": uncertain(value.value, value.unit, value.low, value.high),
+        "number": told,
+        "unit": unit,
+        "low": low,
+        "high": high,
+        "hint": interval_hint(value),
+        "interval": value.interval,
+        "si": with_unit(repr(float(value.value)), unit_text(value.unit)),
+    }
 
 
 def _check(check):
@@ -175,10 +196,19 @@ def _check(check):
     limit = with_unit(number(check.limit * factor), unit)
     told, low, high = numbers(check.value * factor, *(end * factor for end in check.bounds or (math.nan, math.nan)))
     margin = _margin(check, factor) if math.isfinite(check.margin) else ""
-    return {"name": check.name, "label": sentence(check.name.replace("_", " ").replace(".", " · ")), "ok": bool(check.ok),
-            "value": with_unit(told, unit), "low": low, "high": with_unit(high, unit) if high else "",
-            "undecided": UNDECIDED if check.undecided else "", "limit": f"{SIGNS[check.sense]} {limit}",
-            "margin": with_unit(margin, unit) if margin else "", "message": sentence(check.message), "parts": list(check.parts)}
+    return {
+        "name": check.name,
+        "label": sentence(check.name.replace("_", " ").replace(".", " · ")),
+        "ok": bool(check.ok),
+        "value": with_unit(told, unit),
+        "low": low,
+        "high": with_unit(high, unit) if high else "",
+        "undecided": UNDECIDED if check.undecided else "",
+        "limit": f"{SIGNS[check.sense]} {limit}",
+        "margin": with_unit(margin, unit) if margin else "",
+        "message": sentence(check.message),
+        "parts": list(check.parts),
+    }
 
 
 def _margin(check, factor):
@@ -191,16 +221,26 @@ def _array(name, array):
     values = np.atleast_1d(np.asarray(array.values))
     small = values.ndim <= 2 and values.size <= LARGEST_ARRAY
     rows = [[number(v) for v in row] for row in np.atleast_2d(values)] if small else []
-    return {"name": name, "unit": unit_text(array.unit), "axes": " × ".join(array.axes), "shape": " × ".join(map(str, values.shape)),
-            "head": [str(x) for x in array.labels[-1]] if array.labels else [],
-            "side": [str(x) for x in array.labels[0]] if len(array.labels) == 2 else [], "rows": rows}
+    return {
+        "name": name,
+        "unit": unit_text(array.unit),
+        "axes": " × ".join(array.axes),
+        "shape": " × ".join(map(str, values.shape)),
+        "head": [str(x) for x in array.labels[-1]] if array.labels else [],
+        "side": [str(x) for x in array.labels[0]] if len(array.labels) == 2 else [],
+        "rows": rows,
+    }
 
 
 def _table(table):
     """A column whose intervals are in the table stands for their ends too."""
     heads = [(c, " (with its interval)" if table.bounds_of(c.name) else "") for c in table.columns if not table.bounded(c.name)]
-    return {"name": table.name, "title": table.title, "rows": len(table.columns[0].data),
-            "columns": [{"name": c.name, "unit": unit_text(c.unit), "meaning": sentence(c.meaning) + more} for c, more in heads]}
+    return {
+        "name": table.name,
+        "title": table.title,
+        "rows": len(table.columns[0].data),
+        "columns": [{"name": c.name, "unit": unit_text(c.unit), "meaning": sentence(c.meaning) + more} for c, more in heads],
+    }
 
 
 def provenance(result):

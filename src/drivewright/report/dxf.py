@@ -12,8 +12,17 @@ from drivewright.solids import chain, pieces
 
 MM = 1e3
 LAYERS = {  # colour index, line type
-    "profile": (7, "CONTINUOUS"), "hole": (7, "CONTINUOUS"), "body": (8, "CONTINUOUS"), "roller": (3, "CONTINUOUS"), "pitch": (4, "CENTER"),
-    "base": (5, "DASHED"), "axis": (1, "CENTER"), "ground": (9, "CONTINUOUS"), "defect": (6, "CONTINUOUS"), "notes": (2, "CONTINUOUS")}
+    "profile": (7, "CONTINUOUS"),
+    "hole": (7, "CONTINUOUS"),
+    "body": (8, "CONTINUOUS"),
+    "roller": (3, "CONTINUOUS"),
+    "pitch": (4, "CENTER"),
+    "base": (5, "DASHED"),
+    "axis": (1, "CENTER"),
+    "ground": (9, "CONTINUOUS"),
+    "defect": (6, "CONTINUOUS"),
+    "notes": (2, "CONTINUOUS"),
+}
 LONG_RUN = 8  # more lines than this in a row stand for a curve (a sampled pitch curve) and become one polyline
 
 

@@ -41,11 +41,13 @@ def _refuse_unknown(formats):
 
 def _refuse_bad_geometry(result):
     if failed := _failures(result):
-        raise InputError(f"this design fails a geometry check and is not exported: {'; '.join(failed)}. "
-                         "Mend the design, or export it with --anyway")
+        raise InputError(
+            f"this design fails a geometry check and is not exported: {'; '.join(failed)}. Mend the design, or export it with --anyway"
+        )
     if missing := [finding for finding in result.findings if any(f"'{name}'" in finding for name in result.provenance.get("failed", ()))]:
-        raise InputError(f"this design is not checked in full and not exported: {'; '.join(missing)}. "
-                         "Mend the design, or export it with --anyway")
+        raise InputError(
+            f"this design is not checked in full and not exported: {'; '.join(missing)}. Mend the design, or export it with --anyway"
+        )
 
 
 def _failures(result):
@@ -109,10 +111,7 @@ def _gcode(mechanism, model, result, folder):
         "tolerance": make.chord_tolerance,
         "warnings": _failures(result),
     }
-    return [
-        _written(lambda d, path: gcode.write_gcode(d, path, **settings), d, folder / f"{file_name(d.name)}.nc")
-        for d in milled
-    ]
+    return [_written(lambda d, path: gcode.write_gcode(d, path, **settings), d, folder / f"{file_name(d.name)}.nc") for d in milled]
 
 
 def _pdf(mechanism, model, result, folder):

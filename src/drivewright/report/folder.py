@@ -46,8 +46,10 @@ def refuse_foreign(out):
     inside = sorted(path.name for path in out.iterdir()) if out.is_dir() else []
     if inside and inside != ["cad"] and not is_run_folder(out):
         first = inside[:3]
-        raise InputError(f"{out}: is not empty and is no run folder (it holds {', '.join(first)} ... but no result.json of a run); "
-                         "nothing was written. Choose another --out, or empty it first")
+        raise InputError(
+            f"{out}: is not empty and is no run folder (it holds {', '.join(first)} ... but no result.json of a run); "
+            "nothing was written. Choose another --out, or empty it first"
+        )
     if out.exists() and not out.is_dir():
         raise InputError(f"{out}: is a file, a run folder cannot take its place; choose another --out")
 

@@ -22,8 +22,21 @@ def write_gcode(drawing, path, **settings):
     write_text(path, gcode(drawing, **settings))
 
 
-def gcode(drawing, *, cutter_diameter, feed, plunge, step_down, spindle_speed, depth=None, safe_height=5e-3, lead_radius=None,
-          tolerance=2e-6, bores=True, warnings=()):
+def gcode(
+    drawing,
+    *,
+    cutter_diameter,
+    feed,
+    plunge,
+    step_down,
+    spindle_speed,
+    depth=None,
+    safe_height=5e-3,
+    lead_radius=None,
+    tolerance=2e-6,
+    bores=True,
+    warnings=(),
+):
     """Program text: round holes by a helix (with `bores`), then the profile in passes, with tangential quarter circles in and out.
 
     `cutter_diameter`, `depth` (default: the drawing's thickness), `step_down`, `safe_height` above the plate, `lead_radius`
@@ -33,8 +46,17 @@ def gcode(drawing, *, cutter_diameter, feed, plunge, step_down, spindle_speed, d
     """
     depth = drawing.thickness if depth is None else depth
     lead_radius = cutter_diameter / 2 if lead_radius is None else lead_radius
-    _require_positive(cutter_diameter=cutter_diameter, feed=feed, plunge=plunge, step_down=step_down, spindle_speed=spindle_speed,
-                      depth=depth, safe_height=safe_height, lead_radius=lead_radius, tolerance=tolerance)
+    _require_positive(
+        cutter_diameter=cutter_diameter,
+        feed=feed,
+        plunge=plunge,
+        step_down=step_down,
+        spindle_speed=spindle_speed,
+        depth=depth,
+        safe_height=safe_height,
+        lead_radius=lead_radius,
+        tolerance=tolerance,
+    )
     profile, radius = _profile(drawing), cutter_diameter / 2
     path = _climbing(profile, radius, drawing.name)
     levels = -depth * np.arange(1, math.ceil(depth / step_down - 1e-9) + 1) / math.ceil(depth / step_down - 1e-9)
@@ -84,8 +106,10 @@ def _require_positive(**settings):
 def _profile(drawing):
     outlines = drawing.on("profile")
     if len(outlines) != 1 or not outlines[0].closed:
-        raise InputError(f"G-code of drawing {drawing.name!r} wants one closed outline on layer 'profile'; there are {len(outlines)}"
-                         f"{', not closed' if len(outlines) == 1 else ''}")
+        raise InputError(
+            f"G-code of drawing {drawing.name!r} wants one closed outline on layer 'profile'; there are {len(outlines)}"
+            f"{', not closed' if len(outlines) == 1 else ''}"
+        )
     profile = chain.joined(outlines[0], f"drawing {drawing.name!r}")
     chain.polygon(profile, f"drawing {drawing.name!r}")
     return profile
@@ -98,8 +122,11 @@ def _climbing(profile, radius, name):
     except InputError as error:
         raise InputError(f"G-code of drawing {name!r} with a cutter of radius {MM * radius:g} mm: {error}") from None
     backwards = [pieces.reverse(piece) for piece in around]
-    return [half for piece in backwards for half in
-            (pieces.halves(piece) if isinstance(piece, Arc) and abs(piece.sweep) > math.pi * (1 + 1e-12) else (piece,))]
+    return [
+        half
+        for piece in backwards
+        for half in (pieces.halves(piece) if isinstance(piece, Arc) and abs(piece.sweep) > math.pi * (1 + 1e-12) else (piece,))
+    ]
 
 
 def _with_leads(path, profile, radius, lead_radius, name):
@@ -113,8 +140,10 @@ def _with_leads(path, profile, radius, lead_radius, name):
         clear = min(body.distance(shapely.LineString(lead.points(1e-6))) for lead in (entry, leave))
         if clear > radius - 1e-4 * radius:
             return [entry, *path[first:], *path[:first], leave]
-    raise InputError(f"G-code of drawing {name!r}: no joint of the profile leaves room for a lead-in of radius {MM * lead_radius:g} mm; "
-                     "give a smaller lead_radius")
+    raise InputError(
+        f"G-code of drawing {name!r}: no joint of the profile leaves room for a lead-in of radius {MM * lead_radius:g} mm; "
+        "give a smaller lead_radius"
+    )
 
 
 def _leads(piece, radius):
@@ -133,14 +162,19 @@ def _bore(write, hole, radius, levels, name):
     x, y = ring.center
     reach = ring.radius - radius
     if reach < -chain.SNAP:
-        raise InputError(f"G-code of drawing {name!r}: the hole at ({MM * x:.4g}, {MM * y:.4g}) mm has radius {MM * ring.radius:g} mm, "
-                         f"under the cutter's radius of {MM * radius:g} mm; take a smaller cutter, or bores=False and drill it")
+        raise InputError(
+            f"G-code of drawing {name!r}: the hole at ({MM * x:.4g}, {MM * y:.4g}) mm has radius {MM * ring.radius:g} mm, "
+            f"under the cutter's radius of {MM * radius:g} mm; take a smaller cutter, or bores=False and drill it"
+        )
     core = f", LEAVES A LOOSE CORE OF DIAMETER {_mm(2 * (reach - radius))}" if reach > radius else ""
     title = f"(BORE AT X{_mm(x)} Y{_mm(y)}, DIAMETER {_mm(2 * ring.radius)}{core})"
     if reach < write.tolerance:
         return [title, *write.down_to((x, y), 0.0, levels[-1]), *write.up()]
-    turns = [(_half_turn(x, y, reach, side), (high + low + side * (low - high)) / 2)
-             for high, low in zip([0.0, *levels], [*levels, levels[-1]], strict=True) for side in (0, 1)]
+    turns = [
+        (_half_turn(x, y, reach, side), (high + low + side * (low - high)) / 2)
+        for high, low in zip([0.0, *levels], [*levels, levels[-1]], strict=True)
+        for side in (0, 1)
+    ]
     off = Arc((x + reach / 2, y), reach / 2, 0.0, math.pi)
     helix = [f"{_turn(arc)} Z{_mm(level)}" for arc, level in turns]
     helix[0] += f" F{60 * MM * write.feed:.1f}"
@@ -157,11 +191,19 @@ def _left_out(hole, reason):
 
 
 def _header(drawing, cutter_diameter, tolerance, levels, spindle_speed, warnings):
-    return ["%", "O0001", f"({_plain(drawing.title or drawing.name)})", *(f"(WARNING: {_plain(warning)})" for warning in warnings),
-            f"(CUTTER DIAMETER {_mm(cutter_diameter)}, CLIMB MILLING, ITS RADIUS IS IN THE PATH: NO G41 OR G42)",
-            f"(DEPTH {_mm(-levels[-1])} IN {len(levels)} PASSES, SPLINES WITHIN {_mm(tolerance)}; MILLIMETRES AND MILLIMETRES PER MINUTE)",
-            "(X0 Y0 IS THE ORIGIN OF THE DRAWING, Z0 THE TOP OF THE PLATE; HOLD THE PART: THE LAST PASS FREES IT)",
-            "G21 G90 G17 G40 G49 G80 G94", "G54", "T1 M6", f"S{spindle_speed * 30 / math.pi:.0f} M3"]
+    return [
+        "%",
+        "O0001",
+        f"({_plain(drawing.title or drawing.name)})",
+        *(f"(WARNING: {_plain(warning)})" for warning in warnings),
+        f"(CUTTER DIAMETER {_mm(cutter_diameter)}, CLIMB MILLING, ITS RADIUS IS IN THE PATH: NO G41 OR G42)",
+        f"(DEPTH {_mm(-levels[-1])} IN {len(levels)} PASSES, SPLINES WITHIN {_mm(tolerance)}; MILLIMETRES AND MILLIMETRES PER MINUTE)",
+        "(X0 Y0 IS THE ORIGIN OF THE DRAWING, Z0 THE TOP OF THE PLATE; HOLD THE PART: THE LAST PASS FREES IT)",
+        "G21 G90 G17 G40 G49 G80 G94",
+        "G54",
+        "T1 M6",
+        f"S{spindle_speed * 30 / math.pi:.0f} M3",
+    ]
 
 
 def _turn(arc):

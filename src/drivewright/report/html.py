@@ -16,8 +16,12 @@ MODULES = ("clock.js", "scene.js", "drawing.js", "controls.js", "player.js", "pl
 
 def write_report(result, seen, folder, pictures=()):
     """Write `folder`/report.html: numbers, checks, motion player with linked plots, pictures, sources.  `seen` is a `Views`."""
-    text = page("report.html.j2", content(result, seen.remarks), player=player_data(result, seen),
-                pictures=[embedded(picture) for picture in pictures])
+    text = page(
+        "report.html.j2",
+        content(result, seen.remarks),
+        player=player_data(result, seen),
+        pictures=[embedded(picture) for picture in pictures],
+    )
     path = Path(folder) / "report.html"
     write_text(path, text)
     return path
@@ -41,8 +45,13 @@ def page(template, values, **more):
 def environment():
     import jinja2
 
-    found = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE / "templates"), autoescape=True, trim_blocks=True, lstrip_blocks=True,
-                               undefined=jinja2.StrictUndefined)
+    found = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(HERE / "templates"),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
     found.filters["breakable"] = _breakable
     return found
 

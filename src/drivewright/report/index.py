@@ -26,11 +26,17 @@ def write_index(folders, path):
 
 def _card(folder, base):
     record = json.loads((folder / "result.json").read_text(encoding="utf-8"))
-    return {"title": record["title"], "mechanism": record["mechanism"], "report": _link(folder / "report.html", base),
-            "picture": _thumbnail(folder, base), "values": _headline(record),
-            "verdict": verdict([check["ok"] for check in record["checks"]], record["outcome"],
-                               sum(check.get("undecided", False) for check in record["checks"])),
-            "seconds": number(record["provenance"].get("seconds", 0.0), 2)}
+    return {
+        "title": record["title"],
+        "mechanism": record["mechanism"],
+        "report": _link(folder / "report.html", base),
+        "picture": _thumbnail(folder, base),
+        "values": _headline(record),
+        "verdict": verdict(
+            [check["ok"] for check in record["checks"]], record["outcome"], sum(check.get("undecided", False) for check in record["checks"])
+        ),
+        "seconds": number(record["provenance"].get("seconds", 0.0), 2),
+    }
 
 
 def _link(target, base):
@@ -46,5 +52,7 @@ def _thumbnail(folder, base):
 def _headline(record):
     kind, values = record["mechanism"], {name: Value(**each) for name, each in record["values"].items()}
     names = registry.headlines(registry.mechanism(kind), values) if registry.is_known(kind) else list(values)
-    return [{"meaning": sentence(v.meaning or n), "shown": uncertain(v.value, v.unit, v.low, v.high), "hint": interval_hint(v)}
-            for n, v in ((name, values[name]) for name in names[:MOST])]
+    return [
+        {"meaning": sentence(v.meaning or n), "shown": uncertain(v.value, v.unit, v.low, v.high), "hint": interval_hint(v)}
+        for n, v in ((name, values[name]) for name in names[:MOST])
+    ]

@@ -25,15 +25,41 @@ def pack_scene(scene):
     different shape once; bodies and observers point into them.  `u` is the driving quantity as 0 ... 1.
     """
     motions, pool, tolerance = {}, {}, _fineness(overall_size(scene))
-    bodies = [{"name": b.name, "label": b.label, "colour": b.colour, "motion": _pooled(b.poses, motions),
-               "shapes": _drawn(b.shapes, pool, tolerance), **_magnified(b, motions)} for b in scene.bodies]
-    observers = [{"name": f.name, "label": f.label, "motion": _pooled(f.poses, motions), "advance": [float(a) for a in f.advance],
-                  "shapes": _drawn(f.shapes, pool, tolerance)} for f in scene.frames]
+    bodies = [
+        {
+            "name": b.name,
+            "label": b.label,
+            "colour": b.colour,
+            "motion": _pooled(b.poses, motions),
+            "shapes": _drawn(b.shapes, pool, tolerance),
+            **_magnified(b, motions),
+        }
+        for b in scene.bodies
+    ]
+    observers = [
+        {
+            "name": f.name,
+            "label": f.label,
+            "motion": _pooled(f.poses, motions),
+            "advance": [float(a) for a in f.advance],
+            "shapes": _drawn(f.shapes, pool, tolerance),
+        }
+        for f in scene.frames
+    ]
     order = [b.name for b in scene.bodies]
     traces = [{"label": t.label, "body": order.index(t.body), "point": [float(p) for p in t.point]} for t in scene.traces]
     period = float(scene.period) if np.isfinite(scene.period) and scene.period > 0 else None
-    return {"cycle": _cycle(scene), "period": period, "bodies": bodies, "observers": observers, "traces": traces, "motions": list(motions),
-            "shapes": [packed for _, packed in pool.values()], "frames": len(scene.cycle), "u": floats(fractions(scene.cycle))}
+    return {
+        "cycle": _cycle(scene),
+        "period": period,
+        "bodies": bodies,
+        "observers": observers,
+        "traces": traces,
+        "motions": list(motions),
+        "shapes": [packed for _, packed in pool.values()],
+        "frames": len(scene.cycle),
+        "u": floats(fractions(scene.cycle)),
+    }
 
 
 def _fineness(size):
@@ -86,10 +112,16 @@ def pack_plot_groups(result, scene, plots):
     A plot is linked when its x column is the one that leads the scene's table and covers one cycle at most, whichever table it is in.
     """
     main = result.tables.get(scene.table)
-    chosen = [(plot, _along(result.tables[plot.table][plot.x].data, scene)) for plot in drawable(result, plots)
-              if main and plot.x == main.columns[0].name and not plot.equal and plot.style not in STANDING]
-    packed = [{"name": plot.name, "title": plot.title, "panels": list(_panels(panels(result, plot), u, scene))}
-              for plot, u in chosen if u is not None]
+    chosen = [
+        (plot, _along(result.tables[plot.table][plot.x].data, scene))
+        for plot in drawable(result, plots)
+        if main and plot.x == main.columns[0].name and not plot.equal and plot.style not in STANDING
+    ]
+    packed = [
+        {"name": plot.name, "title": plot.title, "panels": list(_panels(panels(result, plot), u, scene))}
+        for plot, u in chosen
+        if u is not None
+    ]
     return {"cycle": _cycle(scene), "plots": packed} if packed else None
 
 
@@ -107,12 +139,28 @@ def _panels(found, u, scene):
     for panel in found:
         rows = order[telling_rows([each[order] for s in panel.series for each in (s.data, *s.ends)])]
         title = panel.title if len(found) == 1 or len(panel.series) > 1 else panel.series[0].label
-        yield {"title": title, "low": panel.low, "high": panel.high, "decimals": int(decimals(panel.low, panel.high)), "u": floats(u[rows]),
-               "style": panel.style, "log": panel.log, "shade": _shade(panel, scene),
-               "limits": [[float(value), text] for value, text in panel.limits],
-               "series": [{"label": s.label, "unit": s.unit, "role": s.role, "dashed": s.dashed, "data": floats(s.data[rows]),
-                           **({"ends": [floats(end[rows]) for end in s.ends]} if s.ends else {})}
-                          for s in panel.series]}
+        yield {
+            "title": title,
+            "low": panel.low,
+            "high": panel.high,
+            "decimals": int(decimals(panel.low, panel.high)),
+            "u": floats(u[rows]),
+            "style": panel.style,
+            "log": panel.log,
+            "shade": _shade(panel, scene),
+            "limits": [[float(value), text] for value, text in panel.limits],
+            "series": [
+                {
+                    "label": s.label,
+                    "unit": s.unit,
+                    "role": s.role,
+                    "dashed": s.dashed,
+                    "data": floats(s.data[rows]),
+                    **({"ends": [floats(end[rows]) for end in s.ends]} if s.ends else {}),
+                }
+                for s in panel.series
+            ],
+        }
 
 
 def _shade(panel, scene):

@@ -70,10 +70,16 @@ def said(study, found):
     result = found.result
     tables = [told | _printed(table) for told, table in zip(content(result)["tables"], result.tables.values(), strict=True)]
     return content(result, headlines=_headlines(found)) | {
-        "verdict": verdict(study), "tables": tables, "cases": cases(study), "reasons": reasons(study),
+        "verdict": verdict(study),
+        "tables": tables,
+        "cases": cases(study),
+        "reasons": reasons(study),
         "varied": [varied(variable) for variable in study.plan.variables],
         "varied_columns": [{"name": name, "unit": "", "meaning": name, "number": False} for name in VARIED],
-        "sampling": sampling(study), "command": COMMAND, "recipe": recipe(study)}
+        "sampling": sampling(study),
+        "command": COMMAND,
+        "recipe": recipe(study),
+    }
 
 
 def verdict(study):
@@ -99,8 +105,10 @@ def reasons(study):
     for row in rows.group_by([STATUS, MESSAGE], use_threads=False).aggregate([([], "count_all")]).to_pylist():
         kind = (row[STATUS], re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "#", row[MESSAGE] or ""))
         kinds.setdefault(kind, []).append((row["count_all"], row[MESSAGE] or "no reason given"))
-    found = sorted(({"status": status, "count": sum(count for count, _ in told), "text": _example(told)}
-                    for (status, _), told in kinds.items()), key=lambda each: (-each["count"], each["status"], each["text"]))
+    found = sorted(
+        ({"status": status, "count": sum(count for count, _ in told), "text": _example(told)} for (status, _), told in kinds.items()),
+        key=lambda each: (-each["count"], each["status"], each["text"]),
+    )
     return found[:MOST_REASONS]
 
 
@@ -211,5 +219,7 @@ def sampling(study):
 def recipe(study):
     """What has to be the same for the same numbers."""
     place = "study.toml is in the study's folder" if study.folder else "study.toml is the spec below"
-    return (f"{place}. Same version, same seed ({study.plan.seed}), same cases: digest of the plan {study.plan.digest[:12]}, "
-            f"of the spec {study.spec.digest()[:12]}. Computing took {with_unit(number(study.seconds, 3), unit_text('s'))} of one core.")
+    return (
+        f"{place}. Same version, same seed ({study.plan.seed}), same cases: digest of the plan {study.plan.digest[:12]}, "
+        f"of the spec {study.spec.digest()[:12]}. Computing took {with_unit(number(study.seconds, 3), unit_text('s'))} of one core."
+    )

@@ -10,8 +10,15 @@ from drivewright.scene import Arc, Line
 from drivewright.solids import chain, pieces
 
 MM = 1e3
-STROKES = {"profile": "#000", "hole": "#000", "pitch": "#0891b2", "base": "#1d4ed8", "roller": "#15803d", "axis": "#b91c1c",
-           "defect": "#c026d3"}
+STROKES = {
+    "profile": "#000",
+    "hole": "#000",
+    "pitch": "#0891b2",
+    "base": "#1d4ed8",
+    "roller": "#15803d",
+    "axis": "#b91c1c",
+    "defect": "#c026d3",
+}
 DASHES = {"pitch": "4 1 1 1", "axis": "4 1 1 1", "base": "2 1"}
 
 
@@ -22,10 +29,12 @@ def write_svg(drawing, path, tolerance=1e-6, margin=2e-3, stroke=1e-4):
     """
     low, high = extent(drawing)
     x, y, width, height = MM * np.array([low[0] - margin, -high[1] - margin, *(high - low + 2 * margin)])
-    lines = ['<?xml version="1.0" encoding="UTF-8"?>',
-             f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.4f}mm" height="{height:.4f}mm" '
-             f'viewBox="{x:.4f} {y:.4f} {width:.4f} {height:.4f}">',
-             f"<title>{escape(drawing.title)}</title>"]
+    lines = [
+        '<?xml version="1.0" encoding="UTF-8"?>',
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.4f}mm" height="{height:.4f}mm" '
+        f'viewBox="{x:.4f} {y:.4f} {width:.4f} {height:.4f}">',
+        f"<title>{escape(drawing.title)}</title>",
+    ]
     for layer in dict.fromkeys(shape.layer for shape in drawing.shapes):
         dash = f' stroke-dasharray="{DASHES[layer]}"' if layer in DASHES else ""
         lines.append(f'<g id="{escape(layer)}" fill="none" stroke="{STROKES.get(layer, "#555")}" stroke-width="{MM * stroke:g}"{dash}>')
@@ -49,8 +58,10 @@ def _step(piece, tolerance):
     curve = pieces.fit(piece, tolerance)
     breaks = np.unique(curve.t)
     third, at, slope = np.diff(breaks)[:, None] / 3, curve(breaks), curve(breaks, 1)
-    return " ".join(f"C{_pair(a)} {_pair(b)} {_pair(c)}" for a, b, c in
-                    zip(at[:-1] + third * slope[:-1], at[1:] - third * slope[1:], at[1:], strict=True))
+    return " ".join(
+        f"C{_pair(a)} {_pair(b)} {_pair(c)}"
+        for a, b, c in zip(at[:-1] + third * slope[:-1], at[1:] - third * slope[1:], at[1:], strict=True)
+    )
 
 
 def _pair(point):

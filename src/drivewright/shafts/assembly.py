@@ -140,8 +140,10 @@ def refuse_mechanism(shaft):
             held.append((0.0, 1.0))
     if np.linalg.matrix_rank(np.array(held).reshape(-1, 2), tol=1e-9) < 2:
         names = ", ".join(repr(support.name) for support in shaft.supports) or "none"
-        raise InputError(f"shaft: its bearings ({names}) leave it free to swing: a mechanism, not a beam. "
-                         "Give it a second bearing at another place, or a tilt_stiffness to the one it has")
+        raise InputError(
+            f"shaft: its bearings ({names}) leave it free to swing: a mechanism, not a beam. "
+            "Give it a second bearing at another place, or a tilt_stiffness to the one it has"
+        )
 
 
 def carries_axially(support, way):
@@ -184,8 +186,10 @@ def refuse_unbalanced(model, force):
     axial, torque = nodes[:, AXIAL].sum(), nodes[:, TWIST].sum()
     way = np.sign(axial)
     if abs(axial) > 1e-9 * np.abs(nodes[:, :3]).sum() and not any(carries_axially(m.support, way) for m in model.mounts):
-        raise InputError(f"shaft: an axial force of {axial:.6g} N, and no bearing that takes a force to the "
-                         f"{'right' if way > 0 else 'left'}; give a bearing an axial_stiffness, or turn a real one round (carries)")
+        raise InputError(
+            f"shaft: an axial force of {axial:.6g} N, and no bearing that takes a force to the "
+            f"{'right' if way > 0 else 'left'}; give a bearing an axial_stiffness, or turn a real one round (carries)"
+        )
     if abs(torque) > 1e-9 * np.abs(nodes[:, TWIST]).sum():
         raise InputError(f"shaft: the torques do not balance: their sum is {torque:.6g} N m; add the torque of the driven or driving end")
 

@@ -32,8 +32,10 @@ def unit_imbalance(found, shaft, positions, direction):
     worst = 0.0
     for column, position in enumerate(positions):
         rows = [_row(position, (*direction, 0.0), (0.0, 0.0, 0.0))]
-        rows += [_row(support.position, -force[:3, column], -force[3:, column])
-                 for support, force in zip(shaft.supports, found.pressed, strict=True)]
+        rows += [
+            _row(support.position, -force[:3, column], -force[3:, column])
+            for support, force in zip(shaft.supports, found.pressed, strict=True)
+        ]
         worst = max(worst, residual(np.array(rows), shaft.length))
     return worst
 

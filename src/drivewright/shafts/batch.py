@@ -12,8 +12,22 @@ CHUNK = 1_000_000  # sections and pairs of points per chunk: a few hundredths of
 PER_DESIGN = ("youngs_modulus", "poisson", "shear")
 
 
-def flexibilities(lengths, diameters, supports, radial_stiffness, stations, youngs_modulus, poisson, shear=COWPER, *, bores=0.0,
-                  end_diameters=None, reactions=False, workers=None, progress=None):
+def flexibilities(
+    lengths,
+    diameters,
+    supports,
+    radial_stiffness,
+    stations,
+    youngs_modulus,
+    poisson,
+    shear=COWPER,
+    *,
+    bores=0.0,
+    end_diameters=None,
+    reactions=False,
+    workers=None,
+    progress=None,
+):
     """(N, M, M) flexibility [m/N] of N shafts at M stations each; with `reactions` also (N, B, M): what each support carries of a
     unit force at each station [N/N].
 
@@ -25,8 +39,17 @@ def flexibilities(lengths, diameters, supports, radial_stiffness, stations, youn
     two places that carry, two rigid supports at one.  The number of `workers` (None: one per core) changes no digit.
     """
     designs, (count, sections, bearings, measured) = _designs(
-        lengths, diameters, diameters if end_diameters is None else end_diameters, bores, supports, radial_stiffness, stations,
-        youngs_modulus, poisson, shear)
+        lengths,
+        diameters,
+        diameters if end_diameters is None else end_diameters,
+        bores,
+        supports,
+        radial_stiffness,
+        stations,
+        youngs_modulus,
+        poisson,
+        shear,
+    )
     delta = np.empty((count, measured, measured))
     carried = np.empty((count if reactions else 0, bearings, measured))
     points = bearings + measured
@@ -55,13 +78,17 @@ def _designs(*arguments):
     for name, table in named.items():
         width = widths.get(wanted.get(name, name), 1)
         if table.shape[1] not in (1, width):
-            raise InputError(f"flexibilities: {name} has {table.shape[1]} entries a design where {wanted[name]} has {width}; "
-                             "give one for each, or a single number.")
+            raise InputError(
+                f"flexibilities: {name} has {table.shape[1]} entries a design where {wanted[name]} has {width}; "
+                "give one for each, or a single number."
+            )
     if len(rows) > 1:
         told = ", ".join(f"{name} {len(table)}" for name, table in named.items() if len(table) > 1)
         raise InputError(f"flexibilities: the arguments disagree in the number of designs ({told}); each must have that many rows, or one.")
-    columns = [Column(table.reshape(-1), *(step if size > 1 else 0 for step, size in zip((table.shape[1], 1), table.shape, strict=True)))
-               for table in tables]
+    columns = [
+        Column(table.reshape(-1), *(step if size > 1 else 0 for step, size in zip((table.shape[1], 1), table.shape, strict=True)))
+        for table in tables
+    ]
     return Designs(*columns), (rows.pop(), *widths.values())
 
 
@@ -73,8 +100,9 @@ def _table(name, value, one_a_design):
         raise InputError(f"flexibilities: {name} must be numbers, one row per design; {error}.") from None
     table = table.reshape(-1, 1) if one_a_design and table.ndim < 2 else np.atleast_2d(table)
     if table.ndim != 2 or not table.shape[1] or (one_a_design and table.shape[1] > 1):
-        raise InputError(f"flexibilities: {name} must have the shape {'(designs,)' if one_a_design else '(designs, entries)'}; "
-                         f"got {np.shape(value)}.")
+        raise InputError(
+            f"flexibilities: {name} must have the shape {'(designs,)' if one_a_design else '(designs, entries)'}; got {np.shape(value)}."
+        )
     for axis in (0, 1):
         if table.size and table.strides[axis] == 0 and table.shape[axis] > 1:
             table = table.take([0], axis)  # broadcast already: one row or entry is all there is

@@ -50,20 +50,25 @@ def beam(shaft, places=()):
     if wrong.any():
         first = int(np.argmax(wrong))
         left, right, diameter = 1e3 * z[first], 1e3 * z[first + 1], 1e3 * pieces[first, 1]
-        raise InputError(f"shaft: from {left:.6g} to {right:.6g} mm, with a diameter of {diameter:.6g} mm, its bending is beyond all "
-                         "numbers; check the units of diameters, bores and Young's modulus")
+        raise InputError(
+            f"shaft: from {left:.6g} to {right:.6g} mm, with a diameter of {diameter:.6g} mm, its bending is beyond all "
+            "numbers; check the units of diameters, bores and Young's modulus"
+        )
     return Beam(shaft, z, pieces, flexibility, slip)
 
 
 def _nodes(shaft, places):
-    bands = [np.linspace(s.position - s.width / 2, s.position + s.width / 2, BAND + 1) for s in shaft.supports
-             if s.width > POINT * shaft.length]
+    bands = [
+        np.linspace(s.position - s.width / 2, s.position + s.width / 2, BAND + 1) for s in shaft.supports if s.width > POINT * shaft.length
+    ]
     wanted = np.concatenate([shaft.ends, [s.position for s in (*shaft.supports, *shaft.stations)], *bands, np.asarray(places, float)])
     near = 1e-9 * shaft.length
     if wanted.min() < -near or wanted.max() > shaft.length + near:
         off = wanted.min() if wanted.min() < -near else wanted.max()
-        raise InputError(f"shaft: a place at {1e3 * off:.6g} mm is off the shaft, which runs from 0 to {1e3 * shaft.length:.6g} mm; "
-                         "move it, or make the shaft longer")
+        raise InputError(
+            f"shaft: a place at {1e3 * off:.6g} mm is off the shaft, which runs from 0 to {1e3 * shaft.length:.6g} mm; "
+            "move it, or make the shaft longer"
+        )
     z = np.unique(np.clip(wanted, 0.0, shaft.length))
     return z[np.concatenate([[True], np.diff(z) > near])]
 
@@ -166,8 +171,9 @@ def beyond(coefficients, length, x):
     """(shear force, moment) that the load between x and the end of the piece exerts at x."""
     a, b, c = np.moveaxis(coefficients, -1, 0)
     shear = a * (length - x) + b * (length**2 - x**2) / 2 + c * (length**3 - x**3) / 3
-    moment = (a * (length - x) ** 2 / 2 + b * (2 * length**3 - 3 * length**2 * x + x**3) / 6
-              + c * (3 * length**4 - 4 * length**3 * x + x**4) / 12)
+    moment = (
+        a * (length - x) ** 2 / 2 + b * (2 * length**3 - 3 * length**2 * x + x**3) / 6 + c * (3 * length**4 - 4 * length**3 * x + x**4) / 12
+    )
     return shear, moment
 
 
@@ -253,5 +259,9 @@ def line(found, plane, unknowns, z, coefficients=None):
     flexibility, _ = clamped(part, found.shaft)
     sag = sagging(part, load, found.shaft)
     first, slope = displacement[FREEDOMS * element + w], sign * displacement[FREEDOMS * element + t]
-    return Line(first + slope * x + flexibility[:, 0, 0] * shear + flexibility[:, 0, 1] * moment + sag[:, 0],
-                slope + flexibility[:, 1, 0] * shear + flexibility[:, 1, 1] * moment + sag[:, 1], shear, moment)
+    return Line(
+        first + slope * x + flexibility[:, 0, 0] * shear + flexibility[:, 0, 1] * moment + sag[:, 0],
+        slope + flexibility[:, 1, 0] * shear + flexibility[:, 1, 1] * moment + sag[:, 1],
+        shear,
+        moment,
+    )

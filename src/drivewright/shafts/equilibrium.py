@@ -55,15 +55,19 @@ def solve(model, force):
         share = _length(model, (v, held), (change, more), load)
         v, held = v + share * change, held + share * more
         if not np.all(np.isfinite(v)):
-            raise InputError("shaft: it, or its bearings, are so soft that the displacements are beyond all numbers; check the units of "
-                             "stiffnesses, diameters and Young's modulus")
+            raise InputError(
+                "shaft: it, or its bearings, are so soft that the displacements are beyond all numbers; check the units of "
+                "stiffnesses, diameters and Young's modulus"
+            )
         if _at_rest(model, v, held, load):
             _refuse_pinned(model, load, held)
             return _equilibrium(model, v, held, step)
         _refuse_runaway(model, v)
-    raise SolverError(f"shaft: no equilibrium after {MAX_STEPS} steps of Newton's method; the last one moved the shaft by "
-                      f"{1e3 * np.abs((model.basis @ change)[: model.beam.size]).max():.3g} mm. Look at clearances, and for loads far "
-                      "beyond the bearings")
+    raise SolverError(
+        f"shaft: no equilibrium after {MAX_STEPS} steps of Newton's method; the last one moved the shaft by "
+        f"{1e3 * np.abs((model.basis @ change)[: model.beam.size]).max():.3g} mm. Look at clearances, and for loads far "
+        "beyond the bearings"
+    )
 
 
 def _refuse_pinned(model, load, multipliers):
@@ -83,8 +87,10 @@ def _refuse_runaway(model, v):
     rings = [mount.rows[AXIAL] @ v for mount in model.mounts if AXIAL in mount.ring_freedoms]
     if max(np.abs(axial).min(), np.abs(rings).max(initial=0)) > 10 * model.beam.shaft.length:
         way = "right" if axial.sum() > 0 else "left"
-        raise InputError(f"shaft: its bearings push it to the {way}, and none of them takes an axial force to the {way}; "
-                         "turn one of two round (carries), give more preload, or give a bearing an axial_stiffness")
+        raise InputError(
+            f"shaft: its bearings push it to the {way}, and none of them takes an axial force to the {way}; "
+            "turn one of two round (carries), give more preload, or give a bearing an axial_stiffness"
+        )
 
 
 def _pull(model, v):
@@ -118,9 +124,11 @@ def saddle(hessian, constraints, compliance, right):
     try:
         return (np.linalg.solve(scale[:, None] * whole * scale, right).T * scale).T
     except np.linalg.LinAlgError:
-        raise SolverError("shaft: shaft and bearings are singular to rounding; a rolling bearing, a table or a spring behind a clearance "
-                          "is so much stiffer than the shaft that the shaft is lost beside it: check the units of diameters and of "
-                          "Young's modulus; a spring above 1e15 N/m does not differ from rigid") from None
+        raise SolverError(
+            "shaft: shaft and bearings are singular to rounding; a rolling bearing, a table or a spring behind a clearance "
+            "is so much stiffer than the shaft that the shaft is lost beside it: check the units of diameters and of "
+            "Young's modulus; a spring above 1e15 N/m does not differ from rigid"
+        ) from None
 
 
 def scales(matrix, size):

@@ -110,6 +110,8 @@ def stiffness(delta, names, limit=1e12):
         if not size**2 > 1e-9 * scale.max() ** 2:
             raise InputError(f"station {name!r} stands on a rigid bearing: its flexibility is 0 and the stiffness matrix does not exist")
     if np.linalg.cond(delta / np.outer(scale, scale)) > limit:
-        raise InputError(f"the flexibility at {', '.join(map(repr, names))} is singular: two stations move together "
-                         "(stand at one place?), so the stiffness matrix does not exist")
+        raise InputError(
+            f"the flexibility at {', '.join(map(repr, names))} is singular: two stations move together "
+            "(stand at one place?), so the stiffness matrix does not exist"
+        )
     return np.linalg.inv(delta)

@@ -197,8 +197,9 @@ def _cut(designs, sections, n, work):
                 f2, g2, r2 = bend * part, 0.5 * part, part * (bend * part * part / 12.0 + slip)
             else:
                 slope = (end - start) / length
-                f2, first, second, slide = softness(part, start + slope * (x - begin), start + slope * (to - begin), bore, modulus,
-                                                    poisson, shear)
+                f2, first, second, slide = softness(
+                    part, start + slope * (x - begin), start + slope * (to - begin), bore, modulus, poisson, shear
+                )
                 g2 = first / f2
                 r2 = second - g2 * first + slide
             g2 += x - work.place[p]

@@ -15,8 +15,9 @@ from drivewright.shafts.influence import FLOOR, HELD
 from drivewright.shafts.model import EULER_BERNOULLI
 from drivewright.shafts.sections import area, second_moment
 
-UNHELD = ("shaft: at rest its bearings do not resist a small motion, so it has no natural frequencies; give a load, a preload or no "
-          "clearance")
+UNHELD = (
+    "shaft: at rest its bearings do not resist a small motion, so it has no natural frequencies; give a load, a preload or no clearance"
+)
 LEAST = 1e-12  # of the greatest 1/w^2: below it is rounding
 ROUND = 1e-9  # of a stiffness: what two planes may differ by
 POINTS = 8  # over an element: its shapes are cubic on a cylinder
@@ -137,7 +138,8 @@ def condensed(stiff, constraints, compliance):
     own = shapes.T @ stiff @ shapes
     least = np.sqrt(compliance[yields] / (1 + compliance[yields] * np.diag(own)))
     return np.hstack([held, shapes * least]), block_diag(
-        held.T @ stiff @ held, least[:, None] * own * least + np.diag(1 / (1 + compliance[yields] * np.diag(own))))
+        held.T @ stiff @ held, least[:, None] * own * least + np.diag(1 / (1 + compliance[yields] * np.diag(own)))
+    )
 
 
 def _null_space(rows):

@@ -16,8 +16,14 @@ from drivewright.solids.loading import failures, load
 
 MM = 1e3
 TOLERANCE = 1e-7  # m: a tenth of a micrometre in position keeps the curvature of a cam flank within a few per cent
-COLOURS = {"steel": (0.62, 0.65, 0.70), "blue": (0.16, 0.38, 0.75), "orange": (0.90, 0.49, 0.13), "green": (0.20, 0.58, 0.30),
-           "violet": (0.50, 0.32, 0.66), "ground": (0.35, 0.35, 0.35)}
+COLOURS = {
+    "steel": (0.62, 0.65, 0.70),
+    "blue": (0.16, 0.38, 0.75),
+    "orange": (0.90, 0.49, 0.13),
+    "green": (0.20, 0.58, 0.30),
+    "violet": (0.50, 0.32, 0.66),
+    "ground": (0.35, 0.35, 0.35),
+}
 
 
 def solid(part, tolerance=TOLERANCE):
@@ -59,8 +65,9 @@ def triangles(part, tolerance=1e-5):
     low, high = (np.array([corner[i] for i in range(3)]) for corner in shape.bounding_box)
     with _kernel(f"part {part.name!r}", "triangulating its surface"):
         _limit_faces(shape, MM * tolerance)
-        mesh = occ.OCCGeometry(shape).GenerateMesh(maxh=float((high - low).max() / 4), curvaturesafety=0.3, grading=0.5,
-                                                   perfstepsend=meshing.MeshingStep.MESHSURFACE)
+        mesh = occ.OCCGeometry(shape).GenerateMesh(
+            maxh=float((high - low).max() / 4), curvaturesafety=0.3, grading=0.5, perfstepsend=meshing.MeshingStep.MESHSURFACE
+        )
         corners = np.array([[vertex.nr - 1 for vertex in element.vertices] for element in mesh.Elements2D()])
     return np.array(mesh.Coordinates()) / MM, corners
 
@@ -105,8 +112,9 @@ def _prism(occ, prism, name, tolerance):
 def _bar(occ, bar, name, tolerance):
     along = np.subtract(bar.end, bar.start)
     if not (np.hypot(*along) > 0 and bar.diameter > 0):
-        raise InputError(f"part {name!r}: a bar of length {MM * np.hypot(*along):g} mm and diameter {MM * bar.diameter:g} mm; "
-                         "both must be positive")
+        raise InputError(
+            f"part {name!r}: a bar of length {MM * np.hypot(*along):g} mm and diameter {MM * bar.diameter:g} mm; both must be positive"
+        )
     with _kernel(f"part {name!r}", "making a bar"):
         foot = occ.Pnt(*(MM * float(c) for c in (*bar.start, bar.z)))
         return occ.Cylinder(foot, occ.Vec(*map(float, along), 0.0), r=MM * bar.diameter / 2, h=MM * float(np.hypot(*along))).solids[0]
@@ -138,8 +146,10 @@ def _grooved(occ, grooved, name, tolerance):
             tool = grooving.tool(occ, MM * np.asarray(walls, float))
             left, chips = body - tool, body * tool
             if len(left.solids) != 1 or abs(left.mass + chips.mass - body.mass) > 1e-4 * body.mass or not chips.mass > 0:
-                raise InputError(f"{label}: the CAD kernel cut {chips.mass:.6g} mm^3 from a blank of {body.mass:.6g} mm^3 and left "
-                                 f"{left.mass:.6g} mm^3 in {len(left.solids)} pieces; look for walls that cross or miss the body")
+                raise InputError(
+                    f"{label}: the CAD kernel cut {chips.mass:.6g} mm^3 from a blank of {body.mass:.6g} mm^3 and left "
+                    f"{left.mass:.6g} mm^3 in {len(left.solids)} pieces; look for walls that cross or miss the body"
+                )
             body = left.solids[0]
         return body.Move(occ.Vec(*(MM * float(c) for c in (*grooved.start, grooved.z)))).solids[0]
 
@@ -153,8 +163,10 @@ def _face(occ, outline, name, tolerance):
         face = occ.Face(occ.Wire(edges))
         wanted = MM**2 * outline_area(outline)
         if abs(face.mass - wanted) > 1e-4 * wanted:
-            raise InputError(f"{name}: the CAD kernel made a face of {face.mass:.6g} mm^2 of an outline of {wanted:.6g} mm^2; "
-                             "look for nearly touching or very short pieces")
+            raise InputError(
+                f"{name}: the CAD kernel made a face of {face.mass:.6g} mm^2 of an outline of {wanted:.6g} mm^2; "
+                "look for nearly touching or very short pieces"
+            )
     return face
 
 
@@ -187,8 +199,10 @@ def _spline_edge(occ, spline, a, b, tolerance, name):
         if miss <= tolerance:
             return edge
         breaks = np.union1d(breaks, (breaks[1:] + breaks[:-1]) / 2)
-    raise InputError(f"{name}: a spline misses its knots by {MM * miss:.3g} mm; give knots on a smooth curve, or a wider tolerance than "
-                     f"{MM * tolerance:.3g} mm")
+    raise InputError(
+        f"{name}: a spline misses its knots by {MM * miss:.3g} mm; give knots on a smooth curve, or a wider tolerance than "
+        f"{MM * tolerance:.3g} mm"
+    )
 
 
 def _distance(edge, at, points, curve):
@@ -216,5 +230,6 @@ def _kernel(name, step):
     try:
         yield
     except failures("a CAD solid") as error:
-        raise InputError(f"{name}: the CAD kernel failed at {step} ({error}); "
-                         "look for kinks, overlaps and tiny pieces, or fuse fewer solids") from error
+        raise InputError(
+            f"{name}: the CAD kernel failed at {step} ({error}); look for kinks, overlaps and tiny pieces, or fuse fewer solids"
+        ) from error

@@ -88,8 +88,10 @@ def _refuse_gaps(outline, name):
         gap = np.hypot(*(of.start(outline.pieces[j]) - of.end(outline.pieces[i])))
         if gap >= SNAP:
             x, y = 1e3 * of.end(outline.pieces[i])
-            raise InputError(f"{name}: a gap of {1e3 * gap:.6g} mm between pieces {i} and {j} of the outline at ({x:.6g}, {y:.6g}) mm; "
-                             f"pieces must meet within {1e3 * SNAP:g} mm")
+            raise InputError(
+                f"{name}: a gap of {1e3 * gap:.6g} mm between pieces {i} and {j} of the outline at ({x:.6g}, {y:.6g}) mm; "
+                f"pieces must meet within {1e3 * SNAP:g} mm"
+            )
 
 
 def _tidy(piece):

@@ -133,7 +133,7 @@ class FreeBody:
         vertices = np.concatenate([self.space.Range(i).start + np.arange(self.mesh.nv) for i in range(3)])
         vertices = vertices[np.array(list(free))[vertices]]
         table = np.array([np.array(mode)[vertices] for mode in self._modes])
-        for number in vertices[qr(table, mode="r", pivoting=True)[1][:len(table)]]:
+        for number in vertices[qr(table, mode="r", pivoting=True)[1][: len(table)]]:
             free.Clear(int(number))
         return free
 
@@ -191,8 +191,10 @@ def _held_motions(springs, loads):
     kept = sizes > LOOSE * sizes[0]
     loose = np.abs(axes[:, ~kept].T @ loads).max(axis=0, initial=0.0)
     if loose.max(initial=0.0) > LOOSE:
-        raise InputError(f"load {int(loose.argmax())} pushes the body where no spring holds it (a share of {loose.max():.3g} of the load "
-                         "acts on a free rigid motion); add a support in that direction")
+        raise InputError(
+            f"load {int(loose.argmax())} pushes the body where no spring holds it (a share of {loose.max():.3g} of the load "
+            "acts on a free rigid motion); add a support in that direction"
+        )
     return axes[:, kept]
 
 

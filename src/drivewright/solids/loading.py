@@ -4,8 +4,9 @@ import importlib
 
 from drivewright.errors import MissingExtra
 
-QUADMATH = ("NGSolve's loader hides the real cause of a missing shared library: most often it is libquadmath; "
-            "try: apt-get install libquadmath0")
+QUADMATH = (
+    "NGSolve's loader hides the real cause of a missing shared library: most often it is libquadmath; try: apt-get install libquadmath0"
+)
 
 
 def load(module, what):

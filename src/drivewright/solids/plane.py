@@ -214,8 +214,12 @@ def _rim(ng, mesh, scalar):
     unknowns = np.array([element.dofs for element in elements])
     stretch = np.hypot(*np.asarray(ng.specialcf.JacobianMatrix(2, 1)(at)).T).reshape(len(elements), -1)
     points = MM * np.asarray(ng.CF((ng.x, ng.y))(at))
-    rim = Rim(np.repeat([element.mat for element in elements], len(node)), points, _outward(ng, mesh, elements, points, at),
-              MM * (stretch * weight).ravel())
+    rim = Rim(
+        np.repeat([element.mat for element in elements], len(node)),
+        points,
+        _outward(ng, mesh, elements, points, at),
+        MM * (stretch * weight).ravel(),
+    )
     values = _shape_values(ng, scalar, unknowns, node, at)
     rows = np.broadcast_to(np.arange(len(rim.name)).reshape(len(elements), -1, 1), values.shape)
     columns = np.broadcast_to(unknowns[:, None, :], values.shape)
@@ -253,7 +257,9 @@ def _counter_clockwise(points, triangles):
 
 def _check_material(thickness, modulus, poisson, order):
     if not (thickness > 0 and modulus > 0 and -1 < poisson <= 0.5):
-        raise InputError(f"a plate of thickness {thickness:g} m, modulus {modulus:g} Pa and Poisson's ratio {poisson:g}; the first two "
-                         "must be above 0, the last between -1 and 0.5")
+        raise InputError(
+            f"a plate of thickness {thickness:g} m, modulus {modulus:g} Pa and Poisson's ratio {poisson:g}; the first two "
+            "must be above 0, the last between -1 and 0.5"
+        )
     if order not in range(2, 10):
         raise InputError(f"elements of order {order}; choose one from 2 to 9")

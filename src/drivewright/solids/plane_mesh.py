@@ -66,8 +66,10 @@ def _check_lengths(ng, mesh, named, name):
         wanted = pieces.length(piece)
         found = MM * ng.Integrate(ng.CF(1) * ng.ds(place), mesh)
         if abs(found - wanted) > 2e-3 * wanted + chain.SNAP:
-            raise SolverError(f"{name}: the mesh gives boundary {place!r} {1e3 * found:.5g} mm instead of {1e3 * wanted:.5g} mm; look for "
-                              "holes that cross the outline, or try a smaller size")
+            raise SolverError(
+                f"{name}: the mesh gives boundary {place!r} {1e3 * found:.5g} mm instead of {1e3 * wanted:.5g} mm; look for "
+                "holes that cross the outline, or try a smaller size"
+            )
 
 
 @contextmanager
@@ -76,5 +78,6 @@ def _kernel(name):
     try:
         yield
     except failures(WHAT) as error:
-        raise SolverError(f"{name}: the mesher gave up ({error}); look for very short pieces, kinks and thin walls, or try another "
-                          "size") from error
+        raise SolverError(
+            f"{name}: the mesher gave up ({error}); look for very short pieces, kinks and thin walls, or try another size"
+        ) from error

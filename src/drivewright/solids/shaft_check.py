@@ -115,9 +115,13 @@ def surface_table(solid, station, force=1.0, name="solid_surface", title="Deform
     rows = solid.triangles.ravel()
     told = f"displacement, drawn {f'{factor:,.0f}'.replace(',', ' ') if factor >= 1 else f'{factor:.2g}'} times as large"
     columns = (
-        ("z", "position along the shaft", drawn[:, 2]), ("y", "height", drawn[:, 1]),
-        ("x", "depth", drawn[:, 0]), ("displacement", told, size),
-        ("rest_z", "position along the unloaded shaft", solid.points[:, 2]), ("rest_y", "height of the unloaded shaft", solid.points[:, 1]))
+        ("z", "position along the shaft", drawn[:, 2]),
+        ("y", "height", drawn[:, 1]),
+        ("x", "depth", drawn[:, 0]),
+        ("displacement", told, size),
+        ("rest_z", "position along the unloaded shaft", solid.points[:, 2]),
+        ("rest_y", "height of the unloaded shaft", solid.points[:, 1]),
+    )
     return Table(name, title, tuple(Column(key, "m", meaning, data[rows]) for key, meaning, data in columns))
 
 
@@ -135,11 +139,15 @@ def _refuse(sections, modulus, poisson, bands, stations, max_size):
     for number, band in enumerate(bands):
         low, high = band.position - band.width / 2, band.position + band.width / 2
         if not (band.width > 0 and band.stiffness > 0 and np.isfinite(band.position)):
-            raise InputError(f"solid check: band {number} at {MM * band.position:g} mm has width {MM * band.width:g} mm and stiffness "
-                             f"{band.stiffness:g} N/m; both must be positive")
+            raise InputError(
+                f"solid check: band {number} at {MM * band.position:g} mm has width {MM * band.width:g} mm and stiffness "
+                f"{band.stiffness:g} N/m; both must be positive"
+            )
         if low < -SAME or high > length + SAME:
-            raise InputError(f"solid check: band {number} reaches from {MM * low:g} to {MM * high:g} mm, beyond the shaft of 0 ... "
-                             f"{MM * length:g} mm; make it narrower or move it")
+            raise InputError(
+                f"solid check: band {number} reaches from {MM * low:g} to {MM * high:g} mm, beyond the shaft of 0 ... "
+                f"{MM * length:g} mm; make it narrower or move it"
+            )
     ordered = sorted(bands)
     for left, right in zip(ordered[:-1], ordered[1:], strict=True):
         if left.position + left.width / 2 > right.position - right.width / 2 + SAME:
@@ -214,7 +222,7 @@ def _name(face, pieces):
 
 def _cut_area(pieces, number):
     """Area [mm^2] of a quarter of the cross-section that the pieces on both sides of a cut share."""
-    before, behind = pieces[max(number - 1, 0):number], pieces[number:number + 1]
+    before, behind = pieces[max(number - 1, 0) : number], pieces[number : number + 1]
     beside = [(piece.end, piece.bore) for piece in before] + [(piece.start, piece.bore) for piece in behind]
     outer, bore = min(d for d, _ in beside), max(b for _, b in beside)
     return MM**2 * np.pi / 4 * (outer**2 - bore**2) / QUARTERS
@@ -232,8 +240,9 @@ def _check_areas(body, pieces):
     wanted |= {f"skin{n}": _skin_area(piece) for n, piece in enumerate(pieces)}
     for name, area in wanted.items():
         if abs(body.area(name) / area - 1) > 0.01:
-            raise SolverError(f"solid check: the mesh gives face {name!r} {body.area(name):.5g} mm^2 instead of {area:.5g} mm^2; "
-                              "try a smaller max_size")
+            raise SolverError(
+                f"solid check: the mesh gives face {name!r} {body.area(name):.5g} mm^2 instead of {area:.5g} mm^2; try a smaller max_size"
+            )
 
 
 def _whole(points, triangles, fields):
@@ -253,8 +262,10 @@ def _meshing(max_size):
     try:
         yield
     except failures("a solid check") as error:
-        raise SolverError(f"solid check: the mesher gave up ({error}); try another max_size than {MM * max_size:g} mm, or move stations, "
-                          "steps and the edges of bearings that lie close together further apart") from error
+        raise SolverError(
+            f"solid check: the mesher gave up ({error}); try another max_size than {MM * max_size:g} mm, or move stations, "
+            "steps and the edges of bearings that lie close together further apart"
+        ) from error
 
 
 def _round_factor(factor):

@@ -15,12 +15,16 @@ def checked(rings, name):
     rings = np.array([tuple(ring) for ring in rings], float)
     for number, (length, start, end, bore) in enumerate(rings):
         if not (np.isfinite(rings[number]).all() and length > 0 and min(start, end) > bore >= 0):
-            raise InputError(f"{name}: ring {number} has length {1e3 * length:g} mm, diameters {1e3 * start:g} and {1e3 * end:g} mm, bore "
-                             f"{1e3 * bore:g} mm; it wants a positive length and both diameters larger than a bore of 0 or more")
+            raise InputError(
+                f"{name}: ring {number} has length {1e3 * length:g} mm, diameters {1e3 * start:g} and {1e3 * end:g} mm, bore "
+                f"{1e3 * bore:g} mm; it wants a positive length and both diameters larger than a bore of 0 or more"
+            )
     for number, ((*_, end, bore), (_, start, _, next_bore)) in enumerate(zip(rings[:-1], rings[1:], strict=True)):
         if max(bore, next_bore) >= min(end, start):
-            raise InputError(f"{name}: rings {number} and {number + 1} do not touch: a bore of {1e3 * max(bore, next_bore):g} mm meets a "
-                             f"diameter of {1e3 * min(end, start):g} mm; make the bore smaller")
+            raise InputError(
+                f"{name}: rings {number} and {number + 1} do not touch: a bore of {1e3 * max(bore, next_bore):g} mm meets a "
+                f"diameter of {1e3 * min(end, start):g} mm; make the bore smaller"
+            )
     return rings
 
 

@@ -27,10 +27,14 @@ def template(kind, preset=None):
     mechanism, path = registry.mechanism(kind), preset_path(kind, preset)
     given = read_document(path) if path else {"mechanism": kind, **skeleton(mechanism.spec)}
     source = f' (preset "{path.stem}")' if path else ""
-    intro = [f"# {mechanism.summary[:1].upper()}{mechanism.summary[1:]}{source}.", "#",
-             '# Every key is here.  "#key = value" is left at its default, or out: take the # away to change it.',
-             '# A quantity is text with a unit, e.g. "9.5 mm", "2000 rpm", "3e7 N/m".  [...] says what is allowed,',
-             '# and "default" where the value shown is the one taken when the key is left out.', ""]
+    intro = [
+        f"# {mechanism.summary[:1].upper()}{mechanism.summary[1:]}{source}.",
+        "#",
+        '# Every key is here.  "#key = value" is left at its default, or out: take the # away to change it.',
+        '# A quantity is text with a unit, e.g. "9.5 mm", "2000 rpm", "3e7 N/m".  [...] says what is allowed,',
+        '# and "default" where the value shown is the one taken when the key is left out.',
+        "",
+    ]
     return "\n".join(intro + _lines(mechanism.spec, given, samples=shared_samples(mechanism, given))) + "\n"
 
 
@@ -45,8 +49,11 @@ def preset_path(kind, preset=None):
 
 def schema(kind):
     """JSON schema of a kind's spec files, for editors and forms."""
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema",
-            **registry.mechanism(kind).spec.model_json_schema(schema_generator=_Schema), "title": f"Drivewright {kind}"}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        **registry.mechanism(kind).spec.model_json_schema(schema_generator=_Schema),
+        "title": f"Drivewright {kind}",
+    }
 
 
 class _Schema(GenerateJsonSchema):
@@ -199,14 +206,21 @@ def _length(annotation):
 def shared_samples(mechanism, given):
     """[optimise] and [study] tables that fit the kind: its first quantity as what changes, a headline value as the objective."""
     keys = [(f"{table}.{key}", value) for table, keys in given.items() if isinstance(keys, dict) for key, value in keys.items()]
-    quantities = [(key, value) for key, value in keys
-                  if isinstance(value, str) and (field := field_at(mechanism.spec, key.split("."))) and dimension_of(field)]
+    quantities = [
+        (key, value)
+        for key, value in keys
+        if isinstance(value, str) and (field := field_at(mechanism.spec, key.split("."))) and dimension_of(field)
+    ]
     if not quantities or not mechanism.headline:
         return {}
     key, value = quantities[0]
     number, unit = split(value)
     lower, upper = (f"{float(number) * share:.4g} {unit}" for share in (0.9, 1.1))
     required = {"value": mechanism.headline[-1], "at_least": 1.0, "at_most": 2.0}
-    search = {"settings": [{"key": key, "value": value}], "unknowns": [{"key": key, "lower": lower, "upper": upper}],
-              "objectives": [{"value": mechanism.headline[0]}], "requirements": [required]}
+    search = {
+        "settings": [{"key": key, "value": value}],
+        "unknowns": [{"key": key, "lower": lower, "upper": upper}],
+        "objectives": [{"value": mechanism.headline[0]}],
+        "requirements": [required],
+    }
     return {"optimise": search, "study": {"vary": [{"key": key, "lower": lower, "upper": upper, "steps": 5}]}}

@@ -4,11 +4,24 @@ from drivewright.errors import SpecError, brief, nearest
 from drivewright.spec.fields import choices_of, dimension_of, field_at, levels, table_at
 from drivewright.spec.writing import toml_key, toml_value
 
-COMPARISONS = {"greater_than": ("gt", "greater than"), "greater_than_equal": ("ge", "at least"), "less_than": ("lt", "less than"),
-               "less_than_equal": ("le", "at most")}
-WANTED = {"string_type": "a text in quotes", "float_type": "a number", "int_type": "a whole number", "bool_type": "true or false",
-          "tuple_type": "a list [...]", "finite_number": "a finite number", "model_type": "a table",
-          "model_attributes_type": "a table", "dict_type": "a table", "string_unicode": "a text of valid characters"}
+COMPARISONS = {
+    "greater_than": ("gt", "greater than"),
+    "greater_than_equal": ("ge", "at least"),
+    "less_than": ("lt", "less than"),
+    "less_than_equal": ("le", "at most"),
+}
+WANTED = {
+    "string_type": "a text in quotes",
+    "float_type": "a number",
+    "int_type": "a whole number",
+    "bool_type": "true or false",
+    "tuple_type": "a list [...]",
+    "finite_number": "a finite number",
+    "model_type": "a table",
+    "model_attributes_type": "a table",
+    "dict_type": "a table",
+    "string_unicode": "a text of valid characters",
+}
 SHOWN = 6  # complaints in one message
 
 
@@ -98,5 +111,14 @@ def _other(item, field, model, place):
     return f"{message}, got {'a table' if isinstance(item['input'], dict) else brief(item['input'])}"
 
 
-SPECIAL = {"extra_forbidden": _unknown, "missing": _missing, "literal_error": _chosen, "value_error": _own, "too_short": _counted,
-           "too_long": _counted, "string_too_short": _counted, "string_too_long": _counted, **dict.fromkeys(COMPARISONS, _compared)}
+SPECIAL = {
+    "extra_forbidden": _unknown,
+    "missing": _missing,
+    "literal_error": _chosen,
+    "value_error": _own,
+    "too_short": _counted,
+    "too_long": _counted,
+    "string_too_short": _counted,
+    "string_too_long": _counted,
+    **dict.fromkeys(COMPARISONS, _compared),
+}

@@ -42,10 +42,12 @@ class Optimise(Spec):
     """What may change, what is required, what is wanted."""
 
     method: Literal["auto", "differential-evolution", "nsga2"] = Field(
-        "auto", description="auto takes differential evolution for one objective and NSGA-II for several")
+        "auto", description="auto takes differential evolution for one objective and NSGA-II for several"
+    )
     seed: Integer = Field(1, ge=0, le=2**31 - 1, description="seed of the random numbers; same seed, same answer")
     population: Integer | None = Field(
-        None, ge=8, le=10_000, examples=[60], description="designs per generation; 8 per unknown (at least 16) unless given")
+        None, ge=8, le=10_000, examples=[60], description="designs per generation; 8 per unknown (at least 16) unless given"
+    )
     generations: Integer = Field(400, ge=1, le=100_000, description="generations at most")
     settings: tuple[Setting, ...] = Field((), description="keys set differently for the search")
     unknowns: tuple[Unknown, ...] = Field(min_length=1, description="what may change")

@@ -21,7 +21,8 @@ class Vary(Spec):
     steps: Integer | None = Field(None, ge=1, le=100_000_000, description="number of levels from lower to upper")
     spacing: Literal["linear", "logarithmic"] = Field("linear", description="of the levels")
     distribution: Literal["normal", "uniform", "triangular"] | None = Field(
-        None, description="normal where sigma or tolerance is given, else uniform from lower to upper, unless said")
+        None, description="normal where sigma or tolerance is given, else uniform from lower to upper, unless said"
+    )
     mean: Bound | None = Field(None, description="of a normal distribution; the spec's own value unless given")
     sigma: Bound | None = Field(None, description="standard deviation of a normal distribution; a third of the tolerance unless given")
     mode: Bound | None = Field(None, description="peak of a triangular distribution; the spec's own value unless given")
@@ -34,7 +35,8 @@ class Study(Spec):
     method: METHODS = Field(
         "latin-hypercube",
         description="how random keys are sampled; corners: all ends; one-at-a-time: each a step up and down; tolerance: these three and a "
-                    "sample; sobol-indices: a sample for the variance that each key causes")
+        "sample; sobol-indices: a sample for the variance that each key causes",
+    )
     samples: Integer = Field(1000, ge=1, le=100_000_000, description="size of the random sample")
     seed: Integer = Field(1, ge=0, le=2**31 - 1, description="seed of the random numbers; same seed, same cases")
     analyses: tuple[Text, ...] = Field((), description="analyses to run; the default ones unless given")

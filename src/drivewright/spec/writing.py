@@ -18,8 +18,11 @@ def document(spec, places=None):
     `places` gives a data file another path than its own.
     """
     fields = [(name, field, getattr(spec, name)) for name, field in type(spec).model_fields.items()]
-    return {name: raw(value, dimension_of(field), places) for name, field, value in fields
-            if value is not None and not (value in ((), {}) and not field.default)}
+    return {
+        name: raw(value, dimension_of(field), places)
+        for name, field, value in fields
+        if value is not None and not (value in ((), {}) and not field.default)
+    }
 
 
 def raw(value, dimension=None, places=None):

@@ -153,5 +153,7 @@ def _buried(lane, death, waiting, supply):
 
 def _refuse_loss(lanes):
     for trouble in filter(None, (lane.trouble() for lane in lanes)):
-        raise InputError(f"{trouble}; every case that was finished before is kept. Start it again and give the same command, or go on "
-                         "without it (leave --on out)")
+        raise InputError(
+            f"{trouble}; every case that was finished before is kept. Start it again and give the same command, or go on "
+            "without it (leave --on out)"
+        )

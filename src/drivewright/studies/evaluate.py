@@ -221,8 +221,12 @@ class Working:
         stated = {name: value for answer in answers for name, value in answer.values.items()}
         values = looked_at(stated, [check for answer in answers for check in answer.checks])
         if self.task.names:
-            values = {name: values[name] for asked in self.task.names for name in (asked, *(f"{asked}{end}" for end in TOLD))
-                      if name in values and (name == asked or values[name].bounds == asked)}
+            values = {
+                name: values[name]
+                for asked in self.task.names
+                for name in (asked, *(f"{asked}{end}" for end in TOLD))
+                if name in values and (name == asked or values[name].bounds == asked)
+            }
         partial = any(answer.outcome == "partial" for answer in answers)
         status = "complete" if not partial else "partial" if values else "failed"
         return Found(values, status, _short("; ".join(runner.reasons(asked))))

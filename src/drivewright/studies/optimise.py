@@ -94,14 +94,22 @@ class Optimised:
     def objective_rows(self):
         """(value, reached, direction) as text."""
         reached = looked_at(self.best.values, self.best.checks)
-        return [(name, _with_interval(reached, name) if name in reached else "does not exist",
-                 "as small as possible" if sign > 0 else "as large as possible") for name, sign in self.problem.objectives]
+        return [
+            (
+                name,
+                _with_interval(reached, name) if name in reached else "does not exist",
+                "as small as possible" if sign > 0 else "as large as possible",
+            )
+            for name, sign in self.problem.objectives
+        ]
 
     def unknown_rows(self):
         """(key, best, lower, upper) as text."""
         keys, kinds = self.problem.keys, self.problem.kinds
-        return [(key, *(_shown(x, kind.unit, 5) for x in (best, low, high)))
-                for key, kind, best, (low, high) in zip(keys, kinds, self.front[0], self.problem.bounds, strict=True)]
+        return [
+            (key, *(_shown(x, kind.unit, 5) for x in (best, low, high)))
+            for key, kind, best, (low, high) in zip(keys, kinds, self.front[0], self.problem.bounds, strict=True)
+        ]
 
 
 def optimise(spec, *, out=None, workers=None, on=None, progress=None):
@@ -143,8 +151,10 @@ def _place(out, spec, method):
     if out is None:
         return store.Memory()
     if (Path(out) / HISTORY).is_file() and not store.is_study(out):
-        raise InputError(f"{out}: holds the outcome of a search ({HISTORY}) by an older version, which cannot be gone on with; nothing was "
-                         "written. Remove the folder, or give another --out")
+        raise InputError(
+            f"{out}: holds the outcome of a search ({HISTORY}) by an older version, which cannot be gone on with; nothing was "
+            "written. Remove the folder, or give another --out"
+        )
     return store.Folder(out, spec, {"spec": spec.digest(), "search": method, "drivewright": versions()["drivewright"]})
 
 
@@ -162,15 +172,29 @@ def _outcome(problem, table):
     feasible = bool(problem.total_violation(front_values)[0] <= 0)
     reached = looked_at(best.values, best.checks)
     requirements = tuple(
-        Check(name, reached[name].value if name in reached else float("nan"), limit, sense, problem.about[name][0], "requirement",
-              **_bounds(reached, name))
+        Check(
+            name,
+            reached[name].value if name in reached else float("nan"),
+            limit,
+            sense,
+            problem.about[name][0],
+            "requirement",
+            **_bounds(reached, name),
+        )
         for name, sense, limit in problem.limits
     )
     findings = [] if feasible else [_blame(problem, front_values, values)]
     findings += _differing(front_values, reached)
     findings += _on_bounds(problem, front[0]) if len(problem.objectives) == 1 else []
-    return {"best": best, "front": front, "front_values": front_values, "requirements": requirements, "feasible": feasible, "table": table,
-            "findings": tuple(findings)}
+    return {
+        "best": best,
+        "front": front,
+        "front_values": front_values,
+        "requirements": requirements,
+        "feasible": feasible,
+        "table": table,
+        "findings": tuple(findings),
+    }
 
 
 def _front(problem, values):
@@ -192,8 +216,10 @@ def _nothing(problem, table, x):
     reason = reasons.most_common(1)[0][0]
     if reason == SILENT:
         reason = next(iter(_why_silent(problem.design(x))), reason)
-    return (f"no feasible design after {table.num_rows} evaluations: none of them could be computed; the commonest reason: {reason}. Move "
-            "the bounds of the unknowns to where the drive works")
+    return (
+        f"no feasible design after {table.num_rows} evaluations: none of them could be computed; the commonest reason: {reason}. Move "
+        "the bounds of the unknowns to where the drive works"
+    )
 
 
 def _why_silent(spec):

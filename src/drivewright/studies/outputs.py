@@ -32,8 +32,11 @@ def looked_at(values, checks):
     found = {}
     for name, output, bounds in outputs:
         found[name] = output
-        found |= {f"{name}{end}": Output(number, output.unit, f"{output.meaning}, {TOLD[end]}", name)
-                  for end, number in bounds.items() if f"{name}{end}" not in stated}
+        found |= {
+            f"{name}{end}": Output(number, output.unit, f"{output.meaning}, {TOLD[end]}", name)
+            for end, number in bounds.items()
+            if f"{name}{end}" not in stated
+        }
     return found
 
 

@@ -112,8 +112,16 @@ def _refuse_many(study):
     """SpecError for more cases than can be held, before any of them is made."""
     levels = [vary.steps or len(vary.values) for vary in study.vary if vary.steps or vary.values]
     d = len(study.vary) - len(levels)
-    rows = {"corners": 2**d, "one-at-a-time": 1 + 2 * d, "sobol-indices": (d + 2) * study.samples,
-            "tolerance": 1 + 2 * d + 2**FEW_CORNERS + study.samples}.get(study.method, study.samples) if d else 1
+    rows = (
+        {
+            "corners": 2**d,
+            "one-at-a-time": 1 + 2 * d,
+            "sobol-indices": (d + 2) * study.samples,
+            "tolerance": 1 + 2 * d + 2**FEW_CORNERS + study.samples,
+        }.get(study.method, study.samples)
+        if d
+        else 1
+    )
     count = math.prod(levels) * rows
     if count > LARGEST or rows * d > LARGEST:
         raise SpecError(f"{count:.3g} cases are more than {LARGEST:.0g}; take fewer levels or samples", "study.vary")
@@ -181,8 +189,9 @@ def _independent(study, random):
 
 def _corners(study, random):
     if len(random) > MOST_CORNERS:
-        raise SpecError(f"{len(random)} keys have {2.0 ** len(random):.2g} corners; {MOST_CORNERS} keys at most, or take one-at-a-time",
-                        "study.method")
+        raise SpecError(
+            f"{len(random)} keys have {2.0 ** len(random):.2g} corners; {MOST_CORNERS} keys at most, or take one-at-a-time", "study.method"
+        )
     return [("corners", np.array(list(product(*(each.ends for each in random)))))]
 
 
@@ -211,5 +220,12 @@ def _saltelli(study, random):
     return [("a", a), ("b", b), ("mixed", mixed.reshape(-1, d))]
 
 
-METHODS = {"latin-hypercube": _latin, "sobol": _sobol, "random": _independent, "corners": _corners, "one-at-a-time": _steps,
-           "tolerance": _tolerance, "sobol-indices": _saltelli}
+METHODS = {
+    "latin-hypercube": _latin,
+    "sobol": _sobol,
+    "random": _independent,
+    "corners": _corners,
+    "one-at-a-time": _steps,
+    "tolerance": _tolerance,
+    "sobol-indices": _saltelli,
+}

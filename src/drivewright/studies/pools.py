@@ -114,8 +114,10 @@ class Process:
     def revive(self):
         """A new process in place of the dead one; InputError where that one never came to work."""
         if not self._warmed.done() or self._warmed.exception() is not None:
-            raise InputError("a worker process does not start (its own message stands above, if it had one); mend that, or compute in this "
-                             "process with --on serial. Every case that was finished before is kept")
+            raise InputError(
+                "a worker process does not start (its own message stands above, if it had one); mend that, or compute in this "
+                "process with --on serial. Every case that was finished before is kept"
+            )
         self.close()
         self._start()
 
@@ -235,8 +237,13 @@ def _local_cluster(on):
     with ExitStack() as stack:
         stack.enter_context(as_a_worker())  # to the end: the cluster starts a worker again when it dies
         stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": 2}))
-        cluster = distributed.LocalCluster(n_workers=int(on.removeprefix("local:")), threads_per_worker=1, processes=True,
-                                           dashboard_address=":0", silence_logs=logging.CRITICAL)
+        cluster = distributed.LocalCluster(
+            n_workers=int(on.removeprefix("local:")),
+            threads_per_worker=1,
+            processes=True,
+            dashboard_address=":0",
+            silence_logs=logging.CRITICAL,
+        )
         stack.callback(cluster.close, timeout=10)
         return Cluster(on, distributed.Client(cluster), stack.pop_all())
 
@@ -248,8 +255,10 @@ def _remote(on):
         client = distributed.Client(on, timeout=PATIENCE)
     except (OSError, ValueError, TypeError, ImportError, RuntimeError, TimeoutError) as error:
         reason = str(error).partition("\n")[0] or type(error).__name__
-        raise InputError(f"--on {on}: no Dask scheduler answers there ({reason}); start one with `dask scheduler`, and workers with "
-                         "`dask worker HOST:PORT --nthreads 1`") from None
+        raise InputError(
+            f"--on {on}: no Dask scheduler answers there ({reason}); start one with `dask scheduler`, and workers with "
+            "`dask worker HOST:PORT --nthreads 1`"
+        ) from None
     threads = [worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values()]
     if not threads or max(threads) > 1:
         client.close()

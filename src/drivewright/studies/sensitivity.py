@@ -46,8 +46,9 @@ def linear(nominal, steps, sigmas, deviations, noise=0.0):
     total = contribution.sum()
     reach = np.sort(slope[:, None] * deviations, axis=1)
     share = contribution / total if total > 0 else np.full_like(contribution, np.nan)
-    return Linear(slope, contribution, share, up + down - 2 * nominal, float(np.sqrt(total)),
-                  *(float(nominal + side.sum()) for side in reach.T))
+    return Linear(
+        slope, contribution, share, up + down - 2 * nominal, float(np.sqrt(total)), *(float(nominal + side.sum()) for side in reach.T)
+    )
 
 
 # -- any random sample ---------------------------------------------------------------------------------------------------------

@@ -51,8 +51,16 @@ def summary(sample):
         none = Sampled(np.nan)
         return Summary(0, absent, none, none, np.nan, np.nan, np.nan, (none,) * len(PERCENTS))
     mean, sigma, skewness = moments(ordered)
-    return Summary(len(ordered), absent, _mean(mean, sigma, len(ordered)), _sigma(sigma, len(ordered)), skewness,
-                   float(ordered[0]), float(ordered[-1]), percentiles(ordered))
+    return Summary(
+        len(ordered),
+        absent,
+        _mean(mean, sigma, len(ordered)),
+        _sigma(sigma, len(ordered)),
+        skewness,
+        float(ordered[0]),
+        float(ordered[-1]),
+        percentiles(ordered),
+    )
 
 
 def finite(sample):
@@ -109,8 +117,10 @@ def percentiles(ordered):
     Where the sample is too small to reach beyond it on a side, there is no bound on that side (nan).
     """
     n, between = len(ordered), np.percentile(ordered, PERCENTS)
-    return tuple(Sampled(float(value), float(ordered[low - 1]) if low else np.nan, float(ordered[high - 1]) if high <= n else np.nan)
-                 for value, (low, high) in zip(between, _ranks(n), strict=True))
+    return tuple(
+        Sampled(float(value), float(ordered[low - 1]) if low else np.nan, float(ordered[high - 1]) if high <= n else np.nan)
+        for value, (low, high) in zip(between, _ranks(n), strict=True)
+    )
 
 
 @lru_cache(maxsize=256)

@@ -143,8 +143,11 @@ class Folder:
             yield
         except (OSError, sqlite3.Error) as error:
             reason = getattr(error, "strerror", None) or error
-            remedy = ("Make room or mend the disk, and give the same command again" if type(error) is not sqlite3.DatabaseError
-                      else f"Its {LEDGER} is damaged: the parts are whole, but the study cannot go on from them; give another --out")
+            remedy = (
+                "Make room or mend the disk, and give the same command again"
+                if type(error) is not sqlite3.DatabaseError
+                else f"Its {LEDGER} is damaged: the parts are whole, but the study cannot go on from them; give another --out"
+            )
             raise InputError(f"{self.folder}: cannot be written: {reason}; every case that was finished before is safe. {remedy}") from None
 
 

@@ -20,8 +20,11 @@ def first_fields():
     """The pyarrow fields that every study's table begins with."""
     import pyarrow as pa
 
-    rows = ((CASE, pa.int64(), "-", "number of the case"), (STATUS, pa.string(), "", "complete, partial or failed"),
-            (MESSAGE, pa.string(), "", "why it is not complete, or what was left out"))
+    rows = (
+        (CASE, pa.int64(), "-", "number of the case"),
+        (STATUS, pa.string(), "", "complete, partial or failed"),
+        (MESSAGE, pa.string(), "", "why it is not complete, or what was left out"),
+    )
     return [pa.field(name, kind, metadata={"unit": unit, "meaning": meaning}) for name, kind, unit, meaning in rows]
 
 

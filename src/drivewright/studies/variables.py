@@ -213,8 +213,11 @@ def _levels(kind, vary, place):
     if kind.name == "integer":
         found = np.where(np.abs(found - np.round(found)) <= 1e-12 * np.abs(found), np.round(found), found)  # equal ratios round
     if kind.name == "integer" and np.any(found != np.round(found)):
-        raise SpecError(f"{vary.key} takes whole numbers, but {vary.steps} steps from {low} to {high} give "
-                        f"{', '.join(f'{x:g}' for x in found[:4])} ...; choose steps = {abs(high - low) + 1}, or give values", place)
+        raise SpecError(
+            f"{vary.key} takes whole numbers, but {vary.steps} steps from {low} to {high} give "
+            f"{', '.join(f'{x:g}' for x in found[:4])} ...; choose steps = {abs(high - low) + 1}, or give values",
+            place,
+        )
     return found.astype(np.int64) if kind.name == "integer" else found
 
 
@@ -267,8 +270,7 @@ def _normal(said, nominal, key, place):
     for side, beyond in (("lower", -1), ("upper", 1)):
         if said[side] is not None and beyond * (middle - said[side]) > 0:
             raise SpecError("the mean is beyond it; choose ends on both sides of the mean", f"{place}.{side}")
-    low, high = ((end - middle) / sigma if end is not None else side * np.inf
-                 for end, side in ((said["lower"], -1), (said["upper"], 1)))
+    low, high = ((end - middle) / sigma if end is not None else side * np.inf for end, side in ((said["lower"], -1), (said["upper"], 1)))
     if np.isinf(low) and np.isinf(high):
         return stats.norm(middle, sigma)
     return stats.truncnorm(low, high, middle, sigma)

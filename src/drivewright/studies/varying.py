@@ -9,8 +9,10 @@ from drivewright.spec import Study, Vary, document, read_value
 
 FORMS = {"normal": ("mean", "sigma", "lower", "upper"), "uniform": ("lower", "upper"), "triangular": ("lower", "mode", "upper")}
 LEAST = {"normal": 2, "uniform": 2, "triangular": 3}
-HOW = ("KEY=FROM:TO:STEPS (add :log for equal ratios), KEY=V1,V2,... , KEY=FROM:TO or KEY=uniform(FROM, TO), KEY=normal(MEAN, SIGMA), "
-       "KEY=triangular(FROM, PEAK, TO), KEY=+-TOLERANCE")
+HOW = (
+    "KEY=FROM:TO:STEPS (add :log for equal ratios), KEY=V1,V2,... , KEY=FROM:TO or KEY=uniform(FROM, TO), KEY=normal(MEAN, SIGMA), "
+    "KEY=triangular(FROM, PEAK, TO), KEY=+-TOLERANCE"
+)
 
 
 def linspace(lower, upper, steps):
@@ -74,8 +76,10 @@ def asked(spec, texts=(), points=None, **settings):
     changed = varied(spec, vary, **given) if vary or given else spec
     for name, option in (("samples", "--sample"), ("method", "--method"), ("seed", "--seed")):
         if settings.get(name) is not None and not any(each.steps is None and not each.values for each in changed.study.vary):
-            raise SpecError(f"{option} {settings[name]}: nothing has a distribution to sample from; give --vary KEY=FROM:TO or "
-                            "KEY=normal(MEAN, SIGMA) or KEY=+-TOLERANCE")
+            raise SpecError(
+                f"{option} {settings[name]}: nothing has a distribution to sample from; give --vary KEY=FROM:TO or "
+                "KEY=normal(MEAN, SIGMA) or KEY=+-TOLERANCE"
+            )
     return changed
 
 

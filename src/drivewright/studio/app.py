@@ -44,8 +44,13 @@ def serve(start, name="", host="127.0.0.1", port=None, token="", browser=True, s
     number, name_of_host = listening.getsockname()[1], socket.gethostname() if host in EVERY else f"[{host}]" if ":" in host else host
     address = f"http://{name_of_host}:{number}/{f'?token={token}' if token else ''}"
     app = application(start, name, lambda: _ready(address, browser, say))
-    config = uvicorn.Config(Gate(app, token, number), log_level="warning", ws_max_size=4_000_000, timeout_graceful_shutdown=1,
-                            ws_per_message_deflate=bool(token))  # to this machine itself folding costs more time than it saves
+    config = uvicorn.Config(
+        Gate(app, token, number),
+        log_level="warning",
+        ws_max_size=4_000_000,
+        timeout_graceful_shutdown=1,
+        ws_per_message_deflate=bool(token),
+    )  # to this machine itself folding costs more time than it saves
     with suppress(KeyboardInterrupt):
         uvicorn.Server(config).run(sockets=[listening])
 
@@ -115,8 +120,14 @@ def application(start, name="", ready=lambda: None):
         _page(workshops[-1], start, name)
 
     core.sio.eio.max_http_buffer_size = 4_000_000
-    ui.run_with(app, title="Drivewright studio", favicon=HERE / "web" / "mark.svg", tailwind=False, show_welcome_message=False,
-                reconnect_timeout=AWAY)
+    ui.run_with(
+        app,
+        title="Drivewright studio",
+        favicon=HERE / "web" / "mark.svg",
+        tailwind=False,
+        show_welcome_message=False,
+        reconnect_timeout=AWAY,
+    )
     return app
 
 
@@ -124,8 +135,10 @@ def _page(workshop, start, name):
     """One tab: a session, and the one element that shows it."""
     from nicegui import background_tasks, core, ui
 
-    ui.add_head_html(f"<style>{style_sheet()}</style>"
-                     + "".join(f'<link rel="stylesheet" href="/web/{file}">' for file in _files() if file.endswith(".css")))
+    ui.add_head_html(
+        f"<style>{style_sheet()}</style>"
+        + "".join(f'<link rel="stylesheet" href="/web/{file}">' for file in _files() if file.endswith(".css"))
+    )
     client = ui.context.client
 
     def send(message):
@@ -155,6 +168,7 @@ def _files():
 
 async def _warmed(workshop):
     """Load what the first drawing needs, before it is asked for."""
+
     async def warm(lanes):
         async with lanes.lane() as lane:
             await lane.call(looking.warm)

@@ -73,8 +73,17 @@ def fact_of(name, field):
     example = field.examples[0] if field.examples else None
     default = None if required or field.default in ((), {}) else raw(field.default, dimension)
     own = _own(field.default) if isinstance(field.default, BaseModel) else ()
-    return _fact(name, field.annotation, dimension or mark_of(field, AnyUnit), _limits(field.metadata), hint=field.description or "",
-                 required=required, default=default, example=example, own=own)
+    return _fact(
+        name,
+        field.annotation,
+        dimension or mark_of(field, AnyUnit),
+        _limits(field.metadata),
+        hint=field.description or "",
+        required=required,
+        default=default,
+        example=example,
+        own=own,
+    )
 
 
 def _own(table):
@@ -88,12 +97,33 @@ def _fact(name, annotation, mark, limits, hint="", required=True, default=None, 
     dimension = None if isinstance(mark, AnyUnit) else mark
     kind = _kind(annotation, mark)
     parts = () if table_of(annotation) else _parts(annotation)
-    items = tuple(_fact(str(n), part, dimension_of(_Bare(part)) or mark_of(_Bare(part), AnyUnit) or mark, _limits(_marks(part)),
-                        default=default[n] if isinstance(default, list) and n < len(default) else None,
-                        example=example[n] if isinstance(example, list) and n < len(example) else None)
-                  for n, part in enumerate(parts))
-    return Fact(name, hint, kind, required, dimension, choices_of(annotation), limits, default, example, table_of(annotation),
-                levels(annotation), items, kind == "list" and Ellipsis not in get_args(_bare(annotation)), own)
+    items = tuple(
+        _fact(
+            str(n),
+            part,
+            dimension_of(_Bare(part)) or mark_of(_Bare(part), AnyUnit) or mark,
+            _limits(_marks(part)),
+            default=default[n] if isinstance(default, list) and n < len(default) else None,
+            example=example[n] if isinstance(example, list) and n < len(example) else None,
+        )
+        for n, part in enumerate(parts)
+    )
+    return Fact(
+        name,
+        hint,
+        kind,
+        required,
+        dimension,
+        choices_of(annotation),
+        limits,
+        default,
+        example,
+        table_of(annotation),
+        levels(annotation),
+        items,
+        kind == "list" and Ellipsis not in get_args(_bare(annotation)),
+        own,
+    )
 
 
 def fact_at(model, steps):
@@ -182,8 +212,10 @@ def _read_list(fact, text, shown):
     before = shown.split(",") or [""]
     if len(fact.levels) > 1 or not fact.items:
         return read_value(text)
-    return [read(fact.items[min(n, len(fact.items) - 1)], part.strip(), before[min(n, len(before) - 1)]) if isinstance(part, str) else part
-            for n, part in enumerate(texts)]
+    return [
+        read(fact.items[min(n, len(fact.items) - 1)], part.strip(), before[min(n, len(before) - 1)]) if isinstance(part, str) else part
+        for n, part in enumerate(texts)
+    ]
 
 
 def shown_text(fact, value, shown=""):

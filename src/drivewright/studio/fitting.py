@@ -117,8 +117,13 @@ def _beside(text):
 
 def _names(tables):
     """What texts of a spec may refer to: names of elements, keys that the user chose, and points as NAME.POINT."""
-    named = [each["name"] for elements in tables.values() if isinstance(elements, list) for each in elements
-             if isinstance(each, dict) and isinstance(each.get("name"), str)]
+    named = [
+        each["name"]
+        for elements in tables.values()
+        if isinstance(elements, list)
+        for each in elements
+        if isinstance(each, dict) and isinstance(each.get("name"), str)
+    ]
     holders = {name: table for name, table in tables.items() if isinstance(table, dict)}
     holders |= {name: table for outer in holders.values() for name, table in outer.items() if isinstance(table, dict)}
     points = [f"{name}.{point}" for name, table in holders.items() for held in table.values() if isinstance(held, dict) for point in held]

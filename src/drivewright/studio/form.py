@@ -56,8 +56,11 @@ class _Maker:
         """The group of one table, then those inside it."""
         known = facts(model)
         values = [fact for fact in known.values() if not fact.table and fact.kind != "names"]
-        fields = [self.field(fact, given.get(fact.name, ABSENT), (*path, fact.name), (*pattern, fact.name))
-                  for fact in values if path or fact.name not in BESIDE_THE_FORM]
+        fields = [
+            self.field(fact, given.get(fact.name, ABSENT), (*path, fact.name), (*pattern, fact.name))
+            for fact in values
+            if path or fact.name not in BESIDE_THE_FORM
+        ]
         self.group(path, pattern, fields, **{"role": "table", "hint": model.__doc__ or "", **about})
         for fact in known.values():
             if fact.table or fact.kind == "names":
@@ -66,8 +69,10 @@ class _Maker:
     def inside(self, fact, given, path, pattern):
         """The groups of a sub-table, of a list of them, or of those that the user names."""
         said = fact.hint not in ("", fact.name.replace("_", " "))
-        about = {"hint": fact.hint if said or not fact.table else fact.table.__doc__,
-                 "optional": not fact.required and not fact.levels and fact.default is None}
+        about = {
+            "hint": fact.hint if said or not fact.table else fact.table.__doc__,
+            "optional": not fact.required and not fact.levels and fact.default is None,
+        }
         value = fact.begun if given is ABSENT else given
         if fact.kind == "names":
             self.names(fact, value or {}, path, pattern, about)
@@ -75,8 +80,17 @@ class _Maker:
             self.group(path, pattern, [], role="list", **about)
             for number, element in enumerate(value or []):
                 step = step_of(value, number)
-                self.table(fact.table, element, (*path, step), (*pattern, "*"), role="element", hint="", list=".".join(path), index=number,
-                           optional=True)
+                self.table(
+                    fact.table,
+                    element,
+                    (*path, step),
+                    (*pattern, "*"),
+                    role="element",
+                    hint="",
+                    list=".".join(path),
+                    index=number,
+                    optional=True,
+                )
         elif value is None:
             self.group(path, pattern, [], role="table", present=False, **about)
         else:
@@ -93,9 +107,22 @@ class _Maker:
     def group(self, path, pattern, fields, *, role, hint, optional=False, present=True, list=None, index=None):
         title = path[-1].replace("_", " ") if path else ""
         zh = "" if role == "element" else self.labels.get(".".join(pattern), "")
-        self.groups.append({"key": ".".join(path), "path": [*path], "depth": max(0, len(path) - 1), "title": title,
-                            "hint": " ".join(hint.split()), "zh": zh, "role": role, "optional": optional, "present": present,
-                            "list": list, "index": index, "fields": fields})
+        self.groups.append(
+            {
+                "key": ".".join(path),
+                "path": [*path],
+                "depth": max(0, len(path) - 1),
+                "title": title,
+                "hint": " ".join(hint.split()),
+                "zh": zh,
+                "role": role,
+                "optional": optional,
+                "present": present,
+                "list": list,
+                "index": index,
+                "fields": fields,
+            }
+        )
 
     def field(self, fact, value, path, pattern, optional=None):
         """One field, with one for each part of a point and the like."""
@@ -107,8 +134,10 @@ class _Maker:
         field = _field(fact, value, key, label, zh, given, optional)
         if fact.fixed and len(fact.levels) == 1:
             entries = value if isinstance(value, list) and len(value) == len(fact.items) else [None] * len(fact.items)
-            field["parts"] = [self.field(part, entry, (*path, str(n)), (*pattern, str(n)), optional=False)
-                              for n, (part, entry) in enumerate(zip(fact.items, entries, strict=True))]
+            field["parts"] = [
+                self.field(part, entry, (*path, str(n)), (*pattern, str(n)), optional=False)
+                for n, (part, entry) in enumerate(zip(fact.items, entries, strict=True))
+            ]
         return field
 
     def slid(self, key):
@@ -125,10 +154,24 @@ def _field(fact, value, key, label, zh, given, optional, slid=None):
     unit, number = _number(fact, value)
     limits = _in_unit(fact, unit)
     ends, step = _slider(fact, number, unit, limits, slid) or (None, 1 if fact.kind == "integer" else None)
-    return {"key": key, "label": label, "zh": zh, "hint": fact.hint, "kind": fact.kind, "unit": unit, "value": number,
-            "text": shown_text(fact, value), "given": given, "default": None if fact.default is None else shown_text(fact, fact.default),
-            "optional": optional, "low": limits.low, "high": limits.high, "step": step,
-            "slider": ends, "choices": list(fact.choices)}
+    return {
+        "key": key,
+        "label": label,
+        "zh": zh,
+        "hint": fact.hint,
+        "kind": fact.kind,
+        "unit": unit,
+        "value": number,
+        "text": shown_text(fact, value),
+        "given": given,
+        "default": None if fact.default is None else shown_text(fact, fact.default),
+        "optional": optional,
+        "low": limits.low,
+        "high": limits.high,
+        "step": step,
+        "slider": ends,
+        "choices": list(fact.choices),
+    }
 
 
 # Most fields of a form are those of the form before: these are the same objects, and nobody changes them.

@@ -58,6 +58,7 @@ def _limit_memory():
 
 def _answered(pipe, function, arguments):
     """("answer", value) or ("error", what was raised; a bug as Failed with its traceback)."""
+
     def tell(what):
         if pipe.poll():
             pipe.recv()  # None: nothing else can come during a call
@@ -134,6 +135,7 @@ class Lane:
 
 def _listen(pipe, process, loop, future, heard):
     """Hand on what comes from the process until the call has ended."""
+
     def settle(setter, value):
         if not future.done():
             setter(value)

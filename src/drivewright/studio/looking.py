@@ -67,9 +67,15 @@ def _scene(spec, model):
 def page_result(result, scene, analyses):
     """Plain dictionary of a result for the page; `analyses` says whose answers it holds."""
     groups = pack_plot_groups(result, scene, tuple(known_plots(result).values())) if scene else None
-    return {**summary(result), "plots": groups, "findings": list(result.findings), "outcome": result.outcome,
-            "seconds": result.provenance["seconds"], "analyses": analyses,
-            "fractions": {check.name: _fraction(check) for check in result.checks}}
+    return {
+        **summary(result),
+        "plots": groups,
+        "findings": list(result.findings),
+        "outcome": result.outcome,
+        "seconds": result.provenance["seconds"],
+        "analyses": analyses,
+        "fractions": {check.name: _fraction(check) for check in result.checks},
+    }
 
 
 def _fraction(check):
@@ -80,15 +86,22 @@ def _fraction(check):
 
 def merged(shown, found):
     """What is shown, with the answers of some analyses renewed; checks and plots of the others are marked stale."""
+
     def renewed(old, new, name):
         fresh = {item[name]: item for item in new}
         known = {item[name] for item in old}
         return [fresh.get(item[name], {**item, "stale": True}) for item in old] + [item for item in new if item[name] not in known]
 
     checks, values, headline = (renewed(shown[what], found[what], "name") for what in ("checks", "values", "headline"))
-    return {**shown, "checks": checks, "values": values, "headline": headline, "plots": _merged_plots(shown["plots"], found["plots"]),
-            "fractions": {**shown["fractions"], **found["fractions"]},
-            "verdict": {**shown["verdict"], "stale": True}}
+    return {
+        **shown,
+        "checks": checks,
+        "values": values,
+        "headline": headline,
+        "plots": _merged_plots(shown["plots"], found["plots"]),
+        "fractions": {**shown["fractions"], **found["fractions"]},
+        "verdict": {**shown["verdict"], "stale": True},
+    }
 
 
 def _merged_plots(shown, found):

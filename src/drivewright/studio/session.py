@@ -232,14 +232,32 @@ class Session:
         before = self._form
         self._form = form(design, words.fields(design.kind) | words.tables(design.kind), before)
         fields = changed_fields(before, self._form) if before else None
-        common = {"gen": self.gen, "undo": document.can_undo, "redo": document.can_redo, "locks": sorted(document.locks),
-                  "changed": document.changed, "toml": design.toml(), "files": self.files, "settled": list(settled)}
+        common = {
+            "gen": self.gen,
+            "undo": document.can_undo,
+            "redo": document.can_redo,
+            "locks": sorted(document.locks),
+            "changed": document.changed,
+            "toml": design.toml(),
+            "files": self.files,
+            "settled": list(settled),
+        }
         if fields is not None:
             self.send({"what": "values", "fields": fields, **common})
             return
-        self.send({"what": "design", "kind": design.kind, "title": str(design.tables.get("title", "")), "name": document.name,
-                   "presets": _presets(design.kind), "form": self._form, "words": words.texts(design.kind),
-                   "opened": opened, **common})
+        self.send(
+            {
+                "what": "design",
+                "kind": design.kind,
+                "title": str(design.tables.get("title", "")),
+                "name": document.name,
+                "presets": _presets(design.kind),
+                "form": self._form,
+                "words": words.texts(design.kind),
+                "opened": opened,
+                **common,
+            }
+        )
 
     def _words(self, error, key=None):
         """An error in words, without folders of this machine, and without the key where it stands beside its field."""
@@ -249,9 +267,34 @@ class Session:
 
 
 TAKE_LOCKS = ("sensitivity", "optimise")
-ACTS = {name: getattr(Session, name) for name in (
-    "hello", "again", "set", "unset", "add", "drop", "put", "take", "undo", "redo", "lock", "text", "load", "preset", "fresh", "open",
-    "share", "reference", "job", "export", "save", "analyse", "cancel")}
+ACTS = {
+    name: getattr(Session, name)
+    for name in (
+        "hello",
+        "again",
+        "set",
+        "unset",
+        "add",
+        "drop",
+        "put",
+        "take",
+        "undo",
+        "redo",
+        "lock",
+        "text",
+        "load",
+        "preset",
+        "fresh",
+        "open",
+        "share",
+        "reference",
+        "job",
+        "export",
+        "save",
+        "analyse",
+        "cancel",
+    )
+}
 
 
 def opened(path):
@@ -280,8 +323,7 @@ def _presets(kind):
 
 
 def _kinds():
-    return [{"kind": kind, "summary": registry.mechanism(kind).summary, "presets": _presets(kind)}
-            for kind in registry.kinds()]
+    return [{"kind": kind, "summary": registry.mechanism(kind).summary, "presets": _presets(kind)} for kind in registry.kinds()]
 
 
 def _limited(text):

@@ -7,9 +7,26 @@ from typing import NamedTuple
 NICE = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)  # where a range may end, times a power of ten
 STEPS = 200  # of a slider, about
 WIDE = 20.0  # limits further apart than so many times the value, or a usual one, make no slider
-TYPICAL = {"mm": 10.0, "um": 100.0, "deg": 90.0, "rad": 1.5, "arcmin": 100.0, "rpm": 100.0, "rad/s": 10.0, "N": 100.0, "N/mm": 10.0,
-           "N/m": 1e6, "MPa": 100.0, "N m/arcmin": 100.0, "N s/m": 100.0, "Hz": 10.0, "rad/s^2": 100.0, "m/s^2": 10.0, "kg/m^3": 1000.0,
-           "W": 100.0}  # a usual value, by unit; 1 of any other
+TYPICAL = {
+    "mm": 10.0,
+    "um": 100.0,
+    "deg": 90.0,
+    "rad": 1.5,
+    "arcmin": 100.0,
+    "rpm": 100.0,
+    "rad/s": 10.0,
+    "N": 100.0,
+    "N/mm": 10.0,
+    "N/m": 1e6,
+    "MPa": 100.0,
+    "N m/arcmin": 100.0,
+    "N s/m": 100.0,
+    "Hz": 10.0,
+    "rad/s^2": 100.0,
+    "m/s^2": 10.0,
+    "kg/m^3": 1000.0,
+    "W": 100.0,
+}  # a usual value, by unit; 1 of any other
 LEAST_COUNTS = 10  # places on a slider of whole numbers
 DIGITS = 10  # of a number that a slider gives
 SMALLEST, LARGEST = 1e-100, 1e100  # of numbers that have a slider
@@ -50,7 +67,7 @@ def tidied(text):
     match = re.match(r"\s*[+-]?[0-9.]+(?:[eE][+-]?[0-9]+)?", text)
     if not match or sum(map(str.isdigit, match[0])) <= DIGITS:
         return text
-    return f"{float(match[0]):.{DIGITS}g}{text[match.end():]}"
+    return f"{float(match[0]):.{DIGITS}g}{text[match.end() :]}"
 
 
 # -- ranges --------------------------------------------------------------------------------------------------------------------

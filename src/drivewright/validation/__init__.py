@@ -20,8 +20,16 @@ from drivewright.validation.page import page
 from drivewright.validation.source import AGREES, EXPLAINED, KINDS, OPEN, Explanation, Printed, Row, Source, rounded
 
 OURS = (
-    pusher_paper.source, motion_factors.source, modified_sine_help.source, elliptic_gears.source, folding_linkage.source,
-    clearance_joints.source, shaft_paper.source, indexer_paper.source, hyvo_paper.source)
+    pusher_paper.source,
+    motion_factors.source,
+    modified_sine_help.source,
+    elliptic_gears.source,
+    folding_linkage.source,
+    clearance_joints.source,
+    shaft_paper.source,
+    indexer_paper.source,
+    hyvo_paper.source,
+)
 
 __all__ = ["AGREES", "EXPLAINED", "Explanation", "KINDS", "OPEN", "Printed", "Row", "Source", "page", "rounded", "sources"]
 

@@ -19,13 +19,19 @@ from drivewright.validation.folding_linkage import CASE, digits, folder
 from drivewright.validation.source import AGREES, EXPLAINED, OPEN, Explanation, Printed, Row, Source, rounded
 
 DELIVERED = {  # e asked: delivered by each law in a free impact of two bodies
-    "0.9": ("0.9132", "0.9090", "0.8939"), "0.7": ("0.7960", "0.7680", "0.6832"), "0.5": ("0.7252", "0.6630", "0.4704"),
-    "0.1": ("0.6653", "0.5158", "0.0694")}
+    "0.9": ("0.9132", "0.9090", "0.8939"),
+    "0.7": ("0.7960", "0.7680", "0.6832"),
+    "0.5": ("0.7252", "0.6630", "0.4704"),
+    "0.1": ("0.6653", "0.5158", "0.0694"),
+}
 LAWS = ("lankarani-nikravesh", "hunt-crossley", "flores-2011")
 CLOSED = (*LAWS, "gonthier", "herbert-mcwhannell", "elastic")
 LINKS = (  # inertia about, play [mm], damping [N m s/rad], K_d, root mean square over the ideal peak, K_d's verdict
-    ("O4", "0.10", "3e-5", "1.26804", "0.57814", EXPLAINED), ("O4", "0.20", "1e-4", "1.65908", "0.58444", EXPLAINED),
-    ("O4", "0.20", "2e-4", "0.99409", "0.57614", AGREES), ("centroid", "0.40", "1e-3", "1.21328", "0.58116", EXPLAINED))
+    ("O4", "0.10", "3e-5", "1.26804", "0.57814", EXPLAINED),
+    ("O4", "0.20", "1e-4", "1.65908", "0.58444", EXPLAINED),
+    ("O4", "0.20", "2e-4", "0.99409", "0.57614", AGREES),
+    ("centroid", "0.40", "1e-3", "1.21328", "0.58116", EXPLAINED),
+)
 SPEEDS = {10800: "3.4", 18000: "8.5", 28800: "15.8", 41400: "18.9"}  # K_d at 0.4 mm and 1e-4 N m s/rad
 COARSE = 4000  # samples per turn of the other program
 PLAYS_OF_STEPS = (5e-5, 1e-4, 2e-4, 3e-4, 4e-4, 5e-4)
@@ -35,8 +41,10 @@ FOLDER = "28 800 r/h, knife folder, massless links in A, B and O4, c_theta = 0.1
 TWO_ROUTES = "The multibody kernel and the closed form of the four-bar agree on 19.16 with the other program's samples, at every tolerance."
 LAW = "hysteresis of Lankarani and Nikravesh, restitution 0.9, no friction"
 SIGN = "Estimates of 40 turns with an error of a fifth and more: the sign is compared."
-LASTING = ("The other program keeps the approach speed of the first touch for as long as the contact lasts; here a lasting contact is "
-           "damped by its own energy. Which law a real pin follows is not known; at 0.5 mm both motions are chaotic.")
+LASTING = (
+    "The other program keeps the approach speed of the first touch for as long as the contact lasts; here a lasting contact is "
+    "damped by its own energy. Which law a real pin follows is not known; at 0.5 mm both motions are chaotic."
+)
 SLIDER = "crank 50 mm, rod 120 mm, 0.21 kg, 2.5e-4 kg m^2, slider 0.14 kg, 5000 rpm, bearing 10 mm, play 0.5 mm, steel"
 
 
@@ -53,8 +61,10 @@ def rows():
 def bounce(law, restitution, speed=0.2, mass=0.3, clearance=1e-4, stiffness=6.6e10):
     """Speed after a free impact over the one before: a mass on a slide, its pin in a bearing of the ground, in the multibody kernel."""
     contact = Dry(clearance, 0.01, stiffness, hysteresis=impact_law(law).factor(restitution))
-    model = Model((Body("block", mass, 1e-4, velocity=(speed, 0.0)),),
-                  (Prismatic("slide", Marker("block"), Marker(GROUND)), Revolute("pin", Marker(GROUND), Marker("block"), contact)))
+    model = Model(
+        (Body("block", mass, 1e-4, velocity=(speed, 0.0)),),
+        (Prismatic("slide", Marker("block"), Marker(GROUND)), Revolute("pin", Marker(GROUND), Marker("block"), contact)),
+    )
     end = 2.5 * clearance / speed  # the block has left the wall again and not yet come to the other one
     last = simulate(assemble(model), end, Settings(rtol=1e-10), samples=np.array([end])).end[2]
     return -float(last[1]) / speed
@@ -67,8 +77,14 @@ def _impacts():
             yield Row(f"restitution delivered by {law}, e = {asked}", rounded(text, "-"), bounce(law, float(asked)), **EARLIER, **about)
     for law in CLOSED:
         closed = rounded(f"{delivered_restitution(impact_law(law).factor(0.6)):.7f}", "-")
-        yield Row(f"restitution delivered by {law}, e = 0.6, closed form", closed, bounce(law, 0.6), kind="closed form",
-                  where="h (1 + e) = ln((1 + h)/(1 - h e))", **about)
+        yield Row(
+            f"restitution delivered by {law}, e = 0.6, closed form",
+            closed,
+            bounce(law, 0.6),
+            kind="closed form",
+            where="h (1 + e) = ln((1 + h)/(1 - h e))",
+            **about,
+        )
 
 
 # -- massless links ------------------------------------------------------------------------------------------------------------
@@ -79,15 +95,22 @@ def _links():
     about = {"unit": "-", "inputs": FOLDER} | EARLIER
     for (inertia, play, damping, k_d, rms, pinned), (ours, level, sampled) in zip(LINKS, found, strict=True):
         name = f"r = {play} mm, {damping} N m s/rad, inertia about {inertia}"
-        coarse = Explanation(f"The other program saw {COARSE} samples of each turn and missed the tops of the peaks; so does ours then.",
-                             sampled)
+        coarse = Explanation(
+            f"The other program saw {COARSE} samples of each turn and missed the tops of the peaks; so does ours then.", sampled
+        )
         yield Row(f"K_d, {name}", rounded(k_d, "-"), ours, pinned=pinned, explanation=coarse if pinned == EXPLAINED else None, **about)
         yield Row(f"root mean square, {name}", rounded(rms, "-"), level, pinned=AGREES, **about)
     found = cases.run(lambda speed: _loads(build(folder(speed, "0.40", 1e-4)))["coefficient"], SPEEDS, workers=None).rows
     for (speed, text), row in zip(SPEEDS.items(), found, strict=True):
         odd = speed == 41400
-        yield Row(f"K_d at {speed} r/h, r = 0.40 mm, 1e-4 N m s/rad", rounded(text, "-"), digits(row.value), pinned=OPEN if odd else AGREES,
-                  note=TWO_ROUTES if odd else "", **about)
+        yield Row(
+            f"K_d at {speed} r/h, r = 0.40 mm, 1e-4 N m s/rad",
+            rounded(text, "-"),
+            digits(row.value),
+            pinned=OPEN if odd else AGREES,
+            note=TWO_ROUTES if odd else "",
+            **about,
+        )
 
 
 def _link_loads(case):
@@ -119,8 +142,10 @@ def _sampled(model):
 
 def slider_crank(play, normal="lankarani-nikravesh"):
     """The preset with another play [m] and law."""
-    return load(registry.mechanism("linkage").presets()["slider_crank"],
-                (f'joints.wrist.clearance="{1e3 * play} mm"', f'joints.wrist.normal="{normal}"'))
+    return load(
+        registry.mechanism("linkage").presets()["slider_crank"],
+        (f'joints.wrist.clearance="{1e3 * play} mm"', f'joints.wrist.normal="{normal}"'),
+    )
 
 
 def _slider_crank():
@@ -132,8 +157,15 @@ def _slider_crank():
     ideal, closed = largest(seen.t, seen.point("output", "ax")), 0.05 * speed**2 * (1 + 0.05 / 0.12)
     name = "slider-crank without play, largest acceleration of the slider"
     yield Row(name, rounded("19419.36 m/s^2", "m/s^2"), ideal, "m/s^2", **EARLIER, **about)
-    yield Row(f"{name}, closed form", rounded(f"{closed:.6f} m/s^2", "m/s^2"), ideal, "m/s^2", kind="closed form",
-              where="r w^2 (1 + r/L)", **about)
+    yield Row(
+        f"{name}, closed form",
+        rounded(f"{closed:.6f} m/s^2", "m/s^2"),
+        ideal,
+        "m/s^2",
+        kind="closed form",
+        where="r w^2 (1 + r/L)",
+        **about,
+    )
     yield from _chaos({"unit": "-", "assumed": LAW} | EARLIER | about)
 
 
@@ -141,10 +173,15 @@ def _chaos(about):
     """Rows that only means and signs can meet."""
     found = [row.value for row in cases.run(_activity, PLAYS_OF_STEPS, workers=None).rows]
     steps = float(np.mean([each[0] for each in found]))
-    yield Row("slider-crank, steps per turn at a relative tolerance of 1e-6, mean over plays of 0.05 to 0.5 mm",
-              Printed("about 1100", 990.0, 1210.0), digits(steps), **about)
-    yield Row("slider-crank, impacts per turn", Printed("12 to 15", 11.5, 15.5), digits(found[-1][1], 2), **about | {"pinned": OPEN},
-              note=LASTING)
+    yield Row(
+        "slider-crank, steps per turn at a relative tolerance of 1e-6, mean over plays of 0.05 to 0.5 mm",
+        Printed("about 1100", 990.0, 1210.0),
+        digits(steps),
+        **about,
+    )
+    yield Row(
+        "slider-crank, impacts per turn", Printed("12 to 15", 11.5, 15.5), digits(found[-1][1], 2), **about | {"pinned": OPEN}, note=LASTING
+    )
     found = [row.value for row in cases.run(_exponent, EXPONENTS, workers=None).rows]
     for (play, printed), value in zip(EXPONENTS, found, strict=True):
         low, high = (0.0, np.inf) if printed > 0 else (-np.inf, 0.0)
@@ -168,5 +205,8 @@ def _exponent(case):
 
 
 source = Source(
-    "clearance-joints", "Joints with play: restitution of impact laws, massless links, and the slider-crank with play at the wrist (after "
-    "Flores and others; masses recalled): an earlier, separate program of ours, and closed forms.", rows)
+    "clearance-joints",
+    "Joints with play: restitution of impact laws, massless links, and the slider-crank with play at the wrist (after "
+    "Flores and others; masses recalled): an earlier, separate program of ours, and closed forms.",
+    rows,
+)

@@ -11,9 +11,24 @@ PUBLISHED = np.sqrt(1 - 0.985**2)  # of the transplanter's gears
 
 # Planet relative to the carrier over the carrier angle [deg], two pairs, bend 89 deg turned, near start: an earlier program of ours.
 TABLE = {
-    30: "21.4077", 60: "47.6488", 65: "52.6967", 86: "76.5794", 87: "77.8338", 90: "81.6639", 120: "125.2498", 123: "130.0510",
-    150: "174.3070", 180: "219.1554", 210: "254.5432", 240: "281.7357", 253: "291.7316", 270: "303.6895", 300: "322.8529",
-    330: "341.0806", 360: "360.0000"}
+    30: "21.4077",
+    60: "47.6488",
+    65: "52.6967",
+    86: "76.5794",
+    87: "77.8338",
+    90: "81.6639",
+    120: "125.2498",
+    123: "130.0510",
+    150: "174.3070",
+    180: "219.1554",
+    210: "254.5432",
+    240: "281.7357",
+    253: "291.7316",
+    270: "303.6895",
+    300: "322.8529",
+    330: "341.0806",
+    360: "360.0000",
+}
 
 
 def rows():
@@ -60,5 +75,8 @@ def _by_rolling(name, other, ours, about):
 
 
 source = Source(
-    "elliptic-gears", "Two congruent ellipses rolling on each other about their foci (textbook matter; Litvin, Noncircular Gears, recalled)"
-    ": closed forms, a rolling by arc length, and a table from an earlier, separate program.", rows)
+    "elliptic-gears",
+    "Two congruent ellipses rolling on each other about their foci (textbook matter; Litvin, Noncircular Gears, recalled)"
+    ": closed forms, a rolling by arc length, and a table from an earlier, separate program.",
+    rows,
+)

@@ -25,7 +25,8 @@ TABLE = {  # crank speed [turns/h]: (ideal acceleration [km/s^2], K_d at each pl
     36000: ("6.3430", "1.0970", "1.2031", "1.4646", "2.0085", "3.6576"),
     37800: ("6.9930", "1.0948", "1.1949", "1.4786", "1.9648", "3.4649"),
     39600: ("7.6750", "1.1123", "1.1932", "1.4645", "2.0326", "3.5883"),
-    41400: ("8.3880", "1.0986", "1.1969", "1.4223", "2.0017", "3.5718")}
+    41400: ("8.3880", "1.0986", "1.1969", "1.4223", "2.0017", "3.5718"),
+}
 
 FRAME, CRANK, COUPLER, ROCKER, ARM, BETA = 0.484, 0.066, 0.158, 0.424, 0.161, 1.536
 TIP = ROCKER - ARM * np.exp(1j * BETA)  # BETA between the arms from B to O4 and from B to the knife's edge
@@ -35,21 +36,28 @@ CELLS = tuple((CASE, play) for play in PLAYS) + tuple((speed, play) for speed in
 STATED, CONSTANT = 0.1, CALIBRATED["0.20"]
 STIFF = 5e3  # damping over the square of the play [N s/m] above which the explicit integrator is the slower one
 
-DATA = ("Table 1: crank 66 mm, coupler 158 mm, 1.113 kg, 2316 kg mm^2, centroid at 79 mm, rocker 424 mm, knife arm 161 mm, beta = 1.536 "
-        "rad, 6.883 kg, 4.487e5 kg mm^2, centroid at 243 mm, frame 484 mm")
+DATA = (
+    "Table 1: crank 66 mm, coupler 158 mm, 1.113 kg, 2316 kg mm^2, centroid at 79 mm, rocker 424 mm, knife arm 161 mm, beta = 1.536 "
+    "rad, 6.883 kg, 4.487e5 kg mm^2, centroid at 243 mm, frame 484 mm"
+)
 PATH = "beta is the interior angle at B"
-LINKS = ("r is radial; no play at O2 (r1 = 0), crank 1 kg; the knife rod's inertia is about its pivot, its centroid on the line O4-B; "
-         "gravity square to the frame; links start at 0.2, 3.0 and 0.3 rad, at rest; 16 turns of which 5 are discarded; the output is the "
-         "knife's angular acceleration; c_theta = 0.1 N m s/rad")
+LINKS = (
+    "r is radial; no play at O2 (r1 = 0), crank 1 kg; the knife rod's inertia is about its pivot, its centroid on the line O4-B; "
+    "gravity square to the frame; links start at 0.2, 3.0 and 0.3 rad, at rest; 16 turns of which 5 are discarded; the output is the "
+    "knife's angular acceleration; c_theta = 0.1 N m s/rad"
+)
 NO_READING = (
     "No reading of Table 1 gives it. The peak at the knife's edge is 16.2 times less; of all orders of the lengths, radii, components and "
-    "usual factors of units that were tried none with a sense meets the digits. 855 g is unlikely for such a machine, too.")
+    "usual factors of units that were tried none with a sense meets the digits. 855 g is unlikely for such a machine, too."
+)
 NO_DAMPING = (
     "The damping that was used is not known: 0.1 N s/rad has the unit of no rotary damping, and read as 0.1 N m s/rad it freezes the "
-    "links. Neither that nor any other constant gives the table.")
+    "links. Neither that nor any other constant gives the table."
+)
 NOT_A_TARGET = (
     "Damping of the links calibrated for each play at 28 800 r/h and proportional to the speed. This brings growth from 0.05 mm on, order "
-    "of size and near independence of the speed, not the cells: a comparison, no evidence.")
+    "of size and near independence of the speed, not the cells: a comparison, no evidence."
+)
 
 
 def rows():
@@ -63,24 +71,40 @@ def folder(speed, play, damping, **simulate):
     """The spec at a crank speed [turns/h], a radial play [mm] in A, B and O4, and a damping of the massless links [N m s/rad]."""
     link = {"kind": "revolute", "model": "massless-link", "clearance": f"{play} mm", "link_damping": f"{damping} N m s/rad"}
     pins = (("A", "crank", "coupler", 0.2), ("B", "coupler", "knife", 3.0), ("O4", "knife", "ground", 0.3))
-    pins = [{"name": name, "connects": [f"{first}.{name}", f"{second}.{name}"], "link_angle": f"{angle} rad"} | link
-            for name, first, second, angle in pins]
-    return from_document({
-        "mechanism": "linkage", "gravity": ["0 m/s^2", "-9.81 m/s^2"],
-        "ground": {"points": {"O2": ["0 m", "0 m"], "O4": [f"{FRAME} m", "0 m"]}},
-        "bodies": {
-            "crank": {"mass": "1 kg", "points": {"O2": ["0 m", "0 m"], "A": [f"{CRANK} m", "0 m"]}},
-            "coupler": {"mass": "1.113 kg", "inertia": "2316e-6 kg m^2", "centroid": ["0.079 m", "0 m"], "angle": "-81 deg",
-                        "points": {"A": ["0 m", "0 m"], "B": [f"{COUPLER} m", "0 m"]}},
-            "knife": {"mass": "6.883 kg", "inertia": "0.4487 kg m^2", "inertia_about": "O4", "centroid": ["0.243 m", "0 m"],
-                      "angle": "202 deg", "points": {"O4": ["0 m", "0 m"], "B": [f"{ROCKER} m", "0 m"],
-                                                     "edge": [f"{TIP.real} m", f"{-TIP.imag} m"]}}},
-        "joints": [{"name": "O2", "kind": "revolute", "connects": ["ground.O2", "crank.O2"]},
-                   *pins],
-        "rotational_springs": [{"body": body, "damping": "0.1 N m s/rad"} for body in ("coupler", "knife")],
-        "drive": {"joint": "O2", "speed": f"{speed} rev/h"},
-        "simulate": {"turns": 16, "discard": 5, "relative_tolerance": 1e-7} | simulate,
-        "outputs": [{"name": "knife", "body": "knife"}, {"name": "edge", "body": "knife", "point": "edge"}]})
+    pins = [
+        {"name": name, "connects": [f"{first}.{name}", f"{second}.{name}"], "link_angle": f"{angle} rad"} | link
+        for name, first, second, angle in pins
+    ]
+    return from_document(
+        {
+            "mechanism": "linkage",
+            "gravity": ["0 m/s^2", "-9.81 m/s^2"],
+            "ground": {"points": {"O2": ["0 m", "0 m"], "O4": [f"{FRAME} m", "0 m"]}},
+            "bodies": {
+                "crank": {"mass": "1 kg", "points": {"O2": ["0 m", "0 m"], "A": [f"{CRANK} m", "0 m"]}},
+                "coupler": {
+                    "mass": "1.113 kg",
+                    "inertia": "2316e-6 kg m^2",
+                    "centroid": ["0.079 m", "0 m"],
+                    "angle": "-81 deg",
+                    "points": {"A": ["0 m", "0 m"], "B": [f"{COUPLER} m", "0 m"]},
+                },
+                "knife": {
+                    "mass": "6.883 kg",
+                    "inertia": "0.4487 kg m^2",
+                    "inertia_about": "O4",
+                    "centroid": ["0.243 m", "0 m"],
+                    "angle": "202 deg",
+                    "points": {"O4": ["0 m", "0 m"], "B": [f"{ROCKER} m", "0 m"], "edge": [f"{TIP.real} m", f"{-TIP.imag} m"]},
+                },
+            },
+            "joints": [{"name": "O2", "kind": "revolute", "connects": ["ground.O2", "crank.O2"]}, *pins],
+            "rotational_springs": [{"body": body, "damping": "0.1 N m s/rad"} for body in ("coupler", "knife")],
+            "drive": {"joint": "O2", "speed": f"{speed} rev/h"},
+            "simulate": {"turns": 16, "discard": 5, "relative_tolerance": 1e-7} | simulate,
+            "outputs": [{"name": "knife", "body": "knife"}, {"name": "edge", "body": "knife", "point": "edge"}],
+        }
+    )
 
 
 def load_coefficients(points):
@@ -119,10 +143,26 @@ def _ideal():
     edge = edge_acceleration()
     about = {"kind": "published table", "where": "Table 2", "inputs": DATA}
     for speed, (text, *_) in TABLE.items():
-        yield Row(f"ideal acceleration at {speed} r/h", rounded(f"{text} km/s^2", "m/s^2"), edge * (TURN * speed / 3600) ** 2, "m/s^2",
-                  pinned=OPEN, assumed=PATH, note=NO_READING, **about)
-    yield Row("ideal acceleration over crank speed squared, all rows", common_factor(), edge, "m", pinned=OPEN, assumed=PATH,
-              note=NO_READING, **about)
+        yield Row(
+            f"ideal acceleration at {speed} r/h",
+            rounded(f"{text} km/s^2", "m/s^2"),
+            edge * (TURN * speed / 3600) ** 2,
+            "m/s^2",
+            pinned=OPEN,
+            assumed=PATH,
+            note=NO_READING,
+            **about,
+        )
+    yield Row(
+        "ideal acceleration over crank speed squared, all rows",
+        common_factor(),
+        edge,
+        "m",
+        pinned=OPEN,
+        assumed=PATH,
+        note=NO_READING,
+        **about,
+    )
     first, last = printed_acceleration(10800), printed_acceleration(41400)
     ratio = Printed("8.3880/0.5708", last.low / first.high, last.high / first.low)
     yield Row("ideal acceleration, 41400 over 10800 r/h", ratio, (41400 / 10800) ** 2, "-", pinned=AGREES, **about)
@@ -148,8 +188,11 @@ def _loads():
     calibrated = [(speed, play, CALIBRATED[play] * speed / CASE) for speed, play in CELLS]
     ours = iter(load_coefficients(stated + constant + calibrated))
     about = {"unit": "-", "pinned": OPEN, "kind": "published table", "where": "Table 2", "inputs": DATA, "assumed": LINKS}
-    for (speed, play, _), name, note in [(stated[0], "damping as stated", NO_DAMPING), *((p, "one damping", NO_DAMPING) for p in constant),
-                                         *((p, "damping calibrated", NOT_A_TARGET) for p in calibrated)]:
+    for (speed, play, _), name, note in [
+        (stated[0], "damping as stated", NO_DAMPING),
+        *((p, "one damping", NO_DAMPING) for p in constant),
+        *((p, "damping calibrated", NOT_A_TARGET) for p in calibrated),
+    ]:
         cell = rounded(TABLE[speed][1 + PLAYS.index(play)], "-")
         yield Row(f"K_d at {speed} r/h, r = {play} mm, {name}", cell, next(ours), note=note, **about)
 
@@ -181,10 +224,18 @@ def _equation_2():
     about = {"kind": "closed form", "where": "eq. (2)", "inputs": DATA}
     share = [float(np.mean(root_argument(crank, corrected)[2] < 0)) for corrected in (False, True)]
     misprint = Explanation("Misprint: C must be (A^2 + B^2 + l4^2 - l3^2)/(2 A l4), and the product C D carries a minus sign.", share[1])
-    yield Row("crank angles without a root, eq. (2) as printed", Printed("none, implied", 0.0, 0.0), share[0], "-", pinned=EXPLAINED,
-              explanation=misprint, **about)
-    yield Row("loop left open, eq. (2) corrected", Printed("0, implied", 0.0, 1e-14), float(loop_miss(crank).max()), "m", pinned=AGREES,
-              **about)
+    yield Row(
+        "crank angles without a root, eq. (2) as printed",
+        Printed("none, implied", 0.0, 0.0),
+        share[0],
+        "-",
+        pinned=EXPLAINED,
+        explanation=misprint,
+        **about,
+    )
+    yield Row(
+        "loop left open, eq. (2) corrected", Printed("0, implied", 0.0, 1e-14), float(loop_miss(crank).max()), "m", pinned=AGREES, **about
+    )
 
 
 ERRATA = (
@@ -209,7 +260,10 @@ ERRATA = (
 )
 
 source = Source(
-    "folding-linkage", "Yuan Yingcai, Liu Yilun, Wang Yiming: Nonlinear dynamic response of offset press's fold mechanism with clearances. "
+    "folding-linkage",
+    "Yuan Yingcai, Liu Yilun, Wang Yiming: Nonlinear dynamic response of offset press's fold mechanism with clearances. "
     "Journal of Central South University (Science and Technology) 42(4), 2011, 972 ff., article 1672-7207(2011)04-0972-05 (in Chinese; "
     "text and tables read, figures not).",
-    rows, ERRATA)
+    rows,
+    ERRATA,
+)

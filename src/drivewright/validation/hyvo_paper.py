@@ -20,8 +20,15 @@ from drivewright.validation.source import AGREES, EXPLAINED, OPEN, Explanation, 
 MM = 1e-3
 P, Z1, Z2, LINKS = 9.525 * MM, 35, 37, 82
 NEW, CLASSICAL = (1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6), 7.4  # rolling radii in mm
-TABLE = {1.0: ("11.525", "0.258794"), 1.1: ("11.725", "0.263285"), 1.2: ("11.925", "0.267776"), 1.3: ("12.125", "0.272267"),
-         1.4: ("12.325", "0.276758"), 1.5: ("12.525", "0.281249"), 1.6: ("12.725", "0.285740")}
+TABLE = {
+    1.0: ("11.525", "0.258794"),
+    1.1: ("11.725", "0.263285"),
+    1.2: ("11.925", "0.267776"),
+    1.3: ("12.125", "0.272267"),
+    1.4: ("12.325", "0.276758"),
+    1.5: ("12.525", "0.281249"),
+    1.6: ("12.725", "0.285740"),
+}
 MODULUS, POISSON, YIELD, TENSILE = 206e9, 0.3, 835e6, 980e6
 STIFFNESS = 1e8  # of a contact [N/m]: 100 000 N/mm
 
@@ -86,13 +93,25 @@ def _table():
         yield Row(f"hole pitch A, group {number}", hole, meshing.hole_pitch(P, radius * MM), "m", **about)
         yield Row(f"pin offset e, group {number}", pin, offset(radius), "m", **about)
     about["pinned"] = OPEN
-    yield Row("hole pitch A, control group", rounded("8.16 mm", "m"), meshing.hole_pitch(P, CLASSICAL * MM), "m",
-              note="Eq. (1) is for round pins, whose centres are those of the holes. Where those of the classical chain lie is not "
-                   "drawn; its motion depends on the radius of the rolling arcs and the pitch alone.", **about)
+    yield Row(
+        "hole pitch A, control group",
+        rounded("8.16 mm", "m"),
+        meshing.hole_pitch(P, CLASSICAL * MM),
+        "m",
+        note="Eq. (1) is for round pins, whose centres are those of the holes. Where those of the classical chain lie is not "
+        "drawn; its motion depends on the radius of the rolling arcs and the pitch alone.",
+        **about,
+    )
     best = float(np.arcsin(offset(CLASSICAL) / (CLASSICAL * MM)))
-    yield Row("angle gamma without deviation on the driver, control group", rounded("3.667 deg", "rad"), best, "rad",
-              note="The control group is said to have 'the optimal parameter values'; what they are optimal for is not said. With "
-                   "e = R sin(gamma) it deviates on both sprockets.", **about)
+    yield Row(
+        "angle gamma without deviation on the driver, control group",
+        rounded("3.667 deg", "rad"),
+        best,
+        "rad",
+        note="The control group is said to have 'the optimal parameter values'; what they are optimal for is not said. With "
+        "e = R sin(gamma) it deviates on both sprockets.",
+        **about,
+    )
 
 
 def _slopes():
@@ -100,35 +119,84 @@ def _slopes():
     for name, curve, figure in (("e", offset, "Fig. 7"), ("delta_p2", deviation, "Fig. 8")):
         values = np.array([curve(radius) for radius in NEW])
         off = np.max(np.abs(values - np.linspace(values[0], values[-1], len(values)))) / np.ptp(values)
-        yield Row(f"departure of {name} from a straight line, over its range", Printed("strictly linear: below 1e-9", 0.0, 1e-9),
-                  round(float(off), 9), "-", where=figure, **about)
-    yield Row("slope of e over r1", Printed("groups 1, 7: 0.044910", 0.044908, 0.044912), (offset(1.6) - offset(1.0)) / (0.6 * MM), "-",
-              where="Fig. 7", **about)
+        yield Row(
+            f"departure of {name} from a straight line, over its range",
+            Printed("strictly linear: below 1e-9", 0.0, 1e-9),
+            round(float(off), 9),
+            "-",
+            where=figure,
+            **about,
+        )
+    yield Row(
+        "slope of e over r1",
+        Printed("groups 1, 7: 0.044910", 0.044908, 0.044912),
+        (offset(1.6) - offset(1.0)) / (0.6 * MM),
+        "-",
+        where="Fig. 7",
+        **about,
+    )
     c1, c2 = np.cos(np.pi / Z1), np.cos(np.pi / Z2)
     partial, total = ((between(1.6, e) - between(1.0, offset(1.0))) / (6e-5 * MM) for e in (offset(1.0), offset(1.6)))
-    held = Explanation("(29) holds e fixed; e grows with r1 by (21), so that the slope is 1 - k tan(pi/(2 z1)) = 0.48511 of it. The sign, "
-                       "and so the conclusion, stays.", float(partial))
+    held = Explanation(
+        "(29) holds e fixed; e grows with r1 by (21), so that the slope is 1 - k tan(pi/(2 z1)) = 0.48511 of it. The sign, "
+        "and so the conclusion, stays.",
+        float(partial),
+    )
     printed = rounded(f"{2e4 * (c2 - c1) / (c1 * c2):.5f}", "-")
-    yield Row("slope of delta_p2 over r1, in 1e-4", printed._replace(text=f"eq. (29): {printed}"), float(total), "-", where="eq. (29)",
-              explanation=held, **about | {"pinned": EXPLAINED})
+    yield Row(
+        "slope of delta_p2 over r1, in 1e-4",
+        printed._replace(text=f"eq. (29): {printed}"),
+        float(total),
+        "-",
+        where="eq. (29)",
+        explanation=held,
+        **about | {"pinned": EXPLAINED},
+    )
 
 
 def _radii():
     about = {"pinned": AGREES, "kind": "closed form", "inputs": CHAIN, "unit": "-"}
     reference = meshing.reference_deviation(P, Z1, Z2)
     classical = abs(meshing.pitch_deviation(P, CLASSICAL * MM, CLASSICAL * MM * np.sin(np.radians(3.667)), Z2))
-    yield Row("largest delta_p2 of groups 1 to 7 over delta12", Printed("below 1, eq. (30)", *BELOW_ONE),
-              max(map(deviation, NEW)) / reference, where="Fig. 8", **about)
-    yield Row("delta_p2 of the control group over delta12", Printed("above 1, eq. (31)", *ABOVE_ONE), classical / reference,
-              where="eq. (31)", assumed="arcs of 7.4 mm with e = R sin(gamma)", **about)
-    note = ("'Unconditionally' is for this pitch and these teeth, and says no more than delta_p2 < delta12. For z1 = z2, delta12 is 0 and "
-            f"r10 is p/(2 cos(pi/z)): {meshing.boundary_radius(8.0, 40, 40):.4f} mm for 8 mm and 40 teeth.")
-    yield Row("largest radius that holes allow, 1.6 mm, over r10", Printed("below 1, unconditionally", *BELOW_ONE),
-              1.6 * MM / meshing.boundary_radius(P, Z1, Z2), where="section 4.3", note=note, **about)
-    falls = Explanation("At r10 the deviations on the driven sprocket are equal, no more: there p'' has its greatest value between the two "
-                        "seats. p'' of a matched chain grows up to the driver's seat below p/(2 cos(pi/z1)).")
-    yield Row("radius below which p'' grows with the angle up to the seat", rounded("5.0548 mm", "m"), meshing.monotone_radius(P, Z1),
-              explanation=falls, where="conclusion 2", **about | {"unit": "m", "pinned": EXPLAINED})
+    yield Row(
+        "largest delta_p2 of groups 1 to 7 over delta12",
+        Printed("below 1, eq. (30)", *BELOW_ONE),
+        max(map(deviation, NEW)) / reference,
+        where="Fig. 8",
+        **about,
+    )
+    yield Row(
+        "delta_p2 of the control group over delta12",
+        Printed("above 1, eq. (31)", *ABOVE_ONE),
+        classical / reference,
+        where="eq. (31)",
+        assumed="arcs of 7.4 mm with e = R sin(gamma)",
+        **about,
+    )
+    note = (
+        "'Unconditionally' is for this pitch and these teeth, and says no more than delta_p2 < delta12. For z1 = z2, delta12 is 0 and "
+        f"r10 is p/(2 cos(pi/z)): {meshing.boundary_radius(8.0, 40, 40):.4f} mm for 8 mm and 40 teeth."
+    )
+    yield Row(
+        "largest radius that holes allow, 1.6 mm, over r10",
+        Printed("below 1, unconditionally", *BELOW_ONE),
+        1.6 * MM / meshing.boundary_radius(P, Z1, Z2),
+        where="section 4.3",
+        note=note,
+        **about,
+    )
+    falls = Explanation(
+        "At r10 the deviations on the driven sprocket are equal, no more: there p'' has its greatest value between the two "
+        "seats. p'' of a matched chain grows up to the driver's seat below p/(2 cos(pi/z1))."
+    )
+    yield Row(
+        "radius below which p'' grows with the angle up to the seat",
+        rounded("5.0548 mm", "m"),
+        meshing.monotone_radius(P, Z1),
+        explanation=falls,
+        where="conclusion 2",
+        **about | {"unit": "m", "pinned": EXPLAINED},
+    )
 
 
 # -- section 5 -----------------------------------------------------------------------------------------------------------------
@@ -152,39 +220,71 @@ def yielding(radius):
     return equilibrium(Model(plates, tuple(replace(s, tip_radius=tip) for s, tip in zip((first, second), tips, strict=True))), 24)
 
 
-ROUTES = {"straight strands": lambda radius: rigid(radius, "straight"), "strands in equilibrium": rigid,
-          "joints and teeth that yield": yielding}
+ROUTES = {
+    "straight strands": lambda radius: rigid(radius, "straight"),
+    "strands in equilibrium": rigid,
+    "joints and teeth that yield": yielding,
+}
 
 
 def _distances():
     about = {"kind": "other code", "inputs": DRIVE, "unit": "m"}
     first, last = rigid(1.0, "straight").mean, rigid(1.6).mean
-    cut = Explanation(f"Cut off, not rounded, it is the mean of the rigid drive of group 1. Those of all groups lie from {1e3 * first:.4f} "
-                      f"to {1e3 * last:.4f} mm, and that of hinges (r1 = 0) is 219.0540 mm. How it was chosen is not said.",
-                      float(np.floor(first * 1e6) * 1e-6))
-    yield Row("initial centre distance", rounded("219.056 mm", "m"), first, where="section 5.1", pinned=EXPLAINED, explanation=cut,
-              assumed="mean over a tooth, rigid, straight strands, group 1", **about)
+    cut = Explanation(
+        f"Cut off, not rounded, it is the mean of the rigid drive of group 1. Those of all groups lie from {1e3 * first:.4f} "
+        f"to {1e3 * last:.4f} mm, and that of hinges (r1 = 0) is 219.0540 mm. How it was chosen is not said.",
+        float(np.floor(first * 1e6) * 1e-6),
+    )
+    yield Row(
+        "initial centre distance",
+        rounded("219.056 mm", "m"),
+        first,
+        where="section 5.1",
+        pinned=EXPLAINED,
+        explanation=cut,
+        assumed="mean over a tooth, rigid, straight strands, group 1",
+        **about,
+    )
     about["where"] = "section 5.2"
     apart = round(219.136037 - 219.115892, 9) * MM
     yield Row("fluctuation from the printed extremes", rounded("0.020145 mm", "m"), apart, pinned=AGREES, **about)
     rest = yielding(CLASSICAL)
-    about |= {"pinned": OPEN, "assumed": MASSES, "note": (
-        "Does not follow from the data given: masses, friction, damping and its exponents, and the driven sprocket are not printed. At "
-        f"rest the rigid drive has {1e3 * rigid(CLASSICAL).mean:.4f} mm and yielding adds the rest. Our four runs of 0.3 s at 2000 rpm "
-        "with links of 2.5 g, a sprocket of 0.6 kg and little damping have a mean of 219.1673 mm (219.1670 to 219.1676) and fluctuate by "
-        "2.7 um (2.4 to 3.0) in a revolution of the chain. Most of a running deviation is compliance, a choice of the model.")}
+    about |= {
+        "pinned": OPEN,
+        "assumed": MASSES,
+        "note": (
+            "Does not follow from the data given: masses, friction, damping and its exponents, and the driven sprocket are not printed. At "
+            f"rest the rigid drive has {1e3 * rigid(CLASSICAL).mean:.4f} mm and yielding adds the rest. Our four runs of 0.3 s at 2000 rpm "
+            "with links of 2.5 g, a sprocket of 0.6 kg and little damping have a mean of 219.1673 mm (219.1670 to 219.1676) and fluctuate by "
+            "2.7 um (2.4 to 3.0) in a revolution of the chain. Most of a running deviation is compliance, a choice of the model."
+        ),
+    }
     distance = rest.centre_distance
-    for name, printed, ours in (("greatest centre distance", "219.136037", distance.max()),
-                                ("least centre distance", "219.115892", distance.min()),
-                                ("fluctuation", "0.020145", rest.fluctuation), ("mean centre distance", "219.1256", rest.mean)):
+    for name, printed, ours in (
+        ("greatest centre distance", "219.136037", distance.max()),
+        ("least centre distance", "219.115892", distance.min()),
+        ("fluctuation", "0.020145", rest.fluctuation),
+        ("mean centre distance", "219.1256", rest.mean),
+    ):
         yield Row(f"{name}, control group at rest", rounded(f"{printed} mm", "m"), float(ours), **about)
     typo = Explanation("Misprint of 219.056 mm.", (219.1256 - 219.056) * MM)
-    yield Row("running deviation, 219.1256 - 19.056", rounded("0.0696 mm", "m"), (219.1256 - 19.056) * MM, pinned=EXPLAINED,
-              explanation=typo, where="section 5.3", kind="other code", inputs=DRIVE, unit="m")
+    yield Row(
+        "running deviation, 219.1256 - 19.056",
+        rounded("0.0696 mm", "m"),
+        (219.1256 - 19.056) * MM,
+        pinned=EXPLAINED,
+        explanation=typo,
+        where="section 5.3",
+        kind="other code",
+        inputs=DRIVE,
+        unit="m",
+    )
 
 
-SOFT = ("True of rigid drives alone. With joints and teeth of the paper's stiffness, at rest under the paper's force, the order is the "
-        "opposite: 2.5 um for group 1, 2.1 um for group 7, and 2.4 um for the control group.")
+SOFT = (
+    "True of rigid drives alone. With joints and teeth of the paper's stiffness, at rest under the paper's force, the order is the "
+    "opposite: 2.5 um for group 1, 2.1 um for group 7, and 2.4 um for the control group."
+)
 RUNNING = (
     "At 2000 rpm, with assumed masses and little damping, four runs of 0.3 s fluctuate in a revolution of the chain by 5.1 um (95 %: 4.9 "
     "to 5.3), 5.7 (5.4 to 6.1) and 6.6 (5.9 to 7.2) for groups 1, 4 and 7, growing, but by 2.7 um (2.4 to 3.0) for the control group, "
@@ -226,8 +326,11 @@ def _deviations(route, groups, control, about):
     for name, claim, ours in (
         ("least growth of the running deviation from group to group, in um", GROWS, np.diff(groups).min() * 1e6),
         ("largest running deviation of groups 1 to 7 over control", SMALLER, groups.max() / control),
-        ("departure of the running deviation from a straight line, over its range", Printed("linear: below 0.05", 0.0, 0.05),
-         np.abs(groups - line).max() / np.ptp(groups)),
+        (
+            "departure of the running deviation from a straight line, over its range",
+            Printed("linear: below 0.05", 0.0, 0.05),
+            np.abs(groups - line).max() / np.ptp(groups),
+        ),
     ):
         yield Row(f"{name}, {route}", claim, round(float(ours), 5), **about)
 
@@ -249,14 +352,24 @@ def _pressures():
     coarse = Explanation(
         "The print leaves out the contact itself: elements of 0.138 mm cannot hold a contact that is 0.030 mm wide (0.074 mm for the "
         f"control group). Hertz's pressure of 200 N over 6 mm is {new[0] / 1e6:.0f} MPa for pins of 1.2 mm and {classical[0] / 1e6:.0f} "
-        "MPa for those of 7.4 mm.")
+        "MPa for those of 7.4 mm."
+    )
     for name, printed, ours in (("group 3", "162.026855", new), ("control group", "245.183578", classical)):
         yield Row(f"greatest stress of a pin, {name}", rounded(f"{printed} MPa", "Pa"), ours[1], "Pa", explanation=coarse, **about)
-    worse = Explanation("The contact stress falls with the root of the radius: small pins have sqrt(7.4/1.2) times as much, against "
-                        "conclusion 4. Its stresses are those beside the contact.", 162.026855 / 245.183578)
+    worse = Explanation(
+        "The contact stress falls with the root of the radius: small pins have sqrt(7.4/1.2) times as much, against "
+        "conclusion 4. Its stresses are those beside the contact.",
+        162.026855 / 245.183578,
+    )
     yield Row("greatest stress of a pin, group 3 over control", SMALLER, new[1] / classical[1], "-", explanation=worse, **about)
-    yield Row("greatest stress of a pin over yield stress, group 3", Printed("162 << 835: below 0.3", 0.0, 0.3), new[1] / YIELD, "-",
-              explanation=coarse, **about)
+    yield Row(
+        "greatest stress of a pin over yield stress, group 3",
+        Printed("162 << 835: below 0.3", 0.0, 0.3),
+        new[1] / YIELD,
+        "-",
+        explanation=coarse,
+        **about,
+    )
 
 
 @cache
@@ -269,26 +382,42 @@ def life(stress):
 
 
 TURNS = 2000 * Z1 / LINKS  # revolutions of the chain in a minute
-PART = (("plate, new chain", "1.64", 9, 303.126221, 1.0), ("plate, classical chain", "1.21", 8, 468.663269, 1.0),
-        ("pin, new chain, in min", "4.560", 11, 162.026855, TURNS), ("pin, classical chain, in min", "1.164", 11, 245.183578, TURNS))
+PART = (
+    ("plate, new chain", "1.64", 9, 303.126221, 1.0),
+    ("plate, classical chain", "1.21", 8, 468.663269, 1.0),
+    ("pin, new chain, in min", "4.560", 11, 162.026855, TURNS),
+    ("pin, classical chain, in min", "1.164", 11, 245.183578, TURNS),
+)
 
 
 def _lives():
     about = {"kind": "other code", "where": "section 6", "inputs": "the greatest stresses printed, Brown and Miller", "unit": "-"}
-    note = ("No material curve, mean stress or unit of the plates' lives is printed. Ours is that of the printed stress, once from 0 in a "
-            "revolution of the chain; beyond 1e9 it is extrapolated.")
+    note = (
+        "No material curve, mean stress or unit of the plates' lives is printed. Ours is that of the printed stress, once from 0 in a "
+        "revolution of the chain; beyond 1e9 it is extrapolated."
+    )
     for name, digits, power, stress, rate in PART:
         _, low, high = rounded(digits, "-")
         printed = Printed(f"{digits}e{power}", low * 10.0**power, high * 10.0**power)
         yield Row(f"life of the {name}", printed, life(stress * 1e6) / rate, pinned=OPEN, assumed=CARD, note=note, **about)
     yield Row("life of the plates, new over classical", rounded("13.55", "-"), 1.64e9 / 1.21e8, pinned=AGREES, **about)
-    slopes = [np.log(a / b) / np.log(t / s) for a, b, s, t in
-              ((1.64e9, 1.21e8, 303.126221, 468.663269), (4.56e11, 1.164e11, 162.026855, 245.183578))]
+    slopes = [
+        np.log(a / b) / np.log(t / s)
+        for a, b, s, t in ((1.64e9, 1.21e8, 303.126221, 468.663269), (4.56e11, 1.164e11, 162.026855, 245.183578))
+    ]
     ours = np.log(life(303.126221e6) / life(468.663269e6)) / np.log(468.663269 / 303.126221)
-    note = (f"Life falls with the power {slopes[0]:.2f} of the plates' stresses and {slopes[1]:.2f} of the pins', which are lower: steel "
-            f"does the contrary. Between the plates' two stresses ours is {ours:.1f}.")
-    yield Row("exponent of life over stress, pins over plates", Printed("1, implied", 0.9, 1.1), float(slopes[1] / slopes[0]), pinned=OPEN,
-              note=note, **about)
+    note = (
+        f"Life falls with the power {slopes[0]:.2f} of the plates' stresses and {slopes[1]:.2f} of the pins', which are lower: steel "
+        f"does the contrary. Between the plates' two stresses ours is {ours:.1f}."
+    )
+    yield Row(
+        "exponent of life over stress, pins over plates",
+        Printed("1, implied", 0.9, 1.1),
+        float(slopes[1] / slopes[0]),
+        pinned=OPEN,
+        note=note,
+        **about,
+    )
 
 
 ERRATA = (
@@ -320,5 +449,9 @@ ERRATA = (
 )
 
 source = Source(
-    "hyvo-paper", "An Lichi, Cheng Yabing, Li Jiabao, Xu Weilong: New Design of Hy-Vo Chain Based on the Ultra-Small Rolling Radius. "
-    "Machines 2022, 10(5), 325, doi:10.3390/machines10050325 (text and Table 2 read, figures not).", rows, ERRATA)
+    "hyvo-paper",
+    "An Lichi, Cheng Yabing, Li Jiabao, Xu Weilong: New Design of Hy-Vo Chain Based on the Ultra-Small Rolling Radius. "
+    "Machines 2022, 10(5), 325, doi:10.3390/machines10050325 (text and Table 2 read, figures not).",
+    rows,
+    ERRATA,
+)

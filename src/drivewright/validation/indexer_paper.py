@@ -16,13 +16,26 @@ from drivewright.validation.source import AGREES, EXPLAINED, Explanation, Printe
 
 ARCMIN = np.pi / 10800
 DATA = "Table 1: 12 steps, pin circle 120 mm, pin coefficient 0.6, motion over dwell 1.0, eccentricity 10 mm, modified sine"
-ASSUMED = ("pins of 8 mm; split shafts 110 mm apart and of 20 to 30 mm, gears, widths: none is printed (preset `default`); two bonded cams "
-           "under 1000 N m")
+ASSUMED = (
+    "pins of 8 mm; split shafts 110 mm apart and of 20 to 30 mm, gears, widths: none is printed (preset `default`); two bonded cams "
+    "under 1000 N m"
+)
 BEARINGS = "Tables 2, 3: NU207E with 14 rollers of 8.5 mm; 61904 with 11 balls of 4.762 mm"
-LARGEST = ('shaft_spacing="122 mm"', 'shafts.diameters=["60 mm", "60 mm", "60 mm", "60 mm"]', 'gear.module="2.75 mm"', "gear.teeth=22",
-           'gear.stiffness="5e9 N/m"')
-CONSTANT = ("crank_bearings.bearing=", 'crank_bearings.law="elements"', 'crank_bearings.stiffness="4.5e8 N/m"', "support_bearings.bearing=",
-            'support_bearings.law="elements"', 'support_bearings.stiffness="1.2e8 N/m"')
+LARGEST = (
+    'shaft_spacing="122 mm"',
+    'shafts.diameters=["60 mm", "60 mm", "60 mm", "60 mm"]',
+    'gear.module="2.75 mm"',
+    "gear.teeth=22",
+    'gear.stiffness="5e9 N/m"',
+)
+CONSTANT = (
+    "crank_bearings.bearing=",
+    'crank_bearings.law="elements"',
+    'crank_bearings.stiffness="4.5e8 N/m"',
+    "support_bearings.bearing=",
+    'support_bearings.law="elements"',
+    'support_bearings.stiffness="1.2e8 N/m"',
+)
 NOT_FOLLOWING = "Does not follow from the data given: "
 
 
@@ -79,10 +92,22 @@ def _measured():
         f"{NOT_FOLLOWING}all normals pass through the pitch point e/phi' away, so bearings that yield make the drive softest where phi' is "
         "largest, at 90 deg, alike on both sides of it while pins pull as well as push. Contact in one direction alone breaks the symmetry."
     )
-    yield Row("angle of the lowest stiffness", Printed("about 50 deg", np.radians(45), np.radians(55)), ours["stiffness.minimum.at"], "rad",
-              explanation=Explanation(shape), **about)
-    yield Row("angle of the highest stiffness", Printed("about 145 deg", np.radians(140), np.radians(150)), _at_most(ours), "rad",
-              explanation=Explanation(shape), **about)
+    yield Row(
+        "angle of the lowest stiffness",
+        Printed("about 50 deg", np.radians(45), np.radians(55)),
+        ours["stiffness.minimum.at"],
+        "rad",
+        explanation=Explanation(shape),
+        **about,
+    )
+    yield Row(
+        "angle of the highest stiffness",
+        Printed("about 145 deg", np.radians(140), np.radians(150)),
+        _at_most(ours),
+        "rad",
+        explanation=Explanation(shape),
+        **about,
+    )
 
 
 def _at_most(found):
@@ -103,8 +128,13 @@ def _constant():
         ),
     }
     ours = result(*CONSTANT)
-    yield Row("mean stiffness, bearings of constant stiffness", Printed("about 1020 N m/arcmin", 975 / ARCMIN, 1065 / ARCMIN),
-              ours["stiffness.mean"], "N m/rad", **about)
+    yield Row(
+        "mean stiffness, bearings of constant stiffness",
+        Printed("about 1020 N m/arcmin", 975 / ARCMIN, 1065 / ARCMIN),
+        ours["stiffness.mean"],
+        "N m/rad",
+        **about,
+    )
     yield Row(
         "range, bearings of constant stiffness",
         Printed("about 90 N m/arcmin", 80 / ARCMIN, 100 / ARCMIN),
@@ -128,12 +158,20 @@ def _formulas():
     note = "It is the tangent of a power law; as a linear spring, as in the paper, it is too stiff by {} %."
     about = {"pinned": AGREES, "kind": "closed form", "inputs": BEARINGS, "assumed": "1000 N"}
     roller, ball = quick.palmgren_roller(1000.0, 14, 8.5e-3), quick.palmgren_ball(1000.0, 11, 4.762e-3)
-    for name, place, printed, ours, over in (("NU207E", "eq. (5)", quick.liu_roller(1000.0, 14, 8.5e-3), roller, 11),
-                                             ("61904", "eq. (6)", quick.liu_ball(1000.0, 11, 4.762e-3), ball, 50)):
+    for name, place, printed, ours, over in (
+        ("NU207E", "eq. (5)", quick.liu_roller(1000.0, 14, 8.5e-3), roller, 11),
+        ("61904", "eq. (6)", quick.liu_ball(1000.0, 11, 4.762e-3), ball, 50),
+    ):
         low, high = printed.value * 0.985, printed.value * 1.015
-        yield Row(f"stiffness of the {name}, tangent of Palmgren's approach",
-                  Printed(f"{place}: {printed.value / 1e3:.0f} N/mm (+- 1.5 %)", low, high), float(ours.tangent), "N/m", where=place,
-                  note=note.format(over), **about)
+        yield Row(
+            f"stiffness of the {name}, tangent of Palmgren's approach",
+            Printed(f"{place}: {printed.value / 1e3:.0f} N/mm (+- 1.5 %)", low, high),
+            float(ours.tangent),
+            "N/m",
+            where=place,
+            note=note.format(over),
+            **about,
+        )
 
 
 def _crank_loads():
@@ -170,8 +208,7 @@ ERRATA = (
     "Eqs. (5), (6) are tangent stiffnesses of the power laws F ~ d^(10/9) and F ~ d^(3/2); used as linear springs they are "
     "too stiff by 11 and 50 %.",
     "Eq. (8): R_y1 has (y_b/l) F_y where F_x belongs, so the forces do not sum to -F_y; the couple of the pins is left out.",
-    "Eq. (10): the forces along x turn the shaft too (y_b); the printed form holds only at 0 and 180 deg, where no torque "
-    "passes.",
+    "Eq. (10): the forces along x turn the shaft too (y_b); the printed form holds only at 0 and 180 deg, where no torque passes.",
     "Eq. (11): the first line lacks a minus; the separating force of the gear is left out.",
     "Eq. (12): the first line has b1 where b2 belongs; it holds only for b1 = b2.",
     'Section 3.3.1: "No Separation" lets pins pull. With equal motion and dwell the cams hold the wheel in one direction '

@@ -15,10 +15,20 @@ def rows():
         Row("velocity factor Cv", rounded("1.76", "-"), peaks.Vm, pinned=AGREES, **about),
         Row("acceleration factor Ca", rounded("5.53", "-"), peaks.Am, pinned=AGREES, **about),
         Row("jerk factor Cj", rounded("69.47", "-"), peaks.Jm, pinned=AGREES, **about),
-        Row("jerk factor at the crossover", rounded("-23.15", "-"), middle, pinned=EXPLAINED,
-            explanation=Explanation(TRUNCATED, int(middle * 100) / 100), **about))
+        Row(
+            "jerk factor at the crossover",
+            rounded("-23.15", "-"),
+            middle,
+            pinned=EXPLAINED,
+            explanation=Explanation(TRUNCATED, int(middle * 100) / 100),
+            **about,
+        ),
+    )
 
 
 source = Source(
-    "modified-sine-help", "MechDesigner help, page \"Modified-Sinusoid Motion-Law\", "
-    "http://mechdesigner.support/motion-cam-law-modified-sinusoid.htm (a stored copy was read).", rows)
+    "modified-sine-help",
+    'MechDesigner help, page "Modified-Sinusoid Motion-Law", '
+    "http://mechdesigner.support/motion-cam-law-modified-sinusoid.htm (a stored copy was read).",
+    rows,
+)

@@ -21,8 +21,11 @@ HANDBOOK = {
 }
 
 CLOSED = {
-    "modified-sine": {"Vm": ("4 pi/(4 + pi)", 4 * PI / (4 + PI)), "Am": ("4 pi^2/(4 + pi)", 4 * PI**2 / (4 + PI)),
-                      "Jm": ("16 pi^3/(4 + pi)", 16 * PI**3 / (4 + PI))},
+    "modified-sine": {
+        "Vm": ("4 pi/(4 + pi)", 4 * PI / (4 + PI)),
+        "Am": ("4 pi^2/(4 + pi)", 4 * PI**2 / (4 + PI)),
+        "Jm": ("16 pi^3/(4 + pi)", 16 * PI**3 / (4 + PI)),
+    },
     "modified-trapezoid": {"Am": ("8 pi/(2 + pi)", 8 * PI / (2 + PI)), "Jm": ("32 pi^2/(2 + pi)", 32 * PI**2 / (2 + PI))},
     "cycloidal": {"Am": ("2 pi", 2 * PI), "Jm": ("4 pi^2", 4 * PI**2), "AVm": ("3 sqrt(3) pi/2", 1.5 * math.sqrt(3) * PI)},
     "simple-harmonic": {"Vm": ("pi/2", PI / 2), "Am": ("pi^2/2", PI**2 / 2), "AVm": ("pi^3/8", PI**3 / 8)},
@@ -46,5 +49,8 @@ def rows():
 
 
 source = Source(
-    "motion-laws", "Peak factors of cam motion laws for unit rise in unit time, as in R. L. Norton, Cam Design and Manufacturing Handbook, "
-    "and indexer catalogues: both recalled, neither opened; the closed forms beside them are our own derivation.", rows)
+    "motion-laws",
+    "Peak factors of cam motion laws for unit rise in unit time, as in R. L. Norton, Cam Design and Manufacturing Handbook, "
+    "and indexer catalogues: both recalled, neither opened; the closed forms beside them are our own derivation.",
+    rows,
+)

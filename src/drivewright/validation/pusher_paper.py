@@ -37,16 +37,21 @@ def _result(preset, analyses, *changes):
 def _collinear(turned, interior):
     about = {"unit": "rad", "pinned": OPEN, "kind": "published table", "where": "section 2.2.1 (2), Fig. 4"}
     about |= {"inputs": SECOND, "assumed": BEND}
-    about["note"] = ("A reading off the figure is likely but cannot be shown: 253 deg needs k = 0.9874 or a bend of 87.28 deg, which the "
-                     "printed digits exclude.")
+    about["note"] = (
+        "A reading off the figure is likely but cannot be shown: 253 deg needs k = 0.9874 or a bend of 87.28 deg, which the "
+        "printed digits exclude."
+    )
     for name, result in (("turned", turned), ("interior", interior)):
         yield Row(f"planet collinear, bend {name}", rounded("253 deg", "rad"), result["train.collinear_angle"], **about)
 
 
 def _lowest(turned, interior):
     first, reached = (_result("paper-104", ("train",), *changes)["tip.lowest_angle"] for changes in ((), (INTERIOR,)))
-    timing = Explanation("The timing is printed with the first set; that set, with the bend read as the interior angle, is lowest at "
-                         f"{np.degrees(reached):.2f} deg.", reached)
+    timing = Explanation(
+        "The timing is printed with the first set; that set, with the bend read as the interior angle, is lowest at "
+        f"{np.degrees(reached):.2f} deg.",
+        reached,
+    )
     chosen = "Several references of alpha0 were tried, so this agreement was partly selected."
     about = {"unit": "rad", "kind": "published table", "where": "sections 2.1 and 4: the push ends at the lowest point"}
     second, printed = {"inputs": SECOND, "assumed": TIP} | about, rounded("86 deg", "rad")
@@ -60,21 +65,38 @@ def _lowest(turned, interior):
 def _needle(turned):
     events = ('events.take="angle"', 'events.take_angle="256.02 deg"', 'events.push="push-start"')
     difference, push = _result("default", ("planting",), *events)["needle.angle_difference"], units.to_si("67.82 deg", "angle")
-    missing = ("The events are not printed: with the push counted at its start and the take 4.8 deg of carrier turn after the top the "
-               f"difference is {np.degrees(difference):.2f} deg. Two free inputs, two independent numbers: no evidence either way.")
+    missing = (
+        "The events are not printed: with the push counted at its start and the take 4.8 deg of carrier turn after the top the "
+        f"difference is {np.degrees(difference):.2f} deg. Two free inputs, two independent numbers: no evidence either way."
+    )
     about = {"unit": "rad", "kind": "published table", "where": "section 4, Fig. 8", "inputs": SECOND, "assumed": f"{TIP}; {NEEDLE}"}
-    yield Row("push minus take angle", rounded("50.22 deg", "rad"), turned["needle.angle_difference"], pinned=EXPLAINED,
-              explanation=Explanation(missing, difference), **about)
-    yield Row("take angle", rounded("17.6 deg", "rad"), turned["needle.take_angle"], pinned=EXPLAINED,
-              explanation=Explanation(missing, push - difference), **about)
-    yield Row("push angle", rounded("67.82 deg", "rad"), turned["needle.push_angle"], pinned=AGREES, note="By calibration: no evidence.",
-              **about)
+    yield Row(
+        "push minus take angle",
+        rounded("50.22 deg", "rad"),
+        turned["needle.angle_difference"],
+        pinned=EXPLAINED,
+        explanation=Explanation(missing, difference),
+        **about,
+    )
+    yield Row(
+        "take angle",
+        rounded("17.6 deg", "rad"),
+        turned["needle.take_angle"],
+        pinned=EXPLAINED,
+        explanation=Explanation(missing, push - difference),
+        **about,
+    )
+    yield Row(
+        "push angle", rounded("67.82 deg", "rad"), turned["needle.push_angle"], pinned=AGREES, note="By calibration: no evidence.", **about
+    )
 
 
 def _pressure_angles(turned, interior):
     about = {"unit": "rad", "pinned": OPEN, "kind": "published table", "where": "section 4", "inputs": SECOND}
-    about["note"] = ("No law, sense of rotation or reading of the bend gives 38.67 and 30.74 deg together; among so many combinations a "
-                     "near hit of one of them is likely by chance.")
+    about["note"] = (
+        "No law, sense of rotation or reading of the bend gives 38.67 and 30.74 deg together; among so many combinations a "
+        "near hit of one of them is likely by chance."
+    )
     other = _result("default", ("cams",), 'push.law="simple-harmonic"', 'cams.orbit="counter-clockwise"')
     harmonic = "rod by simple harmonic motion, lever pivot orbiting counter-clockwise; l = m l1 = 56 mm"
     cases = (("bend turned", turned, CAMS), ("bend interior", interior, CAMS), ("other law and sense", other, harmonic))
@@ -91,7 +113,8 @@ def _curvature(turned):
     unchecked = Explanation(
         "The paper does not check curvature: the roller of 6 mm is larger than the sharpest convex radius of the pitch curve, "
         f"{1e3 * radius:.2f} mm, and undercuts the cam. Of the laws without a jump of velocity only the parabolic one just fits.",
-        other / roller)
+        other / roller,
+    )
     implied = Printed(">= 1, implied", 1.0, float("inf"))
     yield Row("convex radius over roller, main cam", implied, turned["cam.main.min_convex_radius"] / roller, pinned=AGREES, **about)
     yield Row("convex radius over roller, return cam", implied, radius / roller, pinned=EXPLAINED, explanation=unchecked, **about)
@@ -101,8 +124,9 @@ def _lever(turned):
     about = {"unit": "rad", "kind": "closed form", "inputs": SECOND}
     swing = np.degrees(np.arcsin(18 / np.hypot(18, 56)))
     printed = rounded(f"{swing:.4f} deg", "rad")._replace(text=f"eq. (1): {swing:.4f} deg")
-    yield Row("lever swing", printed, turned["lever.swing"], pinned=AGREES, where="eq. (1), stroke 18 mm", assumed="l = m l1 = 56 mm",
-              **about)
+    yield Row(
+        "lever swing", printed, turned["lever.swing"], pinned=AGREES, where="eq. (1), stroke 18 mm", assumed="l = m l1 = 56 mm", **about
+    )
     root = Explanation("Misprint: the root stands over a numerator that is an area; without it the formula is the cosine rule.")
     for number, radius, cam in (("01", 29, "main"), ("02", 33, "return")):
         literal = np.degrees(np.arccos(np.sqrt(37**2 + 16**2 - radius**2) / (2 * 37 * 16)))
@@ -128,6 +152,9 @@ ERRATA = (
 )
 
 source = Source(
-    "pusher-paper", "Chen Jianneng, Wang Ying, Zhao Xiong, Zhao Yun: Reverse design and simulation of walking-type rice transplanter's "
+    "pusher-paper",
+    "Chen Jianneng, Wang Ying, Zhao Xiong, Zhao Yun: Reverse design and simulation of walking-type rice transplanter's "
     "seedling-pushing device based on conjugate cam. Transactions of the CSAM 42(12), 2011, 78-82 (in Chinese; text read, figures not).",
-    rows, ERRATA)
+    rows,
+    ERRATA,
+)

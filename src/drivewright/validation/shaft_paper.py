@@ -18,14 +18,20 @@ E, SECOND, STIFFNESS = 206e9, 7854e-12, 3.0e7
 EI = E * SECOND
 SPAN = L7 + L8  # between C and D
 PRINTED_SECTION = 'segments.0.diameter="20.00001169 mm"'  # that has the printed I
-LAYOUT = {"m1": ("pressure-roller", "A", 0), "m2": ("pressure-roller", "B", 1),
-          "m3": ("rubber-roller-r1", "C", 0), "m4": ("rubber-roller-r1", "C", 1)}  # preset, bearing next to it, place in the matrix
+LAYOUT = {
+    "m1": ("pressure-roller", "A", 0),
+    "m2": ("pressure-roller", "B", 1),
+    "m3": ("rubber-roller-r1", "C", 0),
+    "m4": ("rubber-roller-r1", "C", 1),
+}  # preset, bearing next to it, place in the matrix
 
-DATA = ("Table 1: l1 to l9 = 56.5, 80, 108.5, 95, 53, 82, 66.5, 259.5, 29 mm; E = 206 GPa; I = 7854 mm^4; 3.0e7 N/m for each bearing")
+DATA = "Table 1: l1 to l9 = 56.5, 80, 108.5, 95, 53, 82, 66.5, 259.5, 29 mm; E = 206 GPa; I = 7854 mm^4; 3.0e7 N/m for each bearing"
 READING = "the prose with l7 counted from C (reading R1); beam after Euler and Bernoulli, as in the paper"
 TRENDS = "no significant change, on the scale of a figure: less than a tenth of the largest rigid flexibility of the shaft"
-LITERAL = ("Eqs. (16), (17) to the letter, reactions as magnitudes and x from the first mass, give the printed trend, by wrong signs: "
-           "bearings that yield add squares of their reactions over their stiffness, so to the flexibility of every mass under its load.")
+LITERAL = (
+    "Eqs. (16), (17) to the letter, reactions as magnitudes and x from the first mass, give the printed trend, by wrong signs: "
+    "bearings that yield add squares of their reactions over their stiffness, so to the flexibility of every mass under its load."
+)
 HISTORY = "Historical comparison: the printed eqs. (16), (17), which are wrong, reproduce this trend; no evidence for it."
 MISPRINT = "Misprint: the span is that of the bearings C and D, l7 + l8; with D right of C by l7 alone ours is the printed value."
 
@@ -96,8 +102,15 @@ def _pressure_roller():
     yield Row("slope at A, force at m1, in urad/N", turned(L1 * L2 / (3 * EI), "eq. (1)"), 1e6 * slope, "-", where="eq. (1)", **about)
     yield Row("moment at A over the force at m1, in m", rounded("0.0565", "-"), moment, "-", where="eq. (2)", **about)
     for number, mass, arm in ((3, "m1", L1), (4, "m2", L3)):
-        yield Row(f"flexibility of {mass}, bearings rigid", soft(arm**2 * (arm + L2) / (3 * EI), f"eq. ({number})"),
-                  diagonal(mass, np.inf), "m/N", where=f"eq. ({number})", note=own, **about)
+        yield Row(
+            f"flexibility of {mass}, bearings rigid",
+            soft(arm**2 * (arm + L2) / (3 * EI), f"eq. ({number})"),
+            diagonal(mass, np.inf),
+            "m/N",
+            where=f"eq. ({number})",
+            note=own,
+            **about,
+        )
 
 
 def _rubber_roller():
@@ -106,8 +119,15 @@ def _rubber_roller():
     name = "slope at C, force at m3, in urad/N"
     yield Row(name, turned(L6 * L7 / (3 * EI), "eq. (5)"), slope, "-", where="eq. (5)", explanation=Explanation(MISPRINT, other), **about)
     own, other = diagonal("m3", np.inf), float(flexibility("rubber-roller-r3", np.inf)[0, 0])
-    yield Row("flexibility of m3, bearings rigid", soft(L6**2 * (L6 + L7) / (3 * EI), "eq. (6)"), own, "m/N", where="eq. (6)",
-              explanation=Explanation(MISPRINT, other), **about)
+    yield Row(
+        "flexibility of m3, bearings rigid",
+        soft(L6**2 * (L6 + L7) / (3 * EI), "eq. (6)"),
+        own,
+        "m/N",
+        where="eq. (6)",
+        explanation=Explanation(MISPRINT, other),
+        **about,
+    )
     about |= {"pinned": AGREES, "where": "eqs. (5), (6) corrected"}
     yield Row(f"{name}, corrected", turned(L6 * SPAN / (3 * EI), "l6 (l7 + l8)/(3 EI)"), slope, "-", **about)
     corrected = soft(L6**2 * (L6 + SPAN) / (3 * EI), "l6^2 (l6 + l7 + l8)/(3 EI)")
@@ -119,8 +139,18 @@ def _equation_21():
     whole[:2, :2], whole[2:, 2:] = flexibility("pressure-roller"), flexibility("rubber-roller-r1")
     printed, meant = (int(np.linalg.matrix_rank(block)) for block in (whole[2:, :2], whole[2:, 2:]))
     misprint = Explanation("Misprint: the indices of K2 are 33, 34; 43, 44. No force on one shaft moves the other in this model.", meant)
-    return Row("rank of the flexibility with indices 31, 32; 41, 42", Printed("2, implied by its inverse K2", 2, 2), printed, "-",
-               pinned=EXPLAINED, kind="closed form", where="eq. (21)", inputs=DATA, assumed=READING, explanation=misprint)
+    return Row(
+        "rank of the flexibility with indices 31, 32; 41, 42",
+        Printed("2, implied by its inverse K2", 2, 2),
+        printed,
+        "-",
+        pinned=EXPLAINED,
+        kind="closed form",
+        where="eq. (21)",
+        inputs=DATA,
+        assumed=READING,
+        explanation=misprint,
+    )
 
 
 # -- fixed supports ------------------------------------------------------------------------------------------------------------
@@ -135,10 +165,16 @@ def clamped(preset):
     return shafts.flexibility(shafts.solve(system, shafts.work(system, ())), model.places, model.direction).delta
 
 
-CLAMPED = {"m1": (L1**3, "l1^3/(3 EI)"), "m2": (L3**3, "l3^3/(3 EI)"), "m3": (L6**3, "l6^3/(3 EI)"),
-           "m4": ((L7 * L8 / SPAN) ** 3, "(l7 l8)^3/(3 EI (l7 + l8)^3)")}
-UNTOLD = ("Finite elements with fixed supports are another shaft than the beam on simple supports that they are to confirm. Whether they "
-          "were clamped cannot be told: none of their numbers is printed, and there are four bearings in two shafts, not three.")
+CLAMPED = {
+    "m1": (L1**3, "l1^3/(3 EI)"),
+    "m2": (L3**3, "l3^3/(3 EI)"),
+    "m3": (L6**3, "l6^3/(3 EI)"),
+    "m4": ((L7 * L8 / SPAN) ** 3, "(l7 l8)^3/(3 EI (l7 + l8)^3)"),
+}
+UNTOLD = (
+    "Finite elements with fixed supports are another shaft than the beam on simple supports that they are to confirm. Whether they "
+    "were clamped cannot be told: none of their numbers is printed, and there are four bearings in two shafts, not three."
+)
 
 
 def _fixed():
@@ -148,8 +184,15 @@ def _fixed():
         preset, _, place = LAYOUT[mass]
         ours = float(clamped(preset)[place, place])
         yield Row(f"flexibility of {mass}, bearings clamped", soft(cube / (3 * EI), formula), ours, "m/N", pinned=AGREES, **about)
-        yield Row(f"flexibility of {mass}, clamped over simply supported", consistent, ours / diagonal(mass, np.inf), "-", pinned=OPEN,
-                  note=UNTOLD, **about)
+        yield Row(
+            f"flexibility of {mass}, clamped over simply supported",
+            consistent,
+            ours / diagonal(mass, np.inf),
+            "-",
+            pinned=OPEN,
+            note=UNTOLD,
+            **about,
+        )
 
 
 # -- section 5.3 ---------------------------------------------------------------------------------------------------------------
@@ -185,8 +228,14 @@ def _trends():
     for mass in CLAIMS:
         claim, rigid, name = trend(mass), diagonal(mass, np.inf), f"elastic over rigid flexibility of {mass}"
         historical, right = 1 + literal(mass) / rigid, mass == "m3"
-        yield Row(name, claim, diagonal(mass) / rigid, pinned=AGREES if right else EXPLAINED,
-                  explanation=None if right else Explanation(LITERAL, historical), **about)
+        yield Row(
+            name,
+            claim,
+            diagonal(mass) / rigid,
+            pinned=AGREES if right else EXPLAINED,
+            explanation=None if right else Explanation(LITERAL, historical),
+            **about,
+        )
         yield Row(f"{name}, eqs. (16), (17) to the letter", claim, historical, pinned=AGREES, note=HISTORY, **about)
 
 
@@ -194,8 +243,14 @@ def _conclusion():
     about = {"kind": "published table", "where": "conclusion (3)", "inputs": DATA, "assumed": READING}
     about["note"] = "This conclusion is right, at every mass and for any bearings - and contradicts the trends of section 5.3."
     for mass in CLAIMS:
-        yield Row(f"flexibility of {mass}, bearings twice as stiff over as they are", Printed("below 1, implied", *BELOW_ONE),
-                  diagonal(mass, 2 * STIFFNESS) / diagonal(mass), "-", pinned=AGREES, **about)
+        yield Row(
+            f"flexibility of {mass}, bearings twice as stiff over as they are",
+            Printed("below 1, implied", *BELOW_ONE),
+            diagonal(mass, 2 * STIFFNESS) / diagonal(mass),
+            "-",
+            pinned=AGREES,
+            **about,
+        )
 
 
 # -- bearings ------------------------------------------------------------------------------------------------------------------
@@ -203,8 +258,10 @@ def _conclusion():
 LOAD = 500.0  # N
 ROLLERS = {"rollers": 16, "roller_length": "3.2 mm"}  # of the cylindrical bearing
 KINDS = ("61804", "hypothetical-ACBB15-20x32x7", "hypothetical-ACBB25-20x32x7", "hypothetical-TRB-20x32x7")
-INNER = ("inner geometries of the size of a 61804, nobody's bearings but the first; no clearance, rings parallel, 500 N radially; without "
-         "an axial load the rings keep their axial place")
+INNER = (
+    "inner geometries of the size of a 61804, nobody's bearings but the first; no clearance, rings parallel, 500 N radially; without "
+    "an axial load the rings keep their axial place"
+)
 
 
 def radial(bearing, axial=0.0):
@@ -228,11 +285,24 @@ def secant_of_61804(force):
 
 def _bearings():
     yield from _stiffest()
-    light = Explanation("A 61804 has this secant stiffness at 107 N. No bearing of this kind has a constant stiffness: without preload it "
-                        "grows with the cube root of the load, from 0 at no load.", secant_of_61804(107.0))
+    light = Explanation(
+        "A 61804 has this secant stiffness at 107 N. No bearing of this kind has a constant stiffness: without preload it "
+        "grows with the cube root of the load, from 0 at no load.",
+        secant_of_61804(107.0),
+    )
     assumed = "balls of the catalogue's back-fitted 61804; no clearance; the load, which the paper leaves out"
-    yield Row("secant stiffness of a 61804 at 500 N", rounded("30 kN/mm", "N/m")._replace(text="3.0e7 N/m"), secant_of_61804(LOAD), "N/m",
-              pinned=EXPLAINED, kind="published table", where="Table 1", inputs=DATA, assumed=assumed, explanation=light)
+    yield Row(
+        "secant stiffness of a 61804 at 500 N",
+        rounded("30 kN/mm", "N/m")._replace(text="3.0e7 N/m"),
+        secant_of_61804(LOAD),
+        "N/m",
+        pinned=EXPLAINED,
+        kind="published table",
+        where="Table 1",
+        inputs=DATA,
+        assumed=assumed,
+        explanation=light,
+    )
 
 
 def _stiffest():
@@ -241,12 +311,18 @@ def _stiffest():
     plain, claim = lead(0.0, alike), Printed("above 1, implied", *ABOVE_ONE)
     loaded = Explanation("The claim holds for equal rollers and no axial load. With it, all of a tapered bearing's rollers carry.", plain)
     longer = Explanation("The claim holds for equal rollers. A tapered bearing of the same size may have more and longer ones.", plain)
-    about = {"unit": "-", "kind": "published table", "where": "section 5.3, figs. 17 and 18", "inputs": "61804, 'identical dimensions'",
-             "assumed": INNER}
+    about = {
+        "unit": "-",
+        "kind": "published table",
+        "where": "section 5.3, figs. 17 and 18",
+        "inputs": "61804, 'identical dimensions'",
+        "assumed": INNER,
+    }
     name = "cylindrical roller bearing over the stiffest other"
     yield Row(f"{name}, equal rollers, no axial load", claim, plain, pinned=AGREES, **about)
-    yield Row(f"{name}, tapered with 17 rollers of 4 mm, no axial load", claim, lead(0.0, taper), pinned=EXPLAINED, explanation=longer,
-              **about)
+    yield Row(
+        f"{name}, tapered with 17 rollers of 4 mm, no axial load", claim, lead(0.0, taper), pinned=EXPLAINED, explanation=longer, **about
+    )
     yield Row(f"{name}, equal rollers, 300 N axially", claim, lead(300.0, alike), pinned=EXPLAINED, explanation=loaded, **about)
 
 
@@ -279,6 +355,9 @@ ERRATA = (
 )
 
 source = Source(
-    "shaft-paper", "Li Yanqi, Zhang Qifan, Chen Gang: Transverse stiffness analysis of the shaft system in the drive mechanism of "
+    "shaft-paper",
+    "Li Yanqi, Zhang Qifan, Chen Gang: Transverse stiffness analysis of the shaft system in the drive mechanism of "
     "mobile-head spiral winding equipment. Tianjin University of Science and Technology (text and Table 1 read, figures not).",
-    rows, ERRATA)
+    rows,
+    ERRATA,
+)

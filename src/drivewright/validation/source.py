@@ -25,7 +25,7 @@ class Printed(NamedTuple):
 def rounded(text, unit):
     """A printed number "50.22 deg": all that rounds to its digits.  `unit` is the SI unit of its dimension, "-" for a pure number."""
     number, digits = re.match(r"[+-]?\d+\.?(\d*)", text).group(0, 1)
-    factor = 1.0 if unit == "-" else units.BY_UNIT[unit].factor(text[len(number):].strip())
+    factor = 1.0 if unit == "-" else units.BY_UNIT[unit].factor(text[len(number) :].strip())
     half = 0.5 * 10.0 ** -len(digits) * factor
     return Printed(text, float(number) * factor - half, float(number) * factor + half)
 

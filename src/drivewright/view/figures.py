@@ -82,8 +82,19 @@ def _draw_series(axis, panel, series, x, names):
     if series.marker:
         size = 6 if len(x) <= FEW else 5 if len(x) <= MANY else 3
         # The first group lies on top: it is the one that matters.
-        axis.plot(x[finite], data[finite], ls="none", marker=series.marker, ms=size, mew=0.4, mec="white", color=hue, label=label,
-                  zorder=3 - 0.01 * panel.series.index(series), rasterized=len(x) > MANY)
+        axis.plot(
+            x[finite],
+            data[finite],
+            ls="none",
+            marker=series.marker,
+            ms=size,
+            mew=0.4,
+            mec="white",
+            color=hue,
+            label=label,
+            zorder=3 - 0.01 * panel.series.index(series),
+            rasterized=len(x) > MANY,
+        )
     elif panel.style == "points":
         size = 7 if len(x) <= FEW else 4 if len(x) <= MANY else 1.5
         # A cloud is drawn as an image: as outlines ten thousand points are megabytes.
@@ -133,8 +144,9 @@ def _ring(axis, radius, text):
     """A circle about the origin with its name at its top."""
     turn = np.linspace(0, 2 * np.pi, 181)
     axis.plot(radius * np.cos(turn), radius * np.sin(turn), color=colour("bad"), lw=1.0, ls=(0, (5, 3)))
-    axis.annotate(text, (0, radius), xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=8, color=colour("bad"),
-                  bbox=BADGE)
+    axis.annotate(
+        text, (0, radius), xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=8, color=colour("bad"), bbox=BADGE
+    )
 
 
 def _positions(data):
@@ -167,9 +179,18 @@ def _limit(axis, value, text):
     """A dashed line across the panel with its name and value on it."""
     axis.axhline(value, color=colour("bad"), lw=1.0, ls=(0, (5, 3)))
     above = value < sum(axis.get_ylim()) / 2
-    axis.annotate(text, (1.0, value), xycoords=("axes fraction", "data"), xytext=(-2, 2 if above else -2),
-                  textcoords="offset points", ha="right", va="bottom" if above else "top", fontsize=8, color=colour("bad"),
-                  bbox=BADGE)
+    axis.annotate(
+        text,
+        (1.0, value),
+        xycoords=("axes fraction", "data"),
+        xytext=(-2, 2 if above else -2),
+        textcoords="offset points",
+        ha="right",
+        va="bottom" if above else "top",
+        fontsize=8,
+        color=colour("bad"),
+        bbox=BADGE,
+    )
 
 
 def _shade(axis, panel, marks, named):
@@ -183,8 +204,17 @@ def _shade(axis, panel, marks, named):
         rows = _rows(inside, (high - low) / 84)
         axis.set_ylim(panel.low, panel.high + (0.02 + 0.07 * max(rows)) * (panel.high - panel.low))
         for (start, label), row in zip(inside, rows, strict=True):
-            axis.annotate(label, (start, 1.0), xycoords=("data", "axes fraction"), xytext=(2, 8 - 10 * row), textcoords="offset points",
-                          va="top", fontsize=7.5, color=MUTED, bbox={"boxstyle": "square,pad=0.05", "fc": (1, 1, 1, 0.6), "ec": "none"})
+            axis.annotate(
+                label,
+                (start, 1.0),
+                xycoords=("data", "axes fraction"),
+                xytext=(2, 8 - 10 * row),
+                textcoords="offset points",
+                va="top",
+                fontsize=7.5,
+                color=MUTED,
+                bbox={"boxstyle": "square,pad=0.05", "fc": (1, 1, 1, 0.6), "ec": "none"},
+            )
 
 
 def _rows(inside, letter):

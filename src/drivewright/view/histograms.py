@@ -98,13 +98,27 @@ def _reachable(limits, found):
     low, high = float(found.min()), float(found.max())
     reach = APART * (high - low) or max(abs(low), 1.0)
     near = [limit for limit in limits if low - reach <= limit[0] <= high + reach]
-    return near, [Line2D([], [], ls="none", label=f"{literal(text)}: far {'below' if value < low else 'above'}")
-                  for value, text in limits if (value, text) not in near]
+    return near, [
+        Line2D([], [], ls="none", label=f"{literal(text)}: far {'below' if value < low else 'above'}")
+        for value, text in limits
+        if (value, text) not in near
+    ]
 
 
 def _limit(axis, value, text):
     """A dashed upright line with its name and value along it, inside the picture."""
     axis.axvline(value, color=colour("bad"), lw=1.0, ls=(0, (5, 3)))
     left = value > sum(axis.get_xlim()) / 2
-    axis.annotate(text, (value, 1.0), xycoords=("data", "axes fraction"), xytext=(-2 if left else 2, -2), textcoords="offset points",
-                  rotation=90, ha="right" if left else "left", va="top", fontsize=8, color=colour("bad"), bbox=BADGE)
+    axis.annotate(
+        text,
+        (value, 1.0),
+        xycoords=("data", "axes fraction"),
+        xytext=(-2 if left else 2, -2),
+        textcoords="offset points",
+        rotation=90,
+        ha="right" if left else "left",
+        va="top",
+        fontsize=8,
+        color=colour("bad"),
+        bbox=BADGE,
+    )

@@ -42,8 +42,10 @@ def _grouped(table, plot):
     def split(column):
         data = np.full((len(values), len(places)), np.nan)
         data[group, place] = column.data
-        return [column._replace(name=f"{column.name}.{text}", meaning=f"{plot.by} {text}", data=row)
-                for text, row in zip(told, data, strict=True)]
+        return [
+            column._replace(name=f"{column.name}.{text}", meaning=f"{plot.by} {text}", data=row)
+            for text, row in zip(told, data, strict=True)
+        ]
 
     lines = []
     for line in (_line(table, name) for name in plot.y):

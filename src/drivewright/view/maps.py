@@ -182,8 +182,10 @@ def written(cells):
     largest = float(np.abs(cells).max())
     places = 0 if are_whole(cells) else decimals(float(cells.min()), float(cells.max()), 3)
     plain = largest == 0 or 1e-3 <= largest < 1e6
-    return {(row, column): f"{cells[row, column]:.{places}f}".replace("-", "−") if plain else number(cells[row, column], 3)
-            for row, column in zip(*np.nonzero(~np.ma.getmaskarray(cells)), strict=True)}
+    return {
+        (row, column): f"{cells[row, column]:.{places}f}".replace("-", "−") if plain else number(cells[row, column], 3)
+        for row, column in zip(*np.nonzero(~np.ma.getmaskarray(cells)), strict=True)
+    }
 
 
 def are_whole(cells):

@@ -31,8 +31,9 @@ def draw_mesh(shown):
         axis.set_aspect("equal", adjustable="datalim")
         axis.autoscale_view()
         axis.set(xlabel=axis_label(panel.x.label, panel.x.unit), ylabel=axis_label(*parts_of_label(panel.label), width=30))
-        figure.colorbar(scale, ax=axis, orientation="horizontal", aspect=45, pad=0.02, shrink=0.7,
-                        label=axis_label(size.label, size.unit)).outline.set_visible(False)
+        figure.colorbar(
+            scale, ax=axis, orientation="horizontal", aspect=45, pad=0.02, shrink=0.7, label=axis_label(size.label, size.unit)
+        ).outline.set_visible(False)
     return figure
 
 

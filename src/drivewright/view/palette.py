@@ -48,6 +48,8 @@ def declarations(theme):
 def style_sheet():
     """Rules that set every role for both themes: by the reader's preference, or forced with data-theme on the root element."""
     light, dark = (declarations(theme) for theme in THEMES)
-    return (f":root {{ color-scheme: light; {light} }}\n"
-            f"@media screen and (prefers-color-scheme: dark) {{ :root:not([data-theme=light]) {{ color-scheme: dark; {dark} }} }}\n"
-            f"@media screen {{ :root[data-theme=dark] {{ color-scheme: dark; {dark} }} }}\n")
+    return (
+        f":root {{ color-scheme: light; {light} }}\n"
+        f"@media screen and (prefers-color-scheme: dark) {{ :root:not([data-theme=light]) {{ color-scheme: dark; {dark} }} }}\n"
+        f"@media screen {{ :root[data-theme=dark] {{ color-scheme: dark; {dark} }} }}\n"
+    )

@@ -104,11 +104,13 @@ def panels(result, plot):
     for line in lines:
         groups.setdefault(line.column.unit, []).append(line)
     most = len(lines) if plot.style in ("bars", "ranked") else len(SERIES)
-    chunks = [group[i:i + most] for group in groups.values() for i in range(0, len(group), most)]
+    chunks = [group[i : i + most] for group in groups.values() for i in range(0, len(group), most)]
     roles = itertools.cycle(SERIES)  # running on from panel to panel, so that one colour means one line as long as there are enough
     shade = _shaded(x, table[plot.shade]) if plot.shade else ()
-    return tuple(_panel(plot, _series(x), _coloured(chunk, roles), _label(table, plot, chunk), () if n else _limits(result, plot), shade)
-                 for n, chunk in enumerate(chunks))
+    return tuple(
+        _panel(plot, _series(x), _coloured(chunk, roles), _label(table, plot, chunk), () if n else _limits(result, plot), shade)
+        for n, chunk in enumerate(chunks)
+    )
 
 
 def _label(table, plot, chunk):
@@ -124,8 +126,14 @@ def _cloud_panel(result, plot, table, name):
 
     def member(n, name):
         data, *ends = (np.where(group == n, each, np.nan) for each in (column.data, *column.ends))
-        return column._replace(name=f"{column.name}.{name}", label=name, data=data, ends=tuple(ends),
-                               role=SERIES[n % len(SERIES)], marker=MARKERS[n % len(MARKERS)])
+        return column._replace(
+            name=f"{column.name}.{name}",
+            label=name,
+            data=data,
+            ends=tuple(ends),
+            role=SERIES[n % len(SERIES)],
+            marker=MARKERS[n % len(MARKERS)],
+        )
 
     series = [member(n, name) for n, name in enumerate(names)]
     limits = _limits(result, plot) if name == plot.y[0] else ()
@@ -181,8 +189,20 @@ def _panel(plot, x, series, label, limits, shade):
         data, ends = [s.data for s in series], series[0].ends if len(series) == 1 else ()
         lines = [np.maximum(data, 0.0).sum(axis=0), np.minimum(data, 0.0).sum(axis=0), *ends]
     low, high = log_span(lines, values) if plot.log else span(lines, values + [0.0] * (plot.style == "stems"))
-    return Panel(sentence(plot.title), axis_label(sentence(label[0]), text), x, tuple(series), limits, low, high, plot.equal, plot.style,
-                 plot.log, shade, rings)
+    return Panel(
+        sentence(plot.title),
+        axis_label(sentence(label[0]), text),
+        x,
+        tuple(series),
+        limits,
+        low,
+        high,
+        plot.equal,
+        plot.style,
+        plot.log,
+        shade,
+        rings,
+    )
 
 
 def _mesh_panel(plot, table):

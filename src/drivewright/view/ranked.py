@@ -31,8 +31,16 @@ def _draw(axis, panel, labels):
     for n, series in enumerate(bars):
         middle = place + (n - (len(bars) - 1) / 2) * thick
         data = series.data[: len(labels)]
-        axis.barh(middle, np.where(np.isfinite(data), data, 0.0), 0.92 * thick, color=colour(series.role), edgecolor="white", lw=0.3,
-                  hatch=HATCHES[n // len(SERIES) + n % len(SERIES) if n < len(HATCHES) else n % len(HATCHES)], label=literal(series.label))
+        axis.barh(
+            middle,
+            np.where(np.isfinite(data), data, 0.0),
+            0.92 * thick,
+            color=colour(series.role),
+            edgecolor="white",
+            lw=0.3,
+            hatch=HATCHES[n // len(SERIES) + n % len(SERIES) if n < len(HATCHES) else n % len(HATCHES)],
+            label=literal(series.label),
+        )
         if series.ends:
             _errors(axis, middle, data, *(end[: len(labels)] for end in series.ends))
     axis.axvline(0.0, color=colour("muted"), lw=0.8)
@@ -69,8 +77,14 @@ def _write(axis, bars, place):
     low, high = (np.fmin.reduce([data, *ends]), np.fmax.reduce([data, *ends]))
     for row, value in zip(place, data, strict=True):
         side = -1 if value < 0 else 1
-        look = {"xytext": (4 * side, 0), "textcoords": "offset points", "va": "center", "fontsize": 8, "color": colour("muted"),
-                "ha": "right" if value < 0 else "left"}
+        look = {
+            "xytext": (4 * side, 0),
+            "textcoords": "offset points",
+            "va": "center",
+            "fontsize": 8,
+            "color": colour("muted"),
+            "ha": "right" if value < 0 else "left",
+        }
         if not np.isfinite(value):
             axis.annotate("no value", (0.0, row), **look)
         elif len(bars) == 1:

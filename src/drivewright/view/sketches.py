@@ -14,14 +14,38 @@ FINENESS = 4e-4  # curves become chords within this part of the whole picture: a
 BAR_ROOM = 0.07  # room for the scale bar below a drawing, over its larger side
 PAST = 2  # cycles before this one whose traces an advancing observer still sees
 LAYERS = {  # layer -> line width, dashes, filled; colour is the body's
-    "profile": (1.4, "-", True), "body": (1.2, "-", True), "roller": (1.2, "-", True), "hole": (1.0, "-", False),
-    "pitch": (0.9, (0, (7, 2, 1.5, 2)), False), "base": (0.8, (0, (2, 2)), False), "axis": (0.7, (0, (9, 2, 2, 2)), False),
-    "ground": (1.6, "-", False), "defect": (2.2, "-", False),
+    "profile": (1.4, "-", True),
+    "body": (1.2, "-", True),
+    "roller": (1.2, "-", True),
+    "hole": (1.0, "-", False),
+    "pitch": (0.9, (0, (7, 2, 1.5, 2)), False),
+    "base": (0.8, (0, (2, 2)), False),
+    "axis": (0.7, (0, (9, 2, 2, 2)), False),
+    "ground": (1.6, "-", False),
+    "defect": (2.2, "-", False),
 }
-DRAWN = {"profile": "blue", "body": "blue", "hole": "ink", "pitch": "orange", "base": "green", "roller": "violet", "axis": "muted",
-         "ground": "ground", "defect": "bad"}
-NAMES = {"profile": "profile", "body": "body", "hole": "hole", "pitch": "pitch curve (roller centre)", "base": "base circle",
-         "roller": "roller", "axis": "axis", "ground": "ground", "defect": "defect"}
+DRAWN = {
+    "profile": "blue",
+    "body": "blue",
+    "hole": "ink",
+    "pitch": "orange",
+    "base": "green",
+    "roller": "violet",
+    "axis": "muted",
+    "ground": "ground",
+    "defect": "bad",
+}
+NAMES = {
+    "profile": "profile",
+    "body": "body",
+    "hole": "hole",
+    "pitch": "pitch curve (roller centre)",
+    "base": "base circle",
+    "roller": "roller",
+    "axis": "axis",
+    "ground": "ground",
+    "defect": "defect",
+}
 
 
 def draw_scene(scene, frame=None, at=(0.0,), ghosts=()):
@@ -147,8 +171,10 @@ def _legend(figure, scene):
 
     labels = {body.label: body.colour for body in reversed(scene.bodies)}
     keys = [Patch(fc=(colour(role), 0.3), ec=colour(role), label=sentence(label)) for label, role in reversed(labels.items())]
-    keys += [Line2D([], [], color=colour(TRACES[n % len(TRACES)]), ls=(0, (4, 2)), lw=1.2, label=sentence(trace.label))
-             for n, trace in enumerate(scene.traces)]
+    keys += [
+        Line2D([], [], color=colour(TRACES[n % len(TRACES)]), ls=(0, (4, 2)), lw=1.2, label=sentence(trace.label))
+        for n, trace in enumerate(scene.traces)
+    ]
     columns = legend_columns([key.get_label() for key in keys])
     figure.legend(handles=keys, loc="lower left", ncols=columns, handlelength=1.6, borderaxespad=0.3)
     return -(-len(keys) // columns)
@@ -164,8 +190,16 @@ def draw_drawing(drawing):
             for number_, outline in enumerate(drawing.on(layer)):
                 width, dashes, filled = LAYERS[layer]
                 face = (colour(role), 0.14) if filled and outline.closed else "white" if layer == "hole" else "none"
-                _add(axis, thinned(outline, tolerance) * factor, outline.closed, ec=colour(role), fc=face, lw=width, ls=dashes,
-                     label=NAMES[layer] if number_ == 0 else None)
+                _add(
+                    axis,
+                    thinned(outline, tolerance) * factor,
+                    outline.closed,
+                    ec=colour(role),
+                    fc=face,
+                    lw=width,
+                    ls=dashes,
+                    label=NAMES[layer] if number_ == 0 else None,
+                )
         low, high = _extent([axis])
         arrange(figure, [axis], low - (0.0, BAR_ROOM * (high - low).max()), high, right=2.2)
         axis.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
@@ -194,5 +228,6 @@ def _scale_bar(axis, unit):
     length = nice_length(0.22 * (high - low))
     start, height = low + 0.03 * (high - low), axis.get_ylim()[0] + 0.03 * np.ptp(axis.get_ylim())
     axis.plot([start, start + length], [height, height], color=colour("ink"), lw=2, solid_capstyle="butt")
-    axis.annotate(with_unit(number(length), unit), (start + length / 2, height), xytext=(0, 3), textcoords="offset points", ha="center",
-                  fontsize=8)
+    axis.annotate(
+        with_unit(number(length), unit), (start + length / 2, height), xytext=(0, 3), textcoords="offset points", ha="center", fontsize=8
+    )

@@ -19,13 +19,40 @@ TURNED = 78  # letters of the names under an axis, from which on they are turned
 MOST_NAMES = 40  # along an axis; of more, only every second, third ... is written
 INK, MUTED, LINE, GRID = colour("ink"), colour("muted"), colour("line"), colour("grid")
 PARAMETERS = {
-    "font.family": ["DejaVu Sans"], "font.size": 9, "axes.titlesize": 10, "axes.labelsize": 9, "legend.fontsize": 8.5,
-    "xtick.labelsize": 8.5, "ytick.labelsize": 8.5, "text.color": INK, "axes.labelcolor": INK, "xtick.color": MUTED, "ytick.color": MUTED,
-    "axes.edgecolor": MUTED, "axes.linewidth": 0.7, "axes.grid": True, "grid.color": GRID, "grid.linewidth": 0.7, "axes.axisbelow": True,
-    "axes.spines.top": False, "axes.spines.right": False, "xtick.major.size": 3, "ytick.major.size": 3,
-    "xtick.major.width": 0.7, "ytick.major.width": 0.7, "axes.titlelocation": "left", "axes.titleweight": "bold", "figure.dpi": 100,
-    "figure.facecolor": "white", "axes.facecolor": "white", "legend.frameon": False, "lines.solid_joinstyle": "round",
-    "axes.formatter.useoffset": False, "svg.fonttype": "none", "path.simplify_threshold": 0.2, "svg.hashsalt": "drivewright",
+    "font.family": ["DejaVu Sans"],
+    "font.size": 9,
+    "axes.titlesize": 10,
+    "axes.labelsize": 9,
+    "legend.fontsize": 8.5,
+    "xtick.labelsize": 8.5,
+    "ytick.labelsize": 8.5,
+    "text.color": INK,
+    "axes.labelcolor": INK,
+    "xtick.color": MUTED,
+    "ytick.color": MUTED,
+    "axes.edgecolor": MUTED,
+    "axes.linewidth": 0.7,
+    "axes.grid": True,
+    "grid.color": GRID,
+    "grid.linewidth": 0.7,
+    "axes.axisbelow": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "xtick.major.size": 3,
+    "ytick.major.size": 3,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "axes.titlelocation": "left",
+    "axes.titleweight": "bold",
+    "figure.dpi": 100,
+    "figure.facecolor": "white",
+    "axes.facecolor": "white",
+    "legend.frameon": False,
+    "lines.solid_joinstyle": "round",
+    "axes.formatter.useoffset": False,
+    "svg.fonttype": "none",
+    "path.simplify_threshold": 0.2,
+    "svg.hashsalt": "drivewright",
 }
 
 
@@ -138,8 +165,15 @@ def legend_above(axis, handles=None, room=84):
     """The legend in rows of `room` letters above an axis, from its left end on; none without anything to tell."""
     handles = axis.get_legend_handles_labels()[0] if handles is None else handles
     if handles:
-        axis.legend(handles=handles, loc="lower left", bbox_to_anchor=(-0.01, 1.0), borderaxespad=0.1, handlelength=1.4, columnspacing=1.2,
-                    ncols=legend_columns([handle.get_label() for handle in handles], room))
+        axis.legend(
+            handles=handles,
+            loc="lower left",
+            bbox_to_anchor=(-0.01, 1.0),
+            borderaxespad=0.1,
+            handlelength=1.4,
+            columnspacing=1.2,
+            ncols=legend_columns([handle.get_label() for handle in handles], room),
+        )
 
 
 def legend_columns(labels, room=92):

@@ -10,6 +10,16 @@ from drivewright.chains.closure.drive import POSITIONS, Closure, Drive, States, 
 from drivewright.chains.closure.positions import Phased, phased, plates, states_at
 
 __all__ = [
-    "POSITIONS", "Closure", "Departure", "Drive", "Phased", "States",
-    "close", "departure", "phase_map", "phased", "plates", "states_at",
+    "POSITIONS",
+    "Closure",
+    "Departure",
+    "Drive",
+    "Phased",
+    "States",
+    "close",
+    "departure",
+    "phase_map",
+    "phased",
+    "plates",
+    "states_at",
 ]

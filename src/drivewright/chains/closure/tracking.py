@@ -37,8 +37,15 @@ def follow(layout, seats, x, grid):
     """The `Track` over the ascending angles `grid`; `seats` and x are where to start from, and are overwritten."""
     room = len(grid) * (1 + 2 * ENDS) + _CHANGES
     track = Track(
-        np.empty(room), np.empty((room, UNKNOWNS)), np.empty((room, UNKNOWNS)), np.empty((room, UNKNOWNS)),
-        np.empty((room, ENDS), np.int64), np.zeros(room, np.bool_), np.empty(room), np.zeros(1, np.int64), np.zeros(1, np.int64),
+        np.empty(room),
+        np.empty((room, UNKNOWNS)),
+        np.empty((room, UNKNOWNS)),
+        np.empty((room, UNKNOWNS)),
+        np.empty((room, ENDS), np.int64),
+        np.zeros(room, np.bool_),
+        np.empty(room),
+        np.zeros(1, np.int64),
+        np.zeros(1, np.int64),
     )
     work, start, held = workspace(layout.links), np.empty(UNKNOWNS), np.empty(2 * ENDS)
     outcome = _settle(layout, seats, grid[0], x, work)

@@ -146,8 +146,10 @@ def _slid(loop, count, slack):
 
 
 def _misfit(links, count):
-    return (f"chain drive: the loop around the sprockets takes {links:.4g} pitches, the chain has {count}. "
-            "Move a sprocket, give one a slide, or change the number of links.")
+    return (
+        f"chain drive: the loop around the sprockets takes {links:.4g} pitches, the chain has {count}. "
+        "Move a sprocket, give one a slide, or change the number of links."
+    )
 
 
 def _speeds(model):
@@ -173,7 +175,8 @@ def _tension(model, loop, q, chain_speed):
     if not tension > 0:
         raise InputError(
             f"chain drive: the slide of sprocket {loop.slide + 1} leaves the chain slack (tension {tension:.3g} N); "
-            "point its direction outward and its force along it.")
+            "point its direction outward and its force along it."
+        )
     return tension + centrifugal
 
 
@@ -197,7 +200,8 @@ def _seats(loop, model, q, behind):
     if np.min(free) < 1 or np.min(first - last) < 1:
         raise DoesNotAssemble(
             f"chain drive: {np.min(free)} free plates in a strand and {np.min(first - last) + 1} seated on a sprocket at least; "
-            "the loop needs one free and two seated ones everywhere. Lengthen the chain or move the sprockets.")
+            "the loop needs one free and two seated ones everywhere. Lengthen the chain or move the sprockets."
+        )
     return (first, last), free, np.concatenate([beta, psi, [q if loop.slide is not None else 0.0]])
 
 

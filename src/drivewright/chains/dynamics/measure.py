@@ -7,8 +7,21 @@ import numpy as np
 from drivewright.chains.dynamics.shots import BODIES, PLATES, SCALARS
 from drivewright.chains.dynamics.state import SUMS
 
-ROW = ("t", "kinetic", "potential", "elastic", "momentum x", "momentum y", "angular momentum", "contacts", "open joints", "utilisation",
-       "joint damping", "contact damping", *SUMS)
+ROW = (
+    "t",
+    "kinetic",
+    "potential",
+    "elastic",
+    "momentum x",
+    "momentum y",
+    "angular momentum",
+    "contacts",
+    "open joints",
+    "utilisation",
+    "joint damping",
+    "contact damping",
+    *SUMS,
+)
 BODY = BODIES[:7]
 PLATE = ("x", "y", "angle", "left x", "left y", "right x", "right y", "left flank", "right flank")
 PRESSED = 0.05  # part of the largest joint force below which friction utilisation is not asked for
@@ -25,8 +38,9 @@ class Log(NamedTuple):
 
 def empty_log(samples, bodies, joints):
     """Room for so many."""
-    return Log(np.zeros((samples, len(ROW))), np.zeros((samples, bodies, len(BODY))), np.zeros((samples, joints)),
-               np.zeros((samples, len(PLATE))))
+    return Log(
+        np.zeros((samples, len(ROW))), np.zeros((samples, bodies, len(BODY))), np.zeros((samples, joints)), np.zeros((samples, len(PLATE)))
+    )
 
 
 def measured(drive, shots, joints, plate):
@@ -68,8 +82,11 @@ def plates_kinetic(chain, p):
 def momenta(chain, p):
     """Momentum and angular momentum about the origin of all plates, (S,) each."""
     turning = chain.mass * (dot(p["x"], p["vy"]) - dot(p["y"], p["vx"])) + chain.inertia * np.sum(p["w"], axis=1)
-    return {"momentum x": chain.mass * np.sum(p["vx"], axis=1), "momentum y": chain.mass * np.sum(p["vy"], axis=1),
-            "angular momentum": turning}
+    return {
+        "momentum x": chain.mass * np.sum(p["vx"], axis=1),
+        "momentum y": chain.mass * np.sum(p["vy"], axis=1),
+        "angular momentum": turning,
+    }
 
 
 def weight(drive, p):

@@ -193,7 +193,8 @@ def _check_sprocket(sprocket, where):
     _finite(f"{where}: centre", sprocket.centre)
     if not sprocket.tip_radius > sprocket.form_radius >= 0:
         raise InputError(
-            f"{where}: tip radius {sprocket.tip_radius:g} m must exceed form radius {sprocket.form_radius:g} m, which is 0 or more.")
+            f"{where}: tip radius {sprocket.tip_radius:g} m must exceed form radius {sprocket.form_radius:g} m, which is 0 or more."
+        )
     if sprocket.drive is None:
         _above(where, "inertia", sprocket.inertia, " of a sprocket without a drive")
     elif not sprocket.drive.ramp >= 0 or not np.isfinite(sprocket.drive.speed + sprocket.drive.start):
@@ -212,7 +213,8 @@ def _check_guide(guide, where):
     _from_zero(where, "friction", guide.friction)
     if not 0 < guide.end - guide.start <= 2 * np.pi:
         raise InputError(
-            f"{where}: the arc runs counter-clockwise from start to end by up to a turn, got {guide.start:g} .. {guide.end:g} rad.")
+            f"{where}: the arc runs counter-clockwise from start to end by up to a turn, got {guide.start:g} .. {guide.end:g} rad."
+        )
     _finite(f"{where}: centre and distance", (*guide.centre, guide.distance))
     _check_slide(guide, where)
 

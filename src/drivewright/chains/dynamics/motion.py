@@ -150,8 +150,10 @@ class Motion:
     @property
     def momentum_residual(self):
         """(momentum, angular momentum): largest gap to the impulse of all bodies on the chain, over the largest of a plate's times N."""
-        x, y, turning = (self.column(a) - self.column(b) for a, b in
-                         (("momentum x", "impulse x"), ("momentum y", "impulse y"), ("angular momentum", "turning impulse")))
+        x, y, turning = (
+            self.column(a) - self.column(b)
+            for a, b in (("momentum x", "impulse x"), ("momentum y", "impulse y"), ("angular momentum", "turning impulse"))
+        )
         chain, sprocket = self.model.chain, self.model.sprockets[self.model.driver]
         speed = np.max(np.abs(self.body(self.model.driver, "w"))) * sprocket.tooth.teeth * chain.link.pitch / (2 * np.pi)
         momentum = chain.count * chain.mass * max(speed, 1e-300)
@@ -165,8 +167,10 @@ class Motion:
             bad = int(np.argmin(np.all(np.isfinite(self.rows), axis=1)))
             return f"the motion is lost at t = {self.t[max(bad - 1, 0)]:.4g} s; shorten the step of {self.step:.3g} s"
         if self.energy_drift > self.settings.tolerance:
-            return (f"energy drifts by {self.energy_drift:.2g} of what is stored in a second, more than {self.settings.tolerance:.2g}; "
-                    f"shorten the step of {self.step:.3g} s")
+            return (
+                f"energy drifts by {self.energy_drift:.2g} of what is stored in a second, more than {self.settings.tolerance:.2g}; "
+                f"shorten the step of {self.step:.3g} s"
+            )
         return ""
 
     @property

@@ -96,8 +96,11 @@ def _damp(drive, begin, share):
     """Draw rates towards the quiet ones: plates along their own line, no faster turned than their neighbours, slides at rest."""
     p, b, n, m = drive.plates, drive.bodies, drive.chain.count, len(begin.psi)
     w = p.hw[:n]
-    changes = (share * (begin.speed * p.c[:n] - p.hx[:n]), share * (begin.speed * p.s[:n] - p.hy[:n]),
-               0.25 * share * (np.roll(w, 1) - 2 * w + np.roll(w, -1)))
+    changes = (
+        share * (begin.speed * p.c[:n] - p.hx[:n]),
+        share * (begin.speed * p.s[:n] - p.hy[:n]),
+        0.25 * share * (np.roll(w, 1) - 2 * w + np.roll(w, -1)),
+    )
     for half, whole, change in zip((p.hx, p.hy, p.hw), (p.vx, p.vy, p.w), changes, strict=True):
         half[:n] += change
         whole[:n] += change

@@ -30,8 +30,9 @@ def empty_shots(samples, bodies, count):
 def shoot(chain, p, j, t, b, clock, power, sums, shots, shot, dt):
     """One snapshot, at a whole step under its loads: rates are the means of the half steps on both sides, h those of the later one."""
     out, n = shots.plates[shot], chain.count
-    for row, values in enumerate((p.x, p.y, p.angle, p.c, p.s, p.vx, p.vy, p.w, p.hx, p.hy, p.hw, j.fx, j.fy, j.rx, j.ry, t.stored,
-                                  t.left, t.right)):
+    for row, values in enumerate(
+        (p.x, p.y, p.angle, p.c, p.s, p.vx, p.vy, p.w, p.hx, p.hy, p.hw, j.fx, j.fy, j.rx, j.ry, t.stored, t.left, t.right)
+    ):
         for i in range(n):
             out[row, i] = values[i]
     bodies = shots.bodies[shot]

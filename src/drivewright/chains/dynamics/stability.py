@@ -48,8 +48,11 @@ def refuse_step(model, step):
         return
     square, gamma = fastest(model)
     damped = gamma / np.sqrt(square)
-    reason = (f"the damping of joints or contacts is {damped:.3g} times critical; take that step, lower the damping, or solve implicitly"
-              if damped > 1 else f"the fastest mode has {np.sqrt(square) / (2 * np.pi * 1e3):.3g} kHz")
+    reason = (
+        f"the damping of joints or contacts is {damped:.3g} times critical; take that step, lower the damping, or solve implicitly"
+        if damped > 1
+        else f"the fastest mode has {np.sqrt(square) / (2 * np.pi * 1e3):.3g} kHz"
+    )
     raise InputError(f"chain drive: a step of {step:.3g} s is not between 0 and the largest stable one, {largest:.3g} s: {reason}.")
 
 
@@ -65,8 +68,10 @@ def refuse_seats(model):
         if not chain.crotch < depth < chain.toe:
             raise InputError(
                 f"sprocket {number}: a seated plate touches {1e3 * depth:.4g} mm below its pins, but its flank reaches from "
-                f"{1e3 * chain.crotch:.4g} to {1e3 * chain.toe:.4g} mm; move toe or crotch, or the flank's distance from the pins.")
+                f"{1e3 * chain.crotch:.4g} to {1e3 * chain.toe:.4g} mm; move toe or crotch, or the flank's distance from the pins."
+            )
         if not (tooth.support < 0 and sprocket.form_radius < tooth.contact_radius < sprocket.tip_radius):
             raise InputError(
                 f"sprocket {number}: a seated plate touches at radius {1e3 * tooth.contact_radius:.5g} mm, but the flank is active from "
-                f"{1e3 * sprocket.form_radius:.5g} to {1e3 * sprocket.tip_radius:.5g} mm; move the tip, the form radius or the support.")
+                f"{1e3 * sprocket.form_radius:.5g} to {1e3 * sprocket.tip_radius:.5g} mm; move the tip, the form radius or the support."
+            )

@@ -91,14 +91,52 @@ class Touches(NamedTuple):
     torque: np.ndarray
 
 
-BODIES = np.dtype([(name, float) for name in (
-    "q", "vq", "hq", "psi", "w", "hw", "x", "y", "vx", "vy", "fx", "fy", "torque", "aq", "aw", "x0", "y0", "ux", "uy", "mass", "inertia",
-    "start", "speed", "ramp", "psi0", "force", "spring", "slide_damping", "load", "turn_damping", "stiffness", "damping",
-)] + [("slides", bool), ("driven", bool)], align=True)
+BODIES = np.dtype(
+    [
+        (name, float)
+        for name in (
+            "q",
+            "vq",
+            "hq",
+            "psi",
+            "w",
+            "hw",
+            "x",
+            "y",
+            "vx",
+            "vy",
+            "fx",
+            "fy",
+            "torque",
+            "aq",
+            "aw",
+            "x0",
+            "y0",
+            "ux",
+            "uy",
+            "mass",
+            "inertia",
+            "start",
+            "speed",
+            "ramp",
+            "psi0",
+            "force",
+            "spring",
+            "slide_damping",
+            "load",
+            "turn_damping",
+            "stiffness",
+            "damping",
+        )
+    ]
+    + [("slides", bool), ("driven", bool)],
+    align=True,
+)
 """Per sprocket, then per guide: what slides and turns.  Rates at whole steps and (hq, hw) at half steps; loads; constants.
 
 Records, as of guides: a tuple of so many arrays takes long to compile.
 """
+
 
 class Teeth(NamedTuple):
     """Per sprocket: base radius, support, limits of the support for form and tip, tooth angle, reach; then what a roller's tooth needs."""
@@ -176,8 +214,20 @@ DRIVE, TORQUE, SLIDE_DAMPING, TURN_DAMPING, FRICTION, GUIDE_DAMPING, IMPULSE_X, 
 def lower(model):
     """The `Drive` of a model, its plates not yet placed."""
     chain = _chain(model.chain)
-    return Drive(chain, _plates(model, chain), _joints(chain), _touches(chain), _bodies(model), _teeth(model), _arcs(model.guides),
-                 _runs(model, chain), np.array(model.gravity, float), np.zeros(2), np.zeros(len(SUMS)), np.zeros(len(SUMS)))
+    return Drive(
+        chain,
+        _plates(model, chain),
+        _joints(chain),
+        _touches(chain),
+        _bodies(model),
+        _teeth(model),
+        _arcs(model.guides),
+        _runs(model, chain),
+        np.array(model.gravity, float),
+        np.zeros(2),
+        np.zeros(len(SUMS)),
+        np.zeros(len(SUMS)),
+    )
 
 
 def _chain(chain):
@@ -185,8 +235,20 @@ def _chain(chain):
     ca, sa = np.cos(link.flank_angle), np.sin(link.flank_angle)
     along = [(link.flank * sa - depth) / ca for depth in (chain.toe, chain.crotch)]
     blocks = chain.count // WIDTH + 1  # one more place than plates at least, for the copy of the first
-    values = (chain.joint_stiffness, chain.joint_damping * chain.joint_stiffness, chain.articulation_damping, 2 * link.radius,
-              chain.centre_offset, ca, sa, link.flank, *along, 0.5 * link.pitch, chain.mass, chain.inertia)
+    values = (
+        chain.joint_stiffness,
+        chain.joint_damping * chain.joint_stiffness,
+        chain.articulation_damping,
+        2 * link.radius,
+        chain.centre_offset,
+        ca,
+        sa,
+        link.flank,
+        *along,
+        0.5 * link.pitch,
+        chain.mass,
+        chain.inertia,
+    )
     return Chain(int(chain.count), blocks, *map(float, values))  # whole numbers among them would be compiled for anew
 
 
@@ -201,8 +263,12 @@ def _plates(model, chain):
     half[: chain.count] = 0.5 * model.chain.hole_pitches
     half[chain.count] = half[0]
     live = np.where(np.arange(WIDTH * chain.blocks) < chain.count, 1.0, 0.0)
-    constants = (live / model.chain.mass, live / model.chain.inertia, model.chain.mass * model.gravity[0] * live,
-                 model.chain.mass * model.gravity[1] * live)
+    constants = (
+        live / model.chain.mass,
+        live / model.chain.inertia,
+        model.chain.mass * model.gravity[0] * live,
+        model.chain.mass * model.gravity[1] * live,
+    )
     return Plates(*(a[:-1] for a in moving), *(a[1:] for a in moving), *rest, half[:-1], half[1:], *constants)
 
 
@@ -261,9 +327,21 @@ def _roller(sprocket, model):
     tooth = sprocket.tooth
     edge = 0.5 * tooth.seat_angle
     reach = tooth.pitch_radius + model.chain.link.pitch
-    return (0.0, 0.0, sprocket.tip_radius, 0.0, 2 * np.pi / tooth.teeth, reach, True, tooth.pitch_radius,
-            tooth.seat_radius - tooth.roller_radius, tooth.flank_radius + tooth.roller_radius, np.sin(edge), -np.cos(edge),
-            *tooth.flank_centre)
+    return (
+        0.0,
+        0.0,
+        sprocket.tip_radius,
+        0.0,
+        2 * np.pi / tooth.teeth,
+        reach,
+        True,
+        tooth.pitch_radius,
+        tooth.seat_radius - tooth.roller_radius,
+        tooth.flank_radius + tooth.roller_radius,
+        np.sin(edge),
+        -np.cos(edge),
+        *tooth.flank_centre,
+    )
 
 
 def _arcs(guides):

@@ -6,15 +6,7 @@ import numpy as np
 from scipy.stats import binom
 
 from drivewright.cases import Outcomes, run
-from drivewright.chains.dynamics.ensemble import (
-    Ensemble,
-    amplitude_of,
-    centre_distance,
-    ensemble,
-    greatest_of,
-    mean_of,
-    range_of,
-)
+from drivewright.chains.dynamics.ensemble import Ensemble, amplitude_of, centre_distance, ensemble, greatest_of, mean_of, range_of
 from drivewright.chains.dynamics.model import Model, at_speed, with_sprocket
 from drivewright.chains.dynamics.simulate import Settings, tooth_time
 from drivewright.chains.tooth import Tooth
@@ -49,10 +41,17 @@ def level(runs: Ensemble, orders=ORDERS) -> Level:
     first, (mesh, amplitudes) = runs.first, runs.mesh_orders
     spectrum, reach = of_members(amplitudes)
     found = Level(
-        first.model.sprockets[first.model.driver].drive.speed, runs.estimate(mean_of(centre_distance), range_of(centre_distance)),
-        runs.estimate(range_of(centre_distance)), tuple(runs.estimate(amplitude_of(centre_distance, order)) for order in orders),
-        mesh / first.tooth_time, spectrum, reach, runs.estimate(greatest_of(lambda each: np.max(each.tension, axis=1))),
-        runs.estimate(greatest_of(lambda each: each.column("utilisation"))), runs.energy_drift)
+        first.model.sprockets[first.model.driver].drive.speed,
+        runs.estimate(mean_of(centre_distance), range_of(centre_distance)),
+        runs.estimate(range_of(centre_distance)),
+        tuple(runs.estimate(amplitude_of(centre_distance, order)) for order in orders),
+        mesh / first.tooth_time,
+        spectrum,
+        reach,
+        runs.estimate(greatest_of(lambda each: np.max(each.tension, axis=1))),
+        runs.estimate(greatest_of(lambda each: each.column("utilisation"))),
+        runs.energy_drift,
+    )
     if runs.advice:
         raise SolverError(runs.advice, partial=found)
     return found
@@ -109,18 +108,27 @@ def scattered(model, scatter, seed) -> Model:
     return made
 
 
-def monte_carlo(model, scatter, samples, duration, settings=Settings(), percentiles=(5, 50, 95), seed=0, members=1, workers=None,
-                progress=None):
+def monte_carlo(
+    model, scatter, samples, duration, settings=Settings(), percentiles=(5, 50, 95), seed=0, members=1, workers=None, progress=None
+):
     """The `Spread` over so many drives of `scatter`, each an ensemble of so many runs for `duration` [s]."""
     if samples < 2 or min(scatter.tooth_thickness, scatter.pitch) < 0:
         raise InputError(f"monte_carlo: needs 2 samples or more and deviations of 0 or more, got {samples} and {scatter}.")
-    outcomes = run(lambda each: level(ensemble(scattered(model, scatter, (seed, each)), duration, settings, members, workers=1)),
-                   range(samples), workers, progress)
+    outcomes = run(
+        lambda each: level(ensemble(scattered(model, scatter, (seed, each)), duration, settings, members, workers=1)),
+        range(samples),
+        workers,
+        progress,
+    )
     levels = [row.value for row in outcomes.rows if row.ok]
     if not levels:
         raise SolverError(f"monte_carlo: none of {samples} drives ran through; the first said: {outcomes.rows[0].reason}", partial=outcomes)
-    return Spread(tuple(percentiles), quantiles([each.mean.value for each in levels], percentiles),
-                  quantiles([each.fluctuation.value for each in levels], percentiles), outcomes)
+    return Spread(
+        tuple(percentiles),
+        quantiles([each.mean.value for each in levels], percentiles),
+        quantiles([each.fluctuation.value for each in levels], percentiles),
+        outcomes,
+    )
 
 
 def quantiles(sample, percentiles):

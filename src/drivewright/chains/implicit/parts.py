@@ -10,13 +10,44 @@ from drivewright.chains.implicit.ring import Ring, empty_ring
 POWERS = ("joint damping", "contact damping", "slide damping", "turn damping", "friction", "guide damping", "torque")
 JOINT, CONTACT, SLIDE, TURN, FRICTION, GUIDE, TORQUE = range(len(POWERS))
 TOOTH, GAP, ARC = range(3)  # kinds of a body
-_FROM_BODIES = ("x0", "y0", "ux", "uy", "mass", "inertia", "start", "speed", "ramp", "psi0", "force", "spring", "slide_damping", "load",
-                "turn_damping", "stiffness", "damping")
-_FROM_TEETH = ("support", "low", "high", "pitch_angle", "reach", "seat_at", "seat_gap", "flank_gap", "edge_x", "edge_y", "flank_x",
-               "flank_y")
+_FROM_BODIES = (
+    "x0",
+    "y0",
+    "ux",
+    "uy",
+    "mass",
+    "inertia",
+    "start",
+    "speed",
+    "ramp",
+    "psi0",
+    "force",
+    "spring",
+    "slide_damping",
+    "load",
+    "turn_damping",
+    "stiffness",
+    "damping",
+)
+_FROM_TEETH = (
+    "support",
+    "low",
+    "high",
+    "pitch_angle",
+    "reach",
+    "seat_at",
+    "seat_gap",
+    "flank_gap",
+    "edge_x",
+    "edge_y",
+    "flank_x",
+    "flank_y",
+)
 _FROM_ARCS = ("radius", "distance", "side", "middle_x", "middle_y", "opening", "friction", "slip")
-BODY = np.dtype([("kind", np.int64), ("base_radius", float), ("slide_column", np.int64), ("turn_column", np.int64)]
-                + [(name, float) for name in (*_FROM_BODIES, *_FROM_TEETH, *_FROM_ARCS)])
+BODY = np.dtype(
+    [("kind", np.int64), ("base_radius", float), ("slide_column", np.int64), ("turn_column", np.int64)]
+    + [(name, float) for name in (*_FROM_BODIES, *_FROM_TEETH, *_FROM_ARCS)]
+)
 PAIR = np.dtype([("body", np.int64), ("plate", np.int64), ("seat", float), ("right", float), ("left", float)])
 
 
@@ -70,8 +101,17 @@ def lower(model):
     drive = state.lower(model)
     bodies, count = _records(drive), model.chain.count
     border = int(max(bodies["slide_column"].max(), bodies["turn_column"].max())) + 1
-    field = Field(np.zeros((count, 3)), np.zeros((len(bodies), 2)), empty_ring(count, border), np.zeros((count, 2)), np.zeros(len(POWERS)),
-                  np.zeros((len(bodies), 3)), np.zeros((count, 2)), np.zeros(5), np.zeros((5, 5)))
+    field = Field(
+        np.zeros((count, 3)),
+        np.zeros((len(bodies), 2)),
+        empty_ring(count, border),
+        np.zeros((count, 2)),
+        np.zeros(len(POWERS)),
+        np.zeros((len(bodies), 3)),
+        np.zeros((count, 2)),
+        np.zeros(5),
+        np.zeros((5, 5)),
+    )
     half = 0.5 * np.ascontiguousarray(model.chain.hole_pitches)
     pairs = np.zeros(count * len(bodies), PAIR).view(np.recarray)
     return Parts(drive.chain, half, drive.gravity, bodies, pairs, np.zeros(1, np.int64), field)
@@ -80,8 +120,11 @@ def lower(model):
 def _records(drive):
     rows = np.zeros(len(drive.bodies.q), BODY).view(np.recarray)  # for the kernels in plain Python
     sprockets = len(drive.teeth.base)
-    for names, source, place in ((_FROM_BODIES, drive.bodies, slice(None)), (_FROM_TEETH, drive.teeth, slice(0, sprockets)),
-                                 (_FROM_ARCS, drive.arcs, slice(sprockets, None))):
+    for names, source, place in (
+        (_FROM_BODIES, drive.bodies, slice(None)),
+        (_FROM_TEETH, drive.teeth, slice(0, sprockets)),
+        (_FROM_ARCS, drive.arcs, slice(sprockets, None)),
+    ):
         for name in names:
             rows[name][place] = getattr(source, name)
     rows["base_radius"][:sprockets] = drive.teeth.base
@@ -108,5 +151,6 @@ def assembled(model, begin=None):
     bodies, rates = np.zeros((2, len(model.sprockets) + len(model.guides), 2))
     bodies[: len(begin.psi)] = np.column_stack([begin.q, begin.psi])
     rates[: len(begin.psi)] = np.column_stack([begin.rate_q, begin.rate_psi])
-    return State(np.column_stack([x + lift[0], y + lift[1], angle]), bodies,
-                 np.column_stack([vx - w * lift[1], vy + w * lift[0], w]), rates)
+    return State(
+        np.column_stack([x + lift[0], y + lift[1], angle]), bodies, np.column_stack([vx - w * lift[1], vy + w * lift[0], w]), rates
+    )

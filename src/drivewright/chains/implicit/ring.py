@@ -31,8 +31,15 @@ class Ring(NamedTuple):
 def empty_ring(count, border):
     """A `Ring` of zeros for N = `count` plates, at least 3, and b = `border` further unknowns."""
     size = 3 + border
-    return Ring(np.zeros((count, 3, 3)), np.zeros((count, 3, 3)), np.zeros((count, 3, border)), np.zeros((border, border)),
-                np.zeros((count, 3, size)), np.zeros((size, size)), np.zeros(size))
+    return Ring(
+        np.zeros((count, 3, 3)),
+        np.zeros((count, 3, 3)),
+        np.zeros((count, 3, border)),
+        np.zeros((border, border)),
+        np.zeros((count, 3, size)),
+        np.zeros((size, size)),
+        np.zeros(size),
+    )
 
 
 @outer

@@ -91,15 +91,23 @@ def _record(run, model, settings, row, bodies, tension, plate):
     teeth = pairs[parts.bodies["kind"][pairs["body"]] != ARC]
     x, v, m, inertia = state.plates, state.plate_rates, model.chain.mass, model.chain.inertia
     values = {
-        "t": run.clock[0], "kinetic": _kinetic(run, m, inertia), "potential": energy,
-        "elastic": energy - _outer_potential(run), "momentum x": m * np.sum(v[:, 0]), "momentum y": m * np.sum(v[:, 1]),
+        "t": run.clock[0],
+        "kinetic": _kinetic(run, m, inertia),
+        "potential": energy,
+        "elastic": energy - _outer_potential(run),
+        "momentum x": m * np.sum(v[:, 0]),
+        "momentum y": m * np.sum(v[:, 1]),
         "angular momentum": m * np.sum(x[:, 0] * v[:, 1] - x[:, 1] * v[:, 0]) + inertia * np.sum(v[:, 2]),
-        "contacts": np.sum(teeth["right"] > 0) + np.sum(teeth["left"] > 0), "open joints": np.sum(along <= 0),
-        "utilisation": _utilisation(along, across), **dict(zip(_WORKS, run.works, strict=True)),
+        "contacts": np.sum(teeth["right"] > 0) + np.sum(teeth["left"] > 0),
+        "open joints": np.sum(along <= 0),
+        "utilisation": _utilisation(along, across),
+        **dict(zip(_WORKS, run.works, strict=True)),
     }
     row[:] = [values[name] for name in ROW]
-    bodies[:, 0], bodies[:, 1], bodies[:, 2], bodies[:, 3] = *np.stack([state.bodies[:, 0], state.body_rates[:, 0]]), *np.stack(
-        [state.bodies[:, 1], state.body_rates[:, 1]])
+    bodies[:, 0], bodies[:, 1], bodies[:, 2], bodies[:, 3] = (
+        *np.stack([state.bodies[:, 0], state.body_rates[:, 0]]),
+        *np.stack([state.bodies[:, 1], state.body_rates[:, 1]]),
+    )
     bodies[:, 4:] = parts.field.loads
     tension[:] = along[list(settings.joints)]
     plate[:] = _watched(run, teeth, settings.plate)
@@ -141,16 +149,25 @@ def _watched(run, teeth, number):
     field, own = run.parts.field, teeth[teeth["plate"] == number]
     c, s = field.directions[number]
     left, right = field.joints[number - 1], -field.joints[number]
-    return [*run.state.plates[number], c * left[0] + s * left[1], c * left[1] - s * left[0], c * right[0] + s * right[1],
-            c * right[1] - s * right[0], np.sum(own["left"]), np.sum(own["right"])]
+    return [
+        *run.state.plates[number],
+        c * left[0] + s * left[1],
+        c * left[1] - s * left[0],
+        c * right[0] + s * right[1],
+        c * right[1] - s * right[0],
+        np.sum(own["left"]),
+        np.sum(own["right"]),
+    ]
 
 
 # -------------------------------------------------------------------------------------------------------------- refusals
 
 
 def _unsettled(run, step, done):
-    return (f"chain drive: Newton's method does not settle at t = {run.clock[0]:.4g} s, step {done} of a sample; "
-            f"shorten the step of {step:.3g} s.")
+    return (
+        f"chain drive: Newton's method does not settle at t = {run.clock[0]:.4g} s, step {done} of a sample; "
+        f"shorten the step of {step:.3g} s."
+    )
 
 
 def _refuse(model, duration, settings):

@@ -24,8 +24,10 @@ def strand_angle(pitch, teeth1, teeth2, distance):
     radius1, radius2 = 0.5 * pitch_diameter(pitch, teeth1), 0.5 * pitch_diameter(pitch, teeth2)
     above_zero("chain drive", distance=distance)
     if np.any(distance <= radius1 + radius2):
-        raise InputError(f"chain drive: at the centre distance {np.min(distance):g} m the pitch circles overlap; "
-                         f"it must exceed {np.max(radius1 + radius2):g} m, and the tips want more.")
+        raise InputError(
+            f"chain drive: at the centre distance {np.min(distance):g} m the pitch circles overlap; "
+            f"it must exceed {np.max(radius1 + radius2):g} m, and the tips want more."
+        )
     return np.arcsin((radius2 - radius1) / distance)
 
 
@@ -64,8 +66,10 @@ def centre_distance(pitch, teeth1, teeth2, links):
     touching = 0.5 * (pitch_diameter(pitch, teeth1) + pitch_diameter(pitch, teeth2)) * (1 + 1e-12)
     least = chain_links(pitch, teeth1, teeth2, touching)
     if links < least:
-        raise InputError(f"chain drive: {links:g} links of {pitch:g} m do not reach around {teeth1:g} and {teeth2:g} teeth; "
-                         f"with touching pitch circles it takes {least:.4g}. Take at least {even_links(least)} links.")
+        raise InputError(
+            f"chain drive: {links:g} links of {pitch:g} m do not reach around {teeth1:g} and {teeth2:g} teeth; "
+            f"with touching pitch circles it takes {least:.4g}. Take at least {even_links(least)} links."
+        )
     root = bracketed_roots(lambda distance: chain_links(pitch, teeth1, teeth2, distance) - links, [touching, 0.5 * pitch * links])
     return float(root[0])
 

@@ -88,7 +88,8 @@ def _strands(centres, signed):
         first = int(np.argmin(square))
         raise InputError(
             f"loop: no strand fits between circle {first + 1} and the next: their centres are {np.hypot(*to_next[first]):g} m apart, and "
-            f"it takes more than {abs(rise[first]):g} m. Move them apart, or check on which side (turn) each is passed.")
+            f"it takes more than {abs(rise[first]):g} m. Move them apart, or check on which side (turn) each is passed."
+        )
     lengths = np.sqrt(square)
     return lengths, np.arctan2(to_next[:, 1], to_next[:, 0]) - np.arctan2(rise, lengths)
 
@@ -110,4 +111,5 @@ def _check_closes(turns, wraps):
         most = int(np.argmax(wraps))
         raise InputError(
             f"loop: it turns {turned:.3g} times in all instead of once; the largest wrap is {np.degrees(wraps[most]):.0f} deg on circle "
-            f"{most + 1}. Leave out circles that the loop misses, or change their order or the side (turn) on which they are passed.")
+            f"{most + 1}. Leave out circles that the loop misses, or change their order or the side (turn) on which they are passed."
+        )

@@ -24,8 +24,10 @@ def rating_table(teeth, speeds, powers, name="rating table"):
     teeth, speeds, powers = (np.asarray(values, dtype=float) for values in (teeth, speeds, powers))
     table = RatingTable(np.atleast_1d(teeth), np.atleast_1d(speeds), np.atleast_2d(powers))
     if table.powers.shape != (table.teeth.size, table.speeds.size):
-        raise InputError(f"{name}: powers of shape {table.powers.shape} for {table.teeth.size} tooth numbers and {table.speeds.size} "
-                         "speeds; give a row for each tooth number and a column for each speed.")
+        raise InputError(
+            f"{name}: powers of shape {table.powers.shape} for {table.teeth.size} tooth numbers and {table.speeds.size} "
+            "speeds; give a row for each tooth number and a column for each speed."
+        )
     above_zero(name, tooth_numbers=table.teeth, speeds=table.speeds, powers=table.powers)
     if np.any(np.diff(table.teeth) <= 0) or np.any(np.diff(table.speeds) <= 0) or table.speeds.size < 2:
         raise InputError(f"{name}: tooth numbers and speeds must increase from entry to entry, and two speeds are the least.")
@@ -40,8 +42,9 @@ def rated_power(table, teeth, speed, name="rating table"):
     above_zero(name, tooth_number=teeth, speed=speed)
     for what, value, axis, unit in (("teeth", teeth, table.teeth, ""), ("speed", speed, table.speeds, " rad/s")):
         if not axis[0] <= value <= axis[-1]:
-            raise InputError(f"{name}: {what} {value:g}{unit} lies outside of it, {axis[0]:g}..{axis[-1]:g}{unit}; "
-                             "a rating is not extended.")
+            raise InputError(
+                f"{name}: {what} {value:g}{unit} lies outside of it, {axis[0]:g}..{axis[-1]:g}{unit}; a rating is not extended."
+            )
     along_speed = [np.interp(np.log(speed), np.log(table.speeds), np.log(row)) for row in table.powers]
     return float(np.exp(np.interp(np.log(teeth), np.log(table.teeth), along_speed)))
 
@@ -63,11 +66,14 @@ def suitable_chains(tables, needed_power, teeth, speed):
     if fit:
         return fit
     if not uses:
-        raise InputError(f"chain selection: no table covers {teeth:g} teeth at {speed:g} rad/s; enter one that does, "
-                         "or change the sprocket.")
+        raise InputError(
+            f"chain selection: no table covers {teeth:g} teeth at {speed:g} rad/s; enter one that does, or change the sprocket."
+        )
     best = min(uses, key=uses.get)
-    raise InputError(f"chain selection: no chain is rated for {needed_power:g} W with {teeth:g} teeth at {speed:g} rad/s; the strongest, "
-                     f"{best}, reaches {needed_power / uses[best]:.4g} W. Take more strands, more teeth, or enter larger chains.")
+    raise InputError(
+        f"chain selection: no chain is rated for {needed_power:g} W with {teeth:g} teeth at {speed:g} rad/s; the strongest, "
+        f"{best}, reaches {needed_power / uses[best]:.4g} W. Take more strands, more teeth, or enter larger chains."
+    )
 
 
 def _covers(table, teeth, speed):

@@ -111,8 +111,10 @@ def strand_frequency(tension, mass_per_length, length, speed=0.0, mode=1):
     whole("chain strand", mode=mode)
     wave = np.sqrt(np.divide(tension, mass_per_length))
     if np.any(np.abs(speed) >= wave):
-        raise InputError(f"chain strand: at {np.max(np.abs(speed)):g} m/s it is faster than its waves, {np.min(wave):g} m/s; "
-                         "the tension must exceed the centrifugal one, q v^2. Give the whole tension of the running strand.")
+        raise InputError(
+            f"chain strand: at {np.max(np.abs(speed)):g} m/s it is faster than its waves, {np.min(wave):g} m/s; "
+            "the tension must exceed the centrifugal one, q v^2. Give the whole tension of the running strand."
+        )
     return mode * (wave - speed) * (wave + speed) / (2 * length * wave)
 
 

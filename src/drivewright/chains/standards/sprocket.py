@@ -15,21 +15,23 @@ from drivewright.materials import Source
 INCH = 0.0254
 Form = Literal["least", "greatest"]
 SOURCES = {
-    "root_diameter": Source(
-        "recalled: ISO 606; the rollers of a closed polygon touch the root circle", recalled=True),
+    "root_diameter": Source("recalled: ISO 606; the rollers of a closed polygon touch the root circle", recalled=True),
     "tip_range": Source(
         "recalled: ISO 606; limits ordered, equal to tooth heights (p - d1)/2 and 0.625 p - d1/2 + 0.8 p/z above the pitch polygon, and "
-        "printed values of ten chains in a public table", recalled=True),
-    "over_pins": Source(
-        "closed form; the tests place the pins in the gaps and search the greatest distance", recalled=False),
+        "printed values of ten chains in a public table",
+        recalled=True,
+    ),
+    "over_pins": Source("closed form; the tests place the pins in the gaps and search the greatest distance", recalled=False),
     "tooth_gap": Source(
         "recalled: ISO 606, the same numbers seen in one other public program; arcs tangent, roller seated with play on both sides, the "
-        "least gap inside the greatest", recalled=True),
-    "silent_chain": Source(
-        "excerpt of ASME B29.2M on numbering, read, with its examples SC302, SC1012 and SC0309", recalled=False),
+        "least gap inside the greatest",
+        recalled=True,
+    ),
+    "silent_chain": Source("excerpt of ASME B29.2M on numbering, read, with its examples SC302, SC1012 and SC0309", recalled=False),
     "greatest_radius_over_chain": Source(
         "Machinery's Handbook, 27th edition, note on ANSI B29.2M, read in an excerpt; a limit that makers keep, not a computed size",
-        recalled=False),
+        recalled=False,
+    ),
 }
 
 
@@ -53,8 +55,10 @@ def over_pins(pitch, teeth, roller_diameter, pin_diameter=None):
     pin = roller_diameter if pin_diameter is None else pin_diameter
     above_zero("sprocket", pin_diameter=pin)
     if np.any(np.asarray(pin) > 1.01 * np.asarray(roller_diameter)):
-        raise InputError(f"sprocket: a pin of {np.max(pin):g} m does not reach the root of a gap for rollers of "
-                         f"{np.min(roller_diameter):g} m; take the roller's diameter or less.")
+        raise InputError(
+            f"sprocket: a pin of {np.max(pin):g} m does not reach the root of a gap for rollers of "
+            f"{np.min(roller_diameter):g} m; take the roller's diameter or less."
+        )
     lean = np.where(np.asarray(teeth) % 2 == 0, 1.0, np.cos(0.5 * np.pi / np.asarray(teeth)))
     return (root_diameter(pitch, teeth, roller_diameter) + pin) * lean + pin
 
@@ -99,8 +103,10 @@ def gap_outline(pitch, teeth, roller_diameter, gap, tip_diameter, points=41):
     polar = np.arctan2(flank[:, 0], flank[:, 1])
     if polar[-1] > np.pi / teeth:
         pointed = np.interp(np.pi / teeth, polar, np.hypot(*flank.T))
-        raise InputError(f"sprocket: with {teeth:g} teeth the flanks meet below the tip diameter {tip_diameter:g} m, near "
-                         f"{2 * pointed:.4g} m. Take a tip diameter below that or a smaller gap.")
+        raise InputError(
+            f"sprocket: with {teeth:g} teeth the flanks meet below the tip diameter {tip_diameter:g} m, near "
+            f"{2 * pointed:.4g} m. Take a tip diameter below that or a smaller gap."
+        )
     seat = seat_centre + gap.seat_radius * _ray(np.linspace(-half, half, points))
     return np.concatenate([flank[:0:-1] * (-1, 1), seat, flank[1:]])
 
@@ -116,16 +122,18 @@ def _tip_ray(centre, radius, tip, start):
     cosine = (distance**2 + radius**2 - tip**2) / (2 * distance * radius)
     end = along - np.arccos(np.clip(cosine, -1, 1))
     if not (abs(cosine) <= 1 and end < start):
-        raise InputError(f"sprocket: the flanks do not reach the tip diameter {2 * tip:g} m, or it lies below them; "
-                         "take one of `tip_range`.")
+        raise InputError(
+            f"sprocket: the flanks do not reach the tip diameter {2 * tip:g} m, or it lies below them; take one of `tip_range`."
+        )
     return end
 
 
 def _check_roller(pitch, roller_diameter):
     above_zero("sprocket", pitch=pitch, roller_diameter=roller_diameter)
     if np.any(np.asarray(roller_diameter) >= pitch):
-        raise InputError(f"sprocket: rollers of {np.max(roller_diameter):g} m do not fit a pitch of {np.min(pitch):g} m; "
-                         "they would touch each other.")
+        raise InputError(
+            f"sprocket: rollers of {np.max(roller_diameter):g} m do not fit a pitch of {np.min(pitch):g} m; they would touch each other."
+        )
 
 
 def silent_chain(number):
@@ -157,8 +165,10 @@ def silent_number(pitch, width):
         units = "1/16 in and its width of 1/32 in" if small else "1/8 in and its width of 1/4 in"
         raise InputError(f"silent chain: the pitch must be a multiple of {units}, got {steps[0]:.4g} and {steps[1]:.4g} of them.")
     if count[0] > 99 or count[1] > (99 if count[0] < 10 else 999):
-        raise InputError(f"silent chain: no number says {count[0]} steps of pitch and {count[1]} of width; they go to 99 and 999, "
-                         "the width to 99 below ten steps of pitch.")
+        raise InputError(
+            f"silent chain: no number says {count[0]} steps of pitch and {count[1]} of width; they go to 99 and 999, "
+            "the width to 99 below ten steps of pitch."
+        )
     return f"SC{'0' if small else ''}{count[0]}{count[1]:02d}"
 
 

@@ -31,8 +31,11 @@ class Seat(NamedTuple):
 def seat_of(body, plate, side):
     """The `Seat` at the "left" or "right" end: all arcs of the hole that lie on the seat's circle."""
     circle, number = plate.seat(side), ("left", "right").index(side)
-    same = [f"hole{number}:{place}" for place, piece in enumerate(plate.hole(side).values()) if isinstance(piece, Arc)
-            and np.allclose([*piece.center, piece.radius], [*circle.center, circle.radius], rtol=0, atol=1e-9)]
+    same = [
+        f"hole{number}:{place}"
+        for place, piece in enumerate(plate.hole(side).values())
+        if isinstance(piece, Arc) and np.allclose([*piece.center, piece.radius], [*circle.center, circle.radius], rtol=0, atol=1e-9)
+    ]
     rows = np.flatnonzero(np.any([body.on(name) for name in same], axis=0))
     outward = body.rim.points[rows] - circle.center
     outward /= np.hypot(*outward.T)[:, None]
@@ -46,8 +49,10 @@ def directions(seat):
     if np.diff(np.sort(seat.turn)).max() < MARGIN and high - low > 2 * np.pi - 3 * MARGIN:  # all around
         low, high = -np.pi, np.pi
     if not low < 0 < high:
-        raise InputError(f"stress: a seat from {np.degrees(seat.turn.min()):.4g} to {np.degrees(seat.turn.max()):.4g} deg about the outer "
-                         f"direction; a pin's pressure wants {np.degrees(MARGIN):g} deg on either side of its force")
+        raise InputError(
+            f"stress: a seat from {np.degrees(seat.turn.min()):.4g} to {np.degrees(seat.turn.max()):.4g} deg about the outer "
+            f"direction; a pin's pressure wants {np.degrees(MARGIN):g} deg on either side of its force"
+        )
     return np.linspace(low, high, int(np.ceil((high - low) / STEP)) + 1)
 
 
@@ -63,8 +68,10 @@ def cosine_pressure(seat, force):
         if np.abs(miss).max() < 1e-12 * np.abs(force).max():
             return np.maximum(seat.outward @ c, 0.0)
         c = c - np.linalg.solve(product.T @ seat.outward, miss)
-    raise SolverError(f"stress: no pressure on the seat gives a force along {np.degrees(np.arctan2(*force[::-1])):.4g} deg; give forces "
-                      "that point out of the plate's end")
+    raise SolverError(
+        f"stress: no pressure on the seat gives a force along {np.degrees(np.arctan2(*force[::-1])):.4g} deg; give forces "
+        "that point out of the plate's end"
+    )
 
 
 def shares(turns, seat_directions, size):
@@ -78,10 +85,12 @@ def shares(turns, seat_directions, size):
     lost = np.flatnonzero(outside & (size > 1e-3 * size.max(initial=0.0)))
     if len(lost):
         worst = lost[size[lost].argmax()]
-        raise InputError(f"stress: at {len(lost)} of {len(size)} instants a pin's force points away from its seat, worst at instant "
-                         f"{worst}: {size[worst]:.4g} N at {np.degrees(turns[worst]):.4g} deg from the outward direction; "
-                         f"the seat takes {np.degrees(seat_directions[0]):.4g} to {np.degrees(seat_directions[-1]):.4g} deg; "
-                         "is the chain slack there?")
+        raise InputError(
+            f"stress: at {len(lost)} of {len(size)} instants a pin's force points away from its seat, worst at instant "
+            f"{worst}: {size[worst]:.4g} N at {np.degrees(turns[worst]):.4g} deg from the outward direction; "
+            f"the seat takes {np.degrees(seat_directions[0]):.4g} to {np.degrees(seat_directions[-1]):.4g} deg; "
+            "is the chain slack there?"
+        )
     turns = np.clip(turns, seat_directions[0], seat_directions[-1])
     left = np.clip(np.searchsorted(seat_directions, turns, side="right") - 1, 0, len(seat_directions) - 2)
     low, high = seat_directions[left], seat_directions[left + 1]

@@ -47,10 +47,17 @@ def plate_life(basis, loads, material, plane="max-shear", least=0.0):
 def life_table(basis, found):
     """Table "plate_life" for a plot of points: x, y [m], life in repeats, damage a repeat, greatest von Mises stress [Pa]."""
     x, y = basis.body.rim.points[found.rows].T
-    return Table("plate_life", "life around a plate", (
-        Column("x", "m", "along the plate", x), Column("y", "m", "across the plate", y),
-        Column("life", "-", "repeats of the history", found.life), Column("damage", "-", "share of the life a repeat takes", found.damage),
-        Column("mises", "Pa", "greatest von Mises stress", found.stress)))
+    return Table(
+        "plate_life",
+        "life around a plate",
+        (
+            Column("x", "m", "along the plate", x),
+            Column("y", "m", "across the plate", y),
+            Column("life", "-", "repeats of the history", found.life),
+            Column("damage", "-", "share of the life a repeat takes", found.damage),
+            Column("mises", "Pa", "greatest von Mises stress", found.stress),
+        ),
+    )
 
 
 def _greatest(share, unit_stress):

@@ -57,11 +57,14 @@ class PinStress(NamedTuple):
 def lacing(own, other, thickness, gap=0.0):
     """The `Pack` of `own` x `other` plates that alternate, e.g. 1 x 2, of one thickness [m], with a gap [m] between neighbours."""
     if not (min(own, other) >= 1 and abs(own - other) == 1 and int(own) == own and int(other) == other):
-        raise InputError(f"lacing {own} x {other}: plates of the two links alternate across the width and must be the same from either "
-                         "side, else they twist the pin; so their numbers, from 1 up, differ by 1, e.g. 1 x 2")
+        raise InputError(
+            f"lacing {own} x {other}: plates of the two links alternate across the width and must be the same from either "
+            "side, else they twist the pin; so their numbers, from 1 up, differ by 1, e.g. 1 x 2"
+        )
     if not (thickness > 0 and gap >= 0):
-        raise InputError(f"lacing: plates {1e3 * thickness:g} mm thick with gaps of {1e3 * gap:g} mm; the first must be above 0, the "
-                         "second not below")
+        raise InputError(
+            f"lacing: plates {1e3 * thickness:g} mm thick with gaps of {1e3 * gap:g} mm; the first must be above 0, the second not below"
+        )
     start = (thickness + gap) * np.arange(own + other)
     return Pack(np.column_stack([start, start + thickness]), np.arange(own + other) % 2 == int(own < other))
 

@@ -64,8 +64,11 @@ def plate_body(plate, modulus, poisson, *, fineness=1.0, order=4):
     size, small = 0.08 * plate.link.pitch / fineness, 0.03 * plate.link.pitch / fineness
     fine = {"hole*": small} | {_flank(plate, side): small for side in SIDES}
     for label, pieces in {"outline": plate.pieces, **{f"hole{k}": plate.hole(side) for k, side in enumerate(SIDES)}}.items():
-        fine |= {f"{label}:{k}": min(small, piece.radius * abs(piece.sweep) / 2 / fineness)
-                 for k, piece in enumerate(pieces.values()) if isinstance(piece, Arc)}
+        fine |= {
+            f"{label}:{k}": min(small, piece.radius * abs(piece.sweep) / 2 / fineness)
+            for k, piece in enumerate(pieces.values())
+            if isinstance(piece, Arc)
+        }
     mesh = plane_mesh(plate.outline, plate.holes, size=size, fine=fine, name="chain plate")
     return PlaneBody(mesh, thickness=plate.thickness, modulus=modulus, poisson=poisson, order=order)
 
@@ -75,8 +78,12 @@ def plate_basis(plate, body):
     seats = [bearing.seat_of(body, plate, side) for side in SIDES]
     turns = tuple(bearing.directions(seat) for seat in seats)
     heights = tuple(_places(plate, side) for side in SIDES)
-    tractions = np.concatenate([*(_pin_tractions(body, *each) for each in zip(seats, turns, SIDES, strict=True)),
-                                *(_flank_tractions(body, plate, *each) for each in zip(heights, SIDES, strict=True))])
+    tractions = np.concatenate(
+        [
+            *(_pin_tractions(body, *each) for each in zip(seats, turns, SIDES, strict=True)),
+            *(_flank_tractions(body, plate, *each) for each in zip(heights, SIDES, strict=True)),
+        ]
+    )
     fields = body.solve(tractions)
     bare = ~np.any([body.on(_flank(plate, side)) for side in SIDES], axis=0)
     return Basis(body, turns, heights, tractions, body.stress(fields), body.surface(fields), bare)
@@ -86,13 +93,17 @@ def amounts(basis, loads):
     """Linear combinations (n, L) [N] of the basis that make up the loads."""
     pins, flanks, places = (np.asarray(part, float) for part in loads)
     if not (pins.ndim == 3 and pins.shape[1:] == (2, 2) and flanks.shape == places.shape == pins.shape[:2]):
-        raise InputError(f"stress: pins {pins.shape}, flanks {flanks.shape} and heights {places.shape}; n instants want (n, 2, 2), "
-                         "(n, 2) and (n, 2)")
+        raise InputError(
+            f"stress: pins {pins.shape}, flanks {flanks.shape} and heights {places.shape}; n instants want (n, 2, 2), (n, 2) and (n, 2)"
+        )
     if not (np.isfinite(pins).all() and np.isfinite(flanks).all() and (flanks >= 0).all()):
-        raise InputError("stress: forces must be finite, and those on the flanks not below 0 (above 0 they press); "
-                         f"the least is {np.min(flanks):.4g} N")
-    on_pins = [bearing.shares(turn, ready, size) for (turn, size), ready in
-               zip((bearing.turn_of(pins[:, k], side) for k, side in enumerate(SIDES)), basis.directions, strict=True)]
+        raise InputError(
+            f"stress: forces must be finite, and those on the flanks not below 0 (above 0 they press); the least is {np.min(flanks):.4g} N"
+        )
+    on_pins = [
+        bearing.shares(turn, ready, size)
+        for (turn, size), ready in zip((bearing.turn_of(pins[:, k], side) for k, side in enumerate(SIDES)), basis.directions, strict=True)
+    ]
     return np.hstack([*on_pins, *(_hat_shares(flanks[:, k], places[:, k], basis.heights[k], side) for k, side in enumerate(SIDES))])
 
 
@@ -121,7 +132,7 @@ def worst(basis, loads):
 
 def stress_picture(basis, loads, instant):
     """Table "plate_stress" for a plot of style "mesh": x, y, depth, von Mises stress [Pa] at one instant."""
-    one = Loads(*(np.asarray(part, float)[instant:instant + 1] for part in loads))
+    one = Loads(*(np.asarray(part, float)[instant : instant + 1] for part in loads))
     size = mises(np.tensordot(amounts(basis, one)[0], basis.surface.stress, axes=1))
     return field_table("plate_stress", "stress of a plate", basis.surface, (Column("mises", "Pa", "von Mises stress", size),))
 
@@ -163,8 +174,10 @@ def _hat_shares(force, height, places, side):
     pressed = force > 0
     lost = np.flatnonzero(pressed & ~((height >= places[0]) & (height <= places[-1])))
     if len(lost):
-        raise InputError(f"stress: the {side} flank is pressed at a height of {1e3 * height[lost[0]]:.4g} mm (instant {lost[0]}, "
-                         f"{len(lost)} in all), and can be between {1e3 * places[0]:.4g} and {1e3 * places[-1]:.4g} mm; "
-                         "move contact or ends of the flank")
+        raise InputError(
+            f"stress: the {side} flank is pressed at a height of {1e3 * height[lost[0]]:.4g} mm (instant {lost[0]}, "
+            f"{len(lost)} in all), and can be between {1e3 * places[0]:.4g} and {1e3 * places[-1]:.4g} mm; "
+            "move contact or ends of the flank"
+        )
     at = np.where(pressed, (height - places[0]) / (places[1] - places[0]), 0.0)
     return np.where(pressed, force, 0.0)[:, None] * np.maximum(1 - np.abs(at[:, None] - np.arange(len(places))), 0.0)

@@ -42,8 +42,9 @@ def seated(plate, body, pins, clearance, tractions=None):
     """
     pins = np.asarray(pins, float)
     if not (clearance >= 0 and np.hypot(*pins.T).min() > 0):
-        raise InputError(f"stress: seating wants a clearance from 0 up, got {1e6 * clearance:g} um, and a force on either pin, got "
-                         f"{np.hypot(*pins.T)} N")
+        raise InputError(
+            f"stress: seating wants a clearance from 0 up, got {1e6 * clearance:g} um, and a force on either pin, got {np.hypot(*pins.T)} N"
+        )
     seats = [bearing.seat_of(body, plate, side) for side in SIDES]
     turns, hats = zip(*(_hats(body, *each) for each in zip(seats, pins, SIDES, strict=True)), strict=True)
     other = np.zeros((1, len(body.rim.name), 2)) if tractions is None else np.asarray(tractions, float)[None]
@@ -79,8 +80,10 @@ def _gaps(seats, hats, wall):
 def _refuse_narrow(pressures, clearance):
     few = min(np.count_nonzero(pressure) for pressure in pressures)
     if few < LEAST:
-        raise SolverError(f"stress: with a clearance of {1e6 * clearance:g} um a pin bears on {few} places only, {LEAST} make a pressure; "
-                          "take a finer body (plate_body's fineness)")
+        raise SolverError(
+            f"stress: with a clearance of {1e6 * clearance:g} um a pin bears on {few} places only, {LEAST} make a pressure; "
+            "take a finer body (plate_body's fineness)"
+        )
 
 
 def _tractions(body, seat, hats):
@@ -98,8 +101,8 @@ def _bearing_hats(opened, gap, shift, forces):
         held = np.flatnonzero(touching)
         matrix = np.block([[stiff[np.ix_(held, held)], -reach[held]], [-reach[held].T, np.zeros((len(forces),) * 2)]])
         found = np.linalg.solve(matrix, np.concatenate([-gap[held], -load]))
-        pressure, moved = np.zeros(len(gap)), found[len(held):]
-        pressure[held] = found[:len(held)]
+        pressure, moved = np.zeros(len(gap)), found[len(held) :]
+        pressure[held] = found[: len(held)]
         left = gap + stiff @ pressure - reach @ moved
         wanted = np.where(touching, pressure > 0, left < 0)
         if np.array_equal(wanted, touching):

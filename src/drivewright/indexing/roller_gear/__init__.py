@@ -8,5 +8,23 @@ from drivewright.indexing.roller_gear.solid import cam_part, turret_part
 from drivewright.indexing.roller_gear.stress import Loads, roller_loads
 from drivewright.indexing.roller_gear.views import Developed, centres, developed, section
 
-__all__ = ["FLANKS", "Contact", "Developed", "Flanks", "Loads", "RollerGear", "barrel", "cam_part", "centres", "contact", "developed",
-           "flanks", "globoidal", "play", "roller_loads", "section", "trim_edges", "turret_part"]
+__all__ = [
+    "FLANKS",
+    "Contact",
+    "Developed",
+    "Flanks",
+    "Loads",
+    "RollerGear",
+    "barrel",
+    "cam_part",
+    "centres",
+    "contact",
+    "developed",
+    "flanks",
+    "globoidal",
+    "play",
+    "roller_loads",
+    "section",
+    "trim_edges",
+    "turret_part",
+]

@@ -81,21 +81,31 @@ def globoidal(motion, pin_circle_radius, roller_radius, roller_length, centre_di
 
     Raises InputError where rollers overlap, reach the turret's centre or the cam's axis, or the cam is too short or too long.
     """
-    cam = RollerGear("globoidal", motion, pin_circle_radius, roller_radius, roller_length, centre_distance, 0.0, cam_length,
-                     1.0, 0.0, _sign(hand), phase)
+    cam = RollerGear(
+        "globoidal", motion, pin_circle_radius, roller_radius, roller_length, centre_distance, 0.0, cam_length, 1.0, 0.0, _sign(hand), phase
+    )
     _check_common(cam)
     foot, tip = pin_circle_radius - roller_length / 2, pin_circle_radius + roller_length / 2
     if foot <= 0:
-        _refuse(cam, f"rollers of length {MM * roller_length:g} mm on a circle of {MM * pin_circle_radius:g} mm reach the turret's axis. "
-                     f"Keep roller_length below {MM * 2 * pin_circle_radius:g} mm.")
+        _refuse(
+            cam,
+            f"rollers of length {MM * roller_length:g} mm on a circle of {MM * pin_circle_radius:g} mm reach the turret's axis. "
+            f"Keep roller_length below {MM * 2 * pin_circle_radius:g} mm.",
+        )
     _check_pitch(cam, foot, "at their inner ends")
     needed = np.hypot(tip, roller_radius)
     if centre_distance <= needed:
-        _refuse(cam, f"with centre_distance = {MM * centre_distance:g} mm the rollers, which reach {MM * needed:.4g} mm from the turret's "
-                     f"axis, touch the cam's axis. Raise centre_distance above {MM * needed:.4g} mm or shorten the rollers.")
+        _refuse(
+            cam,
+            f"with centre_distance = {MM * centre_distance:g} mm the rollers, which reach {MM * needed:.4g} mm from the turret's "
+            f"axis, touch the cam's axis. Raise centre_distance above {MM * needed:.4g} mm or shorten the rollers.",
+        )
     if cam_length / 2 >= foot:
-        _refuse(cam, f"cam_length = {MM * cam_length:g} mm reaches beyond the circle of {MM * foot:g} mm radius through the feet of the "
-                     f"rollers, from which the hour-glass is turned. Keep it below {MM * 2 * foot:g} mm.")
+        _refuse(
+            cam,
+            f"cam_length = {MM * cam_length:g} mm reaches beyond the circle of {MM * foot:g} mm radius through the feet of the "
+            f"rollers, from which the hour-glass is turned. Keep it below {MM * 2 * foot:g} mm.",
+        )
     _check_engaged(cam)
     return cam
 
@@ -107,20 +117,30 @@ def barrel(motion, pin_circle_radius, roller_radius, roller_length, cam_radius, 
     pin_circle_radius where not given.  Raises InputError as `globoidal` does.
     """
     distance = pin_circle_radius if centre_distance is None else centre_distance
-    cam = RollerGear("barrel", motion, pin_circle_radius, roller_radius, roller_length, distance, cam_radius, cam_length,
-                     0.0, 1.0, _sign(hand), phase)
+    cam = RollerGear(
+        "barrel", motion, pin_circle_radius, roller_radius, roller_length, distance, cam_radius, cam_length, 0.0, 1.0, _sign(hand), phase
+    )
     _check_common(cam)
     _check_pitch(cam, pin_circle_radius, "on their circle")
     if cam_radius <= roller_length / 2:
-        _refuse(cam, f"rollers of length {MM * roller_length:g} mm reach the axis of a cam of cam_radius = {MM * cam_radius:g} mm. "
-                     f"Raise cam_radius above {MM * roller_length / 2:g} mm.")
+        _refuse(
+            cam,
+            f"rollers of length {MM * roller_length:g} mm reach the axis of a cam of cam_radius = {MM * cam_radius:g} mm. "
+            f"Raise cam_radius above {MM * roller_length / 2:g} mm.",
+        )
     outer = cam_radius + roller_length / 2
     if abs(distance - pin_circle_radius) >= outer:
-        _refuse(cam, f"the rollers' circle of {MM * pin_circle_radius:g} mm passes beside a cam of outer radius {MM * outer:g} mm at "
-                     f"centre_distance = {MM * distance:g} mm. Take centre_distance near the pin circle's radius.")
+        _refuse(
+            cam,
+            f"the rollers' circle of {MM * pin_circle_radius:g} mm passes beside a cam of outer radius {MM * outer:g} mm at "
+            f"centre_distance = {MM * distance:g} mm. Take centre_distance near the pin circle's radius.",
+        )
     if cam_length / 2 + roller_radius >= pin_circle_radius:
-        _refuse(cam, f"cam_length = {MM * cam_length:g} mm does not fit into the rollers' circle of {MM * pin_circle_radius:g} mm radius. "
-                     f"Keep it below {MM * 2 * (pin_circle_radius - roller_radius):g} mm.")
+        _refuse(
+            cam,
+            f"cam_length = {MM * cam_length:g} mm does not fit into the rollers' circle of {MM * pin_circle_radius:g} mm radius. "
+            f"Keep it below {MM * 2 * (pin_circle_radius - roller_radius):g} mm.",
+        )
     _check_engaged(cam)
     return cam
 
@@ -151,16 +171,22 @@ def _check_common(cam):
 def _check_pitch(cam, radius, where):
     room = radius * np.sin(np.pi / cam.motion.divisions)
     if cam.roller_radius >= room:
-        _refuse(cam, f"rollers of radius {MM * cam.roller_radius:g} mm overlap {where}: half the pitch is {MM * room:.4g} mm there. "
-                     "Take thinner or fewer rollers, or a larger pin circle.")
+        _refuse(
+            cam,
+            f"rollers of radius {MM * cam.roller_radius:g} mm overlap {where}: half the pitch is {MM * room:.4g} mm there. "
+            "Take thinner or fewer rollers, or a larger pin circle.",
+        )
 
 
 def _check_engaged(cam):
     """The cam is at least one pitch long, or some angle would leave no roller in it."""
     least = 2 * cam.pin_circle_radius * np.sin(cam.motion.pitch / 2)
     if cam.cam_length < least:
-        _refuse(cam, f"cam_length = {MM * cam.cam_length:g} mm is shorter than a pitch of {MM * least:.4g} mm, so that no roller would be "
-                     "held at some angles. Make the cam longer.")
+        _refuse(
+            cam,
+            f"cam_length = {MM * cam.cam_length:g} mm is shorter than a pitch of {MM * least:.4g} mm, so that no roller would be "
+            "held at some angles. Make the cam longer.",
+        )
 
 
 def turns(theta, rollers):

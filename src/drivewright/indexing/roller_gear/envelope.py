@@ -68,8 +68,20 @@ def contact(cam, travel, u, flank):
     with np.errstate(divide="ignore"):
         relative = gradient / opening
     own = around**2 / (cam.roller_radius * gradient)  # curvature of the roller across the contact line
-    return Contact(point, normal, np.arctan2(sin_a, cos_a), psi, np.arctan2(np.abs(rates.p), np.abs(rates.q)), -rho * sin_a, opening,
-                   relative, relative - own, np.sqrt(gradient) / np.abs(around), rolling, sliding)
+    return Contact(
+        point,
+        normal,
+        np.arctan2(sin_a, cos_a),
+        psi,
+        np.arctan2(np.abs(rates.p), np.abs(rates.q)),
+        -rho * sin_a,
+        opening,
+        relative,
+        relative - own,
+        np.sqrt(gradient) / np.abs(around),
+        rolling,
+        sliding,
+    )
 
 
 def _rates(cam, psi, speed, acceleration, u):

@@ -20,12 +20,15 @@ def cam_part(cam, bore=0.0, name="cam"):
     """
     lost = flanks(cam).undercut
     if lost > 0:
-        raise InputError(f"{cam.kind} cam: {100 * lost:.3g} % of its flanks are lost to undercut, so no clean groove can be modelled. "
-                         "Take thinner rollers, a larger cam or a longer motion.")
+        raise InputError(
+            f"{cam.kind} cam: {100 * lost:.3g} % of its flanks are lost to undercut, so no clean groove can be modelled. "
+            "Take thinner rollers, a larger cam or a longer motion."
+        )
     floor = cam.pitch_radius - deep(cam)
     if not 0 <= bore / 2 < floor:
-        raise InputError(f"{cam.kind} cam: a bore of {1e3 * bore:g} mm; it must be from 0 to below {2e3 * floor:.4g} mm, the floor of the "
-                         "groove.")
+        raise InputError(
+            f"{cam.kind} cam: a bore of {1e3 * bore:g} mm; it must be from 0 to below {2e3 * floor:.4g} mm, the floor of the groove."
+        )
     walls = groove(cam)
     local = np.stack([walls[..., 1], -walls[..., 0], walls[..., 2]], axis=-1)  # the axis of a turned part is its x direction
     body = Grooved((0.0, 0.0), cam.height, _section(cam, bore), (local,))
@@ -38,9 +41,11 @@ def groove(cam):
     u = np.linspace(shallow(cam), deep(cam), DEPTHS)
     touching = contact(cam, travel[None, :, None], u, FLANKS[:, None, None])
     if np.any(touching.opening <= 0):
-        raise InputError(f"{cam.kind} cam: the walls of the groove fold up outside the rollers' length, at the travel "
-                         f"{np.degrees(travel[np.nonzero(touching.opening <= 0)[1][0]]):.1f} deg; no clean groove can be modelled. "
-                         "Take thinner rollers or a larger cam.")
+        raise InputError(
+            f"{cam.kind} cam: the walls of the groove fold up outside the rollers' length, at the travel "
+            f"{np.degrees(travel[np.nonzero(touching.opening <= 0)[1][0]]):.1f} deg; no clean groove can be modelled. "
+            "Take thinner rollers or a larger cam."
+        )
     return touching.point
 
 
@@ -66,8 +71,11 @@ def _rows(cam):
     start, stop = groove_range(cam)
     foot = cam.pin_circle_radius - cam.cosine * cam.roller_length / 2
     reach = cam.cam_length / 2 + 1.3 * cam.roller_radius
-    rows = [turn + np.linspace(s.start, s.stop, 2 + int((s.stop - s.start) / STEP))[:-1]
-            for turn in np.arange(start, stop - 1e-9, TURN) for s in cam.motion.stretches]
+    rows = [
+        turn + np.linspace(s.start, s.stop, 2 + int((s.stop - s.start) / STEP))[:-1]
+        for turn in np.arange(start, stop - 1e-9, TURN)
+        for s in cam.motion.stretches
+    ]
     travel = np.append(np.concatenate(rows), stop)
     psi = cam.motion(travel).d0 + cam.motion.pitch * cam.phase
     return travel[np.abs(foot * np.sin(psi)) < reach]

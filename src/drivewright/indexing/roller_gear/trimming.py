@@ -43,8 +43,20 @@ def _quintic(h, f, d1, d2):
 
 def shape(cam):
     """Numbers of the cam that the kernels read: R, r, half length, C, h, cos b, sin b, hand sign, pitch, phase."""
-    return np.array([cam.pin_circle_radius, cam.roller_radius, cam.roller_length / 2, cam.centre_distance, cam.height, cam.cosine, cam.sine,
-                     cam.hand_sign, cam.motion.pitch, cam.phase])
+    return np.array(
+        [
+            cam.pin_circle_radius,
+            cam.roller_radius,
+            cam.roller_length / 2,
+            cam.centre_distance,
+            cam.height,
+            cam.cosine,
+            cam.sine,
+            cam.hand_sign,
+            cam.motion.pitch,
+            cam.phase,
+        ]
+    )
 
 
 @inner

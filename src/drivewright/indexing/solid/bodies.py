@@ -73,8 +73,10 @@ def _refuse_unbalanced(found, wanted, places, size, motions, what):
     scale = np.where(np.array(motions) < 3, 1.0, size)[:, None]
     off = np.abs((found - wanted) / scale).max(axis=0)
     if off.max() > BALANCE:
-        raise SolverError(f"solid check: the load {places[int(off.argmax())].name} on the mesh of {what} is off by {off.max():.2g} of "
-                          "itself; try a smaller fineness.")
+        raise SolverError(
+            f"solid check: the load {places[int(off.argmax())].name} on the mesh of {what} is off by {off.max():.2g} of "
+            "itself; try a smaller fineness."
+        )
 
 
 def vector_places(name, point):
@@ -104,8 +106,10 @@ def cam(outline, body, holes, strips, sigma, fineness):
 
 def cam_places(holes, strips):
     seats = [place for side, c in enumerate(holes) for place in vector_places(("seat", side), (c.real, c.imag, 0.0))]
-    contacts = [Place(("contact", *key), np.array([n.real, n.imag, 0.0]), np.array([0.0, 0.0, (p.conjugate() * n).imag]))
-                for key, (p, n) in strips.items()]
+    contacts = [
+        Place(("contact", *key), np.array([n.real, n.imag, 0.0]), np.array([0.0, 0.0, (p.conjugate() * n).imag]))
+        for key, (p, n) in strips.items()
+    ]
     return seats + contacts
 
 
@@ -126,8 +130,11 @@ def strip(free, point, normal, sigma):
         raise SolverError(f"solid check: no part of the profile lies at the contact at ({point.real:.5g}, {point.imag:.5g}) m.")
     slope = -m1 / m2
     balanced = weight * (1 + slope * along) / (m0 + slope * m1)
-    return ng.LinearForm(ng.InnerProduct(balanced * ng.CF((float(normal.real), float(normal.imag), 0)), free.space.TestFunction()) * area
-                         ).Assemble().vec
+    return (
+        ng.LinearForm(ng.InnerProduct(balanced * ng.CF((float(normal.real), float(normal.imag), 0)), free.space.TestFunction()) * area)
+        .Assemble()
+        .vec
+    )
 
 
 def dent(sigma, depth, body):

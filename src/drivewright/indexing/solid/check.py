@@ -59,8 +59,19 @@ class SolidStiffness:
         return self.secant / self.reduced.secant
 
 
-def solid_stiffness(wheel, drive, solids, theta, contacts, torque, *, cams=2, model: Literal["unilateral", "bonded"] = "unilateral",
-                    fineness=1.0, strip=STRIP):
+def solid_stiffness(
+    wheel,
+    drive,
+    solids,
+    theta,
+    contacts,
+    torque,
+    *,
+    cams=2,
+    model: Literal["unilateral", "bonded"] = "unilateral",
+    fineness=1.0,
+    strip=STRIP,
+):
     """`SolidStiffness` of a `PinWheel`, its `Drivetrain` and `Solids` at the angles theta (p,) [rad] under a torque [N m].
 
     contacts: `Contacts` of cam 0, one a position, as for the reduced model; fineness: factor on all element sizes; strip: width sigma of a
@@ -89,8 +100,17 @@ def _spread(theta, values):
 def _position(wheel, reduced, contacts, i):
     here = contacts[i]
     turned = np.angle(np.mean(here.centre * np.exp(-2j * np.pi * here.pin / wheel.pins)))
-    return Position(wheel.sense * reduced.theta[i], turned, wheel.pins, here, reduced.pin_forces[i], reduced.crank_forces[i],
-                    reduced.support_forces[i], reduced.gear_forces[i], complex(reduced.wheel_forces[i]))
+    return Position(
+        wheel.sense * reduced.theta[i],
+        turned,
+        wheel.pins,
+        here,
+        reduced.pin_forces[i],
+        reduced.crank_forces[i],
+        reduced.support_forces[i],
+        reduced.gear_forces[i],
+        complex(reduced.wheel_forces[i]),
+    )
 
 
 def condensed(wheel, drive, solids, places, cams, fineness=1.0, strip=STRIP):
@@ -107,8 +127,12 @@ def condensed(wheel, drive, solids, places, cams, fineness=1.0, strip=STRIP):
 
 def _cams(wheel, drive, body, places, cams, fineness, sigma):
     """Condensed cams; half a turn brings the holes back on each other, so that two opposite cams are one body with its seats exchanged."""
-    strips = {(i, c): (complex(point), complex(place.contacts.normal[c]))
-              for i, place in places.items() for c in touched(place)[1] for point in [_touching_point(wheel, place, c)]}
+    strips = {
+        (i, c): (complex(point), complex(place.contacts.normal[c]))
+        for i, place in places.items()
+        for c in touched(place)[1]
+        for point in [_touching_point(wheel, place, c)]
+    }
     outline = wheel.profile.outline() if body else None
     half = cams // 2 if cams % 2 == 0 else cams
     found = []
@@ -183,7 +207,11 @@ def surface_table(solid, position, name="solid_cam", title="Deformed cam", exagg
     factor = exaggeration or 10.0 ** np.floor(np.log10(DRAWN * np.ptp(points[:, 0]) / max(size.max(), 1e-300)))
     drawn, rows = points + factor * displacement, triangles.ravel()
     columns = (
-        ("x", "across", drawn[:, 0]), ("y", "height", drawn[:, 1]), ("z", "along the axis", drawn[:, 2]),
+        ("x", "across", drawn[:, 0]),
+        ("y", "height", drawn[:, 1]),
+        ("z", "along the axis", drawn[:, 2]),
         ("displacement", f"displacement, drawn {factor:,.0f} times as large".replace(",", " ", 1), size),
-        ("rest_x", "across, unloaded", points[:, 0]), ("rest_y", "height, unloaded", points[:, 1]))
+        ("rest_x", "across, unloaded", points[:, 0]),
+        ("rest_y", "height, unloaded", points[:, 1]),
+    )
     return Table(name, title, tuple(Column(key, "m", meaning, data[rows]) for key, meaning, data in columns))

@@ -76,8 +76,9 @@ def shaft_mesh(shaft, body, throws, fineness=1.0):
         if face.name != "rest":
             face.maxh = fine
     mesh = _generated(shape, fineness * MM * max(length.start for length in lengths) / 4, "the split shaft")
-    _check_areas(mesh, {name: sum(_skin(length) for length in lengths if length.place == place) for place, name in names.items()},
-                 "the split shaft")
+    _check_areas(
+        mesh, {name: sum(_skin(length) for length in lengths if length.place == place) for place, name in names.items()}, "the split shaft"
+    )
     return mesh, names
 
 
@@ -139,8 +140,12 @@ def wheel_mesh(wheel, body, cams, width, fineness=1.0):
     cuts = _pin_cuts(body, cams, width)
     middles = wheel.circle_radius * np.exp(2j * np.pi * np.arange(wheel.pins) / wheel.pins)
     with _meshing("the pin wheel"):
-        shape = occ.Glue([*_rings(occ, body), *(_cylinder(occ, c, wheel.pin_radius, low, high)
-                                                for c in middles for low, high in zip(cuts[:-1], cuts[1:], strict=True))])
+        shape = occ.Glue(
+            [
+                *_rings(occ, body),
+                *(_cylinder(occ, c, wheel.pin_radius, low, high) for c in middles for low, high in zip(cuts[:-1], cuts[1:], strict=True)),
+            ]
+        )
     for face in shape.faces:
         face.name = _wheel_face(face, middles, body, cams, width)
         if face.name.startswith("pin"):
@@ -219,8 +224,10 @@ def _check_areas(mesh, areas, what):
     for name, area in areas.items():
         found = ng.Integrate(ng.CF(1) * ng.ds(name), mesh) / MM**2
         if abs(found / area - 1) > AREA:
-            raise SolverError(f"solid check: the mesh of {what} gives face {name!r} {MM**2 * found:.5g} mm^2 instead of "
-                              f"{MM**2 * area:.5g} mm^2; try a smaller fineness.")
+            raise SolverError(
+                f"solid check: the mesh of {what} gives face {name!r} {MM**2 * found:.5g} mm^2 instead of "
+                f"{MM**2 * area:.5g} mm^2; try a smaller fineness."
+            )
 
 
 @contextmanager
@@ -229,5 +236,7 @@ def _meshing(what):
     try:
         yield
     except failures("a solid check") as error:
-        raise SolverError(f"solid check: the mesher gave up on {what} ({error}); try another fineness, or move steps that lie close "
-                          "together further apart.") from error
+        raise SolverError(
+            f"solid check: the mesher gave up on {what} ({error}); try another fineness, or move steps that lie close "
+            "together further apart."
+        ) from error

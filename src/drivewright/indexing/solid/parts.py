@@ -105,23 +105,29 @@ def _refuse_sizes(body):
 
 def _refuse_cam(cam, spacing):
     if cam.hole_diameter + cam.bore >= spacing:
-        raise InputError(f"solid check: holes of {1e3 * cam.hole_diameter:g} mm, {1e3 * spacing:g} mm apart, leave no wall between them"
-                         f"{f' and the bore of {1e3 * cam.bore:g} mm' if cam.bore else ''}; take smaller bearings or a wider spacing.")
+        raise InputError(
+            f"solid check: holes of {1e3 * cam.hole_diameter:g} mm, {1e3 * spacing:g} mm apart, leave no wall between them"
+            f"{f' and the bore of {1e3 * cam.bore:g} mm' if cam.bore else ''}; take smaller bearings or a wider spacing."
+        )
 
 
 def _refuse_shaft(body, eccentricity, shaft):
     """Every crank pin must overlap with the round shaft next to it."""
     thinnest = min(min(section.start, section.end) for section in shaft.sections)
     if eccentricity >= (body.crank_diameter + thinnest) / 2:
-        raise InputError(f"solid check: a crank pin of {1e3 * body.crank_diameter:g} mm, {1e3 * eccentricity:g} mm off the axis, does not "
-                         f"reach the shaft of {1e3 * thinnest:g} mm; take a thicker one.")
+        raise InputError(
+            f"solid check: a crank pin of {1e3 * body.crank_diameter:g} mm, {1e3 * eccentricity:g} mm off the axis, does not "
+            f"reach the shaft of {1e3 * thinnest:g} mm; take a thicker one."
+        )
     seats = sorted((z, body.crank_width, f"cam {j + 1}") for j, z in enumerate(shaft.cams))
     seats += [(z, body.support_width, "the support") for z in shaft.supports]
     seats = sorted([*seats, (shaft.gear, body.gear_width, "the gear")])
     for (low, wide, first), (high, other, second) in zip(seats[:-1], seats[1:], strict=True):
         if low + wide / 2 > high - other / 2 + 1e-9:
-            raise InputError(f"solid check: the seats of {first} at {1e3 * low:g} mm and of {second} at {1e3 * high:g} mm on the split "
-                             "shaft overlap; make them narrower.")
+            raise InputError(
+                f"solid check: the seats of {first} at {1e3 * low:g} mm and of {second} at {1e3 * high:g} mm on the split "
+                "shaft overlap; make them narrower."
+            )
 
 
 def _refuse_wheel(body, wheel, cams, width):
@@ -129,16 +135,21 @@ def _refuse_wheel(body, wheel, cams, width):
     if not (len(body.rings) in (1, 2) and all(high > low for low, high in body.rings)):
         raise InputError(f"solid check: WheelBody.rings = {body.rings}; one or two rings, each from a lower to a higher z.")
     if not (body.bore / 2 < radius - pin and radius + pin < body.rim / 2):
-        raise InputError(f"solid check: the ring of {1e3 * body.bore:g} to {1e3 * body.rim:g} mm does not hold the pins, which reach from "
-                         f"{2e3 * (radius - pin):g} to {2e3 * (radius + pin):g} mm.")
+        raise InputError(
+            f"solid check: the ring of {1e3 * body.bore:g} to {1e3 * body.rim:g} mm does not hold the pins, which reach from "
+            f"{2e3 * (radius - pin):g} to {2e3 * (radius + pin):g} mm."
+        )
     if not body.bore <= body.flange[0] < body.flange[1] <= body.rim:
-        raise InputError(f"solid check: WheelBody.flange = {body.flange} m lies outside the ring of {1e3 * body.bore:g} to "
-                         f"{1e3 * body.rim:g} mm.")
+        raise InputError(
+            f"solid check: WheelBody.flange = {body.flange} m lies outside the ring of {1e3 * body.bore:g} to {1e3 * body.rim:g} mm."
+        )
     if body.drum is not None and not (len(body.rings) == 2 and body.bore <= body.drum[0] < body.drum[1] <= body.rim):
-        raise InputError(f"solid check: WheelBody.drum = {body.drum} m joins two rings, and lies within {1e3 * body.bore:g} to "
-                         f"{1e3 * body.rim:g} mm.")
+        raise InputError(
+            f"solid check: WheelBody.drum = {body.drum} m joins two rings, and lies within {1e3 * body.bore:g} to {1e3 * body.rim:g} mm."
+        )
     for z in cams:
         for low, high in body.rings:
             if z + width / 2 > low + 1e-9 and z - width / 2 < high - 1e-9:
-                raise InputError(f"solid check: the cam at z = {1e3 * z:g} mm runs into the ring from {1e3 * low:g} to {1e3 * high:g} mm; "
-                                 "move the ring.")
+                raise InputError(
+                    f"solid check: the cam at z = {1e3 * z:g} mm runs into the ring from {1e3 * low:g} to {1e3 * high:g} mm; move the ring."
+                )

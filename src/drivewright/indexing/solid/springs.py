@@ -59,8 +59,9 @@ def springs(drive, place, number, both, solid_pins):
 
 def _vector(body, name, back, factor):
     """Terms of the two components of a displacement, `back` turning them into the body's own frame."""
-    return [tuple((body, (*name, axis), factor * part) for axis, part in enumerate((turned.real, turned.imag)))
-            for turned in (back, 1j * back)]
+    return [
+        tuple((body, (*name, axis), factor * part) for axis, part in enumerate((turned.real, turned.imag))) for turned in (back, 1j * back)
+    ]
 
 
 def _pins(drive, place, number, both, solid_pins):
@@ -72,8 +73,11 @@ def _pins(drive, place, number, both, solid_pins):
                 continue
             normal = place.contacts.normal[c] * way * back
             pin = _pin(place, c, j)
-            terms = ((("cam", j), ("contact", number, c), 1.0), (("wheel",), ("pin", pin, j, 0), -normal.real),
-                     (("wheel",), ("pin", pin, j, 1), -normal.imag))
+            terms = (
+                (("cam", j), ("contact", number, c), 1.0),
+                (("wheel",), ("pin", pin, j, 0), -normal.real),
+                (("wheel",), ("pin", pin, j, 1), -normal.imag),
+            )
             yield Spring("pin", terms, pin_compliance(drive.pins, abs(force), solid_pins), 0.0 if both else place.contacts.gap[c])
 
 
@@ -136,6 +140,9 @@ def _gear(gear, place, side):
         if force > LEAST * np.abs(pressed).max():
             turned = along * np.exp(-1j * place.crank)
             arm = -SIDES[side] * gear.pitch_radius * along.imag
-            terms = ((("shaft", side), ("gear", 0), -turned.real), (("shaft", side), ("gear", 1), -turned.imag),
-                     (("shaft", side), ("gear", "turn"), -arm / TURN_RADIUS))
+            terms = (
+                (("shaft", side), ("gear", 0), -turned.real),
+                (("shaft", side), ("gear", 1), -turned.imag),
+                (("shaft", side), ("gear", "turn"), -arm / TURN_RADIUS),
+            )
             yield Spring("gear", terms, 1 / gear.stiffness, gear.backlash / 2)

@@ -168,5 +168,3 @@ def _null_space(rows):
 def load_of(assembly, torque):
     """(p, free): the output's torque on the free unknowns."""
     return torque / assembly.lever * assembly.basis[:, OUT]
-
-

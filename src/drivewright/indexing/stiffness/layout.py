@@ -132,8 +132,9 @@ def bending_flexibility(shaft):
     from drivewright.shafts import assemble, flexibility, solve
 
     rigid = (np.inf, np.inf, 0.0, 0.0, 0.0)
-    model = assemble(_beam(shaft, tuple(Support(name, z, rigid) for name, z in zip(("front", "rear"), shaft.supports, strict=True))),
-                     places(shaft))
+    model = assemble(
+        _beam(shaft, tuple(Support(name, z, rigid) for name, z in zip(("front", "rear"), shaft.supports, strict=True))), places(shaft)
+    )
     return flexibility(solve(model, np.zeros(model.size)), places(shaft), (1.0, 0.0)).delta
 
 

@@ -77,10 +77,20 @@ def collect(drive, theta, torque, model, kept, assembly, state, here):
     cams = assembly.layout.cams
     tangent = spread(1 / np.where(good[here], state.compliance, np.nan))
     return TorsionalStiffness(
-        theta, torque, model, tuple(outcome), spread(rotation), tangent, _pin_forces(state, cams, kept, here, good),
-        spread(_vectors(state, "crank").reshape(len(here), 2, cams)), spread(_vectors(state, "support").reshape(len(here), 2, 2)),
-        *(spread(each) for each in _gears(drive.gear, state)), spread(_vectors(state, "wheel")[:, 0]),
-        {name: spread(share) for name, share in shares(state, torque).items()}, state.steps)
+        theta,
+        torque,
+        model,
+        tuple(outcome),
+        spread(rotation),
+        tangent,
+        _pin_forces(state, cams, kept, here, good),
+        spread(_vectors(state, "crank").reshape(len(here), 2, cams)),
+        spread(_vectors(state, "support").reshape(len(here), 2, 2)),
+        *(spread(each) for each in _gears(drive.gear, state)),
+        spread(_vectors(state, "wheel")[:, 0]),
+        {name: spread(share) for name, share in shares(state, torque).items()},
+        state.steps,
+    )
 
 
 def take_up(first, after):
@@ -95,10 +105,13 @@ def take_up(first, after):
 
     arrays = ("rotation", "tangent", "crank_forces", "support_forces", "gear_forces", "gear_torques", "wheel_forces")
     return replace(
-        first, outcome=tuple(np.where(new, after.outcome, first.outcome)),
+        first,
+        outcome=tuple(np.where(new, after.outcome, first.outcome)),
         pin_forces=tuple(b if n else a for n, a, b in zip(new, first.pin_forces, after.pin_forces, strict=True)),
-        shares={name: chosen(first.shares[name], after.shares[name]) for name in GROUPS}, steps=first.steps + after.steps,
-        **{name: chosen(getattr(first, name), getattr(after, name)) for name in arrays})
+        shares={name: chosen(first.shares[name], after.shares[name]) for name in GROUPS},
+        steps=first.steps + after.steps,
+        **{name: chosen(getattr(first, name), getattr(after, name)) for name in arrays},
+    )
 
 
 def shares(state, torque):

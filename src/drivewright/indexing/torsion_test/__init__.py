@@ -12,5 +12,19 @@ from drivewright.indexing.torsion_test.regression import Estimate, Line, fit_lin
 from drivewright.indexing.torsion_test.series import Part, correct
 from drivewright.indexing.torsion_test.shape import Pieces, Shape, fit_pieces
 
-__all__ = ["Estimate", "Evaluation", "Line", "Part", "Pieces", "Readings", "Setup", "Shape", "correct", "evaluate", "evaluate_positions",
-           "fit_line", "fit_pieces", "read"]
+__all__ = [
+    "Estimate",
+    "Evaluation",
+    "Line",
+    "Part",
+    "Pieces",
+    "Readings",
+    "Setup",
+    "Shape",
+    "correct",
+    "evaluate",
+    "evaluate_positions",
+    "fit_line",
+    "fit_pieces",
+    "read",
+]

@@ -79,11 +79,25 @@ def evaluate(readings, setup=None, crank=None):
     _refuse_backwards(branch)
     per_branch = inverse_estimate(branch, setup.confidence)
     found = Evaluation(
-        slope_estimate(whole, setup.confidence), inverse_estimate(back, setup.confidence), per_branch,
+        slope_estimate(whole, setup.confidence),
+        inverse_estimate(back, setup.confidence),
+        per_branch,
         *(_one_branch(passes, used, group, way, setup.confidence) for way in (True, False)),
         correct(per_branch, branch.freedom, setup.parts, setup.confidence) if setup.parts else per_branch,
-        seen, fit_pieces(*curve) if curve else NO_PIECES, rated, None if rate is None else rate * (passes.torque.size - 1),
-        _bootstrap(passes, used, group, setup), (), passes.torque, passes.angle, _numbered(used, group), branch, whole, curve, crank)
+        seen,
+        fit_pieces(*curve) if curve else NO_PIECES,
+        rated,
+        None if rate is None else rate * (passes.torque.size - 1),
+        _bootstrap(passes, used, group, setup),
+        (),
+        passes.torque,
+        passes.angle,
+        _numbered(used, group),
+        branch,
+        whole,
+        curve,
+        crank,
+    )
     return replace(found, findings=tuple(findings(setup, found, passes, loop, dropped, jumped)))
 
 
@@ -156,8 +170,10 @@ def _one_branch(passes, used, group, way, confidence):
 
 def _refuse_backwards(branch):
     if branch.slope <= 0:
-        raise InputError(f"torsion test: the angle falls by {-branch.slope:.3g} rad per N m of rising torque, so the stiffness would be "
-                         "negative; torque and angle count in opposite senses: turn the sign of one of the columns")
+        raise InputError(
+            f"torsion test: the angle falls by {-branch.slope:.3g} rad per N m of rising torque, so the stiffness would be "
+            "negative; torque and angle count in opposite senses: turn the sign of one of the columns"
+        )
 
 
 def _bootstrap(passes, used, group, setup):
@@ -172,8 +188,11 @@ def _bootstrap(passes, used, group, setup):
     n, t, a, tt, aa, ta = (counts @ sums).T
     inner = [_inner_sums(torque, angle, c[used[c]], group) for c in cycles]
     inner_tt, inner_ta = (counts @ np.array(inner)).T
-    found = {"whole_loop": (n * ta - t * a) / (n * aa - a * a), "inverse": (n * tt - t * t) / (n * ta - t * a),
-             "per_branch": inner_tt / inner_ta}
+    found = {
+        "whole_loop": (n * ta - t * a) / (n * aa - a * a),
+        "inverse": (n * tt - t * t) / (n * ta - t * a),
+        "per_branch": inner_tt / inner_ta,
+    }
     tails = [50 * (1 - setup.confidence), 50 * (1 + setup.confidence)]
     return {name: tuple(np.percentile(values, tails).tolist()) for name, values in found.items()}
 

@@ -22,8 +22,10 @@ def findings(setup, test, passes, loop, dropped, jumped):
     else:
         yield from _of_loop(test, passes, loop)
     if jumped:
-        yield (f"the angle jumps or gives way at zero torque: the branches are taken apart there, without what lies within "
-               f"{LOST_AT * test.rated_torque:.4g} N m, so that stiffness.per_branch is that of the drive in contact")
+        yield (
+            f"the angle jumps or gives way at zero torque: the branches are taken apart there, without what lies within "
+            f"{LOST_AT * test.rated_torque:.4g} N m, so that stiffness.per_branch is that of the drive in contact"
+        )
     cycles = np.unique(passes.block).size
     if cycles < FEWEST_CYCLES:
         yield f"the bootstrap needs at least {FEWEST_CYCLES} cycles, there is {cycles} to use"
@@ -35,14 +37,18 @@ def _of_torque(setup, test):
     if setup.rated_torque is None:
         yield f"no rated torque was given: the largest torque of the test, {reach:.6g} N m, takes its place"
     elif np.isnan(test.shape.secant):
-        yield (f"the secant from 50 to 100 % of the rated torque {test.rated_torque:.6g} N m is absent: both branches would have to reach "
-               f"that torque, and the test ends at {reach:.6g} N m")
+        yield (
+            f"the secant from 50 to 100 % of the rated torque {test.rated_torque:.6g} N m is absent: both branches would have to reach "
+            f"that torque, and the test ends at {reach:.6g} N m"
+        )
 
 
 def _of_loop(test, passes, loop):
     if test.shape.hysteresis_loss < -NOISE:
-        yield (f"the loop runs the wrong way round: {-test.shape.hysteresis_energy:.3g} J would come out of each cycle; the angle drifts, "
-               "or leads the torque in time")
+        yield (
+            f"the loop runs the wrong way round: {-test.shape.hysteresis_energy:.3g} J would come out of each cycle; the angle drifts, "
+            "or leads the torque in time"
+        )
     if not loop.low < 0 < loop.high:
         yield f"both branches reach from {loop.low:.4g} to {loop.high:.4g} N m, not beyond zero on both sides: lost motion is absent"
     if np.isnan(test.pieces.t1) and np.isfinite(test.pieces.k1):
@@ -52,8 +58,10 @@ def _of_loop(test, passes, loop):
     if abs(end - begin) > SAME_TORQUE * span:
         yield f"the loop does not close: it begins at {begin:.4g} N m and ends at {end:.4g} N m; its area is that between the branches"
     elif gap > 1.25 * width + GAP * np.ptp(passes.angle) + 2 * abs(end - begin) / test.whole_loop.value:
-        yield (f"the loop does not close: at the same torque the angle ends {gap:.3g} rad from where it began; drift or slip, which one "
-               "loop cannot tell apart")
+        yield (
+            f"the loop does not close: at the same torque the angle ends {gap:.3g} rad from where it began; drift or slip, which one "
+            "loop cannot tell apart"
+        )
 
 
 def _of_series(setup, test):
@@ -61,5 +69,7 @@ def _of_series(setup, test):
     if not setup.parts:
         yield "no stiffness of the loading bar or the support was given: stiffness.corrected is that of the branches as measured"
     elif ratio > DOUBTFUL:
-        yield (f"the corrected stiffness is {ratio:.3g} times the measured one: most of the angle was the rig's, and the errors of its "
-               "stiffness count in full; measure closer to the drive or stiffen the rig")
+        yield (
+            f"the corrected stiffness is {ratio:.3g} times the measured one: most of the angle was the rig's, and the errors of its "
+            "stiffness count in full; measure closer to the drive or stiffen the rig"
+        )

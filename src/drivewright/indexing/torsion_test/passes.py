@@ -170,8 +170,12 @@ def _overlapping(passes):
     """Whether two passes of one branch share at least half the torque's range."""
     ends = [(passes.torque[passes.number == n].min(), passes.torque[passes.number == n].max()) for n in range(len(passes.rising))]
     half = 0.5 * np.ptp(passes.torque)
-    return any(min(a[1], b[1]) - max(a[0], b[0]) >= half
-               for i, a in enumerate(ends) for b, way in zip(ends[:i], passes.rising[:i], strict=True) if way == passes.rising[i])
+    return any(
+        min(a[1], b[1]) - max(a[0], b[0]) >= half
+        for i, a in enumerate(ends)
+        for b, way in zip(ends[:i], passes.rising[:i], strict=True)
+        if way == passes.rising[i]
+    )
 
 
 def without_drift(passes, per_sample):

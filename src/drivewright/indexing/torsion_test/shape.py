@@ -87,14 +87,18 @@ def shape(loop, rated):
     widths = [read_branch(branch, 0.0, step) for branch in (loop.unloading, loop.loading)] if _within(loop, 0.0) else [np.nan] * 2
     lost = mid_line(loop, step, step) - mid_line(loop, -step, step) if _within(loop, -step) and _within(loop, step) else np.nan
     energy, put_in = _work(loop)
-    return Shape(lost, widths[0] - widths[1], energy, energy / put_in if put_in > 0 else np.nan, _secant(loop, rated, step),
-                 sum(widths) / 2)
+    return Shape(
+        lost, widths[0] - widths[1], energy, energy / put_in if put_in > 0 else np.nan, _secant(loop, rated, step), sum(widths) / 2
+    )
 
 
 def _secant(loop, rated, step):
     """Mid-line from half to full rated torque, over the senses that reach so far; nan where none does."""
-    turns = [sense * (mid_line(loop, sense * rated, step) - mid_line(loop, sense * rated / 2, step))
-             for sense in (1, -1) if _within(loop, sense * rated) and _within(loop, sense * rated / 2)]
+    turns = [
+        sense * (mid_line(loop, sense * rated, step) - mid_line(loop, sense * rated / 2, step))
+        for sense in (1, -1)
+        if _within(loop, sense * rated) and _within(loop, sense * rated / 2)
+    ]
     return 0.5 * rated / np.mean(turns) if turns else np.nan
 
 

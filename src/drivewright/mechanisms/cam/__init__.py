@@ -19,9 +19,34 @@ ANALYSES = (
 )
 
 mechanism = Mechanism(
-    kind="cam", summary="disc cam with a translating or oscillating follower", spec=CamSpec, build=build, analyses=ANALYSES,
-    folder=Path(__file__).parent, scene=scene, plots=PLOTS, drawings=drawings, parts=parts, verify=verify,
-    sources=("Norton, Cam Design and Manufacturing Handbook (recalled; verified by closed forms)",
-             "Rothbart, Cam Design Handbook (recalled; verified by closed forms)"),
-    headline=("lift", "max_pressure_angle", "min_pressure_angle", "min_convex_radius", "min_base_radius", "min_half_face", "lost_motion",
-              "yoke.breadth", "max_contact_force", "max_contact_pressure", "max_torque", "spring.jump_speed", "vibration.residual"))
+    kind="cam",
+    summary="disc cam with a translating or oscillating follower",
+    spec=CamSpec,
+    build=build,
+    analyses=ANALYSES,
+    folder=Path(__file__).parent,
+    scene=scene,
+    plots=PLOTS,
+    drawings=drawings,
+    parts=parts,
+    verify=verify,
+    sources=(
+        "Norton, Cam Design and Manufacturing Handbook (recalled; verified by closed forms)",
+        "Rothbart, Cam Design Handbook (recalled; verified by closed forms)",
+    ),
+    headline=(
+        "lift",
+        "max_pressure_angle",
+        "min_pressure_angle",
+        "min_convex_radius",
+        "min_base_radius",
+        "min_half_face",
+        "lost_motion",
+        "yoke.breadth",
+        "max_contact_force",
+        "max_contact_pressure",
+        "max_torque",
+        "spring.jump_speed",
+        "vibration.residual",
+    ),
+)

@@ -17,8 +17,10 @@ def motion(model, done):
     meanings = ("lift of the follower", *(f"{n} derivative of the lift" for n in ("first", "second", "third")))
     units = (unit, f"{unit}/rad", f"{unit}/rad^2", f"{unit}/rad^3")
     columns = (Column("angle", "rad", "cam angle", angle), *map(Column, names, units, meanings, lift))
-    values = {"lift": Value(float(np.ptp(lift[0])), unit, "stroke of the follower"),
-              "continuity": Value(float(model.programme.continuity), "-", "order of the highest derivative of the lift that does not jump")}
+    values = {
+        "lift": Value(float(np.ptp(lift[0])), unit, "stroke of the follower"),
+        "continuity": Value(float(model.programme.continuity), "-", "order of the highest derivative of the lift that does not jump"),
+    }
     timed = _kinematics(model, angle, lift, peaks, unit) if model.speed else Answer()
     tables = (Table("motion", "Motion of the follower", columns), *timed.tables)
     return Answer(values | timed.values, tables, _continuity_checks(model, function), _infinite(peaks))
@@ -75,12 +77,15 @@ def _tables(model, track):
 
 def _extreme_values(name, place, unit, meaning):
     """A value and the cam angle where it stands."""
-    return {name: Value(place.value, unit, meaning),
-            f"{name}.at": Value(place.angle % TURN, "rad", f"cam angle of {name}, from the start of the programme")}
+    return {
+        name: Value(place.value, unit, meaning),
+        f"{name}.at": Value(place.angle % TURN, "rad", f"cam angle of {name}, from the start of the programme"),
+    }
 
 
 def _pressure(model, track):
     """Extremes of the pressure angle over the turn, signed, and its largest magnitude in every phase."""
+
     def angle_of(angle, lift):
         return track.contact(angle, lift).pressure_angle
 
@@ -148,9 +153,12 @@ def _undercut(model, track, place):
         return ()
     ratio, recommended, parts = place.value / track.radius, model.spec.limits.curvature_ratio, (track.name,)
     message = "least radius of the pitch curve over that of the face: below 1 the profile cuts itself away"
-    return (Check(f"undercut{track.suffix}", ratio, 1.0, ">=", "-", message, parts, True),
-            Check(f"curvature_margin{track.suffix}", ratio, recommended, ">=", "-", "least convex radius over roller radius, recommended",
-                       parts))
+    return (
+        Check(f"undercut{track.suffix}", ratio, 1.0, ">=", "-", message, parts, True),
+        Check(
+            f"curvature_margin{track.suffix}", ratio, recommended, ">=", "-", "least convex radius over roller radius, recommended", parts
+        ),
+    )
 
 
 def _face(model):
@@ -160,9 +168,11 @@ def _face(model):
     half = 0.5 * (high - low) if model.oscillating else max(-slope[0], slope[1])
     about = "" if model.oscillating else ", about the cam's axis: max |ds/dtheta|"
     origin = "the foot of the pivot" if model.oscillating else "the follower's line"
-    values = {"face.start": Value(low, "m", f"least place of the contact on the face, from {origin}"),
-              "face.end": Value(high, "m", f"greatest place of the contact on the face, from {origin}"),
-              "min_half_face": Value(half, "m", f"half the length of face that is used{about}")}
+    values = {
+        "face.start": Value(low, "m", f"least place of the contact on the face, from {origin}"),
+        "face.end": Value(high, "m", f"greatest place of the contact on the face, from {origin}"),
+        "min_half_face": Value(half, "m", f"half the length of face that is used{about}"),
+    }
     base, findings = cams.least_base_radius(model.cycle, model.follower), ()
     if base is None:
         findings = ("min_base_radius is absent: no base radius is free of undercut; move the pivot away or reduce the swing",)
@@ -181,8 +191,10 @@ def _closure(model):
     limits = model.spec.limits
     if model.spec.closure == "yoke":
         error, meaning = cams.breadth(model.cycle).error, "largest play or interference of the yoke: departure of s(theta) + s(theta + pi)"
-        values = {"yoke.breadth": Value(model.yoke_breadth, "m", "distance of the two faces, or roller centres, of the yoke"),
-                  "yoke.breadth_error": Value(error, "m", meaning)}
+        values = {
+            "yoke.breadth": Value(model.yoke_breadth, "m", "distance of the two faces, or roller centres, of the yoke"),
+            "yoke.breadth_error": Value(error, "m", meaning),
+        }
         message = "the yoke fits at every angle: s(theta) + s(theta + pi) is constant"
         return Answer(values, (), (Check("closure.breadth", error, limits.breadth_error, "<=", "m", message, ("follower", "cam"), True),))
     if model.spec.closure == "groove":
@@ -196,19 +208,29 @@ def _geometry_table(model, track):
     """Pressure angle, curvature and profile of one surface over the turn, one-sided at the joints."""
     piece, angle = model.cycle.samples()
     contact = track.contact(*model.cycle.at(piece, angle))
-    return Table(f"geometry{track.suffix}", f"Pressure angle and curvature{track.of}", (
-        Column("angle", "rad", "cam angle", angle),
-        Column("pressure_angle", "rad", f"pressure angle{track.of}", contact.pressure_angle.d0 + 0 * angle),
-        Column("curvature", "1/m", f"curvature of the {track.curve}{track.of}, convex positive", contact.bend.d0 + 0 * angle),
-        Column("pitch_radius", "m", f"distance of the {track.curve}{track.of} from the cam's centre", np.abs(contact.pitch.d0)),
-        Column("profile_x", "m", f"profile{track.of}, x at cam angle 0", contact.point.d0.real),
-        Column("profile_y", "m", f"profile{track.of}, y at cam angle 0", contact.point.d0.imag)))
+    return Table(
+        f"geometry{track.suffix}",
+        f"Pressure angle and curvature{track.of}",
+        (
+            Column("angle", "rad", "cam angle", angle),
+            Column("pressure_angle", "rad", f"pressure angle{track.of}", contact.pressure_angle.d0 + 0 * angle),
+            Column("curvature", "1/m", f"curvature of the {track.curve}{track.of}, convex positive", contact.bend.d0 + 0 * angle),
+            Column("pitch_radius", "m", f"distance of the {track.curve}{track.of} from the cam's centre", np.abs(contact.pitch.d0)),
+            Column("profile_x", "m", f"profile{track.of}, x at cam angle 0", contact.point.d0.real),
+            Column("profile_y", "m", f"profile{track.of}, y at cam angle 0", contact.point.d0.imag),
+        ),
+    )
 
 
 def _undercut_table(model, track):
     """Curvature of the pitch curve against that of the face: above 1 the profile cuts itself away."""
     piece, angle = model.cycle.samples()
     ratio = track.flank * track.radius * track.contact(*model.cycle.at(piece, angle)).bend.d0
-    return Table(f"undercut{track.suffix}", f"Undercut{track.of}", (
-        Column("angle", "rad", "cam angle", angle),
-        Column("ratio", "-", f"face radius times curvature of the pitch curve{track.of}", ratio + 0 * angle)))
+    return Table(
+        f"undercut{track.suffix}",
+        f"Undercut{track.of}",
+        (
+            Column("angle", "rad", "cam angle", angle),
+            Column("ratio", "-", f"face radius times curvature of the pitch curve{track.of}", ratio + 0 * angle),
+        ),
+    )

@@ -14,8 +14,13 @@ from drivewright.scene import Outline
 
 LAW_KEYS = ("file", "b", "c", "d", "start", "end", "interior", "points", "degree", "ends")
 USED = {  # keys of the follower that each motion and face reads
-    "translating": ("offset",), "oscillating": ("pivot_distance", "arm_length"),
-    "roller": ("roller_radius",), "knife": (), "shoe": ("face_radius", "face_offset"), "flat": ("face_offset", "face_angle", "half_face")}
+    "translating": ("offset",),
+    "oscillating": ("pivot_distance", "arm_length"),
+    "roller": ("roller_radius",),
+    "knife": (),
+    "shoe": ("face_radius", "face_offset"),
+    "flat": ("face_offset", "face_angle", "half_face"),
+}
 
 
 @dataclass(frozen=True)
@@ -171,7 +176,7 @@ def _findings(spec, programme):
             yield message
     for name in ("groove", "conjugate"):
         if getattr(spec, name) is not None and spec.closure != name:
-            yield f"[{name}] is given, but closure = \"{spec.closure}\"; it is not used"
+            yield f'[{name}] is given, but closure = "{spec.closure}"; it is not used'
 
 
 def _material(spec):
@@ -209,8 +214,10 @@ def _prime_radius(given, radius):
         raise SpecError(reason, key="follower.prime_radius")
     prime = given.prime_radius or given.base_radius + radius
     if prime <= radius:
-        raise SpecError(f"{1e3 * prime:.6g} mm leaves no cam under a {given.face} of radius {1e3 * radius:.6g} mm; make it larger",
-                        key="follower.prime_radius")
+        raise SpecError(
+            f"{1e3 * prime:.6g} mm leaves no cam under a {given.face} of radius {1e3 * radius:.6g} mm; make it larger",
+            key="follower.prime_radius",
+        )
     return prime
 
 
@@ -230,10 +237,10 @@ def _closing_tracks(spec, follower, programme):
         return (Track("conjugate", "conjugate.", second, second.contact),)
     if spec.closure == "groove":
         if spec.follower.face != "roller":
-            raise SpecError(f"\"groove\" wants a roller, not a {spec.follower.face} face", key="closure")
+            raise SpecError(f'"groove" wants a roller, not a {spec.follower.face} face', key="closure")
         return (Track("outer wall", "outer.", follower, partial(follower.contact, flank=-1), flank=-1),)
     if spec.follower.motion != "translating" or spec.follower.face not in ("flat", "roller") or spec.follower.offset:
-        raise SpecError("\"yoke\" wants a translating follower without offset, with flat faces or rollers", key="closure")
+        raise SpecError('"yoke" wants a translating follower without offset, with flat faces or rollers', key="closure")
     opposite = partial(cams.opposite_contact, cams.Cycle(programme.function), follower)
     return (Track("second face", "opposite.", follower, opposite, cut=False),)
 
@@ -242,15 +249,17 @@ def _conjugate(spec, follower):
     """The follower on its second cam."""
     given = spec.conjugate
     if given is None:
-        raise SpecError("is missing: closure = \"conjugate\" needs the second cam", key="conjugate")
+        raise SpecError('is missing: closure = "conjugate" needs the second cam', key="conjugate")
     if spec.follower.face != "roller":
-        raise SpecError(f"\"conjugate\" wants rollers, not a {spec.follower.face} face", key="closure")
+        raise SpecError(f'"conjugate" wants rollers, not a {spec.follower.face} face', key="closure")
     changes = {"prime_radius": given.prime_radius, "radius": given.roller_radius or follower.radius, "side": -1}
     guide = {"arm_length": given.arm_length or follower.arm_length} if spec.follower.motion == "oscillating" else {"offset": given.offset}
     second = replace(follower, **changes, **guide)
     if given.prime_radius <= second.radius:
-        raise SpecError(f"{1e3 * given.prime_radius:.6g} mm leaves no cam under a roller of radius {1e3 * second.radius:.6g} mm; make it "
-                        "larger", key="conjugate.prime_radius")
+        raise SpecError(
+            f"{1e3 * given.prime_radius:.6g} mm leaves no cam under a roller of radius {1e3 * second.radius:.6g} mm; make it larger",
+            key="conjugate.prime_radius",
+        )
     return second
 
 

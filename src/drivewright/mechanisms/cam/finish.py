@@ -25,10 +25,12 @@ def _one_profile(model, number):
     area, length = curves.outline_area(found.outline), curves.perimeter(found.outline)
     if found.trimmed:
         area, length = found.trimmed.area, found.trimmed.perimeter
-    values = {f"{prefix}profile.min_radius": Value(least, "m", f"least distance of the profile from the cam's centre{track.of}"),
-              f"{prefix}profile.max_radius": Value(greatest, "m", f"greatest distance of the profile from the cam's centre{track.of}"),
-              f"{prefix}profile.area": Value(area, "m^2", f"area within the profile{track.of}"),
-              f"{prefix}profile.perimeter": Value(length, "m", f"length of the profile{track.of}")}
+    values = {
+        f"{prefix}profile.min_radius": Value(least, "m", f"least distance of the profile from the cam's centre{track.of}"),
+        f"{prefix}profile.max_radius": Value(greatest, "m", f"greatest distance of the profile from the cam's centre{track.of}"),
+        f"{prefix}profile.area": Value(area, "m^2", f"area within the profile{track.of}"),
+        f"{prefix}profile.perimeter": Value(length, "m", f"length of the profile{track.of}"),
+    }
     lost = _lost_motion(model, track, found) if found.trimmed else Answer()
     checks = (*_wall_checks(model, track, least), *lost.checks)
     findings = (*lost.findings, *([found.finding] if found.finding else []))
@@ -64,8 +66,10 @@ def _lost_motion(model, track, found):
     if not lost > 0:
         return Answer(values, (), (check,))
     values[f"{track.prefix}lost_motion.at"] = Value(at % TURN, "rad", f"cam angle at which it sinks farthest{track.of}")
-    finding = (f"the {track.name} is undercut: near cam angle {np.degrees(at):.1f} deg the follower sinks {1e3 * lost:.3g} mm beyond its "
-               "programme; a larger prime radius, a smaller face radius or a longer segment mends it")
+    finding = (
+        f"the {track.name} is undercut: near cam angle {np.degrees(at):.1f} deg the follower sinks {1e3 * lost:.3g} mm beyond its "
+        "programme; a larger prime radius, a smaller face radius or a longer segment mends it"
+    )
     return Answer(values, (), (check,), (finding,))
 
 
@@ -77,8 +81,10 @@ def _wall_checks(model, track, least):
         return []
     checks = [Check(f"bore_wall{name}", least - bore, wall, ">=", "m", "wall between bore and profile", parts, True)] if bore else []
     if hub:
-        checks += [Check(f"hub_wall{name}", hub / 2 - bore, wall, ">=", "m", "wall between bore and hub", parts, True),
-                   Check(f"hub_clearance{name}", least - hub / 2, 0.0, ">=", "m", "the hub stays within the profile", parts)]
+        checks += [
+            Check(f"hub_wall{name}", hub / 2 - bore, wall, ">=", "m", "wall between bore and hub", parts, True),
+            Check(f"hub_clearance{name}", least - hub / 2, 0.0, ">=", "m", "the hub stays within the profile", parts),
+        ]
     return checks
 
 
@@ -104,10 +110,17 @@ def _inspection(model, track, found):
     breaks = model.cycle.motion.breaks
     contact = track.contact(*model.cycle.at(np.searchsorted(breaks, angle, side="right") - 1, angle))
     point, tolerance = contact.point.d0, model.spec.manufacture.profile_tolerance
-    return Table(f"inspection{track.suffix}", f"Inspection{track.of}", (
-        Column("angle", "rad", "cam angle", angle), Column("polar_angle", "rad", "direction of the point at cam angle 0", np.angle(point)),
-        Column("radius", "m", "distance of the point from the cam's centre", np.abs(point)),
-        Column("x", "m", "point, x at cam angle 0", point.real), Column("y", "m", "point, y at cam angle 0", point.imag),
-        Column("normal", "rad", "direction of the outward normal at cam angle 0", np.angle(contact.normal)),
-        Column("pitch_radius", "m", "distance of the follower's face centre from the cam's centre", np.abs(contact.pitch.d0)),
-        Column("tolerance", "m", "allowed deviation along the normal, plus and minus", np.full(angle.shape, tolerance))))
+    return Table(
+        f"inspection{track.suffix}",
+        f"Inspection{track.of}",
+        (
+            Column("angle", "rad", "cam angle", angle),
+            Column("polar_angle", "rad", "direction of the point at cam angle 0", np.angle(point)),
+            Column("radius", "m", "distance of the point from the cam's centre", np.abs(point)),
+            Column("x", "m", "point, x at cam angle 0", point.real),
+            Column("y", "m", "point, y at cam angle 0", point.imag),
+            Column("normal", "rad", "direction of the outward normal at cam angle 0", np.angle(contact.normal)),
+            Column("pitch_radius", "m", "distance of the follower's face centre from the cam's centre", np.abs(contact.pitch.d0)),
+            Column("tolerance", "m", "allowed deviation along the normal, plus and minus", np.full(angle.shape, tolerance)),
+        ),
+    )

@@ -22,7 +22,7 @@ def no_forces(spec):
 
 def no_spring(spec):
     """Why there is no spring to size, or None."""
-    return f"closure = \"{spec.closure}\" needs no spring" if spec.closure != "force" else no_forces(spec)
+    return f'closure = "{spec.closure}" needs no spring' if spec.closure != "force" else no_forces(spec)
 
 
 def no_vibration(spec):
@@ -38,14 +38,24 @@ def forces(model, done):
     piece, angle = model.cycle.samples()
     state = model.cycle.at(piece, angle)
     required = model.required(*state)
-    table = Table("load", "Force and torque over the turn", (
-        Column("angle", "rad", "cam angle", angle),
-        Column("required_force", "N", "force on the follower along its travel", required.d0 + 0 * angle),
-        Column("torque", "N m", "torque on the cam shaft", _torque(model, *state).d0 + 0 * angle)))
+    table = Table(
+        "load",
+        "Force and torque over the turn",
+        (
+            Column("angle", "rad", "cam angle", angle),
+            Column("required_force", "N", "force on the follower along its travel", required.d0 + 0 * angle),
+            Column("torque", "N m", "torque on the cam shaft", _torque(model, *state).d0 + 0 * angle),
+        ),
+    )
     answers = [part for track in model.tracks for part in (_contact(model, track, state), _pressure(model, track, state))]
-    values = {"max_torque": Value(model.cycle.greatest(partial(_torque, model)).value, "N m", "largest torque on the cam shaft"),
-              "min_torque": Value(model.cycle.least(partial(_torque, model)).value, "N m",
-                                  "least torque on the cam shaft, negative where the follower drives the cam")}
+    values = {
+        "max_torque": Value(model.cycle.greatest(partial(_torque, model)).value, "N m", "largest torque on the cam shaft"),
+        "min_torque": Value(
+            model.cycle.least(partial(_torque, model)).value,
+            "N m",
+            "least torque on the cam shaft, negative where the follower drives the cam",
+        ),
+    }
     values |= {name: value for answer in answers for name, value in answer.values.items()}
     if len(model.tracks) > 1:
         changes = float(cams.crossovers(model.cycle, model.required))
@@ -66,8 +76,10 @@ def _flight(model, required):
     if model.spec.closure != "force" or not np.any(required < 0):
         return ()
     share = 100 * float(np.mean(required < 0))
-    return (f"the follower leaves the cam over about {share:.0f} % of the turn: there the cam carries neither force nor torque; its "
-            "flight and landing are not computed, and the forces after a landing are larger than those given",)
+    return (
+        f"the follower leaves the cam over about {share:.0f} % of the turn: there the cam carries neither force nor torque; its "
+        "flight and landing are not computed, and the forces after a landing are larger than those given",
+    )
 
 
 def _contact(model, track, state):
@@ -84,11 +96,23 @@ def _contact(model, track, state):
         values[f"{track.prefix}max_roller_speed"] = Value(spin, "rad/s", f"largest speed of the roller on its pin{track.of}")
     if not rolls and track.cut:
         values[f"{track.prefix}max_sliding_speed"] = Value(body, "m/s", f"largest sliding speed{track.of}")
-    table = Table(f"contact{track.suffix}", f"Contact of cam and follower{track.of}", (
-        Column("angle", "rad", "cam angle", angle), Column("contact_force", "N", f"normal force{track.of}", force),
-        Column("surface_speed", "m/s", f"{'circumferential speed of the roller' if rolls else 'sliding speed'}{track.of}",
-               np.abs(contact.sliding.d0) * model.speed + 0 * angle),
-        Column("rolling_speed", "m/s", f"speed of the contact along the profile{track.of}", contact.rolling.d0 * model.speed + 0 * angle)))
+    table = Table(
+        f"contact{track.suffix}",
+        f"Contact of cam and follower{track.of}",
+        (
+            Column("angle", "rad", "cam angle", angle),
+            Column("contact_force", "N", f"normal force{track.of}", force),
+            Column(
+                "surface_speed",
+                "m/s",
+                f"{'circumferential speed of the roller' if rolls else 'sliding speed'}{track.of}",
+                np.abs(contact.sliding.d0) * model.speed + 0 * angle,
+            ),
+            Column(
+                "rolling_speed", "m/s", f"speed of the contact along the profile{track.of}", contact.rolling.d0 * model.speed + 0 * angle
+            ),
+        ),
+    )
     return Answer(values, (table,))
 
 
@@ -99,13 +123,23 @@ def _pressure(model, track, state):
     contact, angle = track.contact(*state), state[0].d0
     force = np.maximum(cams.normal_force(model.required(*state), contact).d0 + 0 * angle, 0.0)
     pressure = hertz.line_contact(force, model.spec.face.width, 1 / _relative_curvature(track, contact).d0, _modulus(model)).pressure
-    table = Table(f"pressure{track.suffix}", f"Contact pressure{track.of}", (
-        Column("angle", "rad", "cam angle", angle), Column("contact_pressure", "Pa", f"peak Hertz pressure{track.of}", pressure)))
+    table = Table(
+        f"pressure{track.suffix}",
+        f"Contact pressure{track.of}",
+        (Column("angle", "rad", "cam angle", angle), Column("contact_pressure", "Pa", f"peak Hertz pressure{track.of}", pressure)),
+    )
     peak, allowed = _peak_pressure(model, track), model.spec.limits.contact_pressure or model.material.hertz_limit
     values = {f"{track.prefix}max_contact_pressure": Value(peak, "Pa", f"largest Hertz pressure{track.of}, steady contact")}
     if allowed is None:
-        return Answer(values, (table,), (), (f"check contact_pressure{track.suffix} is left out: no allowable pressure is known for "
-                                             f"{model.material.name}; give limits.contact_pressure",))
+        return Answer(
+            values,
+            (table,),
+            (),
+            (
+                f"check contact_pressure{track.suffix} is left out: no allowable pressure is known for "
+                f"{model.material.name}; give limits.contact_pressure",
+            ),
+        )
     name, parts = f"contact_pressure{track.suffix}", (track.name, "follower")
     return Answer(values, (table,), (Check(name, peak, allowed, "<=", "Pa", "Hertz line contact of follower and cam", parts),))
 
@@ -126,6 +160,7 @@ def _no_pressure(model, track):
 
 def _peak_pressure(model, track):
     """Largest pressure over the turn: it goes with force times relative curvature."""
+
     def product(angle, lift):
         contact = track.contact(angle, lift)
         return cams.normal_force(model.required(angle, lift), contact) * _relative_curvature(track, contact)
@@ -143,15 +178,22 @@ def spring(model, done):
     """Does the spring hold the follower on the cam; what preload, stiffness and speed are the limits."""
     cycle, reach, load, speed = model.cycle, model.follower.reach, model.load, model.speed
     least, needed, findings = cycle.least(model.required), cams.needed_preload(cycle, reach, load, speed), []
-    values = {"min_required_force": Value(least.value, "N", "least force on the follower along its travel; below 0 it leaves the cam"),
-              "min_required_force.at": Value(least.angle % (2 * np.pi), "rad", "cam angle of it, from the start of the programme"),
-              "spring.needed_preload": Value(needed, "N", "least preload at this speed and stiffness")}
+    values = {
+        "min_required_force": Value(least.value, "N", "least force on the follower along its travel; below 0 it leaves the cam"),
+        "min_required_force.at": Value(least.angle % (2 * np.pi), "rad", "cam angle of it, from the start of the programme"),
+        "spring.needed_preload": Value(needed, "N", "least preload at this speed and stiffness"),
+    }
     stiffness, jump = cams.needed_stiffness(cycle, reach, load, speed), cams.jump_speed(cycle, reach, load)
     for name, value, unit, meaning, absent in (
-            ("spring.needed_stiffness", stiffness, "N/m", "least stiffness at this speed and preload",
-             "none holds the follower at zero lift; give preload"),
-            ("spring.jump_speed", jump, "rad/s", "cam speed at which the follower leaves the cam",
-             "the follower leaves the cam at no speed")):
+        (
+            "spring.needed_stiffness",
+            stiffness,
+            "N/m",
+            "least stiffness at this speed and preload",
+            "none holds the follower at zero lift; give preload",
+        ),
+        ("spring.jump_speed", jump, "rad/s", "cam speed at which the follower leaves the cam", "the follower leaves the cam at no speed"),
+    ):
         if np.isfinite(value):
             values[name] = Value(float(value), unit, meaning)
         else:
@@ -169,16 +211,24 @@ def vibration(model, done):
     lift = reach * model.cycle.at(found.piece, found.angle)[1].d0
     swing, actual = cams.amplitude(found, frequency, given.damping_ratio), cams.acceleration(found, frequency, given.damping_ratio)
     error, shock = (cams.peak(found, speed, quantity) for quantity in (found.error, actual))
-    values = {"vibration.max_error": Value(error, "m", "largest deviation of the follower from its programme"),
-              "vibration.max_acceleration": Value(shock, "m/s^2", "largest acceleration of the follower, vibration included")}
+    values = {
+        "vibration.max_error": Value(error, "m", "largest deviation of the follower from its programme"),
+        "vibration.max_acceleration": Value(shock, "m/s^2", "largest acceleration of the follower, vibration included"),
+    }
     rests = [k for k, piece in enumerate(model.programme.pieces) if piece.phase == "dwell"]
     if rests:
         residual = max(float(swing[found.piece == k][0]) for k in rests)
         values["vibration.residual"] = Value(residual, "m", "amplitude that is left at the start of a dwell, the largest")
-    table = Table("vibration", "Vibration of the follower", (
-        Column("angle", "rad", "cam angle", found.angle), Column("travel", "m", "planned travel", lift),
-        Column("actual", "m", "travel with vibration", lift + found.error.d0),
-        Column("error", "m", "deviation from the programme", found.error.d0),
-        Column("acceleration", "m/s^2", "acceleration of the follower, vibration included", actual.d0)))
+    table = Table(
+        "vibration",
+        "Vibration of the follower",
+        (
+            Column("angle", "rad", "cam angle", found.angle),
+            Column("travel", "m", "planned travel", lift),
+            Column("actual", "m", "travel with vibration", lift + found.error.d0),
+            Column("error", "m", "deviation from the programme", found.error.d0),
+            Column("acceleration", "m/s^2", "acceleration of the follower, vibration included", actual.d0),
+        ),
+    )
     limit, message = model.spec.limits.vibration, "deviation of the follower from its programme"
     return Answer(values, (table,), (Check("vibration", error, limit, "<=", "m", message, ("follower",)),) if limit else ())

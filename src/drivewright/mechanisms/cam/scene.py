@@ -18,15 +18,26 @@ SURFACES = (("", ""), (".conjugate", ", second cam"), (".outer", ", outer wall")
 PLOTS = (
     Plot("motion", "Lift and its derivatives by the cam angle", "motion", "angle", ("lift", "slope", "bend", "third")),
     Plot("kinematics", "Velocity, acceleration and jerk of the follower", "kinematics", "angle", ("velocity", "acceleration", "jerk")),
-    *(plot for suffix, words in SURFACES for plot in (
-        Plot(f"pressure_angle{suffix}", f"Pressure angle{words}", f"geometry{suffix}", "angle", ("pressure_angle",)),
-        Plot(f"curvature{suffix}", f"Curvature{words}", f"geometry{suffix}", "angle", ("curvature",)),
-        Plot(f"undercut{suffix}", f"Face over pitch radius{words}", f"undercut{suffix}", "angle", ("ratio",),
-             ((1.0, "undercut above"),)))),
+    *(
+        plot
+        for suffix, words in SURFACES
+        for plot in (
+            Plot(f"pressure_angle{suffix}", f"Pressure angle{words}", f"geometry{suffix}", "angle", ("pressure_angle",)),
+            Plot(f"curvature{suffix}", f"Curvature{words}", f"geometry{suffix}", "angle", ("curvature",)),
+            Plot(
+                f"undercut{suffix}", f"Face over pitch radius{words}", f"undercut{suffix}", "angle", ("ratio",), ((1.0, "undercut above"),)
+            ),
+        )
+    ),
     Plot("load", "Force on the follower and torque", "load", "angle", ("required_force", "torque")),
-    *(plot for suffix, words in SURFACES for plot in (
-        Plot(f"contact{suffix}", f"Contact{words}", f"contact{suffix}", "angle", ("contact_force", "surface_speed", "rolling_speed")),
-        Plot(f"pressure{suffix}", f"Contact pressure{words}", f"pressure{suffix}", "angle", ("contact_pressure",)))),
+    *(
+        plot
+        for suffix, words in SURFACES
+        for plot in (
+            Plot(f"contact{suffix}", f"Contact{words}", f"contact{suffix}", "angle", ("contact_force", "surface_speed", "rolling_speed")),
+            Plot(f"pressure{suffix}", f"Contact pressure{words}", f"pressure{suffix}", "angle", ("contact_pressure",)),
+        )
+    ),
     Plot("vibration", "Vibration of the follower", "vibration", "angle", ("error", "acceleration")),
 )
 
@@ -41,13 +52,21 @@ def scene(model):
     turning, still = _poses(0.0, 0.0, model.follower.sense * angle), _poses(0.0, 0.0, 0.0 * angle)
     moving = _poses(sketch.origin(model).real, 0.0, -lift) if model.oscillating else _poses(0.0, lift, 0.0)
     colours = {"cam": "blue", "outer wall": "blue", "conjugate": "green"}
-    bodies = [Body(track.name, track.name, tuple(_cam_shapes(model, number, _shown)), turning, colours[track.name])
-              for number, track in enumerate(model.tracks) if track.cut]
-    bodies += [Body("follower", "follower", tuple(sketch.follower_shapes(model)), moving, "orange"),
-               Body("frame", "frame", tuple(_ground(model)), still, "ground")]
+    bodies = [
+        Body(track.name, track.name, tuple(_cam_shapes(model, number, _shown)), turning, colours[track.name])
+        for number, track in enumerate(model.tracks)
+        if track.cut
+    ]
+    bodies += [
+        Body("follower", "follower", tuple(sketch.follower_shapes(model)), moving, "orange"),
+        Body("frame", "frame", tuple(_ground(model)), still, "ground"),
+    ]
     frames = (Frame("machine", "machine frame", still), Frame("cam", "seen from the cam", turning))
-    traces = () if model.tracks[0].flat else (
-        Trace("center", "centre of the follower's face", "follower", sketch.pair(sketch.centers(model)[0])),)
+    traces = (
+        ()
+        if model.tracks[0].flat
+        else (Trace("center", "centre of the follower's face", "follower", sketch.pair(sketch.centers(model)[0])),)
+    )
     programme = model.programme
     marks = tuple((float(start), segment.law.name) for start, segment in zip(programme.starts, programme.segments, strict=False))
     period = TURN / model.speed if model.speed else 2.0

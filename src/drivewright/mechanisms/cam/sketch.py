@@ -37,8 +37,14 @@ def pair(z):
 def bar(a, b, width):
     """A link with round ends between two points."""
     along, half = float(np.angle(b - a)), 0.5 * width * np.exp(1j * (np.angle(b - a) + np.pi / 2))
-    return Outline((Arc(pair(a), width / 2, along + np.pi / 2, np.pi), Line(pair(a - half), pair(b - half)),
-                    Arc(pair(b), width / 2, along - np.pi / 2, np.pi), Line(pair(b + half), pair(a + half))))
+    return Outline(
+        (
+            Arc(pair(a), width / 2, along + np.pi / 2, np.pi),
+            Line(pair(a - half), pair(b - half)),
+            Arc(pair(b), width / 2, along - np.pi / 2, np.pi),
+            Line(pair(b + half), pair(a + half)),
+        )
+    )
 
 
 def beam(a, b, depth):
@@ -97,8 +103,14 @@ def _shoe(model, center, radius):
     reach = 0.15 + max(abs(a) for a in _pressure_range(model))
     inner, start = radius - _thickness(model), float(np.angle(-_away(model))) - reach
     near, far = (lambda r, turn: pair(center + r * np.exp(1j * (start + turn)))), 2 * reach
-    return Outline((Arc(pair(center), radius, start, far), Line(near(radius, far), near(inner, far)),
-                    Arc(pair(center), inner, start + far, -far), Line(near(inner, 0.0), near(radius, 0.0))))
+    return Outline(
+        (
+            Arc(pair(center), radius, start, far),
+            Line(near(radius, far), near(inner, far)),
+            Arc(pair(center), inner, start + far, -far),
+            Line(near(inner, 0.0), near(radius, 0.0)),
+        )
+    )
 
 
 def _pressure_range(model):

@@ -46,19 +46,24 @@ class Follower(Spec):
 
     motion: Literal["translating", "oscillating"] = Field("translating", description="on a slide along +y, or on an arm about a pivot")
     face: Literal["roller", "flat", "knife", "shoe"] = Field("roller", description="shape that touches the cam")
-    prime_radius: Length | None = Field(None, gt=0, description="radius of the pitch curve at zero lift; for a flat face the base radius",
-                                        examples=["40 mm"])
+    prime_radius: Length | None = Field(
+        None, gt=0, description="radius of the pitch curve at zero lift; for a flat face the base radius", examples=["40 mm"]
+    )
     base_radius: Length | None = Field(None, gt=0, description="radius of the profile at zero lift, instead of prime_radius")
     roller_radius: Length | None = Field(None, gt=0, description="radius of the roller", examples=["8 mm"])
     face_radius: Length | None = Field(None, gt=0, description="radius of a curved shoe", examples=["60 mm"])
-    face_offset: Length = Field("0 mm", description="centre of the shoe or middle of the flat face off the follower's line; oscillating "
-                                                    "flat face: beyond the parallel line through the pivot")
+    face_offset: Length = Field(
+        "0 mm",
+        description="centre of the shoe or middle of the flat face off the follower's line; oscillating "
+        "flat face: beyond the parallel line through the pivot",
+    )
     face_angle: Angle = Field("0 deg", gt=-TURN / 8, lt=TURN / 8, description="tilt of a translating flat face against the cam's turning")
     half_face: Length | None = Field(None, gt=0, description="half the length of a flat face, for the check")
     offset: Length = Field("0 mm", description="offset of the slide towards +x (cam turning clockwise: towards -x)")
     pivot_distance: Length | None = Field(None, gt=0, description="cam centre to the pivot of an oscillating follower", examples=["80 mm"])
-    arm_length: Length | None = Field(None, gt=0, description="pivot to roller; on a flat face the radius where mass and force are counted",
-                                      examples=["60 mm"])
+    arm_length: Length | None = Field(
+        None, gt=0, description="pivot to roller; on a flat face the radius where mass and force are counted", examples=["60 mm"]
+    )
 
 
 class Segment(Spec):
@@ -67,14 +72,14 @@ class Segment(Spec):
     angle: Angle = Field(gt=0, description="cam angle of the segment", examples=["90 deg"])
     law: Text = Field(description=f"motion law, or dwell: {', '.join(motion.names())}", examples=["cycloidal"])
     rise: Rise | None = Field(None, description="rise, negative for a return; an angle for an oscillating follower", examples=["20 mm"])
-    file: DataFile | None = Field(None, description="CSV of law = \"table\": angle [deg],lift [mm] from the start of the segment")
-    b: Number | None = Field(None, description="part of the sine ramps, for law = \"scca\"")
+    file: DataFile | None = Field(None, description='CSV of law = "table": angle [deg],lift [mm] from the start of the segment')
+    b: Number | None = Field(None, description='part of the sine ramps, for law = "scca"')
     c: Number | None = Field(None, description="part of constant acceleration (scca) or velocity (mcv)")
-    d: Number | None = Field(None, description="part of the cosine, for law = \"scca\"")
-    start: tuple[Number, ...] | None = Field(None, description="v, a, j ... at the start, for law = \"polynomial\"; segment and rise are 1")
+    d: Number | None = Field(None, description='part of the cosine, for law = "scca"')
+    start: tuple[Number, ...] | None = Field(None, description='v, a, j ... at the start, for law = "polynomial"; segment and rise are 1')
     end: tuple[Number, ...] | None = Field(None, description="the same at the end")
     interior: tuple[tuple[Number, Integer, Number], ...] | None = Field(None, description="further (u, order, value) of a polynomial")
-    points: tuple[tuple[Number, Number], ...] | None = Field(None, description="(u, s) of law = \"spline\", both from 0 to 1")
+    points: tuple[tuple[Number, Number], ...] | None = Field(None, description='(u, s) of law = "spline", both from 0 to 1')
     degree: Integer | None = Field(None, description="degree of a spline or table, 3 or 5")
     ends: Literal["clamped", "periodic"] | None = Field(None, description="ends of a spline or table")
 
@@ -139,8 +144,9 @@ class Manufacture(Machining):
 class Limits(Spec):
     """Requirements; each becomes a check."""
 
-    pressure_angle: Angle | None = Field(None, gt=0, lt=TURN / 4, description="largest pressure angle; unless given 30 deg on a slide, "
-                                                                             "45 deg on an arm")
+    pressure_angle: Angle | None = Field(
+        None, gt=0, lt=TURN / 4, description="largest pressure angle; unless given 30 deg on a slide, 45 deg on an arm"
+    )
     curvature_ratio: Number = Field(1.2, ge=1, description="least radius of the pitch curve over the radius of the face, recommended")
     lost_motion: Length = Field("0 mm", ge=0, description="how far the follower may sink beyond its programme")
     velocity_jump: Number = Field(0.0, ge=0, description="largest jump of the velocity over its peak")
@@ -162,8 +168,8 @@ class CamSpec(MechanismSpec):
     material: Text = Field("16MnCr5", description=f"material of cam and follower: {', '.join(materials.names())}")
     follower: Follower = Field(description="follower")
     programme: tuple[Segment, ...] = Field(min_length=1, description="segments of one turn of the cam, in order")
-    groove: Groove | None = Field(None, description="for closure = \"groove\"")
-    conjugate: Conjugate | None = Field(None, description="for closure = \"conjugate\"")
+    groove: Groove | None = Field(None, description='for closure = "groove"')
+    conjugate: Conjugate | None = Field(None, description='for closure = "conjugate"')
     drive: Drive | None = Field(None, description="drive; without it no velocities and forces")
     load: Load = Field(Load(), description="load on the follower")
     spring: Spring | None = Field(None, description="spring")

@@ -20,18 +20,37 @@ def by_kind(plane, spatial):
 ANALYSES = (
     Analysis("motion", geometry.motion, "motion of the wheel over the input"),
     Analysis("profile", by_kind(geometry.profile, roller.surface), "trimmed profile, curvature, undercut"),
-    Analysis("contacts", by_kind(geometry.contact_map, roller.contact_map), "which pins touch, which way they push, pressure angle",
-             needs=("profile",)),
+    Analysis(
+        "contacts",
+        by_kind(geometry.contact_map, roller.contact_map),
+        "which pins touch, which way they push, pressure angle",
+        needs=("profile",),
+    ),
     Analysis("play", by_kind(geometry.free_play, roller.free_play), "free rotation of the wheel in either direction", needs=("profile",)),
     Analysis("stress", stress.stress, "forces and contact pressure of the rollers", needs=("profile",), missing=stress.no_stress),
     Analysis("stiffness", stiffness.torsional, "torsional stiffness and who yields", missing=stiffness.no_stiffness),
     Analysis("bearings", loads.bearing_loads, "loads and lives of the bearings", missing=loads.no_loads),
 )
 
-HEADLINE = ("profile.area", "profile.perimeter", "profile.m*_radius", "profile.min_convex_radius", "contacts.minimum", "contacts.maximum",
-            "pressure_angle.maximum", "play.forward.maximum", "play.backward.maximum", "stiffness.mean", "stiffness.minimum",
-            "stiffness.minimum.at", "stiffness.range", "stiffness.undefined_fraction", "pins.max_force", "crank.max_load",
-            "support.max_load")
+HEADLINE = (
+    "profile.area",
+    "profile.perimeter",
+    "profile.m*_radius",
+    "profile.min_convex_radius",
+    "contacts.minimum",
+    "contacts.maximum",
+    "pressure_angle.maximum",
+    "play.forward.maximum",
+    "play.backward.maximum",
+    "stiffness.mean",
+    "stiffness.minimum",
+    "stiffness.minimum.at",
+    "stiffness.range",
+    "stiffness.undefined_fraction",
+    "pins.max_force",
+    "crank.max_load",
+    "support.max_load",
+)
 
 SOURCES = (
     "Liu Mingtao, Zhai Fengxiao, Li Yanqi, Guo Zhiquan: Factors influencing the torsional stiffness of inner parallel indexing cam "
@@ -39,6 +58,20 @@ SOURCES = (
     "Palmgren's line contact and bearing approaches, ISO 281 (recalled, verified by closed forms)",
 )
 
-mechanism = Mechanism(kind="indexer", summary="indexing drive with pins or rollers", spec=IndexerSpec, build=build, analyses=ANALYSES,
-                      folder=Path(__file__).parent, headline=HEADLINE, sources=SOURCES, scene=scene, plots=plots,
-                      drawings=drawings, parts=parts, verify=verify, batch=batch, commands=(torsion.command,))
+mechanism = Mechanism(
+    kind="indexer",
+    summary="indexing drive with pins or rollers",
+    spec=IndexerSpec,
+    build=build,
+    analyses=ANALYSES,
+    folder=Path(__file__).parent,
+    headline=HEADLINE,
+    sources=SOURCES,
+    scene=scene,
+    plots=plots,
+    drawings=drawings,
+    parts=parts,
+    verify=verify,
+    batch=batch,
+    commands=(torsion.command,),
+)

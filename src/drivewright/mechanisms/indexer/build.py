@@ -20,8 +20,12 @@ from drivewright.shafts import Section
 from drivewright.units import SI
 
 STEP = np.deg2rad(4.5)  # of the input, from position to position
-FORMULAS = {("liu", "point"): quick.liu_ball, ("liu", "line"): quick.liu_roller,
-            ("palmgren", "point"): quick.palmgren_ball, ("palmgren", "line"): quick.palmgren_roller}
+FORMULAS = {
+    ("liu", "point"): quick.liu_ball,
+    ("liu", "line"): quick.liu_roller,
+    ("palmgren", "point"): quick.palmgren_ball,
+    ("palmgren", "line"): quick.palmgren_roller,
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,8 +93,9 @@ def _globoidal(spec, moving):
 
 
 def _barrel(spec, moving):
-    return barrel(moving, spec.pin_circle_radius, spec.pin_radius, spec.pin_length, spec.cam_radius, spec.cam_length, spec.centre_distance,
-                  spec.hand)
+    return barrel(
+        moving, spec.pin_circle_radius, spec.pin_radius, spec.pin_length, spec.cam_radius, spec.cam_length, spec.centre_distance, spec.hand
+    )
 
 
 OTHERS = {"parallel": _parallel, "globoidal": _globoidal, "barrel": _barrel}
@@ -128,7 +133,8 @@ def drive_train(spec, rolling):
         spec.shafts and split_shaft(spec.shafts, spec.cams),
         _mesh(spec.gear),
         drivetrain.PowerBearing(housing.wheel_stiffness) if housing and housing.wheel_stiffness else None,
-        housing and housing.wheel_torsion)
+        housing and housing.wheel_torsion,
+    )
 
 
 def _law(given, rolling):

@@ -60,8 +60,15 @@ def _profile(model, drive, suffix):
     if not np.isfinite(convex):
         return values, table, ()
     values[f"profile{suffix}.min_convex_radius"] = Value(convex, "m", "least radius of the centre curve where the cam is convex")
-    check = Check(f"curvature{suffix}", convex / drive.pin_radius, model.spec.limits.curvature_ratio, ">=", "-",
-                  "least convex radius of the centre curve over the pin's radius", ("cam1",))
+    check = Check(
+        f"curvature{suffix}",
+        convex / drive.pin_radius,
+        model.spec.limits.curvature_ratio,
+        ">=",
+        "-",
+        "least convex radius of the centre curve over the pin's radius",
+        ("cam1",),
+    )
     return values, table, (check,)
 
 
@@ -73,8 +80,10 @@ def walls(model, values):
     spacing, least = model.spec.shaft_spacing, model.spec.limits.wall
     inside = values["profile.min_radius"].value - 0.5 * (spacing + outer)
     outside = 0.5 * (spacing - outer) - values["profile.max_radius"].value
-    between = {"holes": (spacing - outer, "between the bearing holes of a cam"),
-               "profile": (inside if model.spec.side == "inside" else outside, "between a bearing hole and the profile")}
+    between = {
+        "holes": (spacing - outer, "between the bearing holes of a cam"),
+        "profile": (inside if model.spec.side == "inside" else outside, "between a bearing hole and the profile"),
+    }
     for name, (width, words) in between.items():
         yield Check(f"wall.{name}", width, least, ">=", "m", f"wall {words}", ("cam1",), True)
 
@@ -115,10 +124,17 @@ def profile_table(trimmed, name, chords=24):
     t, x, y, bend = np.concatenate(rows, axis=1)
     turns = np.floor(np.clip(t, 0, None) / TURN * (1 - 1e-12))
     way = np.sign(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
-    return Table(name, "Trimmed profile of the cam", (
-        Column("angle", "rad", "input angle at which a pin touches here", t - TURN * turns), Column("pin", "-", "the pin", turns),
-        Column("x", "m", "from the cam's centre", x), Column("y", "m", "from the cam's centre", y),
-        Column("curvature", "1/m", "of the profile, positive where the cam is convex", way * bend)))
+    return Table(
+        name,
+        "Trimmed profile of the cam",
+        (
+            Column("angle", "rad", "input angle at which a pin touches here", t - TURN * turns),
+            Column("pin", "-", "the pin", turns),
+            Column("x", "m", "from the cam's centre", x),
+            Column("y", "m", "from the cam's centre", y),
+            Column("curvature", "1/m", "of the profile, positive where the cam is convex", way * bend),
+        ),
+    )
 
 
 def least_convex_radius(drive):
@@ -151,8 +167,10 @@ def contact_map(model, done):
                 best[side, row] = np.arccos(min(np.max(arms) / drive.circle_radius, 1.0))
     count = alive.sum(axis=1)
     one = "one cam" if len(drive.levels) == 1 else "the two cams together"
-    values = {"contacts.minimum": Value(float(count.min()), "-", f"fewest pins that touch {one} over the index period"),
-              "contacts.maximum": Value(float(count.max()), "-", f"most pins that touch {one} over the index period")}
+    values = {
+        "contacts.minimum": Value(float(count.min()), "-", f"fewest pins that touch {one} over the index period"),
+        "contacts.maximum": Value(float(count.max()), "-", f"most pins that touch {one} over the index period"),
+    }
     checks, findings = [], []
     driving = _driving(drive.motion(angles).d2, best)
     if np.isfinite(driving).any():
@@ -161,9 +179,19 @@ def contact_map(model, done):
         for side, name in enumerate(("forward", "backward")):
             if np.isfinite(best[side]).any():
                 values[f"pressure_angle.{name}.maximum"] = Value(
-                    float(np.nanmax(best[side])), "rad", f"largest pressure angle of the pin that pushes best {name}")
-        checks.append(Check("pressure_angle", worst, model.spec.limits.pressure_angle, "<=", "rad",
-                            "angle between the normal and the way of the pin that accelerates the wheel best", ("cam", "wheel")))
+                    float(np.nanmax(best[side])), "rad", f"largest pressure angle of the pin that pushes best {name}"
+                )
+        checks.append(
+            Check(
+                "pressure_angle",
+                worst,
+                model.spec.limits.pressure_angle,
+                "<=",
+                "rad",
+                "angle between the normal and the way of the pin that accelerates the wheel best",
+                ("cam", "wheel"),
+            )
+        )
     for side, name in enumerate(("forward", "backward")):
         lost = np.isnan(best[side])
         if lost.any():
@@ -171,13 +199,19 @@ def contact_map(model, done):
                 f"no pin can be pushed {name} by contact at {lost.sum()} of {len(angles)} positions ({stretches(angles, lost)}): it does "
                 f"not hold the wheel there against a torque that acts {'backward' if name == 'forward' else 'forward'}"
             )
-    table = Table("contacts", "Pins in contact with one cam", (
-        Column("angle", "rad", "input angle", angles), Column("pins", "-", "pins that touch", count.astype(float)),
-        Column("forward", "-", "pins that the cam can push forward", np.sum(way > 0, axis=1).astype(float)),
-        Column("backward", "-", "pins that the cam can push backward", np.sum(way < 0, axis=1).astype(float)),
-        Column("pressure_angle", "rad", "of the pin that accelerates the wheel best", driving),
-        Column("pressure_angle_forward", "rad", "of the pin pushed best forward", best[0]),
-        Column("pressure_angle_backward", "rad", "of the pin pushed best backward", best[1])))
+    table = Table(
+        "contacts",
+        "Pins in contact with one cam",
+        (
+            Column("angle", "rad", "input angle", angles),
+            Column("pins", "-", "pins that touch", count.astype(float)),
+            Column("forward", "-", "pins that the cam can push forward", np.sum(way > 0, axis=1).astype(float)),
+            Column("backward", "-", "pins that the cam can push backward", np.sum(way < 0, axis=1).astype(float)),
+            Column("pressure_angle", "rad", "of the pin that accelerates the wheel best", driving),
+            Column("pressure_angle_forward", "rad", "of the pin pushed best forward", best[0]),
+            Column("pressure_angle_backward", "rad", "of the pin pushed best backward", best[1]),
+        ),
+    )
     points = _contact_points(angles, found, drive)
     names = (tuple(f"{np.degrees(angle):.6g} deg" for angle in angles), tuple(str(k) for k in range(pins)))
     arrays = {"contact_map": Array("-", ("angle", "pin"), names, np.where(alive, np.where(way == 0, 0.5, way), 0.0))}
@@ -216,8 +250,10 @@ def stretches(angles, lost, most=6):
 def _contact_points(angles, found, drive):
     """Every contact of cam 0, one row each."""
     live = [each.intended for each in found]
-    column = {key: np.concatenate([getattr(each, key)[keep] for each, keep in zip(found, live, strict=True)])
-              for key in ("pin", "centre", "normal", "arm", "curvature")}
+    column = {
+        key: np.concatenate([getattr(each, key)[keep] for each, keep in zip(found, live, strict=True)])
+        for key in ("pin", "centre", "normal", "arm", "curvature")
+    }
     at = column["centre"] - drive.pin_radius * column["normal"]
     return Table(
         "contact_points",
@@ -272,8 +308,10 @@ def play_answer(model, angle, rotations):
         columns.append(Column(name, "rad", f"free rotation {name}", free))
         stopped = np.isfinite(free)
         if not stopped.all():
-            findings.append(f"nothing stops the wheel {name} at {np.sum(~stopped)} of {len(angle)} input angles "
-                            f"({stretches(angle, ~stopped)}): play.{name}.maximum does not exist")
+            findings.append(
+                f"nothing stops the wheel {name} at {np.sum(~stopped)} of {len(angle)} input angles "
+                f"({stretches(angle, ~stopped)}): play.{name}.maximum does not exist"
+            )
             checks.append(
                 Check(
                     f"play.{name}",

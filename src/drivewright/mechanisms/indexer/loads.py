@@ -34,8 +34,11 @@ def bearing_loads(model, done):
     columns = [Column("angle", "rad", "input angle", angles)]
     for name, force in forces.items():
         words = name.replace(".", " ")
-        columns += [Column(name, "N", words, np.abs(force)), Column(f"{name}.x", "N", f"{words}, along x", force.real),
-                    Column(f"{name}.y", "N", f"{words}, along y", force.imag)]
+        columns += [
+            Column(name, "N", words, np.abs(force)),
+            Column(f"{name}.x", "N", f"{words}, along x", force.real),
+            Column(f"{name}.y", "N", f"{words}, along y", force.imag),
+        ]
     values, checks, findings = {}, [], []
     for group in RATED:
         own = {name: force for name, force in forces.items() if name.startswith(group)}
@@ -98,12 +101,26 @@ def _checks(model, group, own, values):
     limits, largest = model.spec.limits, values[f"{group}.max_load"].value
     rating = static_rating(model, RATED[group])
     if rating and largest > 0:
-        yield Check(f"static_rating.{group}", rating / largest, limits.static_safety, ">=", "-",
-                    f"static rating of {rating / 1e3:.4g} kN over the largest load of {largest / 1e3:.4g} kN", (group,))
+        yield Check(
+            f"static_rating.{group}",
+            rating / largest,
+            limits.static_safety,
+            ">=",
+            "-",
+            f"static rating of {rating / 1e3:.4g} kN over the largest load of {largest / 1e3:.4g} kN",
+            (group,),
+        )
     life = values.get(f"{group}.basic_life.time")
     if limits.life and life:
-        yield Check(f"life.{group}", life.value, limits.life, ">=", "s",
-                    f"basic life {life.value / 3600:.4g} h of {limits.life / 3600:.4g} h", (group,))
+        yield Check(
+            f"life.{group}",
+            life.value,
+            limits.life,
+            ">=",
+            "s",
+            f"basic life {life.value / 3600:.4g} h of {limits.life / 3600:.4g} h",
+            (group,),
+        )
 
 
 def _statics(model, found, near):

@@ -18,8 +18,14 @@ def _all(result):
     for suffix, words in (("", ""), (".second", ", second cam")):
         if f"profile{suffix}" in result.tables and "z" not in [column.name for column in result.tables["profile"].columns]:
             yield Plot(f"profile{suffix}", f"Trimmed profile of the cam{words}", f"profile{suffix}", "x", ("y",), equal=True)
-    yield Plot("curvature", "Curvature of the profile by the input angle at which it is touched", "profile", "angle", ("curvature",),
-               style="points")
+    yield Plot(
+        "curvature",
+        "Curvature of the profile by the input angle at which it is touched",
+        "profile",
+        "angle",
+        ("curvature",),
+        style="points",
+    )
     yield Plot("contacts", "Pins that touch one cam, and which way it can push them", "contacts", "angle", ("pins", "forward", "backward"))
     yield Plot(
         "contact_map",

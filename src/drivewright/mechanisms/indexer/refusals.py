@@ -83,20 +83,27 @@ def _kind(spec):
 def _motion(spec):
     name, ratio = law_name(spec), spec.motion.motion_to_dwell
     if spec.kind == "cycloid" and name != "uniform":
-        raise SpecError(f'kind "cycloid" turns evenly and has law = "uniform", not {name!r}; for a dwell take kind = "pin-wheel"',
-                        "motion.law")
+        raise SpecError(
+            f'kind "cycloid" turns evenly and has law = "uniform", not {name!r}; for a dwell take kind = "pin-wheel"', "motion.law"
+        )
     if name == "uniform" and ratio not in (None, "no-dwell"):
         raise SpecError("the uniform law takes the full turn and has no dwell; leave motion_to_dwell out", "motion.motion_to_dwell")
     if isinstance(ratio, float) and not 1 / LARGEST_RATIO <= ratio <= LARGEST_RATIO:
-        raise SpecError(f'{ratio:g}: the ratio of motion to dwell is above 0, from {1 / LARGEST_RATIO:g} to {LARGEST_RATIO:g}; '
-                        '"no-dwell" for a full turn', "motion.motion_to_dwell")
+        raise SpecError(
+            f"{ratio:g}: the ratio of motion to dwell is above 0, from {1 / LARGEST_RATIO:g} to {LARGEST_RATIO:g}; "
+            '"no-dwell" for a full turn',
+            "motion.motion_to_dwell",
+        )
 
 
 def _pins(spec):
     if spec.kind in TRANSLATING and spec.pins % spec.cams:
         fitting = [str(number) for number in range(1, 5) if spec.pins % number == 0]
-        raise SpecError(f"{spec.cams} cams in even phase must divide the number of pins, {spec.pins}. Take {' or '.join(fitting)} cams, or "
-                        f"{spec.pins - spec.pins % spec.cams + spec.cams} pins", "cams")
+        raise SpecError(
+            f"{spec.cams} cams in even phase must divide the number of pins, {spec.pins}. Take {' or '.join(fitting)} cams, or "
+            f"{spec.pins - spec.pins % spec.cams + spec.cams} pins",
+            "cams",
+        )
 
 
 def _drive(spec):
@@ -111,7 +118,9 @@ def _drive(spec):
     if spec.gear and spec.gear.module * spec.gear.teeth >= spec.shaft_spacing:
         raise SpecError(
             f"pitch circles of {1e3 * spec.gear.module * spec.gear.teeth:.4g} mm leave no input gear between shafts "
-            f"{1e3 * spec.shaft_spacing:.4g} mm apart; module times teeth is half of that", "gear.teeth")
+            f"{1e3 * spec.shaft_spacing:.4g} mm apart; module times teeth is half of that",
+            "gear.teeth",
+        )
 
 
 def _bearings(spec):

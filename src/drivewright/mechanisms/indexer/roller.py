@@ -27,8 +27,17 @@ def surface(model, done):
     worst = found.greatest_pressure_angle
     if np.isfinite(worst).any():
         values["pressure_angle.maximum"] = Value(float(np.nanmax(worst)), "rad", "largest pressure angle of all contact lines")
-        checks.append(Check("pressure_angle", float(np.nanmax(worst)), limits.pressure_angle, "<=", "rad",
-                            "angle between the normal and the roller's way, all contact lines", ("cam", "wheel")))
+        checks.append(
+            Check(
+                "pressure_angle",
+                float(np.nanmax(worst)),
+                limits.pressure_angle,
+                "<=",
+                "rad",
+                "angle between the normal and the roller's way, all contact lines",
+                ("cam", "wheel"),
+            )
+        )
     return Answer(values, (_surface_table(found),), tuple(checks), data=found)
 
 
@@ -64,13 +73,21 @@ def contact_map(model, done):
     found = done["profile"].data
     forward, backward = (np.sum(side, axis=0) for side in found.pushes)
     count = np.sum(found.pushes.any(axis=0), axis=0)
-    values = {"contacts.minimum": Value(float(count.min()), "-", "fewest rollers that touch the cam"),
-              "contacts.maximum": Value(float(count.max()), "-", "most rollers that touch the cam")}
-    table = Table("contacts", "Rollers in contact with the cam", (
-        Column("angle", "rad", "input angle", found.theta), Column("pins", "-", "rollers that touch", count.astype(float)),
-        Column("forward", "-", "rollers that the cam can push forward", forward.astype(float)),
-        Column("backward", "-", "rollers that the cam can push backward", backward.astype(float)),
-        Column("pressure_angle", "rad", "largest pressure angle", found.greatest_pressure_angle)))
+    values = {
+        "contacts.minimum": Value(float(count.min()), "-", "fewest rollers that touch the cam"),
+        "contacts.maximum": Value(float(count.max()), "-", "most rollers that touch the cam"),
+    }
+    table = Table(
+        "contacts",
+        "Rollers in contact with the cam",
+        (
+            Column("angle", "rad", "input angle", found.theta),
+            Column("pins", "-", "rollers that touch", count.astype(float)),
+            Column("forward", "-", "rollers that the cam can push forward", forward.astype(float)),
+            Column("backward", "-", "rollers that the cam can push backward", backward.astype(float)),
+            Column("pressure_angle", "rad", "largest pressure angle", found.greatest_pressure_angle),
+        ),
+    )
     way = found.pushes[0].astype(float) - found.pushes[1]
     names = (tuple(f"{np.degrees(angle):.6g} deg" for angle in found.theta), tuple(str(k) for k in found.cam.rollers))
     return Answer(values, (table,), (), (), {"contact_map": Array("-", ("angle", "pin"), names, way.T)})

@@ -53,19 +53,14 @@ def _plane_scene(model):
     bodies = [Body("wheel", "wheel with pins", tuple(_wheel_shapes(model)), poses(0 * angle, phi), "orange")]
     for number, cam in reversed(list(enumerate(cams(model)))):
         colour = COLOURS[number % len(COLOURS)]
-        bodies.append(
-            Body(
-                f"cam{number + 1}",
-                f"cam {number + 1}",
-                tuple(_shown_cam(model, cam)),
-                cam_poses(cam, angle),
-                colour,
-            )
-        )
+        bodies.append(Body(f"cam{number + 1}", f"cam {number + 1}", tuple(_shown_cam(model, cam)), cam_poses(cam, angle), colour))
     bodies += _cranks(model, angle)
     bodies += _normals(cams(model)[0], angle)
-    frames = (Frame("machine", "machine frame", still), Frame("cam", "seen from cam 1", cam_poses(cams(model)[0], angle)),
-              Frame("wheel", "seen from the wheel", poses(0 * angle, phi)))
+    frames = (
+        Frame("machine", "machine frame", still),
+        Frame("cam", "seen from cam 1", cam_poses(cams(model)[0], angle)),
+        Frame("wheel", "seen from the wheel", poses(0 * angle, phi)),
+    )
     return Scene(angle, "input angle", "rad", period(model), tuple(bodies), frames, (), "motion", marks(moving))
 
 
@@ -183,8 +178,13 @@ def _normals(cam, angle):
     pitch = pitch_point(drive, angle)
     turn = np.where(np.isfinite(pitch), pitch, drive.pose(angle)[0].d0)
     shown = np.where(np.abs(pitch) < reach, pitch, reach * turn / np.abs(turn))
-    yield Body("pitch_point", "pitch point (on the rim: beyond it)", (Shape("profile", circle((0, 0), 0.03 * drive.circle_radius)),),
-               poses(shown, 0.0), "ground")
+    yield Body(
+        "pitch_point",
+        "pitch point (on the rim: beyond it)",
+        (Shape("profile", circle((0, 0), 0.03 * drive.circle_radius)),),
+        poses(shown, 0.0),
+        "ground",
+    )
     places, turns = _normal_poses(drive, angle)
     line = polygon([(0.0, 0.0), (NORMALS * drive.circle_radius, 0.0)], closed=False)
     for pin in range(drive.pins):
@@ -254,9 +254,7 @@ def drawings(model):
         axes = tuple(Shape("axis", polygon(pair, closed=False)) for pair in (((-reach, 0), (reach, 0)), ((0, -reach), (0, reach))))
         name = f"cam{number + 1}" if len(model.drive.levels) > 1 else "cam"
         title = f"{model.spec.title or 'indexer'}: {name}" + (f" ({alike} alike)" if alike > 1 else "")
-        found.append(
-            Drawing(name, title, (*cam_shapes(model, level), *axes), model.spec.cam_width, level.side == "inside")
-        )
+        found.append(Drawing(name, title, (*cam_shapes(model, level), *axes), model.spec.cam_width, level.side == "inside"))
     return tuple(found)
 
 
@@ -275,8 +273,11 @@ def _plane_parts(model):
         pose = tuple(float(each) for each in cam_poses(cam, start)[0])
         found.append(Part(f"cam{number + 1}", (Prism(*plate, number * step, width),), pose, COLOURS[number % len(COLOURS)]))
     reach = (len(cams(model)) - 1) * step + width
-    pins = [Prism(circle(_pair(at), level.pin_radius), (), *_pin_heights(model, number, step, width, reach))
-            for number, level in enumerate(model.drive.levels) for at in level.centres(0.0).d0]
+    pins = [
+        Prism(circle(_pair(at), level.pin_radius), (), *_pin_heights(model, number, step, width, reach))
+        for number, level in enumerate(model.drive.levels)
+        for at in level.centres(0.0).d0
+    ]
     inner, outer = rim(model)
     disc = Prism(circle((0, 0), outer), (circle((0, 0), inner),), -1.2 * width, width)
     found.append(Part("wheel", (disc, *pins), colour="orange"))

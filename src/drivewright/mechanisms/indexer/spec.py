@@ -20,10 +20,15 @@ Diameter = Annotated[Length, Field(gt=0)]
 class Motion(Spec):
     """The wheel over one turn of the input."""
 
-    law: Text | None = Field(None, description="motion law of the step: modified-sine (unless given), cycloidal, polynomial-345 ...; "
-                                               "uniform: a full turn, no dwell, as for a cycloid", examples=["modified-sine"])
+    law: Text | None = Field(
+        None,
+        description="motion law of the step: modified-sine (unless given), cycloidal, polynomial-345 ...; "
+        "uniform: a full turn, no dwell, as for a cycloid",
+        examples=["modified-sine"],
+    )
     motion_to_dwell: Number | Literal["no-dwell"] | None = Field(
-        None, description=f'angle of the step over that of the dwell; 1 unless given; "{NO_DWELL}": a full turn', examples=[1.0])
+        None, description=f'angle of the step over that of the dwell; 1 unless given; "{NO_DWELL}": a full turn', examples=[1.0]
+    )
     b: Number | None = Field(None, description='part of the sine ramps, for law = "scca"')
     c: Number | None = Field(None, description="part of constant acceleration (scca) or velocity (mcv)")
     d: Number | None = Field(None, description='part of the cosine, for law = "scca"')
@@ -32,8 +37,9 @@ class Motion(Spec):
 class Load(Spec):
     """What acts on the wheel."""
 
-    torque: Torque | None = Field(None, description="on the wheel, positive in the index direction; stiffness is taken at it",
-                                  examples=["1000 N m"])
+    torque: Torque | None = Field(
+        None, description="on the wheel, positive in the index direction; stiffness is taken at it", examples=["1000 N m"]
+    )
     angle: Angle | None = Field(None, description="one input angle to evaluate instead of the whole index period", examples=["45 deg"])
     speed: Speed | None = Field(None, gt=0, description="speed of the input, for velocities and lives in hours", examples=["120 rpm"])
 
@@ -42,9 +48,11 @@ class Contact(Spec):
     """Pins or rollers on the cams."""
 
     model: Literal["unilateral", "bonded"] = Field(
-        "unilateral", description="unilateral: pins press only, gaps close; bonded: pins that touch also pull, as in the paper")
-    pin_stiffness: Stiffness | None = Field(None, gt=0, description="of a pin in its seats, behind the contact; rigid unless given",
-                                            examples=["5e8 N/m"])
+        "unilateral", description="unilateral: pins press only, gaps close; bonded: pins that touch also pull, as in the paper"
+    )
+    pin_stiffness: Stiffness | None = Field(
+        None, gt=0, description="of a pin in its seats, behind the contact; rigid unless given", examples=["5e8 N/m"]
+    )
     material: Text = Field("100Cr6", description=f"of pins and cams, for the contact pressure: {', '.join(materials.names())}")
 
 
@@ -54,10 +62,16 @@ class Bearings(Spec):
     bearing: Designation | None = Field(None, description="designation in the catalogue, e.g. NU207E", examples=["NU207E"])
     stiffness: Stiffness | None = Field(None, gt=0, description="constant radial stiffness instead", examples=["4.5e8 N/m"])
     law: Literal["elements", "liu", "palmgren"] = Field(
-        "elements", description="how the bearing yields: by its rolling elements; or by a formula of its catalogue numbers, F ~ d^n: "
-                                "liu (the paper's, taken as the tangent that it is) or palmgren")
-    radial_clearance: Length | None = Field(None, ge=0, description="across the diameter, instead of the bearing's own; of a formula or a "
-                                                                    "stiffness, which has none of its own, besides", examples=["10 um"])
+        "elements",
+        description="how the bearing yields: by its rolling elements; or by a formula of its catalogue numbers, F ~ d^n: "
+        "liu (the paper's, taken as the tangent that it is) or palmgren",
+    )
+    radial_clearance: Length | None = Field(
+        None,
+        ge=0,
+        description="across the diameter, instead of the bearing's own; of a formula or a stiffness, which has none of its own, besides",
+        examples=["10 um"],
+    )
     dynamic_rating: Force | None = Field(None, gt=0, description="basic dynamic load rating C, instead of the bearing's own")
     static_rating: Force | None = Field(None, gt=0, description="basic static load rating C0, instead of the bearing's own")
 
@@ -70,7 +84,8 @@ class Shafts(Spec):
     pitch: Length = Field(gt=0, description="cam to cam", examples=["25 mm"])
     rear: Length = Field(gt=0, description="last cam to rear support", examples=["25 mm"])
     diameters: tuple[Diameter, Diameter, Diameter, Diameter] = Field(
-        description="along those four stretches", examples=[["20 mm", "25 mm", "30 mm", "25 mm"]])
+        description="along those four stretches", examples=[["20 mm", "25 mm", "30 mm", "25 mm"]]
+    )
     youngs_modulus: Pressure = Field("206 GPa", gt=0, description="Young's modulus")
     shear_modulus: Pressure = Field("79.3 GPa", gt=0, description="shear modulus")
 
@@ -88,12 +103,15 @@ class Gear(Spec):
 class Housing(Spec):
     """What holds the supports and the wheel."""
 
-    support_stiffness: Stiffness | None = Field(None, gt=0, description="of a seat of a support bearing; rigid unless given",
-                                                examples=["5e8 N/m"])
-    wheel_stiffness: Stiffness | None = Field(None, gt=0, description="of the wheel's own bearing, radially; rigid unless given",
-                                              examples=["1e9 N/m"])
-    wheel_torsion: RotationalStiffness | None = Field(None, gt=0, description="of the wheel between pins and output; rigid unless given",
-                                                      examples=["1e7 N m/rad"])
+    support_stiffness: Stiffness | None = Field(
+        None, gt=0, description="of a seat of a support bearing; rigid unless given", examples=["5e8 N/m"]
+    )
+    wheel_stiffness: Stiffness | None = Field(
+        None, gt=0, description="of the wheel's own bearing, radially; rigid unless given", examples=["1e9 N/m"]
+    )
+    wheel_torsion: RotationalStiffness | None = Field(
+        None, gt=0, description="of the wheel between pins and output; rigid unless given", examples=["1e7 N m/rad"]
+    )
 
 
 class Limits(Spec):
@@ -114,26 +132,31 @@ class IndexerSpec(MechanismSpec):
 
     mechanism: Literal["indexer"] = Field("indexer", description="kind of drive")
     kind: Literal["pin-wheel", "cycloid", "parallel", "barrel", "globoidal"] = Field(
-        "pin-wheel", description="pin-wheel: cams that translate on cranks; cycloid: the same, uniform; parallel: two plate cams; barrel, "
-                                 "globoidal: roller gears")
-    pins: Integer = Field(ge=3, le=200, description="pins (rollers) of the wheel, of one level where it has two; steps in a turn",
-                          examples=[12])
+        "pin-wheel",
+        description="pin-wheel: cams that translate on cranks; cycloid: the same, uniform; parallel: two plate cams; barrel, "
+        "globoidal: roller gears",
+    )
+    pins: Integer = Field(
+        ge=3, le=200, description="pins (rollers) of the wheel, of one level where it has two; steps in a turn", examples=[12]
+    )
     pin_circle_radius: Length = Field(gt=0, description="radius on which the pins sit", examples=["120 mm"])
     pin_radius: Length = Field(gt=0, description="radius of a pin", examples=["8 mm"])
     eccentricity: Length | None = Field(None, gt=0, description="of the cranks; pin-wheel and cycloid", examples=["10 mm"])
     cams: Integer = Field(2, ge=1, le=4, description="cams on the cranks, evenly phased; pin-wheel and cycloid")
-    side: Literal["inside", "outside"] = Field("inside", description="pin-wheel and cycloid: cams inside the pins (a lobe less than pins) "
-                                                                     "or around them (a lobe more)")
+    side: Literal["inside", "outside"] = Field(
+        "inside", description="pin-wheel and cycloid: cams inside the pins (a lobe less than pins) or around them (a lobe more)"
+    )
     cam_width: Length = Field("18 mm", gt=0, description="thickness of a cam; plane kinds")
     centre_distance: Length | None = Field(None, gt=0, description="of wheel and cam; parallel, barrel, globoidal", examples=["150 mm"])
     pin_length: Length | None = Field(None, gt=0, description="working length of a roller; barrel and globoidal", examples=["16 mm"])
-    cam_length: Length | None = Field(None, gt=0, description="length of the cam along its axis; barrel and globoidal",
-                                      examples=["60 mm"])
-    cam_radius: Length | None = Field(None, gt=0, description="from the axis of a barrel to the middle of its rollers' length",
-                                      examples=["50 mm"])
+    cam_length: Length | None = Field(None, gt=0, description="length of the cam along its axis; barrel and globoidal", examples=["60 mm"])
+    cam_radius: Length | None = Field(
+        None, gt=0, description="from the axis of a barrel to the middle of its rollers' length", examples=["50 mm"]
+    )
     hand: Literal["right", "left"] = Field("right", description="of the cam; barrel and globoidal")
-    shaft_spacing: Length | None = Field(None, gt=0, description="distance of the two split shafts; pin-wheel and cycloid",
-                                         examples=["110 mm"])
+    shaft_spacing: Length | None = Field(
+        None, gt=0, description="distance of the two split shafts; pin-wheel and cycloid", examples=["110 mm"]
+    )
     catalogue: DataFile | None = Field(None, description="a catalogue of rolling bearings of your own (TOML), beside ours")
     motion: Motion = Field(Motion(), description="motion of the wheel")
     load: Load = Field(Load(), description="load")

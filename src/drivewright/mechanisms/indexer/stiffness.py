@@ -42,8 +42,10 @@ def after_play(model, angles, torque, first, near):
     turned = np.array([outcome == "free" for outcome in first.outcome]) & np.isfinite(free)
     if model.spec.contact.model == "bonded" or not turned.any():
         return first, near, np.where(turned, free, 0.0)
-    near = [contacts(model.drive, angle, REACH, turned=float(np.sign(torque) * each) if way else 0.0)
-            for angle, each, way in zip(angles, free, turned, strict=True)]
+    near = [
+        contacts(model.drive, angle, REACH, turned=float(np.sign(torque) * each) if way else 0.0)
+        for angle, each, way in zip(angles, free, turned, strict=True)
+    ]
     return core.take_up(first, _solve(model, angles, near, torque)), near, np.where(turned, free, 0.0)
 
 
@@ -54,15 +56,17 @@ def torsional(model, done):
     loaded, touching, free = after_play(model, angles, torque, found, near)
     reverse = _solve(model, angles, near, -torque)
     carried = np.array([outcome == CARRIED for outcome in found.outcome])
-    values = {"stiffness.undefined_fraction": Value(float(np.mean(~carried)), "-",
-                                                    "part of the positions where no contact without a gap carries the torque")}
+    values = {
+        "stiffness.undefined_fraction": Value(
+            float(np.mean(~carried)), "-", "part of the positions where no contact without a gap carries the torque"
+        )
+    }
     values |= _summary(angles, found.secant, carried)
     values |= dwell(model, torque)
     forces = pin_forces(model, angles, touching, loaded)
     values |= largest(forces)
     tables = (stiffness_table(angles, found, loaded, free, reverse), forces)
-    return Answer(values, tables, tuple(_checks(model, values)), tuple(_findings(angles, found, loaded, torque)),
-                  data=(found, near))
+    return Answer(values, tables, tuple(_checks(model, values)), tuple(_findings(angles, found, loaded, torque)), data=(found, near))
 
 
 def dwell(model, torque):
@@ -109,14 +113,24 @@ def stiffness_table(angles, found, loaded, free, reverse):
         Column("tangent", "N m/rad", "change of torque over change of rotation", found.tangent),
     ]
     columns += [Column(name, "rad/(N m)", words, found.shares[name]) for name, words in GROUPS.items()]
-    columns += [Column("free_rotation", "rad", "rotation before a contact takes the torque", free),
-                Column("secant_after_play", "N m/rad", "torque over the rotation beyond that", loaded.secant),
-                Column("secant_reversed", "N m/rad", "torque over rotation, torque reversed", reverse.secant)]
+    columns += [
+        Column("free_rotation", "rad", "rotation before a contact takes the torque", free),
+        Column("secant_after_play", "N m/rad", "torque over the rotation beyond that", loaded.secant),
+        Column("secant_reversed", "N m/rad", "torque over rotation, torque reversed", reverse.secant),
+    ]
     return Table("stiffness", "Torsional stiffness", tuple(columns))
 
 
-GROUPS = {"pin": "contacts of the pins", "crank": "crank bearings", "support": "support bearings", "housing": "housing",
-          "bending": "bending of the shafts", "torsion": "torsion of the shafts", "gear": "gears", "wheel": "wheel and its bearing"}
+GROUPS = {
+    "pin": "contacts of the pins",
+    "crank": "crank bearings",
+    "support": "support bearings",
+    "housing": "housing",
+    "bending": "bending of the shafts",
+    "torsion": "torsion of the shafts",
+    "gear": "gears",
+    "wheel": "wheel and its bearing",
+}
 
 
 def pin_forces(model, angles, near, found):
@@ -127,11 +141,18 @@ def pin_forces(model, angles, near, found):
             loaded = np.flatnonzero(np.nan_to_num(row) != 0)
             rows += [(angle, cam, each.pin[k], row[k], each.arm[k], hertz(model, row[k], each.curvature[k])) for k in loaded]
     data = np.array(rows, dtype=float).reshape(-1, 6).T
-    return Table("pin_forces", "Forces of the cams on the pins", (
-        Column("angle", "rad", "input angle", data[0]), Column("cam", "-", "cam", data[1]),
-        Column("pin", "-", "pin, counted from the first cam's own line", data[2]),
-        Column("force", "N", "force on the pin", data[3]),
-        Column("arm", "m", "lever about the wheel's axis", data[4]), Column("pressure", "Pa", "Hertz pressure", data[5])))
+    return Table(
+        "pin_forces",
+        "Forces of the cams on the pins",
+        (
+            Column("angle", "rad", "input angle", data[0]),
+            Column("cam", "-", "cam", data[1]),
+            Column("pin", "-", "pin, counted from the first cam's own line", data[2]),
+            Column("force", "N", "force on the pin", data[3]),
+            Column("arm", "m", "lever about the wheel's axis", data[4]),
+            Column("pressure", "Pa", "Hertz pressure", data[5]),
+        ),
+    )
 
 
 def _checks(model, values):
@@ -160,5 +181,7 @@ def _findings(angles, found, loaded, torque):
         at = [np.degrees(angles[k]) for k in lost if found.reasons[k] == reason]
         after = sum(loaded.outcome[k] == CARRIED for k in lost if found.reasons[k] == reason)
         more = f" At {after} of them a contact takes it after the play: table stiffness, secant_after_play." if after else ""
-        yield (f"no stiffness at {len(at)} of {len(angles)} input angles ({', '.join(f'{angle:.4g}' for angle in at[:12])}"
-               f"{' ...' if len(at) > 12 else ''} deg) against {torque:.6g} N m: {reason}.{more}")
+        yield (
+            f"no stiffness at {len(at)} of {len(angles)} input angles ({', '.join(f'{angle:.4g}' for angle in at[:12])}"
+            f"{' ...' if len(at) > 12 else ''} deg) against {torque:.6g} N m: {reason}.{more}"
+        )

@@ -91,8 +91,9 @@ def _solids(model):
     angles = model.angles if len(model.angles) == 1 else model.drive.motion.motion_angle * np.array(ANGLES)
     reduced, near = solved(model, angles, model.spec.load.torque)
     train = model.train._replace(shaft=seated(model.train.shaft, parts.shaft))
-    found = solid.solid_stiffness(model.drive, train, parts, angles, near, model.spec.load.torque, cams=model.spec.cams,
-                                  model=model.spec.contact.model)
+    found = solid.solid_stiffness(
+        model.drive, train, parts, angles, near, model.spec.load.torque, cams=model.spec.cams, model=model.spec.contact.model
+    )
     for angle, ours, other in zip(angles, reduced.secant, found.secant, strict=True):
         if np.isfinite(other) and np.isfinite(ours):
             yield f"stiffness at {np.degrees(angle):.4g} deg", float(ours), float(other), "N m/rad", ALLOWED * ours, SOLID

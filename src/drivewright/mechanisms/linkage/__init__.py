@@ -33,15 +33,30 @@ ANALYSES = (
     Analysis("oil", rest.oil, "closed form of each oil film beside Reynolds' equation", missing=rest.no_oil),
     Analysis("rest", rest.rest, "equilibrium, holding torques, natural frequencies", default=False),
     Analysis("bifurcation", many.bifurcation, "bifurcation diagram", default=False, missing=_asked("bifurcation")),
-    Analysis("load_table", many.load_table, "impact load over speed and clearance", default=False,
-             missing=_asked("table", analyse.no_play)),
+    Analysis(
+        "load_table", many.load_table, "impact load over speed and clearance", default=False, missing=_asked("table", analyse.no_play)
+    ),
     Analysis("tolerances", tolerance.tolerances, "outputs under clearances and random dimensions", missing=tolerance.no_tolerances),
     Analysis("wear", wear.wear, "wear of a bearing, fed back into its contact", default=False, missing=wear.no_wear),
 )
 
-HEADLINE = ("output.max_acceleration", "*.impact_load_coefficient", "*.peak_acceleration_ratio", "*.max_acceleration",
-            "*.max_angular_acceleration", "joints.*.max_force", "joints.*.impacts_per_turn", "joints.*.max_penetration", "drive.max_torque",
-            "lyapunov_exponent.per_turn", "tolerances.*.sigma", "wear.*.max_depth", "modes.*.frequency", "*.swing", "output.swing")
+HEADLINE = (
+    "output.max_acceleration",
+    "*.impact_load_coefficient",
+    "*.peak_acceleration_ratio",
+    "*.max_acceleration",
+    "*.max_angular_acceleration",
+    "joints.*.max_force",
+    "joints.*.impacts_per_turn",
+    "joints.*.max_penetration",
+    "drive.max_torque",
+    "lyapunov_exponent.per_turn",
+    "tolerances.*.sigma",
+    "wear.*.max_depth",
+    "modes.*.frequency",
+    "*.swing",
+    "output.swing",
+)
 
 SOURCES = (
     "Yuan Yingcai, Liu Yilun, Wang Yiming: Nonlinear dynamic response of offset press' fold mechanism with clearances. Journal of Central "
@@ -50,6 +65,17 @@ SOURCES = (
 )
 
 mechanism = Mechanism(
-    kind="linkage", summary="planar linkage with ideal joints or joints with play", spec=LinkageSpec, build=build, analyses=ANALYSES,
-    folder=Path(__file__).parent, headline=HEADLINE, sources=SOURCES, scene=scene, plots=plots, drawings=drawings, parts=parts,
-    verify=verify.verify)
+    kind="linkage",
+    summary="planar linkage with ideal joints or joints with play",
+    spec=LinkageSpec,
+    build=build,
+    analyses=ANALYSES,
+    folder=Path(__file__).parent,
+    headline=HEADLINE,
+    sources=SOURCES,
+    scene=scene,
+    plots=plots,
+    drawings=drawings,
+    parts=parts,
+    verify=verify.verify,
+)

@@ -39,9 +39,18 @@ def clearance_share(spec):
 def restitution(spec):
     """Laws that bounce too well where little restitution is asked."""
     return tuple(
-        Check(f"restitution.{joint.name}", joint.restitution, spec.limits.least_restitution, ">=", "-",
-              f"{joint.normal} delivers clearly more restitution than is asked below; take flores-2011 or gonthier", (joint.name,))
-        for joint in spec.joints if joint.pin in ("dry", "lubricated") and joint.normal in BOUNCY)
+        Check(
+            f"restitution.{joint.name}",
+            joint.restitution,
+            spec.limits.least_restitution,
+            ">=",
+            "-",
+            f"{joint.normal} delivers clearly more restitution than is asked below; take flores-2011 or gonthier",
+            (joint.name,),
+        )
+        for joint in spec.joints
+        if joint.pin in ("dry", "lubricated") and joint.normal in BOUNCY
+    )
 
 
 def inertia_extent(spec):

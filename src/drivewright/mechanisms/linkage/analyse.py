@@ -45,13 +45,13 @@ def motion(model, done):
     for output in model.spec.outputs:
         name = output.name
         values[f"{name}.max_angular_acceleration"] = Value.of(
-            found.of_run(f"{name}.alpha"), "rad/s^2", f"largest angular acceleration of {output.body!r}, magnitude")
-        values[f"{name}.swing"] = Value.of(
-            found.of_run(f"{name}.swing"), "rad", f"range of the angle of {output.body!r} in the window")
+            found.of_run(f"{name}.alpha"), "rad/s^2", f"largest angular acceleration of {output.body!r}, magnitude"
+        )
+        values[f"{name}.swing"] = Value.of(found.of_run(f"{name}.swing"), "rad", f"range of the angle of {output.body!r} in the window")
         if output.point:
             values[f"{name}.max_acceleration"] = Value.of(
-                found.of_run(f"{name}.acceleration"), "m/s^2",
-                f"largest acceleration of point {output.point!r}, magnitude")
+                found.of_run(f"{name}.acceleration"), "m/s^2", f"largest acceleration of point {output.point!r}, magnitude"
+            )
     tables = (_motion_table(model),) if model.spec.outputs else ()
     return Answer(values, tables, advice(model.spec, run_of(model).end[1]))
 
@@ -59,9 +59,14 @@ def motion(model, done):
 def end(model, done):
     """Pose and rates of every body at the end of the run; of a motion that does not repeat itself with what another run would show."""
     values, last = {}, np.array([record_of(model).last, *(last_of(run) for run in other_runs(model))])
-    told = (("x", "x", "m", "centroid, x"), ("y", "y", "m", "centroid, y"), ("angle", "angle", "rad", "angle, not wrapped"),
-            ("vx", "vx", "m/s", "velocity of the centroid, x"), ("vy", "vy", "m/s", "velocity of the centroid, y"),
-            ("angular_velocity", "w", "rad/s", "angular velocity"))
+    told = (
+        ("x", "x", "m", "centroid, x"),
+        ("y", "y", "m", "centroid, y"),
+        ("angle", "angle", "rad", "angle, not wrapped"),
+        ("vx", "vx", "m/s", "velocity of the centroid, x"),
+        ("vy", "vy", "m/s", "velocity of the centroid, y"),
+        ("angular_velocity", "w", "rad/s", "angular velocity"),
+    )
     for number, name in enumerate(model.assembly.names):
         if name in model.spec.bodies:
             for key, field, unit, meaning in told:
@@ -114,8 +119,14 @@ def _motion_table(model):
 def _told(output):
     if output.point is None:
         return (("angle", "rad", "angle"), ("w", "rad/s", "angular velocity"), ("alpha", "rad/s^2", "angular acceleration"))
-    return (("x", "m", "x"), ("y", "m", "y"), ("vx", "m/s", "velocity, x,"), ("vy", "m/s", "velocity, y,"),
-            ("ax", "m/s^2", "acceleration, x,"), ("ay", "m/s^2", "acceleration, y,"))
+    return (
+        ("x", "m", "x"),
+        ("y", "m", "y"),
+        ("vx", "m/s", "velocity, x,"),
+        ("vy", "m/s", "velocity, y,"),
+        ("ax", "m/s^2", "acceleration, x,"),
+        ("ay", "m/s^2", "acceleration, y,"),
+    )
 
 
 # -- impact load coefficient ---------------------------------------------------------------------------------------------------
@@ -177,8 +188,10 @@ def pins(model, done):
         told = _pin_values(model, name)
         values |= {f"joints.{name}.{key}": value for key, value in told.items()}
         tables.append(_pin_table(model, turn, number, name))
-        for limit, key in ((limits.joint_force, "force"),
-                           (limits.penetration or model.assembly.system.contacts[number].clearance, "penetration")):
+        for limit, key in (
+            (limits.joint_force, "force"),
+            (limits.penetration or model.assembly.system.contacts[number].clearance, "penetration"),
+        ):
             if limit:
                 checks.append(Check.of(told[f"max_{key}"], f"{key}.{name}", limit, "<=", f"largest {key} in joint {name!r}", (name,)))
     return Answer(values, tuple(tables), (*checks, settled_check("settled.joints", values.values())), unsettled(values))
@@ -199,22 +212,33 @@ def _pin_values(model, name):
 
 def _impact_table(model, run):
     t, pin, speed = run.impacts.T
-    return Table("impacts", "Impacts", (
-        Column("time", "s", "time of the impact", t), Column("joint", "-", "joint", np.array(model.pins)[pin.astype(int)]),
-        Column("speed", "m/s", "speed of approach", speed)))
+    return Table(
+        "impacts",
+        "Impacts",
+        (
+            Column("time", "s", "time of the impact", t),
+            Column("joint", "-", "joint", np.array(model.pins)[pin.astype(int)]),
+            Column("speed", "m/s", "speed of approach", speed),
+        ),
+    )
 
 
 def _pin_table(model, seen, number, name):
     pin = dict(zip(PIN_FIELDS, np.moveaxis(seen.pins[:, number], 1, 0), strict=True))
     clearance = model.assembly.system.contacts[number].clearance
     away = clearance + pin["depth"]  # distance of the centres
-    return Table(f"pin.{name}", f"Joint {name!r} over the last turn" if model.period else f"Joint {name!r}", (
-        *cycle_columns(model, seen.t),
-        Column("x", "m", "journal's centre from the bearing's, x", -away * pin["nx"]),
-        Column("y", "m", "journal's centre from the bearing's, y", -away * pin["ny"]),
-        Column("depth", "m", "penetration, below 0 in flight", pin["depth"]),
-        Column("force", "N", "force between journal and bearing", np.hypot(pin["fx"], pin["fy"])),
-        Column("force_x", "N", "force on the journal's body, x", -pin["fx"]),
-        Column("force_y", "N", "force on the journal's body, y", -pin["fy"]),
-        Column("slip", "m/s", "sliding speed", pin["slip"]),
-        Column("contact", "-", "1 in contact, 0 in flight", (pin["depth"] > 0).astype(float))))
+    return Table(
+        f"pin.{name}",
+        f"Joint {name!r} over the last turn" if model.period else f"Joint {name!r}",
+        (
+            *cycle_columns(model, seen.t),
+            Column("x", "m", "journal's centre from the bearing's, x", -away * pin["nx"]),
+            Column("y", "m", "journal's centre from the bearing's, y", -away * pin["ny"]),
+            Column("depth", "m", "penetration, below 0 in flight", pin["depth"]),
+            Column("force", "N", "force between journal and bearing", np.hypot(pin["fx"], pin["fy"])),
+            Column("force_x", "N", "force on the journal's body, x", -pin["fx"]),
+            Column("force_y", "N", "force on the journal's body, y", -pin["fy"]),
+            Column("slip", "m/s", "sliding speed", pin["slip"]),
+            Column("contact", "-", "1 in contact, 0 in flight", (pin["depth"] > 0).astype(float)),
+        ),
+    )

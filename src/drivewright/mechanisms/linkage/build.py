@@ -67,8 +67,9 @@ class LinkageModel:
         asked = self.spec.simulate
         if asked is None:
             return Settings(per_step=2)
-        return Settings(asked.relative_tolerance, asked.absolute_tolerance, None, asked.min_step, asked.max_steps, asked.method, 2,
-                        asked.singular)
+        return Settings(
+            asked.relative_tolerance, asked.absolute_tolerance, None, asked.min_step, asked.max_steps, asked.method, 2, asked.singular
+        )
 
     @property
     def ensemble(self) -> int:

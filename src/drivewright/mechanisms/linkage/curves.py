@@ -46,8 +46,10 @@ def lift_curve(file):
     """(Curve over the cam's angle, whether the lift is an angle) of a CSV file of one turn."""
     rows = read_table(file)
     if rows.lift_unit is None or not math.isclose(rows.angle[-1] - rows.angle[0], TURN, rel_tol=1e-9):
-        raise SpecError(f"the angle runs over {math.degrees(rows.angle[-1] - rows.angle[0]):.6g} deg; a cam's lift is given over 360 deg",
-                        file=str(file))
+        raise SpecError(
+            f"the angle runs over {math.degrees(rows.angle[-1] - rows.angle[0]):.6g} deg; a cam's lift is given over 360 deg",
+            file=str(file),
+        )
     return _curve(rows.angle, _spline(file, rows.angle, rows.lift, 5, "periodic").c[::-1].T, TURN), rows.lift_unit == "rad"
 
 

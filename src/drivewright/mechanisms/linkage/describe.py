@@ -94,8 +94,9 @@ def dry(spec, joint):
     else:
         law = impact_law(CYLINDER_LOSS if cylinder else joint.normal)
         stiffness, exponent, hysteresis, damping = _elastic(joint), 1.5, law.factor(joint.restitution), 0.0
-    return model.Dry(joint.clearance, joint.bearing_radius, stiffness, exponent, hysteresis, damping, cylinder, joint.length,
-                     _friction(joint))
+    return model.Dry(
+        joint.clearance, joint.bearing_radius, stiffness, exponent, hysteresis, damping, cylinder, joint.length, _friction(joint)
+    )
 
 
 def _elastic(joint):
@@ -113,8 +114,10 @@ def _linear_damping(spec, joint):
     bodies = [place(text)[0] for text in joint.connects]
     masses = [spec.bodies[body].mass for body in bodies if body != GROUND]
     if min(masses) == 0:
-        raise SpecError(f"is missing: {bodies[masses.index(0.0)]!r} has no mass, so no damping follows from the restitution",
-                        key=f"joints.{joint.name}.damping")
+        raise SpecError(
+            f"is missing: {bodies[masses.index(0.0)]!r} has no mass, so no damping follows from the restitution",
+            key=f"joints.{joint.name}.damping",
+        )
     return kelvin_voigt_damping(joint.restitution, joint.stiffness, 1 / sum(1 / mass for mass in masses))
 
 
@@ -125,8 +128,16 @@ def _friction(joint):
         dead = joint.friction_dead_speed if joint.friction_law == "ambrosio" else 0.0
         return model.Friction(joint.friction_law, joint.friction, joint.friction_speed, dead)
     static = joint.friction if joint.static_friction is None else joint.static_friction
-    return model.Friction("lugre", joint.friction, joint.friction_speed, 0.0, static, 1 / joint.bristle_deflection, joint.bristle_damping,
-                          joint.viscous_friction)
+    return model.Friction(
+        "lugre",
+        joint.friction,
+        joint.friction_speed,
+        0.0,
+        static,
+        1 / joint.bristle_deflection,
+        joint.bristle_damping,
+        joint.viscous_friction,
+    )
 
 
 def _lubricated(spec, joint):

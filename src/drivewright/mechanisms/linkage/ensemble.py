@@ -77,8 +77,15 @@ def _exact(value):
 def settled_check(name: str, estimates: Any, parts: tuple = ()) -> Check:
     """The check that the statistics of a run no longer drift."""
     drifting = sum(not found.settled for found in estimates)
-    return Check(name, float(drifting), 0.0, "<=", "-", "statistics that still drifted at the end of the run, or have too few turns; raise "
-                                                        "simulate.turns, or discard more of them", parts)
+    return Check(
+        name,
+        float(drifting),
+        0.0,
+        "<=",
+        "-",
+        "statistics that still drifted at the end of the run, or have too few turns; raise simulate.turns, or discard more of them",
+        parts,
+    )
 
 
 def unsettled(values: dict) -> tuple[str, ...]:

@@ -32,19 +32,33 @@ def forces(model, done):
             continue
         if name not in model.pins and name not in unbounded:  # pins with play have it from `pins`
             values[f"joints.{name}.max_force"] = Value.of(numbers.of_run(f"{name}.force"), "N", f"largest force in joint {name!r}")
-        columns += [Column(f"{name}.force", "N", f"force in joint {name!r}", size),
-                    Column(f"{name}.force_x", "N", f"force of joint {name!r} on its first body, x", joint.force[:, 0]),
-                    Column(f"{name}.force_y", "N", f"force of joint {name!r} on its first body, y", joint.force[:, 1])]
+        columns += [
+            Column(f"{name}.force", "N", f"force in joint {name!r}", size),
+            Column(f"{name}.force_x", "N", f"force of joint {name!r} on its first body, x", joint.force[:, 0]),
+            Column(f"{name}.force_y", "N", f"force of joint {name!r} on its first body, y", joint.force[:, 1]),
+        ]
     for name, tension in found.tensions.items():
         columns.append(Column(f"{name}.tension", "N", f"tension of the massless link of joint {name!r}; below 0 contact is lost", tension))
         share, least = numbers.mean(f"{name}.pushed"), Value.of(numbers.of_run(f"{name}.tension"), "N", "")
         values[f"joints.{name}.pushed_share"] = Value.of(share, "-", f"share of the time in which the link of joint {name!r} is pushed")
-        checks.append(Check.of(least, f"contact.{name}", -model.spec.limits.link_compression, ">=",
-                               f"least tension of the massless link of joint {name!r}: a pin that is pushed has lost contact", (name,)))
+        checks.append(
+            Check.of(
+                least,
+                f"contact.{name}",
+                -model.spec.limits.link_compression,
+                ">=",
+                f"least tension of the massless link of joint {name!r}: a pin that is pushed has lost contact",
+                (name,),
+            )
+        )
     words = "what Newton's and Euler's equations of the bodies leave over, as a part of the largest force"
     values["forces.residual"] = Value(float(found.residual.max()), "-", words)
-    return Answer(values, (Table("forces", "Forces in the joints over the last turn", tuple(columns)),), tuple(checks),
-                  tuple(_fold_findings(model, unbounded)))
+    return Answer(
+        values,
+        (Table("forces", "Forces in the joints over the last turn", tuple(columns)),),
+        tuple(checks),
+        tuple(_fold_findings(model, unbounded)),
+    )
 
 
 def _unbounded(model, start):
@@ -60,7 +74,9 @@ def _unbounded(model, start):
 def _fold_findings(model, unbounded):
     if unbounded:
         names, time = ", ".join(map(repr, unbounded)), max(unbounded.values())
-        yield (f"the force in joints {names} grows without bound towards the singular position at t = {time:.6g} s: links in line cannot "
-               "carry a load across them. Its largest value does not exist; elastic links or play would bound it")
+        yield (
+            f"the force in joints {names} grows without bound towards the singular position at t = {time:.6g} s: links in line cannot "
+            "carry a load across them. Its largest value does not exist; elastic links or play would bound it"
+        )
     elif run_of(model).passages:
         yield "joint forces in the middle of a singular position are limits of those beside it; they are left out of tables and extremes"

@@ -134,8 +134,19 @@ def _links(model, chain):
     crank = float(np.angle(e[0]))
     bar = _branch(bar, crank, alphas, e)
     link_accelerations(bar, crank, speed, alphas, rates)  # it allocates, so it must be compiled before the integrator's kernels call it
-    y = integrate(LinkMotion(bar, speed), crank / speed, crank / speed + length, np.concatenate([alphas, rates]), 1e-11,
-                  1e-13 * np.repeat([1.0, 10 * abs(speed)], 4), max_steps=5_000_000).checked().y_end
+    y = (
+        integrate(
+            LinkMotion(bar, speed),
+            crank / speed,
+            crank / speed + length,
+            np.concatenate([alphas, rates]),
+            1e-11,
+            1e-13 * np.repeat([1.0, 10 * abs(speed)], 4),
+            max_steps=5_000_000,
+        )
+        .checked()
+        .y_end
+    )
     other = positions(bar, crank + speed * length, y[:4])
     turning = velocities(bar, other, speed, y[:4], y[4:])
     for k, row in ((1, COUPLER_TURN), (2, ROCKER_TURN)):
@@ -173,5 +184,13 @@ def _loaded(model, chain):
         return None
     plays = np.array([getattr(step.joint.model, "clearance", 0.0) for step in chain.steps])
     masses, inertias = np.array([body.mass for body in bodies]), np.array([body.inertia for body in bodies[1:]])
-    return FourBar(np.abs(chain.bars), masses, inertias, arms.real.copy(), plays, body_damping=drag[chain.bodies[1]],
-                   link_damping=held.pop(), gravity=float(-weight.imag))
+    return FourBar(
+        np.abs(chain.bars),
+        masses,
+        inertias,
+        arms.real.copy(),
+        plays,
+        body_damping=drag[chain.bodies[1]],
+        link_damping=held.pop(),
+        gravity=float(-weight.imag),
+    )

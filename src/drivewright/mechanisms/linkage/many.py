@@ -48,9 +48,15 @@ def bifurcation(model, done):
     words = f"of {output.name!r} at crank angle zero"
     columns = [np.concatenate([np.empty(0), *parts]) for parts in zip(*((np.full(len(p), v), p, r) for v, p, r in found), strict=True)]
     columns = columns or [np.empty(0)] * 3
-    table = Table("bifurcation", f"Bifurcation over {asked.over}", (
-        Column("parameter", dimension.unit if dimension else "-", asked.over, columns[0]),
-        Column("position", where, f"position {words}", columns[1]), Column("velocity", rate, f"velocity {words}", columns[2])))
+    table = Table(
+        "bifurcation",
+        f"Bifurcation over {asked.over}",
+        (
+            Column("parameter", dimension.unit if dimension else "-", asked.over, columns[0]),
+            Column("position", where, f"position {words}", columns[1]),
+            Column("velocity", rate, f"velocity {words}", columns[2]),
+        ),
+    )
     return Answer(tables=(table,), findings=failed, outcome="partial" if rows.interrupted else "complete")
 
 
@@ -82,12 +88,19 @@ def load_table(model, done):
     failed = tuple(f"table: {row.case[0]:.6g} rad/s, {1e3 * row.case[1]:.4g} mm is left out: {row.reason}" for row in rows.failed)
     speed, clearance = (np.array([row.case[k] for row in good]) for k in (0, 1))
     loads = [_load_columns(name, words, output, [row.value for row in good]) for name, words in LOAD_WORDS.items()]
-    columns = (Column("speed", "rad/s", "speed of the drive", speed),
-               Column("clearance", "m", "radial clearance of every joint with play", clearance), *sum(loads, ()),
-               Column("ideal_peak", acceleration_unit(output), "largest acceleration without play",
-                      np.array([ideal[row.case[0]] for row in good])))
-    return Answer(tables=(Table("load_table", f"Impact load of {output.name!r}", columns),), findings=failed,
-                  outcome="partial" if rows.interrupted else "complete")
+    columns = (
+        Column("speed", "rad/s", "speed of the drive", speed),
+        Column("clearance", "m", "radial clearance of every joint with play", clearance),
+        *sum(loads, ()),
+        Column(
+            "ideal_peak", acceleration_unit(output), "largest acceleration without play", np.array([ideal[row.case[0]] for row in good])
+        ),
+    )
+    return Answer(
+        tables=(Table("load_table", f"Impact load of {output.name!r}", columns),),
+        findings=failed,
+        outcome="partial" if rows.interrupted else "complete",
+    )
 
 
 def _load_columns(name, words, output, found):

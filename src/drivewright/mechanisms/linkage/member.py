@@ -88,8 +88,12 @@ def joints_of(model: Any, run: Run) -> Member:
         pushed, top = (tension < -limit).astype(float), float(np.max(tension))
         found.whole.update({f"{name}.tension": float(np.min(tension)), f"{name}.pushed": time_mean(seen.t, pushed)})
         if len(ends) > 1:
-            found.turns.update({f"{name}.tension": top - largest_of_turns(seen.t, top - tension, ends),
-                                f"{name}.pushed": means_of_turns(seen.t, pushed, ends)})
+            found.turns.update(
+                {
+                    f"{name}.tension": top - largest_of_turns(seen.t, top - tension, ends),
+                    f"{name}.pushed": means_of_turns(seen.t, pushed, ends),
+                }
+            )
     return found
 
 
@@ -138,13 +142,22 @@ def _pin(model, run, seen, number, name, ends, found):
     force, span = np.hypot(pin["fx"], pin["fy"]), seen.t[-1] - seen.t[0]
     at = run.impacts[(run.impacts[:, 1] == number) & (run.impacts[:, 0] >= seen.t[0]) & (run.impacts[:, 0] <= seen.t[-1]), 0]
     means = {"touching": (pin["depth"] > 0).astype(float), "lost": np.abs(pin["friction"] * pin["slip"])}
-    found.whole.update({f"{name}.force": float(np.max(force)), f"{name}.depth": max(float(np.max(pin["depth"])), 0.0),
-                        f"{name}.hits": len(at) * (model.period or 0.0) / span})
+    found.whole.update(
+        {
+            f"{name}.force": float(np.max(force)),
+            f"{name}.depth": max(float(np.max(pin["depth"])), 0.0),
+            f"{name}.hits": len(at) * (model.period or 0.0) / span,
+        }
+    )
     found.whole.update({f"{name}.{key}": float(means_of_turns(seen.t, x, seen.t[[0, -1]])[0]) for key, x in means.items()})
     if len(ends) > 1:
-        found.turns.update({f"{name}.force": largest_of_turns(seen.t, force, ends),
-                            f"{name}.hits": np.histogram(at, ends)[0].astype(float),
-                            f"{name}.depth": np.maximum(largest_of_turns(seen.t, pin["depth"], ends), 0.0)})
+        found.turns.update(
+            {
+                f"{name}.force": largest_of_turns(seen.t, force, ends),
+                f"{name}.hits": np.histogram(at, ends)[0].astype(float),
+                f"{name}.depth": np.maximum(largest_of_turns(seen.t, pin["depth"], ends), 0.0),
+            }
+        )
         found.turns.update({f"{name}.{key}": means_of_turns(seen.t, x, ends) for key, x in means.items()})
 
 

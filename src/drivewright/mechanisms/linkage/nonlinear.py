@@ -85,13 +85,21 @@ def poincare(model, done):
     if enough:
         period = orbit_period(points / np.maximum(np.ptp(points, axis=0), STILL * _spans(model, output)), SAME)
     visits = kept if enough and not period else np.full(len(t), False)
-    values = {"poincare.position": _visit(position, visits, where, f"position {words} after the last whole turn"),
-              "poincare.velocity": _visit(velocity, visits, rate, f"velocity {words} after the last whole turn")}
+    values = {
+        "poincare.position": _visit(position, visits, where, f"position {words} after the last whole turn"),
+        "poincare.velocity": _visit(velocity, visits, rate, f"velocity {words} after the last whole turn"),
+    }
     if enough:
         values["poincare.period"] = Value(float(period), "-", "turns after which the motion repeats itself; 0: it does not")
-    table = Table("poincare", f"Poincare section of {output.name!r}", (
-        Column("position", where, f"position {words}", position[kept]), Column("velocity", rate, f"velocity {words}", velocity[kept]),
-        Column("turn", "-", "turn of the drive", np.round(t[kept] / model.period))))
+    table = Table(
+        "poincare",
+        f"Poincare section of {output.name!r}",
+        (
+            Column("position", where, f"position {words}", position[kept]),
+            Column("velocity", rate, f"velocity {words}", velocity[kept]),
+            Column("turn", "-", "turn of the drive", np.round(t[kept] / model.period)),
+        ),
+    )
     return Answer(values, (table,))
 
 
@@ -127,9 +135,16 @@ def lyapunov(model, done):
     inside[: len(system.stored)] = ~np.isin(system.stored, system.dependent)  # a dependent coordinate has no neighbours of its own
 
     def one(number):
-        return largest_exponent(Turn(model), shifted(model, number), scales, cycles=asked.turns, discard=asked.discard,
-                                rng=np.random.default_rng(model.spec.simulate.seed + number), continuous=inside,
-                                separation=float(np.clip(ABOVE_ERROR * model.settings.rtol, 1e-8, 1e-4)))
+        return largest_exponent(
+            Turn(model),
+            shifted(model, number),
+            scales,
+            cycles=asked.turns,
+            discard=asked.discard,
+            rng=np.random.default_rng(model.spec.simulate.seed + number),
+            continuous=inside,
+            separation=float(np.clip(ABOVE_ERROR * model.settings.rtol, 1e-8, 1e-4)),
+        )
 
     pairs = [row.value for row in cases.run(one, range(min(PAIRS_OF_TWINS, model.ensemble)), workers=None).rows if row.ok]
     if not pairs:
@@ -145,8 +160,11 @@ def _exponent_answer(pairs):
     exponent = Value.of(estimate(growth), "-", "largest Lyapunov exponent per turn; above 0: chaos")
     error = float(np.sqrt(np.sum([found.error**2 for found in pairs])) / len(pairs))
     values = {"lyapunov_exponent.per_turn": exponent, "lyapunov_exponent.error": Value(error, "-", "its standard error")}
-    table = Table("lyapunov", "Largest Lyapunov exponent: convergence", (
-        Column("turn", "-", "turns counted", turns), Column("exponent", "-", "mean growth per turn so far", history)))
+    table = Table(
+        "lyapunov",
+        "Largest Lyapunov exponent: convergence",
+        (Column("turn", "-", "turns counted", turns), Column("exponent", "-", "mean growth per turn so far", history)),
+    )
     return Answer(values, (table,), (settled_check("settled.lyapunov", [exponent]),))
 
 
@@ -189,9 +207,18 @@ def spectrum(model, done):
         same, _, _ = acceleration(ideal, output)
         amplitude, low, high = _amplitudes(spectrogram(even.t, data, model.period, orders)[1])
         column = Column("amplitude", unit, f"amplitude of the {word}", amplitude)
-        tables.append(Table(f"spectrum.{output.name}", f"Spectrum of the {word} of {output.name!r}", (
-            Column("order", "-", "oscillations per turn", orders), column, *(column.bounds(low, high) if turns > 1 else ()),
-            Column("ideal_amplitude", unit, "the same without play", order_spectrum(ideal.t, same, model.period, orders)))))
+        tables.append(
+            Table(
+                f"spectrum.{output.name}",
+                f"Spectrum of the {word} of {output.name!r}",
+                (
+                    Column("order", "-", "oscillations per turn", orders),
+                    column,
+                    *(column.bounds(low, high) if turns > 1 else ()),
+                    Column("ideal_amplitude", unit, "the same without play", order_spectrum(ideal.t, same, model.period, orders)),
+                ),
+            )
+        )
     return Answer(tables=tuple(tables))
 
 

@@ -62,8 +62,10 @@ def holes(spec, name):
                 found[center] = max(found.get(center, 0.0), pin_radius(spec, joint, bearing=end == 0))
     for (a, r), (b, s) in itertools.combinations(found.items(), 2):
         if math.dist(a, b) <= r + s:
-            raise InputError(f"linkage: the holes of link {name!r} meet: radii of {1e3 * r:.4g} and {1e3 * s:.4g} mm at a distance of "
-                             f"{1e3 * math.dist(a, b):.4g} mm. Give its joints a smaller bearing_radius")
+            raise InputError(
+                f"linkage: the holes of link {name!r} meet: radii of {1e3 * r:.4g} and {1e3 * s:.4g} mm at a distance of "
+                f"{1e3 * math.dist(a, b):.4g} mm. Give its joints a smaller bearing_radius"
+            )
     return found
 
 
@@ -92,8 +94,9 @@ def parts(model):
     """The plates one above the other at the start position, and their pins."""
     spec, poses = model.spec, {name: pose[0] for name, pose in start_poses(model).items()}
     levels = _levels(spec)
-    found = [Part(name, (_prism(spec, name, levels[name][0]),), tuple(poses[name]), COLOURS[n % len(COLOURS)])
-             for n, name in enumerate(levels)]
+    found = [
+        Part(name, (_prism(spec, name, levels[name][0]),), tuple(poses[name]), COLOURS[n % len(COLOURS)]) for n, name in enumerate(levels)
+    ]
     return (*found, *_pins(spec, poses, levels))
 
 

@@ -31,12 +31,26 @@ def _of_output(result, output):
     if table:
         fields = _moving(table, name, ("angle", "w", "alpha") if output.point is None else ("x", "y", "vx", "vy", "ax", "ay"))
         reference = tuple(f"{name}.ideal_{field}" for field in fields) if beside else ()
-        yield Plot(f"motion.{name}", f"Motion of {_said(name)}{beside}", "motion", table.columns[0].name,
-                   tuple(f"{name}.{field}" for field in fields), reference=reference)
+        yield Plot(
+            f"motion.{name}",
+            f"Motion of {_said(name)}{beside}",
+            "motion",
+            table.columns[0].name,
+            tuple(f"{name}.{field}" for field in fields),
+            reference=reference,
+        )
     if table and output.point and _curved(table, name):
         yield Plot(f"path.{name}", f"Path of {_said(name)}", "motion", f"{name}.x", (f"{name}.y",), equal=True)
-    yield Plot(f"spectrum.{name}", f"Acceleration of {_said(name)} by orders of the drive{beside}", f"spectrum.{name}", "order",
-               ("amplitude",), style="stems", log=True, reference=("ideal_amplitude",) if beside else ())
+    yield Plot(
+        f"spectrum.{name}",
+        f"Acceleration of {_said(name)} by orders of the drive{beside}",
+        f"spectrum.{name}",
+        "order",
+        ("amplitude",),
+        style="stems",
+        log=True,
+        reference=("ideal_amplitude",) if beside else (),
+    )
 
 
 def _said(name):
@@ -64,8 +78,9 @@ def _of_joint(result, joint):
     if table is None:
         return
     title, x = f"pin {_said(joint.name)}", table.columns[0].name
-    yield Plot(f"orbit.{joint.name}", f"Orbit of the journal in {title}", table.name, "x", ("y",), equal=True,
-               rings=((joint.clearance, "play"),))
+    yield Plot(
+        f"orbit.{joint.name}", f"Orbit of the journal in {title}", table.name, "x", ("y",), equal=True, rings=((joint.clearance, "play"),)
+    )
     yield Plot(f"force.{joint.name}", f"Force and sliding in {title}, shaded in contact", table.name, x, ("force", "slip"), shade="contact")
     yield Plot(f"polar.{joint.name}", f"Force on the journal of {title}", table.name, "force_x", ("force_y",), equal=True)
 
@@ -78,8 +93,9 @@ def _of_run(result):
         yield Plot("forces", "Forces in the joints", "forces", forces.columns[0].name, tuple(f"{name}.force" for name in names))
         tensions = tuple(c.name for c in forces.columns if c.name.endswith(".tension"))
         if tensions:
-            yield Plot("tension", "Tension of the massless links", "forces", forces.columns[0].name, tensions,
-                       ((0.0, "contact lost below"),))
+            yield Plot(
+                "tension", "Tension of the massless links", "forces", forces.columns[0].name, tensions, ((0.0, "contact lost below"),)
+            )
     impacts, drive, energy = (result.tables.get(name) for name in ("impacts", "drive", "energy"))
     if impacts and len(impacts["time"].data):
         several = len(set(np.asarray(impacts["joint"].data).tolist())) > 1
@@ -100,8 +116,14 @@ def _of_many_runs(result):
     """Tolerances, wear, bifurcation diagram, impact load over speed."""
     for name in result.tables:
         if name.startswith("tolerances."):
-            yield Plot(name, f"Deviation of {_said(name[11:])}, dashed by linear theory", name, "deviation", ("share",),
-                       reference=("linear_share",))
+            yield Plot(
+                name,
+                f"Deviation of {_said(name[11:])}, dashed by linear theory",
+                name,
+                "deviation",
+                ("share",),
+                reference=("linear_share",),
+            )
         if name.startswith("wear.") and name.endswith(".cycles"):
             yield Plot(name, f"Wear of pin {_said(name[5:-7])}", name, "cycles", ("max_depth", "volume"))
         elif name.startswith("wear."):

@@ -67,8 +67,9 @@ class _Twin:
     def marker(self, place):
         """At a Marker of the model."""
         centroid = self.centroids[place.body]
-        return self.system.AddMarker(item.MarkerBodyRigid(
-            bodyNumber=self.objects[place.body], localPosition=[place.x - centroid[0], place.y - centroid[1], 0.0]))
+        return self.system.AddMarker(
+            item.MarkerBodyRigid(bodyNumber=self.objects[place.body], localPosition=[place.x - centroid[0], place.y - centroid[1], 0.0])
+        )
 
     def angle_marker(self, body):
         """On the rotation of a body since the start."""
@@ -89,8 +90,10 @@ class _Twin:
 
     @singledispatchmethod
     def add(self, element):
-        raise InputError(f"verify: Exudyn's twin has no {type(element).__name__} ('{getattr(element, 'name', '')}'); it knows revolute, "
-                         "prismatic and pin-slot joints, springs, constant torques and forces, and drives of constant speed.")
+        raise InputError(
+            f"verify: Exudyn's twin has no {type(element).__name__} ('{getattr(element, 'name', '')}'); it knows revolute, "
+            "prismatic and pin-slot joints, springs, constant torques and forces, and drives of constant speed."
+        )
 
     @add.register
     def _(self, joint: mb.Revolute):
@@ -104,13 +107,22 @@ class _Twin:
     def _contact(self, joint):
         dry, gap = joint.model, _checked_gap(joint, self.place(joint.first) - self.place(joint.second))
         memory = self.system.AddNode(item.NodeGenericData(initialCoordinates=[gap, 0.0, 0.0, 0.0], numberOfDataCoordinates=4))
-        self.system.AddObject(item.ObjectContactSphereSphere(
-            markerNumbers=[self.marker(joint.second), self.marker(joint.first)], nodeNumber=memory, isHollowSphere1=True,
-            spheresRadii=[dry.bearing_radius - dry.clearance, dry.bearing_radius], contactStiffness=dry.stiffness,
-            contactStiffnessExponent=dry.exponent, contactDamping=dry.damping, minimumImpactVelocity=LEAST_APPROACH,
-            restitutionCoefficient=1 - 2 * dry.hysteresis / 3, impactModel=1,
-            dynamicFriction=dry.friction.coefficient if dry.friction.law != "none" else 0.0,
-            frictionProportionalZone=dry.friction.speed))
+        self.system.AddObject(
+            item.ObjectContactSphereSphere(
+                markerNumbers=[self.marker(joint.second), self.marker(joint.first)],
+                nodeNumber=memory,
+                isHollowSphere1=True,
+                spheresRadii=[dry.bearing_radius - dry.clearance, dry.bearing_radius],
+                contactStiffness=dry.stiffness,
+                contactStiffnessExponent=dry.exponent,
+                contactDamping=dry.damping,
+                minimumImpactVelocity=LEAST_APPROACH,
+                restitutionCoefficient=1 - 2 * dry.hysteresis / 3,
+                impactModel=1,
+                dynamicFriction=dry.friction.coefficient if dry.friction.law != "none" else 0.0,
+                frictionProportionalZone=dry.friction.speed,
+            )
+        )
 
     @add.register
     def _(self, joint: mb.Prismatic):
@@ -123,22 +135,37 @@ class _Twin:
     def _slide(self, joint, locked):
         along = complex(*joint.axis)
         turned = along * np.exp(1j * (self.start[joint.second.body][2] - self.start[joint.first.body][2]))
-        self.system.AddObject(item.ObjectJointPrismatic2D(
-            markerNumbers=[self.marker(joint.first), self.marker(joint.second)], constrainRotation=locked,
-            axisMarker0=[turned.real, turned.imag, 0.0], normalMarker1=[-along.imag, along.real, 0.0]))
+        self.system.AddObject(
+            item.ObjectJointPrismatic2D(
+                markerNumbers=[self.marker(joint.first), self.marker(joint.second)],
+                constrainRotation=locked,
+                axisMarker0=[turned.real, turned.imag, 0.0],
+                normalMarker1=[-along.imag, along.real, 0.0],
+            )
+        )
 
     @add.register
     def _(self, spring: mb.Spring):
-        self.system.AddObject(item.ObjectConnectorSpringDamper(
-            markerNumbers=[self.marker(spring.first), self.marker(spring.second)], referenceLength=spring.free_length,
-            stiffness=spring.stiffness, damping=spring.damping))
+        self.system.AddObject(
+            item.ObjectConnectorSpringDamper(
+                markerNumbers=[self.marker(spring.first), self.marker(spring.second)],
+                referenceLength=spring.free_length,
+                stiffness=spring.stiffness,
+                damping=spring.damping,
+            )
+        )
 
     @add.register
     def _(self, spring: mb.RotationalSpring):
         at_start = self.start[spring.first][2] - self.start[spring.second][2]
-        self.system.AddObject(item.ObjectConnectorCoordinateSpringDamper(
-            markerNumbers=[self.angle_marker(spring.second), self.angle_marker(spring.first)], stiffness=spring.stiffness,
-            damping=spring.damping, offset=spring.rest - at_start))
+        self.system.AddObject(
+            item.ObjectConnectorCoordinateSpringDamper(
+                markerNumbers=[self.angle_marker(spring.second), self.angle_marker(spring.first)],
+                stiffness=spring.stiffness,
+                damping=spring.damping,
+                offset=spring.rest - at_start,
+            )
+        )
 
     @add.register
     def _(self, torque: mb.Torque):
@@ -150,20 +177,30 @@ class _Twin:
     @add.register
     def _(self, force: mb.Force):
         value = _constant(force.name, force.load.curve)
-        self.system.AddLoad(item.LoadForceVector(
-            markerNumber=self.marker(force.point), loadVector=[value * force.direction[0], value * force.direction[1], 0.0],
-            bodyFixed=force.follows))
+        self.system.AddLoad(
+            item.LoadForceVector(
+                markerNumber=self.marker(force.point),
+                loadVector=[value * force.direction[0], value * force.direction[1], 0.0],
+                bodyFixed=force.follows,
+            )
+        )
 
     @add.register
     def _(self, drive: mb.Drive):
         joint = self.joints[drive.joint]
         if not isinstance(joint, mb.Revolute) or np.any(drive.motion.coefficients[:, 2:]) or np.ptp(drive.motion.coefficients[:, 1]):
-            raise InputError(f"verify: the drive of '{drive.joint}' does not turn a revolute joint at constant speed; "
-                             "Exudyn's twin knows no other drive.")
+            raise InputError(
+                f"verify: the drive of '{drive.joint}' does not turn a revolute joint at constant speed; "
+                "Exudyn's twin knows no other drive."
+            )
         first, second = joint.first.body, joint.second.body
-        self.system.AddObject(item.ObjectConnectorCoordinate(
-            markerNumbers=[self.angle_marker(second), self.angle_marker(first)], velocityLevel=True,
-            offset=self.start[first][5] - self.start[second][5]))
+        self.system.AddObject(
+            item.ObjectConnectorCoordinate(
+                markerNumbers=[self.angle_marker(second), self.angle_marker(first)],
+                velocityLevel=True,
+                offset=self.start[first][5] - self.start[second][5],
+            )
+        )
 
 
 def _checked_gap(joint, eccentricity):
@@ -171,16 +208,22 @@ def _checked_gap(joint, eccentricity):
     dry = joint.model
     gap = dry.clearance - abs(eccentricity)
     if not 0 < gap < dry.clearance:
-        raise InputError(f"verify: joint '{joint.name}' starts {abs(eccentricity):.3g} m off centre with a play of {dry.clearance:.3g} m; "
-                         "Exudyn must start between centre and contact. Give start poses that part the two by half the play.")
+        raise InputError(
+            f"verify: joint '{joint.name}' starts {abs(eccentricity):.3g} m off centre with a play of {dry.clearance:.3g} m; "
+            "Exudyn must start between centre and contact. Give start poses that part the two by half the play."
+        )
     if dry.cylinder or not dry.hysteresis < 1.5:
         law = "the cylinder law" if dry.cylinder else f"a hysteresis of {dry.hysteresis:g}"
-        raise InputError(f"verify: joint '{joint.name}' has {law}; Exudyn's contact is K d^n with a hysteresis below 1.5. "
-                         "Take another law or a higher restitution.")
+        raise InputError(
+            f"verify: joint '{joint.name}' has {law}; Exudyn's contact is K d^n with a hysteresis below 1.5. "
+            "Take another law or a higher restitution."
+        )
     law, coefficient, dead = dry.friction.law, dry.friction.coefficient, dry.friction.dead_speed
     if law != "none" and coefficient and (law != "ambrosio" or dead):
-        raise InputError(f"verify: joint '{joint.name}' has friction '{law}' with a dead speed of {dead:g} m/s; Exudyn's is a ramp from 0. "
-                         "Take 'ambrosio' with dead_speed 0.")
+        raise InputError(
+            f"verify: joint '{joint.name}' has friction '{law}' with a dead speed of {dead:g} m/s; Exudyn's is a ramp from 0. "
+            "Take 'ambrosio' with dead_speed 0."
+        )
     return gap
 
 

@@ -59,7 +59,9 @@ def _bodies(spec):
             raise SpecError(
                 f"{body.inertia:.6g} kg m^2 about {body.inertia_about!r} is less than the mass in the centroid alone has there: m d^2 = "
                 f"{body.mass:.6g} kg x ({_distance(body) * 1e3:.6g} mm)^2 = {share:.6g} kg m^2. If it was meant about the centroid, "
-                'leave inertia_about out', key=f"{key}.inertia")
+                "leave inertia_about out",
+                key=f"{key}.inertia",
+            )
 
 
 def _names(spec):
@@ -115,7 +117,7 @@ def _refuse_place(spec, text, key, wants_point):
         _known(point, points_of(spec, body), f"point of {body!r}", key)
     if wants_point and point is None:
         example = next(iter(points_of(spec, body)), "A")
-        raise SpecError(f"names the body {body!r} but no point of it; write e.g. \"{body}.{example}\"", key=key)
+        raise SpecError(f'names the body {body!r} but no point of it; write e.g. "{body}.{example}"', key=key)
     if wants_point is False and point is not None:
         raise SpecError(f"wants a body only, got {text!r}; write {body!r}", key=key)
 
@@ -133,18 +135,25 @@ def _axis(joint, key):
     if joint.axis == (0.0, 0.0):
         raise SpecError("a direction [0, 0] points nowhere; write e.g. [1, 0]", key=f"{key}.axis")
     if joint.axis != (1.0, 0.0) and joint.kind in ("revolute", "gear"):
-        raise SpecError(f"a {joint.kind} joint has no axis in the plane; leave it out, or take kind = \"prismatic\" or \"pin-slot\"",
-                        key=f"{key}.axis")
+        raise SpecError(
+            f'a {joint.kind} joint has no axis in the plane; leave it out, or take kind = "prismatic" or "pin-slot"', key=f"{key}.axis"
+        )
 
 
 def _model(joint, key):
     if joint.kind != "revolute" and joint.model != "ideal":
-        raise SpecError(f"a {joint.kind} joint has no model {joint.model!r}; play is for kind = \"revolute\"", key=f"{key}.model")
+        raise SpecError(f'a {joint.kind} joint has no model {joint.model!r}; play is for kind = "revolute"', key=f"{key}.model")
 
 
 MISSING = {
-    "massless-link": ("clearance",), "dry": ("clearance",), "lubricated": ("clearance",), "bushing": ("stiffness",),
-    "rolling": ("radius",), "gear": ("ratio",), "cam": ("lift",)}
+    "massless-link": ("clearance",),
+    "dry": ("clearance",),
+    "lubricated": ("clearance",),
+    "bushing": ("stiffness",),
+    "rolling": ("radius",),
+    "gear": ("ratio",),
+    "cam": ("lift",),
+}
 
 
 def _missing(joint, key):
@@ -161,14 +170,21 @@ def _play(joint, key):
     if joint.pin not in ("dry", "lubricated"):
         return
     if joint.clearance >= joint.bearing_radius:
-        raise SpecError(f"{joint.clearance * 1e3:.6g} mm leaves no journal in a bearing of radius {joint.bearing_radius * 1e3:.6g} mm: "
-                        "the clearance is the difference of the radii and must be smaller", key=f"{key}.clearance")
+        raise SpecError(
+            f"{joint.clearance * 1e3:.6g} mm leaves no journal in a bearing of radius {joint.bearing_radius * 1e3:.6g} mm: "
+            "the clearance is the difference of the radii and must be smaller",
+            key=f"{key}.clearance",
+        )
     if joint.normal == "kelvin-voigt" and joint.stiffness is None:
-        raise SpecError("is missing: normal = \"kelvin-voigt\" wants a linear stiffness of the contact, e.g. \"5e7 N/m\"",
-                        key=f"{key}.stiffness")
+        raise SpecError(
+            'is missing: normal = "kelvin-voigt" wants a linear stiffness of the contact, e.g. "5e7 N/m"', key=f"{key}.stiffness"
+        )
     if joint.friction_law == "ambrosio" and joint.friction_dead_speed >= joint.friction_speed:
-        raise SpecError(f"the ramp must end above its start: friction_speed {joint.friction_speed:.4g} m/s, friction_dead_speed "
-                        f"{joint.friction_dead_speed:.4g} m/s", key=f"{key}.friction_dead_speed")
+        raise SpecError(
+            f"the ramp must end above its start: friction_speed {joint.friction_speed:.4g} m/s, friction_dead_speed "
+            f"{joint.friction_dead_speed:.4g} m/s",
+            key=f"{key}.friction_dead_speed",
+        )
 
 
 def ends_on(spec, body):
@@ -183,8 +199,10 @@ def _zero_links(spec):
         places = {points_of(spec, name)[point] for joint, point in ends if point}
         if len(ends) > 1 and len(places) == 1 and all(joint.kind == "revolute" for joint, _ in ends):
             pins = " and ".join(repr(joint.name) for joint, _ in ends)
-            raise SpecError(f"its joints {pins} are at one place: a link of zero length. Move a point, or pin the other bodies together",
-                            key=f"bodies.{name}.points")
+            raise SpecError(
+                f"its joints {pins} are at one place: a link of zero length. Move a point, or pin the other bodies together",
+                key=f"bodies.{name}.points",
+            )
 
 
 def _massless_chains(spec):
@@ -195,7 +213,9 @@ def _massless_chains(spec):
             raise SpecError(
                 f"{name!r} has neither mass nor inertia and massless links at {' and '.join(map(repr, links))}: two clearances in series. "
                 "Where the links are in line nothing says how the play is shared, and the equations of motion are singular. Give the body "
-                "a mass, or make one of the joints ideal", key=f"bodies.{name}.mass")
+                "a mass, or make one of the joints ideal",
+                key=f"bodies.{name}.mass",
+            )
 
 
 # -- loads and drive -----------------------------------------------------------------------------------------------------------
@@ -233,14 +253,16 @@ def _run(spec):
     if run is None:
         return
     if run.turns is None and run.duration is None:
-        raise SpecError("is missing: give turns, or duration = \"0.5 s\"", key="simulate.turns")
+        raise SpecError('is missing: give turns, or duration = "0.5 s"', key="simulate.turns")
     for name in ("turns", "discard"):
         if getattr(run, name) and spec.period is None:
             remedy = "give duration instead" if name == "turns" else "leave it out"
             raise SpecError(f"counts turns and so {NO_PERIOD}; {remedy}", key=f"simulate.{name}")
     if run.discard and spec.start_of_window >= spec.duration * (1 - 1e-12):
-        raise SpecError(f"{run.discard:g} turns are all of the run of {spec.duration / spec.period:g}: nothing is left to look at",
-                        key="simulate.discard")
+        raise SpecError(
+            f"{run.discard:g} turns are all of the run of {spec.duration / spec.period:g}: nothing is left to look at",
+            key="simulate.discard",
+        )
 
 
 def _studies(spec):
@@ -265,7 +287,7 @@ def _refuse_sweep(spec):
     """The key of a bifurcation diagram is there and holds one number."""
     study, (exists, _) = spec.bifurcation, dimension_at(type(spec), spec.bifurcation.over)
     if not exists:
-        raise SpecError(f"{study.over!r} is no key of this spec; e.g. \"joints.NAME.clearance\", \"drive.speed\"", key="bifurcation.over")
+        raise SpecError(f'{study.over!r} is no key of this spec; e.g. "joints.NAME.clearance", "drive.speed"', key="bifurcation.over")
     table, _, name = study.over.partition(".")
     if table in ("joints", "bodies"):
         known = [joint.name for joint in spec.joints] if table == "joints" else list(spec.bodies)

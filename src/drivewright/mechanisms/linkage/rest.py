@@ -14,8 +14,10 @@ def rest(model, done):
     assembly = model.assembly
     found = equilibrium(assembly)
     seen = observe(assembly.system, [0.0], found.state[None])
-    values = {"rest.stable": Value(float(found.stable), "-", "1 where the equilibrium is stable"),
-              "rest.residual": Value(float(found.residual), "-", "force left over, as a part of the forces at work")}
+    values = {
+        "rest.stable": Value(float(found.stable), "-", "1 where the equilibrium is stable"),
+        "rest.residual": Value(float(found.residual), "-", "force left over, as a part of the forces at work"),
+    }
     for number, name in enumerate(assembly.names):
         if name in model.spec.bodies:
             values[f"rest.{name}.angle"] = Value(float(seen.bodies[0, number, FIELDS.index("angle")]), "rad", f"angle of {name!r} at rest")
@@ -53,7 +55,10 @@ def oil(model, done):
             solved = film_map(slenderness, eccentricities, directions)
             off = film_deviation(closed_form_map(form, slenderness, eccentricities, directions), solved)
             values[f"joints.{joint.name}.film_error"] = Value(
-                float(np.median(off)), "-", f"median deviation of the closed form, {joint.film} bearing, from Reynolds' equation")
-            findings.append(f"joint {joint.name!r}: film = \"{joint.film}\" is off by {np.median(off):.0%} in the median, {off.max():.0%} "
-                            f"at worst, from Reynolds' equation for length/diameter = {slenderness:.3g}")
+                float(np.median(off)), "-", f"median deviation of the closed form, {joint.film} bearing, from Reynolds' equation"
+            )
+            findings.append(
+                f'joint {joint.name!r}: film = "{joint.film}" is off by {np.median(off):.0%} in the median, {off.max():.0%} '
+                f"at worst, from Reynolds' equation for length/diameter = {slenderness:.3g}"
+            )
     return Answer(values, findings=tuple(findings))

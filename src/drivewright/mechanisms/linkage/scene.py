@@ -24,15 +24,28 @@ def scene(model):
     plays = [_play(joint, seen, slim) for joint in model.assembly.model.joints if isinstance(joint, Revolute) and joint.model != Ideal()]
     shapes = {name: [*_body_shapes(model, seen, name, slim), *_bearings(plays, name), *_pins(model, names, name, slim)] for name in names}
     colours = ["ground", *(COLOURS[n % len(COLOURS)] for n in range(len(model.spec.bodies)))]
-    bodies = [Body(name, name.replace("_", " "), tuple(shapes[name]), seen.frames(name), colour)
-              for name, colour in zip(names, colours, strict=True)]
+    bodies = [
+        Body(name, name.replace("_", " "), tuple(shapes[name]), seen.frames(name), colour)
+        for name, colour in zip(names, colours, strict=True)
+    ]
     bodies += [*_springs(model, seen, slim), *(_journal(play) for play in plays)]
-    traces = tuple(Trace(o.name, f"path of {o.name.replace('_', ' ')}", o.body, output_marker(model.spec, o)[1:])
-                   for o in model.spec.outputs if o.point)
+    traces = tuple(
+        Trace(o.name, f"path of {o.name.replace('_', ' ')}", o.body, output_marker(model.spec, o)[1:])
+        for o in model.spec.outputs
+        if o.point
+    )
     still = np.zeros((len(seen.cycle), 3))
     table = "motion" if model.spec.outputs else "drive" if model.assembly.model.drives else ""
-    return Scene(seen.cycle, seen.label, seen.unit, seen.period, tuple(body for body in bodies if body.shapes),
-                 (Frame("machine", "machine frame", still),), traces, table if seen.period else "")
+    return Scene(
+        seen.cycle,
+        seen.label,
+        seen.unit,
+        seen.period,
+        tuple(body for body in bodies if body.shapes),
+        (Frame("machine", "machine frame", still),),
+        traces,
+        table if seen.period else "",
+    )
 
 
 # -- bodies --------------------------------------------------------------------------------------------------------------------
@@ -41,8 +54,12 @@ def scene(model):
 def _body_shapes(model, seen, name, slim):
     """Plate, wheels, sliding blocks, guides and supports of a body, in its frame."""
     spec, joints = model.spec, model.assembly.model.joints
-    of_own = [shape for joint in joints if isinstance(joint, (Prismatic, PinSlot, Rolling)) and joint.first.body == name
-              for shape in _slides(joint, seen, slim)]
+    of_own = [
+        shape
+        for joint in joints
+        if isinstance(joint, (Prismatic, PinSlot, Rolling)) and joint.first.body == name
+        for shape in _slides(joint, seen, slim)
+    ]
     points = nodes(spec, name)
     if name == GROUND:
         yield from _supports(spec, joints, slim)
@@ -204,8 +221,16 @@ def _journal(play):
     radius = play.radius - play.drawn
     shapes = (Shape("roller", circle((0, 0), radius)), Shape("axis", polygon([(0, 0), (radius, 0)], closed=False)))
     what = "bushing" if isinstance(play.joint.model, Bushing) else "play"
-    return Body(f"journal {play.joint.name}", f"{what} drawn ×{play.factor:g}", shapes, play.poses, "ground",
-                rest=play.rest, most=1.0, magnified=play.factor)
+    return Body(
+        f"journal {play.joint.name}",
+        f"{what} drawn ×{play.factor:g}",
+        shapes,
+        play.poses,
+        "ground",
+        rest=play.rest,
+        most=1.0,
+        magnified=play.factor,
+    )
 
 
 # -- springs -------------------------------------------------------------------------------------------------------------------
@@ -223,10 +248,14 @@ def _springs(model, seen, slim):
         coil = 0.7 * lengths.min()
         rod = min(lengths.max() - 0.6 * coil, lengths.min())
         label = f"spring {spring.name.replace('_', ' ')}" if spring.name else name
-        yield Body(f"coil {name}", label, (Shape("body", _zigzag(coil, 0.8 * slim)),),
-                   np.column_stack([ends[0][::FINE], angle]), "steel")
-        yield Body(f"rod {name}", label, (Shape("body", polygon([(0, 0), (-rod, 0)], closed=False)),),
-                   np.column_stack([ends[1][::FINE], angle]), "steel")
+        yield Body(f"coil {name}", label, (Shape("body", _zigzag(coil, 0.8 * slim)),), np.column_stack([ends[0][::FINE], angle]), "steel")
+        yield Body(
+            f"rod {name}",
+            label,
+            (Shape("body", polygon([(0, 0), (-rod, 0)], closed=False)),),
+            np.column_stack([ends[1][::FINE], angle]),
+            "steel",
+        )
 
 
 def _zigzag(length, height, turns=6):

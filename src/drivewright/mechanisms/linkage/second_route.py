@@ -201,7 +201,8 @@ def ideal_motion(bar, crank):
     if np.any(wrong := (gap > l3 + l4) | (gap < abs(l3 - l4))):
         raise DoesNotAssemble(
             f"linkage: at crank angle {np.degrees(crank[wrong][0]):.1f} deg A and O4 are {gap[wrong][0]:.6g} m apart, but coupler and "
-            f"rocker reach over {abs(l3 - l4):.6g} .. {l3 + l4:.6g} m. Change a length or keep the crank out of there.")
+            f"rocker reach over {abs(l3 - l4):.6g} .. {l3 + l4:.6g} m. Change a length or keep the crank out of there."
+        )
     e, still = plain(positions)(tight, crank, np.zeros(4)), np.zeros(4)
     v, a = np.empty((2, 5, crank.size), np.complex128)
     plain(body_motion)(tight, e, 1.0, still, 0.0, v)

@@ -24,13 +24,23 @@ def _table(model, passages):
     typical = _median(run_of(model))
     angle = () if not model.period else (Column("drive_angle", "rad", "drive angle", _drive_angle(model, passages)),)
     rules = ["continuous acceleration" if each.touching else "continuous velocity" for each in passages]
-    return Table("singular_positions", "Singular positions", (
-        Column("time", "s", "time", np.array([each.time for each in passages])), *angle,
-        Column("smallest_singular_value", "-", "smallest singular value of the loops over its median in the run",
-               np.array([each.smallest / typical for each in passages])),
-        Column("branches", "-", "branches that meet, at most", np.array([each.tangents for each in passages])),
-        Column("branch", "-", "branch taken, by angular velocities", np.array([_rates(model, each) for each in passages])),
-        Column("rule", "-", "rule by which it is taken", np.array(rules))))
+    return Table(
+        "singular_positions",
+        "Singular positions",
+        (
+            Column("time", "s", "time", np.array([each.time for each in passages])),
+            *angle,
+            Column(
+                "smallest_singular_value",
+                "-",
+                "smallest singular value of the loops over its median in the run",
+                np.array([each.smallest / typical for each in passages]),
+            ),
+            Column("branches", "-", "branches that meet, at most", np.array([each.tangents for each in passages])),
+            Column("branch", "-", "branch taken, by angular velocities", np.array([_rates(model, each) for each in passages])),
+            Column("rule", "-", "rule by which it is taken", np.array(rules)),
+        ),
+    )
 
 
 def _median(run):
@@ -60,6 +70,8 @@ def _finding(model, passages):
     first = passages[0]
     where = f", drive at {np.degrees(_drive_angle(model, passages)[0]):.4g} deg" if model.period else ""
     many = f"{len(passages)} singular positions" if len(passages) > 1 else "a singular position"
-    return (f"the mechanism passes {many} (the first at t = {first.time:.6g} s{where}): loops fold there and up to {first.tangents} "
-            "branches of the motion meet. The motion follows the smooth one, on which velocities are continuous; what a real mechanism "
-            "does there is decided by its play and its loads (simulate.singular = \"stop\" ends the run before)")
+    return (
+        f"the mechanism passes {many} (the first at t = {first.time:.6g} s{where}): loops fold there and up to {first.tangents} "
+        "branches of the motion meet. The motion follows the smooth one, on which velocities are continuous; what a real mechanism "
+        'does there is decided by its play and its loads (simulate.singular = "stop" ends the run before)'
+    )

@@ -41,11 +41,15 @@ class Body(Spec):
     inertia: Inertia = Field("0 kg m^2", ge=0, description="moment of inertia about `inertia_about`")
     inertia_about: Name = Field("centroid", description="centroid, or a point of this body")
     centroid: Point = Field(("0 mm", "0 mm"), description="centre of mass")
-    points: Named[Point] = Field({}, description="points for joints, springs and outputs; each body also has \"centroid\"",
-                                 examples=[{"A": ["0 mm", "0 mm"], "B": ["100 mm", "0 mm"]}])
+    points: Named[Point] = Field(
+        {},
+        description='points for joints, springs and outputs; each body also has "centroid"',
+        examples=[{"A": ["0 mm", "0 mm"], "B": ["100 mm", "0 mm"]}],
+    )
     angle: Angle = Field("0 deg", description="direction of the body's frame at the start, a guess that picks the assembly")
-    velocity: tuple[Velocity, Velocity] | None = Field(None, description="of the centroid at the start, of a mechanism free to move",
-                                                       examples=[["0 m/s", "0 m/s"]])
+    velocity: tuple[Velocity, Velocity] | None = Field(
+        None, description="of the centroid at the start, of a mechanism free to move", examples=[["0 m/s", "0 m/s"]]
+    )
     angular_velocity: Speed | None = Field(None, description="at the start, of a mechanism free to move", examples=["0 rpm"])
 
 
@@ -97,12 +101,19 @@ class Drive(Spec):
     """What moves the mechanism, at one joint."""
 
     joint: Text = Field(description="name of a revolute joint (with a profile also a prismatic one)", examples=["O2"])
-    speed: Speed | None = Field(None, description="constant speed of the joint's first body relative to its second; where the first is "
-                                                  "the ground, of the second", examples=["100 rpm"])
-    profile: DataFile | None = Field(None, description="CSV over time [s] instead: angle [deg] counted from the first row, or travel [mm] "
-                                                       "of a prismatic joint from the point of its line")
-    ends: Literal["rest", "free"] = Field("rest", description="of a profile. rest: it starts and ends at rest; free: with any speed, "
-                                                              "which goes on after the end")
+    speed: Speed | None = Field(
+        None,
+        description="constant speed of the joint's first body relative to its second; where the first is the ground, of the second",
+        examples=["100 rpm"],
+    )
+    profile: DataFile | None = Field(
+        None,
+        description="CSV over time [s] instead: angle [deg] counted from the first row, or travel [mm] "
+        "of a prismatic joint from the point of its line",
+    )
+    ends: Literal["rest", "free"] = Field(
+        "rest", description="of a profile. rest: it starts and ends at rest; free: with any speed, which goes on after the end"
+    )
     motor: DataFile | None = Field(None, description="CSV instead: torque [N m] over speed [rpm] of a motor")
 
 
@@ -110,21 +121,31 @@ class Simulate(Spec):
     """The run."""
 
     turns: Number | None = Field(None, gt=0, le=1e6, description="length of the run in turns of a drive at constant speed", examples=[16.0])
-    duration: Time | None = Field(None, gt=0, description="length of the run; where turns are given too, the shorter one counts",
-                                  examples=["1 h"])
+    duration: Time | None = Field(
+        None, gt=0, description="length of the run; where turns are given too, the shorter one counts", examples=["1 h"]
+    )
     discard: Number = Field(0.0, ge=0, description="turns at the start that are left out of peaks and means")
     relative_tolerance: Number = Field(1e-8, ge=1e-13, le=1e-2, description="of the integrator, a step")
-    absolute_tolerance: Length | None = Field(None, gt=0, description="of positions; relative_tolerance times the mechanism's size unless "
-                                                                      "given", examples=["1 nm"])
+    absolute_tolerance: Length | None = Field(
+        None, gt=0, description="of positions; relative_tolerance times the mechanism's size unless given", examples=["1 nm"]
+    )
     method: Literal["dopri5", "radau"] = Field("dopri5", description="dopri5: explicit, fast; radau: for heavy damping")
-    singular: Literal["smooth", "stop"] = Field("smooth", description="in a singular position, where loops fold and branches of the motion "
-                                                                      "meet. smooth: go on along the smooth branch; stop: end the run")
+    singular: Literal["smooth", "stop"] = Field(
+        "smooth",
+        description="in a singular position, where loops fold and branches of the motion "
+        "meet. smooth: go on along the smooth branch; stop: end the run",
+    )
     max_steps: Integer = Field(20_000_000, ge=1, description="steps after which the run ends with what it has")
     min_step: Time = Field("0 s", ge=0, description="step below which the run ends with what it has; 0: at the limit of the arithmetic")
     samples_per_turn: Integer = Field(720, ge=8, le=1_000_000, description="rows of the tables (a run without turns: for all of it)")
     seed: Integer = Field(1, ge=0, le=2**31 - 1, description="seed of the random numbers; same seed, same answer")
-    ensemble: Integer = Field(4, ge=1, le=10_000, description="runs behind the statistics of a motion with play that does not repeat "
-                                                              "itself; their starts differ by a thousandth of the clearance")
+    ensemble: Integer = Field(
+        4,
+        ge=1,
+        le=10_000,
+        description="runs behind the statistics of a motion with play that does not repeat "
+        "itself; their starts differ by a thousandth of the clearance",
+    )
 
 
 class Output(Spec):
@@ -164,8 +185,9 @@ class LoadTable(Spec):
     """Impact load coefficients over speed and clearance."""
 
     speeds: tuple[Speed, ...] = Field(min_length=1, description="speeds of the drive", examples=[["100 rpm", "200 rpm"]])
-    clearances: tuple[Length, ...] = Field(min_length=1, description="clearances, the same at each joint with play",
-                                           examples=[["0.05 mm", "0.1 mm"]])
+    clearances: tuple[Length, ...] = Field(
+        min_length=1, description="clearances, the same at each joint with play", examples=[["0.05 mm", "0.1 mm"]]
+    )
     output: Text = Field(description="name of an output", examples=["output"])
 
 
@@ -189,7 +211,7 @@ class Tolerances(Spec):
 class Wear(Spec):
     """Wear of a bearing by Archard's law, fed back into the contact."""
 
-    joint: Text = Field(description="name of a joint with model = \"dry\"", examples=["A"])
+    joint: Text = Field(description='name of a joint with model = "dry"', examples=["A"])
     cycles: Integer = Field(ge=1, description="turns of the drive", examples=[1_000_000])
     jumps: Integer = Field(10, ge=1, le=10_000, description="runs among them; between two of them the wear is extrapolated")
     bins: Integer = Field(360, ge=8, le=100_000, description="places around the bearing")

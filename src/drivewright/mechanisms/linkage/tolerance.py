@@ -28,16 +28,20 @@ def no_tolerances(spec):
 
 def sources_of(spec):
     """All that is random: the play of every pin that states a clearance, whatever its model, and the tolerances of points."""
-    plays = [play(joint.name, joint.clearance) for joint in spec.joints
-             if joint.kind == "revolute" and joint.model != "bushing" and joint.clearance]
+    plays = [
+        play(joint.name, joint.clearance)
+        for joint in spec.joints
+        if joint.kind == "revolute" and joint.model != "bushing" and joint.clearance
+    ]
     return plays + [_deviation(spec, item) for item in spec.tolerances.dimensions if item.tolerance > 0]
 
 
 def _deviation(spec, item):
     length = math.hypot(*item.axis)
     marks = tuple(output.name for output in spec.outputs if output.point and f"{output.body}.{output.point}" == item.at)
-    return Source(item.at, item.tolerance, item.distribution, tuple(_ends_at(spec, item.at)),
-                  (item.axis[0] / length, item.axis[1] / length), marks)
+    return Source(
+        item.at, item.tolerance, item.distribution, tuple(_ends_at(spec, item.at)), (item.axis[0] / length, item.axis[1] / length), marks
+    )
 
 
 def _ends_at(spec, text):
@@ -66,8 +70,12 @@ def tolerances(model, done):
             data, share = found.deviations[closed, number, k], (parts.worst[number, k], parts.sigma[number, k])
             values |= _values(name, _unit(output), data, share)
             tables += [_histogram(name, _unit(output), data, share), _tornado(name, _unit(output), sources, share)]
-    return Answer(values, tuple(tables), findings=tuple(_findings(model, sources, closed)),
-                  outcome="partial" if found.interrupted or not closed.all() else "complete")
+    return Answer(
+        values,
+        tuple(tables),
+        findings=tuple(_findings(model, sources, closed)),
+        outcome="partial" if found.interrupted or not closed.all() else "complete",
+    )
 
 
 def _unit(output):
@@ -82,9 +90,13 @@ def _values(name, unit, data, share):
         "sigma": (np.std(data, ddof=1) if data.size > 1 else np.nan, "standard deviation"),
         "worst": (np.max(np.abs(data), initial=0.0) if data.size else np.nan, "largest deviation among the samples, either way"),
         "linear_sigma": (np.sqrt(np.sum(sigma**2)), "standard deviation by linear theory"),
-        "linear_worst": (np.sum(worst), "worst case by linear theory (normal dimensions at three standard deviations)")}
-    return {f"tolerances.{name}.{key}": Value(float(value), unit, f"{words} of {name!r}")
-            for key, (value, words) in told.items() if np.isfinite(value)}
+        "linear_worst": (np.sum(worst), "worst case by linear theory (normal dimensions at three standard deviations)"),
+    }
+    return {
+        f"tolerances.{name}.{key}": Value(float(value), unit, f"{words} of {name!r}")
+        for key, (value, words) in told.items()
+        if np.isfinite(value)
+    }
 
 
 def _histogram(name, unit, data, share):
@@ -94,10 +106,15 @@ def _histogram(name, unit, data, share):
     edges = np.linspace(-reach, reach, BARS + 1)
     counts = np.histogram(data, edges)[0]
     normal = np.diff(ndtr(edges / sigma)) if sigma > 0 else np.zeros(BARS)
-    return Table(f"tolerances.{name}", f"Deviation of {name!r}", (
-        Column("deviation", unit, f"deviation of {name!r}, middle of the bar", 0.5 * (edges[1:] + edges[:-1])),
-        Column("share", "-", "share of the samples in the bar", counts / max(len(data), 1)),
-        Column("linear_share", "-", "the same of a normal distribution, by linear theory", normal)))
+    return Table(
+        f"tolerances.{name}",
+        f"Deviation of {name!r}",
+        (
+            Column("deviation", unit, f"deviation of {name!r}, middle of the bar", 0.5 * (edges[1:] + edges[:-1])),
+            Column("share", "-", "share of the samples in the bar", counts / max(len(data), 1)),
+            Column("linear_share", "-", "the same of a normal distribution, by linear theory", normal),
+        ),
+    )
 
 
 def _tornado(name, unit, sources, share):
@@ -105,13 +122,19 @@ def _tornado(name, unit, sources, share):
     worst, sigma = share
     order = np.argsort(-worst, kind="stable")
     reach, variance = np.array([source.reach for source in sources]), np.sum(sigma**2)
-    return Table(f"tornado.{name}", f"What makes {name!r} deviate", (
-        Column("source", "-", "joint with play, or point with a tolerance", np.array([_label(sources[k]) for k in order])),
-        Column("worst", unit, f"largest deviation of {name!r} from it alone", worst[order]),
-        Column("sigma", unit, f"standard deviation of {name!r} from it alone", sigma[order]),
-        Column("variance_share", "-", "its share in the variance", sigma[order] ** 2 / (variance if variance > 0 else 1.0)),
-        Column("sensitivity", "-" if unit == "m" else f"{unit}/m", f"deviation of {name!r} over that of the point",
-               (worst / reach)[order])))
+    return Table(
+        f"tornado.{name}",
+        f"What makes {name!r} deviate",
+        (
+            Column("source", "-", "joint with play, or point with a tolerance", np.array([_label(sources[k]) for k in order])),
+            Column("worst", unit, f"largest deviation of {name!r} from it alone", worst[order]),
+            Column("sigma", unit, f"standard deviation of {name!r} from it alone", sigma[order]),
+            Column("variance_share", "-", "its share in the variance", sigma[order] ** 2 / (variance if variance > 0 else 1.0)),
+            Column(
+                "sensitivity", "-" if unit == "m" else f"{unit}/m", f"deviation of {name!r} over that of the point", (worst / reach)[order]
+            ),
+        ),
+    )
 
 
 def _label(source):
@@ -122,8 +145,10 @@ def _label(source):
 
 def _findings(model, sources, closed):
     if not closed.all():
-        yield (f"tolerances: {np.sum(~closed)} of {len(closed)} random mechanisms do not close and are left out of the numbers; the "
-               "deviations are too large for this position")
+        yield (
+            f"tolerances: {np.sum(~closed)} of {len(closed)} random mechanisms do not close and are left out of the numbers; the "
+            "deviations are too large for this position"
+        )
     for source in sources:
         if not source.ends and not source.marks:
             yield f"tolerances: {source.name} carries no joint and no output; its tolerance moves nothing"

@@ -52,8 +52,14 @@ def _closed_joints(model, seen):
             misses[Revolute].append(np.abs(places.of(joint.first) - places.of(joint.second)))
     for kind, found in misses.items():
         if found:
-            yield (f"joints without play, {kind.__name__.lower()}: largest gap", 0.0, float(np.max(found)), "m", 1e-9 * places.size,
-                   "places of both halves from the bodies' poses")
+            yield (
+                f"joints without play, {kind.__name__.lower()}: largest gap",
+                0.0,
+                float(np.max(found)),
+                "m",
+                1e-9 * places.size,
+                "places of both halves from the bodies' poses",
+            )
 
 
 class _Places:
@@ -103,8 +109,14 @@ def _differences(model):
         angle, alpha = seen.point(output.name, "angle"), seen.point(output.name, "alpha")[1:-1]
         bent = (angle[2:] - 2 * angle[1:-1] + angle[:-2]) / step**2
         worst, size = np.argmax(np.abs(bent - alpha)), float(np.max(np.abs(alpha)))
-        yield (f"{output.name}, angular acceleration where it is farthest", float(alpha[worst]), float(bent[worst]), "rad/s^2",
-               1e-4 * size + 1e-14 / step**2, "differences of the angle")
+        yield (
+            f"{output.name}, angular acceleration where it is farthest",
+            float(alpha[worst]),
+            float(bent[worst]),
+            "rad/s^2",
+            1e-4 * size + 1e-14 / step**2,
+            "differences of the angle",
+        )
 
 
 # -- Exudyn ----------------------------------------------------------------------------------------------------------------------

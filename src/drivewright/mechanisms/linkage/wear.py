@@ -54,8 +54,14 @@ class History:
     def member(self, joint) -> Member:
         """Its numbers, and by the turns of the last run whether they drift."""
         turns = {"rubbing": self.stages[-1].rubbing} if self.stages else {}
-        return Member(turns, {"max_depth": float(np.max(self.depth)), "clearance_growth": clearance_growth(self.depth),
-                              "volume": volume_of(joint, self.depth)})
+        return Member(
+            turns,
+            {
+                "max_depth": float(np.max(self.depth)),
+                "clearance_growth": clearance_growth(self.depth),
+                "volume": volume_of(joint, self.depth),
+            },
+        )
 
 
 def no_wear(spec):
@@ -64,7 +70,7 @@ def no_wear(spec):
         return "the spec has no [wear] table"
     joint = _joint(spec)
     if joint.pin != "dry":
-        return f"joint {joint.name!r} is {joint.pin or joint.kind}; wear wants model = \"dry\" and a clearance"
+        return f'joint {joint.name!r} is {joint.pin or joint.kind}; wear wants model = "dry" and a clearance'
     return no_run(spec) or (f"joint {joint.name!r} states no wear_coefficient" if joint.wear_coefficient is None else None)
 
 
@@ -90,8 +96,7 @@ def wear(model, done):
     findings = _findings(joint, first.depth, max((jump * np.max(stage.per_turn) for stage in first.stages), default=0.0))
     if first.advice:
         findings = (*findings, f"wear ends after {count} of {asked.jumps} jumps: {first.advice}")
-    return Answer(_values(joint, found, count * jump), tables, findings=findings,
-                  outcome="partial" if first.advice else "complete")
+    return Answer(_values(joint, found, count * jump), tables, findings=findings, outcome="partial" if first.advice else "complete")
 
 
 def _histories(model):
@@ -112,8 +117,16 @@ def history(model, number):
         if advice:
             break
         cycles = asked.cycles / asked.jumps
-        stages.append(Stage(jump * cycles, depth, depth_per_turn(seen, model, asked.bins), _largest_force(seen, model), _loads(seen, model),
-                            _rubbing(seen, model)))
+        stages.append(
+            Stage(
+                jump * cycles,
+                depth,
+                depth_per_turn(seen, model, asked.bins),
+                _largest_force(seen, model),
+                _loads(seen, model),
+                _rubbing(seen, model),
+            )
+        )
         depth, periodic = worn(depth, stages[-1].per_turn, cycles), periodic and repeats(model, seen) > 0
     return History(tuple(stages), depth, advice, periodic)
 
@@ -148,8 +161,9 @@ def contact_angle(seen, model):
 def depth_per_turn(seen, model, bins):
     """Depth (bins,) [m] that a turn takes off the bearing, the mean over the window."""
     pin, joint = _pin(seen, model), _joint(model.spec)
-    taken = deposit(seen.t, contact_angle(seen, model), pin["normal"], pin["slip"], joint.wear_coefficient, joint.bearing_radius,
-                    joint.length, bins)
+    taken = deposit(
+        seen.t, contact_angle(seen, model), pin["normal"], pin["slip"], joint.wear_coefficient, joint.bearing_radius, joint.length, bins
+    )
     return taken * model.period / (seen.t[-1] - seen.t[0])
 
 
@@ -159,8 +173,10 @@ def _largest_force(seen, model):
 
 
 def _loads(seen, model):
-    return tuple(impact_load(seen.t, acceleration(seen, output)[0], ideal_peak_of(model, output), model.period).coefficient
-                 for output in model.spec.outputs)
+    return tuple(
+        impact_load(seen.t, acceleration(seen, output)[0], ideal_peak_of(model, output), model.period).coefficient
+        for output in model.spec.outputs
+    )
 
 
 # -- what is told --------------------------------------------------------------------------------------------------------------
@@ -175,9 +191,11 @@ def _values(joint, found, cycles):
     return {
         f"wear.{name}.max_depth": of("max_depth", "m", f"largest depth worn off the bearing of joint {name!r}"),
         f"wear.{name}.volume": of("volume", "m^3", f"volume worn off the bearing of joint {name!r}"),
-        f"wear.{name}.clearance_growth": of("clearance_growth", "m", f"largest growth of the radial clearance of joint {name!r}: "
-                                                                     "half of what two opposite sides lost"),
-        f"wear.{name}.cycles": Value(float(cycles), "-", "turns of the drive behind it")}
+        f"wear.{name}.clearance_growth": of(
+            "clearance_growth", "m", f"largest growth of the radial clearance of joint {name!r}: half of what two opposite sides lost"
+        ),
+        f"wear.{name}.cycles": Value(float(cycles), "-", "turns of the drive behind it"),
+    }
 
 
 def volume_of(joint, depth):
@@ -194,26 +212,40 @@ def clearance_growth(depth):
 def _profiles(joint, histories):
     after = np.array([[*(stage.depth for stage in each.stages[1:]), each.depth] for each in histories])
     middle, bins = after.shape[1] // 2, after.shape[2]
-    return Table(f"wear.{joint.name}", f"Wear of the bearing of joint {joint.name!r}", (
-        Column("angle", "rad", f"place on the bearing, in the frame of {place(joint.connects[0])[0]!r}", np.arange(bins) * TURN / bins),
-        *_columns("first", "m", "depth after the first jump", after[:, 0]),
-        *_columns("middle", "m", f"depth after jump {middle + 1} of {after.shape[1]}", after[:, middle]),
-        *_columns("last", "m", "depth at the end", after[:, -1])))
+    return Table(
+        f"wear.{joint.name}",
+        f"Wear of the bearing of joint {joint.name!r}",
+        (
+            Column("angle", "rad", f"place on the bearing, in the frame of {place(joint.connects[0])[0]!r}", np.arange(bins) * TURN / bins),
+            *_columns("first", "m", "depth after the first jump", after[:, 0]),
+            *_columns("middle", "m", f"depth after jump {middle + 1} of {after.shape[1]}", after[:, middle]),
+            *_columns("last", "m", "depth at the end", after[:, -1]),
+        ),
+    )
 
 
 def _development(model, joint, histories):
     """Force, impact load and wear before every jump."""
+
     def stages(number):
         return np.array([[number(stage) for stage in each.stages] for each in histories])
 
-    loads = [_columns(f"impact_load.{output.name}", "-", f"impact load coefficient of {output.name!r}", stages(lambda at, k=k: at.loads[k]))
-             for k, output in enumerate(model.spec.outputs)]
-    return Table(f"wear.{joint.name}.cycles", f"Joint {joint.name!r} while it wears", (
-        Column("cycles", "-", "turns of the drive behind it", np.array([stage.cycles for stage in histories[0].stages])),
-        *_columns("max_depth", "m", "largest depth", stages(lambda at: np.max(at.depth))),
-        *_columns("volume", "m^3", "volume worn off", stages(lambda at: volume_of(joint, at.depth))),
-        *_columns("volume_per_turn", "m^3", "volume that a turn wears off", stages(lambda at: volume_of(joint, at.per_turn))),
-        *_columns("max_force", "N", f"largest force in joint {joint.name!r}", stages(lambda at: at.force)), *sum(loads, ())))
+    loads = [
+        _columns(f"impact_load.{output.name}", "-", f"impact load coefficient of {output.name!r}", stages(lambda at, k=k: at.loads[k]))
+        for k, output in enumerate(model.spec.outputs)
+    ]
+    return Table(
+        f"wear.{joint.name}.cycles",
+        f"Joint {joint.name!r} while it wears",
+        (
+            Column("cycles", "-", "turns of the drive behind it", np.array([stage.cycles for stage in histories[0].stages])),
+            *_columns("max_depth", "m", "largest depth", stages(lambda at: np.max(at.depth))),
+            *_columns("volume", "m^3", "volume worn off", stages(lambda at: volume_of(joint, at.depth))),
+            *_columns("volume_per_turn", "m^3", "volume that a turn wears off", stages(lambda at: volume_of(joint, at.per_turn))),
+            *_columns("max_force", "N", f"largest force in joint {joint.name!r}", stages(lambda at: at.force)),
+            *sum(loads, ()),
+        ),
+    )
 
 
 def _columns(name, unit, meaning, numbers):
@@ -229,8 +261,11 @@ def _findings(joint, depth, step):
         found.append(
             f"wear of joint {joint.name!r}: the worn profile has slopes of {1e3 * slope:.3g} mm/rad beside a clearance of "
             f"{1e3 * joint.clearance:.3g} mm. The contact is looked for on the side where the journal's centre is; that is good up to "
-            f"slopes of about {FLAT:g} times the clearance. Take fewer cycles, or fewer bins")
+            f"slopes of about {FLAT:g} times the clearance. Take fewer cycles, or fewer bins"
+        )
     if step > SMALL * joint.clearance:
-        found.append(f"wear of joint {joint.name!r}: a jump takes off up to {1e3 * step:.3g} mm, {step / joint.clearance:.2g} times the "
-                     f"clearance of {1e3 * joint.clearance:.3g} mm, as if the motion stayed the same meanwhile; take more jumps")
+        found.append(
+            f"wear of joint {joint.name!r}: a jump takes off up to {1e3 * step:.3g} mm, {step / joint.clearance:.2g} times the "
+            f"clearance of {1e3 * joint.clearance:.3g} mm, as if the motion stayed the same meanwhile; take more jumps"
+        )
     return tuple(found)

@@ -103,9 +103,7 @@ def _one_cam(model, cam):
         f"{prefix}.profile_gap": Value(
             curves.largest_profile_gap(trimmed)[1], "m", "gap between the roller in its planned place and the real profile"
         ),
-        f"{prefix}.profile_loss": Value(
-            curves.profile_loss(trimmed), "m", "intended contact off the real profile where undercut"
-        ),
+        f"{prefix}.profile_loss": Value(curves.profile_loss(trimmed), "m", "intended contact off the real profile where undercut"),
         f"{prefix}.profile_area": Value(trimmed.area, "m^2", "area of the finished profile"),
         f"{prefix}.profile_perimeter": Value(trimmed.perimeter, "m", "perimeter of the finished profile"),
     }
@@ -174,9 +172,7 @@ def cam_table(model):
                 np.concatenate([model.pressure_angle(cam, x, k).d0 for x, k in parts]),
             ),
             Column(f"{cam.name}.curvature", "1/m", f"curvature of the {cam.name} pitch curve, convex positive", kappa),
-            Column(
-                f"{cam.name}.convex_ratio", "-", f"{cam.name} cam: undercut above 1", kappa * cam.roller_radius
-            ),
+            Column(f"{cam.name}.convex_ratio", "-", f"{cam.name} cam: undercut above 1", kappa * cam.roller_radius),
             Column(f"{cam.name}.pitch_radius", "m", f"radius of the {cam.name} pitch curve", np.abs(pitch)),
         ]
     return Table("cams", "Cams over the push cycle", tuple(columns))

@@ -185,6 +185,7 @@ class Pusher:
 
     def sinking(self, cam):
         """How a roller sinks along its path into its cam, for `curves.lost_motion`."""
+
         def place(t, depth):
             return cam.pitch(self.pivot_angle(t), self.swing(t) - cam.side * depth / cam.arm).d0
 

@@ -99,9 +99,9 @@ def _rod_findings(model):
     if model.orbit > 0:
         return ()
     return (
-        "cams.orbit = \"clockwise\": this train turns the arm counter-clockwise on the carrier, so the lever pivot can orbit the cams "
+        'cams.orbit = "clockwise": this train turns the arm counter-clockwise on the carrier, so the lever pivot can orbit the cams '
         "clockwise only with everything mirrored, the rod on the far side of the planet axis from the needle; "
-        "\"counter-clockwise\" puts rod and needle together",
+        '"counter-clockwise" puts rod and needle together',
     )
 
 
@@ -125,9 +125,7 @@ def _planting_checks(model, take, push, difference, start_depth, mouth, clear):
         Check(
             "push_start_in_soil", start_depth, model.spec.field.mouth_height, "<=", "m", "the tip is in the soil when the push starts", both
         ),
-        Check(
-            "rod_at_needle", abs(model.rod_distance), limits.rod_distance, "<=", "m", "the rod runs along the needle", ("rod", "arm")
-        ),
+        Check("rod_at_needle", abs(model.rod_distance), limits.rod_distance, "<=", "m", "the rod runs along the needle", ("rod", "arm")),
         Check("mouth_width", mouth, limits.mouth_width, "<=", "m", "hole that the needle leaves in the soil surface", both),
         Check(
             "axis_clearance",

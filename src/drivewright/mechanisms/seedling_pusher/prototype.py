@@ -36,8 +36,16 @@ def simulate(model, planet):
     lever, lever_marker = _lever(system, model)
     rod = _rod(system, model, lever_marker)
     _cams(system, model, planet, lever)
-    sensors = [system.AddSensor(item.SensorNode(nodeNumber=system.GetObject(body)["nodeNumber"], storeInternal=True,
-                                                outputVariableType=exudyn.OutputVariableType.Coordinates)) for body in (lever, rod)]
+    sensors = [
+        system.AddSensor(
+            item.SensorNode(
+                nodeNumber=system.GetObject(body)["nodeNumber"],
+                storeInternal=True,
+                outputVariableType=exudyn.OutputVariableType.Coordinates,
+            )
+        )
+        for body in (lever, rod)
+    ]
     system.Assemble()
     _solve(system, TURN / model.spec.drive.speed)
     swing, travel = (system.GetSensorStoredData(sensor) for sensor in sensors)
@@ -47,8 +55,9 @@ def simulate(model, planet):
 def _lever(system, model):
     """(body, marker at the pivot) of the lever; a positive swing turns it clockwise."""
     node = system.AddNode(item.Node1D(referenceCoordinates=[0]))
-    body = system.AddObject(item.ObjectRotationalMass1D(
-        inertia=LEVER_INERTIA, nodeNumber=node, referencePosition=[0, -model.spec.lever.pivot_distance, 0]))
+    body = system.AddObject(
+        item.ObjectRotationalMass1D(inertia=LEVER_INERTIA, nodeNumber=node, referencePosition=[0, -model.spec.lever.pivot_distance, 0])
+    )
     return body, _marker(system, body)
 
 
@@ -78,9 +87,16 @@ def _cams(system, model, planet, lever):
         memory = system.AddNode(item.NodeGenericData(initialCoordinates=[-1, 0, 0] * FACETS, numberOfDataCoordinates=3 * FACETS))
         at_rest = roller_at_rest(cam) - centre
         roller = _marker(system, lever, [at_rest.real, at_rest.imag, 0])
-        system.AddObject(item.ObjectContactCurveCircles(
-            markerNumbers=[cams, roller], nodeNumber=memory, circlesRadii=[cam.roller_radius], contactModel=1,
-            segmentsData=exudyn.MatrixContainer(facets), contactStiffness=STIFFNESS))
+        system.AddObject(
+            item.ObjectContactCurveCircles(
+                markerNumbers=[cams, roller],
+                nodeNumber=memory,
+                circlesRadii=[cam.roller_radius],
+                contactModel=1,
+                segmentsData=exudyn.MatrixContainer(facets),
+                contactStiffness=STIFFNESS,
+            )
+        )
 
     def turn(system, t):
         angle = model.orbit * planet(model.push_start + model.spec.drive.speed * t)

@@ -24,9 +24,7 @@ ANALYSES = (
         missing=influence.no_stations,
     ),
     Analysis("failure", influence.failure, "what fails first", needs=("statics", "flexibility"), missing=influence.no_strength),
-    Analysis(
-        "modes", frequencies.frequencies, "natural frequencies and critical speeds", needs=("statics",), missing=frequencies.no_modes
-    ),
+    Analysis("modes", frequencies.frequencies, "natural frequencies and critical speeds", needs=("statics",), missing=frequencies.no_modes),
     Analysis(
         "sensitivities",
         sensitivity.sensitivities,
@@ -37,10 +35,24 @@ ANALYSES = (
     Analysis("solid", solid.solid, "the shaft as a solid of finite elements", default=False, needs=("statics",), missing=solid.no_solid),
 )
 
-HEADLINE = ("stations.*.deflection", "stations.*.displacement", "bearings.*.reaction", "bearings.*.radial_force",
-            "bearings.*.stiffness.tangent", "bearings.*.stiffness.secant", "flexibility.*", "stiffness.*", "modes.*.frequency",
-            "critical_speeds.lowest", "shaft.max_deflection", "shaft.max_stress", "stations.*.allowed_load", "bearings.*.max_pressure",
-            "bearings.*.reference_life", "solid.deviation")
+HEADLINE = (
+    "stations.*.deflection",
+    "stations.*.displacement",
+    "bearings.*.reaction",
+    "bearings.*.radial_force",
+    "bearings.*.stiffness.tangent",
+    "bearings.*.stiffness.secant",
+    "flexibility.*",
+    "stiffness.*",
+    "modes.*.frequency",
+    "critical_speeds.lowest",
+    "shaft.max_deflection",
+    "shaft.max_stress",
+    "stations.*.allowed_load",
+    "bearings.*.max_pressure",
+    "bearings.*.reference_life",
+    "solid.deviation",
+)
 
 SOURCES = (
     "Li Yanqi, Zhang, Chen: Transverse Stiffness Analysis of the Shaft System in the Drive Mechanism of Mobile-Head Spiral Winding "
@@ -50,6 +62,18 @@ SOURCES = (
 )
 
 mechanism = Mechanism(
-    kind="shaft", summary="shaft on elastic, rigid and rolling bearings", spec=ShaftSpec, build=build, analyses=ANALYSES,
-    folder=Path(__file__).parent, headline=HEADLINE, sources=SOURCES, scene=scene, plots=plots, drawings=drawings, parts=parts,
-    verify=verify, batch=batch)
+    kind="shaft",
+    summary="shaft on elastic, rigid and rolling bearings",
+    spec=ShaftSpec,
+    build=build,
+    analyses=ANALYSES,
+    folder=Path(__file__).parent,
+    headline=HEADLINE,
+    sources=SOURCES,
+    scene=scene,
+    plots=plots,
+    drawings=drawings,
+    parts=parts,
+    verify=verify,
+    batch=batch,
+)

@@ -54,10 +54,13 @@ def build(spec):
     rolling = {b.name: rolling_bearing(spec, b) for b in spec.bearings if is_rolling(b)}
     shaft = shafts.Shaft(
         tuple(shafts.Section(s.length, s.diameter, s.end_diameter or s.diameter, s.bore) for s in spec.segments),
-        stuff["youngs_modulus"], stuff["poisson_ratio"], stuff["density"],
+        stuff["youngs_modulus"],
+        stuff["poisson_ratio"],
+        stuff["density"],
         tuple(support(b, rolling.get(b.name)) for b in spec.bearings),
         tuple(shafts.Station(s.name, s.position, s.mass, s.polar_inertia, s.diametral_inertia) for s in spec.stations),
-        shear(spec.analysis))
+        shear(spec.analysis),
+    )
     loads = shafts.Loads(tuple(_points(spec)), tuple(_lines(spec)), tuple(spec.gravity))
     shafts.refuse_mechanism(shaft)
     return ShaftModel(spec, shaft, loads, rolling, stuff["yield_strength"])
@@ -157,8 +160,9 @@ def _rolling_support(bearing, rolling, about):
     x, y, _, tilt_x, tilt_y = about["offset"]
     turn = -1.0 if mirrored else 1.0
     offset = (x, y, -place, turn * tilt_x, turn * tilt_y)
-    return shafts.Support(bearing.name, bearing.position, law=law, mirrored=mirrored, offset=offset, seat=tuple(seat), push=tuple(push),
-                          width=bearing.width)
+    return shafts.Support(
+        bearing.name, bearing.position, law=law, mirrored=mirrored, offset=offset, seat=tuple(seat), push=tuple(push), width=bearing.width
+    )
 
 
 def _mounted(bearing, rolling):

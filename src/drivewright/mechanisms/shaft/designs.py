@@ -44,8 +44,18 @@ def batch(spec, keys, names):
         for column, (table, number) in zip(np.asarray(x, float).T, places, strict=True):
             getattr(tables, table)[:, number] = column
         tables.ends[:, straight] = tables.diameters[:, straight]
-        delta = flexibilities(tables.lengths, tables.diameters, tables.supports, tables.stiffness, tables.stations, model.shaft.modulus,
-                              model.shaft.poisson, model.shaft.shear, bores=tables.bores, end_diameters=tables.ends)
+        delta = flexibilities(
+            tables.lengths,
+            tables.diameters,
+            tables.supports,
+            tables.stiffness,
+            tables.stations,
+            model.shaft.modulus,
+            model.shaft.poisson,
+            model.shaft.shear,
+            bores=tables.bores,
+            end_diameters=tables.ends,
+        )
         return {name: delta[:, i, j] for name, (i, j) in pairs.items()}
 
     return evaluate
@@ -56,9 +66,15 @@ def _is_plain(support):
 
 
 def _tables(shaft, spec, count):
-    rows = ([s.length for s in shaft.sections], [s.start for s in shaft.sections], [s.end for s in shaft.sections],
-            [s.bore for s in shaft.sections], [s.position for s in shaft.supports], [s.stiffness[0] for s in shaft.supports],
-            [s.position for s in shaft.stations])
+    rows = (
+        [s.length for s in shaft.sections],
+        [s.start for s in shaft.sections],
+        [s.end for s in shaft.sections],
+        [s.bore for s in shaft.sections],
+        [s.position for s in shaft.supports],
+        [s.stiffness[0] for s in shaft.supports],
+        [s.position for s in shaft.stations],
+    )
     return _Tables(*(np.tile(np.array(row, float), (count, 1)) for row in rows))
 
 

@@ -22,23 +22,29 @@ def frequencies(model, done):
     except InputError as error:
         return Answer(findings=(f"modes are absent: {error}",), outcome="left out")
     if not len(found.frequencies) + len(axial.frequencies):
-        return Answer(findings=("modes are absent: nothing that can move has a mass; give a density, or a station a mass",),
-                      outcome="left out")
-    values = {f"{kind}.{n}.frequency": Value(float(f), "Hz", f"natural frequency {n} {words}, at rest")
-              for kind, words, some in (("modes", "of bending", found), ("axial_modes", "along the axis", axial))
-              for n, f in enumerate(some.frequencies, 1)}
-    values |= {f"critical_speeds.{way}.{n}": Value(float(s), "rad/s", f"critical speed {n}, whirling {words} the shaft")
-               for way, words, speeds in (("forward", "with", critical.forward), ("backward", "against", critical.backward))
-               for n, s in enumerate(speeds, 1)}
-    values |= {f"torsional_modes.{n}.frequency": Value(float(f), "Hz", f"natural frequency {n} of torsion of the free shaft")
-               for n, f in enumerate(shafts.torsional(fine, min(count, 3)).frequencies, 1)}
+        return Answer(
+            findings=("modes are absent: nothing that can move has a mass; give a density, or a station a mass",), outcome="left out"
+        )
+    values = {
+        f"{kind}.{n}.frequency": Value(float(f), "Hz", f"natural frequency {n} {words}, at rest")
+        for kind, words, some in (("modes", "of bending", found), ("axial_modes", "along the axis", axial))
+        for n, f in enumerate(some.frequencies, 1)
+    }
+    values |= {
+        f"critical_speeds.{way}.{n}": Value(float(s), "rad/s", f"critical speed {n}, whirling {words} the shaft")
+        for way, words, speeds in (("forward", "with", critical.forward), ("backward", "against", critical.backward))
+        for n, s in enumerate(speeds, 1)
+    }
+    values |= {
+        f"torsional_modes.{n}.frequency": Value(float(f), "Hz", f"natural frequency {n} of torsion of the free shaft")
+        for n, f in enumerate(shafts.torsional(fine, min(count, 3)).frequencies, 1)
+    }
     lowest = shafts.lowest_excited(fine, critical)
     if lowest:
         values["critical_speeds.lowest"] = Value(
             lowest,
             "rad/s",
-            "lowest critical speed that an unbalance excites: with the shaft, on bearings "
-            "that are not the same all round also against it",
+            "lowest critical speed that an unbalance excites: with the shaft, on bearings that are not the same all round also against it",
         )
     massless, findings = _massless(model, done, found)
     return Answer(values | massless, (_shape_table(model, fine, found),), tuple(_speed_check(model, lowest)), findings)
@@ -48,8 +54,9 @@ def refined(model, at_rest):
     """The same equilibrium on a mesh that is fine enough for the shapes of the modes; bearings keep their tangents."""
     step = model.spec.analysis.element_length or model.shaft.length / ELEMENTS
     if model.shaft.length / step > MOST_ELEMENTS:
-        raise SpecError(f"makes {model.shaft.length / step:.0f} elements of the shaft; {MOST_ELEMENTS} are the most",
-                        "analysis.element_length")
+        raise SpecError(
+            f"makes {model.shaft.length / step:.0f} elements of the shaft; {MOST_ELEMENTS} are the most", "analysis.element_length"
+        )
     z = at_rest.model.beam.z
     places = np.concatenate([np.linspace(a, b, int(np.ceil((b - a) / step - 1e-9)) + 1) for a, b in zip(z[:-1], z[1:], strict=True)])
     fine = shafts.assemble(tangent_shaft(model.shaft, at_rest), places)
@@ -75,9 +82,12 @@ def _massless(model, done, shapes):
     root = np.sqrt(masses)
     inverse = np.linalg.eigvalsh(root[:, None] * found.delta * root)[::-1]
     squares = 1 / inverse[inverse > 1e-12 * inverse[0]]  # a station on a rigid bearing does not move
-    values = {f"massless_modes.{n}.frequency": Value(float(np.sqrt(s) / (2 * np.pi)), "Hz",
-                                                     f"natural frequency {n} of the stations' masses on a massless shaft")
-              for n, s in enumerate(squares, 1)}
+    values = {
+        f"massless_modes.{n}.frequency": Value(
+            float(np.sqrt(s) / (2 * np.pi)), "Hz", f"natural frequency {n} of the stations' masses on a massless shaft"
+        )
+        for n, s in enumerate(squares, 1)
+    }
     along = _first_along(model, shapes)
     if along is None or any(station.diametral for station in model.shaft.stations):
         return values, ()
@@ -97,8 +107,15 @@ def _first_along(model, shapes):
 def _speed_check(model, lowest):
     drive = model.spec.drive
     if drive is not None and lowest:
-        yield Check("critical_speed", lowest / drive.speed, model.spec.limits.critical_speed, ">=", "-",
-                    "lowest critical speed that an unbalance excites over the speed of the shaft", ("shaft",))
+        yield Check(
+            "critical_speed",
+            lowest / drive.speed,
+            model.spec.limits.critical_speed,
+            ">=",
+            "-",
+            "lowest critical speed that an unbalance excites over the speed of the shaft",
+            ("shaft",),
+        )
 
 
 def _shape_table(model, fine, found):

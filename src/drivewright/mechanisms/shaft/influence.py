@@ -26,25 +26,42 @@ def flexibility(model, done):
     except InputError as error:
         return Answer(findings=(f"flexibility and stiffness are absent: {error}",), outcome="left out")
     labels, bearings = model.names, tuple(support.name for support in model.shaft.supports)
-    arrays = {"flexibility": Array("m/N", ("station", "station"), (labels, labels), found.delta),
-              "flexibility.shares": Array("m/N", ("part", "station", "station"), (found.names, labels, labels), found.shares),
-              "reactions.unit_load": Array("-", ("bearing", "station"), (bearings, labels), found.reactions)}
-    values = {f"flexibility.{a}.{b}": Value(float(found.delta[i, j]), "m/N", f"displacement of {a!r} by a unit force at {b!r}")
-              for i, a in enumerate(labels) for j, b in enumerate(labels) if j >= i}
+    arrays = {
+        "flexibility": Array("m/N", ("station", "station"), (labels, labels), found.delta),
+        "flexibility.shares": Array("m/N", ("part", "station", "station"), (found.names, labels, labels), found.shares),
+        "reactions.unit_load": Array("-", ("bearing", "station"), (bearings, labels), found.reactions),
+    }
+    values = {
+        f"flexibility.{a}.{b}": Value(float(found.delta[i, j]), "m/N", f"displacement of {a!r} by a unit force at {b!r}")
+        for i, a in enumerate(labels)
+        for j, b in enumerate(labels)
+        if j >= i
+    }
     findings = []
     try:
         stiff = shafts.stiffness(found.delta, labels)
         arrays["stiffness"] = Array("N/m", ("station", "station"), (labels, labels), stiff)
-        values |= {f"stiffness.{a}.{b}": Value(float(stiff[i, j]), "N/m", f"force at {a!r} by a unit displacement of {b!r}, others held")
-                   for i, a in enumerate(labels) for j, b in enumerate(labels) if j >= i}
+        values |= {
+            f"stiffness.{a}.{b}": Value(float(stiff[i, j]), "N/m", f"force at {a!r} by a unit displacement of {b!r}, others held")
+            for i, a in enumerate(labels)
+            for j, b in enumerate(labels)
+            if j >= i
+        }
         values["condition_number"] = Value(found.condition, "-", "condition number of flexibility and stiffness")
     except InputError as error:
         findings.append(f"array 'stiffness' is absent: {error}")
     if any(support.law is not None for support in model.shaft.supports):
         findings.append("bearings are not linear: flexibility and stiffness are tangents at the equilibrium of the given loads")
     off = shafts.unit_imbalance(found, model.shaft, model.places, model.direction)
-    check = Check("equilibrium.unit_loads", off, BALANCED, "<=", "-",
-                  "forces and moments that do not balance under a unit force at a station, the largest", ("shaft",))
+    check = Check(
+        "equilibrium.unit_loads",
+        off,
+        BALANCED,
+        "<=",
+        "-",
+        "forces and moments that do not balance under a unit force at a station, the largest",
+        ("shaft",),
+    )
     return Answer(values, (_unit_table(model, found, at_rest), _share_table(model, found)), (check,), tuple(findings), arrays, data=found)
 
 

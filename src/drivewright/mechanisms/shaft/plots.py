@@ -14,8 +14,14 @@ def _all(result):
     columns = [name for each in ("deflection", "slope", "shear", "moment") for name in dict.fromkeys((each, each + across))]
     yield Plot("diagram", "Deflection, slope, shear force and bending moment", "diagram", "z", tuple(columns))
     yield Plot("stress", "Stress along the shaft", "diagram", "z", ("stress",))
-    yield Plot("unit_load", "Deflection by a unit force; dashed: bearings rigid", "unit_load", "z", tuple(stations),
-               reference=tuple(f"{name}.rigid" for name in stations))
+    yield Plot(
+        "unit_load",
+        "Deflection by a unit force; dashed: bearings rigid",
+        "unit_load",
+        "z",
+        tuple(stations),
+        reference=tuple(f"{name}.rigid" for name in stations),
+    )
     parts = result.arrays["flexibility.shares"].labels[0] if "flexibility.shares" in result.arrays else ()
     yield Plot("shares", "Who contributes what to the flexibility", "shares", "entry", tuple(parts), style="bars")
     if "modes" in result.tables:
@@ -26,8 +32,13 @@ def _all(result):
             bearing = name.partition(".")[2]
             yield Plot(name, f"Load on the rolling elements of bearing {bearing}", name, "angle", ("load",), style="polar")
             angled = ("contact_angle",) if any(result.tables[name]["contact_angle"].data) else ()
-            yield Plot(f"contact.{bearing}", f"Contact angle and pressure in bearing {bearing}", name, "angle",
-                       (*angled, "inner_pressure", "outer_pressure"))
+            yield Plot(
+                f"contact.{bearing}",
+                f"Contact angle and pressure in bearing {bearing}",
+                name,
+                "angle",
+                (*angled, "inner_pressure", "outer_pressure"),
+            )
         if name.startswith("curve."):
             yield Plot(name, f"Bearing {name.partition('.')[2]} over its load", name, "load", ("displacement", "tangent", "secant"))
     yield Plot(

@@ -45,8 +45,9 @@ def _names(spec):
 def _places(spec):
     """Everything stands on the shaft; no two bearings and no two stations at one place."""
     far = spec.length
-    wanted = [(f"{table}.{entry.name}.position", entry.position) for table in ("bearings", "stations", "gears")
-              for entry in getattr(spec, table)]
+    wanted = [
+        (f"{table}.{entry.name}.position", entry.position) for table in ("bearings", "stations", "gears") for entry in getattr(spec, table)
+    ]
     wanted += [(f"loads.{number}.position", load.position) for number, load in enumerate(spec.loads) if load.position is not None]
     wanted += [
         (f"line_loads.{number}.{end}", getattr(load, end)) for number, load in enumerate(spec.line_loads) for end in ("start", "end")
@@ -59,8 +60,10 @@ def _places(spec):
         entries = sorted(getattr(spec, table), key=lambda entry: entry.position)
         for one, two in zip(entries, entries[1:], strict=False):
             if two.position - one.position <= NEAR * far:
-                raise SpecError(f"stands at {_mm(two.position)}, where {one.name!r} stands already; {table} need different places",
-                                f"{table}.{two.name}.position")
+                raise SpecError(
+                    f"stands at {_mm(two.position)}, where {one.name!r} stands already; {table} need different places",
+                    f"{table}.{two.name}.position",
+                )
 
 
 def _widths(spec):
@@ -92,8 +95,9 @@ def _bearings(spec):
             if getattr(bearing, key):
                 raise SpecError(f"belongs to a rolling bearing ({', '.join(ROLLING)})", f"{where}.{key}")
         if bearing.radial_clearance is not None and (bearing.radial_stiffness in (None, float("inf")) or bearing.radial_clearance < 0):
-            raise SpecError("a clearance above 0 goes with a rolling bearing or with a radial_stiffness that is not rigid",
-                            f"{where}.radial_clearance")
+            raise SpecError(
+                "a clearance above 0 goes with a rolling bearing or with a radial_stiffness that is not rigid", f"{where}.radial_clearance"
+            )
 
 
 def _places_of_loads(spec):
@@ -106,8 +110,10 @@ def _stations_of_loads(spec):
     names = [station.name for station in spec.stations]
     for number, load in enumerate(spec.loads):
         if load.station is not None and load.station not in names:
-            raise SpecError(f"there is no station {load.station!r}{nearest(load.station, names)}; known: {', '.join(names) or 'none'}",
-                            f"loads.{number}.station")
+            raise SpecError(
+                f"there is no station {load.station!r}{nearest(load.station, names)}; known: {', '.join(names) or 'none'}",
+                f"loads.{number}.station",
+            )
     for number, load in enumerate(spec.line_loads):
         if not load.end > load.start:
             raise SpecError(f"ends at {_mm(load.end)}, not right of its start at {_mm(load.start)}", f"line_loads.{number}.end")

@@ -56,8 +56,9 @@ def _stiffness(model, at_rest, number):
             tangent, "N/m", f"change of radial force over displacement of bearing {name!r}, all else held"
         )
     if size > 0 and way @ moved > 0:
-        values[f"bearings.{name}.stiffness.secant"] = Value(size / float(way @ moved), "N/m",
-                                                            f"radial force over displacement of bearing {name!r}, from the seat's axis")
+        values[f"bearings.{name}.stiffness.secant"] = Value(
+            size / float(way @ moved), "N/m", f"radial force over displacement of bearing {name!r}, from the seat's axis"
+        )
     for freedom, key, unit in ((2, "axial", "N/m"), (3, "tilt_x", "N m/rad"), (4, "tilt_y", "N m/rad")):
         own = float(at_rest.tangent[number, freedom, freedom])
         if np.isfinite(own):
@@ -70,9 +71,11 @@ def _stiffness(model, at_rest, number):
 def _elements(model, name, inner, state):
     about, unit = f"of bearing {name!r}", f"bearings.{name}"
     loaded = int(np.sum(state.element_loads > 0))
-    values = {f"{unit}.max_element_load": Value(float(state.element_loads.max()), "N", f"load of the most loaded rolling element {about}"),
-              f"{unit}.max_pressure": Value(float(state.pressures.max()), "Pa", f"largest Hertz pressure {about}"),
-              f"{unit}.loaded_elements": Value(float(loaded), "-", f"rolling elements under load {about}")}
+    values = {
+        f"{unit}.max_element_load": Value(float(state.element_loads.max()), "N", f"load of the most loaded rolling element {about}"),
+        f"{unit}.max_pressure": Value(float(state.pressures.max()), "Pa", f"largest Hertz pressure {about}"),
+        f"{unit}.loaded_elements": Value(float(loaded), "-", f"rolling elements under load {about}"),
+    }
     if state.pressures.max() > 0:
         values[f"{unit}.static_safety"] = Value(
             static_safety(inner, state), "-", f"load at the permissible static pressure over the load {about}"
@@ -93,8 +96,13 @@ def _basic_life(name, inner, state):
     radial, axial = float(np.hypot(*state.force[:2])), abs(state.force[2])
     if inner.dynamic_rating is None or inner.contact_angle or not radial > 0 or axial > LEAST_E * radial:
         return {}
-    return {f"bearings.{name}.basic_life": Value(float(bearings.basic_life(inner, radial)), "-",
-                                                 f"basic life L10 (ISO 281) of bearing {name!r}, revolutions, at P = its radial force")}
+    return {
+        f"bearings.{name}.basic_life": Value(
+            float(bearings.basic_life(inner, radial)),
+            "-",
+            f"basic life L10 (ISO 281) of bearing {name!r}, revolutions, at P = its radial force",
+        )
+    }
 
 
 def static_safety(inner, state):
@@ -108,13 +116,27 @@ def _checks(model, name, inner, state):
     shock = limits.shock_factor
     if state.pressures.max() > 0:
         under = f", at {shock:g} times the load" if shock > 1 else ""
-        yield Check(f"static_safety.{name}", static_safety(inner, state) / shock, limits.static_safety, ">=", "-",
-                    f"static load of bearing {name!r} by its contact pressure over its load{under}", (name,))
+        yield Check(
+            f"static_safety.{name}",
+            static_safety(inner, state) / shock,
+            limits.static_safety,
+            ">=",
+            "-",
+            f"static load of bearing {name!r} by its contact pressure over its load{under}",
+            (name,),
+        )
     life = state.reference_life
     if limits.life and model.spec.drive and life is not None and np.isfinite(life):
         seconds = float(life) * 2 * np.pi / model.spec.drive.speed
-        yield Check(f"life.{name}", seconds, limits.life, ">=", "s",
-                    f"reference life of bearing {name!r}: {seconds / 3600:.4g} h of {limits.life / 3600:.4g} h", (name,))
+        yield Check(
+            f"life.{name}",
+            seconds,
+            limits.life,
+            ">=",
+            "s",
+            f"reference life of bearing {name!r}: {seconds / 3600:.4g} h of {limits.life / 3600:.4g} h",
+            (name,),
+        )
 
 
 def _findings(name, inner, state):
@@ -165,6 +187,13 @@ def _curve(model, name, inner, state):
         load = factor * float(np.hypot(*force[:2]))
         rows.append((load, moved, float(way @ found.stiffness[:2, :2] @ way), load / moved if moved > 0 else np.nan))
     load, moved, tangent, secant = np.array(rows).T
-    yield Table(f"curve.{name}", f"Bearing {name} over its load", (
-        Column("load", "N", "radial force, axial force in proportion", load), Column("displacement", "m", "radial displacement", moved),
-        Column("tangent", "N/m", "tangent stiffness", tangent), Column("secant", "N/m", "secant stiffness", secant)))
+    yield Table(
+        f"curve.{name}",
+        f"Bearing {name} over its load",
+        (
+            Column("load", "N", "radial force, axial force in proportion", load),
+            Column("displacement", "m", "radial displacement", moved),
+            Column("tangent", "N/m", "tangent stiffness", tangent),
+            Column("secant", "N/m", "secant stiffness", secant),
+        ),
+    )

@@ -39,14 +39,26 @@ def scene(model):
         return _poses(place, factor * part * np.interp(place, middles, up), 0.0)
 
     bodies = [Body("rest", "shaft at rest", tuple(sketch.silhouette(model.shaft)), still, "ground")]
-    bodies += [bent(f"bearing.{support.name}", "bearing", sketch.bearing(model, support),
-                    _poses(0.0, factor * _raised(model, bearing) + 0 * part, 0.0), "green")
-               for support, bearing in zip(model.shaft.supports, model.spec.bearings, strict=True)]
+    bodies += [
+        bent(
+            f"bearing.{support.name}",
+            "bearing",
+            sketch.bearing(model, support),
+            _poses(0.0, factor * _raised(model, bearing) + 0 * part, 0.0),
+            "green",
+        )
+        for support, bearing in zip(model.shaft.supports, model.spec.bearings, strict=True)
+    ]
     bodies += [bent(f"gear.{gear.name}", "gear", sketch.gear(model, gear), riding(gear.position), "violet") for gear in model.spec.gears]
-    bodies += [bent(f"shaft.{n}", name, shapes, _poses(middle, factor * part * u, np.arctan(factor * part * t)), "blue")
-               for n, (middle, shapes, u, t) in enumerate(zip(middles, sketch.slices(model.shaft, z), up, turn, strict=True))]
-    bodies += [bent(f"load.{n}", "load", sketch.arrow(model, place, force), riding(place), "orange")
-               for n, (place, force) in enumerate(_shown(model)) if abs(force) > 1e-9]
+    bodies += [
+        bent(f"shaft.{n}", name, shapes, _poses(middle, factor * part * u, np.arctan(factor * part * t)), "blue")
+        for n, (middle, shapes, u, t) in enumerate(zip(middles, sketch.slices(model.shaft, z), up, turn, strict=True))
+    ]
+    bodies += [
+        bent(f"load.{n}", "load", sketch.arrow(model, place, force), riding(place), "orange")
+        for n, (place, force) in enumerate(_shown(model))
+        if abs(force) > 1e-9
+    ]
     return Scene(phase, "load grows and fades", "rad", 2.0, tuple(bodies), (Frame("side", "seen from the side, exaggerated", still),))
 
 
@@ -105,8 +117,11 @@ def exaggeration(largest, length):
 def drawings(model):
     """The turned part along its axis."""
     shaft, ends = model.shaft, model.shaft.ends
-    upper = [(z, radius) for section, a, b in zip(shaft.sections, ends[:-1], ends[1:], strict=True)
-             for z, radius in ((a, section.start / 2), (b, section.end / 2))]
+    upper = [
+        (z, radius)
+        for section, a, b in zip(shaft.sections, ends[:-1], ends[1:], strict=True)
+        for z, radius in ((a, section.start / 2), (b, section.end / 2))
+    ]
     upper = [point for n, point in enumerate(upper) if n == 0 or np.hypot(*np.subtract(point, upper[n - 1])) > 1e-9]
     outline = polygon([(z, -r) for z, r in upper] + [(z, r) for z, r in reversed(upper)])
     over = 0.03 * shaft.length

@@ -58,8 +58,15 @@ def deflections(shaft, springs, forces, wanted):
     matrix[n + 1, 2:], right[n + 1] = places, sum(s * force for s, force in forces)
     scale = np.abs(matrix).max(axis=0)
     found = np.linalg.solve(matrix / scale, right) / scale
-    return np.array([found[0] * x + found[1] + sum(f * influence(shaft, x, s) for s, f in forces)
-                     - sum(r * influence(shaft, x, s) for s, r in zip(places, found[2:], strict=True)) for x in wanted])
+    return np.array(
+        [
+            found[0] * x
+            + found[1]
+            + sum(f * influence(shaft, x, s) for s, f in forces)
+            - sum(r * influence(shaft, x, s) for s, r in zip(places, found[2:], strict=True))
+            for x in wanted
+        ]
+    )
 
 
 def flexibility(shaft, springs, places):
@@ -89,9 +96,9 @@ def acting(loaded, axis):
 
 def through(shaft, first, last, forces, couples, wanted):
     """Deflection at places `wanted` of the free shaft under forces that balance, through two points (place, deflection)."""
+
     def bent(x):
-        return (sum(f * influence(shaft, x, s) for s, f in forces)
-                + sum(m * influence(shaft, x, s, couple=True) for s, m in couples))
+        return sum(f * influence(shaft, x, s) for s, f in forces) + sum(m * influence(shaft, x, s, couple=True) for s, m in couples)
 
     (a, u), (b, v) = first, last
     slope = ((v - bent(b)) - (u - bent(a))) / (b - a)

@@ -34,10 +34,23 @@ def sensitivities(model, done):
             if np.isfinite(part[i, j])
         }
     names, held, *columns = zip(*rows, strict=True)
-    return Answer(values, (Table("sensitivities", "Sensitivities of the flexibility, relative change over relative change", (
-        Column("parameter", "-", "parameter", np.array(names)), Column("held", "-", "what is held", np.array(held)),
-        *(Column(f"{model.names[i]}.{model.names[j]}", "-", f"of {model.names[i]}, {model.names[j]}", np.array(column))
-          for (i, j), column in zip(pairs, columns, strict=True)))),))
+    return Answer(
+        values,
+        (
+            Table(
+                "sensitivities",
+                "Sensitivities of the flexibility, relative change over relative change",
+                (
+                    Column("parameter", "-", "parameter", np.array(names)),
+                    Column("held", "-", "what is held", np.array(held)),
+                    *(
+                        Column(f"{model.names[i]}.{model.names[j]}", "-", f"of {model.names[i]}, {model.names[j]}", np.array(column))
+                        for (i, j), column in zip(pairs, columns, strict=True)
+                    ),
+                ),
+            ),
+        ),
+    )
 
 
 def _of_parts(model, found):
@@ -62,8 +75,7 @@ def _of_sections(model, at_rest, found):
     middles = beam.z[:-1] + 0.5 * beam.pieces[:, 0]
     at = np.clip(np.searchsorted(shaft.ends, middles) - 1, 0, len(shaft.sections) - 1)
     change = (
-        sum(weight * beams.clamped(beam.pieces * (1.0, np.exp(k * STEP), np.exp(k * STEP), 1.0), shaft)[0] for k, weight in WEIGHTS)
-        / STEP
+        sum(weight * beams.clamped(beam.pieces * (1.0, np.exp(k * STEP), np.exp(k * STEP), 1.0), shaft)[0] for k, weight in WEIGHTS) / STEP
     )
     forces = np.array([[beams.end_forces(beam, plane, column) for column in found.unknowns.T] for plane in (0, 1)])
     for number in range(len(shaft.sections)):
@@ -78,12 +90,14 @@ def _of_places(model, at_rest):
     features = sorted((*base.supports, *base.stations), key=lambda each: each.position)
     for one, two in zip(features, features[1:], strict=False):
         if two.position > one.position:
-            yield (f"distance.{one.name}-{two.name}", "all other distances held, what is right of it moves along",
-                   _slope(model, lambda f, a=one.position, b=two.position: _stretched(base, a, b, f)))
+            yield (
+                f"distance.{one.name}-{two.name}",
+                "all other distances held, what is right of it moves along",
+                _slope(model, lambda f, a=one.position, b=two.position: _stretched(base, a, b, f)),
+            )
     for station in base.stations:
         if 0 < station.position < base.length:
-            yield (f"stations.{station.name}.position", "all else held",
-                   _slope(model, lambda f, name=station.name: _moved(base, name, f)))
+            yield (f"stations.{station.name}.position", "all else held", _slope(model, lambda f, name=station.name: _moved(base, name, f)))
 
 
 def _slope(model, change):
@@ -102,6 +116,7 @@ def _delta(model, shaft):
 
 def _stretched(shaft, start, end, factor):
     """The shaft with the stretch from `start` to `end` longer by a factor, everything beyond carried along."""
+
     def place(z):
         return z + (factor - 1) * np.clip(z - start, 0.0, end - start)
 

@@ -10,8 +10,9 @@ ARROW = 0.09  # length of an arrow over the shaft's
 
 def box(x, y, width, height):
     """Outline of a rectangle about (x, y)."""
-    return polygon([(x - width / 2, y - height / 2), (x + width / 2, y - height / 2), (x + width / 2, y + height / 2),
-                    (x - width / 2, y + height / 2)])
+    return polygon(
+        [(x - width / 2, y - height / 2), (x + width / 2, y - height / 2), (x + width / 2, y + height / 2), (x - width / 2, y + height / 2)]
+    )
 
 
 def radius_at(shaft, z, side="right"):
@@ -24,8 +25,11 @@ def radius_at(shaft, z, side="right"):
 
 def silhouette(shaft):
     """The outline of the shaft at rest, thin."""
-    upper = [(z, r) for a, b in zip(shaft.ends[:-1], shaft.ends[1:], strict=True)
-             for z, r in ((a, radius_at(shaft, a)), (b, radius_at(shaft, b, "left")))]
+    upper = [
+        (z, r)
+        for a, b in zip(shaft.ends[:-1], shaft.ends[1:], strict=True)
+        for z, r in ((a, radius_at(shaft, a)), (b, radius_at(shaft, b, "left")))
+    ]
     yield Shape("axis", polygon([(0.0, 0.0), (shaft.length, 0.0)], closed=False))
     yield Shape("base", polygon([(z, -r) for z, r in upper] + [(z, r) for z, r in reversed(upper)]))
 
@@ -64,8 +68,9 @@ def _element(inner, support, middle, element):
     if bearings.contact_of(inner) == "point":
         return circle((support.position, middle), element / 2)
     turn = (1 if support.mirrored else -1) * np.sign(middle) * inner.contact_angle
-    corners = 0.5 * np.array([(-inner.roller_length, -element), (inner.roller_length, -element), (inner.roller_length, element),
-                              (-inner.roller_length, element)])
+    corners = 0.5 * np.array(
+        [(-inner.roller_length, -element), (inner.roller_length, -element), (inner.roller_length, element), (-inner.roller_length, element)]
+    )
     c, s = np.cos(turn), np.sin(turn)
     return polygon(corners @ np.array([[c, s], [-s, c]]) + (support.position, middle))
 

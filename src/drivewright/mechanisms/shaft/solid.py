@@ -32,8 +32,9 @@ def bands(model, at_rest):
 
 def beam_on(model, seats):
     """Flexibility of the beam on the same bands."""
-    supports = tuple(shafts.Support(f"band {n}", band.position, (band.stiffness,) * 2 + (0.0,) * 3, width=band.width)
-                     for n, band in enumerate(seats))
+    supports = tuple(
+        shafts.Support(f"band {n}", band.position, (band.stiffness,) * 2 + (0.0,) * 3, width=band.width) for n, band in enumerate(seats)
+    )
     system = shafts.assemble(model.shaft._replace(supports=supports))
     return shafts.flexibility(shafts.solve(system, shafts.work(system, ())), model.places, model.direction).delta
 
@@ -41,8 +42,9 @@ def beam_on(model, seats):
 def compared(model, at_rest):
     """(bands, the solid's answer, flexibility of the beam on the same bands)."""
     seats = tuple(bands(model, at_rest))
-    found = shaft_check.solid_flexibility(tuple(section[:4] for section in model.shaft.sections), model.shaft.modulus, model.shaft.poisson,
-                                          seats, tuple(model.places))
+    found = shaft_check.solid_flexibility(
+        tuple(section[:4] for section in model.shaft.sections), model.shaft.modulus, model.shaft.poisson, seats, tuple(model.places)
+    )
     return seats, found, beam_on(model, seats)
 
 
@@ -69,15 +71,15 @@ def solid(model, done):
         "solid.seconds": Value(float(found.seconds), "s", "time to mesh and solve"),
     }
     values |= {
-        f"solid.flexibility.{a}.{b}": Value(
-            float(found.flexibility[i, j]), "m/N", f"displacement of {a!r} by a unit force at {b!r}, solid"
-        )
+        f"solid.flexibility.{a}.{b}": Value(float(found.flexibility[i, j]), "m/N", f"displacement of {a!r} by a unit force at {b!r}, solid")
         for i, a in enumerate(model.names)
         for j, b in enumerate(model.names)
         if j >= i
     }
-    arrays = {"solid.flexibility": Array("m/N", ("station", "station"), (model.names, model.names), found.flexibility),
-              "solid.beam": Array("m/N", ("station", "station"), (model.names, model.names), beam)}
+    arrays = {
+        "solid.flexibility": Array("m/N", ("station", "station"), (model.names, model.names), found.flexibility),
+        "solid.beam": Array("m/N", ("station", "station"), (model.names, model.names), beam),
+    }
     last = len(model.names) - 1
     table = shaft_check.surface_table(found, last, title=f"Shaft as a solid, force at {model.names[last]}")
     check = Check(

@@ -63,14 +63,17 @@ Designation = Annotated[Text, BeforeValidator(lambda value: str(value) if type(v
 class Material(Spec):
     """The shaft's material."""
 
-    card: Text | None = Field(None, description="a material card that fills in what is not given here: C45, 42CrMo4, 16MnCr5 ...",
-                              examples=["C45"])
+    card: Text | None = Field(
+        None, description="a material card that fills in what is not given here: C45, 42CrMo4, 16MnCr5 ...", examples=["C45"]
+    )
     youngs_modulus: Pressure | None = Field(None, gt=0, description="Young's modulus; of the card, else 206 GPa", examples=["206 GPa"])
     poisson_ratio: Number | None = Field(None, gt=-1, lt=0.5, description="Poisson's ratio; of the card, else 0.3", examples=[0.3])
-    density: Density | None = Field(None, ge=0, description="density, 0 of a massless shaft; of the card, else 7850 kg/m^3",
-                                    examples=["7850 kg/m^3"])
-    yield_strength: Pressure | None = Field(None, gt=0, description="yield strength, for stress checks; of the card, else none",
-                                            examples=["355 MPa"])
+    density: Density | None = Field(
+        None, ge=0, description="density, 0 of a massless shaft; of the card, else 7850 kg/m^3", examples=["7850 kg/m^3"]
+    )
+    yield_strength: Pressure | None = Field(
+        None, gt=0, description="yield strength, for stress checks; of the card, else none", examples=["355 MPa"]
+    )
 
 
 class Segment(Spec):
@@ -87,23 +90,36 @@ class Bearing(Spec):
 
     name: Name = Field(description="name", examples=["A"])
     position: Length = Field(description="distance from the left end of the shaft", examples=["56.5 mm"])
-    radial_stiffness: StiffnessOrRigid | None = Field(None, description='across the shaft, all round; "rigid" does not yield',
-                                                      examples=["3e7 N/m"])
-    axial_stiffness: StiffnessOrRigid | None = Field(None, description="along the shaft, beside radial_stiffness or a table",
-                                                     examples=["1e7 N/m"])
-    tilt_stiffness: RotationalStiffness | None = Field(None, gt=0, description="against tilting, beside radial_stiffness or a table",
-                                                       examples=["2e4 N m/rad"])
-    table: DataFile | None = Field(None, description="CSV of the radial force over the radial displacement instead: "
-                                                     "displacement [um],force [N] from 0, 0")
+    radial_stiffness: StiffnessOrRigid | None = Field(
+        None, description='across the shaft, all round; "rigid" does not yield', examples=["3e7 N/m"]
+    )
+    axial_stiffness: StiffnessOrRigid | None = Field(
+        None, description="along the shaft, beside radial_stiffness or a table", examples=["1e7 N/m"]
+    )
+    tilt_stiffness: RotationalStiffness | None = Field(
+        None, gt=0, description="against tilting, beside radial_stiffness or a table", examples=["2e4 N m/rad"]
+    )
+    table: DataFile | None = Field(
+        None, description="CSV of the radial force over the radial displacement instead: displacement [um],force [N] from 0, 0"
+    )
     bearing: Designation | None = Field(None, description="designation in the catalogue instead, e.g. 61804", examples=["61804"])
     geometry: BallBearing | None = Field(None, description="inner geometry of a ball bearing instead")
     roller_geometry: RollerBearing | None = Field(None, description="inner geometry of a roller bearing instead")
-    radial_clearance: Length | None = Field(None, description="play across the diameter, counted as for rolling bearings: of a rolling "
-                                                              "bearing instead of its own, of a spring twice the gap", examples=["10 um"])
-    preload: Force = Field("0 N", ge=0, description="axial force that a rolling bearing is mounted with, on a shaft that does not yield; "
-                                                    "where it is free to slide, that of the spring behind it")
-    carries: Literal["right", "left"] = Field("right", description="which axial force on the shaft an angular-contact or tapered bearing "
-                                                                   "takes")
+    radial_clearance: Length | None = Field(
+        None,
+        description="play across the diameter, counted as for rolling bearings: of a rolling "
+        "bearing instead of its own, of a spring twice the gap",
+        examples=["10 um"],
+    )
+    preload: Force = Field(
+        "0 N",
+        ge=0,
+        description="axial force that a rolling bearing is mounted with, on a shaft that does not yield; "
+        "where it is free to slide, that of the spring behind it",
+    )
+    carries: Literal["right", "left"] = Field(
+        "right", description="which axial force on the shaft an angular-contact or tapered bearing takes"
+    )
     free: tuple[Literal["axial", "tilt"], ...] = Field(
         (), description="freedoms that the seat of a rolling bearing leaves to its outer ring"
     )
@@ -112,10 +128,12 @@ class Bearing(Spec):
     housing_stiffness: StiffnessOrRigid = Field(RIGID, description="of the housing across the shaft, in series with the bearing")
     housing_axial_stiffness: StiffnessOrRigid = Field(RIGID, description="of the housing along the shaft")
     width: Length = Field("0 mm", ge=0, description="the reaction is spread evenly over it; 0: it acts at a point")
-    dynamic_rating: Force | None = Field(None, gt=0, description="basic dynamic load rating C, instead of the rolling bearing's own",
-                                         examples=["4.03 kN"])
-    static_rating: Force | None = Field(None, gt=0, description="basic static load rating C0, instead of the rolling bearing's own",
-                                        examples=["2.32 kN"])
+    dynamic_rating: Force | None = Field(
+        None, gt=0, description="basic dynamic load rating C, instead of the rolling bearing's own", examples=["4.03 kN"]
+    )
+    static_rating: Force | None = Field(
+        None, gt=0, description="basic static load rating C0, instead of the rolling bearing's own", examples=["2.32 kN"]
+    )
 
 
 class Station(Spec):
@@ -179,11 +197,16 @@ class Analysis(Spec):
 
     theory: Literal["timoshenko", "euler-bernoulli"] = Field("timoshenko", description="beam with or without shear and rotary inertia")
     shear_coefficient: Literal["cowper"] | Number = Field("cowper", description='"cowper", or a number for a section of your own')
-    direction: Angle | None = Field(None, description="of the unit loads behind flexibility and stiffness, from x towards y; that of the "
-                                                      "loads where they share a plane, else down", examples=["-90 deg"])
+    direction: Angle | None = Field(
+        None,
+        description="of the unit loads behind flexibility and stiffness, from x towards y; that of the "
+        "loads where they share a plane, else down",
+        examples=["-90 deg"],
+    )
     modes: Integer = Field(3, ge=0, le=50, description="natural frequencies to find")
-    element_length: Length | None = Field(None, gt=0, description="longest element for the modes; a fortieth of the shaft unless given",
-                                          examples=["10 mm"])
+    element_length: Length | None = Field(
+        None, gt=0, description="longest element for the modes; a fortieth of the shaft unless given", examples=["10 mm"]
+    )
     solid_band: Length = Field("2 mm", gt=0, description="width of the bearing bands of the solid check; a bearing's own width goes first")
 
 
@@ -216,7 +239,8 @@ class ShaftSpec(MechanismSpec):
     mechanism: Literal["shaft"] = Field("shaft", description="kind of drive")
     catalogue: DataFile | None = Field(None, description="a catalogue of rolling bearings of your own (TOML), beside ours")
     gravity: tuple[Acceleration, Acceleration, Acceleration] = Field(
-        ("0 m/s^2", "0 m/s^2", "0 m/s^2"), description="acceleration of free fall along x, y, z; down is [0, -9.81, 0]")
+        ("0 m/s^2", "0 m/s^2", "0 m/s^2"), description="acceleration of free fall along x, y, z; down is [0, -9.81, 0]"
+    )
     material: Material = Field(Material(), description="material")
     segments: tuple[Segment, ...] = Field(min_length=1, description="segments, left to right")
     bearings: tuple[Bearing, ...] = Field(min_length=1, description="bearings")

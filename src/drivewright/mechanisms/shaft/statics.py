@@ -17,22 +17,33 @@ def statics(model, done):
     """Equilibrium under all loads; `data` is the `Loaded` shaft for the analyses that start from it."""
     loaded = shafts.load(model.shaft, model.loads)
     checks = (*_slenderness(model),)
-    values = {f"bearings.{m.support.name}.{key}": value for m, b in zip(loaded.equilibrium.model.mounts, model.spec.bearings, strict=True)
-              if not is_rolling(b) and b.radial_stiffness not in (None, np.inf) and not b.radial_clearance
-              for key, value in _linear_stiffness(m.support).items()}
+    values = {
+        f"bearings.{m.support.name}.{key}": value
+        for m, b in zip(loaded.equilibrium.model.mounts, model.spec.bearings, strict=True)
+        if not is_rolling(b) and b.radial_stiffness not in (None, np.inf) and not b.radial_clearance
+        for key, value in _linear_stiffness(m.support).items()
+    }
     if not model.loaded:
-        return Answer(values, (), checks, ("there are no loads: deflections and stresses are absent, flexibility is that of the "
-                                           "unloaded shaft",), data=loaded)
+        return Answer(
+            values,
+            (),
+            checks,
+            ("there are no loads: deflections and stresses are absent, flexibility is that of the unloaded shaft",),
+            data=loaded,
+        )
     drawn = shafts.diagram(loaded, SAMPLES)
     values |= _stations(model, loaded) | _bearings(model, loaded) | _extremes(model, drawn)
-    return Answer(values, (_diagram_table(model, drawn), _reaction_table(model, loaded)), (*checks, *_checks(model, loaded, drawn)),
-                  data=loaded)
+    return Answer(
+        values, (_diagram_table(model, drawn), _reaction_table(model, loaded)), (*checks, *_checks(model, loaded, drawn)), data=loaded
+    )
 
 
 def _linear_stiffness(support):
     radial = support.stiffness[0]
-    return {"stiffness.tangent": Value(radial, "N/m", f"change of radial force over displacement of bearing {support.name!r}, at any load"),
-            "stiffness.secant": Value(radial, "N/m", f"radial force over displacement of bearing {support.name!r}, at any load")}
+    return {
+        "stiffness.tangent": Value(radial, "N/m", f"change of radial force over displacement of bearing {support.name!r}, at any load"),
+        "stiffness.secant": Value(radial, "N/m", f"radial force over displacement of bearing {support.name!r}, at any load"),
+    }
 
 
 def with_load(model, vector):
@@ -90,9 +101,11 @@ def slope_at(loaded, position):
 
 
 def _extremes(model, drawn):
-    told = (("max_deflection", np.hypot(*drawn.deflection.T), "m", "largest deflection along the shaft"),
-            ("max_moment", np.hypot(*drawn.moment.T), "N m", "largest bending moment"),
-            ("max_stress", drawn.von_mises, "Pa", "largest von Mises stress, nominal: without notches"))
+    told = (
+        ("max_deflection", np.hypot(*drawn.deflection.T), "m", "largest deflection along the shaft"),
+        ("max_moment", np.hypot(*drawn.moment.T), "N m", "largest bending moment"),
+        ("max_stress", drawn.von_mises, "Pa", "largest von Mises stress, nominal: without notches"),
+    )
     values = {}
     for name, data, unit, meaning in told:
         at = int(np.argmax(data))
@@ -107,12 +120,33 @@ def _checks(model, loaded, drawn):
     limits, shock = model.spec.limits, model.spec.limits.shock_factor
     stress, under = float(drawn.von_mises.max()), f", at {shock:g} times the load" if shock > 1 else ""
     if model.yield_strength and stress > 0:
-        yield Check("yield_safety", model.yield_strength / (shock * stress), limits.yield_safety, ">=", "-",
-                    f"yield strength over the largest nominal stress{under}", ("shaft",))
-    yield Check("equilibrium", shafts.imbalance(loaded, model.loads), BALANCED, "<=", "-",
-                "forces and moments on the shaft that do not balance, over the sum of all", ("shaft",))
-    yield Check("small_deflections", _farthest(loaded, drawn) / model.shaft.length, limits.largest_deflection, "<=", "-",
-                "largest deflection over the length of the shaft: beyond it the linear theory does not hold", ("shaft",))
+        yield Check(
+            "yield_safety",
+            model.yield_strength / (shock * stress),
+            limits.yield_safety,
+            ">=",
+            "-",
+            f"yield strength over the largest nominal stress{under}",
+            ("shaft",),
+        )
+    yield Check(
+        "equilibrium",
+        shafts.imbalance(loaded, model.loads),
+        BALANCED,
+        "<=",
+        "-",
+        "forces and moments on the shaft that do not balance, over the sum of all",
+        ("shaft",),
+    )
+    yield Check(
+        "small_deflections",
+        _farthest(loaded, drawn) / model.shaft.length,
+        limits.largest_deflection,
+        "<=",
+        "-",
+        "largest deflection over the length of the shaft: beyond it the linear theory does not hold",
+        ("shaft",),
+    )
     slope = float(np.hypot(*drawn.slope.T).max())
     yield Check(
         "small_slopes", slope, limits.largest_slope, "<=", "rad", "largest slope: beyond it the linear theory does not hold", ("shaft",)
@@ -152,8 +186,15 @@ def _bearing_checks(model, loaded, bearing, force, under):
         )
     if bearing.static_rating and force > 0:  # of a rolling bearing beside the check of its pressure
         name = "static_rating" if bearing.name in model.rolling else "static_safety"
-        yield Check(f"{name}.{bearing.name}", bearing.static_rating / (limits.shock_factor * force), limits.static_safety, ">=", "-",
-                    f"static rating of bearing {bearing.name!r} over its radial force{under}", (bearing.name,))
+        yield Check(
+            f"{name}.{bearing.name}",
+            bearing.static_rating / (limits.shock_factor * force),
+            limits.static_safety,
+            ">=",
+            "-",
+            f"static rating of bearing {bearing.name!r} over its radial force{under}",
+            (bearing.name,),
+        )
 
 
 def _slenderness(model):
@@ -165,8 +206,12 @@ def _slenderness(model):
 
 
 def _diagram_table(model, drawn):
-    pairs = (("deflection", drawn.deflection, "m", "deflection"), ("slope", drawn.slope, "rad", "slope"),
-             ("shear", drawn.shear, "N", "shear force"), ("moment", drawn.moment, "N m", "bending moment"))
+    pairs = (
+        ("deflection", drawn.deflection, "m", "deflection"),
+        ("slope", drawn.slope, "rad", "slope"),
+        ("shear", drawn.shear, "N", "shear force"),
+        ("moment", drawn.moment, "N m", "bending moment"),
+    )
     columns = [Column("z", "m", "distance from the left end", drawn.z)]
     for name, data, unit, meaning in pairs:
         columns += [
@@ -178,10 +223,13 @@ def _diagram_table(model, drawn):
                 data @ [model.direction[1], -model.direction[0]],
             ),
         ]
-    columns += [Column("axial", "N", "axial force, tension positive", drawn.axial), Column("torque", "N m", "torque", drawn.torque),
-                Column("bending_stress", "Pa", "nominal stress by bending and tension", drawn.bending),
-                Column("torsion_stress", "Pa", "nominal shear stress by torsion", drawn.torsion),
-                Column("stress", "Pa", "von Mises stress, nominal", drawn.von_mises)]
+    columns += [
+        Column("axial", "N", "axial force, tension positive", drawn.axial),
+        Column("torque", "N m", "torque", drawn.torque),
+        Column("bending_stress", "Pa", "nominal stress by bending and tension", drawn.bending),
+        Column("torsion_stress", "Pa", "nominal shear stress by torsion", drawn.torsion),
+        Column("stress", "Pa", "von Mises stress, nominal", drawn.von_mises),
+    ]
     return Table("diagram", "The loaded shaft along its length", tuple(columns))
 
 
@@ -190,8 +238,12 @@ def _reaction_table(model, loaded):
     names = np.array([bearing.name for bearing in model.spec.bearings])
     units, told = ("N", "N", "N", "N m", "N m"), ("along x", "along y", "along z", "moment about x", "moment about y")
     columns = [Column("bearing", "-", "bearing", names)]
-    columns += [Column(f"reaction_{key}", unit, f"reaction on the shaft, {words}", reactions[:, i])
-                for i, (key, unit, words) in enumerate(zip(("x", "y", "z", "tilt_x", "tilt_y"), units, told, strict=True))]
-    columns += [Column(f"displacement_{key}", unit, f"of the shaft against the seat, {key}", moved[:, i])
-                for i, (key, unit) in enumerate(zip(("x", "y", "z", "tilt_x", "tilt_y"), ("m", "m", "m", "rad", "rad"), strict=True))]
+    columns += [
+        Column(f"reaction_{key}", unit, f"reaction on the shaft, {words}", reactions[:, i])
+        for i, (key, unit, words) in enumerate(zip(("x", "y", "z", "tilt_x", "tilt_y"), units, told, strict=True))
+    ]
+    columns += [
+        Column(f"displacement_{key}", unit, f"of the shaft against the seat, {key}", moved[:, i])
+        for i, (key, unit) in enumerate(zip(("x", "y", "z", "tilt_x", "tilt_y"), ("m", "m", "m", "rad", "rad"), strict=True))
+    ]
     return Table("reactions", "Bearings under load", tuple(columns))

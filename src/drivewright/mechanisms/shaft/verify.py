@@ -55,8 +55,14 @@ def _balance(loaded):
     z, places = equilibrium.model.beam.z, np.array([mount.support.position for mount in equilibrium.model.mounts])
     size = np.abs(force[:, :3]).max() + np.abs(equilibrium.reactions).max()
     for axis, name in enumerate("xy"):
-        yield (f"sum of the reactions along {name}", equilibrium.reactions[:, axis].sum(), -force[:, axis].sum(), "N", 1e-8 * size,
-               "sum of the loads")
+        yield (
+            f"sum of the reactions along {name}",
+            equilibrium.reactions[:, axis].sum(),
+            -force[:, axis].sum(),
+            "N",
+            1e-8 * size,
+            "sum of the loads",
+        )
         across, sign = 4 - axis, 1 - 2 * axis
         ours = equilibrium.reactions[:, axis] @ places + sign * equilibrium.reactions[:, across].sum()
         loads = force[:, axis] @ z + sign * force[:, across].sum()
@@ -74,7 +80,7 @@ def _deflections(model, loaded):
         ends = sorted(mount.support.position for mount in equilibrium.model.mounts)
         first, last = (equilibrium.u[6 * beam.node(place) + axis] for place in (ends[0], ends[-1]))
         found = second_route.through(model.shaft, (ends[0], first), (ends[-1], last), forces, couples, model.places)
-        size = np.abs(equilibrium.u[:beam.size].reshape(-1, 6)[:, :2]).max()
+        size = np.abs(equilibrium.u[: beam.size].reshape(-1, 6)[:, :2]).max()
         for station, other in zip(model.shaft.stations, found, strict=True):
             ours = equilibrium.u[6 * beam.node(station.position) + axis]
             if size > 0 and max(abs(ours), abs(other)) > 1e-9 * size:
@@ -91,8 +97,12 @@ def _bearings(model, loaded):
         force = bearings.solve(inner, displacement=own).force
         if np.hypot(*force[:2]) > 0:
             free = np.abs(force) > 1e-9 * np.abs(force[:2]).max() * np.array([1, 1, 1, inner.pitch_diameter, inner.pitch_diameter])
-            found = bearings.solve(inner, force=np.where(free, force, 0.0), start=np.where(free, 0.0, own),
-                                   held=tuple(name for name, is_free in zip(bearings.FREEDOMS, free, strict=True) if not is_free))
+            found = bearings.solve(
+                inner,
+                force=np.where(free, force, 0.0),
+                start=np.where(free, 0.0, own),
+                held=tuple(name for name, is_free in zip(bearings.FREEDOMS, free, strict=True) if not is_free),
+            )
             size = float(np.hypot(*own[:2]))
             for axis, name in enumerate("xy"):
                 yield f"bearings.{mount.support.name}, displacement {name}", own[axis], found.displacement[axis], "m", 1e-6 * size, ALONE

@@ -57,11 +57,7 @@ ANALYSES = (
         missing=dynamics.no_dynamics,
     ),
     Analysis(
-        "scatter",
-        where_it_can(many.scatter),
-        "the running chain as it comes from manufacture",
-        default=False,
-        missing=dynamics.no_dynamics,
+        "scatter", where_it_can(many.scatter), "the running chain as it comes from manufacture", default=False, missing=dynamics.no_dynamics
     ),
     Analysis(
         "stress",
@@ -81,10 +77,22 @@ ANALYSES = (
     ),
 )
 
-HEADLINE = ("pin_offset", "pitch_deviation.drive", "pitch_deviation.driven", "modification.*", "centre_distance.mean",
-            "centre_distance.fluctuation", "transmission_error", "pin.contact_pressure", "dynamics.centre_distance.mean",
-            "dynamics.centre_distance.fluctuation", "dynamics.centre_distance.mesh_order_amplitude", "quasi_static.centre_distance.mean",
-            "plate.max_von_mises", "plate.life")
+HEADLINE = (
+    "pin_offset",
+    "pitch_deviation.drive",
+    "pitch_deviation.driven",
+    "modification.*",
+    "centre_distance.mean",
+    "centre_distance.fluctuation",
+    "transmission_error",
+    "pin.contact_pressure",
+    "dynamics.centre_distance.mean",
+    "dynamics.centre_distance.fluctuation",
+    "dynamics.centre_distance.mesh_order_amplitude",
+    "quasi_static.centre_distance.mean",
+    "plate.max_von_mises",
+    "plate.life",
+)
 
 SOURCES = (
     "An Lichi, Cheng Yabing, Li Jiabao, Xu Weilong: New design of Hy-Vo chain based on the ultra-small rolling radius, Machines 2022, "
@@ -92,6 +100,19 @@ SOURCES = (
     "Johnson, Contact Mechanics (1985); ISO 606 family of roller chains; uniform material law of Baumel and Seeger (recalled)",
 )
 
-mechanism = Mechanism(kind="silent-chain", summary="chain drive", spec=SilentChainSpec, build=build, analyses=ANALYSES,
-                      folder=Path(__file__).parent, headline=HEADLINE, sources=SOURCES, scene=scene, plots=plots, drawings=drawings,
-                      parts=parts, verify=verify, batch=batch)
+mechanism = Mechanism(
+    kind="silent-chain",
+    summary="chain drive",
+    spec=SilentChainSpec,
+    build=build,
+    analyses=ANALYSES,
+    folder=Path(__file__).parent,
+    headline=HEADLINE,
+    sources=SOURCES,
+    scene=scene,
+    plots=plots,
+    drawings=drawings,
+    parts=parts,
+    verify=verify,
+    batch=batch,
+)

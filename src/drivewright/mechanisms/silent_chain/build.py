@@ -102,8 +102,9 @@ class ChainModel:
     def sprockets(self):
         """Both sprockets with all their teeth; InputError where the lengths given leave no teeth."""
         if self.spec.roller:
-            return tuple(design_roller_sprocket(z, self.spec.pitch, self.spec.roller.diameter, self.spec.roller.tooth_space)
-                         for z in self.teeth)
+            return tuple(
+                design_roller_sprocket(z, self.spec.pitch, self.spec.roller.diameter, self.spec.roller.tooth_space) for z in self.teeth
+            )
         return tuple(self.sprocket(side.teeth, side.tooth) for side in self.sides)
 
     def sprocket(self, teeth, tooth):

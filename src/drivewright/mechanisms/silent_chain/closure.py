@@ -22,8 +22,15 @@ def closure(model, done):
         **_sides(model),
     }
     checks = [
-        Check(f"wrap.{side}", values[f"wrap.{side}"].value, model.spec.limits.wrap, ">=", "rad",
-              f"angle of the {SIDE_WORDS[side]} that the chain takes in", (side,))
+        Check(
+            f"wrap.{side}",
+            values[f"wrap.{side}"].value,
+            model.spec.limits.wrap,
+            ">=",
+            "rad",
+            f"angle of the {SIDE_WORDS[side]} that the chain takes in",
+            (side,),
+        )
         for side in SIDES
     ]
     return Answer(values, (_table(found),), (*checks, _apart(model), *_fixed(model)), tuple(_remarks(model)), data=found)
@@ -50,12 +57,17 @@ def _sides(model):
 
 def _table(found):
     seated = found.states.seated
-    return Table("centre_distance", "Centre distance over one tooth of the driving sprocket", (
-        Column("angle", "rad", "angle of the driving sprocket", found.driver_angle),
-        Column("centre_distance", "m", "centre distance", found.centre_distance),
-        Column("transmission_error", "rad", "driven angle off the ratio of teeth", found.transmission_error),
-        Column("seated_drive", "-", "plates seated on the driving sprocket", seated[:, 0].astype(float)),
-        Column("seated_driven", "-", "plates seated on the driven sprocket", seated[:, 1].astype(float))))
+    return Table(
+        "centre_distance",
+        "Centre distance over one tooth of the driving sprocket",
+        (
+            Column("angle", "rad", "angle of the driving sprocket", found.driver_angle),
+            Column("centre_distance", "m", "centre distance", found.centre_distance),
+            Column("transmission_error", "rad", "driven angle off the ratio of teeth", found.transmission_error),
+            Column("seated_drive", "-", "plates seated on the driving sprocket", seated[:, 0].astype(float)),
+            Column("seated_driven", "-", "plates seated on the driven sprocket", seated[:, 1].astype(float)),
+        ),
+    )
 
 
 def _apart(model):
@@ -68,10 +80,24 @@ def _fixed(model):
     """A fixed centre distance against the taut one."""
     wanted = model.spec.driven.centre_distance
     if wanted is not None:
-        yield Check("centre_distance.slack", wanted, model.closure.mean * (1 - SLACK), ">=", "m",
-                    "fixed centre distance against that of the taut chain: a shorter one lets the chain sag and jump", ("chain",))
-        yield Check("centre_distance.taut", wanted, model.closure.mean * (1 + FREE), "<=", "m",
-                    "fixed centre distance against that of the taut chain: a longer one overstretches the chain", ("chain",))
+        yield Check(
+            "centre_distance.slack",
+            wanted,
+            model.closure.mean * (1 - SLACK),
+            ">=",
+            "m",
+            "fixed centre distance against that of the taut chain: a shorter one lets the chain sag and jump",
+            ("chain",),
+        )
+        yield Check(
+            "centre_distance.taut",
+            wanted,
+            model.closure.mean * (1 + FREE),
+            "<=",
+            "m",
+            "fixed centre distance against that of the taut chain: a longer one overstretches the chain",
+            ("chain",),
+        )
 
 
 def _remarks(model):

@@ -39,8 +39,12 @@ def trade_off(model, done):
         Column("fluctuation", "m", "fluctuation of the centre distance", closures[:, 1]),
         Column("transmission_error", "rad", "transmission error, greatest less least", closures[:, 2]),
         Column("mean", "m", "mean centre distance", closures[:, 0]),
-        Column("running_deviation", "m", "mean centre distance less that of a hinged chain",
-               closures[:, 0] - _closed(model, [(0.0, model.spec.links, model.teeth[1])])[0, 0]),
+        Column(
+            "running_deviation",
+            "m",
+            "mean centre distance less that of a hinged chain",
+            closures[:, 0] - _closed(model, [(0.0, model.spec.links, model.teeth[1])])[0, 0],
+        ),
         *_published(model, radii),
         Column("contact_pressure", "Pa", f"Hertz pressure of the pins under {force:.4g} N", np.array(pressure)),
     ]
@@ -56,11 +60,18 @@ def phases(model, done):
     found = _closed(model, cases)
     radius, count, teeth = np.array(cases, float).T
     names = np.array([f"r {1e3 * r:.4g} mm, z {model.teeth[0]}/{z}" for r, _, z in cases])
-    table = Table("phase_map", "Fluctuation by the number of links", (
-        Column("links", "-", "links of the chain", count), Column("rolling_radius", "m", "rolling radius", radius),
-        Column("driven_teeth", "-", "teeth of the driven sprocket", teeth), Column("design", "-", "rolling radius and teeth", names),
-        Column("fluctuation", "m", "fluctuation of the centre distance", found[:, 1]),
-        Column("transmission_error", "rad", "transmission error, greatest less least", found[:, 2])))
+    table = Table(
+        "phase_map",
+        "Fluctuation by the number of links",
+        (
+            Column("links", "-", "links of the chain", count),
+            Column("rolling_radius", "m", "rolling radius", radius),
+            Column("driven_teeth", "-", "teeth of the driven sprocket", teeth),
+            Column("design", "-", "rolling radius and teeth", names),
+            Column("fluctuation", "m", "fluctuation of the centre distance", found[:, 1]),
+            Column("transmission_error", "rad", "transmission error, greatest less least", found[:, 2]),
+        ),
+    )
     missing = int(np.sum(~np.isfinite(found[:, 1])))
     findings = (f"phase map: {missing} of {len(cases)} chains do not close",) if missing else ()
     if missing == len(cases):
@@ -79,8 +90,10 @@ def _radii(model):
 def _closed(model, cases):
     """(mean, fluctuation, transmission error) (n, 3) of chains (radius, links, driven teeth); nan where one does not close."""
     spec = model.spec
-    drives = [Drive(model.lengthened(link(spec.pitch, r, spec.plate.flank_angle, 0.0)), model.teeth[0], z, n, spec.closure.strands)
-              for r, n, z in cases]
+    drives = [
+        Drive(model.lengthened(link(spec.pitch, r, spec.plate.flank_angle, 0.0)), model.teeth[0], z, n, spec.closure.strands)
+        for r, n, z in cases
+    ]
     rows = phase_map(drives, POSITIONS).rows
     return np.array([(row.value.mean, row.value.fluctuation, row.value.transmission_ripple) if row.ok else (np.nan,) * 3 for row in rows])
 
@@ -90,14 +103,14 @@ def _published(model, radii):
     if model.spec.roller:
         return
     for number, side in enumerate(("drive", "driven")):
-        deviation = [published.pitch_deviation(model.spec.pitch, r, offset_of(model.spec, r), model.teeth[number], model.spec.meshing.ideal)
-                     for r in radii]
+        deviation = [
+            published.pitch_deviation(model.spec.pitch, r, offset_of(model.spec, r), model.teeth[number], model.spec.meshing.ideal)
+            for r in radii
+        ]
         yield Column(f"pitch_deviation_{side}", "m", f"seated less ideal pitch as published, {side}", np.array(deviation))
     yield Column("pin_offset", "m", "offset of the pins", np.array([offset_of(model.spec, r) for r in radii]))
 
 
 def _pressure(model, radius, force):
     material = model.spec.material
-    return rolling_contact(
-        force, model.contact_length, (radius, radius), material.youngs_modulus, material.poisson_ratio
-    ).pressure
+    return rolling_contact(force, model.contact_length, (radius, radius), material.youngs_modulus, material.poisson_ratio).pressure

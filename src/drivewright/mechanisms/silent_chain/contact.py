@@ -31,8 +31,17 @@ def contact(model, done):
         values |= bent
         checks.append(safe)
     if model.spec.drive:
-        checks.append(Check("strand.taut", values["strand.slack_force"].value, 0.0, ">=", "N",
-                            "force of the slack strand under preload and load torque, without the centrifugal force", ("chain",)))
+        checks.append(
+            Check(
+                "strand.taut",
+                values["strand.slack_force"].value,
+                0.0,
+                ">=",
+                "N",
+                "force of the slack strand under preload and load torque, without the centrifugal force",
+                ("chain",),
+            )
+        )
     return Answer(values, (), tuple(checks), tuple(findings))
 
 
@@ -59,8 +68,17 @@ def _rolling(model, force):
         "pin.shear_depth": Value(found.depth, "m", "where it is, below the surface"),
         "pin.first_yield": Value(limits.first_yield, "Pa", "pressure below which nothing yields, von Mises"),
         "pin.shakedown_limit": Value(limits.shakedown, "Pa", "pressure below which nothing yields again after the first passes"),
-    }, (Check("pin.shakedown", limits.shakedown / found.pressure, model.spec.limits.shakedown_safety, ">=", "-",
-              "shakedown limit of the rolling pins over their contact pressure; a larger rolling radius lowers the pressure", ("chain",)),)
+    }, (
+        Check(
+            "pin.shakedown",
+            limits.shakedown / found.pressure,
+            model.spec.limits.shakedown_safety,
+            ">=",
+            "-",
+            "shakedown limit of the rolling pins over their contact pressure; a larger rolling radius lowers the pressure",
+            ("chain",),
+        ),
+    )
 
 
 def _hinge(model, force):
@@ -97,7 +115,8 @@ def _pin_load(model, force):
     sheet, bush = model.spec.plate.thickness, model.contact_length
     if model.spec.roller:  # outer plates pull at both ends, the bush presses between, inner plates lie in the gaps
         return sheet * np.array([0, 1, 2, 2, 3, 4]) + bush * np.array([0, 0, 0, 1, 1, 1]), force * np.array(
-            [0.5 / sheet, 0, -1 / bush, 0, 0.5 / sheet])
+            [0.5 / sheet, 0, -1 / bush, 0, 0.5 / sheet]
+        )
     pack = pins.lacing(*sorted(model.spec.plate.lacing), sheet)
     return (pins.rolling_pin_load if model.link.radius else pins.hinge_pin_load)(pack, force)
 

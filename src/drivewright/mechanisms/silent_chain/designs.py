@@ -14,8 +14,22 @@ from drivewright.result import Check
 from drivewright.spec import value_at
 from drivewright.spec.fields import field_at, type_of
 
-KEYS = ("pitch", "links", "teeth.0", "teeth.1", "joint.rolling_radius", "joint.offset", "plate.flank_angle", "plate.apothem",
-        "plate.standard_apothem", "cutter.half_angle", "cutter.pitch", "drive.speed", "drive.preload", "drive.load_torque")
+KEYS = (
+    "pitch",
+    "links",
+    "teeth.0",
+    "teeth.1",
+    "joint.rolling_radius",
+    "joint.offset",
+    "plate.flank_angle",
+    "plate.apothem",
+    "plate.standard_apothem",
+    "cutter.half_angle",
+    "cutter.pitch",
+    "drive.speed",
+    "drive.preload",
+    "drive.load_torque",
+)
 LIMITS = {"gt": operator.gt, "ge": operator.ge, "lt": operator.lt, "le": operator.le}
 BLOCK = 8192  # designs at a time: their arrays stay in the processor's cache
 

@@ -2,14 +2,7 @@
 
 import numpy as np
 
-from drivewright.chains.dynamics.ensemble import (
-    amplitude_of,
-    centre_distance,
-    ensemble,
-    greatest_of,
-    mean_of,
-    range_of,
-)
+from drivewright.chains.dynamics.ensemble import amplitude_of, centre_distance, ensemble, greatest_of, mean_of, range_of
 from drivewright.chains.dynamics.simulate import Settings, simulate, tooth_time
 from drivewright.chains.dynamics.stability import largest_step, refuse_step
 from drivewright.chains.implicit import simulate as implicit
@@ -25,8 +18,10 @@ REVOLUTIONS = 2  # of the chain, that are evaluated unless told otherwise
 MOST_STEPS = 2e10  # of a link, in all runs: about ten minutes
 MOST_LISTED = 3  # statistics that have not settled, by name
 SLIPPING = 0.3  # coefficient of friction that lubricated pins do not reach
-HINT = ("where a shorter step does not help: a slack strand (check strand.taut), a speed, wear or teeth that throw the chain off, or a "
-        "tensioner that hits it; see also the analysis 'quasi_static'")
+HINT = (
+    "where a shorter step does not help: a slack strand (check strand.taut), a speed, wear or teeth that throw the chain off, or a "
+    "tensioner that hits it; see also the analysis 'quasi_static'"
+)
 ORDERS = 8  # of the mesh frequency, up to which the spectrum is told
 WATCHED = 0
 
@@ -42,8 +37,10 @@ def dynamics(model, done):
     if not all(np.all(np.isfinite(run.rows)) for run in runs.members):
         raise SolverError(f"{runs.advice}; {HINT}")
     drift = Value(runs.energy_drift, "1/s", "energy that computing added or lost in a second, over the energy stored")
-    checks = (Check("energy_drift", drift.value, model.spec.dynamics.largest_drift, "<=", "1/s", drift.meaning, ("chain",)),
-              *_seated(model, runs))
+    checks = (
+        Check("energy_drift", drift.value, model.spec.dynamics.largest_drift, "<=", "1/s", drift.meaning, ("chain",)),
+        *_seated(model, runs),
+    )
     tables = (_signals(runs.first), _spectrum(runs))
     reason = runs.advice or next((check.message for check in checks if not check.ok), "")
     if reason:
@@ -70,29 +67,51 @@ def _seated(model, runs):
     """Whether the chain is still on its teeth."""
     first = runs.first
     touching = Value.of(runs.estimate(mean_of(lambda run: run.column("contacts"))), "-", "flanks that touch, on average")
-    yield Check.of(touching, "running.contacts", float(len(first.model.sprockets)), ">=",
-                   "flanks that touch, on average, against one on every sprocket: with fewer the chain has left its teeth", ("chain",))
+    yield Check.of(
+        touching,
+        "running.contacts",
+        float(len(first.model.sprockets)),
+        ">=",
+        "flanks that touch, on average, against one on every sprocket: with fewer the chain has left its teeth",
+        ("chain",),
+    )
     if first.model.sprockets[first.slide].slide and len(first.model.sprockets) == 2:
         off = abs(runs.estimate(mean_of(centre_distance)).value - model.closure.mean)
-        yield Check("running.centre_distance", off, OFF * model.spec.pitch, "<=", "m",
-                    "mean centre distance of the run off the rigid one: so far off, the chain has left its teeth", ("chain",))
+        yield Check(
+            "running.centre_distance",
+            off,
+            OFF * model.spec.pitch,
+            "<=",
+            "m",
+            "mean centre distance of the run off the rigid one: so far off, the chain has left its teeth",
+            ("chain",),
+        )
 
 
 def settled(values):
     """Whether mean and fluctuation of the centre distance have stopped drifting: the check `settled` counts those that have not."""
     names = [f"dynamics.centre_distance.{name}" for name in ("mean", "fluctuation")]
     drifting = [name for name in names if not values[name].settled]
-    return Check("settled", float(len(drifting)), 0.0, "<=", "-",
-                 "statistics of the centre distance that still drifted, or hold less than two revolutions of the chain; "
-                 "give dynamics.settling and dynamics.duration more", ("chain",))
+    return Check(
+        "settled",
+        float(len(drifting)),
+        0.0,
+        "<=",
+        "-",
+        "statistics of the centre distance that still drifted, or hold less than two revolutions of the chain; "
+        "give dynamics.settling and dynamics.duration more",
+        ("chain",),
+    )
 
 
 def _remarks(runs, values):
     """What keeps the numbers from being the whole truth."""
     drifting = [name for name, value in values.items() if not value.settled]
     if drifting and runs.first.revolutions < 2:
-        yield ("dynamics.duration holds less than two revolutions of the chain: they cannot tell whether the run has settled; below one, "
-               "statistics are those of the whole run and depend on its length")
+        yield (
+            "dynamics.duration holds less than two revolutions of the chain: they cannot tell whether the run has settled; below one, "
+            "statistics are those of the whole run and depend on its length"
+        )
     elif drifting:
         more = f" and {len(drifting) - MOST_LISTED} more" if len(drifting) > MOST_LISTED else ""
         yield f"not settled: {', '.join(drifting[:MOST_LISTED])}{more}; give dynamics.settling and dynamics.duration more"
@@ -109,8 +128,10 @@ def _runs(model, system):
     said = model.spec.dynamics
     duration = said.settling + (said.duration or REVOLUTIONS * model.spec.links * tooth_time(system))
     if duration - said.settling < 2 * tooth_time(system):
-        raise SpecError(f"{1e3 * (duration - said.settling):.4g} ms hold no two teeth of {1e3 * tooth_time(system):.4g} ms; give more",
-                        "dynamics.duration")
+        raise SpecError(
+            f"{1e3 * (duration - said.settling):.4g} ms hold no two teeth of {1e3 * tooth_time(system):.4g} ms; give more",
+            "dynamics.duration",
+        )
     common = {"settle": said.settling, "tolerance": said.largest_drift, "plate": WATCHED}
     if said.integrator == "implicit":
         settings, solve = implicit.Settings(said.step or IMPLICIT_STEP, **common), implicit.simulate
@@ -125,8 +146,11 @@ def _refuse_endless(model, duration, step):
     said = model.spec.dynamics
     work = duration / step * model.spec.links * said.ensemble
     if work > MOST_STEPS:
-        raise SpecError(f"{said.ensemble} runs of {duration:.3g} s in steps of {step:.3g} s take {work:.2g} steps of a link, more than "
-                        f"{MOST_STEPS:.2g}; shorten the run, lower stiffness or damping, or solve implicitly", "dynamics.duration")
+        raise SpecError(
+            f"{said.ensemble} runs of {duration:.3g} s in steps of {step:.3g} s take {work:.2g} steps of a link, more than "
+            f"{MOST_STEPS:.2g}; shorten the run, lower stiffness or damping, or solve implicitly",
+            "dynamics.duration",
+        )
 
 
 def explicit_step(model, system):
@@ -154,6 +178,7 @@ def _more(model, runs):
 
 def _forces(runs):
     """Of the driven sprocket, a joint and a plate: means over revolutions of the chain."""
+
     def flanks(run):
         return np.maximum(run.column("left flank"), run.column("right flank"))
 
@@ -161,8 +186,11 @@ def _forces(runs):
         return run.tension[:, 0]
 
     found = {
-        "transmission_error": (range_of(lambda run: run.transmission_error(1)), "rad",
-                               "driven angle off the ratio of teeth, peak-to-peak in a revolution of the chain"),
+        "transmission_error": (
+            range_of(lambda run: run.transmission_error(1)),
+            "rad",
+            "driven angle off the ratio of teeth, peak-to-peak in a revolution of the chain",
+        ),
         "tension.mean": (mean_of(tension), "N", "tension in a joint as it goes round, mean"),
         "tension.maximum": (greatest_of(tension), "N", "tension in a joint as it goes round, greatest in a revolution"),
         "flank_force.maximum": (greatest_of(flanks), "N", "on a flank of a plate as it goes round, greatest in a revolution"),
@@ -174,14 +202,23 @@ def _forces(runs):
 def _signals(motion):
     steady = motion.steady
     time, names = motion.t[steady], ("left x", "left y", "right x", "right y", "left flank", "right flank")
-    forces = [Column(f"plate.{name.replace(' ', '_')}", "N", f"on a plate as it goes round: {name}", motion.column(name)[steady])
-              for name in names]
-    return Table("running", "The running chain", (
-        Column("time", "s", "time", time), Column("centre_distance", "m", "centre distance", motion.centre_distance[steady]),
-        Column("transmission_error", "rad", "driven angle off the ratio of teeth", motion.transmission_error(1)[steady]),
-        Column("tension", "N", "tension in a joint as it goes round", motion.tension[steady, 0]),
-        Column("contacts", "-", "flanks that touch", motion.column("contacts")[steady]), *forces,
-        Column("energy_gap", "J", "energy less all work since the start", motion.energy_gap[steady])))
+    forces = [
+        Column(f"plate.{name.replace(' ', '_')}", "N", f"on a plate as it goes round: {name}", motion.column(name)[steady])
+        for name in names
+    ]
+    return Table(
+        "running",
+        "The running chain",
+        (
+            Column("time", "s", "time", time),
+            Column("centre_distance", "m", "centre distance", motion.centre_distance[steady]),
+            Column("transmission_error", "rad", "driven angle off the ratio of teeth", motion.transmission_error(1)[steady]),
+            Column("tension", "N", "tension in a joint as it goes round", motion.tension[steady, 0]),
+            Column("contacts", "-", "flanks that touch", motion.column("contacts")[steady]),
+            *forces,
+            Column("energy_gap", "J", "energy less all work since the start", motion.energy_gap[steady]),
+        ),
+    )
 
 
 def _spectrum(runs):
@@ -190,7 +227,13 @@ def _spectrum(runs):
     near = orders <= ORDERS
     mean, reach = of_members(found[:, near])
     amplitude = Column("centre_distance", "m", "amplitude of the centre distance", mean)
-    return Table("spectrum", "Spectrum of the centre distance", (
-        Column("order", "-", "multiple of the mesh frequency", orders[near]),
-        Column("frequency", "Hz", "frequency", orders[near] / tooth_time(runs.first.model)),
-        amplitude, *(amplitude.bounds(mean - reach, mean + reach) if len(found) > 1 else ())))
+    return Table(
+        "spectrum",
+        "Spectrum of the centre distance",
+        (
+            Column("order", "-", "multiple of the mesh frequency", orders[near]),
+            Column("frequency", "Hz", "frequency", orders[near] / tooth_time(runs.first.model)),
+            amplitude,
+            *(amplitude.bounds(mean - reach, mean + reach) if len(found) > 1 else ()),
+        ),
+    )

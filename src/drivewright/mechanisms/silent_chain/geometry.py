@@ -42,19 +42,37 @@ def _plate(model):
     back, forward = plate.pins.limits(model.link)
     values = {
         "plate.area": Value(plate.moments.area, "m^2", "of a plate, holes taken out"),
-        "plate.mass_per_pitch": Value(mass_per_pitch(plate, model.spec.plate.lacing, density, model.chain_width), "kg",
-                                      "plates and pins of a pitch, from their outlines"),
-        **{f"plate.wall.{name.replace(' ', '_')}": Value(width, "m", f"least wall of the plate, {name}")
-           for name, width in plate.walls().items()},
+        "plate.mass_per_pitch": Value(
+            mass_per_pitch(plate, model.spec.plate.lacing, density, model.chain_width),
+            "kg",
+            "plates and pins of a pitch, from their outlines",
+        ),
+        **{
+            f"plate.wall.{name.replace(' ', '_')}": Value(width, "m", f"least wall of the plate, {name}")
+            for name, width in plate.walls().items()
+        },
     }
-    checks = [Check(f"wall.{name.rpartition('.')[2]}", values[name].value, limits.wall, ">=", "m", values[name].meaning, ("chain",), True)
-              for name in values if name.startswith("plate.wall.")]
+    checks = [
+        Check(f"wall.{name.rpartition('.')[2]}", values[name].value, limits.wall, ">=", "m", values[name].meaning, ("chain",), True)
+        for name in values
+        if name.startswith("plate.wall.")
+    ]
     if np.isfinite(forward):
         largest = 2 * np.pi / min(model.teeth)
         values["plate.turn.forward"] = Value(forward, "rad", "angle that a joint can turn around a sprocket")
         values["plate.turn.backward"] = Value(-back, "rad", "angle that a joint can bend back")
-        checks.append(Check("joint.turn", forward, largest, ">=", "rad", "angle that a joint can turn against that of the smaller sprocket",
-                            ("chain",), True))
+        checks.append(
+            Check(
+                "joint.turn",
+                forward,
+                largest,
+                ">=",
+                "rad",
+                "angle that a joint can turn against that of the smaller sprocket",
+                ("chain",),
+                True,
+            )
+        )
     return values, checks
 
 
@@ -70,8 +88,16 @@ def _sprockets(model):
 def bores(model):
     """The holes against the roots of the teeth."""
     for side, sprocket in zip(SIDES, model.sprockets, strict=True):
-        yield Check(f"bore.{side}", 0.5 * model.bore, sprocket.root_radius, "<=", "m",
-                    f"radius of the hole of the {SIDE_WORDS[side]} against the roots of its teeth", (side,), True)
+        yield Check(
+            f"bore.{side}",
+            0.5 * model.bore,
+            sprocket.root_radius,
+            "<=",
+            "m",
+            f"radius of the hole of the {SIDE_WORDS[side]} against the roots of its teeth",
+            (side,),
+            True,
+        )
 
 
 def _radii(side, sprocket):
@@ -105,16 +131,40 @@ def _teeth(model, side, sprocket):
         Check(f"tip_thickness.{side}", sprocket.tip_thickness, limits.tip_thickness, ">=", "m", f"width at the tip {words}", (side,), True),
         Check(f"contact.above_form.{side}", low, 0.0, ">=", "m", f"contact of a seated plate above the form radius {words}", (side,), True),
         Check(f"contact.below_tip.{side}", high, 0.0, ">=", "m", f"contact of a seated plate below the tips {words}", (side,), True),
-        Check(f"contact.on_flank.{side}", min(at[1] - flank[0], flank[1] - at[1]), 0.0, ">=", "m",
-              f"contact of a plate seated on the {SIDE_WORDS[side]} within its flank", (side,), True),
-        Check(f"undercut.{side}", float(sprocket.undercut), 0.0, "<=", "-", f"1 where the hob's tip undercuts the flanks {words}", (side,),
-              True),
+        Check(
+            f"contact.on_flank.{side}",
+            min(at[1] - flank[0], flank[1] - at[1]),
+            0.0,
+            ">=",
+            "m",
+            f"contact of a plate seated on the {SIDE_WORDS[side]} within its flank",
+            (side,),
+            True,
+        ),
+        Check(
+            f"undercut.{side}",
+            float(sprocket.undercut),
+            0.0,
+            "<=",
+            "-",
+            f"1 where the hob's tip undercuts the flanks {words}",
+            (side,),
+            True,
+        ),
     )
 
 
 def _roller_teeth(model, side, sprocket):
-    check = Check(f"tip_thickness.{side}", sprocket.tip_thickness, model.spec.limits.tip_thickness, ">=", "m",
-                  f"width at the tip of the teeth of the {SIDE_WORDS[side]}", (side,), True)
+    check = Check(
+        f"tip_thickness.{side}",
+        sprocket.tip_thickness,
+        model.spec.limits.tip_thickness,
+        ">=",
+        "m",
+        f"width at the tip of the teeth of the {SIDE_WORDS[side]}",
+        (side,),
+        True,
+    )
     return _radii(side, sprocket), (check,)
 
 
@@ -128,8 +178,18 @@ def _meeting(model):
     for number, (side, sprocket) in enumerate(zip(SIDES, model.sprockets, strict=True)):
         least = min(_least_gap(model, sprocket, states, poses, k, number) for k in range(POSITIONS))
         values[f"least_gap.{side}"] = Value(least, "m", f"of a plate, seated or coming in, to the teeth of the {SIDE_WORDS[side]}")
-        checks.append(Check(f"overlap.{side}", -least, model.spec.limits.overlap, "<=", "m",
-                            f"of a plate, seated or coming in, with the teeth of the {SIDE_WORDS[side]}", (side,), True))
+        checks.append(
+            Check(
+                f"overlap.{side}",
+                -least,
+                model.spec.limits.overlap,
+                "<=",
+                "m",
+                f"of a plate, seated or coming in, with the teeth of the {SIDE_WORDS[side]}",
+                (side,),
+                True,
+            )
+        )
     return values, checks
 
 

@@ -41,8 +41,10 @@ def side_measures(model, side, number):
     """(name, Value) of the closed forms of one sprocket."""
     teeth, pitch, words = model.teeth[number], model.spec.pitch, SIDE_WORDS[side]
     yield f"layout.pitch_diameter.{side}", Value(standards.pitch_diameter(pitch, teeth), "m", f"pitch circle of the {words}")
-    yield f"layout.speed_fluctuation.{side}", Value(standards.speed_fluctuation(teeth), "-",
-                                                    f"of a hinged chain on the {words}: greatest less least speed, over the mean")
+    yield (
+        f"layout.speed_fluctuation.{side}",
+        Value(standards.speed_fluctuation(teeth), "-", f"of a hinged chain on the {words}: greatest less least speed, over the mean"),
+    )
     if model.spec.roller:
         over = standards.over_pins(pitch, teeth, model.spec.roller.diameter)
         yield f"over_pins.{side}", Value(over, "m", f"distance over two measuring pins as thick as the rollers, {words}")
@@ -63,6 +65,7 @@ def _pair(model):
             frequency = standards.strand_frequency(force, density, values["layout.strand_length"].value, speed, mode)
             values[f"layout.strand_frequency.{mode}"] = Value(frequency, "Hz", f"mode {mode} of a strand across, as a moving string")
         values["layout.mesh_frequency"] = Value(standards.mesh_frequency(z1, spec.drive.speed), "Hz", "teeth that mesh in a second")
-        values["layout.meeting_velocity"] = Value(standards.meeting_velocity(pitch, spec.drive.speed), "m/s",
-                                                  "with which a hinged link meets the driving sprocket")
+        values["layout.meeting_velocity"] = Value(
+            standards.meeting_velocity(pitch, spec.drive.speed), "m/s", "with which a hinged link meets the driving sprocket"
+        )
     return values

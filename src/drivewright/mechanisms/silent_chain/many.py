@@ -28,18 +28,37 @@ def speeds(model, done):
     findings += tuple(_drifting([(f"{speed * 30 / np.pi:.4g} rpm", level) for speed, level in rows]))
     if not rows:
         return Answer(findings=findings, outcome="partial")
-    table = Table("speeds", "Centre distance over the speed", (
-        Column("speed", "rad/s", "speed of the driving sprocket", np.array([speed for speed, _ in rows])),
-        *bounded("mean", "m", "mean centre distance", [level.mean for _, level in rows]),
-        *bounded("fluctuation", "m", "peak-to-peak of the centre distance in a revolution of the chain",
-                 [level.fluctuation for _, level in rows]),
-        *(column for k in range(3) for column in bounded(
-            f"mesh_order_{k + 1}", "m", f"amplitude at {k + 1} times the mesh frequency", [level.amplitudes[k] for _, level in rows])),
-        *bounded("tension", "N", "greatest tension in a joint in a revolution", [level.tension for _, level in rows])))
-    diagram = Table("campbell", "Campbell diagram: highest peaks of the spectra of the centre distance", (
-        Column("speed", "rad/s", "speed of the driving sprocket", np.array([speed for speed, _ in rows])),
-        *(Column(f"peak_{k + 1}", "Hz", f"peak {k + 1}", np.array([_peaks(level)[k] for _, level in rows])) for k in range(PEAKS)),
-        Column("mesh_frequency", "Hz", "mesh frequency", np.array([speed for speed, _ in rows]) * model.teeth[0] / (2 * np.pi))))
+    table = Table(
+        "speeds",
+        "Centre distance over the speed",
+        (
+            Column("speed", "rad/s", "speed of the driving sprocket", np.array([speed for speed, _ in rows])),
+            *bounded("mean", "m", "mean centre distance", [level.mean for _, level in rows]),
+            *bounded(
+                "fluctuation",
+                "m",
+                "peak-to-peak of the centre distance in a revolution of the chain",
+                [level.fluctuation for _, level in rows],
+            ),
+            *(
+                column
+                for k in range(3)
+                for column in bounded(
+                    f"mesh_order_{k + 1}", "m", f"amplitude at {k + 1} times the mesh frequency", [level.amplitudes[k] for _, level in rows]
+                )
+            ),
+            *bounded("tension", "N", "greatest tension in a joint in a revolution", [level.tension for _, level in rows]),
+        ),
+    )
+    diagram = Table(
+        "campbell",
+        "Campbell diagram: highest peaks of the spectra of the centre distance",
+        (
+            Column("speed", "rad/s", "speed of the driving sprocket", np.array([speed for speed, _ in rows])),
+            *(Column(f"peak_{k + 1}", "Hz", f"peak {k + 1}", np.array([_peaks(level)[k] for _, level in rows])) for k in range(PEAKS)),
+            Column("mesh_frequency", "Hz", "mesh frequency", np.array([speed for speed, _ in rows]) * model.teeth[0] / (2 * np.pi)),
+        ),
+    )
     return Answer({}, (table, diagram), (), findings)
 
 
@@ -73,8 +92,10 @@ def scatter(model, done):
     found = monte_carlo(system, Scatter(said.tooth_thickness, said.pitch), said.samples, duration, settings, PERCENTILES, said.seed)
     values = {}
     for k, percent in enumerate(PERCENTILES):
-        for name, numbers, what in (("mean", found.mean, "mean centre distance"),
-                                    ("fluctuation", found.fluctuation, "peak-to-peak of the centre distance in a revolution")):
+        for name, numbers, what in (
+            ("mean", found.mean, "mean centre distance"),
+            ("fluctuation", found.fluctuation, "peak-to-peak of the centre distance in a revolution"),
+        ):
             value, low, high = np.asarray(numbers)[:, k]
             meaning = f"{what}, {percent} % of the drives are below"
             values[f"scatter.{name}.p{percent:02d}"] = Value(value, "m", meaning, low, high, "sample").plain()
@@ -104,16 +125,26 @@ def quasi_static(model, done):
         "quasi_static.transmission_error": Value(np.ptp(error), "rad", "driven angle off the ratio of teeth, greatest less least"),
         "quasi_static.flank_force.maximum": Value(np.max(found.flank_force), "N", "greatest force on a flank of a plate"),
     }
-    table = Table("quasi_static", "The loaded chain at rest over a tooth", (
-        Column("angle", "rad", "angle of the driving sprocket", np.abs(found.driver_angle - found.driver_angle[0])),
-        Column("centre_distance", "m", "centre distance", found.centre_distance),
-        Column("transmission_error", "rad", "driven angle off the ratio of teeth", error),
-        Column("contacts", "-", "flanks that touch", found.contacts.astype(float))))
-    plates = Table("plate_forces", "Forces in the chain at rest, plate by plate", (
-        Column("plate", "-", "plate, clockwise from the driving sprocket", np.arange(float(found.tension.shape[1]))),
-        Column("tension", "N", "of the joint behind the plate", found.tension[0]),
-        Column("right_flank", "N", "force on the right flank", found.flank_force[0, :, 0]),
-        Column("left_flank", "N", "force on the left flank", found.flank_force[0, :, 1])))
+    table = Table(
+        "quasi_static",
+        "The loaded chain at rest over a tooth",
+        (
+            Column("angle", "rad", "angle of the driving sprocket", np.abs(found.driver_angle - found.driver_angle[0])),
+            Column("centre_distance", "m", "centre distance", found.centre_distance),
+            Column("transmission_error", "rad", "driven angle off the ratio of teeth", error),
+            Column("contacts", "-", "flanks that touch", found.contacts.astype(float)),
+        ),
+    )
+    plates = Table(
+        "plate_forces",
+        "Forces in the chain at rest, plate by plate",
+        (
+            Column("plate", "-", "plate, clockwise from the driving sprocket", np.arange(float(found.tension.shape[1]))),
+            Column("tension", "N", "of the joint behind the plate", found.tension[0]),
+            Column("right_flank", "N", "force on the right flank", found.flank_force[0, :, 0]),
+            Column("left_flank", "N", "force on the left flank", found.flank_force[0, :, 1]),
+        ),
+    )
     return Answer(values, (table, plates))
 
 

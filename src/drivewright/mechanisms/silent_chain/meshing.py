@@ -28,13 +28,20 @@ def measures(model):
         "hole_pitch": Value(model.link.hole_pitch, "m", "distance of the centres of a plate's own pins"),
         "pin_offset": Value(model.offset, "m", "centres of the pins below the pitch line"),
         "standard_apothem": Value(model.standard_apothem, "m", "rotation centre on the pitch line to the flank on the same side"),
-        "pitch_deviation.reference": Value(published.reference_deviation(pitch, z1, z2), "m",
-                                           "delta12: difference of the two ideal pitches p/cos(pi/z), drive less driven"),
+        "pitch_deviation.reference": Value(
+            published.reference_deviation(pitch, z1, z2), "m", "delta12: difference of the two ideal pitches p/cos(pi/z), drive less driven"
+        ),
         "k": Value(published.pitch_constant(z1, z2), "-", "constant k of the boundary radius"),
-        "rolling_radius.boundary": Value(published.boundary_radius(pitch, z1, z2), "m",
-                                         "r10: radius at which a chain matched to the drive deviates by delta12 on the other sprocket"),
-        "rolling_radius.monotone_limit": Value(published.monotone_radius(pitch, z1), "m",
-                                               "radius below which the equivalent pitch of a matched chain grows up to the drive's seat"),
+        "rolling_radius.boundary": Value(
+            published.boundary_radius(pitch, z1, z2),
+            "m",
+            "r10: radius at which a chain matched to the drive deviates by delta12 on the other sprocket",
+        ),
+        "rolling_radius.monotone_limit": Value(
+            published.monotone_radius(pitch, z1),
+            "m",
+            "radius below which the equivalent pitch of a matched chain grows up to the drive's seat",
+        ),
     }
 
 
@@ -60,15 +67,28 @@ def _turning(model):
     largest = np.pi / min(model.teeth)
     half = np.linspace(0, 1.25 * largest, TURNS)
     pitch = published.equivalent_pitch(model.link.hole_pitch, model.link.radius, model.offset, half, half)
-    return Table("equivalent_pitch", "Equivalent pitch as published", (
-        Column("turn", "rad", "angle between neighbouring plates", 2 * half), Column("pitch", "m", "equivalent pitch p''", pitch),
-        Column("ideal", "m", "ideal pitch p/cos of half the angle", model.spec.pitch / np.cos(half))))
+    return Table(
+        "equivalent_pitch",
+        "Equivalent pitch as published",
+        (
+            Column("turn", "rad", "angle between neighbouring plates", 2 * half),
+            Column("pitch", "m", "equivalent pitch p''", pitch),
+            Column("ideal", "m", "ideal pitch p/cos of half the angle", model.spec.pitch / np.cos(half)),
+        ),
+    )
 
 
 def _checks(model):
     if model.link.radius:
-        yield Check("offset", abs(model.offset) / model.link.radius, 1.0, "<=", "-",
-                    "offset over rolling radius: beyond 1 the published growth of the pitch has no end", ("chain",))
+        yield Check(
+            "offset",
+            abs(model.offset) / model.link.radius,
+            1.0,
+            "<=",
+            "-",
+            "offset over rolling radius: beyond 1 the published growth of the pitch has no end",
+            ("chain",),
+        )
 
 
 def _remarks(model):

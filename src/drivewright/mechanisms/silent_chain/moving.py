@@ -30,9 +30,18 @@ def _chain(model):
     if not spec.roller and not model.undrawn:
         heights = np.sort([model.plate.flank("right").start[1], model.plate.flank("right").end[1]])
         flank = {"toe": -float(heights[0]), "crotch": -float(heights[1])}
-    return Chain(model.link, spec.links, found.mass, found.inertia, spec.contact.stiffness / IN_LINE, spec.contact.joint_damping,
-                 centre_offset=found.height, elongation=spec.closure.elongation, articulation_damping=_articulation(model, found),
-                 **flank)
+    return Chain(
+        model.link,
+        spec.links,
+        found.mass,
+        found.inertia,
+        spec.contact.stiffness / IN_LINE,
+        spec.contact.joint_damping,
+        centre_offset=found.height,
+        elongation=spec.closure.elongation,
+        articulation_damping=_articulation(model, found),
+        **flank,
+    )
 
 
 def _articulation(model, found):
@@ -61,8 +70,18 @@ def _driven(model, touch):
     slide = None if fixed else Slide(0.0, spec.drive.preload, damping=2 * ratio * np.sqrt(stiffness * mass))
     turning = 0.0 if spec.drive.ramp else 2 * ratio * _pitch_radius(model, model.teeth[1]) * np.sqrt(stiffness * inertia)
     nominal = -spec.drive.speed * model.teeth[0] / model.teeth[1]
-    return Sprocket(_tooth(model, 1), touch, (fixed or model.closure.mean, 0.0), mass=mass, inertia=inertia,
-                    torque=spec.drive.load_torque, damping=turning, calm=nominal, slide=slide, **_active(model, 1))
+    return Sprocket(
+        _tooth(model, 1),
+        touch,
+        (fixed or model.closure.mean, 0.0),
+        mass=mass,
+        inertia=inertia,
+        torque=spec.drive.load_torque,
+        damping=turning,
+        calm=nominal,
+        slide=slide,
+        **_active(model, 1),
+    )
 
 
 def _strands(model):
@@ -80,8 +99,14 @@ def _tooth(model, number):
 
 
 def _roller_tooth(sprocket):
-    return RollerTooth(sprocket.teeth, sprocket.pitch_radius, sprocket.seat_radius, sprocket.seat_angle, sprocket.flank_radius,
-                       0.5 * sprocket.roller_diameter)
+    return RollerTooth(
+        sprocket.teeth,
+        sprocket.pitch_radius,
+        sprocket.seat_radius,
+        sprocket.seat_angle,
+        sprocket.flank_radius,
+        0.5 * sprocket.roller_diameter,
+    )
 
 
 def _active(model, number):

@@ -13,7 +13,9 @@ def refuse_nonsense(spec):
     if spec.links <= max(spec.teeth):
         raise SpecError(
             f"{spec.links} links are no more than the {max(spec.teeth)} teeth of a sprocket: the chain does not reach around two; "
-            f"take {max(spec.teeth) + 4} or more", "links")
+            f"take {max(spec.teeth) + 4} or more",
+            "links",
+        )
     for table in ("guides", "sprockets"):
         names = [entry.name for entry in getattr(spec, table)]
         for name in names:

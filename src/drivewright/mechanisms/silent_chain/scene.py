@@ -27,13 +27,16 @@ def scene(model):
     chain = plates(model.closure, states)
     still = np.zeros((FRAMES, 3))
     turns = {"drive": poses(0 * angle, angle), "driven": poses(states.centre_distance, states.driven_angle)}
-    bodies = [Body(side, SIDE_WORDS[side], tuple(_wheel(model, sprocket)), turns[side], COLOURS[side])
-              for side, sprocket in zip(SIDES, model.sprockets, strict=True)]
+    bodies = [
+        Body(side, SIDE_WORDS[side], tuple(_wheel(model, sprocket)), turns[side], COLOURS[side])
+        for side, sprocket in zip(SIDES, model.sprockets, strict=True)
+    ]
     shapes = [tuple(link_shapes(model, number)) for number in range(2)]
-    bodies += [Body(f"link{number}", "links", shapes[number % 2], chain[:, number], ("steel", "blue")[number % 2])
-               for number in range(model.spec.links)]
-    frames = (Frame("machine", "machine frame", still),
-              *(Frame(side, f"seen from the {SIDE_WORDS[side]}", turns[side]) for side in SIDES))
+    bodies += [
+        Body(f"link{number}", "links", shapes[number % 2], chain[:, number], ("steel", "blue")[number % 2])
+        for number in range(model.spec.links)
+    ]
+    frames = (Frame("machine", "machine frame", still), *(Frame(side, f"seen from the {SIDE_WORDS[side]}", turns[side]) for side in SIDES))
     return Scene(-angle, "angle of the driving sprocket", "rad", SLOWLY, tuple(bodies), frames)
 
 
@@ -72,8 +75,16 @@ def drawings(model):
     found = [sprocket.drawing(bore, width, f"sprocket_{side}") for side, sprocket in zip(SIDES, model.sprockets, strict=True)]
     if model.spec.roller:
         shape = Shape("profile", roller_plate(model.spec.pitch, 0.45 * model.spec.pitch, 0.5 * model.spec.pitch))
-        return (Drawing("plate", f"plate of a roller chain, pitch {1e3 * model.spec.pitch:.5g} mm", (shape,), model.spec.plate.thickness,
-                        milled=False), *found)
+        return (
+            Drawing(
+                "plate",
+                f"plate of a roller chain, pitch {1e3 * model.spec.pitch:.5g} mm",
+                (shape,),
+                model.spec.plate.thickness,
+                milled=False,
+            ),
+            *found,
+        )
     return (model.plate.drawing(), *found)
 
 

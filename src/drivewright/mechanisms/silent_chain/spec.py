@@ -59,19 +59,24 @@ class Joint(Spec):
     """What joins two plates."""
 
     kind: Literal["round-pin", "arc", "revolute"] = Field(
-        "round-pin", description="round-pin: two round pins that roll on each other; arc: rockers of a larger radius (classical Hy-Vo); "
-                                 "revolute: one pin, a hinge")
+        "round-pin",
+        description="round-pin: two round pins that roll on each other; arc: rockers of a larger radius (classical Hy-Vo); "
+        "revolute: one pin, a hinge",
+    )
     rolling_radius: Length | None = Field(None, gt=0, description="of the rolling surfaces; not for a revolute joint", examples=["1.2 mm"])
-    offset: LengthOrRule = Field("match-drive", description="centre of the pins below the pitch line, or its rule: match-drive, minimax; "
-                                                            "a label, nothing physical depends on it")
+    offset: LengthOrRule = Field(
+        "match-drive",
+        description="centre of the pins below the pitch line, or its rule: match-drive, minimax; a label, nothing physical depends on it",
+    )
     contact_length: Length | None = Field(
         None,
         gt=0,
         description="length along which the pins touch, or of a roller chain's bushes; the width of the pack of plates unless given",
         examples=["6 mm"],
     )
-    pin_diameter: Length | None = Field(None, gt=0, description="of the pin of a revolute joint; a quarter of the pitch unless given",
-                                        examples=["3 mm"])
+    pin_diameter: Length | None = Field(
+        None, gt=0, description="of the pin of a revolute joint; a quarter of the pitch unless given", examples=["3 mm"]
+    )
 
 
 class Plate(Spec):
@@ -79,20 +84,22 @@ class Plate(Spec):
 
     flank_angle: Angle = Field("30 deg", gt=0, lt=TURN / 8, description="of the outer flank from the plate's axis of symmetry")
     apothem: Length | None = Field(
-        None,
-        description="centre of the pin's rolling surface to the flank on the same side; or give standard_apothem",
-        examples=["2.6 mm"],
+        None, description="centre of the pin's rolling surface to the flank on the same side; or give standard_apothem", examples=["2.6 mm"]
     )
-    standard_apothem: Length | None = Field(None, gt=0, description="rotation centre on the pitch line to flank, instead of apothem",
-                                            examples=["3.773 mm"])
+    standard_apothem: Length | None = Field(
+        None, gt=0, description="rotation centre on the pitch line to flank, instead of apothem", examples=["3.773 mm"]
+    )
     thickness: Length = Field("2 mm", gt=0, description="of a plate")
     lacing: tuple[Integer, Integer] = Field((1, 2), description="plates side by side in one pitch and in the next")
-    back: Length | None = Field(None, gt=0, description="height of the back above the pin line; 0.27 pitches unless given",
-                                examples=["2.6 mm"])
-    toe: Length | None = Field(None, lt=0, description="ends of the toes below the pin line; -0.63 pitches unless given",
-                               examples=["-6 mm"])
-    crotch: Length | None = Field(None, lt=0, description="bottom of the crotch below the pin line; -0.15 pitches unless given",
-                                  examples=["-1.4 mm"])
+    back: Length | None = Field(
+        None, gt=0, description="height of the back above the pin line; 0.27 pitches unless given", examples=["2.6 mm"]
+    )
+    toe: Length | None = Field(
+        None, lt=0, description="ends of the toes below the pin line; -0.63 pitches unless given", examples=["-6 mm"]
+    )
+    crotch: Length | None = Field(
+        None, lt=0, description="bottom of the crotch below the pin line; -0.15 pitches unless given", examples=["-1.4 mm"]
+    )
     crotch_radius: Length | None = Field(None, ge=0, description="rounding of the crotch; 0.06 pitches unless given", examples=["0.6 mm"])
     link_mass: Mass | None = Field(None, gt=0, description="of a pitch of chain; from plates and pins unless given", examples=["2.5 g"])
     link_inertia: Inertia | None = Field(
@@ -115,10 +122,12 @@ class Cutter(Spec):
 
     half_angle: Angle = Field("30 deg", gt=0, lt=TURN / 8, description="half the angle of its teeth")
     pitch: Length | None = Field(None, gt=0, description="of its teeth; from the chain's base pitch unless given", examples=["9.525 mm"])
-    tip_rounding: Length | None = Field(None, gt=0, description="of its tip; a quarter of its module, or what has room, unless given",
-                                        examples=["0.5 mm"])
-    tip_depth: Length | None = Field(None, description="tips of the teeth below the pin line of a seated plate; 0.18 pitches unless given",
-                                     examples=["1.7 mm"])
+    tip_rounding: Length | None = Field(
+        None, gt=0, description="of its tip; a quarter of its module, or what has room, unless given", examples=["0.5 mm"]
+    )
+    tip_depth: Length | None = Field(
+        None, description="tips of the teeth below the pin line of a seated plate; 0.18 pitches unless given", examples=["1.7 mm"]
+    )
     root_depth: Length | None = Field(None, gt=0, description="roots of the teeth below it; 0.68 pitches unless given", examples=["6.5 mm"])
     chamfer: Length | None = Field(None, ge=0, description="of the tips; 0.02 pitches unless given", examples=["0.2 mm"])
     bore: Length | None = Field(
@@ -127,8 +136,9 @@ class Cutter(Spec):
         description="diameter of the holes of the sprockets, for drawings and masses; 0.4 of the smaller pitch circle unless given",
         examples=["20 mm"],
     )
-    measuring_pin: Length | None = Field(None, gt=0, description="diameter; that which touches where the plates do unless given",
-                                         examples=["6 mm"])
+    measuring_pin: Length | None = Field(
+        None, gt=0, description="diameter; that which touches where the plates do unless given", examples=["6 mm"]
+    )
 
 
 class Meshing(Spec):
@@ -136,7 +146,8 @@ class Meshing(Spec):
 
     ideal: Ideal = Field("seat", description="ideal pitch: seat p/cos(pi/z), the paper's; rack p tan(t)/t, conjugate on the pitch circle")
     apothem_reference: Literal["pitch_line", "pin"] = Field(
-        "pitch_line", description="where the apothem counts from; pin is the other reading of equation (2), and cuts the teeth too thin")
+        "pitch_line", description="where the apothem counts from; pin is the other reading of equation (2), and cuts the teeth too thin"
+    )
 
 
 class Drive(Spec):
@@ -146,8 +157,9 @@ class Drive(Spec):
     preload: Force = Field(gt=0, description="outward force on the driven sprocket; each strand carries half of it", examples=["150 N"])
     load_torque: Torque = Field("0 N m", ge=0, description="that the driven sprocket has to overcome")
     ramp: Time = Field("0 s", ge=0, description="time in which the speed is reached from rest; 0: the run begins at speed")
-    gravity: tuple[Acceleration, Acceleration] = Field(("0 m/s^2", "0 m/s^2"), description="along x, from the driving to the driven "
-                                                                                            "sprocket, and y")
+    gravity: tuple[Acceleration, Acceleration] = Field(
+        ("0 m/s^2", "0 m/s^2"), description="along x, from the driving to the driven sprocket, and y"
+    )
 
 
 class Driven(Spec):
@@ -161,8 +173,9 @@ class Driven(Spec):
         description="of its slide and, but while the speed ramps up, of its rotation about the nominal "
         "speed; over critical, on the strands",
     )
-    centre_distance: Length | None = Field(None, gt=0, description="a fixed one, instead of the slide under the preload",
-                                           examples=["219.056 mm"])
+    centre_distance: Length | None = Field(
+        None, gt=0, description="a fixed one, instead of the slide under the preload", examples=["219.056 mm"]
+    )
 
 
 class Sprocket(Spec):
@@ -197,51 +210,70 @@ class Closure(Spec):
     """Centre distance and transmission error without dynamics."""
 
     strands: Literal["straight", "equilibrium"] = Field(
-        "equilibrium", description="straight: free plates in one line; equilibrium: each where the strand's force leaves it")
+        "equilibrium", description="straight: free plates in one line; equilibrium: each where the strand's force leaves it"
+    )
     elongation: Number = Field(0.0, ge=-0.02, le=0.05, description="of the chain by wear, relative to its pitch")
 
 
 class Contact(Spec):
     """Pins on each other, plates on teeth."""
 
-    force: Force | None = Field(None, gt=0, description="of the strand; half the preload plus the centrifugal force unless given",
-                                examples=["200 N"])
-    stiffness: Stiffness = Field("1e5 N/mm", gt=0, description="of a place of contact: flank on tooth, plate on pin, pin on pin; three of "
-                                                               "these in line make a joint")
-    damping: Damping | None = Field(None, ge=0, description="of flank and tooth; joint_damping times stiffness unless given",
-                                    examples=["200 N s/m"])
+    force: Force | None = Field(
+        None, gt=0, description="of the strand; half the preload plus the centrifugal force unless given", examples=["200 N"]
+    )
+    stiffness: Stiffness = Field(
+        "1e5 N/mm", gt=0, description="of a place of contact: flank on tooth, plate on pin, pin on pin; three of these in line make a joint"
+    )
+    damping: Damping | None = Field(
+        None, ge=0, description="of flank and tooth; joint_damping times stiffness unless given", examples=["200 N s/m"]
+    )
     joint_damping: Time = Field("2 us", ge=0, description="damping of a joint over its stiffness")
     articulation_damping_ratio: Number | None = Field(
-        None, ge=0, description="of the turning of neighbouring plates against each other, by friction and oil of the joint, over critical "
-                                "for a plate that rocks between its joints; 0.003 where pins roll, 0.02 in a hinge unless given",
-        examples=[0.003])
+        None,
+        ge=0,
+        description="of the turning of neighbouring plates against each other, by friction and oil of the joint, over critical "
+        "for a plate that rocks between its joints; 0.003 where pins roll, 0.02 in a hinge unless given",
+        examples=[0.003],
+    )
 
 
 class Dynamics(Spec):
     """The run of the moving chain."""
 
     integrator: Literal["explicit", "implicit"] = Field(
-        "explicit", description="implicit: for damping too large, or contacts too stiff, for short explicit steps")
+        "explicit", description="implicit: for damping too large, or contacts too stiff, for short explicit steps"
+    )
     step: Time | None = Field(None, gt=0, description="of time; 1 us (explicit) unless given", examples=["1 us"])
     settling: Time = Field("50 ms", ge=0, description="left out of the statistics")
-    duration: Time | None = Field(None, gt=0, description="that is evaluated; two revolutions of the chain unless given",
-                                  examples=["0.25 s"])
+    duration: Time | None = Field(
+        None, gt=0, description="that is evaluated; two revolutions of the chain unless given", examples=["0.25 s"]
+    )
     ensemble: Integer = Field(4, ge=1, le=64, description="runs whose starts differ by nanometres: intervals of statistics come from them")
     thickness_deviation: Length = Field("0 mm", description="of all teeth, on each flank, positive: too thick")
-    largest_drift: Number = Field(1e-3, gt=0, description="of the energy balance in a second, over the energy stored; beyond it the run "
-                                                          "has failed")
+    largest_drift: Number = Field(
+        1e-3, gt=0, description="of the energy balance in a second, over the energy stored; beyond it the run has failed"
+    )
 
 
 class Compare(Spec):
     """Designs beside this one; lists left empty are chosen around it."""
 
-    rolling_radii: tuple[Radius, ...] = Field((), max_length=40, description="rolling radii of the trade-off and of the phase map",
-                                              examples=[["1.0 mm", "1.2 mm", "1.6 mm", "7.4 mm"]])
+    rolling_radii: tuple[Radius, ...] = Field(
+        (),
+        max_length=40,
+        description="rolling radii of the trade-off and of the phase map",
+        examples=[["1.0 mm", "1.2 mm", "1.6 mm", "7.4 mm"]],
+    )
     links: tuple[Integer, ...] = Field((), max_length=60, description="numbers of links of the phase map", examples=[[80, 81, 82, 83, 84]])
-    driven_teeth: tuple[Integer, ...] = Field((), max_length=20, description="teeth of the driven sprocket in the phase map",
-                                              examples=[[35, 36, 37]])
-    speeds: tuple[Speed, ...] = Field((), max_length=60, description="speeds of the driving sprocket for the Campbell diagram",
-                                      examples=[["500 rpm", "1000 rpm", "2000 rpm"]])
+    driven_teeth: tuple[Integer, ...] = Field(
+        (), max_length=20, description="teeth of the driven sprocket in the phase map", examples=[[35, 36, 37]]
+    )
+    speeds: tuple[Speed, ...] = Field(
+        (),
+        max_length=60,
+        description="speeds of the driving sprocket for the Campbell diagram",
+        examples=[["500 rpm", "1000 rpm", "2000 rpm"]],
+    )
 
 
 class Scatter(Spec):
@@ -258,7 +290,8 @@ class Fatigue(Spec):
 
     card: StrainLife | None = Field(None, description="strain-life data; estimated from the tensile strength unless given")
     plane: Literal["max-shear", "max-damage"] = Field(
-        "max-shear", description="critical plane: of the greatest shear strain, exact for one-directional tests; or the most damaged one")
+        "max-shear", description="critical plane: of the greatest shear strain, exact for one-directional tests; or the most damaged one"
+    )
     fineness: Number = Field(1.0, ge=0.3, le=4, description="of the elements: 2 halves them all")
 
 

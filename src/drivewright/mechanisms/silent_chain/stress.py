@@ -42,14 +42,27 @@ def stress(model, done):
         "plate.max_von_mises.x": Value(x, "m", "where it is, along the plate from its middle"),
         "plate.max_von_mises.y": Value(y, "m", "where it is, above the line of the pins"),
     }
-    safety = Check("plate.yield", model.spec.material.yield_strength / peak.stress, model.spec.limits.yield_safety, ">=", "-",
-                   "yield strength over the greatest von Mises stress of a plate", ("chain",))
-    table = Table("plate_history", "Stress of a plate at its worst place over a revolution", (
-        Column("time", "s", "time", found.time), Column("mises", "Pa", "von Mises stress at the worst place", history),
-        Column("left_pin", "N", "force of the left pin on one plate", np.hypot(*found.loads.pins[:, 0].T)),
-        Column("right_pin", "N", "force of the right pin on one plate", np.hypot(*found.loads.pins[:, 1].T)),
-        Column("left_flank", "N", "force on the left flank of one plate", found.loads.flanks[:, 0]),
-        Column("right_flank", "N", "force on the right flank of one plate", found.loads.flanks[:, 1])))
+    safety = Check(
+        "plate.yield",
+        model.spec.material.yield_strength / peak.stress,
+        model.spec.limits.yield_safety,
+        ">=",
+        "-",
+        "yield strength over the greatest von Mises stress of a plate",
+        ("chain",),
+    )
+    table = Table(
+        "plate_history",
+        "Stress of a plate at its worst place over a revolution",
+        (
+            Column("time", "s", "time", found.time),
+            Column("mises", "Pa", "von Mises stress at the worst place", history),
+            Column("left_pin", "N", "force of the left pin on one plate", np.hypot(*found.loads.pins[:, 0].T)),
+            Column("right_pin", "N", "force of the right pin on one plate", np.hypot(*found.loads.pins[:, 1].T)),
+            Column("left_flank", "N", "force on the left flank of one plate", found.loads.flanks[:, 0]),
+            Column("right_flank", "N", "force on the right flank of one plate", found.loads.flanks[:, 1]),
+        ),
+    )
     picture = stress_picture(found.basis, found.loads, peak.instant)
     return Answer(values, (table, picture), (safety,), data=found)
 
@@ -74,8 +87,11 @@ def life(model, done):
     findings = [
         f"plate: life of {fatigue.life_text(shortest, card)} revolutions of the chain of {revolution:.4g} s; one revolution takes up "
         f"{float(np.max(lives.damage)):.3g} of it",
-        *(["the fatigue data are estimated from the tensile strength by the uniform material law; bring data from tests"]
-          if card.estimated else []),
+        *(
+            ["the fatigue data are estimated from the tensile strength by the uniform material law; bring data from tests"]
+            if card.estimated
+            else []
+        ),
         "the pins roll under their contact pressure: its fatigue is not Brown and Miller's; see pin.shakedown",
     ]
     return Answer(values, (life_table(found.basis, lives), _life_map(found.basis, lives, model.link.pitch)), (), tuple(findings))
@@ -87,16 +103,24 @@ def _life_map(basis, lives, pitch):
     centre, half = basis.body.rim.points[lives.rows[kept]], 0.5 * DOT * pitch
     corners = np.array([(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)]) * half
     x, y = (centre[:, None, :] + corners).reshape(-1, 2).T
-    return Table("life_map", "Life around a plate", (
-        Column("x", "m", "along the plate", x), Column("y", "m", "across the plate", y), Column("depth", "m", "flat", 0 * x),
-        Column("life", "-", "power of ten of the revolutions", np.repeat(np.log10(lives.life[kept]), 6))))
+    return Table(
+        "life_map",
+        "Life around a plate",
+        (
+            Column("x", "m", "along the plate", x),
+            Column("y", "m", "across the plate", y),
+            Column("depth", "m", "flat", 0 * x),
+            Column("life", "-", "power of ten of the revolutions", np.repeat(np.log10(lives.life[kept]), 6)),
+        ),
+    )
 
 
 def card_of(model):
     """The strain-life card: as given, else estimated from the tensile strength."""
     material = model.spec.material
     return model.spec.fatigue.card or fatigue.uniform_material_law(
-        material.tensile_strength, material.youngs_modulus, material.poisson_ratio, yield_strength=material.yield_strength)
+        material.tensile_strength, material.youngs_modulus, material.poisson_ratio, yield_strength=material.yield_strength
+    )
 
 
 def away(pins):
@@ -114,8 +138,10 @@ class Revolution(SimpleNamespace):
     @cached_property
     def basis(self):
         material = self.model.spec.material
-        return plate_basis(self.model.plate, plate_body(self.model.plate, material.youngs_modulus, material.poisson_ratio,
-                                                        fineness=self.model.spec.fatigue.fineness))
+        return plate_basis(
+            self.model.plate,
+            plate_body(self.model.plate, material.youngs_modulus, material.poisson_ratio, fineness=self.model.spec.fatigue.fineness),
+        )
 
     @property
     def rows(self):
@@ -138,8 +164,10 @@ class Revolution(SimpleNamespace):
     def loads(self):
         """`Loads` (n,) of a plate of the link with fewer plates, which carries the most."""
         share = 1 / min(self.model.spec.plate.lacing)
-        column = {name: self.motion.column(name)[self.rows] * share for name in
-                  ("left x", "left y", "right x", "right y", "left flank", "right flank")}
+        column = {
+            name: self.motion.column(name)[self.rows] * share
+            for name in ("left x", "left y", "right x", "right y", "left flank", "right flank")
+        }
         pins = np.stack([[column["left x"], column["left y"]], [column["right x"], column["right y"]]]).transpose(2, 0, 1)
         pins = np.where(away(pins)[..., None], 0.0, pins)
         flanks = np.stack([column["left flank"], column["right flank"]], axis=1)

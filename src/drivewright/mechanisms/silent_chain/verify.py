@@ -79,8 +79,13 @@ def _meshing(model, result):
         base = p2 * z / pi * cos(a2)
         fa = base / 2 * (alpha - a2) + seated / 2 * (cos(alpha) - sin(alpha) * cot - cos(a2) + sin(a2) * cot) + fp
         x = -exact(z) / 2 + 3 * pi / 4 * cot2 - pi * fa / sin(a2) / p2 - pi * seated / (2 * p2) * cot2 + pi * seated / (2 * p2) * cot
-        for name, value in (("seated_pitch", seated), ("ideal_pitch", wanted), ("pitch_deviation", seated - wanted),
-                            ("seated_apothem", fp), ("positioning_diameter", seated / sin(t))):
+        for name, value in (
+            ("seated_pitch", seated),
+            ("ideal_pitch", wanted),
+            ("pitch_deviation", seated - wanted),
+            ("seated_apothem", fp),
+            ("positioning_diameter", seated / sin(t)),
+        ):
             yield f"{name}.{side}", result[f"{name}.{side}"], float(value), "m", 1e-12 * spec.pitch, route
         yield f"modification.{side}", result[f"modification.{side}"], float(x), "-", 1e-11, route
 
@@ -130,8 +135,14 @@ def _loop(model, result):
     loop = Loop(model.worn, model.teeth, state, found.drive.strands == "equilibrium")
     first = loop.first()
     downhill = np.where(np.arange(len(first)) == 1, -1.0, 0.0)
-    best = minimize(lambda x: -x[1], first, jac=lambda x: downhill, constraints={"type": "eq", "fun": loop.misses}, method="SLSQP",
-                    options={"ftol": 1e-12, "maxiter": 500})
+    best = minimize(
+        lambda x: -x[1],
+        first,
+        jac=lambda x: downhill,
+        constraints={"type": "eq", "fun": loop.misses},
+        method="SLSQP",
+        options={"ftol": 1e-12, "maxiter": 500},
+    )
     where = f"at {np.degrees(state.driver_angle):.4g} deg of the driver"
     yield f"centre distance {where}", ours, float(best.x[1] * loop.pitch), "m", 1e-7 * model.spec.pitch, LARGEST
     yield f"driven angle {where}", float(state.driven_angle), float(best.x[0]), "rad", 1e-6, LARGEST

@@ -10,27 +10,43 @@ from drivewright.studies.answers.within import variances
 from drivewright.studies.statistics import varies
 
 LINEAR, REGRESSION, RANKS = "linear", "regression", "ranks"
-METHODS = {LINEAR: "linear theory from steps", REGRESSION: "squared regression coefficients",
-           RANKS: "first-order Sobol indices by ranks"}
-CONTRIBUTIONS = (("value", "", "value of the result"), ("key", "", "key that varies"), ("method", "", "how it is found"),
-                 ("share", "-", "share of the variance that the key causes"))
+METHODS = {LINEAR: "linear theory from steps", REGRESSION: "squared regression coefficients", RANKS: "first-order Sobol indices by ranks"}
+CONTRIBUTIONS = (
+    ("value", "", "value of the result"),
+    ("key", "", "key that varies"),
+    ("method", "", "how it is found"),
+    ("share", "-", "share of the variance that the key causes"),
+)
 THEORY = (
-    ("value", "", "value of the result"), ("unit", "", "unit of the value"), ("key", "", "key that varies"),
+    ("value", "", "value of the result"),
+    ("unit", "", "unit of the value"),
+    ("key", "", "key that varies"),
     ("slope", "", "change of the value by change of the key, in units of both"),
-    ("sigma", "", "standard deviation of the value that the key causes"), ("share", "-", "share of the variance"),
+    ("sigma", "", "standard deviation of the value that the key causes"),
+    ("share", "-", "share of the variance"),
     ("curvature", "", "sum of the changes by a step up and a step down; 0 where the value is linear in the key"),
 )
 TOTALS = (
-    ("value", "", "value of the result"), ("unit", "", "unit of the row's numbers"), ("nominal", "", "with all keys at their means"),
-    ("sigma", "", "standard deviation by root sum of squares"), ("least", "", "worst case of linear theory, least"),
+    ("value", "", "value of the result"),
+    ("unit", "", "unit of the row's numbers"),
+    ("nominal", "", "with all keys at their means"),
+    ("sigma", "", "standard deviation by root sum of squares"),
+    ("least", "", "worst case of linear theory, least"),
     ("greatest", "", "worst case of linear theory, greatest"),
 )
 INDICES = (
-    ("value", "", "value of the result"), ("key", "", "key that varies"),
-    *((name + end, "-", meaning + told) for name, meaning in (
-        ("first_order", "share of the variance by the key alone"), ("total", "share of the variance in which the key takes part"))
-      for end, told in BOUNDS),
-    ("rows", "-", "base cases"), ("dropped", "-", "base cases left out because one of their cases has no value"),
+    ("value", "", "value of the result"),
+    ("key", "", "key that varies"),
+    *(
+        (name + end, "-", meaning + told)
+        for name, meaning in (
+            ("first_order", "share of the variance by the key alone"),
+            ("total", "share of the variance in which the key takes part"),
+        )
+        for end, told in BOUNDS
+    ),
+    ("rows", "-", "base cases"),
+    ("dropped", "-", "base cases left out because one of their cases has no value"),
 )
 
 
@@ -68,8 +84,9 @@ def _theories(arranged, found, noise):
     distributions = [variable.distribution for variable in arranged.plan.random]
     sigmas, means = (np.array([getattr(each, what)() for each in distributions]) for what in ("std", "mean"))
     deviations = np.array([variable.ends for variable in arranged.plan.random]) - means[:, None]
-    return [sensitivity.linear(row[nominal][0], row[steps], sigmas, deviations, within[steps])
-            for row, within in zip(found, noise, strict=True)]
+    return [
+        sensitivity.linear(row[nominal][0], row[steps], sigmas, deviations, within[steps]) for row, within in zip(found, noise, strict=True)
+    ]
 
 
 def _linear(arranged):
@@ -84,8 +101,10 @@ def _linear(arranged):
             totals.append((number, name, unit, nominal, theory.sigma, theory.least, theory.greatest))
     if not rows:
         return Part()
-    tables = (table_of_rows("linear", "Linear theory, key by key", THEORY, rows, arranged),
-              table_of_rows("linear_totals", "Linear theory, all keys together", TOTALS, totals, arranged))
+    tables = (
+        table_of_rows("linear", "Linear theory, key by key", THEORY, rows, arranged),
+        table_of_rows("linear_totals", "Linear theory, all keys together", TOTALS, totals, arranged),
+    )
     return Part(dict(_linear_values(arranged, totals)) if arranged.combinations == 1 else {}, tables)
 
 
@@ -141,21 +160,31 @@ def _contributions(arranged):
             if theories and np.any(np.isfinite(theories[number].share)):
                 shares = {LINEAR: theories[number].share} | shares
             wide[name, number], fits[name] = shares, determination
-            rows += [(number, name, key, method, part) for method, parts in shares.items()
-                     for key, part in zip(sample.keys or _keys(arranged), parts, strict=True)]
+            rows += [
+                (number, name, key, method, part)
+                for method, parts in shares.items()
+                for key, part in zip(sample.keys or _keys(arranged), parts, strict=True)
+            ]
     if not rows:
         return Part()
     table = table_of_rows("contributions", "Contributions to the variance", CONTRIBUTIONS, rows, arranged)
     plots = _ranked(arranged, sample.keys or _keys(arranged), wide) if arranged.combinations == 1 else Part()
-    values = {f"determination.{name}": Value(fit, "-", f"{arranged.study.meaning(name) or name}: share of the variance that a linear fit "
-              "explains, R2") for name, fit in fits.items() if arranged.combinations == 1 and np.isfinite(fit)}
+    values = {
+        f"determination.{name}": Value(
+            fit, "-", f"{arranged.study.meaning(name) or name}: share of the variance that a linear fit explains, R2"
+        )
+        for name, fit in fits.items()
+        if arranged.combinations == 1 and np.isfinite(fit)
+    }
     return together([Part(values, (table,), findings=_remarks(rows, len(sample.rows))), plots])
 
 
 def _remarks(rows, cases):
     if any(row[3] == RANKS for row in rows):
-        yield (f"contributions by ranks come from {cases} cases and scatter by about {1 / np.sqrt(cases):.2g}; "
-               "a small one may come out below 0")
+        yield (
+            f"contributions by ranks come from {cases} cases and scatter by about {1 / np.sqrt(cases):.2g}; "
+            "a small one may come out below 0"
+        )
 
 
 def _ranked(arranged, keys, wide):
@@ -163,12 +192,16 @@ def _ranked(arranged, keys, wide):
     tables, plots = [], []
     for name in arranged.shown:
         if shares := wide.get((name, 0)):
-            table = Table(f"contributions.{name}", f"Contributions to the variance of {name}", (
-                Column("key", "", "key that varies", np.array(keys)),
-                *(Column(method, "-", METHODS[method], part) for method, part in shares.items())))
+            table = Table(
+                f"contributions.{name}",
+                f"Contributions to the variance of {name}",
+                (
+                    Column("key", "", "key that varies", np.array(keys)),
+                    *(Column(method, "-", METHODS[method], part) for method, part in shares.items()),
+                ),
+            )
             tables.append(table)
-            plots.append(Plot(table.name, f"Shares in the variance of {name}", table.name, "key",
-                              tuple(shares), style="ranked"))
+            plots.append(Plot(table.name, f"Shares in the variance of {name}", table.name, "key", tuple(shares), style="ranked"))
     return Part(tables=tuple(tables), plots=tuple(plots))
 
 
@@ -179,10 +212,14 @@ def responses(arranged):
         found, noise = arranged.of(name), _noise(arranged, name)
         theories = _theories(arranged, found, noise)
         keys = _keys(arranged) if theories else sample.keys
-        shares = [theory.share for theory in theories] or [sample.shares(*row)[0].get(REGRESSION, np.full(len(keys), np.nan))
-                                                           for row in zip(found, noise, strict=True)]
-        columns = tuple(Column(f"share.{name}.{key}", "-", f"share of {key}", part)
-                        for key, part in zip(keys, np.array(shares).T, strict=True) if np.any(np.isfinite(part)))
+        shares = [theory.share for theory in theories] or [
+            sample.shares(*row)[0].get(REGRESSION, np.full(len(keys), np.nan)) for row in zip(found, noise, strict=True)
+        ]
+        columns = tuple(
+            Column(f"share.{name}.{key}", "-", f"share of {key}", part)
+            for key, part in zip(keys, np.array(shares).T, strict=True)
+            if np.any(np.isfinite(part))
+        )
         if columns:
             yield Response(f"shares.{name}", f"Shares in the variance of {name}", columns)
 
@@ -194,15 +231,25 @@ def _indices(arranged):
     """Table `indices` from a sample made for it, and for each shown value a table and a plot."""
     if arranged.block("mixed") is None:
         return Part()
-    rows = [(number, name, key, *row) for name, found, noise in _each(arranged) for number, y in enumerate(found)
-            for key, row in zip(_keys(arranged), _index_rows(arranged, y, noise[number]), strict=True)]
+    rows = [
+        (number, name, key, *row)
+        for name, found, noise in _each(arranged)
+        for number, y in enumerate(found)
+        for key, row in zip(_keys(arranged), _index_rows(arranged, y, noise[number]), strict=True)
+    ]
     if not rows:
         return Part()
     table = table_of_rows("indices", "Sobol indices", INDICES, rows, arranged)
     shown = [_index_plot(arranged, name, rows) for name in arranged.shown] if arranged.combinations == 1 else []
     dropped = max(row[-1] for row in rows)
-    remark = (f"up to {dropped} of {dropped + min(row[-2] for row in rows)} base cases are left out of the Sobol indices, because one of "
-              "their cases has no value",) if dropped else ()
+    remark = (
+        (
+            f"up to {dropped} of {dropped + min(row[-2] for row in rows)} base cases are left out of the Sobol indices, because one of "
+            "their cases has no value",
+        )
+        if dropped
+        else ()
+    )
     return together([Part(tables=(table,), findings=remark), *(part for part in shown if part)])
 
 
@@ -211,8 +258,10 @@ def _index_rows(arranged, y, noise):
     blocks = [arranged.block(name) for name in ("a", "b", "mixed")]
     (a, b, mixed), within = ([column[block] for block in blocks] for column in (y, noise))
     found = sensitivity.indices(a, b, mixed.reshape(-1, len(a)), (within[0], within[1], within[2].reshape(-1, len(a))))
-    return [(s, *s_ends, t, *t_ends, found.rows, found.dropped) for s, s_ends, t, t_ends in
-            zip(found.first, found.first_interval, found.total, found.total_interval, strict=True)]
+    return [
+        (s, *s_ends, t, *t_ends, found.rows, found.dropped)
+        for s, s_ends, t, t_ends in zip(found.first, found.first_interval, found.total, found.total_interval, strict=True)
+    ]
 
 
 def _index_plot(arranged, name, rows):
@@ -221,6 +270,13 @@ def _index_plot(arranged, name, rows):
         return None
     columns = [Column(*head, np.array(data)) for head, data in zip(INDICES[1:-2], zip(*rows, strict=True), strict=True)]
     table = Table(f"indices.{name}", f"Sobol indices of {name}", tuple(columns))
-    plot = Plot(table.name, f"Shares in the variance of {name}", table.name, "key",
-                ("first_order", "total"), style="ranked", reference=("first_order.low", "first_order.high"))
+    plot = Plot(
+        table.name,
+        f"Shares in the variance of {name}",
+        table.name,
+        "key",
+        ("first_order", "total"),
+        style="ranked",
+        reference=("first_order.low", "first_order.high"),
+    )
     return Part(tables=(table,), plots=(plot,))

@@ -36,8 +36,9 @@ def _goals(study, values):
     named = [name for name in values if not name.startswith(CHECK)]
     if len(named) != 2 or not set(named) <= set(study.value_names):
         return {}, ()
-    return dict.fromkeys(named, "minimise"), (f"the Pareto front takes {named[0]} and {named[1]} as to be made small; "
-                                              "say otherwise in [[optimise.objectives]]",)
+    return dict.fromkeys(named, "minimise"), (
+        f"the Pareto front takes {named[0]} and {named[1]} as to be made small; say otherwise in [[optimise.objectives]]",
+    )
 
 
 def _requirements(study):
@@ -68,20 +69,38 @@ def _told(study, goals, columns, sets, remarks):
     there = there[np.argsort([DRAWN.index(each) for each in sets[there]], kind="stable")]
     members = there[sets[there] == FRONT]
     members = members[np.argsort(columns[0][members], kind="stable")]
-    plots = tuple(Plot("pareto" if number == 1 else f"pareto.{number}", "Trade-off of the objectives", "pareto", list(goals)[0], (name,),
-                       style="points", by="set") for number, name in enumerate(list(goals)[1:], 1))
+    plots = tuple(
+        Plot(
+            "pareto" if number == 1 else f"pareto.{number}",
+            "Trade-off of the objectives",
+            "pareto",
+            list(goals)[0],
+            (name,),
+            style="points",
+            by="set",
+        )
+        for number, name in enumerate(list(goals)[1:], 1)
+    )
     if not len(members):
         remarks = (*remarks, "no case passes every check and requirement, so the Pareto front is empty")
     title = " and ".join(f"{name} ({goal})" for name, goal in goals.items())
-    tables = (Table("pareto", f"Cases by {title}", _columns(study, goals, there, sets)),
-              *([Table("front", f"Pareto front of {title}", _columns(study, goals, members, sets))] if len(members) else []))
+    tables = (
+        Table("pareto", f"Cases by {title}", _columns(study, goals, there, sets)),
+        *([Table("front", f"Pareto front of {title}", _columns(study, goals, members, sets))] if len(members) else []),
+    )
     return Part({"front.cases": Value(float(len(members)), "-", "cases on the Pareto front")}, tables, plots, remarks)
 
 
 def _columns(study, goals, rows, sets):
     """Objectives, keys, case and set of some rows, and the ends of the objectives' intervals."""
     about = {name: study.meaning(name) or name for name in (*goals, "case")} | {key: key for key in study.plan.keys}
-    return (*(Column(name, study.unit(name), meaning, plain(study[name])[rows]) for name, meaning in about.items()),
-            Column("set", "", "front, dominated, or fails a check or requirement", sets[rows].astype(str)),
-            *(end for name in goals if (bounds := study.bounds(name)) is not None
-              for end in Column(name, study.unit(name), about[name], rows).bounds(*(each[rows] for each in bounds))))
+    return (
+        *(Column(name, study.unit(name), meaning, plain(study[name])[rows]) for name, meaning in about.items()),
+        Column("set", "", "front, dominated, or fails a check or requirement", sets[rows].astype(str)),
+        *(
+            end
+            for name in goals
+            if (bounds := study.bounds(name)) is not None
+            for end in Column(name, study.unit(name), about[name], rows).bounds(*(each[rows] for each in bounds))
+        ),
+    )

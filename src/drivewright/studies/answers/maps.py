@@ -14,14 +14,21 @@ MOST_PANELS = 4  # combinations of further keys that get plots of their own
 MOST_LINES = 6  # levels of a second key that are lines; with more they are a map
 
 RANGE = (
-    ("value", "", "value of the result"), ("unit", "", "unit of the row's numbers"), ("cases", "-", "cases that have the value"),
-    ("least", "", "least over the grid"), ("least.case", "-", "number of the case where it is least"),
-    ("greatest", "", "greatest over the grid"), ("greatest.case", "-", "number of the case where it is greatest"),
+    ("value", "", "value of the result"),
+    ("unit", "", "unit of the row's numbers"),
+    ("cases", "-", "cases that have the value"),
+    ("least", "", "least over the grid"),
+    ("least.case", "-", "number of the case where it is least"),
+    ("greatest", "", "greatest over the grid"),
+    ("greatest.case", "-", "number of the case where it is greatest"),
 )
 
 
-RANGE_ENDS = tuple((f"{end}{side}", "", f"{end} over the grid, {told}") for end in ("least", "greatest")
-                   for side, told in ((LOW, "at least"), (HIGH, "at most")))
+RANGE_ENDS = tuple(
+    (f"{end}{side}", "", f"{end} over the grid, {told}")
+    for end in ("least", "greatest")
+    for side, told in ((LOW, "at least"), (HIGH, "at most"))
+)
 
 
 class Response(NamedTuple):
@@ -67,8 +74,14 @@ def _panels(plan, axes):
         fixed = dict(zip(others, places, strict=True))
         told = "".join(f", {plan.grid[n].key} = {level_text(plan.grid[n], place)}" for n, place in fixed.items())
         found.append((f".{number}" if len(chosen) > 1 else "", told, _combinations(plan, axes[:2], fixed)))
-    remark = (f"the plots show one of {len(combined)} combinations of {', '.join(plan.grid[n].key for n in others)}:{found[0][1][1:]}; "
-              "the study's table holds all",) if len(chosen) < len(combined) else ()
+    remark = (
+        (
+            f"the plots show one of {len(combined)} combinations of {', '.join(plan.grid[n].key for n in others)}:{found[0][1][1:]}; "
+            "the study's table holds all",
+        )
+        if len(chosen) < len(combined)
+        else ()
+    )
     return found, remark
 
 
@@ -82,8 +95,11 @@ def _combinations(plan, axes, fixed):
 def _panel(arranged, responses, axes, suffix, told, combinations):
     """Table and plots of one combination of the further keys."""
     keys = arranged.level_columns(combinations)
-    data = [column._replace(data=np.asarray(column.data)[combinations]) for response in responses
-            for column in (*response.columns, *response.ends)]
+    data = [
+        column._replace(data=np.asarray(column.data)[combinations])
+        for response in responses
+        for column in (*response.columns, *response.ends)
+    ]
     name = f"response{suffix}"
     table = Table(name, f"Response over {' and '.join(keys[n].name for n in axes)}{told}", (*(keys[n] for n in axes), *data))
     plots = [plot for response in responses for plot in _plots(arranged.plan, response, axes, table.name, suffix, told)]

@@ -109,8 +109,10 @@ class Arranged:
     def level_columns(self, rows):
         """A `Column` for each key of the grid: its level in the combinations `rows`."""
         places = np.unravel_index(np.asarray(rows, dtype=int), self.plan.shape) if self.plan.grid else ()
-        return tuple(Column(variable.key, variable.kind.unit, variable.key, plain(variable.levels[place]))
-                     for variable, place in zip(self.plan.grid, places, strict=True))
+        return tuple(
+            Column(variable.key, variable.kind.unit, variable.key, plain(variable.levels[place]))
+            for variable, place in zip(self.plan.grid, places, strict=True)
+        )
 
 
 def level_text(variable, place):

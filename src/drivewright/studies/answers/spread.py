@@ -13,27 +13,35 @@ ALL = "all checks"
 VALUE = (("value", "", "value of the result"), ("unit", "", "unit of the row's numbers"))
 SHORT = (1.0, 50.0, 99.0)  # percentiles that are told at a glance
 TOLERANCE = (
-    *VALUE, ("mean", "", "mean"), ("sigma", "", "standard deviation"),
+    *VALUE,
+    ("mean", "", "mean"),
+    ("sigma", "", "standard deviation"),
     *((f"percentile.{percent:g}", "", f"{percent:g} % of all cases are below") for percent in SHORT),
-    ("least", "", "least of the sample"), ("greatest", "", "greatest of the sample"), ("absent", "-", "cases that do not have the value"),
+    ("least", "", "least of the sample"),
+    ("greatest", "", "greatest of the sample"),
+    ("absent", "-", "cases that do not have the value"),
 )
 CONFIDENCE = (
-    *VALUE, ("cases", "-", "cases that have the value"),
-    *((name + end, "", meaning + told) for name, meaning in (("mean", "mean"), ("sigma", "standard deviation"))
-      for end, told in BOUNDS),
+    *VALUE,
+    ("cases", "-", "cases that have the value"),
+    *((name + end, "", meaning + told) for name, meaning in (("mean", "mean"), ("sigma", "standard deviation")) for end, told in BOUNDS),
     ("skewness", "-", "skewness"),
-    *((f"percentile.{percent:g}{end}", "", f"{percent:g} % of all cases are below" + told) for percent in PERCENTS
-      for end, told in BOUNDS),
+    *((f"percentile.{percent:g}{end}", "", f"{percent:g} % of all cases are below" + told) for percent in PERCENTS for end, told in BOUNDS),
 )
 YIELD = (
-    ("check", "", "design check"), ("passes", "-", "cases that pass"), ("cases", "-", "cases that have the check, or failed"),
+    ("check", "", "design check"),
+    ("passes", "-", "cases that pass"),
+    ("cases", "-", "cases that have the check, or failed"),
     *(("yield" + end, "-", "share of the cases that pass" + told) for end, told in BOUNDS),
     ("capability", "-", "capability index Cpk: mean margin over three standard deviations"),
     ("undecided", "-", "cases whose limit lies within the interval of their value"),
 )
 WORST = (
-    ("value", "", "value of the result, or margin of a check to its limit"), ("unit", "", "unit of the row's numbers"),
-    ("least", "", "least at the corners"), ("greatest", "", "greatest at the corners"), ("corners", "-", "corners that have it"),
+    ("value", "", "value of the result, or margin of a check to its limit"),
+    ("unit", "", "unit of the row's numbers"),
+    ("least", "", "least at the corners"),
+    ("greatest", "", "greatest at the corners"),
+    ("corners", "-", "corners that have it"),
 )
 
 
@@ -42,8 +50,11 @@ def spread(arranged):
     if not len(arranged.sample):
         return Part()
     names = arranged.study.value_names
-    rows = [(number, name, arranged.study.unit(name), summary(sample))
-            for name in names for number, sample in enumerate(arranged.of(name)[:, arranged.sample])]
+    rows = [
+        (number, name, arranged.study.unit(name), summary(sample))
+        for name in names
+        for number, sample in enumerate(arranged.of(name)[:, arranged.sample])
+    ]
     parts = [_yields(arranged), within_cases(arranged)]
     if rows:
         short = table_of_rows("tolerance", "Spread of the values", TOLERANCE, [_told(*row) for row in rows], arranged)
@@ -75,14 +86,26 @@ def _values(arranged, rows):
 
 def _histograms(arranged):
     """The raw samples of the shown values; the margin of a check with its limit, 0."""
-    columns = [Column(name, arranged.study.unit(name), arranged.study.meaning(name) or name, arranged.of(name)[0, arranged.sample])
-               for name in arranged.shown]
+    columns = [
+        Column(name, arranged.study.unit(name), arranged.study.meaning(name) or name, arranged.of(name)[0, arranged.sample])
+        for name in arranged.shown
+    ]
     columns = [column for column in columns if len(finite(column.data)) > 1]
     if not columns:
         return Part()
     cases = Column("case", "-", "number of the case", arranged.sample)
-    plots = [Plot(f"histogram.{c.name}", f"Distribution of {c.name}", "sample", c.name, (c.name,),
-                  ((0.0, "limit"),) if c.name.startswith(CHECK) else (), style="histogram") for c in columns]
+    plots = [
+        Plot(
+            f"histogram.{c.name}",
+            f"Distribution of {c.name}",
+            "sample",
+            c.name,
+            (c.name,),
+            ((0.0, "limit"),) if c.name.startswith(CHECK) else (),
+            style="histogram",
+        )
+        for c in columns
+    ]
     title = "The points of the file" if arranged.plan.listed else "The random sample"
     return Part(tables=(Table("sample", title, (cases, *columns)),), plots=tuple(plots))
 
@@ -141,8 +164,11 @@ def responses(arranged):
         unit, what = arranged.study.unit(name), arranged.study.meaning(name) or name
         found = [summary(sample) for sample in arranged.of(name)[:, arranged.sample]]
         (mean, *mean_ends), (sigma, *sigma_ends) = (np.array([getattr(each, part) for each in found]).T for part in ("mean", "sigma"))
-        lines = ((f"mean.{name}", "mean", mean), (f"lower.{name}", "mean less one standard deviation", mean - sigma),
-                 (f"upper.{name}", "mean and one standard deviation", mean + sigma))
+        lines = (
+            (f"mean.{name}", "mean", mean),
+            (f"lower.{name}", "mean less one standard deviation", mean - sigma),
+            (f"upper.{name}", "mean and one standard deviation", mean + sigma),
+        )
         columns = tuple(Column(c, unit, f"{what}, {told}", y) for c, told, y in lines)
         yield Response(name, f"{name}: mean and standard deviation", columns, ends=columns[0].bounds(*mean_ends))
         alone = Column(f"sigma.{name}", unit, f"{what}, standard deviation", sigma)
@@ -162,8 +188,12 @@ def worst_case(arranged):
     if block is None:
         return Part()
     names = (*arranged.study.value_names, *(CHECK + name for name in arranged.study.check_names))
-    rows = [(number, name, arranged.study.unit(name), *ends) for name in names
-            for number, ends in enumerate(_ends(case) for case in arranged.of(name)[:, block]) if ends[2]]
+    rows = [
+        (number, name, arranged.study.unit(name), *ends)
+        for name in names
+        for number, ends in enumerate(_ends(case) for case in arranged.of(name)[:, block])
+        if ends[2]
+    ]
     if not rows:
         return Part()
     table = table_of_rows("worst_case", "Worst case: every key at an end", WORST, rows, arranged)

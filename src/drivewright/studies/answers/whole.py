@@ -68,8 +68,11 @@ def _read_as_levels(arranged):
     if listed_keys:
         axes = [variable.key for variable in arranged.plan.grid if variable.key in listed_keys]
         others = [key for key in listed_keys if key not in axes]
-        yield (f"the points of the file are all combinations of the levels of {listed(axes)}"
-               + (f"; these decide {listed(others)}" if others else "") + ", so they are answered as a grid")
+        yield (
+            f"the points of the file are all combinations of the levels of {listed(axes)}"
+            + (f"; these decide {listed(others)}" if others else "")
+            + ", so they are answered as a grid"
+        )
 
 
 def _assumptions(arranged):
@@ -78,8 +81,10 @@ def _assumptions(arranged):
     if arranged.plan.listed:
         yield "the points of the file are taken as a random sample; contributions as if its keys varied independently of each other"
     elif len(arranged.sample) and method != "random":
-        yield (f"the intervals of {LEVEL:.0%} are those of independent cases; the even points of this sample ({method}) make means, "
-               "as a rule, more certain than told")
+        yield (
+            f"the intervals of {LEVEL:.0%} are those of independent cases; the even points of this sample ({method}) make means, "
+            "as a rule, more certain than told"
+        )
 
 
 # -- which values --------------------------------------------------------------------------------------------------------------
@@ -92,8 +97,11 @@ def _shown(study, values):
     varying = [name for name in known if varies(study[name], ROUNDING * sizes[study.unit(name)])]
     still = [name for name in study.value_names if name not in varying and np.any(np.isfinite(_numbers(study, name)))]
     absent = [name for name in study.value_names if not np.any(np.isfinite(_numbers(study, name)))]
-    told = [f"{what} ({len(names)}): {listed(names)}"
-            for names, what in ((still, "values that do not vary over the study"), (absent, "values that no case has")) if names]
+    told = [
+        f"{what} ({len(names)}): {listed(names)}"
+        for names, what in ((still, "values that do not vary over the study"), (absent, "values that no case has"))
+        if names
+    ]
     chosen = [name for name in _wanted(study, values, varying) if name in varying]
     shown = chosen if values else chosen[:MOST]
     if len(chosen) > len(shown):
@@ -150,8 +158,10 @@ def _commonest(reasons):
     """The commonest kinds of reasons, each with its number and the first of its kind in full."""
     kinds = [_kind(reason) for reason in reasons]
     counted = Counter(kinds)
-    quoted = [f"{f'{number} times, such as' if number > 1 else 'once'}: {_quoted(reasons[kinds.index(kind)])}"
-              for kind, number in counted.most_common(REASONS)]
+    quoted = [
+        f"{f'{number} times, such as' if number > 1 else 'once'}: {_quoted(reasons[kinds.index(kind)])}"
+        for kind, number in counted.most_common(REASONS)
+    ]
     rest = len(counted) - len(quoted)
     return "; ".join(quoted) + (f"; and {rest} other reasons" if rest else "")
 

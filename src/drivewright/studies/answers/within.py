@@ -12,11 +12,18 @@ from drivewright.studies.answers.parts import BOUNDS, Part, table_of_rows
 from drivewright.studies.statistics import Sampled, summary
 
 WITHIN = (
-    ("value", "", "value of the result"), ("unit", "", "unit of the row's numbers"),
+    ("value", "", "value of the result"),
+    ("unit", "", "unit of the row's numbers"),
     ("sigma", "", "standard deviation over the cases, all together"),
-    *((name + end, unit, meaning + told) for name, unit, meaning in (
-        ("sigma.within", "", "standard deviation within a case"), ("sigma.keys", "", "standard deviation by the keys that vary"),
-        ("share.within", "-", "share of the variance that is within a case")) for end, told in BOUNDS),
+    *(
+        (name + end, unit, meaning + told)
+        for name, unit, meaning in (
+            ("sigma.within", "", "standard deviation within a case"),
+            ("sigma.keys", "", "standard deviation by the keys that vary"),
+            ("share.within", "-", "share of the variance that is within a case"),
+        )
+        for end, told in BOUNDS
+    ),
 )
 
 
@@ -61,8 +68,11 @@ def _root(square):
 def within_cases(arranged):
     """`Part` of a sample: table `within_cases` of the values with intervals, with values and a finding."""
     noises = {name: noise for name in arranged.study.value_names if (noise := variances(arranged, name)) is not None}
-    rows = [(number, name, arranged.study.unit(name), told_apart(*row)) for name, noise in noises.items()
-            for number, row in enumerate(zip(arranged.of(name)[:, arranged.sample], noise[:, arranged.sample], strict=True))]
+    rows = [
+        (number, name, arranged.study.unit(name), told_apart(*row))
+        for name, noise in noises.items()
+        for number, row in enumerate(zip(arranged.of(name)[:, arranged.sample], noise[:, arranged.sample], strict=True))
+    ]
     rows = [row for row in rows if np.isfinite(row[3].sigma.value)]
     if not rows:
         return Part()
@@ -82,8 +92,12 @@ def _values(arranged, rows):
 def _findings(rows):
     for _, name, _, found in rows:
         if found.keys.value == 0:
-            yield (f"{name}: the cases differ no more than one case by itself, so nothing can be said of what its keys cause; more windows "
-                   "or members narrow the intervals of the cases")
+            yield (
+                f"{name}: the cases differ no more than one case by itself, so nothing can be said of what its keys cause; more windows "
+                "or members narrow the intervals of the cases"
+            )
         elif found.share.value > 0.01:
-            yield (f"{name}: {found.share.value:.0%} of the variance over the cases is spread within a case; it is taken off the shares of "
-                   "the keys")
+            yield (
+                f"{name}: {found.share.value:.0%} of the variance over the cases is spread within a case; it is taken off the shares of "
+                "the keys"
+            )

@@ -59,8 +59,10 @@ class Evaluator:
         first, generation = len(self._answers), len(self.designs)
         have = [number for number in range(first, first + len(designs)) if number in self._found]
         if any(bytes(self._found[number][0]) != bytes(designs[number - first]) for number in have):
-            raise InputError(f"the search asks for other designs than those that were kept, from evaluation {first} on: another version of "
-                             "NumPy, SciPy or pymoo, or another machine. Go on there, or give another --out")
+            raise InputError(
+                f"the search asks for other designs than those that were kept, from evaluation {first} on: another version of "
+                "NumPy, SciPy or pymoo, or another machine. Go on there, or give another --out"
+            )
         done, ahead = first + len(have), (self.generations - generation) * population_of(self.problem.spec.optimise)
         if len(have) < len(designs):
             with closing(self._compute(first, designs, have, ahead)) as each:
@@ -173,14 +175,17 @@ class Runs:
 
     def _columns(self, designs):
         kinds = self._problem.kinds
-        return {key: x.astype(np.int64) if kind.name == "integer" else x
-                for key, kind, x in zip(self._problem.keys, kinds, designs.T, strict=True)}
+        return {
+            key: x.astype(np.int64) if kind.name == "integer" else x
+            for key, kind, x in zip(self._problem.keys, kinds, designs.T, strict=True)
+        }
 
     def _values(self, table):
         """{name: (m,)} of evaluated rows, nan where a design has none; where no design has one, there is no column."""
         columns, absent = {name: history.column_of(self._problem, name) for name in self._problem.names}, np.full(table.num_rows, np.nan)
-        return {name: table[column].to_numpy().astype(float) if column in table.column_names else absent
-                for name, column in columns.items()}
+        return {
+            name: table[column].to_numpy().astype(float) if column in table.column_names else absent for name, column in columns.items()
+        }
 
     def close(self):
         """Let the lanes go."""

@@ -22,10 +22,12 @@ def rows(problem, first, generation, designs, values, statuses, messages):
     import pyarrow as pa
 
     count = len(designs)
-    columns = [(CASE, np.arange(first, first + count), "-", "number of the evaluation"),
-               (STATUS, pa.array(statuses, pa.string()), "", "complete, partial or failed"),
-               (MESSAGE, pa.array(messages, pa.string()), "", "why it is not complete"),
-               (GENERATION, np.full(count, generation), "-", "generation that asked for it first")]
+    columns = [
+        (CASE, np.arange(first, first + count), "-", "number of the evaluation"),
+        (STATUS, pa.array(statuses, pa.string()), "", "complete, partial or failed"),
+        (MESSAGE, pa.array(messages, pa.string()), "", "why it is not complete"),
+        (GENERATION, np.full(count, generation), "-", "generation that asked for it first"),
+    ]
     for key, kind, x in zip(problem.keys, problem.kinds, designs.T, strict=True):
         columns.append((key, x.astype(np.int64) if kind.name == "integer" else x, kind.unit, "unknown"))
     for name, about in problem.about.items():
@@ -34,8 +36,10 @@ def rows(problem, first, generation, designs, values, statuses, messages):
     violation = problem.total_violation(usable(values, statuses))
     columns.append((VIOLATION, violation, "-", "sum of what is beyond the limits, each over its size"))
     arrays = [pa.array(data) for _, data, _, _ in columns]
-    fields = [pa.field(name, array.type, metadata={"unit": unit, "meaning": meaning})
-              for array, (name, _, unit, meaning) in zip(arrays, columns, strict=True)]
+    fields = [
+        pa.field(name, array.type, metadata={"unit": unit, "meaning": meaning})
+        for array, (name, _, unit, meaning) in zip(arrays, columns, strict=True)
+    ]
     return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
 
 

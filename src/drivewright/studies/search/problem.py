@@ -112,7 +112,12 @@ def prepare(spec):
     ends = [end for name, sense, _ in limits if (end := worse_end(name, sense)) in known and known[end].bounds == name]
     names = dict.fromkeys([*(name for name, _ in objectives), *(name for name, _, _ in limits), *ends])
     return Problem(
-        base, tuple(unknown.key for unknown in search.unknowns), tuple(kinds), np.array(bounds, float), objectives, limits,
+        base,
+        tuple(unknown.key for unknown in search.unknowns),
+        tuple(kinds),
+        np.array(bounds, float),
+        objectives,
+        limits,
         scales=np.array([abs(limit) or sizes[name] or 1.0 for name, _, limit in limits]),
         about={name: (known[name].unit, known[name].meaning) for name in names},
         analyses=tuple(analysis for analysis in dict.fromkeys(givers.values()) if any(givers[name] == analysis for name in names)),

@@ -8,7 +8,20 @@ its own, so the process that it runs in must be no daemon.
 from drivewright.studio.jobs import figures, files, search, sensitivity, solid, study
 
 # What a page may ask for: nothing that names a place on the disk, another machine, or how much of this one to take.
-JOBS = {"sensitivity": sensitivity.sensitivity, "study": study.study, "optimise": search.optimise, "solid": solid.solid,
-        "figures": figures.figures, "export": files.export, "report": files.report, "save": files.save}
-OPTIONS = {"figures": ("theme", "analyses"), "study": ("theme",), "optimise": ("theme",), "export": ("format", "anyway"),
-           "report": ("whole",)}
+JOBS = {
+    "sensitivity": sensitivity.sensitivity,
+    "study": study.study,
+    "optimise": search.optimise,
+    "solid": solid.solid,
+    "figures": figures.figures,
+    "export": files.export,
+    "report": files.report,
+    "save": files.save,
+}
+OPTIONS = {
+    "figures": ("theme", "analyses"),
+    "study": ("theme",),
+    "optimise": ("theme",),
+    "export": ("format", "anyway"),
+    "report": ("whole",),
+}

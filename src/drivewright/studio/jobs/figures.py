@@ -23,8 +23,11 @@ def figures(design, tell, theme="light", analyses=(), everything=False):
     seen = views(result, model)
     unlinked = tuple(plot for plot in seen.plots if not _is_linked(result, seen.scene, plot))
     requests = [{"name": a.name, "meaning": a.meaning, "missing": a.missing(spec)} for a in mechanism.analyses if a.name not in done]
-    return {"figures": drawn(pictures(result, seen._replace(scene=None, plots=unlinked)), theme), "requests": requests,
-            "findings": [*result.findings, *seen.remarks]}
+    return {
+        "figures": drawn(pictures(result, seen._replace(scene=None, plots=unlinked)), theme),
+        "requests": requests,
+        "findings": [*result.findings, *seen.remarks],
+    }
 
 
 def _is_linked(result, scene, plot):

@@ -42,8 +42,9 @@ def report(design, tell, whole=False):
             named = [picture._replace(name=file_name(picture.name)) for picture in pictures(result, seen)]
             return _one(f"{stem}.html", write_report(result, seen, folder, named).read_bytes())
         out = write_run_folder(result, Path(folder) / stem, seen=seen)
-        return _one(f"{stem}.zip", archive({path.relative_to(folder).as_posix(): path.read_bytes()
-                                            for path in out.rglob("*") if path.is_file()}))
+        return _one(
+            f"{stem}.zip", archive({path.relative_to(folder).as_posix(): path.read_bytes() for path in out.rglob("*") if path.is_file()})
+        )
 
 
 def save(design, tell):

@@ -64,8 +64,13 @@ def label(tables, key):
     """A key in words: an element of a list by its name where it has one."""
     words, place = [], tables
     for step in key.split("."):
-        place = place[int(step)] if isinstance(place, list) and step.isdecimal() and int(step) < len(place) else \
-            place.get(step) if isinstance(place, dict) else None
+        place = (
+            place[int(step)]
+            if isinstance(place, list) and step.isdecimal() and int(step) < len(place)
+            else place.get(step)
+            if isinstance(place, dict)
+            else None
+        )
         name = place.get("name") if isinstance(place, dict) and step.isdecimal() else None
         words.append((name if isinstance(name, str) and name else step).replace("_", " "))
     return " · ".join(words)

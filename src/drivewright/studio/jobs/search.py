@@ -39,9 +39,12 @@ def _freed(design, locks):
     tables = deepcopy(design.tables)
     search = tables.get("optimise")
     if not isinstance(search, dict):
-        raise SpecError("this design does not say what may change and what is wanted; write it into the text of the design, for example:\n"
-                        '[[optimise.unknowns]]\nkey = "KEY"\nlower = "FROM"\nupper = "TO"\n\n[[optimise.objectives]]\nvalue = "VALUE"\n'
-                        'goal = "minimise"', "optimise")
+        raise SpecError(
+            "this design does not say what may change and what is wanted; write it into the text of the design, for example:\n"
+            '[[optimise.unknowns]]\nkey = "KEY"\nlower = "FROM"\nupper = "TO"\n\n[[optimise.objectives]]\nvalue = "VALUE"\n'
+            'goal = "minimise"',
+            "optimise",
+        )
     unknowns = search.get("unknowns", [])
     locked = [unknown["key"] for unknown in unknowns if is_locked(tables, unknown["key"], locks)]
     search["unknowns"] = [unknown for unknown in unknowns if unknown["key"] not in locked]
@@ -98,13 +101,25 @@ def _plain_text(value):
 def _told(design, found, left_out, theme):
     problem = found.problem
     _, _, values = history.read(problem, found.table)
-    return {"changes": _settings(problem, found.front[0]), "unknowns": _unknowns(design, found), "objective": _objective(problem),
-            "objectives": [{"name": name, "label": _label(problem, name), "text": text, "goal": goal}
-                           for name, text, goal in found.objective_rows()],
-            "requirements": [_requirement(check) for check in found.requirements], "feasible": found.feasible,
-            "message": _message(found, left_out), "findings": list(found.findings), "verdict": summary(found.best)["verdict"],
-            "evaluations": found.evaluations, "seed": found.seed, "method": found.method, "history": _course(problem, values)[0],
-            "front": _front(design, found), "figures": _figures(found, theme)}
+    return {
+        "changes": _settings(problem, found.front[0]),
+        "unknowns": _unknowns(design, found),
+        "objective": _objective(problem),
+        "objectives": [
+            {"name": name, "label": _label(problem, name), "text": text, "goal": goal} for name, text, goal in found.objective_rows()
+        ],
+        "requirements": [_requirement(check) for check in found.requirements],
+        "feasible": found.feasible,
+        "message": _message(found, left_out),
+        "findings": list(found.findings),
+        "verdict": summary(found.best)["verdict"],
+        "evaluations": found.evaluations,
+        "seed": found.seed,
+        "method": found.method,
+        "history": _course(problem, values)[0],
+        "front": _front(design, found),
+        "figures": _figures(found, theme),
+    }
 
 
 def _label(problem, name):
@@ -113,32 +128,48 @@ def _label(problem, name):
 
 def _unknowns(design, found):
     """Each unknown with its best value and its bounds as text."""
-    return [{"key": key, "label": label(design.tables, key), "best": best, "lower": lower, "upper": upper}
-            for key, best, lower, upper in found.unknown_rows()]
+    return [
+        {"key": key, "label": label(design.tables, key), "best": best, "lower": lower, "upper": upper}
+        for key, best, lower, upper in found.unknown_rows()
+    ]
 
 
 def _requirement(check):
     """Met is what the whole interval of the value meets."""
-    return {"name": check.name, "ok": check.ok and not check.undecided,
-            "value": uncertain(check.value, check.unit, *(check.bounds or (None, None))),
-            "limit": f"{SIGNS[check.sense]} {quantity(check.limit, check.unit)}"}
+    return {
+        "name": check.name,
+        "ok": check.ok and not check.undecided,
+        "value": uncertain(check.value, check.unit, *(check.bounds or (None, None))),
+        "limit": f"{SIGNS[check.sense]} {quantity(check.limit, check.unit)}",
+    }
 
 
 def _message(found, left_out):
     """One or two sentences."""
     several = len(found.front) > 1
-    said = (f"{len(found.front)} designs that no other beats, of {found.evaluations}" if several else f"the best of {found.evaluations} "
-            "designs") if found.feasible else f"no design of {found.evaluations} meets every requirement; this one comes nearest"
+    said = (
+        (
+            f"{len(found.front)} designs that no other beats, of {found.evaluations}"
+            if several
+            else f"the best of {found.evaluations} designs"
+        )
+        if found.feasible
+        else f"no design of {found.evaluations} meets every requirement; this one comes nearest"
+    )
     return said + (f". Locked and left as they are: {', '.join(left_out)}" if left_out else "")
 
 
 def _front(design, found):
     """The designs that no other beats as a table like that of a study."""
     problem, chosen = found.problem, thinned(len(found.front), MOST_FRONT)
-    columns = [{"name": key, "label": label(design.tables, key), "unit": shown(kind.unit)[1], "role": "key"}
-               for key, kind in zip(problem.keys, problem.kinds, strict=True)]
-    columns += [{"name": name, "label": _label(problem, name), "unit": shown(unit)[1], "role": _role(name)}
-                for name, (unit, _) in problem.about.items()]
+    columns = [
+        {"name": key, "label": label(design.tables, key), "unit": shown(kind.unit)[1], "role": "key"}
+        for key, kind in zip(problem.keys, problem.kinds, strict=True)
+    ]
+    columns += [
+        {"name": name, "label": _label(problem, name), "unit": shown(unit)[1], "role": _role(name)}
+        for name, (unit, _) in problem.about.items()
+    ]
     units = [kind.unit for kind in problem.kinds] + [unit for unit, _ in problem.about.values()]
     data = [*found.front.T, *(found.front_values[name] for name in problem.about)]
     rows = [[plain(column[n], unit) for column, unit in zip(data, units, strict=True)] for n in chosen]

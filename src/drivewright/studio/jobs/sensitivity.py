@@ -42,8 +42,15 @@ def sensitivity(design, tell, locks=(), targets=None, share=0.01, workers=None, 
     steps = _steps(spec, keys, share)
     plan = _plan(keys, steps)
     asking = spec.model_copy(update={"study": Study(analyses=analyses, values=tuple(wanted))})
-    study = swept(Memory(), asking, plan, task_of(asking, plan.keys), workers, on,
-                  lambda done, total, what: tell(done, total, f"design {done} of {total}"))
+    study = swept(
+        Memory(),
+        asking,
+        plan,
+        task_of(asking, plan.keys),
+        workers,
+        on,
+        lambda done, total, what: tell(done, total, f"design {done} of {total}"),
+    )
     told = [_target(design, study, name, about, keys, steps) for name, about in wanted.items()]
     return {"targets": told, "failed": _failed(study, keys), "remarks": list(study.remarks)}
 
@@ -58,8 +65,11 @@ def _asked(spec, tell, names):
     began = time.perf_counter()  # of a second run: the first one compiles
     answers = runner.ask(spec, model, runner.selection(mechanism.analyses))
     slow = time.perf_counter() - began > PATIENCE and not names
-    given = {name: {*answer.values, *(f"{CHECK}{check.name}" for check in answer.checks)} for name, answer in answers.items()
-             if answer.checks or not slow}
+    given = {
+        name: {*answer.values, *(f"{CHECK}{check.name}" for check in answer.checks)}
+        for name, answer in answers.items()
+        if answer.checks or not slow
+    }
     wanted = {name: about for name, about in _targets(result, names).items() if any(name in each for each in given.values())}
     return wanted, tuple(name for name, each in given.items() if each & wanted.keys())
 
@@ -139,12 +149,29 @@ def _target(design, study, name, about, keys, steps):
         elif errors is not None and _within_chance(column, errors, 1 + 2 * k):
             unclear.append(key)
         else:
-            bars.append({"key": key, "label": label(design.tables, key), "step": quantity(max(steps[key]), of.unit),
-                         "low": plain(column[1 + 2 * k], unit), "high": plain(column[2 + 2 * k], unit),
-                         "effect": 100 * effect / abs(value) if relative else plain(effect, unit)})
+            bars.append(
+                {
+                    "key": key,
+                    "label": label(design.tables, key),
+                    "step": quantity(max(steps[key]), of.unit),
+                    "low": plain(column[1 + 2 * k], unit),
+                    "high": plain(column[2 + 2 * k], unit),
+                    "effect": 100 * effect / abs(value) if relative else plain(effect, unit),
+                }
+            )
     bars.sort(key=lambda bar: -abs(bar["effect"]))
-    return {"name": name, "label": text, "unit": shown(unit)[1], "kind": kind, "base": plain(value, unit), "relative": relative,
-            "bars": bars, "still": still, "unclear": unclear, "failed": failed}
+    return {
+        "name": name,
+        "label": text,
+        "unit": shown(unit)[1],
+        "kind": kind,
+        "base": plain(value, unit),
+        "relative": relative,
+        "bars": bars,
+        "still": still,
+        "unclear": unclear,
+        "failed": failed,
+    }
 
 
 def _within_chance(column, errors, row):
@@ -168,5 +195,8 @@ def _effect(base, low, high, at, steps):
 def _failed(study, keys):
     """Keys of which neither step could be computed, with the reason."""
     messages, status = study[MESSAGE], study["status"]
-    return [{"key": key, "text": messages[1 + 2 * k] or messages[2 + 2 * k]} for k, key in enumerate(keys)
-            if status[1 + 2 * k] == status[2 + 2 * k] == "failed"]
+    return [
+        {"key": key, "text": messages[1 + 2 * k] or messages[2 + 2 * k]}
+        for k, key in enumerate(keys)
+        if status[1 + 2 * k] == status[2 + 2 * k] == "failed"
+    ]

@@ -37,8 +37,11 @@ def shaded(points, corners):
     """{"positions", "normals", "edges"} of a closed surface: points (n, 3), corners (m, 3)."""
     corners, faces = _proper(points, corners)
     sides = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
-    return {"positions": floats(points[corners]), "normals": floats(_normals(points, corners, faces)),
-            "edges": floats(points[_sharp(sides, np.repeat(np.arange(len(corners)), 3), faces)])}
+    return {
+        "positions": floats(points[corners]),
+        "normals": floats(_normals(points, corners, faces)),
+        "edges": floats(points[_sharp(sides, np.repeat(np.arange(len(corners)), 3), faces)]),
+    }
 
 
 def _proper(points, corners):

@@ -67,10 +67,18 @@ class Live:
 def _remedy(design):
     """What to write, with a key of this design."""
     known = numeric(design, design.spec()).items()
-    key, low, high = next(((key, *(toml_value(written(kind, float(f"{part * value:.2g}"))) for part in (0.9, 1.1)))
-                           for key, (kind, value) in known if value > 0 and kind.name == "quantity"), ("KEY", '"FROM"', '"TO"'))
-    return ("nothing varies, so there is nothing to study; write what does into the text of the design, for example:\n"
-            f'[study]\nsamples = 200\n\n[[study.vary]]\nkey = "{key}"\nlower = {low}\nupper = {high}')
+    key, low, high = next(
+        (
+            (key, *(toml_value(written(kind, float(f"{part * value:.2g}"))) for part in (0.9, 1.1)))
+            for key, (kind, value) in known
+            if value > 0 and kind.name == "quantity"
+        ),
+        ("KEY", '"FROM"', '"TO"'),
+    )
+    return (
+        "nothing varies, so there is nothing to study; write what does into the text of the design, for example:\n"
+        f'[study]\nsamples = 200\n\n[[study.vary]]\nkey = "{key}"\nlower = {low}\nupper = {high}'
+    )
 
 
 def _so_far(spec, plan, kept):
@@ -84,12 +92,21 @@ def _rows(design, study, most, always=()):
     """Columns and rows of a study, and the design behind each row; rows thinned to `most`, `always` (rows) among them."""
     names = _names(study)
     chosen = thinned(len(study), most, always)
-    columns = [{"name": name, "label": _label(design, study, name), "unit": shown(study.unit(name))[1], "role": _role(study, name)}
-               for name in names]
+    columns = [
+        {"name": name, "label": _label(design, study, name), "unit": shown(study.unit(name))[1], "role": _role(study, name)}
+        for name in names
+    ]
     data = [_cells(study[name][chosen], study.unit(name)) for name in names]
     ends = {name: _intervals(bounds, chosen, study.unit(name)) for name in names if (bounds := study.bounds(name)) is not None}
-    return {"columns": columns, "rows": [list(row) for row in zip(*data, strict=True)], "ends": ends, "cases": study[CASE][chosen].tolist(),
-            "passes": _passes(study)[chosen].tolist(), "load": _loads(study, chosen), "total": len(study.plan)}
+    return {
+        "columns": columns,
+        "rows": [list(row) for row in zip(*data, strict=True)],
+        "ends": ends,
+        "cases": study[CASE][chosen].tolist(),
+        "passes": _passes(study)[chosen].tolist(),
+        "load": _loads(study, chosen),
+        "total": len(study.plan),
+    }
 
 
 def thinned(count, most, always=()):
@@ -156,8 +173,12 @@ def _told(design, study, theme):
     for front in fronts:
         front["rows"] = [place[int(cases[row])] for row in front["rows"]]
     failed = int(np.sum(np.asarray(study[STATUS], dtype=str) == "failed"))
-    return rows | {"fronts": fronts, "figures": drawn(pictures(found.result, Views(plots=found.plots)), theme),
-                   "statements": _statements(study, found), "failed": failed}
+    return rows | {
+        "fronts": fronts,
+        "figures": drawn(pictures(found.result, Views(plots=found.plots)), theme),
+        "statements": _statements(study, found),
+        "failed": failed,
+    }
 
 
 def _fronts(study, result):
@@ -175,9 +196,20 @@ def _fronts(study, result):
 def _statements(study, found):
     """What the study's report says in words and small tables, all of it text."""
     page = said(study, found)
-    tables = [{"name": table["name"], "title": table["title"], "columns": table["columns"], "rows": [list(row) for row in table["printed"]]}
-              for table in page["tables"] if "printed" in table]
+    tables = [
+        {"name": table["name"], "title": table["title"], "columns": table["columns"], "rows": [list(row) for row in table["printed"]]}
+        for table in page["tables"]
+        if "printed" in table
+    ]
     headline = [{"name": value["name"], "meaning": value["meaning"], "shown": value["shown"]} for value in page["headline"]]
-    return {"verdict": page["verdict"], "headline": headline, "tables": tables, "findings": page["findings"], "reasons": page["reasons"],
-            "cases": page["cases"], "varied": [list(row) for row in page["varied"]], "sampling": page["sampling"],
-            "seconds": quantity(study.seconds, "s", 3)}
+    return {
+        "verdict": page["verdict"],
+        "headline": headline,
+        "tables": tables,
+        "findings": page["findings"],
+        "reasons": page["reasons"],
+        "cases": page["cases"],
+        "varied": [list(row) for row in page["varied"]],
+        "sampling": page["sampling"],
+        "seconds": quantity(study.seconds, "s", 3),
+    }
