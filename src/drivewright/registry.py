@@ -14,15 +14,21 @@ from fnmatch import fnmatchcase
 from functools import cache
 from importlib.metadata import entry_points
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from drivewright.errors import InputError, UnknownName
+from drivewright.result import SpecT
+
+if TYPE_CHECKING:
+    from drivewright.result import Answer, Answers, Plot, Result
+    from drivewright.scene import Scene
 
 OURS = "drivewright"
+ModelT = TypeVar("ModelT")
 
 
 @dataclass(frozen=True)
-class Analysis:
+class Analysis(Generic[SpecT, ModelT]):
     """A question a mechanism can answer: `answer(model, done) -> Answer`.
 
     `needs` names analyses that come first; their answers are in `done` by name.  `default` analyses run without being asked.
@@ -30,15 +36,15 @@ class Analysis:
     """
 
     name: str
-    answer: Callable[[Any, Mapping], Any]
+    answer: "Callable[[ModelT, Answers], Answer]"
     meaning: str
     default: bool = True
-    needs: tuple = ()
-    missing: Callable[[Any], str | None] = lambda spec: None
+    needs: tuple[str, ...] = ()
+    missing: Callable[[SpecT], str | None] = lambda spec: None
 
 
 @dataclass(frozen=True)
-class Mechanism:
+class Mechanism(Generic[SpecT, ModelT]):
     """All that the house knows of a kind of drive.
 
     `build(spec)` gives the model; `analyses` ask it; `scene(model)`, `plots` (or `plots(result)`, where they depend on it),
@@ -51,19 +57,19 @@ class Mechanism:
 
     kind: str
     summary: str
-    spec: type
-    build: Callable
-    analyses: tuple
+    spec: type[SpecT]
+    build: Callable[[SpecT], ModelT]
+    analyses: tuple[Analysis[SpecT, ModelT], ...]
     folder: Path
-    scene: Callable | None = None
-    plots: tuple | Callable = ()
-    drawings: Callable | None = None
-    parts: Callable | None = None
-    verify: Callable | None = None
-    batch: Callable | None = None
-    sources: tuple = ()
-    headline: tuple = ()  # value names shown first; "*" stands for what users name
-    commands: tuple = ()  # what it brings to the command line, each a `Command`
+    scene: "Callable[[ModelT], Scene] | None" = None
+    plots: "tuple[Plot, ...] | Callable[[Result], tuple[Plot, ...]]" = ()
+    drawings: Callable[[ModelT], Any] | None = None
+    parts: Callable[[ModelT], Any] | None = None
+    verify: "Callable[[ModelT, Result], Answer] | None" = None
+    batch: Callable[..., Any] | None = None
+    sources: tuple[str, ...] = ()
+    headline: tuple[str, ...] = ()  # value names shown first; "*" stands for what users name
+    commands: "tuple[Command, ...]" = ()  # what it brings to the command line, each a `Command`
 
     def presets(self):
         """Name -> path of the spec files that come with the kind."""

@@ -6,12 +6,24 @@ A result is a value: frozen, picklable, SI throughout, every number with a unit 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 
-from drivewright import registry
 from drivewright.errors import UnknownName
+
+SpecT = TypeVar("SpecT", bound="SpecLike")
+
+
+class SpecLike(Protocol):
+    """What a run wants of a spec; `spec.MechanismSpec` has it."""
+
+    mechanism: str
+    title: str
+
+    def digest(self) -> str:
+        """SHA-256 of the effective spec."""
+        ...
 
 
 class Value(NamedTuple):
@@ -225,11 +237,14 @@ class Answer:
     failure: str = ""
 
 
+Answers: TypeAlias = Mapping[str, Answer]  # of the analyses that ran before, by name
+
+
 @dataclass(frozen=True)
-class Result:
+class Result(Generic[SpecT]):
     """The answers of one run, with the spec they came from."""
 
-    spec: Any
+    spec: SpecT
     mechanism: str
     title: str
     digest: str
@@ -262,6 +277,8 @@ class Result:
 
     def plot(self, name):
         """A matplotlib Figure of a table or of one of the mechanism's plots."""
+        from drivewright import registry  # the one import upwards: a view is asked for by name
+
         return registry.load("drivewright.views", "matplotlib", "view")(self, name)
 
     def __repr__(self):

@@ -255,8 +255,8 @@ def _distances():
         "note": (
             "Does not follow from the data given: masses, friction, damping and its exponents, and the driven sprocket are not printed. At "
             f"rest the rigid drive has {1e3 * rigid(CLASSICAL).mean:.4f} mm and yielding adds the rest. Our four runs of 0.3 s at 2000 rpm "
-            "with links of 2.5 g, a sprocket of 0.6 kg and little damping have a mean of 219.1673 mm (219.1670 to 219.1676) and fluctuate by "
-            "2.7 um (2.4 to 3.0) in a revolution of the chain. Most of a running deviation is compliance, a choice of the model."
+            "with links of 2.5 g, a sprocket of 0.6 kg and little damping have a mean of 219.1673 mm (219.1670 to 219.1676) and fluctuate "
+            "by 2.7 um (2.4 to 3.0) in a revolution of the chain. Most of a running deviation is compliance, a choice of the model."
         ),
     }
     distance = rest.centre_distance
