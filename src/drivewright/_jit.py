@@ -23,19 +23,25 @@ import sys
 import tempfile
 import time
 import types
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any, TypeVar, cast
 
 from drivewright.errors import InputError
 
+PACKAGE = __name__.partition(".")[0]
+FunctionT = TypeVar("FunctionT", bound=Callable[..., Any])
 _UNUSED_DAYS = 30
 # Nothing below may import these, so that kernels below do not depend on them.
-ABOVE = tuple(f"{__package__}.{name}" for name in ("mechanisms", "validation", "studies", "report", "view", "cli", "studio"))
+ABOVE = tuple(
+    f"{PACKAGE}.{name}" for name in ("mechanisms", "oracles", "validation", "studies", "execution", "report", "view", "cli", "studio")
+)
 _generics = []
 _told_numba = []  # the generics numba knows of
 _warmers = []
 
 
-def kernel(function):
+def kernel(function: FunctionT) -> FunctionT:
     """Compile `function` with numba: cached on disk, without the interpreter lock, 1/0 = inf as in numpy, no fastmath.
 
     The original stays reachable as `.py_func`.
@@ -43,7 +49,7 @@ def kernel(function):
     return _compiled(function, _nrt=True)  # said, for a callee inherits the caller's options otherwise
 
 
-def inner(function):
+def inner(function: FunctionT) -> FunctionT:
     """A kernel for the innermost loops: it allocates nothing, and is inlined into its callers.
 
     Without reference counts a call with twenty arrays in its tuples costs nothing; with them it costs microseconds.
@@ -51,75 +57,83 @@ def inner(function):
     return _compiled(function, forceinline=True, _nrt=False)
 
 
-def outer(function):
+def outer(function: FunctionT) -> FunctionT:
     """A kernel that allocates nothing, called from Python or with few arguments: as `inner`, but inlined only where that pays."""
     return _compiled(function, _nrt=False)
 
 
-def _compiled(function, **options):
+def _compiled(function: FunctionT, **options: Any) -> FunctionT:
     import numba
 
-    compiled = numba.njit(nogil=True, error_model="numpy", **options)(function)
+    compiled: Any = numba.njit(nogil=True, error_model="numpy", **options)(function)
     compiled._cache = _KernelCache(function)
     for dispatch in _generics:
         _tell_numba(dispatch)
     return compiled
 
 
-def generic(stub):
+def generic(stub: FunctionT) -> FunctionT:
     """Declare a formula that depends on the type of its first argument; the stub gives name, arguments and docstring."""
 
     @functools.wraps(stub)
-    def dispatch(first, *rest):
+    def dispatch(first: Any, *rest: Any) -> Any:
         return formula_of(dispatch, type(first))(first, *rest)
 
-    dispatch.formulas = {}
+    vars(dispatch)["formulas"] = {}
     _generics.append(dispatch)
     if _told_numba:
         _tell_numba(dispatch)
-    return dispatch
+    return cast(FunctionT, dispatch)
 
 
-def implements(dispatch, kind):
+def implements(dispatch: Callable[..., Any], kind: type) -> Callable[[FunctionT], FunctionT]:
     """Decorator: the version of the generic formula `dispatch` for a first argument of type `kind`, a NamedTuple class."""
 
-    def register(formula):
-        if kind in dispatch.formulas:
+    formulas = formulas_of(dispatch)
+
+    def register(formula: FunctionT) -> FunctionT:
+        if kind in formulas:
             raise InputError(f"{dispatch.__name__}: {kind.__name__} already has a formula; give the new one a type of its own.")
-        dispatch.formulas[kind] = formula
+        formulas[kind] = formula
         return formula
 
     return register
 
 
-def formula_of(dispatch, kind, error=InputError):
+def formulas_of(dispatch: Callable[..., Any]) -> dict[type, Callable[..., Any]]:
+    """The formulas of a generic by the type of their first argument; others may add to it through `implements` alone."""
+    return vars(dispatch)["formulas"]
+
+
+def formula_of(dispatch: Callable[..., Any], kind: Any, error: type[Exception] = InputError) -> Callable[..., Any]:
     """The version of a generic formula for the type `kind`; raises `error`, naming the known ones, where there is none."""
-    if kind not in dispatch.formulas:
-        known = ", ".join(sorted(each.__name__ for each in dispatch.formulas)) or "none yet"
+    formulas = formulas_of(dispatch)
+    if kind not in formulas:
+        known = ", ".join(sorted(each.__name__ for each in formulas)) or "none yet"
         raise error(
             f"{dispatch.__name__}: no formula for a {getattr(kind, '__name__', kind)}; it has one for: {known}. "
             f"Import the module that states it, or write one under @implements({dispatch.__name__}, ...)."
         )
-    return dispatch.formulas[kind]
+    return formulas[kind]
 
 
 @functools.cache
-def plain(compiled):
+def plain(compiled: Callable[..., Any]) -> Callable[..., Any]:
     """The kernel in plain Python, together with the kernels that it calls by name."""
-    function = getattr(compiled, "py_func", compiled)  # under NUMBA_DISABLE_JIT=1 kernels are plain already
+    function: Any = getattr(compiled, "py_func", compiled)  # under NUMBA_DISABLE_JIT=1 kernels are plain already
     names = {name: function.__globals__.get(name) for name in function.__code__.co_names}
     callees = {name: plain(value) for name, value in names.items() if hasattr(value, "py_func")}
     scope = function.__globals__ | callees
     return types.FunctionType(function.__code__, scope, function.__name__, function.__defaults__, function.__closure__)
 
 
-def warmer(function):
+def warmer(function: FunctionT) -> FunctionT:
     """Mark a function without arguments that calls kernels with typical argument types."""
     _warmers.append(function)
     return function
 
 
-def warm():
+def warm() -> Iterator[tuple[str, float]]:
     """Compile every kernel that has a warmer; yields (name, seconds) one by one, so that progress can be shown."""
     for module in _modules_with("@warmer"):
         importlib.import_module(module)
@@ -171,11 +185,12 @@ class _KernelCache:
         return self.by_modules[modules]
 
     def _open(self, modules):
-        from numba import config
+        import numba
         from numba.core.caching import FunctionCache, NullCache
 
         if "__main__" in modules:  # a class of a script is another class in every run: its kernels would never be found again
             return NullCache()
+        config: Any = vars(numba)["config"]  # filled from the environment when numba is imported
         other, config.CACHE_DIR = config.CACHE_DIR, str(_folder_of(modules))
         try:
             return FunctionCache(self.function)
@@ -196,7 +211,7 @@ def _modules_of(kind):
 
 
 @functools.cache
-def cache_folder():
+def cache_folder() -> Path:
     """The folder of the compiled kernels: the user's cache folder, or a temporary one where that is not writable."""
     from platformdirs import user_cache_path
 
@@ -215,10 +230,10 @@ def cache_folder():
 @functools.cache
 def _folder_of(modules):
     """The folder for kernels that depend on these modules' packages, stamped as used today."""
-    packages = {__package__}.union(module.partition(".")[0] for module in modules)
+    packages = {PACKAGE}.union(module.partition(".")[0] for module in modules)
     digest = hashlib.sha256(" ".join(sorted(modules)).encode())
     for package in sorted(packages):
-        whole = package != __package__ or any(module.startswith(ABOVE) for module in modules)
+        whole = package != PACKAGE or any(module.startswith(ABOVE) for module in modules)
         digest.update(_hash_of(package, whole))
     folder = cache_folder() / digest.hexdigest()[:20]
     folder.mkdir(exist_ok=True)
@@ -247,7 +262,7 @@ def _sources(package, whole=True):
     module = sys.modules[package]
     folders = getattr(module, "__path__", None)
     if folders is None:
-        return [Path(module.__file__)]
+        return [Path(module.__file__ or "")]
     files = ((Path(folder), file) for folder in folders for file in Path(folder).rglob("*.py"))
     above = {name.partition(".")[2] for name in ABOVE}
     return sorted(file for folder, file in files if whole or file.relative_to(folder).parts[0] not in above)
@@ -256,6 +271,6 @@ def _sources(package, whole=True):
 def _modules_with(text):
     """Names of this package's modules whose source contains `text` at the start of a line."""
     root = Path(__file__).parent
-    for path in _sources(__package__):
+    for path in _sources(PACKAGE):
         if f"\n{text}" in path.read_text(encoding="utf-8"):
-            yield ".".join((__package__, *(part for part in path.relative_to(root).with_suffix("").parts if part != "__init__")))
+            yield ".".join((PACKAGE, *(part for part in path.relative_to(root).with_suffix("").parts if part != "__init__")))

@@ -4,6 +4,7 @@
 """
 
 import os
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import closing
 from contextvars import copy_context
@@ -22,7 +23,7 @@ class Outcome(NamedTuple):
     reason: str = ""
 
     @property
-    def ok(self):
+    def ok(self) -> bool:
         """Whether the value is complete."""
         return not self.reason
 
@@ -35,12 +36,14 @@ class Outcomes:
     interrupted: bool = False
 
     @property
-    def failed(self):
+    def failed(self) -> tuple[Outcome, ...]:
         """The rows that carry a reason."""
         return tuple(row for row in self.rows if not row.ok)
 
 
-def run(task, cases, workers=1, progress=None):
+def run(
+    task: Callable[[Any], Any], cases: Iterable[Any], workers: int | None = 1, progress: Callable[[int, int, str], object] | None = None
+) -> Outcomes:
     """`Outcomes` of task(case) for every case, one after another or, with more workers, in as many threads (None: one per core).
 
     Threads gain where the task spends its time in compiled kernels, which run without the interpreter lock.  Every case runs with
@@ -67,7 +70,7 @@ def run(task, cases, workers=1, progress=None):
     return Outcomes(tuple(rows[number] for number in sorted(rows)), interrupted)
 
 
-def worker_count(workers):
+def worker_count(workers: int | None) -> int:
     """How many workers are meant: a number, or None for one per core this process may use."""
     if workers is None:
         return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -5,7 +5,7 @@ import math
 EXACT = 5
 
 
-def last_place(value, low, high, digits=EXACT):
+def last_place(value: float, low: float | None, high: float | None, digits: int = EXACT) -> int | None:
     """Power of ten of the last digit to print of a value and its interval: the second significant digit of half the width, but no more
     than `digits` in all.
 
@@ -20,7 +20,7 @@ def last_place(value, low, high, digits=EXACT):
     return max(math.floor(math.log10(float(f"{half:.1e}"))) - 1, exact)
 
 
-def to_place(value, place):
+def to_place(value: float, place: int) -> str:
     """A number rounded to a power of ten, as text: (12.345, -1) -> '12.3', (1234.5, 2) -> '1200'; never '-0'."""
     text = f"{value:.{-place}f}" if place < 0 else f"{round(value / 10.0**place) * 10**place:d}"
     return text.removeprefix("-") if not any(digit in text for digit in "123456789") else text

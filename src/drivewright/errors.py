@@ -20,6 +20,9 @@ is "partial", and the other analyses keep their answers (`runner`).
 
 import difflib
 import reprlib
+from collections.abc import Iterable
+from datetime import date, time
+from typing import Any, Self
 
 DEBUG = "DRIVEWRIGHT_DEBUG"  # in the environment: show the traceback of a fault of the program on stderr, where a run keeps going
 
@@ -29,12 +32,12 @@ class DrivewrightError(Exception):
 
     exit_code = 2
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         # A pool of processes sends errors back pickled; Exception itself would call __init__ with the finished message.
         return _restored, (type(self), self.args, self.__dict__)
 
 
-def _restored(kind, args, state):
+def _restored(kind: type[DrivewrightError], args: tuple[Any, ...], state: dict[str, Any]) -> DrivewrightError:
     error = kind.__new__(kind, *args)
     error.__dict__.update(state)
     return error
@@ -47,14 +50,14 @@ class InputError(DrivewrightError, ValueError):
 class SpecError(InputError):
     """A key of a spec is wrong: `key` is its dotted path, `file` where it stands (None outside a file)."""
 
-    def __init__(self, message, key=None, file=None):
+    def __init__(self, message: str, key: str | None = None, file: str | None = None) -> None:
         super().__init__(message)
         self.message, self.key, self.file = message, key, file
 
-    def __str__(self):
+    def __str__(self) -> str:
         return " ".join(part for part in (f"{self.file}:" if self.file else "", f"{self.key}:" if self.key else "", self.message) if part)
 
-    def located(self, key=None, file=None):
+    def located(self, key: str | None = None, file: str | None = None) -> Self:
         """The same complaint with its place filled in."""
         return type(self)(self.message, key if key is not None else self.key, file if file is not None else self.file)
 
@@ -66,7 +69,7 @@ class UnitError(SpecError):
 class UnknownName(InputError):
     """A name that is not among the known ones."""
 
-    def __init__(self, what, name, known):
+    def __init__(self, what: str, name: object, known: Iterable[str]) -> None:
         super().__init__(f"no {what} is called {name!r}{nearest(name, known)}; known: {', '.join(sorted(known))}")
 
 
@@ -77,7 +80,7 @@ class DoesNotAssemble(InputError):
 class MissingExtra(InputError):
     """An optional dependency is needed and not installed."""
 
-    def __init__(self, what, extra, cause=None):
+    def __init__(self, what: str, extra: str, cause: object = None) -> None:
         reason = f" ({cause})" if cause else ""
         super().__init__(f"{what} needs the extra '{extra}', which is not installed{reason}; try: pip install 'drivewright[{extra}]'")
         self.extra = extra
@@ -88,12 +91,12 @@ class SolverError(DrivewrightError, RuntimeError):
 
     exit_code = 4
 
-    def __init__(self, message, partial=None):
+    def __init__(self, message: str, partial: object = None) -> None:
         super().__init__(message)
         self.partial = partial
 
 
-def nearest(name, known):
+def nearest(name: object, known: Iterable[str]) -> str:
     """Hint ' (did you mean ...?)' when a known name is close, capitals aside, else ''."""
     by_lower = {str(k).lower(): k for k in known}
     text = (name if isinstance(name, str) else brief(name)).lower()[:80]
@@ -101,11 +104,11 @@ def nearest(name, known):
     return f" (did you mean {by_lower[close[0]]!r}?)" if close else ""
 
 
-def brief(value):
+def brief(value: object) -> str:
     """A value as the user may have written it, on one short line whatever it is."""
     if isinstance(value, bool):
         return str(value).lower()
-    if hasattr(value, "isoformat"):  # TOML knows dates and times
+    if isinstance(value, (date, time)):
         return value.isoformat()
     try:
         return _BRIEF.repr(value)

@@ -35,7 +35,7 @@ class Material:
     hertz_limit: float | None
     sources: tuple[tuple[str, Source], ...]
 
-    def source(self, quantity):
+    def source(self, quantity: str) -> Source:
         """Source of one number, e.g. source("modulus")."""
         known = dict(self.sources)
         if quantity not in known:
@@ -43,14 +43,14 @@ class Material:
         return known[quantity]
 
 
-def material(name):
+def material(name: str) -> Material:
     """The card of this name; raises UnknownName, with the nearest name, where there is none."""
     if name not in _CARDS:
         raise UnknownName("material", name, _CARDS)
     return _CARDS[name]
 
 
-def names():
+def names() -> list[str]:
     """Names of all cards."""
     return sorted(_CARDS)
 

@@ -8,23 +8,24 @@ A third-party package declares the same groups in its own pyproject.
 """
 
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from functools import cache
-from importlib.metadata import entry_points
+from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 from drivewright.errors import InputError, UnknownName
 from drivewright.result import SpecT
 
 if TYPE_CHECKING:
     from drivewright.result import Answer, Answers, Plot, Result
-    from drivewright.scene import Scene
+    from drivewright.scene import Drawing, Part, Scene
 
 OURS = "drivewright"
 ModelT = TypeVar("ModelT")
+Row: TypeAlias = tuple[str, float, float, str, float, str]  # of `verify`: name, ours, other, unit, allowed difference, route
 
 
 @dataclass(frozen=True)
@@ -62,20 +63,20 @@ class Mechanism(Generic[SpecT, ModelT]):
     analyses: tuple[Analysis[SpecT, ModelT], ...]
     folder: Path
     scene: "Callable[[ModelT], Scene] | None" = None
-    plots: "tuple[Plot, ...] | Callable[[Result], tuple[Plot, ...]]" = ()
-    drawings: Callable[[ModelT], Any] | None = None
-    parts: Callable[[ModelT], Any] | None = None
-    verify: "Callable[[ModelT, Result], Answer] | None" = None
+    plots: "tuple[Plot, ...] | Callable[[Result[Any]], tuple[Plot, ...]]" = ()
+    drawings: "Callable[[ModelT], tuple[Drawing, ...]] | None" = None
+    parts: "Callable[[ModelT], tuple[Part, ...]] | None" = None
+    verify: "Callable[[ModelT, Result[Any]], Iterable[Row]] | None" = None
     batch: Callable[..., Any] | None = None
     sources: tuple[str, ...] = ()
     headline: tuple[str, ...] = ()  # value names shown first; "*" stands for what users name
     commands: "tuple[Command, ...]" = ()  # what it brings to the command line, each a `Command`
 
-    def presets(self):
+    def presets(self) -> dict[str, Path]:
         """Name -> path of the spec files that come with the kind."""
         return {path.stem: path for path in sorted((self.folder / "presets").glob("*.toml"))}
 
-    def translations(self, language):
+    def translations(self, language: str) -> dict[str, Any]:
         """Tables of `<language>.toml` in the folder: `fields`, `tables`, `texts`, `presets`; {} where the kind brings none."""
         path = self.folder / f"{language}.toml"
         try:
@@ -92,22 +93,22 @@ class Command:
     command, the plain keys of its spec are the options, their descriptions the help.  `argument` is the key that stands without a name.
     """
 
-    evaluation: Mechanism
+    evaluation: Mechanism[Any, Any]
     argument: str
 
     @property
-    def name(self):
+    def name(self) -> str:
         """What is typed."""
         return self.evaluation.kind
 
     @property
-    def summary(self):
+    def summary(self) -> str:
         """One line for the help."""
         return self.evaluation.summary
 
 
 @cache
-def plugins(group):
+def plugins(group: str) -> dict[str, EntryPoint]:
     """Name -> entry point of everything installed under `group`; InputError where two packages claim one name."""
     found = {}
     for point in entry_points(group=group):
@@ -118,7 +119,7 @@ def plugins(group):
 
 
 @cache
-def load(group, name, what="plug-in"):
+def load(group: str, name: str, what: str = "plug-in") -> Any:
     """The object behind a name of a group; UnknownName with the nearest name otherwise."""
     known = plugins(group)
     if name not in known:
@@ -132,30 +133,30 @@ def load(group, name, what="plug-in"):
         raise InputError(f"{what} {name!r} of the package {owner!r} does not load: {error}; repair or uninstall the package") from error
 
 
-def kinds():
+def kinds() -> list[str]:
     """Names of all mechanism kinds, sorted."""
     return sorted(plugins("drivewright.mechanisms"))
 
 
-def mechanism(kind):
+def mechanism(kind: str) -> Mechanism[Any, Any]:
     """The `Mechanism` of a kind, or the evaluation of a command by its name."""
     if kind in plugins("drivewright.mechanisms") or kind not in commands():
         return load("drivewright.mechanisms", kind, "mechanism")
     return command(kind).evaluation
 
 
-def is_known(kind):
+def is_known(kind: str) -> bool:
     """Whether a kind, or a command, of this name is installed."""
     return kind in kinds() or kind in commands()
 
 
-def commands():
+def commands() -> dict[str, str]:
     """Name -> kind of the mechanism that brings it, sorted; nothing is imported."""
     kind_of = {point.value: kind for kind, point in plugins("drivewright.mechanisms").items()}
     return {name: kind_of.get(point.value, point.value) for name, point in sorted(plugins("drivewright.commands").items())}
 
 
-def command(name):
+def command(name: str) -> Command:
     """The `Command` of a name; InputError where the mechanism that is said to bring it does not."""
     bringing = load("drivewright.commands", name, "command")
     found = next((each for each in bringing.commands if each.name == name), None)
@@ -164,7 +165,7 @@ def command(name):
     return found
 
 
-def headlines(mechanism, values):
+def headlines(mechanism: Mechanism[Any, Any], values: Iterable[str] | Mapping[str, Any]) -> list[str]:
     """Names of the values that are shown first, in the order of the mechanism's headline; the first ones where it names none.
 
     `values` are names, or {name: Value}; a value that has not settled is left out.

@@ -4,13 +4,21 @@ A result is a value: frozen, picklable, SI throughout, every number with a unit 
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
+from html import escape
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import UnknownName
+from drivewright.labels import label_of
+from drivewright.stopped import Stop
+
+if TYPE_CHECKING:
+    import pyarrow
+    from matplotlib.figure import Figure
 
 SpecT = TypeVar("SpecT", bound="SpecLike")
 
@@ -18,16 +26,47 @@ SpecT = TypeVar("SpecT", bound="SpecLike")
 class SpecLike(Protocol):
     """What a run wants of a spec; `spec.MechanismSpec` has it."""
 
-    mechanism: str
-    title: str
+    @property
+    def mechanism(self) -> str:
+        """The kind of drive."""
+        ...
+
+    @property
+    def title(self) -> str:
+        """The title shown in reports."""
+        ...
+
+    @property
+    def optimise(self) -> Any:
+        """The search that the spec describes, or None."""
+        ...
 
     def digest(self) -> str:
         """SHA-256 of the effective spec."""
         ...
 
 
+class UncertainNumber(Protocol):
+    """What `Value.of` makes a value from, e.g. `numerics.ensemble.Estimate`."""
+
+    @property
+    def value(self) -> float: ...
+    @property
+    def low(self) -> float | None: ...
+    @property
+    def high(self) -> float | None: ...
+    @property
+    def interval(self) -> str: ...
+    @property
+    def settled(self) -> bool: ...
+    @property
+    def error(self) -> float | None: ...
+
+
 class Value(NamedTuple):
     """One number [SI unit] and what it means; where it is uncertain with its 95 % interval.
+
+    `label` is the short name for people, from the meaning where it is not given; `meaning` is the sentence.
 
     `interval` says how that was made: "ensemble" or "windows" of a chaotic run, "visits", "sample", "fit", "periodic" (rounding).  A bound
     that is None is not known; a value without interval is exact to its printed digits.  What has not `settled`, a statistic that still
@@ -43,25 +82,28 @@ class Value(NamedTuple):
     interval: str = ""
     settled: bool = True
     error: float | None = None
+    label: str = ""
 
     @classmethod
-    def of(cls, estimate: Any, unit: str, meaning: str) -> "Value":
-        """The value of a `numerics.ensemble.Estimate`: whatever has value, low, high, interval and settled."""
-        return cls(estimate.value, unit, meaning, estimate.low, estimate.high, estimate.interval, estimate.settled, estimate.error).plain()
+    def of(cls, estimate: UncertainNumber, unit: str, meaning: str, label: str = "") -> "Value":
+        """The value of an estimate with its interval."""
+        low, high, error = estimate.low, estimate.high, estimate.error
+        return cls(estimate.value, unit, meaning, low, high, estimate.interval, estimate.settled, error, label).plain()
 
     def plain(self) -> "Value":
         """The same in Python's own floats; a bound that is not finite is None, and without any bound there is no interval."""
         low, high, error = (float(each) if each is not None and math.isfinite(each) else None for each in (self.low, self.high, self.error))
         interval = self.interval if (low, high) != (None, None) else ""
-        return self._replace(value=float(self.value), low=low, high=high, interval=interval, error=error)
+        label = label_of(self.meaning, self.label)
+        return self._replace(value=float(self.value), low=low, high=high, interval=interval, error=error, label=label)
 
-    def record(self) -> dict:
+    def record(self) -> dict[str, Any]:
         """Plain dictionary as in result.json: `low`, `high` and `interval` where it has them, `settled` where it has not."""
         plain = self.plain()
         bounds = {name: end for name, end in (("low", plain.low), ("high", plain.high)) if end is not None}
         how = {"interval": plain.interval} if plain.interval else {}
         unsettled = {} if plain.settled else {"settled": False}
-        return {"value": plain.value, "unit": plain.unit, "meaning": plain.meaning, **bounds, **how, **unsettled}
+        return {"value": plain.value, "unit": plain.unit, "label": plain.label, "meaning": plain.meaning, **bounds, **how, **unsettled}
 
 
 LOW, HIGH, ERROR = ".low", ".high", ".error"  # behind the name of a column: ends of its 95 % intervals; in studies its standard errors
@@ -74,9 +116,9 @@ class Array(NamedTuple):
     """A labelled array: `axes` names each axis, `labels` its entries."""
 
     unit: str
-    axes: tuple
-    labels: tuple
-    values: np.ndarray
+    axes: tuple[str, ...]
+    labels: tuple[Sequence[Any], ...]
+    values: Floats
 
 
 class Column(NamedTuple):
@@ -85,9 +127,14 @@ class Column(NamedTuple):
     name: str
     unit: str
     meaning: str
-    data: np.ndarray
+    data: Any  # (rows,) numbers or texts
+    label: str = ""
 
-    def bounds(self, low: np.ndarray, high: np.ndarray) -> tuple:
+    def about(self) -> dict[str, str]:
+        """Unit, label and meaning, as in the metadata of a Parquet file."""
+        return {"unit": self.unit, "label": label_of(self.meaning, self.label), "meaning": self.meaning}
+
+    def bounds(self, low: ArrayLike, high: ArrayLike) -> "tuple[Column, Column]":
         """The columns NAME.low and NAME.high with the ends of its 95 % intervals, nan where it has none; they go beside it."""
         return (
             self._replace(name=f"{self.name}{LOW}", meaning=f"{self.meaning}, at least", data=np.asarray(low, float)),
@@ -101,30 +148,30 @@ class Table:
 
     name: str
     title: str
-    columns: tuple
+    columns: tuple[Column, ...]
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> Column:
         for column in self.columns:
             if column.name == name:
                 return column
         raise UnknownName(f"column of table {self.name!r}", name, [c.name for c in self.columns])
 
-    def bounds_of(self, name):
+    def bounds_of(self, name: str) -> tuple[Column, Column] | None:
         """(low, high): the columns with the ends of the intervals of a column, None where it has none."""
         known = {column.name: column for column in self.columns}
-        ends = known.get(f"{name}{LOW}"), known.get(f"{name}{HIGH}")
-        return ends if name in known and None not in ends else None
+        low, high = known.get(f"{name}{LOW}"), known.get(f"{name}{HIGH}")
+        return (low, high) if name in known and low is not None and high is not None else None
 
-    def bounded(self, name):
+    def bounded(self, name: str) -> str:
         """The name of the column whose interval ends are in the column `name`; "" where that is a column of its own."""
         owner = next((name.removesuffix(end) for end in (LOW, HIGH) if name.endswith(end)), "")
         return owner if owner and self.bounds_of(owner) else ""
 
-    def arrow(self):
-        """The same as a pyarrow.Table; `unit` and `meaning` in the metadata of each field, and whose interval it `bounds`."""
+    def arrow(self) -> "pyarrow.Table":
+        """The same as a pyarrow.Table; `unit`, `label` and `meaning` in the metadata of each field, and whose interval it `bounds`."""
         import pyarrow as pa
 
-        about = [{"unit": c.unit, "meaning": c.meaning, **({"bounds": of} if (of := self.bounded(c.name)) else {})} for c in self.columns]
+        about = [{**column.about(), **({"bounds": owner} if (owner := self.bounded(column.name)) else {})} for column in self.columns]
         fields = [pa.field(c.name, pa.array(c.data).type, metadata=each) for c, each in zip(self.columns, about, strict=True)]
         return pa.Table.from_arrays([pa.array(c.data) for c in self.columns], schema=pa.schema(fields, metadata={"title": self.title}))
 
@@ -141,50 +188,58 @@ class Check(NamedTuple):
     sense: str  # "<=" or ">="
     unit: str
     message: str
-    parts: tuple = ()
+    parts: tuple[str, ...] = ()
     geometry: bool = False  # a part with this check failed should not be manufactured
     low: float | None = None
     high: float | None = None
+    label: str = ""
 
     @classmethod
-    def of(cls, value: Value, name: str, limit: float, sense: str, message: str, parts: tuple = ()) -> "Check":
+    def of(cls, value: Value, name: str, limit: float, sense: str, message: str, parts: tuple[str, ...] = (), label: str = "") -> "Check":
         """The check of a `Value`, with its unit and its interval."""
         plain = value.plain()
-        return cls(name, plain.value, limit, sense, plain.unit, message, parts, low=plain.low, high=plain.high)
+        return cls(name, plain.value, limit, sense, plain.unit, message, parts, low=plain.low, high=plain.high, label=label)
 
     @property
-    def undecided(self):
+    def shown(self) -> str:
+        """The label, from the message where none is given."""
+        return label_of(self.message, self.label)
+
+    @property
+    def undecided(self) -> bool:
         """Whether the limit lies within the interval of the value; `ok` is decided by the value all the same."""
         return self.bounds is not None and self.bounds[0] < float(self.limit) < self.bounds[1]
 
     @property
-    def bounds(self):
+    def bounds(self) -> tuple[float, float] | None:
         """(low, high) of the value, None where it has no interval."""
         ends = [float(end) for end in (self.low, self.high) if end is not None and math.isfinite(end)]
-        return tuple(ends) if len(ends) == 2 else None
+        return (ends[0], ends[1]) if len(ends) == 2 else None
 
     @property
-    def margin(self):
+    def margin(self) -> float:
         """Distance to the limit, positive on the good side."""
         return self.limit - self.value if self.sense == "<=" else self.value - self.limit
 
     @property
-    def margin_bounds(self):
+    def margin_bounds(self) -> tuple[float, float] | None:
         """(low, high) of the margin, None where the value has no interval."""
-        ends = self.bounds and [self._replace(value=end).margin for end in self.bounds]
-        return tuple(sorted(ends)) if ends else None
+        if self.bounds is None:
+            return None
+        ends = [self._replace(value=end).margin for end in self.bounds]
+        return min(ends), max(ends)
 
     @property
-    def ok(self):
+    def ok(self) -> bool:
         """Whether the limit is kept; rounding in the ninth digit does not decide."""
         return bool(self.margin >= -1e-9 * max(abs(self.limit), abs(self.value)))  # numpy's own bool is none for JSON
 
-    def record(self):
-        """Plain dictionary as in result.json."""
-        numbers = {"value": float(self.value), "limit": float(self.limit), "sense": self.sense, "margin": float(self.margin)}
+    def record(self) -> dict[str, Any]:
+        """Plain dictionary as in result.json; a number that does not exist for the design is null, and the check is not ok."""
+        numbers = {"value": _finite(self.value), "limit": _finite(self.limit), "sense": self.sense, "margin": _finite(self.margin)}
         bounds = {"low": self.bounds[0], "high": self.bounds[1], "undecided": self.undecided} if self.bounds else {}
-        said = {"unit": self.unit, "ok": self.ok, "message": self.message, "parts": list(self.parts)}
-        return {"name": self.name, **numbers, **bounds, **said}
+        about = {"unit": self.unit, "ok": self.ok, "message": self.message, "parts": list(self.parts)}
+        return {"name": self.name, "label": self.shown, **numbers, **bounds, **about}
 
 
 class Plot(NamedTuple):
@@ -209,15 +264,16 @@ class Plot(NamedTuple):
     title: str
     table: str
     x: str
-    y: tuple
-    limits: tuple = ()
+    y: tuple[str, ...]
+    limits: tuple[tuple[float | str, str], ...] = ()
     equal: bool = False
     style: str = "line"  # line, points, stems, bars (stacked), polar, mesh, map, histogram or ranked
     log: bool = False  # y axis, or the colour of a map, in powers of ten
-    reference: tuple = ()
+    reference: tuple[str, ...] = ()
     by: str = ""  # a column: one line, or one kind of points, for each of its values
     shade: str = ""  # a column: the ground is shaded where it is above 0
-    rings: tuple = ()  # (radius, label) of circles about the origin, in the unit of x
+    rings: tuple[tuple[float, str], ...] = ()  # (radius, label) of circles about the origin, in the unit of x
+    meaning: str = ""  # a sentence on what it shows, where the title is not enough; the title is its label
 
 
 @dataclass(frozen=True)
@@ -227,13 +283,13 @@ class Answer:
     """
 
     values: Mapping[str, Value] = field(default_factory=dict)
-    tables: tuple = ()
-    checks: tuple = ()
-    findings: tuple = ()
+    tables: tuple[Table, ...] = ()
+    checks: tuple[Check, ...] = ()
+    findings: tuple[str, ...] = ()
     arrays: Mapping[str, Array] = field(default_factory=dict)
     outcome: str = "complete"
     data: Any = None
-    stopped: tuple = ()
+    stopped: tuple[Stop, ...] = ()
     failure: str = ""
 
 
@@ -250,50 +306,66 @@ class Result(Generic[SpecT]):
     digest: str
     values: Mapping[str, Value]
     tables: Mapping[str, Table]
-    checks: tuple
-    findings: tuple
-    provenance: Mapping
+    checks: tuple[Check, ...]
+    findings: tuple[str, ...]
+    provenance: Mapping[str, Any]
     arrays: Mapping[str, Array] = field(default_factory=dict)
     outcome: str = "complete"
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> float:
         """A value by its dotted name, as an SI float."""
         if name not in self.values:
             raise UnknownName("value", name, self.values)
         return self.values[name].value
 
-    def check(self, name):
+    def check(self, name: str) -> Check:
         """A design check by name."""
         for check in self.checks:
             if check.name == name:
                 return check
         raise UnknownName("check", name, [c.name for c in self.checks])
 
-    def table(self, name):
+    def table(self, name: str) -> "pyarrow.Table":
         """A table as pyarrow.Table with units in the column metadata."""
         if name not in self.tables:
             raise UnknownName("table", name, self.tables)
         return self.tables[name].arrow()
 
-    def plot(self, name):
+    def plot(self, name: str) -> "Figure":
         """A matplotlib Figure of a table or of one of the mechanism's plots."""
         from drivewright import registry  # the one import upwards: a view is asked for by name
 
         return registry.load("drivewright.views", "matplotlib", "view")(self, name)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         """One line; the numbers are in `values`, `tables`, `checks`."""
         failed = [check.name for check in self.checks if not check.ok]
         verdict = f"{len(failed)} of {len(self.checks)} checks fail: {', '.join(failed)}" if failed else "all checks pass"
         return f"<Result {self.mechanism!r} {self.title!r}: {len(self.values)} values, {len(self.tables)} tables, {verdict}>"
 
+    def _repr_html_(self) -> str:
+        """The same for notebooks: checks and findings, then the values with unit and label."""
+        checks = "".join(
+            f"<tr><td>{'✓' if check.ok else '✗'}</td><td>{escape(check.shown)}</td>"
+            f"<td>{check.value:.5g} {check.sense} {check.limit:.5g} {escape(check.unit)}</td></tr>"
+            for check in self.checks
+        )
+        values = "".join(
+            f"<tr><td>{escape(name)}</td><td>{v.value:.5g} {escape(v.unit)}</td><td>{escape(label_of(v.meaning, v.label))}</td></tr>"
+            for name, v in self.values.items()
+        )
+        findings = "".join(f"<li>{escape(finding)}</li>" for finding in self.findings)
+        heading = f"<p><b>{escape(self.title)}</b> ({escape(self.mechanism)}, {self.outcome})</p>"
+        numbers = f"<details><summary>values [SI]</summary><table>{values}</table></details>"
+        return f"{heading}<table>{checks}</table><ul>{findings}</ul>{numbers}"
+
     @property
-    def ok(self):
+    def ok(self) -> bool:
         """Whether every design check passed."""
         return all(check.ok for check in self.checks)
 
-    def record(self):
-        """The content of result.json; non-finite values are left out (a finding says why)."""
+    def record(self) -> dict[str, Any]:
+        """The content of result.json; a value that does not exist is left out, a check of it has null and is not ok; findings say why."""
         from drivewright import __version__
 
         values = {k: v.record() for k, v in self.values.items() if math.isfinite(v.value)}
@@ -301,7 +373,6 @@ class Result(Generic[SpecT]):
             k: {"unit": a.unit, "axes": list(a.axes), "labels": [list(x) for x in a.labels], "values": _listed(a.values)}
             for k, a in self.arrays.items()
         }
-        checks = [check.record() for check in self.checks if math.isfinite(check.value) and math.isfinite(check.limit)]
         return {
             "format": 1,
             "drivewright": __version__,
@@ -310,14 +381,19 @@ class Result(Generic[SpecT]):
             "digest": self.digest,
             "values": values,
             "arrays": arrays,
-            "checks": checks,
+            "checks": [check.record() for check in self.checks],
             "findings": list(self.findings),
             "outcome": self.outcome,
             "provenance": dict(self.provenance),
         }
 
 
-def _listed(values):
+def _finite(number: float) -> float | None:
+    """A number for JSON; None where it does not exist."""
+    return float(number) if math.isfinite(number) else None
+
+
+def _listed(values: ArrayLike) -> list[Any]:
     """Nested lists of an array; an entry that does not exist is null."""
     values = np.asarray(values)
-    return np.where(np.isfinite(values), values, None).tolist() if values.dtype.kind == "f" else values.tolist()
+    return np.where(np.isfinite(values), values.astype(object), np.array(None)).tolist() if values.dtype.kind == "f" else values.tolist()

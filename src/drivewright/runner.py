@@ -5,24 +5,31 @@ import os
 import platform
 import time
 import traceback
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from drivewright import registry
 from drivewright.errors import DEBUG, DrivewrightError, MissingExtra, SolverError, UnknownName
-from drivewright.result import Answer, Result
-from drivewright.stopped import collected
+from drivewright.registry import Analysis, Mechanism
+from drivewright.result import Answer, Answers, Result, SpecLike, SpecT, Table
+from drivewright.stopped import Stop, collected
+
+Progress: TypeAlias = Callable[[int, int, str], object]  # (done, total, name of what comes next)
 
 
-def build(spec):
+def build(spec: SpecLike) -> Any:
     """The model of a spec: curves, trains, systems - common types only."""
     return registry.mechanism(spec.mechanism).build(spec)
 
 
-def run(spec, only=(), everything=False, progress=None, model=None):
+def run(
+    spec: SpecT, only: Iterable[str] | str = (), everything: bool = False, progress: Progress | None = None, model: Any = None
+) -> Result[SpecT]:
     """Result of the default analyses of a spec, of exactly those named in `only` and what they need, or of all.
 
     `progress(done, total, name)` is called before each analysis.  What is left out is listed in the findings.
@@ -34,7 +41,7 @@ def run(spec, only=(), everything=False, progress=None, model=None):
     wanted = selection(mechanism.analyses, only, everything)
     model = mechanism.build(spec) if model is None else model
     answers = ask(spec, model, wanted, progress)
-    findings = [*getattr(model, "findings", ()), *_told(answers)]
+    findings = [*getattr(model, "findings", ()), *_findings(answers)]
     findings += [*stops(answers), *_holes(answers)]
     findings += [
         f"analysis '{a.name}' ({a.meaning}) runs on request: --only {a.name}"
@@ -45,7 +52,13 @@ def run(spec, only=(), everything=False, progress=None, model=None):
     return _result(spec, mechanism, answers, findings, time.perf_counter() - started)
 
 
-def ask(spec, model, wanted, progress=None, through=()):
+def ask(
+    spec: SpecLike,
+    model: Any,
+    wanted: Sequence[Analysis[Any, Any]],
+    progress: Progress | None = None,
+    through: tuple[type[BaseException], ...] = (),
+) -> dict[str, Answer]:
     """{name: Answer} of the wanted analyses, one after another; each sees those before it.
 
     Exceptions of the kinds `through` are not the analysis' own (a study calls memory and imports the place's) and are let through.
@@ -58,7 +71,7 @@ def ask(spec, model, wanted, progress=None, through=()):
     return answers
 
 
-def _told(answers):
+def _findings(answers: Answers) -> Iterator[str]:
     """The findings of all analyses; those that failed for one and the same reason say it once."""
     alike = {}
     for name, answer in answers.items():
@@ -73,7 +86,7 @@ def _told(answers):
             yield f"analyses {', '.join(map(repr, names))} fail alike; each {answer.failure}"
 
 
-def stops(answers):
+def stops(answers: Answers) -> list[str]:
     """A sentence for every run that stopped, with the analyses that look at it."""
     found = {}
     for name, answer in answers.items():
@@ -82,7 +95,7 @@ def stops(answers):
     return [f"{str(stop).rstrip('.')}. Partial for that reason: {', '.join(names)}" for stop, names in found.items()]
 
 
-def _holes(answers):
+def _holes(answers: Answers) -> Iterator[str]:
     """A sentence for every check and table with numbers that do not exist."""
     for answer in answers.values():
         for check in answer.checks:
@@ -92,7 +105,7 @@ def _holes(answers):
             yield from _holes_of(table)
 
 
-def _holes_of(table):
+def _holes_of(table: Table) -> Iterator[str]:
     """The same of one table: the columns with holes, and the rows of the worst."""
     columns = {c.name: int(np.sum(~np.isfinite(c.data))) for c in table.columns if np.asarray(c.data).dtype.kind == "f"}
     names = [name for name, count in columns.items() if count]
@@ -104,13 +117,15 @@ def _holes_of(table):
         )
 
 
-def reasons(answers):
+def reasons(answers: Answers) -> list[str]:
     """Why answers are not complete, in short."""
     left = [finding for answer in answers.values() if answer.outcome != "complete" for finding in answer.findings[-1:]]
     return [*left, *stops(answers)]
 
 
-def selection(analyses, only=(), everything=False):
+def selection(
+    analyses: Iterable[Analysis[Any, Any]], only: Iterable[str] | str = (), everything: bool = False
+) -> tuple[Analysis[Any, Any], ...]:
     """The analyses to do, each after those that it needs; UnknownName for a name that is none."""
     by_name = {a.name: a for a in analyses}
     only = (only,) if isinstance(only, str) else only
@@ -131,7 +146,9 @@ def selection(analyses, only=(), everything=False):
     return tuple(chosen.values())
 
 
-def _answer(analysis, spec, model, answers, through):
+def _answer(
+    analysis: Analysis[Any, Any], spec: SpecLike, model: Any, answers: Answers, through: tuple[type[BaseException], ...]
+) -> tuple[Answer, tuple[Stop, ...]]:
     """(answer, stops of what it looks at): an empty answer with a finding where input or an extra is missing, or where it fails."""
     with collected() as stopped:
         try:
@@ -146,15 +163,15 @@ def _answer(analysis, spec, model, answers, through):
             return _failed(analysis, spec, error), tuple(stopped)
 
 
-def _inherited(analysis, answers, answer, stopped):
+def _inherited(analysis: Analysis[Any, Any], answers: Answers, answer: Answer, stopped: tuple[Stop, ...]) -> Answer:
     """The answer with the stops of what it looked at, directly or through the analyses that it needs: it is no more complete than they."""
     needed = [answers[name] for name in analysis.needs]
-    stopped = dict.fromkeys((*answer.stopped, *stopped, *(stop for other in needed for stop in other.stopped)))
-    cut = bool(stopped) or any(other.outcome == "partial" for other in needed)
-    return replace(answer, stopped=tuple(stopped), outcome="partial" if cut and answer.outcome == "complete" else answer.outcome)
+    stops = dict.fromkeys((*answer.stopped, *stopped, *(stop for other in needed for stop in other.stopped)))
+    cut = bool(stops) or any(other.outcome == "partial" for other in needed)
+    return replace(answer, stopped=tuple(stops), outcome="partial" if cut and answer.outcome == "complete" else answer.outcome)
 
 
-def _until(answer):
+def _until(answer: Answer) -> Answer:
     """The answer whose values say until when they were computed, where a run stopped."""
     if not answer.stopped:
         return answer
@@ -162,16 +179,16 @@ def _until(answer):
     return replace(answer, values={name: v._replace(meaning=f"{v.meaning} ({where})") for name, v in answer.values.items()})
 
 
-def _left_out(analysis, reason):
+def _left_out(analysis: Analysis[Any, Any], reason: object) -> Answer:
     return Answer(findings=(f"analysis '{analysis.name}' ({analysis.meaning}) is left out: {reason}",), outcome="left out")
 
 
-def _usable(answer):
+def _usable(answer: Answer) -> bool:
     """Whether an analysis that needs this answer can go on from it."""
     return answer.outcome == "complete" or (answer.outcome == "partial" and answer.data is not None)
 
 
-def _failed(analysis, spec, error):
+def _failed(analysis: Analysis[Any, Any], spec: SpecLike, error: Exception) -> Answer:
     """What an analysis had when it failed, with a finding that says why: its solver, the design, the memory, or a fault of ours."""
     partial = getattr(error, "partial", None)
     had = partial if isinstance(partial, Answer) else Answer()
@@ -181,7 +198,7 @@ def _failed(analysis, spec, error):
     return replace(had, outcome="partial", findings=(*had.findings, finding), failure=told)
 
 
-def reason_of(spec, error):
+def reason_of(spec: SpecLike, error: Exception) -> str:
     """Why something about a spec failed, in words: those of our own error, else the predicate of a sentence on the machine or on us."""
     if isinstance(error, DrivewrightError):
         return str(error)
@@ -190,7 +207,7 @@ def reason_of(spec, error):
     return _fault(spec, error)
 
 
-def _fault(spec, error):
+def _fault(spec: SpecLike, error: Exception) -> str:
     """What to say, and to report, of an exception that nobody expected."""
     if os.environ.get(DEBUG):
         traceback.print_exception(error)
@@ -200,7 +217,7 @@ def _fault(spec, error):
     )
 
 
-def _result(spec, mechanism, answers, findings, seconds):
+def _result(spec: SpecT, mechanism: Mechanism[Any, Any], answers: Answers, findings: Iterable[str], seconds: float) -> Result[SpecT]:
     values = {k: v.plain() for a in answers.values() for k, v in a.values.items()}
     absent = {k: v for k, v in values.items() if not math.isfinite(v.value)}
     findings = [*findings, *(f"value '{name}' ({v.meaning}) does not exist for this design: it is {v.value}" for name, v in absent.items())]
@@ -226,13 +243,13 @@ def _result(spec, mechanism, answers, findings, seconds):
     )
 
 
-def versions():
+def versions() -> dict[str, str]:
     """Version of Python and of the libraries that make numbers."""
     return dict(_versions())
 
 
 @cache
-def _versions():
+def _versions() -> dict[str, str]:
     found = {"python": platform.python_version()}
     for name in ("drivewright", "numpy", "scipy", "numba"):
         try:

@@ -6,13 +6,19 @@ counter-clockwise positive.  Nothing here computes mechanics or knows a file for
 """
 
 import math
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 
-def place(points, pose, mirror=False):
+Point: TypeAlias = tuple[float, float]  # (x, y) [m]
+Pose: TypeAlias = tuple[float, float, float]  # (x [m], y [m], angle [rad])
+
+
+def place(points: ArrayLike, pose: Iterable[float], mirror: bool = False) -> Floats:
     """Points (n, 2) reflected about the x axis where asked, then carried by a pose (x, y, angle)."""
     x, y, angle = pose
     c, s = np.cos(angle), np.sin(angle)
@@ -20,7 +26,7 @@ def place(points, pose, mirror=False):
     return (np.asarray(points, float) * flip) @ np.array([[c, s], [-s, c]]) + (x, y)
 
 
-def _point(point, pose, mirror):
+def _point(point: Point, pose: Pose, mirror: bool) -> Point:
     """One point of `place`, without arrays: outlines have thousands."""
     (x, y), c, s = point, math.cos(pose[2]), math.sin(pose[2])
     y = -y if mirror else y
@@ -30,30 +36,30 @@ def _point(point, pose, mirror):
 class Line(NamedTuple):
     """Straight segment between two points (x, y)."""
 
-    start: tuple
-    end: tuple
+    start: Point
+    end: Point
 
-    def points(self, tolerance):
+    def points(self, tolerance: float) -> Floats:
         return np.array([self.start, self.end], float)
 
-    def moved(self, pose, mirror):
+    def moved(self, pose: Pose, mirror: bool) -> "Line":
         return Line(_point(self.start, pose, mirror), _point(self.end, pose, mirror))
 
 
 class Arc(NamedTuple):
     """True circular arc: from angle `start` through the signed angle `sweep` (counter-clockwise positive)."""
 
-    center: tuple
+    center: Point
     radius: float
     start: float
     sweep: float
 
-    def points(self, tolerance):
+    def points(self, tolerance: float) -> Floats:
         step = 2 * np.arccos(max(1 - tolerance / max(self.radius, tolerance), 0.0))
         angles = self.start + self.sweep * np.linspace(0, 1, max(3, int(np.ceil(abs(self.sweep) / step)) + 1))
         return np.asarray(self.center) + self.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
-    def moved(self, pose, mirror):
+    def moved(self, pose: Pose, mirror: bool) -> "Arc":
         sign = -1.0 if mirror else 1.0
         return Arc(_point(self.center, pose, mirror), self.radius, sign * self.start + pose[2], sign * self.sweep)
 
@@ -61,48 +67,52 @@ class Arc(NamedTuple):
 class Spline(NamedTuple):
     """Smooth curve through dense `knots` (n, 2) with unit end tangents; the knots lie on the exact curve."""
 
-    knots: np.ndarray
-    start_tangent: tuple
-    end_tangent: tuple
+    knots: Floats
+    start_tangent: Point
+    end_tangent: Point
 
-    def points(self, tolerance):
+    def points(self, tolerance: float) -> Floats:
         return np.asarray(self.knots, float)
 
-    def moved(self, pose, mirror):
+    def moved(self, pose: Pose, mirror: bool) -> "Spline":
         turn = (0.0, 0.0, pose[2])
         return Spline(place(self.knots, pose, mirror), _point(self.start_tangent, turn, mirror), _point(self.end_tangent, turn, mirror))
+
+
+Piece: TypeAlias = Line | Arc | Spline
 
 
 class Outline(NamedTuple):
     """Chain of pieces end to end, closed unless told otherwise."""
 
-    pieces: tuple
+    pieces: tuple[Piece, ...]
     closed: bool = True
 
-    def points(self, tolerance=1e-5):
+    def points(self, tolerance: float = 1e-5) -> Floats:
         """Polyline (n, 2) within `tolerance` [m] of the arcs; splines give their own knots."""
         chains = [piece.points(tolerance) for piece in self.pieces]
         joined = np.concatenate([chains[0], *(chain[1:] for chain in chains[1:])])
         return joined[:-1] if self.closed and len(joined) > 2 and np.allclose(joined[0], joined[-1], atol=1e-12) else joined
 
-    def moved(self, pose, mirror=False):
+    def moved(self, pose: Pose, mirror: bool = False) -> "Outline":
         """The same outline reflected about the x axis where asked, then carried by a pose (x, y, angle)."""
         return Outline(tuple(piece.moved(pose, mirror) for piece in self.pieces), self.closed)
 
 
-def circle(center, radius):
+def circle(center: Point, radius: float) -> Outline:
     """Outline of a full circle, in two half arcs as most CAD kernels want it."""
-    return Outline((Arc(tuple(center), radius, 0.0, np.pi), Arc(tuple(center), radius, np.pi, np.pi)))
+    x, y = center
+    return Outline((Arc((x, y), radius, 0.0, np.pi), Arc((x, y), radius, np.pi, np.pi)))
 
 
-def polygon(points, closed=True):
+def polygon(points: ArrayLike, closed: bool = True) -> Outline:
     """Outline of straight segments through `points` (n, 2)."""
-    points = list(map(tuple, np.asarray(points, float).tolist()))
-    ends = points[1:] + points[:1] if closed else points[1:]
-    return Outline(tuple(Line(a, b) for a, b in zip(points, ends, strict=False)), closed)
+    corners: list[Point] = [(x, y) for x, y in np.asarray(points, float).tolist()]
+    ends = corners[1:] + corners[:1] if closed else corners[1:]
+    return Outline(tuple(Line(a, b) for a, b in zip(corners, ends, strict=False)), closed)
 
 
-def capsule(start, end, radius):
+def capsule(start: Point, end: Point, radius: float) -> Outline:
     """Outline of a bar with round ends: all points within `radius` of the segment start - end."""
     (x0, y0), (x1, y1) = start, end
     angle = float(np.arctan2(y1 - y0, x1 - x0))
@@ -135,10 +145,10 @@ class Body:
 
     name: str
     label: str
-    shapes: tuple
-    poses: np.ndarray
+    shapes: tuple[Shape, ...]
+    poses: Floats
     colour: str = "steel"  # a role the viewer turns into a colour: steel, blue, orange, green, violet, ground
-    rest: np.ndarray | None = None
+    rest: Floats | None = None
     most: float = np.inf
     magnified: float = 1.0
 
@@ -150,7 +160,7 @@ class Trace:
     name: str
     label: str
     body: str
-    point: tuple
+    point: Point
 
 
 @dataclass(frozen=True)
@@ -163,24 +173,24 @@ class Frame:
 
     name: str
     label: str
-    poses: np.ndarray
-    advance: tuple = (0.0, 0.0)
-    shapes: tuple = ()
+    poses: Floats
+    advance: Point = (0.0, 0.0)
+    shapes: tuple[Shape, ...] = ()
 
 
 @dataclass(frozen=True)
 class Scene:
     """One cycle of a mechanism.  `cycle` (frames,) is the driving quantity; first and last frame close the cycle."""
 
-    cycle: np.ndarray
+    cycle: Floats
     cycle_label: str
     cycle_unit: str
     period: float
-    bodies: tuple
-    frames: tuple
-    traces: tuple = ()
+    bodies: tuple[Body, ...]
+    frames: tuple[Frame, ...]
+    traces: tuple[Trace, ...] = ()
     table: str = ""  # name of the result's table that shares this cycle, for the linked cursor
-    marks: tuple = field(default=())  # (cycle value, label)
+    marks: tuple[tuple[float, str], ...] = ()  # (cycle value, label)
 
 
 @dataclass(frozen=True)
@@ -189,11 +199,11 @@ class Drawing:
 
     name: str
     title: str
-    shapes: tuple
+    shapes: tuple[Shape, ...]
     thickness: float = 0.0
     milled: bool = True
 
-    def on(self, layer):
+    def on(self, layer: str) -> tuple[Outline, ...]:
         return tuple(shape.outline for shape in self.shapes if shape.layer == layer)
 
 
@@ -201,7 +211,7 @@ class Prism(NamedTuple):
     """Outline minus holes, extruded from height z over `thickness`."""
 
     outline: Outline
-    holes: tuple
+    holes: tuple[Outline, ...]
     z: float
     thickness: float
 
@@ -209,8 +219,8 @@ class Prism(NamedTuple):
 class Bar(NamedTuple):
     """Round bar lying in the plane from `start` to `end` (x, y) at height z."""
 
-    start: tuple
-    end: tuple
+    start: Point
+    end: Point
     z: float
     diameter: float
 
@@ -221,9 +231,9 @@ class Turned(NamedTuple):
     Each of `rings` is (length, outer diameter at its start, outer diameter at its end, bore diameter); a solid one has the bore 0.
     """
 
-    start: tuple
+    start: Point
     z: float
-    rings: tuple
+    rings: tuple[tuple[float, float, float, float], ...]
 
 
 class Grooved(NamedTuple):
@@ -234,10 +244,10 @@ class Grooved(NamedTuple):
     Floor, mouth and ends of a groove run straight from wall to wall; mouth and ends lie outside the body.
     """
 
-    start: tuple
+    start: Point
     z: float
     section: Outline
-    grooves: tuple
+    grooves: tuple[Floats, ...]
 
 
 @dataclass(frozen=True)
@@ -245,6 +255,6 @@ class Part:
     """A named solid of an assembly: prisms, bars, turned and grooved bodies fused together, placed at `pose` (x, y, angle)."""
 
     name: str
-    solids: tuple
-    pose: tuple = (0.0, 0.0, 0.0)
+    solids: tuple[Prism | Bar | Turned | Grooved, ...]
+    pose: Pose = (0.0, 0.0, 0.0)
     colour: str = "steel"

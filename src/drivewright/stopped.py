@@ -9,8 +9,6 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import NamedTuple
 
-_stops: ContextVar[dict | None] = ContextVar("stops", default=None)
-
 
 class Stop(NamedTuple):
     """Where something ended before its time, e.g. "the run ends at t = 0.7 s of 3 s", and why."""
@@ -22,6 +20,9 @@ class Stop(NamedTuple):
         return f"{self.where}: {self.why}"
 
 
+_stops: ContextVar[dict[Stop, None] | None] = ContextVar("stops", default=None)
+
+
 def uses(stop: Stop | None) -> None:
     """Note that the analysis under way looks at something that stopped; nothing happens for None, and outside of an analysis."""
     stops = _stops.get()
@@ -30,10 +31,11 @@ def uses(stop: Stop | None) -> None:
 
 
 @contextmanager
-def collected() -> Iterator[dict]:
+def collected() -> Iterator[dict[Stop, None]]:
     """The stops (as keys, in order) that are noted inside, also by the threads of `cases.run`."""
-    token = _stops.set({})
+    stops: dict[Stop, None] = {}
+    token = _stops.set(stops)
     try:
-        yield _stops.get()
+        yield stops
     finally:
         _stops.reset(token)

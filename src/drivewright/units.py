@@ -13,7 +13,7 @@ from decimal import Context, Decimal
 from fractions import Fraction
 from functools import cache, lru_cache
 from numbers import Real
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar, TypeAlias
 
 from drivewright.errors import UnitError, brief, nearest
 
@@ -79,11 +79,13 @@ class SI(float):
 def _registry():
     import pint
 
-    return pint.UnitRegistry(DEFINITIONS.strip().splitlines(), non_int_type=Fraction)
+    definitions: Any = DEFINITIONS.strip().splitlines()  # pint takes lines as well as a file, and any number type
+    exact: Any = Fraction
+    return pint.UnitRegistry(definitions, non_int_type=exact)
 
 
 @lru_cache(maxsize=4096)
-def _unit(text):
+def _unit(text: str) -> tuple[Fraction, frozenset[tuple[str, float]]]:
     """(exact factor to SI, dimensionality as a frozenset of (base, exponent)) of a unit text."""
     expression = re.sub(r"\s*[\u00b7\u22c5*]\s*", "*", text.strip().replace("**", "^").replace("\u00b2", "^2").replace("\u00b3", "^3"))
     if not EXPRESSION.fullmatch(expression):
@@ -91,7 +93,7 @@ def _unit(text):
     # A blank between two units is a product; pint reads "N m" so, but not "N  m" or "mm s^2".
     expression = re.sub(rf"(?<=[\w)])\s+(?=[(]|{WORD})", "*", expression).replace("^", "**")
     try:
-        quantity = _registry().Quantity(Fraction(1), _registry().parse_units(expression)).to_base_units()
+        quantity: Any = _registry().Quantity(Fraction(1), _registry().parse_units(expression)).to_base_units()
         return Fraction(quantity.magnitude), frozenset((k, float(v)) for k, v in quantity.dimensionality.items())
     except Exception:  # pint raises a dozen kinds, its parser whatever Python's tokeniser does on garbage
         words = [word for word in re.findall(WORD, text) if word not in _registry()]
@@ -140,10 +142,10 @@ class Dimension:
     name: str
     unit: str
     shown: str
-    also: tuple = ()
-    plain = False  # of a kind whose values are more than a float: what `parse` gives is final
+    also: tuple[str, ...] = ()
+    plain: ClassVar[bool] = False  # of a kind whose values are more than a float: what `parse` gives is final
 
-    def parse(self, value):
+    def parse(self, value: Any) -> Any:
         """SI float of a text such as "9.525 mm"; UnitError says what was wanted and what came."""
         if isinstance(value, SI) and math.isfinite(value):
             return float(value)
@@ -155,17 +157,17 @@ class Dimension:
             raise UnitError(f'a bare number; {self.described} wants its unit, e.g. "{brief(value)} {self.shown}"')
         return _read(self, value)
 
-    def factor(self, unit):
+    def factor(self, unit: str) -> float:
         """Factor from `unit` to SI; UnitError where it belongs to another kind of quantity."""
         return float(self._exact(unit, unit))
 
-    def _exact(self, unit, whole):
+    def _exact(self, unit: str, whole: object) -> Fraction:
         factor, dimensionality = _unit(unit)
         if dimensionality != _unit(self.unit)[1]:
             raise UnitError(f"wants {self.described}, got {brief(whole)}{_other_name(dimensionality)}{self._remedy(dimensionality)}")
         return factor
 
-    def text(self, value):
+    def text(self, value: float) -> str:
         """A text that parses back to exactly `value`, in the unit people read or another that makes it shorter."""
         exact = Fraction(float(value))
         for digits, units in ((6, [self.shown]), (12, [self.shown, *self.also]), (15, [self.shown]), (16, [self.shown])):
@@ -176,7 +178,7 @@ class Dimension:
         return f"{_decimal(exact / _unit(self.shown)[0], 17)} {self.shown}"  # 17 digits always do
 
     @property
-    def described(self):
+    def described(self) -> str:
         return f"{'an' if self.name[0] in 'aeiou' else 'a'} {self.name}"
 
     def _remedy(self, dimensionality):
@@ -189,7 +191,7 @@ class Dimension:
         }
         return mixups.get((self.name, _name_of(dimensionality)), REMEDIES.get(self.name, ""))
 
-    def __get_pydantic_core_schema__(self, source, handler):
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
         from pydantic_core import core_schema
 
         def validate(value):
@@ -202,7 +204,7 @@ class Dimension:
             return core_schema.no_info_plain_validator_function(validate)
         return core_schema.no_info_before_validator_function(validate, handler(source))
 
-    def __get_pydantic_json_schema__(self, schema, handler):
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         # Limits are given in SI beside the unit; JSON schema itself cannot compare quantities.
         limits = {f"x-{name}": schema["schema"][name] for name in ("gt", "ge", "lt", "le") if name in schema.get("schema", {})}
         about = {"x-dimension": self.name, "x-unit": self.shown, "x-si-unit": self.unit}
@@ -210,7 +212,7 @@ class Dimension:
 
 
 @lru_cache(maxsize=4096)
-def _read(dimension, text):
+def _read(dimension: Dimension, text: str) -> float:
     """SI float of a text: the cases of a study say the same again and again."""
     number, unit = split(text)
     if not unit:
@@ -218,7 +220,7 @@ def _read(dimension, text):
     return _rounded(number * dimension._exact(unit, text), text)
 
 
-def split(text):
+def split(text: str) -> tuple[Fraction, str]:
     """(exact number, unit text) of "9.525 mm"; UnitError where there is no finite number in front."""
     match = NUMBER.match(text) if len(text) <= LONGEST else None
     if not match:
@@ -232,7 +234,7 @@ def split(text):
     return Fraction(number), match[2]
 
 
-def any_quantity(text):
+def any_quantity(text: str) -> tuple[float, tuple[tuple[str, float], ...]]:
     """(SI float, dimensionality) of a quantity of any kind; UnitError where the text is none."""
     number, unit = split(text)
     factor, dimensionality = _unit(unit)
@@ -260,37 +262,34 @@ def _decimal(exact, digits):
     return f"{number:f}" if -5 <= number.adjusted() < 7 or not number else f"{number:e}"
 
 
-DIMENSIONS = tuple(
-    Dimension(*row)
-    for row in (
-        ("length", "m", "mm", ("um", "in")),
-        ("angle", "rad", "deg", ("arcmin", "arcsec", "rad")),
-        ("angular speed", "rad/s", "rpm", ("rad/s", "rev/h")),
-        ("angular acceleration", "rad/s^2", "rad/s^2"),
-        ("velocity", "m/s", "m/s", ("mm/min", "mm/s")),
-        ("acceleration", "m/s^2", "m/s^2"),
-        ("time", "s", "s", ("min", "h")),
-        ("frequency", "Hz", "Hz"),
-        ("mass", "kg", "kg"),
-        ("moment of inertia", "kg m^2", "kg m^2"),
-        ("force", "N", "N"),
-        ("torque", "N m", "N m"),
-        ("stiffness", "N/m", "N/mm"),
-        ("rotational stiffness", "N m/rad", "N m/arcmin", ("N m/rad",)),
-        ("damping", "N s/m", "N s/m"),
-        ("pressure", "Pa", "MPa"),
-        ("area", "m^2", "mm^2"),
-        ("curvature", "1/m", "1/mm"),
-        ("power", "W", "W"),
-        ("density", "kg/m^3", "kg/m^3"),
-        ("volume", "m^3", "mm^3"),
-        ("rotational damping", "N m s/rad", "N m s/rad"),
-        ("viscosity", "Pa s", "Pa s"),
-        ("wear coefficient", "m^2/N", "mm^3/(N m)"),
-        ("slowness", "s/m", "s/m"),
-        ("flexibility", "m/N", "um/kN"),
-        ("torsional compliance", "rad/(N m)", "arcmin/(kN m)"),
-    )
+DIMENSIONS = (
+    Dimension("length", "m", "mm", ("um", "in")),
+    Dimension("angle", "rad", "deg", ("arcmin", "arcsec", "rad")),
+    Dimension("angular speed", "rad/s", "rpm", ("rad/s", "rev/h")),
+    Dimension("angular acceleration", "rad/s^2", "rad/s^2"),
+    Dimension("velocity", "m/s", "m/s", ("mm/min", "mm/s")),
+    Dimension("acceleration", "m/s^2", "m/s^2"),
+    Dimension("time", "s", "s", ("min", "h")),
+    Dimension("frequency", "Hz", "Hz"),
+    Dimension("mass", "kg", "kg"),
+    Dimension("moment of inertia", "kg m^2", "kg m^2"),
+    Dimension("force", "N", "N"),
+    Dimension("torque", "N m", "N m"),
+    Dimension("stiffness", "N/m", "N/mm"),
+    Dimension("rotational stiffness", "N m/rad", "N m/arcmin", ("N m/rad",)),
+    Dimension("damping", "N s/m", "N s/m"),
+    Dimension("pressure", "Pa", "MPa"),
+    Dimension("area", "m^2", "mm^2"),
+    Dimension("curvature", "1/m", "1/mm"),
+    Dimension("power", "W", "W"),
+    Dimension("density", "kg/m^3", "kg/m^3"),
+    Dimension("volume", "m^3", "mm^3"),
+    Dimension("rotational damping", "N m s/rad", "N m s/rad"),
+    Dimension("viscosity", "Pa s", "Pa s"),
+    Dimension("wear coefficient", "m^2/N", "mm^3/(N m)"),
+    Dimension("slowness", "s/m", "s/m"),
+    Dimension("flexibility", "m/N", "um/kN"),
+    Dimension("torsional compliance", "rad/(N m)", "arcmin/(kN m)"),
 )
 REMEDIES = {
     "rotational damping": "; write N m s/rad, a torque per angular speed",
@@ -315,31 +314,41 @@ def _other_name(dimensionality):
     return f" ({name})" if name else ""
 
 
-def field(name):
-    """The pydantic field type of a quantity by the name of its dimension."""
-    return Annotated[float, BY_NAME[name]]
+# The pydantic field types of quantities: a text with a unit comes in, an SI float is kept.
+Length: TypeAlias = Annotated[float, BY_NAME["length"]]
+Angle: TypeAlias = Annotated[float, BY_NAME["angle"]]
+Speed: TypeAlias = Annotated[float, BY_NAME["angular speed"]]
+Velocity: TypeAlias = Annotated[float, BY_NAME["velocity"]]
+Acceleration: TypeAlias = Annotated[float, BY_NAME["acceleration"]]
+Time: TypeAlias = Annotated[float, BY_NAME["time"]]
+Frequency: TypeAlias = Annotated[float, BY_NAME["frequency"]]
+Mass: TypeAlias = Annotated[float, BY_NAME["mass"]]
+Inertia: TypeAlias = Annotated[float, BY_NAME["moment of inertia"]]
+Force: TypeAlias = Annotated[float, BY_NAME["force"]]
+Torque: TypeAlias = Annotated[float, BY_NAME["torque"]]
+Stiffness: TypeAlias = Annotated[float, BY_NAME["stiffness"]]
+RotationalStiffness: TypeAlias = Annotated[float, BY_NAME["rotational stiffness"]]
+Damping: TypeAlias = Annotated[float, BY_NAME["damping"]]
+Pressure: TypeAlias = Annotated[float, BY_NAME["pressure"]]
+RotationalDamping: TypeAlias = Annotated[float, BY_NAME["rotational damping"]]
+Viscosity: TypeAlias = Annotated[float, BY_NAME["viscosity"]]
+WearCoefficient: TypeAlias = Annotated[float, BY_NAME["wear coefficient"]]
+Slowness: TypeAlias = Annotated[float, BY_NAME["slowness"]]
+Density: TypeAlias = Annotated[float, BY_NAME["density"]]
+LineForce: TypeAlias = Annotated[float, Dimension("force per length", "N/m", "N/mm")]  # of the same kind as a stiffness
 
 
-Length, Angle, Speed, Velocity = field("length"), field("angle"), field("angular speed"), field("velocity")
-Acceleration, Time, Frequency, Mass = field("acceleration"), field("time"), field("frequency"), field("mass")
-Inertia, Force, Torque, Stiffness = field("moment of inertia"), field("force"), field("torque"), field("stiffness")
-RotationalStiffness, Damping, Pressure = field("rotational stiffness"), field("damping"), field("pressure")
-RotationalDamping, Viscosity, WearCoefficient = field("rotational damping"), field("viscosity"), field("wear coefficient")
-Slowness, Density = field("slowness"), field("density")
-LineForce = Annotated[float, Dimension("force per length", "N/m", "N/mm")]  # of the same kind as a stiffness
-
-
-def to_si(value: Any, dimension: str):
+def to_si(value: Any, dimension: str) -> float:
     """SI float of a text with a unit, for a dimension by name ("length", "angle" ...)."""
     return BY_NAME[dimension].parse(value)
 
 
-def unit_factor(unit: str, dimension: str):
+def unit_factor(unit: str, dimension: str) -> float:
     """Factor from a unit text to SI, for a dimension by name; UnitError where they do not belong together."""
     return BY_NAME[dimension].factor(unit)
 
 
-def display(si_unit):
+def display(si_unit: str) -> tuple[float, str]:
     """(factor, unit) that turn an SI number of `si_unit` into the one people read: 'm' -> (1e3, 'mm')."""
     dimension = BY_UNIT.get(si_unit)
     if dimension is None and si_unit.startswith("m/rad"):  # a lift's derivatives by an angle

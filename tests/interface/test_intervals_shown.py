@@ -36,14 +36,15 @@ def test_record_has_the_interval_where_there_is_one():
     record = json.loads(json.dumps(run().record(), allow_nan=False))
     level, area = record["values"]["level"], record["values"]["area"]
     assert level["low"] < level["value"] < level["high"] and level["interval"] == "ensemble"
-    assert set(area) == {"value", "unit", "meaning"}
+    assert set(area) == {"value", "unit", "label", "meaning"}
     assert "settled" not in level
 
 
 def test_a_bound_that_is_no_number_is_left_out():
     value = Value(1.0, "m", "length", float("nan"), np.float64(2.0), "fit")
-    assert value.record() == {"value": 1.0, "unit": "m", "meaning": "length", "high": 2.0, "interval": "fit"}
-    assert Value(1.0, "m", "length", None, float("inf"), "fit").record() == {"value": 1.0, "unit": "m", "meaning": "length"}
+    assert value.record() == {"value": 1.0, "unit": "m", "label": "Length", "meaning": "length", "high": 2.0, "interval": "fit"}
+    without = {"value": 1.0, "unit": "m", "label": "Length", "meaning": "length"}
+    assert Value(1.0, "m", "length", None, float("inf"), "fit").record() == without
 
 
 def test_what_has_not_settled_is_no_headline_and_stays_in_the_result():
@@ -100,7 +101,7 @@ def test_a_check_is_undecided_where_its_limit_lies_within(low, high, sense, unde
 def test_a_check_without_interval_says_nothing_of_it():
     check = Check("long", 1.0, 2.0, "<=", "m", "not too long")
     assert not check.undecided and check.bounds is None and check.margin_bounds is None
-    assert set(check.record()) == {"name", "value", "limit", "sense", "margin", "unit", "ok", "message", "parts"}
+    assert set(check.record()) == {"name", "label", "value", "limit", "sense", "margin", "unit", "ok", "message", "parts"}
 
 
 def test_undecided_is_a_warning_on_the_page():

@@ -40,7 +40,7 @@ def test_without_figures_there_are_none_but_a_player(tmp_path):
 def test_tables_carry_units_and_meanings(tmp_path):
     out = write_run_folder(four_bar_result(), tmp_path / "run", figures=False, seen=BARE)
     field = parquet.read_schema(out / "tables" / "motion.parquet").field("rocker")
-    assert field.metadata == {b"unit": b"rad", b"meaning": b"rocker angle"}
+    assert field.metadata == {b"unit": b"rad", b"label": b"Rocker angle", b"meaning": b"rocker angle"}
 
 
 def test_the_record_is_plain_json_in_full_precision():

@@ -19,7 +19,7 @@ TABLE = Table(
 )
 CHECKS = (
     Check("low", np.float64(0.5), 1.0, ">=", "-", "too low", ("cam",)),
-    Check("high", 3.0, np.float64(4.0), "<=", "m", "fine"),
+    Check("high", 3.0, np.float64(4.0), "<=", "m", "fine", label="height"),
     Check("unknown", float("nan"), 1.0, "<=", "-", "not computed"),
     Check("free", 1.0, float("inf"), "<=", "-", "no limit"),
 )
@@ -65,8 +65,8 @@ def test_the_record_is_strict_json_as_product_documents_it():
     ]
     assert (record["format"], record["drivewright"], record["outcome"]) == (1, dw.__version__, "complete")
     assert record["values"] == {
-        "lift": {"value": 0.02, "unit": "m", "meaning": "stroke"},
-        "peak": {"value": 0.5, "unit": "-", "meaning": "peak"},
+        "lift": {"value": 0.02, "unit": "m", "label": "Stroke", "meaning": "stroke"},
+        "peak": {"value": 0.5, "unit": "-", "label": "Peak", "meaning": "peak"},
     }
     assert record["arrays"]["flexibility"] == {
         "unit": "m/N",
@@ -75,9 +75,11 @@ def test_the_record_is_strict_json_as_product_documents_it():
         "values": [[1.0, None], [None, 4.0]],
     }
     assert record["arrays"]["count"]["values"] == [1, 2]
+    unknown = {"value": None, "limit": None, "sense": "<=", "margin": None, "unit": "-", "ok": False, "parts": []}
     assert record["checks"] == [
         {
             "name": "low",
+            "label": "Too low",
             "value": 0.5,
             "limit": 1.0,
             "sense": ">=",
@@ -87,8 +89,26 @@ def test_the_record_is_strict_json_as_product_documents_it():
             "message": "too low",
             "parts": ["cam"],
         },
-        {"name": "high", "value": 3.0, "limit": 4.0, "sense": "<=", "margin": 1.0, "unit": "m", "ok": True, "message": "fine", "parts": []},
+        {
+            "name": "high",
+            "label": "Height",
+            "value": 3.0,
+            "limit": 4.0,
+            "sense": "<=",
+            "margin": 1.0,
+            "unit": "m",
+            "ok": True,
+            "message": "fine",
+            "parts": [],
+        },
+        {**unknown, "name": "unknown", "label": "Not computed", "limit": 1.0, "message": "not computed"},
+        {**unknown, "name": "free", "label": "No limit", "value": 1.0, "ok": True, "message": "no limit"},
     ]
+
+
+def test_a_check_that_does_not_exist_is_in_the_record_and_not_ok():
+    record = next(check for check in sample().record()["checks"] if check["name"] == "unknown")
+    assert record["value"] is None and record["margin"] is None and record["ok"] is False
 
 
 def test_values_keep_every_digit():

@@ -11,7 +11,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from drivewright._jit import implements, warmer
 from drivewright.bearings.life import ball_reference_life, ball_static_rating
@@ -21,6 +21,7 @@ from drivewright.bearings.solving import elements, geometric_static_rating, law_
 from drivewright.contact import effective_modulus, point_contact, relative_radii
 from drivewright.errors import SpecError
 from drivewright.spec import Integer, Number, Spec
+from drivewright.spec.fields import Field
 from drivewright.units import SI, Angle, Force, Length, Pressure
 
 RIGHT_ANGLE = 1.5707963267948966

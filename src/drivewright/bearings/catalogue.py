@@ -8,12 +8,13 @@ from functools import cache
 from pathlib import Path
 from typing import Literal
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from drivewright.bearings.ball import BallBearing
 from drivewright.bearings.roller import RollerBearing
 from drivewright.errors import InputError, SpecError, UnknownName
 from drivewright.spec import Named, Spec, Text, from_document, read_document
+from drivewright.spec.fields import Field
 from drivewright.units import Length
 
 OWN = Path(__file__).with_name("catalogue.toml")

@@ -9,7 +9,7 @@ from functools import lru_cache
 from typing import Literal, NamedTuple
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from drivewright._jit import implements, inner, warmer
 from drivewright.bearings.newton import Measures, measures
@@ -18,6 +18,7 @@ from drivewright.bearings.solving import PERMISSIBLE, elements, geometric_static
 from drivewright.contact import effective_modulus, line_contact
 from drivewright.errors import SpecError
 from drivewright.spec import Integer, Number, Spec
+from drivewright.spec.fields import Field
 from drivewright.units import SI, Angle, Force, Length, Pressure
 
 RIGHT_ANGLE = 1.5707963267948966

@@ -4,10 +4,11 @@ import math
 import re
 from typing import NamedTuple
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from drivewright.errors import InputError, SpecError, UnknownName
 from drivewright.spec import Flag, Number, Spec, Text
+from drivewright.spec.fields import Field
 from drivewright.units import SI, Pressure, to_si
 
 

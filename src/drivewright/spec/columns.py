@@ -3,11 +3,13 @@
 import csv
 import math
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.errors import SpecError, UnitError
 from drivewright.units import unit_factor
 
@@ -18,12 +20,12 @@ class Rows(NamedTuple):
     """Two columns of a file by name, SI."""
 
     over: str
-    x: np.ndarray
+    x: Floats
     what: str
-    y: np.ndarray
+    y: Floats
 
 
-def read_rows(file, over, what):
+def read_rows(file: str | Path, over: Mapping[str, str], what: Mapping[str, str]) -> Rows:
     """The `Rows` of a CSV file with one column of `over` and one of `what`, each name -> dimension; x must increase."""
     try:
         lines = Path(file).read_text(encoding="utf-8-sig").splitlines()

@@ -1,13 +1,16 @@
 """What a spec can hold, read off its fields: the commented template and the JSON schema."""
 
 import textwrap
+from collections.abc import Mapping
 from pathlib import Path
-from typing import get_args, get_origin
+from typing import Any, get_args, get_origin
 
+from pydantic.fields import FieldInfo
 from pydantic.json_schema import GenerateJsonSchema
 
 from drivewright import registry
 from drivewright.errors import UnknownName
+from drivewright.registry import Mechanism
 from drivewright.spec.fields import AnyUnit, choices_of, dimension_of, field_at, has_names, levels, list_depth, mark_of, table_of, type_of
 from drivewright.spec.messages import shown
 from drivewright.spec.model import MechanismSpec
@@ -22,7 +25,7 @@ KINDS = {bool: "true or false", int: "whole number", float: "number", str: "text
 SAMPLES = {bool: False, int: 1, float: 1.0, str: "...", Path: "data.csv"}
 
 
-def template(kind, preset=None):
+def template(kind: str, preset: str | None = None) -> str:
     """Commented spec text of a kind: every key with its meaning, unit, default and limits; values from a preset."""
     mechanism, path = registry.mechanism(kind), preset_path(kind, preset)
     given = read_document(path) if path else {"mechanism": kind, **skeleton(mechanism.spec)}
@@ -38,16 +41,16 @@ def template(kind, preset=None):
     return "\n".join(intro + _lines(mechanism.spec, given, samples=shared_samples(mechanism, given))) + "\n"
 
 
-def preset_path(kind, preset=None):
+def preset_path(kind: str, preset: str | None = None) -> Path | None:
     """Spec file of a preset by name: "default" or else the first unless named; None where the kind brings none."""
     presets = registry.mechanism(kind).presets()
     name = preset or ("default" if "default" in presets else next(iter(presets), None))
     if name not in presets and (preset or presets):
         raise UnknownName(f"preset of {kind}", name, presets)
-    return presets.get(name)
+    return presets.get(name) if name else None
 
 
-def schema(kind):
+def schema(kind: str) -> dict[str, Any]:
     """JSON schema of a kind's spec files, for editors and forms."""
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -59,7 +62,7 @@ def schema(kind):
 class _Schema(GenerateJsonSchema):
     """Defaults as they stand in a file: quantities as text, not in SI."""
 
-    def encode_default(self, dft):
+    def encode_default(self, dft: Any) -> Any:
         return raw(dft)
 
 
@@ -78,7 +81,8 @@ def _lines(model, given, path="", off=False, samples=None):
 
 def _table(path, field, given, off, sample):
     """Lines of a sub-table or of a list of them, switched off where it is optional and not given."""
-    inner, off = table_of(field.annotation), off or (not given and not field.is_required() and not field.default)
+    inner: Any = table_of(field.annotation)
+    off = off or (not given and not field.is_required() and not field.default)
     first, *others = _tables(path, field, given or ({} if not off else sample or skeleton(inner)))
     place, heading, table = first
     explained = ["", f"{'#' if off else ''}{heading}  # {field.description or inner.__doc__}", *_lines(inner, table, f"{place}.", off)]
@@ -162,7 +166,7 @@ def _in_columns(rows):
 # -- samples -------------------------------------------------------------------------------------------------------------------
 
 
-def skeleton(model):
+def skeleton(model: type[Any]) -> dict[str, Any]:
     """Sample values for the required keys of a table."""
     tables = {}
     for name, field in model.model_fields.items():
@@ -174,7 +178,7 @@ def skeleton(model):
     return tables
 
 
-def sample_of(field):
+def sample_of(field: FieldInfo) -> Any:
     """A value that a key could have."""
     if field.examples:
         return field.examples[0]
@@ -203,7 +207,7 @@ def _length(annotation):
     return max(map(_length, inner), default=0)
 
 
-def shared_samples(mechanism, given):
+def shared_samples(mechanism: Mechanism[Any, Any], given: Mapping[str, Any]) -> dict[str, Any]:
     """[optimise] and [study] tables that fit the kind: its first quantity as what changes, a headline value as the objective."""
     keys = [(f"{table}.{key}", value) for table, keys in given.items() if isinstance(keys, dict) for key, value in keys.items()]
     quantities = [

@@ -2,50 +2,62 @@
 
 import re
 import sys
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NoReturn, TypeAlias, TypeVar, get_args, get_origin
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, Field, PlainValidator, Strict, ValidationInfo, WithJsonSchema
+from pydantic import AfterValidator, BaseModel, BeforeValidator, PlainValidator, Strict, ValidationInfo, WithJsonSchema
+from pydantic.fields import FieldInfo
 
 from drivewright.errors import UnitError, brief
 from drivewright.units import Dimension, any_quantity
 
-Number = Annotated[float, Strict()]
-Integer = Annotated[int, Strict()]
-Flag = Annotated[bool, Strict()]
-Text = Annotated[str, Strict(), Field(max_length=400)]
+if TYPE_CHECKING:
+
+    def Field(default: Any = ..., **about: Any) -> Any:
+        """pydantic's `Field`, for which a default is a value as in a file: "9.5 mm" where the attribute is a float."""
+
+else:
+    from pydantic import Field
+
+Number: TypeAlias = Annotated[float, Strict()]
+Integer: TypeAlias = Annotated[int, Strict()]
+Flag: TypeAlias = Annotated[bool, Strict()]
+Text: TypeAlias = Annotated[str, Strict(), Field(max_length=400)]
 
 
-def _one_word(value: str):
+def _one_word(value: str) -> str:
     if not re.fullmatch(r"\w[\w-]{0,59}", value):
         raise ValueError(f"{brief(value)} is no name here: letters, digits, _ and - only, at most 60 (a dot parts the steps of a key)")
     return value
 
 
-Name = Annotated[Text, AfterValidator(_one_word)]
+Name: TypeAlias = Annotated[Text, AfterValidator(_one_word)]
 
 
 class Frozen(dict):
     """A dictionary that does not change and can be hashed."""
 
-    def __hash__(self):
+    def __hash__(self) -> int:  # pyright: ignore[reportIncompatibleVariableOverride]  # dict says: not hashable
         return hash(frozenset(self.items()))
 
-    def _refuse(self, *args, **kwargs):
+    def _refuse(self, *args: Any, **kwargs: Any) -> NoReturn:
         raise TypeError("a spec is frozen: `replace` gives a changed copy")
 
-    __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refuse
+    if not TYPE_CHECKING:
+        __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refuse
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return Frozen, (dict(self),)
 
 
 # A table whose keys the user chooses: Named[Body] is read from [bodies.crank], [bodies.rocker] ...
 Entry = TypeVar("Entry")
-Named = Annotated[dict[Name, Entry], AfterValidator(Frozen)]
+MarkT = TypeVar("MarkT")
+Named: TypeAlias = Annotated[dict[Name, Entry], AfterValidator(Frozen)]
 
 
-def _existing_file(value: Any, info: ValidationInfo):
+def _existing_file(value: Any, info: ValidationInfo) -> Path:
     """A path relative to the spec's folder, made absolute; it must be there."""
     if not isinstance(value, (str, Path)) or not str(value).strip() or "\0" in str(value):
         raise ValueError(f"wants the path of a file, got {brief(value)}")
@@ -60,14 +72,14 @@ def _existing_file(value: Any, info: ValidationInfo):
     return path
 
 
-DataFile = Annotated[Path, BeforeValidator(_existing_file)]
+DataFile: TypeAlias = Annotated[Path, BeforeValidator(_existing_file)]
 
 
 class AnyUnit:
     """Marks a key whose unit depends on what another key names: a number, or a quantity of any kind."""
 
 
-def _number_or_quantity(value: Any):
+def _number_or_quantity(value: Any) -> Any:
     if isinstance(value, str):
         try:
             any_quantity(value)
@@ -78,24 +90,24 @@ def _number_or_quantity(value: Any):
     return value
 
 
-def _plain_value(value: Any):
+def _plain_value(value: Any) -> Any:
     if not isinstance(value, str) and not _is_finite(value):
         raise ValueError(f"wants a finite number, a quantity, a text or true/false, got {brief(value)}")
     return value
 
 
-def _is_finite(value):
+def _is_finite(value: object) -> bool:
     return isinstance(value, (int, float)) and abs(value) <= sys.float_info.max
 
 
-Bound = Annotated[Any, PlainValidator(_number_or_quantity), WithJsonSchema({"type": ["string", "number"]}), AnyUnit()]
-PlainValue = Annotated[Any, PlainValidator(_plain_value), WithJsonSchema({"type": ["string", "number", "boolean"]}), AnyUnit()]
+Bound: TypeAlias = Annotated[Any, PlainValidator(_number_or_quantity), WithJsonSchema({"type": ["string", "number"]}), AnyUnit()]
+PlainValue: TypeAlias = Annotated[Any, PlainValidator(_plain_value), WithJsonSchema({"type": ["string", "number", "boolean"]}), AnyUnit()]
 
 
 # -- reading annotations -------------------------------------------------------------------------------------------------------
 
 
-def levels(annotation):
+def levels(annotation: Any) -> tuple[Any, ...]:
     """What an annotation nests, outermost first: () for `Spec | None`, (tuple,) for `tuple[Spec, ...]`, (dict, tuple) for
     `Named[tuple[Length, Length]]`."""
     origin = get_origin(annotation)
@@ -103,56 +115,56 @@ def levels(annotation):
     return (origin, *deepest) if origin in (tuple, list, dict) else deepest
 
 
-def list_depth(annotation):
+def list_depth(annotation: Any) -> int:
     """How many lists an annotation nests."""
     return sum(kind is not dict for kind in levels(annotation))
 
 
-def has_names(annotation):
+def has_names(annotation: Any) -> bool:
     """Whether the user chooses the keys: a `Named[...]`."""
     return levels(annotation)[:1] == (dict,)
 
 
-def _inside(annotation):
+def _inside(annotation: Any) -> tuple[Any, ...]:
     """The parts of an annotation that say what its values are."""
     origin, parts = get_origin(annotation), get_args(annotation)
     return () if origin is Literal else parts[:1] if origin is Annotated else parts[1:] if origin is dict else parts
 
 
-def table_of(annotation):
+def table_of(annotation: Any) -> type[Any] | None:
     """The table class inside an annotation such as `Spec | None` or `tuple[Spec, ...]`, else None."""
     if isinstance(annotation, type) and not get_args(annotation) and issubclass(annotation, BaseModel):
         return annotation
     return next((found for part in _inside(annotation) if (found := table_of(part))), None)
 
 
-def type_of(annotation):
+def type_of(annotation: Any) -> type | None:
     """The plain class of a value, lists and None left aside: int for `tuple[Integer, ...] | None`."""
     if isinstance(annotation, type) and annotation is not type(None) and not get_args(annotation):
         return annotation
     return next((found for part in _inside(annotation) if (found := type_of(part))), None)
 
 
-def choices_of(annotation):
+def choices_of(annotation: Any) -> tuple[Any, ...]:
     """The values of the Literals inside an annotation."""
     if get_origin(annotation) is Literal:
         return get_args(annotation)
     return tuple(choice for part in _inside(annotation) for choice in choices_of(part))
 
 
-def mark_of(field, kind):
+def mark_of(field: Any, kind: type[MarkT]) -> MarkT | None:
     """The first annotation of a class on a field, or inside its type (of its list, of its optional value), else None."""
     found = (mark for mark in getattr(field, "metadata", ()) if isinstance(mark, kind))
     return next(found, None) or _mark_inside(getattr(field, "annotation", None), kind)
 
 
-def _mark_inside(annotation, kind):
+def _mark_inside(annotation: Any, kind: type[MarkT]) -> MarkT | None:
     if found := next((mark for mark in getattr(annotation, "__metadata__", ()) if isinstance(mark, kind)), None):
         return found
     return next((mark for part in _inside(annotation) if (mark := _mark_inside(part, kind))), None)
 
 
-def dimension_of(field):
+def dimension_of(field: Any) -> Dimension | None:
     """The Dimension of a quantity field (also of its list), else None."""
     return mark_of(field, Dimension)
 
@@ -160,7 +172,7 @@ def dimension_of(field):
 # -- looking keys up -----------------------------------------------------------------------------------------------------------
 
 
-def field_at(model, steps):
+def field_at(model: type[Any] | None, steps: Iterable[str]) -> FieldInfo | None:
     """The field at a path of keys; below a list or a `Named` comes one step (name or number) a level.  None where there is none."""
     field = None
     steps = list(steps)
@@ -173,19 +185,19 @@ def field_at(model, steps):
     return field
 
 
-def table_at(model, steps):
+def table_at(model: type[Any], steps: Sequence[str]) -> type[Any] | None:
     """The table class at a path of keys, else None."""
     field = field_at(model, steps) if steps else None
     return model if not steps else table_of(field.annotation) if field else None
 
 
-def dimension_at(model, key):
+def dimension_at(model: type[Any], key: str) -> tuple[bool, Dimension | None]:
     """(exists, Dimension or None) of a dotted key below a table class; a list's elements go by name or number."""
     field = field_at(model, key.split("."))
     return field is not None, dimension_of(field) if field else None
 
 
-def value_at(spec, key):
+def value_at(spec: Any, key: str) -> Any:
     """The value at a dotted key of a spec, a list's elements by name or number; None where there is none."""
     found = spec
     for step in key.split("."):

@@ -1,7 +1,6 @@
 """How flat parts are milled and measured: shared by every kind whose drawings go to a workshop."""
 
-from pydantic import Field
-
+from drivewright.spec.fields import Field
 from drivewright.spec.model import Spec
 from drivewright.units import Length, Speed, Velocity
 

@@ -1,5 +1,10 @@
 """What pydantic has to complain of, in the user's words: the dotted key, the value, what would be right."""
 
+from typing import Any
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
 from drivewright.errors import SpecError, brief, nearest
 from drivewright.spec.fields import choices_of, dimension_of, field_at, levels, table_at
 from drivewright.spec.writing import toml_key, toml_value
@@ -25,7 +30,7 @@ WANTED = {
 SHOWN = 6  # complaints in one message
 
 
-def translated(error, model):
+def translated(error: ValidationError, model: type[Any]) -> SpecError:
     """One SpecError naming the first wrong key; the others follow in the message."""
     # Unknown keys first: a misspelt one explains a missing one.
     found = sorted(error.errors(include_url=False), key=lambda item: item["type"] != "extra_forbidden")
@@ -36,13 +41,13 @@ def translated(error, model):
     return SpecError(items[0][1] + rest + more, key=items[0][0] or None)
 
 
-def shown(value, field):
+def shown(value: Any, field: Any) -> str:
     """A number of a field as people read it, with its unit."""
     dimension = dimension_of(field)
     return dimension.text(float(value)) if dimension else f"{value:g}" if isinstance(value, float) else brief(value)
 
 
-def _complaint(item, model):
+def _complaint(item: ErrorDetails, model: type[Any]) -> tuple[str, str]:
     """(dotted key, message) of one pydantic error."""
     place = _place(item, model)
     field, kind = field_at(model, place), item["type"]
@@ -52,7 +57,7 @@ def _complaint(item, model):
     return ".".join(key), SPECIAL.get(kind, _other)(item, field, model, place)
 
 
-def _place(item, model):
+def _place(item: ErrorDetails, model: type[Any]) -> list[str]:
     """The path of keys and indices, as text, without the names pydantic puts in for the members of a union."""
     place, open_levels = [], []
     for number, step in enumerate(item["loc"]):
@@ -63,14 +68,18 @@ def _place(item, model):
         elif open_levels[:1] == [dict]:
             place.append(step)
             del open_levels[:1]
-        elif unknown or (not open_levels and (table := table_at(model, place)) is not None and step in table.model_fields):
+        elif unknown:
             place.append(step)
-            open_levels = [] if unknown else list(levels(table.model_fields[step].annotation))
+            open_levels = []
+        elif not open_levels and (table := table_at(model, place)) is not None and step in table.model_fields:
+            place.append(step)
+            open_levels = list(levels(table.model_fields[step].annotation))
     return place
 
 
 def _unknown(item, field, model, place):
-    known = list(table_at(model, place[:-1]).model_fields)
+    table = table_at(model, place[:-1])
+    known = list(table.model_fields) if table else []
     return f"unknown key{nearest(place[-1], known)}; known here: {', '.join(known)}"
 
 

@@ -2,11 +2,11 @@
 
 import hashlib
 import shutil
+from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from pydantic import Field
-
-from drivewright.spec.fields import Integer, Text
+from drivewright.spec.fields import Field, Integer, Text
 from drivewright.spec.searching import Optimise
 from drivewright.spec.studying import Study
 from drivewright.spec.table import Spec
@@ -17,17 +17,20 @@ class MechanismSpec(Spec):
     """The whole spec of one drive."""
 
     format: Integer = Field(1, ge=1, le=1, description="version of the file format")
-    mechanism: Text = Field(description="kind of drive")
+    if TYPE_CHECKING:
+        mechanism: Any  # a text, which each kind narrows to its own name
+    else:
+        mechanism: Text = Field(description="kind of drive")
     title: Text = Field("", description="a name for people")
     optimise: Optimise | None = Field(None, description="unknowns, requirements and objectives for `drivewright optimise`")
     study: Study | None = Field(None, description="what varies from case to case for `drivewright sweep`")
 
-    def to_toml(self, moved=False):
+    def to_toml(self, moved: bool = False) -> str:
         """The effective spec as TOML text with units; reads back to an equal spec on this machine, or `moved` beside copies of its data
         files, as `write` makes them."""
         return toml_text(self._tables(places_beside(self.data_files()) if moved else None))
 
-    def write(self, path):
+    def write(self, path: str | Path) -> None:
         """The effective spec as a file, with copies of its data files in `data/` beside it: together they can move to another machine."""
         path = Path(path)
         places = places_beside(self.data_files())
@@ -38,16 +41,16 @@ class MechanismSpec(Spec):
                 shutil.copyfile(source, target)
         path.write_text(self.to_toml(moved=True), encoding="utf-8", newline="\n")
 
-    def _tables(self, places=None):
+    def _tables(self, places: Mapping[Path, str] | None = None) -> dict[str, Any]:
         tables = document(self, places)
         shared = {name: tables.pop(name) for name in ("optimise", "study") if name in tables}
         return tables | shared  # what all kinds share reads best at the end
 
-    def digest(self):
+    def digest(self) -> str:
         """SHA-256 of the canonical effective spec in SI; data files by content; title and study change no number of a run, so they are
         left out."""
         return hashlib.sha256(canonical_text(self, leave_out=("title", "study")).encode()).hexdigest()
 
-    def data_files(self):
+    def data_files(self) -> list[Path]:
         """Absolute paths of all data files the spec names."""
         return sorted(set(files(self)))

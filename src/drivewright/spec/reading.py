@@ -2,16 +2,18 @@
 
 import re
 import tomllib
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 from drivewright import registry
 from drivewright.errors import SpecError, UnknownName, brief, nearest
-from drivewright.spec.table import validated
+from drivewright.spec.table import Spec, validated
 
 LARGEST = 10_000_000  # characters of a spec file
 
 
-def load(path, changes=()):
+def load(path: str | Path, changes: Iterable[str] = ()) -> Any:
     """Spec of a TOML file, `changes` being "key=value" texts as on the command line."""
     tables = read_document(path)
     try:
@@ -22,12 +24,12 @@ def load(path, changes=()):
         raise error.located(file=str(path)) from None
 
 
-def from_document(tables, model=None, folder="."):
+def from_document(tables: Mapping[str, Any], model: type[Spec] | None = None, folder: str | Path = ".") -> Any:
     """Spec from raw tables; the kind comes from `mechanism` unless `model` is given.  Paths are relative to `folder`."""
     return validated(model or _model_of(tables), tables, folder)
 
 
-def read_document(path):
+def read_document(path: str | Path) -> dict[str, Any]:
     """The raw tables of a TOML spec file; SpecError where it is missing or is not TOML."""
     try:
         return parse_document(_text_of(Path(path)))
@@ -35,7 +37,7 @@ def read_document(path):
         raise error.located(file=str(path)) from None
 
 
-def parse_document(text):
+def parse_document(text: str) -> dict[str, Any]:
     """The raw tables of a spec's text; SpecError where it is not TOML."""
     text += "\n"  # so that tomllib knows the line of a slip at the very end
     try:
@@ -46,7 +48,7 @@ def parse_document(text):
         raise SpecError(f"is not valid TOML: {_explained(str(error), text)}") from None
 
 
-def _explained(complaint, text):
+def _explained(complaint: str, text: str) -> str:
     """What tomllib says, in plain words, with the line it is about and a remedy for the commonest slip."""
     if complaint.startswith("Exceeds the limit"):
         return "a number has more than 4300 digits"
@@ -58,7 +60,7 @@ def _explained(complaint, text):
     return f"{complaint}{f': {line:.80}' if line.isprintable() and line else ''}{remedy}"
 
 
-def _text_of(path):
+def _text_of(path: Path) -> str:
     try:
         with path.open(encoding="utf-8-sig") as stream:  # Windows editors put a byte-order mark in front
             text = stream.read(LARGEST + 1)
@@ -78,7 +80,7 @@ def _text_of(path):
     return text
 
 
-def _model_of(tables):
+def _model_of(tables: Mapping[str, Any]) -> type[Spec]:
     kind = tables.get("mechanism")
     if not isinstance(kind, str):
         complaint = f"is missing{nearest('mechanism', tables)}" if kind is None else f"must be a text, got {brief(kind)}"
@@ -92,7 +94,7 @@ def _model_of(tables):
 # -- changing keys -------------------------------------------------------------------------------------------------------------
 
 
-def change_key(tables, change):
+def change_key(tables: dict[str, Any], change: str) -> dict[str, Any]:
     """Apply "dotted.key=value" as from the command line to raw tables.  The value is TOML, or else text; none at all removes the key."""
     key, equals, text = change.partition("=")
     if not equals or not all(step.strip() for step in key.split(".")):
@@ -101,7 +103,7 @@ def change_key(tables, change):
     return set_key(tables, key, read_value(text)) if text.strip() else remove_key(tables, key)
 
 
-def set_key(tables, key, value):
+def set_key(tables: dict[str, Any], key: str, value: Any) -> dict[str, Any]:
     """Set a dotted key of raw tables, in place; list elements go by their `name` or number."""
     *path, last = key.split(".")
     place = tables
@@ -116,7 +118,7 @@ def set_key(tables, key, value):
     return tables
 
 
-def remove_key(tables, key):
+def remove_key(tables: dict[str, Any], key: str) -> dict[str, Any]:
     """Take a dotted key out of raw tables, in place; SpecError where it is not there."""
     *path, last = key.split(".")
     place = tables
@@ -131,7 +133,7 @@ def remove_key(tables, key):
     return tables
 
 
-def read_value(text):
+def read_value(text: str) -> Any:
     """A `--set` value: TOML where it parses, text otherwise."""
     try:
         tables = tomllib.loads(f"value = {text}")
@@ -140,7 +142,7 @@ def read_value(text):
     return tables["value"] if list(tables) == ["value"] else text.strip()
 
 
-def _enter(place, step, key):
+def _enter(place: Any, step: str, key: str) -> Any:
     if isinstance(place, list):
         return place[_index(place, step, key)]
     if not isinstance(place, dict):
@@ -148,7 +150,7 @@ def _enter(place, step, key):
     return place.setdefault(step, {})
 
 
-def _index(elements, step, key):
+def _index(elements: list[Any], step: str, key: str) -> int:
     """Number of the list element that a step names."""
     names = {e["name"]: i for i, e in enumerate(elements) if isinstance(e, dict) and isinstance(e.get("name"), str)}
     if step in names:

@@ -2,9 +2,7 @@
 
 from typing import Literal
 
-from pydantic import Field
-
-from drivewright.spec.fields import Bound, Integer, PlainValue, Text
+from drivewright.spec.fields import Bound, Field, Integer, PlainValue, Text
 from drivewright.spec.table import Spec
 
 

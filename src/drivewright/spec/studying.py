@@ -2,9 +2,7 @@
 
 from typing import Literal
 
-from pydantic import Field
-
-from drivewright.spec.fields import Bound, DataFile, Flag, Integer, PlainValue, Text
+from drivewright.spec.fields import Bound, DataFile, Field, Flag, Integer, PlainValue, Text
 from drivewright.spec.table import Spec
 
 METHODS = Literal["latin-hypercube", "sobol", "random", "corners", "one-at-a-time", "tolerance", "sobol-indices"]

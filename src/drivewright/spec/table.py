@@ -1,9 +1,30 @@
 """One table of a spec."""
 
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
+
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from drivewright.spec.messages import translated
 from drivewright.spec.writing import document
+
+if TYPE_CHECKING:
+    from pydantic.fields import FieldInfo
+
+    class _Table:
+        """pydantic's BaseModel as its users see it: it is made from keys as in a file, "9.5 mm" where the attribute is a float."""
+
+        model_config: ClassVar[ConfigDict]
+        model_fields: ClassVar[dict[str, FieldInfo]]
+        model_fields_set: set[str]
+
+        def __init__(self, **keys: Any) -> None: ...
+        def model_copy(self, *, update: Mapping[str, Any] | None = None) -> Self: ...
+        @classmethod
+        def model_validate(cls, obj: Any, *, context: Any = None) -> Self: ...
+        @classmethod
+        def model_json_schema(cls, **settings: Any) -> dict[str, Any]: ...
 
 
 class _Door(type(BaseModel)):
@@ -16,17 +37,26 @@ class _Door(type(BaseModel)):
             raise translated(error, cls) from None
 
 
-class Spec(BaseModel, metaclass=_Door):
+if not TYPE_CHECKING:
+
+    class _Table(BaseModel, metaclass=_Door):
+        """The base of all tables."""
+
+
+SpecT = TypeVar("SpecT", bound="Spec")
+
+
+class Spec(_Table):
     """One table of a spec: frozen, no unknown keys, units at the door."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", validate_default=True, allow_inf_nan=False)
 
-    def replace(self, **changes):
+    def replace(self, **changes: Any) -> Self:
         """A copy with keys of this table changed; validated like the original."""
         return validated(type(self), {**document(self), **changes})
 
 
-def validated(model, tables, folder="."):
+def validated(model: type[SpecT], tables: Mapping[str, Any], folder: str | Path = ".") -> SpecT:
     """A spec of a class from raw tables; paths are relative to `folder`.  SpecError names the key."""
     try:
         return model.model_validate(tables, context={"folder": str(folder)})

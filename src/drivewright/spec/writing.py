@@ -3,16 +3,18 @@
 import hashlib
 import json
 import re
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 from pydantic import BaseModel
 
 from drivewright.errors import SpecError, UnitError
 from drivewright.spec.fields import AnyUnit, dimension_of, mark_of
-from drivewright.units import any_quantity
+from drivewright.units import Dimension, any_quantity
 
 
-def document(spec, places=None):
+def document(spec: Any, places: Mapping[Path, str] | None = None) -> dict[str, Any]:
     """Raw tables of a spec, quantities as text with unit; what is None or an empty default is left out.
 
     `places` gives a data file another path than its own.
@@ -25,7 +27,7 @@ def document(spec, places=None):
     }
 
 
-def raw(value, dimension=None, places=None):
+def raw(value: Any, dimension: Dimension | None = None, places: Mapping[Path, str] | None = None) -> Any:
     """A value of a spec as TOML has it: quantities as text, tables as dictionaries."""
     if isinstance(value, BaseModel):
         return document(value, places)
@@ -38,7 +40,7 @@ def raw(value, dimension=None, places=None):
     return dimension.text(value) if dimension and isinstance(value, float) else value
 
 
-def files(value):
+def files(value: Any) -> list[Path]:
     """Every data file a spec names."""
     if isinstance(value, BaseModel):
         value = [getattr(value, name) for name in type(value).model_fields]
@@ -49,7 +51,7 @@ def files(value):
     return [value] if isinstance(value, Path) else []
 
 
-def places_beside(paths):
+def places_beside(paths: Iterable[Path]) -> dict[Path, str]:
     """Path -> "data/name", names kept apart where two files of different folders share one."""
     places, taken = {}, set()
     for path in paths:
@@ -65,7 +67,7 @@ def places_beside(paths):
 # -- TOML ----------------------------------------------------------------------------------------------------------------------
 
 
-def toml_text(tables, path=""):
+def toml_text(tables: Mapping[str, Any], path: str = "") -> str:
     """TOML text of raw tables: the values of each table first, then its sub-tables."""
     lines = [f"{toml_key(key)} = {toml_value(value)}" for key, value in tables.items() if not _is_table(value)]
     text = "".join(f"{line}\n" for line in lines)
@@ -88,7 +90,7 @@ def _is_table(value):
     return isinstance(value, dict) or (isinstance(value, list) and bool(value) and isinstance(value[0], dict))
 
 
-def toml_value(value):
+def toml_value(value: Any) -> str:
     """A value as TOML text on one line."""
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
@@ -101,7 +103,7 @@ def toml_value(value):
     return repr(value)
 
 
-def toml_key(step):
+def toml_key(step: str) -> str:
     """One step of a key: in quotes where it is empty or has odd characters."""
     return step if re.fullmatch(r"[A-Za-z0-9_-]+", step) else toml_value(step)
 
@@ -109,13 +111,13 @@ def toml_key(step):
 # -- digest --------------------------------------------------------------------------------------------------------------------
 
 
-def canonical_text(spec, leave_out=()):
+def canonical_text(spec: Any, leave_out: Iterable[str] = ()) -> str:
     """One text for all ways to say the same: SI, keys sorted, data files by content."""
     tables = {name: value for name, value in _canonical(spec).items() if name not in leave_out}
     return json.dumps(tables, sort_keys=True, separators=(",", ":"))
 
 
-def _canonical(value, field=None):
+def _canonical(value: Any, field: Any = None) -> Any:
     if isinstance(value, BaseModel):
         return {name: _canonical(getattr(value, name), field) for name, field in type(value).model_fields.items()}
     if isinstance(value, (tuple, list)):

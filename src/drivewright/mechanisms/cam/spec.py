@@ -2,11 +2,12 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from drivewright import materials, motion
 from drivewright.errors import UnitError
 from drivewright.spec import DataFile, Integer, Machining, MechanismSpec, Number, Spec, Text
+from drivewright.spec.fields import Field
 from drivewright.units import BY_NAME, Angle, Damping, Dimension, Force, Frequency, Length, Mass, Pressure, Speed, Stiffness
 
 TURN = 6.283185307179586

@@ -2,12 +2,13 @@
 
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, model_validator
 
 from drivewright import materials
 from drivewright.indexing.motion import NO_DWELL, TURN
 from drivewright.mechanisms.indexer.refusals import refuse_nonsense
 from drivewright.spec import DataFile, Integer, Machining, MechanismSpec, Number, Spec, Text
+from drivewright.spec.fields import Field
 from drivewright.units import Angle, Force, Length, Pressure, RotationalStiffness, Speed, Stiffness, Time, Torque
 
 # 61904 without quotes is a number in TOML

@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from pydantic import Field
 
 from drivewright import registry, runner
 from drivewright.errors import InputError, SpecError
@@ -14,6 +13,7 @@ from drivewright.numerics.ensemble import LEVEL
 from drivewright.registry import Analysis, Command, Mechanism
 from drivewright.result import Answer, Column, Plot, Table, Value
 from drivewright.spec import DataFile, Integer, MechanismSpec, Number, load
+from drivewright.spec.fields import Field
 from drivewright.units import Length, RotationalStiffness, Torque
 
 ESTIMATES = {

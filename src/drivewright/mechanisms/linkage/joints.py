@@ -2,10 +2,9 @@
 
 from typing import Literal
 
-from pydantic import Field
-
 from drivewright.registry import plugins
 from drivewright.spec import DataFile, Name, Number, Spec, Text
+from drivewright.spec.fields import Field
 from drivewright.units import (
     Angle,
     Damping,

@@ -2,11 +2,12 @@
 
 from typing import Literal
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from drivewright import materials, motion
 from drivewright.errors import SpecError
 from drivewright.spec import Flag, Integer, Machining, MechanismSpec, Number, Spec, Text
+from drivewright.spec.fields import Field
 from drivewright.units import Angle, Damping, Force, Length, Mass, Pressure, Speed, Stiffness
 
 LAWS = [name for name in motion.names() if name not in ("mcv", "polynomial", "scca", "spline", "table")]  # those without parameters

@@ -2,13 +2,14 @@
 
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, model_validator
 
 from drivewright.bearings.ball import BallBearing
 from drivewright.bearings.roller import RollerBearing
 from drivewright.errors import UnitError
 from drivewright.mechanisms.shaft.refusals import refuse_nonsense
 from drivewright.spec import DataFile, Integer, MechanismSpec, Name, Number, Spec, Text
+from drivewright.spec.fields import Field
 from drivewright.units import (
     BY_NAME,
     Acceleration,

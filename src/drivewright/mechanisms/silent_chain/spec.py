@@ -2,13 +2,14 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from drivewright.chains.meshing import Ideal
 from drivewright.errors import UnitError, brief
 from drivewright.fatigue.material import StrainLife
 from drivewright.mechanisms.silent_chain.refusals import refuse_nonsense
 from drivewright.spec import Integer, MechanismSpec, Name, Number, Spec
+from drivewright.spec.fields import Field
 from drivewright.units import (
     BY_NAME,
     Acceleration,
