@@ -16,6 +16,7 @@ from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
+from drivewright.claims import Claims
 from drivewright.errors import InputError, UnknownName
 from drivewright.result import SpecT
 
@@ -70,6 +71,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     batch: Callable[..., Any] | None = None
     sources: tuple[str, ...] = ()
     headline: tuple[str, ...] = ()  # value names shown first; "*" stands for what users name
+    claims: Callable[[SpecT], Claims] | None = None  # what its results obey exactly, for `drivewright.testing`
     commands: "tuple[Command, ...]" = ()  # what it brings to the command line, each a `Command`
 
     def presets(self) -> dict[str, Path]:

@@ -172,10 +172,10 @@ class Dimension:
         exact = Fraction(float(value))
         for digits, units in ((6, [self.shown]), (12, [self.shown, *self.also]), (15, [self.shown]), (16, [self.shown])):
             for unit in units:
-                text = f"{_decimal(exact / _unit(unit)[0], digits)} {unit}"
+                text = f"{decimal_text(exact / _unit(unit)[0], digits)} {unit}"
                 if _reads_as(text, value, self):
                     return text
-        return f"{_decimal(exact / _unit(self.shown)[0], 17)} {self.shown}"  # 17 digits always do
+        return f"{decimal_text(exact / _unit(self.shown)[0], 17)} {self.shown}"  # 17 digits always do
 
     @property
     def described(self) -> str:
@@ -234,6 +234,11 @@ def split(text: str) -> tuple[Fraction, str]:
     return Fraction(number), match[2]
 
 
+def exact_factor(unit: str) -> Fraction:
+    """Factor from a unit text to SI, without rounding."""
+    return _unit(unit)[0]
+
+
 def any_quantity(text: str) -> tuple[float, tuple[tuple[str, float], ...]]:
     """(SI float, dimensionality) of a quantity of any kind; UnitError where the text is none."""
     number, unit = split(text)
@@ -256,7 +261,7 @@ def _rounded(exact, whole):
         raise UnitError(f"{brief(whole)} is not finite: beyond the largest number") from None
 
 
-def _decimal(exact, digits):
+def decimal_text(exact: Fraction, digits: int) -> str:
     """A fraction to so many digits, without an exponent where that reads well."""
     number = Context(prec=digits).divide(Decimal(exact.numerator), Decimal(exact.denominator)).normalize()
     return f"{number:f}" if -5 <= number.adjusted() < 7 or not number else f"{number:e}"

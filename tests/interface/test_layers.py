@@ -13,7 +13,7 @@ ROWS = [
     "indexing chains cams gears multibody shafts bearings solids fatigue",
     "motion curves contact materials",
     "numerics",
-    "runner spec registry result scene cases",
+    "testing runner spec registry claims result scene cases",
     "units digits labels _jit _typing errors stopped",
 ]
 PLACE = {name: (row, column) for row, names in enumerate(ROWS) for column, name in enumerate(names.split())}

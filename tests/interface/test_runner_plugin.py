@@ -13,40 +13,34 @@ import pytest
 from drivewright import registry
 from drivewright.errors import InputError, UnknownName
 
-PACKAGE = Path(__file__).parent / "plugin"
+PENDULUM, GENEVA = (Path(__file__).parent / name for name in ("plugin", "geneva"))
 
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory):
-    """Environment of a Python that has the package as well."""
+    """Environment of a Python that has the packages as well."""
     target = tmp_path_factory.mktemp("site")
-    pip = [
-        sys.executable,
-        "-m",
-        "pip",
-        "install",
-        "--quiet",
-        "--no-deps",
-        "--no-build-isolation",
-        "--no-index",
-        "--target",
-        str(target),
-        str(PACKAGE),
-    ]
-    done = subprocess.run(pip, capture_output=True, text=True)
-    if done.returncode:
-        _install_by_hand(target)
+    for package in (PENDULUM, GENEVA):
+        _install(package, target)
     return {**os.environ, "PYTHONPATH": os.pathsep.join([str(target), os.environ.get("PYTHONPATH", "")]), "PYTHONDONTWRITEBYTECODE": "1"}
 
 
-def _install_by_hand(target):
+def _install(package, target):
+    options = ["--quiet", "--no-deps", "--no-build-isolation", "--no-index", "--upgrade", "--target", str(target)]
+    done = subprocess.run([sys.executable, "-m", "pip", "install", *options, str(package)], capture_output=True, text=True)
+    if done.returncode:
+        _install_by_hand(package, target)
+
+
+def _install_by_hand(package, target):
     """What pip does, where hatchling or pip are not at hand: the sources and their metadata side by side."""
     import shutil
     import tomllib
 
-    project = tomllib.loads((PACKAGE / "pyproject.toml").read_text())["project"]
-    shutil.copytree(PACKAGE / "src" / "pendulum_drive", target / "pendulum_drive", dirs_exist_ok=True)
-    about = target / f"pendulum_drive-{project['version']}.dist-info"
+    project = tomllib.loads((package / "pyproject.toml").read_text())["project"]
+    name = project["name"].replace("-", "_")
+    shutil.copytree(package / "src" / name, target / name, dirs_exist_ok=True)
+    about = target / f"{name}-{project['version']}.dist-info"
     about.mkdir(exist_ok=True)
     (about / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {project['version']}\n")
     lines = [
@@ -82,6 +76,25 @@ def test_it_is_refused_strictly_and_by_key_like_ours(installed, tmp_path):
     assert wrong.returncode == 2 and wrong.stderr == "drivewright: pendulum.toml: bob.length: wants a length, got '3 rpm' (angular speed)\n"
 
 
+def test_a_drive_in_four_files_conforms_and_is_run_like_ours(installed, tmp_path):
+    code = (
+        "from drivewright.testing import cases; told = {str(case): case.check() for case in cases('geneva')}; "
+        "import json; print(json.dumps(told))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=installed, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    reasons = {name.removeprefix("geneva-default-"): reason for name, reason in json.loads(done.stdout).items()}
+    assert [name for name, reason in reasons.items() if not reason] == ["units", "record", "derivatives", "speed"]
+    assert drivewright(installed, tmp_path, "new", "geneva").returncode == 0
+    run = drivewright(installed, tmp_path, "run", "geneva.toml", "--json", "--set", "slots=4")
+    values = json.loads(run.stdout)["values"]
+    assert values["max_speed"]["value"] == pytest.approx(2 * math.pi / (math.sqrt(2) - 1), rel=1e-12)
+    assert values["max_speed"]["label"] == "Peak wheel speed" and values["max_acceleration"]["value"] == pytest.approx(
+        5.4066 * (2 * math.pi) ** 2, rel=1e-3
+    )
+    assert len([path for path in (GENEVA / "src").rglob("*") if path.is_file() and "__pycache__" not in path.parts]) == 4
+
+
 def test_the_house_lists_it_and_finds_its_law(installed, tmp_path):
     code = (
         "import drivewright as dw; from drivewright import registry, motion; print(registry.kinds()); "
@@ -89,7 +102,8 @@ def test_the_house_lists_it_and_finds_its_law(installed, tmp_path):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=installed, cwd=tmp_path)
     kinds, law = done.stdout.splitlines()
-    assert kinds == "['cam', 'indexer', 'linkage', 'pendulum', 'seedling-pusher', 'shaft', 'silent-chain']" and law.endswith(" True")
+    named = "cam geneva indexer linkage pendulum seedling-pusher shaft silent-chain"
+    assert kinds == str(named.split()) and law.endswith(" True")
     assert float(law.split()[0]) == pytest.approx(math.pi**2 / 2, rel=1e-12)
 
 

@@ -5,7 +5,7 @@ template, the JSON schema and every error message are read off the fields.
 """
 
 from drivewright.spec.describing import preset_path, schema, template
-from drivewright.spec.fields import DataFile, Flag, Integer, Name, Named, Number, Text, dimension_at, value_at
+from drivewright.spec.fields import DataFile, Field, Flag, Integer, Name, Named, Number, Text, dimension_at, value_at
 from drivewright.spec.machining import Machining
 from drivewright.spec.model import MechanismSpec, Spec
 from drivewright.spec.reading import change_key, from_document, load, parse_document, read_document, read_value, set_key
@@ -15,6 +15,7 @@ from drivewright.spec.writing import document
 
 __all__ = [
     "DataFile",
+    "Field",
     "Flag",
     "Integer",
     "Machining",

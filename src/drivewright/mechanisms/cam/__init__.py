@@ -4,6 +4,7 @@ from pathlib import Path
 
 from drivewright.mechanisms.cam import analyse, finish, loads
 from drivewright.mechanisms.cam.build import build
+from drivewright.mechanisms.cam.claims import claims
 from drivewright.mechanisms.cam.scene import PLOTS, drawings, parts, scene
 from drivewright.mechanisms.cam.spec import CamSpec
 from drivewright.mechanisms.cam.verify import verify
@@ -23,6 +24,7 @@ mechanism = Mechanism(
     summary="disc cam with a translating or oscillating follower",
     spec=CamSpec,
     build=build,
+    claims=claims,
     analyses=ANALYSES,
     folder=Path(__file__).parent,
     scene=scene,

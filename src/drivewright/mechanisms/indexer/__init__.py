@@ -4,6 +4,7 @@ from pathlib import Path
 
 from drivewright.mechanisms.indexer import geometry, loads, roller, stiffness, stress, torsion
 from drivewright.mechanisms.indexer.build import build
+from drivewright.mechanisms.indexer.claims import claims
 from drivewright.mechanisms.indexer.designs import batch
 from drivewright.mechanisms.indexer.plots import plots
 from drivewright.mechanisms.indexer.scene import drawings, parts, scene
@@ -63,6 +64,7 @@ mechanism = Mechanism(
     summary="indexing drive with pins or rollers",
     spec=IndexerSpec,
     build=build,
+    claims=claims,
     analyses=ANALYSES,
     folder=Path(__file__).parent,
     headline=HEADLINE,

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from drivewright.mechanisms.linkage import analyse, energy, forces, many, nonlinear, rest, singular, tolerance, verify, wear
 from drivewright.mechanisms.linkage.build import build
+from drivewright.mechanisms.linkage.claims import claims
 from drivewright.mechanisms.linkage.plates import drawings, parts
 from drivewright.mechanisms.linkage.plots import plots
 from drivewright.mechanisms.linkage.scene import scene
@@ -69,6 +70,7 @@ mechanism = Mechanism(
     summary="planar linkage with ideal joints or joints with play",
     spec=LinkageSpec,
     build=build,
+    claims=claims,
     analyses=ANALYSES,
     folder=Path(__file__).parent,
     headline=HEADLINE,

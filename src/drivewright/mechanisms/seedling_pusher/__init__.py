@@ -4,6 +4,7 @@ from pathlib import Path
 
 from drivewright.mechanisms.seedling_pusher import analyse, dynamics, manufacture, planting, scene
 from drivewright.mechanisms.seedling_pusher.build import build
+from drivewright.mechanisms.seedling_pusher.claims import claims
 from drivewright.mechanisms.seedling_pusher.designs import batch
 from drivewright.mechanisms.seedling_pusher.spec import SeedlingPusherSpec
 from drivewright.mechanisms.seedling_pusher.verify import verify
@@ -55,6 +56,7 @@ mechanism = Mechanism(
     summary="seedling pusher: conjugate cams on a three-elliptic-gear planetary train",
     spec=SeedlingPusherSpec,
     build=build,
+    claims=claims,
     analyses=ANALYSES,
     folder=Path(__file__).parent,
     scene=scene.scene,

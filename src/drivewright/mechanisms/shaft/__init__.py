@@ -4,6 +4,7 @@ from pathlib import Path
 
 from drivewright.mechanisms.shaft import frequencies, influence, rolling, sensitivity, solid, statics
 from drivewright.mechanisms.shaft.build import build
+from drivewright.mechanisms.shaft.claims import claims
 from drivewright.mechanisms.shaft.designs import batch
 from drivewright.mechanisms.shaft.plots import plots
 from drivewright.mechanisms.shaft.scene import drawings, parts, scene
@@ -66,6 +67,7 @@ mechanism = Mechanism(
     summary="shaft on elastic, rigid and rolling bearings",
     spec=ShaftSpec,
     build=build,
+    claims=claims,
     analyses=ANALYSES,
     folder=Path(__file__).parent,
     headline=HEADLINE,

@@ -5,6 +5,7 @@ from pathlib import Path
 from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.silent_chain import closure, compare, contact, dynamics, layout, many, stress
 from drivewright.mechanisms.silent_chain.build import build
+from drivewright.mechanisms.silent_chain.claims import claims
 from drivewright.mechanisms.silent_chain.designs import batch
 from drivewright.mechanisms.silent_chain.geometry import geometry
 from drivewright.mechanisms.silent_chain.meshing import meshing, no_meshing
@@ -105,6 +106,7 @@ mechanism = Mechanism(
     summary="chain drive",
     spec=SilentChainSpec,
     build=build,
+    claims=claims,
     analyses=ANALYSES,
     folder=Path(__file__).parent,
     headline=HEADLINE,
