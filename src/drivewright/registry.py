@@ -18,13 +18,13 @@ from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 from drivewright.claims import Claims
 from drivewright.errors import InputError, UnknownName
-from drivewright.result import SpecT
 
 if TYPE_CHECKING:
-    from drivewright.result import Answer, Answers, Plot, Result
+    from drivewright.result import Answer, Answers, Plot, Result, SpecLike
     from drivewright.scene import Drawing, Part, Scene
 
 OURS = "drivewright"
+SpecT = TypeVar("SpecT", bound="SpecLike")  # not imported from `result`, for listing what is registered must not import numpy
 ModelT = TypeVar("ModelT")
 Row: TypeAlias = tuple[str, float, float, str, float, str]  # of `verify`: name, ours, other, unit, allowed difference, route
 

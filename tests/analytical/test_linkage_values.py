@@ -113,9 +113,9 @@ def test_the_energy_audit_of_massless_links_closes():
 @pytest.mark.slow
 def test_the_whole_table_of_the_paper_with_calibrated_damping():
     """What the calibration brings: growth with the play from 0.05 mm on, the speed hardly matters; what it does not: the printed cells."""
-    from drivewright.validation.folding_linkage import CALIBRATED, CASE, PLAYS, TABLE, load_coefficients
+    from drivewright.validation.folding_linkage import CALIBRATED_DAMPING, CALIBRATION_SPEED, PLAYS, TABLE, load_coefficients
 
-    points = [(speed, play, CALIBRATED[play] * speed / CASE) for speed in TABLE for play in PLAYS]
+    points = [(speed, play, CALIBRATED_DAMPING[play] * speed / CALIBRATION_SPEED) for speed in TABLE for play in PLAYS]
     ours = np.array(load_coefficients(points)).reshape(len(TABLE), len(PLAYS))
     printed = np.array([[float(text) for text in row[1:]] for row in TABLE.values()])
     fast = np.array(list(TABLE)) > 20000

@@ -8,7 +8,7 @@ import pytest
 import drivewright as dw
 from drivewright import registry
 from drivewright.validation import AGREES, EXPLAINED, OPEN, shaft_paper
-from drivewright.validation.shaft_paper import L1, L2, L3, L5, L6, L7, SPAN, diagonal, flexibility, literal
+from drivewright.validation.shaft_paper import L1, L2, L3, L5, L6, L7, SPAN, flexibility, literal_bearing_flexibility, own_flexibility
 
 PRESETS = registry.mechanism("shaft").presets()
 SPINDLE = Path(__file__).parents[2] / "examples" / "spindle.toml"
@@ -52,7 +52,7 @@ def test_claims_of_section_5_3(rows, mass, claim, truth, historical, verdict):
     assert 100 * (right.ours - 1) == near(truth)
     assert 100 * (printed.ours - 1) == near(historical)
     assert (right.verdict, printed.verdict) == (verdict, AGREES)
-    assert "no evidence" in printed.why
+    assert "no evidence" in printed.commentary
 
 
 @pytest.mark.parametrize(
@@ -66,7 +66,7 @@ def test_claims_of_section_5_3(rows, mass, claim, truth, historical, verdict):
 )
 def test_own_load_diagonals(mass, texts):
     """Rigid and elastic [nm/N]."""
-    assert [1e9 * diagonal(mass, np.inf), 1e9 * diagonal(mass)] == [near(text) for text in texts]
+    assert [1e9 * own_flexibility(mass, np.inf), 1e9 * own_flexibility(mass)] == [near(text) for text in texts]
 
 
 def test_the_cross_flexibilities_may_fall():
@@ -80,16 +80,16 @@ def test_an_insignificant_change_is_one_that_the_figure_does_not_show(rows):
     claim = rows["elastic over rigid flexibility of m1"].printed
     assert claim.high - 1 == pytest.approx(0.1 * 457.1845 / 89.77392, rel=1e-5)
     assert 1 - claim.low == pytest.approx(claim.high - 1, rel=1e-12)
-    assert 1e9 * literal("m1") == near("23.54")
+    assert 1e9 * literal_bearing_flexibility("m1") == near("23.54")
 
 
 def test_the_printed_equations_by_hand():
     """mu = |reaction|/k; eq. (16): mu_2 - x (mu_1 + mu_2)/l2 at x = 0 and 245 mm; eq. (17) with l6 + l7 at 0 and 148.5 mm."""
     k = 3e7
-    assert literal("m1") == pytest.approx(L1 / L2 / k, rel=1e-9)
-    assert literal("m2") == pytest.approx(((1 + L3 / L2) - (L1 + L2 + L3) / L2 * (1 + 2 * L3 / L2)) / k, rel=1e-9)
-    assert literal("m3") == pytest.approx((1 + L6 / SPAN) / k, rel=1e-9)
-    assert literal("m4") == pytest.approx(-L7 / SPAN / k, rel=1e-9)
+    assert literal_bearing_flexibility("m1") == pytest.approx(L1 / L2 / k, rel=1e-9)
+    assert literal_bearing_flexibility("m2") == pytest.approx(((1 + L3 / L2) - (L1 + L2 + L3) / L2 * (1 + 2 * L3 / L2)) / k, rel=1e-9)
+    assert literal_bearing_flexibility("m3") == pytest.approx((1 + L6 / SPAN) / k, rel=1e-9)
+    assert literal_bearing_flexibility("m4") == pytest.approx(-L7 / SPAN / k, rel=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -98,7 +98,7 @@ def test_the_printed_equations_by_hand():
 )
 def test_what_bearings_add_is_a_line_through_their_displacements(preset, places, load):
     """The erratum to eqs. (16), (17): z = w_A + (w_B - w_A)(x - x_A)/L, with signs."""
-    table = shaft_paper.spec_run(preset, None, ("flexibility",)).tables["unit_load"]
+    table = shaft_paper.run_preset(preset, None, ("flexibility",)).tables["unit_load"]
     x, added = table["z"].data, table[load].data - table[f"{load}.rigid"].data
     first, last = np.interp(places, x, added)
     assert added == pytest.approx(first + (last - first) * (x - places[0]) / (places[1] - places[0]), abs=1e-6 * np.abs(added).max())
@@ -108,8 +108,8 @@ def test_what_bearings_add_is_a_line_through_their_displacements(preset, places,
 @pytest.mark.parametrize("mass", ["m1", "m2", "m3", "m4"])
 def test_conclusion_3_at_any_stiffness(mass):
     """Stiffer bearings, less flexibility, over four decades; and it contradicts section 5.3."""
-    found = [diagonal(mass, float(k)) for k in np.geomspace(1e6, 1e10, 9)]
-    assert np.all(np.diff(found) < 0) and found[-1] > diagonal(mass, np.inf)
+    found = [own_flexibility(mass, float(k)) for k in np.geomspace(1e6, 1e10, 9)]
+    assert np.all(np.diff(found) < 0) and found[-1] > own_flexibility(mass, np.inf)
 
 
 # -- formulas ------------------------------------------------------------------------------------------------------------------
@@ -167,7 +167,7 @@ def test_two_constants_and_equal_signs_of_the_loads(preset, loads, bearings, end
     span = bearings[1] - bearings[0]
     last = sum(place - bearings[0] for place in loads) / span
     reactions = [(bearings[0], 2.0 - last), (bearings[1], last)]
-    table = shaft_paper.spec_run(preset, np.inf, ("flexibility",)).tables["unit_load"]
+    table = shaft_paper.run_preset(preset, np.inf, ("flexibility",)).tables["unit_load"]
     names = [name for name in ("m1", "m2", "m3", "m4") if name in [column.name for column in table.columns]]
     beam = sum(table[name].data for name in names)
     ours = [macaulay(x, forces, reactions) for x in table["z"].data]
@@ -183,12 +183,12 @@ def test_fixed_supports(rows, mass, flexibility, percent):
     assert 1e9 * rows[f"flexibility of {mass}, bearings clamped"].ours == near(flexibility)
     row = rows[f"flexibility of {mass}, clamped over simply supported"]
     assert 100 * (row.ours - 1) == near(percent)
-    assert row.verdict == OPEN and "cannot be told" in row.why
+    assert row.verdict == OPEN and "cannot be told" in row.commentary
 
 
 @pytest.mark.parametrize("preset", ["pressure-roller", RUBBER])
 def test_masses_do_not_feel_each_other_past_a_fixed_support(preset):
-    found = shaft_paper.clamped(preset)
+    found = shaft_paper.clamped_flexibility(preset)
     assert abs(found[0, 1]) < 1e-9 * found[0, 0]
 
 
@@ -213,18 +213,18 @@ def test_which_bearing_is_stiffer_than_the_cylindrical_one():
     """The tapered one; balls are softer by a third and more, whatever axial load of this size they have."""
     from drivewright import bearings
 
-    cylindrical = shaft_paper.radial(bearings.bearing("hypothetical-CRB-20x32x7"))
+    cylindrical = shaft_paper.radial_stiffness(bearings.bearing("hypothetical-CRB-20x32x7"))
     for axial in (0.0, 300.0):
         balls = [bearings.bearing(name) for name in shaft_paper.KINDS if "TRB" not in name]
-        assert max(shaft_paper.radial(ball, axial) for ball in balls) < 0.65 * cylindrical
-    assert shaft_paper.radial(bearings.bearing("hypothetical-TRB-20x32x7"), 300.0) == pytest.approx(1.96 * cylindrical, rel=0.01)
+        assert max(shaft_paper.radial_stiffness(ball, axial) for ball in balls) < 0.65 * cylindrical
+    assert shaft_paper.radial_stiffness(bearings.bearing("hypothetical-TRB-20x32x7"), 300.0) == pytest.approx(1.96 * cylindrical, rel=0.01)
 
 
 def test_a_61804_has_the_printed_stiffness_at_a_light_load_only(rows):
     row = rows["secant stiffness of a 61804 at 500 N"]
     assert row.ours == pytest.approx(5.02e7, abs=0.005e7)
     assert row.explanation.value == pytest.approx(3.0e7, abs=0.005e7)
-    soft, stiff = shaft_paper.secant_of_61804(1.0), shaft_paper.secant_of_61804(8.0)
+    soft, stiff = shaft_paper.secant_stiffness_of_61804(1.0), shaft_paper.secant_stiffness_of_61804(8.0)
     assert stiff / soft == pytest.approx(2.0, abs=0.01), "it grows with the cube root of the load"
 
 

@@ -51,7 +51,7 @@ def test_an_explanation_must_give_the_printed_number():
 
 def test_a_note_explains_nothing():
     noted = row(48.0 * DEGREE, note="It is late.")
-    assert (noted.verdict, noted.why) == (OPEN, "It is late.")
+    assert (noted.verdict, noted.commentary) == (OPEN, "It is late.")
 
 
 def test_deviation_is_from_the_number_or_beyond_the_limit():

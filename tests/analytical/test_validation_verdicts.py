@@ -172,7 +172,7 @@ def test_take_and_push_of_the_paper_can_be_met_by_events_it_does_not_print(paper
     row = paper["push minus take angle"]
     assert np.degrees(row.explanation.value) == pytest.approx(50.22, abs=0.005)
     assert 256.02 - np.degrees(train()["tip.highest_angle"]) == pytest.approx(4.8, abs=0.05)
-    assert "no evidence" in row.why and "no evidence" in paper["push angle"].why
+    assert "no evidence" in row.commentary and "no evidence" in paper["push angle"].commentary
 
 
 def test_the_paper_has_its_errata(sources):

@@ -1,14 +1,15 @@
 """The command line.  `main` is the only way out: one message and one exit code for every error a user can cause."""
 
 import sys
+from typing import NoReturn
+
+from drivewright.errors import DrivewrightError
 
 INTERRUPTED = 130
 
 
-def main(arguments=None):
+def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; exits with 0 done, 1 failed check, 2 bad input, 3 strict, 4 solver gave up, 130 interrupted."""
-    from drivewright.errors import DrivewrightError
-
     try:
         from drivewright.cli.app import app, usage_errors
 
@@ -30,12 +31,12 @@ def main(arguments=None):
         sys.exit(0)
 
 
-def _aborts():
+def _aborts() -> tuple[type[BaseException], ...]:
     """What the command-line library makes of Ctrl-C."""
     typer = sys.modules.get("typer")
     return (typer.Abort,) if typer else ()
 
 
-def _complain(error):
+def _complain(error: DrivewrightError) -> int:
     print(f"drivewright: {error}", file=sys.stderr)
     return error.exit_code

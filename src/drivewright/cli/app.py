@@ -3,17 +3,18 @@
 import json
 import os
 from collections import Counter
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from drivewright import registry
-from drivewright.cli import brought, show
+from drivewright.cli import plugin_commands, show
 from drivewright.errors import DEBUG, InputError, UnknownName
 
 app = typer.Typer(
-    cls=brought.Commands,
+    cls=plugin_commands.CommandGroup,
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -21,39 +22,39 @@ app = typer.Typer(
     help="Design, simulate and verify mechanical drives.",
 )
 
-# The root of the complaints about the command line itself; where it stands depends on the version of the library.
-usage_errors = next(base for base in typer.BadParameter.__mro__ if base.__name__ == "ClickException")
+# The base class of errors in the use of the command line; its module depends on the version of the library.
+usage_errors: Any = next(base for base in typer.BadParameter.__mro__ if base.__name__ == "ClickException")
 
 SpecFile = Annotated[Path, typer.Argument(help="spec file (TOML)")]
-Set = Annotated[list[str] | None, typer.Option("--set", help="key=value, repeatable; replaces a key of the spec, key= removes it")]
-Only = Annotated[str, typer.Option("--only", help="analyses to run, comma separated, with what they need")]
-All = Annotated[bool, typer.Option("--all", help="every analysis")]
-Out = Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the spec>")]
-VARY = (
+SetOption = Annotated[list[str] | None, typer.Option("--set", help="key=value, repeatable; replaces a key of the spec, key= removes it")]
+OnlyOption = Annotated[str, typer.Option("--only", help="analyses to run, comma separated, with what they need")]
+AllOption = Annotated[bool, typer.Option("--all", help="every analysis")]
+OutOption = Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the spec>")]
+VARY_HELP = (
     "repeatable: KEY=FROM:TO:STEPS, KEY=V1,V2, KEY=FROM:TO or uniform(FROM, TO), KEY=normal(MEAN, SIGMA), "
     "KEY=triangular(FROM, PEAK, TO), KEY=+-TOLERANCE; KEY+KEY=... for keys "
     "with the same value; instead of what the spec's [study] varies"
 )
-METHOD = "latin-hypercube, sobol, random, corners, one-at-a-time, tolerance, sobol-indices"
-Strict = Annotated[bool, typer.Option("--strict", help="exit 3 when a design check fails")]
+METHOD_HELP = "latin-hypercube, sobol, random, corners, one-at-a-time, tolerance, sobol-indices"
+StrictOption = Annotated[bool, typer.Option("--strict", help="exit 3 when a design check fails")]
 
 
-def _load(path, changes):
+def _load(path: Path, changes: Iterable[str] | None) -> Any:
     from drivewright.spec import load
 
     return load(path, changes or ())
 
 
-def _names(text):
+def _names(text: str) -> tuple[str, ...]:
     return tuple(name.strip() for name in text.split(",") if name.strip())
 
 
-def _refuse_both(only, everything):
+def _refuse_both(only: str, everything: bool) -> None:
     if only and everything:
         raise InputError("--only and --all contradict each other; give one of them")
 
 
-def _folder(path, out, several=False):
+def _folder(path: Path, out: Path | None, several: bool = False) -> Path:
     if out is None:
         return Path("out") / path.stem
     return out / path.stem if several else out
@@ -64,7 +65,7 @@ def new(
     kind: Annotated[str, typer.Argument(help="kind of drive")],
     file: Annotated[Path | None, typer.Argument(help="file to write; default KIND.toml")] = None,
     preset: Annotated[str | None, typer.Option(help="start from this preset")] = None,
-):
+) -> None:
     """Write a commented spec with every key, its unit, default and limits."""
     from drivewright.spec import template
 
@@ -80,14 +81,14 @@ def new(
 @app.command()
 def run(
     specs: Annotated[list[Path], typer.Argument(help="spec files")],
-    out: Out = None,
-    set_: Set = None,
-    only: Only = "",
-    all_: All = False,
+    out: OutOption = None,
+    set_: SetOption = None,
+    only: OnlyOption = "",
+    all_: AllOption = False,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="draw the figures")] = True,
     as_json: Annotated[bool, typer.Option("--json", help="print the result as JSON to stdout")] = False,
-    strict: Strict = False,
-):
+    strict: StrictOption = False,
+) -> None:
     """Validate, analyse and write a run folder per spec."""
     from drivewright import runner
     from drivewright.report.content import views
@@ -108,17 +109,17 @@ def run(
         show.note(f"wrote {folder}/")
         if not as_json:
             show.result(result)
-    show.leave(results, as_json, strict)
+    show.finish_run(results, as_json, strict)
 
 
 @app.command()
 def export(
     spec: SpecFile,
     to: Annotated[str, typer.Option("--to", help="formats, comma separated: dxf, svg, csv, step, stl, gcode, pdf")],
-    out: Out = None,
-    set_: Set = None,
+    out: OutOption = None,
+    set_: SetOption = None,
     anyway: Annotated[bool, typer.Option("--anyway", help="also with a failed geometry check")] = False,
-):
+) -> None:
     """Write manufacturing files and the PDF report."""
     from drivewright.report.export import export as write
 
@@ -132,21 +133,21 @@ def export(
 @app.command()
 def sweep(
     spec: SpecFile,
-    vary: Annotated[list[str] | None, typer.Option("--vary", help=VARY)] = None,
+    vary: Annotated[list[str] | None, typer.Option("--vary", help=VARY_HELP)] = None,
     sample: Annotated[int | None, typer.Option("--sample", help="size of the sample of what has a distribution")] = None,
-    method: Annotated[str | None, typer.Option("--method", help=METHOD)] = None,
+    method: Annotated[str | None, typer.Option("--method", help=METHOD_HELP)] = None,
     seed: Annotated[int | None, typer.Option("--seed", help="of the sample")] = None,
     points: Annotated[Path | None, typer.Option("--points", help="CSV or Parquet file of cases, a column per key: key [unit]")] = None,
-    only: Only = "",
-    all_: All = False,
+    only: OnlyOption = "",
+    all_: AllOption = False,
     values: Annotated[str, typer.Option("--values", help="values and checks (check.NAME) to keep, comma separated; all unless given")] = "",
     out: Annotated[Path | None, typer.Option("--out", help="folder of the study; default out/<stem of the spec>-study")] = None,
-    set_: Set = None,
+    set_: SetOption = None,
     workers: Annotated[int | None, typer.Option("--workers", help="processes on this machine; default: one per core")] = None,
     on: Annotated[str | None, typer.Option("--on", help="local:N or tcp://HOST:PORT (Dask), or serial")] = None,
     yes: Annotated[bool, typer.Option("--yes", help="also a very large number of cases")] = False,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="write the report with its figures")] = True,
-):
+) -> None:
     """Compute many cases of a spec; the same command again goes on where it stopped."""
     from drivewright.report.study import write_answers
     from drivewright.studies.answers import answers
@@ -171,10 +172,10 @@ def sweep(
         show.note(f"{study.folder}: {len(study)} of {len(study.plan)} cases")
         if study.interrupted:
             raise KeyboardInterrupt
-        found = answers(study) if figures else None
-        if found:
-            show.note(f"wrote {write_answers(study, found, study.folder)}")
-    show.study(study, found)
+        summary = answers(study) if figures else None
+        if summary:
+            show.note(f"wrote {write_answers(study, summary, study.folder)}")
+    show.study(study, summary)
     if not study.answered:
         raise typer.Exit(4)
 
@@ -184,7 +185,7 @@ def table(
     study: Annotated[Path, typer.Argument(help="folder of a study")],
     to: Annotated[str, typer.Option("--to", help="formats, comma separated: csv, xlsx, parquet")] = "csv",
     out: Annotated[Path | None, typer.Option("--out", help="folder to write to; default the study's own")] = None,
-):
+) -> None:
     """Write a study's cases as one table."""
     from drivewright.report.tabular import write_study_table
     from drivewright.studies.sweep import open_study
@@ -201,28 +202,28 @@ def table(
 def optimise(
     spec: SpecFile,
     out: Annotated[Path | None, typer.Option("--out", help="folder of the search; default out/<stem of the spec>-optimised")] = None,
-    set_: Set = None,
+    set_: SetOption = None,
     workers: Annotated[int | None, typer.Option("--workers", help="processes on this machine; default: one per core")] = None,
     on: Annotated[str | None, typer.Option("--on", help="local:N or tcp://HOST:PORT (Dask), or serial")] = None,
-):
+) -> None:
     """Optimise the unknowns of the spec's [optimise] table, exit 4 when nothing feasible was found; the same command again goes on."""
     from drivewright.report.optimised import write_optimised
     from drivewright.studies.optimise import optimise as search
 
     loaded = _load(spec, set_)
     with show.progress(spec.name) as step, show.located(spec):
-        found = search(loaded, out=out or Path("out") / f"{spec.stem}-optimised", workers=workers, on=on, progress=step)
-        folder = write_optimised(found, found.folder)
+        outcome = search(loaded, out=out or Path("out") / f"{spec.stem}-optimised", workers=workers, on=on, progress=step)
+        folder = write_optimised(outcome, outcome.folder)
     show.note(f"wrote {folder}/ (best.toml, history.parquet, best/)")
-    show.optimised(found)
-    if found.interrupted:
+    show.optimised(outcome)
+    if outcome.interrupted:
         raise KeyboardInterrupt
-    if not found.feasible:
+    if not outcome.feasible:
         raise typer.Exit(4)
 
 
 @app.command()
-def verify(spec: SpecFile, set_: Set = None):
+def verify(spec: SpecFile, set_: SetOption = None) -> None:
     """Compute the case again on an independent route and print the differences."""
     from drivewright.studies.verify import verify as compare
 
@@ -234,7 +235,7 @@ def verify(spec: SpecFile, set_: Set = None):
 
 
 @app.command()
-def validate(name: Annotated[str | None, typer.Argument(help="a source; default all")] = None):
+def validate(name: Annotated[str | None, typer.Argument(help="a source; default all")] = None) -> None:
     """Published numbers beside ours, with a verdict each; exit 1 when a pinned verdict changes."""
     from drivewright import validation
 
@@ -257,7 +258,7 @@ def studio(
     port: Annotated[int | None, typer.Option(help="port; the first free one from 8123 unless given")] = None,
     token: Annotated[str, typer.Option(help="token for another host; a new one unless given")] = "",
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="open a browser")] = True,
-):
+) -> None:
     """The web studio: a design as a form, moving, with its checks and plots."""
     from drivewright.studio.app import serve
     from drivewright.studio.session import first_design, opened
@@ -272,7 +273,7 @@ def examples(
     name: Annotated[str | None, typer.Argument(help="example to copy into this folder")] = None,
     run_: Annotated[str | None, typer.Option("--run", help="'all', or the name of an example to run")] = None,
     out: Annotated[Path, typer.Option("--out", help="folder of the runs")] = Path("out"),
-):
+) -> None:
     """List, copy or run the worked examples and studies."""
     from drivewright.cli import gallery
 
@@ -291,19 +292,19 @@ def examples(
 
 
 @app.command()
-def schema(kind: Annotated[str, typer.Argument(help="kind of drive")]):
+def schema(kind: Annotated[str, typer.Argument(help="kind of drive")]) -> None:
     """The JSON schema of a kind's spec files."""
-    from drivewright.spec import schema as of
+    from drivewright.spec import schema as json_schema
 
-    print(json.dumps(of(kind), indent=1))
+    print(json.dumps(json_schema(kind), indent=1))
 
 
 @app.command()
-def doctor(warm: Annotated[bool, typer.Option("--warm", help="compile every kernel now")] = False):
+def doctor(warm: Annotated[bool, typer.Option("--warm", help="compile every kernel now")] = False) -> None:
     """What is installed, what each extra adds, the state of the cache, a self-test."""
-    from drivewright.cli import doctor as examine
+    from drivewright.cli import doctor as doctor_report
 
-    if not examine.report(warm):
+    if not doctor_report.report(warm):
         raise typer.Exit(1)
 
 
@@ -311,7 +312,7 @@ def doctor(warm: Annotated[bool, typer.Option("--warm", help="compile every kern
 def _root(
     version: Annotated[bool, typer.Option("--version", help="print the version")] = False,
     debug: Annotated[bool, typer.Option("--debug", help="show the traceback of an analysis that fails by a fault of the program")] = False,
-):
+) -> None:
     if debug:
         os.environ[DEBUG] = "1"  # of the processes that a study starts, too
     if version:

@@ -18,7 +18,7 @@ EXTRAS = (
 )
 
 
-def report(warm):
+def report(warm: bool) -> bool:
     """Print everything; returns whether the self-test passed."""
     show.table("installed", (("what", "left"), ("version", "left")), versions().items())
     show.table("extras", (("extra", "left"), ("state", "left"), ("adds", "left")), [_extra(*row) for row in EXTRAS])
@@ -29,7 +29,7 @@ def report(warm):
     return _self_test()
 
 
-def _extra(name, module, adds):
+def _extra(name: str, module: str, adds: str) -> tuple[str, str, str]:
     try:
         import_module(module)
     except ImportError as error:
@@ -41,7 +41,7 @@ def _extra(name, module, adds):
         return name, "installed", adds
 
 
-def _warm():
+def _warm() -> None:
     from drivewright import _jit
 
     show.note("compiling every kernel ...")
@@ -49,7 +49,7 @@ def _warm():
         show.note(f"  {name}: {seconds:.1f} s")
 
 
-def _cache():
+def _cache() -> None:
     from drivewright import _jit
 
     folder = _jit.cache_folder()
@@ -58,7 +58,7 @@ def _cache():
     show.table("kernel cache", (("folder", "left"), ("files", "right"), ("size", "right")), [(folder, len(files), f"{size / 1e6:.1f} MB")])
 
 
-def _self_test():
+def _self_test() -> bool:
     """A few closed forms through the layers; a line each."""
     from drivewright import gears, motion
     from drivewright.numerics.roots import bracketed_roots
@@ -72,11 +72,14 @@ def _self_test():
         ("elliptic pair after half a turn", driven, 3.141592653589793),
         ("root of x^2 - 2", bracketed_roots(lambda x: x * x - 2, [1.0, 2.0])[0], 2**0.5),
     )
-    good = [abs(found - wanted) < 1e-6 for _, found, wanted in rows]
+    passed = [abs(value - expected) < 1e-6 for _, value, expected in rows]
     show.table(
         "self-test",
         (("what", "left"), ("found", "right"), ("expected", "right"), ("", "left")),
-        [(what, f"{found:.7g}", f"{wanted:.7g}", "ok" if ok else "WRONG") for (what, found, wanted), ok in zip(rows, good, strict=True)],
+        [
+            (what, f"{value:.7g}", f"{expected:.7g}", "ok" if ok else "WRONG")
+            for (what, value, expected), ok in zip(rows, passed, strict=True)
+        ],
     )
-    show.note(f"self-test: {sum(good)} of {len(good)} in {time.perf_counter() - started:.1f} s")
-    return all(good)
+    show.note(f"self-test: {sum(passed)} of {len(passed)} in {time.perf_counter() - started:.1f} s")
+    return all(passed)

@@ -2,32 +2,35 @@
 
 import shutil
 import time
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from drivewright import registry, runner
 from drivewright.cli import show
 from drivewright.errors import DrivewrightError
+from drivewright.result import Result
 from drivewright.spec import load, read_document
 
 PACKED = Path(__file__).parent.parent / "examples"
 CHECKOUT = Path(__file__).parents[3] / "examples"
 
 
-def examples():
+def examples() -> dict[str, Path]:
     """Name -> path of every example spec."""
     return {path.stem: path for path in sorted(_folder().glob("*.toml"))}
 
 
-def studies():
+def studies() -> dict[str, Path]:
     """Name -> path of every worked study: specs with a [study] table, for `sweep`."""
     return {path.stem: path for path in sorted((_folder() / "studies").glob("*.toml"))}
 
 
-def _folder():
+def _folder() -> Path:
     return PACKED if PACKED.is_dir() else CHECKOUT
 
 
-def listing():
+def listing() -> None:
     """Print name, kind and title of each."""
     for title, known in (
         ("worked examples (drivewright examples NAME copies one, --run NAME runs it)", examples()),
@@ -38,7 +41,7 @@ def listing():
         show.table(title, (("name", "left"), ("kind", "left"), ("what it shows", "left")), rows)
 
 
-def copy(path, folder):
+def copy(path: Path, folder: Path) -> list[Path]:
     """Copy an example and the data files it names; nothing is written over."""
     sources = [path, *load(path).data_files()]
     targets = [folder / source.name for source in sources]
@@ -49,7 +52,7 @@ def copy(path, folder):
     return targets
 
 
-def run_study(path, out):
+def run_study(path: Path, out: Path) -> None:
     """Run a worked study and write its folder with the report."""
     from drivewright.report.study import write_answers
     from drivewright.studies.answers import answers
@@ -59,12 +62,12 @@ def run_study(path, out):
         study = sweep(load(path), out=out, progress=step)
     if study.interrupted:
         raise KeyboardInterrupt
-    found = answers(study)
-    show.note(f"wrote {write_answers(study, found, study.folder)}")
-    show.study(study, found)
+    summary = answers(study)
+    show.note(f"wrote {write_answers(study, summary, study.folder)}")
+    show.study(study, summary)
 
 
-def run_examples(chosen, out):
+def run_examples(chosen: Mapping[str, Path], out: Path) -> None:
     """Run examples, print their key numbers, write out/index.html; a failed design check is part of the show."""
     from drivewright.report.content import views
     from drivewright.report.folder import write_run_folder
@@ -87,7 +90,7 @@ def run_examples(chosen, out):
     show.note(f"wrote {write_index(folders, out / 'index.html')}: open it in a browser")
 
 
-def _print(result, seconds):
+def _print(result: Result[Any], seconds: float) -> None:
     """Key numbers of one run, on stdout."""
     failed = [check for check in result.checks if not check.ok]
     print(f"\n{result.title}   ({seconds:.1f} s)")

@@ -5,22 +5,37 @@ import math
 import shutil
 import sys
 from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from drivewright import digits, registry, units
 from drivewright.errors import InputError, MissingExtra, SpecError
 
-MOST_ROWS = 12  # of a study's values
+if TYPE_CHECKING:
+    from rich.console import JustifyMethod
+
+    from drivewright.result import Check, Result, Value
+    from drivewright.runner import Progress
+    from drivewright.studies.answers.whole import Answers
+    from drivewright.studies.optimise import Optimised
+    from drivewright.studies.study import Study
+    from drivewright.studies.verify import Comparison
+    from drivewright.validation.source import Row, Source
+
+    Header: TypeAlias = Iterable[tuple[str, JustifyMethod]]
+
+MAX_STUDY_ROWS = 12  # of a study's values
 
 
-def note(text):
+def note(text: str) -> None:
     """One line for the person at the terminal."""
     print(text, file=sys.stderr)
 
 
 @contextmanager
-def located(path):
+def located(path: Path) -> Iterator[None]:
     """Names the spec file in an error that does not know where it came from."""
     try:
         yield
@@ -31,16 +46,16 @@ def located(path):
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
     except OSError as error:
-        raise _from_disk(error) from None
+        raise _disk_error(error) from None
 
 
-def _from_disk(error):
-    """A full disk or a missing right is no bug of ours: said in one line."""
+def _disk_error(error: OSError) -> InputError:
+    """The error of a full disk or of a missing permission, in one line: no fault of the program."""
     return InputError(f"{error.filename or 'the output'}: {error.strerror or error}; nothing was written over")
 
 
 @contextmanager
-def progress(title):
+def progress(title: str) -> "Iterator[Progress]":
     """A callable step(done, total, what) that moves a bar; silent where stderr is no terminal."""
     if not sys.stderr.isatty():
         yield lambda done, total, what: None
@@ -60,7 +75,7 @@ def progress(title):
         yield lambda done, total, what: bar.update(task, completed=done, total=total, what=what)
 
 
-def table(title, header, rows):
+def table(title: str, header: "Header", rows: Iterable[Iterable[object]]) -> None:
     """A table on stdout; plain where stdout is no terminal, so that it can be piped and diffed."""
     from rich.box import SIMPLE_HEAD
     from rich.console import Console
@@ -75,26 +90,28 @@ def table(title, header, rows):
     Console(file=sys.stdout, width=None if sys.stdout.isatty() else 140, highlight=False).print(grid)
 
 
-def number(value, unit, low=None, high=None):
+def number(value: float, unit: str, low: float | None = None, high: float | None = None) -> str:
     """A number in the unit people read, with the unit, and with its interval in the digits that this supports."""
-    told, *ends = _numbers(value, unit, low, high)
-    return _with_unit(f"{told} ({ends[0]} to {ends[1]})" if ends else told, unit)
+    text, *ends = _numbers(value, unit, low, high)
+    return _with_unit(f"{text} ({ends[0]} to {ends[1]})" if ends else text, unit)
 
 
-def _numbers(value, unit, low, high):
+def _numbers(value: float, unit: str, low: float | None, high: float | None) -> list[str]:
     """Texts of a number, and of the ends of its interval where this says something."""
     factor = units.display(unit)[0]
-    value, low, high = (None if each is None else each * factor for each in (value, low, high))
+    value, low, high = value * factor, None if low is None else low * factor, None if high is None else high * factor
     place = digits.last_place(value, low, high)
-    return [f"{value:.6g}"] if place is None else [_to_place(each, place) for each in (value, low, high)]
+    if place is None or low is None or high is None:
+        return [f"{value:.6g}"]
+    return [_to_place(each, place) for each in (value, low, high)]
 
 
-def _with_unit(text, unit):
+def _with_unit(text: str, unit: str) -> str:
     shown = units.display(unit)[1]
     return text if shown in ("-", "") else f"{text} {shown}"
 
 
-def _to_place(value, place):
+def _to_place(value: float, place: int) -> str:
     """As text; with a power of ten where it is very small or large."""
     if place >= -5 and abs(value) < 1e6:
         return digits.to_place(value, place)
@@ -102,31 +119,31 @@ def _to_place(value, place):
     return f"{value:.{max(count, 0)}e}"
 
 
-def result(found):
+def result(run: "Result[Any]") -> None:
     """Headline values, checks and findings of a run."""
-    mechanism = registry.mechanism(found.mechanism)
-    headline = registry.headlines(mechanism, found.values)
-    rows = [(name, _value(found.values[name]), _meaning(found.values[name])) for name in headline]
-    table(found.title, (("value", "left"), ("", "right"), ("meaning", "left")), rows)
-    if len(found.values) > len(headline):
-        note(f"{len(found.values) - len(headline)} more values in result.json")
-    checks(found.checks)
-    for finding in found.findings:
+    mechanism = registry.mechanism(run.mechanism)
+    headline = registry.headlines(mechanism, run.values)
+    rows = [(name, _value(run.values[name]), _meaning(run.values[name])) for name in headline]
+    table(run.title, (("value", "left"), ("", "right"), ("meaning", "left")), rows)
+    if len(run.values) > len(headline):
+        note(f"{len(run.values) - len(headline)} more values in result.json")
+    checks(run.checks)
+    for finding in run.findings:
         note(f"note: {finding}")
 
 
-def _value(value):
+def _value(value: "Value") -> str:
     return number(value.value, value.unit, value.low, value.high)
 
 
-def _meaning(value):
+def _meaning(value: "Value") -> str:
     """What it is, and how its interval was made where one is shown."""
-    told = f"95 %, {value.interval}" if " to " in _value(value) else value.interval
-    return f"{value.meaning} ({told})" if told else value.meaning
+    interval = f"95 %, {value.interval}" if " to " in _value(value) else value.interval
+    return f"{value.meaning} ({interval})" if interval else value.meaning
 
 
-def leave(results, as_json=False, strict=False):
-    """The end of a run: JSON on stdout where asked for; exit 4 after a solver that gave up, 3 after a failed check with `strict`."""
+def finish_run(results: "Sequence[Result[Any]]", as_json: bool = False, strict: bool = False) -> None:
+    """The end of a run: JSON on stdout where requested; exit 4 after a solver that gave up, 3 after a failed check with `strict`."""
     import typer
 
     if as_json:
@@ -139,7 +156,7 @@ def leave(results, as_json=False, strict=False):
         raise typer.Exit(3)
 
 
-def checks(found):
+def checks(design_checks: "Iterable[Check]") -> None:
     """Every design check with value, limit and margin."""
     from rich.text import Text
 
@@ -157,7 +174,7 @@ def checks(found):
             _margin(c),
             f"{c.message} ({UNDECIDED})" if c.undecided else c.message,
         )
-        for c in sorted(found, key=lambda c: c.ok)
+        for c in sorted(design_checks, key=lambda c: c.ok)
     ]
     if rows:
         table(
@@ -167,43 +184,43 @@ def checks(found):
         )
 
 
-def _margin(check):
+def _margin(check: "Check") -> str:
     """With the digits that the check's value has."""
     return _with_unit(_numbers(check.margin, check.unit, *(check.margin_bounds or (None, None)))[0], check.unit)
 
 
-def optimised(found):
+def optimised(search: "Optimised") -> None:
     """The best design(s) of a search and the requirements it met or missed."""
-    table("objectives", (("value", "left"), ("best", "right"), ("wanted", "left")), found.objective_rows())
-    table("unknowns", (("key", "left"), ("best", "right"), ("lower", "right"), ("upper", "right")), found.unknown_rows())
-    checks(found.requirements)
-    so_far = " so far: the best of them, not the end of the search" if found.interrupted else ""
-    note(f"{found.evaluations} evaluations{so_far}, {found.seconds:.1f} s, seed {found.seed}")
-    for line in found.findings:
+    table("objectives", (("value", "left"), ("best", "right"), ("wanted", "left")), search.objective_rows())
+    table("unknowns", (("key", "left"), ("best", "right"), ("lower", "right"), ("upper", "right")), search.unknown_rows())
+    checks(search.requirements)
+    so_far = " so far: the best of them, not the end of the search" if search.interrupted else ""
+    note(f"{search.evaluations} evaluations{so_far}, {search.seconds:.1f} s, seed {search.seed}")
+    for line in search.findings:
         note(f"note: {line}")
 
 
-def study(found, answers=None):
+def study(study: "Study", answers: "Answers | None" = None) -> None:
     """How the cases of a study ended, between which ends its headline values lie, and the yield where the answers have one."""
     import numpy as np
 
-    told = [name for name in _shown(found) if np.any(np.isfinite(found[name]))]
-    rows = [(name, *_ends(found, name), found.meaning(name)) for name in told[:MOST_ROWS]]
-    title = ", ".join(f"{count} {status}" for status, count in found.counts.items())
+    names = [name for name in _headline_columns(study) if np.any(np.isfinite(study[name]))]
+    rows = [(name, *_ends(study, name), study.meaning(name)) for name in names[:MAX_STUDY_ROWS]]
+    title = ", ".join(f"{count} {status}" for status, count in study.counts.items())
     table(title, (("value", "left"), ("least", "right"), ("greatest", "right"), ("meaning", "left")), rows)
     if answers and "yield" in answers.result.values:
         share, low, high = (answers.result.values[name].value for name in ("yield", "yield.low", "yield.high"))
         print(f"yield: {share:.1%} of the random cases pass every check ({low:.1%} to {high:.1%} with 95% confidence)")
-    if len(told) > len(rows):
-        note(f"{len(told) - len(rows)} more values in the report and in the study's table")
-    reasons = Counter(text for text, status in zip(found["message"], found["status"], strict=True) if status != "complete")
+    if len(names) > len(rows):
+        note(f"{len(names) - len(rows)} more values in the report and in the study's table")
+    reasons = Counter(text for text, status in zip(study["message"], study["status"], strict=True) if status != "complete")
     for reason, count in reasons.most_common(3):
         note(f"note: {count} x {reason}")
-    for remark in (*found.plan.remarks, *found.remarks):
+    for remark in (*study.plan.remarks, *study.remarks):
         note(f"note: {remark}")
 
 
-def _ends(study, name):
+def _ends(study: "Study", name: str) -> list[str]:
     """Least and greatest of a column, each with the interval that it has in its case."""
     import numpy as np
 
@@ -211,15 +228,15 @@ def _ends(study, name):
     return [number(column[row], study.unit(name), *(end[row] for end in bounds)) for row in (np.nanargmin(column), np.nanargmax(column))]
 
 
-def _shown(study):
-    """The values asked for, or the headline; those that vary first."""
-    asked = study.spec.study.values if study.spec.study else ()
-    names = asked or registry.headlines(registry.mechanism(study.spec.mechanism), dict.fromkeys(study.value_names))
+def _headline_columns(study: "Study") -> list[str]:
+    """Names of the requested values, or of the headline; those that vary come first."""
+    requested = study.spec.study.values if study.spec.study else ()
+    names = requested or registry.headlines(registry.mechanism(study.spec.mechanism), dict.fromkeys(study.value_names))
     known = [name for name in names if name in study.table.column_names]
     return sorted(known, key=lambda name: len(set(study[name][:1000].tolist())) == 1)
 
 
-def comparison(rows):
+def comparison(rows: "Iterable[Comparison]") -> None:
     """Our numbers beside those of the independent route."""
     table(
         "independent route",
@@ -231,13 +248,22 @@ def comparison(rows):
     )
 
 
-def source(found, rows):
+def source(published: "Source", rows: "Iterable[Row]") -> None:
     """One published source: its numbers beside ours."""
-    header = (("quantity", "left"), ("printed", "right"), ("ours", "right"), ("deviation", "right"), ("verdict", "left"), ("why", "left"))
-    table(found.citation, header, [(r.name, r.printed, number(r.ours, r.unit), r.deviation_text(), r.verdict, r.why) for r in rows])
+    header: Header = (
+        ("quantity", "left"),
+        ("printed", "right"),
+        ("ours", "right"),
+        ("deviation", "right"),
+        ("verdict", "left"),
+        ("why", "left"),
+    )
+    table(
+        published.citation, header, [(r.name, r.printed, number(r.ours, r.unit), r.deviation_text(), r.verdict, r.commentary) for r in rows]
+    )
 
 
-def write_text(path, text):
+def write_text(path: str | Path, text: str) -> None:
     """A text file, written whole or not at all."""
     from drivewright.report import atomic
 
@@ -246,15 +272,17 @@ def write_text(path, text):
     try:
         atomic.write_text(path, text)
     except OSError as error:
-        raise _from_disk(error) from None
+        raise _disk_error(error) from None
 
 
-def copy_data_files(kind, preset, path):
+def copy_data_files(kind: str, preset: str | None, path: Path) -> None:
     """Data files that a preset names go beside the new spec; one that is there already is left alone."""
     from drivewright.spec import load, preset_path
 
     preset_file = preset_path(kind, preset)
-    for source in load(preset_file).data_files() if preset_file else ():
+    if preset_file is None:
+        return
+    for source in load(preset_file).data_files():
         target = Path(path).parent / source.relative_to(preset_file.resolve().parent)
         if target.exists() and target.read_bytes() != source.read_bytes():
             note(f"note: {target} exists and is left alone, so the new spec reads it instead of the preset's")
@@ -263,7 +291,7 @@ def copy_data_files(kind, preset, path):
             shutil.copyfile(source, target)
 
 
-def refuse_existing(path):
+def refuse_existing(path: str | Path) -> None:
     """Nothing of the user's is written over."""
     if Path(path).exists():
         raise InputError(f"{path} exists and is left alone; name another file or move it away")

@@ -34,7 +34,7 @@ OURS = (
 __all__ = ["AGREES", "EXPLAINED", "Explanation", "KINDS", "OPEN", "Printed", "Row", "Source", "page", "rounded", "sources"]
 
 
-def sources(name=None):
+def sources(name: str | None = None) -> tuple[Source, ...]:
     """All sources, ours first, or the one of that name; UnknownName where there is none."""
     group = "drivewright.validation"
     known = {}

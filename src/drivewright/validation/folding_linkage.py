@@ -3,16 +3,22 @@
 The motions run on the multibody kernel, through the mechanism `linkage`.  `validate` runs 9 of the 55 cells.
 """
 
+from collections.abc import Iterator, Sequence
+from typing import Any, TypeAlias
+
 import numpy as np
 
 from drivewright import cases
+from drivewright._typing import Floats
 from drivewright.mechanisms.linkage import many
 from drivewright.mechanisms.linkage.build import build
 from drivewright.mechanisms.linkage.second_route import ROCKER_TURN, FourBar, ideal_motion
+from drivewright.mechanisms.linkage.spec import LinkageSpec
 from drivewright.spec import from_document
 from drivewright.validation.source import AGREES, EXPLAINED, OPEN, Explanation, Printed, Row, Source, rounded
 
 TURN = 2 * np.pi
+Point: TypeAlias = tuple[float, str, float]  # crank speed [turns/h], radial play [mm], damping of the links [N m s/rad]
 PLAYS = ("0.01", "0.05", "0.10", "0.20", "0.40")  # radial [mm]
 TABLE = {  # crank speed [turns/h]: (ideal acceleration [km/s^2], K_d at each play)
     10800: ("0.5708", "1.1097", "1.1778", "1.4685", "1.9632", "3.9987"),
@@ -30,17 +36,23 @@ TABLE = {  # crank speed [turns/h]: (ideal acceleration [km/s^2], K_d at each pl
 
 FRAME, CRANK, COUPLER, ROCKER, ARM, BETA = 0.484, 0.066, 0.158, 0.424, 0.161, 1.536
 TIP = ROCKER - ARM * np.exp(1j * BETA)  # BETA between the arms from B to O4 and from B to the knife's edge
-CASE = 28800  # the speed at which the damping is calibrated [turns/h]
-CALIBRATED = {"0.01": 1.49e-7, "0.05": 5.55e-6, "0.10": 2.71e-5, "0.20": 8.89e-5, "0.40": 1.95e-4}  # damping of each link [N m s/rad]
-CELLS = tuple((CASE, play) for play in PLAYS) + tuple((speed, play) for speed in (10800, 41400) for play in ("0.20", "0.40"))
-STATED, CONSTANT = 0.1, CALIBRATED["0.20"]
-STIFF = 5e3  # damping over the square of the play [N s/m] above which the explicit integrator is the slower one
+CALIBRATION_SPEED = 28800  # the speed at which the damping is calibrated [turns/h]
+CALIBRATED_DAMPING = {
+    "0.01": 1.49e-7,
+    "0.05": 5.55e-6,
+    "0.10": 2.71e-5,
+    "0.20": 8.89e-5,
+    "0.40": 1.95e-4,
+}  # damping of each link [N m s/rad]
+CELLS = tuple((CALIBRATION_SPEED, play) for play in PLAYS) + tuple((speed, play) for speed in (10800, 41400) for play in ("0.20", "0.40"))
+STATED_DAMPING, CONSTANT_DAMPING = 0.1, CALIBRATED_DAMPING["0.20"]
+EXPLICIT_DAMPING_LIMIT = 5e3  # damping over the square of the play [N s/m] above which the explicit integrator is the slower one
 
 DATA = (
     "Table 1: crank 66 mm, coupler 158 mm, 1.113 kg, 2316 kg mm^2, centroid at 79 mm, rocker 424 mm, knife arm 161 mm, beta = 1.536 "
     "rad, 6.883 kg, 4.487e5 kg mm^2, centroid at 243 mm, frame 484 mm"
 )
-PATH = "beta is the interior angle at B"
+BETA_READING = "beta is the interior angle at B"
 LINKS = (
     "r is radial; no play at O2 (r1 = 0), crank 1 kg; the knife rod's inertia is about its pivot, its centroid on the line O4-B; "
     "gravity square to the frame; links start at 0.2, 3.0 and 0.3 rad, at rest; 16 turns of which 5 are discarded; the output is the "
@@ -60,14 +72,14 @@ NOT_A_TARGET = (
 )
 
 
-def rows():
+def rows() -> Iterator[Row]:
     """Ideal mechanism, impact load coefficients, equation 2."""
     yield from _ideal()
     yield from _loads()
     yield from _equation_2()
 
 
-def folder(speed, play, damping, **simulate):
+def folding_spec(speed: float, play: str, damping: float, **simulate: object) -> LinkageSpec:
     """The spec at a crank speed [turns/h], a radial play [mm] in A, B and O4, and a damping of the massless links [N m s/rad]."""
     link = {"kind": "revolute", "model": "massless-link", "clearance": f"{play} mm", "link_damping": f"{damping} N m s/rad"}
     pins = (("A", "crank", "coupler", 0.2), ("B", "coupler", "knife", 3.0), ("O4", "knife", "ground", 0.3))
@@ -107,20 +119,20 @@ def folder(speed, play, damping, **simulate):
     )
 
 
-def load_coefficients(points):
+def load_coefficients(points: Sequence[Point]) -> list[float]:
     """K_d of the knife for (speed, play, damping) each, in threads, to three digits."""
-    found = cases.run(_load_coefficient, points, workers=None)
-    return [digits(row.value) for row in found.rows]
+    outcomes = cases.run(_load_coefficient, points, workers=None)
+    return [round_digits(row.value) for row in outcomes.rows]
 
 
-def _load_coefficient(point):
+def _load_coefficient(point: Point) -> float:
     speed, play, damping = point
-    stiff = damping > STIFF * (1e-3 * float(play)) ** 2
-    model = build(folder(*point, method="radau" if stiff else "dopri5"))
+    stiff = damping > EXPLICIT_DAMPING_LIMIT * (1e-3 * float(play)) ** 2
+    model = build(folding_spec(*point, method="radau" if stiff else "dopri5"))
     return many.load_of(model, model.spec.outputs[0])[0]
 
 
-def digits(value, count=3):
+def round_digits(value: float, count: int = 3) -> float:
     """To as many digits as another computer would repeat."""
     return float(f"{value:.{count}g}")
 
@@ -128,20 +140,20 @@ def digits(value, count=3):
 # -- ideal mechanism -----------------------------------------------------------------------------------------------------------
 
 
-def bar():
+def ideal_four_bar() -> FourBar:
     """Lengths only, pins without play."""
     return FourBar(np.array([FRAME, CRANK, COUPLER, ROCKER]), np.ones(3), np.ones(2), np.zeros(3), np.zeros(4))
 
 
-def edge_acceleration():
+def edge_acceleration() -> float:
     """Largest acceleration of the knife's edge over the square of the crank's speed [m]."""
-    _, v, a = ideal_motion(bar(), np.linspace(0, TURN, 36001))
+    _, v, a = ideal_motion(ideal_four_bar(), np.linspace(0, TURN, 36001))
     return float(np.max(abs(TIP) * np.hypot(a[ROCKER_TURN].real, v[ROCKER_TURN].real ** 2)))
 
 
-def _ideal():
+def _ideal() -> Iterator[Row]:
     edge = edge_acceleration()
-    about = {"kind": "published table", "where": "Table 2", "inputs": DATA}
+    common: dict[str, Any] = {"kind": "published table", "where": "Table 2", "inputs": DATA}
     for speed, (text, *_) in TABLE.items():
         yield Row(
             f"ideal acceleration at {speed} r/h",
@@ -149,9 +161,9 @@ def _ideal():
             edge * (TURN * speed / 3600) ** 2,
             "m/s^2",
             pinned=OPEN,
-            assumed=PATH,
+            assumed=BETA_READING,
             note=NO_READING,
-            **about,
+            **common,
         )
     yield Row(
         "ideal acceleration over crank speed squared, all rows",
@@ -159,20 +171,21 @@ def _ideal():
         edge,
         "m",
         pinned=OPEN,
-        assumed=PATH,
+        assumed=BETA_READING,
         note=NO_READING,
-        **about,
+        **common,
     )
     first, last = printed_acceleration(10800), printed_acceleration(41400)
     ratio = Printed("8.3880/0.5708", last.low / first.high, last.high / first.low)
-    yield Row("ideal acceleration, 41400 over 10800 r/h", ratio, (41400 / 10800) ** 2, "-", pinned=AGREES, **about)
+    yield Row("ideal acceleration, 41400 over 10800 r/h", ratio, (41400 / 10800) ** 2, "-", pinned=AGREES, **common)
 
 
-def printed_acceleration(speed):
+def printed_acceleration(speed: int) -> Printed:
+    """The ideal acceleration in Table 2 at a crank speed [turns/h]."""
     return rounded(f"{TABLE[speed][0]} km/s^2", "m/s^2")
 
 
-def common_factor():
+def common_factor() -> Printed:
     """What all eleven printed accelerations have in common over the square of the speed [m], as a `Printed`."""
     bounds = np.array([np.array(printed_acceleration(speed)[1:]) / (TURN * speed / 3600) ** 2 for speed in TABLE])
     low, high = bounds[:, 0].max(), bounds[:, 1].min()
@@ -182,25 +195,25 @@ def common_factor():
 # -- impact load coefficients --------------------------------------------------------------------------------------------------
 
 
-def _loads():
-    stated = [(CASE, "0.20", STATED)]
-    constant = [(CASE, play, CONSTANT) for play in PLAYS]
-    calibrated = [(speed, play, CALIBRATED[play] * speed / CASE) for speed, play in CELLS]
+def _loads() -> Iterator[Row]:
+    stated = [(CALIBRATION_SPEED, "0.20", STATED_DAMPING)]
+    constant = [(CALIBRATION_SPEED, play, CONSTANT_DAMPING) for play in PLAYS]
+    calibrated = [(speed, play, CALIBRATED_DAMPING[play] * speed / CALIBRATION_SPEED) for speed, play in CELLS]
     ours = iter(load_coefficients(stated + constant + calibrated))
-    about = {"unit": "-", "pinned": OPEN, "kind": "published table", "where": "Table 2", "inputs": DATA, "assumed": LINKS}
+    common: dict[str, Any] = {"unit": "-", "pinned": OPEN, "kind": "published table", "where": "Table 2", "inputs": DATA, "assumed": LINKS}
     for (speed, play, _), name, note in [
         (stated[0], "damping as stated", NO_DAMPING),
         *((p, "one damping", NO_DAMPING) for p in constant),
         *((p, "damping calibrated", NOT_A_TARGET) for p in calibrated),
     ]:
         cell = rounded(TABLE[speed][1 + PLAYS.index(play)], "-")
-        yield Row(f"K_d at {speed} r/h, r = {play} mm, {name}", cell, next(ours), note=note, **about)
+        yield Row(f"K_d at {speed} r/h, r = {play} mm, {name}", cell, next(ours), note=note, **common)
 
 
 # -- equation 2 ----------------------------------------------------------------------------------------------------------------
 
 
-def root_argument(crank, corrected):
+def root_argument(crank: Floats, corrected: bool) -> tuple[Floats, Floats, Floats]:
     """(C, D, D^2 - C^2 + 1) of eq. (2) with ideal pins, as printed or corrected."""
     a, b = FRAME - CRANK * np.cos(crank), CRANK * np.sin(crank)
     if corrected:
@@ -210,7 +223,7 @@ def root_argument(crank, corrected):
     return c, b / a, (b / a) ** 2 - c**2 + 1
 
 
-def loop_miss(crank):
+def loop_closure_error(crank: Floats) -> Floats:
     """How far the loop stays open with the corrected eq. (2) and eq. (3) [m]."""
     c, d, root = root_argument(crank, True)
     sine = (-c * d + np.sqrt(root)) / (d**2 + 1)
@@ -219,9 +232,9 @@ def loop_miss(crank):
     return np.abs(CRANK * np.exp(1j * crank) + COUPLER * np.exp(1j * third) + ROCKER * np.exp(1j * fourth) - FRAME)
 
 
-def _equation_2():
+def _equation_2() -> Iterator[Row]:
     crank = np.linspace(0, TURN, 36000, endpoint=False)
-    about = {"kind": "closed form", "where": "eq. (2)", "inputs": DATA}
+    common: dict[str, Any] = {"kind": "closed form", "where": "eq. (2)", "inputs": DATA}
     share = [float(np.mean(root_argument(crank, corrected)[2] < 0)) for corrected in (False, True)]
     misprint = Explanation("Misprint: C must be (A^2 + B^2 + l4^2 - l3^2)/(2 A l4), and the product C D carries a minus sign.", share[1])
     yield Row(
@@ -231,10 +244,15 @@ def _equation_2():
         "-",
         pinned=EXPLAINED,
         explanation=misprint,
-        **about,
+        **common,
     )
     yield Row(
-        "loop left open, eq. (2) corrected", Printed("0, implied", 0.0, 1e-14), float(loop_miss(crank).max()), "m", pinned=AGREES, **about
+        "loop left open, eq. (2) corrected",
+        Printed("0, implied", 0.0, 1e-14),
+        float(loop_closure_error(crank).max()),
+        "m",
+        pinned=AGREES,
+        **common,
     )
 
 

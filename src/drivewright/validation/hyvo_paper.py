@@ -3,15 +3,19 @@
 The paper prints its tables and trends, but no mass, no flank, no material curve and no drawing: a trend is taken as an interval.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 
 from drivewright import fatigue
+from drivewright._typing import Floats
 from drivewright.chains import closure, meshing
+from drivewright.chains.closure.drive import Strands
 from drivewright.chains.dynamics.model import Chain, Contact, Drive, Model, Slide, Sprocket
-from drivewright.chains.implicit.equilibrium import equilibrium
+from drivewright.chains.implicit.equilibrium import Equilibrium, equilibrium
 from drivewright.chains.link import link, seat_support
 from drivewright.chains.stress import rolling
 from drivewright.chains.tooth import Tooth
@@ -19,7 +23,7 @@ from drivewright.validation.source import AGREES, EXPLAINED, OPEN, Explanation, 
 
 MM = 1e-3
 P, Z1, Z2, LINKS = 9.525 * MM, 35, 37, 82
-NEW, CLASSICAL = (1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6), 7.4  # rolling radii in mm
+NEW_RADII, CLASSICAL_RADIUS = (1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6), 7.4  # rolling radii in mm
 TABLE = {
     1.0: ("11.525", "0.258794"),
     1.1: ("11.725", "0.263285"),
@@ -37,12 +41,12 @@ DRIVE = f"{CHAIN}, 82 links, 2000 rpm, 150 N, contact stiffness 100 000 and damp
 PINS = "200 N in the tight strand, 38CrMoAl with a yield stress of 835 MPa, groups 3 and control"
 MASSES = "contact stiffness in N/mm, three contacts in line in a joint, half of the 150 N in each strand"
 FORCES = "pins that touch over 6 mm, E = 206 GPa, Poisson's ratio 0.3"
-CARD = "uniform material law for Rm = 980 MPa, stress repeated from 0, Brown and Miller's shear plane, mean stress after Morrow"
+MATERIAL_CARD = "uniform material law for Rm = 980 MPa, stress repeated from 0, Brown and Miller's shear plane, mean stress after Morrow"
 BELOW_ONE, ABOVE_ONE = (-np.inf, np.nextafter(1.0, 0.0)), (np.nextafter(1.0, 2.0), np.inf)
 GROWS, SMALLER = Printed("grows: above 0", np.nextafter(0.0, 1.0), np.inf), Printed("below 1", *BELOW_ONE)
 
 
-def rows():
+def rows() -> Iterator[Row]:
     """Section 4.3, Table 2, Figs. 7 and 8, section 5, section 6, conclusions."""
     yield from _pitches()
     yield from _table()
@@ -54,17 +58,17 @@ def rows():
     yield from _lives()
 
 
-def offset(radius):
+def pin_offset(radius: float) -> float:
     """Pin offset of a group [m] by (21)."""
     return meshing.matching_offset(P, radius * MM, Z1)
 
 
-def deviation(radius):
+def pitch_deviation(radius: float) -> float:
     """delta_p2 of a group  (22)  [m]."""
-    return meshing.pitch_deviation(P, radius * MM, offset(radius), Z2)
+    return meshing.pitch_deviation(P, radius * MM, pin_offset(radius), Z2)
 
 
-def between(radius, e):
+def seated_pitch_difference(radius: float, e: float) -> float:
     """pp2'' - pp1''  (25)  [m]."""
     seats = [meshing.seated_pitch(meshing.hole_pitch(P, radius * MM), radius * MM, e, teeth) for teeth in (Z2, Z1)]
     return seats[0] - seats[1]
@@ -73,36 +77,38 @@ def between(radius, e):
 # -- section 4.3 ---------------------------------------------------------------------------------------------------------------
 
 
-def _pitches():
-    about = {"pinned": AGREES, "kind": "closed form", "where": "section 4.3", "inputs": CHAIN}
+def _pitches() -> Iterator[Row]:
+    common: dict[str, Any] = {"pinned": AGREES, "kind": "closed form", "where": "section 4.3", "inputs": CHAIN}
     for number, teeth, printed in ((1, Z1, "0.1795"), (2, Z2, "0.1698")):
-        yield Row(f"pitch angle phi{number}, in rad", rounded(printed, "-"), 2 * np.pi / teeth, "-", **about)
-    seated = meshing.seated_pitch(meshing.hole_pitch(P, MM), MM, offset(1.0), Z1)
-    cut = Explanation("Cut off after the sixth digit, not rounded.", float(np.floor(seated * 1e9) * 1e-9))
-    yield Row("seated pitch pp1'' = pp01''", rounded("9.563499 mm", "m"), seated, "m", explanation=cut, **about | {"pinned": EXPLAINED})
-    yield Row("constant k", rounded("11.464849", "-"), meshing.pitch_constant(Z1, Z2), "-", **about)
-    yield Row("boundary radius r10", rounded("5.0548 mm", "m"), meshing.boundary_radius(P, Z1, Z2), "m", **about)
-    yield Row("reference deviation delta12", rounded("0.00406 mm", "m"), meshing.reference_deviation(P, Z1, Z2), "m", **about)
-    yield Row("2000 rpm in rad/s, over pi", rounded("66.7", "-"), 2000 / 30, "-", **about | {"where": "section 6"})
+        yield Row(f"pitch angle phi{number}, in rad", rounded(printed, "-"), 2 * np.pi / teeth, "-", **common)
+    seated = meshing.seated_pitch(meshing.hole_pitch(P, MM), MM, pin_offset(1.0), Z1)
+    truncated = Explanation("Cut off after the sixth digit, not rounded.", float(np.floor(seated * 1e9) * 1e-9))
+    explained: dict[str, Any] = common | {"pinned": EXPLAINED, "explanation": truncated}
+    yield Row("seated pitch pp1'' = pp01''", rounded("9.563499 mm", "m"), seated, "m", **explained)
+    yield Row("constant k", rounded("11.464849", "-"), meshing.pitch_constant(Z1, Z2), "-", **common)
+    yield Row("boundary radius r10", rounded("5.0548 mm", "m"), float(meshing.boundary_radius(P, Z1, Z2)), "m", **common)
+    yield Row("reference deviation delta12", rounded("0.00406 mm", "m"), meshing.reference_deviation(P, Z1, Z2), "m", **common)
+    common["where"] = "section 6"
+    yield Row("2000 rpm in rad/s, over pi", rounded("66.7", "-"), 2000 / 30, "-", **common)
 
 
-def _table():
-    about = {"pinned": AGREES, "kind": "published table", "where": "Table 2", "inputs": CHAIN}
-    for number, radius in enumerate(NEW, 1):
+def _table() -> Iterator[Row]:
+    common: dict[str, Any] = {"pinned": AGREES, "kind": "published table", "where": "Table 2", "inputs": CHAIN}
+    for number, radius in enumerate(NEW_RADII, 1):
         hole, pin = (rounded(f"{text} mm", "m") for text in TABLE[radius])
-        yield Row(f"hole pitch A, group {number}", hole, meshing.hole_pitch(P, radius * MM), "m", **about)
-        yield Row(f"pin offset e, group {number}", pin, offset(radius), "m", **about)
-    about["pinned"] = OPEN
+        yield Row(f"hole pitch A, group {number}", hole, meshing.hole_pitch(P, radius * MM), "m", **common)
+        yield Row(f"pin offset e, group {number}", pin, pin_offset(radius), "m", **common)
+    common["pinned"] = OPEN
     yield Row(
         "hole pitch A, control group",
         rounded("8.16 mm", "m"),
-        meshing.hole_pitch(P, CLASSICAL * MM),
+        meshing.hole_pitch(P, CLASSICAL_RADIUS * MM),
         "m",
         note="Eq. (1) is for round pins, whose centres are those of the holes. Where those of the classical chain lie is not "
         "drawn; its motion depends on the radius of the rolling arcs and the pitch alone.",
-        **about,
+        **common,
     )
-    best = float(np.arcsin(offset(CLASSICAL) / (CLASSICAL * MM)))
+    best = float(np.arcsin(pin_offset(CLASSICAL_RADIUS) / (CLASSICAL_RADIUS * MM)))
     yield Row(
         "angle gamma without deviation on the driver, control group",
         rounded("3.667 deg", "rad"),
@@ -110,14 +116,14 @@ def _table():
         "rad",
         note="The control group is said to have 'the optimal parameter values'; what they are optimal for is not said. With "
         "e = R sin(gamma) it deviates on both sprockets.",
-        **about,
+        **common,
     )
 
 
-def _slopes():
-    about = {"pinned": AGREES, "kind": "closed form", "inputs": CHAIN}
-    for name, curve, figure in (("e", offset, "Fig. 7"), ("delta_p2", deviation, "Fig. 8")):
-        values = np.array([curve(radius) for radius in NEW])
+def _slopes() -> Iterator[Row]:
+    common: dict[str, Any] = {"pinned": AGREES, "kind": "closed form", "inputs": CHAIN}
+    for name, curve, figure in (("e", pin_offset, "Fig. 7"), ("delta_p2", pitch_deviation, "Fig. 8")):
+        values = np.array([curve(radius) for radius in NEW_RADII])
         off = np.max(np.abs(values - np.linspace(values[0], values[-1], len(values)))) / np.ptp(values)
         yield Row(
             f"departure of {name} from a straight line, over its range",
@@ -125,19 +131,22 @@ def _slopes():
             round(float(off), 9),
             "-",
             where=figure,
-            **about,
+            **common,
         )
     yield Row(
         "slope of e over r1",
         Printed("groups 1, 7: 0.044910", 0.044908, 0.044912),
-        (offset(1.6) - offset(1.0)) / (0.6 * MM),
+        (pin_offset(1.6) - pin_offset(1.0)) / (0.6 * MM),
         "-",
         where="Fig. 7",
-        **about,
+        **common,
     )
     c1, c2 = np.cos(np.pi / Z1), np.cos(np.pi / Z2)
-    partial, total = ((between(1.6, e) - between(1.0, offset(1.0))) / (6e-5 * MM) for e in (offset(1.0), offset(1.6)))
-    held = Explanation(
+    partial, total = (
+        (seated_pitch_difference(1.6, e) - seated_pitch_difference(1.0, pin_offset(1.0))) / (6e-5 * MM)
+        for e in (pin_offset(1.0), pin_offset(1.6))
+    )
+    partial_derivative = Explanation(
         "(29) holds e fixed; e grows with r1 by (21), so that the slope is 1 - k tan(pi/(2 z1)) = 0.48511 of it. The sign, "
         "and so the conclusion, stays.",
         float(partial),
@@ -149,21 +158,21 @@ def _slopes():
         float(total),
         "-",
         where="eq. (29)",
-        explanation=held,
-        **about | {"pinned": EXPLAINED},
+        explanation=partial_derivative,
+        **common | {"pinned": EXPLAINED},
     )
 
 
-def _radii():
-    about = {"pinned": AGREES, "kind": "closed form", "inputs": CHAIN, "unit": "-"}
+def _radii() -> Iterator[Row]:
+    common: dict[str, Any] = {"pinned": AGREES, "kind": "closed form", "inputs": CHAIN, "unit": "-"}
     reference = meshing.reference_deviation(P, Z1, Z2)
-    classical = abs(meshing.pitch_deviation(P, CLASSICAL * MM, CLASSICAL * MM * np.sin(np.radians(3.667)), Z2))
+    classical = abs(meshing.pitch_deviation(P, CLASSICAL_RADIUS * MM, CLASSICAL_RADIUS * MM * np.sin(np.radians(3.667)), Z2))
     yield Row(
         "largest delta_p2 of groups 1 to 7 over delta12",
         Printed("below 1, eq. (30)", *BELOW_ONE),
-        max(map(deviation, NEW)) / reference,
+        max(map(pitch_deviation, NEW_RADII)) / reference,
         where="Fig. 8",
-        **about,
+        **common,
     )
     yield Row(
         "delta_p2 of the control group over delta12",
@@ -171,7 +180,7 @@ def _radii():
         classical / reference,
         where="eq. (31)",
         assumed="arcs of 7.4 mm with e = R sin(gamma)",
-        **about,
+        **common,
     )
     note = (
         "'Unconditionally' is for this pitch and these teeth, and says no more than delta_p2 < delta12. For z1 = z2, delta12 is 0 and "
@@ -180,12 +189,12 @@ def _radii():
     yield Row(
         "largest radius that holes allow, 1.6 mm, over r10",
         Printed("below 1, unconditionally", *BELOW_ONE),
-        1.6 * MM / meshing.boundary_radius(P, Z1, Z2),
+        float(1.6 * MM / meshing.boundary_radius(P, Z1, Z2)),
         where="section 4.3",
         note=note,
-        **about,
+        **common,
     )
-    falls = Explanation(
+    not_monotone = Explanation(
         "At r10 the deviations on the driven sprocket are equal, no more: there p'' has its greatest value between the two "
         "seats. p'' of a matched chain grows up to the driver's seat below p/(2 cos(pi/z1))."
     )
@@ -193,9 +202,9 @@ def _radii():
         "radius below which p'' grows with the angle up to the seat",
         rounded("5.0548 mm", "m"),
         meshing.monotone_radius(P, Z1),
-        explanation=falls,
+        explanation=not_monotone,
         where="conclusion 2",
-        **about | {"unit": "m", "pinned": EXPLAINED},
+        **common | {"unit": "m", "pinned": EXPLAINED},
     )
 
 
@@ -203,13 +212,13 @@ def _radii():
 
 
 @cache
-def rigid(radius, strands="equilibrium"):
+def rigid_closure(radius: float, strands: Strands = "equilibrium") -> closure.Closure:
     """Closure of a group over a tooth."""
     return closure.close(closure.Drive(link(P, radius * MM, np.pi / 6, 0.0), Z1, Z2, LINKS, strands))
 
 
 @cache
-def yielding(radius):
+def elastic_equilibrium(radius: float) -> Equilibrium:
     """Equilibrium of a group with the paper's contact stiffness and force; the same outer flank for all, as in the paper."""
     joint = link(P, radius * MM, np.pi / 6, (2.6 + (1.2 - radius) * np.cos(np.pi / 6)) * MM)
     plates = Chain(joint, LINKS, 2.5e-3, 6.4e-8, STIFFNESS / 3)  # at rest, masses do not matter
@@ -221,16 +230,16 @@ def yielding(radius):
 
 
 ROUTES = {
-    "straight strands": lambda radius: rigid(radius, "straight"),
-    "strands in equilibrium": rigid,
-    "joints and teeth that yield": yielding,
+    "straight strands": lambda radius: rigid_closure(radius, "straight"),
+    "strands in equilibrium": rigid_closure,
+    "joints and teeth that yield": elastic_equilibrium,
 }
 
 
-def _distances():
-    about = {"kind": "other code", "inputs": DRIVE, "unit": "m"}
-    first, last = rigid(1.0, "straight").mean, rigid(1.6).mean
-    cut = Explanation(
+def _distances() -> Iterator[Row]:
+    common: dict[str, Any] = {"kind": "other code", "inputs": DRIVE, "unit": "m"}
+    first, last = rigid_closure(1.0, "straight").mean, rigid_closure(1.6).mean
+    truncated = Explanation(
         f"Cut off, not rounded, it is the mean of the rigid drive of group 1. Those of all groups lie from {1e3 * first:.4f} "
         f"to {1e3 * last:.4f} mm, and that of hinges (r1 = 0) is 219.0540 mm. How it was chosen is not said.",
         float(np.floor(first * 1e6) * 1e-6),
@@ -241,22 +250,23 @@ def _distances():
         first,
         where="section 5.1",
         pinned=EXPLAINED,
-        explanation=cut,
+        explanation=truncated,
         assumed="mean over a tooth, rigid, straight strands, group 1",
-        **about,
+        **common,
     )
-    about["where"] = "section 5.2"
+    common["where"] = "section 5.2"
     apart = round(219.136037 - 219.115892, 9) * MM
-    yield Row("fluctuation from the printed extremes", rounded("0.020145 mm", "m"), apart, pinned=AGREES, **about)
-    rest = yielding(CLASSICAL)
-    about |= {
+    yield Row("fluctuation from the printed extremes", rounded("0.020145 mm", "m"), apart, pinned=AGREES, **common)
+    rest = elastic_equilibrium(CLASSICAL_RADIUS)
+    common |= {
         "pinned": OPEN,
         "assumed": MASSES,
         "note": (
             "Does not follow from the data given: masses, friction, damping and its exponents, and the driven sprocket are not printed. At "
-            f"rest the rigid drive has {1e3 * rigid(CLASSICAL).mean:.4f} mm and yielding adds the rest. Our four runs of 0.3 s at 2000 rpm "
-            "with links of 2.5 g, a sprocket of 0.6 kg and little damping have a mean of 219.1673 mm (219.1670 to 219.1676) and fluctuate "
-            "by 2.7 um (2.4 to 3.0) in a revolution of the chain. Most of a running deviation is compliance, a choice of the model."
+            f"rest the rigid drive has {1e3 * rigid_closure(CLASSICAL_RADIUS).mean:.4f} mm and yielding adds the rest. Our four runs of "
+            "0.3 s at 2000 rpm with links of 2.5 g, a sprocket of 0.6 kg and little damping have a mean of 219.1673 mm (219.1670 to "
+            "219.1676) and fluctuate by 2.7 um (2.4 to 3.0) in a revolution of the chain. Most of a running deviation is compliance, a "
+            "choice of the model."
         ),
     }
     distance = rest.centre_distance
@@ -266,7 +276,7 @@ def _distances():
         ("fluctuation", "0.020145", rest.fluctuation),
         ("mean centre distance", "219.1256", rest.mean),
     ):
-        yield Row(f"{name}, control group at rest", rounded(f"{printed} mm", "m"), float(ours), **about)
+        yield Row(f"{name}, control group at rest", rounded(f"{printed} mm", "m"), float(ours), **common)
     typo = Explanation("Misprint of 219.056 mm.", (219.1256 - 219.056) * MM)
     yield Row(
         "running deviation, 219.1256 - 19.056",
@@ -281,11 +291,11 @@ def _distances():
     )
 
 
-SOFT = (
+ELASTIC_NOTE = (
     "True of rigid drives alone. With joints and teeth of the paper's stiffness, at rest under the paper's force, the order is the "
     "opposite: 2.5 um for group 1, 2.1 um for group 7, and 2.4 um for the control group."
 )
-RUNNING = (
+RUNNING_NOTE = (
     "At 2000 rpm, with assumed masses and little damping, four runs of 0.3 s fluctuate in a revolution of the chain by 5.1 um (95 %: 4.9 "
     "to 5.3), 5.7 (5.4 to 6.1) and 6.6 (5.9 to 7.2) for groups 1, 4 and 7, growing, but by 2.7 um (2.4 to 3.0) for the control group, "
     "against the claim; the mesh frequency has 0.2 to 0.5 um of it. How far joints resist articulation decides that, 0.3 % of critical "
@@ -294,35 +304,42 @@ RUNNING = (
 )
 
 
-def _trends():
-    for route, found in ROUTES.items():
-        groups, control = [found(radius) for radius in NEW], found(CLASSICAL)
-        about = {"kind": "other code", "inputs": DRIVE, "unit": "-", "assumed": MASSES if found is yielding else "rigid plates, no load"}
-        yield from _fluctuations(route, np.array([each.fluctuation for each in groups]), control.fluctuation, about)
-        yield from _deviations(route, np.array([each.mean for each in groups]) - 219.056e-3, control.mean - 219.056e-3, about)
+def _trends() -> Iterator[Row]:
+    for route, compute in ROUTES.items():
+        groups, control = [compute(radius) for radius in NEW_RADII], compute(CLASSICAL_RADIUS)
+        common: dict[str, Any] = {
+            "kind": "other code",
+            "inputs": DRIVE,
+            "unit": "-",
+            "assumed": MASSES if compute is elastic_equilibrium else "rigid plates, no load",
+        }
+        yield from _fluctuations(route, np.array([each.fluctuation for each in groups]), control.fluctuation, common)
+        yield from _deviations(route, np.array([each.mean for each in groups]) - 219.056e-3, control.mean - 219.056e-3, common)
 
 
-def _fluctuations(route, groups, control, about):
-    soft = "yield" in route
-    about = about | {"where": "Fig. 11", "pinned": EXPLAINED if soft else AGREES, "note": "" if soft else RUNNING}
+def _fluctuations(route: str, groups: Floats, control: float, common: dict[str, Any]) -> Iterator[Row]:
+    elastic = "yield" in route
+    common = common | {"where": "Fig. 11", "pinned": EXPLAINED if elastic else AGREES, "note": "" if elastic else RUNNING_NOTE}
     for name, claim, ours, stiff in (
-        ("least growth of the fluctuation from group to group, in um", GROWS, np.diff(groups).min() * 1e6, _growth()),
-        ("largest fluctuation of groups 1 to 7 over control", SMALLER, groups.max() / control, _lead()),
+        ("least growth of the fluctuation from group to group, in um", GROWS, np.diff(groups).min() * 1e6, _least_fluctuation_growth()),
+        ("largest fluctuation of groups 1 to 7 over control", SMALLER, groups.max() / control, _fluctuation_ratio()),
     ):
-        yield Row(f"{name}, {route}", claim, round(float(ours), 5), explanation=Explanation(SOFT, stiff) if soft else None, **about)
+        yield Row(
+            f"{name}, {route}", claim, round(float(ours), 5), explanation=Explanation(ELASTIC_NOTE, stiff) if elastic else None, **common
+        )
 
 
-def _growth():
-    return float(np.diff([rigid(radius).fluctuation for radius in NEW]).min() * 1e6)
+def _least_fluctuation_growth() -> float:
+    return float(np.diff([rigid_closure(radius).fluctuation for radius in NEW_RADII]).min() * 1e6)
 
 
-def _lead():
-    return max(rigid(radius).fluctuation for radius in NEW) / rigid(CLASSICAL).fluctuation
+def _fluctuation_ratio() -> float:
+    return max(rigid_closure(radius).fluctuation for radius in NEW_RADII) / rigid_closure(CLASSICAL_RADIUS).fluctuation
 
 
-def _deviations(route, groups, control, about):
+def _deviations(route: str, groups: Floats, control: float, common: dict[str, Any]) -> Iterator[Row]:
     line = np.linspace(groups[0], groups[-1], len(groups))
-    about = about | {"where": "Figs. 12, 13", "pinned": AGREES}
+    common = common | {"where": "Figs. 12, 13", "pinned": AGREES}
     for name, claim, ours in (
         ("least growth of the running deviation from group to group, in um", GROWS, np.diff(groups).min() * 1e6),
         ("largest running deviation of groups 1 to 7 over control", SMALLER, groups.max() / control),
@@ -332,13 +349,13 @@ def _deviations(route, groups, control, about):
             np.abs(groups - line).max() / np.ptp(groups),
         ),
     ):
-        yield Row(f"{name}, {route}", claim, round(float(ours), 5), **about)
+        yield Row(f"{name}, {route}", claim, round(float(ours), 5), **common)
 
 
 # -- section 6 -----------------------------------------------------------------------------------------------------------------
 
 
-def pressed(radius):
+def pin_stresses(radius: float) -> tuple[float, float]:
     """(p0, greatest von Mises stress below the surface) of two pins of a radius [mm] under 200 N  [Pa]."""
     limits = rolling.pressure_limits(YIELD, POISSON)
     radii = (radius * MM,) * 2
@@ -346,34 +363,36 @@ def pressed(radius):
     return pressure, pressure * YIELD / limits.first_yield
 
 
-def _pressures():
-    about = {"kind": "other code", "inputs": PINS, "assumed": FORCES, "where": "section 6.1", "pinned": EXPLAINED}
-    new, classical = pressed(1.2), pressed(CLASSICAL)
+def _pressures() -> Iterator[Row]:
+    common: dict[str, Any] = {"kind": "other code", "inputs": PINS, "assumed": FORCES, "where": "section 6.1", "pinned": EXPLAINED}
+    new, classical = pin_stresses(1.2), pin_stresses(CLASSICAL_RADIUS)
     coarse = Explanation(
         "The print leaves out the contact itself: elements of 0.138 mm cannot hold a contact that is 0.030 mm wide (0.074 mm for the "
         f"control group). Hertz's pressure of 200 N over 6 mm is {new[0] / 1e6:.0f} MPa for pins of 1.2 mm and {classical[0] / 1e6:.0f} "
         "MPa for those of 7.4 mm."
     )
     for name, printed, ours in (("group 3", "162.026855", new), ("control group", "245.183578", classical)):
-        yield Row(f"greatest stress of a pin, {name}", rounded(f"{printed} MPa", "Pa"), ours[1], "Pa", explanation=coarse, **about)
-    worse = Explanation(
+        yield Row(f"greatest stress of a pin, {name}", rounded(f"{printed} MPa", "Pa"), ours[1], "Pa", explanation=coarse, **common)
+    against_conclusion = Explanation(
         "The contact stress falls with the root of the radius: small pins have sqrt(7.4/1.2) times as much, against "
         "conclusion 4. Its stresses are those beside the contact.",
         162.026855 / 245.183578,
     )
-    yield Row("greatest stress of a pin, group 3 over control", SMALLER, new[1] / classical[1], "-", explanation=worse, **about)
+    yield Row(
+        "greatest stress of a pin, group 3 over control", SMALLER, new[1] / classical[1], "-", explanation=against_conclusion, **common
+    )
     yield Row(
         "greatest stress of a pin over yield stress, group 3",
         Printed("162 << 835: below 0.3", 0.0, 0.3),
         new[1] / YIELD,
         "-",
         explanation=coarse,
-        **about,
+        **common,
     )
 
 
 @cache
-def life(stress):
+def smooth_bar_life(stress: float) -> float:
     """Repeats of 0 .. stress [Pa] that a smooth bar endures."""
     card = fatigue.uniform_material_law(TENSILE, MODULUS, POISSON)
     history = np.zeros((2, 3, 3))
@@ -382,7 +401,7 @@ def life(stress):
 
 
 TURNS = 2000 * Z1 / LINKS  # revolutions of the chain in a minute
-PART = (
+LIFE_CASES = (
     ("plate, new chain", "1.64", 9, 303.126221, 1.0),
     ("plate, classical chain", "1.21", 8, 468.663269, 1.0),
     ("pin, new chain, in min", "4.560", 11, 162.026855, TURNS),
@@ -390,22 +409,29 @@ PART = (
 )
 
 
-def _lives():
-    about = {"kind": "other code", "where": "section 6", "inputs": "the greatest stresses printed, Brown and Miller", "unit": "-"}
+def _lives() -> Iterator[Row]:
+    common: dict[str, Any] = {
+        "kind": "other code",
+        "where": "section 6",
+        "inputs": "the greatest stresses printed, Brown and Miller",
+        "unit": "-",
+    }
     note = (
         "No material curve, mean stress or unit of the plates' lives is printed. Ours is that of the printed stress, once from 0 in a "
         "revolution of the chain; beyond 1e9 it is extrapolated."
     )
-    for name, digits, power, stress, rate in PART:
+    for name, digits, power, stress, rate in LIFE_CASES:
         _, low, high = rounded(digits, "-")
         printed = Printed(f"{digits}e{power}", low * 10.0**power, high * 10.0**power)
-        yield Row(f"life of the {name}", printed, life(stress * 1e6) / rate, pinned=OPEN, assumed=CARD, note=note, **about)
-    yield Row("life of the plates, new over classical", rounded("13.55", "-"), 1.64e9 / 1.21e8, pinned=AGREES, **about)
+        yield Row(
+            f"life of the {name}", printed, smooth_bar_life(stress * 1e6) / rate, pinned=OPEN, assumed=MATERIAL_CARD, note=note, **common
+        )
+    yield Row("life of the plates, new over classical", rounded("13.55", "-"), 1.64e9 / 1.21e8, pinned=AGREES, **common)
     slopes = [
         np.log(a / b) / np.log(t / s)
         for a, b, s, t in ((1.64e9, 1.21e8, 303.126221, 468.663269), (4.56e11, 1.164e11, 162.026855, 245.183578))
     ]
-    ours = np.log(life(303.126221e6) / life(468.663269e6)) / np.log(468.663269 / 303.126221)
+    ours = np.log(smooth_bar_life(303.126221e6) / smooth_bar_life(468.663269e6)) / np.log(468.663269 / 303.126221)
     note = (
         f"Life falls with the power {slopes[0]:.2f} of the plates' stresses and {slopes[1]:.2f} of the pins', which are lower: steel "
         f"does the contrary. Between the plates' two stresses ours is {ours:.1f}."
@@ -416,7 +442,7 @@ def _lives():
         float(slopes[1] / slopes[0]),
         pinned=OPEN,
         note=note,
-        **about,
+        **common,
     )
 
 

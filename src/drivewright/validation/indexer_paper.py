@@ -3,13 +3,16 @@
 The paper gives neither the pins' radius nor a length of the drive train; what is assumed is in the preset and said in every row.
 """
 
+from collections.abc import Iterator
 from functools import cache
+from typing import Any
 
 import numpy as np
 
 from drivewright import registry
 from drivewright.bearings import quick
 from drivewright.indexing.stiffness import statics
+from drivewright.result import Result
 from drivewright.runner import build, run
 from drivewright.spec import load
 from drivewright.validation.source import AGREES, EXPLAINED, Explanation, Printed, Row, Source, rounded
@@ -39,7 +42,7 @@ CONSTANT = (
 NOT_FOLLOWING = "Does not follow from the data given: "
 
 
-def rows():
+def rows() -> Iterator[Row]:
     """Section 3.2, section 2.3, section 4, equations (5), (6), (8)."""
     yield from _contacts()
     yield from _measured()
@@ -49,34 +52,34 @@ def rows():
 
 
 @cache
-def result(*changes):
+def indexer_result(*changes: str) -> Result[Any]:
     """Result of the preset, bonded as in the paper, with changes."""
     spec = load(registry.mechanism("indexer").presets()["default"], ('contact.model="bonded"', *changes))
     return run(spec, ("contacts", "stiffness"))
 
 
-def _contacts():
-    about = {"pinned": AGREES, "kind": "other code", "where": "section 3.2", "inputs": DATA, "assumed": "pins of 8 mm"}
-    found = result()
+def _contacts() -> Iterator[Row]:
+    common: dict[str, Any] = {"pinned": AGREES, "kind": "other code", "where": "section 3.2", "inputs": DATA, "assumed": "pins of 8 mm"}
+    found = indexer_result()
     count = dict(zip(np.round(np.degrees(found.tables["contacts"]["angle"].data), 6), found.tables["contacts"]["pins"].data, strict=True))
     note = "Pins from 7.5 to 8.5 mm give both numbers; 18.635 mm, 0.6 of the chord, leaves 3 contacts at 45 deg, none at 22.5."
-    yield Row("pins in contact at 45 deg, the fewest", rounded("7", "-"), count[45.0], "-", note=note, **about)
-    yield Row("fewest pins in contact", rounded("7", "-"), found["contacts.minimum"], "-", **about)
-    yield Row("pins in contact at 90 deg", rounded("12", "-"), count[90.0], "-", **about)
+    yield Row("pins in contact at 45 deg, the fewest", rounded("7", "-"), count[45.0], "-", note=note, **common)
+    yield Row("fewest pins in contact", rounded("7", "-"), found["contacts.minimum"], "-", **common)
+    yield Row("pins in contact at 90 deg", rounded("12", "-"), count[90.0], "-", **common)
 
 
-def _per_arcmin(text):
+def _per_arcmin(text: str) -> Printed:
     return rounded(f"{text} N m/arcmin", "N m/rad")
 
 
-def _measured():
-    about = {"pinned": EXPLAINED, "kind": "experiment", "where": "section 2.3", "inputs": DATA, "assumed": ASSUMED}
-    ours, best = result(), result(*LARGEST)["stiffness.mean"] * ARCMIN
+def _measured() -> Iterator[Row]:
+    common: dict[str, Any] = {"pinned": EXPLAINED, "kind": "experiment", "where": "section 2.3", "inputs": DATA, "assumed": ASSUMED}
+    ours, best = indexer_result(), indexer_result(*LARGEST)["stiffness.mean"] * ARCMIN
     why = (
         f"{NOT_FOLLOWING}with the printed bearings the stiffness is bounded by them: rigid shafts and gears and the widest "
         f"spacing that the cam leaves (122 mm) give a mean of {best:.0f} N m/arcmin. Inputs differ strongly, or the load or its unit does."
     )
-    yield Row("mean torsional stiffness", _per_arcmin("747.39"), ours["stiffness.mean"], "N m/rad", explanation=Explanation(why), **about)
+    yield Row("mean torsional stiffness", _per_arcmin("747.39"), ours["stiffness.mean"], "N m/rad", explanation=Explanation(why), **common)
     yield Row(
         "variation over the index period",
         _per_arcmin("186.49"),
@@ -86,7 +89,7 @@ def _measured():
             "Nearness of the numbers means nothing beside a mean that is five times ours; whether the whole range or "
             "half of it is meant is not said."
         ),
-        **about,
+        **common,
     )
     shape = (
         f"{NOT_FOLLOWING}all normals pass through the pitch point e/phi' away, so bearings that yield make the drive softest where phi' is "
@@ -98,25 +101,25 @@ def _measured():
         ours["stiffness.minimum.at"],
         "rad",
         explanation=Explanation(shape),
-        **about,
+        **common,
     )
     yield Row(
         "angle of the highest stiffness",
         Printed("about 145 deg", np.radians(140), np.radians(150)),
-        _at_most(ours),
+        _angle_of_max_stiffness(ours),
         "rad",
         explanation=Explanation(shape),
-        **about,
+        **common,
     )
 
 
-def _at_most(found):
-    table = found.tables["stiffness"]
+def _angle_of_max_stiffness(result: Result[Any]) -> float:
+    table = result.tables["stiffness"]
     return float(table["angle"].data[np.nanargmax(table["secant"].data)])
 
 
-def _constant():
-    about = {
+def _constant() -> Iterator[Row]:
+    common: dict[str, Any] = {
         "pinned": EXPLAINED,
         "kind": "other code",
         "where": "section 4, Fig. 17",
@@ -127,54 +130,58 @@ def _constant():
             "curve that follows the number of contacts needs bearings that hardly yield at all."
         ),
     }
-    ours = result(*CONSTANT)
+    ours = indexer_result(*CONSTANT)
     yield Row(
         "mean stiffness, bearings of constant stiffness",
         Printed("about 1020 N m/arcmin", 975 / ARCMIN, 1065 / ARCMIN),
         ours["stiffness.mean"],
         "N m/rad",
-        **about,
+        **common,
     )
     yield Row(
         "range, bearings of constant stiffness",
         Printed("about 90 N m/arcmin", 80 / ARCMIN, 100 / ARCMIN),
         ours["stiffness.range"],
         "N m/rad",
-        **about,
+        **common,
     )
     yield Row(
-        "highest at, bearings of constant stiffness", Printed("90 deg", np.radians(85), np.radians(95)), _at_most(ours), "rad", **about
+        "highest at, bearings of constant stiffness",
+        Printed("90 deg", np.radians(85), np.radians(95)),
+        _angle_of_max_stiffness(ours),
+        "rad",
+        **common,
     )
     yield Row(
         "lowest at, bearings of constant stiffness",
         Printed("45 deg", np.radians(40), np.radians(50)),
         ours["stiffness.minimum.at"],
         "rad",
-        **about,
+        **common,
     )
 
 
-def _formulas():
+def _formulas() -> Iterator[Row]:
     note = "It is the tangent of a power law; as a linear spring, as in the paper, it is too stiff by {} %."
-    about = {"pinned": AGREES, "kind": "closed form", "inputs": BEARINGS, "assumed": "1000 N"}
+    common: dict[str, Any] = {"pinned": AGREES, "kind": "closed form", "inputs": BEARINGS, "assumed": "1000 N"}
     roller, ball = quick.palmgren_roller(1000.0, 14, 8.5e-3), quick.palmgren_ball(1000.0, 11, 4.762e-3)
     for name, place, printed, ours, over in (
         ("NU207E", "eq. (5)", quick.liu_roller(1000.0, 14, 8.5e-3), roller, 11),
         ("61904", "eq. (6)", quick.liu_ball(1000.0, 11, 4.762e-3), ball, 50),
     ):
-        low, high = printed.value * 0.985, printed.value * 1.015
+        value = float(printed.value)
         yield Row(
             f"stiffness of the {name}, tangent of Palmgren's approach",
-            Printed(f"{place}: {printed.value / 1e3:.0f} N/mm (+- 1.5 %)", low, high),
+            Printed(f"{place}: {value / 1e3:.0f} N/mm (+- 1.5 %)", value * 0.985, value * 1.015),
             float(ours.tangent),
             "N/m",
             where=place,
             note=note.format(over),
-            **about,
+            **common,
         )
 
 
-def _crank_loads():
+def _crank_loads() -> Iterator[Row]:
     """Equation (8) as printed beside the equilibrium of the same cam."""
     changes = ('load.angle="22.5 deg"', 'contact.model="bonded"')
     spec = load(registry.mechanism("indexer").presets()["default"], changes)
@@ -185,7 +192,7 @@ def _crank_loads():
     centre = statics.cam_centre(spec.eccentricity, found.theta)
     printed = statics.crank_loads_printed(force[:, 0], centre, spec.shaft_spacing)
     corrected = statics.crank_loads(force[:, 0], moment[:, 0], centre, spec.shaft_spacing)
-    about = {"pinned": EXPLAINED, "kind": "closed form", "where": "eq. (8)", "inputs": DATA, "assumed": ASSUMED}
+    common: dict[str, Any] = {"pinned": EXPLAINED, "kind": "closed form", "where": "eq. (8)", "inputs": DATA, "assumed": ASSUMED}
     for side, name in enumerate(("R_y1", "R_y2")):
         size = abs(printed[side].imag[0])
         why = "The couple of the pins, which is the output torque itself, is missing, and R_y1 has F_y y_b for F_x y_b."
@@ -196,7 +203,7 @@ def _crank_loads():
             float(abs(found.crank_forces[0, side, 0].imag)),
             "N",
             explanation=Explanation(f"{why} Corrected: {other:.0f} N."),
-            **about,
+            **common,
         )
 
 

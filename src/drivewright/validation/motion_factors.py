@@ -1,6 +1,7 @@
 """Factors of the classical motion laws as handbooks print them, and in closed form."""
 
 import math
+from collections.abc import Iterator
 
 from drivewright import motion
 from drivewright.validation.source import AGREES, Row, Source, rounded
@@ -34,7 +35,7 @@ CLOSED = {
 }
 
 
-def rows():
+def rows() -> Iterator[Row]:
     """Printed factors of every law, then those that have a closed form."""
     for law, printed in HANDBOOK.items():
         peaks = motion.law(law).peaks()

@@ -1,6 +1,9 @@
 """The sources as one page of Markdown, for the documentation."""
 
+from collections.abc import Iterable, Iterator
+
 from drivewright import units
+from drivewright.validation.source import Row, Source
 
 HEADER = """# Validation
 
@@ -11,18 +14,18 @@ is shown to be wrong; *differs, open* otherwise.
 """
 
 
-def page(sources):
+def page(sources: Iterable[Source]) -> str:
     """Markdown with a table per source, its assumptions and its errata."""
     return "\n".join([HEADER, *(line for source in sources for line in _section(source))])
 
 
-def _section(source):
+def _section(source: Source) -> Iterator[str]:
     rows = source.rows()
-    remarks = list(dict.fromkeys(row.why for row in rows if row.why))
+    remarks = list(dict.fromkeys(row.commentary for row in rows if row.commentary))
     yield from (f"## {source.name}", "", source.citation, "", "| quantity | where | kind | printed | ours | deviation | verdict |")
     yield "|---|---|---|---|---|---|---|"
     for row in rows:
-        verdict = f"{row.verdict} [{remarks.index(row.why) + 1}]" if row.why else row.verdict
+        verdict = f"{row.verdict} [{remarks.index(row.commentary) + 1}]" if row.commentary else row.verdict
         cells = (row.name, row.where, row.kind, str(row.printed), _number(row), row.deviation_text(), verdict)
         yield f"| {' | '.join(cells)} |"
     yield ""
@@ -32,11 +35,11 @@ def _section(source):
     yield from _listed(f"Erratum: {text}" for text in source.errata)
 
 
-def _listed(lines):
+def _listed(lines: Iterable[str]) -> list[str]:
     lines = [f"- {line}" for line in lines]
     return [*lines, ""] if lines else []
 
 
-def _number(row):
+def _number(row: Row) -> str:
     factor, shown = units.display(row.unit)
     return f"{row.ours * factor:.6g}{'' if shown == '-' else ' ' + shown}"

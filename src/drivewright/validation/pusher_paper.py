@@ -1,8 +1,12 @@
 """The conjugate-cam seedling pusher of Chen et al. 2011."""
 
+from collections.abc import Iterator
+from typing import Any
+
 import numpy as np
 
 from drivewright import registry, units
+from drivewright.result import Result
 from drivewright.runner import run
 from drivewright.spec import load
 from drivewright.validation.source import AGREES, EXPLAINED, OPEN, Explanation, Printed, Row, Source, rounded
@@ -19,7 +23,7 @@ DRIVES = "the 'rise' of the return cam is the phase in which it drives"
 INTERIOR = 'train.bend_reading="interior"'
 
 
-def rows():
+def rows() -> Iterator[Row]:
     """Train and track, needle angles, cams, lever."""
     turned, interior = (_result(preset, ("train", "planting", "cams")) for preset in ("default", "paper-interior"))
     yield from _collinear(turned, interior)
@@ -30,22 +34,22 @@ def rows():
     yield from _lever(turned)
 
 
-def _result(preset, analyses, *changes):
+def _result(preset: str, analyses: tuple[str, ...], *changes: str) -> Result[Any]:
     return run(load(registry.mechanism("seedling-pusher").presets()[preset], changes), analyses)
 
 
-def _collinear(turned, interior):
-    about = {"unit": "rad", "pinned": OPEN, "kind": "published table", "where": "section 2.2.1 (2), Fig. 4"}
-    about |= {"inputs": SECOND, "assumed": BEND}
-    about["note"] = (
+def _collinear(turned: Result[Any], interior: Result[Any]) -> Iterator[Row]:
+    common: dict[str, Any] = {"unit": "rad", "pinned": OPEN, "kind": "published table", "where": "section 2.2.1 (2), Fig. 4"}
+    common |= {"inputs": SECOND, "assumed": BEND}
+    common["note"] = (
         "A reading off the figure is likely but cannot be shown: 253 deg needs k = 0.9874 or a bend of 87.28 deg, which the "
         "printed digits exclude."
     )
     for name, result in (("turned", turned), ("interior", interior)):
-        yield Row(f"planet collinear, bend {name}", rounded("253 deg", "rad"), result["train.collinear_angle"], **about)
+        yield Row(f"planet collinear, bend {name}", rounded("253 deg", "rad"), result["train.collinear_angle"], **common)
 
 
-def _lowest(turned, interior):
+def _lowest(turned: Result[Any], interior: Result[Any]) -> Iterator[Row]:
     first, reached = (_result("paper-104", ("train",), *changes)["tip.lowest_angle"] for changes in ((), (INTERIOR,)))
     timing = Explanation(
         "The timing is printed with the first set; that set, with the bend read as the interior angle, is lowest at "
@@ -53,30 +57,36 @@ def _lowest(turned, interior):
         reached,
     )
     chosen = "Several references of alpha0 were tried, so this agreement was partly selected."
-    about = {"unit": "rad", "kind": "published table", "where": "sections 2.1 and 4: the push ends at the lowest point"}
-    second, printed = {"inputs": SECOND, "assumed": TIP} | about, rounded("86 deg", "rad")
-    about |= {"inputs": FIRST, "assumed": TIP_104}
+    common: dict[str, Any] = {"unit": "rad", "kind": "published table", "where": "sections 2.1 and 4: the push ends at the lowest point"}
+    second, printed = {"inputs": SECOND, "assumed": TIP} | common, rounded("86 deg", "rad")
+    common |= {"inputs": FIRST, "assumed": TIP_104}
     yield Row("tip lowest, bend turned", printed, turned["tip.lowest_angle"], pinned=EXPLAINED, explanation=timing, **second)
     yield Row("tip lowest, bend interior", printed, interior["tip.lowest_angle"], pinned=EXPLAINED, explanation=timing, **second)
-    yield Row("tip lowest, first set, bend turned", printed, first, pinned=EXPLAINED, explanation=timing, **about)
-    yield Row("tip lowest, first set, bend interior", printed, reached, pinned=AGREES, note=chosen, **about)
+    yield Row("tip lowest, first set, bend turned", printed, first, pinned=EXPLAINED, explanation=timing, **common)
+    yield Row("tip lowest, first set, bend interior", printed, reached, pinned=AGREES, note=chosen, **common)
 
 
-def _needle(turned):
+def _needle(turned: Result[Any]) -> Iterator[Row]:
     events = ('events.take="angle"', 'events.take_angle="256.02 deg"', 'events.push="push-start"')
     difference, push = _result("default", ("planting",), *events)["needle.angle_difference"], units.to_si("67.82 deg", "angle")
     missing = (
         "The events are not printed: with the push counted at its start and the take 4.8 deg of carrier turn after the top the "
         f"difference is {np.degrees(difference):.2f} deg. Two free inputs, two independent numbers: no evidence either way."
     )
-    about = {"unit": "rad", "kind": "published table", "where": "section 4, Fig. 8", "inputs": SECOND, "assumed": f"{TIP}; {NEEDLE}"}
+    common: dict[str, Any] = {
+        "unit": "rad",
+        "kind": "published table",
+        "where": "section 4, Fig. 8",
+        "inputs": SECOND,
+        "assumed": f"{TIP}; {NEEDLE}",
+    }
     yield Row(
         "push minus take angle",
         rounded("50.22 deg", "rad"),
         turned["needle.angle_difference"],
         pinned=EXPLAINED,
         explanation=Explanation(missing, difference),
-        **about,
+        **common,
     )
     yield Row(
         "take angle",
@@ -84,16 +94,16 @@ def _needle(turned):
         turned["needle.take_angle"],
         pinned=EXPLAINED,
         explanation=Explanation(missing, push - difference),
-        **about,
+        **common,
     )
     yield Row(
-        "push angle", rounded("67.82 deg", "rad"), turned["needle.push_angle"], pinned=AGREES, note="By calibration: no evidence.", **about
+        "push angle", rounded("67.82 deg", "rad"), turned["needle.push_angle"], pinned=AGREES, note="By calibration: no evidence.", **common
     )
 
 
-def _pressure_angles(turned, interior):
-    about = {"unit": "rad", "pinned": OPEN, "kind": "published table", "where": "section 4", "inputs": SECOND}
-    about["note"] = (
+def _pressure_angles(turned: Result[Any], interior: Result[Any]) -> Iterator[Row]:
+    common: dict[str, Any] = {"unit": "rad", "pinned": OPEN, "kind": "published table", "where": "section 4", "inputs": SECOND}
+    common["note"] = (
         "No law, sense of rotation or reading of the bend gives 38.67 and 30.74 deg together; among so many combinations a "
         "near hit of one of them is likely by chance."
     )
@@ -103,12 +113,18 @@ def _pressure_angles(turned, interior):
     for name, result, assumed in cases:
         for cam, text, phase in (("main", "38.67 deg", "rise"), ("return", "30.74 deg", "return")):
             ours = result[f"cam.{cam}.max_pressure_angle.{phase}"]
-            yield Row(f"pressure angle, {cam} cam, {name}", rounded(text, "rad"), ours, assumed=f"{assumed}; {DRIVES}", **about)
+            yield Row(f"pressure angle, {cam} cam, {name}", rounded(text, "rad"), ours, assumed=f"{assumed}; {DRIVES}", **common)
 
 
-def _curvature(turned):
+def _curvature(turned: Result[Any]) -> Iterator[Row]:
     parabolic, roller = _result("default", ("cams",), 'push.law="parabolic"'), turned.spec.cams.roller_radius
-    about = {"unit": "-", "kind": "closed form", "where": "section 4: the cams are fit for use", "inputs": SECOND, "assumed": CAMS}
+    common: dict[str, Any] = {
+        "unit": "-",
+        "kind": "closed form",
+        "where": "section 4: the cams are fit for use",
+        "inputs": SECOND,
+        "assumed": CAMS,
+    }
     radius, other = (result["cam.return.min_convex_radius"] for result in (turned, parabolic))
     unchecked = Explanation(
         "The paper does not check curvature: the roller of 6 mm is larger than the sharpest convex radius of the pitch curve, "
@@ -116,23 +132,23 @@ def _curvature(turned):
         other / roller,
     )
     implied = Printed(">= 1, implied", 1.0, float("inf"))
-    yield Row("convex radius over roller, main cam", implied, turned["cam.main.min_convex_radius"] / roller, pinned=AGREES, **about)
-    yield Row("convex radius over roller, return cam", implied, radius / roller, pinned=EXPLAINED, explanation=unchecked, **about)
+    yield Row("convex radius over roller, main cam", implied, turned["cam.main.min_convex_radius"] / roller, pinned=AGREES, **common)
+    yield Row("convex radius over roller, return cam", implied, radius / roller, pinned=EXPLAINED, explanation=unchecked, **common)
 
 
-def _lever(turned):
-    about = {"unit": "rad", "kind": "closed form", "inputs": SECOND}
+def _lever(turned: Result[Any]) -> Iterator[Row]:
+    common: dict[str, Any] = {"unit": "rad", "kind": "closed form", "inputs": SECOND}
     swing = np.degrees(np.arcsin(18 / np.hypot(18, 56)))
     printed = rounded(f"{swing:.4f} deg", "rad")._replace(text=f"eq. (1): {swing:.4f} deg")
     yield Row(
-        "lever swing", printed, turned["lever.swing"], pinned=AGREES, where="eq. (1), stroke 18 mm", assumed="l = m l1 = 56 mm", **about
+        "lever swing", printed, turned["lever.swing"], pinned=AGREES, where="eq. (1), stroke 18 mm", assumed="l = m l1 = 56 mm", **common
     )
     root = Explanation("Misprint: the root stands over a numerator that is an area; without it the formula is the cosine rule.")
     for number, radius, cam in (("01", 29, "main"), ("02", 33, "return")):
         literal = np.degrees(np.arccos(np.sqrt(37**2 + 16**2 - radius**2) / (2 * 37 * 16)))
         printed = rounded(f"{literal:.2f} deg", "rad")._replace(text=f"{literal:.2f} deg, literally in mm")
         ours = turned[f"cam.{cam}.rest_angle"]
-        yield Row(f"rest angle phi{number}", printed, ours, pinned=EXPLAINED, explanation=root, where="below eq. (4)", **about)
+        yield Row(f"rest angle phi{number}", printed, ours, pinned=EXPLAINED, explanation=root, where="below eq. (4)", **common)
 
 
 ERRATA = (

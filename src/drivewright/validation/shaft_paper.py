@@ -3,11 +3,17 @@
 The paper prints formulas and trends, no flexibility: a trend is taken as an interval, a formula by its value for the printed data.
 """
 
+from collections.abc import Iterator
 from functools import cache
+from typing import Any
 
 import numpy as np
 
 from drivewright import bearings, registry, shafts
+from drivewright._typing import Floats
+from drivewright.bearings.ball import BallBearing
+from drivewright.bearings.roller import RollerBearing
+from drivewright.result import Result
 from drivewright.runner import build, run
 from drivewright.spec import load
 from drivewright.validation.source import AGREES, EXPLAINED, OPEN, Explanation, Printed, Row, Source, rounded
@@ -28,15 +34,15 @@ LAYOUT = {
 DATA = "Table 1: l1 to l9 = 56.5, 80, 108.5, 95, 53, 82, 66.5, 259.5, 29 mm; E = 206 GPa; I = 7854 mm^4; 3.0e7 N/m for each bearing"
 READING = "the prose with l7 counted from C (reading R1); beam after Euler and Bernoulli, as in the paper"
 TRENDS = "no significant change, on the scale of a figure: less than a tenth of the largest rigid flexibility of the shaft"
-LITERAL = (
+LITERAL_NOTE = (
     "Eqs. (16), (17) to the letter, reactions as magnitudes and x from the first mass, give the printed trend, by wrong signs: "
     "bearings that yield add squares of their reactions over their stiffness, so to the flexibility of every mass under its load."
 )
-HISTORY = "Historical comparison: the printed eqs. (16), (17), which are wrong, reproduce this trend; no evidence for it."
+HISTORICAL_NOTE = "Historical comparison: the printed eqs. (16), (17), which are wrong, reproduce this trend; no evidence for it."
 MISPRINT = "Misprint: the span is that of the bearings C and D, l7 + l8; with D right of C by l7 alone ours is the printed value."
 
 
-def rows():
+def rows() -> Iterator[Row]:
     """Section, eqs. (1) to (6), (21), section 4.1, section 5.3, bearings."""
     yield from _section()
     yield from _pressure_roller()
@@ -49,12 +55,12 @@ def rows():
 
 
 @cache
-def flexibility(preset, stiffness=None):
+def flexibility(preset: str, stiffness: float | None = None) -> Floats:
     """(2, 2) of a preset with the printed I, on its own bearings or others [N/m]."""
-    return spec_run(preset, stiffness, ("flexibility",)).arrays["flexibility"].values
+    return run_preset(preset, stiffness, ("flexibility",)).arrays["flexibility"].values
 
 
-def spec_run(preset, stiffness=None, only=(), *changes):
+def run_preset(preset: str, stiffness: float | None = None, only: tuple[str, ...] = (), *changes: str) -> Result[Any]:
     """Result of a preset, after Euler and Bernoulli."""
     changes = (PRINTED_SECTION, 'analysis.theory="euler-bernoulli"', *changes)
     spec = load(registry.mechanism("shaft").presets()[preset], changes)
@@ -64,19 +70,19 @@ def spec_run(preset, stiffness=None, only=(), *changes):
     return run(spec, only)
 
 
-def diagonal(mass, stiffness=None):
+def own_flexibility(mass: str, stiffness: float | None = None) -> float:
     """Flexibility of a mass under its own load [m/N]."""
     preset, _, place = LAYOUT[mass]
     return float(flexibility(preset, stiffness)[place, place])
 
 
-def soft(value, formula):
+def flexibility_of_formula(value: float, formula: str) -> Printed:
     """A formula's flexibility [m/N] for the printed data, to six digits."""
     found = rounded(f"{1e9 * value:.6g} um/kN", "m/N")
     return found._replace(text=f"{formula}: {found.text}")
 
 
-def turned(value, formula):
+def slope_of_formula(value: float, formula: str) -> Printed:
     """A formula's slope [rad/N], in urad/N, to six digits."""
     found = rounded(f"{1e6 * value:.6g}", "-")
     return found._replace(text=f"{formula}: {found.text}")
@@ -85,56 +91,66 @@ def turned(value, formula):
 # -- section and closed forms --------------------------------------------------------------------------------------------------
 
 
-def _section():
-    about = {"pinned": AGREES, "kind": "closed form", "where": "Table 1", "inputs": DATA}
-    yield Row("second moment of area of 20 mm, in mm^4", rounded("7854", "-"), float(np.pi * 20**4 / 64), "-", **about)
+def _section() -> Iterator[Row]:
+    common: dict[str, Any] = {"pinned": AGREES, "kind": "closed form", "where": "Table 1", "inputs": DATA}
+    yield Row("second moment of area of 20 mm, in mm^4", rounded("7854", "-"), float(np.pi * 20**4 / 64), "-", **common)
 
 
-def per_newton(preset, station, name):
+def value_per_newton(preset: str, station: str, name: str) -> float:
     """A value of a run under 1 N at a station, bearings rigid."""
-    return spec_run(preset, np.inf, ("statics",), f'loads=[{{station="{station}", force="1 N"}}]')[name]
+    return run_preset(preset, np.inf, ("statics",), f'loads=[{{station="{station}", force="1 N"}}]')[name]
 
 
-def _pressure_roller():
-    about = {"kind": "closed form", "inputs": DATA, "assumed": READING, "pinned": AGREES}
+def _pressure_roller() -> Iterator[Row]:
+    common: dict[str, Any] = {"kind": "closed form", "inputs": DATA, "assumed": READING, "pinned": AGREES}
     own = "The formula belongs to a force at this mass alone, whatever the text says of one force P."
-    slope, moment = (per_newton("pressure-roller", "m1", name) for name in ("bearings.A.slope", "shaft.max_moment"))
-    yield Row("slope at A, force at m1, in urad/N", turned(L1 * L2 / (3 * EI), "eq. (1)"), 1e6 * slope, "-", where="eq. (1)", **about)
-    yield Row("moment at A over the force at m1, in m", rounded("0.0565", "-"), moment, "-", where="eq. (2)", **about)
+    slope, moment = (value_per_newton("pressure-roller", "m1", name) for name in ("bearings.A.slope", "shaft.max_moment"))
+    yield Row(
+        "slope at A, force at m1, in urad/N", slope_of_formula(L1 * L2 / (3 * EI), "eq. (1)"), 1e6 * slope, "-", where="eq. (1)", **common
+    )
+    yield Row("moment at A over the force at m1, in m", rounded("0.0565", "-"), moment, "-", where="eq. (2)", **common)
     for number, mass, arm in ((3, "m1", L1), (4, "m2", L3)):
         yield Row(
             f"flexibility of {mass}, bearings rigid",
-            soft(arm**2 * (arm + L2) / (3 * EI), f"eq. ({number})"),
-            diagonal(mass, np.inf),
+            flexibility_of_formula(arm**2 * (arm + L2) / (3 * EI), f"eq. ({number})"),
+            own_flexibility(mass, np.inf),
             "m/N",
             where=f"eq. ({number})",
             note=own,
-            **about,
+            **common,
         )
 
 
-def _rubber_roller():
-    about = {"kind": "closed form", "inputs": DATA, "assumed": READING, "pinned": EXPLAINED}
-    slope, other = (1e6 * per_newton(preset, "m3", "bearings.C.slope") for preset in ("rubber-roller-r1", "rubber-roller-r3"))
+def _rubber_roller() -> Iterator[Row]:
+    common: dict[str, Any] = {"kind": "closed form", "inputs": DATA, "assumed": READING, "pinned": EXPLAINED}
+    slope, other = (1e6 * value_per_newton(preset, "m3", "bearings.C.slope") for preset in ("rubber-roller-r1", "rubber-roller-r3"))
     name = "slope at C, force at m3, in urad/N"
-    yield Row(name, turned(L6 * L7 / (3 * EI), "eq. (5)"), slope, "-", where="eq. (5)", explanation=Explanation(MISPRINT, other), **about)
-    own, other = diagonal("m3", np.inf), float(flexibility("rubber-roller-r3", np.inf)[0, 0])
+    yield Row(
+        name,
+        slope_of_formula(L6 * L7 / (3 * EI), "eq. (5)"),
+        slope,
+        "-",
+        where="eq. (5)",
+        explanation=Explanation(MISPRINT, other),
+        **common,
+    )
+    own, other = own_flexibility("m3", np.inf), float(flexibility("rubber-roller-r3", np.inf)[0, 0])
     yield Row(
         "flexibility of m3, bearings rigid",
-        soft(L6**2 * (L6 + L7) / (3 * EI), "eq. (6)"),
+        flexibility_of_formula(L6**2 * (L6 + L7) / (3 * EI), "eq. (6)"),
         own,
         "m/N",
         where="eq. (6)",
         explanation=Explanation(MISPRINT, other),
-        **about,
+        **common,
     )
-    about |= {"pinned": AGREES, "where": "eqs. (5), (6) corrected"}
-    yield Row(f"{name}, corrected", turned(L6 * SPAN / (3 * EI), "l6 (l7 + l8)/(3 EI)"), slope, "-", **about)
-    corrected = soft(L6**2 * (L6 + SPAN) / (3 * EI), "l6^2 (l6 + l7 + l8)/(3 EI)")
-    yield Row("flexibility of m3, bearings rigid, corrected", corrected, own, "m/N", **about)
+    common |= {"pinned": AGREES, "where": "eqs. (5), (6) corrected"}
+    yield Row(f"{name}, corrected", slope_of_formula(L6 * SPAN / (3 * EI), "l6 (l7 + l8)/(3 EI)"), slope, "-", **common)
+    corrected = flexibility_of_formula(L6**2 * (L6 + SPAN) / (3 * EI), "l6^2 (l6 + l7 + l8)/(3 EI)")
+    yield Row("flexibility of m3, bearings rigid, corrected", corrected, own, "m/N", **common)
 
 
-def _equation_21():
+def _equation_21() -> Row:
     whole = np.zeros((4, 4))
     whole[:2, :2], whole[2:, 2:] = flexibility("pressure-roller"), flexibility("rubber-roller-r1")
     printed, meant = (int(np.linalg.matrix_rank(block)) for block in (whole[2:, :2], whole[2:, 2:]))
@@ -156,7 +172,7 @@ def _equation_21():
 # -- fixed supports ------------------------------------------------------------------------------------------------------------
 
 
-def clamped(preset):
+def clamped_flexibility(preset: str) -> Floats:
     """Flexibility (2, 2) with bearings that hold deflection and slope."""
     model = build(load(registry.mechanism("shaft").presets()[preset], (PRINTED_SECTION, 'analysis.theory="euler-bernoulli"')))
     held = (np.inf, np.inf, 0.0, np.inf, np.inf)
@@ -171,40 +187,47 @@ CLAMPED = {
     "m3": (L6**3, "l6^3/(3 EI)"),
     "m4": ((L7 * L8 / SPAN) ** 3, "(l7 l8)^3/(3 EI (l7 + l8)^3)"),
 }
-UNTOLD = (
+SUPPORTS_NOTE = (
     "Finite elements with fixed supports are another shaft than the beam on simple supports that they are to confirm. Whether they "
     "were clamped cannot be told: none of their numbers is printed, and there are four bearings in two shafts, not three."
 )
 
 
-def _fixed():
-    about = {"kind": "closed form", "where": "section 4.1", "inputs": DATA, "assumed": READING}
+def _fixed() -> Iterator[Row]:
+    common: dict[str, Any] = {"kind": "closed form", "where": "section 4.1", "inputs": DATA, "assumed": READING}
     consistent = Printed("1, implied: consistent", 0.9, 1.1)
     for mass, (cube, formula) in CLAMPED.items():
         preset, _, place = LAYOUT[mass]
-        ours = float(clamped(preset)[place, place])
-        yield Row(f"flexibility of {mass}, bearings clamped", soft(cube / (3 * EI), formula), ours, "m/N", pinned=AGREES, **about)
+        ours = float(clamped_flexibility(preset)[place, place])
+        yield Row(
+            f"flexibility of {mass}, bearings clamped",
+            flexibility_of_formula(cube / (3 * EI), formula),
+            ours,
+            "m/N",
+            pinned=AGREES,
+            **common,
+        )
         yield Row(
             f"flexibility of {mass}, clamped over simply supported",
             consistent,
-            ours / diagonal(mass, np.inf),
+            ours / own_flexibility(mass, np.inf),
             "-",
             pinned=OPEN,
-            note=UNTOLD,
-            **about,
+            note=SUPPORTS_NOTE,
+            **common,
         )
 
 
 # -- section 5.3 ---------------------------------------------------------------------------------------------------------------
 
 
-def literal(mass):
+def literal_bearing_flexibility(mass: str) -> float:
     """Eqs. (16) and (17) as printed [m/N]: what bearings of 3.0e7 N/m would add under 1 N at a mass.  Wrong; kept for comparison.
 
     mu are the reactions' magnitudes over the stiffness, x counts from the first mass of the shaft.
     """
     preset, _, place = LAYOUT[mass]
-    left, right = np.abs(spec_run(preset, None, ("flexibility",)).arrays["reactions.unit_load"].values[:, place]) / STIFFNESS
+    left, right = np.abs(run_preset(preset, None, ("flexibility",)).arrays["reactions.unit_load"].values[:, place]) / STIFFNESS
     if preset == "pressure-roller":
         x = (0.0, L1 + L2 + L3)[place]
         return float(right - x * (left + right) / L2)
@@ -216,47 +239,53 @@ BELOW_ONE, ABOVE_ONE = (-np.inf, np.nextafter(1.0, 0.0)), (np.nextafter(1.0, 2.0
 CLAIMS = {"m1": "no significant change", "m2": "decreases", "m3": "increases", "m4": "decreases"}
 
 
-def trend(mass):
+def claimed_interval(mass: str) -> Printed:
     """The interval of elastic over rigid flexibility that the claim means."""
     preset, word = LAYOUT[mass][0], CLAIMS[mass]
-    seen = 0.1 * float(np.diag(flexibility(preset, np.inf)).max()) / diagonal(mass, np.inf)
+    seen = 0.1 * float(np.diag(flexibility(preset, np.inf)).max()) / own_flexibility(mass, np.inf)
     return Printed(word, *{"decreases": BELOW_ONE, "increases": ABOVE_ONE}.get(word, (1 - seen, 1 + seen)))
 
 
-def _trends():
-    about = {"unit": "-", "kind": "published table", "where": "section 5.3", "inputs": DATA, "assumed": f"{READING}; {TRENDS}"}
+def _trends() -> Iterator[Row]:
+    common: dict[str, Any] = {
+        "unit": "-",
+        "kind": "published table",
+        "where": "section 5.3",
+        "inputs": DATA,
+        "assumed": f"{READING}; {TRENDS}",
+    }
     for mass in CLAIMS:
-        claim, rigid, name = trend(mass), diagonal(mass, np.inf), f"elastic over rigid flexibility of {mass}"
-        historical, right = 1 + literal(mass) / rigid, mass == "m3"
+        claim, rigid, name = claimed_interval(mass), own_flexibility(mass, np.inf), f"elastic over rigid flexibility of {mass}"
+        historical, right = 1 + literal_bearing_flexibility(mass) / rigid, mass == "m3"
         yield Row(
             name,
             claim,
-            diagonal(mass) / rigid,
+            own_flexibility(mass) / rigid,
             pinned=AGREES if right else EXPLAINED,
-            explanation=None if right else Explanation(LITERAL, historical),
-            **about,
+            explanation=None if right else Explanation(LITERAL_NOTE, historical),
+            **common,
         )
-        yield Row(f"{name}, eqs. (16), (17) to the letter", claim, historical, pinned=AGREES, note=HISTORY, **about)
+        yield Row(f"{name}, eqs. (16), (17) to the letter", claim, historical, pinned=AGREES, note=HISTORICAL_NOTE, **common)
 
 
-def _conclusion():
-    about = {"kind": "published table", "where": "conclusion (3)", "inputs": DATA, "assumed": READING}
-    about["note"] = "This conclusion is right, at every mass and for any bearings - and contradicts the trends of section 5.3."
+def _conclusion() -> Iterator[Row]:
+    common: dict[str, Any] = {"kind": "published table", "where": "conclusion (3)", "inputs": DATA, "assumed": READING}
+    common["note"] = "This conclusion is right, at every mass and for any bearings - and contradicts the trends of section 5.3."
     for mass in CLAIMS:
         yield Row(
             f"flexibility of {mass}, bearings twice as stiff over as they are",
             Printed("below 1, implied", *BELOW_ONE),
-            diagonal(mass, 2 * STIFFNESS) / diagonal(mass),
+            own_flexibility(mass, 2 * STIFFNESS) / own_flexibility(mass),
             "-",
             pinned=AGREES,
-            **about,
+            **common,
         )
 
 
 # -- bearings ------------------------------------------------------------------------------------------------------------------
 
 LOAD = 500.0  # N
-ROLLERS = {"rollers": 16, "roller_length": "3.2 mm"}  # of the cylindrical bearing
+ROLLERS: dict[str, Any] = {"rollers": 16, "roller_length": "3.2 mm"}  # of the cylindrical bearing
 KINDS = ("61804", "hypothetical-ACBB15-20x32x7", "hypothetical-ACBB25-20x32x7", "hypothetical-TRB-20x32x7")
 INNER = (
     "inner geometries of the size of a 61804, nobody's bearings but the first; no clearance, rings parallel, 500 N radially; without "
@@ -264,37 +293,37 @@ INNER = (
 )
 
 
-def radial(bearing, axial=0.0):
+def radial_stiffness(bearing: BallBearing | RollerBearing, axial: float = 0.0) -> float:
     """Tangent stiffness [N/m] of a bearing under `LOAD` and an axial force [N], rings parallel."""
     held = ("tilt_x", "tilt_y") if axial else ("z", "tilt_x", "tilt_y")
     return float(bearings.solve(bearing, force=[LOAD, 0.0, axial, 0.0, 0.0], held=held).stiffness[0, 0])
 
 
-def lead(axial, taper):
+def stiffness_ratio(axial: float, taper: BallBearing | RollerBearing) -> float:
     """Stiffness of the cylindrical bearing over that of the stiffest other; bearings with a contact angle get `axial` [N] each."""
     others = [taper if "TRB" in name else bearings.bearing(name) for name in KINDS]
-    best = max(radial(other, axial if other.contact_angle else 0.0) for other in others)
-    return radial(bearings.bearing("hypothetical-CRB-20x32x7")) / best
+    best = max(radial_stiffness(other, axial if other.contact_angle else 0.0) for other in others)
+    return radial_stiffness(bearings.bearing("hypothetical-CRB-20x32x7")) / best
 
 
-def secant_of_61804(force):
+def secant_stiffness_of_61804(force: float) -> float:
     """Radial force over displacement [N/m]."""
     found = bearings.solve(bearings.bearing("61804"), force=[force, 0.0, 0.0, 0.0, 0.0])
     return float(force / found.displacement[0])
 
 
-def _bearings():
+def _bearings() -> Iterator[Row]:
     yield from _stiffest()
     light = Explanation(
         "A 61804 has this secant stiffness at 107 N. No bearing of this kind has a constant stiffness: without preload it "
         "grows with the cube root of the load, from 0 at no load.",
-        secant_of_61804(107.0),
+        secant_stiffness_of_61804(107.0),
     )
     assumed = "balls of the catalogue's back-fitted 61804; no clearance; the load, which the paper leaves out"
     yield Row(
         "secant stiffness of a 61804 at 500 N",
         rounded("30 kN/mm", "N/m")._replace(text="3.0e7 N/m"),
-        secant_of_61804(LOAD),
+        secant_stiffness_of_61804(LOAD),
         "N/m",
         pinned=EXPLAINED,
         kind="published table",
@@ -305,13 +334,13 @@ def _bearings():
     )
 
 
-def _stiffest():
+def _stiffest() -> Iterator[Row]:
     taper = bearings.bearing("hypothetical-TRB-20x32x7")
     alike = taper.replace(**ROLLERS)
-    plain, claim = lead(0.0, alike), Printed("above 1, implied", *ABOVE_ONE)
+    plain, claim = stiffness_ratio(0.0, alike), Printed("above 1, implied", *ABOVE_ONE)
     loaded = Explanation("The claim holds for equal rollers and no axial load. With it, all of a tapered bearing's rollers carry.", plain)
     longer = Explanation("The claim holds for equal rollers. A tapered bearing of the same size may have more and longer ones.", plain)
-    about = {
+    common: dict[str, Any] = {
         "unit": "-",
         "kind": "published table",
         "where": "section 5.3, figs. 17 and 18",
@@ -319,11 +348,16 @@ def _stiffest():
         "assumed": INNER,
     }
     name = "cylindrical roller bearing over the stiffest other"
-    yield Row(f"{name}, equal rollers, no axial load", claim, plain, pinned=AGREES, **about)
+    yield Row(f"{name}, equal rollers, no axial load", claim, plain, pinned=AGREES, **common)
     yield Row(
-        f"{name}, tapered with 17 rollers of 4 mm, no axial load", claim, lead(0.0, taper), pinned=EXPLAINED, explanation=longer, **about
+        f"{name}, tapered with 17 rollers of 4 mm, no axial load",
+        claim,
+        stiffness_ratio(0.0, taper),
+        pinned=EXPLAINED,
+        explanation=longer,
+        **common,
     )
-    yield Row(f"{name}, equal rollers, 300 N axially", claim, lead(300.0, alike), pinned=EXPLAINED, explanation=loaded, **about)
+    yield Row(f"{name}, equal rollers, 300 N axially", claim, stiffness_ratio(300.0, alike), pinned=EXPLAINED, explanation=loaded, **common)
 
 
 ERRATA = (
