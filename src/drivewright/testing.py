@@ -30,8 +30,10 @@ import numpy as np
 from drivewright import registry, runner
 from drivewright.claims import SUBJECTS, Balance, Claims, Derivative, Limit, Mirror, Scaling
 from drivewright.errors import UnitError
-from drivewright.result import Result
+from drivewright.labels import duplicates, faults, label_of, label_of_key
+from drivewright.result import Plot, Result
 from drivewright.spec import MechanismSpec, document, from_document, load, set_key
+from drivewright.spec.fields import table_of
 from drivewright.units import DIMENSIONS, Dimension, any_quantity, decimal_text, exact_factor, split
 
 DIGITS = 40  # of a converted number: far more than a float has
@@ -179,6 +181,49 @@ def _record(spec: MechanismSpec) -> None:
 
 
 _OF_ANY_DRIVE: dict[str, Callable[[Any], None]] = {"units": _other_units, "record": _record}
+
+
+# -- labels --------------------------------------------------------------------------------------------------------------------
+
+
+def label_faults(kind: str, preset: str) -> tuple[str, ...]:
+    """What is wrong with the labels of a preset's spec and result, one line each: "value 'Of a pin': leans on another ..."."""
+    spec = _spec(kind, preset)
+    result = _result(spec)
+    groups = {
+        "value": [label_of(value.meaning, value.label) for value in result.values.values()],
+        "check": [check.shown for check in result.checks],
+        "plot": [plot.title for plot in _plots(kind, result)],
+        "table": [table.title for table in result.tables.values()],
+    }
+    found = [line for what, labels in groups.items() for line in _faulty(what, labels)]
+    for table in result.tables.values():
+        found += _faulty(f"column of {table.title!r}", [label_of(column.meaning, column.label) for column in table.columns])
+    for place, fields in _tables_of(type(spec)):
+        found += _faulty(f"field of {place}", [label_of_key(name, field.title) for name, field in fields.items()])
+    return tuple(dict.fromkeys(found))
+
+
+def _faulty(what: str, labels: list[str]) -> Iterator[str]:
+    for label in labels:
+        yield from (f"{what} {label!r}: {fault}" for fault in faults(label))
+    yield from (f"{what} {label!r}: stands more than once" for label in duplicates(labels))
+
+
+def _plots(kind: str, result: Result[Any]) -> Iterable[Plot]:
+    plots = registry.mechanism(kind).plots
+    return plots(result) if callable(plots) else plots
+
+
+def _tables_of(model: type[Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """(name of a table class, its fields), the spec's own and those inside."""
+    seen, waiting = set(), [model]
+    while waiting:
+        table = waiting.pop()
+        if table not in seen:
+            seen.add(table)
+            yield table.__name__, table.model_fields
+            waiting += [inner for field in table.model_fields.values() if (inner := table_of(field.annotation))]
 
 
 # -- claims --------------------------------------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@ import pytest
 
 from drivewright.labels import LONGEST, duplicates, faults, label_of, label_of_key
 from drivewright.result import Check, Column, Table, Value
+from drivewright.spec import schema
 
 
 @pytest.mark.parametrize(
@@ -50,3 +51,8 @@ def test_what_stands_alone_is_none(label):
 
 def test_duplicates_are_named_once():
     assert duplicates(["a", "b", "a", "a"]) == ("a",) and duplicates(["a", "b"]) == ()
+
+
+def test_the_fields_of_a_schema_have_labels():
+    properties = schema("cam")["$defs"]["Follower"]["properties"]
+    assert properties["prime_radius"]["title"] == "Prime radius" and properties["face"]["title"] == "Face"

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from drivewright.labels import label_of_key
 from drivewright.spec.messages import translated
 from drivewright.spec.writing import document
 
@@ -49,7 +50,13 @@ SpecT = TypeVar("SpecT", bound="Spec")
 class Spec(_Table):
     """One table of a spec: frozen, no unknown keys, units at the door."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", validate_default=True, allow_inf_nan=False)
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        validate_default=True,
+        allow_inf_nan=False,
+        field_title_generator=lambda name, field: label_of_key(name, field.title),
+    )
 
     def replace(self, **changes: Any) -> Self:
         """A copy with keys of this table changed; validated like the original."""
