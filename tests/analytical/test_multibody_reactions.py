@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from drivewright.multibody.assembly import assemble
+from drivewright.multibody.curves import curve_slope
 from drivewright.multibody.model import (
     Body,
     Bushing,
@@ -31,7 +32,7 @@ from drivewright.multibody.model import (
     line,
 )
 from drivewright.multibody.observe import observe
-from drivewright.multibody.reactions import reactions, slope_of
+from drivewright.multibody.reactions import reactions
 from drivewright.multibody.simulate import at_state
 
 G = (0.7, -9.81)
@@ -306,8 +307,8 @@ def test_a_cam_pushes_its_follower_with_what_it_needs_and_takes_it_from_its_own_
     assert push @ [-0.8, 0.6] == pytest.approx(0.0, abs=1e-9)
     turn = observed.body(assembly.names.index("cam"), "angle")
     slope = 0.4 - 0.6 * turn + 0.6 * turn**2 + 0.4 * turn**3 + 0.25 * turn**4
-    assert slope_of(quintic(6.0), turn) == pytest.approx(slope)
-    assert slope_of(replace(quintic(6.0), period=6.0), turn - 12.0) == pytest.approx(slope)
+    assert curve_slope(quintic(6.0), turn) == pytest.approx(slope)
+    assert curve_slope(replace(quintic(6.0), period=6.0), turn - 12.0) == pytest.approx(slope)
 
 
 @pytest.mark.parametrize(("angle", "sign"), [(-np.pi / 2, 1.0), (np.pi / 2, -1.0)])

@@ -11,7 +11,7 @@ from drivewright import registry
 from drivewright.errors import InputError
 from drivewright.mechanisms.linkage.build import build, record_of
 from drivewright.mechanisms.linkage.frames import FINE
-from drivewright.mechanisms.linkage.sketch import block, rounded
+from drivewright.multibody.drawing import block, rounded
 from drivewright.multibody.model import Marker
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import simulate

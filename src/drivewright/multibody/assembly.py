@@ -11,13 +11,15 @@ import numpy as np
 from scipy.linalg import null_space
 
 from drivewright.errors import DoesNotAssemble
-from drivewright.multibody import system as arrays
-from drivewright.multibody.lower import Places, lower, rows_of, table
-from drivewright.multibody.model import GROUND, Ideal, Model, Revolute
+from drivewright.multibody.bodies import GROUND
+from drivewright.multibody.compile_model import compile_model, index_of, rows_and_equations
+from drivewright.multibody.forces.contact import LUGRE
+from drivewright.multibody.joints.rows import DISTANCE
+from drivewright.multibody.model import Model
 from drivewright.multibody.partition import at, misses, scaled_jacobian, split
 from drivewright.multibody.singular import chart_through
 from drivewright.multibody.system import System
-from drivewright.multibody.tree import Tree, expanded, grow
+from drivewright.multibody.tree import Tree, build_tree, expand
 
 CLOSED = 1e-12  # largest miss of an assembled loop [rad], [lengths of the mechanism]
 WEAK = 0.05  # a coordinate that moves the loops less than this part of its own size is no good dependent one
@@ -61,26 +63,26 @@ class Assembly:
 
 def pack(system, q, v):
     """Coordinates and rates as a state, nothing remembered."""
-    memory = len(system.contacts) + int(np.sum(system.contacts.law == arrays.LUGRE))
+    memory = len(system.contacts) + int(np.sum(system.contacts.law == LUGRE))
     return np.concatenate([q[system.stored], v[system.independent], np.zeros(memory)])
 
 
 def idealised(model):
     """The same mechanism with every pin ideal."""
-    return replace(model, joints=tuple(replace(j, model=Ideal()) if isinstance(j, Revolute) else j for j in model.joints))
+    return replace(model, joints=tuple(joint.idealised for joint in model.joints))
 
 
 def assemble(model):
     """The `Assembly` of a model.  Raises DoesNotAssemble naming the joint that cannot be closed."""
     ideal = idealised(model)
-    tree = grow(ideal)
-    system = lower(ideal, tree)
+    tree = build_tree(ideal)
+    system = compile_model(ideal, tree)
     found = _assemble(ideal, ideal, tree, system, _guess(tree, system))
     if ideal == model:
         return found
-    wide = expanded(model)
-    tree = grow(wide)
-    system = lower(wide, tree)
+    wide = expand(model)
+    tree = build_tree(wide)
+    system = compile_model(wide, tree)
     return _assemble(model, wide, tree, system, _from_poses(tree, system, found))
 
 
@@ -215,17 +217,12 @@ def _does_not_close(wide, system, q):
     joint = wide.joints[row.joint]
     pair = [k for k in range(len(system.rows)) if system.rows[k].joint == row.joint]
     miss = np.linalg.norm(work.columns[0][pair])
-    bodies = " and ".join(repr(name) for name in dict.fromkeys(_bodies_of(joint)))
-    how = f"{1e3 * miss:.4g} mm" if row.ex or row.ey or row.kind == arrays.DISTANCE else f"{np.degrees(miss):.4g} deg"
+    bodies = " and ".join(repr(name) for name in dict.fromkeys(joint.bodies))
+    how = f"{1e3 * miss:.4g} mm" if row.ex or row.ey or row.kind == DISTANCE else f"{np.degrees(miss):.4g} deg"
     return (
         f"joint {joint.name!r} does not close: bodies {bodies} miss each other by {how} at best. Check the lengths and axes, or give "
         "start angles nearer to the assembly that is meant"
     )
-
-
-def _bodies_of(joint):
-    ends = (joint.first, joint.second) if hasattr(joint, "first") else (joint.cam, joint.follower)
-    return [end if isinstance(end, str) else end.body for end in ends]
 
 
 # ------------------------------------------------------------------------------------------------------ redundancy and split
@@ -332,10 +329,8 @@ def _given_rates(wide, tree, system, work):
 
 def _concentric(model, wide, tree, system, q):
     """Rows that hold pins with play together, and massless links still."""
-    numbers = {GROUND: 0} | {link.body.name: k for k, link in enumerate(tree.links, start=1)}
-    places = Places(numbers, {}, {GROUND: (0.0, 0.0)} | {b.name: b.centroid for b in wide.bodies}, [])
-    pins = [j for j in wide.joints if isinstance(j, Revolute) and not isinstance(j.model, Ideal)]
-    rows = table(arrays.ROW, [row for pin in pins for row in rows_of(pin, places)])
+    index = index_of(wide, tree)
+    rows, _ = rows_and_equations([row for joint in wide.joints if not joint.is_constraint for row in joint.constraint_rows(index)])
     links = np.eye(len(q))[[link.turn for link in tree.links if link.body.name.startswith("link:")]].reshape(-1, len(q))
     jacobian = np.concatenate([at(system._replace(rows=rows), q).jacobian / system.length, links])
     return jacobian, np.zeros(len(jacobian))

@@ -8,9 +8,11 @@ import numpy as np
 
 from drivewright._jit import implements, inner
 from drivewright.multibody.chart import configure, interpolated, offset_of, pose
-from drivewright.multibody.kinematics import curve_at, determinant, move
+from drivewright.multibody.curves import curve_at
+from drivewright.multibody.forces.contact import LUGRE
+from drivewright.multibody.kinematics import determinant, move
 from drivewright.multibody.loads import LASTING, SLOWEST, approach, contact_signs, load
-from drivewright.multibody.system import DRIFT, LUGRE, Motion
+from drivewright.multibody.system import DRIFT, Motion
 from drivewright.numerics.ode import events, rate, switch
 from drivewright.numerics.small import cholesky_factor, cholesky_substitute
 

@@ -3,38 +3,14 @@
 import numpy as np
 
 from drivewright._jit import inner, outer
-from drivewright.multibody.system import COLUMN, DISTANCE, DRIFT, LINEAR, MISS
+from drivewright.multibody.curves import curve_at
+from drivewright.multibody.frames import rotated
+from drivewright.multibody.joints.rows import terms_of_row, velocity_product_of_row
+from drivewright.multibody.system import COLUMN, DRIFT, MISS
 from drivewright.numerics.small import lu_factor, lu_solve
 
 CLOSED = 1e-7  # Newton's correction [rad], [lengths of the mechanism] below which one more evaluation is exact to rounding
 TRIES = 12
-
-
-@outer
-def curve_at(curves, pieces, index, x):
-    """(f, f', f'') of a piecewise polynomial."""
-    curve = curves[index]
-    low, high = curve.first, curve.first + curve.count - 1
-    start = pieces[low].start
-    if curve.period > 0.0:
-        x = start + (x - start) % curve.period
-    while low < high:
-        middle = (low + high + 1) // 2
-        if pieces[middle].start <= x:
-            low = middle
-        else:
-            high = middle - 1
-    p = pieces[low]
-    u = x - p.start
-    value = p.c0 + u * (p.c1 + u * (p.c2 + u * (p.c3 + u * (p.c4 + u * p.c5))))
-    slope = p.c1 + u * (2 * p.c2 + u * (3 * p.c3 + u * (4 * p.c4 + u * 5 * p.c5)))
-    return value, slope, 2 * p.c2 + u * (6 * p.c3 + u * (12 * p.c4 + u * 20 * p.c5))
-
-
-@inner
-def turned(pose, x, y):
-    """A vector of the body's frame in the directions of the world."""
-    return pose.c * x - pose.s * y, pose.s * x + pose.c * y
 
 
 @inner
@@ -64,16 +40,16 @@ def place(system, work):
             work.levers[i, body.free].x = work.levers[i, body.free + 1].y = 1.0
             continue
         slide = work.coordinates[body.slide].q if body.slide >= 0 else 0.0
-        ax, ay = turned(base, body.ax + slide * body.ex, body.ay + slide * body.ey)
-        bx, by = turned(here, body.bx + slide * body.fx, body.by + slide * body.fy)
+        ax, ay = rotated(base, body.ax + slide * body.ex, body.ay + slide * body.ey)
+        bx, by = rotated(here, body.bx + slide * body.fx, body.by + slide * body.fy)
         here.x, here.y = base.x + ax - bx, base.y + ay - by
         for k in range(work.coordinates.size):
             lever, held = work.levers[i, k], work.levers[body.parent, k]
             lever.x = held.x - ay * held.t + by * lever.t
             lever.y = held.y + ax * held.t - bx * lever.t
         if body.slide >= 0:
-            ex, ey = turned(base, body.ex, body.ey)
-            fx, fy = turned(here, body.fx, body.fy)
+            ex, ey = rotated(base, body.ex, body.ey)
+            fx, fy = rotated(here, body.fx, body.fy)
             work.levers[i, body.slide].x += ex - fx
             work.levers[i, body.slide].y += ey - fy
 
@@ -83,32 +59,11 @@ def measure(system, work):
     """Residual of every constraint row and its Jacobian."""
     for r in range(system.rows.size):
         row = system.rows[r]
-        first, second, third = work.poses[row.i], work.poses[row.j], work.poses[row.k]
-        pix, piy = turned(first, row.ax, row.ay)
-        pjx, pjy = turned(second, row.bx, row.by)
+        first, second = work.poses[row.i], work.poses[row.j]
+        pix, piy = rotated(first, row.ax, row.ay)
+        pjx, pjy = rotated(second, row.bx, row.by)
         dx, dy = first.x + pix - second.x - pjx, first.y + piy - second.y - pjy
-        gi, gj, gk, gl = row.gi, row.gj, row.gk, 0.0
-        if row.kind == LINEAR:
-            ux, uy = turned(third, row.ex, row.ey)
-            miss = ux * dx + uy * dy + gi * first.angle + gj * second.angle + gk * third.angle - row.constant
-            gk += ux * dy - uy * dx
-            if row.lift >= 0:
-                lift, slope, _ = curve_at(system.curves, system.pieces, row.lift, work.poses[row.l].angle - third.angle)
-                miss -= lift
-                gl -= slope
-                gk += slope
-        else:
-            distance = np.hypot(dx, dy)
-            ux, uy = dx / distance, dy / distance
-            if row.kind == DISTANCE:
-                miss = distance - row.constant
-            else:
-                rolled, reach = gi * first.angle + gj * second.angle + row.constant, gi + gj
-                phi = np.arctan2(dy, dx)
-                phi += 2 * np.pi * np.round((rolled / reach - phi) / (2 * np.pi))  # the turn on which the wheel is
-                miss = reach * phi - rolled
-                ux, uy = -reach * uy / distance, reach * ux / distance
-                gi, gj = -gi, -gj
+        miss, ux, uy, gi, gj, gk, gl = terms_of_row(system, work, row, dx, dy)
         work.columns[MISS, r] = miss
         gi += ux * -piy + uy * pix
         gj -= ux * -pjy + uy * pjx
@@ -187,8 +142,8 @@ def body_velocities(system, work):
             here.vx, here.vy = work.coordinates[body.free].v, work.coordinates[body.free + 1].v
             continue
         slide, slip = slide_of(work, body)
-        ax, ay = turned(base, slip * body.ex - base.w * (body.ay + slide * body.ey), slip * body.ey + base.w * (body.ax + slide * body.ex))
-        bx, by = turned(here, slip * body.fx - here.w * (body.by + slide * body.fy), slip * body.fy + here.w * (body.bx + slide * body.fx))
+        ax, ay = rotated(base, slip * body.ex - base.w * (body.ay + slide * body.ey), slip * body.ey + base.w * (body.ax + slide * body.ex))
+        bx, by = rotated(here, slip * body.fx - here.w * (body.by + slide * body.fy), slip * body.fy + here.w * (body.bx + slide * body.fx))
         here.vx, here.vy = base.vx + ax - bx, base.vy + ay - by
 
 
@@ -247,7 +202,7 @@ def bend(system, work):
     body_bends(system, work)
     if system.rows.size > 0:
         for r in range(system.rows.size):
-            work.columns[DRIFT, r] = _driven_part(system, work, r, True) - _row_bend(system, work, system.rows[r])
+            work.columns[DRIFT, r] = _driven_part(system, work, r, True) - velocity_product_of_row(system, work, system.rows[r])
         lu_solve(work.lu, work.pivots, work.columns[DRIFT])
 
 
@@ -261,41 +216,15 @@ def body_bends(system, work):
         slide, slip = slide_of(work, body)
         # d2/dt2 of R (a + s e) at zero accelerations: R (-w^2 (a + s e) + 2 s' w (e turned by 90 deg))
         wp, w = base.w, here.w
-        ax, ay = turned(
+        ax, ay = rotated(
             base,
             wp * wp * (body.ax + slide * body.ex) + 2 * slip * wp * body.ey,
             wp * wp * (body.ay + slide * body.ey) - 2 * slip * wp * body.ex,
         )
-        bx, by = turned(
+        bx, by = rotated(
             here, w * w * (body.bx + slide * body.fx) + 2 * slip * w * body.fy, w * w * (body.by + slide * body.fy) - 2 * slip * w * body.fx
         )
         here.bx, here.by = base.bx - ax + bx, base.by - ay + by
-
-
-@inner
-def _row_bend(system, work, row):
-    """Second derivative of a row's residual with all coordinates' accelerations zero."""
-    first, second, third = work.poses[row.i], work.poses[row.j], work.poses[row.k]
-    pix, piy = turned(first, row.ax, row.ay)
-    pjx, pjy = turned(second, row.bx, row.by)
-    wi, wj, wk = first.w, second.w, third.w
-    dx, dy = first.x + pix - second.x - pjx, first.y + piy - second.y - pjy
-    vx, vy = first.vx - wi * piy - second.vx + wj * pjy, first.vy + wi * pix - second.vy - wj * pjx
-    ax, ay = first.bx - wi * wi * pix - second.bx + wj * wj * pjx, first.by - wi * wi * piy - second.by + wj * wj * pjy
-    if row.kind == LINEAR:
-        ux, uy = turned(third, row.ex, row.ey)
-        total = ux * ax + uy * ay + 2 * wk * (ux * vy - uy * vx) - wk * wk * (ux * dx + uy * dy)
-        if row.lift >= 0:
-            cam = work.poses[row.l]
-            _, _, curvature = curve_at(system.curves, system.pieces, row.lift, cam.angle - third.angle)
-            total -= curvature * (cam.w - wk) ** 2
-        return total
-    distance = np.hypot(dx, dy)
-    ux, uy = dx / distance, dy / distance
-    along, across = ux * vx + uy * vy, ux * vy - uy * vx
-    if row.kind == DISTANCE:
-        return ux * ax + uy * ay + across * across / distance
-    return (row.gi + row.gj) * (ux * ay - uy * ax - 2 * along * across / distance) / distance
 
 
 @outer

@@ -6,8 +6,12 @@ from drivewright._jit import inner, outer
 from drivewright.contact.film import long_bearing, short_bearing
 from drivewright.contact.friction import ambrosio, coulomb, lugre, lugre_rate
 from drivewright.contact.impact import cylinder_energy, cylinder_force
-from drivewright.multibody.kinematics import curve_at, turned
-from drivewright.multibody.system import AMBROSIO, ANGLE, COULOMB, LONG_FILM, LUGRE, NO_FILM, TIME
+from drivewright.multibody.forces.bushing import apply_bushing
+from drivewright.multibody.forces.contact import AMBROSIO, COULOMB, LONG_FILM, LUGRE, NO_FILM
+from drivewright.multibody.forces.load import apply_load_force, apply_torque
+from drivewright.multibody.forces.rotational_spring import apply_rotational_spring
+from drivewright.multibody.forces.spring import apply_spring
+from drivewright.multibody.frames import apply_force, relative_motion, rotated
 
 SLOWEST = 1e-4  # approach speed that counts at least, where a law divides by it [m/s]
 LASTING = -1.0  # in the memory of a contact that no longer remembers an approach; 0: no contact
@@ -41,91 +45,20 @@ def unload(work):
 def hold(system, work):
     """Springs, dampers and bushings."""
     for n in range(system.springs.size):
-        _spring(work.poses, system.springs[n])
-    for n in range(system.twists.size):
-        twist = system.twists[n]
-        angle, rate = turn(work.poses, twist)
-        wring(work.poses, twist, -twist.stiffness * (angle - twist.rest) - twist.damping * rate)
+        apply_spring(work.poses, system.springs[n])
+    for n in range(system.rotational_springs.size):
+        apply_rotational_spring(work.poses, system.rotational_springs[n])
     for n in range(system.bushings.size):
-        _bushing(work.poses, system.bushings[n])
+        apply_bushing(work.poses, system.bushings[n])
 
 
 @inner
 def apply(system, work, t):
     """Torques and forces from outside."""
     for n in range(system.torques.size):
-        torque = system.torques[n]
-        value, _, _ = curve_at(system.curves, system.pieces, torque.curve, _argument(work, t, torque.over, torque.i, torque.j))
-        wring(work.poses, torque, value)
+        apply_torque(work.poses, system.torques[n], system.curves, system.pieces, t)
     for n in range(system.forces.size):
-        force = system.forces[n]
-        value, _, _ = curve_at(system.curves, system.pieces, force.curve, _argument(work, t, force.over, force.i, 0))
-        fx, fy = turned(work.poses[force.k], force.ex, force.ey)
-        px, py = turned(work.poses[force.i], force.ax, force.ay)
-        push(work.poses[force.i], px, py, value * fx, value * fy)
-
-
-@inner
-def push(pose, px, py, fx, fy):
-    """Apply a force at the arm (px, py) of a body."""
-    pose.fx += fx
-    pose.fy += fy
-    pose.ft += px * fy - py * fx
-
-
-@inner
-def wring(poses, pair, torque):
-    """Apply a torque to body i and its opposite to body j."""
-    poses[pair.i].ft += torque
-    poses[pair.j].ft -= torque
-
-
-@inner
-def turn(poses, pair):
-    """Angle and angular velocity of body i relative to body j."""
-    return poses[pair.i].angle - poses[pair.j].angle, poses[pair.i].w - poses[pair.j].w
-
-
-@inner
-def _argument(work, t, over, i, j):
-    if over == TIME:
-        return t
-    return work.poses[i].angle - work.poses[j].angle if over == ANGLE else work.poses[i].w - work.poses[j].w
-
-
-@inner
-def apart(poses, pair):
-    """Point of body i minus point of body j, its rate, and the arms of both points."""
-    one, two = poses[pair.i], poses[pair.j]
-    px, py = turned(one, pair.ax, pair.ay)
-    qx, qy = turned(two, pair.bx, pair.by)
-    dx, dy = one.x + px - two.x - qx, one.y + py - two.y - qy
-    vx, vy = one.vx - one.w * py - two.vx + two.w * qy, one.vy + one.w * px - two.vy - two.w * qx
-    return dx, dy, vx, vy, px, py, qx, qy
-
-
-@outer
-def _spring(poses, spring):
-    """Tension k (L - L0) + c L' along the line between the points."""
-    dx, dy, vx, vy, px, py, qx, qy = apart(poses, spring)
-    length = np.hypot(dx, dy)
-    if length == 0.0:  # no direction
-        return
-    ux, uy = dx / length, dy / length
-    tension = spring.stiffness * (length - spring.free_length) + spring.damping * (ux * vx + uy * vy)
-    push(poses[spring.i], px, py, -tension * ux, -tension * uy)
-    push(poses[spring.j], qx, qy, tension * ux, tension * uy)
-
-
-@outer
-def _bushing(poses, bush):
-    """Both points and both angles are pulled together; the force acts at the point of j on both, so that it has no arm of its own."""
-    dx, dy, vx, vy, px, py, qx, qy = apart(poses, bush)
-    fx, fy = bush.stiffness * dx + bush.damping * vx, bush.stiffness * dy + bush.damping * vy
-    push(poses[bush.i], px - dx, py - dy, -fx, -fy)
-    push(poses[bush.j], qx, qy, fx, fy)
-    angle, rate = turn(poses, bush)
-    wring(poses, bush, -bush.rotational_stiffness * (angle - bush.rest) - bush.rotational_damping * rate)
+        apply_load_force(work.poses, system.forces[n], system.curves, system.pieces, t)
 
 
 # ------------------------------------------------------------------------------------------------------------- pins with play
@@ -136,8 +69,8 @@ def gap_of(system, work, n):
     """How deep the journal is in the bearing's wall: |e| - clearance - wear, e from the journal's centre (j) to the bearing's (i)."""
     contact = system.contacts[n]
     one, two = work.poses[contact.i], work.poses[contact.j]
-    px, py = turned(one, contact.ax, contact.ay)
-    qx, qy = turned(two, contact.bx, contact.by)
+    px, py = rotated(one, contact.ax, contact.ay)
+    qx, qy = rotated(two, contact.bx, contact.by)
     dx, dy = one.x + px - two.x - qx, one.y + py - two.y - qy
     worn, _ = worn_off(system.wear[n], work.poses[contact.i].angle, dx, dy)
     return np.hypot(dx, dy) - contact.clearance - worn
@@ -265,7 +198,7 @@ def approach(system, n, work, memory):
     b = d(depth)/d(independent coordinates).
     """
     contact = system.contacts[n]
-    dx, dy, vx, vy, px, py, qx, qy = apart(work.poses, contact)
+    dx, dy, vx, vy, px, py, qx, qy = relative_motion(work.poses, contact)
     distance = np.hypot(dx, dy)
     worn, lean = worn_off(system.wear[n], work.poses[contact.i].angle, dx, dy)
     depth = distance - contact.clearance - worn
@@ -317,7 +250,7 @@ def touch(system, n, work, y):
 @outer
 def film_of(contact, poses):
     """Force (x, y) of the oil on the bearing, and the torque-free arm is its centre; it fades where the walls touch."""
-    dx, dy, vx, vy, _, _, _, _ = apart(poses, contact)
+    dx, dy, vx, vy, _, _, _, _ = relative_motion(poses, contact)
     distance, clearance = np.hypot(dx, dy), contact.clearance
     excess = (distance - clearance) / contact.roughness
     if excess >= 1.0:
@@ -346,17 +279,17 @@ def _contact(system, n, work, y, dy):
     if normal > 0.0:
         # On the bearing: -N n - T t, t = (-ny, nx), at -R n from its centre.
         fx, fy = -normal * nx + rubbing * ny, -normal * ny - rubbing * nx
-        px, py = turned(one, contact.ax, contact.ay)
+        px, py = rotated(one, contact.ax, contact.ay)
         px, py = px - contact.bearing_radius * nx, py - contact.bearing_radius * ny
-        push(one, px, py, fx, fy)
-        push(two, px + one.x - two.x, py + one.y - two.y, -fx, -fy)
+        apply_force(one, px, py, fx, fy)
+        apply_force(two, px + one.x - two.x, py + one.y - two.y, -fx, -fy)
         if lean != 0.0:
             fx, fy = -normal * lean * ny, normal * lean * nx
-            qx, qy = turned(two, contact.bx, contact.by)
-            push(one, qx + two.x - one.x, qy + two.y - one.y, fx, fy)
-            push(two, qx, qy, -fx, -fy)
+            qx, qy = rotated(two, contact.bx, contact.by)
+            apply_force(one, qx + two.x - one.x, qy + two.y - one.y, fx, fy)
+            apply_force(two, qx, qy, -fx, -fy)
     if contact.film != NO_FILM:
         fx, fy = film_of(contact, work.poses)
-        qx, qy = turned(two, contact.bx, contact.by)
-        push(one, qx + two.x - one.x, qy + two.y - one.y, fx, fy)
-        push(two, qx, qy, -fx, -fy)
+        qx, qy = rotated(two, contact.bx, contact.by)
+        apply_force(one, qx + two.x - one.x, qy + two.y - one.y, fx, fy)
+        apply_force(two, qx, qy, -fx, -fy)

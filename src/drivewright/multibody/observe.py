@@ -7,8 +7,9 @@ import numpy as np
 from drivewright._jit import inner, outer
 from drivewright.multibody.chart import configure, lead
 from drivewright.multibody.dynamics import accelerate, inertia
+from drivewright.multibody.forces.contact import NO_FILM
 from drivewright.multibody.loads import apply, film_of, hold, press, touch, unload
-from drivewright.multibody.system import COLUMN, DRIFT, NO_FILM, motion
+from drivewright.multibody.system import COLUMN, DRIFT, motion
 
 FIELDS = ("x", "y", "angle", "vx", "vy", "w", "ax", "ay", "alpha", "fx", "fy", "torque")
 PIN_FIELDS = ("depth", "normal", "friction", "slip", "nx", "ny", "fx", "fy")

@@ -3,8 +3,9 @@
 import numpy as np
 from scipy.linalg import qr
 
+from drivewright.multibody.forces.contact import LUGRE
 from drivewright.multibody.kinematics import placed
-from drivewright.multibody.system import LUGRE, MISS, no_chart, scratch
+from drivewright.multibody.system import MISS, no_chart, scratch
 from drivewright.numerics.small import lu_factor
 
 

@@ -13,8 +13,9 @@ import numpy as np
 from scipy.linalg import qr
 
 from drivewright.multibody.chart import configure_at
+from drivewright.multibody.forces.contact import LUGRE
 from drivewright.multibody.partition import at, misses, scaled_jacobian, split_into
-from drivewright.multibody.system import LUGRE, Chart, System, Work, motion
+from drivewright.multibody.system import Chart, System, Work, motion
 
 NODES = np.array([-1.0, -0.85, -0.7, -0.55, 0.55, 0.7, 0.85, 1.0])  # of a chart, in parts of its half width
 WIDTHS = 0.12 * 0.5 ** np.arange(6)  # half widths to try [rad], [lengths of the mechanism]

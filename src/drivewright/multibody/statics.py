@@ -11,13 +11,12 @@ import numpy as np
 
 from drivewright._jit import outer
 from drivewright.errors import InputError, SolverError
-from drivewright.multibody import system as arrays
 from drivewright.multibody.chart import configure
 from drivewright.multibody.dynamics import inertia, validity_of_split
 from drivewright.multibody.loads import LASTING, load
 from drivewright.multibody.partition import at
 from drivewright.multibody.simulate import resplit
-from drivewright.multibody.system import DRIFT, System, Work, motion
+from drivewright.multibody.system import CURVE, DRIFT, PIECE, System, Work, motion
 
 REACH = 0.1  # way of one step of creeping: an unstable equilibrium within it is found as well, in lengths of the mechanism
 LONGEST = 0.3  # step of Newton's method, in the same
@@ -130,7 +129,7 @@ def held(system, time):
 
 def _driven_by(system, start, slope):
     """The system with driven coordinates start + slope t."""
-    driven, curves, pieces = system.driven.copy(), np.zeros(len(start), arrays.CURVE), np.zeros(len(start), arrays.PIECE)
+    driven, curves, pieces = system.driven.copy(), np.zeros(len(start), CURVE), np.zeros(len(start), PIECE)
     driven["sign"], driven["start"], driven["curve"] = 1.0, start, len(system.curves) + np.arange(len(start))
     curves["first"], curves["count"], pieces["c1"] = len(system.pieces) + np.arange(len(start)), 1, slope
     return system._replace(

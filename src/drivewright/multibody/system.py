@@ -10,48 +10,24 @@ from typing import NamedTuple
 
 import numpy as np
 
-_INT, _REAL = np.int64, np.float64
-
-
-def _record(integers, reals):
-    return np.dtype([(name, _INT) for name in integers.split()] + [(name, _REAL) for name in reals.split()])
-
+from drivewright.multibody.joints.rows import Equations, NoEquations
+from drivewright.multibody.records import record_type
 
 # r = r_parent + R_parent (a + s e) - R (b + s f), s the slide: one of e and f is 0.  `free`: x, y are coordinates free, free + 1.
 # `driven`: it follows the drives alone.
-BODY = _record("parent turn slide free driven", "inherits offset ax ay bx by ex ey fx fy mass inertia")
+BODY = record_type("parent turn slide free driven", "inherits offset ax ay bx by ex ey fx fy mass inertia")
 
-# LINEAR   (R_k e).(P_i - P_j) + gi theta_i + gj theta_j + gk theta_k - lift(theta_l - theta_k) - constant = 0
-# DISTANCE |P_i - P_j| - constant = 0
-# CIRCLE   (gi + gj) phi - gi theta_i - gj theta_j - constant = 0, phi the direction from P_j to P_i
-LINEAR, DISTANCE, CIRCLE = range(3)
 # `extent` of its residual: the length of the mechanism, or 1 where the residual is an angle.
-ROW = _record("kind i j k l lift joint", "ax ay bx by ex ey gi gj gk constant extent")
+ROW = record_type("kind i j k l lift joint", "ax ay bx by ex ey gi gj gk constant extent")
 
-DRIVEN = _record("coordinate curve", "sign start")
-CURVE = _record("first count", "period")
-PIECE = _record("", "start c0 c1 c2 c3 c4 c5")
-
-SPRING = _record("i j", "ax ay bx by stiffness free_length damping")
-TWIST = _record("i j", "stiffness rest damping")
-TIME, ANGLE, SPEED = range(3)
-TORQUE = _record("i j over curve", "")
-FORCE = _record("i over curve follows k", "ax ay ex ey")
-BUSHING = _record("i j", "ax ay bx by stiffness damping rotational_stiffness rotational_damping rest")
-
-NO_FRICTION, COULOMB, AMBROSIO, LUGRE = range(4)
-NO_FILM, LONG_FILM, SHORT_FILM = range(3)
-CONTACT = _record(
-    "i j memory bristle law film cylinder",
-    "ax ay bx by clearance bearing_radius stiffness exponent hysteresis lasting damping friction slip_speed dead_speed static_friction "
-    "bristle_stiffness bristle_damping viscous viscosity length roughness",
-)
-
+DRIVEN = record_type("coordinate curve", "sign start")
+CURVE = record_type("first count", "period")
+PIECE = record_type("", "start c0 c1 c2 c3 c4 c5")
 
 # What a run finds at the state it was last asked about.
-COORDINATE = _record("", "q v a")  # value, rate, acceleration
-POSE = _record("", "x y c s angle vx vy w bx by fx fy ft")  # place, rates, acceleration at zero q'', force through the centroid, torque
-LEVER = _record("", "x y t")  # d(place, angle)/d(coordinate)
+COORDINATE = record_type("", "q v a")  # value, rate, acceleration
+POSE = record_type("", "x y c s angle vx vy w bx by fx fy ft")  # place, rates, acceleration at zero q'', force through the centroid, torque
+LEVER = record_type("", "x y t")  # d(place, angle)/d(coordinate)
 MISS, DRIFT, COLUMN = range(3)  # residual of the rows; q'' of the dependent coordinates at zero q'' of the independent ones; scratch
 
 
@@ -84,7 +60,7 @@ class System(NamedTuple):
     independent: np.ndarray
     dependent: np.ndarray
     springs: np.ndarray
-    twists: np.ndarray
+    rotational_springs: np.ndarray
     torques: np.ndarray
     forces: np.ndarray
     bushings: np.ndarray
@@ -92,6 +68,7 @@ class System(NamedTuple):
     wear: np.ndarray  # (contacts, bins): depth worn off each bearing, over the angle in its body's frame; no bins without wear
     curves: np.ndarray
     pieces: np.ndarray
+    equations: NoEquations | Equations  # of rows of further kinds
     gravity_x: float
     gravity_y: float
     length: float  # of the mechanism, its largest arm [m]

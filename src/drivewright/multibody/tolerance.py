@@ -9,12 +9,14 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright import cases
-from drivewright._jit import inner, outer
+from drivewright._jit import inner, outer, plain
 from drivewright.errors import DoesNotAssemble, InputError, UnknownName
 from drivewright.multibody.continuation import continued
-from drivewright.multibody.kinematics import close, turned
+from drivewright.multibody.frames import rotated
+from drivewright.multibody.joints.rows import terms_of_row
+from drivewright.multibody.kinematics import close
 from drivewright.multibody.simulate import at_state
-from drivewright.multibody.system import CURVE, DISTANCE, LINEAR, PIECE, System, Work, scratch
+from drivewright.multibody.system import CURVE, PIECE, System, Work, scratch
 
 CHUNK = 10_000  # samples between two looks at the keyboard
 CIRCLE, UNIFORM, NORMAL = "circle", "uniform", "normal"
@@ -193,7 +195,7 @@ def scatter(system, nominal, work, q, shifts, moves, marks, nominal_marks, out):
         closed = close(system, work)
         for k in range(marks.size):
             here = work.poses[marks[k].body]
-            px, py = turned(here, marks[k].x, marks[k].y)
+            px, py = rotated(here, marks[k].x, marks[k].y)
             out[n, k, 0], out[n, k, 1], out[n, k, 2] = here.angle, here.x + px, here.y + py
             if not closed:
                 out[n, k, 0] = out[n, k, 1] = out[n, k, 2] = np.nan
@@ -308,13 +310,8 @@ def _normals(system, work):
     """d(residual)/d(point of the first body) of every row, (rows, 2)."""
     normals = np.empty((len(system.rows), 2))
     for r, row in enumerate(system.rows):
-        if row.kind == LINEAR:
-            normals[r] = _rotation(work.poses[row.k]) @ (row.ex, row.ey)
-            continue
         first, second = work.poses[row.i], work.poses[row.j]
         apart = np.array([first.x, first.y]) + _rotation(first) @ (row.ax, row.ay)
         apart -= np.array([second.x, second.y]) + _rotation(second) @ (row.bx, row.by)
-        distance = np.hypot(*apart)
-        along = apart / distance
-        normals[r] = along if row.kind == DISTANCE else (row.gi + row.gj) / distance * np.array([-along[1], along[0]])
+        normals[r] = plain(terms_of_row)(system, work, row, *apart)[1:3]
     return normals

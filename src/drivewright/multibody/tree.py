@@ -1,23 +1,28 @@
 """Model -> tree: which joint carries which body, which joints close loops, which coordinates there are.
 
-Massless links become bodies without mass between two pins.  Joints are taken into the tree in this order: driven ones, prismatic
-ones, pins, pin-slots; what is left over closes loops.  Joints with play carry nothing: they are forces.  A body that hangs on
-nothing is free, with x and y for coordinates.
+Massless links become bodies without mass between two pins.  Joints are taken into the tree in the order of their `tree_role`, driven ones
+first; what is left over closes loops.  Joints with play carry nothing: they are forces.  A body that hangs on nothing is free, with x and
+y for coordinates.
 """
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 
 from drivewright.errors import InputError, UnknownName
-from drivewright.multibody.model import GROUND, Body, Ideal, Marker, MasslessLink, PinSlot, Prismatic, Revolute, RotationalSpring
+from drivewright.multibody.bodies import GROUND, Body
+from drivewright.multibody.joints.joint import Joint, PointJoint
+from drivewright.multibody.joints.revolute import far_end_name
+from drivewright.multibody.model import Model
 
 
 @dataclass(frozen=True)
 class Link:
-    """How a body hangs in the tree: on `parent` by `joint` (None: free), its coordinates by number or -1."""
+    """How a body hangs in the tree: on `parent` by `joint` (None: free), its coordinates by number or -1; `inherits`: its angle counts
+    from the parent's."""
 
     body: Body
     parent: str
-    joint: object
+    joint: PointJoint | None
     turn: int
     slide: int
     free: int
@@ -28,62 +33,46 @@ class Link:
 class Tree:
     """Links in an order in which parents come first; the joints that close loops; the number of coordinates."""
 
-    links: tuple
-    closing: tuple
+    links: tuple[Link, ...]
+    closing: tuple[Joint, ...]
     size: int
 
-    def link(self, name):
+    def link(self, name: str) -> Link:
+        """How the body of this name hangs in the tree."""
         return next(link for link in self.links if link.body.name == name)
 
 
-def expanded(model):
-    """The model with every massless link as a body of its own, named link:JOINT, between two ideal pins."""
+def expand(model: Model) -> Model:
+    """The model with what stands for its joints in the simulation: every massless link as a body of its own."""
     bodies, joints, forces = list(model.bodies), [], list(model.forces)
     for joint in model.joints:
-        if not isinstance(getattr(joint, "model", None), MasslessLink):
+        expansion = joint.expansion
+        if expansion is None:
             joints.append(joint)
             continue
-        link = Body(f"link:{joint.name}", angle=joint.model.angle)
-        bodies.append(link)
-        forces.append(RotationalSpring(link.name, link.name, damping=joint.model.damping))
-        joints += [
-            Revolute(joint.name, joint.first, Marker(link.name)),
-            Revolute(f"{joint.name} (link)", Marker(link.name, joint.model.clearance), joint.second),
-        ]
+        bodies += expansion.bodies
+        forces += expansion.forces
+        joints += expansion.joints
     return replace(model, bodies=tuple(bodies), joints=tuple(joints), forces=tuple(forces))
 
 
-def far_end(model, joint):
+def far_end(model: Model, joint: Joint) -> Joint | None:
     """The other pin of the massless link that a joint of an expanded model holds, or None."""
-    return next((other for other in model.joints if other.name == f"{joint.name} (link)"), None)
+    return next((other for other in model.joints if other.name == far_end_name(joint)), None)
 
 
-def carries(joint):
-    """Whether a joint can hold a body: ideal ones can."""
-    return isinstance(joint, (Prismatic, PinSlot)) or (isinstance(joint, Revolute) and isinstance(joint.model, Ideal))
-
-
-def closes(joint):
-    """Whether a joint is a constraint at all."""
-    return carries(joint) or not isinstance(joint, Revolute)
-
-
-def ends(joint):
-    """Names of the two bodies of a joint that can be in the tree."""
-    return joint.first.body, joint.second.body
-
-
-def grow(model):
+def build_tree(model: Model) -> Tree:
     """The `Tree` of an expanded model."""
     linked = {joint.name for joint in model.joints if far_end(model, joint)}  # a link stands between the drive's two bodies
     driven = {drive.joint for drive in model.drives} - linked
     chosen = _chosen(model, driven)
-    neighbours = {body.name: [] for body in model.bodies} | {GROUND: []}
+    neighbours: dict[str, list[PointJoint]] = {body.name: [] for body in model.bodies} | {GROUND: []}
     for joint in chosen:
-        for body in ends(joint):
+        for body in joint.bodies:
             neighbours[body].append(joint)
     bodies = {body.name: body for body in model.bodies}
-    links, seen, count = [], {GROUND}, 0
+    links: list[Link] = []
+    seen, count = {GROUND}, 0
     for root in [GROUND, *bodies]:
         if root in seen and root != GROUND:
             continue
@@ -94,32 +83,32 @@ def grow(model):
         while queue:
             parent = queue.pop(0)
             for joint in neighbours[parent]:
-                child = next(end for end in ends(joint) if end != parent)
+                child = next(end for end in joint.bodies if end != parent)
                 if child not in seen:
                     link = _hang(bodies[child], parent, joint, count, joint.name in driven)
                     links.append(link)
                     seen, count = seen | {child}, count + (link.turn >= 0) + (link.slide >= 0)
                     queue.append(child)
-    closing = tuple(joint for joint in model.joints if closes(joint) and joint not in chosen)
+    closing = tuple(joint for joint in model.joints if joint.is_constraint and joint not in chosen)
     return Tree(tuple(links), closing, count)
 
 
-def _chosen(model, driven):
+def _chosen(model: Model, driven: Collection[str]) -> list[PointJoint]:
     """The joints of a spanning forest."""
 
-    def rank(joint):
-        return (joint.name not in driven, not isinstance(joint, Prismatic), isinstance(joint, PinSlot))
+    def rank(joint: PointJoint):
+        return joint.name not in driven, joint.tree_role.order if joint.tree_role else 0
 
     group = {body.name: body.name for body in model.bodies} | {GROUND: GROUND}
 
-    def root(name):
+    def root(name: str) -> str:
         while group[name] != name:
             name = group[name]
         return name
 
     chosen = []
-    for joint in sorted(filter(carries, model.joints), key=rank):
-        first, second = (_known(group, joint, end) for end in ends(joint))
+    for joint in sorted((joint for joint in model.joints if isinstance(joint, PointJoint) and joint.tree_role), key=rank):
+        first, second = (_known(group, joint, end) for end in joint.bodies)
         if root(first) != root(second):
             group[root(first)] = root(second)
             chosen.append(joint)
@@ -134,8 +123,8 @@ def _known(group, joint, end):
     return end
 
 
-def _hang(body, parent, joint, count, driven):
-    turns = not isinstance(joint, Prismatic)
-    slides = isinstance(joint, (Prismatic, PinSlot))
-    inherits = isinstance(joint, Prismatic) or (driven and parent != GROUND and isinstance(joint, Revolute))
-    return Link(body, parent, joint, count if turns else -1, count + turns if slides else -1, -1, inherits)
+def _hang(body: Body, parent: str, joint: PointJoint, count: int, driven: bool) -> Link:
+    role = joint.tree_role
+    assert role is not None  # only joints that carry are chosen
+    from_parent = role.from_parent or (driven and parent != GROUND)
+    return Link(body, parent, joint, count if role.turns else -1, count + role.turns if role.slides else -1, -1, from_parent)

@@ -9,7 +9,7 @@ import numpy as np
 from drivewright.errors import DoesNotAssemble
 from drivewright.mechanisms.linkage.describe import describe, output_marker
 from drivewright.multibody.assembly import Assembly, assemble
-from drivewright.multibody.model import Dry, Ideal, Lubricated, Marker, MasslessLink, Revolute
+from drivewright.multibody.model import Marker
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import Settings, simulate
 from drivewright.stopped import collected, uses
@@ -54,12 +54,12 @@ class LinkageModel:
     @property
     def pins(self):
         """Names of the pins whose contact the kernel simulates, in its order."""
-        return [j.name for j in self.assembly.model.joints if isinstance(j, Revolute) and isinstance(j.model, (Dry, Lubricated))]
+        return [joint.name for joint in self.assembly.model.joints if joint.dry_contact]
 
     @property
     def links(self):
         """Joints modelled by a massless link."""
-        return [j for j in self.assembly.model.joints if isinstance(j, Revolute) and isinstance(j.model, MasslessLink)]
+        return [joint for joint in self.assembly.model.joints if joint.massless_link]
 
     @property
     def settings(self):
@@ -83,7 +83,7 @@ class LinkageModel:
 
 
 def _played(model):
-    return any(isinstance(joint, Revolute) and not isinstance(joint.model, Ideal) for joint in model.joints)
+    return any(joint.play for joint in model.joints)
 
 
 def build(spec):

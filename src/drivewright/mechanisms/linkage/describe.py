@@ -2,6 +2,7 @@
 
 import math
 
+from drivewright import registry
 from drivewright.contact.hertz import effective_modulus
 from drivewright.contact.impact import impact_law, journal_stiffness, kelvin_voigt_damping
 from drivewright.errors import SpecError
@@ -16,7 +17,7 @@ CYLINDER_LOSS = "flores-2011"  # the cylinder law says nothing of losses
 def describe(spec, ideal=False):
     """The multibody `Model` of a LinkageSpec; `ideal` takes the play out of every joint."""
     bodies = tuple(_body(name, body) for name, body in spec.bodies.items())
-    joints = tuple(JOINTS[joint.kind](spec, joint, ideal) for joint in spec.joints)
+    joints = tuple(_joint(spec, joint, ideal) for joint in spec.joints)
     drives, motors = _drive(spec)
     return model.Model(bodies, joints, (*_forces(spec), *motors), drives, spec.gravity)
 
@@ -33,6 +34,12 @@ def marker(spec, text):
 
 
 # -- joints --------------------------------------------------------------------------------------------------------------------
+
+
+def _joint(spec, joint, ideal):
+    if joint.kind in JOINTS:
+        return JOINTS[joint.kind](spec, joint, ideal)
+    return registry.load("drivewright.joints", joint.kind, "kind of joint")(joint, *_markers(spec, joint))
 
 
 def _markers(spec, joint):

@@ -170,8 +170,7 @@ def shifted(model: Any, number: int) -> np.ndarray:
         return y
     free = np.searchsorted(system.stored, system.independent)
     direction = np.random.default_rng((model.spec.simulate.seed if model.spec.simulate else 1, number)).normal(size=len(free))
-    played = (getattr(joint, "model", None) for joint in model.assembly.model.joints)
-    sizes = [getattr(getattr(play, "contact", play), "clearance", 0.0) for play in played]
+    sizes = [joint.play.clearance for joint in model.assembly.model.joints if joint.play]
     clearance = min((size for size in sizes if size), default=1e-3 * system.length)
     y[free] += SHIFT * clearance / system.length * system.sizes[system.independent] * direction / np.linalg.norm(direction)
     return y

@@ -14,7 +14,7 @@ from drivewright.mechanisms.linkage.second_route import (
     positions,
     velocities,
 )
-from drivewright.multibody.model import GROUND, Ideal, Marker, MasslessLink, Revolute, RotationalSpring
+from drivewright.multibody.model import GROUND, Marker, Revolute, RotationalSpring
 from drivewright.multibody.observe import joined, observe
 from drivewright.multibody.simulate import Settings, clear_states, simulate
 from drivewright.numerics.ode import integrate
@@ -45,7 +45,7 @@ def chain_of(model):
     stated = model.assembly.model
     if not model.period or (len(stated.bodies), len(stated.joints), len(stated.drives)) != (3, 4, 1):
         return None
-    if not all(isinstance(joint, Revolute) and isinstance(joint.model, (Ideal, MasslessLink)) for joint in stated.joints):
+    if not all(joint.pin_markers and (joint.massless_link or not joint.play) for joint in stated.joints):
         return None
     steps = _walk(stated.joints, next(joint for joint in stated.joints if joint.name == stated.drives[0].joint))
     if len(steps) < 4 or steps[0].near.body != GROUND or steps[3].far.body != GROUND:
@@ -161,7 +161,7 @@ def _link_angles(model, chain, seen):
     """(alphas, rates) of the links O2, A, B, O4 in the sense of the loop, the frame on the real axis; 0 at ideal pins."""
     alphas, rates = np.zeros(4), np.zeros(4)
     for k, step in enumerate(chain.steps):
-        if isinstance(step.joint.model, MasslessLink):
+        if step.joint.massless_link:
             link = seen.bodies[0, model.assembly.names.index(f"link:{step.joint.name}")]
             alphas[k] = link[2] - np.angle(chain.bars[0]) + (0.0 if step.joint.first == step.near else np.pi)
             rates[k] = link[5]

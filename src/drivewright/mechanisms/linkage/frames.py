@@ -6,7 +6,7 @@ import numpy as np
 
 from drivewright.mechanisms.linkage.analyse import no_run
 from drivewright.mechanisms.linkage.build import TURN, run_of
-from drivewright.mechanisms.linkage.sketch import carried
+from drivewright.multibody.drawing import positions_of
 from drivewright.multibody.observe import observe
 from drivewright.multibody.simulate import simulate
 
@@ -67,6 +67,6 @@ def origins(model, bodies):
     found = {}
     for number, name in enumerate(model.assembly.names):
         pose = bodies[:, number, :3]
-        back = carried(tuple(-c for c in centroids.get(name, (0.0, 0.0))), pose)
+        back = positions_of(tuple(-c for c in centroids.get(name, (0.0, 0.0))), pose)
         found[name] = np.column_stack([back, pose[:, 2]])
     return found

@@ -20,7 +20,8 @@ from drivewright.units import (
 )
 
 Direction = tuple[Number, Number]
-Kind = Literal["revolute", "prismatic", "pin-slot", "rolling", "gear", "cam"]
+KINDS = ("revolute", "prismatic", "pin-slot", "rolling", "gear", "cam")
+Kind = Literal[(*KINDS, *sorted(plugins("drivewright.joints")))]
 Model = Literal["ideal", "massless-link", "dry", "lubricated", "bushing"]
 NORMALS = ("flores-2011", "lankarani-nikravesh", "hunt-crossley", "gonthier", "herbert-mcwhannell", "kelvin-voigt", "elastic", "cylinder")
 Normal = Literal[(*NORMALS, *sorted(plugins("drivewright.impact_laws")))]

@@ -13,7 +13,8 @@ from drivewright.errors import InputError
 from drivewright.mechanisms.linkage.frames import start_poses
 from drivewright.mechanisms.linkage.refusals import GROUND, place, points_of
 from drivewright.mechanisms.linkage.scene import COLOURS
-from drivewright.mechanisms.linkage.sketch import carried, nodes, rounded
+from drivewright.mechanisms.linkage.sketch import nodes
+from drivewright.multibody.drawing import positions_of, rounded
 from drivewright.scene import Drawing, Part, Prism, Shape, circle, polygon
 
 SHARE, LARGEST = 0.1, 5e-3  # default radius of a pin over the shortest link, and its limit [m]
@@ -120,7 +121,7 @@ def _pins(spec, poses, levels):
     for joint in spec.joints:
         if joint.kind == "revolute":
             body, point = place(joint.connects[1])
-            spot = carried(points_of(spec, body)[point], np.array([poses[body]]))[0]
+            spot = positions_of(points_of(spec, body)[point], np.array([poses[body]]))[0]
             near = next((key for key in spots if math.dist(key, spot) < SAME), tuple(spot))
             spots.setdefault(near, []).append(joint)
     for spot, joints in spots.items():

@@ -7,13 +7,13 @@ import numpy as np
 from drivewright.mechanisms.linkage.describe import marker, output_marker
 from drivewright.mechanisms.linkage.frames import FINE, film
 from drivewright.mechanisms.linkage.refusals import GROUND
-from drivewright.mechanisms.linkage.sketch import block, carried, half_width, nodes, rounded, turned
-from drivewright.multibody.model import Bushing, Dry, Gear, Ideal, Lubricated, MasslessLink, PinSlot, Prismatic, Revolute, Rolling
+from drivewright.mechanisms.linkage.sketch import half_width, nodes
+from drivewright.multibody.drawing import JointDrawing, positions_of, rotate, rounded
+from drivewright.multibody.model import Revolute
 from drivewright.scene import Body, Frame, Scene, Shape, Trace, circle, polygon
 
 COLOURS = ("blue", "orange", "green", "violet", "steel")
-PIN, BEARING, RIM = 0.5, 1.7, 1.35  # radius of a pin and of a bearing over half a bar's width; of its rim over the bearing's
-BLOCK = 2.6  # half the height of a sliding block over half a bar's width
+BEARING, RIM = 1.7, 1.35  # radius of a bearing over half a bar's width; of its rim over the bearing's
 SHOWN = 0.6  # the drawn play over the drawn bearing's radius, at most
 
 
@@ -21,8 +21,16 @@ def scene(model):
     """One turn of the drive, or the run of a free mechanism; play is drawn larger by a round factor that its label tells."""
     seen, slim = film(model), half_width(model.spec)
     names = (GROUND, *model.spec.bodies)
-    plays = [_play(joint, seen, slim) for joint in model.assembly.model.joints if isinstance(joint, Revolute) and joint.model != Ideal()]
-    shapes = {name: [*_body_shapes(model, seen, name, slim), *_bearings(plays, name), *_pins(model, names, name, slim)] for name in names}
+    drawing = JointDrawing(seen.poses, slim, names, model.assembly.model.joints)
+    plays = [_play(joint, seen, slim) for joint in drawing.joints if joint.play]
+    shapes = {
+        name: [
+            *_body_shapes(model.spec, drawing, name),
+            *_bearings(plays, name),
+            *(shape for joint in drawing.joints for shape in joint.pin_shapes(name, drawing)),
+        ]
+        for name in names
+    }
     colours = ["ground", *(COLOURS[n % len(COLOURS)] for n in range(len(model.spec.bodies)))]
     bodies = [
         Body(name, name.replace("_", " "), tuple(shapes[name]), seen.frames(name), colour)
@@ -51,106 +59,22 @@ def scene(model):
 # -- bodies --------------------------------------------------------------------------------------------------------------------
 
 
-def _body_shapes(model, seen, name, slim):
+def _body_shapes(spec, drawing, name):
     """Plate, wheels, sliding blocks, guides and supports of a body, in its frame."""
-    spec, joints = model.spec, model.assembly.model.joints
-    of_own = [
-        shape
-        for joint in joints
-        if isinstance(joint, (Prismatic, PinSlot, Rolling)) and joint.first.body == name
-        for shape in _slides(joint, seen, slim)
-    ]
+    of_own = [shape for joint in drawing.joints for shape in joint.own_shapes(name, drawing)]
     points = nodes(spec, name)
     if name == GROUND:
-        yield from _supports(spec, joints, slim)
+        yield from _supports(spec, drawing)
     elif len(points) > 1 or not of_own:
-        yield Shape("body", rounded(points, slim))
+        yield Shape("body", rounded(points, drawing.half_width))
     yield from of_own
-    for joint in joints:
-        if isinstance(joint, (Prismatic, PinSlot, Rolling)) and joint.second.body == name:
-            yield from _guide(joint, seen, slim)
-        if isinstance(joint, Gear) and name in (joint.first, joint.second):
-            yield from _gear(joints, joint, name)
+    for joint in drawing.joints:
+        yield from joint.guide_shapes(name, drawing)
 
 
-def _slides(joint, seen, slim):
-    """The block of a prismatic joint, the wheel of a rolling one; a pin in a slot is drawn with the slot."""
-    center = joint.first[1:]
-    if isinstance(joint, Rolling):
-        yield Shape("body", circle(center, joint.radius))
-        yield Shape("axis", polygon([center, (center[0] + joint.radius, center[1])], closed=False))
-    if isinstance(joint, Prismatic):
-        angle = seen.poses[joint.second.body][0, 2] + np.arctan2(*joint.axis[::-1]) - seen.poses[joint.first.body][0, 2]
-        yield Shape("body", block(center, angle, 3.2 * slim, BLOCK * slim))
-
-
-def _guide(joint, seen, slim):
-    """What the first body of a joint runs along, as far as it does: two rails, a slot, a track."""
-    along, across, (low, high) = np.array(joint.axis), np.array([-joint.axis[1], joint.axis[0]]), _travel(joint, seen)
-    origin, ground = np.array(joint.second[1:]), joint.second.body == GROUND
-    layer = "ground" if ground else "body"
-    if isinstance(joint, PinSlot):
-        slot = [origin + low * along, origin + high * along]
-        if not ground:
-            yield Shape("body", rounded([*slot, origin], slim))
-        yield Shape("hole", rounded(slot, 1.3 * PIN * slim))
-    elif isinstance(joint, Prismatic):
-        ends = low - 4 * slim, high + 4 * slim
-        for side, (a, b) in ((-1, ends), (1, ends[::-1])):  # ground is hatched on the right of a line
-            yield Shape(layer, polygon([origin + s * along + side * BLOCK * slim * across for s in (a, b)], closed=False))
-    elif joint.track_radius:
-        yield Shape(layer, circle(origin, abs(joint.track_radius)))
-    else:
-        ends = low - joint.radius, high + joint.radius
-        yield Shape(layer, polygon([origin + s * along for s in ends], closed=False))
-
-
-def _travel(joint, seen):
-    """(least, largest) place of the first body's point along the line of the second."""
-    here, there = (carried(m[1:], seen.poses[m.body]) for m in (joint.first, joint.second))
-    along = turned(np.broadcast_to(joint.axis, here.shape), seen.poses[joint.second.body][:, 2])
-    travel = np.sum((here - there) * along, axis=1)
-    return float(travel.min()), float(travel.max())
-
-
-def _gear(joints, gear, name):
-    """The pitch circle of a gear: centre distance a = |r1 - sign r2| with r1 / r2 = |ratio|; none without two pins on the carrier."""
-    pins = [_pin_on(joints, body, gear.carrier) for body in (gear.first, gear.second)]
-    if None in pins or gear.ratio == 1.0:
-        return
-    distance = np.hypot(*np.subtract(pins[0][1][1:], pins[1][1][1:]))
-    second = distance / abs(1.0 - gear.ratio)
-    which = 0 if name == gear.first else 1
-    radius = second if which else second * abs(gear.ratio)
-    if radius > 0:
-        yield Shape("pitch", circle(pins[which][0][1:], radius))
-
-
-def _pin_on(joints, body, carrier):
-    """(marker on the body, marker on the carrier) of the pin between them; None without one."""
-    for joint in joints:
-        if isinstance(joint, Revolute) and {joint.first.body, joint.second.body} == {body, carrier}:
-            return (joint.first, joint.second) if joint.first.body == body else (joint.second, joint.first)
-    return None
-
-
-# -- pins and ground -----------------------------------------------------------------------------------------------------------
-
-
-def _pins(model, names, name, slim):
-    """Pins without play, each on the body of the two that is drawn later; pins in slots on their own body."""
-    for joint in model.assembly.model.joints:
-        if isinstance(joint, Revolute) and joint.model == Ideal():
-            upper = max((joint.first, joint.second), key=lambda m: names.index(m.body))
-            if upper.body == name:
-                yield Shape("hole", circle(upper[1:], PIN * slim))
-        if isinstance(joint, PinSlot) and joint.first.body == name:
-            yield Shape("hole", circle(joint.first[1:], PIN * slim))
-
-
-def _supports(spec, joints, slim):
+def _supports(spec, drawing):
     """A triangle on hatched ground below every pin of the ground, a short line at a spring's end."""
-    pins = {m[1:] for j in joints if isinstance(j, Revolute) for m in (j.first, j.second) if m.body == GROUND}
+    slim, pins = drawing.half_width, {marker[1:] for joint in drawing.joints for marker in joint.support_markers if marker.body == GROUND}
     for x, y in sorted(pins):
         yield Shape("ground", polygon([(x - 1.6 * slim, y - 2.8 * slim), (x, y), (x + 1.6 * slim, y - 2.8 * slim)]))
         yield Shape("ground", polygon([(x - 2.6 * slim, y - 2.8 * slim), (x + 2.6 * slim, y - 2.8 * slim)], closed=False))
@@ -177,9 +101,9 @@ class Play(NamedTuple):
 
 def _play(joint, seen, slim):
     """The `Play` of a joint; a bushing has as much as it gives way."""
-    bearing, journal = (carried(m[1:], seen.poses[m.body]) for m in (joint.first, joint.second))
+    bearing, journal = (positions_of(m[1:], seen.poses[m.body]) for m in (joint.first, joint.second))
     away = journal - bearing
-    real = clearance(joint.model) or float(np.hypot(*away.T).max())
+    real = joint.play.clearance or float(np.hypot(*away.T).max())
     radius = max(BEARING * slim, real / SHOWN)
     factor = max(_round_down(SHOWN * radius / real), 1.0) if real > 0 else 1.0
     away = away * factor
@@ -187,14 +111,7 @@ def _play(joint, seen, slim):
     away *= np.minimum(1.0, factor * real / np.maximum(np.hypot(*away.T), 1e-300))[:, None]
     turn, own = (seen.poses[marker.body][:, 2] for marker in (joint.first, joint.second))
     poses, rest = (np.column_stack([place, own])[::FINE] for place in (bearing + away, bearing))
-    return Play(joint, radius, factor * real, factor, turned(away, -turn), poses, rest)
-
-
-def clearance(model):
-    """Play of a pin [m]; 0 of a bushing."""
-    if isinstance(model, Lubricated):
-        return model.contact.clearance
-    return model.clearance if isinstance(model, (Dry, MasslessLink)) else 0.0
+    return Play(joint, radius, factor * real, factor, rotate(away, -turn), poses, rest)
 
 
 def _round_down(value):
@@ -220,10 +137,9 @@ def _journal(play):
     """
     radius = play.radius - play.drawn
     shapes = (Shape("roller", circle((0, 0), radius)), Shape("axis", polygon([(0, 0), (radius, 0)], closed=False)))
-    what = "bushing" if isinstance(play.joint.model, Bushing) else "play"
     return Body(
         f"journal {play.joint.name}",
-        f"{what} drawn ×{play.factor:g}",
+        f"{play.joint.play.noun} drawn ×{play.factor:g}",
         shapes,
         play.poses,
         "ground",
@@ -239,7 +155,7 @@ def _journal(play):
 def _springs(model, seen, slim):
     """Every spring as a coil on one end and a rod on the other that slide along each other."""
     for number, spring in enumerate(model.spec.springs, 1):
-        ends = [carried(m[1:], seen.poses[m.body]) for m in (marker(model.spec, text) for text in spring.connects)]
+        ends = [positions_of(m[1:], seen.poses[m.body]) for m in (marker(model.spec, text) for text in spring.connects)]
         between = (ends[1] - ends[0])[::FINE]
         lengths = np.hypot(*between.T)
         if lengths.min() < 2 * slim:

@@ -1,0 +1,10 @@
+"""Forces between bodies, and on them: a file each, with its description, its record and its kernel."""
+
+from drivewright.multibody.forces.bushing import Bushing
+from drivewright.multibody.forces.contact import Dry, Friction, Lubricated
+from drivewright.multibody.forces.element import ForceElement
+from drivewright.multibody.forces.load import Force, Load, Torque
+from drivewright.multibody.forces.rotational_spring import RotationalSpring
+from drivewright.multibody.forces.spring import Spring
+
+__all__ = ["Bushing", "Dry", "Force", "ForceElement", "Friction", "Load", "Lubricated", "RotationalSpring", "Spring", "Torque"]

@@ -1,0 +1,98 @@
+"""Loads from outside: torques and forces whose size is given over time, over an angle or over a speed."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from drivewright._jit import inner
+from drivewright.multibody.bodies import GROUND, Marker
+from drivewright.multibody.curves import Curve, curve_at
+from drivewright.multibody.forces.element import ForceElement
+from drivewright.multibody.frames import apply_force, apply_torque_pair, rotated
+from drivewright.multibody.index import ModelIndex
+from drivewright.multibody.records import record_type
+
+TIME, ANGLE, SPEED = range(3)
+OVER = {"time": TIME, "angle": ANGLE, "speed": SPEED}
+TORQUE = record_type("i j over curve", "")
+FORCE = record_type("i over curve follows k", "ax ay ex ey")
+
+
+@dataclass(frozen=True)
+class Load:
+    """A quantity over "time" [s], over the "angle" of `body` relative to `on` [rad], or over their relative "speed" [rad/s]."""
+
+    curve: Curve
+    over: str = "time"
+
+
+@dataclass(frozen=True)
+class Torque(ForceElement):
+    """Torque on `body`, its opposite on `on`.  A motor is a torque over the speed."""
+
+    table: ClassVar[str] = "torques"
+
+    body: str
+    load: Load
+    on: str = GROUND
+
+    def record(self, index: ModelIndex) -> Mapping[str, Any]:
+        whose = f"torque {self.name!r}"
+        return {
+            "i": index.number(self.body, whose),
+            "j": index.number(self.on, whose),
+            "over": OVER[self.load.over],
+            "curve": index.add_curve(self.load.curve),
+        }
+
+
+@dataclass(frozen=True)
+class Force(ForceElement):
+    """Force (x, y) times a load factor on a point; `follows` where the direction turns with the body."""
+
+    table: ClassVar[str] = "forces"
+
+    point: Marker
+    direction: tuple[float, float]
+    load: Load
+    follows: bool = False
+
+    def record(self, index: ModelIndex) -> Mapping[str, Any]:
+        i = index.number(self.point.body, f"force {self.name!r}")
+        (ax, ay), (ex, ey) = index.arm(self.point), self.direction
+        return {
+            "i": i,
+            "over": OVER[self.load.over],
+            "curve": index.add_curve(self.load.curve),
+            "follows": self.follows,
+            "k": i if self.follows else 0,
+            "ax": ax,
+            "ay": ay,
+            "ex": ex,
+            "ey": ey,
+        }
+
+
+@inner
+def _argument(poses, t, over, i, j):
+    if over == TIME:
+        return t
+    return poses[i].angle - poses[j].angle if over == ANGLE else poses[i].w - poses[j].w
+
+
+@inner
+def apply_torque(poses: np.recarray, torque: np.record, curves: np.recarray, pieces: np.recarray, t: float) -> None:
+    """The torque of a load on body i, its opposite on body j, at the time t.  poses (bodies,) of POSE."""
+    value, _, _ = curve_at(curves, pieces, torque.curve, _argument(poses, t, torque.over, torque.i, torque.j))
+    apply_torque_pair(poses, torque, value)
+
+
+@inner
+def apply_load_force(poses: np.recarray, force: np.record, curves: np.recarray, pieces: np.recarray, t: float) -> None:
+    """The force of a load on its point, at the time t.  poses (bodies,) of POSE."""
+    value, _, _ = curve_at(curves, pieces, force.curve, _argument(poses, t, force.over, force.i, 0))
+    fx, fy = rotated(poses[force.k], force.ex, force.ey)
+    px, py = rotated(poses[force.i], force.ax, force.ay)
+    apply_force(poses[force.i], px, py, value * fx, value * fy)

@@ -1,0 +1,49 @@
+"""The spring with a damper between two points."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from drivewright._jit import outer
+from drivewright.multibody.bodies import Marker
+from drivewright.multibody.forces.element import ForceElement
+from drivewright.multibody.frames import apply_force, relative_motion
+from drivewright.multibody.index import ModelIndex
+from drivewright.multibody.records import record_type
+
+SPRING = record_type("i j", "ax ay bx by stiffness free_length damping")
+
+
+@dataclass(frozen=True)
+class Spring(ForceElement):
+    """Spring and damper between two points: tension k (L - L0) + c L'."""
+
+    table: ClassVar[str] = "springs"
+
+    first: Marker
+    second: Marker
+    stiffness: float
+    free_length: float = 0.0
+    damping: float = 0.0
+
+    def record(self, index: ModelIndex) -> Mapping[str, Any]:
+        return index.pair(self.first, self.second, f"spring {self.name!r}") | {
+            "stiffness": self.stiffness,
+            "free_length": self.free_length,
+            "damping": self.damping,
+        }
+
+
+@outer
+def apply_spring(poses: np.recarray, spring: np.record) -> None:
+    """Tension k (L - L0) + c L' along the line between the points.  poses (bodies,) of POSE."""
+    dx, dy, vx, vy, px, py, qx, qy = relative_motion(poses, spring)
+    length = np.hypot(dx, dy)
+    if length == 0.0:  # no direction
+        return
+    ux, uy = dx / length, dy / length
+    tension = spring.stiffness * (length - spring.free_length) + spring.damping * (ux * vx + uy * vy)
+    apply_force(poses[spring.i], px, py, -tension * ux, -tension * uy)
+    apply_force(poses[spring.j], qx, qy, tension * ux, tension * uy)

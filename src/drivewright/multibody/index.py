@@ -1,0 +1,49 @@
+"""What the elements of a model need to become records: numbers of the bodies, arms of their markers, numbers of the curves."""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright.errors import InputError, UnknownName
+from drivewright.multibody.bodies import Marker
+from drivewright.multibody.curves import Curve
+
+
+class ModelIndex(NamedTuple):
+    """By name of the body: its number in the arrays, its start angle [rad], its centroid in its frame [m]; and the curves collected."""
+
+    numbers: Mapping[str, int]
+    angles: Mapping[str, float]
+    centroids: Mapping[str, tuple[float, float]]
+    curves: list[Curve]
+
+    def number(self, name: str, whose: str) -> int:
+        """Number of a body; UnknownName says who names it."""
+        if name not in self.numbers:
+            raise UnknownName(f"body of {whose}", name, self.numbers)
+        return self.numbers[name]
+
+    def arm(self, marker: Marker) -> tuple[float, float]:
+        """A marker seen from the centroid of its body, in the body's frame [m]."""
+        cx, cy = self.centroids[marker.body]
+        return marker.x - cx, marker.y - cy
+
+    def pair(self, first: Marker, second: Marker, whose: str) -> dict[str, float]:
+        """Fields i, j, ax, ay, bx, by of two bodies and the points on them."""
+        i, j = self.number(first.body, whose), self.number(second.body, whose)
+        (ax, ay), (bx, by) = self.arm(first), self.arm(second)
+        return {"i": i, "j": j, "ax": ax, "ay": ay, "bx": bx, "by": by}
+
+    def add_curve(self, curve: Curve) -> int:
+        """Number of a curve that the kernels are to know."""
+        self.curves.append(curve)
+        return len(self.curves) - 1
+
+
+def unit_axis(axis: tuple[float, float], joint: str) -> tuple[float, float]:
+    """An axis of length 1; InputError where it has no direction."""
+    length = np.hypot(*axis)
+    if not length > 0:
+        raise InputError(f"joint {joint!r}: its axis {axis} has no direction; give e.g. [1, 0]")
+    return axis[0] / length, axis[1] / length

@@ -1,0 +1,28 @@
+"""Joints: one frozen class a file, with its rows, its role in the spanning tree, its reaction and its drawing."""
+
+from drivewright.multibody.joints.cam_pair import CamPair
+from drivewright.multibody.joints.gear import Gear
+from drivewright.multibody.joints.joint import Expansion, Joint, PointJoint, TreeRole
+from drivewright.multibody.joints.pin_slot import PinSlot
+from drivewright.multibody.joints.prismatic import Prismatic
+from drivewright.multibody.joints.revolute import Ideal, MasslessLink, PinModel, Revolute
+from drivewright.multibody.joints.rolling import Rolling
+from drivewright.multibody.joints.rows import row_terms, row_velocity_product
+
+__all__ = [
+    "CamPair",
+    "Expansion",
+    "Gear",
+    "Ideal",
+    "Joint",
+    "MasslessLink",
+    "PinModel",
+    "PinSlot",
+    "PointJoint",
+    "Prismatic",
+    "Revolute",
+    "Rolling",
+    "TreeRole",
+    "row_terms",
+    "row_velocity_product",
+]

@@ -1,0 +1,49 @@
+"""The pin in a slot."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from drivewright.multibody.bodies import GROUND
+from drivewright.multibody.drawing import PIN, JointDrawing, rounded
+from drivewright.multibody.index import ModelIndex, unit_axis
+from drivewright.multibody.joints.joint import SLIDING_PIN, Axis, PointJoint, RowFields, TreeRole, line_direction, travel
+from drivewright.multibody.wrenches import NORMAL_OF, ObservedBodies, Wrench
+from drivewright.scene import Shape, circle
+
+
+@dataclass(frozen=True)
+class PinSlot(PointJoint):
+    """A point of `first` slides along a line of `second` and may turn."""
+
+    axis: Axis = (1.0, 0.0)
+
+    @property
+    def tree_role(self) -> TreeRole:
+        return TreeRole(SLIDING_PIN, turns=True, slides=True, from_parent=False)
+
+    @property
+    def slide_axis(self) -> Axis:
+        return self.axis
+
+    def constraint_rows(self, index: ModelIndex) -> list[RowFields]:
+        pair, (x, y) = self.pair(index), unit_axis(self.axis, self.name)
+        return [pair | {"k": pair["j"], "ex": -y, "ey": x}]
+
+    def wrenches(self, bodies: ObservedBodies) -> list[Wrench]:
+        return [Wrench({}, *self.bodies, line_direction(self.second.body, self.axis, bodies) @ NORMAL_OF, bodies.point(self.first))]
+
+    def guide_shapes(self, body: str, drawing: JointDrawing) -> Iterable[Shape]:
+        """A slot as long as the travel."""
+        if self.second.body != body:
+            return
+        along, origin, (low, high) = np.array(self.axis), np.array(self.second[1:]), travel(self.first, self.second, self.axis, drawing)
+        slot = [origin + low * along, origin + high * along]
+        if body != GROUND:
+            yield Shape("body", rounded([*slot, origin], drawing.half_width))
+        yield Shape("hole", rounded(slot, 1.3 * PIN * drawing.half_width))
+
+    def pin_shapes(self, body: str, drawing: JointDrawing) -> Iterable[Shape]:
+        if self.first.body == body:
+            yield Shape("hole", circle(self.first[1:], PIN * drawing.half_width))
