@@ -35,12 +35,12 @@ def batch_of(first, stop, loops):
     return [work(loops) for _ in range(first, stop)], time.perf_counter() - started
 
 
-def ours(lanes, cases, loops):
+def ours(places, cases, loops):
     """Seconds of a made-up study from the end of its first batch on, per case."""
-    from drivewright.studies.batches import Supply, compute
+    from drivewright.execution.batches import BatchScheduler, run_batches
 
-    supply, done, begun = Supply([], cases, len(lanes)), 0, None
-    for each in compute(lanes, batch_of, lambda batch: (batch.first, batch.stop, loops), supply):
+    scheduler, done, begun = BatchScheduler([], cases, len(places)), 0, None
+    for each in run_batches(places, batch_of, lambda batch: (batch.first, batch.stop, loops), scheduler):
         done += each.batch.stop - each.batch.first
         if begun is None and done >= cases // 20:
             begun, before = time.perf_counter(), done
@@ -58,18 +58,21 @@ def bare(workers, cases, loops):
 
 def workers():
     """Cases of about 10 ms by one and two workers of each kind."""
-    from drivewright.studies import pools
+    from drivewright.execution import executors
 
     loops = loops_for(10e-3)
     alone = best(lambda: work(loops), 20)
     yield "a case alone, in this process", alone, f"load of the machine {os.getloadavg()[0]:.1f}"
-    lanes = {"processes": lambda n: [pools.Process() for _ in range(n)], "Dask, local": lambda n: list(pools.pool(on=f"local:{n}"))}
-    for name, make in lanes.items():
+    places = {
+        "processes": lambda n: [executors.ProcessExecutor() for _ in range(n)],
+        "Dask, local": lambda n: list(executors.make_executors(on=f"local:{n}")),
+    }
+    for name, make in places.items():
         opened, per = {count: make(count) for count in (1, 2)}, {1: [], 2: []}
         for count in (1, 2) * ROUNDS:  # in turn: a machine that changes its speed changes it for both
             per[count].append(ours(opened[count], CASES * count // 2, loops))
-        for lane in (*opened[1], *opened[2]):
-            lane.close()
+        for place in (*opened[1], *opened[2]):
+            place.close()
         gain = np.median(per[1]) / np.median(per[2])
         yield f"{name}: one worker, per case", (min(per[1]), float(np.median(per[1]))), ""
         remark = f"{gain:.2f} times one; wanted 1.8 on two free cores"
@@ -84,15 +87,15 @@ def overhead():
     from threadpoolctl import threadpool_limits
 
     from drivewright import load, registry, runner, sweep
+    from drivewright.execution.evaluation import case_task
     from drivewright.spec import from_document, set_key
-    from drivewright.studies.evaluate import task_of
     from drivewright.studies.varying import linspace, varied
     from drivewright.units import SI
 
     key = "joint.rolling_radius"
     spec = load(EXAMPLES / "hyvo_chain.toml", ('study.analyses=["closure"]',))
     studied = varied(spec, {key: linspace("1.0 mm", "1.6 mm", MANY)})
-    task, mechanism = task_of(studied, (key,)), registry.mechanism(spec.mechanism)
+    task, mechanism = case_task(studied, (key,)), registry.mechanism(spec.mechanism)
     wanted = runner.selection(mechanism.analyses, task.analyses)
 
     def alone():

@@ -44,7 +44,7 @@ PAGES = (
     "studies.varying",
     "studies.study",
     "studies.plan",
-    "studies.pools",
+    "execution.executors",
     "studies.answers.whole",
     "studies.statistics",
     "studies.sensitivity",

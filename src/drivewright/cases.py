@@ -1,7 +1,4 @@
-"""Many cases through one function: same function, same answer, whatever the number of workers.
-
-`studies.run` is this module under its public name; it lies here so that a mechanism can use it for an analysis of its own.
-"""
+"""Many cases through one function: same function, same answer, whatever the number of workers."""
 
 import os
 from collections.abc import Callable, Iterable

@@ -6,8 +6,8 @@ import pytest
 
 import drivewright as dw
 from drivewright import registry
+from drivewright.execution.keys import key_kind
 from drivewright.spec import document, load, preset_path
-from drivewright.studies.variables import kind_of
 from drivewright.studies.varying import tolerance
 
 LEVELS, SAMPLES = 3, 2
@@ -27,7 +27,7 @@ def study_of(kind):
     """A study of a kind's own preset: one quantity over levels, another one at random, by its first analysis that gives values."""
     spec = load(preset_path(kind))
     analysis = next(each.name for each in registry.mechanism(kind).analyses if dw.run(spec, each.name).values)
-    keys = [key for key in quantities(document(spec)) if kind_of(spec, key).name == "quantity"]
+    keys = [key for key in quantities(document(spec)) if key_kind(spec, key).name == "quantity"]
     first, second = keys[0], keys[len(keys) // 2]
     number, unit = document_value(spec, first).split(maxsplit=1)
     levels = dw.linspace(f"{0.995 * float(number)!r} {unit}", f"{1.005 * float(number)!r} {unit}", LEVELS)

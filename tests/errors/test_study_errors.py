@@ -18,7 +18,8 @@ from study_toy import Body, Part, Toy, install
 import drivewright as dw
 from drivewright.cli import main
 from drivewright.errors import InputError, SpecError, UnknownName
-from drivewright.studies import batches, evaluate, plan, store
+from drivewright.execution import batches, evaluation
+from drivewright.studies import plan, store
 from drivewright.studies import sweep as sweeping
 from drivewright.studies.plan import plan_of
 from drivewright.studies.varying import asked, from_text, geomspace, linspace, normal, tolerance, triangular, uniform, varied
@@ -495,9 +496,9 @@ def test_another_version_of_the_program_does_not_go_on(study, monkeypatch):
 
 
 def test_a_worker_of_another_version_is_refused():
-    task = evaluate.task_of(varied(SPEC, LEVELS), ("size",))._replace(version="99.1")
+    task = evaluation.case_task(varied(SPEC, LEVELS), ("size",))._replace(version="99.1")
     with pytest.raises(InputError, match="drivewright 99.1 asks and .* would answer; install the same version on all workers"):
-        evaluate.evaluate(task, 0, {"size": np.array([1e-3])})
+        evaluation.evaluate(task, 0, {"size": np.array([1e-3])})
 
 
 def test_the_content_of_a_data_file_is_part_of_the_study(tmp_path):
@@ -676,7 +677,7 @@ def test_a_column_that_is_none(study):
 
 
 def test_a_very_long_reason_is_cut(monkeypatch):
-    monkeypatch.setattr(evaluate, "LONGEST", 40)
+    monkeypatch.setattr(evaluation, "LONGEST", 40)
     (row,) = dw.sweep(SPEC, {"colour": ["black"]}, on="serial")["message"]
     assert len(row) == 40 and row == "analysis 'main' (what it is) has no  ..."
 

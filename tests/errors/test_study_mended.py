@@ -136,9 +136,9 @@ def test_the_unit_of_a_column_that_is_none():
 
 def test_a_word_of_a_key_that_takes_a_number_or_a_word():
     """Levels "cowper" of the shaft's shear_coefficient, "no-dwell" of the indexer's motion_to_dwell."""
-    from drivewright.studies.variables import Kind
+    from drivewright.execution.keys import KeyKind
 
-    assert Kind("number").given("cowper") == "cowper" and Kind("number").given(np.float64(0.9)) == 0.9
+    assert KeyKind("number").given("cowper") == "cowper" and KeyKind("number").given(np.float64(0.9)) == 0.9
 
 
 def test_corners_keep_the_bounds_to_the_last_bit():

@@ -13,14 +13,14 @@ from pyarrow import parquet
 from drivewright import registry
 from drivewright.cli import show
 from drivewright.errors import SpecError
+from drivewright.execution import batches
+from drivewright.execution.outputs import case_outputs
 from drivewright.report.content import Views, pictures
 from drivewright.report.tabular import write_study_table
 from drivewright.result import Answer, Value
 from drivewright.spec import Optimise
-from drivewright.studies import batches
 from drivewright.studies.answers import answers
 from drivewright.studies.optimise import optimise
-from drivewright.studies.outputs import looked_at
 from drivewright.studies.search.problem import prepare
 from drivewright.studies.store import PARTS
 from drivewright.studies.sweep import open_study, sweep
@@ -85,7 +85,7 @@ def test_a_value_with_the_name_of_a_key_keeps_its_ends(monkeypatch):
 
 def test_a_value_that_is_called_low_is_a_value():
     values = {"play": Value(2.0, "m", "play", 1.0, 3.0, "fit"), "play.low": Value(0.5, "m", "play at the lower stop")}
-    found = looked_at(values, ())
+    found = case_outputs(values, ())
     assert found["play.low"].value == 0.5 and found["play.low"].bounds == "" and found["play.high"].bounds == "play"
 
 
@@ -160,7 +160,7 @@ def offering(known):
 
         def evaluate(designs):
             rows = [
-                looked_at(found.values, found.checks)
+                case_outputs(found.values, found.checks)
                 for (size,) in designs
                 for found in [chaos_toy.answer(given.model_copy(update={"size": size}), {})]
             ]

@@ -8,7 +8,7 @@ import pytest
 SOURCE = Path(__file__).parents[2] / "src" / "drivewright"
 ROWS = [
     "__main__ cli studio",
-    "validation studies report view",
+    "validation studies report view execution",
     "mechanisms",
     "indexing chains cams gears multibody shafts bearings solids fatigue",
     "motion curves contact materials",
@@ -84,6 +84,7 @@ def test_the_rule_can_fail(tmp_path):
     assert offence(SOURCE / "numerics" / "x.py", "drivewright.motion.laws")
     assert offence(SOURCE / "mechanisms" / "cam" / "x.py", "drivewright.mechanisms.seedling_pusher.spec")
     assert offence(SOURCE / "report" / "x.py", "drivewright.studies.optimise")
+    assert offence(SOURCE / "execution" / "x.py", "drivewright.studies.plan")
     assert offence(SOURCE / "studies" / "x.py", "drivewright.report.html") is None
 
 
@@ -99,7 +100,9 @@ def test_only_the_jit_room_imports_numba():
 
 
 @pytest.mark.parametrize(
-    "path", [p for p in files() if room(p) in ("cli", "studio", "studies", "report", "view")], ids=lambda p: str(p.relative_to(SOURCE))
+    "path",
+    [p for p in files() if room(p) in ("cli", "studio", "studies", "report", "view", "execution")],
+    ids=lambda p: str(p.relative_to(SOURCE)),
 )
 def test_the_house_knows_no_kind_by_name(path):
     from drivewright import registry

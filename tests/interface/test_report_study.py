@@ -17,6 +17,7 @@ from pyarrow import parquet
 from test_report_page import Page
 
 from drivewright.errors import InputError
+from drivewright.execution.keys import key_kind
 from drivewright.report import tabular
 from drivewright.report.study import cases, reasons, said, varied, verdict, write_answers
 from drivewright.report.tabular import rounded, write_study_table
@@ -25,7 +26,7 @@ from drivewright.spec import from_document
 from drivewright.studies.answers import Answers, answers
 from drivewright.studies.plan import plan_of
 from drivewright.studies.study import Study
-from drivewright.studies.variables import Variable, kind_of
+from drivewright.studies.variables import Variable
 
 NASTY = '</script><img src=x onerror=alert(1)> & "quoted", {{ 7*7 }} =1+1'
 
@@ -200,10 +201,10 @@ def test_what_varied_in_words():
     assert thin["plate.apothem"] == "uniform, 2.5 mm … 2.7 mm" and by_key["plate.apothem"][2] == "2.6\u00a0mm"
     assert thin["pitch"] == "triangular, 9.5 mm … 9.56 mm, peak at 9.525 mm"
     given = spec(**GRID)
-    kind = kind_of(given, "joint.rolling_radius")
+    kind = key_kind(given, "joint.rolling_radius")
     assert varied(Variable("k", kind, None, np.linspace(1, 2, 11) * 1e-3))[1:] == ("1\u00a0mm … 2\u00a0mm, 11 levels in equal steps", "")
     assert varied(Variable("k", kind, None, np.arange(1, 10) ** 2 * 1e-3))[1].endswith("9 levels in uneven steps")
-    texts = Variable("k", kind_of(given, "joint.kind"), "round-pin", np.array(["a", "b"], dtype=object))
+    texts = Variable("k", key_kind(given, "joint.kind"), "round-pin", np.array(["a", "b"], dtype=object))
     assert varied(texts) == ("k", "a, b", "round-pin")
     assert varied(Variable("k", kind, 1e-3))[1] == "the points of a file"
 

@@ -1,4 +1,4 @@
-"""What one tab computes: the newest drawing, analyses when the design rests, jobs - with lanes that answer as the test says."""
+"""What one tab computes: the newest drawing, analyses when the design rests, jobs - with workers that answer as the test says."""
 
 import asyncio
 from contextlib import asynccontextmanager
@@ -8,20 +8,20 @@ import loops
 import pytest
 
 from drivewright.errors import DoesNotAssemble, SpecError
+from drivewright.execution.workers import CANCEL_NOW, WorkerDied, WorkerFault
 from drivewright.registry import Analysis
 from drivewright.studio import computing, looking
 from drivewright.studio.computing import Computing
-from drivewright.studio.lanes import NOW, Failed, Lost
 
 KIND = "toy"
 ANALYSES = tuple(Analysis(name, None, name) for name in ("motion", "forces"))
 
 
 class Call:
-    """One call that a lane has taken; the test says how it ends."""
+    """One call that a worker has taken; the test says how it ends."""
 
-    def __init__(self, lanes, function, arguments, heard):
-        self.lanes, self.function, self.arguments, self.heard = lanes, function.__name__, arguments, heard
+    def __init__(self, pool, function, arguments, on_message):
+        self.pool, self.function, self.arguments, self.send = pool, function.__name__, arguments, on_message
         self.end, self.stopped, self.clearing = asyncio.get_running_loop().create_future(), None, None
 
     async def answer(self, value):
@@ -38,13 +38,13 @@ class Bench:
 
     def __init__(self):
         self.said, self.calls, self.offered, self.busy = [], [], {}, 0
-        self.quick, self.heavy = (SimpleNamespace(lane=lambda name=name: self._lane(name)) for name in ("quick", "heavy"))
+        self.quick, self.heavy = (SimpleNamespace(worker=lambda name=name: self._worker(name)) for name in ("quick", "heavy"))
         self.computing = Computing(self.said.append, lambda error: f"in words: {error}", self)
 
     @asynccontextmanager
-    async def _lane(self, name):
-        async def call(function, *arguments, heard=lambda what: None):
-            made = Call(name, function, arguments, heard)
+    async def _worker(self, name):
+        async def call(function, *arguments, on_message=lambda message: None):
+            made = Call(name, function, arguments, on_message)
             self.calls.append(made)
             try:
                 return await made.end
@@ -75,8 +75,8 @@ class Bench:
 
     @property
     def asked(self):
-        """[(lanes, function, generation)] of all calls."""
-        return [(call.lanes, call.function, call.arguments[0].gen) for call in self.calls]
+        """[(pool, function, generation)] of all calls."""
+        return [(call.pool, call.function, call.arguments[0].gen) for call in self.calls]
 
 
 async def settled():
@@ -111,7 +111,7 @@ def story(test):
             await test(bench)
             bench.computing.close()
             await settled()
-            assert bench.busy == 0  # no lane is kept
+            assert bench.busy == 0  # no worker is kept
 
         loops.run(asyncio.wait_for(tell(), 10))
 
@@ -136,10 +136,10 @@ async def test_the_newest_design_wins(bench):
 @story
 async def test_a_scene_is_told_with_its_generation_as_it_comes(bench):
     await bench.look(7)
-    bench.calls[0].heard('{"scene": null}')
+    bench.calls[0].send('{"scene": null}')
     assert bench.said == [{"what": "scene", "gen": 7, "json": '{"scene": null}'}]
     await bench.look(8)
-    bench.calls[0].heard("late")
+    bench.calls[0].send("late")
     assert bench.said[1:] == [{"what": "scene", "gen": 7, "json": "late"}]
 
 
@@ -154,7 +154,7 @@ async def test_a_look_after_the_end_of_a_drawing_begins_another(bench):
 @story
 async def test_a_lost_worker_is_told_and_the_design_drawn_once_more(bench):
     await bench.look(1)
-    await bench.calls[0].fail(Lost("the process has gone"))
+    await bench.calls[0].fail(WorkerDied("the process has gone"))
     assert bench.said == [{"what": "work", "state": "lost", "text": "in words: the process has gone"}]
     assert bench.asked == [("quick", "draw", 1)] * 2
     await bench.calls[1].answer(None)
@@ -165,8 +165,8 @@ async def test_a_lost_worker_is_told_and_the_design_drawn_once_more(bench):
 @story
 async def test_but_not_for_ever(bench):
     await bench.look(1)
-    await bench.calls[0].fail(Lost("first"))
-    await bench.calls[1].fail(Lost("second"))
+    await bench.calls[0].fail(WorkerDied("first"))
+    await bench.calls[1].fail(WorkerDied("second"))
     assert [message["text"] for message in bench.said] == ["in words: first", "in words: second"]
     assert [call for call in bench.asked if call[1] == "draw"] == [("quick", "draw", 1)] * 2
 
@@ -174,7 +174,7 @@ async def test_but_not_for_ever(bench):
 @story
 async def test_a_bug_is_told_in_one_line_and_the_next_design_is_drawn(bench):
     await bench.look(1)
-    await bench.calls[0].fail(Failed("Traceback (most recent call last):\n  File x\nKeyError: 'no such key'\n"))
+    await bench.calls[0].fail(WorkerFault("Traceback (most recent call last):\n  File x\nKeyError: 'no such key'\n"))
     assert bench.said == [{"what": "work", "state": "lost", "text": "KeyError: 'no such key'"}]
     await bench.look(2)
     assert bench.asked[-1] == ("quick", "draw", 2)
@@ -195,10 +195,10 @@ async def test_an_impossible_design_is_told_with_its_key(bench):
 
 @story
 async def test_a_design_without_a_solution_is_not_analysed(bench):
-    for gen, error in enumerate((Lost("x"), SpecError("y"), Failed("z"))):
+    for gen, error in enumerate((WorkerDied("x"), SpecError("y"), WorkerFault("z"))):
         await bench.look(gen)
         await bench.calls[-1].fail(error)
-        if isinstance(error, Lost):
+        if isinstance(error, WorkerDied):
             await bench.calls[-1].fail(error)
     assert {function for _, function, _ in bench.asked} == {"draw"}
 
@@ -214,7 +214,7 @@ def test_a_drawing_that_takes_long_says_so_and_is_given_up_at_last(bench, monkey
         assert [(message["state"], message["text"]) for message in bench.said] == [("analysing", "drawing")]
         assert bench.calls[0].stopped is None
         await asyncio.sleep(0.2)
-        assert bench.calls[0].stopped == (NOW,) and bench.said[1] == {"what": "work", "state": "stopped", "text": ""}
+        assert bench.calls[0].stopped == (CANCEL_NOW,) and bench.said[1] == {"what": "work", "state": "stopped", "text": ""}
         assert bench.asked[1:] == [("quick", "draw", 2)]  # and the newer one has its turn
         await bench.calls[1].answer(None)
         bench.said.clear()
@@ -231,7 +231,7 @@ async def test_a_person_ends_a_drawing_and_begins_it_again(bench):
     await bench.look(1)
     bench.computing.cancel("look")
     await settled()
-    assert bench.calls[0].stopped == (NOW,) and bench.said == [{"what": "work", "state": "stopped", "text": ""}]
+    assert bench.calls[0].stopped == (CANCEL_NOW,) and bench.said == [{"what": "work", "state": "stopped", "text": ""}]
     assert len(bench.calls) == 1  # a drawing that was ended is not analysed
     bench.computing.analyse()
     await settled()
@@ -257,7 +257,7 @@ async def test_analyses_tell_how_far_they_are_and_what_they_took(bench):
     await bench.look(1)
     await bench.calls[0].answer(None)
     bench.said.clear()
-    bench.calls[1].heard((1, 2, "forces"))
+    bench.calls[1].send((1, 2, "forces"))
     assert bench.said == [{"what": "work", "state": "analysing", "text": "forces", "done": 1, "total": 2}]
     await bench.calls[1].answer((found("motion", "forces"), {"motion": 0.001, "forces": 3.0}))
     assert bench.said[1:] == [
@@ -287,7 +287,7 @@ async def test_a_newer_look_ends_the_analyses_which_may_clear_up(bench):
     await bench.calls[0].answer(None)
     assert bench.asked[-1] == ("heavy", "analyse", 1)
     await bench.look(2)
-    assert bench.calls[1].stopped is not None and NOW not in bench.calls[1].stopped
+    assert bench.calls[1].stopped is not None and CANCEL_NOW not in bench.calls[1].stopped
     assert bench.told("work") == [{"what": "work", "state": "drawing", "text": ""}]
     await bench.calls[2].answer(None)
     assert bench.asked[2:] == [("quick", "draw", 2), ("heavy", "analyse", 2)]
@@ -314,7 +314,7 @@ async def test_a_person_ends_the_analyses_at_once(bench):
     await bench.calls[0].answer(None)
     bench.computing.cancel("look")
     await settled()
-    assert bench.calls[1].stopped == (NOW,)
+    assert bench.calls[1].stopped == (CANCEL_NOW,)
     assert bench.told("work") == [{"what": "work", "state": "stopped", "text": ""}]
     bench.computing.cancel("look")
     await settled()
@@ -369,7 +369,9 @@ async def test_analyses_that_find_the_design_impossible_come_to_rest(bench):
     ]
 
 
-@pytest.mark.parametrize(("error", "text"), [(Lost("gone"), "in words: gone"), (Failed("Traceback\nValueError: x"), "ValueError: x")])
+@pytest.mark.parametrize(
+    ("error", "text"), [(WorkerDied("gone"), "in words: gone"), (WorkerFault("Traceback\nValueError: x"), "ValueError: x")]
+)
 def test_analyses_that_end_badly_are_told(bench, error, text):
     @story
     async def tell(bench):
@@ -446,7 +448,7 @@ async def test_a_reference_is_drawn_and_analysed(bench):
     bench.computing.refer("quick-return", SimpleNamespace(kind=KIND, gen="other"))
     await settled()
     assert bench.asked == [("heavy", "draw", "other")] and bench.calls[0].arguments[1] == ()
-    bench.calls[0].heard('{"scene": 1}')
+    bench.calls[0].send('{"scene": 1}')
     await bench.calls[0].answer(None)
     assert bench.asked[1:] == [("heavy", "analyse", "other")] and bench.said == []
     await bench.calls[1].answer((found("motion"), {"motion": 9.0}))
@@ -457,7 +459,7 @@ async def test_a_reference_is_drawn_and_analysed(bench):
     ("error", "message"),
     [
         (DoesNotAssemble("open loop"), {"what": "refused", "key": "", "text": "", "message": "in words: open loop"}),
-        (Failed("Traceback\nKeyError: 1"), {"what": "work", "state": "lost", "text": "KeyError: 1"}),
+        (WorkerFault("Traceback\nKeyError: 1"), {"what": "work", "state": "lost", "text": "KeyError: 1"}),
     ],
 )
 def test_a_reference_that_is_none(bench, error, message):
@@ -476,7 +478,7 @@ async def test_the_last_reference_counts(bench):
     for gen in (1, 2):
         bench.computing.refer(str(gen), SimpleNamespace(kind=KIND, gen=gen))
         await settled()
-    assert bench.calls[0].stopped == (NOW,) and bench.calls[1].stopped is None
+    assert bench.calls[0].stopped == (CANCEL_NOW,) and bench.calls[1].stopped is None
 
 
 # -- jobs ----------------------------------------------------------------------------------------------------------------------
@@ -496,9 +498,9 @@ def job(state, gen=4, name="study", **more):
 async def test_a_job_tells_its_way_with_the_generation_it_was_asked_for(bench):
     call = await begun(bench, points=3)
     await bench.look(5)
-    assert call.lanes == "heavy" and call.arguments[0] == "study" and call.arguments[1].gen == 4 and call.arguments[2] == {"points": 3}
-    call.heard((1, 3, "first", None))
-    call.heard((2, 3, "second", {"rows": 2}))
+    assert call.pool == "heavy" and call.arguments[0] == "study" and call.arguments[1].gen == 4 and call.arguments[2] == {"points": 3}
+    call.send((1, 3, "first", None))
+    call.send((2, 3, "second", {"rows": 2}))
     await call.answer({"rows": 3})
     assert bench.told("job") == [
         job("running", done=0, total=0, text="", answer=None),
@@ -524,8 +526,8 @@ def test_in_its_process_a_job_is_called_by_its_name(monkeypatch):
     ("error", "text"),
     [
         (SpecError("no such value", key="values.x"), "in words: values.x: no such value"),
-        (Lost("gone"), "in words: gone"),
-        (Failed("Traceback\n  File\nKeyError: 'x'"), "KeyError: 'x'"),
+        (WorkerDied("gone"), "in words: gone"),
+        (WorkerFault("Traceback\n  File\nKeyError: 'x'"), "KeyError: 'x'"),
     ],
 )
 def test_a_job_that_fails_says_why(bench, error, text):
@@ -544,7 +546,7 @@ async def test_a_job_is_cancelled_at_once_and_others_are_not(bench):
     bench.computing.cancel("study")
     bench.computing.cancel("nothing")
     await settled()
-    assert study.stopped == (NOW,) and solid.stopped is None
+    assert study.stopped == (CANCEL_NOW,) and solid.stopped is None
     assert bench.said[-1] == job("cancelled", text="")
     await solid.answer(1)
     bench.computing.cancel("solid")  # too late: it is done
@@ -556,7 +558,7 @@ async def test_a_job_is_cancelled_at_once_and_others_are_not(bench):
 async def test_a_job_of_the_same_name_takes_the_place_of_the_one_under_way(bench):
     first = await begun(bench)
     second = await begun(bench, gen=9)
-    assert first.stopped == (NOW,) and second.stopped is None
+    assert first.stopped == (CANCEL_NOW,) and second.stopped is None
     await second.answer("new")
     assert bench.said[-1] == job("done", gen=9, text="", answer="new")
     third = await begun(bench, gen=10)
@@ -572,7 +574,7 @@ async def test_the_end_of_the_replaced_job_leaves_the_new_one_in_its_place(bench
     await settled()
     bench.computing.cancel("study")  # reaches the new one
     await settled()
-    assert second.stopped == (NOW,)
+    assert second.stopped == (CANCEL_NOW,)
 
 
 @story
@@ -632,4 +634,4 @@ async def test_another_design_ends_the_jobs_and_keeps_the_drawing(bench):
     await bench.look(1)
     bench.computing.forget(2)
     await settled()
-    assert study.stopped == (NOW,) and bench.calls[1].stopped is None
+    assert study.stopped == (CANCEL_NOW,) and bench.calls[1].stopped is None

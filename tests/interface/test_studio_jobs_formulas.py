@@ -13,9 +13,10 @@ import pytest
 
 from drivewright import runner
 from drivewright.errors import SpecError
+from drivewright.execution.case_table import CASE, CHECK, STATUS
+from drivewright.execution.keys import KeyKind, key_kind
 from drivewright.studies.plan import Block, Plan
-from drivewright.studies.study import CASE, CHECK, STATUS
-from drivewright.studies.variables import Kind, Variable, kind_of
+from drivewright.studies.variables import Variable
 from drivewright.studio.design import Design
 from drivewright.studio.jobs import figures, files, search, solid
 from drivewright.studio.jobs import study as studying
@@ -49,12 +50,16 @@ class Columns(dict):
 
 def test_a_value_is_written_as_it_is_read_to_the_last_digit():
     spec = design("disc_cam").spec()
-    radius, ratio = kind_of(spec, "follower.prime_radius"), kind_of(spec, "vibration.damping_ratio")
+    radius, ratio = key_kind(spec, "follower.prime_radius"), key_kind(spec, "vibration.damping_ratio")
     assert written(radius, SI(0.04)) == written(radius, 0.04) == "40 mm" and written(ratio, 0.05) == "0.05"
     exact = 0.1 + 0.2
     assert float(written(ratio, exact)) == exact and radius.read(written(radius, exact), "here") == exact
-    assert [written(Kind("integer"), 12.0), written(Kind("flag"), True), written(Kind("text"), "cycloidal")] == ["12", "true", "cycloidal"]
-    assert written(kind_of(design("hyvo_chain").spec(), "joint.offset"), "match-drive") == "match-drive"
+    assert [written(KeyKind("integer"), 12.0), written(KeyKind("flag"), True), written(KeyKind("text"), "cycloidal")] == [
+        "12",
+        "true",
+        "cycloidal",
+    ]
+    assert written(key_kind(design("hyvo_chain").spec(), "joint.offset"), "match-drive") == "match-drive"
 
 
 def test_numbers_are_told_in_the_unit_people_read_or_not_at_all():
@@ -125,7 +130,7 @@ def test_the_message_of_a_search(front, feasible, left_out, said):
 
 
 def test_settings_of_a_search_go_with_its_unknowns():
-    length = kind_of(design("disc_cam").spec(), "follower.offset")
+    length = key_kind(design("disc_cam").spec(), "follower.offset")
     set_too = [SimpleNamespace(key="a", value=True), SimpleNamespace(key="b", value="lowest"), SimpleNamespace(key="c", value=3)]
     found = SimpleNamespace(spec=SimpleNamespace(optimise=SimpleNamespace(settings=set_too)), keys=("x.y",), kinds=(length,))
     assert search._settings(found, np.array([0.002])) == {"a": "true", "b": "lowest", "c": "3", "x.y": "2 mm"}
@@ -186,7 +191,7 @@ def test_a_front_is_told_by_rows_and_with_its_directions():
 def cases(count):
     """A study of four columns with one key, of the disc cam."""
     cam = design("disc_cam")
-    kind = kind_of(cam.spec(), "follower.offset")
+    kind = key_kind(cam.spec(), "follower.offset")
     offsets = np.arange(count) * 1e-3
     plan = Plan((), (Variable("follower.offset", kind, 0.0),), offsets[:, None], (Block("grid", 0, count),), {})
     margins = np.where(np.arange(count) % 4 == 1, -0.1, 0.0)

@@ -9,8 +9,8 @@ import pytest
 
 import drivewright as dw
 from drivewright.errors import InputError
-from drivewright.studies import batches, evaluate, pools
-from drivewright.studies.batches import Batch, Supply, compute, gaps
+from drivewright.execution import batches, dask_cluster, evaluation, executors
+from drivewright.execution.batches import Batch, BatchScheduler, missing_ranges, run_batches
 from drivewright.studies.sweep import sweep
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -95,7 +95,7 @@ def test_a_scheduler_that_goes_away_is_told_and_what_was_done_is_kept(tmp_path):
 
 @pytest.mark.needs_cluster
 def test_nobody_at_an_address_is_told(monkeypatch):
-    monkeypatch.setattr(pools, "PATIENCE", "1s")
+    monkeypatch.setattr(dask_cluster, "ANSWER_TIMEOUT", "1s")
     with pytest.raises(InputError, match="no Dask scheduler answers there"):
         sweep(chain(), LEVELS, on="tcp://127.0.0.1:9")
 
@@ -105,12 +105,12 @@ def test_nobody_at_an_address_is_told(monkeypatch):
 )
 def test_a_place_that_is_none_is_refused(on, words):
     with pytest.raises(InputError, match=words):
-        pools.pool(on=on)
+        executors.make_executors(on=on)
 
 
 def test_two_answers_to_who_computes_are_refused():
     with pytest.raises(InputError, match="give one of them"):
-        pools.pool(2, "serial")
+        executors.make_executors(2, "serial")
 
 
 # -- a worker that dies --------------------------------------------------------------------------------------------------------
@@ -131,13 +131,13 @@ def once_deadly(first, stop, mark):
     return list(range(first, stop)), 0.01
 
 
-def computed(function, total, *more, lanes=2):
-    lanes = [pools.Process() for _ in range(lanes)]
+def computed(function, total, *more, number=2):
+    places = [executors.ProcessExecutor() for _ in range(number)]
     try:
-        return list(compute(lanes, function, lambda batch: (batch.first, batch.stop, *more), Supply([], total, len(lanes))))
+        return list(run_batches(places, function, lambda batch: (batch.first, batch.stop, *more), BatchScheduler([], total, len(places))))
     finally:
-        for lane in lanes:
-            lane.close()
+        for place in places:
+            place.close()
 
 
 @pytest.fixture
@@ -152,19 +152,19 @@ def test_a_batch_that_kills_its_worker_three_times_fails_with_the_reason_and_the
     done = computed(deadly, 12)
     failed = [each for each in done if each.reason]
     assert [each.batch.first for each in failed] == [5] and "died 3 times" in failed[0].reason
-    assert sorted(case for each in done if not each.reason for case in each.answer) == [n for n in range(12) if n != 5]
+    assert sorted(case for each in done if not each.reason for case in each.table) == [n for n in range(12) if n != 5]
 
 
 @pytest.mark.usefixtures("_findable")
 def test_a_batch_whose_worker_died_by_accident_is_taken_again(tmp_path):
     done = computed(once_deadly, 12, str(tmp_path / "mark"))
     assert not any(each.reason for each in done)
-    assert sorted(case for each in done for case in each.answer) == list(range(12))
+    assert sorted(case for each in done for case in each.table) == list(range(12))
 
 
 def test_the_cases_of_a_batch_without_an_answer_are_rows():
-    task = evaluate.task_of(chain(), ("joint.rolling_radius",))
-    table = evaluate.failed(task, 7, {"joint.rolling_radius": np.array([1e-3, 2e-3])}, "the process died 3 times")
+    task = evaluation.case_task(chain(), ("joint.rolling_radius",))
+    table = evaluation.failed_rows(task, 7, {"joint.rolling_radius": np.array([1e-3, 2e-3])}, "the process died 3 times")
     assert table["case"].to_pylist() == [7, 8] and table["status"].to_pylist() == ["failed"] * 2
     assert table["message"].to_pylist() == ["the process died 3 times"] * 2 and table["joint.rolling_radius"].to_pylist() == [1e-3, 2e-3]
 
@@ -177,14 +177,14 @@ def test_the_cases_of_a_batch_without_an_answer_are_rows():
     [([], 5, [(0, 5)]), ([(0, 5)], 5, []), ([(1, 2), (4, 1)], 7, [(0, 1), (3, 4), (5, 7)]), ([(0, 3)], 3, []), ([], 0, [])],
 )
 def test_gaps_are_what_the_ranges_leave(ranges, total, left):
-    assert gaps(ranges, total) == left
+    assert missing_ranges(ranges, total) == left
 
 
 def test_batches_grow_to_the_time_they_should_take_and_cover_every_case_once():
-    supply, sizes, seen = Supply([(10, 5)], 100_000, 2), [], []
-    while supply:
-        batch = supply.next()
-        supply.learn(batch, 1e-3 * (batch.stop - batch.first))
+    scheduler, sizes, seen = BatchScheduler([(10, 5)], 100_000, 2), [], []
+    while scheduler:
+        batch = scheduler.next_batch()
+        scheduler.record_timing(batch, 1e-3 * (batch.stop - batch.first))
         sizes.append(batch.stop - batch.first)
         seen += range(batch.first, batch.stop)
     assert seen == [*range(10), *range(15, 100_000)]
@@ -192,6 +192,6 @@ def test_batches_grow_to_the_time_they_should_take_and_cover_every_case_once():
 
 
 def test_expensive_cases_go_one_by_one():
-    supply = Supply([], 10, 2)
-    supply.learn(supply.next(), 60.0)
-    assert supply.next() == Batch(1, 2) and supply.expected == pytest.approx(9 * 60)
+    scheduler = BatchScheduler([], 10, 2)
+    scheduler.record_timing(scheduler.next_batch(), 60.0)
+    assert scheduler.next_batch() == Batch(1, 2) and scheduler.expected == pytest.approx(9 * 60)

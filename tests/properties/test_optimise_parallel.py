@@ -13,9 +13,9 @@ from pyarrow import parquet
 import drivewright as dw
 from drivewright.cli import main
 from drivewright.errors import InputError
+from drivewright.execution.executors import InProcessExecutor, make_executors
 from drivewright.spec import from_document
 from drivewright.studies import store
-from drivewright.studies.pools import Here, pool
 from drivewright.studies.search import evaluator, history
 from drivewright.studies.sweep import sweep
 
@@ -88,20 +88,20 @@ def test_two_processes_give_the_bits_of_one_and_live_for_the_whole_search(undist
 
     def counting(*asked):
         started.append(asked)
-        return pool(*asked)
+        return make_executors(*asked)
 
-    monkeypatch.setattr(evaluator, "pool", counting)
+    monkeypatch.setattr(evaluator, "make_executors", counting)
     assert same(dw.optimise(cam(), workers=2), undisturbed)
     assert started == [(2, None)]
 
 
 def test_a_short_search_starts_no_process_and_a_long_one_has_help(undisturbed, monkeypatch):
-    monkeypatch.setattr(evaluator, "pool", lambda *asked: pytest.fail("a pool for a search of a moment"))
+    monkeypatch.setattr(evaluator, "make_executors", lambda *asked: pytest.fail("a pool for a search of a moment"))
     monkeypatch.setattr(evaluator, "WORTH_HELP", 1e9)
     assert same(dw.optimise(cam()), undisturbed)
     helped = []
     monkeypatch.setattr(evaluator, "WORTH_HELP", 0.0)
-    monkeypatch.setattr(evaluator, "pool", lambda *asked: helped.append(asked) or (Here(), Here()))
+    monkeypatch.setattr(evaluator, "make_executors", lambda *asked: helped.append(asked) or (InProcessExecutor(), InProcessExecutor()))
     assert same(dw.optimise(cam()), undisturbed)
     assert helped == [(None, None)]
 
@@ -155,7 +155,7 @@ def test_the_folder_holds_every_evaluation_with_units_and_reasons(tmp_path, undi
 def test_a_finished_search_given_again_answers_from_the_store(tmp_path, undisturbed, monkeypatch):
     first = dw.optimise(cam(), out=tmp_path, on="serial")
     monkeypatch.setattr(evaluator, "evaluate", lambda *_: pytest.fail("evaluated again"))
-    monkeypatch.setattr(evaluator, "pool", lambda *_: pytest.fail("nobody is needed"))
+    monkeypatch.setattr(evaluator, "make_executors", lambda *_: pytest.fail("nobody is needed"))
     again = dw.optimise(cam(), out=tmp_path, workers=2)
     assert same(again, first) and same(again, undisturbed)
 

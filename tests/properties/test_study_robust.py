@@ -12,10 +12,11 @@ import pytest
 
 import drivewright as dw
 from drivewright import registry
-from drivewright.errors import InputError, SpecError
-from drivewright.studies import batches, evaluate, pools
-from drivewright.studies.batches import Supply, compute
-from drivewright.studies.evaluate import Found
+from drivewright.errors import DoesNotAssemble, InputError, SpecError
+from drivewright.execution import batches, dask_cluster, evaluation, executors
+from drivewright.execution.batches import BatchScheduler, run_batches
+from drivewright.execution.evaluation import BatchValues, CaseResult
+from drivewright.execution.outputs import Output
 from drivewright.studies.sweep import sweep
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -31,11 +32,11 @@ def chain(*changes):
 
 def test_several_threads_in_one_process_do_not_mix_their_designs():
     """The tables of a task are shared by all calls in a process; a data file in the spec lets threads change places."""
-    task = evaluate.task_of(dw.load(EXAMPLES / "oscillating_cam.toml"), ("follower.roller_radius",))._replace(analyses=("profile",))
+    task = evaluation.case_task(dw.load(EXAMPLES / "oscillating_cam.toml"), ("follower.roller_radius",))._replace(analyses=("profile",))
     radii = np.linspace(5e-3, 9e-3, 24)
 
     def one(n):
-        return evaluate.evaluate(task, n, {"follower.roller_radius": radii[n : n + 1]})[0]
+        return evaluation.evaluate(task, n, {"follower.roller_radius": radii[n : n + 1]})[0]
 
     alone = [one(n) for n in range(len(radii))]
     with ThreadPoolExecutor(4) as pool:
@@ -43,9 +44,9 @@ def test_several_threads_in_one_process_do_not_mix_their_designs():
 
 
 def test_the_tables_of_a_task_are_never_changed():
-    task = evaluate.task_of(chain(), ("joint.rolling_radius",))
+    task = evaluation.case_task(chain(), ("joint.rolling_radius",))
     before = repr(task.tables)
-    evaluate.evaluate(task, 0, {"joint.rolling_radius": np.array([1.3e-3])})
+    evaluation.evaluate(task, 0, {"joint.rolling_radius": np.array([1.3e-3])})
     assert repr(task.tables) == before
 
 
@@ -63,22 +64,50 @@ def offered(monkeypatch):
 
         changed = dataclasses.replace(mechanism, batch=batch)
         monkeypatch.setattr(registry, "mechanism", lambda kind: changed)
-        evaluate._of_pickle.cache_clear()
+        evaluation._prepared_from.cache_clear()
 
     yield put
-    evaluate._of_pickle.cache_clear()
+    evaluation._prepared_from.cache_clear()
 
 
-def test_a_batch_that_stumbles_over_a_design_costs_nobody_a_row(offered):
-    plain = sweep(chain(), RADII, on="serial")
+def stumbling(error):
+    """A batch that raises an error wherever a design is among its designs."""
 
-    def stumbling(real, designs):
+    def batch(real, designs):
         if np.any(np.abs(designs - 1.15e-3) < 1e-9):
-            raise ZeroDivisionError("float division by zero")
+            raise error
         return real(designs)
 
-    offered(stumbling)
+    return batch
+
+
+def test_a_batch_that_does_not_cover_a_design_costs_nobody_a_row(offered):
+    plain = sweep(chain(), RADII, on="serial")
+    offered(stumbling(DoesNotAssemble("this one is for a run of its own")))
     assert sweep(chain(), RADII, on="serial").table.equals(plain.table)
+
+
+def test_a_fault_of_a_batch_shows_in_the_row_of_its_design_and_costs_no_other(offered):
+    plain = sweep(chain(), RADII, on="serial")
+    offered(stumbling(ZeroDivisionError("float division by zero")))
+    study = sweep(chain(), RADII, on="serial")
+    failed = np.flatnonzero(study["status"] != "complete").tolist()
+    assert [study["joint.rolling_radius"][n] for n in failed] == [pytest.approx(1.15e-3)]
+    assert study["message"][failed[0]] == "a fault of the program, please report it: ZeroDivisionError: float division by zero"
+    others = [n for n in range(len(study)) if n not in failed]
+    assert study.table.take(others).equals(plain.table.take(others))
+
+
+def test_a_batch_with_a_fault_in_the_cases_compared_is_not_taken_and_says_so(offered):
+    plain = sweep(chain(), RADII, on="serial")
+
+    def broken(real, designs):
+        raise KeyError("no such table")
+
+    offered(broken)
+    study = sweep(chain(), RADII, on="serial")
+    assert study.counts == plain.counts
+    assert study.remarks == ("the compiled route was not taken: a fault of the program, please report it: KeyError: 'no such table'",)
 
 
 def test_a_batch_that_knows_a_design_which_the_spec_refuses_is_not_taken(offered):
@@ -89,19 +118,21 @@ def test_a_batch_that_knows_a_design_which_the_spec_refuses_is_not_taken(offered
 
 
 def test_the_difference_of_two_routes():
-    def of(*numbers):
-        return [
-            Found({"a": (number, "m", "")} if number is not None else {}, "complete" if number is not None else "failed")
+    def difference(numbers, **columns):
+        runs = [
+            CaseResult({"a": Output(number, "m", "")} if number is not None else {}, "complete" if number is not None else "failed")
             for number in numbers
         ]
+        return evaluation._difference(runs, BatchValues({name: np.array(column) for name, column in columns.items()}, {}))
 
-    assert evaluate._difference(of(1.0, 2.0), {"a": np.array([1.0, 2.0])}) == 0
-    assert evaluate._difference(of(1.0, 2.0), {"a": np.array([1.0, 2.2])}) == pytest.approx(0.1)
-    assert evaluate._difference(of(-4.0), {"a": np.array([-3.0])}) == 0.25
-    assert evaluate._difference(of(1.0, None), {"a": np.array([1.0, 5.0])}) == 1
-    assert evaluate._difference(of(1.0, 2.0), {"a": np.array([1.0, np.nan]), "b": np.array([np.nan, 3.0])}) == 1
-    assert evaluate._difference(of(1.0, 2.0), {"a": np.array([1.0, np.nan])}) == 0  # silent: it is run alone
-    assert evaluate._difference(of(None, None), {"a": np.array([np.nan, np.nan])}) == 0
+    nan = np.nan
+    assert difference([1.0, 2.0], a=[1.0, 2.0]) == 0
+    assert difference([1.0, 2.0], a=[1.0, 2.2]) == pytest.approx(0.1)
+    assert difference([-4.0], a=[-3.0]) == 0.25
+    assert difference([1.0, None], a=[1.0, 5.0]) == 1
+    assert difference([1.0, 2.0], a=[1.0, nan], b=[nan, 3.0]) == 1
+    assert difference([1.0, 2.0], a=[1.0, nan]) == 0  # not covered: it is run alone
+    assert difference([None, None], a=[nan, nan]) == 0
 
 
 def test_a_value_that_no_case_can_have_is_refused_before_the_first(tmp_path):
@@ -110,10 +141,10 @@ def test_a_value_that_no_case_can_have_is_refused_before_the_first(tmp_path):
 
 
 def test_what_is_wrong_with_the_place_is_no_row(monkeypatch):
-    monkeypatch.setattr(evaluate.runner, "ask", lambda *_: (_ for _ in ()).throw(MemoryError()))
-    task = evaluate.task_of(chain(), ("joint.rolling_radius",))
+    monkeypatch.setattr(evaluation.runner, "ask", lambda *_: (_ for _ in ()).throw(MemoryError()))
+    task = evaluation.case_task(chain(), ("joint.rolling_radius",))
     with pytest.raises(MemoryError):
-        evaluate.evaluate(task, 0, {"joint.rolling_radius": np.array([1.0e-3])})
+        evaluation.evaluate(task, 0, {"joint.rolling_radius": np.array([1.0e-3])})
 
 
 # -- the folder ----------------------------------------------------------------------------------------------------------------
@@ -214,13 +245,13 @@ def test_a_worker_that_dies_while_nobody_looks_costs_nothing():
 
 
 def test_a_worker_that_cannot_start_is_no_fault_of_the_cases(monkeypatch):
-    monkeypatch.setattr(pools, "_warm", os.abort)
+    monkeypatch.setattr(executors, "_warm", os.abort)
     with pytest.raises(InputError, match="a worker process does not start"):
         sweep(chain(), RADII, workers=1)
 
 
-class Lane:
-    """A lane whose calls with case 5 kill it."""
+class DeadlyExecutor:
+    """An executor whose calls with case 5 kill it."""
 
     workers, capacity = 1, 2
 
@@ -238,21 +269,21 @@ class Lane:
             future.set_result((list(range(first, stop)), 1e-6))
         return future
 
-    def revive(self):
+    def restart(self):
         pass
 
-    def trouble(self):
+    def fault(self):
         return ""
 
 
 def test_one_deadly_case_does_not_take_its_batch_with_it(monkeypatch):
     monkeypatch.setattr(batches, "LEAST", 1e9)
-    lane = Lane()
-    done = list(compute([lane], None, lambda batch: (batch.first, batch.stop), Supply([], 64, 1)))
+    place = DeadlyExecutor()
+    done = list(run_batches([place], None, lambda batch: (batch.first, batch.stop), BatchScheduler([], 64, 1)))
     failed = [each.batch for each in done if each.reason]
     assert [(each.first, each.stop) for each in failed] == [(5, 6)]
-    assert sorted(case for each in done if not each.reason for case in each.answer) == [n for n in range(64) if n != 5]
-    assert lane.calls.count((1, 9)) == 3  # taken again, twice, and then by halves
+    assert sorted(case for each in done if not each.reason for case in each.table) == [n for n in range(64) if n != 5]
+    assert place.calls.count((1, 9)) == 3  # taken again, twice, and then by halves
 
 
 def test_a_scheduler_without_workers_is_given_up_at_last(monkeypatch):
@@ -265,12 +296,12 @@ def test_a_scheduler_without_workers_is_given_up_at_last(monkeypatch):
         def scheduler_info(self, n_workers):
             return {"workers": {}}
 
-    lane = pools.Cluster("tcp://here:1", Client())
-    assert lane.trouble() == "" and lane.capacity == 2
-    monkeypatch.setattr(pools, "LONELY", -1.0)
-    assert "the scheduler has had no workers for 0 s" in lane.trouble()
+    place = dask_cluster.DaskExecutor("tcp://here:1", Client())
+    assert place.fault() == "" and place.capacity == 2
+    monkeypatch.setattr(dask_cluster, "WORKERLESS_LIMIT", -1.0)
+    assert "the scheduler has had no workers for 0 s" in place.fault()
     Client.status = "closed"
-    assert "the scheduler has gone away" in lane.trouble()
+    assert "the scheduler has gone away" in place.fault()
 
 
 def test_nothing_is_made_where_nobody_can_compute(tmp_path):
@@ -281,10 +312,10 @@ def test_nothing_is_made_where_nobody_can_compute(tmp_path):
 
 
 def test_no_more_processes_than_cases():
-    lanes = pools.pool(64, most=2)
-    assert len(lanes) == 2
-    for lane in lanes:
-        lane.close()
+    places = executors.make_executors(64, limit=2)
+    assert len(places) == 2
+    for place in places:
+        place.close()
 
 
 # -- plans ---------------------------------------------------------------------------------------------------------------------
@@ -329,12 +360,12 @@ def test_the_libraries_work_with_one_thread_while_cases_are_computed():
     from threadpoolctl import threadpool_info
 
     seen = []
-    task = evaluate.task_of(chain(), ("joint.rolling_radius",))
-    working = evaluate._working(task)
+    task = evaluation.case_task(chain(), ("joint.rolling_radius",))
+    working = evaluation._prepared(task)
     table = working.table
     working.table = lambda *rest: (seen.extend(lib["num_threads"] for lib in threadpool_info() if lib["user_api"] == "blas"), table(*rest))[
         1
     ]
-    evaluate.evaluate(task, 0, {"joint.rolling_radius": np.array([1.2e-3])})
+    evaluation.evaluate(task, 0, {"joint.rolling_radius": np.array([1.2e-3])})
     del working.table
     assert seen and set(seen) == {1}

@@ -17,16 +17,16 @@ import numpy as np
 from drivewright import registry, units
 from drivewright.digits import last_place, to_place
 from drivewright.errors import InputError, SolverError
+from drivewright.execution.case_table import MESSAGE, STATUS
+from drivewright.execution.outputs import case_outputs
 from drivewright.result import Check, Column, Plot, Result, Table
 from drivewright.runner import ask, build, reasons, run, selection, versions
 from drivewright.studies import store
-from drivewright.studies.outputs import looked_at
 from drivewright.studies.pareto import nondominated
 from drivewright.studies.search import history
 from drivewright.studies.search.evaluator import SILENT, Evaluator
 from drivewright.studies.search.problem import Problem, at_worst, prepare
 from drivewright.studies.search.searching import METHODS, method_of
-from drivewright.studies.study import MESSAGE, STATUS
 
 HISTORY = "history.parquet"
 DRAWN = 4000  # evaluations that a figure shows, evenly chosen, and the best ones
@@ -93,7 +93,7 @@ class Optimised:
 
     def objective_rows(self):
         """(value, reached, direction) as text."""
-        reached = looked_at(self.best.values, self.best.checks)
+        reached = case_outputs(self.best.values, self.best.checks)
         return [
             (
                 name,
@@ -116,7 +116,8 @@ def optimise(spec, *, out=None, workers=None, on=None, progress=None):
     """`Optimised` of a spec with an [optimise] table.  SpecError where the table cannot be understood.
 
     `out` is the folder that keeps every evaluation: the same search given again goes on where it was, or answers from there.  None keeps
-    them in memory.  `workers` processes (None: one per core, where the search is long enough), or `on` another place, see `pools.pool`;
+    them in memory.  `workers` processes (None: one per core, where the search is long enough), or `on` another place, see
+    `execution.executors`;
     neither changes a bit.  What the mechanism evaluates in compiled code is done here.  `progress(done, total, what)` is called as
     generations end.  Ctrl-C, also from `progress`, gives the best so far, `interrupted`.  SolverError where no design can be computed.
     """
@@ -170,7 +171,7 @@ def _outcome(problem, table):
         raise SolverError(_nothing(problem, table, front[0]))
     best = run(problem.design(front[0]))
     feasible = bool(problem.total_violation(front_values)[0] <= 0)
-    reached = looked_at(best.values, best.checks)
+    reached = case_outputs(best.values, best.checks)
     requirements = tuple(
         Check(
             name,

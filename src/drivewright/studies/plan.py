@@ -62,6 +62,11 @@ class Plan:
         """Cases that come with each combination of levels."""
         return len(next(iter(self.listed.values()))) if self.listed else len(self.points)
 
+    @property
+    def numeric(self):
+        """Whether every key that varies takes numbers."""
+        return all(each.kind.numeric for each in self.variables)
+
     def __len__(self):
         return math.prod(self.shape) * self.inner
 

@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from drivewright.errors import SpecError, UnitError, brief
-from drivewright.studies.variables import READABLE, Variable, column, kind_of
+from drivewright.execution.keys import READABLE, key_kind
+from drivewright.studies.variables import Variable, column
 
 
 def read_points(spec, file):
@@ -24,7 +25,7 @@ def read_points(spec, file):
 def _read(spec, key, unit, cells, file):
     """(Variable, values) of one column."""
     try:
-        kind = kind_of(spec, key, f"column '{key}'")
+        kind = key_kind(spec, key, f"column '{key}'")
         factor = _factor(kind, unit, key)
     except SpecError as error:
         raise error.located(file=str(file)) from None

@@ -11,9 +11,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from drivewright.errors import InputError
+from drivewright.execution.case_table import case_fields
 from drivewright.spec import load
 from drivewright.studies.differing import differing
-from drivewright.studies.study import first_fields
 
 SPEC, LEDGER, PARTS, LOCK = "study.toml", "ledger.sqlite", "parts", ".lock"
 OURS = {SPEC, f"{SPEC}.tmp", LEDGER, f"{LEDGER}-journal", PARTS, LOCK, "data"}
@@ -232,7 +232,7 @@ def joined(tables):
     """One table of all parts: columns in the order in which the cases bring them, null where a case has none."""
     import pyarrow as pa
 
-    fields = {} if tables else {field.name: field for field in first_fields()}
+    fields = {} if tables else {field.name: field for field in case_fields()}
     for table in tables:
         for field in table.schema:
             fields.setdefault(field.name, field)

@@ -7,25 +7,13 @@ from typing import Any
 import numpy as np
 
 from drivewright.errors import UnknownName
+from drivewright.execution.case_table import CASE, CHECK, MESSAGE, STATUS
 from drivewright.result import ERROR, HIGH, LOW
 from drivewright.spec import MechanismSpec
 from drivewright.studies.plan import Plan
 from drivewright.studies.statistics import NORMAL
 
-CASE, STATUS, MESSAGE, CHECK = "case", "status", "message", "check."
 BOUNDS = b"bounds"  # in the metadata of a column that is an end of an interval, or a standard error: the name of the column whose it is
-
-
-def first_fields():
-    """The pyarrow fields that every study's table begins with."""
-    import pyarrow as pa
-
-    rows = (
-        (CASE, pa.int64(), "-", "number of the case"),
-        (STATUS, pa.string(), "", "complete, partial or failed"),
-        (MESSAGE, pa.string(), "", "why it is not complete, or what was left out"),
-    )
-    return [pa.field(name, kind, metadata={"unit": unit, "meaning": meaning}) for name, kind, unit, meaning in rows]
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,14 +4,15 @@ from contextlib import closing
 from pathlib import Path
 
 from drivewright.errors import InputError
+from drivewright.execution.batches import WORTH_HELP, BatchScheduler, run_batches
+from drivewright.execution.case_table import STATUS
+from drivewright.execution.evaluation import case_task, evaluate, failed_rows, refuse_unknown, with_batch
+from drivewright.execution.executors import InProcessExecutor, check_location, make_executors
 from drivewright.runner import versions
 from drivewright.spec.writing import canonical_text
 from drivewright.studies import store
-from drivewright.studies.batches import WORTH_HELP, Supply, compute
-from drivewright.studies.evaluate import evaluate, failed, refuse_unknown, task_of, with_compiled
 from drivewright.studies.plan import plan_of
-from drivewright.studies.pools import Here, pool, refuse_nowhere
-from drivewright.studies.study import STATUS, Study
+from drivewright.studies.study import Study
 from drivewright.studies.varying import varied
 
 MANY = 200_000  # cases that want a confirmation
@@ -21,16 +22,16 @@ def sweep(spec, vary=None, *, out=None, workers=None, on=None, confirmed=True, p
     """`Study` of a spec: one row for every case of its [study], or of `vary` {key: levels or distribution}, see `varying`.
 
     `out` is the folder it lives in: what is there already is not computed again, and a study stopped in any way goes on where it was.
-    None keeps it in memory.  `workers` processes (None: one per core); `on` names another place to compute, see `pools.pool`.  Neither
-    changes a bit of any row.  `progress(done, total, what)` is called after each batch.  Ctrl-C, also from `progress`, returns what is
-    there, `interrupted`.
+    None keeps it in memory.  `workers` processes (None: one per core); `on` names another place to compute, see `execution.executors`.
+    Neither changes a bit of any row.  `progress(done, total, what)` is called after each batch.  Ctrl-C, also from `progress`, returns
+    what is there, `interrupted`.
     """
     spec = spec if vary is None else varied(spec, vary)
-    refuse_nowhere(workers, on)
+    check_location(workers, on)
     plan = plan_of(spec)
     if len(plan) > MANY and not confirmed:
         raise InputError(f"{len(plan)} cases are more than {MANY}; say --yes if you mean it, or take fewer levels or samples")
-    task = task_of(spec, plan.keys)
+    task = case_task(spec, plan.keys)
     kept = store.Folder(out, spec, identity(spec, plan)) if out is not None else store.Memory()
     with closing(kept):
         return swept(kept, spec, plan, task, workers, on, progress)
@@ -67,14 +68,14 @@ def _fill(kept, task, plan, workers, on, progress):
     if done == total:
         return False
     refuse_unknown(task, plan)
-    supply = Supply(kept.ranges(), total, 1)
+    scheduler = BatchScheduler(kept.ranges(), total, 1)
     try:
         progress(done, total, "")
-        task, remarks = with_compiled(task, plan)
+        task, remarks = with_batch(task, plan)
         kept.remark(remarks)
-        with closing(_computed(task, plan, supply, workers, on)) as each:
+        with closing(_computed(task, plan, scheduler, workers, on)) as each:
             for batch, table, seconds, reason in each:
-                table = failed(task, batch.first, plan.cases(batch.first, batch.stop), reason) if reason else table
+                table = failed_rows(task, batch.first, plan.cases(batch.first, batch.stop), reason) if reason else table
                 kept.add(batch.first, table, seconds)
                 done, trouble = done + table.num_rows, trouble + _incomplete(table)
                 progress(done, total, f"{trouble} not complete" if trouble else "")
@@ -83,25 +84,26 @@ def _fill(kept, task, plan, workers, on, progress):
     return False
 
 
-def _computed(task, plan, supply, workers, on):
-    """A `Done` for every batch.  Where nobody says who is to compute, this process begins, and has help when it would take long alone."""
+def _computed(task, plan, scheduler, workers, on):
+    """A `BatchResult` for every batch.  Where nobody says who is to compute, this process begins, and has help when it would take long
+    alone."""
 
     def arguments(batch):
         return task, batch.first, plan.cases(batch.first, batch.stop)
 
     if workers is None and on is None:
-        yield from _by((Here(),), arguments, supply, lambda: supply.expected is not None and supply.expected > WORTH_HELP)
-    if supply:
-        yield from _by(pool(workers, on, len(plan)), arguments, supply)
+        yield from _by((InProcessExecutor(),), arguments, scheduler, lambda: (scheduler.expected or 0.0) > WORTH_HELP)
+    if scheduler:
+        yield from _by(make_executors(workers, on, len(plan)), arguments, scheduler)
 
 
-def _by(lanes, arguments, supply, enough=lambda: False):
-    """The same by given lanes, which are let go at the end."""
+def _by(executors, arguments, scheduler, enough=lambda: False):
+    """The same by given executors, which are let go at the end."""
     try:
-        yield from compute(lanes, evaluate, arguments, supply, enough)
+        yield from run_batches(executors, evaluate, arguments, scheduler, enough)
     finally:
-        for lane in lanes:
-            lane.close()
+        for executor in executors:
+            executor.close()
 
 
 def _incomplete(table):

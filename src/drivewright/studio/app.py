@@ -169,9 +169,9 @@ def _files():
 async def _warmed(workshop):
     """Load what the first drawing needs, before it is asked for."""
 
-    async def warm(lanes):
-        async with lanes.lane() as lane:
-            await lane.call(looking.warm)
+    async def warm(pool):
+        async with pool.worker() as worker:
+            await worker.call(looking.warm)
 
     await asyncio.gather(warm(workshop.quick), warm(workshop.heavy), return_exceptions=True)
 

@@ -5,9 +5,9 @@ from contextlib import contextmanager
 
 from drivewright import registry
 from drivewright.errors import DrivewrightError
+from drivewright.execution.workers import CANCEL_NOW, WorkerDied, WorkerFault
 from drivewright.studio import looking
 from drivewright.studio.jobs import JOBS
-from drivewright.studio.lanes import NOW, Failed, Lost
 
 REST = 0.25  # seconds without a change after which the analyses follow
 SLOW = 3.0  # seconds after which a drawing says that it is under way
@@ -57,7 +57,7 @@ class Computing:
         """End a job, or what is computed of the design ("look")."""
         for task in (self._pen, self._analysing) if name == "look" else (self._jobs.get(name),):
             if task:
-                task.cancel(NOW)
+                task.cancel(CANCEL_NOW)
 
     def forget(self, since):
         """Another drive begins with the generation `since`: nothing of the one before belongs to it."""
@@ -95,10 +95,10 @@ class Computing:
         try:
             try:
                 await self._draw(gen, design)
-            except Lost as loss:
+            except WorkerDied as loss:
                 self._lost(loss)
                 await self._draw(gen, design)
-        except (Lost, Failed) as error:
+        except (WorkerDied, WorkerFault) as error:
             self._lost(error)
             return False
         except DrivewrightError as error:
@@ -114,13 +114,13 @@ class Computing:
         self.send({"what": "work", "state": "lost", "text": _last_line(self.words(error))})
 
     async def _draw(self, gen, design):
-        def heard(text):
+        def on_message(text):
             self.send({"what": "scene", "gen": gen, "json": text})
 
         quick = looking.affordable(registry.mechanism(design.kind).analyses, self._seconds, BUDGET)
-        async with self.workshop.quick.lane() as lane:
+        async with self.workshop.quick.worker() as worker:
             with self._limited():
-                found = await lane.call(looking.draw, design, quick, heard=heard)
+                found = await worker.call(looking.draw, design, quick, on_message=on_message)
         self.send({"what": "possible", "gen": gen})
         if found:
             self._show(gen, found, quick)
@@ -130,7 +130,7 @@ class Computing:
         """A drawing that takes long says so and can be cancelled; one that takes all too long is given up."""
         loop, pen = asyncio.get_running_loop(), asyncio.current_task()
         slow = {"what": "work", "state": "analysing", "text": "drawing", "done": 0, "total": 0}
-        timers = loop.call_later(SLOW, self.send, slow), loop.call_later(PATIENCE, pen.cancel, NOW)
+        timers = loop.call_later(SLOW, self.send, slow), loop.call_later(PATIENCE, pen.cancel, CANCEL_NOW)
         try:
             yield
         except asyncio.CancelledError:
@@ -164,32 +164,32 @@ class Computing:
             self.send({"what": "work", "state": "idle", "text": ""})
         except asyncio.CancelledError as cancelled:
             if self._analysing is asyncio.current_task():
-                self.send({"what": "work", "state": "stopped" if NOW in cancelled.args else "drawing", "text": ""})
+                self.send({"what": "work", "state": "stopped" if CANCEL_NOW in cancelled.args else "drawing", "text": ""})
             raise
-        except (Lost, Failed) as error:
+        except (WorkerDied, WorkerFault) as error:
             self._lost(error)
         except DrivewrightError as error:
             self._impossible(gen, error)
             self.send({"what": "work", "state": "idle", "text": ""})
 
     async def _analysed(self, design):
-        def heard(news):
+        def on_message(news):
             done, total, name = news
             self.send({"what": "work", "state": "analysing", "text": name, "done": done, "total": total})
 
-        async with self.workshop.heavy.lane() as lane:
-            return await lane.call(looking.analyse, design, heard=heard)
+        async with self.workshop.heavy.worker() as worker:
+            return await worker.call(looking.analyse, design, on_message=on_message)
 
     async def _reference(self, title, design):
         scenes = []
         try:
-            async with self.workshop.heavy.lane() as lane:
-                await lane.call(looking.draw, design, (), heard=scenes.append)
-                found, _ = await lane.call(looking.analyse, design)
+            async with self.workshop.heavy.worker() as worker:
+                await worker.call(looking.draw, design, (), on_message=scenes.append)
+                found, _ = await worker.call(looking.analyse, design)
             self.send({"what": "reference", "title": title, "json": scenes[-1], "result": found})
         except DrivewrightError as error:
             self.send({"what": "refused", "key": "", "text": "", "message": self.words(error)})
-        except Failed as error:
+        except WorkerFault as error:
             self._lost(error)
 
     # -- jobs ------------------------------------------------------------------------------------------------------------------
@@ -202,21 +202,21 @@ class Computing:
             if self._jobs.get(name) is own:  # and not of one that has begun since
                 self.send({"what": "job", "name": name, "state": state, "gen": gen, **more})
 
-        def heard(news):
+        def on_message(news):
             done, total, text, partial = news
             tell("running", done=done, total=total, text=text, **({"answer": partial} if partial is not None else {}))
 
         tell("running", done=0, total=0, text="", answer=None)
         try:
-            async with self.workshop.heavy.lane() as lane:
-                answer = await lane.call(_work, name, design, options, heard=heard)
+            async with self.workshop.heavy.worker() as worker:
+                answer = await worker.call(_work, name, design, options, on_message=on_message)
             tell("done", text="", answer=self._downloaded(answer))
         except asyncio.CancelledError:
             tell("cancelled", text="")
             raise
         except DrivewrightError as error:
             tell("failed", text=self.words(error))
-        except Failed as error:
+        except WorkerFault as error:
             tell("failed", text=_last_line(self.words(error)))
         finally:
             if self._jobs.get(name) is own:

@@ -7,8 +7,8 @@ import time
 from pathlib import Path
 
 from drivewright.cases import worker_count
+from drivewright.execution.workers import WorkerPool
 from drivewright.report.folder import file_name
-from drivewright.studio.lanes import Lanes
 
 KEPT = 600.0  # seconds that a file waits to be fetched
 MOST_OFFERS = 50
@@ -20,7 +20,7 @@ class Workshop:
 
     def __init__(self):
         most = max(2, worker_count(None))
-        self.quick, self.heavy = Lanes(most), Lanes(most)
+        self.quick, self.heavy = WorkerPool(most), WorkerPool(most)
         self._root, self._folders, self._offers = None, [], {}
 
     def new_folder(self):

@@ -4,10 +4,10 @@ import numpy as np
 
 from drivewright import units
 from drivewright.errors import InputError
+from drivewright.execution.case_table import CHECK
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies.answers.parts import Part, listed, passing, plain
 from drivewright.studies.pareto import ABSENT, DOMINATED, FAILS, FRONT, sorted_out
-from drivewright.studies.study import CHECK
 
 DRAWN = (FRONT, DOMINATED, FAILS)  # from the top down
 

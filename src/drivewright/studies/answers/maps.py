@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright.execution.case_table import CASE, CHECK
 from drivewright.result import HIGH, LOW, Column, Plot, Table, Value
 from drivewright.studies.answers.parts import STATUSES, Part, level_text, status_codes, table_of_rows, together
 from drivewright.studies.statistics import finite
-from drivewright.studies.study import CASE, CHECK
 
 MOST_PANELS = 4  # combinations of further keys that get plots of their own
 MOST_LINES = 6  # levels of a second key that are lines; with more they are a map

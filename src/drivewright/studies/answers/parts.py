@@ -6,10 +6,11 @@ from functools import cached_property
 
 import numpy as np
 
+from drivewright.execution.case_table import CASE, CHECK, STATUS
 from drivewright.result import Column, Table, Value
 from drivewright.studies.answers.factorial import crossed
 from drivewright.studies.statistics import LEVEL
-from drivewright.studies.study import CASE, CHECK, STATUS, Study
+from drivewright.studies.study import Study
 from drivewright.view.text import quantity
 
 STATUSES = ("complete", "partial", "failed")

@@ -2,12 +2,12 @@
 
 import numpy as np
 
+from drivewright.execution.case_table import CHECK
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies.answers.maps import Response
 from drivewright.studies.answers.parts import BOUNDS, Part, table_of_rows, together
 from drivewright.studies.answers.within import within_cases
 from drivewright.studies.statistics import PERCENTS, Sampled, capability, finite, share_between, summary
-from drivewright.studies.study import CHECK
 
 ALL = "all checks"
 VALUE = (("value", "", "value of the result"), ("unit", "", "unit of the row's numbers"))

@@ -7,13 +7,13 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright import registry
+from drivewright.execution.case_table import CHECK, MESSAGE
 from drivewright.result import Result, Value
 from drivewright.runner import versions
 from drivewright.studies.answers import causes, maps, spread
 from drivewright.studies.answers.fronts import fronts
 from drivewright.studies.answers.parts import STATUSES, Arranged, Part, listed, status_codes, together
 from drivewright.studies.statistics import LEVEL, finite, varies
-from drivewright.studies.study import CHECK, MESSAGE
 
 MOST = 6  # values that get plots
 REASONS = 3  # that are quoted

@@ -7,13 +7,13 @@ import numpy as np
 
 from drivewright import registry
 from drivewright.errors import InputError
-from drivewright.studies.batches import WORTH_HELP, Batch, Supply, compute, gaps
-from drivewright.studies.evaluate import evaluate, failed, task_of
-from drivewright.studies.pools import Here, pool
+from drivewright.execution.batches import WORTH_HELP, Batch, BatchScheduler, missing_ranges, run_batches
+from drivewright.execution.case_table import MESSAGE, STATUS
+from drivewright.execution.evaluation import case_task, evaluate, failed_rows
+from drivewright.execution.executors import InProcessExecutor, make_executors
 from drivewright.studies.search import history
 from drivewright.studies.search.searching import population_of
 from drivewright.studies.store import joined
-from drivewright.studies.study import MESSAGE, STATUS
 
 SILENT = "the compiled evaluation finds no solution; a run of this design says why"
 
@@ -103,7 +103,7 @@ def _kept(problem, kept):
 
 def _missing(first, designs, have):
     """[(number, number after the last)] of the new designs that are not kept."""
-    return gaps([(0, first), *((number, 1) for number in have)], first + len(designs))
+    return missing_ranges([(0, first), *((number, 1) for number in have)], first + len(designs))
 
 
 def compiled(problem):
@@ -132,40 +132,40 @@ class Compiled:
 
 
 class Runs:
-    """Design by design through the runner, by the lanes of a pool.
+    """Design by design through the runner, by executors.
 
     Where nobody says who is to compute, this process begins, and has help as soon as the search would take long alone.
     """
 
     def __init__(self, problem, workers, on):
         bare = problem.spec.model_copy(update={"study": None})
-        self._task = task_of(bare, problem.keys)._replace(analyses=problem.analyses, names=problem.names)
-        self._problem, self._asked = problem, (workers, on)
-        self._alone, self._lanes = workers is None and on is None, ()
+        self._task = case_task(bare, problem.keys)._replace(analyses=problem.analyses, names=problem.names)
+        self._problem, self._place = problem, (workers, on)
+        self._alone, self._executors = workers is None and on is None, ()
         self._count, self._seconds = 0, 0.0  # of what is done
 
     def __call__(self, first, designs, have, ahead):
-        supply = Supply([(0, first), *((number, 1) for number in have)], first + len(designs), 1)
+        scheduler = BatchScheduler([(0, first), *((number, 1) for number in have)], first + len(designs), 1)
         if self._count:
-            supply.learn(Batch(0, self._count), self._seconds)
+            scheduler.record_timing(Batch(0, self._count), self._seconds)
 
         def arguments(batch):
             return self._task, batch.first, self._columns(designs[batch.first - first : batch.stop - first])
 
         if self._alone:
-            self._lanes = self._lanes or (Here(),)
-            yield from self._by(arguments, supply, lambda: self._wants_help(ahead))
-            if not supply:
+            self._executors = self._executors or (InProcessExecutor(),)
+            yield from self._by(arguments, scheduler, lambda: self._wants_help(ahead))
+            if not scheduler:
                 return
             self.close()
             self._alone = False
-        self._lanes = self._lanes or pool(*self._asked)
-        yield from self._by(arguments, supply)
+        self._executors = self._executors or make_executors(*self._place)
+        yield from self._by(arguments, scheduler)
 
-    def _by(self, arguments, supply, enough=lambda: False):
-        for batch, table, seconds, reason in compute(self._lanes, evaluate, arguments, supply, enough):
+    def _by(self, arguments, scheduler, enough=lambda: False):
+        for batch, table, seconds, reason in run_batches(self._executors, evaluate, arguments, scheduler, enough):
             if reason:
-                table = failed(*arguments(batch), reason)
+                table = failed_rows(*arguments(batch), reason)
             else:
                 self._count, self._seconds = self._count + table.num_rows, self._seconds + seconds
             yield Rows(batch.first, self._values(table), table[STATUS].to_pylist(), table[MESSAGE].to_pylist(), seconds)
@@ -188,7 +188,7 @@ class Runs:
         }
 
     def close(self):
-        """Let the lanes go."""
-        lanes, self._lanes = self._lanes, ()
-        for lane in lanes:
-            lane.close()
+        """Let the executors go."""
+        executors, self._executors = self._executors, ()
+        for executor in executors:
+            executor.close()

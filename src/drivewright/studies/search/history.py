@@ -4,9 +4,8 @@ import time
 
 import numpy as np
 
-from drivewright.studies.evaluate import OFFERED
+from drivewright.execution.case_table import CASE, MESSAGE, STATUS, VALUE_PREFIX
 from drivewright.studies.store import joined
-from drivewright.studies.study import CASE, MESSAGE, STATUS
 
 GENERATION, VIOLATION = "generation", "violation"
 GATHER = 1.0  # seconds of evaluations that make a part
@@ -14,7 +13,7 @@ GATHER = 1.0  # seconds of evaluations that make a part
 
 def column_of(problem, name):
     """Name of a value's column; one that has the name of an unknown stands apart from it."""
-    return f"{OFFERED}{name}" if name in problem.keys else name
+    return f"{VALUE_PREFIX}{name}" if name in problem.keys else name
 
 
 def rows(problem, first, generation, designs, values, statuses, messages):

@@ -13,19 +13,19 @@ import numpy as np
 
 from drivewright import registry, runner, units
 from drivewright.errors import SpecError, UnknownName
+from drivewright.execution.case_table import CHECK
+from drivewright.execution.keys import READABLE, key_kind
+from drivewright.execution.outputs import case_outputs
 from drivewright.result import HIGH, LOW
 from drivewright.spec import MechanismSpec, document, from_document, set_key
 from drivewright.spec.fields import field_at, type_of
-from drivewright.studies.outputs import looked_at
-from drivewright.studies.study import CHECK
-from drivewright.studies.variables import READABLE, kind_of
 
 HOPELESS = 1e3  # violation of a design that has no solution at all, in units of the limits
 
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """Keys with their `Kind` and bounds (n, 2) SI, objectives (name, sign), limits (name, sense, limit) with the scale of each, what is
+    """Keys with their `KeyKind` and bounds (n, 2) SI, objectives (name, sign), limits (name, sense, limit) with the scale of each, what is
     known `about` every value that is looked at, {name: (unit, meaning)}, and the analyses that give them."""
 
     spec: MechanismSpec
@@ -139,7 +139,7 @@ def _known(spec):
     answers = runner.ask(spec, mechanism.build(spec), runner.selection(mechanism.analyses))
     givers, known, sizes = {}, {}, {}
     for analysis, answer in answers.items():
-        found = looked_at(answer.values, answer.checks)
+        found = case_outputs(answer.values, answer.checks)
         known |= found
         givers |= dict.fromkeys(found, analysis)
         sizes |= {name: abs(value.value) for name, value in found.items()} | {f"{CHECK}{c.name}": abs(c.limit) for c in answer.checks}
@@ -147,11 +147,11 @@ def _known(spec):
 
 
 def _kind(spec, unknowns, number):
-    """The `Kind` of an unknown."""
+    """The `KeyKind` of an unknown."""
     key, place = unknowns[number].key, f"optimise.unknowns.{number}.key"
     if key in (each.key for each in unknowns[:number]):
         raise SpecError(f"{key} is there twice; give one range for it", place)
-    kind = kind_of(spec, key, place)
+    kind = key_kind(spec, key, place)
     if not kind.numeric:
         raise SpecError(f"{key} takes {READABLE[kind.name]} and has no range; an unknown is a quantity, a number or a whole number", place)
     return kind

@@ -3,8 +3,8 @@
 import math
 
 from drivewright.errors import SpecError
+from drivewright.execution.keys import FIXED, key_kind
 from drivewright.spec import value_at
-from drivewright.studies.variables import FIXED, kind_of
 from drivewright.view.text import shown
 
 
@@ -19,11 +19,11 @@ def leaves(tables, path=()):
 
 
 def numeric(design, spec):
-    """{dotted key: (Kind, value in SI)} of the quantities and numbers that a design gives; whole numbers do not vary by per cent."""
+    """{dotted key: (KeyKind, value in SI)} of the quantities and numbers that a design gives; whole numbers do not vary by per cent."""
     found = {}
     for key, _ in leaves(design.tables):
         try:
-            kind = kind_of(spec, key) if key.split(".")[0] not in FIXED else None
+            kind = key_kind(spec, key) if key.split(".")[0] not in FIXED else None
         except SpecError:  # a file, or a list that is one value
             continue
         value = value_at(spec, key)

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 
 from drivewright.errors import SpecError
+from drivewright.execution.case_table import CHECK
 from drivewright.report.content import SIGNS, Views, pictures, summary
 from drivewright.studies.optimise import searched
 from drivewright.studies.search import history
 from drivewright.studies.search.problem import prepare
 from drivewright.studies.store import Memory, joined
-from drivewright.studies.study import CHECK
 from drivewright.studio.jobs.figures import drawn
 from drivewright.studio.jobs.keys import is_locked, label, plain, written
 from drivewright.studio.jobs.study import Live, thinned

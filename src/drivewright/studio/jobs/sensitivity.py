@@ -8,14 +8,14 @@ from annotated_types import Ge, Gt, Le, Lt
 
 from drivewright import registry, runner
 from drivewright.errors import SpecError, UnknownName
+from drivewright.execution.case_table import CHECK, MESSAGE
+from drivewright.execution.evaluation import case_task
 from drivewright.report.content import headline
 from drivewright.spec import Study
 from drivewright.spec.fields import field_at, mark_of
-from drivewright.studies.evaluate import task_of
 from drivewright.studies.plan import Block, Plan
 from drivewright.studies.statistics import NORMAL
 from drivewright.studies.store import Memory
-from drivewright.studies.study import CHECK, MESSAGE
 from drivewright.studies.sweep import swept
 from drivewright.studies.variables import Variable
 from drivewright.studio.jobs.keys import is_locked, label, numeric, plain
@@ -46,7 +46,7 @@ def sensitivity(design, tell, locks=(), targets=None, share=0.01, workers=None, 
         Memory(),
         asking,
         plan,
-        task_of(asking, plan.keys),
+        case_task(asking, plan.keys),
         workers,
         on,
         lambda done, total, what: tell(done, total, f"design {done} of {total}"),

@@ -7,15 +7,16 @@ import numpy as np
 
 from drivewright import registry
 from drivewright.errors import SpecError
+from drivewright.execution.case_table import CASE, CHECK, STATUS
+from drivewright.execution.evaluation import case_task
 from drivewright.report.content import Views, pictures
 from drivewright.report.study import said
 from drivewright.spec.writing import toml_value
 from drivewright.studies.answers import answers
-from drivewright.studies.evaluate import task_of
 from drivewright.studies.plan import plan_of
 from drivewright.studies.statistics import varies
 from drivewright.studies.store import Folder, Memory, joined
-from drivewright.studies.study import CASE, CHECK, STATUS, Study
+from drivewright.studies.study import Study
 from drivewright.studies.sweep import identity, swept
 from drivewright.studies.varying import asked
 from drivewright.studio.jobs.figures import drawn
@@ -43,7 +44,7 @@ def study(design, tell, vary=(), samples=None, method=None, folder=None, workers
     kept = Folder(Path(folder), spec, identity(spec, plan)) if folder is not None else Memory()
     live = Live(tell, lambda: _rows(design, _so_far(spec, plan, kept), MOST_LIVE))
     try:
-        found = swept(kept, spec, plan, task_of(spec, plan.keys), workers, on, live)
+        found = swept(kept, spec, plan, case_task(spec, plan.keys), workers, on, live)
     finally:
         kept.close()
     tell(len(plan), len(plan), "what the cases say")

@@ -1,11 +1,12 @@
-"""What a study looks at in the answers of a case: values, the ends of their intervals, and margins of checks."""
+"""What a study keeps of the answers of a case: values, the ends of their intervals, and margins of checks."""
 
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from drivewright.result import ERROR, HIGH, LOW
-from drivewright.studies.study import CHECK
+from drivewright.execution.case_table import CHECK
+from drivewright.result import ERROR, HIGH, LOW, Check, Value
 
-TOLD = {LOW: "at least", HIGH: "at most", ERROR: "standard error"}
+INTERVAL_PARTS = {LOW: "at least", HIGH: "at most", ERROR: "standard error"}
 
 
 class Output(NamedTuple):
@@ -17,39 +18,39 @@ class Output(NamedTuple):
     bounds: str = ""
 
     @property
-    def about(self):
+    def about(self) -> tuple[str, str, str]:
         """(unit, meaning, bounds): what all cases have in common."""
-        return self[1:]
+        return self.unit, self.meaning, self.bounds
 
 
-def looked_at(values, checks):
-    """{name: Output} of all that a study looks at: values, and margins of checks, 0 where rounding alone makes one negative: a check
+def case_outputs(values: Mapping[str, Value], checks: Iterable[Check]) -> dict[str, Output]:
+    """{name: Output} of all that a study keeps: values, and margins of checks, 0 where rounding alone makes one negative: a check
     passes exactly when its margin is not below 0.  NAME.low and NAME.high are the ends of the 95 % interval of NAME, NAME.error its
     standard error, where it has them; a value that has such a name already keeps it."""
     outputs = [(name, Output(value.value, value.unit, value.meaning), _bounds(value)) for name, value in values.items()]
     outputs += [(f"{CHECK}{check.name}", _margin(check), _ends(check.margin_bounds)) for check in checks]
     stated = {name for name, _, _ in outputs}
-    found = {}
+    collected: dict[str, Output] = {}
     for name, output, bounds in outputs:
-        found[name] = output
-        found |= {
-            f"{name}{end}": Output(number, output.unit, f"{output.meaning}, {TOLD[end]}", name)
+        collected[name] = output
+        collected |= {
+            f"{name}{end}": Output(number, output.unit, f"{output.meaning}, {INTERVAL_PARTS[end]}", name)
             for end, number in bounds.items()
             if f"{name}{end}" not in stated
         }
-    return found
+    return collected
 
 
-def _bounds(value):
+def _bounds(value: Value) -> dict[str, float]:
     """{end: number} of a value's interval."""
     plain = value.plain()
     ends = _ends(None if plain.low is None or plain.high is None else (plain.low, plain.high))
     return ends | ({ERROR: plain.error} if ends and plain.error is not None else {})
 
 
-def _ends(bounds):
+def _ends(bounds: tuple[float, float] | None) -> dict[str, float]:
     return dict(zip((LOW, HIGH), bounds or (), strict=False))
 
 
-def _margin(check):
+def _margin(check: Check) -> Output:
     return Output(max(check.margin, 0.0) if check.ok else check.margin, check.unit, f"margin of: {check.message}")

@@ -6,34 +6,34 @@ import time
 from drivewright.errors import SpecError
 
 
-def double(tell, value):
-    tell(("half way", value))
+def double(send, value):
+    send(("half way", value))
     return 2 * value
 
 
-def process(tell):
+def process(send):
     return os.getpid()
 
 
-def refuse(tell):
+def refuse(send):
     raise SpecError("must be greater than 0 mm, got -1 mm", key="drive.radius")
 
 
-def bug(tell):
+def bug(send):
     return {}["no such key"]
 
 
-def die(tell):
+def die(send):
     os._exit(7)
 
 
-def wait_politely(tell, seconds):
+def wait_politely(send, seconds):
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline:
-        tell("waiting")
+        send("waiting")
         time.sleep(0.01)
 
 
-def wait_deaf(tell, seconds):
-    tell("deaf")
+def wait_deaf(send, seconds):
+    send("deaf")
     time.sleep(seconds)

@@ -1,0 +1,163 @@
+"""Who computes: this process, processes on this machine, or the workers of a Dask scheduler.  All call the same function."""
+
+import os
+import sys
+from collections.abc import Callable
+from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor
+from contextlib import ExitStack
+from multiprocessing import get_context
+from typing import Any, Protocol
+
+from drivewright.cases import worker_count
+from drivewright.errors import InputError, brief
+from drivewright.execution.processes import exit_with_parent, worker_environment
+
+SCHEMES = ("tcp://", "tls://", "ucx://", "ws://", "wss://")
+
+
+class Executor(Protocol):
+    """A place that computes: `workers` calls at a time, up to `capacity` with those that wait there."""
+
+    @property
+    def workers(self) -> int:
+        """How many calls are computed at a time."""
+        ...
+
+    @property
+    def capacity(self) -> int:
+        """How many calls it takes at once."""
+        ...
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        """A future as those of `concurrent.futures`."""
+        ...
+
+    def restart(self) -> None:
+        """Make it usable again after its process died."""
+        ...
+
+    def fault(self) -> str:
+        """Why nothing can come from it any more; empty while it works."""
+        ...
+
+    def close(self) -> None:
+        """Let everything go at once."""
+        ...
+
+
+def make_executors(workers: int | None = None, on: str | None = None, limit: int | None = None) -> tuple[Executor, ...]:
+    """The executors for `on`: None for `workers` processes (None: one per core), but no more than `limit`, "serial" for this process,
+    "local:N" for a Dask cluster on this machine, "tcp://HOST:PORT" for the scheduler there.  InputError for anything else."""
+    check_location(workers, on)
+    if on is None:
+        return _processes(min(worker_count(workers), limit or sys.maxsize))
+    if on == "serial":
+        return (InProcessExecutor(),)
+    from drivewright.execution import dask_cluster
+
+    return (dask_cluster.start_local(on) if on.startswith("local:") else dask_cluster.connect(on),)
+
+
+def check_location(workers: int | None, on: str | None) -> None:
+    """InputError where `workers` and `on` say no place to compute."""
+    if on is None:
+        worker_count(workers)
+    elif workers is not None:
+        raise InputError(f"--workers counts processes of this machine, and --on {on} says who computes; give one of them")
+    elif on.startswith("local:"):
+        number = on.removeprefix("local:")
+        if not number.isdecimal() or not int(number):
+            raise InputError(f"--on {brief(on)} wants a number of workers from 1 up, e.g. local:4")
+    elif on != "serial" and not on.startswith(SCHEMES):
+        raise InputError(
+            f"--on {brief(on)} is no place to compute: serial, local:N for N Dask workers on this machine, or tcp://HOST:PORT of "
+            "a Dask scheduler; leave it out for processes on this machine"
+        )
+
+
+def _processes(number: int) -> tuple[Executor, ...]:
+    """So many executors of one process each; those that came up are let go where the next one does not."""
+    with ExitStack() as stack:
+        executors: list[Executor] = []
+        for _ in range(number):
+            executors.append(ProcessExecutor())
+            stack.callback(executors[-1].close)
+        stack.pop_all()
+        return tuple(executors)
+
+
+class InProcessExecutor:
+    """One call after another in this process."""
+
+    workers: int = 1
+    capacity: int = 1
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        """The call is over when this returns."""
+        future: Future[Any] = Future()
+        try:
+            future.set_result(function(*arguments))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+    def restart(self) -> None:
+        """Nothing to start."""
+
+    def fault(self) -> str:
+        """None."""
+        return ""
+
+    def close(self) -> None:
+        """Nothing to let go."""
+
+
+class ProcessExecutor:
+    """One process of its own: when it dies, the oldest of its calls is the one to blame."""
+
+    workers: int = 1
+    capacity: int = 2
+
+    def __init__(self) -> None:
+        self._start()
+
+    def _start(self) -> None:
+        context = get_context("spawn")
+        theirs, self._hold = context.Pipe(duplex=False)
+        with worker_environment():
+            self._executor = ProcessPoolExecutor(1, context, exit_with_parent, (os.getpid(), theirs))
+            self._warmed = self._executor.submit(_warm)
+        theirs.close()
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        """BrokenExecutor in its future when the process dies, or is dead already."""
+        try:
+            return self._executor.submit(function, *arguments)
+        except BrokenExecutor as death:
+            future: Future[Any] = Future()
+            future.set_exception(death)
+            return future
+
+    def restart(self) -> None:
+        """A new process in place of the dead one; InputError where that one never came to work."""
+        if not self._warmed.done() or self._warmed.exception() is not None:
+            raise InputError(
+                "a worker process does not start (its own message stands above, if it had one); mend that, or compute in this "
+                "process with --on serial. Every case that was finished before is kept"
+            )
+        self.close()
+        self._start()
+
+    def fault(self) -> str:
+        """None: a death shows in the futures."""
+        return ""
+
+    def close(self) -> None:
+        """The process leaves as soon as its end of the pipe is closed, whatever it does at the moment."""
+        self._hold.close()
+        self._executor.shutdown(wait=False, cancel_futures=True)
+
+
+def _warm() -> None:
+    """Load what every call needs, while others still start."""
+    import drivewright.execution.evaluation  # noqa: F401
