@@ -1,22 +1,25 @@
 """Many cases through one function: same function, same answer, whatever the number of workers."""
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Generator, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import closing
 from contextvars import copy_context
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 from drivewright.errors import DrivewrightError, InputError, brief
 from drivewright.stopped import collected
 
+CaseT = TypeVar("CaseT")
+ValueT = TypeVar("ValueT")
 
-class Outcome(NamedTuple):
+
+class Outcome(NamedTuple, Generic[CaseT, ValueT]):
     """What became of one case: `value` and no `reason`, or the reason why not and what the solver had until then (else None)."""
 
-    case: Any
-    value: Any
+    case: CaseT
+    value: ValueT
     reason: str = ""
 
     @property
@@ -26,21 +29,27 @@ class Outcome(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Outcomes:
+class Outcomes(Generic[CaseT, ValueT]):
     """The rows of a study in the order of the cases; after Ctrl-C those of the cases that were finished."""
 
-    rows: tuple[Outcome, ...]
+    rows: tuple[Outcome[CaseT, ValueT], ...]
     interrupted: bool = False
 
     @property
-    def failed(self) -> tuple[Outcome, ...]:
+    def failed(self) -> tuple[Outcome[CaseT, ValueT], ...]:
         """The rows that carry a reason."""
         return tuple(row for row in self.rows if not row.ok)
 
 
+Rows: TypeAlias = dict[int, Outcome[CaseT, ValueT]]  # by number of the case
+
+
 def run(
-    task: Callable[[Any], Any], cases: Iterable[Any], workers: int | None = 1, progress: Callable[[int, int, str], object] | None = None
-) -> Outcomes:
+    task: Callable[[CaseT], ValueT],
+    cases: Iterable[CaseT],
+    workers: int | None = 1,
+    progress: Callable[[int, int, str], object] | None = None,
+) -> Outcomes[CaseT, ValueT]:
     """`Outcomes` of task(case) for every case, one after another or, with more workers, in as many threads (None: one per core).
 
     Threads gain where the task spends its time in compiled kernels, which run without the interpreter lock.  Every case runs with
@@ -53,11 +62,12 @@ def run(
     the rows so far, `interrupted`; it goes on to the caller where there are none.
     """
     cases, workers = tuple(cases), worker_count(workers)
-    rows, interrupted = {}, False  # by number of the case
-    each = _in_threads(task, cases, workers, rows) if workers > 1 else _in_line(task, cases, rows)
+    rows: Rows[CaseT, ValueT] = {}
+    interrupted = False
+    steps = _in_threads(task, cases, workers, rows) if workers > 1 else _serially(task, cases, rows)
     try:
-        with closing(each):
-            for done, _ in enumerate(each, 1):
+        with closing(steps):
+            for done, _ in enumerate(steps, 1):
                 if progress:
                     progress(done, len(cases), _failures(rows))
     except KeyboardInterrupt:
@@ -76,20 +86,22 @@ def worker_count(workers: int | None) -> int:
     return workers
 
 
-def _failures(rows):
+def _failures(rows: Rows[CaseT, ValueT]) -> str:
     """What to say beside the progress."""
     count = sum(not row.ok for row in tuple(rows.values()))
     return f"{count} without a complete answer" if count else ""
 
 
-def _in_line(task, cases, rows):
+def _serially(task: Callable[[CaseT], ValueT], cases: Sequence[CaseT], rows: Rows[CaseT, ValueT]) -> Generator[None, None, None]:
     """Fills `rows` case by case, yields after each."""
     for number in range(len(cases)):
         copy_context().run(_attempt, task, cases, number, rows)
         yield
 
 
-def _in_threads(task, cases, workers, rows):
+def _in_threads(
+    task: Callable[[CaseT], ValueT], cases: Sequence[CaseT], workers: int, rows: Rows[CaseT, ValueT]
+) -> Generator[None, None, None]:
     """Fills `rows` from a pool of threads, yields after each case; when closed, what has not begun is cancelled."""
     pool, futures = ThreadPoolExecutor(min(workers, max(1, len(cases)))), []
     try:
@@ -106,7 +118,7 @@ def _in_threads(task, cases, workers, rows):
             future.result()
 
 
-def _attempt(task, cases, number, rows):
+def _attempt(task: Callable[[CaseT], Any], cases: Sequence[CaseT], number: int, rows: Rows[CaseT, Any]) -> None:
     """Files the outcome of one case.  The worker does it itself, so that nothing finished is lost, whenever Ctrl-C comes."""
     case = cases[number]
     try:

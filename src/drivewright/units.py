@@ -179,6 +179,7 @@ class Dimension:
 
     @property
     def described(self) -> str:
+        """The name with its article: "a length", "an angle"."""
         return f"{'an' if self.name[0] in 'aeiou' else 'a'} {self.name}"
 
     def _remedy(self, dimensionality):
