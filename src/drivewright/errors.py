@@ -5,8 +5,10 @@
     DrivewrightError
     ├── InputError (ValueError)          the request has no meaning or no solution     exit code 2
     │   ├── SpecError                    a key of a spec file, named with its value
-    │   │   └── UnitError                a quantity without, or with the wrong, unit
+    │   │   ├── UnitError                a quantity without, or with the wrong, unit
+    │   │   └── MissingFile              a data file that is not there
     │   ├── UnknownName                  a kind, law, value ... that nobody registered
+    │   ├── GeometryCheckFailed          an export of what is not, or not in full, checked to be feasible
     │   ├── DoesNotAssemble              a loop that does not close, a singular system
     │   └── MissingExtra                 an optional dependency is not installed
     └── SolverError (RuntimeError)       a solver gave up; carries the partial result  exit code 4
@@ -64,6 +66,14 @@ class SpecError(InputError):
 
 class UnitError(SpecError):
     """A quantity without, or with the wrong, unit."""
+
+
+class MissingFile(SpecError):
+    """A data file that is not there."""
+
+
+class GeometryCheckFailed(InputError):
+    """An export of a design that fails a geometry check, or is not checked in full; it goes out only where that is asked for."""
 
 
 class UnknownName(InputError):

@@ -12,7 +12,7 @@ import pytest
 import worker_toy
 
 from drivewright.errors import SpecError
-from drivewright.execution.workers import CANCEL_NOW, Worker, WorkerDied, WorkerFault, WorkerPool
+from drivewright.execution.workers import Cancellation, Worker, WorkerDied, WorkerFault, WorkerPool
 
 
 @pytest.fixture(scope="module")
@@ -96,7 +96,7 @@ def test_a_call_that_does_not_listen_is_waited_for(worker):
 
 def test_or_ended_when_a_person_does_not_want_to_wait(worker):
     before = call(worker, worker_toy.process)
-    loops.run(_cancelled(worker, worker_toy.wait_deaf, 60, CANCEL_NOW))
+    loops.run(_cancelled(worker, worker_toy.wait_deaf, 60, Cancellation.NOW))
     assert call(worker, worker_toy.process) != before
 
 

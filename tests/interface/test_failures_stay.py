@@ -8,7 +8,7 @@ import pytest
 
 import drivewright as dw
 from drivewright import registry, runner
-from drivewright.errors import DoesNotAssemble, InputError, MissingExtra, SolverError
+from drivewright.errors import DoesNotAssemble, GeometryCheckFailed, InputError, MissingExtra, SolverError
 from drivewright.mechanisms.seedling_pusher import dynamics
 from drivewright.report import content, export
 from drivewright.studies import verify
@@ -102,7 +102,7 @@ def test_what_could_not_be_checked_is_not_manufactured(monkeypatch, tmp_path):
     )
     fake = registry.Mechanism(**{**vars(kind), "analyses": analyses})
     monkeypatch.setattr(registry, "mechanism", lambda name: fake)
-    with pytest.raises(InputError, match="not checked in full and not exported: analysis 'profile' .*does not end.*--anyway"):
+    with pytest.raises(GeometryCheckFailed, match="not checked in full and not exported: analysis 'profile' .*does not end.*--anyway"):
         export.export(spec, ("dxf",), tmp_path)
     assert not list(tmp_path.iterdir())
     assert [path.suffix for path in export.export(spec, ("dxf",), tmp_path, anyway=True)][:1] == [".dxf"]

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import loops
 import pytest
 
-from drivewright.errors import DoesNotAssemble, SpecError
-from drivewright.execution.workers import CANCEL_NOW, WorkerDied, WorkerFault
+from drivewright.errors import DoesNotAssemble, GeometryCheckFailed, SpecError
+from drivewright.execution.workers import Cancellation, WorkerDied, WorkerFault
 from drivewright.registry import Analysis
 from drivewright.studio import computing, looking
 from drivewright.studio.computing import Computing
@@ -214,7 +214,7 @@ def test_a_drawing_that_takes_long_says_so_and_is_given_up_at_last(bench, monkey
         assert [(message["state"], message["text"]) for message in bench.said] == [("analysing", "drawing")]
         assert bench.calls[0].stopped is None
         await asyncio.sleep(0.2)
-        assert bench.calls[0].stopped == (CANCEL_NOW,) and bench.said[1] == {"what": "work", "state": "stopped", "text": ""}
+        assert bench.calls[0].stopped == (Cancellation.NOW,) and bench.said[1] == {"what": "work", "state": "stopped", "text": ""}
         assert bench.asked[1:] == [("quick", "draw", 2)]  # and the newer one has its turn
         await bench.calls[1].answer(None)
         bench.said.clear()
@@ -231,7 +231,7 @@ async def test_a_person_ends_a_drawing_and_begins_it_again(bench):
     await bench.look(1)
     bench.computing.cancel("look")
     await settled()
-    assert bench.calls[0].stopped == (CANCEL_NOW,) and bench.said == [{"what": "work", "state": "stopped", "text": ""}]
+    assert bench.calls[0].stopped == (Cancellation.NOW,) and bench.said == [{"what": "work", "state": "stopped", "text": ""}]
     assert len(bench.calls) == 1  # a drawing that was ended is not analysed
     bench.computing.analyse()
     await settled()
@@ -287,7 +287,7 @@ async def test_a_newer_look_ends_the_analyses_which_may_clear_up(bench):
     await bench.calls[0].answer(None)
     assert bench.asked[-1] == ("heavy", "analyse", 1)
     await bench.look(2)
-    assert bench.calls[1].stopped is not None and CANCEL_NOW not in bench.calls[1].stopped
+    assert bench.calls[1].stopped is not None and Cancellation.NOW not in bench.calls[1].stopped
     assert bench.told("work") == [{"what": "work", "state": "drawing", "text": ""}]
     await bench.calls[2].answer(None)
     assert bench.asked[2:] == [("quick", "draw", 2), ("heavy", "analyse", 2)]
@@ -314,7 +314,7 @@ async def test_a_person_ends_the_analyses_at_once(bench):
     await bench.calls[0].answer(None)
     bench.computing.cancel("look")
     await settled()
-    assert bench.calls[1].stopped == (CANCEL_NOW,)
+    assert bench.calls[1].stopped == (Cancellation.NOW,)
     assert bench.told("work") == [{"what": "work", "state": "stopped", "text": ""}]
     bench.computing.cancel("look")
     await settled()
@@ -478,7 +478,7 @@ async def test_the_last_reference_counts(bench):
     for gen in (1, 2):
         bench.computing.refer(str(gen), SimpleNamespace(kind=KIND, gen=gen))
         await settled()
-    assert bench.calls[0].stopped == (CANCEL_NOW,) and bench.calls[1].stopped is None
+    assert bench.calls[0].stopped == (Cancellation.NOW,) and bench.calls[1].stopped is None
 
 
 # -- jobs ----------------------------------------------------------------------------------------------------------------------
@@ -541,12 +541,18 @@ def test_a_job_that_fails_says_why(bench, error, text):
 
 
 @story
+async def test_an_export_that_is_refused_for_its_geometry_can_be_asked_for_all_the_same(bench):
+    await (await begun(bench)).fail(GeometryCheckFailed("undercut"))
+    assert bench.said[-1] == job("failed", text="in words: undercut", overridable=True)
+
+
+@story
 async def test_a_job_is_cancelled_at_once_and_others_are_not(bench):
     study, solid = await begun(bench), await begun(bench, "solid")
     bench.computing.cancel("study")
     bench.computing.cancel("nothing")
     await settled()
-    assert study.stopped == (CANCEL_NOW,) and solid.stopped is None
+    assert study.stopped == (Cancellation.NOW,) and solid.stopped is None
     assert bench.said[-1] == job("cancelled", text="")
     await solid.answer(1)
     bench.computing.cancel("solid")  # too late: it is done
@@ -558,7 +564,7 @@ async def test_a_job_is_cancelled_at_once_and_others_are_not(bench):
 async def test_a_job_of_the_same_name_takes_the_place_of_the_one_under_way(bench):
     first = await begun(bench)
     second = await begun(bench, gen=9)
-    assert first.stopped == (CANCEL_NOW,) and second.stopped is None
+    assert first.stopped == (Cancellation.NOW,) and second.stopped is None
     await second.answer("new")
     assert bench.said[-1] == job("done", gen=9, text="", answer="new")
     third = await begun(bench, gen=10)
@@ -574,7 +580,7 @@ async def test_the_end_of_the_replaced_job_leaves_the_new_one_in_its_place(bench
     await settled()
     bench.computing.cancel("study")  # reaches the new one
     await settled()
-    assert second.stopped == (CANCEL_NOW,)
+    assert second.stopped == (Cancellation.NOW,)
 
 
 @story
@@ -634,4 +640,4 @@ async def test_another_design_ends_the_jobs_and_keeps_the_drawing(bench):
     await bench.look(1)
     bench.computing.forget(2)
     await settled()
-    assert study.stopped == (CANCEL_NOW,) and bench.calls[1].stopped is None
+    assert study.stopped == (Cancellation.NOW,) and bench.calls[1].stopped is None

@@ -13,7 +13,7 @@ import pytest
 
 import drivewright as dw
 from drivewright import registry, runner
-from drivewright.errors import InputError, SpecError, UnknownName
+from drivewright.errors import GeometryCheckFailed, SpecError, UnknownName
 from drivewright.report.content import pictures, views
 from drivewright.report.export import export as exported
 from drivewright.report.pack import pack_plots
@@ -397,7 +397,7 @@ def test_several_files_are_one_archive_that_is_always_the_same(tmp_path):
 
 def test_what_should_not_be_made_is_refused_in_words():
     small = design("disc_cam").changed({"follower.prime_radius": "12 mm", "manufacture.bore": "4 mm", "manufacture.hub_diameter": "6 mm"})
-    with pytest.raises(InputError, match=r"this design fails a geometry check and is not exported: .* or export it with --anyway"):
+    with pytest.raises(GeometryCheckFailed, match=r"this design fails a geometry check and is not exported: .* or export it with --anyway"):
         asked("export", small, format="dxf")
     assert one_file(asked("export", small, format="dxf", anyway=True)[0])[0].endswith(".dxf")
     with pytest.raises(UnknownName, match="no export format is called 'dwg'"):

@@ -132,7 +132,7 @@ def _settled(future: Future[Any], waiting: _Waiting, scheduler: BatchScheduler) 
     except ImportError as error:
         raise InputError(f"a worker cannot load the program ({error}); install the same drivewright where it runs") from error
     except Exception as error:
-        if type(error).__name__ != "KilledWorker":  # of Dask, which need not be installed
+        if not executor.is_death(error):
             raise
         del waiting[future]
         yield BatchResult(batch, reason="the workers that computed this batch died (of memory, or killed from outside)")

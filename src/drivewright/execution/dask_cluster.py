@@ -35,6 +35,12 @@ class DaskExecutor:
     def restart(self) -> None:
         """The scheduler starts its workers again itself."""
 
+    def is_death(self, error: Exception) -> bool:
+        """Whether several workers died of a call, and the scheduler has given it up."""
+        from distributed import KilledWorker
+
+        return isinstance(error, KilledWorker)
+
     def fault(self) -> str:
         """Why nothing can come from it any more; empty while it works."""
         if self._client.status != "running":

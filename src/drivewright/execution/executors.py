@@ -36,6 +36,10 @@ class Executor(Protocol):
         """Make it usable again after its process died."""
         ...
 
+    def is_death(self, error: Exception) -> bool:
+        """Whether an error of a future says that the workers died of its call, which is not to be tried again."""
+        ...
+
     def fault(self) -> str:
         """Why nothing can come from it any more; empty while it works."""
         ...
@@ -104,6 +108,10 @@ class InProcessExecutor:
     def restart(self) -> None:
         """Nothing to start."""
 
+    def is_death(self, error: Exception) -> bool:
+        """Never: this process would be dead."""
+        return False
+
     def fault(self) -> str:
         """None."""
         return ""
@@ -147,6 +155,10 @@ class ProcessExecutor:
             )
         self.close()
         self._start()
+
+    def is_death(self, error: Exception) -> bool:
+        """Never: a dead process breaks the executor, and the call may be tried again."""
+        return False
 
     def fault(self) -> str:
         """None: a death shows in the futures."""

@@ -6,6 +6,7 @@ from typing import NamedTuple
 from drivewright.execution.case_table import CHECK
 from drivewright.result import ERROR, HIGH, LOW, Check, Value
 
+MARGIN_OF = "margin of: "  # in front of the message of a check, in the meaning of its margin
 INTERVAL_PARTS = {LOW: "at least", HIGH: "at most", ERROR: "standard error"}
 
 
@@ -53,4 +54,4 @@ def _ends(bounds: tuple[float, float] | None) -> dict[str, float]:
 
 
 def _margin(check: Check) -> Output:
-    return Output(max(check.margin, 0.0) if check.ok else check.margin, check.unit, f"margin of: {check.message}")
+    return Output(max(check.margin, 0.0) if check.ok else check.margin, check.unit, f"{MARGIN_OF}{check.message}")

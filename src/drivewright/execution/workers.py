@@ -10,6 +10,7 @@ import threading
 import traceback
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
+from enum import Enum
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
@@ -18,10 +19,15 @@ from typing import Any
 from drivewright.errors import DrivewrightError
 from drivewright.execution.processes import exit_with_parent, worker_environment
 
-CANCEL_NOW = "now"  # the argument of a task's `cancel` that ends the process where it does not stop at once
 MEMORY_SHARE = 0.4  # of the machine's memory that one process may take
 PATIENCE = 60.0  # seconds that a call which nobody waits for may take to notice
 PATIENCE_NOW = 0.3  # seconds that a call may take to clear up
+
+
+class Cancellation(Enum):
+    """How urgent the end of a call is: the argument of a task's `cancel`."""
+
+    NOW = "the process is ended where it does not stop at once"
 
 
 class Cancelled(Exception):
@@ -99,7 +105,7 @@ class Worker:
         """The function's answer; its error, WorkerDied or WorkerFault.  `on_message(message)` is called for every message it sends.
 
         Where the caller is cancelled, the process is asked to stop and given PATIENCE: it may be compiling what the next call needs too.
-        Where the caller is cancelled with the argument CANCEL_NOW, the process is ended if it does not stop at once.
+        Where the caller is cancelled with `Cancellation.NOW`, the process is ended if it does not stop at once.
         """
         if not self.process.is_alive():
             self._start()
@@ -111,7 +117,7 @@ class Worker:
         try:
             return await asyncio.shield(ended)
         except asyncio.CancelledError as cancelled:
-            await self._cancel(ended, PATIENCE_NOW if CANCEL_NOW in cancelled.args else PATIENCE)
+            await self._cancel(ended, PATIENCE_NOW if Cancellation.NOW in cancelled.args else PATIENCE)
             raise
 
     async def _cancel(self, ended: asyncio.Future[Any], patience: float) -> None:

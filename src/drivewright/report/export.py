@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from drivewright import registry, runner
-from drivewright.errors import InputError, UnknownName
+from drivewright.errors import GeometryCheckFailed, InputError, UnknownName
 from drivewright.report import dxf, gcode, svgout, tabular
 from drivewright.report.folder import file_name
 from drivewright.view.text import quantity
@@ -14,7 +14,7 @@ FORMATS = ("dxf", "svg", "csv", "step", "stl", "gcode", "pdf")
 def export(spec, formats, folder, anyway=False, progress=None):
     """Write the formats of a design into `folder`; returns the paths.
 
-    InputError where a geometry check fails, unless `anyway`; a solid format needs the extra 'fe', the PDF the extra 'pdf'.
+    GeometryCheckFailed where a geometry check fails, unless `anyway`; a solid format needs the extra 'fe', the PDF the extra 'pdf'.
     """
     _refuse_unknown(formats)
     mechanism = registry.mechanism(spec.mechanism)
@@ -41,11 +41,11 @@ def _refuse_unknown(formats):
 
 def _refuse_bad_geometry(result):
     if failed := _failures(result):
-        raise InputError(
+        raise GeometryCheckFailed(
             f"this design fails a geometry check and is not exported: {'; '.join(failed)}. Mend the design, or export it with --anyway"
         )
     if missing := [finding for finding in result.findings if any(f"'{name}'" in finding for name in result.provenance.get("failed", ()))]:
-        raise InputError(
+        raise GeometryCheckFailed(
             f"this design is not checked in full and not exported: {'; '.join(missing)}. Mend the design, or export it with --anyway"
         )
 

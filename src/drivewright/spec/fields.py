@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, NoReturn, TypeAlias, 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, PlainValidator, Strict, ValidationInfo, WithJsonSchema
 from pydantic.fields import FieldInfo
 
-from drivewright.errors import UnitError, brief
+from drivewright.errors import MissingFile, UnitError, brief
 from drivewright.units import Dimension, any_quantity
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def _existing_file(value: Any, info: ValidationInfo) -> Path:
     except (OSError, RuntimeError) as error:  # a name that is too long, a loop of links
         raise ValueError(f"{brief(str(value))} cannot be a file: {getattr(error, 'strerror', None) or error}") from None
     if not found:
-        raise ValueError(f"there is no file {str(path)!r}; a path is relative to the spec")
+        raise MissingFile(f"there is no file {str(path)!r}; a path is relative to the spec")
     return path
 
 

@@ -5,7 +5,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from drivewright.errors import SpecError, brief, nearest
+from drivewright.errors import MissingFile, SpecError, brief, nearest
 from drivewright.spec.fields import choices_of, dimension_of, field_at, levels, table_at
 from drivewright.spec.writing import toml_key, toml_value
 
@@ -38,7 +38,8 @@ def translated(error: ValidationError, model: type[Any]) -> SpecError:
     short = [(key, message.partition("; known here")[0]) for key, message in items[1:SHOWN]]
     rest = "".join(f"\n  {key}: {message}" if key else f"\n  {message}" for key, message in short)
     more = f"\n  ... and {len(items) - SHOWN} more" if len(items) > SHOWN else ""
-    return SpecError(items[0][1] + rest + more, key=items[0][0] or None)
+    missing = any(isinstance(item.get("ctx", {}).get("error"), MissingFile) for item in found)
+    return (MissingFile if missing else SpecError)(items[0][1] + rest + more, key=items[0][0] or None)
 
 
 def shown(value: Any, field: Any) -> str:

@@ -4,8 +4,8 @@ import asyncio
 from contextlib import contextmanager
 
 from drivewright import registry
-from drivewright.errors import DrivewrightError
-from drivewright.execution.workers import CANCEL_NOW, WorkerDied, WorkerFault
+from drivewright.errors import DrivewrightError, GeometryCheckFailed
+from drivewright.execution.workers import Cancellation, WorkerDied, WorkerFault
 from drivewright.studio import looking
 from drivewright.studio.jobs import JOBS
 
@@ -57,7 +57,7 @@ class Computing:
         """End a job, or what is computed of the design ("look")."""
         for task in (self._pen, self._analysing) if name == "look" else (self._jobs.get(name),):
             if task:
-                task.cancel(CANCEL_NOW)
+                task.cancel(Cancellation.NOW)
 
     def forget(self, since):
         """Another drive begins with the generation `since`: nothing of the one before belongs to it."""
@@ -130,7 +130,7 @@ class Computing:
         """A drawing that takes long says so and can be cancelled; one that takes all too long is given up."""
         loop, pen = asyncio.get_running_loop(), asyncio.current_task()
         slow = {"what": "work", "state": "analysing", "text": "drawing", "done": 0, "total": 0}
-        timers = loop.call_later(SLOW, self.send, slow), loop.call_later(PATIENCE, pen.cancel, CANCEL_NOW)
+        timers = loop.call_later(SLOW, self.send, slow), loop.call_later(PATIENCE, pen.cancel, Cancellation.NOW)
         try:
             yield
         except asyncio.CancelledError:
@@ -164,7 +164,7 @@ class Computing:
             self.send({"what": "work", "state": "idle", "text": ""})
         except asyncio.CancelledError as cancelled:
             if self._analysing is asyncio.current_task():
-                self.send({"what": "work", "state": "stopped" if CANCEL_NOW in cancelled.args else "drawing", "text": ""})
+                self.send({"what": "work", "state": "stopped" if Cancellation.NOW in cancelled.args else "drawing", "text": ""})
             raise
         except (WorkerDied, WorkerFault) as error:
             self._lost(error)
@@ -215,7 +215,7 @@ class Computing:
             tell("cancelled", text="")
             raise
         except DrivewrightError as error:
-            tell("failed", text=self.words(error))
+            tell("failed", text=self.words(error), **({"overridable": True} if isinstance(error, GeometryCheckFailed) else {}))
         except WorkerFault as error:
             tell("failed", text=_last_line(self.words(error)))
         finally:

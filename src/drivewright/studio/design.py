@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
-from drivewright.errors import SpecError
+from drivewright.errors import MissingFile, SpecError
 from drivewright.spec import from_document, set_key
 from drivewright.spec.writing import toml_text
 
@@ -30,8 +30,8 @@ class Design:
         """The spec; SpecError where the tables are none, or name a file that is not theirs."""
         try:
             spec = from_document(deepcopy(self.tables), folder=self.folder)
-        except SpecError as error:
-            if self.readable is not None and "there is no file" in error.message:
+        except MissingFile:
+            if self.readable is not None:
                 raise _not_here() from None
             raise
         if self.readable is not None and not self.readable.issuperset(spec.data_files()):

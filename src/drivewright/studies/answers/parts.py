@@ -1,8 +1,9 @@
 """What the answers of a study are made of: its table arranged by combination of levels, and parts that are put together."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -143,6 +144,16 @@ def passing(study, sign=0):
         margin = study.at_worst(CHECK + name, sign) if sign else np.asarray(study[CHECK + name], dtype=float)
         passes &= ~(margin < 0)
     return passes
+
+
+def estimate_values(
+    arranged: Arranged, rows: Iterable[tuple[int, str, str, Any]], estimates: Mapping[str, tuple[str, str]]
+) -> Iterator[tuple[str, Value]]:
+    """(name, `Value`) of rows (combination, value, unit, estimates): `estimates` {prefix: (attribute with a `Sampled`, what it is)}."""
+    for _, name, unit, estimate in rows:
+        meaning = arranged.study.meaning(name) or name
+        for prefix, (attribute, what) in estimates.items():
+            yield f"{prefix}.{name}", getattr(estimate, attribute).named(unit, f"{meaning}: {what}")
 
 
 def table_of_rows(name, title, columns, rows, arranged=None):

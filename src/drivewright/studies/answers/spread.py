@@ -5,7 +5,7 @@ import numpy as np
 from drivewright.execution.case_table import CHECK
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies.answers.maps import Response
-from drivewright.studies.answers.parts import BOUNDS, Part, table_of_rows, together
+from drivewright.studies.answers.parts import BOUNDS, Part, estimate_values, table_of_rows, together
 from drivewright.studies.answers.within import within_cases
 from drivewright.studies.statistics import PERCENTS, Sampled, capability, finite, share_between, summary
 
@@ -44,6 +44,8 @@ WORST = (
     ("corners", "-", "corners that have it"),
 )
 
+ESTIMATES = {"mean": ("mean", "mean of the sample"), "sigma": ("sigma", "standard deviation of the sample")}
+
 
 def spread(arranged):
     """`Part` of the sample: tables `tolerance`, `confidence` and `yield`, their values and histograms."""
@@ -61,7 +63,7 @@ def spread(arranged):
         full = table_of_rows("confidence", "Spread of the values with confidence", CONFIDENCE, [_sure(*row) for row in rows], arranged)
         parts.append(Part(tables=(short, full)))
     if arranged.combinations == 1:
-        parts += [Part(dict(_values(arranged, rows))), _histograms(arranged)]
+        parts += [Part(dict(estimate_values(arranged, rows, ESTIMATES))), _histograms(arranged)]
     return together(parts)
 
 
@@ -75,13 +77,6 @@ def _sure(number, name, unit, found):
     """Row of the table `confidence`."""
     spread_ = (each for percent in found.percentiles for each in percent)
     return (number, name, unit, found.count, *found.mean, *found.sigma, found.skewness, *spread_)
-
-
-def _values(arranged, rows):
-    for _, name, unit, found in rows:
-        what = arranged.study.meaning(name) or name
-        yield f"mean.{name}", found.mean.named(unit, f"{what}: mean of the sample")
-        yield f"sigma.{name}", found.sigma.named(unit, f"{what}: standard deviation of the sample")
 
 
 def _histograms(arranged):

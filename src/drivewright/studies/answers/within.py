@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.studies.answers.parts import BOUNDS, Part, table_of_rows
+from drivewright.studies.answers.parts import BOUNDS, Part, estimate_values, table_of_rows
 from drivewright.studies.statistics import Sampled, summary
 
 WITHIN = (
@@ -25,6 +25,12 @@ WITHIN = (
         for end, told in BOUNDS
     ),
 )
+
+
+ESTIMATES = {
+    "sigma_within": ("within", "standard deviation within a case"),
+    "sigma_keys": ("keys", "standard deviation by the keys that vary"),
+}
 
 
 class Apart(NamedTuple):
@@ -79,14 +85,9 @@ def within_cases(arranged):
     cells = [(number, name, unit, each.sigma.value, *each.within, *each.keys, *each.share) for number, name, unit, each in rows]
     table = table_of_rows("within_cases", "Spread within a case and by the keys", WITHIN, cells, arranged)
     alone = arranged.combinations == 1
-    return Part(dict(_values(arranged, rows)) if alone else {}, (table,), findings=tuple(_findings(rows)) if alone else ())
-
-
-def _values(arranged, rows):
-    for _, name, unit, found in rows:
-        what = arranged.study.meaning(name) or name
-        yield f"sigma_within.{name}", found.within.named(unit, f"{what}: standard deviation within a case")
-        yield f"sigma_keys.{name}", found.keys.named(unit, f"{what}: standard deviation by the keys that vary")
+    return Part(
+        dict(estimate_values(arranged, rows, ESTIMATES)) if alone else {}, (table,), findings=tuple(_findings(rows)) if alone else ()
+    )
 
 
 def _findings(rows):

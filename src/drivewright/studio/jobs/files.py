@@ -22,7 +22,7 @@ BEGINNING = (1980, 1, 1, 0, 0, 0)  # of time in an archive: the same files, the 
 def export(design, tell, format, anyway=False):
     """{"files": [{"name", "data"}]}: the design in a format of `drivewright export`, several files in one archive.
 
-    InputError where a geometry check fails, unless `anyway`; MissingExtra where the format needs what is not installed.
+    GeometryCheckFailed where a geometry check fails, unless `anyway`; MissingExtra where the format needs what is not installed.
     """
     with TemporaryDirectory() as folder:
         written = write_export(design.spec(), (format,), Path(folder), anyway, tell)

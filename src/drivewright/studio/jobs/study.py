@@ -9,6 +9,7 @@ from drivewright import registry
 from drivewright.errors import SpecError
 from drivewright.execution.case_table import CASE, CHECK, STATUS
 from drivewright.execution.evaluation import case_task
+from drivewright.execution.outputs import MARGIN_OF
 from drivewright.report.content import Views, pictures
 from drivewright.report.study import said
 from drivewright.spec.writing import toml_value
@@ -132,7 +133,7 @@ def _role(study, name):
 def _label(design, study, name):
     if _role(study, name) == "key":
         return label(design.tables, name)
-    return sentence(study.meaning(name).removeprefix("margin of: ") or name)
+    return sentence(study.meaning(name).removeprefix(MARGIN_OF) or name)
 
 
 def _cells(data, unit):

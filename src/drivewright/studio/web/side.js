@@ -118,7 +118,7 @@ function createExport({store, say, t}) {
     for (const [format, made] of buttons) { made.disabled = busy; made.classList.toggle("is-busy", busy && format === wanted); }
     put(words, busy ? job.text ? t(job.text) : t("writing …") : job.state === "done" ? t("saved") : "");
     box.hidden = !failed;
-    anyway.hidden = !/--anyway/.test(job.text || "");
+    anyway.hidden = !job.overridable;
     put(trouble, failed ? job.text : "");
   }
   const outdated = ({design}) => { if (String(design?.gen) !== box.dataset.gen) box.hidden = true; };
