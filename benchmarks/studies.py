@@ -89,12 +89,12 @@ def overhead():
     from drivewright import load, registry, runner, sweep
     from drivewright.execution.evaluation import case_task
     from drivewright.spec import from_document, set_key
-    from drivewright.studies.varying import linspace, varied
+    from drivewright.studies.variation import linspace, with_variation
     from drivewright.units import SI
 
     key = "joint.rolling_radius"
     spec = load(EXAMPLES / "hyvo_chain.toml", ('study.analyses=["closure"]',))
-    studied = varied(spec, {key: linspace("1.0 mm", "1.6 mm", MANY)})
+    studied = with_variation(spec, {key: linspace("1.0 mm", "1.6 mm", MANY)})
     task, mechanism = case_task(studied, (key,)), registry.mechanism(spec.mechanism)
     wanted = runner.selection(mechanism.analyses, task.analyses)
 

@@ -40,8 +40,8 @@ PAGES = (
     "fatigue.rainflow",
     "fatigue.curves",
     "materials",
-    "studies.sweep",
-    "studies.varying",
+    "studies.sweeps",
+    "studies.variation",
     "studies.study",
     "studies.plan",
     "execution.executors",
@@ -49,7 +49,7 @@ PAGES = (
     "studies.statistics",
     "studies.sensitivity",
     "studies.pareto",
-    "studies.optimise",
+    "studies.optimisation",
     "units",
     "spec",
     "result",
@@ -83,13 +83,13 @@ def worked_studies():
     """The worked studies: what each says at its head, and the figures of its report.  They are run here: a few minutes."""
     import drivewright as dw
     from drivewright.report.study import write_answers
-    from drivewright.studies.answers import answers
+    from drivewright.studies.answers import analyse_study
 
     lines = ["# Worked studies", "", "Made by running the files of `examples/studies`; [Studies](studies.md) says how to write one."]
     with tempfile.TemporaryDirectory() as scratch:
         for path in sorted((DOCS.parent / "examples" / "studies").glob("*.toml")):
             study = dw.sweep(dw.load(path), out=Path(scratch) / path.stem)
-            report = write_answers(study, answers(study), study.folder)
+            report = write_answers(study, analyse_study(study), study.folder)
             drawn = DOCS / "worked-studies" / path.stem
             shutil.rmtree(drawn, ignore_errors=True)
             shutil.copytree(report.parent / "figures", drawn)

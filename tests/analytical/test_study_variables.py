@@ -10,9 +10,19 @@ from study_toy import Body, Part, Toy
 
 import drivewright as dw
 from drivewright.spec import Vary
-from drivewright.studies.plan import plan_of
+from drivewright.studies.plan import make_plan
 from drivewright.studies.variables import variable
-from drivewright.studies.varying import asked, from_text, geomspace, linspace, normal, tolerance, triangular, uniform, varied
+from drivewright.studies.variation import (
+    geomspace,
+    linspace,
+    normal,
+    parse_variation,
+    tolerance,
+    triangular,
+    uniform,
+    with_options,
+    with_variation,
+)
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SPEC = Toy(parts=(Part(name="left", width="4 mm"), Part(name="right", width="6 mm"), Part()), bodies={"arm": Body(mass="2 kg")})
@@ -293,7 +303,7 @@ def test_an_entry_of_a_column_is_what_a_spec_takes(key, value, table):
     ],
 )
 def test_the_command_line_says_what_the_functions_say(text, what):
-    assert from_text(text) == (text.partition("=")[0].strip(), what)
+    assert parse_variation(text) == (text.partition("=")[0].strip(), what)
 
 
 def test_what_the_functions_say_stands_in_a_spec_file():
@@ -309,19 +319,19 @@ def test_what_the_functions_say_stands_in_a_spec_file():
     mean = "2 N"
     sigma = "0.3 N"
     """)
-    functions = varied(Toy(), {"size": linspace("8 mm", "13 mm", 4), "force": normal("2 N", "0.3 N")})
-    texts = asked(Toy(), ["size=8 mm:13 mm:4", "force=normal(2 N, 0.3 N)"])
+    functions = with_variation(Toy(), {"size": linspace("8 mm", "13 mm", 4), "force": normal("2 N", "0.3 N")})
+    texts = with_options(Toy(), ["size=8 mm:13 mm:4", "force=normal(2 N, 0.3 N)"])
     assert Toy(**table).study == functions.study == texts.study
 
 
 def test_what_is_asked_replaces_what_the_spec_varies_and_keeps_its_settings(tmp_path):
     (tmp_path / "p.csv").write_text("ratio\n1\n2\n")
-    spec = varied(Toy(), {"size": ["1 mm"]}, samples=7, seed=3, values=["area"], points=str(tmp_path / "p.csv"))
-    study = asked(spec, ["force=1 N:2 N"], seed=9, samples=None).study
+    spec = with_variation(Toy(), {"size": ["1 mm"]}, samples=7, seed=3, values=["area"], points=str(tmp_path / "p.csv"))
+    study = with_options(spec, ["force=1 N:2 N"], seed=9, samples=None).study
     assert ([v.key for v in study.vary], study.samples, study.seed, study.values, study.points) == (["force"], 7, 9, ("area",), None)
-    assert asked(spec) is spec and asked(spec, (), tmp_path / "p.csv", samples=None).study.vary == spec.study.vary
+    assert with_options(spec) is spec and with_options(spec, (), tmp_path / "p.csv", samples=None).study.vary == spec.study.vary
 
 
 def test_levels_come_as_a_list_an_array_or_a_generator():
     for levels in ([1, 2], (1, 2), np.array([1, 2]), range(1, 3), (n for n in (1, 2))):
-        assert plan_of(varied(Toy(), {"count": levels})).grid[0].levels.tolist() == [1, 2]
+        assert make_plan(with_variation(Toy(), {"count": levels})).grid[0].levels.tolist() == [1, 2]

@@ -8,7 +8,7 @@ import drivewright as dw
 from drivewright import registry
 from drivewright.execution.keys import key_kind
 from drivewright.spec import document, load, preset_path
-from drivewright.studies.varying import tolerance
+from drivewright.studies.variation import tolerance
 
 LEVELS, SAMPLES = 3, 2
 

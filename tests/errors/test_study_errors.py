@@ -20,9 +20,19 @@ from drivewright.cli import main
 from drivewright.errors import InputError, SpecError, UnknownName
 from drivewright.execution import batches, evaluation
 from drivewright.studies import plan, store
-from drivewright.studies import sweep as sweeping
-from drivewright.studies.plan import plan_of
-from drivewright.studies.varying import asked, from_text, geomspace, linspace, normal, tolerance, triangular, uniform, varied
+from drivewright.studies import sweeps as sweeping
+from drivewright.studies.plan import make_plan
+from drivewright.studies.variation import (
+    geomspace,
+    linspace,
+    normal,
+    parse_variation,
+    tolerance,
+    triangular,
+    uniform,
+    with_options,
+    with_variation,
+)
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SPEC = Toy(parts=(Part(name="left"), Part(name="right")), bodies={"arm": Body()})
@@ -36,7 +46,7 @@ def _toy(monkeypatch):
 
 def refused(vary, message, spec=SPEC, kind=SpecError, **settings):
     with pytest.raises(kind) as found:
-        plan_of(varied(spec, vary, **settings))
+        make_plan(with_variation(spec, vary, **settings))
     assert message in str(found.value)
     return found.value
 
@@ -46,7 +56,7 @@ def refused(vary, message, spec=SPEC, kind=SpecError, **settings):
 
 def test_nothing_that_varies():
     with pytest.raises(SpecError, match=r"^study.vary: nothing varies, so there is nothing to study; give --vary KEY=FROM:TO:STEPS"):
-        plan_of(SPEC)
+        make_plan(SPEC)
     refused({}, "nothing varies", samples=4)
 
 
@@ -124,7 +134,7 @@ def test_levels_that_are_none(key, values, words):
 )
 def test_ranges_that_are_none(key, what, words):
     if words is None:
-        assert plan_of(varied(SPEC, {key: what})).shape == (4,)
+        assert make_plan(with_variation(SPEC, {key: what})).shape == (4,)
     else:
         refused({key: what}, words)
 
@@ -180,12 +190,12 @@ def test_bounds_that_are_no_numbers_or_settings_that_are_none():
 
 
 def test_the_same_key_twice():
-    found = SPEC.model_copy(update={"study": varied(SPEC, {"size": ["1 mm"], "ratio": [1]}).study})
+    found = SPEC.model_copy(update={"study": with_variation(SPEC, {"size": ["1 mm"], "ratio": [1]}).study})
     twice = found.study.model_copy(update={"vary": (*found.study.vary, found.study.vary[0])})
     with pytest.raises(SpecError, match=r"^study.vary.*: size varies twice; give it once$"):
-        plan_of(found.model_copy(update={"study": twice}))
+        make_plan(found.model_copy(update={"study": twice}))
     with pytest.raises(SpecError, match="--vary size is given twice; give its levels in one list"):
-        asked(SPEC, ["size=1 mm", "size=2 mm"])
+        with_options(SPEC, ["size=1 mm", "size=2 mm"])
 
 
 def test_too_many_corners(monkeypatch):
@@ -194,7 +204,7 @@ def test_too_many_corners(monkeypatch):
     refused(vary, "study.method: 17 keys have 1.3e+05 corners; 16 keys at most, or take one-at-a-time", wide, method="corners")
     three = {"size": tolerance("1 mm"), "force": tolerance("1 N"), "ratio": tolerance(0.1)}
     monkeypatch.setattr(plan, "MOST_CORNERS", 3)
-    assert plan_of(varied(SPEC, three, method="corners")).inner == 8
+    assert make_plan(with_variation(SPEC, three, method="corners")).inner == 8
     monkeypatch.setattr(plan, "MOST_CORNERS", 2)
     refused(three, "3 keys have 8 corners; 2 keys", method="corners")
 
@@ -205,14 +215,14 @@ def test_too_many_dimensions_for_sobol(monkeypatch):
     monkeypatch.setattr(qmc.Sobol, "MAXDIM", 3)
     vary = {"size": tolerance("1 mm"), "force": tolerance("1 N")}
     refused(vary, "4 dimensions are beyond a Sobol sequence; take latin-hypercube", method="sobol-indices", samples=4)
-    assert plan_of(varied(SPEC, vary | {"ratio": tolerance(0.1)}, method="sobol", samples=4)).inner == 4
+    assert make_plan(with_variation(SPEC, vary | {"ratio": tolerance(0.1)}, method="sobol", samples=4)).inner == 4
 
 
 def test_too_many_cases(monkeypatch):
     monkeypatch.setattr(plan, "LARGEST", 20)
     refused({"count": linspace(1, 7, 7), "ratio": [1, 2, 3]}, "study.vary: 21 cases are more than 2e+01; take fewer levels or samples")
     refused({"count": [1, 2, 3], "size": tolerance("1 mm")}, "study.vary: 21 cases are more", samples=7)
-    assert len(plan_of(varied(SPEC, {"count": linspace(1, 5, 5), "size": tolerance("1 mm")}, samples=4))) == 20
+    assert len(make_plan(with_variation(SPEC, {"count": linspace(1, 5, 5), "size": tolerance("1 mm")}, samples=4))) == 20
 
 
 def test_very_many_cases_want_a_yes(monkeypatch):
@@ -248,22 +258,22 @@ def test_very_many_cases_want_a_yes(monkeypatch):
 )
 def test_texts_of_the_wrong_form(text, words):
     with pytest.raises(SpecError) as found:
-        from_text(text)
+        parse_variation(text)
     assert words in str(found.value)
 
 
 @pytest.mark.parametrize("levels", ["1 mm", 5, None, b"1"])
 def test_levels_that_are_no_list(levels):
     with pytest.raises(SpecError, match="study.vary: wants a list of levels, or linspace, normal ..., got"):
-        varied(SPEC, {"size": levels})
+        with_variation(SPEC, {"size": levels})
 
 
 @pytest.mark.parametrize(("texts", "points"), [(["size=1 mm:2 mm:3"], None), ([], None), (["count=1,2"], "p.csv")])
 def test_a_sample_of_nothing(texts, points, tmp_path):
     (tmp_path / "p.csv").write_text("ratio\n1\n")
     with pytest.raises(SpecError, match=r"^--sample 5: nothing has a distribution to sample from; give --vary KEY=FROM:TO or"):
-        asked(SPEC, texts, points and tmp_path / points, samples=5)
-    assert asked(SPEC, [*texts, "force=1 N:2 N"], samples=5).study.samples == 5
+        with_options(SPEC, texts, points and tmp_path / points, samples=5)
+    assert with_options(SPEC, [*texts, "force=1 N:2 N"], samples=5).study.samples == 5
 
 
 # -- a file of points ----------------------------------------------------------------------------------------------------------
@@ -306,7 +316,7 @@ def test_csv_files_of_points_that_are_some(tmp_path):
     (tmp_path / "p.csv").write_bytes(
         "\ufeffsize [mm] , ratio,colour,count, flag,angle [deg]\n8,1e-1,a b,3.0,TRUE,180\n\n10,-2,,4,false,90\n".encode()
     )
-    columns = plan_of(varied(SPEC, {}, points=str(tmp_path / "p.csv"))).cases(0, 2)
+    columns = make_plan(with_variation(SPEC, {}, points=str(tmp_path / "p.csv"))).cases(0, 2)
     expected = {
         "size": [8e-3, 10e-3],
         "ratio": [0.1, -2.0],
@@ -341,7 +351,7 @@ def test_parquet_files_of_points_with_and_without_units(tmp_path):
         file = parquet_of(
             tmp_path / "p.pq", size=([8.0, 10.0], unit), count=([1, 2], None), colour=(["red", "blue"], ""), flag=([True, False], None)
         )
-        columns = plan_of(varied(SPEC, {}, points=file)).cases(0, 2)
+        columns = make_plan(with_variation(SPEC, {}, points=file)).cases(0, 2)
         assert columns["size"] == pytest.approx([8 * factor, 10 * factor], rel=1e-14)
         assert [columns[key].tolist() for key in ("count", "colour", "flag")] == [[1, 2], ["red", "blue"], [True, False]]
 
@@ -483,7 +493,7 @@ def test_the_same_study_said_otherwise_goes_on(study):
 
 
 def test_what_is_kept_is_part_of_the_study(study):
-    spec = varied(SPEC, LEVELS, values=["area"])
+    spec = with_variation(SPEC, LEVELS, values=["area"])
     with pytest.raises(InputError, match=r"study.values.0: not given there, area here"):
         run(study, spec, None)
 
@@ -496,7 +506,7 @@ def test_another_version_of_the_program_does_not_go_on(study, monkeypatch):
 
 
 def test_a_worker_of_another_version_is_refused():
-    task = evaluation.case_task(varied(SPEC, LEVELS), ("size",))._replace(version="99.1")
+    task = evaluation.case_task(with_variation(SPEC, LEVELS), ("size",))._replace(version="99.1")
     with pytest.raises(InputError, match="drivewright 99.1 asks and .* would answer; install the same version on all workers"):
         evaluation.evaluate(task, 0, {"size": np.array([1e-3])})
 
@@ -518,7 +528,7 @@ def test_the_content_of_a_data_file_is_part_of_the_study(tmp_path):
 
 def test_the_content_of_a_file_of_points_is_part_of_the_study(tmp_path):
     (tmp_path / "p.csv").write_text("ratio\n1\n2\n")
-    spec = asked(SPEC, (), tmp_path / "p.csv")
+    spec = with_options(SPEC, (), tmp_path / "p.csv")
     run(tmp_path / "S", spec, None)
     assert dw.open_study(tmp_path / "S")["ratio"].tolist() == [1, 2]
     assert run(tmp_path / "S", dw.load(tmp_path / "S" / "study.toml"), None).complete
@@ -607,7 +617,7 @@ def test_a_ledger_that_finds_the_disk_full(tmp_path, monkeypatch):
 
     monkeypatch.setattr(store, "_ledger", narrow)
     with monkeypatch.context() as patch:
-        patch.setattr(sweeping, "identity", lambda spec, plan: {"spec": "x" * 5000})  # more than the page that is free
+        patch.setattr(sweeping, "study_identity", lambda spec, plan: {"spec": "x" * 5000})  # more than the page that is free
         with pytest.raises(InputError, match=FULL):
             run(tmp_path / "S")
     monkeypatch.setattr(store, "_ledger", make)
@@ -668,7 +678,7 @@ def test_a_folder_that_cannot_be_made(tmp_path):
 
 def test_an_analysis_that_is_none():
     with pytest.raises(UnknownName, match="no analysis is called 'mein' .did you mean 'main'.."):
-        dw.sweep(varied(SPEC, LEVELS, analyses=["mein"]), on="serial")
+        dw.sweep(with_variation(SPEC, LEVELS, analyses=["mein"]), on="serial")
 
 
 def test_a_column_that_is_none(study):

@@ -1,4 +1,4 @@
-"""What the core of studies should also do; each of these fails today."""
+"""Corners of studies: points of a file, keys of every kind, stores that are damaged."""
 
 from dataclasses import replace
 
@@ -10,8 +10,8 @@ from study_toy import TOY, Body, Part, Toy, exact, install, rough
 
 import drivewright as dw
 from drivewright.errors import InputError, SpecError, UnknownName
-from drivewright.studies.plan import plan_of
-from drivewright.studies.varying import geomspace, linspace, normal, varied
+from drivewright.studies.plan import make_plan
+from drivewright.studies.variation import geomspace, linspace, normal, with_variation
 
 SPEC = Toy(parts=(Part(name="left"), Part(name="right")), bodies={"arm": Body()})
 
@@ -22,7 +22,7 @@ def _toy(monkeypatch):
 
 
 def columns(vary, spec=SPEC, **settings):
-    plan = plan_of(varied(spec, vary, **settings))
+    plan = make_plan(with_variation(spec, vary, **settings))
     return {key: column.tolist() for key, column in plan.cases(0, len(plan)).items()}
 
 
@@ -100,7 +100,7 @@ def test_designs_of_which_the_compiled_route_is_silent_do_not_count_against_it(m
     study = dw.sweep(SPEC, {"ratio": [-1, 1, 4, 9, 16]}, on="serial")
     assert study.remarks == () and np.isnan(study["root"][0]) and study["area"][0] == pytest.approx(1e-4)
     install(monkeypatch.setattr, replace(TOY, batch=rough))
-    named = dw.sweep(varied(SPEC, {"ratio": [-1, 1, 4, 9, 16]}, values=["area"]), on="serial")
+    named = dw.sweep(with_variation(SPEC, {"ratio": [-1, 1, 4, 9, 16]}, values=["area"]), on="serial")
     assert named.remarks[0].endswith("differs from a run by 0.001 of a value at most")
 
 
@@ -148,5 +148,5 @@ def test_corners_keep_the_bounds_to_the_last_bit():
             "size": normal(f"{percent / 100} mm", "0.01 mm", "0 mm", "1 mm"),
             "offset": {"lower": "0.3 mm", "upper": f"{0.3 + percent / 7} mm"},
         }
-        least, greatest = (plan_of(varied(SPEC, vary, method="corners")).points[n] for n in (0, -1))
+        least, greatest = (make_plan(with_variation(SPEC, vary, method="corners")).points[n] for n in (0, -1))
         assert least[0] >= 0 and greatest[0] <= 1e-3 and least[1] >= 3e-4

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 import drivewright as dw
-from drivewright.studies.plan import plan_of
-from drivewright.studies.varying import varied
+from drivewright.studies.plan import make_plan
+from drivewright.studies.variation import with_variation
 
 FOLDER = Path(__file__).parents[2] / "examples" / "studies"
 CASES = {
@@ -34,7 +34,7 @@ def load(name):
 
 def smaller(name, vary=None, **settings):
     """The study with other levels, or other settings of its [study]."""
-    study = dw.sweep(varied(load(name), vary or {}, **settings), on="serial")
+    study = dw.sweep(with_variation(load(name), vary or {}, **settings), on="serial")
     assert study.counts == {"complete": len(study.plan)}
     return study
 
@@ -45,7 +45,7 @@ def test_every_worked_study_is_known_here():
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_study_has_the_cases_that_its_comment_tells(name):
-    assert len(plan_of(load(name))) == CASES[name]
+    assert len(make_plan(load(name))) == CASES[name]
     assert re.search(rf"\b{CASES[name]} (cases|designs)", told(name).replace("20 000", "20000"))
 
 
@@ -130,7 +130,7 @@ def test_load_coefficients_at_constant_damping_agree_with_another_program():
 
 def test_play_and_damping_are_the_same_in_three_pins():
     for name, dampings in (("knife_kd_map", 3), ("knife_kd_calibrated", 55)):
-        columns = plan_of(load(name)).cases(0, CASES[name])
+        columns = make_plan(load(name)).cases(0, CASES[name])
         for key, levels in (("clearance", 5), ("link_damping", dampings)):
             first, *others = (columns[f"joints.{pin}.{key}"] for pin in ("A", "B", "O4"))
             assert len(np.unique(first)) == levels and all(np.array_equal(first, other) for other in others)
@@ -138,7 +138,7 @@ def test_play_and_damping_are_the_same_in_three_pins():
 
 
 def test_the_calibrated_points_follow_the_two_laws_of_damping():
-    columns = plan_of(load("knife_kd_calibrated")).cases(0, CASES["knife_kd_calibrated"])
+    columns = make_plan(load("knife_kd_calibrated")).cases(0, CASES["knife_kd_calibrated"])
     law, speed, play = (columns[key] for key in ("title", "drive.speed", "joints.A.clearance"))
     damping, alone = columns["joints.A.link_damping"], law == "one for each play"
     own = {r: damping[alone & (play == r)] for r in np.unique(play)}

@@ -11,7 +11,7 @@ from drivewright import registry, runner
 from drivewright.errors import DoesNotAssemble, GeometryCheckFailed, InputError, MissingExtra, SolverError
 from drivewright.mechanisms.seedling_pusher import dynamics
 from drivewright.report import content, export
-from drivewright.studies import verify
+from drivewright.studies import verification as verify
 from drivewright.studio import looking
 from drivewright.studio.session import opened
 

@@ -19,12 +19,12 @@ from drivewright.report.content import Views, pictures
 from drivewright.report.tabular import write_study_table
 from drivewright.result import Answer, Value
 from drivewright.spec import Optimise
-from drivewright.studies.answers import answers
-from drivewright.studies.optimise import optimise
+from drivewright.studies.answers import analyse_study
+from drivewright.studies.optimisation import optimise
 from drivewright.studies.search.problem import prepare
 from drivewright.studies.store import PARTS
-from drivewright.studies.sweep import open_study, sweep
-from drivewright.studies.varying import linspace, normal, uniform
+from drivewright.studies.sweeps import open_study, sweep
+from drivewright.studies.variation import linspace, normal, uniform
 
 LEVELS = {"size": linspace("10 mm", "13 mm", 7)}
 SAMPLE = {"size": normal("11 mm", "0.5 mm"), "load": normal(1.0, 0.05)}
@@ -145,7 +145,7 @@ def test_a_study_of_an_earlier_version_opens(tmp_path):
         parquet.write_table(table.drop_columns(ends), file)
     study = open_study(tmp_path / "S")
     assert study.value_names == ("level", "area") and study.bounds("level") is None
-    assert "within_cases" not in answers(study).result.tables
+    assert "within_cases" not in analyse_study(study).result.tables
 
 
 # -- the compiled route --------------------------------------------------------------------------------------------------------
@@ -204,7 +204,7 @@ def test_written_tables_have_the_ends(tmp_path):
 
 def test_command_line_tells_ends_with_their_intervals(capsys):
     study = sweep(spec(), LEVELS, on="serial")
-    show.study(study, answers(study))
+    show.study(study, analyse_study(study))
     row = study["level"].argmin()
     low, high = study.bounds("level")
     assert f"({1e3 * low[row]:.2f} to {1e3 * high[row]:.2f}) mm" in capsys.readouterr().out
@@ -212,7 +212,7 @@ def test_command_line_tells_ends_with_their_intervals(capsys):
 
 def test_response_curves_have_bands():
     study = sweep(spec(), LEVELS, on="serial")
-    found = answers(study)
+    found = analyse_study(study)
     low, high = study.bounds("level")
     table = found.result.tables["response"]
     assert np.array_equal(table["level.low"].data, low) and np.array_equal(table["level.high"].data, high)
@@ -229,7 +229,7 @@ def test_response_curves_have_bands():
 
 def test_the_margin_of_the_worst_check_and_the_front_have_their_intervals():
     study = sweep(spec(), LEVELS, on="serial")
-    found = answers(study, ("level", "area")).result
+    found = analyse_study(study, ("level", "area")).result
     table, margin = found.tables["response"], study["check.low_enough"]
     low, high = (end / np.abs(margin).max() for end in study.bounds("check.low_enough"))
     settled = study["check.settled"]
@@ -242,7 +242,7 @@ def test_the_margin_of_the_worst_check_and_the_front_have_their_intervals():
 
 def test_a_grid_without_intervals_has_no_columns_for_them():
     study = sweep(spec(study={"values": ["area"]}), LEVELS, on="serial")
-    found = answers(study).result
+    found = analyse_study(study).result
     assert [c.name for c in found.tables["range"].columns][-1] == "greatest.case"
     assert found.values["least.area"].low is None
 
@@ -253,7 +253,7 @@ def test_a_grid_without_intervals_has_no_columns_for_them():
 def test_spread_within_a_case_is_told_apart():
     """By the keys the squares of 0.5/11 and 5 % of the level add up; a case by itself has 40 % / sqrt(32)."""
     study = sampled(1500, noise=0.4)
-    found = answers(study).result
+    found = analyse_study(study).result
     keys, within = found.values["sigma_keys.level"], found.values["sigma_within.level"].value
     assert found.values["sigma_within.level"].interval == "sample"
     true_keys = 0.011 * np.hypot(0.5 / 11, 0.05)
@@ -267,14 +267,14 @@ def test_spread_within_a_case_is_told_apart():
 
 
 def test_without_noise_nothing_is_told_apart():
-    found = answers(sampled(100, noise=0.0)).result
+    found = analyse_study(sampled(100, noise=0.0)).result
     assert found.values["sigma_keys.level"].value == pytest.approx(found.values["sigma.level"].value)
     assert not any("within a case" in text for text in found.findings)
 
 
 def test_sobol_indices_take_the_noise_off():
     """Both keys cause half, though most of the variance is noise."""
-    found = answers(sampled(400, "sobol-indices", noise=0.5)).result
+    found = analyse_study(sampled(400, "sobol-indices", noise=0.5)).result
     table = found.tables["indices"]
     columns = [table[name].data for name in ("value", "key", "total", "total.low", "total.high")]
     row = {key: ends for value, key, *ends in zip(*columns, strict=True) if value == "level"}
@@ -284,7 +284,7 @@ def test_sobol_indices_take_the_noise_off():
 
 def test_yield_is_bounded_by_the_intervals():
     study = sampled(100, noise=0.3)
-    found = answers(study).result
+    found = analyse_study(study).result
     margin, (low, high) = study["check.low_enough"], study.bounds("check.low_enough")
     settled = study["check.settled"] >= 0
     table = found.tables["yield"]
@@ -331,7 +331,7 @@ def test_the_front_takes_what_meets_the_requirements_by_its_whole_interval(side,
         "requirements": [{"value": "level", side: f"{limit} m"}],
     }
     study = sweep(spec(optimise=Optimise(**table)), LEVELS, on="serial")
-    pareto = answers(study).result.tables["pareto"]
+    pareto = analyse_study(study).result.tables["pareto"]
     sign, rows = (1 if side == "at_most" else -1), pareto["case"].data.astype(int)
     surely = (sign * (study.bounds("level")[end] - limit) <= 0) & (study["check.low_enough"] >= 0)
     by_value = (sign * (study["level"] - limit) <= 0) & (study["check.low_enough"] >= 0)

@@ -83,7 +83,7 @@ def test_imports_go_downwards(path):
 def test_the_rule_can_fail(tmp_path):
     assert offence(SOURCE / "numerics" / "x.py", "drivewright.motion.laws")
     assert offence(SOURCE / "mechanisms" / "cam" / "x.py", "drivewright.mechanisms.seedling_pusher.spec")
-    assert offence(SOURCE / "report" / "x.py", "drivewright.studies.optimise")
+    assert offence(SOURCE / "report" / "x.py", "drivewright.studies.optimisation")
     assert offence(SOURCE / "execution" / "x.py", "drivewright.studies.plan")
     assert offence(SOURCE / "studies" / "x.py", "drivewright.report.html") is None
 

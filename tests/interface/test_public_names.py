@@ -2,6 +2,9 @@
 
 import subprocess
 import sys
+from types import ModuleType
+
+import pytest
 
 import drivewright as dw
 
@@ -65,9 +68,15 @@ def test_an_unknown_name_is_an_attribute_error():
 
 def test_a_name_is_still_the_function_after_its_module_was_imported():
     import drivewright.runner
-    import drivewright.studies.optimise  # noqa: F401
+    import drivewright.studies.optimisation  # noqa: F401
 
     assert callable(dw.run) and callable(dw.optimise) and callable(dw.build)
+
+
+@pytest.mark.parametrize("package", [dw.studies], ids=lambda package: package.__name__)
+def test_names_of_a_package_are_sorted_and_load(package):
+    assert list(package.__all__) == sorted(package.__all__)
+    assert all(not isinstance(getattr(package, name), ModuleType) for name in package.__all__)
 
 
 def test_importing_the_package_loads_nothing_heavy():

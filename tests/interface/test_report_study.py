@@ -23,8 +23,8 @@ from drivewright.report.study import cases, reasons, said, varied, verdict, writ
 from drivewright.report.tabular import rounded, write_study_table
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.spec import from_document
-from drivewright.studies.answers import Answers, answers
-from drivewright.studies.plan import plan_of
+from drivewright.studies.answers import Answers, analyse_study
+from drivewright.studies.plan import make_plan
 from drivewright.studies.study import Study
 from drivewright.studies.variables import Variable
 
@@ -65,7 +65,7 @@ SAMPLE = {
 
 def study_of(given, folder=None, failing=0):
     """A study whose numbers are made up: a play that grows with the radius, a check; the first cases fail."""
-    plan = plan_of(given)
+    plan = make_plan(given)
     n, columns = len(plan), plan.cases(0, len(plan))
     radius = np.asarray(columns["joint.rolling_radius"])
     status = np.array(["complete"] * n, dtype=object)
@@ -88,7 +88,7 @@ def study_of(given, folder=None, failing=0):
 
 
 def report(study, folder, found=None):
-    path = write_answers(study, found or answers(study), folder)
+    path = write_answers(study, found or analyse_study(study), folder)
     text = path.read_text(encoding="utf-8")
     return text, Page(text), re.sub(r"\s+", " ", Page(text).text.replace("\u00a0", " "))
 
@@ -121,7 +121,7 @@ def test_the_page_says_what_varied_what_became_of_it_and_how_to_do_it_again(tmp_
 
 
 def test_no_request_leaves_the_page_and_everything_is_beside_it(tmp_path):
-    found = answers(study_of(spec(**GRID)))
+    found = analyse_study(study_of(spec(**GRID)))
     _, page, _ = report(study_of(spec(**GRID)), tmp_path, found)
     for tag, attributes in page.tags:
         for name in ("src", "href", "srcset", "action", "data"):
@@ -159,7 +159,7 @@ def test_small_tables_are_on_the_page_in_the_units_of_their_rows():
     rows = {"value": ("", ["play", "k"]), "unit": ("", ["m", "-"]), "least": ("", [2e-3, 0.5]), "angle": ("rad", np.radians([30, 45]))}
     small = Table("small", "Small", tuple(Column(name, unit, name, np.array(data)) for name, (unit, data) in rows.items()))
     large = replace(small, name="large", columns=tuple(c._replace(data=np.resize(c.data, 41)) for c in small.columns))
-    found = answers(study)
+    found = analyse_study(study)
     told = said(study, Answers(replace(found.result, tables={"small": small, "large": large}, values={}), ()))
     assert told["tables"][0]["printed"] == [("play", "2\u00a0mm", "30"), ("k", "0.5", "45")]
     assert [head["unit"] for head in told["tables"][0]["columns"]] == ["", "", "°"]
@@ -169,7 +169,9 @@ def test_small_tables_are_on_the_page_in_the_units_of_their_rows():
 def test_the_tiles_are_the_yield_and_what_has_a_plot():
     study = study_of(spec(**GRID))
     values = {name: Value(1.0, "m", name) for name in ("cases", "least.play", "least.k", "yield", "yield.low", "greatest.play")}
-    found = Answers(replace(answers(study).result, values=values, tables={}), (Plot("p", "P", "t", "x", ("key", "play"), style="map"),))
+    found = Answers(
+        replace(analyse_study(study).result, values=values, tables={}), (Plot("p", "P", "t", "x", ("key", "play"), style="map"),)
+    )
     assert [tile["name"] for tile in said(study, found)["headline"]] == ["least.play", "yield", "greatest.play"]
 
 
@@ -195,7 +197,7 @@ def test_reasons_that_differ_in_numbers_only_are_one_and_the_commonest_comes_fir
 
 
 def test_what_varied_in_words():
-    by_key = {each.key: varied(each) for each in plan_of(spec(**SAMPLE)).variables}
+    by_key = {each.key: varied(each) for each in make_plan(spec(**SAMPLE)).variables}
     thin = {key: row[1].replace("\u00a0", " ") for key, row in by_key.items()}
     assert thin["joint.rolling_radius"] == "normal, mean 1.2 mm, standard deviation 0.02 mm, within 1.14 mm … 1.26 mm"
     assert thin["plate.apothem"] == "uniform, 2.5 mm … 2.7 mm" and by_key["plate.apothem"][2] == "2.6\u00a0mm"

@@ -63,7 +63,7 @@ def test_a_follower_that_has_left_the_cam_gives_no_torque(tmp_path):
 
 def test_ctrl_c_keeps_the_best_design_so_far(monkeypatch):
     import drivewright as dw
-    from drivewright.studies import optimise
+    from drivewright.studies import optimisation as optimise
 
     spec = dw.load(DISC.with_name("seedling_pusher.toml"))
     evaluate = optimise.Evaluator.__call__

@@ -6,7 +6,8 @@ import pytest
 from spec_cases import FULL, ToySpec, install
 
 from drivewright.errors import SpecError
-from drivewright.spec import change_key, dimension_at, from_document, read_value, set_key
+from drivewright.spec import Field, Named, Spec, change_key, dimension_at, from_document, read_value, set_key
+from drivewright.units import Length
 
 
 @pytest.fixture
@@ -97,6 +98,48 @@ def test_list_elements_go_by_name_or_by_number(tables):
 def test_a_change_that_cannot_be_made_says_why(tables, change, key, wanted):
     with pytest.raises(SpecError) as caught:
         spec_with(tables, change)
+    assert caught.value.key == key and wanted in str(caught.value)
+
+
+# -- replace -------------------------------------------------------------------------------------------------------------------
+
+
+def test_replace_takes_plain_keys_and_dotted_ones(tables):
+    spec = from_document(tables)
+    changed = spec.replace({"joints.rocker.clearance": "7 um", "drive.sense": "forward"}, turns=5)
+    assert (changed.joints[1].clearance, changed.drive.sense, changed.turns) == (pytest.approx(7e-6, rel=1e-15), "forward", 5)
+    assert changed == spec.replace(**{"joints.1.clearance": "7 um", "drive.sense": "forward", "turns": 5})
+    assert spec == from_document(tables) and spec.replace() == spec
+    assert changed == spec_with(tables, "joints.rocker.clearance=7 um", "drive.sense=forward", "turns=5")
+
+
+def test_replace_changes_an_entry_of_a_table_that_the_user_names():
+    class Pin(Spec):
+        clearance: Length = Field(gt=0)
+
+    class Drive(Spec):
+        joints: Named[Pin]
+
+    drive = Drive(joints={"A": Pin(clearance="10 um"), "B": Pin(clearance="10 um")})
+    changed = drive.replace({"joints.A.clearance": "20 um"})
+    assert [pin.clearance for pin in changed.joints.values()] == pytest.approx([2e-5, 1e-5])
+    assert drive.joints["A"].clearance == pytest.approx(1e-5)
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "wanted"),
+    [
+        ({"drive.sped": "1 rpm"}, "drive.sped", "unknown key (did you mean 'speed'?)"),
+        ({"drvie.speed": "1 rpm"}, "drvie", "unknown key (did you mean 'drive'?)"),
+        ({"drive.speed": "3 mm"}, "drive.speed", "angular speed"),
+        ({"length": 7}, "length", 'a bare number; a length wants its unit, e.g. "7 mm"'),
+        ({"joints.x.clearance": "1 mm"}, "joints.x", "the list has no element 'x'; it has 2, named crank, rocker"),
+        ({"title.a": 1}, "title", "is no table, so it has no key 'a'"),
+    ],
+)
+def test_replace_says_why_it_cannot_as_set_does(tables, changes, key, wanted):
+    with pytest.raises(SpecError) as caught:
+        from_document(tables).replace(changes)
     assert caught.value.key == key and wanted in str(caught.value)
 
 

@@ -20,7 +20,7 @@ from study_toy import TOY, Toy, exact, install, rough
 import drivewright as dw
 from drivewright import runner
 from drivewright.cli import main
-from drivewright.studies.varying import geomspace, normal, tolerance, varied
+from drivewright.studies.variation import geomspace, normal, tolerance, with_variation
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 CHAIN = str(EXAMPLES / "hyvo_chain.toml")
@@ -155,6 +155,12 @@ def test_every_way_to_end_is_a_row():
     )
     assert study.counts == {"complete": 4, "failed": 10, "partial": 2} and study.answered
     assert repr(study) == "<Study of 'toy': 16 of 16 cases, {'complete': 4, 'failed': 10, 'partial': 2}>"
+    html = study._repr_html_()
+    assert "<b>Study</b> (toy)" in html and "<td>cases done</td><td>16 of 16 (4 complete, 10 failed, 2 partial)</td>" in html
+    assert "<td>cases failed</td><td>10</td>" in html and f"<td>varied keys</td><td>{', '.join(study.plan.keys)}</td>" in html
+    assert "<td>folder</td><td>in memory</td>" in html and "<li>" not in html
+    kept = replace(study, folder=Path("/tmp/<S>"), remarks=("a < b",), interrupted=True)._repr_html_()
+    assert "/tmp/&lt;S&gt;" in kept and "<li>a &lt; b</li>" in kept and "16 of 16, interrupted" in kept
 
 
 @pytest.mark.usefixtures("toy")
@@ -198,7 +204,7 @@ def test_columns_come_in_the_order_in_which_the_cases_bring_them():
     ],
 )
 def test_what_is_kept(settings, columns):
-    assert sweep(varied(Toy(), {"count": [1]}, **settings), None).table.column_names[4:] == columns
+    assert sweep(with_variation(Toy(), {"count": [1]}, **settings), None).table.column_names[4:] == columns
 
 
 @pytest.mark.usefixtures("toy")
@@ -256,7 +262,7 @@ def test_a_compiled_route_that_gives_the_numbers_of_a_run_is_taken_without_a_wor
 def test_a_rough_compiled_route_is_taken_only_for_values_that_are_named(monkeypatch):
     counted(monkeypatch, rough)
     vary = {"size": ["1 mm", "3 mm", "4 mm", "5 mm"]}
-    everything, named = sweep(Toy(), vary), sweep(varied(Toy(), vary, values=["area"]), None)
+    everything, named = sweep(Toy(), vary), sweep(with_variation(Toy(), vary, values=["area"]), None)
     assert everything.remarks == () and everything["area"] == pytest.approx(everything["size"] ** 2, rel=1e-12)
     assert named["area"] == pytest.approx(1.001 * named["size"] ** 2, rel=1e-12) and named.value_names == ("area",)
     (remark,) = named.remarks
@@ -275,9 +281,9 @@ def test_a_rough_compiled_route_is_taken_only_for_values_that_are_named(monkeypa
 )
 def test_where_the_compiled_route_says_no_each_case_is_a_run(monkeypatch, vary, names):
     counted(monkeypatch, rough)
-    study = sweep(varied(Toy(flag=True), vary, values=names), None)
+    study = sweep(with_variation(Toy(flag=True), vary, values=names), None)
     install(monkeypatch.setattr)
-    assert study.remarks == () and study.table.equals(sweep(varied(Toy(flag=True), vary, values=names), None).table)
+    assert study.remarks == () and study.table.equals(sweep(with_variation(Toy(flag=True), vary, values=names), None).table)
 
 
 def without_roots(spec, keys, names):
@@ -289,14 +295,14 @@ def without_roots(spec, keys, names):
 
 def test_a_compiled_route_that_lacks_a_value_of_the_run_is_not_the_same(monkeypatch):
     calls = counted(monkeypatch, without_roots)
-    study = sweep(varied(Toy(), {"ratio": [1, 4, 9, 16]}, values=["root", "area"]), None)
+    study = sweep(with_variation(Toy(), {"ratio": [1, 4, 9, 16]}, values=["root", "area"]), None)
     assert study.remarks[0].endswith("differs from a run by 1 of a value at most") and len(calls) == 1 + 3
     assert sweep(Toy(), {"ratio": [1, 4, 9, 16]})["root"].tolist() == [1, 2, 3, 4]
 
 
 def test_a_value_that_no_route_has_does_not_make_a_design_silent(monkeypatch):
     calls = counted(monkeypatch, without_roots)
-    study = sweep(varied(Toy(), {"ratio": [-1, -4, -9, -16]}, values=["root", "area"]), None)
+    study = sweep(with_variation(Toy(), {"ratio": [-1, -4, -9, -16]}, values=["root", "area"]), None)
     assert len(calls) == 1 + 3 and np.isnan(study["root"]).all() and study["area"] == pytest.approx([1e-4] * 4) and study.remarks == ()
 
 
@@ -325,7 +331,7 @@ def test_a_sample_with_its_method_and_seed(toy, tmp_path):
     study = dw.open_study(tmp_path / "S")
     assert (len(study), study.plan.seed, study.spec.study.method) == (8, 5, "sobol")
     assert sorted(np.floor(8 * study["ratio"]).tolist()) == list(range(8))
-    same = varied(Toy(), {"size": tolerance("0.3 mm"), "ratio": {"lower": 0, "upper": 1}}, samples=8, method="sobol", seed=5)
+    same = with_variation(Toy(), {"size": tolerance("0.3 mm"), "ratio": {"lower": 0, "upper": 1}}, samples=8, method="sobol", seed=5)
     assert sweep(same, None).table.equals(study.table)
 
 
@@ -373,7 +379,7 @@ def test_no_case_with_an_answer_is_exit_four(toy, tmp_path, capsys):
 
 
 def test_many_cases_want_yes(toy, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr("drivewright.studies.sweep.MANY", 3)
+    monkeypatch.setattr("drivewright.studies.sweeps.MANY", 3)
     arguments = [toy, "--vary", "count=1,2,3,4", "--out", tmp_path / "S"]
     assert command(*arguments) == 2 and not (tmp_path / "S").exists()
     assert "4 cases are more than 3; say --yes" in capsys.readouterr().err
@@ -461,7 +467,7 @@ def test_from_python_as_the_docstrings_say(tmp_path):
         "ratio": normal(1.0, 0.1, lower=0.5),
         "form": ["round"],
     }
-    study = sweep(varied(Toy(), vary, samples=4), None, out=tmp_path / "S")
+    study = sweep(with_variation(Toy(), vary, samples=4), None, out=tmp_path / "S")
     assert isinstance(study, dw.Study) and study.folder == (tmp_path / "S").resolve() and len(study) == 36
     assert study.plan.keys == ("size", "force", "form", "ratio") and study.plan.shape == (3, 3, 1)
     memory, opened = sweep(Toy(study=study.spec.study), None), dw.open_study(str(tmp_path / "S"))

@@ -11,7 +11,7 @@ import drivewright as dw
 from drivewright.errors import InputError
 from drivewright.execution import batches, dask_cluster, evaluation, executors
 from drivewright.execution.batches import Batch, BatchScheduler, missing_ranges, run_batches
-from drivewright.studies.sweep import sweep
+from drivewright.studies.sweeps import sweep
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

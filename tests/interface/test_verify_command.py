@@ -6,7 +6,7 @@ import pytest
 
 from drivewright import registry, validation
 from drivewright.cli import main
-from drivewright.studies import verify as study
+from drivewright.studies import verification as study
 from drivewright.validation import AGREES, OPEN, Row, Source, rounded
 
 PRESET = str(registry.mechanism("seedling-pusher").presets()["default"])

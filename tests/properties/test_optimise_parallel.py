@@ -17,7 +17,7 @@ from drivewright.execution.executors import InProcessExecutor, make_executors
 from drivewright.spec import from_document
 from drivewright.studies import store
 from drivewright.studies.search import evaluator, history
-from drivewright.studies.sweep import sweep
+from drivewright.studies.sweeps import sweep
 
 TEXT = """
 mechanism = "cam"
@@ -130,7 +130,7 @@ def test_several_objectives_too(counted):
 def test_the_folder_holds_every_evaluation_with_units_and_reasons(tmp_path, undisturbed):
     found = dw.optimise(cam(), out=tmp_path / "o", on="serial")
     assert same(found, undisturbed) and found.folder == (tmp_path / "o").resolve()
-    _, tables, *_ = store.opened(found.folder)
+    _, tables, *_ = store.read_study(found.folder)
     table = store.joined(tables)
     assert table.equals(found.table) and table.num_rows == found.evaluations
     units = {field.name: field.metadata[b"unit"].decode() for field in table.schema}
@@ -212,7 +212,7 @@ def test_kill_9_costs_no_evaluation_that_was_acknowledged(tmp_path, undisturbed,
     finally:
         process.kill()
         process.wait()
-    acknowledged = sum(table.num_rows for table in store.opened(tmp_path / "o")[1])
+    acknowledged = sum(table.num_rows for table in store.read_study(tmp_path / "o")[1])
     assert 0 < acknowledged < undisturbed.evaluations
     assert same(dw.optimise(spec, out=tmp_path / "o", on="serial"), undisturbed)
     assert counted == list(range(acknowledged, undisturbed.evaluations))
@@ -313,7 +313,7 @@ def test_a_journal_writes_each_row_once_whatever_happens_in_between(undisturbed)
 
 
 def test_the_search_is_drawn_with_the_best_on_top(undisturbed, tmp_path, monkeypatch):
-    from drivewright.studies import optimise as module
+    from drivewright.studies import optimisation as module
 
     table, plot = undisturbed.search()
     objective = undisturbed.problem.objectives[0][0]

@@ -6,15 +6,15 @@ from study_toy import Body, Part, Toy, install
 
 import drivewright as dw
 from drivewright.errors import SpecError
-from drivewright.studies.plan import plan_of
-from drivewright.studies.varying import asked, normal, tolerance, varied
+from drivewright.studies.plan import make_plan
+from drivewright.studies.variation import normal, tolerance, with_options, with_variation
 
 SPEC = Toy(parts=(Part(name="left"), Part(name="right")), bodies={"arm": Body()})
 BOTH = "parts.left.width + parts.right.width"
 
 
 def test_a_tied_key_has_its_own_column_and_no_axis_of_its_own():
-    plan = plan_of(varied(SPEC, {"count": [1, 2], BOTH: ["3 mm", "4 mm"], "size+offset": normal("10 mm", "1 mm")}, samples=5))
+    plan = make_plan(with_variation(SPEC, {"count": [1, 2], BOTH: ["3 mm", "4 mm"], "size+offset": normal("10 mm", "1 mm")}, samples=5))
     assert plan.keys == ("count", "parts.left.width", "parts.right.width", "size", "offset")
     assert plan.shape == (2, 2) and plan.inner == 5 and len(plan) == 20 and plan.points.shape == (5, 1)
     cases = plan.cases(0, 20)
@@ -27,7 +27,7 @@ def test_a_tied_key_has_its_own_column_and_no_axis_of_its_own():
 def test_tied_keys_reach_the_drive(monkeypatch, tmp_path):
     install(monkeypatch.setattr)
     (tmp_path / "toy.toml").write_text('mechanism = "toy"\n')
-    spec = asked(dw.load(tmp_path / "toy.toml"), ["size+offset=8 mm,9 mm"], analyses=["main", "more"])
+    spec = with_options(dw.load(tmp_path / "toy.toml"), ["size+offset=8 mm,9 mm"], analyses=["main", "more"])
     assert spec.study.vary[0].also == ("offset",)
     study = dw.sweep(spec, out=tmp_path / "S", on="serial")
     assert study["offset"].tolist() == study["size"].tolist() == [8e-3, 9e-3] and study.unit("offset") == "m"
@@ -35,7 +35,7 @@ def test_tied_keys_reach_the_drive(monkeypatch, tmp_path):
 
 
 def test_a_tie_is_part_of_the_plan():
-    tied, alone, longer = (plan_of(varied(SPEC, {key: ["1 mm", "2 mm"]})) for key in ("size+offset", "size", BOTH))
+    tied, alone, longer = (make_plan(with_variation(SPEC, {key: ["1 mm", "2 mm"]})) for key in ("size+offset", "size", BOTH))
     assert len({tied.digest, alone.digest, longer.digest}) == 3
 
 
@@ -52,5 +52,5 @@ def test_a_tie_is_part_of_the_plan():
 )
 def test_ties_that_are_none(vary, words):
     with pytest.raises(SpecError) as found:
-        plan_of(varied(SPEC, vary))
+        make_plan(with_variation(SPEC, vary))
     assert words in str(found.value)

@@ -12,9 +12,10 @@ from scipy.stats import norm
 import drivewright as dw
 from drivewright.errors import UnknownName
 from drivewright.report.study import varied
+from drivewright.result import Plot
 from drivewright.spec import document, from_document
-from drivewright.studies.answers import answers
-from drivewright.studies.plan import plan_of
+from drivewright.studies.answers import analyse_study
+from drivewright.studies.plan import make_plan
 from drivewright.studies.study import Study
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -34,7 +35,7 @@ def spec_of(vary, optimise=None, **study):
 
 def made(spec, status=None, keep=None, unit="m", **columns):
     """A `Study` whose values are functions of the keys {key: (n,)}; `check_x` is check.x; None is a column without any number."""
-    plan = plan_of(spec)
+    plan = make_plan(spec)
     cases = plan.cases(0, len(plan))
     states = np.full(len(plan), "complete") if status is None else np.asarray(status)[np.arange(len(plan)) % len(status)]
     reasons = [f"misses by {number} mm at the {state} joint" if state != "complete" else "" for number, state in enumerate(states)]
@@ -68,7 +69,7 @@ def rows(result, table, **wanted):
 
 def test_a_straight_value_under_tolerances():
     """Sigma by root sum of squares, shares, worst case at the corners and by linear theory: all in closed form, all the same."""
-    result, plots = answers(made(spec_of(RANDOM, method="tolerance", samples=400), y=straight))
+    result, plots = analyse_study(made(spec_of(RANDOM, method="tolerance", samples=400), y=straight))
     parts = np.array([3 * 0.2e-3 * CUT, 2 * 4e-3 / np.sqrt(12)])
     least, greatest = 3 * 8e-3 - 2 * 40e-3 + np.array([-1, 1]) * (3 * 0.6e-3 + 2 * 2e-3)
     assert result["linear.sigma.y"] == pytest.approx(np.hypot(*parts), rel=1e-9)
@@ -87,7 +88,7 @@ def test_a_straight_value_under_tolerances():
 
 
 def test_sobol_indices_of_a_straight_value():
-    result, plots = answers(made(spec_of(RANDOM, method="sobol-indices", samples=2048), y=straight))
+    result, plots = analyse_study(made(spec_of(RANDOM, method="sobol-indices", samples=2048), y=straight))
     parts = np.array([(3 * 0.2e-3 * CUT) ** 2, (2 * 4e-3) ** 2 / 12])
     found = {row["key"]: row for row in rows(result, "indices", value="y")}
     for name in ("first_order", "total"):
@@ -100,7 +101,7 @@ def test_sobol_indices_of_a_straight_value():
 
 def test_neighbours_of_a_sobol_sequence_are_not_random_so_ranks_say_nothing():
     for method, ranked in (("sobol", False), ("random", True), ("latin-hypercube", True)):
-        result, _ = answers(made(spec_of(RANDOM, method=method, samples=256), y=straight))
+        result, _ = analyse_study(made(spec_of(RANDOM, method=method, samples=256), y=straight))
         assert bool(rows(result, "contributions", method="ranks")) == ranked
 
 
@@ -116,7 +117,7 @@ def test_yield_counts_what_passes_and_what_could_not_be_computed():
         check_b=lambda c: np.where(there, 2.0, np.nan),
         check_c=None,
     )
-    result, _ = answers(study)
+    result, _ = analyse_study(study)
     found = {row["check"]: row for row in rows(result, "yield")}
     passing = int(np.sum(np.arange(45) % 10 < 8))
     assert [found[name]["passes"] for name in ("a", "b", "c", "all checks")] == [int(np.sum(there[:45])), 90, 0, passing]
@@ -130,8 +131,8 @@ def test_yield_counts_what_passes_and_what_could_not_be_computed():
 
 def test_another_unit_of_a_value_scales_its_spread_and_no_share():
     spec = spec_of(RANDOM, method="tolerance", samples=200)
-    one, _ = answers(made(spec, y=straight))
-    other, _ = answers(made(spec, y=lambda c: 1e3 * straight(c) + 4.0))
+    one, _ = analyse_study(made(spec, y=straight))
+    other, _ = analyse_study(made(spec, y=lambda c: 1e3 * straight(c) + 4.0))
     for name in ("sigma.y", "linear.sigma.y"):
         assert other[name] == pytest.approx(1e3 * one[name], rel=1e-9)
     for name in ("mean.y", "worst_case.least.y", "linear.greatest.y"):
@@ -149,7 +150,7 @@ def test_a_map_over_two_keys_and_a_panel_for_each_level_of_a_third():
     study = made(
         spec_of(grid), y=lambda c: straight(c) + hard(c), check_a=lambda c: c[PRIME] - 0.045, check_b=lambda c: 100 * (c[ROLLER] - 6.5e-3)
     )
-    result, plots = answers(study)
+    result, plots = analyse_study(study)
     by_name = {plot.name: plot for plot in plots}
     assert by_name["map.y.2"].style == "map" and by_name["map.y.2"].y == (PRIME, "y") and "42CrMo4" in by_name["map.y.2"].title
     assert by_name["curve.y.1"].by == PRIME and "curve.checks.failing.1" not in by_name
@@ -167,7 +168,7 @@ def test_a_map_over_two_keys_and_a_panel_for_each_level_of_a_third():
 
 def test_many_further_levels_are_shown_at_the_first_and_a_finding_says_so():
     grid = [{"key": ROLLER, "lower": "6 mm", "upper": "9 mm", "steps": 4}, {"key": PRIME, "values": ["40 mm", "50 mm"]}, LEVELS, STEEL]
-    result, _ = answers(made(spec_of(grid), y=lambda c: straight(c) + c[FORCE]))
+    result, _ = analyse_study(made(spec_of(grid), y=lambda c: straight(c) + c[FORCE]))
     assert [name for name in result.tables if name.startswith("response")] == ["response"]
     expected = [3 * r - 2 * p + 10 for r in (6e-3, 7e-3, 8e-3, 9e-3) for p in (40e-3, 50e-3)]
     assert [row["y"] for row in rows(result, "response")] == pytest.approx(expected, rel=1e-12)
@@ -179,7 +180,7 @@ def test_whole_numbers_are_an_axis_and_flags_are_words():
     pusher = document(dw.load(EXAMPLES / "seedling_pusher.toml"))
     vary = [{"key": "train.teeth", "values": [19, 21, 23]}, {"key": "cams.coplanar_rollers", "values": [True, False]}]
     spec = from_document({name: table for name, table in pusher.items() if name != "optimise"} | {"study": {"vary": vary}})
-    found = answers(made(spec, y=lambda c: c["train.teeth"] + 100.0 * c["cams.coplanar_rollers"]))
+    found = analyse_study(made(spec, y=lambda c: c["train.teeth"] + 100.0 * c["cams.coplanar_rollers"]))
     consistent(found)
     assert found.plots[0].x == "train.teeth" and found.plots[0].by == "cams.coplanar_rollers"
     read = {(row["train.teeth"], row["cams.coplanar_rollers"]): row["y"] for row in rows(found.result, "response")}
@@ -189,7 +190,7 @@ def test_whole_numbers_are_an_axis_and_flags_are_words():
 def test_keys_with_the_same_value_are_one_axis_and_the_report_names_them_all():
     tied = [{"key": ROLLER, "also": [PRIME, "manufacture.bore"], "values": ["6 mm", "7 mm"]}, LEVELS]
     study = made(spec_of(tied), y=lambda c: c[ROLLER] + c[PRIME] + c[FORCE])
-    found = answers(study)
+    found = analyse_study(study)
     consistent(found)
     assert [column.name for column in found.result.tables["response"].columns] == [ROLLER, FORCE, "y"]
     assert [row["y"] for row in rows(found.result, "response")] == pytest.approx([f + 2 * r for r in (6e-3, 7e-3) for f in (10, 20, 40)])
@@ -197,7 +198,7 @@ def test_keys_with_the_same_value_are_one_axis_and_the_report_names_them_all():
 
 
 def test_words_as_levels_become_a_column_of_words():
-    result, plots = answers(made(spec_of([STEEL]), y=lambda c: np.arange(2.0)))
+    result, plots = analyse_study(made(spec_of([STEEL]), y=lambda c: np.arange(2.0)))
     assert [row["material"] for row in rows(result, "response")] == ["16MnCr5", "42CrMo4"]
     assert plots[0].x == "material" and plots[0].style == "line"
 
@@ -205,8 +206,10 @@ def test_words_as_levels_become_a_column_of_words():
 def test_a_sample_crossed_with_a_grid_is_told_level_by_level():
     spec = spec_of([LEVELS, *RANDOM], method="tolerance", samples=150)
     study = made(spec, y=lambda c: straight(c) * c[FORCE], check_a=lambda c: 30.0 - c[FORCE])
-    result, plots = answers(study)
-    alone = [answers(made(spec_of(RANDOM, method="tolerance", samples=150), y=lambda c, f=f: straight(c) * f))[0] for f in (10, 20, 40)]
+    result, plots = analyse_study(study)
+    alone = [
+        analyse_study(made(spec_of(RANDOM, method="tolerance", samples=150), y=lambda c, f=f: straight(c) * f))[0] for f in (10, 20, 40)
+    ]
     found = rows(result, "response")
     assert [row[FORCE] for row in found] == [10.0, 20.0, 40.0] and [row["yield"] for row in found] == [1.0, 1.0, 0.0]
     for row, single in zip(found, alone, strict=True):
@@ -234,24 +237,11 @@ def test_the_front_of_the_objectives_keeps_the_requirements():
         w=lambda c: c[ROLLER] ** 2,
         check_a=lambda c: 8.8e-3 - c[ROLLER],
     )
-    result, plots = answers(study)
+    result, plots = analyse_study(study)
     found = {round(row["y"] * 1e3, 3): row["set"] for row in rows(result, "pareto")}
     assert found == {6.0: "fails", 6.5: "fails", 7.0: "fails", 7.5: "front", 8.0: "dominated", 8.5: "dominated", 9.0: "fails"}
-    assert result["front.cases"] == 1 and plots[-1]._replace(title="") == (
-        "pareto",
-        "",
-        "pareto",
-        "y",
-        ("z",),
-        (),
-        False,
-        "points",
-        False,
-        (),
-        "set",
-        "",
-        (),
-    )
+    assert result["front.cases"] == 1
+    assert plots[-1]._replace(title="") == Plot("pareto", "", "pareto", "y", ("z",), style="points", by="set")
 
 
 def test_two_named_values_trade_off_and_what_is_assumed_is_said():
@@ -261,12 +251,12 @@ def test_two_named_values_trade_off_and_what_is_assumed_is_said():
         z=lambda c: 1 / c[ROLLER],
         w=lambda c: c[ROLLER],
     )
-    result, _ = answers(study, ("y", "z"))
+    result, _ = analyse_study(study, ("y", "z"))
     assert [row["set"] for row in rows(result, "pareto")] == ["front"] * 7
-    assert [row["z"] for row in rows(answers(study, ("z", "y"))[0], "front")] == pytest.approx(1e3 / np.arange(9.0, 5.9, -0.5))
+    assert [row["z"] for row in rows(analyse_study(study, ("z", "y"))[0], "front")] == pytest.approx(1e3 / np.arange(9.0, 5.9, -0.5))
     assert any("takes y and z as to be made small" in text for text in result.findings)
-    assert {row["set"] for row in rows(answers(study, ("y", "w"))[0], "pareto")} == {"front", "dominated"}
-    assert "pareto" not in answers(study)[0].tables
+    assert {row["set"] for row in rows(analyse_study(study, ("y", "w"))[0], "pareto")} == {"front", "dominated"}
+    assert "pareto" not in analyse_study(study)[0].tables
 
 
 # -- whatever comes ------------------------------------------------------------------------------------------------------------
@@ -283,7 +273,7 @@ def test_nothing_that_a_study_can_hold_is_too_odd(method, samples, grid, states)
     for keep in (None, lambda case: case < case[-1] / 2, lambda case: case % 3 == 1, lambda case: case < 0):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            consistent(answers(made(spec, states, keep, **values)))
+            consistent(analyse_study(made(spec, states, keep, **values)))
 
 
 @pytest.mark.parametrize(
@@ -295,7 +285,7 @@ def test_nothing_that_a_study_can_hold_is_too_odd(method, samples, grid, states)
 def test_nor_a_grid(grid, states):
     values = {"y": None if states == ["failed"] else lambda c: np.arange(len(next(iter(c.values())))), "none": None, "check_a": None}
     for keep in (None, lambda case: case > 0, lambda case: case < 0):
-        consistent(answers(made(spec_of(grid), states, keep, **values)))
+        consistent(analyse_study(made(spec_of(grid), states, keep, **values)))
 
 
 def consistent(found):
@@ -329,7 +319,7 @@ def test_a_file_of_points_is_a_sample_with_its_numbers_and_words(tmp_path):
     lines = [f"{ROLLER} [mm],load.force [N],material"] + [
         f"{r},{f},{s}" for r, f, s in zip(rng.uniform(6, 9, 50), rng.uniform(10, 20, 50), ["16MnCr5", "42CrMo4"] * 25, strict=True)
     ]
-    found = answers(made(from_file(tmp_path / "points.csv", lines), y=lambda c: c[ROLLER] * 1e3 + c[FORCE]))
+    found = analyse_study(made(from_file(tmp_path / "points.csv", lines), y=lambda c: c[ROLLER] * 1e3 + c[FORCE]))
     consistent(found)
     shares = {row["key"]: row["share"] for row in rows(found.result, "contributions", value="y")}
     assert set(shares) == {ROLLER, FORCE} and sum(shares.values()) == pytest.approx(1.0, abs=0.3)
@@ -357,7 +347,7 @@ def test_a_file_with_all_combinations_is_a_grid_in_whatever_order_its_lines_stan
     points = [DESIGNED[n] for n in np.random.default_rng(0).permutation(len(DESIGNED))]
     assert list(dict.fromkeys(steel for steel, _, _ in points)) == ["42CrMo4", "C45", "16MnCr5"]  # by the alphabet it would be 1, 2, 0
     study = made(from_file(tmp_path / "points.csv", designed(points)), y=bent, check_a=lambda c: c[PRIME] - 0.045)
-    found = answers(study)
+    found = analyse_study(study)
     consistent(found)
     result, plots = found
     assert set(result.tables) == {"range", "response.1", "response.2", "response.3"} and {plot.style for plot in plots} == {"map", "line"}
@@ -380,7 +370,7 @@ def test_such_a_file_crossed_with_levels_and_not_yet_whole(tmp_path):
     laws = {"key": "programme.0.law", "values": ["cycloidal", "modified-sine"]}
     spec = from_file(tmp_path / "points.csv", designed(DESIGNED[:6][::-1]), [laws])
     study = made(spec, y=lambda c: bent(c) + np.where(c["programme.0.law"] == "cycloidal", 0, 1), keep=lambda case: case != 2)
-    result, _ = answers(study)
+    result, _ = analyse_study(study)
     for number in (1, 2):
         told = [row["y"] for row in rows(result, f"response.{number}")]
         expected = [r * p * 1e-6 + 1e-3 + number - 1 for r in (6, 7, 9) for p in (40, 50)]
@@ -394,7 +384,7 @@ def test_such_a_file_crossed_with_levels_and_not_yet_whole(tmp_path):
     ids=["one less", "one twice", "one for another", "alone"],
 )
 def test_what_lacks_a_combination_is_no_grid(tmp_path, points):
-    result, _ = answers(made(from_file(tmp_path / "points.csv", designed(points)), y=bent))
+    result, _ = analyse_study(made(from_file(tmp_path / "points.csv", designed(points)), y=bent))
     assert "range" not in result.tables and len(rows(result, "tolerance", value="y")) == 1
 
 
@@ -406,36 +396,36 @@ def test_words_alone_do_not_make_a_grid_of_numbers(tmp_path):
             (6.1, 7.3, 8.8, 6.7), [(a, b) for a in ("16MnCr5", "42CrMo4") for b in ("cycloidal", "modified-sine")], strict=True
         )
     ]
-    result, _ = answers(made(from_file(tmp_path / "points.csv", lines), y=lambda c: c[ROLLER]))
+    result, _ = analyse_study(made(from_file(tmp_path / "points.csv", lines), y=lambda c: c[ROLLER]))
     assert "range" not in result.tables and rows(result, "tolerance", value="y")[0]["least"] == pytest.approx(6.1e-3)
 
 
 def test_values_that_do_not_vary_are_named_and_not_drawn():
     columns = {f"v{n}": (lambda c, n=n: straight(c) + n) for n in range(9)} | {"still": lambda c: 0.1, "none": None}
     study = made(spec_of(RANDOM, method="random", samples=30), **columns)
-    result, plots = answers(study)
+    result, plots = analyse_study(study)
     assert [plot.y for plot in plots if plot.style == "histogram"] == [(f"v{n}",) for n in range(6)]
     assert any(text.startswith("the plots show 6 of 9 values: v0, v1") for text in result.findings)
     assert {row["value"] for row in rows(result, "tolerance")} == set(columns)
     assert "values that do not vary over the study (1): still" in result.findings
     assert "values that no case has (1): none" in result.findings
-    chosen = [plot.name for plot in answers(study, ("v8", "still"))[1] if plot.style == "histogram"]
+    chosen = [plot.name for plot in analyse_study(study, ("v8", "still"))[1] if plot.style == "histogram"]
     assert chosen == ["histogram.v8"]
     with pytest.raises(UnknownName, match="no column of the study is called 'vv'"):
-        answers(study, ("vv",))
+        analyse_study(study, ("vv",))
 
 
 def test_what_is_missing_makes_the_outcome_partial():
     spec = spec_of(RANDOM, method="random", samples=40)
-    result, _ = answers(made(spec, y=straight, keep=lambda case: case < 25))
+    result, _ = analyse_study(made(spec, y=straight, keep=lambda case: case < 25))
     assert result.outcome == "partial" and result["cases.missing"] == 15 and "15 of 40 cases have not been run yet" in result.findings
-    whole, _ = answers(made(spec_of(RANDOM, method="random", samples=25), y=straight))
+    whole, _ = analyse_study(made(spec_of(RANDOM, method="random", samples=25), y=straight))
     assert whole.outcome == "complete" and whole["mean.y"] == result["mean.y"] and whole["sigma.y"] == result["sigma.y"]
     assert whole.digest == spec.digest() and whole.provenance["seed"] == 1
 
 
 def test_the_front_lies_on_top_of_what_it_beats():
     spec = spec_of(RANDOM, method="random", samples=60, values=["y", "z"])
-    result, _ = answers(made(spec, y=lambda c: c[ROLLER], z=lambda c: c[PRIME] ** 2 / c[ROLLER]))
+    result, _ = analyse_study(made(spec, y=lambda c: c[ROLLER], z=lambda c: c[PRIME] ** 2 / c[ROLLER]))
     sets = result.tables["pareto"]["set"].data.tolist()
     assert sets[0] == "front" and "dominated" in sets and sets == sorted(sets, key=["front", "dominated", "fails"].index)

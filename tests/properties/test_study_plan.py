@@ -8,8 +8,8 @@ import pytest
 from scipy import stats
 from study_toy import Part, Toy
 
-from drivewright.studies.plan import FEW_CORNERS, Block, plan_of
-from drivewright.studies.varying import geomspace, linspace, normal, tolerance, triangular, uniform, varied
+from drivewright.studies.plan import FEW_CORNERS, Block, make_plan
+from drivewright.studies.variation import geomspace, linspace, normal, tolerance, triangular, uniform, with_variation
 
 SIZE, FORCE, ANGLE = uniform("8 mm", "13 mm"), normal("2 N", "0.3 N"), triangular("10 deg", "20 deg", "50 deg")
 RANDOM = {"size": SIZE, "force": FORCE, "angle": ANGLE}
@@ -19,7 +19,7 @@ METHODS = ("latin-hypercube", "sobol", "random", "corners", "one-at-a-time", "to
 
 
 def plan(vary, spec=None, **settings):
-    return plan_of(varied(spec or Toy(), vary, **settings))
+    return make_plan(with_variation(spec or Toy(), vary, **settings))
 
 
 def rows(found, first=0, stop=None):
@@ -237,13 +237,13 @@ def test_the_digest_knows_the_blocks():
 
 
 def test_the_digest_knows_nothing_else():
-    spec = varied(Toy(), BASE, samples=4)
+    spec = with_variation(Toy(), BASE, samples=4)
     same = [
-        varied(Toy(title="T", ratio=0.5), BASE, samples=4, analyses=["main"], values=["area"]),
-        varied(Toy(), BASE | {"size": uniform("0.8 cm", "13000 um")}, samples=4),
-        varied(Toy(), BASE | {"count": linspace(1, 2, 2)}, samples=4),
+        with_variation(Toy(title="T", ratio=0.5), BASE, samples=4, analyses=["main"], values=["area"]),
+        with_variation(Toy(), BASE | {"size": uniform("0.8 cm", "13000 um")}, samples=4),
+        with_variation(Toy(), BASE | {"count": linspace(1, 2, 2)}, samples=4),
     ]
-    assert {plan_of(each).digest for each in same} == {plan_of(spec).digest}
+    assert {make_plan(each).digest for each in same} == {make_plan(spec).digest}
     assert plan({"count": [1, 2]}, seed=5, samples=7, method="sobol").digest == plan({"count": [1, 2]}).digest
 
 
@@ -269,5 +269,5 @@ def test_the_digest_knows_a_file_of_points_by_its_numbers(tmp_path):
 
 
 def test_the_plan_of_a_spec_that_was_written_and_read_is_the_same():
-    spec = varied(Toy(), LEVELS | RANDOM, samples=5)
-    assert plan_of(Toy(**tomllib.loads(spec.to_toml()))).digest == plan_of(spec).digest
+    spec = with_variation(Toy(), LEVELS | RANDOM, samples=5)
+    assert make_plan(Toy(**tomllib.loads(spec.to_toml()))).digest == make_plan(spec).digest

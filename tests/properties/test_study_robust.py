@@ -17,7 +17,7 @@ from drivewright.execution import batches, dask_cluster, evaluation, executors
 from drivewright.execution.batches import BatchScheduler, run_batches
 from drivewright.execution.evaluation import BatchValues, CaseResult
 from drivewright.execution.outputs import Output
-from drivewright.studies.sweep import sweep
+from drivewright.studies.sweeps import sweep
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 RADII = {"joint.rolling_radius": dw.linspace("1.0 mm", "1.6 mm", 9)}
@@ -342,10 +342,10 @@ def test_no_more_processes_than_cases():
     ],
 )
 def test_what_says_nothing_or_too_much_is_refused(study, words):
-    from drivewright.studies.plan import plan_of
+    from drivewright.studies.plan import make_plan
 
     with pytest.raises(SpecError, match=words):
-        plan_of(dw.load(EXAMPLES / "hyvo_chain.toml", (f"study={study}",)))
+        make_plan(dw.load(EXAMPLES / "hyvo_chain.toml", (f"study={study}",)))
 
 
 def test_an_interrupt_before_the_first_case_leaves_an_empty_study():

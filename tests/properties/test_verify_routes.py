@@ -14,7 +14,7 @@ from drivewright.gears import EllipticGearPair
 from drivewright.mechanisms.seedling_pusher.second_route import SecondRoute, arc_speed, rolled_pair, roller_at_rest
 from drivewright.runner import run
 from drivewright.spec import load
-from drivewright.studies.verify import Comparison, verify
+from drivewright.studies.verification import Comparison, verify
 
 routes = importlib.import_module("drivewright.mechanisms.seedling_pusher.verify")
 PUSHER = registry.mechanism("seedling-pusher")

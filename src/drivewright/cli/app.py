@@ -150,13 +150,13 @@ def sweep(
 ) -> None:
     """Compute many cases of a spec; the same command again goes on where it stopped."""
     from drivewright.report.study import write_answers
-    from drivewright.studies.answers import answers
-    from drivewright.studies.sweep import sweep as compute
-    from drivewright.studies.varying import asked
+    from drivewright.studies.answers import analyse_study
+    from drivewright.studies.sweeps import sweep as compute
+    from drivewright.studies.variation import with_options
 
     _refuse_both(only, all_)
     with show.located(spec):
-        loaded = asked(
+        loaded = with_options(
             _load(spec, set_),
             vary or (),
             points,
@@ -172,7 +172,7 @@ def sweep(
         show.note(f"{study.folder}: {len(study)} of {len(study.plan)} cases")
         if study.interrupted:
             raise KeyboardInterrupt
-        summary = answers(study) if figures else None
+        summary = analyse_study(study) if figures else None
         if summary:
             show.note(f"wrote {write_answers(study, summary, study.folder)}")
     show.study(study, summary)
@@ -188,7 +188,7 @@ def table(
 ) -> None:
     """Write a study's cases as one table."""
     from drivewright.report.tabular import write_study_table
-    from drivewright.studies.sweep import open_study
+    from drivewright.studies.sweeps import open_study
 
     opened = open_study(study)
     if not opened.complete:
@@ -208,7 +208,7 @@ def optimise(
 ) -> None:
     """Optimise the unknowns of the spec's [optimise] table, exit 4 when nothing feasible was found; the same command again goes on."""
     from drivewright.report.optimised import write_optimised
-    from drivewright.studies.optimise import optimise as search
+    from drivewright.studies.optimisation import optimise as search
 
     loaded = _load(spec, set_)
     with show.progress(spec.name) as step, show.located(spec):
@@ -225,7 +225,7 @@ def optimise(
 @app.command()
 def verify(spec: SpecFile, set_: SetOption = None) -> None:
     """Compute the case again on an independent route and print the differences."""
-    from drivewright.studies.verify import verify as compare
+    from drivewright.studies.verification import verify as compare
 
     with show.located(spec):
         comparison = compare(_load(spec, set_))

@@ -55,14 +55,14 @@ def copy(path: Path, folder: Path) -> list[Path]:
 def run_study(path: Path, out: Path) -> None:
     """Run a worked study and write its folder with the report."""
     from drivewright.report.study import write_answers
-    from drivewright.studies.answers import answers
-    from drivewright.studies.sweep import sweep
+    from drivewright.studies.answers import analyse_study
+    from drivewright.studies.sweeps import sweep
 
     with show.progress(path.stem) as step:
         study = sweep(load(path), out=out, progress=step)
     if study.interrupted:
         raise KeyboardInterrupt
-    summary = answers(study)
+    summary = analyse_study(study)
     show.note(f"wrote {write_answers(study, summary, study.folder)}")
     show.study(study, summary)
 

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from drivewright.result import Check, Result, Value
     from drivewright.runner import Progress
     from drivewright.studies.answers.whole import Answers
-    from drivewright.studies.optimise import Optimised
+    from drivewright.studies.optimisation import Optimised
     from drivewright.studies.study import Study
-    from drivewright.studies.verify import Comparison
+    from drivewright.studies.verification import Comparison
     from drivewright.validation.source import Row, Source
 
     Header: TypeAlias = Iterable[tuple[str, JustifyMethod]]

@@ -6,9 +6,10 @@ template, the JSON schema and every error message are read off the fields.
 
 from drivewright.spec.describing import preset_path, schema, template
 from drivewright.spec.fields import DataFile, Field, Flag, Integer, Name, Named, Number, Text, dimension_at, value_at
+from drivewright.spec.keys import set_key
 from drivewright.spec.machining import Machining
 from drivewright.spec.model import MechanismSpec, Spec
-from drivewright.spec.reading import change_key, from_document, load, parse_document, read_document, read_value, set_key
+from drivewright.spec.reading import change_key, from_document, load, parse_document, read_document, read_value
 from drivewright.spec.searching import Optimise
 from drivewright.spec.studying import Study, Vary
 from drivewright.spec.writing import document

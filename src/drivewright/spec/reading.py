@@ -8,6 +8,7 @@ from typing import Any
 
 from drivewright import registry
 from drivewright.errors import SpecError, UnknownName, brief, nearest
+from drivewright.spec.keys import remove_key, set_key
 from drivewright.spec.table import Spec, validated
 
 LARGEST = 10_000_000  # characters of a spec file
@@ -103,36 +104,6 @@ def change_key(tables: dict[str, Any], change: str) -> dict[str, Any]:
     return set_key(tables, key, read_value(text)) if text.strip() else remove_key(tables, key)
 
 
-def set_key(tables: dict[str, Any], key: str, value: Any) -> dict[str, Any]:
-    """Set a dotted key of raw tables, in place; list elements go by their `name` or number."""
-    *path, last = key.split(".")
-    place = tables
-    for number, step in enumerate(path):
-        place = _enter(place, step, ".".join(path[: number + 1]))
-    if isinstance(place, list):
-        place[_index(place, last, key)] = value
-    elif isinstance(place, dict):
-        place[last] = value
-    else:
-        raise SpecError(f"is no table, so it has no key {last!r}", key=".".join(path))
-    return tables
-
-
-def remove_key(tables: dict[str, Any], key: str) -> dict[str, Any]:
-    """Take a dotted key out of raw tables, in place; SpecError where it is not there."""
-    *path, last = key.split(".")
-    place = tables
-    for number, step in enumerate(path):
-        place = _enter(place, step, ".".join(path[: number + 1]))
-    if isinstance(place, list):
-        del place[_index(place, last, key)]
-    elif isinstance(place, dict) and last in place:
-        del place[last]
-    else:
-        raise SpecError(f"is not there, so it cannot be removed; for an empty text write --set {key}='\"\"'", key=key)
-    return tables
-
-
 def read_value(text: str) -> Any:
     """A `--set` value: TOML where it parses, text otherwise."""
     try:
@@ -140,22 +111,3 @@ def read_value(text: str) -> Any:
     except (ValueError, RecursionError):
         return text.strip()
     return tables["value"] if list(tables) == ["value"] else text.strip()
-
-
-def _enter(place: Any, step: str, key: str) -> Any:
-    if isinstance(place, list):
-        return place[_index(place, step, key)]
-    if not isinstance(place, dict):
-        raise SpecError("is no table", key=key)
-    return place.setdefault(step, {})
-
-
-def _index(elements: list[Any], step: str, key: str) -> int:
-    """Number of the list element that a step names."""
-    names = {e["name"]: i for i, e in enumerate(elements) if isinstance(e, dict) and isinstance(e.get("name"), str)}
-    if step in names:
-        return names[step]
-    if step in map(str, range(len(elements))):
-        return int(step)
-    inside = f"named {', '.join(names)}" if names else f"numbered from 0 to {len(elements) - 1}" if elements else "none at all"
-    raise SpecError(f"the list has no element {brief(step)}{nearest(step, names)}; it has {len(elements)}, {inside}", key=key)

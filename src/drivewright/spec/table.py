@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from drivewright.labels import label_of_key
+from drivewright.spec.keys import set_key
 from drivewright.spec.messages import translated
 from drivewright.spec.writing import document
 
@@ -58,9 +59,16 @@ class Spec(_Table):
         field_title_generator=lambda name, field: label_of_key(name, field.title),
     )
 
-    def replace(self, **changes: Any) -> Self:
-        """A copy with keys of this table changed; validated like the original."""
-        return validated(type(self), {**document(self), **changes})
+    def replace(self, changes: Mapping[str, Any] | None = None, /, **keys: Any) -> Self:
+        """A copy with keys of this table changed, validated like the original: `replace(radius="8 mm")`.
+
+        A dotted key changes what is inside, as `--set` does: `replace({"joints.A.clearance": "20 um"})`, elements of lists by name or
+        number.  Values are as in a spec file.
+        """
+        tables = document(self)
+        for key, value in {**(changes or {}), **keys}.items():
+            set_key(tables, key, value)
+        return validated(type(self), tables)
 
 
 def validated(model: type[SpecT], tables: Mapping[str, Any], folder: str | Path = ".") -> SpecT:

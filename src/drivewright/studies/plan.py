@@ -9,12 +9,16 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from drivewright._typing import Floats
 from drivewright.errors import SpecError
+from drivewright.spec import MechanismSpec
 from drivewright.studies.points import read_points
-from drivewright.studies.variables import variable
+from drivewright.studies.variables import Variable, variable
 
 LARGEST = 100_000_000  # cases
 MOST_CORNERS = 16  # keys whose corners are all taken
@@ -34,65 +38,65 @@ class Block:
 class Plan:
     """All cases: a column per key, levels in `grid`, random keys in `random`, the `points` (n, d) of the latter and their blocks."""
 
-    grid: tuple
-    random: tuple
-    points: np.ndarray
-    blocks: tuple
-    listed: dict  # columns of a file of points, by variable
+    grid: tuple[Variable, ...]
+    random: tuple[Variable, ...]
+    points: Floats
+    blocks: tuple[Block, ...]
+    listed: dict[Variable, NDArray[Any]]  # columns of a file of points, by variable
     seed: int = 0
-    remarks: tuple = ()
+    remarks: tuple[str, ...] = ()
 
     @property
-    def variables(self):
+    def variables(self) -> tuple[Variable, ...]:
         """Everything that varies, in the order of its columns."""
         return (*self.listed, *self.grid, *self.random)
 
     @property
-    def keys(self):
+    def keys(self) -> tuple[str, ...]:
         """Their dotted keys, each with those that go with it."""
         return tuple(key for each in self.variables for key in each.keys)
 
     @property
-    def shape(self):
+    def shape(self) -> tuple[int, ...]:
         """How many levels each key of the grid has."""
-        return tuple(len(variable.levels) for variable in self.grid)
+        return tuple(len(variable.grid_levels) for variable in self.grid)
 
     @property
-    def inner(self):
+    def inner(self) -> int:
         """Cases that come with each combination of levels."""
         return len(next(iter(self.listed.values()))) if self.listed else len(self.points)
 
     @property
-    def numeric(self):
+    def numeric(self) -> bool:
         """Whether every key that varies takes numbers."""
         return all(each.kind.numeric for each in self.variables)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return math.prod(self.shape) * self.inner
 
-    def cases(self, first, stop):
+    def cases(self, first: int, stop: int) -> dict[str, NDArray[Any]]:
         """{key: values} of the cases from `first` up to `stop`, SI."""
         outer, inner = np.divmod(np.arange(first, stop), self.inner)
         places = np.unravel_index(outer, self.shape) if self.grid else ()
         columns = [column[inner] for column in self.listed.values()]
-        columns += [each.levels[place] for each, place in zip(self.grid, places, strict=True)]
+        columns += [each.grid_levels[place] for each, place in zip(self.grid, places, strict=True)]
         columns += [self.points[inner, n] for n in range(len(self.random))]
         return {key: column for each, column in zip(self.variables, columns, strict=True) for key in each.keys}
 
-    def block(self, name):
+    def block(self, name: str) -> Block | None:
         """The `Block` of a name, or None."""
         return next((block for block in self.blocks if block.name == name), None)
 
     @cached_property
-    def digest(self):
+    def digest(self) -> str:
         """SHA-256 of all cases: the same plan has the same points, also another day with other libraries."""
         digest = hashlib.sha256(repr((self.keys, self.shape, self.blocks)).encode())
-        for column in (*self.listed.values(), *(each.levels for each in self.grid), self.points):
+        for column in (*self.listed.values(), *(each.grid_levels for each in self.grid), self.points):
             digest.update(repr(column.tolist()).encode() if column.dtype == object else np.ascontiguousarray(column).tobytes())
         return digest.hexdigest()
 
 
-def plan_of(spec):
+def make_plan(spec: MechanismSpec) -> Plan:
     """The `Plan` of a spec's [study]; SpecError where nothing varies, or something that cannot."""
     study = spec.study
     if study is None or not (study.vary or study.points):

@@ -5,15 +5,22 @@ whole.  What it does not name never happened and is deleted at the next start.  
 system takes back when the process dies).
 """
 
+from __future__ import annotations
+
 import os
 import sqlite3
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any, Protocol
 
 from drivewright.errors import InputError
 from drivewright.execution.case_table import case_fields
-from drivewright.spec import load
+from drivewright.spec import MechanismSpec, load
 from drivewright.studies.differing import differing
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 SPEC, LEDGER, PARTS, LOCK = "study.toml", "ledger.sqlite", "parts", ".lock"
 OURS = {SPEC, f"{SPEC}.tmp", LEDGER, f"{LEDGER}-journal", PARTS, LOCK, "data"}
@@ -24,43 +31,83 @@ create table if not exists remarks (text text primary key);
 """
 
 
+class Store(Protocol):
+    """Where the parts of a study, or of a search, go as they are done."""
+
+    @property
+    def folder(self) -> Path | None:
+        """Its folder; None in memory."""
+        ...
+
+    @property
+    def seconds(self) -> float:
+        """That workers spent on what is there."""
+        ...
+
+    def ranges(self) -> list[tuple[int, int]]:
+        """Sorted (first, count) of what is there."""
+        ...
+
+    def add(self, first: int, table: pa.Table, seconds: float) -> None:
+        """Keep a part."""
+        ...
+
+    def remark(self, texts: Iterable[str]) -> None:
+        """Keep remarks on the study."""
+        ...
+
+    def remarks(self) -> tuple[str, ...]:
+        """What was remarked."""
+        ...
+
+    def tables(self) -> list[pa.Table]:
+        """All parts in the order of their cases."""
+        ...
+
+    def close(self) -> None:
+        """Let go of what it holds."""
+        ...
+
+
 class Memory:
     """The parts of a study that is not kept."""
 
-    folder = None
+    folder: Path | None = None
+    seconds: float
 
-    def __init__(self):
-        self._parts, self.seconds, self._remarks = {}, 0.0, ()
+    def __init__(self) -> None:
+        self._parts: dict[int, pa.Table] = {}
+        self.seconds, self._remarks = 0.0, ()
 
-    def ranges(self):
+    def ranges(self) -> list[tuple[int, int]]:
         """Sorted (first, count) of what is there."""
         return [(first, table.num_rows) for first, table in sorted(self._parts.items())]
 
-    def add(self, first, table, seconds):
+    def add(self, first: int, table: pa.Table, seconds: float) -> None:
         """Keep a part."""
         self._parts[first] = table
         self.seconds += seconds
 
-    def remark(self, texts):
+    def remark(self, texts: Iterable[str]) -> None:
         """Keep what is to be said of the study."""
         self._remarks = tuple(dict.fromkeys((*self._remarks, *texts)))
 
-    def remarks(self):
+    def remarks(self) -> tuple[str, ...]:
         """What was kept."""
         return self._remarks
 
-    def tables(self):
+    def tables(self) -> list[pa.Table]:
         """All parts in the order of their cases."""
         return [table for _, table in sorted(self._parts.items())]
 
-    def close(self):
+    def close(self) -> None:
         """Nothing to let go."""
 
 
 class Folder:
     """The folder of a study; `identity` is what must not change between two starts, {what: text}."""
 
-    def __init__(self, folder, spec, identity):
+    def __init__(self, folder: str | Path, spec: MechanismSpec, identity: Mapping[str, str]) -> None:
         self.folder = Path(folder).resolve()
         refuse_foreign(self.folder)
         with self._to_disk():
@@ -101,15 +148,15 @@ class Folder:
             self._ledger.executemany("delete from parts where name = ?", lost)
 
     @property
-    def seconds(self):
+    def seconds(self) -> float:
         """That workers spent on what is there."""
         return self._ledger.execute("select coalesce(sum(seconds), 0) from parts").fetchone()[0]
 
-    def ranges(self):
+    def ranges(self) -> list[tuple[int, int]]:
         """Sorted (first, count) of what is there."""
         return list(self._ledger.execute("select first, count from parts order by first"))
 
-    def add(self, first, table, seconds):
+    def add(self, first: int, table: pa.Table, seconds: float) -> None:
         """Keep a part for good: InputError where the disk does not take it; nothing that was there is lost."""
         name = f"{first:012d}-{first + table.num_rows - 1:012d}.parquet"
         with self._to_disk():
@@ -117,27 +164,27 @@ class Folder:
             with self._ledger:
                 self._ledger.execute("insert into parts values (?, ?, ?, ?)", (first, table.num_rows, name, seconds))
 
-    def remark(self, texts):
+    def remark(self, texts: Iterable[str]) -> None:
         """Keep what is to be said of the study."""
         with self._to_disk(), self._ledger:
             self._ledger.executemany("insert or ignore into remarks values (?)", [(text,) for text in texts])
 
-    def remarks(self):
+    def remarks(self) -> tuple[str, ...]:
         """What was kept."""
         return _remarks(self._ledger)
 
-    def tables(self):
+    def tables(self) -> list[pa.Table]:
         """All parts in the order of their cases."""
         return read_parts(self.folder, self._ledger)
 
-    def close(self):
+    def close(self) -> None:
         """Let go of ledger and lock."""
         if ledger := getattr(self, "_ledger", None):
             ledger.close()
         self._lock.close()
 
     @contextmanager
-    def _to_disk(self):
+    def _to_disk(self) -> Iterator[None]:
         """A disk that is full or away is no bug of ours."""
         try:
             yield
@@ -151,12 +198,12 @@ class Folder:
             raise InputError(f"{self.folder}: cannot be written: {reason}; every case that was finished before is safe. {remedy}") from None
 
 
-def is_study(folder):
+def is_study(folder: str | Path) -> bool:
     """Whether a folder holds a study."""
     return (Path(folder) / SPEC).is_file() and (Path(folder) / LEDGER).is_file()
 
 
-def refuse_foreign(folder):
+def refuse_foreign(folder: Path) -> None:
     """InputError where a study would settle among somebody else's files."""
     if folder.exists() and not folder.is_dir():
         raise InputError(f"{folder}: is a file, a study cannot take its place; choose another --out")
@@ -167,7 +214,7 @@ def refuse_foreign(folder):
         )
 
 
-def opened(folder):
+def read_study(folder: str | Path) -> tuple[Any, list[pa.Table], float, tuple[str, ...], dict[str, str]]:
     """(spec, tables of the parts, seconds, remarks, identity) of a study's folder, without its lock: what is acknowledged by now."""
     folder = Path(folder)
     if not is_study(folder):
@@ -185,7 +232,7 @@ def opened(folder):
     return found
 
 
-def _readable(file):
+def _readable(file: Path) -> sqlite3.Connection:
     """A connection for reading; a kill in the middle of a commit leaves a journal that only a writer may roll back."""
     for mode in ("ro", "rw"):
         ledger = sqlite3.connect(f"{file.resolve().as_uri()}?mode={mode}", uri=True)
@@ -203,7 +250,7 @@ def _remarks(ledger):
     return tuple(text for (text,) in ledger.execute("select text from remarks order by rowid"))
 
 
-def read_parts(folder, ledger):
+def read_parts(folder: Path, ledger: sqlite3.Connection) -> list[pa.Table]:
     """The tables that a ledger names, in the order of their cases."""
     import pyarrow as pa
     from pyarrow import parquet
@@ -228,7 +275,7 @@ def _rows_of(file):
         return -1
 
 
-def joined(tables):
+def joined(tables: Sequence[pa.Table]) -> pa.Table:
     """One table of all parts: columns in the order in which the cases bring them, null where a case has none."""
     import pyarrow as pa
 
@@ -240,7 +287,7 @@ def joined(tables):
     return pa.concat_tables([completed(table, schema) for table in tables]) if tables else schema.empty_table()
 
 
-def completed(table, schema):
+def completed(table: pa.Table, schema: pa.Schema) -> pa.Table:
     """A table with the columns of a schema, null where it has none."""
     import pyarrow as pa
 
@@ -251,7 +298,7 @@ def completed(table, schema):
 # -- on the disk ---------------------------------------------------------------------------------------------------------------
 
 
-def _locked(folder):
+def _locked(folder: Path) -> IO[str]:
     """The open lock file of a folder; InputError where another process holds it."""
     lock = (folder / LOCK).open("a")
     try:
@@ -266,7 +313,7 @@ def _locked(folder):
     return lock
 
 
-def _ledger(folder):
+def _ledger(folder: Path) -> sqlite3.Connection:
     ledger = sqlite3.connect(folder / LEDGER)
     ledger.execute("pragma synchronous = full")
     with ledger:

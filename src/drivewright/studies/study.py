@@ -1,17 +1,25 @@
 """A study that has been run, whole or in part: its spec, its plan, and a row for every case that is there."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from drivewright._typing import Floats
 from drivewright.errors import UnknownName
 from drivewright.execution.case_table import CASE, CHECK, MESSAGE, STATUS
 from drivewright.result import ERROR, HIGH, LOW
 from drivewright.spec import MechanismSpec
 from drivewright.studies.plan import Plan
 from drivewright.studies.statistics import NORMAL
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 BOUNDS = b"bounds"  # in the metadata of a column that is an end of an interval, or a standard error: the name of the column whose it is
 
@@ -22,13 +30,13 @@ class Study:
 
     spec: MechanismSpec
     plan: Plan
-    table: Any
+    table: pa.Table
     folder: Path | None = None
     seconds: float = 0.0  # that the workers spent on it
-    remarks: tuple = ()  # on how the cases were computed
+    remarks: tuple[str, ...] = ()  # on how the cases were computed
     interrupted: bool = False
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> NDArray[Any]:
         """A column as an array: numbers as floats with nan where a case has none, texts as objects."""
         import pyarrow as pa
 
@@ -39,53 +47,68 @@ class Study:
             return column.to_numpy().astype(float)
         return column.to_numpy()
 
-    def __len__(self):
+    def __len__(self) -> int:
         return self.table.num_rows
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         """One line: how many cases are there, and what became of them."""
         return f"<Study of {self.spec.mechanism!r}: {len(self)} of {len(self.plan)} cases, {self.counts}>"
 
+    def _repr_html_(self) -> str:
+        """The same for notebooks: cases done and failed, what varies, and the folder."""
+        done = f"{len(self)} of {len(self.plan)}{', interrupted' if self.interrupted else ''}"
+        counts = ", ".join(f"{count} {status}" for status, count in self.counts.items())
+        rows = {
+            "cases done": f"{done} ({counts})" if counts else done,
+            "cases failed": str(self.counts.get("failed", 0)),
+            "varied keys": ", ".join(self.plan.keys),
+            "folder": str(self.folder) if self.folder else "in memory",
+        }
+        cells = "".join(f"<tr><td>{escape(name)}</td><td>{escape(text)}</td></tr>" for name, text in rows.items())
+        remarks = "".join(f"<li>{escape(remark)}</li>" for remark in self.remarks)
+        title = f"<b>{escape(self.spec.title or 'Study')}</b> ({escape(self.spec.mechanism)})"
+        return f"<p>{title}</p><table>{cells}</table>{f'<ul>{remarks}</ul>' if remarks else ''}"
+
     @property
-    def counts(self):
+    def counts(self) -> dict[str, int]:
         """{status: number of cases}."""
         names, counts = np.unique(self[STATUS].astype(str), return_counts=True) if len(self) else (np.array([]), np.array([]))
         return dict(zip(names.tolist(), counts.tolist(), strict=True))
 
     @property
-    def answered(self):
+    def answered(self) -> bool:
         """Whether any case has an answer."""
         return len(self) > 0 and bool(np.any(self[STATUS] != "failed"))
 
     @property
-    def complete(self):
+    def complete(self) -> bool:
         """Whether every case of the plan has its row."""
         return len(self) == len(self.plan)
 
     @property
-    def value_names(self):
+    def value_names(self) -> tuple[str, ...]:
         """Names of the columns that hold values of the result; the ends of their intervals are not among them."""
         inputs = {CASE, STATUS, MESSAGE, *self.plan.keys}
         return tuple(name for name in self._outputs if name not in inputs and not name.startswith(CHECK))
 
     @property
-    def check_names(self):
+    def check_names(self) -> tuple[str, ...]:
         """Names of the design checks, without the `check.` of their columns."""
         return tuple(name.removeprefix(CHECK) for name in self._outputs if name.startswith(CHECK))
 
     @property
-    def _outputs(self):
+    def _outputs(self) -> list[str]:
         """Names of the columns that belong to no other one."""
         return [field.name for field in self.table.schema if BOUNDS not in (field.metadata or {})]
 
-    def bounds(self, name):
+    def bounds(self, name: str) -> tuple[Floats, Floats] | None:
         """(low, high): the ends of the 95 % intervals of a column (rows,), nan where a case has none; None where no case has one."""
-        ends = [f"{name}{end}" for end in (LOW, HIGH)]
-        if any(end not in self.table.column_names or self._about(end, BOUNDS) != name for end in ends):
+        low, high = f"{name}{LOW}", f"{name}{HIGH}"
+        if any(end not in self.table.column_names or self._about(end, BOUNDS) != name for end in (low, high)):
             return None
-        return tuple(np.asarray(self[end], float) for end in ends)
+        return np.asarray(self[low], float), np.asarray(self[high], float)
 
-    def errors(self, name):
+    def errors(self, name: str) -> Floats | None:
         """Standard errors of a column (rows,): its own, or half the width of its interval over the normal quantile; None without any."""
         bounds, own = self.bounds(name), f"{name}{ERROR}"
         if bounds is None:
@@ -94,21 +117,21 @@ class Study:
         known = own in self.table.column_names and self._about(own, BOUNDS) == name
         return np.where(np.isfinite(self[own]), self[own], half) if known else half
 
-    def at_worst(self, name, sign):
+    def at_worst(self, name: str, sign: float) -> Floats:
         """The column (rows,) at the lower (sign -1) or upper (+1) end of each interval, the value where a case has none."""
         column, bounds = np.asarray(self[name], float), self.bounds(name)
         end = column if bounds is None else bounds[0 if sign < 0 else 1]
         return np.where(np.isfinite(end), end, column)
 
-    def unit(self, name):
+    def unit(self, name: str) -> str:
         """SI unit of a column."""
         return self._about(name, b"unit")
 
-    def meaning(self, name):
+    def meaning(self, name: str) -> str:
         """What a column is."""
         return self._about(name, b"meaning")
 
-    def _about(self, name, what):
+    def _about(self, name: str, what: bytes) -> str:
         if name not in self.table.column_names:
             raise UnknownName("column of the study", name, self.table.column_names)
         return (self.table.schema.field(name).metadata or {}).get(what, b"").decode()

@@ -33,6 +33,13 @@ class Variable:
         return (self.key, *self.also)
 
     @property
+    def grid_levels(self) -> NDArray[Any]:
+        """The levels of a key of the grid."""
+        if self.levels is None:
+            raise ValueError(f"{self.key} is random: it has no levels")
+        return self.levels
+
+    @property
     def ends(self) -> tuple[float, float]:
         """Least and greatest value of the distribution, 3 sigma where it has no end."""
         mean, sigma, support = self.distribution.mean(), self.distribution.std(), self.distribution.support()

@@ -29,7 +29,7 @@ class Answers(NamedTuple):
     plots: tuple
 
 
-def answers(study, values=()):
+def analyse_study(study, values=()):
     """`Answers` of a study.  `values` (check.NAME for the margin of a check) get plots; UnknownName where the study has no such column.
 
     Unless given they are those of the spec's [study] or else of the mechanism's headline, `MOST` at most.  Tables hold all values.

@@ -8,7 +8,7 @@ import numpy as np
 from drivewright.errors import SpecError
 from drivewright.execution.case_table import CHECK
 from drivewright.report.content import SIGNS, Views, pictures, summary
-from drivewright.studies.optimise import searched
+from drivewright.studies.optimisation import searched
 from drivewright.studies.search import history
 from drivewright.studies.search.problem import prepare
 from drivewright.studies.store import Memory, joined

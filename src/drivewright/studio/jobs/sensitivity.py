@@ -16,7 +16,7 @@ from drivewright.spec.fields import field_at, mark_of
 from drivewright.studies.plan import Block, Plan
 from drivewright.studies.statistics import NORMAL
 from drivewright.studies.store import Memory
-from drivewright.studies.sweep import swept
+from drivewright.studies.sweeps import compute_study
 from drivewright.studies.variables import Variable
 from drivewright.studio.jobs.keys import is_locked, label, numeric, plain
 from drivewright.view.text import quantity, sentence, shown
@@ -42,7 +42,7 @@ def sensitivity(design, tell, locks=(), targets=None, share=0.01, workers=None, 
     steps = _steps(spec, keys, share)
     plan = _plan(keys, steps)
     asking = spec.model_copy(update={"study": Study(analyses=analyses, values=tuple(wanted))})
-    study = swept(
+    study = compute_study(
         Memory(),
         asking,
         plan,

@@ -13,13 +13,13 @@ from drivewright.execution.outputs import MARGIN_OF
 from drivewright.report.content import Views, pictures
 from drivewright.report.study import said
 from drivewright.spec.writing import toml_value
-from drivewright.studies.answers import answers
-from drivewright.studies.plan import plan_of
+from drivewright.studies.answers import analyse_study
+from drivewright.studies.plan import make_plan
 from drivewright.studies.statistics import varies
 from drivewright.studies.store import Folder, Memory, joined
 from drivewright.studies.study import Study
-from drivewright.studies.sweep import identity, swept
-from drivewright.studies.varying import asked
+from drivewright.studies.sweeps import compute_study, study_identity
+from drivewright.studies.variation import with_options
 from drivewright.studio.jobs.figures import drawn
 from drivewright.studio.jobs.keys import label, numeric, plain, written
 from drivewright.view.text import quantity, sentence, shown
@@ -38,14 +38,14 @@ def study(design, tell, vary=(), samples=None, method=None, folder=None, workers
     [{"name", "objectives": [{"name", "goal"}], "rows"}], "statements", "figures", "failed", "total"}.  A check is told by its margin.
     Of more than `MOST_ROWS` cases an even part is told, and every case on a front.
     """
-    spec = asked(design.spec(), vary, samples=samples, method=method)
+    spec = with_options(design.spec(), vary, samples=samples, method=method)
     if spec.study is None or not (spec.study.vary or spec.study.points):
         raise SpecError(_remedy(design), "study.vary")
-    plan = plan_of(spec)
-    kept = Folder(Path(folder), spec, identity(spec, plan)) if folder is not None else Memory()
+    plan = make_plan(spec)
+    kept = Folder(Path(folder), spec, study_identity(spec, plan)) if folder is not None else Memory()
     live = Live(tell, lambda: _rows(design, _so_far(spec, plan, kept), MOST_LIVE))
     try:
-        found = swept(kept, spec, plan, case_task(spec, plan.keys), workers, on, live)
+        found = compute_study(kept, spec, plan, case_task(spec, plan.keys), workers, on, live)
     finally:
         kept.close()
     tell(len(plan), len(plan), "what the cases say")
@@ -167,7 +167,7 @@ def _loads(study, chosen):
 
 
 def _told(design, study, theme):
-    found = answers(study)
+    found = analyse_study(study)
     fronts = _fronts(study, found.result)
     rows = _rows(design, study, MOST_ROWS, [row for front in fronts for row in front["rows"]])
     place = {case: row for row, case in enumerate(rows["cases"])}

@@ -1,54 +1,76 @@
 """A study from its plan to its rows: `sweep(spec)` computes what is not there yet and keeps it."""
 
+from collections.abc import Callable, Generator, Mapping
 from contextlib import closing
 from pathlib import Path
+from typing import Any, TypeAlias
 
 from drivewright.errors import InputError
-from drivewright.execution.batches import WORTH_HELP, BatchScheduler, run_batches
-from drivewright.execution.case_table import STATUS
-from drivewright.execution.evaluation import case_task, evaluate, failed_rows, refuse_unknown, with_batch
-from drivewright.execution.executors import InProcessExecutor, check_location, make_executors
+from drivewright.execution.batches import WORTH_HELP, Batch, BatchResult, BatchScheduler, run_batches
+from drivewright.execution.case_table import STATUS, Columns
+from drivewright.execution.evaluation import CaseTask, case_task, evaluate, failed_rows, refuse_unknown, with_batch
+from drivewright.execution.executors import Executor, InProcessExecutor, check_location, make_executors
 from drivewright.runner import versions
+from drivewright.spec import MechanismSpec
 from drivewright.spec.writing import canonical_text
 from drivewright.studies import store
-from drivewright.studies.plan import plan_of
+from drivewright.studies.plan import Plan, make_plan
+from drivewright.studies.store import Store
 from drivewright.studies.study import Study
-from drivewright.studies.varying import varied
+from drivewright.studies.variation import with_variation
 
+Progress: TypeAlias = Callable[[int, int, str], object]  # (done, total, what became of them)
 MANY = 200_000  # cases that want a confirmation
 
 
-def sweep(spec, vary=None, *, out=None, workers=None, on=None, confirmed=True, progress=None):
-    """`Study` of a spec: one row for every case of its [study], or of `vary` {key: levels or distribution}, see `varying`.
+def sweep(
+    spec: MechanismSpec,
+    vary: Mapping[str, Any] | None = None,
+    *,
+    out: str | Path | None = None,
+    workers: int | None = None,
+    on: str | None = None,
+    confirmed: bool = True,
+    progress: Progress | None = None,
+) -> Study:
+    """`Study` of a spec: one row for every case of its [study], or of `vary` {key: levels or distribution}, see `variation`.
 
     `out` is the folder it lives in: what is there already is not computed again, and a study stopped in any way goes on where it was.
     None keeps it in memory.  `workers` processes (None: one per core); `on` names another place to compute, see `execution.executors`.
     Neither changes a bit of any row.  `progress(done, total, what)` is called after each batch.  Ctrl-C, also from `progress`, returns
     what is there, `interrupted`.
     """
-    spec = spec if vary is None else varied(spec, vary)
+    spec = spec if vary is None else with_variation(spec, vary)
     check_location(workers, on)
-    plan = plan_of(spec)
+    plan = make_plan(spec)
     if len(plan) > MANY and not confirmed:
         raise InputError(f"{len(plan)} cases are more than {MANY}; say --yes if you mean it, or take fewer levels or samples")
     task = case_task(spec, plan.keys)
-    kept = store.Folder(out, spec, identity(spec, plan)) if out is not None else store.Memory()
+    kept = store.Folder(out, spec, study_identity(spec, plan)) if out is not None else store.Memory()
     with closing(kept):
-        return swept(kept, spec, plan, task, workers, on, progress)
+        return compute_study(kept, spec, plan, task, workers, on, progress)
 
 
-def swept(kept, spec, plan, task, workers=None, on=None, progress=None):
+def compute_study(
+    kept: Store,
+    spec: MechanismSpec,
+    plan: Plan,
+    task: CaseTask,
+    workers: int | None = None,
+    on: str | None = None,
+    progress: Progress | None = None,
+) -> Study:
     """`Study` of the cases of a plan, whoever made it; they go to the store `kept` as they are done.  The rest as of `sweep`."""
     interrupted = _fill(kept, task, plan, workers, on, progress or (lambda done, total, what: None))
     return Study(spec, plan, store.joined(kept.tables()), kept.folder, kept.seconds, kept.remarks(), interrupted)
 
 
-def open_study(folder):
+def open_study(folder: str | Path) -> Study:
     """`Study` of a folder as far as it has come; another process may be at work on it."""
-    spec, tables, seconds, remarks, known = store.opened(folder)
+    spec, tables, seconds, remarks, known = store.read_study(folder)
     if "plan" not in known:
         raise InputError(f"{folder}: holds a search, not a study; its table is history.parquet")
-    plan = plan_of(spec)
+    plan = make_plan(spec)
     if plan.digest != known["plan"]:
         raise InputError(
             f"{folder}: its points cannot be made again here: another version of SciPy or NumPy. Its rows are in {folder}/parts"
@@ -56,13 +78,13 @@ def open_study(folder):
     return Study(spec, plan, store.joined(tables), Path(folder).resolve(), seconds, remarks)
 
 
-def identity(spec, plan):
+def study_identity(spec: MechanismSpec, plan: Plan) -> dict[str, str]:
     """What must stay the same between two starts of a study, {what: text}."""
     drive = spec.model_copy(update={"optimise": None})
     return {"spec": drive.digest(), "study": canonical_text(spec.study), "plan": plan.digest, "drivewright": versions()["drivewright"]}
 
 
-def _fill(kept, task, plan, workers, on, progress):
+def _fill(kept: Store, task: CaseTask, plan: Plan, workers: int | None, on: str | None, progress: Progress) -> bool:
     """Compute what is missing; whether it was interrupted."""
     total, done, trouble = len(plan), sum(count for _, count in kept.ranges()), 0
     if done == total:
@@ -84,11 +106,13 @@ def _fill(kept, task, plan, workers, on, progress):
     return False
 
 
-def _computed(task, plan, scheduler, workers, on):
+def _computed(
+    task: CaseTask, plan: Plan, scheduler: BatchScheduler, workers: int | None, on: str | None
+) -> Generator[BatchResult, None, None]:
     """A `BatchResult` for every batch.  Where nobody says who is to compute, this process begins, and has help when it would take long
     alone."""
 
-    def arguments(batch):
+    def arguments(batch: Batch) -> tuple[CaseTask, int, Columns]:
         return task, batch.first, plan.cases(batch.first, batch.stop)
 
     if workers is None and on is None:
@@ -97,7 +121,12 @@ def _computed(task, plan, scheduler, workers, on):
         yield from _by(make_executors(workers, on, len(plan)), arguments, scheduler)
 
 
-def _by(executors, arguments, scheduler, enough=lambda: False):
+def _by(
+    executors: tuple[Executor, ...],
+    arguments: Callable[[Batch], tuple[CaseTask, int, Columns]],
+    scheduler: BatchScheduler,
+    enough: Callable[[], bool] = lambda: False,
+) -> Generator[BatchResult, None, None]:
     """The same by given executors, which are let go at the end."""
     try:
         yield from run_batches(executors, evaluate, arguments, scheduler, enough)
@@ -106,5 +135,5 @@ def _by(executors, arguments, scheduler, enough=lambda: False):
             executor.close()
 
 
-def _incomplete(table):
+def _incomplete(table: Any) -> int:
     return sum(status != "complete" for status in table[STATUS].to_pylist())

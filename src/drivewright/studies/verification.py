@@ -5,6 +5,7 @@ from typing import NamedTuple
 from drivewright import registry
 from drivewright.errors import DrivewrightError, InputError, MissingExtra, SolverError
 from drivewright.runner import reason_of, run
+from drivewright.spec import MechanismSpec
 
 
 class Comparison(NamedTuple):
@@ -18,12 +19,12 @@ class Comparison(NamedTuple):
     route: str
 
     @property
-    def ok(self):
+    def ok(self) -> bool:
         """Whether both routes agree; a number that does not exist (nan) agrees with nothing."""
         return abs(self.other - self.ours) <= self.allowed
 
 
-def verify(spec):
+def verify(spec: MechanismSpec) -> tuple[Comparison, ...]:
     """Tuple of `Comparison`: the default analyses of a spec against its kind's independent route.
 
     A kind's `verify(model, result)` gives the rows as tuples (name, ours, other, unit, allowed, route).
