@@ -4,10 +4,13 @@ import math
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Future, wait
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from drivewright.errors import InputError
 from drivewright.execution.executors import Executor
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 TARGET, LEAST = 1.5, 0.5  # seconds that a batch should take, and below which no batch is split for the sake of an even end
 GROWTH = 8  # a batch may have so many times the cases of the one before: the first ones compile
@@ -29,7 +32,7 @@ class BatchResult(NamedTuple):
     """A batch with what came of it: `table`, or the `reason` why its cases have none."""
 
     batch: Batch
-    table: Any = None
+    table: "pa.Table | None" = None
     seconds: float = 0.0
     reason: str = ""
 
