@@ -119,10 +119,12 @@ def formula_of(dispatch: Callable[..., Any], kind: Any, error: type[Exception] =
 
 @functools.cache
 def plain(compiled: Callable[..., Any]) -> Callable[..., Any]:
-    """The kernel in plain Python, together with the kernels that it calls by name."""
+    """The kernel in plain Python, together with the kernels and generics that it calls by name; a generic with all its formulas."""
+    if hasattr(compiled, "formulas"):
+        return lambda first, *rest: plain(formula_of(compiled, type(first)))(first, *rest)
     function: Any = getattr(compiled, "py_func", compiled)  # under NUMBA_DISABLE_JIT=1 kernels are plain already
     names = {name: function.__globals__.get(name) for name in function.__code__.co_names}
-    callees = {name: plain(value) for name, value in names.items() if hasattr(value, "py_func")}
+    callees = {name: plain(value) for name, value in names.items() if hasattr(value, "py_func") or hasattr(value, "formulas")}
     scope = function.__globals__ | callees
     return types.FunctionType(function.__code__, scope, function.__name__, function.__defaults__, function.__closure__)
 

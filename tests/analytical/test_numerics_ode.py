@@ -8,8 +8,8 @@ from scipy.integrate import solve_ivp
 
 from drivewright._jit import implements
 from drivewright.errors import InputError, SolverError
-from drivewright.numerics import dopri5, ode
-from drivewright.numerics.ode import Event, Functions, events, integrate, rate
+from drivewright.numerics.ode import Event, Functions, events, integrate, loop, rate
+from drivewright.numerics.ode.dense_output import component, polynomial
 
 G = 9.81
 
@@ -82,10 +82,10 @@ def test_compiled_equals_uncompiled():
 
 def test_batches_change_nothing(monkeypatch):
     whole = integrate(HARD, 0, 20, [1.0, -0.2], samples=np.linspace(0, 20, 333), watch=BOTH)
-    monkeypatch.setattr(ode, "_BATCH", 7)
+    monkeypatch.setattr(loop, "_BATCH", 7)
     parts = integrate(HARD, 0, 20, [1.0, -0.2], samples=np.linspace(0, 20, 333), watch=BOTH)
     np.testing.assert_array_equal(parts.y, whole.y)
-    assert [(e.t, e.index) for e in parts.events] == [(e.t, e.index) for e in whole.events]
+    assert [(e.t, e.event) for e in parts.events] == [(e.t, e.event) for e in whole.events]
     assert (parts.steps, parts.rejected) == (whole.steps, whole.rejected)
 
 
@@ -94,10 +94,10 @@ def test_events_of_an_oscillator_by_name_and_direction():
     run = integrate(FREE, 0, 12, [np.cos(0.2), -np.sin(0.2)], 1e-12, 1e-13, watch=BOTH)
     level = np.arccos(0.4)
     crossings = np.sort(np.concatenate([level + 2 * np.pi * np.arange(3), 2 * np.pi * np.arange(1, 3) - level])) - 0.2
-    np.testing.assert_allclose([e.t for e in run.events if e.index == 0], crossings[crossings < 12], atol=1e-9)
-    np.testing.assert_allclose([e.t for e in run.events if e.index == 1], 2 * np.pi * np.arange(1, 2) - 0.2, atol=1e-9)
+    np.testing.assert_allclose([e.t for e in run.events if e.event == 0], crossings[crossings < 12], atol=1e-9)
+    np.testing.assert_allclose([e.t for e in run.events if e.event == 1], 2 * np.pi * np.arange(1, 2) - 0.2, atol=1e-9)
     assert [e.t for e in run.events] == sorted(e.t for e in run.events)
-    np.testing.assert_allclose([e.y[0] for e in run.events if e.index == 0], 0.4, atol=1e-12)
+    np.testing.assert_allclose([e.y[0] for e in run.events if e.event == 0], 0.4, atol=1e-12)
 
 
 def test_a_fall_ends_on_the_ground():
@@ -124,9 +124,9 @@ def test_only_what_happens_before_the_end_is_reported():
     # both fall through zero within the same large step; the second, though later in the list, is first and ends the run
     drop = Functions(lambda t, y: np.array([-1.0]), lambda t, y: np.array([y[0], y[0] - 0.25]))
     run = integrate(drop, 0, 10, [1.0], watch=[Event(), Event(terminal=True)], first_step=2.0)
-    assert [e.index for e in run.events] == [1] and run.t_end == pytest.approx(0.75, abs=1e-13)
+    assert [e.event for e in run.events] == [1] and run.t_end == pytest.approx(0.75, abs=1e-13)
     both = integrate(drop, 0, 10, [1.0], watch=[Event(), Event()], first_step=2.0)
-    np.testing.assert_allclose([(e.t, e.index) for e in both.events], [(0.75, 1), (1.0, 0)], atol=1e-13)
+    np.testing.assert_allclose([(e.t, e.event) for e in both.events], [(0.75, 1), (1.0, 0)], atol=1e-13)
 
 
 @pytest.mark.parametrize("sign", [1, -1])
@@ -148,7 +148,7 @@ def test_samples_at_both_ends_and_twice():
 
 @pytest.mark.parametrize("batch", [7, 500])
 def test_max_steps_gives_what_there_is_and_advice(batch, monkeypatch):
-    monkeypatch.setattr(ode, "_BATCH", batch)
+    monkeypatch.setattr(loop, "_BATCH", batch)
     run = integrate(FREE, 0, 200, [1.0, 0.0], max_steps=40, watch=BOTH)
     assert run.outcome == "max_steps" and run.steps == 40 and run.t.size == 41 and 0 < run.t_end < 200
     np.testing.assert_allclose(run.y_end, [np.cos(run.t_end), -np.sin(run.t_end)], atol=1e-7)
@@ -185,13 +185,13 @@ def test_the_first_step_is_careful_and_max_step_is_kept():
 def test_events_may_look_at_the_time():
     late = Functions(lambda t, y: np.cos([t]), lambda t, y: np.array([(t - 2.4321) * (1 + y[0] ** 2), y[0] - np.sin(0.7)]))
     run = integrate(late, 0.3, 4, [np.sin(0.3)], 1e-11, 1e-12, watch=[Event(1), Event(1)])
-    np.testing.assert_allclose([(e.t, e.index) for e in run.events], [(0.7, 1), (2.4321, 0)], rtol=1e-10)
+    np.testing.assert_allclose([(e.t, e.event) for e in run.events], [(0.7, 1), (2.4321, 0)], rtol=1e-10)
 
 
 def test_kernels_and_samples_use_one_interpolant():
     dense = np.random.default_rng(3).normal(size=(5, 2))
     for theta in (0.0, 0.3, 0.77, 1.0):
-        assert dopri5._point(dense, 1, theta) == pytest.approx(ode._polynomial(dense, theta)[1], rel=1e-15)
+        assert component(dense, 1, theta) == pytest.approx(polynomial(dense, theta)[1], rel=1e-15)
 
 
 def test_work_is_counted():

@@ -4,44 +4,18 @@ import itertools
 
 import numpy as np
 import pytest
+from rooted_trees import density, elementary_weights, trees
 
 from drivewright._jit import plain
-from drivewright.numerics import dopri5, ode
 from drivewright.numerics.ode import Functions, integrate
+from drivewright.numerics.ode.dense_output import polynomial
+from drivewright.numerics.ode.methods import dopri5
 
-
-def trees(order):
-    """All rooted trees with `order` nodes, each the sorted tuple of the trees hanging from its root."""
-
-    def forests(nodes, most):
-        if nodes == 0:
-            yield ()
-        for size in range(min(nodes, most), 0, -1):
-            for tree in trees(size):
-                for rest in forests(nodes - size, size):
-                    yield tuple(sorted((tree, *rest), key=repr))
-
-    return sorted(set(forests(order - 1, order - 1)), key=repr)
-
-
-def nodes(tree):
-    return 1 + sum(nodes(branch) for branch in tree)
-
-
-def density(tree):
-    return nodes(tree) * np.prod([density(branch) for branch in tree])
-
-
-A = np.hstack([dopri5._A, np.zeros((7, 1))])
-
-
-def weights(tree):
-    """The product over the branches of A times their weights, per stage (Butcher's elementary weights)."""
-    return np.prod([np.ones(7), *(A @ weights(branch) for branch in tree)], axis=0)
+A = dopri5.METHOD.tableau.a
 
 
 def defects(quadrature, order, theta=1.0):
-    return np.array([quadrature @ weights(tree) - theta**order / density(tree) for tree in trees(order)])
+    return np.array([quadrature @ elementary_weights(tree, A) - theta**order / density(tree) for tree in trees(order)])
 
 
 def dense_quadrature(theta):
@@ -51,7 +25,7 @@ def dense_quadrature(theta):
         k, dense = np.zeros((7, 1)), np.zeros((5, 1))
         k[stage] = 1.0
         plain(dopri5._interpolant)(1.0, np.zeros(1), A[6] @ k, k, dense)
-        result.append(ode._polynomial(dense, theta)[0])
+        result.append(polynomial(dense, theta)[0])
     return np.array(result)
 
 
@@ -70,7 +44,7 @@ def test_steps_have_order_5_and_no_more(order):
 
 @pytest.mark.parametrize("order", range(1, 6))
 def test_the_error_estimate_compares_with_order_4(order):
-    estimate = [dopri5._ERROR @ weights(tree) for tree in trees(order)]
+    estimate = [dopri5._ERROR @ elementary_weights(tree, A) for tree in trees(order)]
     assert (np.abs(estimate).max() < 1e-15) == (order <= 4)
 
 

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from drivewright._jit import implements, plain
-from drivewright.numerics import ode, radau
-from drivewright.numerics.dopri5 import Settings
-from drivewright.numerics.ode import Functions, rate
-from drivewright.numerics.radau import integrate_stiff, jacobian
+from drivewright.numerics.ode import Functions, integrate, jacobian, rate
+from drivewright.numerics.ode.dense_output import polynomial
+from drivewright.numerics.ode.method import StepControl
+from drivewright.numerics.ode.methods import radau
 
-A, C = radau._A, radau._C
-B = A[2]
+A, C = radau.METHOD.tableau.a, radau.METHOD.tableau.c
+B = radau.METHOD.tableau.b
 
 
 class Linear(NamedTuple):
@@ -55,11 +55,10 @@ def exact(t):
 
 def one_step(system, t, h, y):
     """End and interpolant of a step whose stages are solved down to rounding, in plain Python."""
-    settings = Settings(np.inf, 1e-3, np.ones(y.size), np.inf, 0.0)
-    work, clock = radau._work(y.size), np.array([t, h, 1.0, 0, radau.MISSING, 0, 1.0, 0, 0])
-    plain(radau._prepare)(system, t, h, y, work, settings, clock)
+    control, work, trial = StepControl(np.inf, 1e-3, np.ones(y.size), np.inf, 0.0), radau.METHOD.workspace(y.size), np.empty(y.size)
+    plain(radau._prepare)(work, system, control, t, h, y)
     for _ in range(30):
-        plain(radau._improve)(system, t, h, y, work)
+        plain(radau._improve)(work, system, t, h, y, trial)
     dense = np.empty((5, y.size))
     plain(radau._interpolant)(y, work, dense)
     return y + work.z[2], dense
@@ -107,11 +106,11 @@ def test_the_error_estimate_has_order_3(power):
 
 def test_the_error_estimate_is_the_slope_that_the_polynomial_misses_at_the_start():
     stages = np.array([[0.3], [-0.7], [1.9]])
-    work = radau._work(1)
+    work = radau.METHOD.workspace(1)
     work.z[:] = stages
     dense = np.empty((5, 1))
     plain(radau._interpolant)(np.array([0.4]), work, dense)
-    slope_at_start = (ode._polynomial(dense, 1e-6)[0] - ode._polynomial(dense, -1e-6)[0]) / 2e-6
+    slope_at_start = (polynomial(dense, 1e-6)[0] - polynomial(dense, -1e-6)[0]) / 2e-6
     assert radau._ERROR[0] @ stages[:, 0] == pytest.approx(-slope_at_start, rel=1e-9)
 
 
@@ -149,7 +148,10 @@ def test_measured_order_of_whole_runs():
     # Linear, so that one iteration solves for the stages, however loose the tolerance that lets every step pass.
     counts = np.array([12, 24, 48, 120])
     spring = Functions(lambda t, y: np.array([y[1], -4 * y[0]]))
-    ends = [integrate_stiff(spring, 0.3, 3.3, [np.cos(0.6), -2 * np.sin(0.6)], 1e9, 1e9, max_step=3 / n, first_step=3 / n) for n in counts]
+    ends = [
+        integrate(spring, 0.3, 3.3, [np.cos(0.6), -2 * np.sin(0.6)], 1e9, 1e9, method="radau", max_step=3 / n, first_step=3 / n)
+        for n in counts
+    ]
     assert [end.steps for end in ends] == list(counts)
     errors = [np.abs(end.y_end - [np.cos(6.6), -2 * np.sin(6.6)]).max() for end in ends]
     assert slope(1 / counts, errors) == pytest.approx(5, abs=0.15)
@@ -162,17 +164,17 @@ def test_measured_order_of_the_dense_output(theta):
     errors = []
     for h in sizes:
         dense = one_step(Coupled(0), 0.3, h, exact(0.3))[1]
-        errors.append(np.abs(ode._polynomial(dense, theta) - exact(0.3 + theta * h)).max())
+        errors.append(np.abs(polynomial(dense, theta) - exact(0.3 + theta * h)).max())
     assert slope(sizes, errors) == pytest.approx(4, abs=0.15)
 
 
 def test_the_interpolant_passes_through_both_ends_and_the_stages():
     y, h = exact(0.3), 0.2
     end, dense = one_step(Coupled(0), 0.3, h, y)
-    np.testing.assert_allclose(ode._polynomial(dense, 0.0), y, atol=0)
-    np.testing.assert_allclose(ode._polynomial(dense, 1.0), end, rtol=1e-15)
+    np.testing.assert_allclose(polynomial(dense, 0.0), y, atol=0)
+    np.testing.assert_allclose(polynomial(dense, 1.0), end, rtol=1e-15)
     for node in C:  # collocation: the polynomial obeys the equation there
-        slope_there = (ode._polynomial(dense, node + 1e-5) - ode._polynomial(dense, node - 1e-5)) / 2e-5
+        slope_there = (polynomial(dense, node + 1e-5) - polynomial(dense, node - 1e-5)) / 2e-5
         f = np.empty(2)
-        rate(Coupled(0), 0.3 + node * h, ode._polynomial(dense, node), f)
+        rate(Coupled(0), 0.3 + node * h, polynomial(dense, node), f)
         np.testing.assert_allclose(slope_there, h * f, atol=1e-9)

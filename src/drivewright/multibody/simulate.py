@@ -19,7 +19,6 @@ from drivewright.multibody.passages import passage, smallest_singular_values
 from drivewright.multibody.singular import Outlook, look_ahead, room
 from drivewright.multibody.system import motion, no_chart
 from drivewright.numerics.ode import Event, integrate
-from drivewright.numerics.radau import integrate_stiff
 from drivewright.stopped import Stop, uses
 
 GEAR = 1e-3  # absolute over relative tolerance, at lengths and angles of the size of 1
@@ -207,14 +206,14 @@ def _integrate(system, t, leg, y, settings, steps, samples, speed):
     pins, switches = len(system.contacts), Event(switches=True)
     watch = [Event(-1, terminal=True), Event(), *[switches] * pins, *[Event(1, switches=True)] * pins, *[switches] * pins]
     longest = min(leg.max_step, settings.max_step or (2 * np.pi / speed / 100 if speed else np.inf))
-    solve = integrate_stiff if settings.method == "radau" else integrate
-    return solve(
+    return integrate(
         motion(system),
         t,
         leg.until,
         y,
         settings.rtol,
         tolerances(system, settings, speed),
+        method=settings.method,
         samples=samples,
         watch=watch,
         max_steps=max(settings.max_steps - steps, 0),

@@ -1,4 +1,4 @@
-"""Initial value problems y' = f(t, y): Dormand-Prince 5(4) with step control, dense output and event location.
+"""Initial value problems y' = f(t, y), by any method of `methods`, with samples, events and limits.
 
 A system is a NamedTuple of numbers and arrays with its right-hand side stated once:
 
@@ -14,18 +14,24 @@ A system is a NamedTuple of numbers and arrays with its right-hand side stated o
 
 It runs compiled; a new system touches nothing here.  `Functions` wraps ordinary Python functions and runs uncompiled.
 The kernels run in batches of steps, between which Ctrl-C and other threads get their turn.
-The method and its sources stand in `numerics.dopri5`.
 """
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import formula_of, implements, plain
+from drivewright._jit import formula_of, plain
+from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.errors import InputError, SolverError
-from drivewright.numerics.dopri5 import GOES_ON, NOTE, STOP, SWITCH, Batch, Settings, Unwatched, Watch, advance, begin, events, rate, switch
+from drivewright.numerics.ode import advancing
+from drivewright.numerics.ode.advancing import GOES_ON
+from drivewright.numerics.ode.dense_output import polynomial
+from drivewright.numerics.ode.locating import NOTE, STOP, SWITCH, EventRules, StepBatch
+from drivewright.numerics.ode.method import ERROR, STEP, TIME, Method, StepControl
+from drivewright.numerics.ode.methods import METHODS
+from drivewright.numerics.ode.system import Functions, NoEvents, events, rate, switch, with_jacobian
 
 _BATCH = 500
 
@@ -40,29 +46,6 @@ _ADVICE = {
 _OUTCOMES = ("max_steps", "finished", "event", "min_step", "not_finite")  # by code; a run that still goes on has met max_steps
 
 
-class Functions(NamedTuple):
-    """A system of ordinary Python functions: rate(t, y) -> dy, events(t, y) -> values, switch(index, t, y) -> y."""
-
-    rate: Callable
-    events: Callable | None = None
-    switch: Callable | None = None
-
-
-@implements(rate, Functions)
-def _(system, t, y, dy):
-    dy[:] = system.rate(t, y)
-
-
-@implements(events, Functions)
-def _(system, t, y, values):
-    values[:] = system.events(t, y)
-
-
-@implements(switch, Functions)
-def _(system, index, t, y):
-    y[:] = system.switch(index, t, y)
-
-
 class Event(NamedTuple):
     """What to watch for in one event function: rising (+1), falling (-1) or any (0) sign change.
 
@@ -74,16 +57,25 @@ class Event(NamedTuple):
     switches: bool = False
 
     @property
-    def effect(self):
+    def effect(self) -> int:
+        """NOTE, STOP or SWITCH."""
         return STOP if self.terminal else SWITCH if self.switches else NOTE
 
 
-class Crossing(NamedTuple):
-    """An event that happened: time just after the sign change, number of the event function, state (after it switched)."""
+class EventCrossing(NamedTuple):
+    """An event that happened: time just after the sign change, number of the event function, state (n,) (after it switched)."""
 
     t: float
-    index: int
-    y: np.ndarray
+    event: int
+    y: Floats
+
+
+class EventCrossings(NamedTuple):
+    """All events of a run, in order of time: `EventCrossing` in columns."""
+
+    t: Floats  # (k,)
+    event: Ints  # (k,)
+    y: Floats  # (k, n)
 
 
 @dataclass(frozen=True)
@@ -93,22 +85,22 @@ class Trajectory:
     outcome: "finished", "event" (a terminal one), or, with `advice`, why it is partial: "max_steps", "min_step", "not_finite".
     """
 
-    t: np.ndarray
-    y: np.ndarray
+    t: Floats
+    y: Floats
     t_end: float
-    y_end: np.ndarray
-    crossings: Crossing  # all of them: t (k,), index (k,), y (k, n)
+    y_end: Floats
+    crossings: EventCrossings
     outcome: str
     advice: str
     steps: int
     rejected: int
 
     @property
-    def events(self):
+    def events(self) -> tuple[EventCrossing, ...]:
         """The events one by one, in order of time."""
-        return tuple(Crossing(float(t), int(index), y) for t, index, y in zip(*self.crossings, strict=True))
+        return tuple(EventCrossing(float(t), int(event), y) for t, event, y in zip(*self.crossings, strict=True))
 
-    def checked(self):
+    def checked(self) -> "Trajectory":
         """This trajectory, or SolverError carrying it where it is partial."""
         if self.advice:
             raise SolverError(f"integration stopped at t = {self.t_end:.6g}: {self.advice}", partial=self)
@@ -116,23 +108,25 @@ class Trajectory:
 
 
 def integrate(
-    system,
-    t0,
-    t1,
-    y0,
-    rtol=1e-8,
-    atol=1e-10,
+    system: tuple[object, ...],
+    t0: float,
+    t1: float,
+    y0: ArrayLike,
+    rtol: float = 1e-8,
+    atol: ArrayLike = 1e-10,
     *,
-    samples=None,
-    watch=(),
-    per_step=1,
-    max_steps=100_000,
-    max_step=np.inf,
-    min_step=0.0,
-    first_step=None,
-):
+    method: str | Method = "dopri5",
+    samples: ArrayLike | None = None,
+    watch: Sequence[Event] = (),
+    per_step: int = 1,
+    max_steps: int = 100_000,
+    max_step: float = np.inf,
+    min_step: float = 0.0,
+    first_step: float | None = None,
+) -> Trajectory:
     """Integrate y' = rate(system, t, y) from y(t0) = y0 to t1 > t0; returns a Trajectory, a partial one with advice.
 
+    `method`: "dopri5" (explicit), "radau" (implicit, for stiff systems), "rk4" (steps of one size, `max_step`), or a `Method`.
     The error of a step, over atol + rtol |y| (atol a number or one per component), is kept below 1 in the root mean square.
     `samples`: ascending times in [t0, t1] at which y is wanted; without them, `per_step` points of every step, its start first.
     `watch`: one Event per value that `events` writes.  Two sign changes of one event function within a step are found where they
@@ -140,41 +134,44 @@ def integrate(
     Without `first_step` a careful one is chosen.
     """
     y = np.array(y0, dtype=float)
-    samples = None if samples is None else np.asarray(samples, dtype=float)
-    _check(system, t0, t1, y, samples, watch, rtol, atol)
-    start, go_on = (plain(begin), plain(advance)) if isinstance(system, Functions) else (begin, advance)
-    watched = system if watch else Unwatched(0)
-    switched = system if any(event.switches for event in watch) else Unwatched(0)
-    settings = Settings(
-        float(t1),
-        float(rtol),
-        np.broadcast_to(np.asarray(atol, dtype=float), y.shape).copy(),
-        float(max_step),
-        max(min_step, 16 * np.finfo(float).eps * max(abs(t0), abs(t1))),
-    )
-    what = _watched(watch)
-    clock, k, values = np.array([t0, 0.0, 1e-4]), np.empty((7, y.size)), np.empty(len(watch))
-    code = start(system, watched, settings, clock, y, k, values)
-    clock[1] = first_step or clock[1]
-    scratch = np.empty(y.size), *np.empty((3, len(watch)))
-    parts, crossings, steps, rejected = [], [], 0, 0
+    times = None if samples is None else np.asarray(samples, dtype=float)
+    chosen = method_by_name(method)
+    _check(system, t0, t1, y, times, watch, rtol, atol, chosen, max_step)
+    start, advance = advancing.start, advancing.advance
+    if isinstance(system, Functions):
+        start, advance = plain(start), plain(advance)
+    event_system = system if watch else NoEvents(0)
+    switch_system = system if any(event.switches for event in watch) else NoEvents(0)
+    control = _control(t0, t1, y, rtol, atol, max_step, min_step)
+    if chosen.needs_jacobian:
+        system = with_jacobian(system, control.rtol, control.atol)
+    work, rules, scratch = chosen.workspace(y.size), _rules(watch), (np.empty(y.size), *np.empty((3, len(watch))))
+    clock, values = np.empty(3), np.empty(len(watch))
+    clock[TIME], clock[STEP], clock[ERROR] = t0, 0.0, 1e-4
+    code = start(work, system, event_system, control, clock, y, values)
+    clock[STEP] = first_step or clock[STEP]
+    parts: list[tuple[Floats, Floats]] = []
+    crossings: list[EventCrossings] = []
+    steps = rejected = 0
     while code == GOES_ON and steps < max_steps:
-        size = min(_BATCH, max_steps - steps)
-        batch = Batch(
-            np.empty((size, 2)),
-            np.empty((size, 5, y.size)),
-            np.empty((2 * size * len(watch), 3)),
-            np.empty((2 * size * len(watch), y.size)),
-            *scratch,
-        )
-        code, done, refused, hits = go_on(system, watched, switched, settings, what, clock, y, k, values, batch)
+        batch = _batch(min(_BATCH, max_steps - steps), y.size, len(watch), scratch)
+        code, done, refused, hits = advance(work, system, event_system, switch_system, control, rules, clock, y, values, batch)
         crossings.append(_crossings(batch, hits))
-        parts.append(_pick(batch, done, clock[0], per_step) if samples is None else _sample(batch, done, samples, clock[0]))
+        parts.append(_points(batch, done, clock[TIME], per_step) if times is None else _sampled(batch, done, times, clock[TIME]))
         steps, rejected = steps + done, rejected + refused
-    return _trajectory(t0, np.array(y0, dtype=float), parts, samples, clock[0], y, crossings, code, settings, steps, rejected)
+    return _trajectory(t0, np.array(y0, dtype=float), parts, times, clock[TIME], y, crossings, code, control, steps, rejected)
 
 
-def _check(system, t0, t1, y, samples, watch, rtol, atol):
+def method_by_name(method: str | Method) -> Method:
+    """The method of this name, or the `Method` itself."""
+    if isinstance(method, Method):
+        return method
+    if method not in METHODS:
+        raise InputError(f"integrate: method = {method!r} is not known; take one of {', '.join(sorted(METHODS))}.")
+    return METHODS[method]
+
+
+def _check(system, t0, t1, y, samples, watch, rtol, atol, method, max_step):
     formula_of(rate, type(system))
     if watch:
         formula_of(events, type(system))
@@ -188,11 +185,25 @@ def _check(system, t0, t1, y, samples, watch, rtol, atol):
         raise InputError(f"integrate: the start y0 must be one row of finite numbers, got {y}.")
     if samples is not None and samples.size and (np.any(np.diff(samples) < 0) or samples[0] < t0 or samples[-1] > t1):
         raise InputError(f"integrate: samples {samples[0]:g} .. {samples[-1]:g} must ascend within [{t0:g}, {t1:g}]; sort and clip them.")
+    if not method.adaptive and not 0.0 < max_step < np.inf:
+        raise InputError(f"integrate: method {method.name!r} takes steps of one size; give it as max_step.")
 
 
-def _watched(watch):
+def _control(t0, t1, y, rtol, atol, max_step, min_step):
+    tolerance = np.broadcast_to(np.asarray(atol, dtype=float), y.shape).copy()
+    least = max(min_step, 16 * np.finfo(float).eps * max(abs(t0), abs(t1)))
+    return StepControl(float(t1), float(rtol), tolerance, float(max_step), least)
+
+
+def _rules(watch):
     directions, effects = np.array([[e.direction, e.effect] for e in watch], dtype=np.int64).reshape(-1, 2).T.copy()
-    return Watch(directions, effects, any(event.switches for event in watch))
+    return EventRules(directions, effects, any(event.switches for event in watch))
+
+
+def _batch(size, states, watched, scratch):
+    """Arrays for so many steps: of each event function at most two hits in a step."""
+    hits = 2 * size * watched
+    return StepBatch(np.empty((size, 2)), np.empty((size, 5, states)), np.empty((hits, 3)), np.empty((hits, states)), *scratch)
 
 
 def _crossings(batch, hits):
@@ -200,37 +211,37 @@ def _crossings(batch, hits):
     start, size = batch.steps[batch.hits[:hits, 0].astype(int)].T
     t = start + batch.hits[:hits, 2] * size
     order = np.argsort(t, kind="stable")
-    return Crossing(t[order], batch.hits[order, 1].astype(int), batch.found[order])
+    return EventCrossings(t[order], batch.hits[order, 1].astype(int), batch.hit_states[order])
 
 
-def _pick(batch, done, end, count):
+def _points(batch, done, end, count):
     """(t, y) of a batch of steps at `count` evenly spaced points of each, the start being the first and the end left out."""
     start, size = batch.steps[:done].T
     if count == 1:
         return start.copy(), batch.dense[:done, 0].copy()
     length = np.append(start[1:], end)[:done] - start  # shorter than the size where a switch cut the step
     theta = (length / size)[:, None] * np.arange(count) / count
-    y = _polynomial(np.moveaxis(batch.dense[:done], 1, 0)[:, :, None], theta[:, :, None])
+    y = polynomial(np.moveaxis(batch.dense[:done], 1, 0)[:, :, None], theta[:, :, None])
     return (start[:, None] + theta * size[:, None]).ravel(), y.reshape(done * count, batch.dense.shape[-1])
 
 
-def _sample(batch, done, samples, end):
+def _sampled(batch, done, samples, end):
     """(t, y) of a batch of steps at the samples up to `end`."""
     start, size = batch.steps[:done].T
     t = samples[(samples > (start[0] if done else end)) & (samples <= end)]
     row = np.searchsorted(start, t, side="left") - 1
     theta = (t - start[row]) / size[row]
-    return t, _polynomial(np.moveaxis(batch.dense[row], 1, 0), theta[:, None])
+    return t, polynomial(np.moveaxis(batch.dense[row], 1, 0), theta[:, None])
 
 
-def _trajectory(t0, y0, parts, samples, t_end, y_end, crossings, code, settings, steps, rejected):
+def _trajectory(t0, y0, parts, samples, t_end, y_end, crossings, code, control, steps, rejected):
     # The samples of a batch lie in (start, end]; without samples the start of each step is given and the end is missing.
     at_start = samples[samples == t0] if samples is not None else np.empty(0)
     rest = [(np.array([t_end]), y_end[None])] if samples is None else []
     parts = [(at_start, np.repeat(y0[None], at_start.size, axis=0)), *parts, *rest]
     outcome = _OUTCOMES[code]
-    empty = Crossing(np.empty(0), np.empty(0, dtype=int), np.empty((0, y0.size)))
-    crossings = Crossing(*(np.concatenate(pieces) for pieces in zip(empty, *crossings, strict=True)))
+    empty = EventCrossings(np.empty(0), np.empty(0, dtype=int), np.empty((0, y0.size)))
+    crossings = EventCrossings(*(np.concatenate(pieces) for pieces in zip(empty, *crossings, strict=True)))
     return Trajectory(
         t=np.concatenate([t for t, _ in parts]),
         y=np.concatenate([y for _, y in parts]),
@@ -238,13 +249,7 @@ def _trajectory(t0, y0, parts, samples, t_end, y_end, crossings, code, settings,
         y_end=y_end,
         crossings=crossings,
         outcome=outcome,
-        advice=_ADVICE[outcome].format(steps=steps, min_step=settings.min_step),
+        advice=_ADVICE[outcome].format(steps=steps, min_step=control.min_step),
         steps=steps,
         rejected=rejected,
     )
-
-
-def _polynomial(dense, theta):
-    """The interpolant at the fraction theta of a step, from its five coefficients (first axis)."""
-    r0, r1, r2, r3, r4 = dense
-    return r0 + theta * (r1 + (1 - theta) * (r2 + theta * (r3 + (1 - theta) * r4)))

@@ -1,0 +1,153 @@
+"""Events within a step: sign changes of the event functions along the step's polynomial, and what they do to the run."""
+
+from typing import NamedTuple
+
+from drivewright._jit import inner, outer
+from drivewright._typing import Floats, Ints
+from drivewright.numerics.ode.dense_output import component
+from drivewright.numerics.ode.method import STEP, TIME
+from drivewright.numerics.ode.system import copy, events_at, switch_at
+
+NOTE, STOP, SWITCH = range(3)
+VERTEX_NEAR = 0.25  # a parabola whose vertex comes so near to 0, against its ends, is examined there
+STEP_AFTER_EVENT = 0.1  # of the step before: what begins at a switch is often faster than what went before
+
+
+class EventRules(NamedTuple):
+    """Of each event function: the sign change that counts (+1, -1, 0 any), and its effect, NOTE, STOP or SWITCH."""
+
+    directions: Ints  # (m,)
+    effects: Ints  # (m,)
+    search_inside: bool  # look inside the steps for what crosses and comes back: for events that switch
+
+
+class StepBatch(NamedTuple):
+    """The steps of a batch of at most s steps, and the events within them."""
+
+    steps: Floats  # (s, 2): start, size
+    dense: Floats  # (s, 5, n): coefficients of the polynomials
+    hits: Floats  # (2 s m, 3): row of the step, number of the event function, fraction of the step
+    hit_states: Floats  # (2 s m, n): states at the hits, switched where they switched
+    trial: Floats  # (n,) scratch
+    values_after: Floats  # (m,) scratch: event functions at the end of a step, in its middle, and between
+    values_middle: Floats
+    values_between: Floats
+
+
+@inner
+def record_events(
+    event_system: object, rules: EventRules, before: Floats, after: Floats, y: Floats, row: int, batch: StepBatch, hits: int
+) -> tuple[int, int]:
+    """Record the events within step `row`, up to the first that ends it: (number of hits, which of them ends it or -1).
+
+    before, after (m,): event functions at both ends of the step; y (n,) is scratch.
+    """
+    if after.size == 0:
+        return hits, -1
+    found, first = hits, 2.0
+    if rules.search_inside:
+        values_at(event_system, 0.5, batch, row, y, batch.values_middle)
+    for index in range(after.size):
+        inside = 1.0
+        if rules.search_inside:
+            inside = _excursion(event_system, index, before[index], batch.values_middle[index], after[index], batch, row, y)
+        low, start = 0.0, before[index]
+        for high in (inside, 1.0):  # into an excursion and back; or, inside being 1, to the end of the step
+            crosses = high > low and (high < 1.0 or start < 0.0 <= after[index] or start > 0.0 >= after[index])
+            if crosses and ((start < 0.0 and rules.directions[index] >= 0) or (start > 0.0 and rules.directions[index] <= 0)):
+                theta = _locate(event_system, index, start, low, high, batch, row, y)
+                batch.hits[found, 0], batch.hits[found, 1], batch.hits[found, 2] = row, index, theta
+                if rules.effects[index] != NOTE and theta < first:
+                    first = theta
+                found += 1
+            low, start = high, -start
+    return _keep_until(rules, first, found, y, row, batch, hits)
+
+
+@inner
+def _excursion(event_system, index, before, middle, after, batch, row, y):
+    """Fraction of the step where an event function has the other sign although both ends have the same; 1 where it has not.
+
+    Looked for in the middle, and at the vertex of the parabola through both ends and the middle.
+    """
+    if not before * after > 0.0:
+        return 1.0
+    if middle * before < 0.0:
+        return 0.5
+    curvature = 2.0 * (before - 2.0 * middle + after)
+    slope = after - before - curvature
+    if curvature * before > 0.0 and slope * curvature < 0.0 and abs(slope) < 2.0 * abs(curvature):
+        extreme = before - 0.25 * slope * slope / curvature
+        if extreme * before < VERTEX_NEAR * before * before or extreme * before < VERTEX_NEAR * after * before:
+            vertex = -0.5 * slope / curvature
+            values_at(event_system, vertex, batch, row, y, batch.values_between)
+            if batch.values_between[index] * before < 0.0:
+                return vertex
+    return 1.0
+
+
+@outer
+def values_at(event_system: object, theta: float, batch: StepBatch, row: int, y: Floats, values: Floats) -> None:
+    """Event functions (m,) at a fraction of step `row` into `values`; y (n,) is scratch."""
+    for i in range(y.size):
+        y[i] = component(batch.dense[row], i, theta)
+    events_at(event_system, batch.steps[row, 0] + theta * batch.steps[row, 1], y, values)
+
+
+@inner
+def _keep_until(rules, first, found, y, row, batch, hits):
+    """Keep of the new hits those up to the fraction `first`: (number of hits, which of them ends the step or -1)."""
+    ender = -1
+    for n in range(hits, found):
+        if batch.hits[n, 2] <= first:
+            for column in range(3):
+                batch.hits[hits, column] = batch.hits[n, column]
+            if batch.hits[hits, 2] == first and rules.effects[int(batch.hits[hits, 1])] != NOTE:
+                ender = hits
+            for i in range(y.size):
+                batch.hit_states[hits, i] = component(batch.dense[row], i, batch.hits[hits, 2])
+            hits += 1
+    return hits, ender
+
+
+@inner
+def return_to_event(clock: Floats, y: Floats, batch: StepBatch, hit: int) -> None:
+    """Clock and state y (n,) back to the event within the step just done; the next step is a careful one."""
+    row, theta = int(batch.hits[hit, 0]), batch.hits[hit, 2]
+    copy(batch.hit_states[hit], y)
+    clock[TIME] = batch.steps[row, 0] + theta * batch.steps[row, 1]
+    clock[STEP] = STEP_AFTER_EVENT * batch.steps[row, 1]
+
+
+@inner
+def apply_switches(
+    switch_system: object, rules: EventRules, t: float, y: Floats, batch: StepBatch, known: int, hits: int, ender: int
+) -> bool:
+    """Switch the system at every event at the end of the step, for several may coincide; whether one of them stops the run."""
+    stops, theta = False, batch.hits[ender, 2]
+    for n in range(known, hits):
+        index = int(batch.hits[n, 1])
+        if batch.hits[n, 2] == theta and rules.effects[index] == STOP:
+            stops = True
+        elif batch.hits[n, 2] == theta and rules.effects[index] == SWITCH:
+            switch_at(switch_system, index, t, y)
+    for n in range(known, hits):
+        if batch.hits[n, 2] == theta and rules.effects[int(batch.hits[n, 1])] == SWITCH:
+            copy(y, batch.hit_states[n])
+    return stops
+
+
+@outer
+def _locate(event_system, index, before, low, high, batch, row, y):
+    """Fraction of the step just after the sign change between two fractions.
+
+    Bisection, for it ends on the far side: a run that starts again from there does not meet the same event at once.
+    """
+    for _ in range(53):
+        theta = 0.5 * (low + high)
+        values_at(event_system, theta, batch, row, y, batch.values_between)
+        if batch.values_between[index] * before > 0.0:
+            low = theta
+        else:
+            high = theta
+    return high
