@@ -2,8 +2,8 @@
 
 Groups: `drivewright.mechanisms` (a `Mechanism`), `drivewright.commands` (a command's name, pointing at the `Mechanism` that brings it, so
 that the names are known before anything is imported), `drivewright.motion_laws` (a function returning a motion law),
-`drivewright.impact_laws` (a `contact.ImpactLaw`), `drivewright.joints` (a function that makes a joint of a linkage's table and two
-markers),
+`drivewright.impact_laws` (a `contact.ImpactLaw`), `drivewright.contact_laws` (a function of `contact.ContactParameters` that returns a
+law), `drivewright.joints` (a function that makes a joint of a linkage's table and two markers),
 `drivewright.views` (a function that draws a table), `drivewright.validation` (a published source beside ours).
 A third-party package declares the same groups in its own pyproject.
 """

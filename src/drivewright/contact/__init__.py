@@ -15,7 +15,7 @@ from drivewright.contact.hertz import (
     point_contact,
     relative_radii,
 )
-from drivewright.contact.normal import HuntCrossley, KelvinVoigt, Spring, hunt_crossley_chi, normal_force
+from drivewright.contact.normal import HuntCrossley, KelvinVoigt, PowerLaw, Spring, hunt_crossley_chi, normal_force, stored_energy, tangent
 
 # Their modules hold kernels, and the first kernel imports numba: loaded when first used.
 _WHERE = {
@@ -35,6 +35,8 @@ _WHERE = {
     "friction": ("ambrosio", "coulomb", "lugre", "lugre_rate", "stribeck"),
     "film": ("long_bearing", "short_bearing"),
     "reynolds": ("Film", "FilmMap", "closed_form_map", "film_deviation", "film_map", "solve_film"),
+    "laws": ("ContactParameters", "contact_law", "contact_law_names"),
+    "time_step": ("mean_force",),
     "wear": ("deposit", "wear_at", "wear_volume", "worn"),
 }
 _MODULE = {name: module for module, names in _WHERE.items() for name in names}
@@ -44,6 +46,7 @@ __all__ = [
     "KelvinVoigt",
     "LineContact",
     "PointContact",
+    "PowerLaw",
     "Spring",
     "cylinder_compression",
     "effective_modulus",
@@ -56,6 +59,8 @@ __all__ = [
     "point_constant",
     "point_contact",
     "relative_radii",
+    "stored_energy",
+    "tangent",
     *_MODULE,
 ]
 

@@ -1,10 +1,11 @@
-"""Normal contact forces: a NamedTuple of parameters and one formula each, for plain Python and for kernels.
+"""Normal contact forces: a NamedTuple of parameters and its formulas, for plain Python and for kernels.
 
-gap > 0 separated, penetration = -gap; gap_rate > 0 separating.  The force presses the bodies apart: it is never negative.
-A new law is a NamedTuple with its formula under @implements(normal_force, ...), in this or any other package.
+gap > 0 separated, depth of penetration = -gap; gap_rate > 0 separating.  The force presses the bodies apart: it is never negative.
+A new law is a NamedTuple with its force under @implements(normal_force, ...), in this or any other package.  Its stored energy and its
+tangent may be stated likewise; `contact.laws.complete` derives from the force what is not stated.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,8 +15,21 @@ from drivewright.numerics.roots import bracketed_roots
 
 
 @generic
-def normal_force(law, gap, gap_rate):
+def normal_force(law: Any, gap: float, gap_rate: float) -> float:
     """Force [N] that the law gives at the gap [m] and its rate [m/s], both scalars."""
+    raise NotImplementedError
+
+
+@generic
+def stored_energy(law: Any, gap: float) -> float:
+    """Elastic energy [J] at the gap [m]: the integral of the force at rest over the depth."""
+    raise NotImplementedError
+
+
+@generic
+def tangent(law: Any, gap: float, gap_rate: float) -> tuple[float, float]:
+    """(dF/d(depth) [N/m], dF/d(rate of the depth) [N s/m]) where the law presses, gap < 0."""
+    raise NotImplementedError
 
 
 class Spring(NamedTuple):
@@ -45,6 +59,40 @@ def _(law, gap, gap_rate):
     return max(-law.k * gap - law.c * gap_rate, 0.0)
 
 
+@implements(stored_energy, KelvinVoigt)
+def _(law, gap):
+    """V = k d^2/2."""
+    return 0.5 * law.k * max(-gap, 0.0) ** 2
+
+
+@implements(tangent, KelvinVoigt)
+def _(law, gap, gap_rate):
+    """(k, c)."""
+    return law.k, law.c
+
+
+class PowerLaw(NamedTuple):
+    """k [N/m^n], n [-] (3/2 for a Hertz point)."""
+
+    k: float
+    n: float
+
+
+@implements(normal_force, PowerLaw)
+def _(law, gap, gap_rate):
+    """F = k d^n."""
+    depth = max(-gap, 0.0)
+    if law.n == 1.5:
+        return law.k * depth * np.sqrt(depth)
+    return law.k * depth**law.n
+
+
+@implements(stored_energy, PowerLaw)
+def _(law, gap):
+    """V = F d/(n + 1)."""
+    return normal_force(law, gap, 0.0) * max(-gap, 0.0) / (law.n + 1.0)
+
+
 class HuntCrossley(NamedTuple):
     """k [N/m^n], n [-] (3/2 for a Hertz point), chi [s/m]."""
 
@@ -60,7 +108,7 @@ def _(law, gap, gap_rate):
     return max(law.k * depth**law.n * (1.0 - law.chi * gap_rate), 0.0)
 
 
-def hunt_crossley_chi(restitution, speed):
+def hunt_crossley_chi(restitution: float, speed: float) -> float:
     """The damping chi [s/m] with which a free impact at `speed` [m/s] bounces with the coefficient of restitution e, 0 < e <= 1.
 
     Exact for every mass, k and n: with x = chi v,  x (1 + e) = ln((1 + x)/(1 - x e)), from the integral of m v dv = -F dd over

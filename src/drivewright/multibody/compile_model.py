@@ -10,7 +10,7 @@ from drivewright.errors import InputError, UnknownName
 from drivewright.multibody.bodies import GROUND
 from drivewright.multibody.curves import Curve
 from drivewright.multibody.forces.bushing import BUSHING
-from drivewright.multibody.forces.contact import CONTACT
+from drivewright.multibody.forces.contact import CONTACT, Laws, NoLaws
 from drivewright.multibody.forces.load import FORCE, TORQUE
 from drivewright.multibody.forces.rotational_spring import ROTATIONAL_SPRING
 from drivewright.multibody.forces.spring import SPRING
@@ -38,6 +38,7 @@ def index_of(model: Model, tree: Tree) -> ModelIndex:
         {GROUND: 0} | {link.body.name: k for k, link in enumerate(tree.links, start=1)},
         {GROUND: 0.0} | {body.name: body.angle for body in model.bodies},
         {GROUND: (0.0, 0.0)} | {body.name: body.centroid for body in model.bodies},
+        [],
         [],
     )
 
@@ -73,6 +74,7 @@ def compile_model(model: Model, tree: Tree) -> System:
         independent=stored,
         dependent=np.zeros(0, np.int64),
         **records,
+        laws=_laws(index.laws),
         wear=np.zeros((len(records["contacts"]), 0)),
         curves=curves,
         pieces=pieces,
@@ -98,6 +100,14 @@ def rows_and_equations(rows: Sequence[RowFields]) -> tuple[np.recarray, NoEquati
             equations = Equations(codes[type(equation)], equation, equations)
         numbered.append({"lift": -1, **row, "kind": codes.get(type(equation), equation)})
     return table_of(ROW, numbered), equations
+
+
+def _laws(laws: Sequence[Any]) -> NoLaws | Laws:
+    """The laws of the contacts that have one of their own, numbered from 1."""
+    chain: NoLaws | Laws = NoLaws()
+    for code, law in enumerate(laws, start=1):
+        chain = Laws(code, law, chain)
+    return chain
 
 
 def _measures_angles(rows: np.recarray) -> Bools:

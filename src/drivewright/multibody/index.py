@@ -1,7 +1,7 @@
 """What the elements of a model need to become records: numbers of the bodies, arms of their markers, numbers of the curves."""
 
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -11,12 +11,14 @@ from drivewright.multibody.curves import Curve
 
 
 class ModelIndex(NamedTuple):
-    """By name of the body: its number in the arrays, its start angle [rad], its centroid in its frame [m]; and the curves collected."""
+    """By name of the body: its number in the arrays, its start angle [rad], its centroid in its frame [m]; and the
+    curves and contact laws collected."""
 
     numbers: Mapping[str, int]
     angles: Mapping[str, float]
     centroids: Mapping[str, tuple[float, float]]
     curves: list[Curve]
+    laws: list[Any]
 
     def number(self, name: str, whose: str) -> int:
         """Number of a body; UnknownName says who names it."""
@@ -39,6 +41,11 @@ class ModelIndex(NamedTuple):
         """Number of a curve that the kernels are to know."""
         self.curves.append(curve)
         return len(self.curves) - 1
+
+    def add_law(self, law: Any) -> int:
+        """Number, from 1, of a contact law that the kernels are to know."""
+        self.laws.append(law)
+        return len(self.laws)
 
 
 def unit_axis(axis: tuple[float, float], joint: str) -> tuple[float, float]:

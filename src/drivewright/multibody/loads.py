@@ -6,8 +6,9 @@ from drivewright._jit import inner, outer
 from drivewright.contact.film import long_bearing, short_bearing
 from drivewright.contact.friction import ambrosio, coulomb, lugre, lugre_rate
 from drivewright.contact.impact import cylinder_energy, cylinder_force
+from drivewright.contact.normal import PowerLaw, normal_force, stored_energy
 from drivewright.multibody.forces.bushing import apply_bushing
-from drivewright.multibody.forces.contact import AMBROSIO, COULOMB, LONG_FILM, LUGRE, NO_FILM
+from drivewright.multibody.forces.contact import AMBROSIO, COULOMB, LONG_FILM, LUGRE, NO_FILM, further_force
 from drivewright.multibody.forces.load import apply_load_force, apply_torque
 from drivewright.multibody.forces.rotational_spring import apply_rotational_spring
 from drivewright.multibody.forces.spring import apply_spring
@@ -119,9 +120,7 @@ def elastic_of(contact, depth):
         return cylinder_force(
             depth, contact.clearance, contact.bearing_radius, contact.bearing_radius - contact.clearance, contact.stiffness, contact.length
         )
-    if contact.exponent == 1.5:
-        return contact.stiffness * depth * np.sqrt(depth)
-    return contact.stiffness * depth**contact.exponent
+    return normal_force(PowerLaw(contact.stiffness, contact.exponent), -depth, 0.0)
 
 
 @inner
@@ -138,7 +137,7 @@ def loading_speed(contact, depth, elastic, mobility):
             contact.length,
         )
     else:
-        energy = elastic * depth / (contact.exponent + 1.0)
+        energy = stored_energy(PowerLaw(contact.stiffness, contact.exponent), -depth)
     return np.sqrt(2.0 * energy * mobility) if mobility > 0.0 else 0.0
 
 
@@ -242,7 +241,10 @@ def touch(system, n, work, y):
     depth, rate, mobility, slip, nx, ny, lean = approach(system, n, work, memory)
     if memory == 0.0 or depth <= 0.0:
         return depth, 0.0, 0.0, slip, 0.0, nx, ny, lean
-    normal = normal_of(contact, depth, rate, memory, mobility)
+    if contact.further > 0:
+        normal = max(further_force(system.laws, contact.further, -depth, -rate), 0.0)
+    else:
+        normal = normal_of(contact, depth, rate, memory, mobility)
     rubbing, bristle_rate = friction_of(contact, normal, slip, y[contact.bristle])
     return depth, normal, rubbing, slip, bristle_rate, nx, ny, lean
 

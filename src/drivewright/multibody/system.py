@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright.multibody.forces.contact import Laws, NoLaws
 from drivewright.multibody.joints.rows import Equations, NoEquations
 from drivewright.multibody.records import record_type
 
@@ -65,6 +66,7 @@ class System(NamedTuple):
     forces: np.ndarray
     bushings: np.ndarray
     contacts: np.ndarray
+    laws: NoLaws | Laws  # of contacts that have one of their own
     wear: np.ndarray  # (contacts, bins): depth worn off each bearing, over the angle in its body's frame; no bins without wear
     curves: np.ndarray
     pieces: np.ndarray

@@ -4,9 +4,11 @@ import math
 
 from drivewright import registry
 from drivewright.contact.hertz import effective_modulus
-from drivewright.contact.impact import impact_law, journal_stiffness, kelvin_voigt_damping
+from drivewright.contact.impact import impact_law, impact_law_names, journal_stiffness, kelvin_voigt_damping
+from drivewright.contact.laws import ContactParameters, contact_law, contact_law_names
 from drivewright.errors import SpecError
 from drivewright.mechanisms.linkage.curves import lift_curve, load_curve, profile_curve
+from drivewright.mechanisms.linkage.joints import NORMALS
 from drivewright.mechanisms.linkage.refusals import CENTROID, GROUND, central_inertia, place, points_of
 from drivewright.multibody import model
 from drivewright.spec.columns import PURE
@@ -96,6 +98,8 @@ def _link(spec, joint):
 def dry(spec, joint):
     """The dry contact of a joint: stiffness from radii and material, loss from the restitution."""
     linear, cylinder = joint.normal == "kelvin-voigt", joint.normal == "cylinder"
+    if joint.normal in contact_law_names():
+        return _further(spec, joint)
     if linear:
         stiffness, exponent, hysteresis, damping = joint.stiffness, 1.0, 0.0, _linear_damping(spec, joint)
     else:
@@ -104,6 +108,24 @@ def dry(spec, joint):
     return model.Dry(
         joint.clearance, joint.bearing_radius, stiffness, exponent, hysteresis, damping, cylinder, joint.length, _friction(joint)
     )
+
+
+def _further(spec, joint):
+    """A dry contact by a law of another package, made from what the joint states."""
+    if joint.normal in (*NORMALS, *impact_law_names()):
+        raise SpecError(
+            f"{joint.normal!r} is the name of two laws; uninstall the package that brings the second one", key=f"joints.{joint.name}.normal"
+        )
+    stiffness, exponent = (joint.stiffness, 1.0) if joint.stiffness is not None else (_elastic(joint), 1.5)
+    parameters = ContactParameters(stiffness, exponent, joint.damping or 0.0, joint.restitution, _effective_mass(spec, joint))
+    law = contact_law(joint.normal, parameters)
+    return model.Dry(joint.clearance, joint.bearing_radius, stiffness, exponent, length=joint.length, friction=_friction(joint), law=law)
+
+
+def _effective_mass(spec, joint):
+    """m1 m2/(m1 + m2) of the two bodies [kg]; the ground does not move."""
+    masses = [spec.bodies[body].mass for body in (place(text)[0] for text in joint.connects) if body != GROUND]
+    return 0.0 if min(masses) == 0 else 1 / sum(1 / mass for mass in masses)
 
 
 def _elastic(joint):

@@ -24,7 +24,7 @@ KINDS = ("revolute", "prismatic", "pin-slot", "rolling", "gear", "cam")
 Kind = Literal[(*KINDS, *sorted(plugins("drivewright.joints")))]
 Model = Literal["ideal", "massless-link", "dry", "lubricated", "bushing"]
 NORMALS = ("flores-2011", "lankarani-nikravesh", "hunt-crossley", "gonthier", "herbert-mcwhannell", "kelvin-voigt", "elastic", "cylinder")
-Normal = Literal[(*NORMALS, *sorted(plugins("drivewright.impact_laws")))]
+Normal = Literal[(*NORMALS, *sorted({*plugins("drivewright.impact_laws"), *plugins("drivewright.contact_laws")}))]
 
 
 class Joint(Spec):

@@ -212,8 +212,9 @@ def _checked_gap(joint, eccentricity):
             f"verify: joint '{joint.name}' starts {abs(eccentricity):.3g} m off centre with a play of {dry.clearance:.3g} m; "
             "Exudyn must start between centre and contact. Give start poses that part the two by half the play."
         )
-    if dry.cylinder or not dry.hysteresis < 1.5:
-        law = "the cylinder law" if dry.cylinder else f"a hysteresis of {dry.hysteresis:g}"
+    if dry.law is not None or dry.cylinder or not dry.hysteresis < 1.5:
+        other = "the cylinder law" if dry.cylinder else f"a hysteresis of {dry.hysteresis:g}"
+        law = other if dry.law is None else f"a law of its own, {type(dry.law).__name__},"
         raise InputError(
             f"verify: joint '{joint.name}' has {law}; Exudyn's contact is K d^n with a hysteresis below 1.5. "
             "Take another law or a higher restitution."

@@ -137,7 +137,7 @@ def _known_to_exudyn(model):
 def _plain(dry):
     """Whether Exudyn's contact law is that of a dry pin."""
     ramp = dry.friction.law == "ambrosio" and dry.friction.dead_speed == 0
-    return not dry.cylinder and dry.hysteresis < 1.5 and dry.damping == 0 and (dry.friction.coefficient == 0 or ramp)
+    return dry.law is None and not dry.cylinder and dry.hysteresis < 1.5 and dry.damping == 0 and (dry.friction.coefficient == 0 or ramp)
 
 
 def _exudyn(model):

@@ -2,11 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from drivewright._jit import generic, implements
 from drivewright.contact.impact import lasting_factor
+from drivewright.contact.normal import normal_force
 from drivewright.multibody.bodies import Marker
 from drivewright.multibody.forces.element import ForceElement
 from drivewright.multibody.index import ModelIndex
@@ -16,7 +18,7 @@ from drivewright.multibody.wrenches import ObservedBodies, Reaction, cross
 NO_FRICTION, COULOMB, AMBROSIO, LUGRE = range(4)
 NO_FILM, LONG_FILM, SHORT_FILM = range(3)
 CONTACT = record_type(
-    "i j memory bristle law film cylinder",
+    "i j memory bristle law film cylinder further",
     "ax ay bx by clearance bearing_radius stiffness exponent hysteresis lasting damping friction slip_speed dead_speed static_friction "
     "bristle_stiffness bristle_damping viscous viscosity length roughness",
 )
@@ -51,6 +53,7 @@ class Dry:
     cylinder: bool = False  # the elastic force is that of a cylinder in a hollow instead of K d^n
     length: float = 0.0  # of the bearing [m]; cylinder law, film and wear
     friction: Friction = Friction()
+    law: Any = None  # a law of `contact.normal_force` instead of all that; stiffness and exponent still say how hard it is about
 
     noun: ClassVar[str] = "play"
 
@@ -70,6 +73,38 @@ class Lubricated:
     def clearance(self) -> float:
         """Radial [m]."""
         return self.contact.clearance
+
+
+class NoLaws(NamedTuple):
+    """All pins press by the laws of the package."""
+
+    codes: int = 0
+
+
+class Laws(NamedTuple):
+    """The law of the contact number `code`, and those of the others; contacts number from 1."""
+
+    code: int
+    law: Any
+    others: Any
+
+
+@generic
+def further_force(laws: Any, code: int, gap: float, gap_rate: float) -> float:
+    """Normal force [N] by the law of a contact that has one of its own."""
+    raise NotImplementedError
+
+
+@implements(further_force, NoLaws)
+def _(laws, code, gap, gap_rate):
+    return 0.0
+
+
+@implements(further_force, Laws)
+def _(laws, code, gap, gap_rate):
+    if code == laws.code:
+        return normal_force(laws.law, gap, gap_rate)
+    return further_force(laws.others, code, gap, gap_rate)
 
 
 @dataclass(frozen=True)
@@ -102,6 +137,7 @@ class PinContact(ForceElement):
                 "lasting": lasting_factor(dry.hysteresis),
                 "damping": dry.damping,
                 "length": dry.length,
+                "further": index.add_law(dry.law) if dry.law is not None else 0,
                 "law": _FRICTION[rub.law] if rub.coefficient > 0 else NO_FRICTION,
                 "friction": rub.coefficient,
                 "slip_speed": rub.speed,
