@@ -166,3 +166,9 @@ def test_a_result_is_a_value_that_travels():
     assert again.record() == result.record() and again.spec == result.spec
     with pytest.raises(AttributeError):
         result.title = "x"
+
+
+def test_a_notebook_shows_checks_findings_and_values():
+    page = sample(title="<b>a toy</b>")._repr_html_()
+    assert "&lt;b&gt;a toy" in page and "✗" in page and "✓" in page and "Height" in page and "<li>one</li>" in page
+    assert "Stroke" in page and "0.02 m" in page and page.count("<table>") == page.count("</table>") == 2
