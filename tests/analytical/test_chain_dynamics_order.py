@@ -6,16 +6,15 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from drivewright._jit import plain
 from drivewright.chains.dynamics.ensemble import disturbed
 from drivewright.chains.dynamics.model import Chain, Contact, Drive, Model, Slide, Sprocket
 from drivewright.chains.dynamics.simulate import Settings, first_start, simulate
 from drivewright.chains.dynamics.stability import fastest
-from drivewright.chains.dynamics.step import over_the_step
 from drivewright.chains.implicit.simulate import Settings as Implicit
 from drivewright.chains.implicit.simulate import simulate as implicit
 from drivewright.chains.link import link, seat_height, seat_support
 from drivewright.chains.tooth import Tooth
+from drivewright.contact import KelvinVoigt, mean_force
 
 PITCH, ANGLE = 9.525e-3, np.pi / 6
 PHASES = (np.arange(32) + 0.5) / 32  # of a step, at which the contact closes
@@ -24,24 +23,25 @@ PHASES = (np.arange(32) + 0.5) / 32  # of a step, at which the contact closes
 @pytest.mark.parametrize("rate", [2.0, -2.0])
 @pytest.mark.parametrize("depth", [-0.3, -0.09, -0.02, 0.0, 0.05, 0.0999, 0.4])
 def test_depth_over_the_step_is_the_mean_along_the_way(depth, rate):
-    mean, share = plain(over_the_step)(depth, rate, 0.1)
+    mean, _, touching = mean_force(KelvinVoigt(1.0, 0.0), depth, rate, 0.1)
+    share = mean_force(KelvinVoigt(1.0, 3.0 * np.sign(rate)), depth, rate, 0.1)[1] / (3.0 * abs(rate)) - mean / (3.0 * abs(rate))
     there = sorted(depth + 0.05 * rate * sign for sign in (-1, 1))
     length = there[1] - there[0]
     assert share == pytest.approx(quad(lambda x: float(x > 0), *there, points=[0.0])[0] / length, abs=1e-12)
     assert mean == pytest.approx(quad(lambda x: max(x, 0.0), *there, points=[0.0])[0] / length, abs=1e-12)
+    assert touching == (there[1] > 0)
 
 
 @pytest.mark.parametrize("depth", [-0.1, 0.2])
 def test_a_depth_at_rest_is_its_own_mean(depth):
-    assert plain(over_the_step)(depth, 0.0, 0.1) == (max(depth, 0.0), float(depth > 0))
+    assert mean_force(KelvinVoigt(1.0, 2.0), depth, 0.0, 0.1) == (max(depth, 0.0), max(depth, 0.0), depth > 0)
 
 
 def rebound(step, phase, damping=0.0):
     """Rate after one contact of unit mass and stiffness that is met with unit rate, by the leapfrog with predicted rates."""
     x, rate, a = -(5 + phase) * step, 1.0, 0.0
     while not (x <= -3 * step and rate < 0):
-        mean, share = plain(over_the_step)(x, rate + 0.5 * step * a, step)
-        a = -max(mean + damping * (rate + 0.5 * step * a) * share, 0.0)
+        a = -mean_force(KelvinVoigt(1.0, damping), x, rate + 0.5 * step * a, step)[1]
         rate += step * a
         x += step * rate
     return rate

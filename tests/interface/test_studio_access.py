@@ -2,7 +2,6 @@
 
 import loops
 import pytest
-
 from drivewright.studio.gate import COOKIE, LARGEST, Gate
 
 OWN = (b"host", b"127.0.0.1:8123")

@@ -6,12 +6,12 @@ from types import SimpleNamespace
 
 import loops
 import pytest
+from drivewright.studio.computing import Computing
 
 from drivewright.errors import DoesNotAssemble, GeometryCheckFailed, SpecError
 from drivewright.execution.workers import Cancellation, WorkerDied, WorkerFault
 from drivewright.registry import Analysis
 from drivewright.studio import computing, looking
-from drivewright.studio.computing import Computing
 
 KIND = "toy"
 ANALYSES = tuple(Analysis(name, None, name) for name in ("motion", "forces"))

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from drivewright.studio.jobs.keys import is_locked, label, leaves, numbered
 
 import drivewright as dw
 from drivewright import registry, runner
@@ -22,7 +23,6 @@ from drivewright.studies.store import Memory
 from drivewright.studio.design import Design
 from drivewright.studio.jobs import JOBS, search
 from drivewright.studio.jobs.figures import themed
-from drivewright.studio.jobs.keys import is_locked, label, leaves, numbered
 from drivewright.studio.jobs.sensitivity import _effect
 from drivewright.studio.jobs.solid import shaded
 from drivewright.studio.jobs.study import Live, thinned

@@ -5,13 +5,13 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from drivewright.studio.looking import affordable, merged, page_result
 
 from drivewright import registry
 from drivewright.errors import DoesNotAssemble, SpecError
 from drivewright.registry import Analysis
 from drivewright.result import Check
 from drivewright.studio import looking
-from drivewright.studio.looking import affordable, merged, page_result
 from drivewright.studio.session import opened
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

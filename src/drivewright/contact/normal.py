@@ -87,12 +87,6 @@ def _(law, gap, gap_rate):
     return law.k * depth**law.n
 
 
-@implements(stored_energy, PowerLaw)
-def _(law, gap):
-    """V = F d/(n + 1)."""
-    return normal_force(law, gap, 0.0) * max(-gap, 0.0) / (law.n + 1.0)
-
-
 class HuntCrossley(NamedTuple):
     """k [N/m^n], n [-] (3/2 for a Hertz point), chi [s/m]."""
 

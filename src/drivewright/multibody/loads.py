@@ -6,7 +6,7 @@ from drivewright._jit import inner, outer
 from drivewright.contact.film import long_bearing, short_bearing
 from drivewright.contact.friction import ambrosio, coulomb, lugre, lugre_rate
 from drivewright.contact.impact import cylinder_energy, cylinder_force
-from drivewright.contact.normal import PowerLaw, normal_force, stored_energy
+from drivewright.contact.normal import PowerLaw, normal_force
 from drivewright.multibody.forces.bushing import apply_bushing
 from drivewright.multibody.forces.contact import AMBROSIO, COULOMB, LONG_FILM, LUGRE, NO_FILM, further_force
 from drivewright.multibody.forces.load import apply_load_force, apply_torque
@@ -137,7 +137,7 @@ def loading_speed(contact, depth, elastic, mobility):
             contact.length,
         )
     else:
-        energy = stored_energy(PowerLaw(contact.stiffness, contact.exponent), -depth)
+        energy = elastic * depth / (contact.exponent + 1.0)
     return np.sqrt(2.0 * energy * mobility) if mobility > 0.0 else 0.0
 
 

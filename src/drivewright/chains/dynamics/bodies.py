@@ -13,8 +13,11 @@ from drivewright.chains.dynamics.state import (
     TORQUE,
     TURN_DAMPING,
     TURNING_IMPULSE,
+    law_of,
 )
-from drivewright.chains.dynamics.step import over_the_step, total
+from drivewright.chains.dynamics.step import total
+from drivewright.contact.normal import stored_energy
+from drivewright.contact.time_step import mean_force
 
 
 @inner
@@ -24,7 +27,7 @@ def load_rollers(chain, p, t, b, teeth, n, first, last, dt):
     e is the roller's centre seen from that of the seat, mirrored to the right, y outward.  Within the seat's angle the depth is
     |e| + roller - ri, beyond it re + roller - |e - F| with F the centre of the flank's arc: both depth and normal are continuous.
     """
-    k, damping, bx, by, spin = b.stiffness[n], b.damping[n], b.x[n], b.y[n], b.w[n]
+    law, bx, by, spin = law_of(chain.contacts, b[n], n), b.x[n], b.y[n], b.w[n]
     ex, ey, hx, hy = teeth.edge_x[n], teeth.edge_y[n], teeth.flank_x[n], teeth.flank_y[n]
     for i in range(first, last):
         rx, ry = p.half[i] * p.c[i] + chain.offset * p.s[i], p.half[i] * p.s[i] - chain.offset * p.c[i]
@@ -42,15 +45,14 @@ def load_rollers(chain, p, t, b, teeth, n, first, last, dt):
         wx, wy = nx * s + ny * c, ny * s - nx * c
         zx, zy = p.vx[i] - p.w[i] * ry - b.vx[n] + spin * gy, p.vy[i] + p.w[i] * rx - b.vy[n] - spin * gx
         rate = -(wx * zx + wy * zy)
-        mean, share = over_the_step(depth, rate, dt)
-        on = share > 0.0 and teeth.seat_at[n] + out < teeth.low[n]
-        elastic = k * mean if on else 0.0
-        force = max(elastic + damping * rate * share, 0.0) if on else 0.0
+        elastic, force, touching = mean_force(law, depth, rate, dt)
+        on = touching and teeth.seat_at[n] + out < teeth.low[n]
+        elastic, force = (elastic if on else 0.0), (force if on else 0.0)
         t.fx[i], t.fy[i] = force * wx, force * wy
         t.torque[i] = -force * (gx * wy - gy * wx)
         t.power[i] = (force - elastic) * rate
         t.lost[i] += dt * t.power[i]
-        t.stored[i] += 0.5 * k * max(depth, 0.0) ** 2 if on else 0.0
+        t.stored[i] += stored_energy(law, -depth) if on else 0.0
         t.right[i], t.left[i] = (force, 0.0) if seated else (0.0, force)
         p.moment[i] += force * (rx * wy - ry * wx)
 
@@ -63,7 +65,7 @@ def load_guide(chain, p, t, b, arcs, n, first, last, power, dt):
     guide, the corner touches.  Depth R - |r|, normal r/|r|; friction -mu fn v/sqrt(v^2 + slip^2).
     """
     body = n + b.q.size - arcs.side.size
-    k, damping, side, half = b.stiffness[body], b.damping[body], arcs.side[n], chain.half_plate
+    law, side, half = law_of(chain.contacts, b[body], body), arcs.side[n], chain.half_plate
     py = -side * arcs.distance[n] - chain.offset  # of the line, above the mass centre
     for i in range(first, last):
         c, s, w = p.c[i], p.s[i], p.w[i]
@@ -76,16 +78,15 @@ def load_guide(chain, p, t, b, arcs, n, first, last, power, dt):
         vx, vy = c * zx + s * zy - w * py, c * zy - s * zx + w * px
         depth, rate = arcs.radius[n] - far, -(nx * vx + ny * vy)
         within = (c * nx - s * ny) * arcs.middle_x[n] + (s * nx + c * ny) * arcs.middle_y[n] >= arcs.opening[n]
-        mean, share = over_the_step(depth, rate, dt)
-        on = share > 0.0 and side * ry > 0.0 and within
-        elastic = k * mean if on else 0.0
-        force = max(elastic + damping * rate * share, 0.0) if on else 0.0
+        elastic, force, touching = mean_force(law, depth, rate, dt)
+        on = touching and side * ry > 0.0 and within
+        elastic, force = (elastic if on else 0.0), (force if on else 0.0)
         slide = side * (ny * vx - nx * vy)
         drag = -arcs.friction[n] * force * slide / np.sqrt(slide * slide + arcs.slip[n] ** 2)
         fx, fy = nx * force + side * ny * drag, ny * force - side * nx * drag
         t.fx[i], t.fy[i] = c * fx - s * fy, s * fx + c * fy
         t.torque[i] = side * far * drag
-        t.stored[i] += 0.5 * k * max(depth, 0.0) ** 2 if on else 0.0
+        t.stored[i] += stored_energy(law, -depth) if on else 0.0
         p.moment[i] += px * fy - py * fx
         power[GUIDE_DAMPING] -= (force - elastic) * rate
         power[FRICTION] += drag * slide

@@ -5,7 +5,9 @@ sprockets lie inside, listed clockwise.  Teeth have their centre lines at the po
 turned by psi + k 2 pi/z - pi/2.  A sprocket that carries the chain along the plates' x turns clockwise: its speed is negative.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,13 +16,22 @@ from drivewright.chains.link import Link
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import InputError
 
+if TYPE_CHECKING:
+    from drivewright.contact.laws import ContactParameters
+
+LINEAR = "kelvin-voigt"
+
 
 @dataclass(frozen=True)
 class Contact:
-    """Linear law of touching: force k pen + c dpen/dt, never tensile; stiffness k [N/m], damping c [N s/m]."""
+    """Contact with a body: stiffness k [N/m], damping c [N s/m], and the law that is made from them.
+
+    law: LINEAR, force k depth + c rate, never tensile; or a registered contact law, by name or as the function that makes it.
+    """
 
     stiffness: float
     damping: float = 0.0
+    law: "str | Callable[[ContactParameters], Any]" = LINEAR
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,16 @@ Plates lie in rows of `lanes`, a whole number of vectors: behind the N plates co
 right-hand plate one place further, and dead plates that nothing moves.  What belongs to joint i stands at i + 1, for the same reason.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from drivewright.chains.dynamics.model import Guide
+from drivewright._jit import generic, implements
+from drivewright.chains.dynamics.model import LINEAR, Guide, Model
 from drivewright.chains.dynamics.roller import RollerTooth
+from drivewright.contact.laws import ContactParameters, contact_law
+from drivewright.contact.normal import KelvinVoigt, stored_energy
+from drivewright.errors import InputError
 
 WIDTH = 8  # plates that one vector instruction may hold
 
@@ -170,6 +174,50 @@ class Runs(NamedTuple):
     size: np.ndarray
 
 
+class LinearContacts(NamedTuple):
+    """Every body is touched by a linear law, stiffness and damping in its record."""
+
+    bodies: int
+
+
+class Contacts(NamedTuple):
+    """Every body has a law of its own, all of one class."""
+
+    laws: tuple[Any, ...]
+
+
+@generic
+def law_of(contacts: Any, body: np.record, number: int) -> Any:
+    """The contact law of a body, a sprocket or a guide."""
+    raise NotImplementedError
+
+
+@generic
+def flank_energy(contacts: Any, law: Any, right: float, left: float) -> float:
+    """Energy [J] stored in both flanks of a plate at these depths [m]."""
+    raise NotImplementedError
+
+
+@implements(law_of, LinearContacts)
+def _(contacts, body, number):
+    return KelvinVoigt(body.stiffness, body.damping)
+
+
+@implements(flank_energy, LinearContacts)
+def _(contacts, law, right, left):
+    return 0.5 * law.k * (right * right + left * left)
+
+
+@implements(law_of, Contacts)
+def _(contacts, body, number):
+    return contacts.laws[number]
+
+
+@implements(flank_energy, Contacts)
+def _(contacts, law, right, left):
+    return stored_energy(law, -right) + stored_energy(law, -left)
+
+
 class Chain(NamedTuple):
     """What all plates share."""
 
@@ -188,6 +236,7 @@ class Chain(NamedTuple):
     half_plate: float
     mass: float
     inertia: float
+    contacts: LinearContacts | Contacts
 
 
 class Drive(NamedTuple):
@@ -213,7 +262,7 @@ DRIVE, TORQUE, SLIDE_DAMPING, TURN_DAMPING, FRICTION, GUIDE_DAMPING, IMPULSE_X, 
 
 def lower(model):
     """The `Drive` of a model, its plates not yet placed."""
-    chain = _chain(model.chain)
+    chain = _chain(model)
     return Drive(
         chain,
         _plates(model, chain),
@@ -230,8 +279,8 @@ def lower(model):
     )
 
 
-def _chain(chain):
-    link = chain.link
+def _chain(model):
+    chain, link = model.chain, model.chain.link
     ca, sa = np.cos(link.flank_angle), np.sin(link.flank_angle)
     along = [(link.flank * sa - depth) / ca for depth in (chain.toe, chain.crotch)]
     blocks = chain.count // WIDTH + 1  # one more place than plates at least, for the copy of the first
@@ -249,7 +298,18 @@ def _chain(chain):
         chain.mass,
         chain.inertia,
     )
-    return Chain(int(chain.count), blocks, *map(float, values))  # whole numbers among them would be compiled for anew
+    # Whole numbers among them would be compiled for anew.
+    return Chain(int(chain.count), blocks, *map(float, values), _contacts(model))
+
+
+def _contacts(model: Model) -> LinearContacts | Contacts:
+    """The contact laws of all bodies, sprockets first."""
+    contacts = [body.contact for body in (*model.sprockets, *model.guides)]
+    if all(each.law == LINEAR for each in contacts):
+        return LinearContacts(len(contacts))
+    if len({each.law for each in contacts}) > 1:
+        raise InputError("chain drive: sprockets and guides touch by different contact laws; give all of them the same one.")
+    return Contacts(tuple(contact_law(each.law, ContactParameters(each.stiffness, damping=each.damping)) for each in contacts))
 
 
 def _lanes(chain):

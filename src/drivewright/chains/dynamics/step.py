@@ -1,12 +1,14 @@
 """Kernels of the explicit step.  Loops over plates and joints have no branches and only unit strides, so that they become vector code.
 
 Leapfrog: rates at half steps, places and loads at whole ones; loads that depend on rates take them predicted from the last acceleration.
-A contact's force is its mean over the step, see `over_the_step`.
+A contact's force is its mean over the step, see `contact.mean_force`.
 """
 
 import numpy as np
 
 from drivewright._jit import inner
+from drivewright.chains.dynamics.state import flank_energy, law_of
+from drivewright.contact.time_step import mean_force
 
 
 @inner
@@ -68,19 +70,6 @@ def load_gravity(chain, p, t):
 
 
 @inner
-def over_the_step(depth, rate, dt):
-    """(mean depth where positive, share of time with depth above 0) while a depth passes by `rate` from half a step before to half after.
-
-    The leapfrog's impulse dt F is then the integral of a linear contact's force, wherever in the step it closes or opens: taken at the
-    whole step instead, each closing loses and each opening gains energy of the order k (rate dt)^2, by chance.
-    """
-    half = 0.5 * dt * abs(rate) + 1e-300
-    inside = min(max(depth + half, 0.0), 2.0 * half)
-    share = inside / (2.0 * half)
-    return 0.5 * share * inside + max(depth - half, 0.0), share
-
-
-@inner
 def load_flanks(chain, p, t, b, teeth, n, first, last, dt):
     """Both flanks of the plates first .. last-1 on the involute teeth of sprocket n.
 
@@ -88,7 +77,7 @@ def load_flanks(chain, p, t, b, teeth, n, first, last, dt):
     Right flank: depth n.D + w - (H + rb delta), contact at s = rb - t.D along the flank; the left one is its mirror image.
     """
     ca, sa, wide, offset = chain.cos, chain.sin, chain.flank, chain.offset
-    k, damping, rb, support = b.stiffness[n], b.damping[n], teeth.base[n], teeth.support[n]
+    law, rb, support = law_of(chain.contacts, b[n], n), teeth.base[n], teeth.support[n]
     low, high, deep, top = teeth.low[n], teeth.high[n], chain.deepest, chain.highest
     bx, by, ux, uy, psi, spin = b.x[n], b.y[n], b.vx[n], b.vy[n], b.psi[n], b.w[n]
     for i in range(np.uint64(first), np.uint64(last)):
@@ -107,11 +96,10 @@ def load_flanks(chain, p, t, b, teeth, n, first, last, dt):
         at_r, at_l = rb - sa * ex - ca * ey, rb + sa * ex - ca * ey
         on_r = (right > low) & (right < high) & (at_r > deep) & (at_r < top)
         on_l = (left > low) & (left < high) & (at_l > deep) & (at_l < top)
-        mean_r, share_r = over_the_step(pen_r, rate_r, dt)
-        mean_l, share_l = over_the_step(pen_l, rate_l, dt)
-        elastic_r, elastic_l = (k * mean_r if on_r else 0.0), (k * mean_l if on_l else 0.0)
-        fr = max(elastic_r + damping * rate_r * share_r, 0.0) if on_r else 0.0
-        fl = max(elastic_l + damping * rate_l * share_l, 0.0) if on_l else 0.0
+        elastic_r, fr, _ = mean_force(law, pen_r, rate_r, dt)
+        elastic_l, fl, _ = mean_force(law, pen_l, rate_l, dt)
+        elastic_r, elastic_l = (elastic_r if on_r else 0.0), (elastic_l if on_l else 0.0)
+        fr, fl = (fr if on_r else 0.0), (fl if on_l else 0.0)
         pen_r, pen_l = (max(pen_r, 0.0) if on_r else 0.0), (max(pen_l, 0.0) if on_l else 0.0)
         fx, fy = ca * (fl - fr), sa * (fl + fr)
         t.right[i] = fr
@@ -121,7 +109,7 @@ def load_flanks(chain, p, t, b, teeth, n, first, last, dt):
         t.torque[i] = rb * (fl - fr)
         t.damped_right[i] = fr - elastic_r
         t.damped_left[i] = fl - elastic_l
-        t.stored[i] += 0.5 * k * (pen_r * pen_r + pen_l * pen_l)
+        t.stored[i] += flank_energy(chain.contacts, law, pen_r, pen_l)
         p.moment[i] += fr * at_r - fl * at_l + offset * fx
 
 

@@ -1,6 +1,6 @@
 """Energy of a drive, its gradient and its exact Hessian, compiled.
 
-    V = sum k_j |d|^2/2 + sum k depth^2/2 + sum (s q^2/2 - F q) - sum T psi - weight
+    V = sum k_j |d|^2/2 + sum V_contact(depth) + sum (s q^2/2 - F q) - sum T psi - weight
 
 With rates, the gradient takes in the forces of all dampers, and the tangent their derivatives by the rates times `gain`: the matrix
 of an implicit step less its mass.  How damping and friction forces turn with the places is left out of it, which keeps it symmetric.
@@ -9,9 +9,11 @@ of an implicit step less its mass.  How damping and friction forces turn with th
 import numpy as np
 
 from drivewright._jit import inner, outer
+from drivewright.chains.dynamics.state import law_of
 from drivewright.chains.implicit.parts import ARC, CONTACT, GUIDE, JOINT, SLIDE, TORQUE, TURN
 from drivewright.chains.implicit.ring import clear
 from drivewright.chains.implicit.touch import depth_of, drag_guide
+from drivewright.contact.normal import normal_force, stored_energy, tangent
 
 
 @outer
@@ -133,21 +135,23 @@ def _put_block(block, stiff, x2, y2, x0, y0, turn):
 
 @inner
 def _press(parts, state, pair, body, place, gain):
-    """One contact: force max(k depth + c rate, 0); returns its energy k depth^2/2."""
+    """One contact: force of its law onto plate and body; returns its energy."""
     field, rate, force = parts.field, 0.0, 0.0
+    law = law_of(parts.chain.contacts, body, pair.body)
     depth = depth_of(parts, state, pair, body, place)
     if depth > 0.0:
         for a in range(5):
             rate += field.slope[a] * (state.plate_rates[pair.plate, a] if a < 3 else state.body_rates[pair.body, a - 3])
-        force = max(body.stiffness * depth + body.damping * rate, 0.0)
-        field.powers[GUIDE if body.kind == ARC else CONTACT] += (force - body.stiffness * depth) * rate
+        force = normal_force(law, -depth, -rate)
+        field.powers[GUIDE if body.kind == ARC else CONTACT] += (force - normal_force(law, -depth, 0.0)) * rate
     if place == 0:
         pair.right = force
     else:
         pair.left = force
     if force > 0.0:
-        _scatter(field, pair, body, force, body.stiffness + gain * body.damping)
-    return 0.5 * body.stiffness * max(depth, 0.0) ** 2
+        stiffness, damping = tangent(law, -depth, -rate)
+        _scatter(field, pair, body, force, stiffness + gain * damping)
+    return stored_energy(law, -depth)
 
 
 @inner

@@ -18,7 +18,7 @@ def moving(model):
     """The `Model` of the chain drive for any solver of its motion."""
     spec = model.spec
     damping = spec.contact.joint_damping * spec.contact.stiffness if spec.contact.damping is None else spec.contact.damping
-    touch = Contact(spec.contact.stiffness, damping)
+    touch = Contact(spec.contact.stiffness, damping, spec.contact.law)
     driven = [_driven(model, touch), *(_further(model, each, touch) for each in spec.sprockets)]
     guides = tuple(_guide(model, each, touch) for each in spec.guides)
     return Model(_chain(model), (_driver(model, touch), *driven), guides, spec.drive.gravity)

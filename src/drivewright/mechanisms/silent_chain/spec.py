@@ -8,6 +8,7 @@ from drivewright.chains.meshing import Ideal
 from drivewright.errors import UnitError, brief
 from drivewright.fatigue.material import StrainLife
 from drivewright.mechanisms.silent_chain.refusals import refuse_nonsense
+from drivewright.registry import plugins
 from drivewright.spec import Integer, MechanismSpec, Name, Number, Spec
 from drivewright.spec.fields import Field
 from drivewright.units import (
@@ -29,6 +30,7 @@ from drivewright.units import (
 )
 
 RULES = ("match-drive", "minimax")
+ContactLaw = Literal[("kelvin-voigt", *sorted(plugins("drivewright.contact_laws")))]
 TURN = 6.283185307179586
 
 
@@ -227,6 +229,10 @@ class Contact(Spec):
     )
     damping: Damping | None = Field(
         None, ge=0, description="of flank and tooth; joint_damping times stiffness unless given", examples=["200 N s/m"]
+    )
+    law: ContactLaw = Field(
+        "kelvin-voigt",
+        description="of flank, roller or rail: kelvin-voigt: linear spring and damper; others come with packages that register them",
     )
     joint_damping: Time = Field("2 us", ge=0, description="damping of a joint over its stiffness")
     articulation_damping_ratio: Number | None = Field(
