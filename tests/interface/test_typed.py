@@ -17,6 +17,7 @@ NOT_YET = {  # packages that are still to be finished; one that is finished has 
     "chains",
     "contact",
     "curves",
+    "execution",
     "fatigue",
     "gears",
     "indexing",
