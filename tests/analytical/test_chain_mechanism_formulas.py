@@ -21,7 +21,7 @@ from drivewright.mechanisms.silent_chain.moving import link_of, moving
 from drivewright.mechanisms.silent_chain.scene import link_shapes
 from drivewright.numerics.ensemble import Estimate
 from drivewright.spec import from_document
-from drivewright.spec.reading import change_key
+from drivewright.spec.parsing import change_key
 
 MM = 1e-3
 P = 9.525 * MM

@@ -8,7 +8,7 @@ from drivewright import registry
 from drivewright.errors import SpecError
 from drivewright.spec import from_document, load
 from drivewright.spec.fields import choices_of, dimension_of, field_at, type_of
-from drivewright.spec.writing import document
+from drivewright.spec.serialisation import document
 
 PRESETS = [(kind, path) for kind in registry.kinds() for path in registry.mechanism(kind).presets().values()]
 SPECS = [(path.parent, type(load(path)), document(load(path))) for _, path in PRESETS]

@@ -9,7 +9,7 @@ import pytest
 import drivewright as dw
 from drivewright.errors import DrivewrightError
 from drivewright.spec import from_document
-from drivewright.spec.reading import change_key
+from drivewright.spec.parsing import change_key
 
 SPEC = """
 mechanism = "indexer"

@@ -11,7 +11,7 @@ from pydantic import Field
 from drivewright import registry
 from drivewright.errors import SpecError
 from drivewright.spec import Integer, MechanismSpec, Name, Named, Spec, change_key, dimension_at, document, from_document, schema, template
-from drivewright.spec.writing import toml_text
+from drivewright.spec.serialisation import toml_text
 from drivewright.units import Length, Mass
 
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from drivewright import registry
 from drivewright.errors import InputError, SpecError
 from drivewright.spec import change_key, document, from_document, load, read_document
-from drivewright.spec.writing import toml_text
+from drivewright.spec.serialisation import toml_text
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
 PRESETS = [path for kind in registry.kinds() for path in registry.mechanism(kind).presets().values()]

@@ -13,7 +13,7 @@ from drivewright import registry, runner
 from drivewright.errors import InputError
 from drivewright.report.content import content
 from drivewright.spec import load
-from drivewright.spec.fields import has_names, levels, table_of
+from drivewright.spec.fields import containers_of, has_user_keys, table_of
 from drivewright.studio import words
 from drivewright.view.panels import drawable, known_plots, panels
 from drivewright.view.text import sentence
@@ -34,7 +34,7 @@ def keys(model, path=""):
         key, inner = path + name, table_of(field.annotation)
         yield ("tables" if inner else "fields"), key
         if inner:
-            yield from keys(inner, key + ".*" * len(levels(field.annotation)) + ".")
+            yield from keys(inner, key + ".*" * len(containers_of(field.annotation)) + ".")
 
 
 def in_node(body, data):
@@ -67,9 +67,9 @@ def names(model, given):
         value = getattr(given, name)
         if name == "name" and value:
             yield value
-        elif has_names(field.annotation):
+        elif has_user_keys(field.annotation):
             yield from value
-        entries = value.values() if has_names(field.annotation) else value if isinstance(value, tuple) else [value]
+        entries = value.values() if has_user_keys(field.annotation) else value if isinstance(value, tuple) else [value]
         if inner := table_of(field.annotation):
             for entry in entries:
                 if entry is not None:

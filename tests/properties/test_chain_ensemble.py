@@ -29,7 +29,7 @@ from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import build
 from drivewright.mechanisms.silent_chain.moving import moving
 from drivewright.spec import from_document
-from drivewright.spec.reading import change_key
+from drivewright.spec.parsing import change_key
 
 HYVO = Path(__file__).parents[2] / "examples" / "hyvo_chain.toml"
 FLUCTUATION, RANGE = "dynamics.centre_distance.fluctuation", "dynamics.centre_distance.range"

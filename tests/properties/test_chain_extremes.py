@@ -9,7 +9,7 @@ import pytest
 import drivewright as dw
 from drivewright.errors import DrivewrightError
 from drivewright.spec import from_document
-from drivewright.spec.reading import change_key
+from drivewright.spec.parsing import change_key
 
 HYVO = Path(__file__).parents[2] / "examples" / "hyvo_chain.toml"
 SHORT = ('dynamics.settling="4 ms"', 'dynamics.duration="6 ms"', "dynamics.ensemble=2")

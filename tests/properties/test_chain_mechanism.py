@@ -10,7 +10,7 @@ import drivewright as dw
 from drivewright.chains.closure import Drive, close
 from drivewright.chains.link import link
 from drivewright.spec import from_document
-from drivewright.spec.reading import change_key
+from drivewright.spec.parsing import change_key
 
 MM = 1e-3
 PRESET = (Path(dw.__file__).parent / "mechanisms/silent_chain/presets/default.toml").read_text()

@@ -6,7 +6,7 @@ from typing import Any
 
 from drivewright.errors import SpecError, UnitError, brief, nearest
 from drivewright.spec import Spec, dimension_at, value_at
-from drivewright.spec.fields import choices_of, field_at, levels, table_at, type_of
+from drivewright.spec.fields import choices_of, containers_of, field_at, table_at, type_of
 from drivewright.units import SI, Dimension
 
 
@@ -66,7 +66,7 @@ def key_kind(spec: Spec, key: str, place: str = "study.vary", given: Sequence[An
         raise SpecError(f"this spec has no key {key!r}{_missing_element(spec, key) or _nearest_keys(spec, key)}", place)
     field = field_at(type(spec), key.split("."))
     annotation = field.annotation if field else None
-    if depth := len(levels(annotation)) - _element_steps(spec, key):
+    if depth := len(containers_of(annotation)) - _element_steps(spec, key):
         holder = key.rpartition(".")[0]
         if holder and value_at(spec, holder) is None and key.rpartition(".")[2].isdecimal():
             raise SpecError(f"{holder} has no value in this spec; give all of it there, then one of its elements can vary", place)

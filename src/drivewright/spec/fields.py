@@ -64,10 +64,10 @@ def _existing_file(value: Any, info: ValidationInfo) -> Path:
     folder = Path((info.context or {}).get("folder", "."))
     try:
         path = (folder / value).resolve()
-        found = path.is_file()
+        exists = path.is_file()
     except (OSError, RuntimeError) as error:  # a name that is too long, a loop of links
         raise ValueError(f"{brief(str(value))} cannot be a file: {getattr(error, 'strerror', None) or error}") from None
-    if not found:
+    if not exists:
         raise MissingFile(f"there is no file {str(path)!r}; a path is relative to the spec")
     return path
 
@@ -107,22 +107,22 @@ PlainValue: TypeAlias = Annotated[Any, PlainValidator(_plain_value), WithJsonSch
 # -- reading annotations -------------------------------------------------------------------------------------------------------
 
 
-def levels(annotation: Any) -> tuple[Any, ...]:
-    """What an annotation nests, outermost first: () for `Spec | None`, (tuple,) for `tuple[Spec, ...]`, (dict, tuple) for
+def containers_of(annotation: Any) -> tuple[Any, ...]:
+    """The containers that an annotation nests, outermost first: () for `Spec | None`, (tuple,) for `tuple[Spec, ...]`, (dict, tuple) for
     `Named[tuple[Length, Length]]`."""
     origin = get_origin(annotation)
-    deepest = max(map(levels, _inside(annotation)), key=len, default=())
+    deepest = max(map(containers_of, _inside(annotation)), key=len, default=())
     return (origin, *deepest) if origin in (tuple, list, dict) else deepest
 
 
 def list_depth(annotation: Any) -> int:
     """How many lists an annotation nests."""
-    return sum(kind is not dict for kind in levels(annotation))
+    return sum(kind is not dict for kind in containers_of(annotation))
 
 
-def has_names(annotation: Any) -> bool:
+def has_user_keys(annotation: Any) -> bool:
     """Whether the user chooses the keys: a `Named[...]`."""
-    return levels(annotation)[:1] == (dict,)
+    return containers_of(annotation)[:1] == (dict,)
 
 
 def _inside(annotation: Any) -> tuple[Any, ...]:
@@ -135,14 +135,14 @@ def table_of(annotation: Any) -> type[Any] | None:
     """The table class inside an annotation such as `Spec | None` or `tuple[Spec, ...]`, else None."""
     if isinstance(annotation, type) and not get_args(annotation) and issubclass(annotation, BaseModel):
         return annotation
-    return next((found for part in _inside(annotation) if (found := table_of(part))), None)
+    return next((table for part in _inside(annotation) if (table := table_of(part))), None)
 
 
 def type_of(annotation: Any) -> type | None:
     """The plain class of a value, lists and None left aside: int for `tuple[Integer, ...] | None`."""
     if isinstance(annotation, type) and annotation is not type(None) and not get_args(annotation):
         return annotation
-    return next((found for part in _inside(annotation) if (found := type_of(part))), None)
+    return next((kind for part in _inside(annotation) if (kind := type_of(part))), None)
 
 
 def choices_of(annotation: Any) -> tuple[Any, ...]:
@@ -152,21 +152,21 @@ def choices_of(annotation: Any) -> tuple[Any, ...]:
     return tuple(choice for part in _inside(annotation) for choice in choices_of(part))
 
 
-def mark_of(field: Any, kind: type[MarkT]) -> MarkT | None:
+def marker_of(field: Any, kind: type[MarkT]) -> MarkT | None:
     """The first annotation of a class on a field, or inside its type (of its list, of its optional value), else None."""
-    found = (mark for mark in getattr(field, "metadata", ()) if isinstance(mark, kind))
-    return next(found, None) or _mark_inside(getattr(field, "annotation", None), kind)
+    own = (mark for mark in getattr(field, "metadata", ()) if isinstance(mark, kind))
+    return next(own, None) or _marker_inside(getattr(field, "annotation", None), kind)
 
 
-def _mark_inside(annotation: Any, kind: type[MarkT]) -> MarkT | None:
-    if found := next((mark for mark in getattr(annotation, "__metadata__", ()) if isinstance(mark, kind)), None):
-        return found
-    return next((mark for part in _inside(annotation) if (mark := _mark_inside(part, kind))), None)
+def _marker_inside(annotation: Any, kind: type[MarkT]) -> MarkT | None:
+    if own := next((mark for mark in getattr(annotation, "__metadata__", ()) if isinstance(mark, kind)), None):
+        return own
+    return next((mark for part in _inside(annotation) if (mark := _marker_inside(part, kind))), None)
 
 
 def dimension_of(field: Any) -> Dimension | None:
     """The Dimension of a quantity field (also of its list), else None."""
-    return mark_of(field, Dimension)
+    return marker_of(field, Dimension)
 
 
 # -- looking keys up -----------------------------------------------------------------------------------------------------------
@@ -181,7 +181,7 @@ def field_at(model: type[Any] | None, steps: Iterable[str]) -> FieldInfo | None:
         if field is None:
             return None
         model = table_of(field.annotation)
-        del steps[: len(levels(field.annotation))]
+        del steps[: len(containers_of(field.annotation))]
     return field
 
 
@@ -199,15 +199,15 @@ def dimension_at(model: type[Any], key: str) -> tuple[bool, Dimension | None]:
 
 def value_at(spec: Any, key: str) -> Any:
     """The value at a dotted key of a spec, a list's elements by name or number; None where there is none."""
-    found = spec
+    value = spec
     for step in key.split("."):
-        if isinstance(found, BaseModel):
-            found = getattr(found, step, None)
-        elif isinstance(found, dict):
-            found = found.get(step)
-        elif isinstance(found, tuple):
-            named = (entry for entry in found if getattr(entry, "name", None) == step)
-            found = next(named, found[int(step)] if step.isdecimal() and int(step) < len(found) else None)
+        if isinstance(value, BaseModel):
+            value = getattr(value, step, None)
+        elif isinstance(value, dict):
+            value = value.get(step)
+        elif isinstance(value, tuple):
+            named = (entry for entry in value if getattr(entry, "name", None) == step)
+            value = next(named, value[int(step)] if step.isdecimal() and int(step) < len(value) else None)
         else:
             return None
-    return found
+    return value

@@ -10,7 +10,7 @@ def set_key(tables: dict[str, Any], key: str, value: Any) -> dict[str, Any]:
     *path, last = key.split(".")
     place = tables
     for number, step in enumerate(path):
-        place = _enter(place, step, ".".join(path[: number + 1]))
+        place = _descend(place, step, ".".join(path[: number + 1]))
     if isinstance(place, list):
         place[_index(place, last, key)] = value
     elif isinstance(place, dict):
@@ -25,7 +25,7 @@ def remove_key(tables: dict[str, Any], key: str) -> dict[str, Any]:
     *path, last = key.split(".")
     place = tables
     for number, step in enumerate(path):
-        place = _enter(place, step, ".".join(path[: number + 1]))
+        place = _descend(place, step, ".".join(path[: number + 1]))
     if isinstance(place, list):
         del place[_index(place, last, key)]
     elif isinstance(place, dict) and last in place:
@@ -35,7 +35,7 @@ def remove_key(tables: dict[str, Any], key: str) -> dict[str, Any]:
     return tables
 
 
-def _enter(place: Any, step: str, key: str) -> Any:
+def _descend(place: Any, step: str, key: str) -> Any:
     if isinstance(place, list):
         return place[_index(place, step, key)]
     if not isinstance(place, dict):

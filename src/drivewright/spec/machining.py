@@ -1,7 +1,7 @@
 """How flat parts are milled and measured: shared by every kind whose drawings go to a workshop."""
 
 from drivewright.spec.fields import Field
-from drivewright.spec.model import Spec
+from drivewright.spec.mechanism_spec import Spec
 from drivewright.units import Length, Speed, Velocity
 
 

@@ -12,7 +12,7 @@ from drivewright.execution.evaluation import CaseTask, case_task, evaluate, fail
 from drivewright.execution.executors import Executor, InProcessExecutor, check_location, make_executors
 from drivewright.runner import versions
 from drivewright.spec import MechanismSpec
-from drivewright.spec.writing import canonical_text
+from drivewright.spec.serialisation import canonical_text
 from drivewright.studies import store
 from drivewright.studies.plan import Plan, make_plan
 from drivewright.studies.store import Store

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from drivewright.errors import MissingFile, SpecError
 from drivewright.spec import from_document, set_key
-from drivewright.spec.writing import toml_text
+from drivewright.spec.serialisation import toml_text
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from copy import deepcopy
 from drivewright.errors import SpecError
 from drivewright.spec import set_key
 from drivewright.spec.keys import remove_key
-from drivewright.spec.reading import parse_document
+from drivewright.spec.parsing import parse_document
 from drivewright.studio.entering import drop_empty, enter, fill, form_key, has_place, model_of, overlap, settled, valid, value_in
 from drivewright.studio.facts import ABSENT, fact_at
 from drivewright.studio.fitting import first_fitting, fresh, renamed, samples_for

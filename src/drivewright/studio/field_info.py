@@ -11,8 +11,8 @@ from pydantic.fields import FieldInfo
 
 from drivewright.errors import UnitError
 from drivewright.spec import MechanismSpec, document, from_document, read_value
-from drivewright.spec.fields import AnyUnit, choices_of, dimension_of, levels, mark_of, table_of, type_of
-from drivewright.spec.writing import raw, toml_value
+from drivewright.spec.fields import AnyUnit, choices_of, containers_of, dimension_of, marker_of, table_of, type_of
+from drivewright.spec.serialisation import to_plain, toml_value
 from drivewright.studio.sliders import Limits
 from drivewright.units import split
 
@@ -71,12 +71,12 @@ def fact_of(name, field):
     """The Fact of a pydantic field."""
     dimension, required = dimension_of(field), field.is_required()
     example = field.examples[0] if field.examples else None
-    default = None if required or field.default in ((), {}) else raw(field.default, dimension)
+    default = None if required or field.default in ((), {}) else to_plain(field.default, dimension)
     own = _own(field.default) if isinstance(field.default, BaseModel) else ()
     return _fact(
         name,
         field.annotation,
-        dimension or mark_of(field, AnyUnit),
+        dimension or marker_of(field, AnyUnit),
         _limits(field.metadata),
         hint=field.description or "",
         required=required,
@@ -101,7 +101,7 @@ def _fact(name, annotation, mark, limits, hint="", required=True, default=None, 
         _fact(
             str(n),
             part,
-            dimension_of(_Bare(part)) or mark_of(_Bare(part), AnyUnit) or mark,
+            dimension_of(_Bare(part)) or marker_of(_Bare(part), AnyUnit) or mark,
             _limits(_marks(part)),
             default=default[n] if isinstance(default, list) and n < len(default) else None,
             example=example[n] if isinstance(example, list) and n < len(example) else None,
@@ -119,7 +119,7 @@ def _fact(name, annotation, mark, limits, hint="", required=True, default=None, 
         default,
         example,
         table_of(annotation),
-        levels(annotation),
+        containers_of(annotation),
         items,
         kind == "list" and Ellipsis not in get_args(_bare(annotation)),
         own,
@@ -150,7 +150,7 @@ class _Bare:
 
 def _kind(annotation, mark):
     """What sort of box a field has."""
-    nested, choices, plain = levels(annotation), choices_of(annotation), type_of(annotation)
+    nested, choices, plain = containers_of(annotation), choices_of(annotation), type_of(annotation)
     if nested:
         return "names" if nested[0] is dict else "list"
     if isinstance(mark, AnyUnit) or (choices and plain is not None):
@@ -165,7 +165,7 @@ def _bare(annotation):
     if get_origin(annotation) in (tuple, list, dict):
         return annotation
     inner = [part for part in get_args(annotation) if part is not type(None)]
-    return _bare(inner[0]) if len(inner) == 1 and not isinstance(annotation, type) and levels(annotation) else annotation
+    return _bare(inner[0]) if len(inner) == 1 and not isinstance(annotation, type) and containers_of(annotation) else annotation
 
 
 def _parts(annotation):

@@ -7,7 +7,7 @@ from drivewright import registry
 from drivewright.errors import SpecError
 from drivewright.spec import set_key
 from drivewright.spec.keys import remove_key
-from drivewright.spec.writing import document
+from drivewright.spec.serialisation import document
 from drivewright.studio.facts import ABSENT, fact_at, facts, read, shown_text
 
 # -- where a key is ------------------------------------------------------------------------------------------------------------

@@ -8,8 +8,8 @@ from itertools import permutations
 from drivewright import registry
 from drivewright.errors import SpecError, UnitError
 from drivewright.spec import set_key
-from drivewright.spec.describing import sample_of, shared_samples, skeleton
 from drivewright.spec.fields import field_at
+from drivewright.spec.sample_values import required_keys_sample, sample_value, shared_table_samples
 from drivewright.studio.entering import fill, form_key, model_of, overlap, value_in
 from drivewright.studio.facts import facts
 from drivewright.units import split
@@ -24,11 +24,11 @@ def samples_for(design, fact, key):
         example = fact.example
         if isinstance(example, (list, dict)) and example:
             return [example[-1] if isinstance(example, list) else next(reversed(example.values()))]
-        sample = sample_of(field_at(model_of(design), key.split(".")))
+        sample = sample_value(field_at(model_of(design), key.split(".")))
         return [sample[-1] if isinstance(sample, list) else next(iter(sample.values()))]
-    shared = shared_samples(registry.mechanism(design.kind), design.tables).get(key, {})
+    shared = shared_table_samples(registry.mechanism(design.kind), design.tables).get(key, {})
     required = {name for name, each in facts(fact.table).items() if each.required}
-    least = {name: value for name, value in shared.items() if name in required or not required} or skeleton(fact.table)
+    least = {name: value for name, value in shared.items() if name in required or not required} or required_keys_sample(fact.table)
     more = [{name: each.example} for name, each in facts(fact.table).items() if each.example is not None and name not in least]
     return [least, *({**least, **one} for one in more)]
 

@@ -8,7 +8,7 @@ from drivewright.errors import InputError, SpecError
 from drivewright.motion.tables import read_table
 from drivewright.multibody.model import Curve, Load
 from drivewright.numerics.splines import interpolating_spline
-from drivewright.spec.columns import read_rows
+from drivewright.spec.csv_columns import read_columns
 
 TURN = 2 * math.pi
 OVER = {"time": "time", "angle": "angle", "speed": "angular speed"}  # what a load may depend on: column -> dimension
@@ -20,12 +20,12 @@ def load_curve(file, what, dimension, periodic=False):
 
     A table over a whole turn of the angle, or one called periodic, repeats itself.
     """
-    rows = read_rows(file, OVER, {what: dimension})
+    rows = read_columns(file, OVER, {what: dimension})
     span = rows.x[-1] - rows.x[0]
-    turns = rows.over == "angle" and math.isclose(span, TURN, rel_tol=1e-9)
+    turns = rows.x_name == "angle" and math.isclose(span, TURN, rel_tol=1e-9)
     slopes = np.diff(rows.y) / np.diff(rows.x)
     curve = _curve(rows.x, np.column_stack([rows.y[:-1], slopes]), span if periodic or turns else 0.0)
-    return Load(curve if curve.period else _with_ends(curve, rows.y[[0, -1]], (0.0, 0.0)), rows.over)
+    return Load(curve if curve.period else _with_ends(curve, rows.y[[0, -1]], (0.0, 0.0)), rows.x_name)
 
 
 def profile_curve(file, ends, joint="revolute"):
@@ -33,7 +33,7 @@ def profile_curve(file, ends, joint="revolute"):
 
     The angle of a revolute joint is counted from the first row, the travel of a prismatic one from the point of its line.
     """
-    rows = read_rows(file, {"time": "time"}, {"travel": "length"} if joint == "prismatic" else {"angle": "angle"})
+    rows = read_columns(file, {"time": "time"}, {"travel": "length"} if joint == "prismatic" else {"angle": "angle"})
     kind, moving = SMOOTH_ENDS[ends]
     values = rows.y if joint == "prismatic" else rows.y - rows.y[0]
     degree = 5 if kind == "clamped" and len(values) > 5 else 3

@@ -11,7 +11,7 @@ from drivewright.mechanisms.linkage.curves import lift_curve, load_curve, profil
 from drivewright.mechanisms.linkage.joints import NORMALS
 from drivewright.mechanisms.linkage.refusals import CENTROID, GROUND, central_inertia, place, points_of
 from drivewright.multibody import model
-from drivewright.spec.columns import PURE
+from drivewright.spec.csv_columns import PURE
 
 CYLINDER_LOSS = "flores-2011"  # the cylinder law says nothing of losses
 

@@ -7,8 +7,7 @@ from pydantic import model_validator
 from drivewright.mechanisms.linkage.joints import Direction, Joint
 from drivewright.mechanisms.linkage.refusals import refuse_nonsense
 from drivewright.spec import DataFile, Flag, Integer, MechanismSpec, Name, Named, Number, Spec, Text
-from drivewright.spec.fields import Field
-from drivewright.spec.searching import Bound
+from drivewright.spec.fields import Bound, Field
 from drivewright.units import (
     Acceleration,
     Angle,

@@ -8,7 +8,7 @@ import numpy as np
 from drivewright import bearings, materials, shafts
 from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.shaft.refusals import is_rolling, refuse_contradictions
-from drivewright.spec.columns import read_rows
+from drivewright.spec.csv_columns import read_columns
 from drivewright.units import SI
 
 STEEL = {"youngs_modulus": 206e9, "poisson_ratio": 0.3, "density": 7850.0, "yield_strength": None}
@@ -123,7 +123,7 @@ def _series(one, two):
 
 def _table(bearing):
     """(displacement, force) of a bearing's CSV."""
-    rows = read_rows(bearing.table, {"displacement": "length"}, {"force": "force"})
+    rows = read_columns(bearing.table, {"displacement": "length"}, {"force": "force"})
     return rows.x, rows.y
 
 

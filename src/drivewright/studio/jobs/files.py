@@ -12,7 +12,7 @@ from drivewright.report.export import export as write_export
 from drivewright.report.folder import file_name, write_run_folder
 from drivewright.report.html import write_report
 from drivewright.spec import set_key, value_at
-from drivewright.spec.writing import places_beside, toml_text
+from drivewright.spec.serialisation import data_file_places, toml_text
 from drivewright.studio.jobs.keys import leaves
 
 LONGEST = 80  # characters of a file's name
@@ -50,7 +50,7 @@ def report(design, tell, whole=False):
 def save(design, tell):
     """The spec as the user has it; where it names data files an archive with copies of them beside it."""
     spec, stem = design.spec(), _stem(design)
-    places = places_beside(spec.data_files())
+    places = data_file_places(spec.data_files())
     tables = deepcopy(design.tables)
     for key, _ in leaves(design.tables):
         if (path := value_at(spec, key)) in places:

@@ -12,7 +12,7 @@ from drivewright.execution.case_table import CHECK, MESSAGE
 from drivewright.execution.evaluation import case_task
 from drivewright.report.content import headline
 from drivewright.spec import Study
-from drivewright.spec.fields import field_at, mark_of
+from drivewright.spec.fields import field_at, marker_of
 from drivewright.studies.plan import Block, Plan
 from drivewright.studies.statistics import NORMAL
 from drivewright.studies.store import Memory
@@ -111,10 +111,10 @@ def _room(spec, key, value, step):
     field = field_at(type(spec), key.split("."))
     down = up = step
     for mark, name, part in ((Ge, "ge", 1.0), (Gt, "gt", 0.5)):
-        if found := mark_of(field, mark):
+        if found := marker_of(field, mark):
             down = min(down, part * (value - getattr(found, name)))
     for mark, name, part in ((Le, "le", 1.0), (Lt, "lt", 0.5)):
-        if found := mark_of(field, mark):
+        if found := marker_of(field, mark):
             up = min(up, part * (getattr(found, name) - value))
     return down, up
 

@@ -12,7 +12,7 @@ from drivewright.execution.evaluation import case_task
 from drivewright.execution.outputs import MARGIN_OF
 from drivewright.report.content import Views, pictures
 from drivewright.report.study import said
-from drivewright.spec.writing import toml_value
+from drivewright.spec.serialisation import toml_value
 from drivewright.studies.answers import analyse_study
 from drivewright.studies.plan import make_plan
 from drivewright.studies.statistics import varies

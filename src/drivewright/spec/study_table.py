@@ -2,8 +2,8 @@
 
 from typing import Literal
 
+from drivewright.spec.base import Spec
 from drivewright.spec.fields import Bound, DataFile, Field, Flag, Integer, PlainValue, Text
-from drivewright.spec.table import Spec
 
 METHODS = Literal["latin-hypercube", "sobol", "random", "corners", "one-at-a-time", "tolerance", "sobol-indices"]
 

@@ -1,4 +1,4 @@
-"""What pydantic has to complain of, in the user's words: the dotted key, the value, what would be right."""
+"""Validation errors of pydantic as `SpecError`: the dotted key, the value, what would be right."""
 
 from typing import Any
 
@@ -6,16 +6,16 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from drivewright.errors import MissingFile, SpecError, brief, nearest
-from drivewright.spec.fields import choices_of, dimension_of, field_at, levels, table_at
-from drivewright.spec.writing import toml_key, toml_value
+from drivewright.spec.fields import choices_of, containers_of, dimension_of, field_at, table_at
+from drivewright.spec.serialisation import toml_key, toml_value
 
-COMPARISONS = {
+COMPARISON_WORDS = {
     "greater_than": ("gt", "greater than"),
     "greater_than_equal": ("ge", "at least"),
     "less_than": ("lt", "less than"),
     "less_than_equal": ("le", "at most"),
 }
-WANTED = {
+EXPECTED_TYPES = {
     "string_type": "a text in quotes",
     "float_type": "a number",
     "int_type": "a whole number",
@@ -27,22 +27,22 @@ WANTED = {
     "dict_type": "a table",
     "string_unicode": "a text of valid characters",
 }
-SHOWN = 6  # complaints in one message
+MAX_COMPLAINTS = 6  # complaints in one message
 
 
-def translated(error: ValidationError, model: type[Any]) -> SpecError:
+def spec_error_of(error: ValidationError, model: type[Any]) -> SpecError:
     """One SpecError naming the first wrong key; the others follow in the message."""
     # Unknown keys first: a misspelt one explains a missing one.
-    found = sorted(error.errors(include_url=False), key=lambda item: item["type"] != "extra_forbidden")
-    items = [_complaint(item, model) for item in found]
-    short = [(key, message.partition("; known here")[0]) for key, message in items[1:SHOWN]]
+    details = sorted(error.errors(include_url=False), key=lambda item: item["type"] != "extra_forbidden")
+    items = [_complaint(item, model) for item in details]
+    short = [(key, message.partition("; known here")[0]) for key, message in items[1:MAX_COMPLAINTS]]
     rest = "".join(f"\n  {key}: {message}" if key else f"\n  {message}" for key, message in short)
-    more = f"\n  ... and {len(items) - SHOWN} more" if len(items) > SHOWN else ""
-    missing = any(isinstance(item.get("ctx", {}).get("error"), MissingFile) for item in found)
+    more = f"\n  ... and {len(items) - MAX_COMPLAINTS} more" if len(items) > MAX_COMPLAINTS else ""
+    missing = any(isinstance(item.get("ctx", {}).get("error"), MissingFile) for item in details)
     return (MissingFile if missing else SpecError)(items[0][1] + rest + more, key=items[0][0] or None)
 
 
-def shown(value: Any, field: Any) -> str:
+def number_text(value: Any, field: Any) -> str:
     """A number of a field as people read it, with its unit."""
     dimension = dimension_of(field)
     return dimension.text(float(value)) if dimension else f"{value:g}" if isinstance(value, float) else brief(value)
@@ -50,15 +50,15 @@ def shown(value: Any, field: Any) -> str:
 
 def _complaint(item: ErrorDetails, model: type[Any]) -> tuple[str, str]:
     """(dotted key, message) of one pydantic error."""
-    place = _place(item, model)
+    place = _key_path(item, model)
     field, kind = field_at(model, place), item["type"]
     key, own = [toml_key(step[:60]) for step in place], item.get("ctx", {}).get("error")
     if isinstance(own, SpecError) and own.key:  # a rule between several keys, which knows whose fault it is
         return ".".join([*key, own.key]), own.message
-    return ".".join(key), SPECIAL.get(kind, _other)(item, field, model, place)
+    return ".".join(key), SPECIAL.get(kind, _wrong_type)(item, field, model, place)
 
 
-def _place(item: ErrorDetails, model: type[Any]) -> list[str]:
+def _key_path(item: ErrorDetails, model: type[Any]) -> list[str]:
     """The path of keys and indices, as text, without the names pydantic puts in for the members of a union."""
     place, open_levels = [], []
     for number, step in enumerate(item["loc"]):
@@ -74,61 +74,61 @@ def _place(item: ErrorDetails, model: type[Any]) -> list[str]:
             open_levels = []
         elif not open_levels and (table := table_at(model, place)) is not None and step in table.model_fields:
             place.append(step)
-            open_levels = list(levels(table.model_fields[step].annotation))
+            open_levels = list(containers_of(table.model_fields[step].annotation))
     return place
 
 
-def _unknown(item, field, model, place):
+def _unknown_key(item, field, model, place):
     table = table_at(model, place[:-1])
     known = list(table.model_fields) if table else []
     return f"unknown key{nearest(place[-1], known)}; known here: {', '.join(known)}"
 
 
-def _missing(item, field, model, place):
+def _missing_key(item, field, model, place):
     if field is None:
         return "is missing"
     example = f"; e.g. {toml_value(field.examples[0])}" if field.examples else ""
     return f"is missing{f' ({field.description})' if field.description else ''}{example}"
 
 
-def _compared(item, field, model, place):
-    name, words = COMPARISONS[item["type"]]
-    given = brief(item["input"]) if isinstance(item["input"], str) else shown(item["input"], field)
-    return f"must be {words} {shown(item['ctx'][name], field)}, got {given}"
+def _out_of_range(item, field, model, place):
+    name, words = COMPARISON_WORDS[item["type"]]
+    given = brief(item["input"]) if isinstance(item["input"], str) else number_text(item["input"], field)
+    return f"must be {words} {number_text(item['ctx'][name], field)}, got {given}"
 
 
-def _chosen(item, field, model, place):
+def _not_a_choice(item, field, model, place):
     choices = choices_of(field.annotation) if field else ()
     if not choices:
-        return _other(item, field, model, place)
+        return _wrong_type(item, field, model, place)
     return f"must be one of {', '.join(map(toml_value, choices))}, got {brief(item['input'])}{nearest(item['input'], map(str, choices))}"
 
 
-def _counted(item, field, model, place):
-    wanted = item["ctx"].get("min_length", item["ctx"].get("max_length"))
+def _wrong_length(item, field, model, place):
+    limit = item["ctx"].get("min_length", item["ctx"].get("max_length"))
     what = "characters" if item["type"].startswith("string") else "entries"
     given = item["ctx"].get("actual_length", len(item["input"]))
-    return f"must have {'at least' if item['type'].endswith('short') else 'at most'} {wanted} {what}, got {given}"
+    return f"must have {'at least' if item['type'].endswith('short') else 'at most'} {limit} {what}, got {given}"
 
 
-def _own(item, field, model, place):
+def _own_message(item, field, model, place):
     return str(item["ctx"]["error"])
 
 
-def _other(item, field, model, place):
-    wanted = WANTED.get(item["type"])
-    message = f"must be {wanted}" if wanted else f"{item['msg'][:1].lower()}{item['msg'][1:]}"
+def _wrong_type(item, field, model, place):
+    expected = EXPECTED_TYPES.get(item["type"])
+    message = f"must be {expected}" if expected else f"{item['msg'][:1].lower()}{item['msg'][1:]}"
     return f"{message}, got {'a table' if isinstance(item['input'], dict) else brief(item['input'])}"
 
 
 SPECIAL = {
-    "extra_forbidden": _unknown,
-    "missing": _missing,
-    "literal_error": _chosen,
-    "value_error": _own,
-    "too_short": _counted,
-    "too_long": _counted,
-    "string_too_short": _counted,
-    "string_too_long": _counted,
-    **dict.fromkeys(COMPARISONS, _compared),
+    "extra_forbidden": _unknown_key,
+    "missing": _missing_key,
+    "literal_error": _not_a_choice,
+    "value_error": _own_message,
+    "too_short": _wrong_length,
+    "too_long": _wrong_length,
+    "string_too_short": _wrong_length,
+    "string_too_long": _wrong_length,
+    **dict.fromkeys(COMPARISON_WORDS, _out_of_range),
 }

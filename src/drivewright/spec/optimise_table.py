@@ -1,9 +1,9 @@
-"""The [optimise] table: what may change, what is required, what is wanted.  The same for every kind of drive."""
+"""The [optimise] table: unknowns, requirements and objectives.  The same for every kind of drive."""
 
 from typing import Literal
 
+from drivewright.spec.base import Spec
 from drivewright.spec.fields import Bound, Field, Integer, PlainValue, Text
-from drivewright.spec.table import Spec
 
 
 class Unknown(Spec):

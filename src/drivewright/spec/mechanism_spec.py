@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from drivewright.spec.base import Spec
 from drivewright.spec.fields import Field, Integer, Text
-from drivewright.spec.searching import Optimise
-from drivewright.spec.studying import Study
-from drivewright.spec.table import Spec
-from drivewright.spec.writing import canonical_text, document, files, places_beside, toml_text
+from drivewright.spec.optimise_table import Optimise
+from drivewright.spec.serialisation import canonical_text, data_file_places, data_files_in, document, toml_text
+from drivewright.spec.study_table import Study
 
 
 class MechanismSpec(Spec):
@@ -28,12 +28,12 @@ class MechanismSpec(Spec):
     def to_toml(self, moved: bool = False) -> str:
         """The effective spec as TOML text with units; reads back to an equal spec on this machine, or `moved` beside copies of its data
         files, as `write` makes them."""
-        return toml_text(self._tables(places_beside(self.data_files()) if moved else None))
+        return toml_text(self._tables(data_file_places(self.data_files()) if moved else None))
 
     def write(self, path: str | Path) -> None:
         """The effective spec as a file, with copies of its data files in `data/` beside it: together they can move to another machine."""
         path = Path(path)
-        places = places_beside(self.data_files())
+        places = data_file_places(self.data_files())
         for source, place in places.items():
             target = path.parent / place
             target.parent.mkdir(exist_ok=True)
@@ -53,4 +53,4 @@ class MechanismSpec(Spec):
 
     def data_files(self) -> list[Path]:
         """Absolute paths of all data files the spec names."""
-        return sorted(set(files(self)))
+        return sorted(set(data_files_in(self)))

@@ -1,4 +1,4 @@
-"""One table of a spec."""
+"""The base class of all tables of a spec."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from drivewright.labels import label_of_key
+from drivewright.spec.error_messages import spec_error_of
 from drivewright.spec.keys import set_key
-from drivewright.spec.messages import translated
-from drivewright.spec.writing import document
+from drivewright.spec.serialisation import document
 
 if TYPE_CHECKING:
     from pydantic.fields import FieldInfo
 
     class _Table:
-        """pydantic's BaseModel as its users see it: it is made from keys as in a file, "9.5 mm" where the attribute is a float."""
+        """pydantic's BaseModel as its users see it: built from keys as in a file, "9.5 mm" where the attribute is a float."""
 
         model_config: ClassVar[ConfigDict]
         model_fields: ClassVar[dict[str, FieldInfo]]
@@ -29,19 +29,19 @@ if TYPE_CHECKING:
         def model_json_schema(cls, **settings: Any) -> dict[str, Any]: ...
 
 
-class _Door(type(BaseModel)):
-    """Turns the complaint about a table built in Python into ours.  (A nested table read from a file does not pass here.)"""
+class _SpecMeta(type(BaseModel)):
+    """Turns the error of a table built in Python into a `SpecError`.  (A nested table read from a file does not pass through it.)"""
 
-    def __call__(cls, **data):
+    def __call__(cls, **data: Any) -> Any:
         try:
             return super().__call__(**data)
         except ValidationError as error:
-            raise translated(error, cls) from None
+            raise spec_error_of(error, cls) from None
 
 
 if not TYPE_CHECKING:
 
-    class _Table(BaseModel, metaclass=_Door):
+    class _Table(BaseModel, metaclass=_SpecMeta):
         """The base of all tables."""
 
 
@@ -49,7 +49,7 @@ SpecT = TypeVar("SpecT", bound="Spec")
 
 
 class Spec(_Table):
-    """One table of a spec: frozen, no unknown keys, units at the door."""
+    """One table of a spec: frozen, no unknown keys, quantities with units converted to SI."""
 
     model_config = ConfigDict(
         frozen=True,
@@ -68,12 +68,12 @@ class Spec(_Table):
         tables = document(self)
         for key, value in {**(changes or {}), **keys}.items():
             set_key(tables, key, value)
-        return validated(type(self), tables)
+        return validate_tables(type(self), tables)
 
 
-def validated(model: type[SpecT], tables: Mapping[str, Any], folder: str | Path = ".") -> SpecT:
+def validate_tables(model: type[SpecT], tables: Mapping[str, Any], folder: str | Path = ".") -> SpecT:
     """A spec of a class from raw tables; paths are relative to `folder`.  SpecError names the key."""
     try:
         return model.model_validate(tables, context={"folder": str(folder)})
     except ValidationError as error:
-        raise translated(error, model) from None
+        raise spec_error_of(error, model) from None

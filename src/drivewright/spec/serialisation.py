@@ -1,4 +1,4 @@
-"""Out of the house: a spec as raw tables, as TOML text, as the canonical text under its digest."""
+"""A spec as raw tables, as TOML text, and as the canonical text under its digest."""
 
 import hashlib
 import json
@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from drivewright.errors import SpecError, UnitError
-from drivewright.spec.fields import AnyUnit, dimension_of, mark_of
+from drivewright.spec.fields import AnyUnit, dimension_of, marker_of
 from drivewright.units import Dimension, any_quantity
 
 
@@ -21,39 +21,40 @@ def document(spec: Any, places: Mapping[Path, str] | None = None) -> dict[str, A
     """
     fields = [(name, field, getattr(spec, name)) for name, field in type(spec).model_fields.items()]
     return {
-        name: raw(value, dimension_of(field), places)
+        name: to_plain(value, dimension_of(field), places)
         for name, field, value in fields
         if value is not None and not (value in ((), {}) and not field.default)
     }
 
 
-def raw(value: Any, dimension: Dimension | None = None, places: Mapping[Path, str] | None = None) -> Any:
+def to_plain(value: Any, dimension: Dimension | None = None, places: Mapping[Path, str] | None = None) -> Any:
     """A value of a spec as TOML has it: quantities as text, tables as dictionaries."""
     if isinstance(value, BaseModel):
         return document(value, places)
     if isinstance(value, (tuple, list)):
-        return [raw(v, dimension, places) for v in value]
+        return [to_plain(v, dimension, places) for v in value]
     if isinstance(value, dict):
-        return {name: raw(v, dimension, places) for name, v in value.items()}
+        return {name: to_plain(v, dimension, places) for name, v in value.items()}
     if isinstance(value, Path):
         return str((places or {}).get(value, value))
     return dimension.text(value) if dimension and isinstance(value, float) else value
 
 
-def files(value: Any) -> list[Path]:
+def data_files_in(value: Any) -> list[Path]:
     """Every data file a spec names."""
     if isinstance(value, BaseModel):
         value = [getattr(value, name) for name in type(value).model_fields]
     if isinstance(value, dict):
         value = list(value.values())
     if isinstance(value, (tuple, list)):
-        return [path for v in value for path in files(v)]
+        return [path for v in value for path in data_files_in(v)]
     return [value] if isinstance(value, Path) else []
 
 
-def places_beside(paths: Iterable[Path]) -> dict[Path, str]:
+def data_file_places(paths: Iterable[Path]) -> dict[Path, str]:
     """Path -> "data/name", names kept apart where two files of different folders share one."""
-    places, taken = {}, set()
+    places: dict[Path, str] = {}
+    taken: set[str] = set()
     for path in paths:
         number, name = 1, path.name
         while name.lower() in taken:
@@ -79,14 +80,14 @@ def toml_text(tables: Mapping[str, Any], path: str = "") -> str:
     return text
 
 
-def _heading(place, table, several):
+def _heading(path: str, table: Mapping[str, Any], several: bool) -> str:
     """The line that opens a table; a table of nothing but tables needs none."""
     if several:
-        return f"\n[[{place}]]\n"
-    return "" if table and all(isinstance(value, dict) for value in table.values()) else f"\n[{place}]\n"
+        return f"\n[[{path}]]\n"
+    return "" if table and all(isinstance(value, dict) for value in table.values()) else f"\n[{path}]\n"
 
 
-def _is_table(value):
+def _is_table(value: Any) -> bool:
     return isinstance(value, dict) or (isinstance(value, list) and bool(value) and isinstance(value[0], dict))
 
 
@@ -112,7 +113,7 @@ def toml_key(step: str) -> str:
 
 
 def canonical_text(spec: Any, leave_out: Iterable[str] = ()) -> str:
-    """One text for all ways to say the same: SI, keys sorted, data files by content."""
+    """The same text for equal specs, however they are written: SI, keys sorted, data files by content."""
     tables = {name: value for name, value in _canonical(spec).items() if name not in leave_out}
     return json.dumps(tables, sort_keys=True, separators=(",", ":"))
 
@@ -126,12 +127,12 @@ def _canonical(value: Any, field: Any = None) -> Any:
         return {name: _canonical(v, field) for name, v in value.items()}
     if isinstance(value, Path):
         return _content(value)
-    if mark_of(field, AnyUnit) and not isinstance(value, bool):
+    if marker_of(field, AnyUnit) and not isinstance(value, bool):
         return _canonical_quantity(value)
     return (value + 0.0).hex() if isinstance(value, float) else value  # + 0.0: -0.0 is 0.0
 
 
-def _canonical_quantity(value):
+def _canonical_quantity(value: Any) -> Any:
     """The same for "30 mm" and "3 cm", whatever kind of quantity it is; other text as it stands."""
     if value is None:
         return None
@@ -142,7 +143,7 @@ def _canonical_quantity(value):
     return [(number + 0.0).hex(), dimensionality]
 
 
-def _content(path):
+def _content(path: Path) -> str:
     try:
         return hashlib.sha256(path.read_bytes()).hexdigest()
     except OSError as error:

@@ -1,4 +1,4 @@
-"""Into the house: TOML files and "key=value" texts -> raw tables -> a spec."""
+"""From TOML files and "key=value" texts to raw tables, and from raw tables to a spec."""
 
 import re
 import tomllib
@@ -8,10 +8,10 @@ from typing import Any
 
 from drivewright import registry
 from drivewright.errors import SpecError, UnknownName, brief, nearest
+from drivewright.spec.base import Spec, validate_tables
 from drivewright.spec.keys import remove_key, set_key
-from drivewright.spec.table import Spec, validated
 
-LARGEST = 10_000_000  # characters of a spec file
+MAX_CHARACTERS = 10_000_000  # characters of a spec file
 
 
 def load(path: str | Path, changes: Iterable[str] = ()) -> Any:
@@ -27,7 +27,7 @@ def load(path: str | Path, changes: Iterable[str] = ()) -> Any:
 
 def from_document(tables: Mapping[str, Any], model: type[Spec] | None = None, folder: str | Path = ".") -> Any:
     """Spec from raw tables; the kind comes from `mechanism` unless `model` is given.  Paths are relative to `folder`."""
-    return validated(model or _model_of(tables), tables, folder)
+    return validate_tables(model or _model_of(tables), tables, folder)
 
 
 def read_document(path: str | Path) -> dict[str, Any]:
@@ -40,7 +40,7 @@ def read_document(path: str | Path) -> dict[str, Any]:
 
 def parse_document(text: str) -> dict[str, Any]:
     """The raw tables of a spec's text; SpecError where it is not TOML."""
-    text += "\n"  # so that tomllib knows the line of a slip at the very end
+    text += "\n"  # so that tomllib knows the line of a mistake at the very end
     try:
         return tomllib.loads(text)
     except RecursionError:
@@ -50,7 +50,7 @@ def parse_document(text: str) -> dict[str, Any]:
 
 
 def _explained(complaint: str, text: str) -> str:
-    """What tomllib says, in plain words, with the line it is about and a remedy for the commonest slip."""
+    """The complaint of tomllib in plain words, with its line and a remedy for the commonest mistake."""
     if complaint.startswith("Exceeds the limit"):
         return "a number has more than 4300 digits"
     complaint = complaint.replace("Cannot overwrite a value", "the key is there twice")
@@ -64,7 +64,7 @@ def _explained(complaint: str, text: str) -> str:
 def _text_of(path: Path) -> str:
     try:
         with path.open(encoding="utf-8-sig") as stream:  # Windows editors put a byte-order mark in front
-            text = stream.read(LARGEST + 1)
+            text = stream.read(MAX_CHARACTERS + 1)
     except FileNotFoundError:
         kinds = ", ".join(registry.kinds())
         hint = f"`drivewright examples {path.stem}` copies an example, `drivewright new KIND {path.name}` writes a spec (kinds: {kinds})"
@@ -76,8 +76,8 @@ def _text_of(path: Path) -> str:
         raise SpecError(f"is not text in UTF-8 ({byte}); save it as UTF-8", file=str(path)) from None
     except (OSError, ValueError) as error:
         raise SpecError(f"cannot be read: {getattr(error, 'strerror', None) or error}", file=str(path)) from None
-    if len(text) > LARGEST:
-        raise SpecError(f"has more than {LARGEST} characters; that is no spec. Put long tables into data files", file=str(path))
+    if len(text) > MAX_CHARACTERS:
+        raise SpecError(f"has more than {MAX_CHARACTERS} characters; that is no spec. Put long tables into data files", file=str(path))
     return text
 
 

@@ -16,28 +16,28 @@ from drivewright.units import unit_factor
 PURE = "a pure number"
 
 
-class Rows(NamedTuple):
-    """Two columns of a file by name, SI."""
+class ColumnPair(NamedTuple):
+    """Two columns of a file with their names [SI]: x increases."""
 
-    over: str
+    x_name: str
     x: Floats
-    what: str
+    y_name: str
     y: Floats
 
 
-def read_rows(file: str | Path, over: Mapping[str, str], what: Mapping[str, str]) -> Rows:
-    """The `Rows` of a CSV file with one column of `over` and one of `what`, each name -> dimension; x must increase."""
+def read_columns(file: str | Path, x_names: Mapping[str, str], y_names: Mapping[str, str]) -> ColumnPair:
+    """The `ColumnPair` of a CSV file with one column of `x_names` and one of `y_names`, each name -> dimension; x must increase."""
     try:
         lines = Path(file).read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise SpecError(f"cannot be read: {getattr(error, 'strerror', None) or error}", file=str(file)) from None
     reader = csv.reader(lines)
     header = next(reader, [])
-    columns = [_column(header, names, file) for names in (over, what)]
+    columns = [_column(header, names, file) for names in (x_names, y_names)]
     numbers = [[_number(cells, index, f"line {reader.line_num}", name, file) for index, name, _ in columns] for cells in reader if cells]
     table = np.array(numbers, dtype=float).reshape(-1, 2) * [factor for _, _, factor in columns]
     _refuse_disorder(table, columns[0][1], file)
-    return Rows(columns[0][1], table[:, 0], columns[1][1], table[:, 1])
+    return ColumnPair(columns[0][1], table[:, 0], columns[1][1], table[:, 1])
 
 
 def _column(header, names, file):
@@ -46,8 +46,8 @@ def _column(header, names, file):
         match = re.fullmatch(r"\s*([a-z]+)\s*(?:\[(.+)\])?\s*", cell, re.IGNORECASE)
         if match and match[1].lower() in names:
             return index, match[1].lower(), _factor(match[2], names[match[1].lower()], match[1], file)
-    wanted = " or ".join(repr(name if dimension == PURE else f"{name} [unit]") for name, dimension in names.items())
-    raise SpecError(f"no column {wanted} in the first line {','.join(header)!r}", file=str(file))
+    expected = " or ".join(repr(name if dimension == PURE else f"{name} [unit]") for name, dimension in names.items())
+    raise SpecError(f"no column {expected} in the first line {','.join(header)!r}", file=str(file))
 
 
 def _factor(unit, dimension, name, file):
