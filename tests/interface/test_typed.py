@@ -17,7 +17,6 @@ NOT_YET = {  # packages that are still to be finished; one that is finished has 
     "chains",
     "contact",
     "curves",
-    "execution",
     "fatigue",
     "gears",
     "indexing",
