@@ -42,6 +42,7 @@ _WHERE = {
     "motion": "motion:",
     "multibody": "multibody:",
     "shafts": "shafts:",
+    "solids": "solids:",
     "studies": "studies:",
     "units": "units:",
 }

@@ -11,7 +11,7 @@ from drivewright.chains.stress import bearing
 from drivewright.chains.stress.plate import Loads, plate_basis, plate_body, stress_history
 from drivewright.chains.stress.seating import seated
 from drivewright.errors import InputError, SolverError
-from drivewright.solids.plane import PlaneBody, mises
+from drivewright.solids.plane import PlaneBody, plane_von_mises
 from drivewright.solids.plane_mesh import plane_mesh
 
 pytestmark = pytest.mark.needs_fe
@@ -64,7 +64,7 @@ def test_clearance_narrows_the_contact_and_raises_everything():
     assert np.all(np.diff(widths) < 0)
     assert np.all(np.diff([one.pressures[1].max() for one in runs]) > 0)
     hole = body().on("hole*")
-    assert np.all(np.diff([mises(one.stress[hole]).max() for one in runs]) > 0)
+    assert np.all(np.diff([plane_von_mises(one.stress[hole]).max() for one in runs]) > 0)
     assert np.all(np.diff([one.shift[1, 0] for one in runs]) > 0)
 
 
@@ -92,7 +92,7 @@ def test_a_pin_without_clearance_bears_almost_as_the_cosine():
     cosine = stress_history(basis, Loads(PINS[None], np.zeros((1, 2)), np.zeros((1, 2))))[0]
     hole = body().on("hole*")
     assert found(0.0).pressures[1].max() == pytest.approx(4 * 200 / (np.pi * 2 * R * T), rel=0.06)
-    assert mises(found(0.0).stress[hole]).max() == pytest.approx(mises(cosine[hole]).max(), rel=0.06)
+    assert plane_von_mises(found(0.0).stress[hole]).max() == pytest.approx(plane_von_mises(cosine[hole]).max(), rel=0.06)
 
 
 def test_scaling_forces_and_clearance_together_scales_the_answer():

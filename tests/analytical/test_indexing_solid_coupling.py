@@ -10,10 +10,10 @@ from drivewright.bearings import BallBearing
 from drivewright.errors import DoesNotAssemble, InputError
 from drivewright.indexing.drivetrain import GearMesh, PowerBearing, SplitShaft
 from drivewright.indexing.pin_wheel import contacts
-from drivewright.indexing.solid import Solids, WheelBody, bodies, parts, solid_stiffness
-from drivewright.indexing.solid.coupling import couple
-from drivewright.indexing.solid.springs import Spring
+from drivewright.indexing.solid import Solids, WheelBody, parts, solid_stiffness
 from drivewright.shafts import Section
+from drivewright.solids.coupling import InterfaceSpring, solve_coupled
+from drivewright.solids.substructures import InterfaceLoad, rigid_substructure
 from drivewright.units import SI
 
 # ------------------------------------------------------------------------------------------------- the bodies of the reduced model
@@ -61,13 +61,13 @@ def test_shares_are_those_of_the_reduced_model():
 
 def test_two_springs_in_a_row_and_a_gap():
     """A bar of flexibility f between a spring behind a gap and a load P: u = P/k + gap + 4 f P, f between ends that move apart."""
-    places = [bodies.Place((n,), np.array([1.0, 0, 0]), np.zeros(3)) for n in (0, 1)]
-    bar = bodies.rigid(places, (0,))._replace(flexibility=2e-9 * np.array([[1.0, -1.0], [-1.0, 1.0]]))
-    found = couple({"bar": bar}, [Spring("ground", (("bar", (0,), 1.0),), 1 / 3e8, 1e-5)], ("bar", (1,), 500.0))
+    places = [InterfaceLoad((n,), np.array([1.0, 0, 0]), np.zeros(3)) for n in (0, 1)]
+    bar = rigid_substructure(places, (0,))._replace(flexibility=2e-9 * np.array([[1.0, -1.0], [-1.0, 1.0]]))
+    found = solve_coupled({"bar": bar}, [InterfaceSpring("ground", (("bar", (0,), 1.0),), 1 / 3e8, 1e-5)], ("bar", (1,), 500.0))
     assert found.displacements[1] == pytest.approx(500 / 3e8 + 1e-5 + 500 * 8e-9, rel=1e-12)
     assert found.forces == pytest.approx([500.0])
     with pytest.raises(DoesNotAssemble, match="some body moves freely between its springs"):
-        couple({"bar": bar, "other": bar}, [Spring("ground", (("bar", (0,), 1.0),), 0.0)], ("bar", (1,), 1.0))
+        solve_coupled({"bar": bar, "other": bar}, [InterfaceSpring("ground", (("bar", (0,), 1.0),), 0.0)], ("bar", (1,), 1.0))
 
 
 # ------------------------------------------------------------------------------------------------------------------ refusals

@@ -5,9 +5,10 @@ import pytest
 
 import drivewright as dw
 from drivewright import bearings
-from drivewright.mechanisms.shaft import second_route, solid
+from drivewright.mechanisms.shaft import second_route
 from drivewright.mechanisms.shaft.build import material, tooth_force
 from drivewright.mechanisms.shaft.verify import _flexibility, verify
+from drivewright.shafts import solid_check
 
 E, D, SPAN = 206e9, 0.02, 0.3
 I = np.pi / 64 * D**4
@@ -471,21 +472,24 @@ def test_a_couple_on_a_cantilever_by_the_integrals():
 
 def test_shoulders_and_steps_of_the_bore_are_allowed_more():
     def allowed(*pieces):
-        return solid.allowed(dw.shafts.Shaft(tuple(dw.shafts.Section(0.1, *piece) for piece in pieces), E, 0.3, 7850.0, ()))
+        return solid_check.allowed_difference(
+            dw.shafts.Shaft(tuple(dw.shafts.Section(0.1, *piece) for piece in pieces), E, 0.3, 7850.0, ())
+        )
 
-    assert allowed((0.02, 0.03, 0.0), (0.03, 0.03, 0.0)) == solid.ALLOWED
-    assert allowed((0.03, 0.02, 0.0), (0.03, 0.03, 0.0)) == solid.AT_SHOULDERS
-    assert allowed((0.03, 0.03, 0.0), (0.03, 0.03, 0.01)) == solid.AT_SHOULDERS
+    assert allowed((0.02, 0.03, 0.0), (0.03, 0.03, 0.0)) == solid_check.ALLOWED
+    assert allowed((0.03, 0.02, 0.0), (0.03, 0.03, 0.0)) == solid_check.AT_SHOULDERS
+    assert allowed((0.03, 0.03, 0.0), (0.03, 0.03, 0.01)) == solid_check.AT_SHOULDERS
 
 
 def test_bands_of_the_solid_are_the_bearings():
     held = [UNIFORM["bearings"][0] | {"width": "12 mm"}, UNIFORM["bearings"][1] | {"radial_stiffness": "rigid"}]
     model = dw.build(spec(bearings=held, analysis={"solid_band": "3 mm", "direction": "-90 deg"}))
-    seats = tuple(solid.bands(model, dw.shafts.load(model.shaft, model.loads).equilibrium))
+    at_rest = dw.shafts.load(model.shaft, model.loads).equilibrium
+    seats = solid_check.bearing_bands(at_rest, model.direction, model.spec.analysis.solid_band)
     assert seats == ((0.05, 0.012, pytest.approx(4e7)), (0.35, 0.003, np.inf))
     wide = [b | {"width": w} for b, w in zip(held, ("12 mm", "3 mm"), strict=True)]
     wanted = run("flexibility", bearings=wide, analysis={"direction": "-90 deg"}).arrays["flexibility"].values
-    assert solid.beam_on(model, seats) == pytest.approx(wanted, rel=1e-9)
+    assert solid_check.beam_on_bands(model.shaft, seats, model.places, model.direction) == pytest.approx(wanted, rel=1e-9)
 
 
 @pytest.mark.needs_fe

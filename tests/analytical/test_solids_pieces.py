@@ -5,8 +5,8 @@ import pytest
 import shapely
 
 from drivewright.scene import Arc, Bar, Line, Outline, Part, Prism, Spline, circle, polygon
-from drivewright.solids import chain, pieces
-from drivewright.solids.volume import volume
+from drivewright.solids import outlines, pieces
+from drivewright.solids.volume import part_volume
 
 
 def spiral(t):
@@ -96,9 +96,9 @@ def test_joined_drops_waste_closes_tiny_gaps_and_turns_counter_clockwise():
             Line((3e-3, 0.0), (0.0, 0.0)),
         )
     )
-    outline = chain.joined(clockwise, "plate")
+    outline = outlines.normalised(clockwise, "plate")
     assert len(outline.pieces) == 4
-    assert chain.outline_area(outline) == pytest.approx(6e-6, rel=1e-6)
+    assert outlines.outline_area(outline) == pytest.approx(6e-6, rel=1e-6)
     for here, there in zip(outline.pieces, (*outline.pieces[1:], outline.pieces[0]), strict=True):
         assert np.array_equal(pieces.end(here), pieces.start(there))
     knots = next(piece.knots for piece in outline.pieces if isinstance(piece, Spline))
@@ -107,7 +107,7 @@ def test_joined_drops_waste_closes_tiny_gaps_and_turns_counter_clockwise():
 
 def test_joined_moves_the_neighbour_of_an_arc_and_never_the_arc():
     arc = Arc((0.0, 0.0), 0.01, 0.0, np.pi)
-    outline = chain.joined(Outline((arc, Line((-0.01, 7e-10), (0.01, -6e-10)))), "half disc")
+    outline = outlines.normalised(Outline((arc, Line((-0.01, 7e-10), (0.01, -6e-10)))), "half disc")
     assert outline.pieces[0] == arc
     assert pieces.start(outline.pieces[1]) == pytest.approx((-0.01, 0.0), abs=1e-17)
     assert pieces.end(outline.pieces[1]) == pytest.approx((0.01, 0.0), abs=1e-17)
@@ -115,32 +115,32 @@ def test_joined_moves_the_neighbour_of_an_arc_and_never_the_arc():
 
 def test_a_line_that_snapping_draws_together_is_dropped():
     upper, lower = Arc((0.0, 0.0), 0.01, 0.0, np.pi), Arc((0.0, 0.0), 0.01, np.pi, np.pi)
-    outline = chain.joined(Outline((upper, Line((-0.01, 5e-10), (-0.01, -6e-10)), lower)), "disc")
+    outline = outlines.normalised(Outline((upper, Line((-0.01, 5e-10), (-0.01, -6e-10)), lower)), "disc")
     assert outline.pieces == (upper, lower)
 
 
 def test_an_open_outline_stays_open_and_keeps_its_direction():
     path = polygon([(0.0, 0.0), (0.0, 0.02), (0.03, 0.02)], closed=False)
-    assert chain.joined(path, "path") == path
-    assert chain.joints(path).tolist() == [[0.0, 0.0], [0.0, 0.02], [0.03, 0.02]]
-    assert chain.polyline(path, 1e-6).tolist() == chain.joints(path).tolist()
+    assert outlines.normalised(path, "path") == path
+    assert outlines.piece_ends(path).tolist() == [[0.0, 0.0], [0.0, 0.02], [0.03, 0.02]]
+    assert outlines.polyline(path, 1e-6).tolist() == outlines.piece_ends(path).tolist()
 
 
 def test_full_circle_is_cut_in_two_and_recognised():
-    ring = chain.joined(Outline((Arc((0.01, 0.02), 0.005, 0.7, -2 * np.pi),)), "ring")
+    ring = outlines.normalised(Outline((Arc((0.01, 0.02), 0.005, 0.7, -2 * np.pi),)), "ring")
     assert [piece.sweep for piece in ring.pieces] == pytest.approx([np.pi, np.pi])
-    assert chain.full_circle(ring).radius == 0.005
-    assert chain.full_circle(chain.joined(Outline((Arc((0, 0), 1.0, 0.0, np.pi), Line((-1, 0), (1, 0)))), "half")) is None
+    assert outlines.full_circle(ring).radius == 0.005
+    assert outlines.full_circle(outlines.normalised(Outline((Arc((0, 0), 1.0, 0.0, np.pi), Line((-1, 0), (1, 0)))), "half")) is None
     lens = Outline((Arc((0.0, -1.0), np.sqrt(2.0), np.pi / 4, np.pi / 2), Arc((0.0, 1.0), np.sqrt(2.0), -3 * np.pi / 4, np.pi / 2)))
-    assert chain.full_circle(chain.joined(lens, "lens")) is None
+    assert outlines.full_circle(outlines.normalised(lens, "lens")) is None
 
 
 def test_closed_spline_is_cut_in_two_smooth_halves():
     t = np.linspace(0, 2 * np.pi, 401)
     ring = Spline(np.stack([0.03 * np.cos(t), 0.02 * np.sin(t)], axis=1), (0, 1), (0, 1))
-    first, second = chain.joined(Outline((ring,)), "ring").pieces
+    first, second = outlines.normalised(Outline((ring,)), "ring").pieces
     assert first.end_tangent == second.start_tangent == pytest.approx((0, -1), abs=1e-7)
-    assert chain.outline_area(Outline((first, second))) == pytest.approx(np.pi * 0.03 * 0.02, rel=1e-8)
+    assert outlines.outline_area(Outline((first, second))) == pytest.approx(np.pi * 0.03 * 0.02, rel=1e-8)
 
 
 def part(*solids):
@@ -149,7 +149,7 @@ def part(*solids):
 
 def test_volume_of_a_ring():
     ring = part(Prism(circle((0.01, 0.0), 0.02), (circle((0.012, 0.0), 0.006),), 0.003, 0.007))
-    assert volume(ring) == pytest.approx(np.pi * (0.02**2 - 0.006**2) * 0.007, rel=2e-6)
+    assert part_volume(ring) == pytest.approx(np.pi * (0.02**2 - 0.006**2) * 0.007, rel=2e-6)
 
 
 def test_volume_counts_overlap_of_prisms_once():
@@ -157,19 +157,20 @@ def test_volume_counts_overlap_of_prisms_once():
     r, d = 0.02, 0.015
     lens = 2 * r**2 * np.arccos(d / (2 * r)) - d / 2 * np.sqrt(4 * r**2 - d**2)
     both = part(Prism(circle((0, 0), r), (), 0.0, 0.010), Prism(circle((d, 0), r), (), 0.006, 0.009))
-    assert volume(both) == pytest.approx(np.pi * r**2 * 0.019 - lens * 0.004, rel=2e-6)
+    assert part_volume(both) == pytest.approx(np.pi * r**2 * 0.019 - lens * 0.004, rel=2e-6)
 
 
 def test_volume_leaves_out_the_gap_between_stacked_prisms():
     square = polygon([(0, 0), (0.01, 0), (0.01, 0.02), (0, 0.02)])
-    assert volume(part(Prism(square, (), 0.0, 0.001), Prism(square, (), 0.004, 0.002))) == pytest.approx(0.01 * 0.02 * 0.003, rel=1e-12)
+    stack = part(Prism(square, (), 0.0, 0.001), Prism(square, (), 0.004, 0.002))
+    assert part_volume(stack) == pytest.approx(0.01 * 0.02 * 0.003, rel=1e-12)
 
 
 def test_volume_of_a_bar_through_a_block_and_of_crossed_bars():
     r, length = 0.004, 0.05
     bar = Bar((0.0, 0.0), (length, 0.0), 0.005, 2 * r)
-    assert volume(part(bar)) == pytest.approx(np.pi * r**2 * length, rel=1e-9)
+    assert part_volume(part(bar)) == pytest.approx(np.pi * r**2 * length, rel=1e-9)
     block = Prism(polygon([(0.01, -0.01), (0.03, -0.01), (0.03, 0.01), (0.01, 0.01)]), (), 0.0, 0.010)
-    assert volume(part(bar, block)) == pytest.approx(0.02 * 0.02 * 0.01 + np.pi * r**2 * (length - 0.02), rel=1e-6)
+    assert part_volume(part(bar, block)) == pytest.approx(0.02 * 0.02 * 0.01 + np.pi * r**2 * (length - 0.02), rel=1e-6)
     crossed = part(bar, Bar((0.02, -0.03), (0.02, 0.03), 0.005, 2 * r))  # Steinmetz: they share 16 r^3 / 3
-    assert volume(crossed) == pytest.approx(np.pi * r**2 * 0.11 - 16 * r**3 / 3, rel=1e-6)
+    assert part_volume(crossed) == pytest.approx(np.pi * r**2 * 0.11 - 16 * r**3 / 3, rel=1e-6)

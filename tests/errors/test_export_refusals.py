@@ -10,8 +10,8 @@ from drivewright.report.dxf import write_dxf
 from drivewright.report.gcode import gcode
 from drivewright.report.svgout import write_svg
 from drivewright.scene import Arc, Drawing, Line, Outline, Part, Prism, Shape, Spline, circle, polygon
-from drivewright.solids import chain
-from drivewright.solids.volume import volume
+from drivewright.solids import outlines
+from drivewright.solids.volume import part_volume
 
 SETTINGS = {"cutter_diameter": 0.006, "feed": 0.012, "plunge": 0.002, "step_down": 0.005, "spindle_speed": 400.0}
 SQUARE = polygon([(0, 0), (0.03, 0), (0.03, 0.03), (0, 0.03)])
@@ -43,25 +43,25 @@ def test_gap_is_named_with_place_and_size():
             "part 'plate': a gap of 0.02 mm between pieces 0 and 1 of the outline at (20, 0) mm; pieces must meet within 1e-06 mm"
         ),
     ):
-        chain.joined(broken, "part 'plate'")
+        outlines.normalised(broken, "part 'plate'")
     unclosed = Outline((Line((0.0, 0.0), (0.02, 0.0)), Line((0.02, 0.0), (0.02, 0.01))))
     with pytest.raises(InputError, match=r"gap of 22\.3607 mm between pieces 1 and 0"):
-        chain.joined(unclosed, "plate")
+        outlines.normalised(unclosed, "plate")
 
 
 def test_not_finite_and_empty_outlines():
     with pytest.raises(InputError, match=r"plate: piece 1 of the outline \(spline\) holds a number that is not finite"):
-        chain.joined(Outline((Line((0, 0), (1, 0)), Spline(np.array([(1, 0), (np.nan, 1.0)]), (0, 1), (0, 1)))), "plate")
+        outlines.normalised(Outline((Line((0, 0), (1, 0)), Spline(np.array([(1, 0), (np.nan, 1.0)]), (0, 1), (0, 1)))), "plate")
     with pytest.raises(InputError, match="plate: the outline has no piece longer than 1e-09 m"):
-        chain.joined(Outline((Line((0.0, 0.0), (1e-10, 0.0)), Line((1e-10, 0.0), (0.0, 0.0)))), "plate")
+        outlines.normalised(Outline((Line((0.0, 0.0), (1e-10, 0.0)), Line((1e-10, 0.0), (0.0, 0.0)))), "plate")
 
 
 def test_crossing_outline_is_named_with_its_place():
     bow = polygon([(0, 0), (0.02, 0.01), (0.02, 0), (0, 0.01)])
     with pytest.raises(InputError, match=re.escape("crosses or touches itself at (10, 5) mm; trim it there")):
-        volume(Part("bow", (Prism(bow, (), 0.0, 0.01),)))
+        part_volume(Part("bow", (Prism(bow, (), 0.0, 0.01),)))
     with pytest.raises(InputError, match="open; a face needs a closed one"):
-        chain.polygon(SQUARE._replace(closed=False), "plate")
+        outlines.outline_polygon(SQUARE._replace(closed=False), "plate")
 
 
 def test_writers_want_shapes(tmp_path):

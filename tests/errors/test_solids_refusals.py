@@ -7,7 +7,7 @@ import pytest
 
 from drivewright.errors import InputError, MissingExtra
 from drivewright.scene import Bar, Part, Prism, circle, polygon
-from drivewright.solids import chain
+from drivewright.solids import outlines
 
 PLATE = polygon([(0, 0), (0.03, 0), (0.03, 0.02), (0, 0.02)])
 
@@ -15,7 +15,7 @@ PLATE = polygon([(0, 0), (0.03, 0), (0.03, 0.02), (0, 0.02)])
 def solid(*solids):
     from drivewright.solids import cad
 
-    return cad.solid(Part("plate", solids))
+    return cad.cad_solid(Part("plate", solids))
 
 
 @pytest.mark.needs_fe
@@ -51,7 +51,7 @@ def test_impossible_parts_are_refused_by_name(solids, message):
 )
 def test_impossible_holes_are_refused_without_a_kernel(prism, message):
     with pytest.raises(InputError, match=re.escape(message)):
-        chain.region(prism, "part 'plate'")
+        outlines.prism_region(prism, "part 'plate'")
 
 
 @pytest.mark.needs_fe
@@ -86,7 +86,7 @@ def fail(error):
 
 
 def test_without_the_extra_the_message_names_it(monkeypatch):
-    from drivewright.solids.loading import load
+    from drivewright.solids.engine import fe_module
 
     monkeypatch.setattr(importlib, "import_module", fail(ModuleNotFoundError("No module named 'netgen'")))
     with pytest.raises(
@@ -95,12 +95,12 @@ def test_without_the_extra_the_message_names_it(monkeypatch):
             "STEP export needs the extra 'fe', which is not installed (No module named 'netgen'); try: pip install 'drivewright[fe]'"
         ),
     ):
-        load("netgen.occ", "STEP export")
+        fe_module("netgen.occ", "STEP export")
 
 
 def test_a_missing_system_library_is_named_where_the_loader_hides_it(monkeypatch):
-    from drivewright.solids.loading import load
+    from drivewright.solids.engine import fe_module
 
     monkeypatch.setattr(importlib, "import_module", fail(ImportError("libopenblas.so.0: cannot open shared object file")))
     with pytest.raises(MissingExtra, match=r"libopenblas\.so\.0.*libquadmath; try: apt-get install libquadmath0"):
-        load("ngsolve", "a shaft as a solid")
+        fe_module("ngsolve", "a shaft as a solid")

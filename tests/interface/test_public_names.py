@@ -41,6 +41,7 @@ NAMES = [
     "optimise",
     "run",
     "shafts",
+    "solids",
     "studies",
     "sweep",
     "units",

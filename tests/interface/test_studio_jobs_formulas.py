@@ -317,7 +317,7 @@ def test_the_size_of_an_assembly_is_that_of_the_box_around_its_parts(monkeypatch
     tetrahedron = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 2]], float), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     monkeypatch.setattr(solid, "registry", SimpleNamespace(mechanism=lambda kind: SimpleNamespace(kind=kind, parts=lambda model: parts)))
     monkeypatch.setattr(solid.runner, "build", lambda spec: None)
-    monkeypatch.setattr(solid.facets, "triangles", lambda part, tolerance: (tetrahedron[0] + [part.at, 0, 0], tetrahedron[1]))
+    monkeypatch.setattr(solid.facets, "surface_triangles", lambda part, tolerance: (tetrahedron[0] + [part.at, 0, 0], tetrahedron[1]))
     told = []
     answer = solid.solid(design("disc_cam"), lambda *words: told.append(words))
     assert answer["low"] == [-2, 0, 0] and answer["high"] == [2, 2, 2] and answer["size"] == pytest.approx(math.sqrt(24))

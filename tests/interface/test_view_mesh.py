@@ -25,7 +25,7 @@ RINGS = ((0.05, 0.03, 0.03, 0.0), *TAIL)
 
 def surface(tolerance=2e-5, bend=0.3):
     """A stepped shaft along z that droops by bend z^2 [m], of which the hundredth is its displacement."""
-    points, corners = facets.triangles(Part("s", (Turned((0.0, 0.0), 0.0, RINGS),)), tolerance)
+    points, corners = facets.surface_triangles(Part("s", (Turned((0.0, 0.0), 0.0, RINGS),)), tolerance)
     z, y, x = points[corners.ravel()].T
     return Table(
         "solid",

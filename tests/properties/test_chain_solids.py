@@ -64,7 +64,7 @@ def test_triangles_of_a_sprocket_enclose_its_area_times_its_width():
     from drivewright.solids import cad
 
     sprocket = design_sprocket(CHAIN, 13)
-    points, corners = cad.triangles(sprocket.part(0.02, 0.006, tolerance=1e-5), 5e-6)
+    points, corners = cad.cad_triangles(sprocket.part(0.02, 0.006, tolerance=1e-5), 5e-6)
     a, b, c = np.moveaxis(points[corners], 1, 0)
     volume = np.einsum("ij,ij->", a, np.cross(b, c)) / 6
     assert volume == pytest.approx((outline_area(sprocket.outline()) - np.pi * 1e-4) * 0.006, rel=2.5e-3)

@@ -12,7 +12,7 @@ from drivewright.indexing.roller_gear import barrel, cam_part, centres, develope
 from drivewright.report.cad import write_step
 from drivewright.scene import Grooved, Part, polygon
 from drivewright.solids import cad, facets
-from drivewright.solids.volume import volume
+from drivewright.solids.volume import part_volume
 
 MOTION = index_motion("modified-sine", 12, 2.0)
 HOURGLASS = globoidal(MOTION, 0.08, 0.012, 0.016, 0.125, 0.06, hand="left")
@@ -52,7 +52,7 @@ def test_the_solid_of_the_cam(cam, tmp_path):
 @pytest.mark.slow
 @BOTH
 def test_the_triangles_of_the_cam_close(cam):
-    points, corners = facets.triangles(cam_part(cam, BORE), 5e-5)
+    points, corners = facets.surface_triangles(cam_part(cam, BORE), 5e-5)
     edges = Counter((int(t[i]), int(t[(i + 1) % 3])) for t in corners for i in range(3))
     assert all(edges[(b, a)] == count for (a, b), count in edges.items())
     a, b, c = np.moveaxis(points[corners], 1, 0)
@@ -63,7 +63,7 @@ def test_the_triangles_of_the_cam_close(cam):
 @BOTH
 def test_the_turret_has_all_its_rollers(cam):
     """A roller clear of the disc adds its own volume; twelve of them stand about the disc, and one fills a groove of the cam."""
-    solid = cad.solid(turret_part(cam))
+    solid = cad.cad_solid(turret_part(cam))
     assert len(solid.solids) == 1
     low, high = solid.bounding_box
     reach = 0.088 if cam.kind == "globoidal" else 0.09 + 1.5 * 0.012
@@ -76,7 +76,7 @@ def test_a_groove_that_misses_the_body_is_refused():
     (body,) = cam_part(DRUM).solids
     far = Part("far", (body._replace(grooves=(body.grooves[0] + [0, 1.0, 0],)),))
     with pytest.raises(InputError, match=r"part 'far': the CAD kernel cut 0 mm\^3 .* walls that cross or miss the body"):
-        cad.solid(far)
+        cad.cad_solid(far)
 
 
 @pytest.mark.needs_fe
@@ -91,12 +91,12 @@ def test_a_groove_that_misses_the_body_is_refused():
 def test_grooved_bodies_are_checked(change, message):
     body = Grooved((0.0, 0.0), 0.0, polygon([(0, 0), (0.01, 0), (0.01, 0.02), (0, 0.02)]), ())
     with pytest.raises(InputError, match=message):
-        cad.solid(Part("odd", (body._replace(**change),)))
+        cad.cad_solid(Part("odd", (body._replace(**change),)))
 
 
 def test_the_volume_of_a_grooved_body_is_left_to_the_kernel():
     with pytest.raises(InputError, match="needs the CAD kernel"):
-        volume(cam_part(DRUM))
+        part_volume(cam_part(DRUM))
 
 
 @BOTH

@@ -398,14 +398,14 @@ def test_exaggeration_is_a_round_number_that_fills_the_picture():
 
 def test_drawing_and_solid_have_the_volume_of_the_shaft():
     from drivewright.curves import outline_area
-    from drivewright.solids.volume import volume
+    from drivewright.solids.volume import part_volume
 
     model = dw.build(shaft())
     kind = registry.mechanism("shaft")
     (drawing,), (part,) = kind.drawings(model), kind.parts(model)
     cones = [(0.09, 25, 25, 8), (0.12, 30, 40, 0), (0.11, 28, 28, 0)]
     wanted = sum(np.pi * 1e-6 * length / 12 * (a * a + a * b + b * b) - np.pi / 4 * 1e-6 * bore**2 * length for length, a, b, bore in cones)
-    assert volume(part) == pytest.approx(wanted, rel=1e-9)
+    assert part_volume(part) == pytest.approx(wanted, rel=1e-9)
     assert outline_area(drawing.on("profile")[0]) == pytest.approx(sum(1e-3 * length * (a + b) / 2 for length, a, b, _ in cones), rel=1e-9)
     assert isinstance(part.solids[0], scene.Turned)
 

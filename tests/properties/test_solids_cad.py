@@ -11,8 +11,8 @@ from export_cases import BASE, LIFT, assembly, cam, cam_area, lobed, wheel
 from drivewright.curves import outline_area
 from drivewright.report.cad import write_step, write_stl
 from drivewright.scene import Arc, Bar, Line, Outline, Part, Prism, Spline, circle, place, polygon
-from drivewright.solids import cad, chain, facets
-from drivewright.solids.volume import volume
+from drivewright.solids import cad, facets, outlines
+from drivewright.solids.volume import part_volume
 
 pytestmark = pytest.mark.needs_fe
 HEIGHT = 0.012
@@ -70,7 +70,7 @@ def test_step_keeps_names_boxes_and_volumes_of_an_assembly(tmp_path):
         found = np.array([[corner[0], corner[1]] for corner in (low, high)])
         assert found == pytest.approx(1e3 * np.array([points.min(axis=0), points.max(axis=0)]), abs=0.01)
     lever = next(part for part in parts if part.name == "lever")
-    assert mesh_volume(solids["lever"], 8.0) == pytest.approx(volume(lever), rel=2e-4)
+    assert mesh_volume(solids["lever"], 8.0) == pytest.approx(part_volume(lever), rel=2e-4)
 
 
 @pytest.mark.parametrize("outline, size", [(cam(), 10.0), (wheel(teeth=12), 6.0)], ids=["cam", "wheel"])
@@ -83,7 +83,7 @@ def test_step_volume_is_area_times_height(outline, size, tmp_path):
 
 
 def test_area_of_the_cam_face_is_the_integral_of_the_polar_curve():
-    top = max(cad.solid(cam_part()).faces, key=lambda face: face.center.z)
+    top = max(cad.cad_solid(cam_part()).faces, key=lambda face: face.center.z)
     assert top.mass == pytest.approx(1e6 * (cam_area() - np.pi * 0.006**2), rel=1e-8)
 
 
@@ -97,8 +97,8 @@ def test_step_holds_true_circles_and_few_poles(tmp_path):
 
 
 def test_spline_edges_pass_within_a_micrometre_of_every_knot_and_join_the_arcs_smoothly():
-    outline = chain.joined(cam(), "cam")
-    solid = cad.solid(Part("cam", (Prism(outline, (), 0.0, HEIGHT),)))
+    outline = outlines.normalised(cam(), "cam")
+    solid = cad.cad_solid(Part("cam", (Prism(outline, (), 0.0, HEIGHT),)))
     bottom = [edge for edge in dict.fromkeys(solid.edges) if abs(edge.center.z) < 1e-6]
     knots = np.concatenate([piece.knots for piece in outline.pieces if isinstance(piece, Spline)])
     lines = shapely.MultiLineString(
@@ -149,13 +149,13 @@ def test_file_colours_are_those_of_the_role(tmp_path):
 
 def test_pose_turns_about_the_origin_and_then_shifts():
     plate = Prism(polygon([(0.0, 0.0), (0.03, 0.0), (0.03, 0.01), (0.0, 0.01)]), (), 0.002, 0.004)
-    centre = cad.solid(Part("plate", (plate,), (0.1, -0.2, 0.7))).solids[0].center
+    centre = cad.cad_solid(Part("plate", (plate,), (0.1, -0.2, 0.7))).solids[0].center
     assert (centre.x, centre.y) == pytest.approx(1e3 * place([(0.015, 0.005)], (0.1, -0.2, 0.7))[0], rel=1e-9)
     assert centre.z == pytest.approx(4.0)
 
 
 def test_a_bar_lies_between_its_ends():
-    low, high = cad.solid(Part("rod", (Bar((0.01, 0.0), (0.01, 0.05), 0.02, 0.004),))).bounding_box
+    low, high = cad.cad_solid(Part("rod", (Bar((0.01, 0.0), (0.01, 0.05), 0.02, 0.004),))).bounding_box
     assert [low[i] for i in range(3)] == pytest.approx([8.0, 0.0, 18.0], abs=1e-6)
     assert [high[i] for i in range(3)] == pytest.approx([12.0, 50.0, 22.0], abs=1e-6)
 
@@ -164,7 +164,7 @@ def test_sparse_knots_are_refined_until_the_kernels_curve_agrees():
     # a single cubic span: clamped cubics hold it exactly, OpenCASCADE's chord-length curve through its ends alone does not
     arch = Spline(np.array([(0.02, 0.0), (0.0, 0.0)]), (0.0, 1.0), (0.0, -1.0))
     outline = Outline((arch, Line((0.0, 0.0), (0.0, -0.01)), Line((0.0, -0.01), (0.02, -0.01)), Line((0.02, -0.01), (0.02, 0.0))))
-    solid = cad.solid(Part("arch", (Prism(outline, (), 0.0, 0.01),)))
+    solid = cad.cad_solid(Part("arch", (Prism(outline, (), 0.0, 0.01),)))
     # x = 0.02 (1 - 3 u^2 + 2 u^3), y = 0.02 (u - u^2): the area under the arch is 0.02^2 / 5
     assert max(face.mass for face in solid.faces) == pytest.approx(1e6 * (0.02 * 0.01 + 0.02**2 / 5), rel=1e-5)
 
@@ -173,7 +173,7 @@ def test_plates_side_by_side_become_one_block():
     def block(x):
         return Prism(polygon([(x, 0.0), (x + 0.01, 0.0), (x + 0.01, 0.01), (x, 0.01)]), (), 0.0, 0.01)
 
-    assert len(cad.solid(Part("block", (block(0.0), block(0.01), block(0.02)))).faces) == 6
+    assert len(cad.cad_solid(Part("block", (block(0.0), block(0.01), block(0.02)))).faces) == 6
 
 
 def test_tiny_gaps_and_tiny_arcs_still_make_a_solid():
@@ -182,7 +182,7 @@ def test_tiny_gaps_and_tiny_arcs_still_make_a_solid():
     arcs = Arc((0.0, 0.0), r, 0.0, np.pi), Arc((0.0, 0.0), r, np.pi, tiny)
     nearly = Outline((*arcs, Line(end, (0.0, -0.01)), Line((0.0, -0.01), (r, -6e-10))))
     wanted = np.pi * r**2 / 2 + r**2 * tiny / 2 + 0.01 * r / 2 + 0.01 * r * np.cos(tiny) / 2
-    assert cad.solid(Part("plate", (Prism(nearly, (), 0.0, 0.01),))).mass == pytest.approx(1e7 * wanted, rel=1e-6)
+    assert cad.cad_solid(Part("plate", (Prism(nearly, (), 0.0, 0.01),))).mass == pytest.approx(1e7 * wanted, rel=1e-6)
 
 
 def test_arc_that_is_all_but_straight_makes_a_solid():
@@ -191,10 +191,10 @@ def test_arc_that_is_all_but_straight_makes_a_solid():
     flat = Arc((0.0, 0.01 - radius), radius, np.pi / 2 - half, 2 * half)
     right, left = (tuple(p) for p in flat.points(1e-12)[[0, -1]])
     plate = Outline((flat, Line(left, (-0.02, 0.01)), Line((-0.02, 0.01), (0.0, -0.01)), Line((0.0, -0.01), right)))
-    assert cad.solid(Part("plate", (Prism(plate, (), 0.0, 0.01),))).mass == pytest.approx(1e7 * 0.01 * (0.02 + right[0]), rel=1e-4)
+    assert cad.cad_solid(Part("plate", (Prism(plate, (), 0.0, 0.01),))).mass == pytest.approx(1e7 * 0.01 * (0.02 + right[0]), rel=1e-4)
 
 
-@pytest.mark.parametrize("triangles", [cad.triangles, facets.triangles])
+@pytest.mark.parametrize("triangles", [cad.cad_triangles, facets.surface_triangles])
 def test_clockwise_and_closed_spline_outlines_give_the_same_solid_inside_out_never(triangles):
     for outline in (lobed(), Outline(tuple(reversed_pieces(lobed())))):
         points, corners = triangles(Part("lobes", (Prism(outline, (), 0.0, 0.01),)), 5e-5)
@@ -219,7 +219,7 @@ def test_stl_is_closed_outward_and_has_the_volume_of_the_parts(tmp_path):
     corners = corners.reshape(-1, 3)
     assert unpaired(corners) == 0
     total = triangle_volume(vertices.astype(float), corners) * 1e-9
-    assert total == pytest.approx(sum(map(volume, parts)), rel=1e-3)
+    assert total == pytest.approx(sum(map(part_volume, parts)), rel=1e-3)
     normal = np.cross(*(np.diff(facets["v"].astype(float), axis=1).transpose(1, 0, 2)))
     assert np.einsum("ij,ij->i", normal, facets["n"]).min() > 0
     assert np.linalg.norm(facets["n"], axis=1) == pytest.approx(1.0, abs=1e-6)
@@ -232,15 +232,15 @@ def test_stl_is_closed_outward_and_has_the_volume_of_the_parts(tmp_path):
 )
 def test_direct_facets_agree_with_the_kernel_and_are_closed(solid):
     part = Part("part", (solid,), (0.1, -0.05, 0.8))
-    points, corners = facets.triangles(part, 1e-6)
+    points, corners = facets.surface_triangles(part, 1e-6)
     assert unpaired(corners) == 0
-    assert triangle_volume(points, corners) == pytest.approx(volume(part), rel=2e-3)
-    low, high = cad.solid(part).bounding_box
+    assert triangle_volume(points, corners) == pytest.approx(part_volume(part), rel=2e-3)
+    low, high = cad.cad_solid(part).bounding_box
     assert 1e3 * points.min(axis=0) == pytest.approx([low[i] for i in range(3)], abs=0.01)
     assert 1e3 * points.max(axis=0) == pytest.approx([high[i] for i in range(3)], abs=0.01)
 
 
-@pytest.mark.parametrize("triangles", [cad.triangles, facets.triangles])
+@pytest.mark.parametrize("triangles", [cad.cad_triangles, facets.surface_triangles])
 def test_stl_error_falls_in_proportion_to_its_tolerance(triangles):
     part = Part("disc", (Prism(circle((0, 0), 0.02), (), 0.0, 0.005),))
     exact = np.pi * 0.02**2 * 0.005

@@ -8,8 +8,9 @@ import pytest
 
 from drivewright.errors import InputError
 from drivewright.shafts.sections import area, cowper, second_moment
-from drivewright.solids.elastic import Response, held
-from drivewright.solids.shaft_check import Band, cut_pieces, solid_flexibility, surface_table
+from drivewright.shafts.solid_check import solid_flexibility, surface_table
+from drivewright.solids.elastic import Response, spring_supported
+from drivewright.solids.turning import Band, split_rings
 
 E, NU = 206e9, 0.3
 needs_fe = pytest.mark.needs_fe
@@ -183,10 +184,12 @@ def test_a_free_body_moves_as_a_whole_only_where_it_is_held():
     body, cuts = free_tube(20.0, 0.0, 60.0)
     assert body.basis.shape == (6, 6)
     across, along = [body.mean(cut, (0, 1, 0)) for cut in cuts], body.mean("cut4", (0, 0, 1))
-    assert held(body.response([across[0], across[4], across[2]]), [1e6, 3e6]).reactions.ravel() == pytest.approx([-0.5, -0.5], rel=1e-6)
+    assert spring_supported(body.response([across[0], across[4], across[2]]), [1e6, 3e6]).reactions.ravel() == pytest.approx(
+        [-0.5, -0.5], rel=1e-6
+    )
     with pytest.raises(InputError, match="load 1 pushes the body where no spring holds it .*add a support in that direction"):
-        held(body.response([across[0], across[4], across[2], along]), [1e6, 3e6])
-    pull = held(body.response([body.mean("cut0", (0, 0, 1)), along]), [np.inf]).flexibility[0, 0]
+        spring_supported(body.response([across[0], across[4], across[2], along]), [1e6, 3e6])
+    pull = spring_supported(body.response([body.mean("cut0", (0, 0, 1)), along]), [np.inf]).flexibility[0, 0]
     assert pull == pytest.approx(0.06 / (E * area(0.02, 0.0)), rel=2e-3)  # l/EA
     with pytest.raises(InputError, match="no face of the mesh is called 'nope'; there are cut0, cut1"):
         body.mean("nope", (0, 1, 0))
@@ -195,32 +198,32 @@ def test_a_free_body_moves_as_a_whole_only_where_it_is_held():
 def test_the_dense_system_of_a_rigid_bar_on_springs():
     # G = 0: levers only.  Motions: shift and turn about the middle, places at -1, 1 (springs) and 2 (load)
     bar = Response(np.zeros((3, 3)), np.array([[1.0, 1.0, 1.0], [-1.0, 1.0, 2.0]]), ())
-    found = held(bar, [10.0, 40.0])
+    found = spring_supported(bar, [10.0, 40.0])
     assert found.reactions[:, 0] == pytest.approx([0.5, -1.5])
     assert found.flexibility[0, 0] == pytest.approx(0.5**2 / 10 + 1.5**2 / 40)
     assert found.motions[:, 0] == pytest.approx([(-0.05 + 0.0375) / 2, (0.0375 + 0.05) / 2])
     with pytest.raises(InputError, match="load 0 pushes the body where no spring holds it"):
-        held(Response(np.zeros((2, 2)), np.array([[1.0, 1.0], [1.0, 2.0]]), ()), [10.0])
+        spring_supported(Response(np.zeros((2, 2)), np.array([[1.0, 1.0], [1.0, 2.0]]), ()), [10.0])
 
 
 @needs_fe
 def test_the_surface_is_the_shaft_and_moves_as_the_flexibility_says():
     found = solid()
-    a, b, c = np.moveaxis(found.points[found.triangles], 1, 0)
+    a, b, c = np.moveaxis(found.surface.points[found.surface.triangles], 1, 0)
     assert np.einsum("ij,ij->", a, np.cross(b, c)) / 6 == pytest.approx(np.pi * 0.01**2 * 0.34, rel=0.015)
-    left, right = found.points[:, 2] < 1e-9, found.points[:, 2] > 0.34 - 1e-9
-    assert found.fields[:, left, 1].mean(axis=1) == pytest.approx(-found.flexibility[:, 0], rel=2e-3)
-    assert np.abs(found.fields[:, right, 0].mean(axis=1)).max() < 1e-20  # nothing sideways
-    slope = -np.polyfit(found.points[right, 1], found.fields[1, right, 2], 1)[0]  # plane sections: u_z = -w' y
-    assert slope == pytest.approx((found.fields[1, right, 1].mean() + found.flexibility[1, 1]) / (0.34 - 0.245), rel=0.02)
+    left, right = found.surface.points[:, 2] < 1e-9, found.surface.points[:, 2] > 0.34 - 1e-9
+    assert found.surface.displacements[:, left, 1].mean(axis=1) == pytest.approx(-found.flexibility[:, 0], rel=2e-3)
+    assert np.abs(found.surface.displacements[:, right, 0].mean(axis=1)).max() < 1e-20  # nothing sideways
+    slope = -np.polyfit(found.surface.points[right, 1], found.surface.displacements[1, right, 2], 1)[0]  # plane sections: u_z = -w' y
+    assert slope == pytest.approx((found.surface.displacements[1, right, 1].mean() + found.flexibility[1, 1]) / (0.34 - 0.245), rel=0.02)
 
 
 @needs_fe
 def test_bending_squeezes_the_cross_section_sideways_on_the_stretched_side():
     # u_x = -nu M/EI x y in all four quarters, away from bands and loads
     found = solid()
-    x, y, z = found.points[np.abs(found.points[:, 2] - 0.19) < 0.02].T
-    u = found.fields[1, np.abs(found.points[:, 2] - 0.19) < 0.02, 0]
+    x, y, z = found.surface.points[np.abs(found.surface.points[:, 2] - 0.19) < 0.02].T
+    u = found.surface.displacements[1, np.abs(found.surface.points[:, 2] - 0.19) < 0.02, 0]
     wanted = -NU * (0.245 - z) / (E * second_moment(0.02, 0.0)) * x * y
     for side in (x > 0, x < 0, y > 0, y < 0):
         assert u[side] == pytest.approx(wanted[side], abs=0.05 * np.abs(wanted).max())
@@ -230,12 +233,12 @@ def test_bending_squeezes_the_cross_section_sideways_on_the_stretched_side():
 def test_the_table_of_the_deformed_surface():
     table = surface_table(solid(), 1, 500.0)
     z, y, x, size, rest_z, rest_y = (column.data for column in table.columns)
-    assert len(z) == solid().triangles.size and {column.unit for column in table.columns} == {"m"}
-    assert size.max() == pytest.approx(500 * np.linalg.norm(solid().fields[1], axis=1).max())
+    assert len(z) == solid().surface.triangles.size and {column.unit for column in table.columns} == {"m"}
+    assert size.max() == pytest.approx(500 * np.linalg.norm(solid().surface.displacements[1], axis=1).max())
     assert table["displacement"].meaning == "displacement, drawn 20 times as large"
     tip = rest_z > 0.34 - 1e-9
-    end = solid().points[:, 2] > 0.34 - 1e-9
-    assert (y - rest_y)[tip].mean() == pytest.approx(20 * 500 * solid().fields[1, end, 1].mean(), rel=0.01)
+    end = solid().surface.points[:, 2] > 0.34 - 1e-9
+    assert (y - rest_y)[tip].mean() == pytest.approx(20 * 500 * solid().surface.displacements[1, end, 1].mean(), rel=0.01)
     assert y[tip].mean() < rest_y[tip].mean() - 0.01, "a force acts downwards"
     assert surface_table(solid(), 0, 1.0, exaggeration=0.5)["displacement"].meaning.endswith("drawn 0.5 times as large")
 
@@ -263,7 +266,7 @@ def test_what_cannot_be_checked_is_refused(changes, message):
 
 
 def test_cuts_at_every_edge_once():
-    pieces = cut_pieces([(0.1, 0.02, 0.03, 0.0), (0.1, 0.03, 0.03, 0.01)], [Band(0.05, 0.02, 1.0)], [0.0, 0.1 + 1e-9, 0.06])
+    pieces = split_rings([(0.1, 0.02, 0.03, 0.0), (0.1, 0.03, 0.03, 0.01)], [*Band(0.05, 0.02).edges, 0.0, 0.1 + 1e-9, 0.06])
     assert [piece.low for piece in pieces] == pytest.approx([0.0, 0.04, 0.06, 0.1]) and pieces[-1].high == pytest.approx(0.2)
     assert (pieces[1].start, pieces[1].end) == pytest.approx((0.024, 0.026))
     assert [piece.bore for piece in pieces] == [0, 0, 0, 0.01]

@@ -10,7 +10,7 @@ from drivewright.errors import InputError
 from drivewright.report.cad import write_step, write_stl
 from drivewright.scene import Bar, Part, Prism, Turned, circle, place
 from drivewright.solids import cad, facets, turning
-from drivewright.solids.volume import volume
+from drivewright.solids.volume import part_volume
 
 SPINDLE = ((0.03, 0.02, 0.02, 0.006), (0.02, 0.03, 0.03, 0.006), (0.04, 0.03, 0.018, 0.004), (0.015, 0.018, 0.018, 0.0))
 BODIES = {
@@ -39,10 +39,10 @@ def unpaired(corners):
 @pytest.mark.parametrize("rings", BODIES.values(), ids=BODIES)
 def test_surface_is_closed_outward_and_holds_the_volume(rings):
     exact = sum(np.pi * length * ((a * a + a * b + b * b) / 12 - bore**2 / 4) for length, a, b, bore in rings)
-    assert volume(part(rings)) == pytest.approx(exact, rel=1e-14)
+    assert part_volume(part(rings)) == pytest.approx(exact, rel=1e-14)
     errors = []
     for tolerance in (4e-5, 1e-5, 1e-6):
-        points, corners = facets.triangles(part(rings), tolerance)
+        points, corners = facets.surface_triangles(part(rings), tolerance)
         assert unpaired(corners) == 0
         errors.append(exact / triangle_volume(points, corners) - 1)
     largest = max(max(ring[1:3]) for ring in rings) / 2
@@ -52,24 +52,24 @@ def test_surface_is_closed_outward_and_holds_the_volume(rings):
 def test_volume_of_horizontal_sections_is_that_of_the_cones():
     # the same body twice in one part: its union by sections at all heights is the closed form of one
     twice = Part("twice", part(SPINDLE).solids * 2)
-    assert volume(twice) == pytest.approx(turning.volume(SPINDLE), rel=2e-5)
+    assert part_volume(twice) == pytest.approx(turning.ring_volume(SPINDLE), rel=2e-5)
     crossing = Part("crossing", (Turned((-0.05, 0.0), 0.0, ((0.1, 0.01, 0.01, 0.0),)), Bar((0.0, -0.05), (0.0, 0.05), 0.0, 0.01)))
     steinmetz = 16 / 3 * 0.005**3  # two cylinders at right angles have this in common
-    assert volume(crossing) == pytest.approx(2 * np.pi * 0.005**2 * 0.1 - steinmetz, rel=1e-5)
+    assert part_volume(crossing) == pytest.approx(2 * np.pi * 0.005**2 * 0.1 - steinmetz, rel=1e-5)
 
 
 def test_the_profile_has_no_idle_corners():
-    assert len(turning.profile([(0.01, 0.02, 0.02, 0.0)] * 5, "x")) == 4
-    assert len(turning.profile([(0.01, 0.02, 0.03, 0.01), (0.01, 0.03, 0.04, 0.01), (0.01, 0.04, 0.04, 0.02)], "x")) == 7
-    corners = turning.profile(SPINDLE, "x")
+    assert len(turning.half_section([(0.01, 0.02, 0.02, 0.0)] * 5, "x")) == 4
+    assert len(turning.half_section([(0.01, 0.02, 0.03, 0.01), (0.01, 0.03, 0.04, 0.01), (0.01, 0.04, 0.04, 0.02)], "x")) == 7
+    corners = turning.half_section(SPINDLE, "x")
     area = 0.5 * np.sum(corners[:, 0] * np.roll(corners[:, 1], -1) - corners[:, 1] * np.roll(corners[:, 0], -1))
     assert area == pytest.approx(sum(length * ((a + b) / 2 - bore) / 2 for length, a, b, bore in SPINDLE))
 
 
 def test_the_axis_runs_along_x_from_the_start_and_turns_with_the_pose():
-    points, _ = facets.triangles(Part("rod", (Turned((0.01, 0.02), 0.005, ((0.03, 0.02, 0.02, 0.0),)),)), 1e-6)
+    points, _ = facets.surface_triangles(Part("rod", (Turned((0.01, 0.02), 0.005, ((0.03, 0.02, 0.02, 0.0),)),)), 1e-6)
     assert points.min(axis=0) == pytest.approx([0.01, 0.01, -0.005]) and points.max(axis=0) == pytest.approx([0.04, 0.03, 0.015])
-    moved, _ = facets.triangles(part(((0.03, 0.02, 0.02, 0.0),)), 1e-6)
+    moved, _ = facets.surface_triangles(part(((0.03, 0.02, 0.02, 0.0),)), 1e-6)
     assert moved[:, :2] == pytest.approx(place(points[:, :2], POSE)) and moved[:, 2] == pytest.approx(points[:, 2])
 
 
@@ -87,17 +87,17 @@ def test_the_axis_runs_along_x_from_the_start_and_turns_with_the_pose():
 )
 def test_what_cannot_be_turned_is_refused(rings, message):
     with pytest.raises(InputError, match=re.escape(message)):
-        facets.triangles(part(rings))
+        facets.surface_triangles(part(rings))
     with pytest.raises(InputError, match=re.escape(message)):
-        volume(part(rings))
+        part_volume(part(rings))
 
 
 @pytest.mark.needs_fe
 @pytest.mark.parametrize("rings", BODIES.values(), ids=BODIES)
 def test_the_cad_kernel_turns_the_same_body(rings):
-    solid = cad.solid(part(rings)).solids[0]
-    assert solid.mass == pytest.approx(1e9 * volume(part(rings)), rel=1e-9) and solid.name == "spindle"
-    points, _ = facets.triangles(part(rings), 1e-6)
+    solid = cad.cad_solid(part(rings)).solids[0]
+    assert solid.mass == pytest.approx(1e9 * part_volume(part(rings)), rel=1e-9) and solid.name == "spindle"
+    points, _ = facets.surface_triangles(part(rings), 1e-6)
     low, high = solid.bounding_box
     assert 1e3 * points.min(axis=0) == pytest.approx([low[i] for i in range(3)], abs=2e-3)
     assert 1e3 * points.max(axis=0) == pytest.approx([high[i] for i in range(3)], abs=2e-3)
@@ -112,12 +112,12 @@ def test_step_and_stl_of_a_shaft_with_a_wheel(tmp_path):
     write_step(parts, tmp_path / "a.step")
     solids = {solid.name: solid for solid in OCCGeometry(str(tmp_path / "a.step")).shape.solids}
     assert set(solids) == {"spindle", "wheel"}
-    assert solids["spindle"].mass == pytest.approx(1e9 * volume(parts[0]), rel=1e-9)
-    assert solids["wheel"].mass == pytest.approx(1e9 * volume(wheel), rel=2e-4)
+    assert solids["spindle"].mass == pytest.approx(1e9 * part_volume(parts[0]), rel=1e-9)
+    assert solids["wheel"].mass == pytest.approx(1e9 * part_volume(wheel), rel=2e-4)
     write_stl(parts[:1], tmp_path / "a.stl")
     content = (tmp_path / "a.stl").read_bytes()
     facet = np.dtype([("n", "<f4", 3), ("v", "<f4", (3, 3)), ("a", "<u2")])
     found = np.frombuffer(content, facet, int(np.frombuffer(content, "<u4", 1, 80)[0]), 84)
     points, corners = np.unique(found["v"].reshape(-1, 3), axis=0, return_inverse=True)
     assert unpaired(corners.reshape(-1, 3)) == 0
-    assert triangle_volume(points.astype(float), corners.reshape(-1, 3)) == pytest.approx(1e9 * volume(parts[0]), rel=2e-3)
+    assert triangle_volume(points.astype(float), corners.reshape(-1, 3)) == pytest.approx(1e9 * part_volume(parts[0]), rel=2e-3)

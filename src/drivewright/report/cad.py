@@ -17,7 +17,7 @@ FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute"
 
 def write_step(parts, path, tolerance=cad.TOLERANCE):
     """STEP file (AP214, millimetres) of parts as one assembly of named, coloured solids; splines within `tolerance` [m] of their knots."""
-    shape = cad.assembly(list(parts), tolerance)
+    shape = cad.cad_assembly(list(parts), tolerance)
     with replacing(path) as temporary:
         shape.WriteStep(str(temporary))
         if not temporary.is_file():
@@ -28,7 +28,7 @@ def write_step(parts, path, tolerance=cad.TOLERANCE):
 
 def write_stl(parts, path, tolerance=1e-5):
     """Binary STL [mm] of parts, every one a closed surface with outward normals, chords within about `tolerance` [m] of the surface."""
-    surface = np.concatenate([_facets(*facets.triangles(part, tolerance)) for part in parts])
+    surface = np.concatenate([_facets(*facets.surface_triangles(part, tolerance)) for part in parts])
     with replacing(path) as temporary:
         temporary.write_bytes(b"drivewright: millimetres".ljust(80) + np.uint32(len(surface)).tobytes() + surface.tobytes())
 

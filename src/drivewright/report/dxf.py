@@ -8,7 +8,7 @@ import numpy as np
 from drivewright.errors import InputError
 from drivewright.report.atomic import replacing
 from drivewright.scene import Arc, Drawing, Line
-from drivewright.solids import chain, pieces
+from drivewright.solids import outlines, pieces
 
 MM = 1e3
 LAYERS = {  # colour index, line type
@@ -69,8 +69,8 @@ def _lay_out(space, drawings, tolerance, splines):
 
 
 def _draw(space, shape, name, shift, tolerance, splines):
-    outline, at = chain.joined(shape.outline, name), {"layer": shape.layer}
-    if ring := chain.full_circle(outline):
+    outline, at = outlines.normalised(shape.outline, name), {"layer": shape.layer}
+    if ring := outlines.full_circle(outline):
         space.add_circle(_mm(ring.center, shift), MM * ring.radius, dxfattribs=at)
         return
     for kind, run in groupby(outline.pieces, type):

@@ -12,7 +12,7 @@ from drivewright.curves import offset_outline
 from drivewright.errors import InputError
 from drivewright.report.atomic import write_text
 from drivewright.scene import Arc
-from drivewright.solids import chain, pieces
+from drivewright.solids import outlines, pieces
 
 MM = 1e3
 
@@ -61,7 +61,7 @@ def gcode(
     path = _climbing(profile, radius, drawing.name)
     levels = -depth * np.arange(1, math.ceil(depth / step_down - 1e-9) + 1) / math.ceil(depth / step_down - 1e-9)
     write = _Writer(feed, plunge, safe_height, tolerance)
-    holes = [chain.joined(hole, f"hole of drawing {drawing.name!r}") for hole in drawing.on("hole")]
+    holes = [outlines.normalised(hole, f"hole of drawing {drawing.name!r}") for hole in drawing.on("hole")]
     lines = _header(drawing, cutter_diameter, tolerance, levels, spindle_speed, warnings) + [f"G0 Z{_mm(safe_height)}"]
     for hole in holes:
         lines += _bore(write, hole, radius, levels, drawing.name) if bores else [_left_out(hole, "bores are not asked for")]
@@ -104,14 +104,14 @@ def _require_positive(**settings):
 
 
 def _profile(drawing):
-    outlines = drawing.on("profile")
-    if len(outlines) != 1 or not outlines[0].closed:
+    profiles = drawing.on("profile")
+    if len(profiles) != 1 or not profiles[0].closed:
         raise InputError(
-            f"G-code of drawing {drawing.name!r} wants one closed outline on layer 'profile'; there are {len(outlines)}"
-            f"{', not closed' if len(outlines) == 1 else ''}"
+            f"G-code of drawing {drawing.name!r} wants one closed outline on layer 'profile'; there are {len(profiles)}"
+            f"{', not closed' if len(profiles) == 1 else ''}"
         )
-    profile = chain.joined(outlines[0], f"drawing {drawing.name!r}")
-    chain.polygon(profile, f"drawing {drawing.name!r}")
+    profile = outlines.normalised(profiles[0], f"drawing {drawing.name!r}")
+    outlines.outline_polygon(profile, f"drawing {drawing.name!r}")
     return profile
 
 
@@ -133,7 +133,7 @@ def _with_leads(path, profile, radius, lead_radius, name):
     """The closed path begun at the first joint where quarter circles in and out clear the profile."""
     import shapely
 
-    body = chain.polygon(profile, name)
+    body = outlines.outline_polygon(profile, name)
     shapely.prepare(body)
     for first in range(len(path)):
         entry, leave = _leads(path[first], lead_radius)
@@ -156,12 +156,12 @@ def _leads(piece, radius):
 
 def _bore(write, hole, radius, levels, name):
     """A round hole: helix at the wall, one flat turn at the bottom, a half circle off the wall to the middle."""
-    ring = chain.full_circle(hole)
+    ring = outlines.full_circle(hole)
     if ring is None:
         return [_left_out(hole, "it is not round")]
     x, y = ring.center
     reach = ring.radius - radius
-    if reach < -chain.SNAP:
+    if reach < -outlines.SNAP:
         raise InputError(
             f"G-code of drawing {name!r}: the hole at ({MM * x:.4g}, {MM * y:.4g}) mm has radius {MM * ring.radius:g} mm, "
             f"under the cutter's radius of {MM * radius:g} mm; take a smaller cutter, or bores=False and drill it"
@@ -186,7 +186,7 @@ def _half_turn(x, y, reach, side):
 
 
 def _left_out(hole, reason):
-    x, y = np.mean(chain.joints(hole)[:-1], axis=0)
+    x, y = np.mean(outlines.piece_ends(hole)[:-1], axis=0)
     return f"(HOLE NEAR X{_mm(x)} Y{_mm(y)} IS LEFT OUT: {reason.upper()})"
 
 

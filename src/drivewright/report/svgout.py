@@ -7,7 +7,7 @@ import numpy as np
 from drivewright.report.atomic import write_text
 from drivewright.report.dxf import extent
 from drivewright.scene import Arc, Line
-from drivewright.solids import chain, pieces
+from drivewright.solids import outlines, pieces
 
 MM = 1e3
 STROKES = {
@@ -45,7 +45,7 @@ def write_svg(drawing, path, tolerance=1e-6, margin=2e-3, stroke=1e-4):
 
 def path_data(outline, name, tolerance=1e-6):
     """The `d` of an SVG path [mm, y down] of an outline."""
-    outline = chain.joined(outline, f"drawing {name!r}")
+    outline = outlines.normalised(outline, f"drawing {name!r}")
     steps = [f"M{_pair(pieces.start(outline.pieces[0]))}", *(_step(piece, tolerance) for piece in outline.pieces)]
     return " ".join(steps + ["Z"] * outline.closed)
 

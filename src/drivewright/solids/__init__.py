@@ -1,0 +1,29 @@
+"""CAD solids and finite elements of bodies: outlines, turned and grooved solids, elastic bodies in space and in plane stress.
+
+Knows shapes, loads and springs, and no machine.  Volumes and surfaces of simple parts need no CAD kernel; all else needs the extra `fe`.
+"""
+
+from importlib import import_module
+
+_WHERE = {
+    "cad": ("cad_assembly", "cad_solid"),
+    "coupling": ("CoupledSolution", "InterfaceSpring", "solve_coupled"),
+    "deformation": ("DisplacedSurface", "displaced_table"),
+    "elastic": ("FreeBody", "Response", "SpringSupported", "spring_supported", "superposed_field"),
+    "facets": ("surface_triangles",),
+    "meshing": ("boundary_measure", "check_boundary_measures", "solid_mesh"),
+    "plane": ("PlaneBody", "Rim", "StressSurface", "field_table", "order_error", "plane_von_mises"),
+    "plane_mesh": ("plane_mesh",),
+    "substructures": ("InterfaceLoad", "Substructure", "elastic_substructure", "radial_loads", "rigid_substructure"),
+    "turning": ("Band", "Frustum", "half_section", "ring_volume", "split_rings"),
+    "volume": ("part_volume",),
+}
+_MODULE = {name: module for module, names in _WHERE.items() for name in names}
+
+__all__ = sorted(_MODULE)
+
+
+def __getattr__(name: str) -> object:
+    if name not in _MODULE:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_MODULE[name]}"), name)

@@ -7,14 +7,19 @@ then a small dense system over the functionals and the rigid motions: one factor
 Meshes are in millimetres; stresses in MPa inside; every number that comes out is SI.
 """
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from drivewright.errors import InputError
-from drivewright.solids.loading import load
+from drivewright._typing import ArrayLike, Floats, Ints
+from drivewright.errors import InputError, SolverError
+from drivewright.solids.deformation import DisplacedSurface, subdivided_triangle
+from drivewright.solids.engine import EngineObject, fe_module
+from drivewright.solids.meshing import PURPOSE, boundary_measure
 
-MM = 1e-3
+MM = 1e-3  # metres in a millimetre
+EXTRA_ORDER = 6  # of integration beyond the elements' own, for a strip that is narrower than they are
 LOOSE = 1e-4  # a rigid motion with so small a part in what the springs feel is not held: meshes are symmetric to about 1e-7 only
 
 
@@ -26,17 +31,17 @@ class Response(NamedTuple):
     fields: for each functional the coefficients of its displacement [mm/N].
     """
 
-    flexibility: np.ndarray
-    resultants: np.ndarray
-    fields: tuple
+    flexibility: Floats
+    resultants: Floats
+    fields: tuple[EngineObject, ...]
 
 
-class Held(NamedTuple):
+class SpringSupported(NamedTuple):
     """A body on springs under L unit loads: flexibility (L, L) [m/N], forces of the S springs on it (S, L), rigid motions (m, L) [m/N]."""
 
-    flexibility: np.ndarray
-    reactions: np.ndarray
-    motions: np.ndarray
+    flexibility: Floats
+    reactions: Floats
+    motions: Floats
 
 
 class FreeBody:
@@ -49,8 +54,8 @@ class FreeBody:
     balanced the pins feel no force, and the rigid part of what they leave is taken out: no result depends on them.
     """
 
-    def __init__(self, mesh, modulus, poisson, **symmetry):
-        self.ng = ng = load("ngsolve", "a solid check")
+    def __init__(self, mesh: EngineObject, modulus: float, poisson: float, **symmetry: str) -> None:
+        self.ng = ng = fe_module("ngsolve", PURPOSE)
         ng.SetNumThreads(1)  # the same bits every time; a second thread gains nothing at this size
         self.mesh, self.space = mesh, ng.VectorH1(mesh, order=2, **symmetry)
         corners = np.array(mesh.ngmesh.Coordinates())
@@ -66,28 +71,65 @@ class FreeBody:
             self._inverse = stiffness.mat.Inverse(self._unpinned(), inverse="sparsecholesky")
 
     @property
-    def unknowns(self):
+    def unknowns(self) -> int:
+        """Degrees of freedom of the finite elements."""
         return self.space.ndof
 
-    def mean(self, region, direction):
+    def mean(self, region: str, direction: Sequence[float] | Floats) -> EngineObject:
         """Functional: mean displacement along `direction` (3,) over the faces whose names match `region`, a regular expression."""
         return self.weighted(region, self.ng.CF(tuple(map(float, direction))) / self.area(region))
 
-    def weighted(self, region, weight):
+    def weighted(self, region: str, weight: EngineObject) -> EngineObject:
         """Functional: integral over named faces [mm^2] of the displacement times `weight`, a vector coefficient function of (x, y, z)."""
         ng = self.ng
         self.area(region)
         return ng.LinearForm(ng.InnerProduct(weight, self.space.TestFunction()) * ng.ds(region)).Assemble().vec
 
-    def area(self, region):
+    def mean_rotation(self, region: str, axis: int, radius: float) -> EngineObject:
+        """Functional: rotation of named faces about the x, y or z axis (0, 1, 2), in least squares, times `radius` [m].
+
+        About x and y from the displacements along z alone.
+        """
+        ng = self.ng
+        self.area(region)
+        if axis == 2:
+            direction, square = ng.CF((-ng.y, ng.x, 0)), ng.x * ng.x + ng.y * ng.y
+        else:
+            arm = (ng.y, -ng.x)[axis]
+            direction, square = ng.CF((0, 0, arm)), arm * arm
+        moment = ng.Integrate(square * ng.ds(region), self.mesh)
+        return self.weighted(region, radius / MM / float(moment) * direction)
+
+    def gaussian_strip(self, region: str, point: complex, normal: complex, sigma: float) -> EngineObject:
+        """Functional: mean displacement along `normal` over named faces, weighted by exp(-r^2/2 sigma^2) of the distance r to a line
+        along z through `point` (x + iy) [m]; sigma [m].
+
+        Only the flank that faces along the normal counts.  A part linear along the flank brings the resultant to the point exactly, also
+        at a corner.
+        """
+        ng = self.ng
+        x, y = ng.x - point.real / MM, ng.y - point.imag / MM
+        ahead = normal.real * ng.specialcf.normal(3)[0] + normal.imag * ng.specialcf.normal(3)[1]
+        along = normal.real * y - normal.imag * x
+        weight = ng.IfPos(ahead, ahead, 0) * ng.exp(-(x * x + y * y) / (2 * (sigma / MM) ** 2))
+        area = ng.ds(region, bonus_intorder=EXTRA_ORDER)
+        m0, m1, m2 = (float(ng.Integrate(weight * along**n * area, self.mesh)) for n in range(3))
+        if not m2 * m0 > m1 * m1:
+            raise SolverError(f"solid check: no part of the profile lies at the contact at ({point.real:.5g}, {point.imag:.5g}) m.")
+        slope = -m1 / m2
+        balanced = weight * (1 + slope * along) / (m0 + slope * m1)
+        direction = ng.CF((float(normal.real), float(normal.imag), 0))
+        return ng.LinearForm(ng.InnerProduct(balanced * direction, self.space.TestFunction()) * area).Assemble().vec
+
+    def area(self, region: str) -> float:
         """Area [mm^2] of the faces whose names match `region`; InputError where there are none (NGSolve would integrate over nothing)."""
-        area = self.ng.Integrate(self.ng.CF(1) * self.ng.ds(region), self.mesh)
+        area = boundary_measure(self.mesh, region)
         if not area > 0:
             raise InputError(f"no face of the mesh is called {region!r}; there are {', '.join(sorted(set(self.mesh.GetBoundaries())))}")
         return area
 
-    def response(self, functionals):
-        """The `Response` to functionals made by `mean` or `weighted`."""
+    def response(self, functionals: Sequence[EngineObject]) -> Response:
+        """The `Response` to functionals made by `mean`, `weighted`, `mean_rotation` or `gaussian_strip`."""
         with self.ng.TaskManager():
             fields = [self._elastic(g) for g in functionals]
             product = self.ng.InnerProduct
@@ -95,37 +137,34 @@ class FreeBody:
             resultants = np.array([[product(mode, g) for g in functionals] for mode in self._modes])
         return Response(flexibility, resultants, tuple(fields))
 
-    def surface(self, region, fields, motions, parts=2):
-        """Points (n, 3) [m], triangles (m, 3), displacements (L, n, 3) [m/N] on named faces, each curved triangle in parts^2 flat ones.
+    def surface(self, region: str, fields: Sequence[EngineObject], motions: Floats, parts: int = 2) -> DisplacedSurface:
+        """The `DisplacedSurface` of named faces, displacements (L, n, 3) [m/N], each curved triangle in parts^2 flat ones.
 
         fields: L vectors of coefficients [mm/N]; motions (m, L) [m/N]: rigid motion to add to each.
         """
         ng = self.ng
-        grid, local = _subdivision(parts)
-        rule = ng.IntegrationRule(points=[tuple(p) for p in grid / parts], weights=[0.0] * len(grid))
-        at = self.mesh.MapToAllElements({ng.ET.TRIG: rule}, self.mesh.Boundaries(region))
+        at, triangles = sampled_triangles(ng, self.mesh, self.mesh.Boundaries(region), parts)
         points = ng.CF((ng.x, ng.y, ng.z))(at)
-        corners = (np.arange(len(points) // len(grid))[:, None, None] * len(grid) + local).reshape(-1, 3)
         shape = ng.GridFunction(self.space)
         found = []
         for field, motion in zip(fields, (self.basis @ motions).T, strict=True):
             shape.vec.data = field
             found.append(MM * np.asarray(shape(at)) + _carried(points, motion, self.middle, self.size))
-        return MM * points, corners, np.array(found)
+        return DisplacedSurface(MM * points, triangles, np.array(found))
 
-    def _interpolated(self, function):
+    def _interpolated(self, function: EngineObject) -> EngineObject:
         shape = self.ng.GridFunction(self.space)
         shape.Set(function)
         return shape.vec
 
-    def _allowed(self, motions):
+    def _allowed(self, motions: Sequence[EngineObject]) -> Floats:
         """Orthonormal combinations (6, m) of the six rigid motions that are 0 wherever the symmetry wants it."""
         fixed = ~np.array(list(self.space.FreeDofs()))
         table = np.array([np.array(self._interpolated(motion))[fixed] for motion in motions])
         axes, sizes, _ = np.linalg.svd(table @ table.T)
         return axes[:, sizes <= 1e-12 * max(sizes[0], 1.0)]
 
-    def _unpinned(self):
+    def _unpinned(self) -> EngineObject:
         """The unknowns but a few: those vertex displacements whose values under rigid motions are furthest from depending on each other."""
         from scipy.linalg import qr
 
@@ -137,7 +176,7 @@ class FreeBody:
             free.Clear(int(number))
         return free
 
-    def _elastic(self, functional):
+    def _elastic(self, functional: EngineObject) -> EngineObject:
         """Displacement under a balanced unit load, without rigid part."""
         balanced, shape = functional.CreateVector(), functional.CreateVector()
         balanced.data = functional
@@ -146,14 +185,23 @@ class FreeBody:
         self._subtract(shape, self._masses, self._modes)
         return shape
 
-    def _subtract(self, vector, measures, parts):
+    def _subtract(self, vector: EngineObject, measures: Sequence[EngineObject], parts: Sequence[EngineObject]) -> None:
         """Take from a vector as much of the parts as makes its product with every measure 0."""
         amounts = np.linalg.solve(self._gram, [self.ng.InnerProduct(measure, vector) for measure in measures])
         for amount, part in zip(amounts, parts, strict=True):
             vector.data -= float(amount) * part
 
 
-def combined(fields, amounts):
+def sampled_triangles(ng: Any, mesh: EngineObject, elements: EngineObject, parts: int) -> tuple[EngineObject, Ints]:
+    """(places of evaluation, flat triangles (m, 3) of them): each curved triangle among the elements in parts^2."""
+    grid, local = subdivided_triangle(parts)
+    rule = ng.IntegrationRule(points=[tuple(p) for p in grid / parts], weights=[0.0] * len(grid))
+    at = mesh.MapToAllElements({ng.ET.TRIG: rule}, elements)
+    count = len(ng.CF(1)(at)) // len(grid)
+    return at, (np.arange(count)[:, None, None] * len(grid) + local).reshape(-1, 3)
+
+
+def superposed_field(fields: Sequence[EngineObject], amounts: Sequence[float] | Floats) -> EngineObject:
     """One vector of the finite elements: the sum of amounts times fields."""
     total = fields[0].CreateVector()
     total[:] = 0.0
@@ -162,8 +210,9 @@ def combined(fields, amounts):
     return total
 
 
-def held(response, stiffness):
-    """A `Held` of a free body's `Response`: its first functionals are springs of `stiffness` (S,) [N/m] (inf is rigid), the rest loads.
+def spring_supported(response: Response, stiffness: ArrayLike) -> SpringSupported:
+    """The `SpringSupported` of a free body's `Response`: its first functionals are springs of `stiffness` (S,) [N/m] (inf is
+    rigid), the rest loads.
 
     With R the forces of the springs on the body, a the rigid motions that they hold and H the resultants,
 
@@ -172,19 +221,20 @@ def held(response, stiffness):
 
     InputError where a load drives a rigid motion that no spring holds.
     """
+    stiffness = np.asarray(stiffness, float)
     count = len(stiffness)
     flexibility, resultants = response.flexibility, response.resultants
     basis = _held_motions(resultants[:, :count], resultants[:, count:])
     kept = basis.T @ resultants
-    springs = flexibility[:count, :count] + np.diag(1.0 / np.asarray(stiffness, float))
+    springs = flexibility[:count, :count] + np.diag(1.0 / stiffness)
     scale = np.abs(springs).max()  # brings the balance rows to the size of the others
     matrix = np.block([[springs, scale * kept[:, :count].T], [scale * kept[:, :count], np.zeros((len(kept), len(kept)))]])
     right = np.vstack([flexibility[:count, count:], scale * kept[:, count:]])
     solution = -np.linalg.solve(matrix, right)
-    return Held(flexibility[count:, count:] + right.T @ solution, solution[:count], scale * basis @ solution[count:])
+    return SpringSupported(flexibility[count:, count:] + right.T @ solution, solution[:count], scale * basis @ solution[count:])
 
 
-def _held_motions(springs, loads):
+def _held_motions(springs: Floats, loads: Floats) -> Floats:
     """Orthonormal rigid motions (m, h) that the springs' resultants (m, S) feel; refuses loads (m, L) on the others."""
     axes, sizes, _ = np.linalg.svd(springs)
     sizes = np.concatenate([sizes, np.zeros(len(axes) - len(sizes))])
@@ -198,7 +248,7 @@ def _held_motions(springs, loads):
     return axes[:, kept]
 
 
-def _stiffness(ng, space, modulus, poisson):
+def _stiffness(ng: Any, space: EngineObject, modulus: float, poisson: float) -> EngineObject:
     """Bilinear form int 2 mu e(u) : e(v) + lambda div u div v."""
     u, v = space.TnT()
     shear, volume = modulus / 2 / (1 + poisson), modulus * poisson / (1 + poisson) / (1 - 2 * poisson)
@@ -209,26 +259,17 @@ def _stiffness(ng, space, modulus, poisson):
     return form
 
 
-def _rigid_motions(ng, middle, size):
+def _rigid_motions(ng: Any, middle: Floats, size: float) -> list[EngineObject]:
     """Three shifts, three turns about the middle with size 1 at the distance `size`."""
     x, y, z = (c - float(m) for c, m in zip((ng.x, ng.y, ng.z), middle, strict=True))
     return [ng.CF(c) for c in ((1, 0, 0), (0, 1, 0), (0, 0, 1))] + [ng.CF(c) / size for c in ((0, -z, y), (z, 0, -x), (-y, x, 0))]
 
 
-def _combination(ng, parts, functions):
+def _combination(ng: Any, parts: Floats, functions: Sequence[EngineObject]) -> EngineObject:
     """Coefficient function sum of parts times functions."""
     return sum((float(part) * function for part, function in zip(parts, functions, strict=True)), ng.CF((0, 0, 0)))
 
 
-def _carried(points, motion, middle, size):
+def _carried(points: Floats, motion: Floats, middle: Floats, size: float) -> Floats:
     """Displacement (n, 3) of points (n, 3) by amounts (6,) of the rigid motions."""
     return motion[:3] + np.cross(motion[3:], (points - middle) / size)
-
-
-def _subdivision(parts):
-    """Corners (n, 2) of a triangle divided parts x parts, as whole numbers, and its small triangles (m, 3)."""
-    grid = [(i, j) for i in range(parts + 1) for j in range(parts + 1 - i)]
-    number = {spot: n for n, spot in enumerate(grid)}
-    upright = [[(i, j), (i + 1, j), (i, j + 1)] for i, j in grid if i + j < parts]
-    inverted = [[(i + 1, j), (i + 1, j + 1), (i, j + 1)] for i, j in grid if i + j < parts - 1]
-    return np.array(grid), np.array([[number[spot] for spot in corners] for corners in upright + inverted])

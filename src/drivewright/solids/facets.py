@@ -1,25 +1,31 @@
 """Closed triangle surfaces of parts: a single prism, bar or turned body directly, others with the CAD kernel (extra `fe`)."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from drivewright.scene import Bar, Prism, Turned, circle, place
-from drivewright.solids import cad, chain, turning
+from drivewright._typing import Floats, Ints
+from drivewright.scene import Bar, Part, Prism, Turned, circle, place
+from drivewright.solids import cad, outlines, turning
+
+if TYPE_CHECKING:
+    import shapely
 
 
-def triangles(part, tolerance=1e-5):
+def surface_triangles(part: Part, tolerance: float = 1e-5) -> tuple[Floats, Ints]:
     """Surface of a part, outward counter-clockwise: points (n, 3) [m] and corners (m, 3); chords within about `tolerance` [m] of it."""
     if len(part.solids) != 1 or type(part.solids[0]) not in MAKERS:
-        return cad.triangles(part, tolerance)
+        return cad.cad_triangles(part, tolerance)
     (solid,) = part.solids
     points, corners = MAKERS[type(solid)](solid, f"part {part.name!r}", tolerance)
     return np.column_stack([place(points[:, :2], part.pose), points[:, 2]]), corners
 
 
-def _prism(prism, name, tolerance):
-    return _extruded(chain.region(prism, name, tolerance), prism.z, prism.z + prism.thickness)
+def _prism(prism: Prism, name: str, tolerance: float) -> tuple[Floats, Ints]:
+    return _extruded(outlines.prism_region(prism, name, tolerance), prism.z, prism.z + prism.thickness)
 
 
-def _bar(bar, name, tolerance):
+def _bar(bar: Bar, name: str, tolerance: float) -> tuple[Floats, Ints]:
     """A disc pushed along the bar: its axes u, v, w become the bar's left, up and forward."""
     from shapely import Polygon
 
@@ -32,7 +38,7 @@ def _bar(bar, name, tolerance):
     return np.column_stack([flat, bar.z + points[:, 1]]), corners
 
 
-def _extruded(region, low, high):
+def _extruded(region: "shapely.Polygon", low: float, high: float) -> tuple[Floats, Ints]:
     """Triangles of a polygon with holes between two heights; caps and walls share the corners of the polygon."""
     import shapely
 
@@ -50,4 +56,4 @@ def _extruded(region, low, high):
     return points, np.concatenate([top[:, ::-1], top + count, walls])
 
 
-MAKERS = {Prism: _prism, Bar: _bar, Turned: turning.triangles}
+MAKERS = {Prism: _prism, Bar: _bar, Turned: turning.turned_triangles}

@@ -4,23 +4,24 @@ Everything in metres and radians; a spline is the C2 cubic through its knots ove
 """
 
 import numpy as np
-from scipy.interpolate import PPoly, make_interp_spline
+from scipy.interpolate import BSpline, PPoly, make_interp_spline
 
+from drivewright._typing import Floats
 from drivewright.curves import outlines
-from drivewright.scene import Arc, Line, Spline
+from drivewright.scene import Arc, Line, Piece, Spline
 
 
-def start(piece):
-    """First point (2,) of a piece."""
+def start(piece: Piece) -> Floats:
+    """First point (2,) [m] of a piece."""
     return _end(piece, 0)
 
 
-def end(piece):
-    """Last point (2,) of a piece."""
+def end(piece: Piece) -> Floats:
+    """Last point (2,) [m] of a piece."""
     return _end(piece, 1)
 
 
-def headings(piece):
+def headings(piece: Piece) -> tuple[Floats, Floats]:
     """Unit tangents (2,), (2,) at the start and at the end, in the direction of travel."""
     if isinstance(piece, Line):
         direction = end(piece) - start(piece)
@@ -31,7 +32,7 @@ def headings(piece):
     return tuple(np.asarray(t, float) / np.hypot(*t) for t in (piece.start_tangent, piece.end_tangent))
 
 
-def reverse(piece):
+def reverse(piece: Piece) -> Piece:
     """The same piece travelled backwards."""
     if isinstance(piece, Line):
         return Line(piece.end, piece.start)
@@ -41,20 +42,20 @@ def reverse(piece):
     return Spline(np.asarray(piece.knots, float)[::-1], *back)
 
 
-def length(piece):
+def length(piece: Piece) -> float:
     """Arc length [m]; of a spline the length of its chords."""
     if isinstance(piece, Arc):
         return piece.radius * abs(piece.sweep)
     return float(np.hypot(*np.diff(piece.points(0.0), axis=0).T).sum())
 
 
-def interpolant(spline):
-    """The curve of a `Spline`: clamped C2 cubic over the chord length s [m], as a vectorised function s -> (n, 2)."""
+def interpolant(spline: Spline) -> PPoly:
+    """The curve of a `Spline`: clamped C2 cubic over the chord length s [m], as a vectorised function s -> (n, 2) [m]."""
     curve, distance = outlines.interpolant(spline)
     return PPoly(np.stack([curve.c.real, curve.c.imag], axis=-1), distance)
 
 
-def fit(spline, tolerance):
+def fit(spline: Spline, tolerance: float) -> BSpline:
     """Clamped cubic BSpline with few spans that stays within `tolerance` [m] of the curve through all the knots.
 
     It interpolates the curve at its breaks, has the same end tangents, and is C2; spans that miss a knot are halved until none is left.
@@ -72,26 +73,26 @@ def fit(spline, tolerance):
         breaks = np.union1d(breaks, (breaks[spans] + breaks[spans + 1]) / 2)
 
 
-def between(breaks, parts=4):
+def between(breaks: Floats, parts: int = 4) -> Floats:
     """The breaks (n,) of a curve with every span divided into `parts`: where two curves are compared."""
     return np.interp(np.arange(parts * (len(breaks) - 1) + 1) / parts, np.arange(len(breaks)), breaks)
 
 
-def polyline(piece, tolerance):
-    """Points (n, 2) on the piece, as few as keep its chords within `tolerance` [m] of it."""
+def polyline(piece: Piece, tolerance: float) -> Floats:
+    """Points (n, 2) [m] on the piece, as few as keep its chords within `tolerance` [m] of it."""
     if not isinstance(piece, Spline):
         return piece.points(tolerance)
     from shapely import LineString
 
     curve = interpolant(piece)
-    bend = np.hypot(*np.moveaxis(curve(curve.x, 2), 1, 0))  # |r''| is piecewise linear at most, so the ends of a span bound it
+    second = np.hypot(*np.moveaxis(curve(curve.x, 2), 1, 0))  # |r''| is piecewise linear at most, so the ends of a span bound it
     step = np.diff(curve.x)
-    parts = np.maximum(1, np.ceil(step * np.sqrt(np.maximum(bend[1:], bend[:-1]) / (8 * tolerance / 10)))).astype(int)
+    parts = np.maximum(1, np.ceil(step * np.sqrt(np.maximum(second[1:], second[:-1]) / (8 * tolerance / 10)))).astype(int)
     fine = np.concatenate([curve.x[i] + step[i] * np.arange(n) / n for i, n in enumerate(parts)] + [curve.x[-1:]])
     return np.array(LineString(curve(fine)).simplify(0.9 * tolerance).coords)
 
 
-def halves(piece):
+def halves(piece: Arc | Spline) -> tuple[Piece, Piece]:
     """The piece as two, cut in the middle."""
     if isinstance(piece, Arc):
         half = piece.sweep / 2
@@ -103,7 +104,7 @@ def halves(piece):
     return Spline(knots[: middle + 1], piece.start_tangent, tangent), Spline(knots[middle:], tangent, piece.end_tangent)
 
 
-def _end(piece, which):
+def _end(piece: Piece, which: int) -> Floats:
     if isinstance(piece, Arc):
         angle = piece.start + which * piece.sweep
         return np.asarray(piece.center) + piece.radius * np.array([np.cos(angle), np.sin(angle)])

@@ -11,7 +11,7 @@ from drivewright import fatigue
 from drivewright.chains.stress.plate import amounts
 from drivewright.errors import InputError
 from drivewright.result import Column, Table
-from drivewright.solids.plane import mises
+from drivewright.solids.plane import plane_von_mises
 
 
 class PlateLife(NamedTuple):
@@ -64,5 +64,5 @@ def _greatest(share, unit_stress):
     """Greatest von Mises stress (m,) over the instants, one at a time to spare the memory."""
     size = np.zeros(unit_stress.shape[1])
     for one in share:
-        np.maximum(size, mises(np.tensordot(one, unit_stress, axes=1)), out=size)
+        np.maximum(size, plane_von_mises(np.tensordot(one, unit_stress, axes=1)), out=size)
     return size

@@ -14,7 +14,7 @@ from drivewright.chains.stress import bearing
 from drivewright.errors import InputError
 from drivewright.result import Column
 from drivewright.scene import Arc
-from drivewright.solids.plane import PlaneBody, Surface, field_table, mises
+from drivewright.solids.plane import PlaneBody, StressSurface, field_table, plane_von_mises
 from drivewright.solids.plane_mesh import plane_mesh
 
 SIDES = ("left", "right")
@@ -46,7 +46,7 @@ class Basis(NamedTuple):
     heights: tuple
     tractions: np.ndarray
     stress: np.ndarray
-    surface: Surface
+    surface: StressSurface
     bare: np.ndarray
 
 
@@ -123,7 +123,7 @@ def worst(basis, loads):
     """The `Peak` over all instants and all points of the rim but those on the flanks that touch the sprocket."""
     share, top = amounts(basis, loads), Peak(-1.0, 0, 0, ())
     for instant, one in enumerate(share):  # one at a time: a long history would fill the memory
-        size = np.where(basis.bare, mises(np.tensordot(one, basis.stress, axes=1)), 0.0)
+        size = np.where(basis.bare, plane_von_mises(np.tensordot(one, basis.stress, axes=1)), 0.0)
         row = int(size.argmax())
         if size[row] > top.stress:
             top = Peak(float(size[row]), instant, row, tuple(map(float, basis.body.rim.points[row])))
@@ -133,7 +133,7 @@ def worst(basis, loads):
 def stress_picture(basis, loads, instant):
     """Table "plate_stress" for a plot of style "mesh": x, y, depth, von Mises stress [Pa] at one instant."""
     one = Loads(*(np.asarray(part, float)[instant : instant + 1] for part in loads))
-    size = mises(np.tensordot(amounts(basis, one)[0], basis.surface.stress, axes=1))
+    size = plane_von_mises(np.tensordot(amounts(basis, one)[0], basis.surface.stress, axes=1))
     return field_table("plate_stress", "stress of a plate", basis.surface, (Column("mises", "Pa", "von Mises stress", size),))
 
 

@@ -18,14 +18,15 @@ import numpy as np
 from drivewright.errors import InputError
 from drivewright.indexing.drivetrain import SIDES
 from drivewright.indexing.solid import bodies as of
-from drivewright.indexing.solid.coupling import couple, starts
 from drivewright.indexing.solid.parts import check
-from drivewright.indexing.solid.springs import Position, Spring, springs, touched
+from drivewright.indexing.solid.springs import Position, springs, touched
 from drivewright.indexing.stiffness import TorsionalStiffness, solve
 from drivewright.indexing.stiffness.assembly import turn
-from drivewright.result import Column, Table
-from drivewright.solids.elastic import combined
+from drivewright.solids.coupling import InterfaceSpring, functional_offsets, solve_coupled
+from drivewright.solids.deformation import DisplacedSurface, displaced_table, exaggeration_for, with_mirror_images
+from drivewright.solids.elastic import superposed_field
 
+HALVES = (((1, 1, 1), (1, 1, 1)), ((1, 1, -1), (1, 1, -1)))  # the upper half of a cam, and its image in the middle plane
 DRAWN = 0.03  # the largest displacement is drawn as about this part of the cam
 STRIP = 0.2  # width sigma of the strip in radii of a pin
 GROUPS = ("pin", "crank", "support", "gear", "wheel bearing", "output", "cam", "shaft", "wheel")
@@ -40,7 +41,7 @@ class SolidStiffness:
     astray (p,): largest force of a pin whose sign is another than in the reduced model, over the largest of all; 0 where the contact state
     is that of the solids too.
     unknowns: {"cam", "shaft", "wheel"} of one mesh each, 0 where a body is not a solid.
-    surface: of cam 0 (points (n, 3) [m], triangles (m, 3), displacements (p, n, 3) [m]), None without a solid cam.
+    surface: the `DisplacedSurface` of cam 0, displacements (p, n, 3) [m]; None without a solid cam.
     """
 
     theta: np.ndarray
@@ -51,7 +52,7 @@ class SolidStiffness:
     astray: np.ndarray
     unknowns: dict
     seconds: float
-    surface: tuple | None = None
+    surface: DisplacedSurface | None = None
 
     @property
     def ratio(self):
@@ -114,7 +115,7 @@ def _position(wheel, reduced, contacts, i):
 
 
 def condensed(wheel, drive, solids, places, cams, fineness=1.0, strip=STRIP):
-    """{("cam", j), ("shaft", side), ("wheel",): Condensed} for all positions at once."""
+    """{("cam", j), ("shaft", side), ("wheel",): Substructure} for all positions at once."""
     pairs = sorted(set().union(*(touched(place)[0] for place in places.values())))
     width = solids.cam.thickness if solids.cam else None
     throws = [complex(c) for c in wheel.eccentricity * turn(cams)]
@@ -160,11 +161,11 @@ def _exchanged(body):
 
 
 def _coupled(bodies, drive, solids, wheel, place, number, model, torque):
-    """(`Coupled`, {group: compliance [rad/(N m)]}, part of the pins' force that is astray) of one position."""
+    """(`CoupledSolution`, {group: compliance [rad/(N m)]}, part of the pins' force that is astray) of one position."""
     links = list(springs(drive, place, number, model == "bonded", solids.wheel is not None))
     if solids.wheel is not None:  # its output does not move along the axis, nor tilt
-        links += [Spring("output", ((("wheel",), ("flange", motion), 1.0),), 0.0) for motion in (2, 3, 4)]
-    found = couple(bodies, links, (("wheel",), ("flange", 5), torque / wheel.circle_radius))
+        links += [InterfaceSpring("output", ((("wheel",), ("flange", motion), 1.0),), 0.0) for motion in (2, 3, 4)]
+    found = solve_coupled(bodies, links, (("wheel",), ("flange", 5), torque / wheel.circle_radius))
     pins = found.forces[[link.group == "pin" for link in links]]
     wrong = np.where(np.sign(pins) == np.sign(place.pins[place.pins != 0]), 0.0, np.abs(pins))
     return found, _shares(bodies, drive, links, found, torque), wrong.max() / np.abs(pins).max()
@@ -175,7 +176,7 @@ def _shares(bodies, drive, links, found, torque):
     shares = dict.fromkeys(GROUPS, 0.0)
     for link, force, strain in zip(links, found.forces, found.strains, strict=True):
         shares[link.group] += force * strain / torque**2
-    start, _ = starts(bodies)
+    start, _ = functional_offsets(bodies)
     for name, body in bodies.items():
         loads = found.loads[start[name] : start[name] + len(body.flexibility)]
         shares[name[0]] += loads @ body.flexibility @ loads / torque**2
@@ -187,31 +188,21 @@ def _shares(bodies, drive, links, found, torque):
 
 
 def _deformed(bodies, found, count):
-    """Points [m], triangles, displacements (count, n, 3) [m] of cam 0, relative to its middle, and mirrored in its middle plane."""
+    """`DisplacedSurface` of cam 0, displacements (count, n, 3) [m] relative to its middle, mirrored in its middle plane."""
     body = bodies[("cam", 0)]
-    start, _ = starts(bodies)
+    start, _ = functional_offsets(bodies)
     at = slice(start[("cam", 0)], start[("cam", 0)] + len(body.flexibility))
-    fields = [combined(body.fields, each.loads[at]) for each in found.values()]
-    points, triangles, moved = body.free.surface("profile|seat.*|bore|side", fields, np.zeros((len(body.free.basis.T), len(fields))))
-    flipped = np.array([1.0, 1.0, -1.0])
-    whole = np.full((count, 2 * len(points), 3), np.nan)
-    whole[list(found)] = np.concatenate([moved, moved * flipped], axis=1)
-    return np.concatenate([points, points * flipped]), np.concatenate([triangles, triangles[:, ::-1] + len(points)]), whole
+    fields = [superposed_field(body.fields, each.loads[at]) for each in found.values()]
+    surface = body.free.surface("profile|seat.*|bore|side", fields, np.zeros((len(body.free.basis.T), len(fields))))
+    whole = with_mirror_images(surface, HALVES)
+    displacements = np.full((count, len(whole.points), 3), np.nan)
+    displacements[list(found)] = whole.displacements
+    return whole._replace(displacements=displacements)
 
 
 def surface_table(solid, position, name="solid_cam", title="Deformed cam", exaggeration=None):
     """Table of the deformed cam 0 at one position for a plot of style "mesh": three rows a triangle, without its motion as a whole."""
-    points, triangles, fields = solid.surface
-    displacement = fields[position]
-    size = np.linalg.norm(displacement, axis=1)
-    factor = exaggeration or 10.0 ** np.floor(np.log10(DRAWN * np.ptp(points[:, 0]) / max(size.max(), 1e-300)))
-    drawn, rows = points + factor * displacement, triangles.ravel()
-    columns = (
-        ("x", "across", drawn[:, 0]),
-        ("y", "height", drawn[:, 1]),
-        ("z", "along the axis", drawn[:, 2]),
-        ("displacement", f"displacement, drawn {factor:,.0f} times as large".replace(",", " ", 1), size),
-        ("rest_x", "across, unloaded", points[:, 0]),
-        ("rest_y", "height, unloaded", points[:, 1]),
-    )
-    return Table(name, title, tuple(Column(key, "m", meaning, data[rows]) for key, meaning, data in columns))
+    surface, displacement = solid.surface, solid.surface.displacements[position]
+    factor = exaggeration or exaggeration_for(np.ptp(surface.points[:, 0]), displacement, DRAWN, (1,))
+    drawn = (0, "across"), (1, "height"), (2, "along the axis")
+    return displaced_table(name, title, surface, displacement, factor, drawn, ((0, "across, unloaded"), (1, "height, unloaded")))

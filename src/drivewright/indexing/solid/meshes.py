@@ -1,29 +1,29 @@
 """Meshes [mm] of cam, split shaft and pin wheel, second order, with named faces whose areas are checked (extra `fe`)."""
 
-from contextlib import contextmanager
 from typing import NamedTuple
 
 import numpy as np
 
 from drivewright.errors import SolverError
 from drivewright.scene import Part, Prism, circle
-from drivewright.solids import turning
-from drivewright.solids.cad import MM, revolved, solid
-from drivewright.solids.loading import failures, load
-from drivewright.solids.shaft_check import Band, cut_pieces
+from drivewright.solids.cad import MM, cad_solid, frustum_solid
+from drivewright.solids.engine import fe_module, translated_errors
+from drivewright.solids.meshing import PURPOSE, check_boundary_measures, solid_mesh
+from drivewright.solids.turning import Band, Frustum, split_rings
 
 FLAT = 1e-4  # mm: a face no higher than this is a plane across the axis
 NEAR = 1e-2  # mm: how far a face of a hole may seem to reach beyond it
 CAM_TOLERANCE = 2e-6  # m: of the outline in the mesh, small against any strip
 PER_THICKNESS, PER_PIN, PER_SHAFT = 0.6, 0.6, 0.3  # element sizes in thicknesses of the cam, radii of a pin, radii of a seat on the shaft
 STRIPS = 2.0  # element size on the cam's profile in widths sigma of the strip that loads it
+GRADING = 0.4  # of the elements, from fine to coarse
 AREA = 0.02  # relative error of a named area that is refused: a face missed would be a load missed, silently
 
 
 def cam_mesh(outline, cam, holes, sigma, fineness=1.0):
     """Half a cam, 0 <= z <= thickness/2; faces "middle" (z = 0), "profile", "seat0", "seat1" of the complex hole centres."""
     circles = [circle((c.real, c.imag), d / 2) for c, d in _holes(cam, holes)]
-    shape = solid(Part("cam", (Prism(outline, tuple(circles), 0.0, cam.thickness / 2),)), CAM_TOLERANCE)
+    shape = cad_solid(Part("cam", (Prism(outline, tuple(circles), 0.0, cam.thickness / 2),)), CAM_TOLERANCE)
     size = fineness * PER_THICKNESS * MM * cam.thickness
     for face in shape.faces:
         face.name = _cam_face(face, cam, holes)
@@ -48,14 +48,10 @@ def _cam_face(face, cam, holes):
     return "profile"
 
 
-class Length(NamedTuple):
-    """A piece of the split shaft from z = low to high, round about the line through the complex `axis`; the `place` whose seat it is."""
+class ShaftPiece(NamedTuple):
+    """A piece of the split shaft, round about the line through the complex `axis` [m]; the `place` whose seat it is."""
 
-    low: float
-    high: float
-    start: float
-    end: float
-    bore: float
+    frustum: Frustum
     axis: complex
     place: tuple | None
 
@@ -65,43 +61,46 @@ def shaft_mesh(shaft, body, throws, fineness=1.0):
 
     Places: ("support", end), ("crank", j), ("gear",).
     """
-    occ = load("netgen.occ", "a solid check")
+    occ = fe_module("netgen.occ", PURPOSE)
     seats = shaft_seats(shaft, body)
-    lengths, names = shaft_lengths(shaft, body, throws), {place: f"seat{n}" for n, place in enumerate(seats)}
-    with _meshing("the split shaft"):
-        shape = occ.Glue([_turned(occ, length) for length in lengths])
-    fine = fineness * PER_SHAFT * MM * min(length.end for length in lengths) / 2
+    pieces, names = shaft_pieces(shaft, body, throws), {place: f"seat{n}" for n, place in enumerate(seats)}
+    with _mesher("the split shaft"):
+        shape = occ.Glue([frustum_solid(occ, piece.frustum, "the split shaft", piece.axis) for piece in pieces])
+    fine = fineness * PER_SHAFT * MM * min(piece.frustum.end for piece in pieces) / 2
     for face in shape.faces:
-        face.name = names.get(_seat_under(face, lengths), "rest")
+        face.name = names.get(_seat_under(face, pieces), "rest")
         if face.name != "rest":
             face.maxh = fine
-    mesh = _generated(shape, fineness * MM * max(length.start for length in lengths) / 4, "the split shaft")
+    mesh = _generated(shape, fineness * MM * max(piece.frustum.start for piece in pieces) / 4, "the split shaft")
     _check_areas(
-        mesh, {name: sum(_skin(length) for length in lengths if length.place == place) for place, name in names.items()}, "the split shaft"
+        mesh,
+        {name: sum(piece.frustum.lateral_area for piece in pieces if piece.place == place) for place, name in names.items()},
+        "the split shaft",
     )
     return mesh, names
 
 
 def shaft_seats(shaft, body):
     """{place: Band} of all seats on the split shaft."""
-    seats = {("support", end): Band(z, body.support_width, np.inf) for end, z in enumerate(shaft.supports)}
-    seats |= {("crank", j): Band(z, body.crank_width, np.inf) for j, z in enumerate(shaft.cams)}
-    return seats | {("gear",): Band(shaft.gear, body.gear_width, np.inf)}
+    seats = {("support", end): Band(z, body.support_width) for end, z in enumerate(shaft.supports)}
+    seats |= {("crank", j): Band(z, body.crank_width) for j, z in enumerate(shaft.cams)}
+    return seats | {("gear",): Band(shaft.gear, body.gear_width)}
 
 
-def shaft_lengths(shaft, body, throws):
-    """The split shaft as `Length`s between all ends of sections and edges of seats."""
+def shaft_pieces(shaft, body, throws):
+    """The split shaft as `ShaftPiece`s between all ends of sections and edges of seats."""
     seats = shaft_seats(shaft, body)
     begin, sections = _extended(shaft, seats.values())
-    found = []
-    for piece in cut_pieces(sections, [band._replace(position=band.position - begin) for band in seats.values()], ()):
-        low, high = begin + piece.low, begin + piece.high
-        place = next((place for place, band in seats.items() if abs((low + high) / 2 - band.position) < band.width / 2), None)
-        if place is not None and place[0] == "crank":
-            found.append(Length(low, high, body.crank_diameter, body.crank_diameter, 0.0, throws[place[1]], place))
-        else:
-            found.append(Length(low, high, piece.start, piece.end, piece.bore, 0j, place))
-    return found
+    edges = [edge for band in seats.values() for edge in band._replace(position=band.position - begin).edges]
+    return [_shaft_piece(frustum, begin, seats, body, throws) for frustum in split_rings(sections, edges)]
+
+
+def _shaft_piece(frustum, begin, seats, body, throws):
+    low, high = begin + frustum.low, begin + frustum.high
+    place = next((place for place, band in seats.items() if band.holds(low, high)), None)
+    if place is not None and place[0] == "crank":
+        return ShaftPiece(Frustum(low, high, body.crank_diameter, body.crank_diameter, 0.0), throws[place[1]], place)
+    return ShaftPiece(frustum._replace(low=low, high=high), 0j, place)
 
 
 def _extended(shaft, bands):
@@ -114,32 +113,22 @@ def _extended(shaft, bands):
     return -before, sections[sections[:, 0] > 0]
 
 
-def _turned(occ, length):
-    corners = turning.profile([(length.high - length.low, length.start, length.end, length.bore)], "the split shaft")
-    return revolved(occ, corners, occ.Pnt(MM * length.axis.real, MM * length.axis.imag, MM * length.low), occ.Z, occ.X)
-
-
-def _skin(length):
-    """Area [m^2] of the outside of a length, pi (D + E)/2 times the slant."""
-    return np.pi * (length.start + length.end) / 2 * np.hypot(length.high - length.low, (length.end - length.start) / 2)
-
-
-def _seat_under(face, lengths):
+def _seat_under(face, pieces):
     """The place whose seat a face is, None across the axis and in a bore."""
     low, high = face.bounding_box
     if high[2] - low[2] < FLAT:
         return None
-    length = next(each for each in lengths if each.low < (low[2] + high[2]) / 2 / MM < each.high)
-    outside = high[0] - low[0] > MM * length.bore + FLAT
-    return length.place if outside else None
+    piece = next(each for each in pieces if each.frustum.low < (low[2] + high[2]) / 2 / MM < each.frustum.high)
+    outside = high[0] - low[0] > MM * piece.frustum.bore + FLAT
+    return piece.place if outside else None
 
 
 def wheel_mesh(wheel, body, cams, width, fineness=1.0):
     """The rings with their pins, pin 0 on the x axis; faces "pin<k>_<j>" where cam j at z = cams[j] touches, "flange"."""
-    occ = load("netgen.occ", "a solid check")
+    occ = fe_module("netgen.occ", PURPOSE)
     cuts = _pin_cuts(body, cams, width)
     middles = wheel.circle_radius * np.exp(2j * np.pi * np.arange(wheel.pins) / wheel.pins)
-    with _meshing("the pin wheel"):
+    with _mesher("the pin wheel"):
         shape = occ.Glue(
             [
                 *_rings(occ, body),
@@ -212,31 +201,16 @@ def _wheel_face(face, middles, body, cams, width):
 
 
 def _generated(shape, size, what):
-    occ, ng = load("netgen.occ", "a solid check"), load("ngsolve", "a solid check")
-    ng.ngsglobals.msg_level = 0
-    with _meshing(what):
-        return ng.Mesh(occ.OCCGeometry(shape).GenerateMesh(maxh=size, curvaturesafety=0.5, grading=0.4)).Curve(2)
+    with _mesher(what):
+        return solid_mesh(shape, size, GRADING)
 
 
 def _check_areas(mesh, areas, what):
     """SolverError where a named face has not the area [m^2] that it should."""
-    ng = load("ngsolve", "a solid check")
-    for name, area in areas.items():
-        found = ng.Integrate(ng.CF(1) * ng.ds(name), mesh) / MM**2
-        if abs(found / area - 1) > AREA:
-            raise SolverError(
-                f"solid check: the mesh of {what} gives face {name!r} {MM**2 * found:.5g} mm^2 instead of "
-                f"{MM**2 * area:.5g} mm^2; try a smaller fineness."
-            )
+    expected = {name: MM**2 * area for name, area in areas.items()}
+    check_boundary_measures(mesh, expected, f"solid check: the mesh of {what} gives face", "try a smaller fineness.", relative=AREA)
 
 
-@contextmanager
-def _meshing(what):
-    """Turns the mesher's poor messages into ours."""
-    try:
-        yield
-    except failures("a solid check") as error:
-        raise SolverError(
-            f"solid check: the mesher gave up on {what} ({error}); try another fineness, or move steps that lie close "
-            "together further apart."
-        ) from error
+def _mesher(what):
+    advice = "try another fineness, or move steps that lie close together further apart."
+    return translated_errors(SolverError, f"solid check: the mesher gave up on {what}", advice, PURPOSE)

@@ -12,18 +12,10 @@ from drivewright.indexing.drivetrain import SIDES, PowerBearing
 from drivewright.indexing.solid.bodies import TURN_RADIUS
 from drivewright.indexing.stiffness.assembly import flank_directions, turn
 from drivewright.indexing.stiffness.laws import bearing_law
+from drivewright.solids.coupling import InterfaceSpring
 
 LEAST = 1e-6  # of the typical force: below it a bearing keeps the secant that it has there
 MOST_STEPS = 100
-
-
-class Spring(NamedTuple):
-    """terms: ((body, functional, factor), ...) of its strain; compliance [m/N], 0 is rigid; offset [m]."""
-
-    group: str
-    terms: tuple
-    compliance: float
-    offset: float = 0.0
 
 
 class Position(NamedTuple):
@@ -41,7 +33,7 @@ class Position(NamedTuple):
 
 
 def springs(drive, place, number, both, solid_pins):
-    """All `Spring`s of a `Position`; bodies are ("cam", j), ("shaft", side), ("wheel",), `number` is that of the position."""
+    """All `InterfaceSpring`s of a `Position`; bodies are ("cam", j), ("shaft", side), ("wheel",), `number` is that of the position."""
     typical = np.abs(place.cranks).max()
     yield from _pins(drive, place, number, both, solid_pins)
     for side in (0, 1):
@@ -78,7 +70,7 @@ def _pins(drive, place, number, both, solid_pins):
                 (("wheel",), ("pin", pin, j, 0), -normal.real),
                 (("wheel",), ("pin", pin, j, 1), -normal.imag),
             )
-            yield Spring("pin", terms, pin_compliance(drive.pins, abs(force), solid_pins), 0.0 if both else place.contacts.gap[c])
+            yield InterfaceSpring("pin", terms, pin_compliance(drive.pins, abs(force), solid_pins), 0.0 if both else place.contacts.gap[c])
 
 
 def pin_compliance(pin, force, solid_pins):
@@ -108,7 +100,7 @@ def _bearing(group, bearing, force, typical, rows, behind=None):
         secant = (away / force).real
         softness, offset = softness + secant, away - secant * force
     for row, part in zip(rows, (offset.real, offset.imag), strict=True):
-        yield Spring(group, tuple(row), softness, part)
+        yield InterfaceSpring(group, tuple(row), softness, part)
 
 
 def displacement(bearing, force):
@@ -132,7 +124,7 @@ def displacement(bearing, force):
 def _gear(gear, place, side):
     """The flanks that carry, or the shaft held where the gear would sit."""
     if gear is None:
-        yield Spring("gear", ((("shaft", side), ("gear", "turn"), 1.0),), 0.0)
+        yield InterfaceSpring("gear", ((("shaft", side), ("gear", "turn"), 1.0),), 0.0)
         return
     directions = flank_directions(gear, side)
     pressed = np.linalg.solve([directions.real, directions.imag], [place.gears[side].real, place.gears[side].imag])
@@ -145,4 +137,4 @@ def _gear(gear, place, side):
                 (("shaft", side), ("gear", 1), -turned.imag),
                 (("shaft", side), ("gear", "turn"), -arm / TURN_RADIUS),
             )
-            yield Spring("gear", terms, 1 / gear.stiffness, gear.backlash / 2)
+            yield InterfaceSpring("gear", terms, 1 / gear.stiffness, gear.backlash / 2)

@@ -8,6 +8,7 @@ import numpy as np
 from drivewright import bearings, shafts
 from drivewright.errors import InputError
 from drivewright.mechanisms.shaft import second_route, solid
+from drivewright.shafts.solid_check import allowed_difference
 
 INTEGRAL = "integrals of M^2/EI, redundant reactions"
 GIVEN = "integral of the moments of loads and reactions"
@@ -110,9 +111,9 @@ def _bearings(model, loaded):
 
 def _solid(model, at_rest):
     try:
-        _, found, beam = solid.compared(model, at_rest)
+        found, beam = solid.solid_and_beam(model, at_rest)
     except InputError:  # one bearing alone, or bands that meet: no case for the solid
         return
     for name, i, j in _pairs(model):
-        allowed = solid.allowed(model.shaft) * np.sqrt(found.flexibility[i, i] * found.flexibility[j, j])
+        allowed = allowed_difference(model.shaft) * np.sqrt(found.flexibility[i, i] * found.flexibility[j, j])
         yield f"flexibility {name}, on bands", beam[i, j], found.flexibility[i, j], "m/N", float(allowed), SOLID

@@ -11,7 +11,7 @@ from drivewright.chains.stress.life import life_table, plate_life
 from drivewright.chains.stress.plate import Loads, plate_basis, plate_body, stress_history, stress_picture, worst
 from drivewright.mechanisms.silent_chain.dynamics import no_dynamics
 from drivewright.result import Answer, Check, Column, Table, Value
-from drivewright.solids.plane import mises
+from drivewright.solids.plane import plane_von_mises
 
 LEAST = 0.3  # of the greatest stress: points below it are not looked at for life
 MOST_INSTANTS = 500  # of a revolution, for life
@@ -35,7 +35,7 @@ def stress(model, done):
         return Answer(findings=(f"stress is left out: no plate can be drawn: {reason}",), outcome="left out")
     found = Revolution(model, done["dynamics"].data)
     peak = worst(found.basis, found.loads)
-    history = mises(stress_history(found.basis, found.loads, [peak.row])[:, 0])
+    history = plane_von_mises(stress_history(found.basis, found.loads, [peak.row])[:, 0])
     x, y = peak.place
     values = {
         "plate.max_von_mises": Value(peak.stress, "Pa", "greatest von Mises stress of a plate as it goes round, beside its loaded flanks"),

@@ -26,7 +26,7 @@ def solid(design, tell):
     packed, ends = [], []
     for number, part in enumerate(parts):
         tell(number, len(parts), part.name)
-        points, corners = facets.triangles(part, TOLERANCE)
+        points, corners = facets.surface_triangles(part, TOLERANCE)
         ends += [points.min(axis=0), points.max(axis=0)]
         packed.append({"name": part.name, "colour": part.colour, "triangles": len(corners), **shaded(points, corners)})
     low, high = np.min(ends, axis=0), np.max(ends, axis=0)

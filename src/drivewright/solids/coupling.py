@@ -1,4 +1,4 @@
-"""The equilibrium of condensed bodies on linear springs.
+"""The equilibrium of substructures on linear springs.
 
 With s the forces of the springs, B the rows of their strains in the functionals of all bodies, G and H flexibilities and resultants side by
 side, c and o compliances and offsets, p the load and a the rigid motions,
@@ -7,36 +7,54 @@ side, c and o compliances and offsets, p the load and a the rigid motions,
     [-H B'         0   ] [a] = [-H p     ]        and the displacements are  u = G (p - B' s) + H' a.
 """
 
+from collections.abc import Hashable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.errors import DoesNotAssemble
+from drivewright.solids.substructures import InterfaceName, Substructure
 
 SINGULAR = 1e-13  # relative: smaller singular values count as 0
 FREE = 1e-9  # a rigid motion with so small a part in every strain is held by nothing
 
 
-class Coupled(NamedTuple):
-    """forces (S,) and strains (S,) of the springs; loads (F,) on the functionals of all bodies and their displacements (F,);
-    motions: {body: (m,)}."""
+class InterfaceSpring(NamedTuple):
+    """A linear spring between interfaces: terms ((body, functional, factor), ...) of its strain; compliance [m/N], 0 is rigid; offset [m].
 
-    forces: np.ndarray
-    strains: np.ndarray
-    loads: np.ndarray
-    displacements: np.ndarray
-    motions: dict
+    Its force is (strain - offset)/compliance; `group` says what it stands for.
+    """
+
+    group: str
+    terms: tuple[tuple[Hashable, InterfaceName, float], ...]
+    compliance: float
+    offset: float = 0.0
 
 
-def starts(bodies):
-    """{body: first of its functionals} of {body: Condensed}, and their number."""
+class CoupledSolution(NamedTuple):
+    """forces (S,) [N] and strains (S,) [m] of the springs; loads (F,) [N] on the functionals of all bodies and their
+    displacements (F,) [m]; motions: {body: (m,)}."""
+
+    forces: Floats
+    strains: Floats
+    loads: Floats
+    displacements: Floats
+    motions: dict[Hashable, Floats]
+
+
+def functional_offsets(bodies: Mapping[Hashable, Substructure]) -> tuple[dict[Hashable, int], int]:
+    """{body: first of its functionals} of {body: Substructure}, and their number."""
     sizes = [len(body.flexibility) for body in bodies.values()]
     return dict(zip(bodies, np.concatenate([[0], np.cumsum(sizes)[:-1]]), strict=True)), sum(sizes)
 
 
-def couple(bodies, springs, load):
-    """`Coupled` of {name: Condensed}, `Spring`s and a load (body, functional, force) [N]; DoesNotAssemble where something moves freely."""
-    start, size = starts(bodies)
+def solve_coupled(
+    bodies: Mapping[Hashable, Substructure], springs: Sequence[InterfaceSpring], load: tuple[Hashable, InterfaceName, float]
+) -> CoupledSolution:
+    """`CoupledSolution` of {name: Substructure}, `InterfaceSpring`s and a load (body, functional, force) [N]; DoesNotAssemble where
+    something moves freely."""
+    start, size = functional_offsets(bodies)
     rows = np.zeros((len(springs), size))
     for row, spring in zip(rows, springs, strict=True):
         for body, functional, factor in spring.terms:
@@ -48,10 +66,10 @@ def couple(bodies, springs, load):
     loads = applied - rows.T @ forces
     displacements = flexibility @ loads + resultants.T @ motions
     ends = np.cumsum([len(body.resultants) for body in bodies.values()])
-    return Coupled(forces, rows @ displacements, loads, displacements, dict(zip(bodies, np.split(motions, ends[:-1]), strict=True)))
+    return CoupledSolution(forces, rows @ displacements, loads, displacements, dict(zip(bodies, np.split(motions, ends[:-1]), strict=True)))
 
 
-def _blocks(bodies, start, size):
+def _blocks(bodies: Mapping[Hashable, Substructure], start: Mapping[Hashable, int], size: int) -> tuple[Floats, Floats]:
     flexibility, resultants = np.zeros((size, size)), []
     for name, body in bodies.items():
         here = slice(start[name], start[name] + len(body.flexibility))
@@ -62,7 +80,9 @@ def _blocks(bodies, start, size):
     return flexibility, np.concatenate(resultants)
 
 
-def _solved(rows, flexibility, resultants, springs, applied):
+def _solved(
+    rows: Floats, flexibility: Floats, resultants: Floats, springs: Sequence[InterfaceSpring], applied: Floats
+) -> tuple[Floats, Floats]:
     """(forces, motions); flexibilities are scaled to the size of the resultants first."""
     compliance, offset = (np.array([getattr(spring, key) for spring in springs]) for key in ("compliance", "offset"))
     soft = np.diag(compliance) + rows @ flexibility @ rows.T
@@ -78,7 +98,7 @@ def _solved(rows, flexibility, resultants, springs, applied):
     return solution[: len(springs)], scale * solution[len(springs) :] / length[:, 0]
 
 
-def _refuse_free(held):
+def _refuse_free(held: Floats) -> None:
     least = np.linalg.svd(held, compute_uv=False)
     if len(held) > held.shape[1] or least[-1] < FREE * least[0]:
         raise DoesNotAssemble("solid check: some body moves freely between its springs; look at the pins that carry and at the supports.")

@@ -1,16 +1,22 @@
 """Outlines made ready for a file: pieces without waste, joined exactly, counter-clockwise, free of crossings."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.curves import outline_area
 from drivewright.errors import InputError
-from drivewright.scene import Arc, Line, Outline, Spline
+from drivewright.scene import Arc, Line, Outline, Prism, Spline
 from drivewright.solids import pieces as of
+
+if TYPE_CHECKING:
+    import shapely
 
 SNAP = 1e-9  # m: shorter pieces are dropped and smaller gaps are closed
 
 
-def joined(outline, name):
+def normalised(outline: Outline, name: str) -> Outline:
     """The outline with its pieces end to end, as an Outline whose arcs turn by half a turn at most.
 
     Pieces and steps between knots shorter than 1e-9 m are dropped, gaps below it closed, closed splines cut in two, and a closed
@@ -29,8 +35,8 @@ def joined(outline, name):
     return Outline(tuple(pieces), outline.closed)
 
 
-def joints(outline):
-    """Points (n + 1, 2) at which the pieces of a `joined` outline start, and the last end.
+def piece_ends(outline: Outline) -> Floats:
+    """Points (n + 1, 2) [m] at which the pieces of a `normalised` outline start, and the last end.
 
     Two arcs that meet within the snapping distance have one joint here, which their own centres and radii cannot say.
     """
@@ -38,14 +44,14 @@ def joints(outline):
     return np.array([*points, points[0] if outline.closed else of.end(outline.pieces[-1])])
 
 
-def polyline(outline, tolerance):
-    """Points (n, 2) along a `joined` outline within `tolerance` [m] of it, without repeating the first of a closed one."""
+def polyline(outline: Outline, tolerance: float) -> Floats:
+    """Points (n, 2) [m] along a `normalised` outline within `tolerance` [m] of it, without repeating the first of a closed one."""
     chains = [of.polyline(piece, tolerance)[:-1] for piece in outline.pieces]
     return np.concatenate(chains if outline.closed else [*chains, of.end(outline.pieces[-1])[None]])
 
 
-def full_circle(outline):
-    """The first arc of a `joined` outline that is one full circle, else None."""
+def full_circle(outline: Outline) -> Arc | None:
+    """The first arc of a `normalised` outline that is one full circle, else None."""
     first = outline.pieces[0]
     if not (outline.closed and all(isinstance(piece, Arc) for piece in outline.pieces)):
         return None
@@ -53,8 +59,8 @@ def full_circle(outline):
     return first if same else None
 
 
-def polygon(outline, name, tolerance=1e-6):
-    """shapely Polygon of a closed `joined` outline; InputError naming the place where it crosses itself."""
+def outline_polygon(outline: Outline, name: str, tolerance: float = 1e-6) -> "shapely.Polygon":
+    """shapely Polygon [m] of a closed `normalised` outline; InputError naming the place where it crosses itself."""
     import shapely
 
     if not outline.closed:
@@ -68,11 +74,11 @@ def polygon(outline, name, tolerance=1e-6):
     return shape
 
 
-def region(prism, name, tolerance=1e-6):
-    """shapely Polygon of a prism's outline minus its holes; InputError where a hole is outside or breaks it up."""
-    rest = polygon(joined(prism.outline, name), name, tolerance)
+def prism_region(prism: Prism, name: str, tolerance: float = 1e-6) -> "shapely.Polygon":
+    """shapely Polygon [m] of a prism's outline minus its holes; InputError where a hole is outside or breaks it up."""
+    rest = outline_polygon(normalised(prism.outline, name), name, tolerance)
     for number, hole in enumerate(prism.holes):
-        cutter = polygon(joined(hole, f"hole {number} of {name}"), f"hole {number} of {name}", tolerance)
+        cutter = outline_polygon(normalised(hole, f"hole {number} of {name}"), f"hole {number} of {name}", tolerance)
         if not cutter.intersects(rest) or cutter.covers(rest):
             raise InputError(f"{name}: hole {number} lies outside the outline or leaves nothing of it; move it or make it smaller")
         rest = rest.difference(cutter)
