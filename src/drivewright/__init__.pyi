@@ -14,6 +14,7 @@ from drivewright import materials as materials
 from drivewright import motion as motion
 from drivewright import multibody as multibody
 from drivewright import shafts as shafts
+from drivewright import solids as solids
 from drivewright import studies as studies
 from drivewright import units as units
 from drivewright.errors import DrivewrightError as DrivewrightError

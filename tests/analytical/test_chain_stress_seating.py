@@ -12,7 +12,7 @@ from drivewright.chains.stress.plate import Loads, plate_basis, plate_body, stre
 from drivewright.chains.stress.seating import seated
 from drivewright.errors import InputError, SolverError
 from drivewright.solids.plane import PlaneBody, plane_von_mises
-from drivewright.solids.plane_mesh import plane_mesh
+from drivewright.solids.plane_meshing import plane_mesh
 
 pytestmark = pytest.mark.needs_fe
 R, T, E = 1.2e-3, 2e-3, 206e9

@@ -8,7 +8,7 @@ import pytest
 from drivewright.result import Column
 from drivewright.scene import circle, polygon
 from drivewright.solids.plane import PlaneBody, field_table, order_error, plane_von_mises
-from drivewright.solids.plane_mesh import plane_mesh
+from drivewright.solids.plane_meshing import plane_mesh
 
 pytestmark = pytest.mark.needs_fe
 STEEL = {"thickness": 2e-3, "modulus": 206e9, "poisson": 0.3}

@@ -6,7 +6,7 @@ import pytest
 from drivewright.errors import InputError, SolverError
 from drivewright.scene import circle, polygon
 from drivewright.solids.plane import PlaneBody
-from drivewright.solids.plane_mesh import plane_mesh
+from drivewright.solids.plane_meshing import plane_mesh
 
 pytestmark = pytest.mark.needs_fe
 SQUARE = polygon([(0, 0), (4e-3, 0), (4e-3, 4e-3), (0, 4e-3)])

@@ -13,7 +13,7 @@ _WHERE = {
     "facets": ("surface_triangles",),
     "meshing": ("boundary_measure", "check_boundary_measures", "solid_mesh"),
     "plane": ("PlaneBody", "Rim", "StressSurface", "field_table", "order_error", "plane_von_mises"),
-    "plane_mesh": ("plane_mesh",),
+    "plane_meshing": ("plane_mesh",),
     "substructures": ("InterfaceLoad", "Substructure", "elastic_substructure", "radial_loads", "rigid_substructure"),
     "turning": ("Band", "Frustum", "half_section", "ring_volume", "split_rings"),
     "volume": ("part_volume",),

@@ -19,7 +19,7 @@ from drivewright.errors import InputError
 from drivewright.result import Column, Table
 from drivewright.solids.elastic import sampled_triangles
 from drivewright.solids.engine import EngineObject, fe_module
-from drivewright.solids.plane_mesh import MM, PURPOSE, matches
+from drivewright.solids.plane_meshing import MM, PURPOSE, matches
 
 ALONG_EDGE = 8  # Gauss points on an edge of an element
 

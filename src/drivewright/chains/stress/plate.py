@@ -15,7 +15,7 @@ from drivewright.errors import InputError
 from drivewright.result import Column
 from drivewright.scene import Arc
 from drivewright.solids.plane import PlaneBody, StressSurface, field_table, plane_von_mises
-from drivewright.solids.plane_mesh import plane_mesh
+from drivewright.solids.plane_meshing import plane_mesh
 
 SIDES = ("left", "right")
 HAT = 0.05  # of the pitch: between neighbouring places on a flank
