@@ -104,14 +104,14 @@ def _by_hand(dry):
 
 def exudyns(step, turns):
     """The same for Exudyn's hollow contact, trapezoidal rule."""
-    from drivewright.mechanisms.linkage import prototype
     from drivewright.multibody import observe
+    from drivewright.oracles.linkage import exudyn_model
 
     assembly, state = started(slider_crank())
     seen = observe(assembly.system, [0.0], state[None]).bodies[0]
     start = {name: tuple(seen[k, :6]) for k, name in enumerate(assembly.names) if k}
     began = time.perf_counter()
-    run = prototype.run(slider_crank(), start, turns * PERIOD, step, samples=2)
+    run = exudyn_model.run(slider_crank(), start, turns * PERIOD, step, samples=2)
     return run.bodies["slider"][-1, 0], time.perf_counter() - began, round(turns * PERIOD / step)
 
 

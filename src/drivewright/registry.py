@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from functools import cache
+from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
@@ -108,6 +109,15 @@ class Command:
     def summary(self) -> str:
         """One line for the help."""
         return self.evaluation.summary
+
+
+def oracle(kind: str) -> "Callable[[Any, Result[Any]], Iterable[Row]]":
+    """`verify` of the package drivewright.oracles.KIND, which is imported when it is called."""
+
+    def verify(model: Any, result: "Result[Any]") -> Iterable[Row]:
+        return import_module(f"{OURS}.oracles.{kind}").verify(model, result)
+
+    return verify
 
 
 @cache

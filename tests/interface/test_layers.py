@@ -9,7 +9,7 @@ SOURCE = Path(__file__).parents[2] / "src" / "drivewright"
 ROWS = [
     "__main__ cli studio",
     "validation studies report view execution",
-    "mechanisms",
+    "mechanisms oracles",
     "indexing chains cams gears multibody shafts bearings solids fatigue",
     "motion curves contact materials",
     "numerics",
@@ -52,13 +52,15 @@ def offence(path, name):
     target = name.split(".")[1] if "." in name else ""
     here = room(path)
     if here == "__init__" or target == here:
-        return None if here != "mechanisms" else sibling(path, name)
+        return None if here not in ("mechanisms", "oracles") else sibling(path, name)
     if target == "__version__" or target == "":
         return None if str(path.relative_to(SOURCE)) in VERSION_READERS else "imports the package itself"
     if target not in PLACE:
         return f"{target!r} has no place in the layers"
     if (str(path.relative_to(SOURCE)), name) in UPWARDS:
         return None
+    if here == "oracles" and target == "mechanisms":
+        return sibling(path, name)
     (row, column), (to_row, to_column) = PLACE[here], PLACE[target]
     if to_row > row or (to_row == row and to_column > column):
         return None
@@ -68,7 +70,7 @@ def offence(path, name):
 def sibling(path, name):
     kind = path.relative_to(SOURCE).parts[1]
     other = name.split(".")[2] if len(name.split(".")) > 2 else kind
-    return None if other in (kind, kind.removesuffix(".py")) else f"mechanisms may not import one another: {kind} -> {other}"
+    return None if other in (kind, kind.removesuffix(".py"), "") else f"kinds may not import one another: {kind} -> {other}"
 
 
 def test_every_room_has_a_place():
@@ -85,6 +87,9 @@ def test_the_rule_can_fail(tmp_path):
     assert offence(SOURCE / "mechanisms" / "cam" / "x.py", "drivewright.mechanisms.seedling_pusher.spec")
     assert offence(SOURCE / "report" / "x.py", "drivewright.studies.optimisation")
     assert offence(SOURCE / "execution" / "x.py", "drivewright.studies.plan")
+    assert offence(SOURCE / "oracles" / "cam" / "x.py", "drivewright.mechanisms.seedling_pusher.spec")
+    assert offence(SOURCE / "oracles" / "cam" / "x.py", "drivewright.mechanisms.cam.spec") is None
+    assert offence(SOURCE / "mechanisms" / "cam" / "x.py", "drivewright.oracles.cam")
     assert offence(SOURCE / "studies" / "x.py", "drivewright.report.html") is None
 
 

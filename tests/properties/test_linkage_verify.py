@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from drivewright.errors import MissingExtra
-from drivewright.mechanisms.linkage import four_bar, verify
 from drivewright.mechanisms.linkage.build import build
+from drivewright.oracles.linkage import four_bar, independent_check
 from drivewright.spec import load
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -28,11 +28,11 @@ def routes(rows):
 @pytest.mark.needs_peers
 @pytest.mark.parametrize("name", ["four_bar", "slider_crank_clearance", "jansen_leg"])
 def test_exudyn_and_the_absolute_equations_agree(name):
-    found = verify.verify(model(name, "simulate.turns=1.5", "simulate.discard=0"), None)
+    found = independent_check.verify(model(name, "simulate.turns=1.5", "simulate.discard=0"), None)
     assert differing(found) == []
-    assert {verify.EXUDYN, verify.ABSOLUTE} <= routes(found)
+    assert {independent_check.EXUDYN, independent_check.ABSOLUTE} <= routes(found)
     for _, ours, other, unit, allowed, route in found:
-        if route == verify.EXUDYN:  # with dry pins its own answer still changes by 1e-5 rad with the step, and comes to ours
+        if route == independent_check.EXUDYN:  # with dry pins its own answer still changes by 1e-5 rad with the step, and comes to ours
             assert allowed <= (2e-5 if unit == "m" else 5e-5) and abs(ours - other) <= 2e-5
 
 
@@ -72,25 +72,27 @@ def test_what_the_closed_form_has_no_place_for(changes):
 def test_a_wrong_acceleration_leaves_newton_and_euler_unsatisfied():
     """Of a mechanism with freedom: without it the reactions can make up for anything, and the drive's torque tells."""
     bar = model("knife_folder", "simulate.turns=1.5", "simulate.discard=0")
-    seen = list(verify._seen(bar))
-    assert differing(verify._newton_euler(bar, seen)) == []
+    seen = list(independent_check._seen(bar))
+    assert differing(independent_check._newton_euler(bar, seen)) == []
     wrong = [(system, observed._replace(bodies=observed.bodies * np.where(np.arange(12) == 8, 1 + 1e-4, 1))) for system, observed in seen]
-    assert "Newton and Euler for every body: largest remainder, over the largest force" in differing(verify._newton_euler(bar, wrong))
+    assert "Newton and Euler for every body: largest remainder, over the largest force" in differing(
+        independent_check._newton_euler(bar, wrong)
+    )
 
 
 def test_a_joint_that_gapes_is_noticed():
     bar = model("four_bar", "simulate.turns=1.5", "simulate.discard=0")
     seen = [
         (system, observed._replace(bodies=observed.bodies + 1e-6 * (np.arange(12) == 2) * (np.arange(4) == 2)[:, None]))
-        for system, observed in verify._seen(bar)
+        for system, observed in independent_check._seen(bar)
     ]
-    assert differing(verify._closed_joints(bar, seen)) == ["joints without play, revolute: largest gap"]
+    assert differing(independent_check._closed_joints(bar, seen)) == ["joints without play, revolute: largest gap"]
 
 
 @pytest.mark.needs_peers
 def test_exudyn_notices_another_restitution():
     one, other = (model("slider_crank_clearance", f"joints.wrist.restitution={e}") for e in (0.9, 0.89))
-    mine, theirs = ([row for row in verify.verify(m, None) if row[5] == verify.EXUDYN] for m in (one, other))
+    mine, theirs = ([row for row in independent_check.verify(m, None) if row[5] == independent_check.EXUDYN] for m in (one, other))
     mixed = [(*a[:2], b[2], *a[3:]) for a, b in zip(mine, theirs, strict=True)]
     assert any(name.startswith("bodies.slider.x after 0.0") for name in differing(mixed))
 
@@ -105,17 +107,17 @@ def test_exudyn_notices_another_restitution():
     ],
 )
 def test_what_exudyn_does_not_know(change):
-    assert verify._known_to_exudyn(model("slider_crank_clearance"))
-    assert not verify._known_to_exudyn(model("slider_crank_clearance", change))
+    assert independent_check._known_to_exudyn(model("slider_crank_clearance"))
+    assert not independent_check._known_to_exudyn(model("slider_crank_clearance", change))
 
 
 def test_without_exudyn_the_extra_is_named(monkeypatch):
     import sys
 
-    from drivewright.mechanisms import linkage
+    from drivewright.oracles import linkage
 
     monkeypatch.setitem(sys.modules, "exudyn", None)
-    monkeypatch.delitem(sys.modules, "drivewright.mechanisms.linkage.prototype", raising=False)
-    monkeypatch.delattr(linkage, "prototype", raising=False)
+    monkeypatch.delitem(sys.modules, "drivewright.oracles.linkage.exudyn_model", raising=False)
+    monkeypatch.delattr(linkage, "exudyn_model", raising=False)
     with pytest.raises(MissingExtra, match="verify, which runs the linkage in Exudyn, needs the extra 'peers'"):
-        verify.verify(model("four_bar"), None)
+        independent_check.verify(model("four_bar"), None)

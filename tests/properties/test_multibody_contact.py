@@ -388,7 +388,7 @@ def test_loaded_pin_approaches_the_ideal_one_in_first_order():
 @pytest.mark.needs_peers
 def test_exudyn_comes_nearer_with_its_step():
     """0.1 and 0.2 turn from the slider 0.1 mm off the bearing's centre."""
-    from drivewright.mechanisms.linkage import prototype
+    from drivewright.oracles.linkage import exudyn_model
 
     model = slider_crank(hysteresis=0.15)
     assembly = assemble(model)
@@ -399,5 +399,5 @@ def test_exudyn_comes_nearer_with_its_step():
     for part, bound in ((0.1, 1e-5), (0.2, 6e-5)):
         found = simulate(assembly, part * TURN, Settings(rtol=1e-10), state=y)
         mine = seen_at(found, part * TURN).body(assembly.names.index("slider"), "x")[0]
-        misses = [abs(prototype.run(model, poses, part * TURN, step).bodies["slider"][-1, 0] - mine) for step in (1e-6, 2e-7)]
+        misses = [abs(exudyn_model.run(model, poses, part * TURN, step).bodies["slider"][-1, 0] - mine) for step in (1e-6, 2e-7)]
         assert misses[1] < 0.4 * misses[0] < bound

@@ -6,15 +6,6 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from drivewright.mechanisms.linkage.second_route import (
-    COUPLER,
-    COUPLER_TURN,
-    ROCKER,
-    ROCKER_TURN,
-    FourBar,
-    ideal_motion,
-    link_accelerations,
-)
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.model import (
     GROUND,
@@ -40,6 +31,15 @@ from drivewright.multibody.model import (
 )
 from drivewright.multibody.observe import Observed, observe
 from drivewright.multibody.simulate import Settings, simulate
+from drivewright.oracles.linkage.four_bar_closed_form import (
+    COUPLER,
+    COUPLER_TURN,
+    ROCKER,
+    ROCKER_TURN,
+    FourBar,
+    ideal_motion,
+    link_accelerations,
+)
 
 SPEED = 8 * 2 * np.pi
 PERIOD = 2 * np.pi / SPEED

@@ -12,8 +12,8 @@ from drivewright import cases
 from drivewright._typing import Floats
 from drivewright.mechanisms.linkage import many
 from drivewright.mechanisms.linkage.build import build
-from drivewright.mechanisms.linkage.second_route import ROCKER_TURN, FourBar, ideal_motion
 from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.oracles.linkage.four_bar_closed_form import ROCKER_TURN, FourBar, ideal_motion
 from drivewright.spec import from_document
 from drivewright.validation.source import AGREES, EXPLAINED, OPEN, Explanation, Printed, Row, Source, rounded
 

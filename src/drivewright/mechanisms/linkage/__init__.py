@@ -2,14 +2,14 @@
 
 from pathlib import Path
 
-from drivewright.mechanisms.linkage import analyse, energy, forces, many, nonlinear, rest, singular, tolerance, verify, wear
+from drivewright.mechanisms.linkage import analyse, energy, forces, many, nonlinear, rest, singular, tolerance, wear
 from drivewright.mechanisms.linkage.build import build
 from drivewright.mechanisms.linkage.claims import claims
 from drivewright.mechanisms.linkage.plates import drawings, parts
 from drivewright.mechanisms.linkage.plots import plots
 from drivewright.mechanisms.linkage.scene import scene
 from drivewright.mechanisms.linkage.spec import LinkageSpec
-from drivewright.registry import Analysis, Mechanism
+from drivewright.registry import Analysis, Mechanism, oracle
 
 
 def _asked(table, also=None):
@@ -79,5 +79,5 @@ mechanism = Mechanism(
     plots=plots,
     drawings=drawings,
     parts=parts,
-    verify=verify.verify,
+    verify=oracle("linkage"),
 )

@@ -9,11 +9,11 @@ import numpy as np
 
 from drivewright.errors import MissingExtra
 from drivewright.mechanisms.linkage.build import ideal_record, run_of
-from drivewright.mechanisms.linkage.four_bar import closed_form
 from drivewright.multibody.model import GROUND, Dry, Ideal, PinSlot, Prismatic, Revolute
 from drivewright.multibody.observe import FIELDS, PIN_FIELDS, observe
 from drivewright.multibody.reactions import reactions
 from drivewright.multibody.simulate import Settings, clear_states, simulate
+from drivewright.oracles.linkage.four_bar import closed_form
 
 SHOWN = 400  # states at which joints are looked at
 POSE = slice(0, 6)  # of FIELDS: place, angle, and their rates
@@ -143,7 +143,7 @@ def _plain(dry):
 def _exudyn(model):
     """Poses after a part of a turn by Exudyn, at two steps."""
     try:
-        from drivewright.mechanisms.linkage import prototype
+        from drivewright.oracles.linkage import exudyn_model
     except ImportError as error:
         raise MissingExtra("verify, which runs the linkage in Exudyn,", "peers", error) from None
     kind = "dry" if model.pins else "smooth"
@@ -154,7 +154,7 @@ def _exudyn(model):
     length = _until_lasting(model, system, t, y, min(PART[kind] * (model.period or LONGEST), model.duration))
     ours = _ours(model, system, t, y, length)
     step, finer = (model.period or LONGEST) / STEPS[kind], 4 if kind == "dry" else 2
-    coarse, fine = (prototype.run(model.assembly.model, start, length, h, samples=2) for h in (step, step / finer))
+    coarse, fine = (exudyn_model.run(model.assembly.model, start, length, h, samples=2) for h in (step, step / finer))
     yield from _apart(model, ours, coarse, fine, kind, length)
 
 

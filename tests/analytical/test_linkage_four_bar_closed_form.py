@@ -10,7 +10,9 @@ import pytest
 
 from drivewright._jit import plain
 from drivewright.errors import DoesNotAssemble
-from drivewright.mechanisms.linkage.second_route import (
+from drivewright.numerics import jets
+from drivewright.numerics.ode import integrate
+from drivewright.oracles.linkage.four_bar_closed_form import (
     COUPLER_TURN,
     ROCKER_TURN,
     FourBar,
@@ -23,8 +25,6 @@ from drivewright.mechanisms.linkage.second_route import (
     rocker_acceleration,
     velocities,
 )
-from drivewright.numerics import jets
-from drivewright.numerics.ode import integrate
 
 SPEED = 2 * np.pi * 28800 / 3600
 ABOUT_PIVOT = 0.4487 - 6.883 * 0.243**2

@@ -5,7 +5,6 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from drivewright.errors import InputError
-from drivewright.mechanisms.linkage.second_route import COUPLER, COUPLER_TURN, ROCKER, ROCKER_TURN, FourBar, ideal_motion
 from drivewright.multibody.model import (
     GROUND,
     Body,
@@ -27,6 +26,7 @@ from drivewright.multibody.model import (
     Torque,
     line,
 )
+from drivewright.oracles.linkage.four_bar_closed_form import COUPLER, COUPLER_TURN, ROCKER, ROCKER_TURN, FourBar, ideal_motion
 
 pytestmark = pytest.mark.needs_peers
 SPEED = 5000 * 2 * np.pi / 60
@@ -35,10 +35,10 @@ CRANK, ROD, ROD_MASS, ROD_INERTIA, SLIDER_MASS = 0.05, 0.12, 0.21, 2.5e-4, 0.14
 CLEARANCE, RADIUS, STIFFNESS = 0.5e-3, 0.01, 6.6102e10
 
 
-def prototype():
-    from drivewright.mechanisms.linkage import prototype
+def exudyn_model():
+    from drivewright.oracles.linkage import exudyn_model
 
-    return prototype
+    return exudyn_model
 
 
 # -- smooth motion -----------------------------------------------------------------------------------------------------------
@@ -70,7 +70,7 @@ def test_ideal_four_bar():
         gravity=(0.0, -9.81),
     )
     duration = 2 * np.pi / 3 / 50
-    run = prototype().run(model, poses(0.3, 50.0), duration, 1e-5, samples=10)
+    run = exudyn_model().run(model, poses(0.3, 50.0), duration, 1e-5, samples=10)
     assert run.time[-1] == pytest.approx(duration, rel=1e-12) and run.time.size == 11
     for name, expected in poses(0.3 + 2 * np.pi / 3, 50.0).items():
         size = 50.0 * np.array([0.02, 0.02, 1, 1, 1, 50]) / 50
@@ -90,7 +90,7 @@ def test_spring_damper_and_force_on_a_slide():
         (Prismatic("guide", Marker("slide", 0.01, 0.0), Marker(GROUND), (along.real, along.imag)),),
         forces,
     )
-    run = prototype().run(model, {"slide": (0, 0, 0.2, 0, 0, 0)}, 0.3, 1e-4)
+    run = exudyn_model().run(model, {"slide": (0, 0, 0.2, 0, 0, 0)}, 0.3, 1e-4)
     rest, decay = (3.0 - 80.0 * 0.1) / 80.0, 1.5 / (2 * 0.5)
     omega = np.sqrt(80.0 / 0.5 - decay**2)
     x = rest - rest * np.exp(-decay * run.time) * (np.cos(omega * run.time) + decay / omega * np.sin(omega * run.time))
@@ -102,7 +102,7 @@ def test_torque_and_rotational_spring_on_a_pin():
     """J phi'' = T - k (phi - rest) - c phi', from phi = 0.2; the pin holds a body whose centroid lies on it."""
     forces = (Torque("t", "wheel", Load(line(0.4, 0.0))), RotationalSpring("s", "wheel", stiffness=5.0, rest=0.05, damping=0.02))
     model = Model((Body("wheel", 1.0, 2e-3),), (Revolute("pin", Marker("wheel"), Marker(GROUND)),), forces)
-    run = prototype().run(model, {"wheel": (0, 0, 0.2, 0, 0, 0)}, 0.2, 1e-4)
+    run = exudyn_model().run(model, {"wheel": (0, 0, 0.2, 0, 0, 0)}, 0.2, 1e-4)
     rest, decay = 0.05 + 0.4 / 5.0, 0.02 / (2 * 2e-3)
     omega = np.sqrt(5.0 / 2e-3 - decay**2)
     swing, phase = (0.2 - rest) * np.exp(-decay * run.time), omega * run.time
@@ -115,7 +115,7 @@ def test_a_pin_in_a_slot_falls_and_turns():
     slot = PinSlot("slot", Marker("rod", 0.03, 0.04), Marker(GROUND, 0.0, 0.2), (1.0, 0.0))
     model = Model((Body("rod", 0.4, 3e-3, (0.09, 0.12)),), (slot,), gravity=(0.0, -9.81))
     lean = np.arctan2(4, 3)
-    run = prototype().run(model, {"rod": (0.1, 0.2, -lean, 0, 0, 0)}, 0.2, 1e-4)
+    run = exudyn_model().run(model, {"rod": (0.1, 0.2, -lean, 0, 0, 0)}, 0.2, 1e-4)
     x, y, angle, vx, vy, turning = run.bodies["rod"].T
     assert np.abs(y - 0.2 - 0.1 * np.sin(angle + lean)).max() < 1e-7 and np.abs(x - 0.1).max() < 1e-12
     energy = 0.5 * 0.4 * (vx**2 + vy**2) + 0.5 * 3e-3 * turning**2 + 0.4 * 9.81 * (y - 0.2)
@@ -132,7 +132,7 @@ def bounce(speed, **law):
         (Body("block", 0.3, 1e-4),),
         (Prismatic("guide", Marker("block"), Marker(GROUND)), Revolute("pin", Marker(GROUND), Marker("block"), contact)),
     )
-    run = prototype().run(model, {"block": (5e-5, 0, 0, speed, 0, 0)}, 1e-4 / speed, 2e-7)
+    run = exudyn_model().run(model, {"block": (5e-5, 0, 0, speed, 0, 0)}, 1e-4 / speed, 2e-7)
     return -run.bodies["block"][-1, 3] / speed
 
 
@@ -216,7 +216,7 @@ def two_equations(duration, hysteresis=0.0, coefficient=0.0, ramp=1.0):
 def miss(duration, step, hysteresis=0.0, coefficient=0.0, ramp=1.0):
     """(rod angle [rad], slider position [m]) of Exudyn less those of the two equations."""
     friction = Friction("ambrosio", coefficient, ramp)
-    run = prototype().run(*slider_crank(hysteresis, friction), duration, step, samples=4)
+    run = exudyn_model().run(*slider_crank(hysteresis, friction), duration, step, samples=4)
     return np.array([run.bodies["rod"][-1, 2], run.bodies["slider"][-1, 0]]) - two_equations(duration, hysteresis, coefficient, ramp)
 
 
@@ -253,14 +253,14 @@ def test_friction_has_its_arm():
 )
 def test_contacts_that_exudyn_does_not_have(changes, message):
     with pytest.raises(InputError, match=message):
-        prototype().run(*slider_crank(**changes), 1e-4, 1e-6)
+        exudyn_model().run(*slider_crank(**changes), 1e-4, 1e-6)
 
 
 def test_the_distance_off_centre_knows_how_bodies_stand():
     bodies = (Body("a", 1.0, 1.0, (0.0, 0.02)), Body("b", 1.0, 1.0))
     pin = Revolute("pin", Marker("a", 0.1, 0.02), Marker("b", 0.0, 0.1), Dry(1e-4, 0.01, 1e9))
     with pytest.raises(InputError, match=r"'pin' starts 0\.002 m off centre"):
-        prototype().run(Model(bodies, (pin,)), {"a": (0, 0, np.pi / 2, 0, 0, 0), "b": (0.002, 0, 0, 0, 0, 0)}, 1e-3, 1e-4)
+        exudyn_model().run(Model(bodies, (pin,)), {"a": (0, 0, np.pi / 2, 0, 0, 0), "b": (0.002, 0, 0, 0, 0, 0)}, 1e-3, 1e-4)
 
 
 @pytest.mark.parametrize(
@@ -281,4 +281,4 @@ def test_the_distance_off_centre_knows_how_bodies_stand():
 def test_elements_that_the_twin_does_not_have(part, message):
     model = Model(**{"bodies": (Body("a", 1.0, 1.0), Body("b", 1.0, 1.0)), "joints": (), **part})
     with pytest.raises(InputError, match=message):
-        prototype().run(model, {"a": (0,) * 6, "b": (0,) * 6}, 1e-3, 1e-4)
+        exudyn_model().run(model, {"a": (0,) * 6, "b": (0,) * 6}, 1e-3, 1e-4)

@@ -1,10 +1,14 @@
-"""Whether a linkage is a crank-driven four-bar, and its motion in the closed form of `second_route` then."""
+"""Whether a linkage is a crank-driven four-bar, and its motion in the closed form of `four_bar_closed_form` then."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.mechanisms.linkage.second_route import (
+from drivewright.multibody.model import GROUND, Marker, Revolute, RotationalSpring
+from drivewright.multibody.observe import joined, observe
+from drivewright.multibody.simulate import Settings, clear_states, simulate
+from drivewright.numerics.ode import integrate
+from drivewright.oracles.linkage.four_bar_closed_form import (
     COUPLER_TURN,
     ROCKER_TURN,
     FourBar,
@@ -14,10 +18,6 @@ from drivewright.mechanisms.linkage.second_route import (
     positions,
     velocities,
 )
-from drivewright.multibody.model import GROUND, Marker, Revolute, RotationalSpring
-from drivewright.multibody.observe import joined, observe
-from drivewright.multibody.simulate import Settings, clear_states, simulate
-from drivewright.numerics.ode import integrate
 
 ROUTE = "closed form of the four-bar"
 SAMPLES = 721  # of a turn with ideal pins
