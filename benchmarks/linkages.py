@@ -30,7 +30,7 @@ def slider_crank(clearance=0.5e-3):
         mb.Revolute("wrist", mb.Marker("rod", ROD), mb.Marker("slider"), dry),
         mb.Prismatic("guide", mb.Marker("slider"), mb.Marker("ground")),
     )
-    return mb.Model(bodies, joints, drives=(mb.Drive("main", mb.line(0.0, SPEED)),))
+    return mb.MultibodyModel(bodies, joints, drives=(mb.JointDrive("main", mb.line(0.0, SPEED)),))
 
 
 def started(model):
@@ -151,10 +151,11 @@ def table():
 
     from drivewright import cases, load
     from drivewright.mechanisms.linkage.build import build
-    from drivewright.mechanisms.linkage.many import ideal_peak, load_of, varied
+    from drivewright.mechanisms.linkage.vary import varied
+    from drivewright.multibody.analyses.impact_load import ideal_acceleration_peak, impact_load_of_run
 
     spec = load(Path(__file__).parent.parent / "examples" / "knife_folder.toml")
-    output = spec.outputs[0]
+    output = build(spec).outputs[0]
 
     def model(speed, clearance, rtol):
         changes = {"drive.speed": speed / 3600 * TURN, "simulate.relative_tolerance": rtol}
@@ -162,12 +163,14 @@ def table():
             changes |= {f"joints.{name}.clearance": clearance, f"joints.{name}.link_damping": CALIBRATED[clearance] * speed / 28_800}
         return build(varied(spec, changes))
 
-    load_of(model(28_800, 0.2e-3, 1e-4), output)
+    impact_load_of_run(model(28_800, 0.2e-3, 1e-4), output)
     for rtol in (1e-5, 1e-6, 1e-8):
         began = time.perf_counter()
-        peaks = {speed: ideal_peak(model(speed, 0.2e-3, rtol), output) for speed in SPEEDS}
+        peaks = {speed: ideal_acceleration_peak(model(speed, 0.2e-3, rtol), output) for speed in SPEEDS}
         points = [(speed, clearance) for speed in SPEEDS for clearance in CALIBRATED]
-        found = cases.run(lambda case, rtol=rtol, peaks=peaks: load_of(model(*case, rtol), output, peaks[case[0]])[0], points, workers=None)
+        found = cases.run(
+            lambda case, rtol=rtol, peaks=peaks: impact_load_of_run(model(*case, rtol), output, peaks[case[0]])[0], points, workers=None
+        )
         seconds = time.perf_counter() - began
         middle = [f"{row.value:.3f}" for row in found.rows if row.case[0] == 28_800]
         yield (

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from drivewright.errors import DoesNotAssemble, InputError
-from drivewright.mechanisms.linkage import tolerance
+from drivewright.mechanisms.linkage import analyses
+from drivewright.multibody.analyses import tolerances
 from drivewright.multibody.assembly import assemble
-from drivewright.multibody.model import GROUND, Body, Drive, Marker, Model, PinSlot, Prismatic, Revolute, Rolling, line
+from drivewright.multibody.model import GROUND, Body, JointDrive, Marker, MultibodyModel, PinSlot, Prismatic, Revolute, Rolling, line
 from drivewright.multibody.tolerance import CHUNK, Source, deviations, draw, gradient, play, posture, sample, shares
 
 ARM = 0.424
@@ -18,7 +19,7 @@ ARM = 0.424
 
 def folder(coupler=0.158, ground=0.484):
     """The knife folder: crank 66 mm, coupler, rocker 424 mm."""
-    return Model(
+    return MultibodyModel(
         (Body("crank", 1.0), Body("coupler", 1.0, 1e-3, (0.079, 0.01), angle=-1.0), Body("knife", 6.0, 0.04, (0.243, -0.02), angle=3.4)),
         (
             Revolute("O2", Marker(GROUND), Marker("crank")),
@@ -26,13 +27,13 @@ def folder(coupler=0.158, ground=0.484):
             Revolute("B", Marker("coupler", coupler), Marker("knife", ARM)),
             Revolute("O4", Marker("knife"), Marker(GROUND, ground)),
         ),
-        drives=(Drive("O2", line(0.0, 10.0)),),
+        drives=(JointDrive("O2", line(0.0, 10.0)),),
     )
 
 
 def rolling():
     """A wheel that rolls on a circle in the slot of a crank, and leads a slider by a pin: all kinds of rows and coordinates."""
-    return Model(
+    return MultibodyModel(
         (Body("crank", 1.0, 0.0, (0.01, 0.0), angle=0.3), Body("wheel", 1.0, 0.1, (0.002, 0.001), angle=0.4), Body("slider", 1.0)),
         (
             Revolute("O", Marker(GROUND, 0.01, 0.02), Marker("crank")),
@@ -41,7 +42,7 @@ def rolling():
             PinSlot("slot", Marker("wheel", 0.02, 0.01), Marker("slider"), (0.1, 1.0)),
             Prismatic("guide", Marker("slider"), Marker(GROUND, 0.0, 0.1), (1.0, 0.2)),
         ),
-        drives=(Drive("O", line(0.0, 1.0)),),
+        drives=(JointDrive("O", line(0.0, 1.0)),),
     )
 
 
@@ -168,7 +169,7 @@ def spec(**tables):
 
 
 def test_sources_are_the_plays_of_any_model_and_the_points_with_all_that_hang_on_them():
-    first, second, third = tolerance.sources_of(spec())
+    first, second, third = analyses.sources_of(spec())
     assert (first, second) == (play("O2", 1e-4), play("A", 2e-4))
     assert third == Source("knife.B", 3e-4, "normal", (("B", 1),), (0.0, -1.0), ("tip",))
 
@@ -183,18 +184,18 @@ def test_sources_are_the_plays_of_any_model_and_the_points_with_all_that_hang_on
     ],
 )
 def test_what_is_missing_is_named(tables, reason):
-    assert re.search(reason, tolerance.no_tolerances(spec(**tables)))
-    assert tolerance.no_tolerances(spec()) is None
+    assert re.search(reason, analyses._no_tolerances(spec(**tables)))
+    assert analyses._no_tolerances(spec()) is None
 
 
 def test_the_tables_add_up():
     held = held_folder(PLAYS)
     worst, sigma = (part[0, 0] for part in shares(PLAYS, gradient(held, 4)))
-    table = tolerance._tornado("knife", "rad", PLAYS, (worst * (1.0, 3.0, 2.0, 0.5), sigma * (1.0, 3.0, 2.0, 0.5)))
+    table = tolerances._tornado("knife", "rad", PLAYS, (worst * (1.0, 3.0, 2.0, 0.5), sigma * (1.0, 3.0, 2.0, 0.5)))
     assert [text.split()[1] for text in table["source"].data] == ["A", "B", "O2", "O4"]
     np.testing.assert_allclose(table["variance_share"].data, np.array([9.0, 4.0, 1.0, 0.25]) / 14.25, rtol=1e-3)
     np.testing.assert_allclose(table["sensitivity"].data, 2.35873 * np.array([3.0, 2.0, 1.0, 0.5]), rtol=1e-4)
-    bars = tolerance._histogram("knife", "rad", sample(held, PLAYS, 20_000, 1).deviations[:, 0, 0], (worst, sigma))
+    bars = tolerances._histogram("knife", "rad", sample(held, PLAYS, 20_000, 1).deviations[:, 0, 0], (worst, sigma))
     assert np.sum(bars["share"].data) == pytest.approx(1.0)
     for name, cut in (("share", 0.01), ("linear_share", 0.03)):  # the bars end at three standard deviations of the normal distribution
         assert np.sqrt(np.sum(bars[name].data * bars["deviation"].data ** 2)) == pytest.approx(1.668e-4, rel=cut)

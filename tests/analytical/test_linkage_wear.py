@@ -6,9 +6,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from drivewright.mechanisms.linkage import wear
+from drivewright.mechanisms.linkage import analyses
+from drivewright.multibody.analyses import wear
 from drivewright.multibody.assembly import assemble
-from drivewright.multibody.model import GROUND, Body, Drive, Dry, Friction, Marker, Model, Revolute, line
+from drivewright.multibody.model import GROUND, Body, Dry, Friction, JointDrive, Marker, MultibodyModel, Revolute, line
 from drivewright.multibody.observe import PIN_FIELDS, observe
 from drivewright.multibody.simulate import Settings, simulate
 
@@ -21,10 +22,10 @@ def rotor(clearance=PLAY, bearing="ground", friction=0.1, hysteresis=0.2, expone
     """A driven crank with a bob on a pin with play; the bearing is in the crank, or in the bob."""
     dry = Dry(clearance, RADIUS, STIFF, exponent, hysteresis, length=LENGTH, friction=Friction("coulomb", friction, 0.05))
     ends = (Marker("crank", 0.05), Marker("bob", 0.002, 0.001))
-    return Model(
+    return MultibodyModel(
         (Body("crank", 1.0, 1e-3), Body("bob", 0.3, 2e-4, (0.03, 0.0))),
         (Revolute("O", Marker(GROUND), Marker("crank")), Revolute("P", *(ends if bearing == "ground" else ends[::-1]), dry)),
-        drives=(Drive("O", line(0.2, 60.0)),),
+        drives=(JointDrive("O", line(0.2, 60.0)),),
         gravity=(0.0, -9.81),
     )
 
@@ -96,7 +97,7 @@ def test_the_depth_is_read_in_the_frame_of_the_bearing_and_the_force_is_its_grad
 
 
 def test_a_bouncing_journal_keeps_its_energy_in_a_worn_bearing():
-    still = replace(rotor(friction=0.0, hysteresis=0.0, bearing="bob"), drives=(Drive("O", line(0.2, 0.0)),), gravity=(0.0, 0.0))
+    still = replace(rotor(friction=0.0, hysteresis=0.0, bearing="bob"), drives=(JointDrive("O", line(0.2, 0.0)),), gravity=(0.0, 0.0))
     bob = replace(still.bodies[1], velocity=(0.7, -0.3), angular_velocity=9.0)
     assembly = wear.with_wear(assemble(replace(still, bodies=(still.bodies[0], bob))), 0, 3 * bumps())
     moved = run(assembly, 0.05, 1e-10)
@@ -136,25 +137,17 @@ class Seen:
         return self.turned
 
 
-def told(coefficient=K, **changes):
-    joint = SimpleNamespace(
-        name="P",
-        pin="dry",
-        wear_coefficient=coefficient,
-        bearing_radius=RADIUS,
-        length=LENGTH,
-        clearance=PLAY,
-        connects=("crank.P", "bob.P"),
-    )
-    asked = SimpleNamespace(joint="P", cycles=1000, jumps=1, bins=90)
-    spec = SimpleNamespace(**{"joints": [joint], "wear": asked, "outputs": (), "simulate": None, "period": 0.5} | changes)
-    return SimpleNamespace(spec=spec, pins=["P"], period=0.5, markers={}, ensemble=1)
+MODEL = SimpleNamespace(pins=["P"], period=0.5, turn_length=0.5, window_start=0.0, markers={}, outputs=(), ensemble=1)
+
+
+def bearing(coefficient=K, cycles=1000, jumps=1):
+    return wear.WearingBearing("P", "crank", RADIUS, LENGTH, PLAY, coefficient, cycles, jumps, 90)
 
 
 def test_the_volume_of_a_turn_is_that_of_force_and_slip():
     t = np.linspace(0.0, 1.0, 4001)  # two turns
     seen = Seen(t, 1.0 + 0.7 * np.sin(9 * t), 20 + 15 * np.cos(5 * t), 0.3 * np.sin(4 * t), 60 * t)
-    depth = wear.depth_per_turn(seen, told(), 90)
+    depth = wear.depth_per_turn(seen, MODEL, bearing())
     volume = K * np.trapezoid((20 + 15 * np.cos(5 * t)) * np.abs(0.3 * np.sin(4 * t)), t) / 2
     assert np.mean(depth) * TURN * RADIUS * LENGTH == pytest.approx(volume, rel=1e-9)
     places = np.arange(90) * TURN / 90
@@ -164,7 +157,7 @@ def test_the_volume_of_a_turn_is_that_of_force_and_slip():
 def test_a_load_that_goes_round_evenly_in_the_bearing_wears_it_evenly():
     t = np.linspace(0.0, 0.5, 36001)
     seen = Seen(t, TURN * 2 * t, np.full_like(t, 50.0), np.full_like(t, -0.4), 0.3 + 5 * np.sin(20 * t))
-    depth = wear.depth_per_turn(seen, told(), 90)
+    depth = wear.depth_per_turn(seen, MODEL, bearing())
     np.testing.assert_allclose(depth, K * 50 * 0.4 * 0.5 / (TURN * RADIUS * LENGTH), rtol=3e-3)
 
 
@@ -180,10 +173,8 @@ def answer(monkeypatch):
     """Answer of the analysis with real runs of the rotor."""
 
     def ask(coefficient=K, cycles=1000, jumps=1):
-        model = told(coefficient, wear=SimpleNamespace(joint="P", cycles=cycles, jumps=jumps, bins=90))
-        model.assembly, model.duration, model.settings = assemble(rotor()), 0.05, Settings(per_step=2)
-        model.period = 0.05
-        return wear.wear(model, {})
+        run = {"assembly": assemble(rotor()), "run_length": 0.05, "settings": Settings(per_step=2), "period": 0.05, "turn_length": 0.05}
+        return wear.wear(SimpleNamespace(**vars(MODEL) | run), bearing(coefficient, cycles, jumps))
 
     return ask
 
@@ -217,7 +208,7 @@ def test_no_coefficient_no_wear(answer):
 
 
 def test_steep_profiles_and_long_jumps_are_told(answer):
-    joint = told().spec.joints[0]
+    joint = bearing()
     assert wear._findings(joint, bumps(), 1e-6) == ()
     steep, far = wear._findings(joint, 20 * bumps(), 2e-4)
     assert "slopes of" in steep and "clearance of 1 mm" in steep
@@ -228,9 +219,10 @@ def test_steep_profiles_and_long_jumps_are_told(answer):
     ("changes", "reason"), [({"pin": "lubricated"}, "'P' is lubricated"), ({"wear_coefficient": None}, "states no wear_coefficient")]
 )
 def test_what_does_not_wear_is_named(changes, reason):
-    spec = told().spec
-    assert wear.no_wear(spec) is None
-    spec.joints = [SimpleNamespace(**vars(spec.joints[0]) | changes)]
-    assert reason in wear.no_wear(spec)
+    joint = SimpleNamespace(name="P", pin="dry", wear_coefficient=K)
+    spec = SimpleNamespace(joints=[joint], wear=SimpleNamespace(joint="P"), simulate=None, period=0.5)
+    assert analyses._no_wear(spec) is None
+    spec.joints = [SimpleNamespace(**vars(joint) | changes)]
+    assert reason in analyses._no_wear(spec)
     spec.wear = None
-    assert "[wear]" in wear.no_wear(spec)
+    assert "[wear]" in analyses._no_wear(spec)

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from drivewright.multibody.analyses.energy_audit import IDLE, audit, audit_of_samples
 from drivewright.multibody.observe import POWER_FIELDS
-from drivewright.multibody.record import IDLE, Record, audit, audit_of_samples
+from drivewright.multibody.record import Record
 
 TURNS = 3
 DRIVES = POWER_FIELDS.index("drives")

@@ -7,20 +7,20 @@ from drivewright.errors import InputError
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.linearise import linearise, modes
 from drivewright.multibody.model import (
+    AppliedTorque,
     Body,
     Bushing,
-    Drive,
     Dry,
     Friction,
-    Load,
+    JointDrive,
+    LoadCurve,
     Marker,
     MasslessLink,
-    Model,
+    MultibodyModel,
+    PointSpring,
     Prismatic,
     Revolute,
     RotationalSpring,
-    Spring,
-    Torque,
     line,
 )
 from drivewright.multibody.simulate import Settings, simulate
@@ -37,11 +37,13 @@ def found_modes(model, **options):
 
 def pendulum(angle=-1.4, forces=()):
     rod = Body("rod", 2.0, 0.03, (0.3, 0.0), angle=angle)
-    return Model((rod,), (Revolute("O", Marker("ground"), Marker("rod")),), forces, gravity=DOWN)
+    return MultibodyModel((rod,), (Revolute("O", Marker("ground"), Marker("rod")),), forces, gravity=DOWN)
 
 
 def test_a_point_mass_on_a_thread_swings_with_the_root_of_g_over_l():
-    model = Model((Body("bob", 0.7, 0.0, (0.4, 0.0), angle=-1.0),), (Revolute("O", Marker("ground"), Marker("bob")),), gravity=DOWN)
+    model = MultibodyModel(
+        (Body("bob", 0.7, 0.0, (0.4, 0.0), angle=-1.0),), (Revolute("O", Marker("ground"), Marker("bob")),), gravity=DOWN
+    )
     assert found_modes(model).frequencies == pytest.approx([np.sqrt(G / 0.4) / TAU], rel=1e-9)
 
 
@@ -76,7 +78,7 @@ def test_a_standing_pendulum_falls_with_a_growing_root():
 def test_the_double_pendulum_in_closed_form():
     """Equal point masses on equal threads: w^2 = (2 -+ sqrt(2)) g / l, the lower bob going +-sqrt(2) times as far by angle."""
     length = 0.25
-    model = Model(
+    model = MultibodyModel(
         (Body("upper", 1.3, 0.0, (length, 0.0), angle=-1.2), Body("lower", 1.3, 0.0, (length, 0.0), angle=-1.8)),
         (Revolute("O", Marker("ground"), Marker("upper")), Revolute("A", Marker("upper", length), Marker("lower"))),
         gravity=DOWN,
@@ -91,8 +93,8 @@ def masses(count=2, k=(300.0, 170.0, 90.0), m=(1.2, 0.7)):
     bodies = tuple(Body(f"m{n}", m[n], 1.0) for n in range(count))
     guides = tuple(Prismatic(f"g{n}", Marker(f"m{n}"), Marker("ground", 0.5 * (n + 1)), (1.0, 0.0)) for n in range(count))
     ends = [Marker("ground"), *(Marker(f"m{n}") for n in range(count)), Marker("ground", 0.5 * (count + 1))]
-    springs = tuple(Spring(f"s{n}", ends[n], ends[n + 1], k[n], 0.5) for n in range(count + 1))
-    return Model(bodies, guides, springs)
+    springs = tuple(PointSpring(f"s{n}", ends[n], ends[n + 1], k[n], 0.5) for n in range(count + 1))
+    return MultibodyModel(bodies, guides, springs)
 
 
 def test_a_mass_on_a_spring():
@@ -115,14 +117,14 @@ def test_two_masses_between_three_springs():
 
 def test_masses_joined_by_a_spring_alone_have_a_mode_that_goes_nowhere_back():
     model = masses()
-    found = found_modes(Model(model.bodies, model.joints, model.forces[1:2]))
+    found = found_modes(MultibodyModel(model.bodies, model.joints, model.forces[1:2]))
     assert found.frequencies == pytest.approx([0.0, np.sqrt(170.0 * (1 / 1.2 + 1 / 0.7)) / TAU], rel=1e-8)
     assert found.bodies[0, 1, 0] == pytest.approx(found.bodies[0, 2, 0])
     assert found.bodies[1, 1, 0] / found.bodies[1, 2, 0] == pytest.approx(-0.7 / 1.2)
 
 
 def test_a_coasting_wheel_in_oil_has_a_standing_and_a_decaying_mode():
-    model = Model(
+    model = MultibodyModel(
         (Body("wheel", 2.0, 0.5),), (Revolute("O", Marker("ground"), Marker("wheel")),), (RotationalSpring("oil", "wheel", damping=0.2),)
     )
     found = found_modes(model)
@@ -131,15 +133,17 @@ def test_a_coasting_wheel_in_oil_has_a_standing_and_a_decaying_mode():
 
 def test_a_motor_on_a_falling_torque_curve_damps_and_on_a_rising_one_drives():
     for slope in (-0.3, 0.2):
-        motor = Torque("motor", "wheel", Load(line(0.0, slope), "speed"))
-        model = Model((Body("wheel", 2.0, 0.5),), (Revolute("O", Marker("ground"), Marker("wheel")),), (motor,))
+        motor = AppliedTorque("motor", "wheel", LoadCurve(line(0.0, slope), "speed"))
+        model = MultibodyModel((Body("wheel", 2.0, 0.5),), (Revolute("O", Marker("ground"), Marker("wheel")),), (motor,))
         linear = linearise(assemble(model))
         assert linear.damping == pytest.approx(np.array([[-slope]]), rel=1e-8)
         assert modes(linear).eigenvalues[-1] == pytest.approx(slope / 0.5, rel=1e-8)
 
 
 def test_a_bushing_carries_a_body_in_three_directions():
-    model = Model((Body("block", 2.0, 0.08),), (Revolute("mount", Marker("block"), Marker("ground"), Bushing(800.0, 4.0, 5.0, 0.1)),))
+    model = MultibodyModel(
+        (Body("block", 2.0, 0.08),), (Revolute("mount", Marker("block"), Marker("ground"), Bushing(800.0, 4.0, 5.0, 0.1)),)
+    )
     found = found_modes(model)
     assert found.frequencies == pytest.approx(np.sqrt([5.0 / 0.08, 400.0, 400.0]) / TAU, rel=1e-8)
     assert found.ratios == pytest.approx([0.1 / (2 * np.sqrt(5.0 * 0.08)), *[4.0 / (2 * np.sqrt(1600.0))] * 2], rel=1e-7)
@@ -148,7 +152,9 @@ def test_a_bushing_carries_a_body_in_three_directions():
 def test_a_rod_resting_in_its_bearing_bounces_on_the_slope_of_the_contact_law():
     """Load N = K d^1.5: stiffness 1.5 N / d along the load; and across, it rolls round in the bearing: a pendulum of two links."""
     pin = Dry(1e-3, 0.02, 1e8, 1.5, 0.0)
-    model = Model((Body("bob", 2.0, 0.01, angle=-np.pi / 2),), (Revolute("pin", Marker("ground"), Marker("bob"), pin),), gravity=DOWN)
+    model = MultibodyModel(
+        (Body("bob", 2.0, 0.01, angle=-np.pi / 2),), (Revolute("pin", Marker("ground"), Marker("bob"), pin),), gravity=DOWN
+    )
     found = found_modes(model)
     depth = (2.0 * G / 1e8) ** (2 / 3)
     assert found.frequencies[-1] == pytest.approx(np.sqrt(1.5 * 2.0 * G / depth / 2.0) / TAU, rel=1e-5)
@@ -158,7 +164,7 @@ def test_a_rod_resting_in_its_bearing_bounces_on_the_slope_of_the_contact_law():
 def test_friction_in_a_loaded_bearing_damps_with_its_slope_at_no_slip():
     """Torque mu N R tanh(R w / v_d): damping mu N R^2 / v_d of a turn about the bearing's centre."""
     pin = Dry(1e-3, 0.02, 1e8, 1.5, 0.0, friction=Friction("coulomb", 0.1, 0.01))
-    model = Model(
+    model = MultibodyModel(
         (Body("rod", 2.0, 0.01, (0.1, 0.0), angle=-np.pi / 2),), (Revolute("pin", Marker("rod"), Marker("ground"), pin),), gravity=DOWN
     )
     linear = linearise(assemble(model))
@@ -171,15 +177,17 @@ def test_friction_in_a_loaded_bearing_damps_with_its_slope_at_no_slip():
 def test_a_massless_link_without_damping_is_a_thread_on_which_the_rod_swings():
     """Rod of a point mass at l on a link of length c: one coordinate has no mass of its own, the thread is l + c long."""
     pin = MasslessLink(0.05, angle=-1.3)
-    model = Model((Body("bob", 2.0, 0.0, (0.2, 0.0), angle=-1.7),), (Revolute("pin", Marker("ground"), Marker("bob"), pin),), gravity=DOWN)
+    model = MultibodyModel(
+        (Body("bob", 2.0, 0.0, (0.2, 0.0), angle=-1.7),), (Revolute("pin", Marker("ground"), Marker("bob"), pin),), gravity=DOWN
+    )
     assert found_modes(model).frequencies == pytest.approx([np.sqrt(G / 0.25) / TAU], rel=1e-8)
 
 
 def test_a_held_drive_leaves_the_rest_to_swing():
-    model = Model(
+    model = MultibodyModel(
         (Body("crank", 1.0, 0.01), Body("bob", 2.0, 0.0, (0.2, 0.0), angle=-1.0)),
         (Revolute("O", Marker("ground"), Marker("crank")), Revolute("A", Marker("crank", 0.3), Marker("bob"))),
-        drives=(Drive("O", line(0.4, 50.0)),),
+        drives=(JointDrive("O", line(0.4, 50.0)),),
         gravity=DOWN,
     )
     assert found_modes(model, time=0.01).frequencies == pytest.approx([np.sqrt(G / 0.2) / TAU], rel=1e-9)
@@ -187,11 +195,11 @@ def test_a_held_drive_leaves_the_rest_to_swing():
 
 def governor(speed):
     """A bob on a radial spring in a driven slot."""
-    return Model(
+    return MultibodyModel(
         (Body("table", 1.0, 0.1), Body("bob", 0.5, 0.0)),
         (Revolute("O", Marker("ground"), Marker("table")), Prismatic("slot", Marker("bob"), Marker("table", 0.1))),
-        (Spring("s", Marker("bob"), Marker("table"), 400.0, 0.1),),
-        (Drive("O", line(0.0, speed)),),
+        (PointSpring("s", Marker("bob"), Marker("table"), 400.0, 0.1),),
+        (JointDrive("O", line(0.0, speed)),),
     )
 
 
@@ -211,7 +219,7 @@ def test_a_freely_spinning_slide_has_coriolis_terms():
     w0^2 = (k - m w^2)/m + 4 m x^2 w^2 / (J + m x^2), the table's angle goes along freely."""
     speed, m, k, J = 15.0, 0.5, 400.0, 0.1
     model = governor(speed)
-    assembly = assemble(Model(model.bodies, model.joints, model.forces))
+    assembly = assemble(MultibodyModel(model.bodies, model.joints, model.forces))
     x = k * 0.1 / (k - m * speed**2)
     state = assembly.state.copy()
     names = linearise(assembly).names
@@ -233,7 +241,7 @@ def test_a_mechanism_with_a_loop_swings_in_a_simulation_as_its_linearisation_say
         Revolute("B", Marker("plate", 0.35), Marker("right", 0.25)),
         Revolute("C", Marker("right"), Marker("ground", 0.4)),
     )
-    assembly = assemble(Model(bars, pins, gravity=DOWN))
+    assembly = assemble(MultibodyModel(bars, pins, gravity=DOWN))
     rest = equilibrium(assembly)
     frequency = modes(linearise(assembly, rest.state)).frequencies[0]
     state = rest.state.copy()
@@ -252,5 +260,5 @@ def test_a_state_out_of_balance_is_refused_with_the_coordinate_and_the_way_out()
 
 def test_a_mechanism_without_freedom_has_no_modes():
     model = pendulum()
-    driven = Model(model.bodies, model.joints, drives=(Drive("O", line(0.0, 1.0)),), gravity=DOWN)
+    driven = MultibodyModel(model.bodies, model.joints, drives=(JointDrive("O", line(0.0, 1.0)),), gravity=DOWN)
     assert found_modes(driven).frequencies.shape == (0,)

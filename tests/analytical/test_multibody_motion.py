@@ -8,23 +8,23 @@ from scipy.special import ellipj, ellipk
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.model import (
     GROUND,
+    AppliedForce,
+    AppliedTorque,
     Body,
     Bushing,
     CamPair,
     Curve,
-    Drive,
-    Force,
     Gear,
-    Load,
+    JointDrive,
+    LoadCurve,
     Marker,
-    Model,
+    MultibodyModel,
     PinSlot,
+    PointSpring,
     Prismatic,
     Revolute,
     Rolling,
     RotationalSpring,
-    Spring,
-    Torque,
     line,
 )
 from drivewright.multibody.observe import Observed, observe
@@ -78,7 +78,7 @@ def swing(amplitude, omega, t):
 def test_projectile_spins_on_a_parabola():
     body = Body("stone", 2.0, 0.3, centroid=(0.1, -0.2), angle=0.4, velocity=(3.0, 5.0), angular_velocity=-7.0)
     t = np.linspace(0, 0.8, 9)
-    seen = Seen(Model((body,), (), gravity=(0.7, -G)), t)
+    seen = Seen(MultibodyModel((body,), (), gravity=(0.7, -G)), t)
     start = seen("stone", "x")[0], seen("stone", "y")[0]
     near(seen("stone", "x") - start[0], 3 * t + 0.35 * t**2)
     near(seen("stone", "y") - start[1], 5 * t - G / 2 * t**2)
@@ -93,7 +93,7 @@ def test_physical_pendulum_follows_elliptic_functions(amplitude):
     period = 4 * ellipk(np.sin(amplitude / 2) ** 2) / omega
     t = np.linspace(0, 2 * period, 41)
     body = Body("bob", mass, inertia, centroid=(arm, 0.0), angle=amplitude - np.pi / 2)
-    seen = Seen(Model((body,), (Revolute("O", Marker(GROUND, 0.4, 0.2), Marker("bob")),), gravity=(0, -G)), t)
+    seen = Seen(MultibodyModel((body,), (Revolute("O", Marker(GROUND, 0.4, 0.2), Marker("bob")),), gravity=(0, -G)), t)
     angle, rate = swing(amplitude, omega, t)
     near(seen("bob", "angle") + np.pi / 2, angle, rel=1e-6)
     near(seen("bob", "w"), rate, size=omega, rel=1e-6)
@@ -118,7 +118,7 @@ def test_double_pendulum_against_the_textbook():
         for name, m, l, q, w in (("upper", m1, l1, start[0], start[2]), ("lower", m2, l2, start[1], start[3]))
     )
     pins = Revolute("O", Marker(GROUND), Marker("upper")), Revolute("A", Marker("upper", l1), Marker("lower"))
-    seen = Seen(Model(bodies, pins, gravity=(0, -G)), t)
+    seen = Seen(MultibodyModel(bodies, pins, gravity=(0, -G)), t)
     near(seen("upper", "angle") + np.pi / 2, book[0], rel=1e-7)
     near(seen("lower", "w"), book[3], rel=1e-7)
 
@@ -138,10 +138,10 @@ def test_mass_on_a_spring(damping):
     """On a rail at 0.6 rad, stretched by its own weight; the rest length is not that of the start."""
     mass, stiffness, free, slope = 1.5, 240.0, 0.3, 0.6
     rail = np.cos(slope), np.sin(slope)
-    model = Model(
+    model = MultibodyModel(
         (Body("block", mass, 0.01, velocity=(0.4 * rail[0], 0.4 * rail[1])),),
         (Prismatic("rail", Marker("block"), Marker(GROUND), rail),),
-        forces=(Spring("s", Marker("block"), Marker(GROUND, -0.5 * rail[0], -0.5 * rail[1]), stiffness, free, damping),),
+        forces=(PointSpring("s", Marker("block"), Marker(GROUND, -0.5 * rail[0], -0.5 * rail[1]), stiffness, free, damping),),
         gravity=(0, -G),
     )
     t = np.linspace(0, 2, 21)
@@ -155,7 +155,7 @@ def test_mass_on_a_spring(damping):
 @pytest.mark.parametrize("damping", [0.0, 0.05])
 def test_two_free_rotors_on_a_rotational_spring(damping):
     j1, j2, stiffness, rest = 0.02, 0.05, 8.0, 0.4
-    model = Model(
+    model = MultibodyModel(
         (Body("one", 1.0, j1, angle=1.0, angular_velocity=3.0), Body("two", 2.0, j2, angular_velocity=-1.0)),
         (),
         forces=(RotationalSpring("s", "one", "two", stiffness, rest, damping),),
@@ -170,7 +170,7 @@ def test_two_free_rotors_on_a_rotational_spring(damping):
 def test_bushing_frequencies(damping):
     mass, inertia, stiffness, twist = 0.8, 0.004, 500.0, 3.0
     joint = Revolute("b", Marker(GROUND, 0.2, 0.1), Marker("block"), Bushing(stiffness, damping, twist, 0.002 * damping))
-    model = Model((Body("block", mass, inertia, angle=0.3, velocity=(0.5, -0.2), angular_velocity=4.0),), (joint,))
+    model = MultibodyModel((Body("block", mass, inertia, angle=0.3, velocity=(0.5, -0.2), angular_velocity=4.0),), (joint,))
     t = np.linspace(0, 0.7, 21)
     seen = Seen(model, t)
     near(seen("block", "x") - 0.2, damped(t, stiffness, damping, mass, 0, 0.5))
@@ -184,7 +184,7 @@ def test_bushing_frequencies(damping):
 def planetary(sun_teeth, planet_teeth, forces=(), drives=()):
     """Ring fixed; the planet's pin 0.1 m from the axis."""
     ring = sun_teeth + 2 * planet_teeth
-    return Model(
+    return MultibodyModel(
         (Body("sun", 1.0, 0.003), Body("arm", 0.5, 0.002), Body("planet", 0.4, 0.0005)),
         (
             Revolute("S", Marker(GROUND), Marker("sun")),
@@ -199,7 +199,7 @@ def planetary(sun_teeth, planet_teeth, forces=(), drives=()):
 
 
 def test_planetary_train_obeys_willis():
-    seen = Seen(planetary(18, 27, drives=(Drive("S", line(0.0, 12.0)),)), np.linspace(0, 1, 5))
+    seen = Seen(planetary(18, 27, drives=(JointDrive("S", line(0.0, 12.0)),)), np.linspace(0, 1, 5))
     arm = 12.0 * 18 / (18 + 72)
     near(seen("arm", "w"), arm)
     near(seen("planet", "w"), arm - 18 / 27 * (12.0 - arm))
@@ -207,7 +207,7 @@ def test_planetary_train_obeys_willis():
 
 
 def test_planetary_train_runs_up_with_its_reduced_inertia():
-    seen = Seen(planetary(18, 27, forces=(Torque("m", "sun", Load(line(0.25, 0.0))),)), np.linspace(0, 1, 5))
+    seen = Seen(planetary(18, 27, forces=(AppliedTorque("m", "sun", LoadCurve(line(0.25, 0.0))),)), np.linspace(0, 1, 5))
     arm = 18 / 90
     planet = arm - 18 / 27 * (1 - arm)
     near(seen("sun", "alpha"), 0.25 / (0.003 + arm**2 * (0.002 + 0.4 * 0.1**2) + planet**2 * 0.0005))
@@ -217,7 +217,7 @@ def test_disc_rolls_down_an_incline():
     mass, radius, slope = 3.0, 0.2, -0.5
     axis = np.cos(slope), np.sin(slope)
     wheel = Body("disc", mass, 0.5 * mass * radius**2)
-    model = Model((wheel,), (Rolling("road", Marker("disc"), Marker(GROUND, 1.0, 2.0), radius, axis),), gravity=(0, -G))
+    model = MultibodyModel((wheel,), (Rolling("road", Marker("disc"), Marker(GROUND, 1.0, 2.0), radius, axis),), gravity=(0, -G))
     t = np.linspace(0, 1.5, 7)
     seen = Seen(model, t)
     way = np.hypot(seen("disc", "x") - seen("disc", "x")[0], seen("disc", "y") - seen("disc", "y")[0])
@@ -230,14 +230,14 @@ def test_disc_rolls_down_an_incline():
 def test_pinion_drives_a_rack():
     """The rack runs along its own axis at 30 deg, below the pinion; the torque is what its mass asks for."""
     radius, axis = 0.05, (np.cos(0.52), np.sin(0.52))
-    model = Model(
+    model = MultibodyModel(
         (Body("pinion", 1.0, 0.001), Body("rack", 2.0, 0.01)),
         (
             Revolute("O", Marker(GROUND), Marker("pinion")),
             Prismatic("guide", Marker("rack"), Marker(GROUND, radius * axis[1], -radius * axis[0]), axis),
             Rolling("mesh", Marker("pinion"), Marker("rack"), radius, axis),
         ),
-        drives=(Drive("O", polynomial(0.0, 2.0, 1.5)),),
+        drives=(JointDrive("O", polynomial(0.0, 2.0, 1.5)),),
         gravity=(0, -G),
     )
     t = np.linspace(0, 1, 6)
@@ -253,7 +253,7 @@ def test_disc_rolls_on_a_circle_like_a_pendulum(track):
     radius, mass, phi = 0.1, 2.0, 1.1
     apart = abs(radius + track)
     sense = np.sign(radius + track)
-    model = Model(
+    model = MultibodyModel(
         (Body("arm", 0.0, 0.0, angle=phi - np.pi / 2), Body("disc", mass, 0.5 * mass * radius**2, angle=0.2)),
         (
             Revolute("O", Marker(GROUND), Marker("arm")),
@@ -274,7 +274,7 @@ def test_disc_rolls_on_a_circle_like_a_pendulum(track):
 def test_disc_rolls_in_a_ring_without_an_arm():
     """The centre starts beside the ring's; the assembly finds the track, the energy of the rolling disc stays."""
     radius, track, mass = 0.1, -0.5, 2.0
-    model = Model(
+    model = MultibodyModel(
         (Body("disc", mass, 0.5 * mass * radius**2),),
         (Rolling("track", Marker("disc"), Marker(GROUND, -0.3, 0.2), radius, track_radius=track),),
         gravity=(0, -G),
@@ -290,14 +290,14 @@ def test_disc_rolls_in_a_ring_without_an_arm():
 def test_hypocycloid_of_two_to_one_is_a_straight_line():
     """Cardan's circles: a rim point of a wheel in a ring of twice its radius runs on a diameter, many turns long."""
     radius = 0.1
-    model = Model(
+    model = MultibodyModel(
         (Body("arm", 1.0, 0.01), Body("disc", 1.0, 0.01)),
         (
             Revolute("O", Marker(GROUND), Marker("arm")),
             Revolute("A", Marker("arm", radius), Marker("disc")),
             Rolling("track", Marker("disc"), Marker(GROUND), radius, track_radius=-2 * radius),
         ),
-        drives=(Drive("O", line(0.0, 2 * np.pi)),),
+        drives=(JointDrive("O", line(0.0, 2 * np.pi)),),
     )
     seen = Seen(model, np.linspace(0, 3, 40))
     angle = seen("disc", "angle")
@@ -319,15 +319,15 @@ def lift(x):
 @pytest.mark.parametrize("axis", [(1.0, 0.0), (0.6, 0.8)])
 def test_cam_with_a_sliding_follower(axis):
     mass, inertia, stiffness = 0.7, 0.002, 900.0
-    model = Model(
+    model = MultibodyModel(
         (Body("cam", 1.0, inertia, angle=0.3), Body("follower", mass, 0.01)),
         (
             Revolute("O", Marker(GROUND), Marker("cam")),
             Prismatic("guide", Marker("follower"), Marker(GROUND, 0.1, 0.05), axis),
             CamPair("pair", "cam", Marker("follower"), LIFT, origin=(0.1, 0.05), axis=axis),
         ),
-        forces=(Spring("s", Marker("follower"), Marker(GROUND, 0.1 - axis[0], 0.05 - axis[1]), stiffness, 0.9),),
-        drives=(Drive("O", polynomial(0.0, 4.0, 3.0)),),
+        forces=(PointSpring("s", Marker("follower"), Marker(GROUND, 0.1 - axis[0], 0.05 - axis[1]), stiffness, 0.9),),
+        drives=(JointDrive("O", polynomial(0.0, 4.0, 3.0)),),
         gravity=(0, -G),
     )
     t = np.linspace(0, 0.4, 9)
@@ -343,7 +343,7 @@ def test_cam_with_a_sliding_follower(axis):
 
 def test_cam_with_a_swinging_follower_on_a_turning_carrier():
     """Cam and rocker sit on an arm that turns as well: all counts relative to it."""
-    model = Model(
+    model = MultibodyModel(
         (Body("arm", 1.0, 0.01), Body("cam", 1.0, 0.002, angle=0.3), Body("rocker", 0.7, 0.005, centroid=(0.05, 0.0), angle=0.8)),
         (
             Revolute("O", Marker(GROUND), Marker("arm")),
@@ -351,7 +351,7 @@ def test_cam_with_a_swinging_follower_on_a_turning_carrier():
             Revolute("R", Marker("arm", 0.2, 0.05), Marker("rocker")),
             CamPair("pair", "cam", Marker("rocker"), LIFT, carrier="arm"),
         ),
-        drives=(Drive("O", line(0.0, 2.5)), Drive("C", line(0.0, 4.0))),
+        drives=(JointDrive("O", line(0.0, 2.5)), JointDrive("C", line(0.0, 4.0))),
     )
     t = np.linspace(0, 0.4, 9)
     seen = Seen(model, t)
@@ -369,14 +369,14 @@ def test_cam_with_a_swinging_follower_on_a_turning_carrier():
 
 def test_scotch_yoke_is_exactly_sinusoidal():
     r, w, mass = 0.07, 9.0, 1.2
-    model = Model(
+    model = MultibodyModel(
         (Body("crank", 1.0, 0.01, angle=0.4), Body("yoke", mass, 0.01)),
         (
             Revolute("O", Marker(GROUND), Marker("crank")),
             Prismatic("guide", Marker("yoke"), Marker(GROUND)),
             PinSlot("slot", Marker("crank", r), Marker("yoke"), (0.0, 1.0)),
         ),
-        drives=(Drive("O", line(0.0, w)),),
+        drives=(JointDrive("O", line(0.0, w)),),
     )
     t = np.linspace(0, 1, 12)
     seen, angle = Seen(model, t), 0.4 + w * t
@@ -396,10 +396,10 @@ def test_slotted_rocker(pin_first):
     else:  # the slot runs through the crank's pivot: the rocker's pin at distance r from its own pivot
         slot, far = PinSlot("slot", Marker("rocker", r), Marker("crank")), d
         start = 2.0
-    model = Model(
+    model = MultibodyModel(
         (Body("crank", 1.0, 0.01, angle=0.4 if pin_first else np.angle(far + r * np.exp(2j))), Body("rocker", 1.0, inertia, angle=start)),
         (Revolute("O", Marker(GROUND), Marker("crank")), Revolute("B", Marker(GROUND, d), Marker("rocker")), slot),
-        drives=(Drive("O" if pin_first else "B", line(0.0, w)),),
+        drives=(JointDrive("O" if pin_first else "B", line(0.0, w)),),
     )
     t = np.linspace(0, 2, 25)
     seen = Seen(model, t)
@@ -416,7 +416,7 @@ def test_slotted_rocker(pin_first):
 
 def bead(bead_first, drives=(), rate=None):
     guide = Prismatic("slide", Marker("bead"), Marker("rod", 0.1)) if bead_first else Prismatic("slide", Marker("rod", 0.1), Marker("bead"))
-    return Model(
+    return MultibodyModel(
         (Body("rod", 1.0, 0.02, angle=0.3, angular_velocity=rate), Body("bead", 0.5, 0.001, angle=0.3)),
         (Revolute("O", Marker(GROUND), Marker("rod")), guide),
         drives=drives,
@@ -426,7 +426,7 @@ def bead(bead_first, drives=(), rate=None):
 @pytest.mark.parametrize("bead_first", [True, False])
 def test_bead_on_a_turning_rod(bead_first):
     w, t = 3.0, np.linspace(0, 0.8, 9)
-    seen = Seen(bead(bead_first, (Drive("O", line(0.0, w)),)), t)
+    seen = Seen(bead(bead_first, (JointDrive("O", line(0.0, w)),)), t)
     r, v = 0.1 * np.cosh(w * t), 0.1 * w * np.sinh(w * t)
     near(seen("bead", "x"), r * np.cos(0.3 + w * t))
     near(seen("bead", "y"), r * np.sin(0.3 + w * t))
@@ -452,7 +452,7 @@ def test_driven_cylinder_lifts_a_boom(piston_first):
     ends = (Marker("piston"), Marker("cylinder", length)) if piston_first else (Marker("cylinder"), Marker("piston", -length))
     guide = Prismatic("guide", *ends)
     speed = 0.05 if piston_first else -0.05
-    model = Model(
+    model = MultibodyModel(
         (
             Body("boom", mass, 0.1, centroid=(0.5, 0.0), angle=1.0),
             Body("cylinder", 0.0, 0.0, angle=lean),
@@ -464,7 +464,7 @@ def test_driven_cylinder_lifts_a_boom(piston_first):
             guide,
             Revolute("P", Marker("boom", b), Marker("piston")),
         ),
-        drives=(Drive("guide", line(0.0, speed)),),
+        drives=(JointDrive("guide", line(0.0, speed)),),
         gravity=(0, -G),
     )
     t = np.linspace(0, 2, 11)
@@ -484,8 +484,8 @@ def test_driven_cylinder_lifts_a_boom(piston_first):
 def test_driven_slide_against_the_ground(ground_first):
     """The displacement counts for the body that moves, whichever end of the joint it is, and the drive's force with it."""
     ends = (Marker(GROUND, 0.1, 0.2), Marker("block")) if ground_first else (Marker("block"), Marker(GROUND, 0.1, 0.2))
-    model = Model(
-        (Body("block", 2.0, 0.1),), (Prismatic("guide", *ends, (0.6, 0.8)),), drives=(Drive("guide", polynomial(0.03, 0.5, 1.0)),)
+    model = MultibodyModel(
+        (Body("block", 2.0, 0.1),), (Prismatic("guide", *ends, (0.6, 0.8)),), drives=(JointDrive("guide", polynomial(0.03, 0.5, 1.0)),)
     )
     t = np.linspace(0, 1, 5)
     seen = Seen(model, t)
@@ -501,10 +501,10 @@ def test_driven_slide_against_the_ground(ground_first):
 def test_arm_with_two_driven_joints(forward):
     """The elbow's drive counts for the joint's first body relative to its second."""
     ends = (Marker("fore"), Marker("upper", 0.3)) if forward else (Marker("upper", 0.3), Marker("fore"))
-    model = Model(
+    model = MultibodyModel(
         (Body("upper", 1.0, 0.01, centroid=(0.1, 0), angle=0.2), Body("fore", 0.8, 0.005, centroid=(0.15, 0), angle=0.9)),
         (Revolute("shoulder", Marker(GROUND), Marker("upper")), Revolute("elbow", *ends)),
-        drives=(Drive("shoulder", line(0.0, 2.0)), Drive("elbow", line(0.0, 3.0))),
+        drives=(JointDrive("shoulder", line(0.0, 2.0)), JointDrive("elbow", line(0.0, 3.0))),
     )
     t = np.linspace(0, 1, 6)
     seen = Seen(model, t)
@@ -520,10 +520,10 @@ def test_arm_with_two_driven_joints(forward):
 
 def test_driven_joint_between_two_free_bodies_keeps_the_angular_momentum():
     """Both on one axle that floats: the drive only parts them."""
-    model = Model(
+    model = MultibodyModel(
         (Body("one", 1.0, 0.03), Body("two", 2.0, 0.01)),
         (Revolute("axle", Marker("one"), Marker("two")),),
-        drives=(Drive("axle", polynomial(0.0, 2.0, 1.0)),),
+        drives=(JointDrive("axle", polynomial(0.0, 2.0, 1.0)),),
     )
     t = np.linspace(0, 1, 6)
     seen = Seen(model, t)
@@ -537,7 +537,9 @@ def test_profile_drive():
     """Dwell, rise by 3-4-5 and dwell, as pieces; the torque is the inertia's alone."""
     rise = 2.0 * np.array([0, 0, 0, 10 / 0.5**3, -15 / 0.5**4, 6 / 0.5**5])
     profile = Curve(np.array([0.0, 0.3, 0.8, 1.0]), np.array([[0.0] * 6, rise, [2.0] + [0.0] * 5]))
-    model = Model((Body("rotor", 1.0, 0.04, angle=0.1),), (Revolute("O", Marker(GROUND), Marker("rotor")),), drives=(Drive("O", profile),))
+    model = MultibodyModel(
+        (Body("rotor", 1.0, 0.04, angle=0.1),), (Revolute("O", Marker(GROUND), Marker("rotor")),), drives=(JointDrive("O", profile),)
+    )
     t = np.array([0.0, 0.2, 0.4, 0.55, 0.7, 0.9, 1.2])
     seen = Seen(model, t)
     u = np.clip((t - 0.3) / 0.5, 0, 1)
@@ -549,10 +551,10 @@ def test_profile_drive():
 def test_periodic_curve_repeats():
     """A torque over the angle of period 1 rad, triangle-shaped, integrated to its energy."""
     saw = Curve(np.array([0.0, 0.5, 1.0]), np.array([[0.0, 2.0, 0, 0, 0, 0], [1.0, -2.0, 0, 0, 0, 0]]), period=1.0)
-    model = Model(
+    model = MultibodyModel(
         (Body("rotor", 1.0, 0.04, angle=-3.0, angular_velocity=6.0),),
         (Revolute("O", Marker(GROUND), Marker("rotor")),),
-        forces=(Torque("m", "rotor", Load(saw, "angle")),),
+        forces=(AppliedTorque("m", "rotor", LoadCurve(saw, "angle")),),
     )
     seen = Seen(model, np.linspace(0, 1.5, 40))
     q = seen("rotor", "angle")
@@ -566,35 +568,35 @@ def test_periodic_curve_repeats():
 
 
 def rotor(load, **more):
-    return Model(
-        (Body("rotor", 1.0, 0.05, **more),), (Revolute("O", Marker(GROUND), Marker("rotor")),), forces=(Torque("m", "rotor", load),)
+    return MultibodyModel(
+        (Body("rotor", 1.0, 0.05, **more),), (Revolute("O", Marker(GROUND), Marker("rotor")),), forces=(AppliedTorque("m", "rotor", load),)
     )
 
 
 def test_torque_over_time():
     t = np.linspace(0, 2, 9)
-    seen = Seen(rotor(Load(polynomial(0.2, -0.3, 0.0, 0.4))), t)
+    seen = Seen(rotor(LoadCurve(polynomial(0.2, -0.3, 0.0, 0.4))), t)
     near(seen("rotor", "w"), (0.2 * t - 0.15 * t**2 + 0.1 * t**4) / 0.05)
 
 
 def test_torque_over_angle_is_a_spring():
     t = np.linspace(0, 2, 9)
-    near(Seen(rotor(Load(line(0.0, -0.8), "angle"), angle=0.7), t)("rotor", "angle"), 0.7 * np.cos(4 * t))
+    near(Seen(rotor(LoadCurve(line(0.0, -0.8), "angle"), angle=0.7), t)("rotor", "angle"), 0.7 * np.cos(4 * t))
 
 
 def test_motor_runs_up_along_its_curve():
     """J w' = T0 (1 - w/w0)."""
     t = np.linspace(0, 2, 9)
-    seen = Seen(rotor(Load(line(0.6, -0.6 / 30), "speed")), t)
+    seen = Seen(rotor(LoadCurve(line(0.6, -0.6 / 30), "speed")), t)
     near(seen("rotor", "w"), 30 * (1 - np.exp(-t * 0.6 / 30 / 0.05)))
 
 
 def test_torque_between_two_bodies():
     """A motor between two rotors sees their relative speed, and turns both."""
-    model = Model(
+    model = MultibodyModel(
         (Body("stator", 1.0, 0.2), Body("rotor", 1.0, 0.05)),
         (Revolute("axle", Marker("stator"), Marker("rotor")),),
-        forces=(Torque("m", "rotor", Load(line(0.6, -0.6 / 30), "speed"), on="stator"),),
+        forces=(AppliedTorque("m", "rotor", LoadCurve(line(0.6, -0.6 / 30), "speed"), on="stator"),),
     )
     t = np.linspace(0, 2, 9)
     seen = Seen(model, t)
@@ -606,7 +608,9 @@ def test_follower_force_turns_with_the_body_and_a_fixed_one_does_not():
     t = np.linspace(0, 1.5, 16)
     stone = Body("stone", 2.0, 0.3, angle=0.4, angular_velocity=3.0)
     for follows in (True, False):
-        seen = Seen(Model((stone,), (), forces=(Force("f", Marker("stone"), (3.0, 1.0), Load(line(1.0, 0.5)), follows),)), t)
+        seen = Seen(
+            MultibodyModel((stone,), (), forces=(AppliedForce("f", Marker("stone"), (3.0, 1.0), LoadCurve(line(1.0, 0.5)), follows),)), t
+        )
         wanted = (1 + 0.5 * t) * (3 + 1j) / 2.0 * (np.exp(1j * (0.4 + 3 * t)) if follows else 1.0)
         near(seen("stone", "ax") + 1j * seen("stone", "ay"), wanted)
         near(seen("stone", "w"), 3.0)
@@ -616,10 +620,10 @@ def test_follower_force_on_a_lever_is_a_constant_torque_and_a_fixed_one_a_pendul
     """The lever's centroid is not where the force is."""
 
     def lever(follows, direction):
-        return Model(
+        return MultibodyModel(
             (Body("lever", 1.0, 0.05, centroid=(0.1, 0.05), angle=1.2),),
             (Revolute("O", Marker(GROUND), Marker("lever")),),
-            forces=(Force("f", Marker("lever", 0.4), direction, Load(line(1.0, 0.0)), follows),),
+            forces=(AppliedForce("f", Marker("lever", 0.4), direction, LoadCurve(line(1.0, 0.0)), follows),),
         )
 
     t, about = np.linspace(0, 2, 11), 0.05 + 0.1**2 + 0.05**2

@@ -8,32 +8,32 @@ import pytest
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.curves import curve_slope
 from drivewright.multibody.model import (
+    AppliedForce,
+    AppliedTorque,
     Body,
     Bushing,
     CamPair,
     Curve,
-    Drive,
     Dry,
-    Force,
     Friction,
     Gear,
-    Load,
+    JointDrive,
+    LoadCurve,
     Lubricated,
     Marker,
     MasslessLink,
-    Model,
+    MultibodyModel,
     PinSlot,
+    PointSpring,
     Prismatic,
     Revolute,
     Rolling,
     RotationalSpring,
-    Spring,
-    Torque,
     line,
 )
 from drivewright.multibody.observe import observe
 from drivewright.multibody.reactions import reactions
-from drivewright.multibody.simulate import at_state
+from drivewright.multibody.simulate import work_at_state
 
 G = (0.7, -9.81)
 STATES = 9
@@ -49,7 +49,7 @@ def states(assembly, seed=5, spread=0.05, speed=3.0):
     y[:, first:last] = speed * rng.uniform(-1, 1, (STATES, len(free)))
     y[:, system.contacts.memory] = 0.3
     for time, state in zip(t, y, strict=True):
-        state[:first] = at_state(system, time, state).coordinates.q[system.stored]
+        state[:first] = work_at_state(system, time, state).coordinates.q[system.stored]
     return t, y
 
 
@@ -69,7 +69,7 @@ def quintic(period):
 
 def four_bar(pin_b=None, driven=True, **drive):
     pins = {"model": pin_b} if pin_b else {}
-    return Model(
+    return MultibodyModel(
         (body("crank"), body("coupler", angle=0.4), body("rocker", angle=1.9)),
         (
             Revolute("O", Marker("ground"), Marker("crank")),
@@ -77,29 +77,29 @@ def four_bar(pin_b=None, driven=True, **drive):
             Revolute("B", Marker("coupler", 0.3), Marker("rocker", 0.2), **pins),
             Revolute("C", Marker("rocker"), Marker("ground", 0.35)),
         ),
-        (Spring("s", Marker("coupler", 0.1, 0.05), Marker("ground", 0.1, 0.4), 300.0, 0.2, 5.0),),
-        (Drive("O", Curve(np.array([0.0, 1.0]), np.array([[0.0, 40.0, 9.0, 0, 0, 0]]))),) if driven else (),
+        (PointSpring("s", Marker("coupler", 0.1, 0.05), Marker("ground", 0.1, 0.4), 300.0, 0.2, 5.0),),
+        (JointDrive("O", Curve(np.array([0.0, 1.0]), np.array([[0.0, 40.0, 9.0, 0, 0, 0]]))),) if driven else (),
         G,
     )
 
 
 def chain():
-    push = Force("f", Marker("b", 0.1, 0.1), (1.0, 2.0), Load(line(3.0, 1.0), "angle"), follows=True)
-    return Model(
+    push = AppliedForce("f", Marker("b", 0.1, 0.1), (1.0, 2.0), LoadCurve(line(3.0, 1.0), "angle"), follows=True)
+    return MultibodyModel(
         (body("a", angle=0.5), body("b", angle=-0.3), body("c")),
         (
             Revolute("O", Marker("ground", 0.1, 0.2), Marker("a")),
             Prismatic("P", Marker("b", 0.1), Marker("a", 0.2, 0.1), axis=(0.6, 0.8)),
             Revolute("Q", Marker("c", -0.1, 0.05), Marker("b", 0.3)),
         ),
-        (Torque("m", "c", Load(line(2.0, 0.3)), on="a"), push),
+        (AppliedTorque("m", "c", LoadCurve(line(2.0, 0.3)), on="a"), push),
         gravity=G,
     )
 
 
 def six_bar(driven):
     base = four_bar(driven=driven)
-    return Model(
+    return MultibodyModel(
         (*base.bodies, body("rod", angle=0.3), Body("slider", 0.8, 0.001)),
         (
             *base.joints,
@@ -114,7 +114,7 @@ def six_bar(driven):
 
 
 def pin_slot():
-    return Model(
+    return MultibodyModel(
         (body("crank", angle=0.8), body("swing", angle=0.3)),
         (
             Revolute("O", Marker("ground"), Marker("crank")),
@@ -126,7 +126,7 @@ def pin_slot():
 
 
 def geared():
-    return Model(
+    return MultibodyModel(
         (body("arm"), body("planet", angle=0.4), body("sun")),
         (
             Revolute("O", Marker("ground"), Marker("arm")),
@@ -145,14 +145,14 @@ def rolling(track_radius, held=False):
     start = {"velocity": (0.0, 0.0)}
     arm = (Body("arm", 1.0, 0.01, (0.05, 0.0), angle=1.2),) if held else ()
     pins = (Revolute("H", Marker("base"), Marker("arm")), Revolute("hub", Marker("arm", away), Marker("wheel"))) if held else ()
-    return Model(
+    return MultibodyModel(
         (body("base", mass=3.0), *arm, Body("wheel", 1.2, 0.005, (0.03, 0.01), **start)),
         (
             Revolute("O", Marker("ground", 0.0, -0.2), Marker("base", 0.0, -0.2)),
             *pins,
             Rolling("roll", Marker("wheel"), Marker("base"), 0.1, track_radius=track_radius),
         ),
-        (Spring("s", Marker("wheel"), Marker("ground", 0.5, 0.1), 200.0, 0.1),),
+        (PointSpring("s", Marker("wheel"), Marker("ground", 0.5, 0.1), 200.0, 0.1),),
         gravity=G,
     )
 
@@ -163,7 +163,7 @@ def cam(axis):
         if axis
         else Revolute("guide", Marker("follower"), Marker("frame", 0.1, 0.3))
     )
-    return Model(
+    return MultibodyModel(
         (body("frame"), body("cam", angle=0.1), body("follower", angle=0.0 if axis else 0.03)),
         (
             Revolute("O", Marker("ground"), Marker("frame")),
@@ -193,7 +193,7 @@ CASES = {
     "cam and lever": cam(None),
     "massless link": four_bar(LINKED),
     "bushing": four_bar(Bushing(1e4, 20.0, 5.0, 0.1)),
-    "free body": Model((body("a", velocity=(1.0, 2.0), angular_velocity=3.0),), (), gravity=G),
+    "free body": MultibodyModel((body("a", velocity=(1.0, 2.0), angular_velocity=3.0),), (), gravity=G),
 }
 
 
@@ -234,10 +234,10 @@ def test_chunks_of_states_change_nothing(monkeypatch):
 
 
 def test_a_spinning_crank_pulls_its_pin_outwards_and_weighs_on_it():
-    model = Model(
+    model = MultibodyModel(
         (Body("crank", 2.0, 0.1, (0.3, 0.0)),),
         (Revolute("O", Marker("ground"), Marker("crank")),),
-        drives=(Drive("O", line(0.4, 7.0)),),
+        drives=(JointDrive("O", line(0.4, 7.0)),),
         gravity=(0.0, -9.81),
     )
     _, observed, found = solved(model)
@@ -249,7 +249,9 @@ def test_a_spinning_crank_pulls_its_pin_outwards_and_weighs_on_it():
 
 
 def test_a_slide_carries_the_moment_of_an_overhanging_weight():
-    model = Model((Body("slider", 2.0, 0.1, (0.3, 0.1)),), (Prismatic("guide", Marker("slider"), Marker("ground")),), gravity=(0.0, -10.0))
+    model = MultibodyModel(
+        (Body("slider", 2.0, 0.1, (0.3, 0.1)),), (Prismatic("guide", Marker("slider"), Marker("ground")),), gravity=(0.0, -10.0)
+    )
     _, _, found = solved(model)
     assert found.joints["guide"].force == pytest.approx(np.tile([0.0, 20.0], (STATES, 1)), abs=1e-9)
     assert found.joints["guide"].moment == pytest.approx(np.full(STATES, 6.0), rel=1e-10)
@@ -258,10 +260,10 @@ def test_a_slide_carries_the_moment_of_an_overhanging_weight():
 @pytest.mark.parametrize("swapped", [False, True])
 def test_a_driven_slide_asks_for_mass_times_acceleration_and_the_weight_along_it(swapped):
     ends = (Marker("ground"), Marker("slider")) if swapped else (Marker("slider"), Marker("ground"))
-    model = Model(
+    model = MultibodyModel(
         (Body("slider", 2.0, 0.1),),
         (Prismatic("guide", *ends, axis=(0.6, 0.8)),),
-        drives=(Drive("guide", Curve(np.array([0.0, 1.0]), np.array([[0.1, 0.2, 1.5, 0, 0, 0]]))),),
+        drives=(JointDrive("guide", Curve(np.array([0.0, 1.0]), np.array([[0.1, 0.2, 1.5, 0, 0, 0]]))),),
         gravity=(0.0, -10.0),
     )
     _, observed, found = solved(model)
@@ -272,14 +274,14 @@ def test_a_driven_slide_asks_for_mass_times_acceleration_and_the_weight_along_it
 
 def test_gears_share_the_torque_by_their_inertias():
     ratio, torque = -2.5, 4.0
-    model = Model(
+    model = MultibodyModel(
         (Body("one", 1.0, 0.3), Body("two", 1.0, 0.05)),
         (
             Revolute("O", Marker("ground"), Marker("one")),
             Revolute("C", Marker("ground", 0.2), Marker("two")),
             Gear("teeth", "one", "two", ratio),
         ),
-        (Torque("motor", "one", Load(line(torque, 0.0))),),
+        (AppliedTorque("motor", "one", LoadCurve(line(torque, 0.0))),),
     )
     _, observed, found = solved(model)
     acceleration = torque / (0.3 + ratio**2 * 0.05)
@@ -288,7 +290,9 @@ def test_gears_share_the_torque_by_their_inertias():
 
 
 def test_a_disc_rolls_down_a_slope_with_a_third_of_the_pull_as_friction():
-    model = Model((Body("disc", 3.0, 0.5 * 3.0 * 0.2**2),), (Rolling("roll", Marker("disc"), Marker("ground"), 0.2),), gravity=(4.0, -9.0))
+    model = MultibodyModel(
+        (Body("disc", 3.0, 0.5 * 3.0 * 0.2**2),), (Rolling("roll", Marker("disc"), Marker("ground"), 0.2),), gravity=(4.0, -9.0)
+    )
     _, observed, found = solved(model)
     assert observed.body(1, "ax") == pytest.approx(np.full(STATES, 4.0 * 2 / 3))
     assert found.joints["roll"].force == pytest.approx(np.tile([-4.0, 27.0], (STATES, 1)))
@@ -298,7 +302,7 @@ def test_a_disc_rolls_down_a_slope_with_a_third_of_the_pull_as_friction():
 def test_a_cam_pushes_its_follower_with_what_it_needs_and_takes_it_from_its_own_turning():
     base = cam((0.6, 0.8))
     joints = (Prismatic("base", Marker("frame"), Marker("ground")), *base.joints[1:])
-    model = Model(base.bodies, joints, drives=(Drive("base", line(0.0, 0.0)),), gravity=G)
+    model = MultibodyModel(base.bodies, joints, drives=(JointDrive("base", line(0.0, 0.0)),), gravity=G)
     assembly, observed, found = solved(model)
     follower = assembly.names.index("follower")
     need = 1.3 * (np.stack([observed.body(follower, "ax"), observed.body(follower, "ay")], axis=-1) - G)
@@ -315,7 +319,9 @@ def test_a_cam_pushes_its_follower_with_what_it_needs_and_takes_it_from_its_own_
 def test_a_massless_link_pulls_where_the_weight_hangs_and_is_pushed_where_it_stands(angle, sign):
     """Hanging, the journal lies at the end of a link that points downwards; standing, upwards."""
     pin = MasslessLink(1e-3, damping=1.0, angle=angle)
-    model = Model((Body("rod", 0.5, 0.001, angle=0.3),), (Revolute("pin", Marker("ground"), Marker("rod"), pin),), gravity=(0.0, -10.0))
+    model = MultibodyModel(
+        (Body("rod", 0.5, 0.001, angle=0.3),), (Revolute("pin", Marker("ground"), Marker("rod"), pin),), gravity=(0.0, -10.0)
+    )
     assembly = assemble(model)
     y = assembly.state[None].copy()
     link = assembly.tree.link("link:pin").turn
@@ -327,7 +333,7 @@ def test_a_massless_link_pulls_where_the_weight_hangs_and_is_pushed_where_it_sta
 
 def test_two_guides_on_one_line_share_the_weight_evenly():
     guides = tuple(Prismatic(name, Marker("block", x), Marker("ground")) for name, x in (("left", -0.2), ("right", 0.2)))
-    assembly, _, found = solved(Model((Body("block", 2.0, 0.1),), guides, gravity=(0.0, -10.0)))
+    assembly, _, found = solved(MultibodyModel((Body("block", 2.0, 0.1),), guides, gravity=(0.0, -10.0)))
     assert any("right" in finding for finding in assembly.findings)
     for guide in guides:
         assert found.joints[guide.name].force == pytest.approx(np.tile([0.0, 10.0], (STATES, 1)))
@@ -342,7 +348,7 @@ PINS = {"dry": PLAY, "lubricated": Lubricated(PLAY, 0.05, roughness=1e-5), "bush
 @pytest.mark.parametrize("name", PINS)
 @pytest.mark.parametrize("away", [0.4e-3, 1.02e-3])
 def test_force_and_moment_of_a_pin_with_play_move_its_body(name, away):
-    model = Model((body("rod", angle=0.3),), (Revolute("pin", Marker("ground", 0.1, 0.2), Marker("rod", 0.01), PINS[name]),))
+    model = MultibodyModel((body("rod", angle=0.3),), (Revolute("pin", Marker("ground", 0.1, 0.2), Marker("rod", 0.01), PINS[name]),))
     assembly = assemble(model)
     system, y = assembly.system, np.repeat(assembly.state[None], 1, axis=0)
     y[0, :3] += [0.0, 0.6 * away, 0.8 * away]

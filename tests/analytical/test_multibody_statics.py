@@ -7,37 +7,39 @@ from scipy.optimize import minimize
 from drivewright.errors import InputError, SolverError
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.model import (
+    AppliedForce,
+    AppliedTorque,
     Body,
     Curve,
-    Drive,
     Dry,
-    Force,
-    Load,
+    JointDrive,
+    LoadCurve,
     Marker,
     MasslessLink,
-    Model,
+    MultibodyModel,
+    PointSpring,
     Prismatic,
     Revolute,
     RotationalSpring,
-    Spring,
-    Torque,
     line,
 )
 from drivewright.multibody.observe import observe
 from drivewright.multibody.reactions import reactions
-from drivewright.multibody.simulate import at_state
-from drivewright.multibody.statics import balance, equilibrium, reduced, resting
+from drivewright.multibody.simulate import work_at_state
+from drivewright.multibody.statics import balance, equilibrium, place_at_rest, reduced_equations
 
 G = (0.0, -9.81)
 CRANK, COUPLER, ROCKER, BASE = 0.1, 0.3, 0.2, 0.35
 
 
 def pendulum(angle, gravity=G):
-    return Model((Body("rod", 2.0, 0.03, (0.3, 0.0), angle=angle),), (Revolute("O", Marker("ground"), Marker("rod")),), gravity=gravity)
+    return MultibodyModel(
+        (Body("rod", 2.0, 0.03, (0.3, 0.0), angle=angle),), (Revolute("O", Marker("ground"), Marker("rod")),), gravity=gravity
+    )
 
 
 def four_bar(stiffness=400.0):
-    return Model(
+    return MultibodyModel(
         (
             Body("crank", 0.5, 1e-3, (0.05, 0.0), angle=0.3),
             Body("coupler", 1.0, 0.01, (0.15, 0.05), angle=0.4),
@@ -50,7 +52,7 @@ def four_bar(stiffness=400.0):
             Revolute("C", Marker("rocker"), Marker("ground", BASE)),
         ),
         (
-            Spring("s", Marker("coupler", 0.1, 0.12), Marker("ground", -0.1, 0.3), stiffness, 0.15, 30.0),
+            PointSpring("s", Marker("coupler", 0.1, 0.12), Marker("ground", -0.1, 0.3), stiffness, 0.15, 30.0),
             RotationalSpring("t", "rocker", "crank", 0.7, 1.0),
         ),
         gravity=G,
@@ -73,8 +75,8 @@ def energy_of_four_bar(theta, stiffness):
 
 
 def angles_of(assembly, state, time=0.0):
-    at = resting(assembly, state, time)
-    work = at_state(at.system, time, at.y)
+    at = place_at_rest(assembly, state, time)
+    work = work_at_state(at.system, time, at.y)
     return {name: work.poses.angle[k] for k, name in enumerate(assembly.names)}
 
 
@@ -117,8 +119,8 @@ def test_a_spring_loaded_four_bar_rests_where_its_energy_is_least(stiffness):
 
 def test_the_generalised_force_is_minus_the_slope_of_the_energy():
     assembly = assemble(four_bar())
-    here = resting(assembly, None, 0.0)
-    found = reduced(here)
+    here = place_at_rest(assembly, None, 0.0)
+    found = reduced_equations(here)
     angle = angles_of(assembly, None)["crank"]
     slope = (energy_of_four_bar(angle + 1e-5, 400.0) - energy_of_four_bar(angle - 1e-5, 400.0)) / 2e-5
     turning = found.motions[assembly.names.index("crank"), 2, 0]
@@ -129,12 +131,12 @@ def test_a_lever_balances_where_the_lever_arms_of_the_weights_agree():
     """Neutral: it rests in any position, which is no stable rest; half a gram more on one side and it sinks."""
 
     def lever(second):
-        return Model(
+        return MultibodyModel(
             (Body("beam", 0.0, 0.01, angle=0.2),),
             (Revolute("O", Marker("ground"), Marker("beam")),),
             (
-                Force("left", Marker("beam", -0.2), (0.0, -1.0), Load(line(30.0, 0.0))),
-                Force("right", Marker("beam", 0.6), (0.0, -1.0), Load(line(second, 0.0))),
+                AppliedForce("left", Marker("beam", -0.2), (0.0, -1.0), LoadCurve(line(30.0, 0.0))),
+                AppliedForce("right", Marker("beam", 0.6), (0.0, -1.0), LoadCurve(line(second, 0.0))),
             ),
         )
 
@@ -152,14 +154,14 @@ def test_a_weight_stretches_its_springs_in_series_and_side_by_side():
         Prismatic("l", Marker("lower"), Marker("ground", 0.0, -0.6), (0.0, 1.0)),
     )
     springs = (
-        Spring("a", Marker("upper"), Marker("ground", 0.0, 2.0), 300.0, 1.0),
-        Spring("b", Marker("upper"), Marker("ground", 0.0, 2.0), 200.0, 1.0),
-        Spring("c", Marker("lower"), Marker("upper"), 100.0, 0.5),
+        PointSpring("a", Marker("upper"), Marker("ground", 0.0, 2.0), 300.0, 1.0),
+        PointSpring("b", Marker("upper"), Marker("ground", 0.0, 2.0), 200.0, 1.0),
+        PointSpring("c", Marker("lower"), Marker("upper"), 100.0, 0.5),
     )
-    assembly = assemble(Model((Body("upper", 1.0, 1.0), Body("lower", 2.0, 1.0)), guides, springs, gravity=(0.0, -10.0)))
+    assembly = assemble(MultibodyModel((Body("upper", 1.0, 1.0), Body("lower", 2.0, 1.0)), guides, springs, gravity=(0.0, -10.0)))
     found = equilibrium(assembly)
-    place = resting(assembly, found.state, 0.0)
-    heights = at_state(place.system, 0.0, place.y).poses.y
+    place = place_at_rest(assembly, found.state, 0.0)
+    heights = work_at_state(place.system, 0.0, place.y).poses.y
     upper, lower = heights[assembly.names.index("upper")], heights[assembly.names.index("lower")]
     assert upper == pytest.approx(2.0 - 1.0 - 30.0 / 500.0, abs=1e-9)
     assert upper - lower == pytest.approx(0.5 + 20.0 / 100.0, abs=1e-9)
@@ -169,7 +171,7 @@ def test_a_weight_stretches_its_springs_in_series_and_side_by_side():
 def test_a_block_settles_into_the_wall_of_its_bearing_until_it_carries_the_weight():
     pin = Dry(1e-3, 0.02, 1e8, 1.5, 0.4)
     assembly = assemble(
-        Model(
+        MultibodyModel(
             (Body("rod", 2.0, 0.01, (0.1, 0.0), angle=-1.2),),
             (Revolute("pin", Marker("ground"), Marker("rod"), pin),),
             gravity=(0.0, -10.0),
@@ -185,7 +187,7 @@ def test_a_block_settles_into_the_wall_of_its_bearing_until_it_carries_the_weigh
 def test_a_massless_link_hangs_along_its_force():
     pin = MasslessLink(1e-3, damping=0.1, angle=0.5)
     assembly = assemble(
-        Model(
+        MultibodyModel(
             (Body("rod", 2.0, 0.01, (0.1, 0.0), angle=-1.2),), (Revolute("pin", Marker("ground"), Marker("rod"), pin),), gravity=(3.0, -4.0)
         )
     )
@@ -197,7 +199,7 @@ def test_a_massless_link_hangs_along_its_force():
 
 
 def slider_crank(curve=line(0.7, 3.0)):
-    return Model(
+    return MultibodyModel(
         (Body("crank", 0.5, 1e-3, (0.04, 0.01)), Body("rod", 0.8, 2e-3, (0.1, -0.02), angle=-0.2), Body("slider", 1.5, 1e-3)),
         (
             Revolute("O", Marker("ground"), Marker("crank")),
@@ -205,8 +207,8 @@ def slider_crank(curve=line(0.7, 3.0)):
             Revolute("B", Marker("rod", 0.35), Marker("slider")),
             Prismatic("guide", Marker("slider"), Marker("ground", 0.0, 0.02)),
         ),
-        (Force("gas", Marker("slider"), (-1.0, 0.0), Load(line(200.0, 0.0))),),
-        (Drive("O", curve),),
+        (AppliedForce("gas", Marker("slider"), (-1.0, 0.0), LoadCurve(line(200.0, 0.0))),),
+        (JointDrive("O", curve),),
         gravity=(0.5, -9.81),
     )
 
@@ -232,7 +234,7 @@ def test_the_torque_that_holds_a_slider_crank_is_that_of_virtual_work(time):
 def test_the_gas_torque_of_a_slider_crank_in_closed_form():
     """T = F r sin(a + b) / cos(b), sin(b) = r sin(a) / l with the guide through the crank's centre."""
     model = slider_crank()
-    model = Model(
+    model = MultibodyModel(
         tuple(Body(b.name, angle=b.angle, inertia=1e-3) for b in model.bodies),
         (*model.joints[:3], Prismatic("guide", Marker("slider"), Marker("ground"))),
         model.forces,
@@ -243,10 +245,10 @@ def test_the_gas_torque_of_a_slider_crank_in_closed_form():
 
 
 def test_what_is_free_finds_its_equilibrium_while_the_drive_is_held():
-    model = Model(
+    model = MultibodyModel(
         (Body("crank", 1.0, 0.01, angle=0.4), Body("rod", 2.0, 0.01, (0.2, 0.0), angle=0.1)),
         (Revolute("O", Marker("ground"), Marker("crank")), Revolute("A", Marker("crank", 0.3), Marker("rod"))),
-        drives=(Drive("O", line(0.0, 5.0)),),
+        drives=(JointDrive("O", line(0.0, 5.0)),),
         gravity=(0.0, -10.0),
     )
     assembly = assemble(model)
@@ -259,10 +261,10 @@ def test_what_is_free_finds_its_equilibrium_while_the_drive_is_held():
 
 def test_two_drives_share_a_load_by_their_places():
     """An arm on an arm, both driven: the outer one carries its own weight's moment, the inner one that of both."""
-    model = Model(
+    model = MultibodyModel(
         (Body("upper", 1.0, 0.01, (0.2, 0.0)), Body("fore", 2.0, 0.01, (0.1, 0.0))),
         (Revolute("shoulder", Marker("ground"), Marker("upper")), Revolute("elbow", Marker("fore"), Marker("upper", 0.4))),
-        drives=(Drive("elbow", line(0.5, 1.0)), Drive("shoulder", line(0.3, 2.0))),
+        drives=(JointDrive("elbow", line(0.5, 1.0)), JointDrive("shoulder", line(0.3, 2.0))),
         gravity=(0.0, -10.0),
     )
     elbow = 2.0 * 10.0 * 0.1 * np.cos(0.8)
@@ -279,7 +281,11 @@ def test_rates_of_the_state_do_not_count():
 
 def test_a_load_that_drives_on_for_ever_has_no_equilibrium_and_the_message_says_where():
     assembly = assemble(
-        Model((Body("rod", 2.0, 0.03),), (Revolute("O", Marker("ground"), Marker("rod")),), (Torque("motor", "rod", Load(line(3.0, 0.0))),))
+        MultibodyModel(
+            (Body("rod", 2.0, 0.03),),
+            (Revolute("O", Marker("ground"), Marker("rod")),),
+            (AppliedTorque("motor", "rod", LoadCurve(line(3.0, 0.0))),),
+        )
     )
     with pytest.raises(SolverError, match=r"no equilibrium.*'rod.angle'.*rad.*add a spring") as caught:
         equilibrium(assembly)
@@ -294,10 +300,10 @@ def test_a_mechanism_without_a_drive_is_asked_for_its_equilibrium_instead():
 def test_a_torque_over_the_angle_finds_the_crossing_of_two_curves():
     bend = Curve(np.array([0.0, 1.0]), np.array([[3.0, -4.0, 0.5, 0.0, 0.0, 0.0]]))
     assembly = assemble(
-        Model(
+        MultibodyModel(
             (Body("rod", 2.0, 0.03, angle=0.2),),
             (Revolute("O", Marker("ground"), Marker("rod")),),
-            (Torque("motor", "rod", Load(bend, "angle")),),
+            (AppliedTorque("motor", "rod", LoadCurve(bend, "angle")),),
         )
     )
     assert angles_of(assembly, equilibrium(assembly).state)["rod"] == pytest.approx(4.0 - np.sqrt(10.0), abs=1e-9)

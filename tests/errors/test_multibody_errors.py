@@ -9,19 +9,19 @@ from drivewright.errors import DoesNotAssemble, InputError, UnknownName
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.model import (
     GROUND,
+    AppliedForce,
+    AppliedTorque,
     Body,
-    Drive,
     Dry,
-    Force,
     Gear,
-    Load,
+    JointDrive,
+    LoadCurve,
     Marker,
     MasslessLink,
-    Model,
+    MultibodyModel,
+    PointSpring,
     Prismatic,
     Revolute,
-    Spring,
-    Torque,
     line,
 )
 from drivewright.multibody.observe import observe
@@ -29,7 +29,7 @@ from drivewright.multibody.simulate import simulate
 
 
 def four_bar(crank=0.1, coupler=0.3, rocker=0.25, frame=0.35, angles=(0.5, 0.3, 1.2), drives=("O2",), extra=(), **more):
-    return Model(
+    return MultibodyModel(
         tuple(
             Body(name, 1.0, 0.01, (length / 2, 0.0), angle=angle)
             for name, length, angle in zip(("crank", "coupler", "rocker"), (crank, coupler, rocker), angles, strict=True)
@@ -41,7 +41,7 @@ def four_bar(crank=0.1, coupler=0.3, rocker=0.25, frame=0.35, angles=(0.5, 0.3, 
             Revolute("O4", Marker(GROUND, frame), Marker("rocker")),
             *extra,
         ),
-        drives=tuple(Drive(name, line(0.0, 1.0)) for name in drives),
+        drives=tuple(JointDrive(name, line(0.0, 1.0)) for name in drives),
         **more,
     )
 
@@ -67,7 +67,7 @@ def test_impossible_loop_names_the_joint_and_how_much(play):
     if play:
         joints = list(model.joints)
         joints[1] = Revolute("A", Marker("crank", 0.1), Marker("coupler"), play)
-        model = Model(model.bodies, tuple(joints), drives=model.drives)
+        model = MultibodyModel(model.bodies, tuple(joints), drives=model.drives)
     apart = abs(0.35 - 0.1 * np.exp(0.5j)) - 0.15
     message = refusal(DoesNotAssemble, lambda: assemble(model), "does not close", "joint '", "Check the lengths")
     assert float(re.search(r"by ([\d.]+) mm", message)[1]) == pytest.approx(1e3 * apart, rel=0.02)
@@ -85,7 +85,7 @@ def test_drive_beyond_reach_names_the_drive_and_the_angle():
 
 def test_slide_driven_beyond_reach_names_the_way():
     """A rod of 0.2 m from a crank of 0.05 m holds the slider back at 0.25 m."""
-    model = Model(
+    model = MultibodyModel(
         (Body("crank", 1.0, 0.01, angle=0.8), Body("rod", 1.0, 0.01, angle=-0.2), Body("slider", 1.0, 0.01)),
         (
             Revolute("O", Marker(GROUND), Marker("crank")),
@@ -93,7 +93,7 @@ def test_slide_driven_beyond_reach_names_the_way():
             Revolute("B", Marker("rod", 0.2), Marker("slider")),
             Prismatic("guide", Marker("slider"), Marker(GROUND)),
         ),
-        drives=(Drive("guide", line(0.22, 0.01)),),
+        drives=(JointDrive("guide", line(0.22, 0.01)),),
     )
     refusal(DoesNotAssemble, lambda: simulate(assemble(model), 5.0), "'guide' at 250 mm")
 
@@ -103,7 +103,7 @@ def test_redundant_joint_is_found_and_named():
     model = four_bar(crank=0.2, coupler=0.35, rocker=0.2, frame=0.35, angles=(1.0, 0.0, 1.0))
     third = Body("third", 1.0, 0.01, angle=1.0)
     more = (Revolute("O5", Marker(GROUND, 0.1), Marker("third")), Revolute("C", Marker("coupler", 0.1), Marker("third", 0.2)))
-    assembly = assemble(Model((*model.bodies, third), (*model.joints, *more), drives=model.drives))
+    assembly = assemble(MultibodyModel((*model.bodies, third), (*model.joints, *more), drives=model.drives))
     assert assembly.freedom == 0
     assert len(assembly.findings) == 1
     assert "repeats a constraint" in assembly.findings[0]
@@ -120,7 +120,7 @@ def test_drive_of_a_frame_cannot_move():
 
 def test_start_in_a_dead_point():
     """A slider-crank driven by its slider, crank and rod in line."""
-    model = Model(
+    model = MultibodyModel(
         (Body("crank", 1.0, 0.01), Body("rod", 1.0, 0.01), Body("slider", 1.0, 0.01)),
         (
             Revolute("O", Marker(GROUND), Marker("crank")),
@@ -128,7 +128,7 @@ def test_start_in_a_dead_point():
             Revolute("B", Marker("rod", 0.2), Marker("slider")),
             Prismatic("guide", Marker("slider"), Marker(GROUND)),
         ),
-        drives=(Drive("guide", line(0.25, -0.01)),),
+        drives=(JointDrive("guide", line(0.25, -0.01)),),
     )
     refusal(DoesNotAssemble, lambda: assemble(model), "singular position", "few degrees away")
 
@@ -160,7 +160,7 @@ def test_play_between_two_moving_bodies_cannot_be_driven():
     joints = list(model.joints)
     for play in (Dry(1e-4, 0.01, 1e9), MasslessLink(1e-4)):
         joints[1] = Revolute("A", Marker("crank", 0.1), Marker("coupler"), play)
-        broken = Model(model.bodies, tuple(joints), drives=model.drives)
+        broken = MultibodyModel(model.bodies, tuple(joints), drives=model.drives)
         refusal(InputError, lambda broken=broken: assemble(broken), "'A' has play", "make it ideal")
 
 
@@ -180,9 +180,9 @@ def test_joint_of_an_unknown_body(joint):
 @pytest.mark.parametrize(
     "force",
     [
-        Spring("X", Marker("crank"), Marker("lever"), 1.0),
-        Torque("X", "lever", Load(line(1.0, 0.0))),
-        Force("X", Marker("lever"), (1.0, 0.0), Load(line(1.0, 0.0))),
+        PointSpring("X", Marker("crank"), Marker("lever"), 1.0),
+        AppliedTorque("X", "lever", LoadCurve(line(1.0, 0.0))),
+        AppliedForce("X", Marker("lever"), (1.0, 0.0), LoadCurve(line(1.0, 0.0))),
     ],
 )
 def test_force_on_an_unknown_body(force):

@@ -9,7 +9,7 @@ SOURCE = Path(__file__).parents[2] / "src" / "drivewright"
 ROWS = [
     "__main__ cli studio",
     "validation studies report view execution",
-    "mechanisms oracles",
+    "oracles mechanisms",
     "indexing chains cams gears multibody shafts bearings solids fatigue",
     "motion curves contact materials",
     "numerics",

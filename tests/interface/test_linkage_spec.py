@@ -216,7 +216,7 @@ def test_springs_torques_and_forces(tmp_path):
         ("forces", [{"body": "coupler", "point": "C", "force": ["3 N", "-4 N"], "follows": True, "file": "cut.csv"}]),
     ]
     spring, timed, steady, cut = describe(linkage("four_bar", *more, folder=tmp_path)).forces
-    assert spring == model.Spring("return", model.Marker("rocker", 0.045, 0.0), model.Marker("ground"), 500.0, 0.06, 1.0)
+    assert spring == model.PointSpring("return", model.Marker("rocker", 0.045, 0.0), model.Marker("ground"), 500.0, 0.06, 1.0)
     assert (timed.name, timed.body, timed.on, timed.load.over) == ("torque 1", "rocker", "coupler", "time")
     assert [value(timed.load.curve, t) for t in (-5, 0, 0.005, 0.02, 0.03, 9)] == pytest.approx([1, 1, 1.5, 3, 3, 3], rel=1e-12)
     assert steady.name == "torque 2" and value(steady.load.curve, 77.0) == 2.0

@@ -15,7 +15,7 @@ from drivewright._jit import implements
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.drawing import JointDrawing
 from drivewright.multibody.joints import PointJoint, row_terms, row_velocity_product
-from drivewright.multibody.model import GROUND, Body, Drive, Marker, Model, PinSlot, Prismatic, Revolute, line
+from drivewright.multibody.model import GROUND, Body, JointDrive, Marker, MultibodyModel, PinSlot, Prismatic, Revolute, line
 from drivewright.multibody.observe import observe
 from drivewright.multibody.reactions import reactions
 from drivewright.multibody.simulate import simulate
@@ -75,14 +75,14 @@ A, B, SPEED = 0.3, 0.2, 3.0
 
 def slotted_crank():
     """A crank turns a stone in its slot; the stone's pin runs on an ellipse of the ground."""
-    return Model(
+    return MultibodyModel(
         (Body("crank", 1.0, 0.01), Body("stone", 0.5, 0.001)),
         (
             Revolute("O", Marker("crank"), Marker(GROUND)),
             Prismatic("slot", Marker("stone"), Marker("crank", 0.25)),
             EllipticGuide("track", Marker("stone"), Marker(GROUND), (A, B)),
         ),
-        drives=(Drive("O", line(0.0, SPEED)),),
+        drives=(JointDrive("O", line(0.0, SPEED)),),
     )
 
 
@@ -121,7 +121,7 @@ def test_its_reaction_balances_the_bodies(seen):
 
 def test_an_ellipse_on_a_turning_body_moves_a_free_mechanism():
     """Carried by the crank, with the pin held in a straight slot of the ground: energy stays."""
-    model = Model(
+    model = MultibodyModel(
         (Body("disc", 1.0, 0.05, angular_velocity=4.0), Body("pin", 0.5, 0.001)),
         (
             Revolute("O", Marker("disc"), Marker(GROUND)),
@@ -145,7 +145,7 @@ def test_a_model_without_it_has_the_kernels_of_all_others():
     from drivewright.multibody.joints.rows import Equations, NoEquations
 
     assert isinstance(assemble(slotted_crank()).system.equations, Equations)
-    plain = Model((Body("crank", 1.0, 0.01),), (Revolute("O", Marker("crank"), Marker(GROUND)),))
+    plain = MultibodyModel((Body("crank", 1.0, 0.01),), (Revolute("O", Marker("crank"), Marker(GROUND)),))
     assert assemble(plain).system.equations == NoEquations()
 
 

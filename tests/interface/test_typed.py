@@ -22,7 +22,6 @@ NOT_YET = {  # packages that are still to be finished; one that is finished has 
     "indexing",
     "mechanisms/cam",
     "mechanisms/indexer",
-    "mechanisms/linkage",
     "mechanisms/seedling_pusher",
     "mechanisms/shaft",
     "mechanisms/silent_chain",

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 import drivewright as dw
-from drivewright.mechanisms.linkage import many, nonlinear
-from drivewright.mechanisms.linkage.build import build, record_of, run_of
-from drivewright.mechanisms.linkage.forces import forces, seen_last
-from drivewright.multibody.record import audit
+from drivewright.mechanisms.linkage.build import build
+from drivewright.mechanisms.linkage.vary import varied
+from drivewright.multibody.analyses.energy_audit import audit
+from drivewright.multibody.analyses.joint_forces import joint_forces, observe_last_turn
+from drivewright.multibody.analyses.poincare import zero_times
+from drivewright.multibody.analyses.simulation_model import record_of, run_of
 from drivewright.numerics.signals import intervals
 from drivewright.spec import from_document, read_document
 
@@ -196,9 +198,9 @@ def test_a_record_of_many_stretches_is_one_signal_and_its_audit_closes(swing):
 
 
 def test_forces_are_told_over_the_whole_run_whatever_its_stretches(swing):
-    seen = seen_last(swing)
+    seen = observe_last_turn(swing)
     assert seen.t[0] == 0.0 and seen.t[-1] == 2.0 and np.all(np.diff(seen.t) >= 0)
-    result = forces(swing, {})
+    result = joint_forces(swing)
     left = next(column.data for column in result.tables[0].columns if column.name == "O2.force")
     assert len(left) == len(seen.t) and result.values["forces.residual"].value < 1e-9
 
@@ -206,7 +208,7 @@ def test_forces_are_told_over_the_whole_run_whatever_its_stretches(swing):
 def test_another_drive_angle_at_the_start_moves_the_section_to_its_zero():
     spec = slider_crank(poincare={"output": "slider"})
     model = build(from_document(_turned(spec, "90 deg")))
-    times = nonlinear.zero_times(model, 0.8)
+    times = zero_times(model, 0.8)
     np.testing.assert_allclose(times, 0.075 + 0.1 * np.arange(8), atol=1e-12)
     np.testing.assert_allclose(np.cos(model.crank_angle(times)), 1.0)
 
@@ -251,7 +253,7 @@ def test_a_bifurcation_diagram_over(over, start, stop):
     table = table_of(dw.run(slider_crank(bifurcation=asked), only="bifurcation"), "bifurcation")
     assert len(table["position"]) == 6 and len(set(table["parameter"])) == 2  # visits at the turns 2, 3 and 4
     last = dw.run(
-        many.varied(
+        varied(
             slider_crank(poincare={"output": "slider"}, simulate={"turns": 4, "relative_tolerance": 1e-7}), {over: table["parameter"][-1]}
         ),
         only="poincare",

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 import drivewright as dw
-from drivewright.mechanisms.linkage import ensemble, member
-from drivewright.mechanisms.linkage.build import build, run_of
+from drivewright.mechanisms.linkage.build import build
+from drivewright.multibody.analyses import ensemble, turns
+from drivewright.multibody.analyses.simulation_model import run_of
 from drivewright.spec import load
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "slider_crank_clearance.toml"
@@ -87,7 +88,7 @@ def test_the_exponent_has_an_interval():
 
 def test_members_start_nearer_to_each_other_than_anybody_makes_them():
     model = build(load(EXAMPLE))
-    starts = [ensemble.shifted(model, number) for number in range(4)]
+    starts = [ensemble.perturbed_start(model, number) for number in range(4)]
     np.testing.assert_array_equal(starts[0], model.assembly.state)
     ways = [np.linalg.norm((start - starts[0])[: len(model.assembly.system.stored)]) for start in starts[1:]]
     assert all(0 < way <= 1e-3 * 0.5e-3 / 0.05 for way in ways)  # the crank is 50 mm long: angles count in its lengths
@@ -115,7 +116,7 @@ def test_forces_of_all_joints_and_works_of_a_chaotic_run_carry_intervals():
 
 def test_the_audit_tells_the_worst_of_all_runs():
     model = build(load(EXAMPLE, ('joints.wrist.clearance="0.1 mm"',)))
-    errors = [member.audited(model, run).error for run in (run_of(model), *ensemble.other_runs(model))]
+    errors = [turns.audit_of_run(model, run).error for run in (run_of(model), *ensemble.other_runs(model))]
     assert len(errors) == 4 == len(set(errors))
     found = slider('joints.wrist.clearance="0.1 mm"', only=("energy",))
     assert found.values["energy.error"].value == pytest.approx(max(errors), rel=1e-6)
@@ -132,7 +133,7 @@ def test_without_outputs_the_bodies_tell_whether_a_motion_repeats_itself():
     spec = load(EXAMPLE, ('joints.wrist.clearance="0.02 mm"',)).replace(outputs=(), poincare=None)
     model = build(spec)
     assert list(model.markers) == ["crank", "rod", "slider"]
-    assert ensemble.period_of(model) == 1 and not ensemble.other_runs(model)
+    assert ensemble.turns_to_repeat(model) == 1 and not ensemble.other_runs(model)
 
 
 def test_the_load_table_carries_intervals_where_the_motion_is_chaotic():
@@ -173,18 +174,18 @@ def test_a_bearing_that_wears_in_chaos_is_the_mean_of_several():
 def test_means_of_turns_are_those_of_the_polygon():
     t = np.sort(np.concatenate([[0.0, 3.0], np.random.default_rng(3).uniform(0, 3, 40)]))
     x = 2.0 + 3.0 * t
-    np.testing.assert_allclose(member.means_of_turns(t, x, np.arange(4.0)), 2 + 3 * (np.arange(3) + 0.5), rtol=1e-12)
+    np.testing.assert_allclose(turns.mean_per_turn(t, x, np.arange(4.0)), 2 + 3 * (np.arange(3) + 0.5), rtol=1e-12)
     whole = np.trapezoid(np.sin(9 * t), t)
-    assert np.sum(member.means_of_turns(t, np.sin(9 * t), np.arange(4.0))) == pytest.approx(whole, rel=1e-12)
+    assert np.sum(turns.mean_per_turn(t, np.sin(9 * t), np.arange(4.0))) == pytest.approx(whole, rel=1e-12)
 
 
 @pytest.mark.parametrize("period", [1, 2, 3])
 def test_a_motion_of_several_turns_is_seen(period):
     t = np.linspace(0, 13.0, 20_001)
     model = SimpleNamespace(period=1.0, markers={"o": None}, assembly=SimpleNamespace(system=SimpleNamespace(length=1.0)))
-    assert ensemble.repeats(model, seen_of(t, 2 * np.pi / period)) == period
-    assert ensemble.repeats(model, seen_of(t, 2 * np.pi / np.sqrt(2))) == 0
-    assert ensemble.repeats(model, seen_of(t, 2 * np.pi / period, turning=2 * np.pi)) == period  # an angle that grows for ever
+    assert ensemble.orbit_turns(model, seen_of(t, 2 * np.pi / period)) == period
+    assert ensemble.orbit_turns(model, seen_of(t, 2 * np.pi / np.sqrt(2))) == 0
+    assert ensemble.orbit_turns(model, seen_of(t, 2 * np.pi / period, turning=2 * np.pi)) == period  # an angle that grows for ever
 
 
 def seen_of(t, speed, turning=0.0):

@@ -7,23 +7,23 @@ from scipy.integrate import solve_ivp
 from drivewright.errors import InputError
 from drivewright.multibody.model import (
     GROUND,
+    AppliedForce,
+    AppliedTorque,
     Body,
     Curve,
-    Drive,
     Dry,
-    Force,
     Friction,
     Gear,
-    Load,
+    JointDrive,
+    LoadCurve,
     Marker,
     MasslessLink,
-    Model,
+    MultibodyModel,
     PinSlot,
+    PointSpring,
     Prismatic,
     Revolute,
     RotationalSpring,
-    Spring,
-    Torque,
     line,
 )
 from drivewright.oracles.linkage.four_bar_closed_form import COUPLER, COUPLER_TURN, ROCKER, ROCKER_TURN, FourBar, ideal_motion
@@ -58,7 +58,7 @@ def test_ideal_four_bar():
             for name, z in places.items()
         }
 
-    model = Model(
+    model = MultibodyModel(
         bodies=(Body("crank", 1.0, 1e-3), Body("coupler", 1.113, 2316e-6, (0.079, 0.0)), Body("rocker", 6.883, 0.0423, (0.243, 0.0))),
         joints=(
             Revolute("O2", Marker(GROUND), Marker("crank")),
@@ -66,7 +66,7 @@ def test_ideal_four_bar():
             Revolute("B", Marker("coupler", 0.158), Marker("rocker", 0.424)),
             Revolute("O4", Marker("rocker"), Marker(GROUND, 0.484)),
         ),
-        drives=(Drive("O2", line(0.3, 50.0)),),
+        drives=(JointDrive("O2", line(0.3, 50.0)),),
         gravity=(0.0, -9.81),
     )
     duration = 2 * np.pi / 3 / 50
@@ -82,10 +82,10 @@ def test_spring_damper_and_force_on_a_slide():
     """x'' = (F - k (x - x0) - c x')/m along an axis at 30 degrees, from rest."""
     along = np.exp(1j * np.pi / 6)
     forces = (
-        Spring("s", Marker("slide", 0.01, 0.0), Marker(GROUND, -along.real, -along.imag), 80.0, 0.9, 1.5),
-        Force("f", Marker("slide"), (along.real, along.imag), Load(line(3.0, 0.0))),
+        PointSpring("s", Marker("slide", 0.01, 0.0), Marker(GROUND, -along.real, -along.imag), 80.0, 0.9, 1.5),
+        AppliedForce("f", Marker("slide"), (along.real, along.imag), LoadCurve(line(3.0, 0.0))),
     )
-    model = Model(
+    model = MultibodyModel(
         (Body("slide", 0.5, 1e-3, (0.01, 0.0)),),
         (Prismatic("guide", Marker("slide", 0.01, 0.0), Marker(GROUND), (along.real, along.imag)),),
         forces,
@@ -100,8 +100,11 @@ def test_spring_damper_and_force_on_a_slide():
 
 def test_torque_and_rotational_spring_on_a_pin():
     """J phi'' = T - k (phi - rest) - c phi', from phi = 0.2; the pin holds a body whose centroid lies on it."""
-    forces = (Torque("t", "wheel", Load(line(0.4, 0.0))), RotationalSpring("s", "wheel", stiffness=5.0, rest=0.05, damping=0.02))
-    model = Model((Body("wheel", 1.0, 2e-3),), (Revolute("pin", Marker("wheel"), Marker(GROUND)),), forces)
+    forces = (
+        AppliedTorque("t", "wheel", LoadCurve(line(0.4, 0.0))),
+        RotationalSpring("s", "wheel", stiffness=5.0, rest=0.05, damping=0.02),
+    )
+    model = MultibodyModel((Body("wheel", 1.0, 2e-3),), (Revolute("pin", Marker("wheel"), Marker(GROUND)),), forces)
     run = exudyn_model().run(model, {"wheel": (0, 0, 0.2, 0, 0, 0)}, 0.2, 1e-4)
     rest, decay = 0.05 + 0.4 / 5.0, 0.02 / (2 * 2e-3)
     omega = np.sqrt(5.0 / 2e-3 - decay**2)
@@ -113,7 +116,7 @@ def test_torque_and_rotational_spring_on_a_pin():
 def test_a_pin_in_a_slot_falls_and_turns():
     """Energy is kept and nothing pushes along the slot; the rod's frame is neither at its centroid nor along the rod."""
     slot = PinSlot("slot", Marker("rod", 0.03, 0.04), Marker(GROUND, 0.0, 0.2), (1.0, 0.0))
-    model = Model((Body("rod", 0.4, 3e-3, (0.09, 0.12)),), (slot,), gravity=(0.0, -9.81))
+    model = MultibodyModel((Body("rod", 0.4, 3e-3, (0.09, 0.12)),), (slot,), gravity=(0.0, -9.81))
     lean = np.arctan2(4, 3)
     run = exudyn_model().run(model, {"rod": (0.1, 0.2, -lean, 0, 0, 0)}, 0.2, 1e-4)
     x, y, angle, vx, vy, turning = run.bodies["rod"].T
@@ -128,7 +131,7 @@ def test_a_pin_in_a_slot_falls_and_turns():
 def bounce(speed, **law):
     """Speed after an impact, over the one before, of a mass on a slide whose pin meets a bearing on the ground."""
     contact = Dry(1e-4, 0.01, law.pop("stiffness", 1e11), **law)
-    model = Model(
+    model = MultibodyModel(
         (Body("block", 0.3, 1e-4),),
         (Prismatic("guide", Marker("block"), Marker(GROUND)), Revolute("pin", Marker(GROUND), Marker("block"), contact)),
     )
@@ -159,7 +162,7 @@ def test_restitution_of_the_linear_damper():
 def slider_crank(hysteresis=0.0, friction=Friction("none"), offset=-1e-4, **contact):  # noqa: B008
     """(model, start) at crank angle 0 with the rates of the ideal mechanism."""
     wrist = Dry(CLEARANCE, RADIUS, STIFFNESS, hysteresis=hysteresis, friction=friction, **contact)
-    model = Model(
+    model = MultibodyModel(
         bodies=(Body("crank", 0.3, 1e-4), Body("rod", ROD_MASS, ROD_INERTIA, (ROD / 2, 0.0)), Body("slider", SLIDER_MASS, 1e-4)),
         joints=(
             Revolute("O", Marker(GROUND), Marker("crank")),
@@ -167,7 +170,7 @@ def slider_crank(hysteresis=0.0, friction=Friction("none"), offset=-1e-4, **cont
             Revolute("wrist", Marker("rod", ROD), Marker("slider"), wrist),
             Prismatic("guide", Marker("slider"), Marker(GROUND)),
         ),
-        drives=(Drive("O", line(0.0, SPEED)),),
+        drives=(JointDrive("O", line(0.0, SPEED)),),
     )
     turning = -CRANK / ROD * SPEED
     start = {
@@ -260,7 +263,7 @@ def test_the_distance_off_centre_knows_how_bodies_stand():
     bodies = (Body("a", 1.0, 1.0, (0.0, 0.02)), Body("b", 1.0, 1.0))
     pin = Revolute("pin", Marker("a", 0.1, 0.02), Marker("b", 0.0, 0.1), Dry(1e-4, 0.01, 1e9))
     with pytest.raises(InputError, match=r"'pin' starts 0\.002 m off centre"):
-        exudyn_model().run(Model(bodies, (pin,)), {"a": (0, 0, np.pi / 2, 0, 0, 0), "b": (0.002, 0, 0, 0, 0, 0)}, 1e-3, 1e-4)
+        exudyn_model().run(MultibodyModel(bodies, (pin,)), {"a": (0, 0, np.pi / 2, 0, 0, 0), "b": (0.002, 0, 0, 0, 0, 0)}, 1e-3, 1e-4)
 
 
 @pytest.mark.parametrize(
@@ -268,17 +271,17 @@ def test_the_distance_off_centre_knows_how_bodies_stand():
     [
         ({"joints": (Revolute("pin", Marker("a"), Marker(GROUND), MasslessLink(1e-4)),)}, r"joint 'pin' is a MasslessLink"),
         ({"joints": (Gear("mesh", "a", "b", -2.0),)}, r"no Gear \('mesh'\)"),
-        ({"forces": (Torque("motor", "a", Load(line(1.0, 2.0), "speed")),)}, r"'motor' is not constant"),
+        ({"forces": (AppliedTorque("motor", "a", LoadCurve(line(1.0, 2.0), "speed")),)}, r"'motor' is not constant"),
         (
             {
                 "joints": (Revolute("pin", Marker("a"), Marker(GROUND)),),
-                "drives": (Drive("pin", Curve(np.array([0.0, 1.0]), np.array([[0.0, 1, 1, 0, 0, 0]]))),),
+                "drives": (JointDrive("pin", Curve(np.array([0.0, 1.0]), np.array([[0.0, 1, 1, 0, 0, 0]]))),),
             },
             r"drive of 'pin' does not turn",
         ),
     ],
 )
 def test_elements_that_the_twin_does_not_have(part, message):
-    model = Model(**{"bodies": (Body("a", 1.0, 1.0), Body("b", 1.0, 1.0)), "joints": (), **part})
+    model = MultibodyModel(**{"bodies": (Body("a", 1.0, 1.0), Body("b", 1.0, 1.0)), "joints": (), **part})
     with pytest.raises(InputError, match=message):
         exudyn_model().run(model, {"a": (0,) * 6, "b": (0,) * 6}, 1e-3, 1e-4)

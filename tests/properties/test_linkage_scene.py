@@ -9,8 +9,9 @@ import shapely
 import drivewright as dw
 from drivewright import registry
 from drivewright.errors import InputError
-from drivewright.mechanisms.linkage.build import build, record_of
-from drivewright.mechanisms.linkage.frames import FINE
+from drivewright.mechanisms.linkage.build import build
+from drivewright.multibody.analyses.cycle_poses import FINE
+from drivewright.multibody.analyses.simulation_model import record_of
 from drivewright.multibody.drawing import block, rounded
 from drivewright.multibody.model import Marker
 from drivewright.multibody.record import record

@@ -7,7 +7,20 @@ import pytest
 
 from drivewright.contact.impact import delivered_restitution, impact_law, kelvin_voigt_restitution
 from drivewright.multibody.assembly import assemble
-from drivewright.multibody.model import GROUND, Body, Drive, Dry, Friction, Ideal, Marker, Model, PinSlot, Prismatic, Revolute, line
+from drivewright.multibody.model import (
+    GROUND,
+    Body,
+    Dry,
+    Friction,
+    Ideal,
+    JointDrive,
+    Marker,
+    MultibodyModel,
+    PinSlot,
+    Prismatic,
+    Revolute,
+    line,
+)
 from drivewright.multibody.observe import observe
 from drivewright.multibody.simulate import Settings, simulate
 
@@ -34,7 +47,9 @@ def seen_at(found, t):
 
 def journal(dry, mass=0.5, velocity=(1.2, -0.9)):
     """A free body with a journal in a bearing of the ground."""
-    return Model((Body("body", mass, 1e-3, velocity=velocity),), (Revolute("pin", Marker(GROUND, 0.3, -0.1), Marker("body"), dry),))
+    return MultibodyModel(
+        (Body("body", mass, 1e-3, velocity=velocity),), (Revolute("pin", Marker(GROUND, 0.3, -0.1), Marker("body"), dry),)
+    )
 
 
 def first_bounce(dry, mass, speed, mass2=None):
@@ -43,7 +58,7 @@ def first_bounce(dry, mass, speed, mass2=None):
     if mass2 is None:
         model = journal(dry, mass, tuple(speed * way))
     else:
-        model = Model(
+        model = MultibodyModel(
             (Body("ring", mass2, 1.0, velocity=(0.3, 0.2)), Body("pin", mass, 1.0, velocity=tuple((0.3, 0.2) + speed * way))),
             (Revolute("pin", Marker("ring"), Marker("pin"), dry),),
         )
@@ -128,7 +143,7 @@ def test_two_free_bodies_keep_their_momentum_and_bounce_alike(mass2):
 
 def pair(dry, spin=(30.0, -80.0)):
     """Two free bodies; the bearing and the journal lie off their centroids."""
-    return Model(
+    return MultibodyModel(
         (
             Body("ring", 0.8, 2e-3, (0.02, 0.01), angle=0.3, velocity=(0.5, 0.1), angular_velocity=spin[0]),
             Body("shaft", 0.5, 8e-4, (-0.01, 0.015), angle=-1.0, velocity=(-0.4, 0.9), angular_velocity=spin[1]),
@@ -218,7 +233,9 @@ def test_spinning_body_rolls_up_the_wall_to_the_friction_angle(friction, spin, t
     """
     ends = (Marker(GROUND), Marker("body")) if turning == "journal" else (Marker("body"), Marker(GROUND))
     dry = Dry(PLAY, RADIUS, STIFFNESS, friction=friction)
-    model = Model((Body("body", MASS, 1e-4),), (Revolute("pin", *ends, dry),), drives=(Drive("pin", line(0.0, spin)),), gravity=(0, -G))
+    model = MultibodyModel(
+        (Body("body", MASS, 1e-4),), (Revolute("pin", *ends, dry),), drives=(JointDrive("pin", line(0.0, spin)),), gravity=(0, -G)
+    )
     assembly = assemble(model)
     side, mu, depth = (-1 if turning == "journal" else 1) * np.sign(spin), 0.0, 0.0
     for _ in range(60):  # slip, coefficient and depth hang together
@@ -245,7 +262,7 @@ def test_spinning_journal_is_braked_on_the_radius_of_contact(friction):
     """The journal's centre runs in a vertical slot: J w' = -mu N r while it slides fast."""
     inertia = 2e-4
     dry = Dry(PLAY, RADIUS, STIFFNESS, friction=friction)
-    model = Model(
+    model = MultibodyModel(
         (Body("body", MASS, inertia, angular_velocity=200.0),),
         (PinSlot("slot", Marker("body"), Marker(GROUND), (0.0, 1.0)), Revolute("pin", Marker(GROUND), Marker("body"), dry)),
         gravity=(0, -G),
@@ -271,7 +288,7 @@ TURN = 2 * np.pi / SPEED
 def slider_crank(friction=Friction("none"), clearance=0.5e-3, hysteresis=0.3):
     """The field's benchmark: the play is in the wrist."""
     dry = Dry(clearance, 0.01, 6.6102e10, 1.5, hysteresis, friction=friction) if clearance else Ideal()
-    return Model(
+    return MultibodyModel(
         (Body("crank", 1.0, 1e-4), Body("rod", 0.21, 2.5e-4, (ROD / 2, 0.0)), Body("slider", 0.14, 1e-6)),
         (
             Revolute("O", Marker(GROUND), Marker("crank")),
@@ -279,7 +296,7 @@ def slider_crank(friction=Friction("none"), clearance=0.5e-3, hysteresis=0.3):
             Revolute("wrist", Marker("rod", ROD), Marker("slider"), dry),
             Prismatic("guide", Marker("slider"), Marker(GROUND)),
         ),
-        drives=(Drive("O", line(0.0, SPEED)),),
+        drives=(JointDrive("O", line(0.0, SPEED)),),
     )
 
 
@@ -325,7 +342,7 @@ def test_step_limit_gives_what_there_is():
 def test_two_pins_that_touch_at_the_same_moment():
     """A plate with two equal journals flies straight into two equal bearings: both hold, and it comes back."""
     dry = Dry(5e-4, 0.01, 6e10, 1.5, 0.5)
-    model = Model(
+    model = MultibodyModel(
         (Body("plate", 0.5, 1e-3, velocity=(1.5, 0.0)),),
         (
             Revolute("up", Marker(GROUND, 0, 0.1), Marker("plate", 0, 0.1), dry),
@@ -350,10 +367,10 @@ def test_start_inside_the_wall_is_held():
 
 def test_second_bearing_of_a_driven_shaft():
     """No freedom, and yet a pin with play: it stays in the middle."""
-    model = Model(
+    model = MultibodyModel(
         (Body("shaft", 1.0, 0.1),),
         (Revolute("A", Marker(GROUND), Marker("shaft")), Revolute("B", Marker(GROUND), Marker("shaft"), Dry(5e-4, 0.01, 1e8))),
-        drives=(Drive("A", line(0.0, 2.0)),),
+        drives=(JointDrive("A", line(0.0, 2.0)),),
     )
     found = simulate(assemble(model), 1.0, samples=np.linspace(0, 1, 5))
     part = found.stretches[0]
@@ -369,14 +386,14 @@ def test_loaded_pin_approaches_the_ideal_one_in_first_order():
     for play in plays:
         stiffness = 5.0 / (0.1 * play) ** 1.5
         dry = Dry(play, 0.01, stiffness, damping=60.0 * np.sqrt(1e-4 / play))
-        model = Model(
+        model = MultibodyModel(
             (Body("lever", 1.0, 0.01, (0.15, 0.0)), Body("prop", 1.0, 0.01)),
             (
                 Revolute("O", Marker(GROUND), Marker("lever")),
                 Revolute("P", Marker(GROUND, 0.3), Marker("prop")),
                 Revolute("pin", Marker("prop"), Marker("lever", 0.3), dry),
             ),
-            drives=(Drive("P", line(0.0, 0.3)),),
+            drives=(JointDrive("P", line(0.0, 0.3)),),
             gravity=(0, -G),
         )
         assembly, found = run(model, 0.5, 1e-8)

@@ -9,9 +9,9 @@ from test_multibody_singular import TURN, G, folded, four_bar, slider_crank, tur
 
 import drivewright.multibody as mb
 from drivewright.errors import DoesNotAssemble
-from drivewright.multibody.chart import offsets_of
+from drivewright.multibody.chart import chart_offsets
 from drivewright.multibody.reactions import unbounded_joints
-from drivewright.multibody.simulate import at_state, clear_states
+from drivewright.multibody.simulate import states_outside_folds, work_at_state
 
 FRAME, CRANK = 0.15, 0.1
 
@@ -47,7 +47,7 @@ def hung(pin, speed, loop=True, base=None, spin=0.0):
         model,
         bodies=tuple(body for body in model.bodies if body.name != "rocker"),
         joints=tuple(joint for joint in model.joints if joint.name not in ("B", "O4")),
-        drives=(*model.drives, mb.Drive("A", mb.line(0.0, -speed))),
+        drives=(*model.drives, mb.JointDrive("A", mb.line(0.0, -speed))),
     )
 
 
@@ -61,7 +61,7 @@ def test_what_hangs_from_a_folding_loop_moves_as_without_the_loop(name, speed):
     for field, allowed in (("angle", 1e-6), ("x", 1e-7), ("y", 1e-7), ("w", 1e-4)):
         assert seen.point("bob", field) == pytest.approx(twin.point("bob", field), rel=0, abs=allowed), field
     for passed in run.passages:  # the chart counts from the fold, whatever else is in the state
-        assert offsets_of(passed.system, [passed.time], passed.state[None]) == pytest.approx([0.0], abs=1e-9)
+        assert chart_offsets(passed.system, [passed.time], passed.state[None]) == pytest.approx([0.0], abs=1e-9)
 
 
 @pytest.mark.parametrize(("name", "spin"), [("ideal", 0.0), ("ideal", 3.0), ("ideal", 40.0), ("dry", 0.0)])
@@ -95,8 +95,8 @@ def test_charts_count_from_the_fold_whichever_coordinate_is_independent():
     assert [passed.time for passed in run.passages] == pytest.approx([1 / 3, 5 / 6, 4 / 3], abs=1e-6)
     for passed in run.passages:
         ahead = mb.simulate(mb.assemble(free), passed.time + 1e-3, mb.Settings(rtol=1e-10)).end
-        assert offsets_of(passed.system, [passed.time], passed.state[None]) == pytest.approx([0.0], abs=1e-9)
-        assert offsets_of(ahead[0], [ahead[1]], ahead[2][None]) == pytest.approx([1e-3 / ahead[0].chart.pace], rel=1e-3)
+        assert chart_offsets(passed.system, [passed.time], passed.state[None]) == pytest.approx([0.0], abs=1e-9)
+        assert chart_offsets(ahead[0], [ahead[1]], ahead[2][None]) == pytest.approx([1e-3 / ahead[0].chart.pace], rel=1e-3)
     rates["rocker"] = -5 * TURN  # the anti-parallelogram, in which coupler and rocker are faster than the crank
     free = replace(
         free,
@@ -106,7 +106,7 @@ def test_charts_count_from_the_fold_whichever_coordinate_is_independent():
     )
     system, t, y = mb.simulate(mb.assemble(free), 1e-3, mb.Settings(rtol=1e-10)).end
     assert system.independent[0] != system.stored[0]
-    assert offsets_of(system, [t], y[None]) == pytest.approx([1e-3 / system.chart.pace], rel=1e-2)
+    assert chart_offsets(system, [t], y[None]) == pytest.approx([1e-3 / system.chart.pace], rel=1e-2)
 
 
 def test_a_kite_starts_in_its_fold():
@@ -156,7 +156,7 @@ def carousel(turn):
             *base.joints[:3],
             mb.Revolute("O4", mb.Marker("rocker"), mb.Marker("table", FRAME)),
         ),
-        drives=(mb.Drive("T", mb.line(0.0, turn)),),
+        drives=(mb.JointDrive("T", mb.line(0.0, turn)),),
     )
 
 
@@ -189,12 +189,12 @@ def test_a_free_parallelogram_on_a_turntable_is_a_pendulum_in_its_field(turn):
         for delay in (-1e-4, 1e-4):  # on the way: beyond the fold later, with the speed of the fastest coordinate
             y = passed.state.copy()
             y[: len(passed.system.stored)] += delay * _rates(passed)[passed.system.stored]
-            offset = offsets_of(passed.system, [passed.time + delay], y[None])[0]
+            offset = chart_offsets(passed.system, [passed.time + delay], y[None])[0]
             assert offset == pytest.approx(delay / passed.system.chart.pace, rel=1e-2)
 
 
 def _rates(passed):
-    return at_state(passed.system, passed.time, passed.state).coordinates.v
+    return work_at_state(passed.system, passed.time, passed.state).coordinates.v
 
 
 CROSSING = {"parallelogram": parallelogram(), "kite": four_bar(0.1, 0.1, 0.15, 0.15), "slider": slider_crank()}
@@ -230,7 +230,7 @@ def touching(speed, bend, driven=True):
             *base.joints,
             mb.CamPair("pair", "cam", mb.Marker("crank"), lift),
         ),
-        drives=(mb.Drive("C", mb.line(0.0, speed)),) if driven else (),
+        drives=(mb.JointDrive("C", mb.line(0.0, speed)),) if driven else (),
         gravity=(0.0, 0.0),
     )
 
@@ -328,7 +328,7 @@ def test_a_fold_counts_once_it_is_passed_and_a_run_may_end_in_its_chart(beyond, 
             assert run.end[1] == fold + beyond and run.outcome == "complete"
             assert [each.time for each in run.passages] == pytest.approx([fold] * passed, abs=1e-6)
             assert len(run.stretches[-1].system.chart.offsets)
-            x = offsets_of(run.end[0], [run.end[1]], run.end[2][None])[0] * run.end[0].chart.pace
+            x = chart_offsets(run.end[0], [run.end[1]], run.end[2][None])[0] * run.end[0].chart.pace
             assert x == pytest.approx(beyond, rel=1e-3)
 
 
@@ -414,14 +414,14 @@ def test_clear_states_leave_out_the_middle_of_folds_and_nothing_else(model):
         clear = away > 0.2 * chart.reach * chart.pace if len(chart.offsets) else np.full(len(part.t), True)
         wanted.append(part.t[clear])
         left_out += len(part.t) - len(wanted[-1])
-    told = np.concatenate([t for _, t, _ in clear_states(run)])
+    told = np.concatenate([t for _, t, _ in states_outside_folds(run)])
     assert np.array_equal(told, np.concatenate(wanted)) and left_out >= len(folds)
-    assert np.array_equal(np.concatenate([t for _, t, _ in clear_states(run, start=0.4)]), told[told >= 0.4])
+    assert np.array_equal(np.concatenate([t for _, t, _ in states_outside_folds(run, start=0.4)]), told[told >= 0.4])
     for most in (1, 3, 7, 100, len(told) - 1, len(told)):
-        thinned = np.concatenate([t for _, t, _ in clear_states(run, most=most)])
+        thinned = np.concatenate([t for _, t, _ in states_outside_folds(run, most=most)])
         assert most / 2 <= len(thinned) <= most
         assert np.array_equal(thinned, told[:: -(-len(told) // most)])
-    for system, t, y in clear_states(run, most=20):  # each with its own states
+    for system, t, y in states_outside_folds(run, most=20):  # each with its own states
         angle = mb.observe(system, t, y).bodies[:, run.assembly.names.index("rocker"), 2]
         assert angle == pytest.approx(np.pi / 3 + model.drives[0].motion.coefficients[0][1] * t, rel=0, abs=1e-8)
 
@@ -446,7 +446,7 @@ HELD = 2.0 * G * CRANK / 2 + 0.5 * G * CRANK
 )
 def test_bars_in_line_carry_what_turns_the_rocker_only_where_it_is_balanced(part, wanted, size):
     """A torque on the rocker that holds its weight where the bars point to the left, or, reversed, to the right."""
-    hold = mb.Torque("hold", "rocker", mb.Load(mb.line(-part * HELD * size**2, 0.0)))
+    hold = mb.AppliedTorque("hold", "rocker", mb.LoadCurve(mb.line(-part * HELD * size**2, 0.0)))
     assert unbounded(replace(parallelogram(size=size), forces=(hold,), gravity=(0.0, -G * size))) == wanted
 
 

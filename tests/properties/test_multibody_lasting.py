@@ -7,14 +7,14 @@ import pytest
 
 from drivewright._jit import plain
 from drivewright.contact.impact import cylinder_force, delivered_restitution, impact_law, impact_law_names, lasting_factor
-from drivewright.mechanisms.linkage.wear import with_wear
 from drivewright.multibody import loads
+from drivewright.multibody.analyses.wear import with_wear
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.linearise import linearise, modes
-from drivewright.multibody.model import GROUND, Body, Drive, Dry, Friction, Marker, Model, Prismatic, Revolute, line
+from drivewright.multibody.model import GROUND, Body, Dry, Friction, JointDrive, Marker, MultibodyModel, Prismatic, Revolute, line
 from drivewright.multibody.observe import observe
 from drivewright.multibody.simulate import Settings, simulate
-from drivewright.multibody.statics import Place, carried, reduced
+from drivewright.multibody.statics import Place, displaced, reduced_equations
 from drivewright.multibody.system import motion
 
 G = 9.81
@@ -26,7 +26,7 @@ LASTING = loads.LASTING
 def ball(dry, velocity=(0.0, 0.0), gravity=0.0, mass=0.5):
     """A free body with a journal in a bearing of the ground."""
     return assemble(
-        Model(
+        MultibodyModel(
             (Body("body", mass, 1e-3, velocity=velocity),), (Revolute("pin", Marker(GROUND), Marker("body"), dry),), gravity=(0.0, -gravity)
         )
     )
@@ -35,7 +35,7 @@ def ball(dry, velocity=(0.0, 0.0), gravity=0.0, mass=0.5):
 def slider_crank(clearance, hysteresis, friction=Friction("none")):
     dry = Dry(clearance, 0.01, 6.6102e10 * np.sqrt(5e-4 / clearance), 1.5, hysteresis, friction=friction)
     return assemble(
-        Model(
+        MultibodyModel(
             (Body("crank", 1.0, 1e-4), Body("rod", 0.21, 2.5e-4, (ROD / 2, 0.0)), Body("slider", 0.14, 1e-6)),
             (
                 Revolute("O", Marker(GROUND), Marker("crank")),
@@ -43,7 +43,7 @@ def slider_crank(clearance, hysteresis, friction=Friction("none")):
                 Revolute("wrist", Marker("rod", ROD), Marker("slider"), dry),
                 Prismatic("guide", Marker("slider"), Marker(GROUND)),
             ),
-            drives=(Drive("O", line(0.0, SPEED)),),
+            drives=(JointDrive("O", line(0.0, SPEED)),),
         )
     )
 
@@ -85,7 +85,7 @@ def test_a_lasting_contact_that_is_left_free_bounces_with_the_same_restitution(c
 def test_two_pins_that_touch_at_the_same_moment_both_hold(method):
     dry = Dry(5e-4, 0.01, 6e10, 1.5, 0.5)
     assembly = assemble(
-        Model(
+        MultibodyModel(
             (Body("plate", 0.5, 1e-3, velocity=(1.5, 0.0)),),
             (
                 Revolute("up", Marker(GROUND, 0, 0.1), Marker("plate", 0, 0.1), dry),
@@ -172,7 +172,7 @@ def test_a_bouncing_journal_comes_to_rest(method):
 def test_a_slow_touch_under_a_growing_load_is_not_glued():
     """Faster pressed than touched: the force is at most (1 + 2 h) times the elastic one, and continuous at the approach speed."""
     contact = assemble(
-        Model((Body("body", 0.5, 1e-3),), (Revolute("pin", Marker(GROUND), Marker("body"), Dry(5e-4, 0.01, 1e8, 1.5, 0.8)),))
+        MultibodyModel((Body("body", 0.5, 1e-3),), (Revolute("pin", Marker(GROUND), Marker("body"), Dry(5e-4, 0.01, 1e8, 1.5, 0.8)),))
     ).system.contacts[0]
     normal, elastic = plain(loads.normal_of), 1e8 * 1e-5**1.5
     rates = 1e-4 * np.array([0.5, 1 - 1e-7, 1 + 1e-7, 1.01, 100.0, 1e6])
@@ -190,7 +190,7 @@ def test_a_gap_that_no_force_moves_is_elastic():
 def test_the_mass_of_a_lasting_contact_is_that_which_its_force_moves():
     """A pendulum's journal: (J + m l^2)/r^2 at its pin, on which the equivalent damping depends."""
     dry, arm = Dry(5e-4, 0.01, 6e10, 1.5, 0.5), 0.2
-    model = Model(
+    model = MultibodyModel(
         (Body("lever", 1.5, 0.02, (0.1, 0.0)),),
         (Revolute("O", Marker(GROUND), Marker("lever")), Revolute("pin", Marker(GROUND, arm), Marker("lever", arm), dry)),
         gravity=(0.0, -G),
@@ -210,7 +210,7 @@ def bumps(bins=24):
 
 def two_free():
     """Bearing and journal off the centroids of two free bodies that turn."""
-    return Model(
+    return MultibodyModel(
         (
             Body("ring", 0.8, 2e-3, (0.02, 0.01), angle=0.3, velocity=(0.5, 0.1), angular_velocity=30.0),
             Body("shaft", 0.5, 8e-4, (-0.01, 0.015), angle=-1.0, velocity=(-0.4, 0.9), angular_velocity=-80.0),
@@ -222,7 +222,7 @@ def two_free():
 def chain():
     """A lever and a rod on it, whose end is a journal in the ground's bearing: a mass matrix that is not diagonal."""
     bodies = (Body("lever", 1.2, 3e-3, (0.04, 0.01), angular_velocity=7.0), Body("rod", 0.7, 2e-3, (0.05, -0.02), angular_velocity=-4.0))
-    return Model(
+    return MultibodyModel(
         bodies,
         (
             Revolute("O", Marker(GROUND), Marker("lever")),
@@ -242,14 +242,14 @@ def test_rate_and_mass_of_a_gap_are_those_of_its_depth(model, aside, worn):
     here = Place(assembly.system, motion(assembly.system).work, 0.0, y)
 
     def depth(shift):
-        place = carried(here, 0.0, shift)
-        reduced(place)
-        return plain(loads.gap_of)(place.system, place.work, 0)
+        place = displaced(here, 0.0, shift)
+        reduced_equations(place)
+        return plain(loads.penetration)(place.system, place.work, 0)
 
     free = len(assembly.system.independent)
     slope = np.array([(8 * (depth(h) - depth(-h)) - depth(2 * h) + depth(-2 * h)) / 1.2e-5 for h in 1e-6 * np.eye(free)])
-    now = reduced(here)
-    found, rate, mobility, *_ = plain(loads.approach)(here.system, 0, here.work, LASTING)
+    now = reduced_equations(here)
+    found, rate, mobility, *_ = plain(loads.gap_motion)(here.system, 0, here.work, LASTING)
     assert found > 1e-5 and np.min(np.abs(slope)) > 1e-4
     assert rate == pytest.approx(slope @ y[len(assembly.system.stored) :][:free], rel=2e-5)
     assert mobility == pytest.approx(slope @ np.linalg.solve(now.mass, slope), rel=2e-5)

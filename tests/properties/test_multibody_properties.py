@@ -9,24 +9,24 @@ from scipy.integrate import solve_ivp
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.model import (
     GROUND,
+    AppliedForce,
+    AppliedTorque,
     Body,
     Curve,
-    Drive,
     Dry,
-    Force,
     Friction,
     Gear,
     Ideal,
-    Load,
+    JointDrive,
+    LoadCurve,
     Marker,
     MasslessLink,
-    Model,
+    MultibodyModel,
     PinSlot,
+    PointSpring,
     Prismatic,
     Revolute,
     RotationalSpring,
-    Spring,
-    Torque,
     line,
 )
 from drivewright.multibody.observe import Observed, observe
@@ -91,7 +91,7 @@ def four_bar(clearances=(0.0,) * 4, alphas=(0.1, 0.2, 3.0, 0.3), damping=0.0, li
         link = MasslessLink(clearances[k], link_damping, alphas[k] + (np.pi if way < 0 else 0.0)) if clearances[k] else Ideal()
         return Revolute(name, *ends[::way], link)
 
-    model = Model(
+    model = MultibodyModel(
         (
             Body("crank", 1.0, 0.0),
             Body("coupler", 1.113, 2316e-6, (0.079, 0.0), angle=-1.0),
@@ -104,7 +104,7 @@ def four_bar(clearances=(0.0,) * 4, alphas=(0.1, 0.2, 3.0, 0.3), damping=0.0, li
             pin("O4", 3, Marker("rocker"), Marker(GROUND, 0.484)),
         ),
         forces=(RotationalSpring("c3", "coupler", damping=damping), RotationalSpring("c4", "rocker", damping=damping)),
-        drives=(Drive("O2", line(0.0, SPEED)),),
+        drives=(JointDrive("O2", line(0.0, SPEED)),),
         gravity=(0, -9.81),
     )
     return model, bar
@@ -178,7 +178,7 @@ def swinging(lengths, rate, start=(0.3, None, None)):
         for name, length, angle in zip(("crank", "coupler", "rocker"), (l2, l3, l4), start, strict=True)
     ]
     rods[0] = replace(rods[0], angular_velocity=rate)
-    return Model(
+    return MultibodyModel(
         tuple(rods),
         (
             Revolute("O2", Marker(GROUND), Marker("crank")),
@@ -211,7 +211,7 @@ def test_free_four_bar_keeps_its_energy_through_dead_points(lengths, start, rate
 
 
 def test_double_pendulum_keeps_its_energy_over_many_swings():
-    model = Model(
+    model = MultibodyModel(
         (Body("upper", 1.0, 0.02, (0.3, 0.0), angle=1.0), Body("lower", 0.7, 0.01, (0.2, 0.1), angle=0.5, angular_velocity=2.0)),
         (Revolute("O", Marker(GROUND), Marker("upper")), Revolute("A", Marker("upper", 0.5), Marker("lower"))),
         gravity=(1.0, -9.81),
@@ -238,7 +238,7 @@ def test_power_of_the_drive_feeds_the_energy():
 def machine(dry=None):
     """A free slider-crank with a geared wheel, a slotted rocker, springs, a motor and a force; `dry` puts play into the wrist."""
     pin = 0.04 * np.exp(0.5j)
-    return Model(
+    return MultibodyModel(
         (
             Body("crank", 1.0, 2e-3, (0.01, 0.005), angle=0.5, angular_velocity=40.0),
             Body("rod", 0.3, 4e-4, (0.07, -0.01), angle=-np.arcsin(0.05 * np.sin(0.5) / 0.15)),
@@ -257,10 +257,10 @@ def machine(dry=None):
             PinSlot("slot", Marker("crank", 0.04), Marker("rocker")),
         ),
         forces=(
-            Spring("s", Marker("slider", 0.01, 0.01), Marker(GROUND, 0.3, 0.05), 300.0, 0.08, 2.0),
+            PointSpring("s", Marker("slider", 0.01, 0.01), Marker(GROUND, 0.3, 0.05), 300.0, 0.08, 2.0),
             RotationalSpring("t", "rocker", "rod", 1.0, 0.1, 0.001),
-            Torque("m", "crank", Load(line(0.5, -0.01), "speed")),
-            Force("f", Marker("rod", 0.1, 0.01), (3.0, 1.0), Load(line(1.0, -2.0))),
+            AppliedTorque("m", "crank", LoadCurve(line(0.5, -0.01), "speed")),
+            AppliedForce("f", Marker("rod", 0.1, 0.01), (3.0, 1.0), LoadCurve(line(1.0, -2.0))),
         ),
         gravity=(2.0, -9.81),
     )
@@ -290,11 +290,11 @@ def moved(model, turn=0.0, shift=0j, mirror=False):
         changes = {k: marker(getattr(e, k)) for k in ("first", "second", "point") if isinstance(getattr(e, k, None), Marker)}
         if hasattr(e, "axis"):
             changes["axis"] = pair((in_world if e.second.body == GROUND else in_body)(complex(*e.axis)))
-        if isinstance(e, Force):
+        if isinstance(e, AppliedForce):
             changes["direction"] = pair(in_world(complex(*e.direction)))
         if isinstance(e, RotationalSpring):
             changes["rest"] = sense * e.rest
-        if isinstance(e, Torque):
+        if isinstance(e, AppliedTorque):
             c = e.load.curve
             changes["load"] = replace(e.load, curve=Curve(c.breaks, sense * c.coefficients * sense ** np.arange(6)))
         return replace(e, **changes)
@@ -385,7 +385,7 @@ def rescaled(model, length, mass, time):
 
     def element(e):
         changes = {k: marker(getattr(e, k)) for k in ("first", "second", "point") if isinstance(getattr(e, k, None), Marker)}
-        if isinstance(e, Spring):
+        if isinstance(e, PointSpring):
             changes |= {
                 "stiffness": e.stiffness * force / length,
                 "free_length": e.free_length * length,
@@ -393,8 +393,8 @@ def rescaled(model, length, mass, time):
             }
         if isinstance(e, RotationalSpring):
             changes |= {"stiffness": e.stiffness * force * length, "damping": e.damping * force * length * time}
-        if isinstance(e, (Torque, Force)):
-            changes["load"] = load(e.load, force * length if isinstance(e, Torque) else force)
+        if isinstance(e, (AppliedTorque, AppliedForce)):
+            changes["load"] = load(e.load, force * length if isinstance(e, AppliedTorque) else force)
         if isinstance(getattr(e, "model", None), Dry):
             d = e.model
             changes["model"] = replace(

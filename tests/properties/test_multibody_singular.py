@@ -8,8 +8,8 @@ from scipy.integrate import solve_ivp
 
 import drivewright.multibody as mb
 from drivewright.errors import DoesNotAssemble
-from drivewright.multibody.chart import offsets_of
-from drivewright.multibody.simulate import restated
+from drivewright.multibody.chart import chart_offsets
+from drivewright.multibody.simulate import convert_state
 from drivewright.multibody.singular import look_ahead
 from drivewright.multibody.system import no_chart
 
@@ -27,7 +27,7 @@ def windows(count, tip_speed=1.0, angle=np.pi / 2):
         bodies.append(mb.Body(f"coupler{k}", 1.0, 1 / 12, (0.5, 0.0), 0.0))
         joints.append(mb.Revolute(f"left{k}", mb.Marker(f"coupler{k}"), mb.Marker(f"upright{k}", 1.0)))
         joints.append(mb.Revolute(f"right{k}", mb.Marker(f"coupler{k}", 1.0), mb.Marker(f"upright{k + 1}", 1.0)))
-    return mb.Model(tuple(bodies), tuple(joints), gravity=(0.0, -G))
+    return mb.MultibodyModel(tuple(bodies), tuple(joints), gravity=(0.0, -G))
 
 
 def pendulum(count, duration):
@@ -65,7 +65,7 @@ def four_bar(frame, crank, coupler, rocker, speed=TURN, start=60.0, size=1.0):
         mb.Revolute("B", mb.Marker("coupler", coupler), mb.Marker("rocker", rocker)),
         mb.Revolute("O4", mb.Marker("rocker"), mb.Marker("ground", frame)),
     )
-    return mb.Model(bodies, joints, drives=(mb.Drive("O2", mb.line(0.0, speed)),), gravity=(0.0, -G))
+    return mb.MultibodyModel(bodies, joints, drives=(mb.JointDrive("O2", mb.line(0.0, speed)),), gravity=(0.0, -G))
 
 
 def slider_crank(length=0.1, speed=TURN, start=30.0):
@@ -82,7 +82,7 @@ def slider_crank(length=0.1, speed=TURN, start=30.0):
         mb.Revolute("B", mb.Marker("rod", length), mb.Marker("slider")),
         mb.Prismatic("guide", mb.Marker("slider"), mb.Marker("ground")),
     )
-    return mb.Model(bodies, joints, drives=(mb.Drive("O", mb.line(0.0, speed)),), gravity=(0.0, -G))
+    return mb.MultibodyModel(bodies, joints, drives=(mb.JointDrive("O", mb.line(0.0, speed)),), gravity=(0.0, -G))
 
 
 def turned(model, turns, samples=None):
@@ -276,7 +276,7 @@ def test_a_chart_equals_the_closed_loops_beside_the_fold():
     run = mb.simulate(mb.assemble(windows(2)), 0.7, mb.Settings(rtol=1e-11))
     system, t, y = run.end
     charted = system if len(system.chart.offsets) else look_ahead(system, t, y).charted[0]
-    y = restated(system, t, y, charted)
+    y = convert_state(system, t, y, charted)
     loops = mb.observe(charted._replace(chart=no_chart(1, len(charted.dependent))), [t], y[None])
     assert np.max(np.abs(mb.observe(charted, [t], y[None]).bodies - loops.bodies)) < 1e-8
-    assert -charted.chart.reach < offsets_of(charted, [t], y[None])[0] < 0.0
+    assert -charted.chart.reach < chart_offsets(charted, [t], y[None])[0] < 0.0

@@ -6,36 +6,37 @@ run = simulate(ready, 0.1)                                  # kinematics where t
 seen = record(run, {"pin": Marker("rod", 0.12, 0.0)})       # motion of points, pins, powers, energy
 """
 
+from drivewright.multibody.analyses.energy_audit import audit
 from drivewright.multibody.assembly import Assembly, assemble, idealised
 from drivewright.multibody.measures import ImpactLoad, impact_load
 from drivewright.multibody.model import (
     GROUND,
+    AppliedForce,
+    AppliedTorque,
     Body,
     Bushing,
     CamPair,
     Curve,
-    Drive,
     Dry,
-    Force,
     Friction,
     Gear,
     Ideal,
-    Load,
+    JointDrive,
+    LoadCurve,
     Lubricated,
     Marker,
     MasslessLink,
-    Model,
+    MultibodyModel,
     PinSlot,
+    PointSpring,
     Prismatic,
     Revolute,
     Rolling,
     RotationalSpring,
-    Spring,
-    Torque,
     line,
 )
 from drivewright.multibody.observe import observe
-from drivewright.multibody.record import Record, audit, record
+from drivewright.multibody.record import Record, record
 from drivewright.multibody.simulate import Run, Settings, simulate
 
 __all__ = [
@@ -45,18 +46,18 @@ __all__ = [
     "Bushing",
     "CamPair",
     "Curve",
-    "Drive",
+    "JointDrive",
     "Dry",
-    "Force",
+    "AppliedForce",
     "Friction",
     "Gear",
     "Ideal",
     "ImpactLoad",
-    "Load",
+    "LoadCurve",
     "Lubricated",
     "Marker",
     "MasslessLink",
-    "Model",
+    "MultibodyModel",
     "PinSlot",
     "Prismatic",
     "Record",
@@ -65,8 +66,8 @@ __all__ = [
     "RotationalSpring",
     "Run",
     "Settings",
-    "Spring",
-    "Torque",
+    "PointSpring",
+    "AppliedTorque",
     "assemble",
     "audit",
     "idealised",

@@ -10,15 +10,16 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import null_space
 
+from drivewright._typing import Floats
 from drivewright.errors import DoesNotAssemble
 from drivewright.multibody.bodies import GROUND
 from drivewright.multibody.compile_model import compile_model, index_of, rows_and_equations
 from drivewright.multibody.forces.contact import LUGRE
 from drivewright.multibody.joints.rows import DISTANCE
-from drivewright.multibody.model import Model
-from drivewright.multibody.partition import at, misses, scaled_jacobian, split
+from drivewright.multibody.model import MultibodyModel
+from drivewright.multibody.partition import evaluate_at, partition_coordinates, scaled_jacobian, scaled_residuals
 from drivewright.multibody.singular import chart_through
-from drivewright.multibody.system import System
+from drivewright.multibody.system import RESIDUAL, System
 from drivewright.multibody.tree import Tree, build_tree, expand
 
 CLOSED = 1e-12  # largest miss of an assembled loop [rad], [lengths of the mechanism]
@@ -30,49 +31,49 @@ NUDGE = 1e-3  # how far a mechanism is moved to see whether rows depend on one a
 class Start(NamedTuple):
     """Coordinates and their rates at the start."""
 
-    q: np.ndarray
-    v: np.ndarray
+    q: Floats
+    v: Floats
 
 
 @dataclass(frozen=True, eq=False)
 class Assembly:
     """A system ready to move: `model` as given, `wide` with its massless links as bodies, the tree, the start, and findings."""
 
-    model: Model
-    wide: Model
+    model: MultibodyModel
+    expanded: MultibodyModel
     tree: Tree
     system: System
     start: Start
-    findings: tuple = ()
+    findings: tuple[str, ...] = ()
 
     @property
-    def freedom(self):
+    def freedom(self) -> int:
         """Degrees of freedom that are not driven."""
         return len(self.system.independent)
 
     @property
-    def names(self):
+    def names(self) -> tuple[str, ...]:
         """Names of the bodies in the order of the arrays, the ground first."""
         return (GROUND, *(link.body.name for link in self.tree.links))
 
     @property
-    def state(self):
+    def state(self) -> Floats:
         """The start as a state for the integrator."""
         return pack(self.system, self.start.q, self.start.v)
 
 
-def pack(system, q, v):
+def pack(system: System, q: Floats, v: Floats) -> Floats:
     """Coordinates and rates as a state, nothing remembered."""
     memory = len(system.contacts) + int(np.sum(system.contacts.law == LUGRE))
     return np.concatenate([q[system.stored], v[system.independent], np.zeros(memory)])
 
 
-def idealised(model):
+def idealised(model: MultibodyModel) -> MultibodyModel:
     """The same mechanism with every pin ideal."""
     return replace(model, joints=tuple(joint.idealised for joint in model.joints))
 
 
-def assemble(model):
+def assemble(model: MultibodyModel) -> Assembly:
     """The `Assembly` of a model.  Raises DoesNotAssemble naming the joint that cannot be closed."""
     ideal = idealised(model)
     tree = build_tree(ideal)
@@ -80,20 +81,20 @@ def assemble(model):
     found = _assemble(ideal, ideal, tree, system, _guess(tree, system))
     if ideal == model:
         return found
-    wide = expand(model)
-    tree = build_tree(wide)
-    system = compile_model(wide, tree)
-    return _assemble(model, wide, tree, system, _from_poses(tree, system, found))
+    expanded = expand(model)
+    tree = build_tree(expanded)
+    system = compile_model(expanded, tree)
+    return _assemble(model, expanded, tree, system, _from_poses(tree, system, found))
 
 
-def _assemble(model, wide, tree, system, q):
-    system, q = _close(wide, tree, system, q)
-    system, findings, folded = _without_redundant_rows(wide, tree, system, q)
-    system = split(system, q)
-    v, undecided = start_rates(model, wide, tree, system, q)
+def _assemble(model, expanded, tree, system, q):
+    system, q = _close(expanded, tree, system, q)
+    system, findings, folded = _without_redundant_rows(expanded, tree, system, q)
+    system = partition_coordinates(system, q)
+    v, undecided = start_rates(model, expanded, tree, system, q)
     if folded:
         system = _on_branch(system, q, v, undecided, folded)
-    return Assembly(model, wide, tree, system, Start(q, v), findings)
+    return Assembly(model, expanded, tree, system, Start(q, v), findings)
 
 
 # ---------------------------------------------------------------------------------------------------------------- position
@@ -106,12 +107,12 @@ def _guess(tree, system):
     for link in tree.links:
         if link.turn >= 0:
             q[link.turn] = angles[link.body.name] - (angles[link.parent] if link.inherits else 0.0)
-    return at(system, q).coordinates.q
+    return evaluate_at(system, q).coordinates.q
 
 
 def _from_poses(tree, system, found):
     """Coordinates in which the bodies are where another assembly of the same mechanism has them."""
-    other = at(found.system, found.start.q)
+    other = evaluate_at(found.system, found.start.q)
     number = {name: k for k, name in enumerate(found.names)}
     q = np.zeros(tree.size)
     angles, records = {GROUND: 0.0}, {link.body.name: system.bodies[k] for k, link in enumerate(tree.links, start=1)}
@@ -124,7 +125,7 @@ def _from_poses(tree, system, found):
             q[link.slide] = _slide(records[link.body.name], other, k, number[link.parent])
         if link.free >= 0:
             q[link.free : link.free + 2] = (other.poses.x[k], other.poses.y[k]) if k is not None else (0.0, 0.0)
-    return at(system, q).coordinates.q
+    return evaluate_at(system, q).coordinates.q
 
 
 def _slide(body, work, i, p):
@@ -138,7 +139,7 @@ def _slide(body, work, i, p):
     return float(apart @ (world(p, body.ex, body.ey) - world(i, body.fx, body.fy)))
 
 
-def _close(wide, tree, system, q):
+def _close(expanded, tree, system, q):
     """(system with the constants of gears and rolling wheels, closed coordinates)."""
     phase = np.isnan(system.rows.constant)
     loops = system._replace(rows=system.rows[~phase])
@@ -146,15 +147,15 @@ def _close(wide, tree, system, q):
     links = {link.turn for link in tree.links if link.body.name.startswith("link:")}
     free = [k for k in system.stored if k not in links]
     q = _step(loops, q, linear) if linear else q
-    for columns in (_giving_way(wide, tree, loops, q, free), free, list(system.stored)):
+    for columns in (_giving_way(expanded, tree, loops, q, free), free, list(system.stored)):
         closed, miss = _newton(loops, q, columns)
         if miss < CLOSED:
             break
     else:
-        raise DoesNotAssemble(_does_not_close(wide, loops, closed))
+        raise DoesNotAssemble(_does_not_close(expanded, loops, closed))
     rows = system.rows.copy()
     rows.constant[phase] = 0.0
-    rows.constant[phase] = at(system._replace(rows=rows), closed).columns[0, phase]
+    rows.constant[phase] = evaluate_at(system._replace(rows=rows), closed).row_columns[RESIDUAL, phase]
     return system._replace(rows=rows), closed
 
 
@@ -164,19 +165,21 @@ def _places(link):
 
 
 def _step(system, q, columns):
-    work = at(system, q)
+    work = evaluate_at(system, q)
     q = q.copy()
     if len(system.rows):
-        q[columns] -= system.sizes[columns] * np.linalg.lstsq(scaled_jacobian(system, work, columns), misses(system, work), rcond=1e-10)[0]
+        q[columns] -= (
+            system.sizes[columns] * np.linalg.lstsq(scaled_jacobian(system, work, columns), scaled_residuals(system, work), rcond=1e-10)[0]
+        )
     return q
 
 
 def _newton(system, q, columns, t=0.0):
     """(coordinates, largest miss) by Newton's method on some coordinates: least change, damped, at most half a radian, or half the
     mechanism's length, a step."""
-    work = at(system, q, t)
+    work = evaluate_at(system, q, t)
     for _ in range(60):
-        off = misses(system, work)
+        off = scaled_residuals(system, work)
         if np.max(np.abs(off), initial=0.0) < 0.01 * CLOSED or not columns:
             break
         step = np.linalg.lstsq(scaled_jacobian(system, work, columns), off, rcond=1e-12)[0]
@@ -184,22 +187,22 @@ def _newton(system, q, columns, t=0.0):
         for _ in range(10):
             trial = work.coordinates.q.copy()
             trial[columns] -= step * system.sizes[columns]
-            better = at(system, trial, t)
-            if np.linalg.norm(misses(system, better)) < np.linalg.norm(off):
+            better = evaluate_at(system, trial, t)
+            if np.linalg.norm(scaled_residuals(system, better)) < np.linalg.norm(off):
                 break
             step *= 0.5
         else:
             break
         work = better
-    return work.coordinates.q, np.max(np.abs(misses(system, work)), initial=0.0)
+    return work.coordinates.q, np.max(np.abs(scaled_residuals(system, work)), initial=0.0)
 
 
-def _giving_way(wide, tree, system, q, free):
+def _giving_way(expanded, tree, system, q, free):
     """As many coordinates as there are rows to close, those of the later bodies first, each able to move what the others cannot."""
-    order = {body.name: k for k, body in enumerate(wide.bodies)}
+    order = {body.name: k for k, body in enumerate(expanded.bodies)}
     links = sorted(tree.links, key=lambda link: -order[link.body.name])
     ranked = [k for link in links for k in _places(link)] + [link.turn for link in links]
-    jacobian = scaled_jacobian(system, at(system, q), range(len(q)))
+    jacobian = scaled_jacobian(system, evaluate_at(system, q), range(len(q)))
     chosen, basis = [], np.zeros((len(system.rows), 0))
     for k in (k for k in ranked if k in free):
         column = jacobian[:, k]
@@ -210,13 +213,13 @@ def _giving_way(wide, tree, system, q, free):
     return chosen
 
 
-def _does_not_close(wide, system, q):
-    work = at(system, q)
-    worst = int(np.argmax(np.abs(misses(system, work))))
+def _does_not_close(expanded, system, q):
+    work = evaluate_at(system, q)
+    worst = int(np.argmax(np.abs(scaled_residuals(system, work))))
     row = system.rows[worst]
-    joint = wide.joints[row.joint]
+    joint = expanded.joints[row.joint]
     pair = [k for k in range(len(system.rows)) if system.rows[k].joint == row.joint]
-    miss = np.linalg.norm(work.columns[0][pair])
+    miss = np.linalg.norm(work.row_columns[0][pair])
     bodies = " and ".join(repr(name) for name in dict.fromkeys(joint.bodies))
     how = f"{1e3 * miss:.4g} mm" if row.ex or row.ey or row.kind == DISTANCE else f"{np.degrees(miss):.4g} deg"
     return (
@@ -228,23 +231,23 @@ def _does_not_close(wide, system, q):
 # ------------------------------------------------------------------------------------------------------ redundancy and split
 
 
-def _without_redundant_rows(wide, tree, system, q):
+def _without_redundant_rows(expanded, tree, system, q):
     """(system without rows that others imply, a finding for each joint concerned, the joint whose rows others imply only at the start)."""
-    kept = _independent_rows(scaled_jacobian(system, at(system, q), system.stored))
+    kept = _independent_rows(scaled_jacobian(system, evaluate_at(system, q), system.stored))
     if len(kept) == len(system.rows):
         return system, (), None
     nudged, t = _nudge(system, q)
-    again = _independent_rows(scaled_jacobian(system, at(system, nudged, t), system.stored))
+    again = _independent_rows(scaled_jacobian(system, evaluate_at(system, nudged, t), system.stored))
     if len(again) > len(kept):
-        folded = wide.joints[system.rows[next(k for k in again if k not in kept)].joint].name
+        folded = expanded.joints[system.rows[next(k for k in again if k not in kept)].joint].name
         return system._replace(rows=system.rows[again]), (), folded
     dropped = [k for k in range(len(system.rows)) if k not in kept]
-    names = list(dict.fromkeys(wide.joints[system.rows[k].joint].name for k in dropped))
-    whole = scaled_jacobian(system, at(system, q), range(len(q)))
+    names = list(dict.fromkeys(expanded.joints[system.rows[k].joint].name for k in dropped))
+    whole = scaled_jacobian(system, evaluate_at(system, q), range(len(q)))
     for k in dropped:
         if np.linalg.matrix_rank(whole[[*kept, k]], RANK) > np.linalg.matrix_rank(whole[kept], RANK):
             raise DoesNotAssemble(
-                f"the drive cannot move: joint {wide.joints[system.rows[k].joint].name!r} holds the mechanism fast. "
+                f"the drive cannot move: joint {expanded.joints[system.rows[k].joint].name!r} holds the mechanism fast. "
                 "Remove a joint or a drive, or free a direction (pin-slot instead of prismatic)"
             )
     findings = tuple(
@@ -282,7 +285,7 @@ def _independent_rows(jacobian):
 
 def _nudge(system, q):
     """Coordinates and time of the mechanism moved on a little: its drives, and what is free of them at the moment (in a dead point)."""
-    work, q = at(system, q), q.copy()
+    work, q = evaluate_at(system, q), q.copy()
     fastest = np.max(np.abs(work.coordinates.v) / system.sizes, initial=0.0)
     t = NUDGE / fastest if fastest > 0 else 0.0
     free = null_space(scaled_jacobian(system, work, system.stored))
@@ -293,17 +296,17 @@ def _nudge(system, q):
 # ------------------------------------------------------------------------------------------------------------------- rates
 
 
-def start_rates(model, wide, tree, system, q):
+def start_rates(model: MultibodyModel, expanded: MultibodyModel, tree: Tree, system: System, q: Floats) -> tuple[Floats, int]:
     """(rates of all coordinates, number of freedoms that these leave): driven ones as driven, loops closed, then as near as possible to the
     rates given for the bodies, then pins with play and links as if they were ideal, and nothing that moves without need."""
-    work = at(system, q)
+    work = evaluate_at(system, q)
     size = len(q)
     pick = np.eye(size)
     driven = system.driven.coordinate
-    given, together = _given_rates(wide, tree, system, work), _concentric(model, wide, tree, system, q)
+    given, together = _given_rates(expanded, tree, system, work), _concentric(model, expanded, tree, system, q)
     stages = [
         (pick[driven], work.coordinates.v[driven]),
-        (work.jacobian / system.rows.extent[:, None], np.zeros(len(system.rows))),
+        (work.constraint_jacobian / system.rows.extent[:, None], np.zeros(len(system.rows))),
         given,
         together,
     ]
@@ -315,22 +318,22 @@ def start_rates(model, wide, tree, system, q):
     return x, free.shape[1]
 
 
-def _given_rates(wide, tree, system, work):
+def _given_rates(expanded, tree, system, work):
     rows, wanted = [], []
     for k, link in enumerate(tree.links, start=1):
         if link.body.velocity is not None:
-            rows += [work.levers.x[k] / system.length, work.levers.y[k] / system.length]
+            rows += [work.partial_velocities.x[k] / system.length, work.partial_velocities.y[k] / system.length]
             wanted += [v / system.length for v in link.body.velocity]
         if link.body.angular_velocity is not None:
-            rows.append(work.levers.t[k])
+            rows.append(work.partial_velocities.t[k])
             wanted.append(link.body.angular_velocity)
     return np.array(rows).reshape(-1, len(work.coordinates)), np.array(wanted)
 
 
-def _concentric(model, wide, tree, system, q):
+def _concentric(model, expanded, tree, system, q):
     """Rows that hold pins with play together, and massless links still."""
-    index = index_of(wide, tree)
-    rows, _ = rows_and_equations([row for joint in wide.joints if not joint.is_constraint for row in joint.constraint_rows(index)])
+    index = index_of(expanded, tree)
+    rows, _ = rows_and_equations([row for joint in expanded.joints if not joint.is_constraint for row in joint.constraint_rows(index)])
     links = np.eye(len(q))[[link.turn for link in tree.links if link.body.name.startswith("link:")]].reshape(-1, len(q))
-    jacobian = np.concatenate([at(system._replace(rows=rows), q).jacobian / system.length, links])
+    jacobian = np.concatenate([evaluate_at(system._replace(rows=rows), q).constraint_jacobian / system.length, links])
     return jacobian, np.zeros(len(jacobian))

@@ -9,48 +9,58 @@ which the loops are closed exactly; what the rest of the program sees is the smo
 import numpy as np
 
 from drivewright._jit import inner, outer
-from drivewright.multibody.kinematics import bend, body_bends, body_velocities, close, drive, led, move, place
-from drivewright.multibody.system import COLUMN, DRIFT
+from drivewright._typing import Bools, Floats
+from drivewright.multibody.kinematics import (
+    close_loops,
+    regular_dependency_on_drive,
+    update_body_velocities,
+    update_body_velocity_products,
+    update_driven_coordinates,
+    update_poses,
+    update_velocities,
+    update_velocity_products,
+)
+from drivewright.multibody.system import BIAS, SCRATCH, System, Work
 
 FOLD = 0.2  # part of a chart's reach about its middle
 
 
 @inner
-def configure(system, work, t, y):
+def update_kinematics(system: System, work: Work, t: float, y: Floats) -> bool:
     """Coordinates and rates of a state, dependent ones included, poses, velocities and drift; False where the loops cannot be closed."""
     if system.chart.offsets.size > 0:
-        return interpolated(system, work, t, y)
-    return regular(system, work, t, y)
+        return update_interpolated(system, work, t, y)
+    return update_regular(system, work, t, y)
 
 
 @outer
-def regular(system, work, t, y):
-    """`configure` where the loops determine the dependent coordinates; called, not inlined: it is half of every right-hand side."""
-    closed = pose(system, work, t, y)
-    move(system, work)
-    bend(system, work)
+def update_regular(system: System, work: Work, t: float, y: Floats) -> bool:
+    """`update_kinematics` where the loops determine the dependent coordinates; called, not inlined: it is half of every right-hand side."""
+    closed = update_positions(system, work, t, y)
+    update_velocities(system, work)
+    update_velocity_products(system, work)
     return closed
 
 
 @outer
-def pose(system, work, t, y):
+def update_positions(system: System, work: Work, t: float, y: Floats) -> bool:
     """Coordinates of the state, loops closed, bodies placed; False where the loops cannot be closed."""
-    take(system, work, t, y)
-    return close(system, work)
+    assign_state(system, work, t, y)
+    return close_loops(system, work)
 
 
 @inner
-def take(system, work, t, y):
+def assign_state(system: System, work: Work, t: float, y: Floats) -> None:
     """Coordinates and independent rates of a state into `work`, drives set."""
     for k in range(system.stored.size):
         work.coordinates[system.stored[k]].q = y[k]
     for m in range(system.independent.size):
         work.coordinates[system.independent[m]].v = y[system.stored.size + m]
-    drive(system, work, t)
+    update_driven_coordinates(system, work, t)
 
 
 @inner
-def offset_of(system, t, y):
+def chart_offset(system: System, t: float, y: Floats) -> float:
     """x: how far a state stands from the singular position of the chart."""
     chart = system.chart
     x, m = chart.normal_time * (t - chart.origin_time), 0
@@ -62,7 +72,7 @@ def offset_of(system, t, y):
 
 
 @inner
-def weight(offsets, k, x):
+def lagrange_weight(offsets: Floats, k: int, x: float) -> float:
     """Lagrange's polynomial of the node k at x."""
     product = 1.0
     for j in range(offsets.size):
@@ -72,15 +82,15 @@ def weight(offsets, k, x):
 
 
 @outer
-def interpolated(system, work, t, y):
-    """`configure` between the nodes of the chart."""
-    x, closed = offset_of(system, t, y), True
-    work.sums[:] = 0.0
+def update_interpolated(system: System, work: Work, t: float, y: Floats) -> bool:
+    """`update_kinematics` between the nodes of the chart."""
+    x, closed = chart_offset(system, t, y), True
+    work.node_sums[:] = 0.0
     for k in range(system.chart.offsets.size):
         shift = system.chart.offsets[k] - x
         _node(system, work, k, shift, y)
-        closed &= regular(system, work, t + shift * system.chart.pace, work.node)
-        _add(system, work, weight(system.chart.offsets, k, x))
+        closed &= update_regular(system, work, t + shift * system.chart.pace, work.node_state)
+        _add(system, work, lagrange_weight(system.chart.offsets, k, x))
     _assign(system, work, t, y)
     return closed
 
@@ -91,13 +101,13 @@ def _node(system, work, k, shift, y):
     chart, m, r = system.chart, 0, 0
     for s in range(system.stored.size):
         if m < system.independent.size and system.stored[s] == system.independent[m]:
-            work.node[s] = y[s] + shift * chart.direction[m]
+            work.node_state[s] = y[s] + shift * chart.direction[m]
             m += 1
         else:
-            work.node[s] = chart.guesses[k, r]
+            work.node_state[s] = chart.guesses[k, r]
             r += 1
     for m in range(system.independent.size):
-        work.node[system.stored.size + m] = y[system.stored.size + m]
+        work.node_state[system.stored.size + m] = y[system.stored.size + m]
 
 
 @inner
@@ -106,65 +116,65 @@ def _add(system, work, part):
     free = system.independent.size
     for r in range(system.rows.size):
         dependent = work.coordinates[system.dependent[r]]
-        work.sums[r, 0] += part * dependent.q
-        work.sums[r, 1] += part * dependent.v
-        work.sums[r, 2] += part * work.columns[DRIFT, r]
+        work.node_sums[r, 0] += part * dependent.q
+        work.node_sums[r, 1] += part * dependent.v
+        work.node_sums[r, 2] += part * work.row_columns[BIAS, r]
         for m in range(free):
-            work.sums[r, 3 + m] += part * work.follow[r, m]
+            work.node_sums[r, 3 + m] += part * work.dependency_matrix[r, m]
     for d in range(system.driven.size):
-        led(system, work, d)
+        regular_dependency_on_drive(system, work, d)
         for r in range(system.rows.size):
-            work.sums[r, 3 + free + d] += part * work.columns[COLUMN, r]
+            work.node_sums[r, 3 + free + d] += part * work.row_columns[SCRATCH, r]
 
 
 @inner
 def _assign(system, work, t, y):
     """The sums as what follows from the state, and the bodies accordingly."""
-    take(system, work, t, y)
+    assign_state(system, work, t, y)
     for r in range(system.rows.size):
         dependent = work.coordinates[system.dependent[r]]
-        dependent.q, dependent.v = work.sums[r, 0], work.sums[r, 1]
-        work.columns[DRIFT, r] = work.sums[r, 2]
-        for m in range(work.follow.shape[1]):
-            work.follow[r, m] = work.sums[r, 3 + m]
-    place(system, work)
-    body_velocities(system, work)
-    body_bends(system, work)
+        dependent.q, dependent.v = work.node_sums[r, 0], work.node_sums[r, 1]
+        work.row_columns[BIAS, r] = work.node_sums[r, 2]
+        for m in range(work.dependency_matrix.shape[1]):
+            work.dependency_matrix[r, m] = work.node_sums[r, 3 + m]
+    update_poses(system, work)
+    update_body_velocities(system, work)
+    update_body_velocity_products(system, work)
 
 
 @inner
-def lead(system, work, d):
-    """d(dependent)/d(driven coordinate d) at the state that `work` holds, in work.columns[COLUMN]."""
+def dependency_on_drive(system: System, work: Work, d: int) -> None:
+    """d(dependent)/d(driven coordinate d) at the state that `work` holds, in work.row_columns[COLUMN]."""
     if system.chart.offsets.size > 0:
         for r in range(system.rows.size):
-            work.columns[COLUMN, r] = work.follow[r, system.independent.size + d]
+            work.row_columns[SCRATCH, r] = work.dependency_matrix[r, system.independent.size + d]
     else:
-        led(system, work, d)
+        regular_dependency_on_drive(system, work, d)
 
 
 @outer
-def configure_at(system, work, t, y):
-    """`configure`, to be called from Python."""
-    return configure(system, work, t, y)
+def solve_kinematics(system: System, work: Work, t: float, y: Floats) -> bool:
+    """`update_kinematics`, to be called from Python."""
+    return update_kinematics(system, work, t, y)
 
 
 @outer
-def configure_all(system, work, t, y, q, v):
+def solve_kinematics_all(system: System, work: Work, t: Floats, y: Floats, q: Floats, v: Floats) -> None:
     """Coordinates and rates (m, coordinates) of states y (m, n) at the times t (m,)."""
     for n in range(t.size):
-        configure(system, work, t[n], y[n])
+        update_kinematics(system, work, t[n], y[n])
         for k in range(work.coordinates.size):
             q[n, k], v[n, k] = work.coordinates[k].q, work.coordinates[k].v
 
 
-def clear_of_fold(system, t, y):
+def outside_fold(system: System, t: Floats, y: Floats) -> Bools:
     """Which of the states y (m, n) at the times t (m,) are not in the middle of a chart, where forces in the joints are mere limits."""
     if len(system.chart.offsets) == 0:
         return np.full(len(t), True)
-    return np.abs(offsets_of(system, t, y)) > FOLD * system.chart.reach
+    return np.abs(chart_offsets(system, t, y)) > FOLD * system.chart.reach
 
 
-def offsets_of(system, t, y):
+def chart_offsets(system: System, t: Floats, y: Floats) -> Floats:
     """x (m,) of states y (m, n) at the times t (m,)."""
     chart = system.chart
     z = np.asarray(y)[:, np.searchsorted(system.stored, system.independent)]

@@ -17,8 +17,8 @@ from drivewright.multibody.forces.spring import SPRING
 from drivewright.multibody.index import ModelIndex, unit_axis
 from drivewright.multibody.joints.joint import Joint, RowFields
 from drivewright.multibody.joints.rows import FURTHER, LINEAR, Equations, NoEquations
-from drivewright.multibody.model import Drive, Model
-from drivewright.multibody.records import record_of, table_of
+from drivewright.multibody.model import JointDrive, MultibodyModel
+from drivewright.multibody.records import Records, record_of, table_of
 from drivewright.multibody.system import BODY, CURVE, DRIVEN, PIECE, ROW, System, length_of, no_chart
 from drivewright.multibody.tree import Link, Tree, far_end
 
@@ -32,7 +32,7 @@ FORCE_TABLES = {
 }  # field of the system -> type of its records
 
 
-def index_of(model: Model, tree: Tree) -> ModelIndex:
+def index_of(model: MultibodyModel, tree: Tree) -> ModelIndex:
     """The `ModelIndex` of an expanded model, without curves yet."""
     return ModelIndex(
         {GROUND: 0} | {link.body.name: k for k, link in enumerate(tree.links, start=1)},
@@ -43,7 +43,7 @@ def index_of(model: Model, tree: Tree) -> ModelIndex:
     )
 
 
-def compile_model(model: Model, tree: Tree) -> System:
+def compile_model(model: MultibodyModel, tree: Tree) -> System:
     """`System` of an expanded model; the split into dependent and independent coordinates is not made yet."""
     index = index_of(model, tree)
     bodies = [record_of(BODY, {"parent": 0, "turn": -1, "slide": -1, "free": -1}), *(_body(link, index) for link in tree.links)]
@@ -88,7 +88,7 @@ def compile_model(model: Model, tree: Tree) -> System:
     )
 
 
-def rows_and_equations(rows: Sequence[RowFields]) -> tuple[np.recarray, NoEquations | Equations]:
+def rows_and_equations(rows: Sequence[RowFields]) -> tuple[Records, NoEquations | Equations]:
     """Records of constraint rows, and the equations of those whose kind is none of the package; every class of equations gets a number."""
     codes: dict[type, int] = {}
     equations: NoEquations | Equations = NoEquations()
@@ -110,7 +110,7 @@ def _laws(laws: Sequence[Any]) -> NoLaws | Laws:
     return chain
 
 
-def _measures_angles(rows: np.recarray) -> Bools:
+def _measures_angles(rows: Records) -> Bools:
     """Which rows have an angle for a residual; the others have a length."""
     return (rows.kind == LINEAR) & (rows.ex == 0.0) & (rows.ey == 0.0)
 
@@ -122,7 +122,7 @@ def _sizes(tree: Tree, length: float) -> Floats:
     return sizes
 
 
-def _curves(curves: Sequence[Curve]) -> tuple[np.recarray, np.recarray]:
+def _curves(curves: Sequence[Curve]) -> tuple[Records, Records]:
     """Records of the curves and of their pieces."""
     records, pieces = [], []
     for curve in curves:
@@ -155,7 +155,7 @@ def _body(link: Link, index: ModelIndex) -> np.ndarray:
     return record_of(BODY, known)
 
 
-def _driven(drive: Drive, model: Model, tree: Tree, index: ModelIndex) -> dict[str, float]:
+def _driven(drive: JointDrive, model: MultibodyModel, tree: Tree, index: ModelIndex) -> dict[str, float]:
     """The coordinate of a driven joint: rotation or slide of the joint's first body relative to its second, of the other one relative to
     the ground."""
     joint = next((j for j in model.joints if j.name == drive.joint), None)

@@ -10,13 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from drivewright._jit import inner, outer
-from drivewright.multibody.chart import configure, configure_all, configure_at
+from drivewright._typing import Floats
+from drivewright.multibody.chart import solve_kinematics, solve_kinematics_all, update_kinematics
 from drivewright.multibody.dynamics import validity_of_split
-from drivewright.multibody.kinematics import determinant
-from drivewright.multibody.partition import at, split_into
-from drivewright.multibody.passages import passage
+from drivewright.multibody.kinematics import jacobian_determinant
+from drivewright.multibody.partition import evaluate_at, partition_into
+from drivewright.multibody.passages import Passage, passage
 from drivewright.multibody.singular import Outlook, look_ahead
-from drivewright.multibody.system import System, motion
+from drivewright.multibody.system import System, Work, motion
 
 LONGEST = 0.05  # way of the fastest coordinate in a step [rad], [lengths of the mechanism]
 BENT = 0.25  # Newton's correction, and half the change of the rates, over the way of a step
@@ -33,10 +34,10 @@ class Stretch:
     """States y (m, n) at the times t (m,) of one system, that is of one split of the coordinates; the end of it is in `t_end`, `y_end`."""
 
     system: System
-    t: np.ndarray
-    y: np.ndarray
+    t: Floats
+    y: Floats
     t_end: float
-    y_end: np.ndarray
+    y_end: Floats
 
 
 @dataclass(frozen=True)
@@ -44,13 +45,13 @@ class Continuation:
     """Stretches one after another, the singular positions passed, the time reached, and whether it is stuck or was asked to stop there,
     before a singular position."""
 
-    stretches: tuple
-    passages: tuple
+    stretches: tuple[Stretch, ...]
+    passages: tuple[Passage, ...]
     reached: float
     outcome: str  # "finished", "stuck" or "stopped"
 
 
-def continued(system, times, end, y, stop=False, refine=False):
+def continue_motion(system: System, times: Floats, end: float, y: Floats, stop: bool = False, refine: bool = False) -> Continuation:
     """The `Continuation` of a driven system from its state y at time 0 through ascending times to the end; it ends in the first singular
     position with `stop`.  With `refine` times are added where two branches come near each other and the motion bends sharply."""
     t, stretches, passages = 0.0, [], []
@@ -77,8 +78,8 @@ def continued(system, times, end, y, stop=False, refine=False):
 def _split(system, t, y):
     """The system without a chart, its determinant measured at the state."""
     work = motion(system).work
-    configure_at(system, work, t, y)
-    return split_into(system, system.dependent, at(system, work.coordinates.q, t))
+    solve_kinematics(system, work, t, y)
+    return partition_into(system, system.dependent, evaluate_at(system, work.coordinates.q, t))
 
 
 def _carried(system, t, times, end, y):
@@ -86,7 +87,7 @@ def _carried(system, t, times, end, y):
     moving, y = motion(system), y.copy()
     ways = np.append(times, end)
     states = np.empty((len(ways), len(y)))
-    t_end, count, code = follow_all(moving.system, moving.work, t, ways, y, np.empty_like(y), states)
+    t_end, count, code = continue_through(moving.system, moving.work, t, ways, y, np.empty_like(y), states)
     count = min(count, len(times))
     return Stretch(system, times[:count], states[:count], t_end, y), code
 
@@ -114,17 +115,19 @@ def _states(system, times, y):
     """States (m, n) of a driven system at times within its chart; what elements remember is as in the state y."""
     moving, states = motion(system), np.tile(y, (len(times), 1))
     q, v = np.empty((2, len(times), len(system.sizes)))
-    configure_all(moving.system, moving.work, times, states, q, v)
+    solve_kinematics_all(moving.system, moving.work, times, states, q, v)
     states[:, : len(system.stored)] = q[:, system.stored]
     return states
 
 
 @outer
-def follow_all(system, work, start, times, y, rates, states):
+def continue_through(
+    system: System, work: Work, start: float, times: Floats, y: Floats, rates: Floats, states: Floats
+) -> tuple[float, int, int]:
     """Carry the dependent coordinates in y from time `start` through all times, filling `states`: (time reached, samples, why it ends)."""
     t = start
     for n in range(times.size):
-        t, code = follow(system, work, t, times[n], y, rates)
+        t, code = continue_to(system, work, t, times[n], y, rates)
         if code != REACHED:
             return t, n, code
         for k in range(y.size):
@@ -133,35 +136,35 @@ def follow_all(system, work, start, times, y, rates, states):
 
 
 @inner
-def follow(system, work, t, end, y, rates):
+def continue_to(system: System, work: Work, t: float, end: float, y: Floats, rates: Floats) -> tuple[float, int]:
     """Carry the dependent coordinates in y on to the time `end`, in steps small enough to stay on the same branch: (time reached, why it
     ends).  rates is scratch, of the size of y."""
-    configure(system, work, t, y)
-    step, size = end - t, determinant(system, work)
+    update_kinematics(system, work, t, y)
+    step, size = end - t, jacobian_determinant(system, work)
     while t != end:
         if validity_of_split(system, work) <= 0.0:
             return t, WEAK
         step = _predict(system, work, y, step, rates)
         if abs(end - t - step) <= 1e-15 * abs(end):
             step = end - t
-        closed = configure(system, work, t + step, work.node)
-        left = determinant(system, work) / size if size != 0.0 else 1.0
+        closed = update_kinematics(system, work, t + step, work.node_state)
+        left = jacobian_determinant(system, work) / size if size != 0.0 else 1.0
         if closed and left >= SHRUNK and _straight(system, work, rates, step):
-            t, size = end if step == end - t else t + step, determinant(system, work)
+            t, size = end if step == end - t else t + step, jacobian_determinant(system, work)
             for k in range(system.stored.size):
                 y[k] = work.coordinates[system.stored[k]].q
             step = end - t
         elif abs(step) < SHORTEST * max(abs(end), 1e-9):
             return t, STUCK
         else:
-            configure(system, work, t, y)
+            update_kinematics(system, work, t, y)
             step *= 0.5
     return t, REACHED
 
 
 @inner
 def _predict(system, work, y, step, rates):
-    """Where the rates lead to in a step, in work.node, the rates, and the step: no longer than LONGEST."""
+    """Where the rates lead to in a step, in work.node_state, the rates, and the step: no longer than LONGEST."""
     fastest = 0.0
     for k in range(system.stored.size):
         rates[k] = work.coordinates[system.stored[k]].v
@@ -169,19 +172,19 @@ def _predict(system, work, y, step, rates):
     if abs(step) * fastest > LONGEST:
         step = np.copysign(LONGEST / fastest, step)
     for k in range(system.stored.size):
-        work.node[k] = y[k] + step * rates[k]
+        work.node_state[k] = y[k] + step * rates[k]
     return step
 
 
 @inner
 def _straight(system, work, rates, step):
-    """Whether the branch is nearly straight over a step from where the rates were these to what `work` holds; work.node is predicted."""
+    """Whether the branch is nearly straight over a step from where the rates were these to what `work` holds; node_state is predicted."""
     way = 0.0
     for k in range(system.stored.size):
         way = max(way, abs(rates[k] * step) / system.sizes[system.stored[k]])
     for k in range(system.stored.size):
         coordinate, size = work.coordinates[system.stored[k]], system.sizes[system.stored[k]]
-        off, turned = abs(coordinate.q - work.node[k]) / size, abs((coordinate.v - rates[k]) * step) / size
+        off, turned = abs(coordinate.q - work.node_state[k]) / size, abs((coordinate.v - rates[k]) * step) / size
         if off > BENT * way + STEADY or turned > 2 * BENT * way + STEADY:
             return False
     return True

@@ -6,6 +6,7 @@ import numpy as np
 
 from drivewright._jit import outer
 from drivewright._typing import Floats, Numbers
+from drivewright.multibody.records import Records
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +36,7 @@ def curve_slope(curve: Curve, x: Numbers) -> Floats:
 
 
 @outer
-def curve_at(curves: np.recarray, pieces: np.recarray, index: int, x: float) -> tuple[float, float, float]:
+def curve_at(curves: Records, pieces: Records, index: int, x: float) -> tuple[float, float, float]:
     """(f, f', f'') of the curve number `index` at x.  curves (n,) of CURVE, pieces (k,) of PIECE."""
     curve = curves[index]
     low, high = curve.first, curve.first + curve.count - 1

@@ -34,7 +34,8 @@ def rounded(points: ArrayLike, radius: float) -> Outline:
     if hull.geom_type == "Point":
         return circle(points[0], radius)
     if hull.geom_type == "LineString":
-        return capsule(*shapely.get_coordinates(hull), radius)
+        start, end = shapely.get_coordinates(hull)
+        return capsule(tuple(start), tuple(end), radius)
     return _plate(shapely.get_coordinates(shapely.orient_polygons(hull))[:-1], radius)
 
 

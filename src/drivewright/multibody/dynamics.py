@@ -7,12 +7,13 @@ the state only start Newton's method: the loops are closed anew, exactly, at eve
 import numpy as np
 
 from drivewright._jit import implements, inner
-from drivewright.multibody.chart import configure, interpolated, offset_of, pose
+from drivewright._typing import Floats
+from drivewright.multibody.chart import chart_offset, update_interpolated, update_kinematics, update_positions
 from drivewright.multibody.curves import curve_at
 from drivewright.multibody.forces.contact import LUGRE
-from drivewright.multibody.kinematics import determinant, move
-from drivewright.multibody.loads import LASTING, SLOWEST, approach, contact_signs, load
-from drivewright.multibody.system import DRIFT, Motion
+from drivewright.multibody.kinematics import jacobian_determinant, update_velocities
+from drivewright.multibody.loads import LASTING, SLOWEST, apply_forces, contact_signs, gap_motion
+from drivewright.multibody.system import BIAS, Motion, System, Work
 from drivewright.numerics.ode import events, rate, switch
 from drivewright.numerics.small import cholesky_factor, cholesky_substitute
 
@@ -27,7 +28,7 @@ def _(motion, t, y, dy):
 
 @implements(events, Motion)
 def _(motion, t, y, values):
-    depths(motion.system, motion.work, t, y, values)
+    event_values(motion.system, motion.work, t, y, values)
 
 
 @implements(switch, Motion)
@@ -36,12 +37,12 @@ def _(motion, index, t, y):
 
 
 @inner
-def accelerations(system, work, t, y, dy):
+def accelerations(system: System, work: Work, t: float, y: Floats, dy: Floats) -> None:
     """dy of the state y: rates of the stored coordinates, accelerations of the independent ones, rates of what elements remember."""
-    closed = configure(system, work, t, y)
-    inertia(system, work)
-    load(system, work, t, y, dy)
-    accelerate(system, work)
+    closed = update_kinematics(system, work, t, y)
+    update_mass_matrix(system, work)
+    apply_forces(system, work, t, y, dy)
+    solve_accelerations(system, work)
     for k in range(system.stored.size):
         dy[k] = work.coordinates[system.stored[k]].v
     for m in range(system.independent.size):
@@ -49,22 +50,22 @@ def accelerations(system, work, t, y, dy):
 
 
 @inner
-def depths(system, work, t, y, values):
+def event_values(system: System, work: Work, t: float, y: Floats, values: Floats) -> None:
     """Whether the split of the coordinates, or the chart, still serves (below 0 it does not); how far the state stands from the singular
     position of the chart; then the depth of every pin with play: it touches where this rises through 0 and lets go where it falls; then
     the other `contact_signs` of all pins, one kind after the other."""
     pins = system.contacts.size
     if system.chart.offsets.size > 0:
-        interpolated(system, work, t, y)
-        inertia(system, work)
-        values[1] = offset_of(system, t, y)
+        update_interpolated(system, work, t, y)
+        update_mass_matrix(system, work)
+        values[1] = chart_offset(system, t, y)
         values[0] = 1.0 - (values[1] / system.chart.reach) ** 2
     else:
-        if not stands(system, work, t, y):  # at the end of a step the last rates were those of this very state
-            pose(system, work, t, y)
-            if touches(system, y):
-                move(system, work)
-                inertia(system, work)
+        if not is_current(system, work, t, y):  # at the end of a step the last rates were those of this very state
+            update_positions(system, work, t, y)
+            if has_contact(system, y):
+                update_velocities(system, work)
+                update_mass_matrix(system, work)
         values[0], values[1] = validity_of_split(system, work), 1.0
     for n in range(pins):
         depth, reversal, hold = contact_signs(system, n, work, y)
@@ -72,7 +73,7 @@ def depths(system, work, t, y, values):
 
 
 @inner
-def touches(system, y):
+def has_contact(system: System, y: Floats) -> bool:
     """Whether a pin with play touches."""
     found = False
     for n in range(system.contacts.size):
@@ -81,7 +82,7 @@ def touches(system, y):
 
 
 @inner
-def stands(system, work, t, y):
+def is_current(system: System, work: Work, t: float, y: Floats) -> bool:
     """Whether the bodies are placed for this state already: driven and independent coordinates are the same, and these have their rates."""
     for d in range(system.driven.size):
         driven = system.driven[d]
@@ -98,7 +99,7 @@ def stands(system, work, t, y):
 
 
 @inner
-def validity_of_split(system, work):
+def validity_of_split(system: System, work: Work) -> float:
     """Above 0 while the determinant is within a decade of that where the coordinates were split, with the same sign.
 
     It changes its sign in the singular position of a single loop, and stays small about that of several, so that no step of the
@@ -106,12 +107,12 @@ def validity_of_split(system, work):
     """
     if system.reference_determinant == 0.0:
         return 1.0
-    share = determinant(system, work) / system.reference_determinant
+    share = jacobian_determinant(system, work) / system.reference_determinant
     return min(share - DECADE, 1.0 - DECADE * share)
 
 
 @inner
-def contact_event(system, work, index, t, y):
+def contact_event(system: System, work: Work, index: int, t: float, y: Floats) -> None:
     """A pin touches: remember the speed of approach.  It lets go, or is compressed anew without having let go: forget it."""
     pins, pin = system.contacts.size, index - FIRST_PIN
     if pin >= pins:
@@ -119,8 +120,8 @@ def contact_event(system, work, index, t, y):
             y[system.contacts[pin - pins].memory] = LASTING
         return
     contact = system.contacts[pin]
-    configure(system, work, t, y)
-    _, rate, _, _, _, _, _ = approach(system, pin, work, 0.0)
+    update_kinematics(system, work, t, y)
+    _, rate, _, _, _, _, _ = gap_motion(system, pin, work, 0.0)
     if (y[contact.memory] != 0.0) == (rate > 0.0):  # a touch, or a letting go, seen twice by rounding
         return
     y[contact.memory] = 0.0 if y[contact.memory] != 0.0 else max(rate, SLOWEST)
@@ -129,30 +130,30 @@ def contact_event(system, work, index, t, y):
 
 
 @inner
-def inertia(system, work):
-    """Levers R = d(body)/d(independent) of the bodies, and the factor of the mass matrix  sum R^T M R."""
+def update_mass_matrix(system: System, work: Work) -> None:
+    """Partial velocities R = d(body)/d(independent) of the bodies, and the factor of the mass matrix  sum R^T M R."""
     free = system.independent.size
     for m in range(free):
         for n in range(m + 1):
             work.mass[m, n] = 0.0
     for i in range(1, system.bodies.size):
         body = system.bodies[i]
-        if body.driven:  # its levers stay zero
+        if body.driven:  # its partials stay zero
             continue
-        reduce_body(system, work, i)
+        reduce_partial_velocities(system, work, i)
         if body.mass == 0.0 and body.inertia == 0.0:
             continue
         for m in range(free):
-            one = work.reduced[i, m]
+            one = work.reduced_partial_velocities[i, m]
             for n in range(m + 1):
-                two = work.reduced[i, n]
+                two = work.reduced_partial_velocities[i, n]
                 work.mass[m, n] += body.mass * (one.x * two.x + one.y * two.y) + body.inertia * one.t * two.t
     cholesky_factor(work.mass)
 
 
 @inner
-def accelerate(system, work):
-    """Solve  sum R^T M R a = sum R^T (F - M b)  for the independent accelerations (in work.force), after `inertia`."""
+def solve_accelerations(system: System, work: Work) -> None:
+    """Solve  sum R^T M R a = sum R^T (F - M b)  for the independent accelerations (in work.force), after `update_mass_matrix`."""
     free = system.independent.size
     for m in range(free):
         work.force[m] = 0.0
@@ -162,40 +163,40 @@ def accelerate(system, work):
         if body.driven or (body.mass == 0.0 and body.inertia == 0.0 and fx == 0.0 and fy == 0.0 and ft == 0.0):
             continue
         if body.mass != 0.0 or body.inertia != 0.0:
-            bx, by, bt = residual_bend(system, work, i)
+            bx, by, bt = bias_acceleration(system, work, i)
             fx += body.mass * (system.gravity_x - bx)
             fy += body.mass * (system.gravity_y - by)
             ft -= body.inertia * bt
         for m in range(free):
-            lever = work.reduced[i, m]
-            work.force[m] += lever.x * fx + lever.y * fy + lever.t * ft
+            partial = work.reduced_partial_velocities[i, m]
+            work.force[m] += partial.x * fx + partial.y * fy + partial.t * ft
     cholesky_substitute(work.mass, work.force)
 
 
 @inner
-def reduce_body(system, work, i):
-    """Levers of body i by the independent coordinates, the dependent ones following."""
+def reduce_partial_velocities(system: System, work: Work, i: int) -> None:
+    """Partial velocities of body i by the independent coordinates, the dependent ones following."""
     for m in range(system.independent.size):
-        lever = work.levers[i, system.independent[m]]
-        x, y, t = lever.x, lever.y, lever.t
+        partial = work.partial_velocities[i, system.independent[m]]
+        x, y, t = partial.x, partial.y, partial.t
         for r in range(system.rows.size):
-            held = work.levers[i, system.dependent[r]]
-            x += held.x * work.follow[r, m]
-            y += held.y * work.follow[r, m]
-            t += held.t * work.follow[r, m]
-        reduced = work.reduced[i, m]
+            held = work.partial_velocities[i, system.dependent[r]]
+            x += held.x * work.dependency_matrix[r, m]
+            y += held.y * work.dependency_matrix[r, m]
+            t += held.t * work.dependency_matrix[r, m]
+        reduced = work.reduced_partial_velocities[i, m]
         reduced.x, reduced.y, reduced.t = x, y, t
 
 
 @inner
-def residual_bend(system, work, i):
+def bias_acceleration(system: System, work: Work, i: int) -> tuple[float, float, float]:
     """Acceleration of body i with the independent accelerations zero."""
-    bx, by, bt = work.poses[i].bx, work.poses[i].by, 0.0
+    bx, by, bt = work.poses[i].bias_x, work.poses[i].bias_y, 0.0
     for d in range(system.driven.size):
         k = system.driven[d].coordinate
-        lever, a = work.levers[i, k], work.coordinates[k].a
-        bx, by, bt = bx + lever.x * a, by + lever.y * a, bt + lever.t * a
+        partial, a = work.partial_velocities[i, k], work.coordinates[k].a
+        bx, by, bt = bx + partial.x * a, by + partial.y * a, bt + partial.t * a
     for r in range(system.rows.size):
-        lever, a = work.levers[i, system.dependent[r]], work.columns[DRIFT, r]
-        bx, by, bt = bx + lever.x * a, by + lever.y * a, bt + lever.t * a
+        partial, a = work.partial_velocities[i, system.dependent[r]], work.row_columns[BIAS, r]
+        bx, by, bt = bx + partial.x * a, by + partial.y * a, bt + partial.t * a
     return bx, by, bt

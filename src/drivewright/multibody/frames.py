@@ -1,24 +1,17 @@
 """Kernels: vectors of a body's frame, relative motion of two bodies' points, and forces on bodies."""
 
-import numpy as np
-
 from drivewright._jit import inner
+from drivewright.multibody.records import OneRecord, Records
 
 
 @inner
-def rotated(pose: np.record, x: float, y: float) -> tuple[float, float]:
+def rotated(pose: OneRecord, x: float, y: float) -> tuple[float, float]:
     """A vector of the body's frame in the directions of the world."""
     return pose.c * x - pose.s * y, pose.s * x + pose.c * y
 
 
 @inner
-def relative_rotation(poses: np.recarray, pair: np.record) -> tuple[float, float]:
-    """Angle [rad] and angular velocity [rad/s] of body i relative to body j.  poses (bodies,) of POSE."""
-    return poses[pair.i].angle - poses[pair.j].angle, poses[pair.i].w - poses[pair.j].w
-
-
-@inner
-def relative_motion(poses: np.recarray, pair: np.record) -> tuple[float, float, float, float, float, float, float, float]:
+def relative_motion(poses: Records, pair: OneRecord) -> tuple[float, float, float, float, float, float, float, float]:
     """Point of body i minus point of body j [m], its rate [m/s], and the arms of both points [m], all in the world's axes."""
     one, two = poses[pair.i], poses[pair.j]
     px, py = rotated(one, pair.ax, pair.ay)
@@ -29,7 +22,7 @@ def relative_motion(poses: np.recarray, pair: np.record) -> tuple[float, float, 
 
 
 @inner
-def apply_force(pose: np.record, px: float, py: float, fx: float, fy: float) -> None:
+def apply_force(pose: OneRecord, px: float, py: float, fx: float, fy: float) -> None:
     """Apply a force [N] at the arm (px, py) [m] of a body."""
     pose.fx += fx
     pose.fy += fy
@@ -37,7 +30,7 @@ def apply_force(pose: np.record, px: float, py: float, fx: float, fy: float) -> 
 
 
 @inner
-def apply_torque_pair(poses: np.recarray, pair: np.record, torque: float) -> None:
+def apply_torque_pair(poses: Records, pair: OneRecord, torque: float) -> None:
     """Apply a torque [N m] to body i and its opposite to body j.  poses (bodies,) of POSE."""
     poses[pair.i].ft += torque
     poses[pair.j].ft -= torque

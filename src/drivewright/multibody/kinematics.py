@@ -6,7 +6,8 @@ from drivewright._jit import inner, outer
 from drivewright.multibody.curves import curve_at
 from drivewright.multibody.frames import rotated
 from drivewright.multibody.joints.rows import terms_of_row, velocity_product_of_row
-from drivewright.multibody.system import COLUMN, DRIFT, MISS
+from drivewright.multibody.records import OneRecord
+from drivewright.multibody.system import BIAS, RESIDUAL, SCRATCH, System, Work
 from drivewright.numerics.small import lu_factor, lu_solve
 
 CLOSED = 1e-7  # Newton's correction [rad], [lengths of the mechanism] below which one more evaluation is exact to rounding
@@ -14,7 +15,7 @@ TRIES = 12
 
 
 @inner
-def drive(system, work, t):
+def update_driven_coordinates(system: System, work: Work, t: float) -> None:
     """Coordinates that are given functions of time, with their rates and accelerations."""
     for d in range(system.driven.size):
         driven = system.driven[d]
@@ -26,8 +27,8 @@ def drive(system, work, t):
 
 
 @inner
-def place(system, work):
-    """Pose of every body, and its levers, from the coordinates."""
+def update_poses(system: System, work: Work) -> None:
+    """Pose of every body, and its partials, from the coordinates."""
     for i in range(1, system.bodies.size):
         body, here, base = system.bodies[i], work.poses[i], work.poses[system.bodies[i].parent]
         angle = body.inherits * base.angle + body.offset
@@ -37,25 +38,25 @@ def place(system, work):
             here.angle, here.c, here.s = angle, np.cos(angle), np.sin(angle)
         if body.free >= 0:
             here.x, here.y = work.coordinates[body.free].q, work.coordinates[body.free + 1].q
-            work.levers[i, body.free].x = work.levers[i, body.free + 1].y = 1.0
+            work.partial_velocities[i, body.free].x = work.partial_velocities[i, body.free + 1].y = 1.0
             continue
         slide = work.coordinates[body.slide].q if body.slide >= 0 else 0.0
         ax, ay = rotated(base, body.ax + slide * body.ex, body.ay + slide * body.ey)
         bx, by = rotated(here, body.bx + slide * body.fx, body.by + slide * body.fy)
         here.x, here.y = base.x + ax - bx, base.y + ay - by
         for k in range(work.coordinates.size):
-            lever, held = work.levers[i, k], work.levers[body.parent, k]
-            lever.x = held.x - ay * held.t + by * lever.t
-            lever.y = held.y + ax * held.t - bx * lever.t
+            partial, held = work.partial_velocities[i, k], work.partial_velocities[body.parent, k]
+            partial.x = held.x - ay * held.t + by * partial.t
+            partial.y = held.y + ax * held.t - bx * partial.t
         if body.slide >= 0:
             ex, ey = rotated(base, body.ex, body.ey)
             fx, fy = rotated(here, body.fx, body.fy)
-            work.levers[i, body.slide].x += ex - fx
-            work.levers[i, body.slide].y += ey - fy
+            work.partial_velocities[i, body.slide].x += ex - fx
+            work.partial_velocities[i, body.slide].y += ey - fy
 
 
 @inner
-def measure(system, work):
+def update_constraint_rows(system: System, work: Work) -> None:
     """Residual of every constraint row and its Jacobian."""
     for r in range(system.rows.size):
         row = system.rows[r]
@@ -64,36 +65,36 @@ def measure(system, work):
         pjx, pjy = rotated(second, row.bx, row.by)
         dx, dy = first.x + pix - second.x - pjx, first.y + piy - second.y - pjy
         miss, ux, uy, gi, gj, gk, gl = terms_of_row(system, work, row, dx, dy)
-        work.columns[MISS, r] = miss
+        work.row_columns[RESIDUAL, r] = miss
         gi += ux * -piy + uy * pix
         gj -= ux * -pjy + uy * pjx
         for k in range(work.coordinates.size):
-            one, two = work.levers[row.i, k], work.levers[row.j, k]
-            work.jacobian[r, k] = (
+            one, two = work.partial_velocities[row.i, k], work.partial_velocities[row.j, k]
+            work.constraint_jacobian[r, k] = (
                 ux * (one.x - two.x)
                 + uy * (one.y - two.y)
                 + gi * one.t
                 + gj * two.t
-                + gk * work.levers[row.k, k].t
-                + gl * work.levers[row.l, k].t
+                + gk * work.partial_velocities[row.k, k].t
+                + gl * work.partial_velocities[row.l, k].t
             )
 
 
 @inner
-def close(system, work):
+def close_loops(system: System, work: Work) -> bool:
     """Move the dependent coordinates, by Newton's method, until every loop is closed; False where they cannot be."""
     settled = system.rows.size == 0
     for _ in range(TRIES):
-        place(system, work)
-        measure(system, work)
-        if not factor(system, work):
+        update_poses(system, work)
+        update_constraint_rows(system, work)
+        if not factor_jacobian(system, work):
             return False
         if settled:
             return True
-        lu_solve(work.lu, work.pivots, work.columns[MISS])
+        lu_solve(work.lu, work.pivots, work.row_columns[RESIDUAL])
         largest = 0.0
         for r in range(system.rows.size):
-            step = work.columns[MISS, r]
+            step = work.row_columns[RESIDUAL, r]
             work.coordinates[system.dependent[r]].q -= step
             largest = max(largest, abs(step) / system.sizes[system.dependent[r]])
         settled = largest < CLOSED
@@ -101,7 +102,7 @@ def close(system, work):
 
 
 @inner
-def determinant(system, work):
+def jacobian_determinant(system: System, work: Work) -> float:
     """Determinant of the dependent coordinates' Jacobian, which is factored: 0 where the mechanism stands in a dead point of this split.
 
     Lengths count in lengths of the mechanism; its ratio to that at another pose depends on the sizes of the loops neither.
@@ -114,24 +115,40 @@ def determinant(system, work):
 
 
 @inner
-def factor(system, work):
+def factor_jacobian(system: System, work: Work) -> bool:
     """LU decomposition of the rows' Jacobian by the dependent coordinates; False where it is singular."""
     for r in range(system.rows.size):
         for m in range(system.rows.size):
-            work.lu[r, m] = work.jacobian[r, system.dependent[m]]
+            work.lu[r, m] = work.constraint_jacobian[r, system.dependent[m]]
     return lu_factor(work.lu, work.pivots)
 
 
 @inner
-def move(system, work):
-    """Rates of the dependent coordinates, and velocities of all bodies, from the rates of the independent and driven coordinates."""
-    if system.rows.size > 0:
-        _follow(system, work)
-    body_velocities(system, work)
+def update_velocities(system: System, work: Work) -> None:
+    """Rates of the dependent coordinates and velocities of all bodies, from the rates of the independent and driven coordinates.
+
+    With them the dependency matrix d(dependent)/d(independent).
+    """
+    column = work.row_columns[SCRATCH]
+    for m in range(-1, system.independent.size if system.rows.size > 0 else -1):  # -1: the driven coordinates together
+        for r in range(system.rows.size):
+            if m >= 0:
+                column[r] = -work.constraint_jacobian[r, system.independent[m]]
+            else:
+                column[r] = _driven_part(system, work, r, False)
+        lu_solve(work.lu, work.pivots, column)
+        for r in range(system.rows.size):
+            dependent = work.coordinates[system.dependent[r]]
+            if m >= 0:
+                work.dependency_matrix[r, m] = column[r]
+                dependent.v += column[r] * work.coordinates[system.independent[m]].v
+            else:
+                dependent.v = column[r]
+    update_body_velocities(system, work)
 
 
 @inner
-def body_velocities(system, work):
+def update_body_velocities(system: System, work: Work) -> None:
     """Velocities of all bodies from the rates of all coordinates."""
     for i in range(1, system.bodies.size):
         body, here, base = system.bodies[i], work.poses[i], work.poses[system.bodies[i].parent]
@@ -148,37 +165,17 @@ def body_velocities(system, work):
 
 
 @inner
-def _follow(system, work):
-    """d(dependent)/d(independent), and the dependent rates."""
-    column = work.columns[COLUMN]
-    for m in range(-1, system.independent.size):  # -1: the driven coordinates together
-        for r in range(system.rows.size):
-            if m >= 0:
-                column[r] = -work.jacobian[r, system.independent[m]]
-            else:
-                column[r] = _driven_part(system, work, r, False)
-        lu_solve(work.lu, work.pivots, column)
-        for r in range(system.rows.size):
-            dependent = work.coordinates[system.dependent[r]]
-            if m >= 0:
-                work.follow[r, m] = column[r]
-                dependent.v += column[r] * work.coordinates[system.independent[m]].v
-            else:
-                dependent.v = column[r]
-
-
-@inner
-def led(system, work, d):
-    """d(dependent)/d(driven coordinate d), in work.columns[COLUMN]."""
-    column = work.columns[COLUMN]
+def regular_dependency_on_drive(system: System, work: Work, d: int) -> None:
+    """d(dependent)/d(driven coordinate d), in work.row_columns[COLUMN]."""
+    column = work.row_columns[SCRATCH]
     for r in range(system.rows.size):
-        column[r] = -work.jacobian[r, system.driven[d].coordinate]
+        column[r] = -work.constraint_jacobian[r, system.driven[d].coordinate]
     if system.rows.size > 0:
         lu_solve(work.lu, work.pivots, column)
 
 
 @inner
-def slide_of(work, body):
+def slide_of(work: Work, body: OneRecord) -> tuple[float, float]:
     """Displacement and speed along the slide by which a body hangs; zero where it has none."""
     if body.slide < 0:
         return 0.0, 0.0
@@ -192,22 +189,22 @@ def _driven_part(system, work, r, acceleration):
     for d in range(system.driven.size):
         k = system.driven[d].coordinate
         coordinate = work.coordinates[k]
-        total -= work.jacobian[r, k] * (coordinate.a if acceleration else coordinate.v)
+        total -= work.constraint_jacobian[r, k] * (coordinate.a if acceleration else coordinate.v)
     return total
 
 
 @inner
-def bend(system, work):
+def update_velocity_products(system: System, work: Work) -> None:
     """Accelerations that the velocities alone cause: of the bodies (bx, by), and of the dependent coordinates (DRIFT)."""
-    body_bends(system, work)
+    update_body_velocity_products(system, work)
     if system.rows.size > 0:
         for r in range(system.rows.size):
-            work.columns[DRIFT, r] = _driven_part(system, work, r, True) - velocity_product_of_row(system, work, system.rows[r])
-        lu_solve(work.lu, work.pivots, work.columns[DRIFT])
+            work.row_columns[BIAS, r] = _driven_part(system, work, r, True) - velocity_product_of_row(system, work, system.rows[r])
+        lu_solve(work.lu, work.pivots, work.row_columns[BIAS])
 
 
 @inner
-def body_bends(system, work):
+def update_body_velocity_products(system: System, work: Work) -> None:
     """Accelerations of the bodies (bx, by) with the second derivatives of all coordinates zero."""
     for i in range(1, system.bodies.size):
         body, here, base = system.bodies[i], work.poses[i], work.poses[system.bodies[i].parent]
@@ -224,18 +221,18 @@ def body_bends(system, work):
         bx, by = rotated(
             here, w * w * (body.bx + slide * body.fx) + 2 * slip * w * body.fy, w * w * (body.by + slide * body.fy) - 2 * slip * w * body.fx
         )
-        here.bx, here.by = base.bx - ax + bx, base.by - ay + by
+        here.bias_x, here.bias_y = base.bias_x - ax + bx, base.bias_y - ay + by
 
 
 @outer
-def placed(system, work, t):
+def evaluate_at_time(system: System, work: Work, t: float) -> None:
     """Driven coordinates set, bodies placed and rows measured at the coordinates in `work`; the loops stay as they are."""
-    drive(system, work, t)
-    measured(system, work)
+    update_driven_coordinates(system, work, t)
+    evaluate_rows(system, work)
 
 
 @outer
-def measured(system, work):
+def evaluate_rows(system: System, work: Work) -> None:
     """Bodies placed and rows measured at the coordinates in `work`, driven ones included."""
-    place(system, work)
-    measure(system, work)
+    update_poses(system, work)
+    update_constraint_rows(system, work)

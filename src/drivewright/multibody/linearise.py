@@ -1,15 +1,26 @@
 """Small motions about a state of balance: mass, damping and stiffness of the independent coordinates, and their modes."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.linalg import eig, null_space
 
 from drivewright._jit import plain
+from drivewright._typing import Complexes, Floats
 from drivewright.errors import InputError
-from drivewright.multibody.loads import LASTING, approach, elastic_of, gap_of, loading_speed
-from drivewright.multibody.simulate import resplit
-from drivewright.multibody.statics import Place, equilibrium, forces_at_work, names_of, reduced, resting, scaled_stiffness, scales
+from drivewright.multibody.assembly import Assembly
+from drivewright.multibody.loads import LASTING, elastic_of, gap_motion, loading_speed, penetration
+from drivewright.multibody.simulate import repartition
+from drivewright.multibody.statics import (
+    Place,
+    coordinate_names,
+    coordinate_scales,
+    equilibrium,
+    forces_at_work,
+    place_at_rest,
+    reduced_equations,
+    scaled_stiffness,
+)
 from drivewright.multibody.system import motion
 
 STEP = 1e-3  # of the differences, in lengths of the mechanism
@@ -27,12 +38,12 @@ class Linear(NamedTuple):
     motions (bodies, 3, f): d(x, y, angle of a body)/dx, the ground first; scale (f,): changes that move the bodies alike.
     """
 
-    mass: np.ndarray
-    damping: np.ndarray
-    stiffness: np.ndarray
-    names: tuple
-    motions: np.ndarray
-    scale: np.ndarray
+    mass: Floats
+    damping: Floats
+    stiffness: Floats
+    names: tuple[str, ...]
+    motions: Floats
+    scale: Floats
 
 
 class Modes(NamedTuple):
@@ -42,30 +53,30 @@ class Modes(NamedTuple):
     coordinates (modes, f) and bodies (modes, bodies, 3: x, y, angle) are complex; the coordinate that moves most, has its `scale`.
     """
 
-    eigenvalues: np.ndarray
-    frequencies: np.ndarray
-    ratios: np.ndarray
-    coordinates: np.ndarray
-    bodies: np.ndarray
+    eigenvalues: Complexes
+    frequencies: Floats
+    ratios: Floats
+    coordinates: Complexes
+    bodies: Complexes
 
 
-def linearise(assembly, state=None, time=0.0, running=False):
+def linearise(assembly: Assembly, state: Floats | None = None, time: float = 0.0, running: bool = False) -> Linear:
     """`Linear` about a state of balance, by default the equilibrium at `time`.
 
     The drives are held; `running`, they go on as at `time` and the state keeps its rates (a governor).
     """
     here = _place(assembly, state, time, running)
-    now, length = reduced(here), here.system.length
-    scale = scales(now, length)
+    now, length = reduced_equations(here), here.system.length
+    scale = coordinate_scales(now, length)
     step = _step(here, length)
     stiffness = (4 * scaled_stiffness(here, scale, step / 2) - scaled_stiffness(here, scale, step)) / 3
     _check_balance(here, now, assembly, stiffness, scale, length)
     damping = _scaled_damping(here, scale, length)
     unscaled = np.outer(1 / scale, 1 / scale)
-    return Linear(now.mass, damping * unscaled, stiffness * unscaled, names_of(assembly, here.system), now.motions, scale)
+    return Linear(now.mass, damping * unscaled, stiffness * unscaled, coordinate_names(assembly, here.system), now.motions, scale)
 
 
-def modes(linear):
+def modes(linear: Linear) -> Modes:
     """`Modes` of a linearised system:  (s^2 mass + s damping + stiffness) x = 0."""
     free = len(linear.scale)
     if free == 0:
@@ -73,9 +84,10 @@ def modes(linear):
     both = np.outer(linear.scale, linear.scale)
     (mass, damping, stiffness), speed = _in_own_time(linear.mass * both, linear.damping * both, linear.stiffness * both)
     unit, none = np.eye(free), np.zeros((free, free))
-    (top, bottom), vectors = eig(
+    found: Any = eig(
         np.block([[none, unit], [-stiffness, -damping]]), np.block([[unit, none], [none, mass]]), homogeneous_eigvals=True
-    )
+    )  # with homogeneous eigenvalues, which SciPy's types do not know
+    (top, bottom), vectors = found
     moving = (np.abs(top) < INSTANT * np.abs(bottom)) & (np.abs(top) > STANDING * np.abs(bottom))
     roots, vectors = top[moving] / bottom[moving], vectors[:free, moving]
     once = roots.imag > -1e-9 * np.abs(roots)  # one of each conjugate pair
@@ -108,16 +120,16 @@ def _place(assembly, state, time, running):
     """The place to linearise about, its coordinates split there."""
     if state is None:
         state = equilibrium(assembly, None, time).state
-    here = resting(assembly, state, time)
+    here = place_at_rest(assembly, state, time)
     y = np.array(state, float) if running else here.y
-    system, y = resplit(assembly.system if running else here.system, time, y)
+    system, y = repartition(assembly.system if running else here.system, time, y)
     y[system.contacts.memory] = LASTING
     return Place(system, motion(system).work, time, y)
 
 
 def _step(here, length):
     """Step of the scaled coordinates: small beside the mechanism, the clearances of its pins and how deep their walls are pressed."""
-    pins = [(contact.clearance, abs(plain(gap_of)(here.system, here.work, n))) for n, contact in enumerate(here.system.contacts)]
+    pins = [(contact.clearance, abs(plain(penetration)(here.system, here.work, n))) for n, contact in enumerate(here.system.contacts)]
     return min([STEP * length, *(SHARE * min(clearance, max(depth, LEAST * clearance)) for clearance, depth in pins)])
 
 
@@ -129,7 +141,7 @@ def _scaled_damping(here, scale, length):
     def force(m, change):
         y = here.y.copy()
         y[first + m] += change * scale[m]
-        return reduced(here._replace(y=y)).force * scale
+        return reduced_equations(here._replace(y=y)).force * scale
 
     def slope(m, size):
         return (force(m, -size) - force(m, size)) / (2 * size)
@@ -142,9 +154,9 @@ def _scaled_damping(here, scale, length):
 def _pressed_speeds(here):
     """Rates so small beside `loading_speed` that pins which are pressed keep touching."""
     system, work = here.system, here.work
-    reduced(here)
+    reduced_equations(here)
     for n, contact in enumerate(system.contacts):
-        depth, _, mobility, *_ = plain(approach)(system, n, work, LASTING)
+        depth, _, mobility, *_ = plain(gap_motion)(system, n, work, LASTING)
         if depth > 0 and mobility > 0:
             yield SHARE * float(plain(loading_speed)(contact, depth, plain(elastic_of)(contact, depth), mobility))
 
@@ -155,6 +167,6 @@ def _check_balance(here, now, assembly, stiffness, scale, length):
     if part > BALANCED:
         worst = int(np.argmax(np.abs(force)))
         raise InputError(
-            f"linearise: the state is not in balance: coordinate {names_of(assembly, here.system)[worst]!r} is pushed by "
+            f"linearise: the state is not in balance: coordinate {coordinate_names(assembly, here.system)[worst]!r} is pushed by "
             f"{abs(force[worst]):.4g} N, {part:.2g} of the forces at work. Linearise about equilibrium(...).state"
         )

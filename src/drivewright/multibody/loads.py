@@ -3,6 +3,7 @@
 import numpy as np
 
 from drivewright._jit import inner, outer
+from drivewright._typing import Floats
 from drivewright.contact.film import long_bearing, short_bearing
 from drivewright.contact.friction import ambrosio, coulomb, lugre, lugre_rate
 from drivewright.contact.impact import cylinder_energy, cylinder_force
@@ -13,6 +14,8 @@ from drivewright.multibody.forces.load import apply_load_force, apply_torque
 from drivewright.multibody.forces.rotational_spring import apply_rotational_spring
 from drivewright.multibody.forces.spring import apply_spring
 from drivewright.multibody.frames import apply_force, relative_motion, rotated
+from drivewright.multibody.records import OneRecord, Records
+from drivewright.multibody.system import System, Work
 
 SLOWEST = 1e-4  # approach speed that counts at least, where a law divides by it [m/s]
 LASTING = -1.0  # in the memory of a contact that no longer remembers an approach; 0: no contact
@@ -20,30 +23,31 @@ THINNEST = 1e-4  # least film thickness over clearance that the film formulas se
 
 
 @inner
-def load(system, work, t, y, dy):
+def apply_forces(system: System, work: Work, t: float, y: Floats, dy: Floats) -> None:
     """All forces and torques on the bodies; the rates of the elements' own states go into dy."""
-    unload(work)
-    hold(system, work)
-    apply(system, work, t)
-    press(system, work, y, dy)
+    clear_forces(work)
+    apply_springs(system, work)
+    apply_loads(system, work, t)
+    pin_forces(system, work, y, dy)
 
 
 @inner
-def press(system, work, y, dy):
+def pin_forces(system: System, work: Work, y: Floats, dy: Floats) -> None:
     """Pins with play."""
     for n in range(system.contacts.size):
         _contact(system, n, work, y, dy)
 
 
 @inner
-def unload(work):
+def clear_forces(work: Work) -> None:
+    """No force and no torque on any body."""
     for i in range(work.poses.size):
         pose = work.poses[i]
         pose.fx = pose.fy = pose.ft = 0.0
 
 
 @inner
-def hold(system, work):
+def apply_springs(system: System, work: Work) -> None:
     """Springs, dampers and bushings."""
     for n in range(system.springs.size):
         apply_spring(work.poses, system.springs[n])
@@ -54,7 +58,7 @@ def hold(system, work):
 
 
 @inner
-def apply(system, work, t):
+def apply_loads(system: System, work: Work, t: float) -> None:
     """Torques and forces from outside."""
     for n in range(system.torques.size):
         apply_torque(work.poses, system.torques[n], system.curves, system.pieces, t)
@@ -66,19 +70,19 @@ def apply(system, work, t):
 
 
 @inner
-def gap_of(system, work, n):
+def penetration(system: System, work: Work, n: int) -> float:
     """How deep the journal is in the bearing's wall: |e| - clearance - wear, e from the journal's centre (j) to the bearing's (i)."""
     contact = system.contacts[n]
     one, two = work.poses[contact.i], work.poses[contact.j]
     px, py = rotated(one, contact.ax, contact.ay)
     qx, qy = rotated(two, contact.bx, contact.by)
     dx, dy = one.x + px - two.x - qx, one.y + py - two.y - qy
-    worn, _ = worn_off(system.wear[n], work.poses[contact.i].angle, dx, dy)
+    worn, _ = wear_depth(system.wear[n], work.poses[contact.i].angle, dx, dy)
     return np.hypot(dx, dy) - contact.clearance - worn
 
 
 @outer
-def worn_off(wear, turned_by, dx, dy):
+def wear_depth(wear: Floats, turned_by: float, dx: float, dy: float) -> tuple[float, float]:
     """(depth worn off the bearing on the side where the journal is, opposite to e = (dx, dy); its slope by the angle over |e|).
 
     wear (bins,) is in the bearing's frame, which has turned by an angle.
@@ -99,7 +103,7 @@ def worn_off(wear, turned_by, dx, dy):
 
 
 @outer
-def normal_of(contact, depth, rate, memory, mobility):
+def normal_of(contact: OneRecord, depth: float, rate: float, memory: float, mobility: float) -> float:
     """Normal force of a depth > 0 that changes at a rate; a contact never pulls.
 
     K d^n (1 + h d'/d0') + c d' from the touch at d0' = memory on, K d^n (1 + h_w d'/w) + c d' in a lasting contact, w of
@@ -114,7 +118,7 @@ def normal_of(contact, depth, rate, memory, mobility):
 
 
 @outer
-def elastic_of(contact, depth):
+def elastic_of(contact: OneRecord, depth: float) -> float:
     """Elastic force of a depth > 0."""
     if contact.cylinder:
         return cylinder_force(
@@ -124,7 +128,7 @@ def elastic_of(contact, depth):
 
 
 @inner
-def loading_speed(contact, depth, elastic, mobility):
+def loading_speed(contact: OneRecord, depth: float, elastic: float, mobility: float) -> float:
     """w = sqrt(2 E/m): the speed at which a free body touches that comes so deep without loss; mobility = 1/m, 0 if no force moves it."""
     if contact.cylinder:
         energy = cylinder_energy(
@@ -157,7 +161,7 @@ def _loss(contact, rate, speed, memory):
 
 
 @inner
-def contact_signs(system, n, work, y):
+def contact_signs(system: System, n: int, work: Work, y: Floats) -> tuple[float, float, float]:
     """(depth, rate d' while the contact remembers its approach, what has the sign of its force before it is kept from pulling).
 
     Where the second rises through 0 another compression begins; where the third changes sign the force has a kink.  They are 1 where
@@ -165,8 +169,8 @@ def contact_signs(system, n, work, y):
     """
     contact, memory = system.contacts[n], y[system.contacts[n].memory]
     if memory == 0.0 or (contact.hysteresis == 0.0 and contact.damping == 0.0):
-        return gap_of(system, work, n), 1.0, 1.0
-    depth, rate, mobility, _, _, _, _ = approach(system, n, work, memory)
+        return penetration(system, work, n), 1.0, 1.0
+    depth, rate, mobility, _, _, _, _ = gap_motion(system, n, work, memory)
     reversal = rate if memory > 0.0 and contact.hysteresis > 0.0 else 1.0
     elastic = elastic_of(contact, max(depth, 0.0))
     if contact.damping > 0.0:
@@ -176,7 +180,7 @@ def contact_signs(system, n, work, y):
 
 
 @outer
-def friction_of(contact, normal, slip, bristle):
+def friction_force(contact: OneRecord, normal: float, slip: float, bristle: float) -> tuple[float, float]:
     """(friction force against the slip, rate of the bristle)."""
     if normal <= 0.0 or contact.law == 0:
         return 0.0, 0.0
@@ -189,8 +193,8 @@ def friction_of(contact, normal, slip, bristle):
 
 
 @inner
-def approach(system, n, work, memory):
-    """(depth, its rate d', mobility, slip, nx, ny, lean) of a pin with play; n points from the journal to the bearing's centre.
+def gap_motion(system: System, n: int, work: Work, memory: float) -> tuple[float, float, float, float, float, float, float]:
+    """(depth, its rate d', mobility, slip, nx, ny, wear_slope) of a pin with play; n points from the journal to the bearing's centre.
 
     A worn wall leans: its slope enters the rate.  Slip is the bearing's wall against the journal along t = (-ny, nx).
     The mobility, asked for in lasting contacts alone, is what a unit force along the gap gives to d'':  1/m = b^T M^-1 b with
@@ -199,7 +203,7 @@ def approach(system, n, work, memory):
     contact = system.contacts[n]
     dx, dy, vx, vy, px, py, qx, qy = relative_motion(work.poses, contact)
     distance = np.hypot(dx, dy)
-    worn, lean = worn_off(system.wear[n], work.poses[contact.i].angle, dx, dy)
+    worn, wear_slope = wear_depth(system.wear[n], work.poses[contact.i].angle, dx, dy)
     depth = distance - contact.clearance - worn
     if distance == 0.0:
         return depth, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0
@@ -207,50 +211,50 @@ def approach(system, n, work, memory):
     # The wall's point is at -R n from the bearing's centre, and at d - R n = -(R - |d|) n from the journal's.
     radius, spin = contact.bearing_radius, work.poses[contact.i].w
     slip = nx * vy - ny * vx - radius * spin + (radius - distance) * work.poses[contact.j].w
-    rate = nx * vx + ny * vy - lean * (nx * vy - ny * vx - distance * spin)
+    rate = nx * vx + ny * vy - wear_slope * (nx * vy - ny * vx - distance * spin)
     mobility = 0.0
     if memory < 0.0 and depth > 0.0:
-        for m in range(work.pressed.size):
-            one, two = work.reduced[contact.i, m], work.reduced[contact.j, m]
+        for m in range(work.unit_load.size):
+            one, two = work.reduced_partial_velocities[contact.i, m], work.reduced_partial_velocities[contact.j, m]
             ux, uy = one.x - one.t * py - two.x + two.t * qy, one.y + one.t * px - two.y - two.t * qx
-            work.pressed[m] = nx * ux + ny * uy - lean * (nx * uy - ny * ux - distance * one.t)
-        mobility = response(work)
-    return depth, rate, mobility, slip, nx, ny, lean
+            work.unit_load[m] = nx * ux + ny * uy - wear_slope * (nx * uy - ny * ux - distance * one.t)
+        mobility = unit_response(work)
+    return depth, rate, mobility, slip, nx, ny, wear_slope
 
 
 @inner
-def response(work):
-    """b^T M^-1 b of b in work.pressed, which is used up."""
+def unit_response(work: Work) -> float:
+    """b^T M^-1 b of b in work.unit_load, which is used up."""
     total = 0.0
-    for m in range(work.pressed.size):
+    for m in range(work.unit_load.size):
         for k in range(m):
-            work.pressed[m] -= work.mass[m, k] * work.pressed[k]
-        work.pressed[m] /= work.mass[m, m]
-        total += work.pressed[m] * work.pressed[m]
+            work.unit_load[m] -= work.mass[m, k] * work.unit_load[k]
+        work.unit_load[m] /= work.mass[m, m]
+        total += work.unit_load[m] * work.unit_load[m]
     return total
 
 
 @inner
-def touch(system, n, work, y):
-    """(depth, normal, friction, slip, bristle rate, nx, ny, lean) of a pin with play, as in `approach`.
+def contact_state(system: System, n: int, work: Work, y: Floats) -> tuple[float, float, float, float, float, float, float, float]:
+    """(depth, normal, friction, slip, bristle rate, nx, ny, wear_slope) of a pin with play, as in `gap_motion`.
 
-    Contact lies at -R n from the bearing's centre.  Where the wall leans the bearing gets beside -N n also N lean t at the journal's
+    Contact lies at -R n from the bearing's centre.  Where the wall leans the bearing gets beside -N n also N wear_slope t at the journal's
     centre, through which the normal of a round journal always goes.
     """
     contact, memory = system.contacts[n], y[system.contacts[n].memory]
-    depth, rate, mobility, slip, nx, ny, lean = approach(system, n, work, memory)
+    depth, rate, mobility, slip, nx, ny, wear_slope = gap_motion(system, n, work, memory)
     if memory == 0.0 or depth <= 0.0:
-        return depth, 0.0, 0.0, slip, 0.0, nx, ny, lean
+        return depth, 0.0, 0.0, slip, 0.0, nx, ny, wear_slope
     if contact.further > 0:
         normal = max(further_force(system.laws, contact.further, -depth, -rate), 0.0)
     else:
         normal = normal_of(contact, depth, rate, memory, mobility)
-    rubbing, bristle_rate = friction_of(contact, normal, slip, y[contact.bristle])
-    return depth, normal, rubbing, slip, bristle_rate, nx, ny, lean
+    rubbing, bristle_rate = friction_force(contact, normal, slip, y[contact.bristle])
+    return depth, normal, rubbing, slip, bristle_rate, nx, ny, wear_slope
 
 
 @outer
-def film_of(contact, poses):
+def film_force(contact: OneRecord, poses: Records) -> tuple[float, float]:
     """Force (x, y) of the oil on the bearing, and the torque-free arm is its centre; it fades where the walls touch."""
     dx, dy, vx, vy, _, _, _, _ = relative_motion(poses, contact)
     distance, clearance = np.hypot(dx, dy), contact.clearance
@@ -274,7 +278,7 @@ def _contact(system, n, work, y, dy):
     """Forces of a pin with play on both bodies, at the point where they touch."""
     contact = system.contacts[n]
     one, two = work.poses[contact.i], work.poses[contact.j]
-    _, normal, rubbing, _, bristle_rate, nx, ny, lean = touch(system, n, work, y)
+    _, normal, rubbing, _, bristle_rate, nx, ny, wear_slope = contact_state(system, n, work, y)
     dy[contact.memory] = 0.0
     if contact.law == LUGRE:
         dy[contact.bristle] = bristle_rate
@@ -285,13 +289,13 @@ def _contact(system, n, work, y, dy):
         px, py = px - contact.bearing_radius * nx, py - contact.bearing_radius * ny
         apply_force(one, px, py, fx, fy)
         apply_force(two, px + one.x - two.x, py + one.y - two.y, -fx, -fy)
-        if lean != 0.0:
-            fx, fy = -normal * lean * ny, normal * lean * nx
+        if wear_slope != 0.0:
+            fx, fy = -normal * wear_slope * ny, normal * wear_slope * nx
             qx, qy = rotated(two, contact.bx, contact.by)
             apply_force(one, qx + two.x - one.x, qy + two.y - one.y, fx, fy)
             apply_force(two, qx, qy, -fx, -fy)
     if contact.film != NO_FILM:
-        fx, fy = film_of(contact, work.poses)
+        fx, fy = film_force(contact, work.poses)
         qx, qy = rotated(two, contact.bx, contact.by)
         apply_force(one, qx + two.x - one.x, qy + two.y - one.y, fx, fy)
         apply_force(two, qx, qy, -fx, -fy)

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.numerics import signals
 
 LARGEST = 5  # peaks of which the coefficient is the mean
@@ -22,7 +23,7 @@ class ImpactLoad(NamedTuple):
     turn_spread: float
 
 
-def peaks(t, x):
+def peaks(t: Floats, x: Floats) -> tuple[Floats, Floats]:
     """(times, values) of the local maxima of samples (m,), on the parabola through three of them where their steps are alike.
 
     In a signal with impacts the steps differ by orders of magnitude; there the sample itself counts.
@@ -36,20 +37,20 @@ def peaks(t, x):
     return np.where(even, times, t[at]), np.where(even, values, x[at])
 
 
-def largest(t, x):
+def largest(t: Floats, x: Floats) -> float:
     """Largest of |x| over the samples and the vertices between them."""
     size = np.abs(x)
     inner = peaks(t, size)[1] if len(t) > 2 else np.empty(0)
     return float(max(np.max(size), np.max(inner, initial=0.0)))
 
 
-def span(t, x):
+def span(t: Floats, x: Floats) -> float:
     """Largest less least value of samples (m,), vertices between them included."""
     inner = [peaks(t, part)[1] for part in (x, -x)] if len(t) > 2 else [np.empty(0)] * 2
     return float(max(np.max(x), np.max(inner[0], initial=-np.inf)) + max(np.max(-x), np.max(inner[1], initial=-np.inf)))
 
 
-def impact_load(t, x, ideal_peak, period):
+def impact_load(t: Floats, x: Floats, ideal_peak: float, period: float | None) -> ImpactLoad:
     """`ImpactLoad` of |x| over the window t; nan where the window has fewer than five peaks, or the ideal mechanism none."""
     size = np.abs(x)
     times, values = peaks(t, size)

@@ -4,7 +4,18 @@ from dataclasses import dataclass
 
 from drivewright.multibody.bodies import GROUND, Body, Marker
 from drivewright.multibody.curves import Curve, line
-from drivewright.multibody.forces import Bushing, Dry, Force, ForceElement, Friction, Load, Lubricated, RotationalSpring, Spring, Torque
+from drivewright.multibody.forces import (
+    AppliedForce,
+    AppliedTorque,
+    Bushing,
+    Dry,
+    ForceElement,
+    Friction,
+    LoadCurve,
+    Lubricated,
+    PointSpring,
+    RotationalSpring,
+)
 from drivewright.multibody.joints import CamPair, Gear, Ideal, Joint, MasslessLink, PinSlot, Prismatic, Revolute, Rolling
 
 __all__ = [
@@ -13,32 +24,32 @@ __all__ = [
     "Bushing",
     "CamPair",
     "Curve",
-    "Drive",
+    "JointDrive",
     "Dry",
-    "Force",
+    "AppliedForce",
     "ForceElement",
     "Friction",
     "Gear",
     "Ideal",
     "Joint",
-    "Load",
+    "LoadCurve",
     "Lubricated",
     "Marker",
     "MasslessLink",
-    "Model",
+    "MultibodyModel",
     "PinSlot",
     "Prismatic",
     "Revolute",
     "Rolling",
     "RotationalSpring",
-    "Spring",
-    "Torque",
+    "PointSpring",
+    "AppliedTorque",
     "line",
 ]
 
 
 @dataclass(frozen=True)
-class Drive:
+class JointDrive:
     """Prescribed rotation (revolute) or displacement (prismatic): start + motion(time), the start of a rotation being the bodies' guesses.
 
     It counts for the joint's first body relative to its second; where the first is the ground, for the second relative to the ground.
@@ -49,11 +60,11 @@ class Drive:
 
 
 @dataclass(frozen=True)
-class Model:
+class MultibodyModel:
     """A planar multibody system."""
 
     bodies: tuple[Body, ...]
     joints: tuple[Joint, ...]
     forces: tuple[ForceElement, ...] = ()
-    drives: tuple[Drive, ...] = ()
+    drives: tuple[JointDrive, ...] = ()
     gravity: tuple[float, float] = (0.0, 0.0)

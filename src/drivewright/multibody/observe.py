@@ -1,15 +1,17 @@
 """What a moving system does at given states: poses, rates, accelerations, forces, powers, pins with play."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from drivewright._jit import inner, outer
-from drivewright.multibody.chart import configure, lead
-from drivewright.multibody.dynamics import accelerate, inertia
+from drivewright._typing import ArrayLike, Floats
+from drivewright.multibody.chart import dependency_on_drive, update_kinematics
+from drivewright.multibody.dynamics import solve_accelerations, update_mass_matrix
 from drivewright.multibody.forces.contact import NO_FILM
-from drivewright.multibody.loads import apply, film_of, hold, press, touch, unload
-from drivewright.multibody.system import COLUMN, DRIFT, motion
+from drivewright.multibody.loads import apply_loads, apply_springs, clear_forces, contact_state, film_force, pin_forces
+from drivewright.multibody.system import BIAS, SCRATCH, Motion, System, Work, motion
 
 FIELDS = ("x", "y", "angle", "vx", "vy", "w", "ax", "ay", "alpha", "fx", "fy", "torque")
 PIN_FIELDS = ("depth", "normal", "friction", "slip", "nx", "ny", "fx", "fy")
@@ -24,20 +26,22 @@ class Observed(NamedTuple):
     powers (m, POWER_FIELDS) that the elements give to the bodies [W]; drives (m, drives): torque or force of each drive.
     """
 
-    t: np.ndarray
-    bodies: np.ndarray
-    pins: np.ndarray
-    powers: np.ndarray
-    drives: np.ndarray
+    t: Floats
+    bodies: Floats
+    pins: Floats
+    powers: Floats
+    drives: Floats
 
-    def body(self, number, field):
+    def body(self, number: int | slice, field: str) -> Floats:
+        """One of FIELDS of a body (m,)."""
         return self.bodies[:, number, FIELDS.index(field)]
 
-    def pin(self, number, field):
+    def pin(self, number: int, field: str) -> Floats:
+        """One of PIN_FIELDS of a pin with play (m,)."""
         return self.pins[:, number, PIN_FIELDS.index(field)]
 
 
-def observe(system, t, y):
+def observe(system: System, t: ArrayLike, y: ArrayLike) -> Observed:
     """`Observed` of states y (m, n) at times t (m,)."""
     t, y = np.ascontiguousarray(t, float), np.ascontiguousarray(y, float)
     counts = (len(system.bodies), len(FIELDS)), (len(system.contacts), len(PIN_FIELDS)), (len(POWER_FIELDS),), (len(system.driven),)
@@ -46,17 +50,17 @@ def observe(system, t, y):
     return seen
 
 
-def joined(parts):
+def concatenate(parts: Sequence[Observed]) -> Observed:
     """One `Observed` of several, one after another."""
     return Observed(*(np.concatenate(fields) for fields in zip(*parts, strict=True)))
 
 
 @outer
-def observe_all(motion, t, y, dy, bodies, pins, powers, drives):
+def observe_all(motion: Motion, t: Floats, y: Floats, dy: Floats, bodies: Floats, pins: Floats, powers: Floats, drives: Floats) -> None:
     """Fill the arrays of `Observed`; dy is scratch."""
     system, work = motion.system, motion.work
     for n in range(t.size):
-        settle(system, work, t[n], y[n], dy, powers[n])
+        update_dynamics(system, work, t[n], y[n], dy, powers[n])
         for i in range(system.bodies.size):
             _body(work, i, bodies[n, i])
         for k in range(system.contacts.size):
@@ -68,34 +72,35 @@ def observe_all(motion, t, y, dy, bodies, pins, powers, drives):
 
 
 @inner
-def settle(system, work, t, y, dy, powers):
+def update_dynamics(system: System, work: Work, t: float, y: Floats, dy: Floats, powers: Floats) -> None:
     """Everything about the system at a state: poses, rates, loads with their powers, and the accelerations of all coordinates."""
-    configure(system, work, t, y)
-    inertia(system, work)
-    unload(work)
-    hold(system, work)
+    update_kinematics(system, work, t, y)
+    update_mass_matrix(system, work)
+    clear_forces(work)
+    apply_springs(system, work)
     powers[0] = _power(work)
-    apply(system, work, t)
+    apply_loads(system, work, t)
     powers[1] = _power(work) - powers[0]
-    press(system, work, y, dy)
+    pin_forces(system, work, y, dy)
     powers[2] = _power(work) - powers[0] - powers[1]
-    accelerate(system, work)
+    solve_accelerations(system, work)
     for m in range(system.independent.size):
         work.coordinates[system.independent[m]].a = work.force[m]
     for r in range(system.rows.size):
-        a = work.columns[DRIFT, r]
+        a = work.row_columns[BIAS, r]
         for m in range(system.independent.size):
-            a += work.follow[r, m] * work.force[m]
+            a += work.dependency_matrix[r, m] * work.force[m]
         work.coordinates[system.dependent[r]].a = a
 
 
 @inner
 def _body(work, i, out):
+    """Motion of body i, and the load on it, into out (FIELDS,)."""
     here = work.poses[i]
-    ax, ay, alpha = here.bx, here.by, 0.0
+    ax, ay, alpha = here.bias_x, here.bias_y, 0.0
     for k in range(work.coordinates.size):
-        lever, a = work.levers[i, k], work.coordinates[k].a
-        ax, ay, alpha = ax + lever.x * a, ay + lever.y * a, alpha + lever.t * a
+        partial, a = work.partial_velocities[i, k], work.coordinates[k].a
+        ax, ay, alpha = ax + partial.x * a, ay + partial.y * a, alpha + partial.t * a
     out[0], out[1], out[2] = here.x, here.y, here.angle
     out[3], out[4], out[5] = here.vx, here.vy, here.w
     out[6], out[7], out[8] = ax, ay, alpha
@@ -104,18 +109,20 @@ def _body(work, i, out):
 
 @inner
 def _pin(system, number, work, y, out):
+    """What the pin with play does at the state y, into out (PIN_FIELDS,)."""
     contact = system.contacts[number]
-    depth, normal, rubbing, slip, _, nx, ny, lean = touch(system, number, work, y)
+    depth, normal, rubbing, slip, _, nx, ny, wear_slope = contact_state(system, number, work, y)
     out[0], out[1], out[2], out[3], out[4], out[5] = depth, normal, rubbing, slip, nx, ny
-    across = normal * lean - rubbing  # along (-ny, nx)
+    across = normal * wear_slope - rubbing  # along (-ny, nx)
     out[6], out[7] = -normal * nx - across * ny, -normal * ny + across * nx
     if contact.film != NO_FILM:
-        fx, fy = film_of(contact, work.poses)
+        fx, fy = film_force(contact, work.poses)
         out[6], out[7] = out[6] + fx, out[7] + fy
 
 
 @inner
 def _power(work):
+    """Power of the forces and torques on all bodies [W]."""
     total = 0.0
     for i in range(work.poses.size):
         here = work.poses[i]
@@ -127,19 +134,19 @@ def _power(work):
 def _drive(system, work, d):
     """Generalised force of a driven coordinate: what inertia and loads of all bodies that follow it ask for."""
     k = system.driven[d].coordinate
-    lead(system, work, d)
-    column = work.columns[COLUMN]
+    dependency_on_drive(system, work, d)
+    column = work.row_columns[SCRATCH]
     total = 0.0
     for i in range(1, system.bodies.size):
         body, here = system.bodies[i], work.poses[i]
-        x, y, t = work.levers[i, k].x, work.levers[i, k].y, work.levers[i, k].t
+        x, y, t = work.partial_velocities[i, k].x, work.partial_velocities[i, k].y, work.partial_velocities[i, k].t
         for r in range(system.rows.size):
-            held = work.levers[i, system.dependent[r]]
+            held = work.partial_velocities[i, system.dependent[r]]
             x, y, t = x + held.x * column[r], y + held.y * column[r], t + held.t * column[r]
-        ax, ay, alpha = here.bx, here.by, 0.0
+        ax, ay, alpha = here.bias_x, here.bias_y, 0.0
         for m in range(work.coordinates.size):
-            lever, a = work.levers[i, m], work.coordinates[m].a
-            ax, ay, alpha = ax + lever.x * a, ay + lever.y * a, alpha + lever.t * a
+            partial, a = work.partial_velocities[i, m], work.coordinates[m].a
+            ax, ay, alpha = ax + partial.x * a, ay + partial.y * a, alpha + partial.t * a
         total += x * (body.mass * (ax - system.gravity_x) - here.fx) + y * (body.mass * (ay - system.gravity_y) - here.fy)
         total += t * (body.inertia * alpha - here.ft)
     return total

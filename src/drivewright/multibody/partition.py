@@ -1,42 +1,45 @@
 """Coordinate partitioning: the Jacobian of the loops, and which coordinates depend on which (Wehage & Haug 1982, recalled)."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.linalg import qr
 
+from drivewright._typing import Floats, Ints
 from drivewright.multibody.forces.contact import LUGRE
-from drivewright.multibody.kinematics import placed
-from drivewright.multibody.system import MISS, no_chart, scratch
+from drivewright.multibody.kinematics import evaluate_at_time
+from drivewright.multibody.system import RESIDUAL, System, Work, no_chart, scratch
 from drivewright.numerics.small import lu_factor
 
 
-def at(system, q, t=0.0, v=None):
+def evaluate_at(system: System, q: Floats, t: float = 0.0, v: Floats | None = None) -> Work:
     """`Work` with driven coordinates set, bodies placed and rows measured at the coordinates q."""
     work = scratch(system)
     work.coordinates.q = q
     if v is not None:
         work.coordinates.v = v
-    placed(system, work, t)
+    evaluate_at_time(system, work, t)
     return work
 
 
-def scaled_jacobian(system, work, coordinates):
+def scaled_jacobian(system: System, work: Work, coordinates: Ints | Sequence[int] | range) -> Floats:
     """(rows, given coordinates) of the Jacobian without dimensions: lengths count in lengths of the mechanism."""
-    return work.jacobian[:, coordinates] * system.sizes[coordinates] / system.rows.extent[:, None]
+    return work.constraint_jacobian[:, coordinates] * system.sizes[coordinates] / system.rows.extent[:, None]
 
 
-def misses(system, work):
+def scaled_residuals(system: System, work: Work) -> Floats:
     """Residuals of the rows without dimensions."""
-    return work.columns[MISS] / system.rows.extent
+    return work.row_columns[RESIDUAL] / system.rows.extent
 
 
-def split(system, q, t=0.0):
+def partition_coordinates(system: System, q: Floats, t: float = 0.0) -> System:
     """The system with its coordinates split at q so that the dependent ones follow as firmly as possible."""
-    work = at(system, q, t)
-    pivots = qr(scaled_jacobian(system, work, system.stored), mode="r", pivoting=True)[1] if len(system.rows) else np.zeros(0, int)
-    return split_into(system, np.sort(system.stored[pivots[: len(system.rows)]]), work)
+    work = evaluate_at(system, q, t)
+    pivots = qr(scaled_jacobian(system, work, system.stored), mode="r", pivoting=True)[-1] if len(system.rows) else np.zeros(0, int)
+    return partition_into(system, np.sort(system.stored[pivots[: len(system.rows)]]), work)
 
 
-def split_into(system, dependent, work):
+def partition_into(system: System, dependent: Ints, work: Work) -> System:
     """The system with the given coordinates dependent and without a chart, its determinant measured at what `work` holds."""
     independent = np.array([k for k in system.stored if k not in dependent], dtype=np.int64)
     contacts, place = system.contacts.copy(), len(system.stored) + len(independent)

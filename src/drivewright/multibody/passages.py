@@ -5,10 +5,11 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import null_space
 
-from drivewright.multibody.chart import configure_at
-from drivewright.multibody.kinematics import measured
-from drivewright.multibody.partition import at, scaled_jacobian
-from drivewright.multibody.system import MISS, System, motion, scratch
+from drivewright._typing import Floats
+from drivewright.multibody.chart import solve_kinematics
+from drivewright.multibody.kinematics import evaluate_rows
+from drivewright.multibody.partition import evaluate_at, scaled_jacobian
+from drivewright.multibody.system import RESIDUAL, System, motion, scratch
 
 FOLDED = 1e-6  # singular value over the largest that counts as zero in a singular position
 FOURTH = np.array([-1, 16, -30, 16, -1]) / 12  # second difference of the fourth order
@@ -24,38 +25,38 @@ class Passage(NamedTuple):
 
     time: float
     system: System
-    state: np.ndarray
+    state: Floats
     smallest: float
     tangents: int
     touching: bool
 
 
-def passage(system, t, y):
+def passage(system: System, t: float, y: Floats) -> Passage:
     """The `Passage` of a state that stands in the singular position of its system's chart."""
     q = _configured(system, t, y).coordinates.q
     return Passage(float(t), system, np.array(y), _smallest(system, q, t), *_tangents(system, q, t))
 
 
-def smallest_singular_values(system, t, y):
+def smallest_singular_values(system: System, t: Floats, y: Floats) -> Floats:
     """(m,) of the loops' Jacobian without dimensions, at states y (m, n) at the times t (m,); infinite without loops."""
     return np.array([_smallest(system, _configured(system, time, state).coordinates.q, time) for time, state in zip(t, y, strict=True)])
 
 
 def _configured(system, t, y):
     moving = motion(system)
-    configure_at(moving.system, moving.work, t, y)
+    solve_kinematics(moving.system, moving.work, t, y)
     return moving.work
 
 
 def _smallest(system, q, t):
-    columns = scaled_jacobian(system, at(system, q, t), system.stored)
+    columns = scaled_jacobian(system, evaluate_at(system, q, t), system.stored)
     return float(np.linalg.svd(columns, compute_uv=False)[-1]) if len(columns) else np.inf
 
 
 def _tangents(system, q, t):
     """(number of directions in which a motion can go through, whether two of them coincide)."""
     moved = np.concatenate([system.stored, system.driven.coordinate])
-    columns = scaled_jacobian(system, at(system, q, t), moved)
+    columns = scaled_jacobian(system, evaluate_at(system, q, t), moved)
     folded = int(np.sum(np.linalg.svd(columns, compute_uv=False) < FOLDED * np.linalg.norm(columns, 2)))
     if folded != 1 or len(moved) - len(columns) != 1:
         return 2**folded, False
@@ -85,5 +86,5 @@ def _free_misses(system, q):
     """Residuals at the coordinates q, driven ones where q has them."""
     work = scratch(system)
     work.coordinates.q = q
-    measured(system, work)
-    return work.columns[MISS]
+    evaluate_rows(system, work)
+    return work.row_columns[RESIDUAL]

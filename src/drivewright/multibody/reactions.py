@@ -10,8 +10,13 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import null_space
 
+from drivewright._typing import Floats
+from drivewright.multibody.assembly import Assembly
 from drivewright.multibody.bodies import GROUND
-from drivewright.multibody.wrenches import ObservedBodies, Reaction, cross
+from drivewright.multibody.joints.joint import Joint
+from drivewright.multibody.observe import Observed
+from drivewright.multibody.system import System
+from drivewright.multibody.wrenches import ObservedBodies, Reaction, Wrench, cross
 
 CHUNK = 2000  # states at a time: bounds the memory
 RANK = 1e-10  # singular values below this part of the largest are those of redundant constraints
@@ -26,13 +31,13 @@ class Reactions(NamedTuple):
     Where constraints are redundant, the smallest forces (in the root mean square) that do it.
     """
 
-    joints: dict
-    tensions: dict
-    drives: np.ndarray
-    residual: np.ndarray
+    joints: dict[str, Reaction]
+    tensions: dict[str, Floats]
+    drives: Floats
+    residual: Floats
 
 
-def reactions(assembly, system, observed):
+def reactions(assembly: Assembly, system: System, observed: Observed) -> Reactions:
     """`Reactions` of the observed states of a system of the assembly."""
     parts = [
         observed._replace(**{name: getattr(observed, name)[k : k + CHUNK] for name in observed._fields})
@@ -47,7 +52,7 @@ def reactions(assembly, system, observed):
     return Reactions(joints, tensions, *(np.concatenate([getattr(one, name) for one in solved]) for name in ("drives", "residual")))
 
 
-def unbounded_joints(assembly, system, observed):
+def unbounded_joints(assembly: Assembly, system: System, observed: Observed) -> tuple[str, ...]:
     """Names of the ideal joints whose forces grow without bound towards one state in a singular position; none where they stay finite.
 
     There the joints cannot transmit every load.  What is left over of the equations of motion says whether they would have to; which joints
@@ -67,32 +72,32 @@ class _Equations(NamedTuple):
     """M a - F - M g = W lambda of observed states: `columns` W, `wanted` the left side; what the unknowns belong to; a length."""
 
     places: ObservedBodies
-    ideal: list
-    groups: list
-    unknowns: list
+    ideal: list[Joint]
+    groups: list[list[Wrench]]
+    unknowns: list[Wrench]
     length: float
-    columns: np.ndarray
-    wanted: tuple
+    columns: Floats
+    wanted: tuple[Floats, Floats]
 
 
 def _equations(assembly, system, observed):
-    wide = assembly.wide
+    expanded = assembly.expanded
     places = ObservedBodies(
         {name: k for k, name in enumerate(assembly.names)},
-        {GROUND: (0.0, 0.0)} | {body.name: body.centroid for body in wide.bodies},
-        {GROUND: 0.0} | {body.name: body.angle for body in wide.bodies},
+        {GROUND: (0.0, 0.0)} | {body.name: body.centroid for body in expanded.bodies},
+        {GROUND: 0.0} | {body.name: body.angle for body in expanded.bodies},
         observed,
     )
-    ideal = [joint for joint in wide.joints if joint.is_constraint]
+    ideal = [joint for joint in expanded.joints if joint.is_constraint]
     groups = [joint.wrenches(places) for joint in ideal]
-    driven = [_drive_wrench(next(j for j in wide.joints if j.name == drive.joint), places) for drive in wide.drives]
+    driven = [_drive_wrench(next(j for j in expanded.joints if j.name == drive.joint), places) for drive in expanded.drives]
     unknowns = [wrench for group in groups for wrench in group] + driven
     length = _length(unknowns, places)
     return _Equations(places, ideal, groups, unknowns, length, _columns(unknowns, places, length), _wanted(system, observed, length))
 
 
 def _solve(assembly, system, observed):
-    wide, equations = assembly.wide, _equations(assembly, system, observed)
+    expanded, equations = assembly.expanded, _equations(assembly, system, observed)
     places, length = equations.places, equations.length
     sizes, residual = _balance(equations.columns, equations.wanted)
     sizes *= [length if wrench.force is None else 1.0 for wrench in equations.unknowns]
@@ -100,7 +105,7 @@ def _solve(assembly, system, observed):
     for joint, group in zip(equations.ideal, equations.groups, strict=True):
         joints[joint.name] = joint.reaction(group, sizes[:, start : start + len(group)], places)
         start += len(group)
-    elements = [joint.force_element for joint in wide.joints if joint.force_element]
+    elements = [joint.force_element for joint in expanded.joints if joint.force_element]
     for table in ("contacts", "bushings"):
         joints |= {one.name: one.reaction(k, places) for k, one in enumerate(one for one in elements if one.table == table)}
     return Reactions(joints, _tensions(assembly.model, joints, places), sizes[:, start:], residual)

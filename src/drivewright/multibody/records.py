@@ -1,10 +1,12 @@
 """Tables of records: how the descriptions of bodies, joints and forces reach the compiled kernels."""
 
 from collections.abc import Iterable, Mapping
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
+Records: TypeAlias = Any  # np.recarray: an array whose fields are attributes, which type checkers do not know
+OneRecord: TypeAlias = Any  # np.record: one of its records
 Values: TypeAlias = Mapping[str, float]  # field -> value of one record; what is left out is zero
 
 
@@ -21,6 +23,6 @@ def record_of(kind: np.dtype, values: Values) -> np.ndarray:
     return record
 
 
-def table_of(kind: np.dtype, rows: Iterable[Values]) -> np.recarray:
+def table_of(kind: np.dtype, rows: Iterable[Values]) -> Records:
     """Records (n,) of a kind."""
     return np.array([record_of(kind, row) for row in rows], dtype=kind).view(np.recarray)

@@ -7,17 +7,18 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import plain
+from drivewright._typing import Floats
 from drivewright.errors import DoesNotAssemble
 from drivewright.multibody.assembly import Assembly
-from drivewright.multibody.chart import clear_of_fold, configure_at
-from drivewright.multibody.continuation import Stretch, continued
+from drivewright.multibody.chart import outside_fold, solve_kinematics
+from drivewright.multibody.continuation import Stretch, continue_motion
 from drivewright.multibody.dynamics import FIRST_PIN
-from drivewright.multibody.loads import LASTING, gap_of
+from drivewright.multibody.loads import LASTING, penetration
 from drivewright.multibody.observe import FIELDS, observe
-from drivewright.multibody.partition import at, split
-from drivewright.multibody.passages import passage, smallest_singular_values
-from drivewright.multibody.singular import Outlook, look_ahead, room
-from drivewright.multibody.system import motion, no_chart
+from drivewright.multibody.partition import evaluate_at, partition_coordinates
+from drivewright.multibody.passages import Passage, passage, smallest_singular_values
+from drivewright.multibody.singular import Outlook, distance_to_singularity, look_ahead
+from drivewright.multibody.system import System, Work, motion, no_chart
 from drivewright.numerics.ode import Event, integrate
 from drivewright.stopped import Stop, uses
 
@@ -54,39 +55,48 @@ class Run:
     approach), with `advice` why it ended before, and the singular positions on the way."""
 
     assembly: Assembly
-    stretches: tuple
-    impacts: np.ndarray  # (k, 3)
+    stretches: tuple[Stretch, ...]
+    impacts: Floats  # (k, 3)
     advice: str
     steps: int
     until: float
-    passages: tuple = ()
+    passages: tuple[Passage, ...] = ()
 
     def __post_init__(self):
         uses(self.stop)
 
     @property
-    def outcome(self):
+    def outcome(self) -> str:
+        """complete, or partial where the run ended before its time."""
         return "partial" if self.advice else "complete"
 
     @property
-    def stop(self):
+    def stop(self) -> Stop | None:
         """The `Stop` of a run that ended before its time, else None."""
         return Stop(f"the run ends at t = {self.end[1]:.6g} s of {self.until:.6g} s", self.advice) if self.advice else None
 
     @property
-    def end(self):
+    def end(self) -> tuple[System, float, Floats]:
         """(system, time, state) at the end."""
         last = self.stretches[-1]
         return last.system, last.t_end, last.y_end
 
 
-def simulate(assembly, duration, settings=Settings(), *, samples=None, state=None, start=0.0):
+def simulate(
+    assembly: Assembly,
+    duration: float,
+    settings: Settings = Settings(),
+    *,
+    samples: Floats | None = None,
+    state: Floats | None = None,
+    start: float = 0.0,
+) -> Run:
     """`Run` of an assembly over `duration` [s] from its start, or from a `state` of its system at time `start`.
 
     `samples`: the times at which states are wanted; without them every accepted step, `settings.per_step` points of each.
     """
     if assembly.freedom == 0:
-        turns = max(duration * speed_of(assembly) / (2 * np.pi), 1.0)
+        turns = max(duration * fastest_drive_speed(assembly) / (2 * np.pi), 1.0)
         grid = np.linspace(start, start + duration, 1 + math.ceil(GRID * turns))
         times = grid if samples is None else np.asarray(samples, float)
         return _driven(assembly, times, start + duration, settings, samples is None)
@@ -103,7 +113,7 @@ def _legs(assembly, t, end, y, settings, samples):
     stretches, impacts, passages, steps = [], [np.zeros((0, 3))], [], 0
     while True:
         inside = None if samples is None else samples[(samples <= leg.until) & ((samples > t) | (not stretches))]
-        run = _integrate(system, t, leg, y, settings, steps, inside, speed_of(assembly))
+        run = _integrate(system, t, leg, y, settings, steps, inside, fastest_drive_speed(assembly))
         goes_on = run.outcome == "event" or (not run.advice and run.t_end < end)
         kept = slice(None, -1) if goes_on and samples is None else slice(None)  # the next stretch begins with the state at the end
         stretches.append(Stretch(system, run.t[kept], run.y[kept], run.t_end, run.y_end))
@@ -115,7 +125,7 @@ def _legs(assembly, t, end, y, settings, samples):
         if goes_on:
             system, y, leg = _onward(system, t, y, end, run.outcome == "event")
             if len(system.chart.offsets) and settings.singular == "stop":
-                goes_on, advice = False, stopped_at(system.chart.origin_time)
+                goes_on, advice = False, stop_advice(system.chart.origin_time)
         if not goes_on:
             return Run(assembly, _joined(stretches), np.concatenate(impacts), advice, steps, end, tuple(passages))
 
@@ -152,7 +162,7 @@ def _onward(system, t, y, end, weak):
     outlook = look_ahead(system, t, y) if len(system.chart.offsets) == 0 else Outlook(None, np.inf)
     if outlook.charted:
         return *outlook.charted, Leg(end)
-    system, y = resplit(system, t, y)
+    system, y = repartition(system, t, y)
     leg = _leg(system, t, y, end)
     return system, y, Leg(min(leg.until, t + WARY * outlook.time), min(leg.max_step, CAREFUL * outlook.time))
 
@@ -165,12 +175,12 @@ def _leg(system, t, y, end):
         return Leg(end)
     bodies, sizes = observe(system, [t], y[None]).bodies[0], [system.length, system.length, 1.0]
     rate, gain = (np.max(np.abs(bodies[:, first : first + 3]) / sizes) for first in map(FIELDS.index, ("vx", "ax")))
-    way = min(1.0, room(system, t, y))
+    way = min(1.0, distance_to_singularity(system, t, y))
     pace = rate / way + np.sqrt(gain / way)
     return Leg(min(end, t + 1.0 / pace), CAREFUL / pace) if pace > 0 else Leg(end)
 
 
-def stopped_at(time):
+def stop_advice(time: float) -> str:
     """Advice of a run that was to stop in a singular position."""
     return (
         f"the mechanism comes to a singular position at t = {time:.6g} s, where the run was to stop; "
@@ -184,20 +194,20 @@ def _passages(system, run):
     return [passage(system, t[k], y[k]) for k in np.flatnonzero(index == FIRST_PIN - 1)]
 
 
-def clear_states(run, start=-np.inf, most=None):
+def states_outside_folds(run: Run, start: float = -np.inf, most: int | None = None) -> list[tuple[System, Floats, Floats]]:
     """(system, times, states) of each stretch of a run from a time on, without the middles of folds; at most so many of all, if told."""
-    clear = [np.flatnonzero((part.t >= start) & clear_of_fold(part.system, part.t, part.y)) for part in run.stretches]
+    clear = [np.flatnonzero((part.t >= start) & outside_fold(part.system, part.t, part.y)) for part in run.stretches]
     counts = np.cumsum([0, *map(len, clear)])
     stride = max(1, -(-counts[-1] // most)) if most else 1
     chosen = (rows[-before % stride :: stride] for rows, before in zip(clear, counts[:-1], strict=True))  # evenly across the stretches
     return [(part.system, part.t[rows], part.y[rows]) for part, rows in zip(run.stretches, chosen, strict=True) if len(rows)]
 
 
-def touching(system, t, y):
+def touching(system: System, t: float, y: Floats) -> Floats:
     """A state in which every pin that begins within its wall, without an approach to remember, is in lasting contact."""
-    work = at_state(system, t, y)
+    work = work_at_state(system, t, y)
     for n, contact in enumerate(system.contacts):
-        if y[contact.memory] == 0.0 <= plain(gap_of)(system, work, n):
+        if y[contact.memory] == 0.0 <= plain(penetration)(system, work, n):
             y[contact.memory] = LASTING
     return y
 
@@ -223,12 +233,12 @@ def _integrate(system, t, leg, y, settings, steps, samples, speed):
     )
 
 
-def speed_of(assembly):
+def fastest_drive_speed(assembly: Assembly) -> float:
     """Angular speed of the fastest drive at the start [rad/s]; 0 without one."""
     return float(np.max(np.abs(assembly.start.v[assembly.system.driven.coordinate]), initial=0.0))
 
 
-def tolerances(system, settings, speed):
+def tolerances(system: System, settings: Settings, speed: float) -> Floats:
     """Absolute tolerance of every component of the state: rates get ten times the speed times that of the positions, memories none."""
     atol = settings.atol or settings.rtol * GEAR
     memories = len(system.contacts) + int(np.sum(system.contacts.bristle != system.contacts.memory))
@@ -253,24 +263,24 @@ def _impacts(system, run):
     return np.array(rows).reshape(-1, 3)
 
 
-def resplit(system, t, y):
+def repartition(system: System, t: float, y: Floats) -> tuple[System, Floats]:
     """(system, state) with the coordinates split anew at a state."""
-    work = at_state(system, t, y)
-    fresh = split(system._replace(chart=no_chart()), work.coordinates.q, t)
-    return fresh, restated(system, t, y, fresh)
+    work = work_at_state(system, t, y)
+    fresh = partition_coordinates(system._replace(chart=no_chart()), work.coordinates.q, t)
+    return fresh, convert_state(system, t, y, fresh)
 
 
-def restated(system, t, y, other):
+def convert_state(system: System, t: float, y: Floats, other: System) -> Floats:
     """A state of one split of the coordinates as a state of another one."""
-    work = at_state(system, t, y)
+    work = work_at_state(system, t, y)
     memory = y[len(system.stored) + len(system.independent) :]
     return np.concatenate([work.coordinates.q[system.stored], work.coordinates.v[other.independent], memory])
 
 
-def at_state(system, t, y):
+def work_at_state(system: System, t: float, y: Floats) -> Work:
     """`Work` of a state: loops closed, rates of all coordinates."""
     moving = motion(system)
-    if not configure_at(moving.system, moving.work, t, y):
+    if not solve_kinematics(moving.system, moving.work, t, y):
         raise DoesNotAssemble(f"the loops do not close at t = {t:.6g} s")
     return moving.work
 
@@ -280,22 +290,22 @@ def at_state(system, t, y):
 
 def _driven(assembly, times, end, settings, refine):
     """Kinematics: the dependent coordinates at the times, each from the one before."""
-    found = continued(assembly.system, times, end, assembly.state, settings.singular == "stop", refine)
+    found = continue_motion(assembly.system, times, end, assembly.state, settings.singular == "stop", refine)
     if found.outcome == "stuck":
         raise DoesNotAssemble(_stuck(assembly, found.reached, end))
-    advice = stopped_at(found.reached) if found.outcome == "stopped" else ""
+    advice = stop_advice(found.reached) if found.outcome == "stopped" else ""
     return Run(assembly, found.stretches, np.zeros((0, 3)), advice, len(times), end, found.passages)
 
 
 def _stuck(assembly, t, end):
     """Message on a drive that cannot go on."""
-    work = at(assembly.system, np.zeros(len(assembly.start.q)), t)
+    work = evaluate_at(assembly.system, np.zeros(len(assembly.start.q)), t)
     told = []
     for drive, driven in zip(assembly.model.drives, assembly.system.driven, strict=True):
         value = driven.sign * work.coordinates.q[driven.coordinate]
         turning = any(link.turn == driven.coordinate for link in assembly.tree.links)
         told.append(f"{drive.joint!r} at {np.degrees(value) % 360:.2f} deg" if turning else f"{drive.joint!r} at {1e3 * value:.4g} mm")
-    joints = sorted({assembly.wide.joints[row.joint].name for row in assembly.system.rows})
+    joints = sorted({assembly.expanded.joints[row.joint].name for row in assembly.system.rows})
     if t <= 0.0:
         return (
             f"the mechanism starts in a singular position, drive {' and '.join(told)}: links of the loop through joint"

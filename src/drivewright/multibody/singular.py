@@ -12,9 +12,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import qr
 
-from drivewright.multibody.chart import configure_at
+from drivewright._typing import Floats, Ints
+from drivewright.multibody.chart import solve_kinematics
 from drivewright.multibody.forces.contact import LUGRE
-from drivewright.multibody.partition import at, misses, scaled_jacobian, split_into
+from drivewright.multibody.partition import evaluate_at, partition_into, scaled_jacobian, scaled_residuals
 from drivewright.multibody.system import Chart, System, Work, motion
 
 NODES = np.array([-1.0, -0.85, -0.7, -0.55, 0.55, 0.7, 0.85, 1.0])  # of a chart, in parts of its half width
@@ -35,26 +36,26 @@ class Line(NamedTuple):
     system: System
     work: Work
     t: float
-    y: np.ndarray
-    direction: np.ndarray
+    y: Floats
+    direction: Floats
     pace: float
 
     @property
-    def free(self):
+    def free(self) -> Ints:
         """Where the independent coordinates are in the state."""
         return np.searchsorted(self.system.stored, self.system.independent)
 
     @property
-    def held(self):
+    def held(self) -> Ints:
         """Where the dependent coordinates are in the state."""
         return np.searchsorted(self.system.stored, self.system.dependent)
 
-    def close(self, x, guess, shift=0.0, delay=0.0):
+    def close(self, x: float, guess: Floats, shift: float | Floats = 0.0, delay: float = 0.0) -> "Place":
         """`Place` at x, the loops closed from a guess of the dependent coordinates; z shifted, time delayed."""
         y = self.y.copy()
         y[self.free] += x * self.direction + shift
         y[self.held] = guess
-        closed = configure_at(self.system, self.work, self.t + x * self.pace + delay, y)
+        closed = solve_kinematics(self.system, self.work, self.t + x * self.pace + delay, y)
         dependent = self.work.coordinates.q[self.system.dependent]
         miss = np.max(np.abs(dependent - guess) / self.system.sizes[self.system.dependent], initial=0.0)
         values = np.linalg.svd(scaled_jacobian(self.system, self.work, self.system.stored), compute_uv=False) if closed else np.ones(1)
@@ -65,7 +66,7 @@ class Place(NamedTuple):
     """A point of a line: dependent coordinates, how far the guess was from them, smallest singular value over the largest."""
 
     x: float
-    dependent: np.ndarray
+    dependent: Floats
     correction: float
     smallest: float
 
@@ -74,11 +75,11 @@ class Outlook(NamedTuple):
     """`charted`: (system with a chart, state) where a singular position is near enough to be charted, else None; `time` [s] until one,
     estimated from how the smallest singular value falls, infinite where it does not."""
 
-    charted: tuple | None
+    charted: tuple[System, Floats] | None
     time: float
 
 
-def look_ahead(system, t, y):
+def look_ahead(system: System, t: float, y: Floats) -> Outlook:
     """The `Outlook` of the motion from a state on."""
     line = _line(system, t, y)
     if line is None:
@@ -94,7 +95,7 @@ def look_ahead(system, t, y):
     return Outlook(None, ahead * line.pace)
 
 
-def room(system, t, y):
+def distance_to_singularity(system: System, t: float, y: Floats) -> float:
     """How far a state is from a singular position [rad], [lengths of the mechanism], whichever independent coordinate moves and whichever
     way, estimated from how the smallest singular value changes; infinite where it does not."""
     first, found = len(system.stored), np.inf
@@ -113,13 +114,13 @@ def room(system, t, y):
 def _line(system, t, y):
     """The `Line` along the motion of a state, the coordinates split by its tangent; None where the loops are at rest."""
     moving = motion(system)
-    if not configure_at(moving.system, moving.work, t, y):
+    if not solve_kinematics(moving.system, moving.work, t, y):
         return None
     rates = moving.work.coordinates.v.copy()
     speed = _speed(system, moving.work.coordinates.q, rates)
     if speed == 0.0:
         return None
-    fresh = split_into(system, _dependent(system, moving.work), moving.work)
+    fresh = partition_into(system, _dependent(system, moving.work), moving.work)
     remembered = y[len(system.stored) + len(system.independent) :]
     state = np.concatenate([moving.work.coordinates.q[fresh.stored], rates[fresh.independent], remembered])
     return Line(fresh, motion(fresh).work, t, state, rates[fresh.independent] / speed, 1.0 / speed)
@@ -132,7 +133,7 @@ def _speed(system, q, v):
 
 def _looped(system, q):
     """Which coordinates the loops know of; of others they have no derivatives, wherever the bodies are."""
-    columns = [scaled_jacobian(system, at(system, place), np.arange(len(q))) for place in (q, q + 0.3 * system.sizes)]
+    columns = [scaled_jacobian(system, evaluate_at(system, place), np.arange(len(q))) for place in (q, q + 0.3 * system.sizes)]
     return np.max(np.abs(columns), axis=(0, 1), initial=0.0) > 1e-12
 
 
@@ -147,7 +148,7 @@ def _dependent(system, work):
     if not free:
         return system.dependent
     tangent = np.linalg.svd(scaled_jacobian(system, work, system.stored))[2][-free:]
-    pivots = qr(tangent, mode="r", pivoting=True)[1]
+    pivots = qr(tangent, mode="r", pivoting=True)[-1]
     return np.sort(system.stored[pivots[free:]])
 
 
@@ -181,7 +182,7 @@ def _weights(nodes, x):
     return np.prod(away / apart, axis=1)
 
 
-def chart_through(system, q, v):
+def chart_through(system: System, q: Floats, v: Floats) -> System | None:
     """The system with a chart through the singular position at the coordinates q, along the branch with the rates v; None where there is
     none.  Nothing but its rates tells it from the other branches there; of several freedoms of the loops it is not known what the others
     do."""
@@ -190,7 +191,7 @@ def chart_through(system, q, v):
     if free > 1 or speed == 0.0:
         return None
     dependent = np.setdiff1d(inside, inside[np.argsort(-np.abs(v / system.sizes)[inside])[:free]])
-    fresh = split_into(system, dependent, at(system, q))
+    fresh = partition_into(system, dependent, evaluate_at(system, q))
     state = np.concatenate([q[fresh.stored], v[fresh.independent], np.zeros(_memories(system))])
     line = Line(fresh, motion(fresh).work, 0.0, state, v[fresh.independent] / speed, 1.0 / speed)
     here, slope = Place(0.0, q[dependent], 0.0, 0.0), v[dependent] / speed
@@ -271,14 +272,14 @@ def _coordinates(line, x, dependent):
 
 def _fold(line, nodes, x):
     """Smallest singular value over the largest on the polynomial through the nodes, at x."""
-    work = at(line.system, _coordinates(line, x, _carried(nodes, x, len(nodes))), line.t + x * line.pace)
+    work = evaluate_at(line.system, _coordinates(line, x, _carried(nodes, x, len(nodes))), line.t + x * line.pace)
     values = np.linalg.svd(scaled_jacobian(line.system, work, line.system.stored), compute_uv=False)
     return float(values[-1] / values[0])
 
 
 def _miss(line, x, dependent):
-    work = at(line.system, _coordinates(line, x, dependent), line.t + x * line.pace)
-    return float(np.max(np.abs(misses(line.system, work))))
+    work = evaluate_at(line.system, _coordinates(line, x, dependent), line.t + x * line.pace)
+    return float(np.max(np.abs(scaled_residuals(line.system, work))))
 
 
 def _charted(line, nodes, centre, width):

@@ -10,9 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats, Ints
 from drivewright.multibody.forces.contact import Laws, NoLaws
 from drivewright.multibody.joints.rows import Equations, NoEquations
-from drivewright.multibody.records import record_type
+from drivewright.multibody.records import Records, record_type
 
 # r = r_parent + R_parent (a + s e) - R (b + s f), s the slide: one of e and f is 0.  `free`: x, y are coordinates free, free + 1.
 # `driven`: it follows the drives alone.
@@ -27,9 +28,10 @@ PIECE = record_type("", "start c0 c1 c2 c3 c4 c5")
 
 # What a run finds at the state it was last asked about.
 COORDINATE = record_type("", "q v a")  # value, rate, acceleration
-POSE = record_type("", "x y c s angle vx vy w bx by fx fy ft")  # place, rates, acceleration at zero q'', force through the centroid, torque
-LEVER = record_type("", "x y t")  # d(place, angle)/d(coordinate)
-MISS, DRIFT, COLUMN = range(3)  # residual of the rows; q'' of the dependent coordinates at zero q'' of the independent ones; scratch
+# Place, rates, velocity-product acceleration (that at zero q''), force through the centroid, torque.
+POSE = record_type("", "x y c s angle vx vy w bias_x bias_y fx fy ft")
+PARTIAL_VELOCITY = record_type("", "x y t")  # d(place, angle)/d(coordinate)
+RESIDUAL, BIAS, SCRATCH = range(3)  # residual of the rows; q'' of the dependent coordinates at zero q'' of the independent ones; scratch
 
 
 class Chart(NamedTuple):
@@ -40,11 +42,11 @@ class Chart(NamedTuple):
     position, and the loops are closed at the state itself.
     """
 
-    offsets: np.ndarray  # (nodes,)
-    guesses: np.ndarray  # (nodes, dependent): where Newton's method starts
-    direction: np.ndarray  # (independent,), per unit of x
-    normal: np.ndarray
-    origin: np.ndarray
+    offsets: Floats  # (nodes,)
+    guesses: Floats  # (nodes, dependent): where Newton's method starts
+    direction: Floats  # (independent,), per unit of x
+    normal: Floats
+    origin: Floats
     pace: float  # [s] per unit of x
     normal_time: float
     origin_time: float
@@ -54,27 +56,27 @@ class Chart(NamedTuple):
 class System(NamedTuple):
     """Frozen arrays of records; `stored` are the coordinates in the state, dependent and independent ones."""
 
-    bodies: np.ndarray
-    rows: np.ndarray
-    driven: np.ndarray
-    stored: np.ndarray
-    independent: np.ndarray
-    dependent: np.ndarray
-    springs: np.ndarray
-    rotational_springs: np.ndarray
-    torques: np.ndarray
-    forces: np.ndarray
-    bushings: np.ndarray
-    contacts: np.ndarray
+    bodies: Records
+    rows: Records
+    driven: Records
+    stored: Ints
+    independent: Ints
+    dependent: Ints
+    springs: Records
+    rotational_springs: Records
+    torques: Records
+    forces: Records
+    bushings: Records
+    contacts: Records
     laws: NoLaws | Laws  # of contacts that have one of their own
-    wear: np.ndarray  # (contacts, bins): depth worn off each bearing, over the angle in its body's frame; no bins without wear
-    curves: np.ndarray
-    pieces: np.ndarray
+    wear: Floats  # (contacts, bins): depth worn off each bearing, over the angle in its body's frame; no bins without wear
+    curves: Records
+    pieces: Records
     equations: NoEquations | Equations  # of rows of further kinds
     gravity_x: float
     gravity_y: float
     length: float  # of the mechanism, its largest arm [m]
-    sizes: np.ndarray  # (coordinates,): 1 of a rotation, `length` of a displacement
+    sizes: Floats  # (coordinates,): 1 of a rotation, `length` of a displacement
     reference_determinant: float  # of the dependent coordinates' Jacobian where the coordinates were split, with its sign; 0: none
     chart: Chart
 
@@ -82,20 +84,20 @@ class System(NamedTuple):
 class Work(NamedTuple):
     """Scratch of one run."""
 
-    coordinates: np.ndarray
-    poses: np.ndarray  # (bodies,)
-    levers: np.ndarray  # (bodies, coordinates)
-    jacobian: np.ndarray  # (rows, coordinates)
-    lu: np.ndarray  # (rows, rows): decomposition of the Jacobian by the dependent coordinates
-    pivots: np.ndarray
-    columns: np.ndarray  # (3, rows)
-    follow: np.ndarray  # (rows, independent + driven): d(dependent)/d(independent and, in a chart, driven)
-    reduced: np.ndarray  # (bodies, independent): levers of the bodies, the dependent coordinates following
-    mass: np.ndarray  # (independent, independent): factor L of the mass matrix L L^T
-    force: np.ndarray  # (independent,)
-    pressed: np.ndarray  # (independent,): scratch, what a unit force of a contact does
-    node: np.ndarray  # (stored + independent,): state of a node of the chart
-    sums: np.ndarray  # (rows, 3 + independent + driven): dependent coordinates, rates, drift and `follow`, summed over the nodes
+    coordinates: Records
+    poses: Records  # (bodies,)
+    partial_velocities: Records  # (bodies, coordinates)
+    constraint_jacobian: Floats  # (rows, coordinates)
+    lu: Floats  # (rows, rows): decomposition of the Jacobian by the dependent coordinates
+    pivots: Ints
+    row_columns: Floats  # (3, rows)
+    dependency_matrix: Floats  # (rows, independent + driven): d(dependent)/d(independent and, in a chart, driven)
+    reduced_partial_velocities: Records  # (bodies, independent): the dependent coordinates following
+    mass: Floats  # (independent, independent): factor L of the mass matrix L L^T
+    force: Floats  # (independent,)
+    unit_load: Floats  # (independent,): scratch, what a unit force of a contact does
+    node_state: Floats  # (stored + independent,): state of a node of the chart
+    node_sums: Floats  # (rows, 3 + independent + driven): dependent coordinates, rates, bias and dependency matrix, summed over nodes
 
 
 class Motion(NamedTuple):
@@ -105,7 +107,7 @@ class Motion(NamedTuple):
     work: Work
 
 
-def turning(bodies, size):
+def rotation_velocities(bodies: Records, size: int) -> Floats:
     """(bodies, coordinates): d(angle)/d(coordinate), which never changes."""
     turns = np.zeros((len(bodies), size))
     for i, body in enumerate(bodies[1:], start=1):
@@ -115,23 +117,23 @@ def turning(bodies, size):
     return turns
 
 
-def scratch(system):
+def scratch(system: System) -> Work:
     """Fresh `Work` for a system; every thread needs its own."""
     bodies, given, rows, free = len(system.bodies), len(system.driven), len(system.rows), len(system.independent)
     n = len(system.stored) + given
-    poses, levers = np.zeros(bodies, POSE).view(np.recarray), np.zeros((bodies, n), LEVER).view(np.recarray)
+    poses, partial_velocities = np.zeros(bodies, POSE).view(np.recarray), np.zeros((bodies, n), PARTIAL_VELOCITY).view(np.recarray)
     poses.c = 1.0  # of the angle 0
-    levers.t = turning(system.bodies, n)
+    partial_velocities.t = rotation_velocities(system.bodies, n)
     return Work(
         np.zeros(n, COORDINATE).view(np.recarray),
         poses,
-        levers,
+        partial_velocities,
         np.zeros((rows, n)),
         np.zeros((rows, rows)),
         np.zeros(rows, np.int64),
         np.zeros((3, rows)),
         np.zeros((rows, free + given)),
-        np.zeros((bodies, free), LEVER).view(np.recarray),
+        np.zeros((bodies, free), PARTIAL_VELOCITY).view(np.recarray),
         np.zeros((free, free)),
         np.zeros(free),
         np.zeros(free),
@@ -140,18 +142,18 @@ def scratch(system):
     )
 
 
-def no_chart(independent=0, dependent=0):
+def no_chart(independent: int = 0, dependent: int = 0) -> Chart:
     """The `Chart` without nodes."""
     none = np.zeros(independent)
     return Chart(np.zeros(0), np.zeros((0, dependent)), none, none, none, 0.0, 0.0, 0.0, np.inf)
 
 
-def length_of(*tables):
+def length_of(*tables: Records) -> float:
     """The largest arm in tables of records: how large the mechanism is [m]; 1 where all are zero."""
     arms = [np.abs(table[name]).max(initial=0.0) for table in tables for name in ("ax", "ay", "bx", "by") if name in table.dtype.names]
     return max(arms, default=0.0) or 1.0
 
 
-def motion(system):
+def motion(system: System) -> Motion:
     """The `Motion` of a system with scratch of its own."""
     return Motion(system, scratch(system))

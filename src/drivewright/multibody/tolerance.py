@@ -4,18 +4,23 @@ A `Source` displaces markers of joints, in the frame of their body.  `scatter` c
 linear theory beside it, from the Jacobian of the closed loops.
 """
 
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from drivewright import cases
 from drivewright._jit import inner, outer, plain
+from drivewright._typing import Floats
 from drivewright.errors import DoesNotAssemble, InputError, UnknownName
-from drivewright.multibody.continuation import continued
+from drivewright.multibody.assembly import Assembly
+from drivewright.multibody.bodies import Marker
+from drivewright.multibody.continuation import continue_motion
 from drivewright.multibody.frames import rotated
 from drivewright.multibody.joints.rows import terms_of_row
-from drivewright.multibody.kinematics import close
-from drivewright.multibody.simulate import at_state
+from drivewright.multibody.kinematics import close_loops
+from drivewright.multibody.records import Records
+from drivewright.multibody.simulate import work_at_state
 from drivewright.multibody.system import CURVE, PIECE, System, Work, scratch
 
 CHUNK = 10_000  # samples between two looks at the keyboard
@@ -40,12 +45,12 @@ class Source(NamedTuple):
     name: str
     reach: float
     law: str
-    ends: tuple
-    direction: tuple = (1.0, 0.0)
-    marks: tuple = ()
+    ends: tuple[tuple[str, int], ...]
+    direction: tuple[float, float] = (1.0, 0.0)
+    marks: tuple[str, ...] = ()
 
 
-def play(joint, clearance):
+def play(joint: str, clearance: float) -> Source:
     """The journal of a pin with a radial clearance [m], in touch with its bearing in any direction, seen from the bearing's body."""
     return Source(joint, clearance, CIRCLE, ((joint, 0),))
 
@@ -55,15 +60,15 @@ class Posture(NamedTuple):
 
     system: System
     work: Work
-    q: np.ndarray
-    marks: np.ndarray
-    shifts: np.ndarray
+    q: Floats
+    marks: Records
+    shifts: Records
 
 
 # ------------------------------------------------------------------------------------------------------------------ posture
 
 
-def posture(assembly, markers, sources, angle=None):
+def posture(assembly: Assembly, markers: Mapping[str, Marker], sources: Sequence[Source], angle: float | None = None) -> Posture:
     """The `Posture` of an assembly with its first drive at `angle` [rad] (None: where it starts), watching {name: Marker}.
 
     Raises InputError where the drives leave a freedom, DoesNotAssemble where the drive does not get there.
@@ -81,7 +86,7 @@ def _brought(assembly, angle):
     """(system, work) with the drive brought from its start to an angle, always on the same assembly."""
     system, y = assembly.system, assembly.state.copy()
     if angle is not None:
-        found = continued(_led(system, angle), np.empty(0), 1.0, y)
+        found = continue_motion(_led(system, angle), np.empty(0), 1.0, y)
         system, y = found.stretches[-1].system, found.stretches[-1].y_end
         if found.outcome == "stuck":
             start = system.driven[0].start
@@ -90,7 +95,7 @@ def _brought(assembly, angle):
                 f"tolerances: the mechanism does not close beyond {stop:.2f} deg of the drive, on the way from "
                 f"{np.degrees(start):.2f} to {np.degrees(angle):.2f} deg. Give an angle that it reaches"
             )
-    return system, at_state(system, 0.0 if angle is None else 1.0, y)
+    return system, work_at_state(system, 0.0 if angle is None else 1.0, y)
 
 
 def _led(system, angle):
@@ -105,7 +110,7 @@ def _led(system, angle):
 
 
 def _watched(assembly, markers):
-    centroids = {body.name: body.centroid for body in assembly.wide.bodies}
+    centroids = {body.name: body.centroid for body in assembly.expanded.bodies}
     rows = []
     for marker in markers.values():
         cx, cy = centroids.get(marker.body, (0.0, 0.0))
@@ -128,7 +133,7 @@ def _arms(assembly, system, name, end):
         if link.joint is not None and link.joint.name == name:
             own = link.joint.first.body == link.body.name
             return [(OWN if own == (end == 0) else PARENT, number)]
-    names = [joint.name for joint in assembly.wide.joints]
+    names = [joint.name for joint in assembly.expanded.joints]
     if name not in names:
         raise UnknownName("joint with a tolerance", name, names)
     return [((FIRST, SECOND)[end], number) for number, row in enumerate(system.rows) if row.joint == names.index(name)]
@@ -140,11 +145,11 @@ def _arms(assembly, system, name, end):
 class Sampled(NamedTuple):
     """deviations (samples, marks, READINGS) from the nominal mechanism, nan where one does not close; whether Ctrl-C cut it short."""
 
-    deviations: np.ndarray
+    deviations: Floats
     interrupted: bool
 
 
-def sample(held, sources, samples, seed):
+def sample(held: Posture, sources: Sequence[Source], samples: int, seed: int) -> Sampled:
     """`Sampled` of so many random mechanisms; the same seed gives the same ones on any number of cores."""
     sizes = [min(CHUNK, samples - first) for first in range(0, samples, CHUNK)]
 
@@ -156,7 +161,7 @@ def sample(held, sources, samples, seed):
     return Sampled(np.concatenate([row.value for row in rows.rows]), rows.interrupted)
 
 
-def draw(sources, samples, rng):
+def draw(sources: Sequence[Source], samples: int, rng: np.random.Generator) -> Floats:
     """Random displacements (samples, sources, 2) [m], each in the frame of its body."""
     moves = np.empty((samples, len(sources), 2))
     for number, source in enumerate(sources):
@@ -170,7 +175,7 @@ def draw(sources, samples, rng):
     return moves
 
 
-def deviations(held, moves):
+def deviations(held: Posture, moves: Floats) -> Floats:
     """What the displacements moves (m, sources, 2) do to the watched markers: (m, marks, READINGS), nan where a loop does not close."""
     own = held.system._replace(bodies=held.system.bodies.copy(), rows=held.system.rows.copy())  # each caller overwrites its own arms
     everything = np.concatenate([np.zeros((1, *moves.shape[1:])), moves])
@@ -180,7 +185,17 @@ def deviations(held, moves):
 
 
 @outer
-def scatter(system, nominal, work, q, shifts, moves, marks, nominal_marks, out):
+def scatter(
+    system: System,
+    nominal: System,
+    work: Work,
+    q: Floats,
+    shifts: Records,
+    moves: Floats,
+    marks: Records,
+    nominal_marks: Records,
+    out: Floats,
+) -> None:
     """Readings out (m, marks, READINGS) of the mechanism displaced by each of moves (m, sources, 2).
 
     The arms of `system`, and `marks`, are scratch; what they are without displacement is in `nominal` and `nominal_marks`.
@@ -192,7 +207,7 @@ def scatter(system, nominal, work, q, shifts, moves, marks, nominal_marks, out):
             _displace(system, marks, shift, moves[n, shift.source, 0], moves[n, shift.source, 1])
         for k in range(q.size):
             work.coordinates[k].q = q[k]
-        closed = close(system, work)
+        closed = close_loops(system, work)
         for k in range(marks.size):
             here = work.poses[marks[k].body]
             px, py = rotated(here, marks[k].x, marks[k].y)
@@ -217,6 +232,7 @@ def _restore(system, nominal, marks, nominal_marks):
 
 @inner
 def _displace(system, marks, shift, dx, dy):
+    """Move the arm of a body or of a row, or a watched point, by (dx, dy) [m] in its body's frame."""
     if shift.what == MARK:
         mark = marks[shift.number]
         mark.x, mark.y = mark.x + dx, mark.y + dy
@@ -240,11 +256,11 @@ def _displace(system, marks, shift, dx, dy):
 class Shares(NamedTuple):
     """Linear theory: what each source does to each reading, arrays (marks, READINGS, sources): largest deviation and standard deviation."""
 
-    worst: np.ndarray
-    sigma: np.ndarray
+    worst: Floats
+    sigma: Floats
 
 
-def shares(sources, slopes):
+def shares(sources: Sequence[Source], slopes: Floats) -> Shares:
     """`Shares` from the gradient (marks, READINGS, sources, 2): along a circle |g| r, along a direction |g . d| t."""
     worst = np.empty(slopes.shape[:-1])
     for number, source in enumerate(sources):
@@ -254,7 +270,7 @@ def shares(sources, slopes):
     return Shares(worst, worst * np.array([SIGMAS[source.law] for source in sources]))
 
 
-def gradient(held, count):
+def gradient(held: Posture, count: int) -> Floats:
     """d(reading)/d(displacement) (marks, READINGS, count, 2) for `count` sources, in the frames of the bodies whose points they move.
 
     From the closed loops r(q, p) = 0:  dq/dp = -(dr/dq)^-1 dr/dp  for the dependent coordinates q, the driven ones held.
@@ -265,12 +281,12 @@ def gradient(held, count):
     for shift in held.shifts:
         carried, rows, points = _moved(held, shift)
         misses = np.einsum("rx,rxd->rd", normals, carried[system.rows.i] - carried[system.rows.j] + rows)
-        steps = -np.linalg.solve(work.jacobian[:, dependent], misses)
+        steps = -np.linalg.solve(work.constraint_jacobian[:, dependent], misses)
         for k, mark in enumerate(held.marks):
-            lever = work.levers[mark.body, dependent]
+            partial = work.partial_velocities[mark.body, dependent]
             arm = _rotation(work.poses[mark.body]) @ (mark.x, mark.y)
-            levers = np.stack([lever.t, lever.x - arm[1] * lever.t, lever.y + arm[0] * lever.t])
-            total[k, :, shift.source] += levers @ steps
+            partials = np.stack([partial.t, partial.x - arm[1] * partial.t, partial.y + arm[0] * partial.t])
+            total[k, :, shift.source] += partials @ steps
             total[k, 1:, shift.source] += carried[mark.body] + points[k]
     return total
 

@@ -12,7 +12,7 @@ from drivewright.errors import InputError, UnknownName
 from drivewright.multibody.bodies import GROUND, Body
 from drivewright.multibody.joints.joint import Joint, PointJoint
 from drivewright.multibody.joints.revolute import far_end_name
-from drivewright.multibody.model import Model
+from drivewright.multibody.model import MultibodyModel
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Tree:
         return next(link for link in self.links if link.body.name == name)
 
 
-def expand(model: Model) -> Model:
+def expand(model: MultibodyModel) -> MultibodyModel:
     """The model with what stands for its joints in the simulation: every massless link as a body of its own."""
     bodies, joints, forces = list(model.bodies), [], list(model.forces)
     for joint in model.joints:
@@ -56,12 +56,12 @@ def expand(model: Model) -> Model:
     return replace(model, bodies=tuple(bodies), joints=tuple(joints), forces=tuple(forces))
 
 
-def far_end(model: Model, joint: Joint) -> Joint | None:
+def far_end(model: MultibodyModel, joint: Joint) -> Joint | None:
     """The other pin of the massless link that a joint of an expanded model holds, or None."""
     return next((other for other in model.joints if other.name == far_end_name(joint)), None)
 
 
-def build_tree(model: Model) -> Tree:
+def build_tree(model: MultibodyModel) -> Tree:
     """The `Tree` of an expanded model."""
     linked = {joint.name for joint in model.joints if far_end(model, joint)}  # a link stands between the drive's two bodies
     driven = {drive.joint for drive in model.drives} - linked
@@ -93,7 +93,7 @@ def build_tree(model: Model) -> Tree:
     return Tree(tuple(links), closing, count)
 
 
-def _chosen(model: Model, driven: Collection[str]) -> list[PointJoint]:
+def _chosen(model: MultibodyModel, driven: Collection[str]) -> list[PointJoint]:
     """The joints of a spanning forest."""
 
     def rank(joint: PointJoint):

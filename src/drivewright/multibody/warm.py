@@ -2,13 +2,13 @@
 
 from drivewright._jit import warmer
 from drivewright.multibody.assembly import assemble
-from drivewright.multibody.model import Body, Drive, Dry, Marker, Model, Prismatic, Revolute, line
+from drivewright.multibody.model import Body, Dry, JointDrive, Marker, MultibodyModel, Prismatic, Revolute, line
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import simulate
 
 
 @warmer
-def warm_multibody():
+def warm_multibody() -> None:
     """A slider-crank with a dry wrist for a hundredth of a turn, and the same one without play."""
     bodies = (Body("crank", 1.0, 1.0), Body("rod", 1.0, 1.0), Body("slider", 1.0, 1.0))
     ends = Marker("rod", 3.0), Marker("slider")
@@ -19,5 +19,5 @@ def warm_multibody():
             wrist,
             Prismatic("guide", Marker("slider"), Marker("ground")),
         )
-        ready = assemble(Model(bodies, joints, drives=(Drive("main", line(0.0, 1.0)),)))
+        ready = assemble(MultibodyModel(bodies, joints, drives=(JointDrive("main", line(0.0, 1.0)),)))
         record(simulate(ready, 0.06), {"slider": Marker("slider")})

@@ -10,12 +10,14 @@ import numpy as np
 
 from drivewright import cases, registry
 from drivewright.contact.impact import delivered_restitution, impact_law
-from drivewright.mechanisms.linkage import many, nonlinear
-from drivewright.mechanisms.linkage.build import LinkageModel, build, ideal_record
+from drivewright.mechanisms.linkage.build import LinkageModel, build
 from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.multibody.analyses.impact_load import LOAD_WORDS, impact_load_of_run
+from drivewright.multibody.analyses.lyapunov import lyapunov
+from drivewright.multibody.analyses.simulation_model import ideal_record
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.measures import largest
-from drivewright.multibody.model import GROUND, Body, Dry, Marker, Model, Prismatic, Revolute
+from drivewright.multibody.model import GROUND, Body, Dry, Marker, MultibodyModel, Prismatic, Revolute
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import Settings, simulate
 from drivewright.spec import document, from_document, load
@@ -69,7 +71,7 @@ def simulated_restitution(
 ) -> float:
     """Speed after a free impact over the one before: a mass on a slide, its pin in a bearing of the ground, in the multibody kernel."""
     contact = Dry(clearance, 0.01, stiffness, hysteresis=impact_law(law).factor(restitution))
-    model = Model(
+    model = MultibodyModel(
         (Body("block", mass, 1e-4, velocity=(speed, 0.0)),),
         (Prismatic("slide", Marker("block"), Marker(GROUND)), Revolute("pin", Marker(GROUND), Marker("block"), contact)),
     )
@@ -140,14 +142,14 @@ def _link_loads(case: tuple[str, ...]) -> tuple[float, float, float]:
 
 
 def _loads(model: LinkageModel) -> dict[str, float]:
-    return dict(zip((*many.LOAD_WORDS, "ideal_peak"), many.load_of(model, model.spec.outputs[0]), strict=True))
+    return dict(zip((*LOAD_WORDS, "ideal_peak"), impact_load_of_run(model, model.outputs[0]), strict=True))
 
 
 def _coarse_peak_mean(model: LinkageModel) -> float:
     """Mean of the five largest maxima of the knife's angular acceleration, no more seen of it than `COARSE` samples per turn [rad/s^2]."""
     start, turns = model.spec.start_of_window, model.spec.simulate.turns - model.spec.simulate.discard
-    times = np.linspace(start, model.duration, round(turns * COARSE) + 1)
-    motion = record(simulate(model.assembly, model.duration, model.settings, samples=times), model.markers)
+    times = np.linspace(start, model.run_length, round(turns * COARSE) + 1)
+    motion = record(simulate(model.assembly, model.run_length, model.settings, samples=times), model.markers)
     size = np.abs(motion.point("knife", "alpha"))
     tops = size[1:-1][(size[1:-1] > size[:-2]) & (size[1:-1] >= size[2:])]
     return float(np.mean(np.sort(tops)[-5:]))
@@ -214,9 +216,8 @@ def _steps_and_impacts(play: float) -> tuple[float, float]:
 
 def _exponent(case: tuple[float, float]) -> float:
     tables = document(slider_crank(case[0]))
-    tables["lyapunov"] = {"turns": 40, "discard": 20}
     tables["simulate"]["relative_tolerance"] = 1e-7
-    return nonlinear.lyapunov(build(from_document(tables)), {}).values["lyapunov_exponent.per_turn"].value
+    return lyapunov(build(from_document(tables)), 40, 20).values["lyapunov_exponent.per_turn"].value
 
 
 source = Source(

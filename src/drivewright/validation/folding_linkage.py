@@ -10,9 +10,9 @@ import numpy as np
 
 from drivewright import cases
 from drivewright._typing import Floats
-from drivewright.mechanisms.linkage import many
 from drivewright.mechanisms.linkage.build import build
 from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.multibody.analyses.impact_load import impact_load_of_run
 from drivewright.oracles.linkage.four_bar_closed_form import ROCKER_TURN, FourBar, ideal_motion
 from drivewright.spec import from_document
 from drivewright.validation.source import AGREES, EXPLAINED, OPEN, Explanation, Printed, Row, Source, rounded
@@ -129,7 +129,7 @@ def _load_coefficient(point: Point) -> float:
     speed, play, damping = point
     stiff = damping > EXPLICIT_DAMPING_LIMIT * (1e-3 * float(play)) ** 2
     model = build(folding_spec(*point, method="radau" if stiff else "dopri5"))
-    return many.load_of(model, model.spec.outputs[0])[0]
+    return impact_load_of_run(model, model.outputs[0])[0]
 
 
 def round_digits(value: float, count: int = 3) -> float:

@@ -5,6 +5,7 @@ from pathlib import Path
 from drivewright.mechanisms.cam import analyse, finish, loads
 from drivewright.mechanisms.cam.build import build
 from drivewright.mechanisms.cam.claims import claims
+from drivewright.mechanisms.cam.energy import energy
 from drivewright.mechanisms.cam.scene import PLOTS, drawings, parts, scene
 from drivewright.mechanisms.cam.spec import CamSpec
 from drivewright.mechanisms.cam.verify import verify
@@ -17,6 +18,7 @@ ANALYSES = (
     Analysis("forces", loads.forces, "contact force and pressure, torque, sliding", missing=loads.no_forces),
     Analysis("spring", loads.spring, "what the spring must do, and the jump speed", missing=loads.no_spring),
     Analysis("vibration", loads.vibration, "steady vibration of the follower", missing=loads.no_vibration),
+    Analysis("energy", energy, "energy audit over the turn", default=False, missing=loads.no_forces),
 )
 
 mechanism = Mechanism(

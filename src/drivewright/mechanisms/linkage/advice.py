@@ -5,18 +5,20 @@ import math
 
 import numpy as np
 
+from drivewright._typing import ArrayLike
 from drivewright.mechanisms.linkage.refusals import central_inertia, ends_on, points_of
+from drivewright.mechanisms.linkage.spec import LinkageSpec
 from drivewright.result import Check
 
 BOUNCY = ("lankarani-nikravesh", "hunt-crossley")  # deliver more restitution than asked, the more the less is asked
 
 
-def advice(spec, end=math.inf):
+def advice(spec: LinkageSpec, end: float = math.inf) -> tuple[Check, ...]:
     """All checks of a LinkageSpec that want no results but the time at which its run ends."""
     return (*clearance_share(spec), *restitution(spec), *inertia_extent(spec), *window(spec, end))
 
 
-def shortest_link(spec):
+def shortest_link(spec: LinkageSpec) -> tuple[float, str | None]:
     """(length [m], body) of the shortest distance between two joints on one body; (inf, None) where no body has two apart."""
     found = [(math.inf, None)]
     for name in spec.bodies:
@@ -25,7 +27,7 @@ def shortest_link(spec):
     return min(found, key=lambda link: link[0])
 
 
-def clearance_share(spec):
+def clearance_share(spec: LinkageSpec) -> tuple[Check, ...]:
     """The largest clearance over the shortest link: beyond some percent the linkage is another one."""
     played = [joint for joint in spec.joints if joint.pin in ("massless-link", "dry", "lubricated")]
     length, body = shortest_link(spec)
@@ -36,7 +38,7 @@ def clearance_share(spec):
     return (Check("clearance_share", joint.clearance / length, spec.limits.clearance_share, "<=", "-", message, (joint.name, body)),)
 
 
-def restitution(spec):
+def restitution(spec: LinkageSpec) -> tuple[Check, ...]:
     """Laws that bounce too well where little restitution is asked."""
     return tuple(
         Check(
@@ -53,7 +55,7 @@ def restitution(spec):
     )
 
 
-def inertia_extent(spec):
+def inertia_extent(spec: LinkageSpec) -> tuple[Check, ...]:
     """Radius of gyration of each body against the largest that mass within its named points can have."""
     checks = []
     for name, body in spec.bodies.items():
@@ -65,7 +67,7 @@ def inertia_extent(spec):
     return tuple(checks)
 
 
-def widest_gyration(points, centroid):
+def widest_gyration(points: ArrayLike, centroid: ArrayLike) -> float | None:
     """Largest radius of gyration about the centroid [m] of mass within the hull of some points.
 
     None where the centroid is outside, or in a corner.
@@ -84,7 +86,7 @@ def widest_gyration(points, centroid):
     return math.sqrt(best) if best > (1e-6 * size) ** 2 else None
 
 
-def window(spec, end=math.inf):
+def window(spec: LinkageSpec, end: float = math.inf) -> tuple[Check, ...]:
     """Turns that are left for peaks and means of a run that may end before its time."""
     if spec.simulate is None or spec.period is None:
         return ()

@@ -1,155 +1,74 @@
-"""Spec -> model: the mechanism as stated and its ideal twin, assembled; the runs of both."""
+"""Spec -> model: the mechanism as stated and its ideal twin, assembled, with what is asked of its run."""
 
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
 from drivewright.errors import DoesNotAssemble
 from drivewright.mechanisms.linkage.describe import describe, output_marker
-from drivewright.multibody.assembly import Assembly, assemble
-from drivewright.multibody.model import Marker
-from drivewright.multibody.record import record
-from drivewright.multibody.simulate import Settings, simulate
-from drivewright.stopped import collected, uses
-
-TURN = 2 * np.pi
-IDEAL_SAMPLES = 7201  # of the ideal mechanism in a turn
+from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.multibody.analyses.simulation_model import Output, RunLimits, SimulationModel
+from drivewright.multibody.assembly import assemble
+from drivewright.multibody.simulate import Settings
 
 
-@dataclass(frozen=True, eq=False)
-class LinkageModel:
-    """The spec, its mechanism and the same one without play, both assembled."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LinkageModel(SimulationModel):
+    """The mechanism of a spec, ready to run."""
 
-    spec: Any
-    assembly: Assembly
-    ideal: Assembly
-
-    @property
-    def findings(self):
-        return self.assembly.findings
-
-    @property
-    def played(self):
-        """Whether a joint has play or gives way."""
-        return _played(self.assembly.model)
-
-    @property
-    def period(self):
-        return self.spec.period
-
-    @property
-    def duration(self):
-        """Length of the run [s]; a turn where the spec tells none."""
-        return self.spec.duration or self.period
-
-    @property
-    def markers(self):
-        """Marker of every output; of every body where there is none."""
-        if not self.spec.outputs:
-            return {name: Marker(name) for name in self.spec.bodies}
-        return {output.name: output_marker(self.spec, output) for output in self.spec.outputs}
-
-    @property
-    def pins(self):
-        """Names of the pins whose contact the kernel simulates, in its order."""
-        return [joint.name for joint in self.assembly.model.joints if joint.dry_contact]
-
-    @property
-    def links(self):
-        """Joints modelled by a massless link."""
-        return [joint for joint in self.assembly.model.joints if joint.massless_link]
-
-    @property
-    def settings(self):
-        """Of the integrator."""
-        asked = self.spec.simulate
-        if asked is None:
-            return Settings(per_step=2)
-        return Settings(
-            asked.relative_tolerance, asked.absolute_tolerance, None, asked.min_step, asked.max_steps, asked.method, 2, asked.singular
-        )
-
-    @property
-    def ensemble(self) -> int:
-        """Number of runs behind the statistics of a motion that does not repeat itself."""
-        return self.spec.simulate.ensemble if self.spec.simulate else 1
-
-    def crank_angle(self, t):
-        """Angle of the drive at constant speed, counted from the start of the joint's zero [rad]."""
-        driven = self.assembly.system.driven[0]
-        return driven.sign * driven.start + self.spec.drive.speed * np.asarray(t)
+    spec: LinkageSpec
 
 
-def _played(model):
-    return any(joint.play for joint in model.joints)
-
-
-def build(spec):
+def build(spec: LinkageSpec) -> LinkageModel:
     """The `LinkageModel` of a LinkageSpec."""
     try:
         ideal = assemble(describe(spec, ideal=True))
         whole = describe(spec)
-        return LinkageModel(spec, assemble(whole) if _played(whole) else ideal, ideal)
+        assembly = assemble(whole) if any(joint.play for joint in whole.joints) else ideal
     except DoesNotAssemble as error:
         raise DoesNotAssemble(f"linkage: {error}") from None
+    run, limits = spec.simulate, spec.limits
+    return LinkageModel(
+        spec=spec,
+        assembly=assembly,
+        ideal=ideal,
+        outputs=tuple(_output(spec, output) for output in spec.outputs),
+        settings=_settings(spec),
+        duration=spec.duration or spec.period,
+        period=spec.period,
+        drive_speed=spec.drive.speed if spec.drive else None,
+        window_start=spec.start_of_window if run else 0.0,
+        samples_per_turn=run.samples_per_turn if run else 720,
+        ensemble=run.ensemble if run else 1,
+        seed=run.seed if run else 1,
+        limits=RunLimits(
+            limits.impact_load_coefficient,
+            limits.joint_force,
+            limits.penetration,
+            limits.drive_torque,
+            limits.link_compression,
+            limits.energy_error,
+        ),
+    )
 
 
-def run_of(model):
-    """The run that the spec asks for, at every step."""
-    return _seen(_run(model))
+def _output(spec, output):
+    return Output(output.name, output.body, output.point, output_marker(spec, output), _path_axis(spec, output))
 
 
-def record_of(model):
-    """Its record."""
-    return _seen(_record(model))
+def _path_axis(spec, output):
+    """Direction in which a point's path is seen: the axis of a prismatic joint to the ground on its body, else the world's x."""
+    for joint in spec.joints:
+        first, second = (text.split(".")[0] for text in joint.connects)
+        if joint.kind == "prismatic" and first == output.body and second == "ground":
+            x, y = np.array(joint.axis) / np.hypot(*joint.axis)
+            return float(x), float(y)
+    return 1.0, 0.0
 
 
-def _seen(found):
-    """A run or record, which whoever takes it inherits the stop of: what is kept from before has been noted for another analysis."""
-    uses(found.stop)
-    return found
-
-
-@lru_cache(maxsize=4)
-def _run(model):
-    return simulate(model.assembly, model.duration, model.settings)
-
-
-@lru_cache(maxsize=4)
-def _record(model):
-    return record(_run(model), model.markers)
-
-
-def ideal_record(model):
-    """The record of the ideal mechanism: over a turn of a drive at constant speed, else over the whole run.
-
-    Its stop is told only where the run itself may have come further.
-    """
-    with collected():
-        found = _ideal_record(model)
-    if model.played and found.stop:
-        uses(found.stop._replace(where=f"without play, {found.stop.where}"))
-    return found
-
-
-def take_ideal_record(model):
-    """The same, computed anew and not kept."""
-    length = model.period or model.duration
-    samples = np.linspace(0.0, length, IDEAL_SAMPLES)
-    return record(simulate(model.ideal, length, model.settings, samples=samples), model.markers)
-
-
-_ideal_record = lru_cache(maxsize=4)(take_ideal_record)
-
-
-def ideal_at(model, times):
-    """The record of the ideal mechanism at given times of the run, in turns of the drive where it turns at constant speed."""
-    times = np.asarray(times)
-    folded = np.mod(times, model.period) if model.period and model.ideal.freedom == 0 else times
-    order = np.argsort(folded, kind="stable")
-    seen = record(simulate(model.ideal, float(folded.max()), model.settings, samples=folded[order]), model.markers)
-    back = np.empty_like(order)
-    back[order] = np.arange(len(order))
-    return {name: values[back] for name, values in seen.points.items()}
+def _settings(spec):
+    """Of the integrator."""
+    run = spec.simulate
+    if run is None:
+        return Settings(per_step=2)
+    return Settings(run.relative_tolerance, run.absolute_tolerance, None, run.min_step, run.max_steps, run.method, 2, run.singular)

@@ -7,21 +7,25 @@ from drivewright.contact.hertz import effective_modulus
 from drivewright.contact.impact import impact_law, impact_law_names, journal_stiffness, kelvin_voigt_damping
 from drivewright.contact.laws import ContactParameters, contact_law, contact_law_names
 from drivewright.errors import SpecError
-from drivewright.mechanisms.linkage.curves import lift_curve, load_curve, profile_curve
-from drivewright.mechanisms.linkage.joints import NORMALS
+from drivewright.mechanisms.linkage.joints import NORMALS, Joint
 from drivewright.mechanisms.linkage.refusals import CENTROID, GROUND, central_inertia, place, points_of
+from drivewright.mechanisms.linkage.spec import LinkageOutput, LinkageSpec
 from drivewright.multibody import model
+from drivewright.multibody.bodies import Marker
+from drivewright.multibody.curve_files import lift_curve, load_curve, profile_curve
+from drivewright.multibody.forces.contact import Dry
+from drivewright.multibody.model import MultibodyModel
 from drivewright.spec.csv_columns import PURE
 
 CYLINDER_LOSS = "flores-2011"  # the cylinder law says nothing of losses
 
 
-def describe(spec, ideal=False):
+def describe(spec: LinkageSpec, ideal: bool = False) -> MultibodyModel:
     """The multibody `Model` of a LinkageSpec; `ideal` takes the play out of every joint."""
     bodies = tuple(_body(name, body) for name, body in spec.bodies.items())
     joints = tuple(_joint(spec, joint, ideal) for joint in spec.joints)
     drives, motors = _drive(spec)
-    return model.Model(bodies, joints, (*_forces(spec), *motors), drives, spec.gravity)
+    return model.MultibodyModel(bodies, joints, (*_forces(spec), *motors), drives, spec.gravity)
 
 
 def _body(name, body):
@@ -29,7 +33,7 @@ def _body(name, body):
     return model.Body(name, body.mass, inertia, body.centroid, body.angle, body.velocity, body.angular_velocity)
 
 
-def marker(spec, text):
+def marker(spec: LinkageSpec, text: str) -> Marker:
     """The Marker of "BODY.POINT"."""
     body, point = place(text)
     return model.Marker(body, *points_of(spec, body)[point])
@@ -44,8 +48,9 @@ def _joint(spec, joint, ideal):
     return registry.load("drivewright.joints", joint.kind, "kind of joint")(joint, *_markers(spec, joint))
 
 
-def _markers(spec, joint):
-    return [marker(spec, text) for text in joint.connects]
+def _markers(spec, item) -> tuple[Marker, Marker]:
+    first, second = item.connects
+    return marker(spec, first), marker(spec, second)
 
 
 def _revolute(spec, joint, ideal):
@@ -95,7 +100,7 @@ def _link(spec, joint):
     return model.MasslessLink(joint.clearance, joint.link_damping, joint.link_angle)
 
 
-def dry(spec, joint):
+def dry(spec: LinkageSpec, joint: Joint) -> Dry:
     """The dry contact of a joint: stiffness from radii and material, loss from the restitution."""
     linear, cylinder = joint.normal == "kelvin-voigt", joint.normal == "cylinder"
     if joint.normal in contact_law_names():
@@ -186,19 +191,19 @@ PINS = {"ideal": _ideal, "massless-link": _link, "dry": dry, "lubricated": _lubr
 def _forces(spec):
     """Springs, torques and forces, each with a name."""
     for number, item in enumerate(spec.springs, 1):
-        yield model.Spring(item.name or f"spring {number}", *_markers(spec, item), item.stiffness, item.free_length, item.damping)
+        yield model.PointSpring(item.name or f"spring {number}", *_markers(spec, item), item.stiffness, item.free_length, item.damping)
     for number, item in enumerate(spec.rotational_springs, 1):
         name = item.name or f"rotational spring {number}"
         yield model.RotationalSpring(name, item.body, item.on, item.stiffness, item.rest, item.damping)
     for number, item in enumerate(spec.torques, 1):
-        yield model.Torque(item.name or f"torque {number}", item.body, _load(item, item.torque, "torque", "torque"), item.on)
+        yield model.AppliedTorque(item.name or f"torque {number}", item.body, _load(item, item.torque, "torque", "torque"), item.on)
     for number, item in enumerate(spec.forces, 1):
         point = marker(spec, f"{item.body}.{item.point}")
-        yield model.Force(item.name or f"force {number}", point, item.force, _load(item, 1.0, "factor", PURE), item.follows)
+        yield model.AppliedForce(item.name or f"force {number}", point, item.force, _load(item, 1.0, "factor", PURE), item.follows)
 
 
 def _load(item, steady, what, dimension):
-    return load_curve(item.file, what, dimension, item.periodic) if item.file else model.Load(model.line(steady, 0.0))
+    return load_curve(item.file, what, dimension, item.periodic) if item.file else model.LoadCurve(model.line(steady, 0.0))
 
 
 def _drive(spec):
@@ -208,22 +213,22 @@ def _drive(spec):
         return (), ()
     if drive.motor:
         body, on = driven_bodies(spec)
-        return (), (model.Torque("motor", body, load_curve(drive.motor, "torque", "torque"), on),)
+        return (), (model.AppliedTorque("motor", body, load_curve(drive.motor, "torque", "torque"), on),)
     motion = model.line(0.0, drive.speed) if drive.speed else profile_curve(drive.profile, drive.ends, driven_joint(spec).kind)
-    return (model.Drive(drive.joint, motion),), ()
+    return (model.JointDrive(drive.joint, motion),), ()
 
 
-def driven_bodies(spec):
+def driven_bodies(spec: LinkageSpec) -> tuple[str, str]:
     """(the body that the drive turns, the one it turns it from): first and second of the joint, the ground never first."""
     first, second = (place(text)[0] for text in driven_joint(spec).connects)
     return (second, first) if first == GROUND else (first, second)
 
 
-def driven_joint(spec):
+def driven_joint(spec: LinkageSpec) -> Joint:
     """The Joint of the drive."""
     return next(joint for joint in spec.joints if joint.name == spec.drive.joint)
 
 
-def output_marker(spec, output):
+def output_marker(spec: LinkageSpec, output: LinkageOutput) -> Marker:
     """The Marker of an output's point; of its centroid where it names none."""
     return marker(spec, f"{output.body}.{output.point or CENTROID}")

@@ -1,6 +1,6 @@
 """What the user says of a joint: its kind, what it connects, and for a pin the model of its play."""
 
-from typing import Literal
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from drivewright.registry import plugins
 from drivewright.spec import DataFile, Name, Number, Spec, Text
@@ -21,10 +21,14 @@ from drivewright.units import (
 
 Direction = tuple[Number, Number]
 KINDS = ("revolute", "prismatic", "pin-slot", "rolling", "gear", "cam")
-Kind = Literal[(*KINDS, *sorted(plugins("drivewright.joints")))]
 Model = Literal["ideal", "massless-link", "dry", "lubricated", "bushing"]
 NORMALS = ("flores-2011", "lankarani-nikravesh", "hunt-crossley", "gonthier", "herbert-mcwhannell", "kelvin-voigt", "elastic", "cylinder")
-Normal = Literal[(*NORMALS, *sorted({*plugins("drivewright.impact_laws"), *plugins("drivewright.contact_laws")}))]
+if TYPE_CHECKING:
+    Kind: TypeAlias = str
+    Normal: TypeAlias = str
+else:
+    Kind = Literal[(*KINDS, *sorted(plugins("drivewright.joints")))]
+    Normal = Literal[(*NORMALS, *sorted({*plugins("drivewright.impact_laws"), *plugins("drivewright.contact_laws")}))]
 
 
 class Joint(Spec):
@@ -112,13 +116,13 @@ class Joint(Spec):
     )
 
     @property
-    def pin(self):
+    def pin(self) -> str | None:
         """The model of a pin; None for another joint, and "ideal" where there is no play."""
         if self.kind != "revolute":
             return None
         return "ideal" if self.model in ("massless-link", "dry", "lubricated") and self.clearance == 0 else self.model
 
     @property
-    def length(self):
+    def length(self) -> float:
         """Of the bearing [m]."""
         return self.bearing_length or 2 * self.bearing_radius

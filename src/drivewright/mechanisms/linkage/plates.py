@@ -10,10 +10,13 @@ import math
 import numpy as np
 
 from drivewright.errors import InputError
-from drivewright.mechanisms.linkage.frames import start_poses
+from drivewright.mechanisms.linkage.build import LinkageModel
+from drivewright.mechanisms.linkage.joints import Joint
 from drivewright.mechanisms.linkage.refusals import GROUND, place, points_of
 from drivewright.mechanisms.linkage.scene import COLOURS
 from drivewright.mechanisms.linkage.sketch import nodes
+from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.multibody.analyses.cycle_poses import start_poses
 from drivewright.multibody.drawing import positions_of, rounded
 from drivewright.scene import Drawing, Part, Prism, Shape, circle, polygon
 
@@ -22,12 +25,12 @@ EDGE = 2.0  # edge of a plate around its points over the radius of its largest h
 SAME = 1e-6  # pins closer than this at the start are one [m]
 
 
-def drawings(model):
+def drawings(model: LinkageModel) -> tuple[Drawing, ...]:
     """A drawing for each body with two or more points."""
     return tuple(_drawing(model.spec, name) for name in plates(model.spec))
 
 
-def plates(spec):
+def plates(spec: LinkageSpec) -> list[str]:
     """Names of the bodies that are plates."""
     return [name for name in spec.bodies if len(nodes(spec, name)) > 1]
 
@@ -40,7 +43,7 @@ def _drawing(spec, name):
     return Drawing(name, f"Link plate, a proposal: {name.replace('_', ' ')}", tuple(shapes), thickness(spec, name))
 
 
-def default_radius(spec):
+def default_radius(spec: LinkageSpec) -> float:
     """Radius of a pin without a bearing of its own [m]."""
     pins = [[points_of(spec, name)[p] for p in _pin_points(spec, name)] for name in spec.bodies]
     gaps = [math.dist(a, b) for points in pins for a, b in itertools.combinations(points, 2) if math.dist(a, b) > SAME]
@@ -52,7 +55,7 @@ def _pin_points(spec, name):
     return [point for body, point in ends if body == name]
 
 
-def holes(spec, name):
+def holes(spec: LinkageSpec, name: str) -> dict[tuple[float, float], float]:
     """Radius [m] of the hole at every pin's place (x, y) in a body; InputError where two meet."""
     found = {}
     for joint in spec.joints:
@@ -70,19 +73,19 @@ def holes(spec, name):
     return found
 
 
-def pin_radius(spec, joint, bearing=False):
+def pin_radius(spec: LinkageSpec, joint: Joint, bearing: bool = False) -> float:
     """Radius of a pin, or of the bearing around it [m]."""
     if joint.pin in ("dry", "lubricated") or "bearing_radius" in joint.model_fields_set:
         return joint.bearing_radius - (0.0 if bearing else joint.clearance or 0.0)
     return default_radius(spec)
 
 
-def edge_of(spec, name):
+def edge_of(spec: LinkageSpec, name: str) -> float:
     """Radius of a plate around its points [m]."""
     return EDGE * max([*holes(spec, name).values(), default_radius(spec)])
 
 
-def thickness(spec, name):
+def thickness(spec: LinkageSpec, name: str) -> float:
     """Thickness of a plate [m]: the longest bearing in it, else a default pin's diameter."""
     lengths = [joint.length for joint in spec.joints if joint.pin in ("dry", "lubricated") and place(joint.connects[0])[0] == name]
     return max(lengths, default=2 * default_radius(spec))
@@ -91,7 +94,7 @@ def thickness(spec, name):
 # -- solids --------------------------------------------------------------------------------------------------------------------
 
 
-def parts(model):
+def parts(model: LinkageModel) -> tuple[Part, ...]:
     """The plates one above the other at the start position, and their pins."""
     spec, poses = model.spec, {name: pose[0] for name, pose in start_poses(model).items()}
     levels = _levels(spec)

@@ -2,13 +2,14 @@
 
 import numpy as np
 
-from drivewright.result import Plot
+from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.result import Plot, Result
 
 STILL = 1e-9  # a column that varies less than this part of the largest of its unit does not move
 FLAT = 0.02  # a path so much longer than wide is no curve to look at
 
 
-def plots(result):
+def plots(result: Result[LinkageSpec]) -> tuple[Plot, ...]:
     """The plots of a result, those of analyses that were left out too."""
     found = [plot for output in result.spec.outputs for plot in _of_output(result, output)]
     found += [plot for joint in result.spec.joints for plot in _of_joint(result, joint)]

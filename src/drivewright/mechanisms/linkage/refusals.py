@@ -1,33 +1,38 @@
 """What has no meaning in a linkage: names that nobody has, numbers that contradict each other.  Each is a SpecError with its key."""
 
 import math
+from typing import TYPE_CHECKING
 
 from drivewright.errors import SpecError, nearest
 from drivewright.spec import dimension_at
+
+if TYPE_CHECKING:
+    from drivewright.mechanisms.linkage.joints import Joint
+    from drivewright.mechanisms.linkage.spec import LinkageBody, LinkageSpec
 
 GROUND, CENTROID = "ground", "centroid"
 PLAYS = ("massless-link", "dry", "lubricated")
 NO_PERIOD = "wants a drive at constant speed, which gives the turn its length"
 
 
-def refuse_nonsense(spec):
+def refuse_nonsense(spec: "LinkageSpec") -> None:
     """Raise SpecError for the first thing in a LinkageSpec that has no meaning."""
     for rule in (_bodies, _names, _places, _joints, _zero_links, _massless_chains, _loads, _drive, _run, _studies):
         rule(spec)
 
 
-def points_of(spec, body):
+def points_of(spec: "LinkageSpec", body: str) -> dict[str, tuple[float, float]]:
     """Name -> (x, y) [m] of all points of a body or of the ground, in its frame."""
     return dict(spec.ground.points) if body == GROUND else {**spec.bodies[body].points, CENTROID: spec.bodies[body].centroid}
 
 
-def place(text):
+def place(text: str) -> tuple[str, str | None]:
     """(body, point) of a "BODY.POINT"; the point of "BODY" alone is None."""
     body, _, point = text.partition(".")
     return body, point or None
 
 
-def central_inertia(body):
+def central_inertia(body: "LinkageBody") -> float:
     """Moment of inertia about the centroid [kg m^2]: Steiner's share m d^2 taken off where it was given about a point."""
     return body.inertia - body.mass * _distance(body) ** 2
 
@@ -187,7 +192,7 @@ def _play(joint, key):
         )
 
 
-def ends_on(spec, body):
+def ends_on(spec: "LinkageSpec", body: str) -> list[tuple["Joint", str | None]]:
     """[(joint, point)] where joints hold a body."""
     found = [(joint, place(text)) for joint in spec.joints for text in joint.connects]
     return [(joint, point) for joint, (name, point) in found if name == body]

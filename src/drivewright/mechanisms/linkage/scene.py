@@ -4,10 +4,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats
+from drivewright.mechanisms.linkage.build import LinkageModel
 from drivewright.mechanisms.linkage.describe import marker, output_marker
-from drivewright.mechanisms.linkage.frames import FINE, film
 from drivewright.mechanisms.linkage.refusals import GROUND
 from drivewright.mechanisms.linkage.sketch import half_width, nodes
+from drivewright.multibody.analyses.cycle_poses import FINE, cycle_poses
 from drivewright.multibody.drawing import JointDrawing, positions_of, rotate, rounded
 from drivewright.multibody.model import Revolute
 from drivewright.scene import Body, Frame, Scene, Shape, Trace, circle, polygon
@@ -17,9 +19,9 @@ BEARING, RIM = 1.7, 1.35  # radius of a bearing over half a bar's width; of its 
 SHOWN = 0.6  # the drawn play over the drawn bearing's radius, at most
 
 
-def scene(model):
+def scene(model: LinkageModel) -> Scene:
     """One turn of the drive, or the run of a free mechanism; play is drawn larger by a round factor that its label tells."""
-    seen, slim = film(model), half_width(model.spec)
+    seen, slim = cycle_poses(model), half_width(model.spec)
     names = (GROUND, *model.spec.bodies)
     drawing = JointDrawing(seen.poses, slim, names, model.assembly.model.joints)
     plays = [_play(joint, seen, slim) for joint in drawing.joints if joint.play]
@@ -94,9 +96,9 @@ class Play(NamedTuple):
     radius: float
     drawn: float
     factor: float
-    orbit: np.ndarray
-    poses: np.ndarray
-    rest: np.ndarray
+    orbit: Floats
+    poses: Floats
+    rest: Floats
 
 
 def _play(joint, seen, slim):

@@ -34,7 +34,7 @@ class Ground(Spec):
     points: Named[Point] = Field({}, description="points that joints and springs hold on to", examples=[{"O2": ["0 mm", "0 mm"]}])
 
 
-class Body(Spec):
+class LinkageBody(Spec):
     """A rigid body; centroid and points are in a frame of its own."""
 
     mass: Mass = Field("0 kg", ge=0, description="mass")
@@ -53,7 +53,7 @@ class Body(Spec):
     angular_velocity: Speed | None = Field(None, description="at the start, of a mechanism free to move", examples=["0 rpm"])
 
 
-class Spring(Spec):
+class LinkageSpring(Spec):
     """A spring with a damper between two points."""
 
     name: Name | None = Field(None, description="name", examples=["return"])
@@ -63,7 +63,7 @@ class Spring(Spec):
     damping: Damping = Field("0 N s/m", ge=0, description="force per speed of the stretch")
 
 
-class RotationalSpring(Spec):
+class LinkageRotationalSpring(Spec):
     """A spring with a damper about the angle of a body."""
 
     name: Name | None = Field(None, description="name", examples=["air"])
@@ -74,7 +74,7 @@ class RotationalSpring(Spec):
     damping: RotationalDamping = Field("0 N m s/rad", ge=0, description="torque per angular speed")
 
 
-class AppliedTorque(Spec):
+class LinkageTorque(Spec):
     """A torque on a body."""
 
     name: Name | None = Field(None, description="name", examples=["load"])
@@ -85,7 +85,7 @@ class AppliedTorque(Spec):
     periodic: Flag = Field(False, description="the table repeats itself; one over a whole turn of the angle does anyway")
 
 
-class AppliedForce(Spec):
+class LinkageForce(Spec):
     """A force on a point of a body."""
 
     name: Name | None = Field(None, description="name", examples=["cut"])
@@ -97,7 +97,7 @@ class AppliedForce(Spec):
     periodic: Flag = Field(False, description="the table repeats itself; one over a whole turn of the angle does anyway")
 
 
-class Drive(Spec):
+class LinkageDrive(Spec):
     """What moves the mechanism, at one joint."""
 
     joint: Text = Field(description="name of a revolute joint (with a profile also a prismatic one)", examples=["O2"])
@@ -148,7 +148,7 @@ class Simulate(Spec):
     )
 
 
-class Output(Spec):
+class LinkageOutput(Spec):
     """A motion of interest."""
 
     name: Name = Field(description="name", examples=["output"])
@@ -237,15 +237,15 @@ class LinkageSpec(MechanismSpec):
     mechanism: Literal["linkage"] = Field("linkage", description="kind of drive")
     gravity: tuple[Acceleration, Acceleration] = Field(("0 m/s^2", "0 m/s^2"), description="acceleration of free fall")
     ground: Ground = Field(Ground(), description="ground")
-    bodies: Named[Body] = Field(min_length=1, description="bodies")
+    bodies: Named[LinkageBody] = Field(min_length=1, description="bodies")
     joints: tuple[Joint, ...] = Field((), description="joints")
-    springs: tuple[Spring, ...] = Field((), description="springs")
-    rotational_springs: tuple[RotationalSpring, ...] = Field((), description="rotational springs and dampers")
-    torques: tuple[AppliedTorque, ...] = Field((), description="torques")
-    forces: tuple[AppliedForce, ...] = Field((), description="forces")
-    drive: Drive | None = Field(None, description="drive; without it the mechanism is free to move")
+    springs: tuple[LinkageSpring, ...] = Field((), description="springs")
+    rotational_springs: tuple[LinkageRotationalSpring, ...] = Field((), description="rotational springs and dampers")
+    torques: tuple[LinkageTorque, ...] = Field((), description="torques")
+    forces: tuple[LinkageForce, ...] = Field((), description="forces")
+    drive: LinkageDrive | None = Field(None, description="drive; without it the mechanism is free to move")
     simulate: Simulate | None = Field(None, description="run; without it no dynamics")
-    outputs: tuple[Output, ...] = Field((), description="motions of interest")
+    outputs: tuple[LinkageOutput, ...] = Field((), description="motions of interest")
     poincare: Poincare | None = Field(None, description="Poincare section")
     lyapunov: Lyapunov | None = Field(None, description="largest Lyapunov exponent")
     bifurcation: Bifurcation | None = Field(None, description="bifurcation diagram")
@@ -260,20 +260,20 @@ class LinkageSpec(MechanismSpec):
         return self
 
     @property
-    def period(self):
+    def period(self) -> float | None:
         """Duration of a turn of the drive [s]; None without a drive at constant speed."""
         speed = self.drive.speed if self.drive else None
         return 6.283185307179586 / abs(speed) if speed else None
 
     @property
-    def duration(self):
+    def duration(self) -> float | None:
         """Length of the run [s]; None without one."""
         if self.simulate is None:
             return None
-        given = (self.simulate.duration, self.simulate.turns * self.period if self.simulate.turns else None)
+        given = (self.simulate.duration, self.simulate.turns * self.period if self.simulate.turns and self.period else None)
         return min(time for time in given if time is not None)
 
     @property
-    def start_of_window(self):
+    def start_of_window(self) -> float:
         """Time [s] from which peaks and means count."""
-        return self.simulate.discard * self.period if self.simulate.discard else 0.0
+        return self.simulate.discard * self.period if self.simulate and self.period and self.simulate.discard else 0.0

@@ -3,8 +3,19 @@
 from drivewright.multibody.forces.bushing import Bushing
 from drivewright.multibody.forces.contact import Dry, Friction, Lubricated
 from drivewright.multibody.forces.element import ForceElement
-from drivewright.multibody.forces.load import Force, Load, Torque
+from drivewright.multibody.forces.load import AppliedForce, AppliedTorque, LoadCurve
 from drivewright.multibody.forces.rotational_spring import RotationalSpring
-from drivewright.multibody.forces.spring import Spring
+from drivewright.multibody.forces.spring import PointSpring
 
-__all__ = ["Bushing", "Dry", "Force", "ForceElement", "Friction", "Load", "Lubricated", "RotationalSpring", "Spring", "Torque"]
+__all__ = [
+    "Bushing",
+    "Dry",
+    "AppliedForce",
+    "ForceElement",
+    "Friction",
+    "LoadCurve",
+    "Lubricated",
+    "RotationalSpring",
+    "PointSpring",
+    "AppliedTorque",
+]

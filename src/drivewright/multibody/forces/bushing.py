@@ -4,14 +4,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-import numpy as np
-
 from drivewright._jit import outer
 from drivewright.multibody.bodies import Marker
 from drivewright.multibody.forces.element import ForceElement
-from drivewright.multibody.frames import apply_force, apply_torque_pair, relative_motion, relative_rotation
+from drivewright.multibody.frames import apply_force, apply_torque_pair, relative_motion
 from drivewright.multibody.index import ModelIndex
-from drivewright.multibody.records import record_type
+from drivewright.multibody.records import OneRecord, Records, record_type
 from drivewright.multibody.wrenches import ObservedBodies, Reaction, cross
 
 BUSHING = record_type("i j", "ax ay bx by stiffness damping rotational_stiffness rotational_damping rest")
@@ -41,6 +39,7 @@ class BushingForce(ForceElement):
     bushing: Bushing
 
     def record(self, index: ModelIndex) -> Mapping[str, Any]:
+        """Fields of its record."""
         pair = index.pair(self.first, self.second, f"joint {self.name!r}")
         return pair | {
             "stiffness": self.bushing.stiffness,
@@ -62,7 +61,7 @@ class BushingForce(ForceElement):
 
 
 @outer
-def apply_bushing(poses: np.recarray, bush: np.record) -> None:
+def apply_bushing(poses: Records, bush: OneRecord) -> None:
     """Both points and both angles are pulled together; the force acts at the point of j on both, so that it has no arm of its own.
 
     poses (bodies,) of POSE.
@@ -71,5 +70,5 @@ def apply_bushing(poses: np.recarray, bush: np.record) -> None:
     fx, fy = bush.stiffness * dx + bush.damping * vx, bush.stiffness * dy + bush.damping * vy
     apply_force(poses[bush.i], px - dx, py - dy, -fx, -fy)
     apply_force(poses[bush.j], qx, qy, fx, fy)
-    angle, rate = relative_rotation(poses, bush)
+    angle, rate = poses[bush.i].angle - poses[bush.j].angle, poses[bush.i].w - poses[bush.j].w
     apply_torque_pair(poses, bush, -bush.rotational_stiffness * (angle - bush.rest) - bush.rotational_damping * rate)

@@ -85,8 +85,8 @@ class Laws(NamedTuple):
     """The law of the contact number `code`, and those of the others; contacts number from 1."""
 
     code: int
-    law: Any
-    others: Any
+    law: tuple[Any, ...]
+    others: "NoLaws | Laws"
 
 
 @generic
@@ -118,8 +118,9 @@ class PinContact(ForceElement):
     model: Dry | Lubricated
 
     def record(self, index: ModelIndex) -> Mapping[str, Any]:
+        """Fields of its record."""
         oil = self.model if isinstance(self.model, Lubricated) else None
-        dry = oil.contact if oil else self.model
+        dry = self.model.contact if isinstance(self.model, Lubricated) else self.model
         rub = dry.friction
         film = {"film": _FILM[oil.film], "viscosity": oil.viscosity, "roughness": oil.roughness} if oil else {}
         return (

@@ -4,15 +4,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-import numpy as np
-
 from drivewright._jit import inner
 from drivewright.multibody.bodies import GROUND, Marker
 from drivewright.multibody.curves import Curve, curve_at
 from drivewright.multibody.forces.element import ForceElement
 from drivewright.multibody.frames import apply_force, apply_torque_pair, rotated
 from drivewright.multibody.index import ModelIndex
-from drivewright.multibody.records import record_type
+from drivewright.multibody.records import OneRecord, Records, record_type
 
 TIME, ANGLE, SPEED = range(3)
 OVER = {"time": TIME, "angle": ANGLE, "speed": SPEED}
@@ -21,7 +19,7 @@ FORCE = record_type("i over curve follows k", "ax ay ex ey")
 
 
 @dataclass(frozen=True)
-class Load:
+class LoadCurve:
     """A quantity over "time" [s], over the "angle" of `body` relative to `on` [rad], or over their relative "speed" [rad/s]."""
 
     curve: Curve
@@ -29,16 +27,17 @@ class Load:
 
 
 @dataclass(frozen=True)
-class Torque(ForceElement):
+class AppliedTorque(ForceElement):
     """Torque on `body`, its opposite on `on`.  A motor is a torque over the speed."""
 
     table: ClassVar[str] = "torques"
 
     body: str
-    load: Load
+    load: LoadCurve
     on: str = GROUND
 
     def record(self, index: ModelIndex) -> Mapping[str, Any]:
+        """Fields of its record."""
         whose = f"torque {self.name!r}"
         return {
             "i": index.number(self.body, whose),
@@ -49,17 +48,18 @@ class Torque(ForceElement):
 
 
 @dataclass(frozen=True)
-class Force(ForceElement):
+class AppliedForce(ForceElement):
     """Force (x, y) times a load factor on a point; `follows` where the direction turns with the body."""
 
     table: ClassVar[str] = "forces"
 
     point: Marker
     direction: tuple[float, float]
-    load: Load
+    load: LoadCurve
     follows: bool = False
 
     def record(self, index: ModelIndex) -> Mapping[str, Any]:
+        """Fields of its record."""
         i = index.number(self.point.body, f"force {self.name!r}")
         (ax, ay), (ex, ey) = index.arm(self.point), self.direction
         return {
@@ -76,23 +76,22 @@ class Force(ForceElement):
 
 
 @inner
-def _argument(poses, t, over, i, j):
-    if over == TIME:
-        return t
-    return poses[i].angle - poses[j].angle if over == ANGLE else poses[i].w - poses[j].w
-
-
-@inner
-def apply_torque(poses: np.recarray, torque: np.record, curves: np.recarray, pieces: np.recarray, t: float) -> None:
+def apply_torque(poses: Records, torque: OneRecord, curves: Records, pieces: Records, t: float) -> None:
     """The torque of a load on body i, its opposite on body j, at the time t.  poses (bodies,) of POSE."""
-    value, _, _ = curve_at(curves, pieces, torque.curve, _argument(poses, t, torque.over, torque.i, torque.j))
+    one, two, x = poses[torque.i], poses[torque.j], t
+    if torque.over != TIME:
+        x = one.angle - two.angle if torque.over == ANGLE else one.w - two.w
+    value, _, _ = curve_at(curves, pieces, torque.curve, x)
     apply_torque_pair(poses, torque, value)
 
 
 @inner
-def apply_load_force(poses: np.recarray, force: np.record, curves: np.recarray, pieces: np.recarray, t: float) -> None:
+def apply_load_force(poses: Records, force: OneRecord, curves: Records, pieces: Records, t: float) -> None:
     """The force of a load on its point, at the time t.  poses (bodies,) of POSE."""
-    value, _, _ = curve_at(curves, pieces, force.curve, _argument(poses, t, force.over, force.i, 0))
+    one, ground, x = poses[force.i], poses[0], t
+    if force.over != TIME:
+        x = one.angle - ground.angle if force.over == ANGLE else one.w - ground.w
+    value, _, _ = curve_at(curves, pieces, force.curve, x)
     fx, fy = rotated(poses[force.k], force.ex, force.ey)
-    px, py = rotated(poses[force.i], force.ax, force.ay)
-    apply_force(poses[force.i], px, py, value * fx, value * fy)
+    px, py = rotated(one, force.ax, force.ay)
+    apply_force(one, px, py, value * fx, value * fy)

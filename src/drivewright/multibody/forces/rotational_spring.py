@@ -4,14 +4,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-import numpy as np
-
 from drivewright._jit import inner
 from drivewright.multibody.bodies import GROUND
 from drivewright.multibody.forces.element import ForceElement
-from drivewright.multibody.frames import apply_torque_pair, relative_rotation
+from drivewright.multibody.frames import apply_torque_pair
 from drivewright.multibody.index import ModelIndex
-from drivewright.multibody.records import record_type
+from drivewright.multibody.records import OneRecord, Records, record_type
 
 ROTATIONAL_SPRING = record_type("i j", "stiffness rest damping")
 
@@ -29,6 +27,7 @@ class RotationalSpring(ForceElement):
     damping: float = 0.0
 
     def record(self, index: ModelIndex) -> Mapping[str, Any]:
+        """Fields of its record."""
         whose = f"rotational spring {self.name!r}"
         return {
             "i": index.number(self.first, whose),
@@ -40,7 +39,7 @@ class RotationalSpring(ForceElement):
 
 
 @inner
-def apply_rotational_spring(poses: np.recarray, spring: np.record) -> None:
+def apply_rotational_spring(poses: Records, spring: OneRecord) -> None:
     """Torque -k (angle - rest) - c rate on body i, its opposite on body j.  poses (bodies,) of POSE."""
-    angle, rate = relative_rotation(poses, spring)
+    angle, rate = poses[spring.i].angle - poses[spring.j].angle, poses[spring.i].w - poses[spring.j].w
     apply_torque_pair(poses, spring, -spring.stiffness * (angle - spring.rest) - spring.damping * rate)

@@ -11,13 +11,13 @@ from drivewright.multibody.bodies import Marker
 from drivewright.multibody.forces.element import ForceElement
 from drivewright.multibody.frames import apply_force, relative_motion
 from drivewright.multibody.index import ModelIndex
-from drivewright.multibody.records import record_type
+from drivewright.multibody.records import OneRecord, Records, record_type
 
 SPRING = record_type("i j", "ax ay bx by stiffness free_length damping")
 
 
 @dataclass(frozen=True)
-class Spring(ForceElement):
+class PointSpring(ForceElement):
     """Spring and damper between two points: tension k (L - L0) + c L'."""
 
     table: ClassVar[str] = "springs"
@@ -29,6 +29,7 @@ class Spring(ForceElement):
     damping: float = 0.0
 
     def record(self, index: ModelIndex) -> Mapping[str, Any]:
+        """Fields of its record."""
         return index.pair(self.first, self.second, f"spring {self.name!r}") | {
             "stiffness": self.stiffness,
             "free_length": self.free_length,
@@ -37,7 +38,7 @@ class Spring(ForceElement):
 
 
 @outer
-def apply_spring(poses: np.recarray, spring: np.record) -> None:
+def apply_spring(poses: Records, spring: OneRecord) -> None:
     """Tension k (L - L0) + c L' along the line between the points.  poses (bodies,) of POSE."""
     dx, dy, vx, vy, px, py, qx, qy = relative_motion(poses, spring)
     length = np.hypot(dx, dy)

@@ -28,13 +28,16 @@ class CamPair(Joint):
 
     @property
     def bodies(self) -> tuple[str, str]:
+        """Names of the two bodies that a message about the joint names."""
         return self.cam, self.follower.body
 
     @property
     def reaction_marker(self) -> Marker:
+        """The point of a body about which its reaction is told."""
         return self.follower
 
     def constraint_rows(self, index: ModelIndex) -> list[RowFields]:
+        """Fields of its constraint rows."""
         whose = f"cam pair {self.name!r}"
         i, k, l = (index.number(name, whose) for name in (self.follower.body, self.carrier, self.cam))
         row = {"i": i, "j": k, "k": k, "l": l, "lift": index.add_curve(self.lift)}

@@ -24,17 +24,21 @@ class Gear(Joint):
 
     @property
     def bodies(self) -> tuple[str, str]:
+        """Names of the two bodies that a message about the joint names."""
         return self.first, self.second
 
     @property
     def reaction_marker(self) -> Marker:
+        """The point of a body about which its reaction is told."""
         return Marker(self.first)
 
     def constraint_rows(self, index: ModelIndex) -> list[RowFields]:
+        """Fields of its constraint rows."""
         i, j, k = (index.number(name, f"gear {self.name!r}") for name in (self.second, self.first, self.carrier))
         return [{"i": i, "j": j, "k": k, "lift": -1, "gi": 1.0, "gj": -self.ratio, "gk": self.ratio - 1.0, "constant": np.nan}]
 
     def wrenches(self, bodies: ObservedBodies) -> list[Wrench]:
+        """What it can transmit."""
         return [Wrench(sum_torques((self.first, -self.ratio), (self.second, 1.0), (self.carrier, self.ratio - 1.0)))]
 
     def guide_shapes(self, body: str, drawing: JointDrawing) -> Iterable[Shape]:

@@ -172,10 +172,12 @@ class PointJoint(Joint):
 
     @property
     def bodies(self) -> tuple[str, str]:
+        """Names of the two bodies that a message about the joint names."""
         return self.first.body, self.second.body
 
     @property
     def reaction_marker(self) -> Marker:
+        """The point of a body about which its reaction is told."""
         return self.first
 
     @property

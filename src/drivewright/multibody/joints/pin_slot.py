@@ -21,17 +21,21 @@ class PinSlot(PointJoint):
 
     @property
     def tree_role(self) -> TreeRole:
+        """How it carries a body in the spanning tree."""
         return TreeRole(SLIDING_PIN, turns=True, slides=True, from_parent=False)
 
     @property
     def slide_axis(self) -> Axis:
+        """Direction in the frame of `second` along which the body slides that it carries."""
         return self.axis
 
     def constraint_rows(self, index: ModelIndex) -> list[RowFields]:
+        """Fields of its constraint rows."""
         pair, (x, y) = self.pair(index), unit_axis(self.axis, self.name)
         return [pair | {"k": pair["j"], "ex": -y, "ey": x}]
 
     def wrenches(self, bodies: ObservedBodies) -> list[Wrench]:
+        """What it can transmit."""
         return [Wrench({}, *self.bodies, line_direction(self.second.body, self.axis, bodies) @ NORMAL_OF, bodies.point(self.first))]
 
     def guide_shapes(self, body: str, drawing: JointDrawing) -> Iterable[Shape]:
@@ -45,5 +49,6 @@ class PinSlot(PointJoint):
         yield Shape("hole", rounded(slot, 1.3 * PIN * drawing.half_width))
 
     def pin_shapes(self, body: str, drawing: JointDrawing) -> Iterable[Shape]:
+        """Its pin, on one of the two bodies."""
         if self.first.body == body:
             yield Shape("hole", circle(self.first[1:], PIN * drawing.half_width))

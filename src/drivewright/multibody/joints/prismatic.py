@@ -21,13 +21,16 @@ class Prismatic(PointJoint):
 
     @property
     def tree_role(self) -> TreeRole:
+        """How it carries a body in the spanning tree."""
         return TreeRole(PRISMATIC, turns=False, slides=True, from_parent=True)
 
     @property
     def slide_axis(self) -> Axis:
+        """Direction in the frame of `second` along which the body slides that it carries."""
         return self.axis
 
     def constraint_rows(self, index: ModelIndex) -> list[RowFields]:
+        """Fields of its constraint rows."""
         pair, (x, y) = self.pair(index), unit_axis(self.axis, self.name)
         locked = index.angles[self.first.body] - index.angles[self.second.body]
         across = pair | {"k": pair["j"], "ex": -y, "ey": x}
@@ -35,19 +38,22 @@ class Prismatic(PointJoint):
 
     @property
     def driven_motion(self) -> str:
+        """What a drive prescribes."""
         return "displacement"
 
     def drive_wrench(self, bodies: ObservedBodies, mover: str, base: str) -> Wrench:
+        """What a drive of the joint gives to the body that it moves, and takes from the one on which it rests."""
         return Wrench({}, mover, base, line_direction(self.second.body, self.axis, bodies), bodies.point(self.first))
 
     def wrenches(self, bodies: ObservedBodies) -> list[Wrench]:
+        """What it can transmit."""
         across = Wrench({}, *self.bodies, line_direction(self.second.body, self.axis, bodies) @ NORMAL_OF, bodies.point(self.first))
         return [across, Wrench(sum_torques((self.first.body, 1.0), (self.second.body, -1.0)))]
 
     def own_shapes(self, body: str, drawing: JointDrawing) -> Iterable[Shape]:
         """The sliding block."""
         if self.first.body == body:
-            turned = drawing.poses[self.second.body][0, 2] + np.arctan2(*self.axis[::-1]) - drawing.poses[body][0, 2]
+            turned = drawing.poses[self.second.body][0, 2] + np.arctan2(self.axis[1], self.axis[0]) - drawing.poses[body][0, 2]
             yield Shape("body", block(self.first[1:], turned, 3.2 * drawing.half_width, BLOCK * drawing.half_width))
 
     def guide_shapes(self, body: str, drawing: JointDrawing) -> Iterable[Shape]:

@@ -47,27 +47,33 @@ class Revolute(PointJoint):
 
     @property
     def is_constraint(self) -> bool:
+        """Whether it takes freedom away."""
         return isinstance(self.model, Ideal)
 
     @property
     def tree_role(self) -> TreeRole | None:
+        """How it carries a body in the spanning tree."""
         return TreeRole(PIN, turns=True, slides=False, from_parent=False) if self.is_constraint else None
 
     @property
     def idealised(self) -> "Revolute":
+        """The same joint without play."""
         return replace(self, model=Ideal())
 
     @property
     def play(self) -> Play | None:
+        """The model of a pin that is not ideal."""
         return None if isinstance(self.model, Ideal) else self.model
 
     @property
     def dry_contact(self) -> Dry | None:
+        """The contact of a pin that separates and impacts."""
         model = self.model
         return model.contact if isinstance(model, Lubricated) else model if isinstance(model, Dry) else None
 
     @property
     def massless_link(self) -> MasslessLink | None:
+        """The massless link that stands for the play of a pin."""
         return self.model if isinstance(self.model, MasslessLink) else None
 
     @property
@@ -85,6 +91,7 @@ class Revolute(PointJoint):
 
     @property
     def force_element(self) -> ForceElement | None:
+        """The force that a joint with play, or one that gives way, consists of."""
         model, ends = self.model, (self.name, self.first, self.second)
         if isinstance(model, Bushing):
             return BushingForce(*ends, model)
@@ -92,20 +99,25 @@ class Revolute(PointJoint):
 
     @property
     def pin_markers(self) -> tuple[Marker, Marker]:
+        """Its two points where it is a pin, about which both bodies turn."""
         return self.first, self.second
 
     def constraint_rows(self, index: ModelIndex) -> list[RowFields]:
+        """Fields of its constraint rows."""
         pair = self.pair(index)
         return [pair | {"ex": 1.0}, pair | {"ey": 1.0}]
 
     @property
     def driven_motion(self) -> str:
+        """What a drive prescribes."""
         return "rotation"
 
     def drive_wrench(self, bodies: ObservedBodies, mover: str, base: str) -> Wrench:
+        """What a drive of the joint gives to the body that it moves, and takes from the one on which it rests."""
         return Wrench(sum_torques((mover, 1.0)) if base == GROUND else sum_torques((mover, 1.0), (base, -1.0)))
 
     def wrenches(self, bodies: ObservedBodies) -> list[Wrench]:
+        """What it can transmit."""
         point = bodies.point(self.first)
         return [Wrench({}, *self.bodies, np.broadcast_to(axis, point.shape), point) for axis in ((1.0, 0.0), (0.0, 1.0))]
 
@@ -117,6 +129,7 @@ class Revolute(PointJoint):
 
     @property
     def support_markers(self) -> tuple[Marker, ...]:
+        """Points that are drawn as a support where they are on the ground."""
         return self.first, self.second
 
 

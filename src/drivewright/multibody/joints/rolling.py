@@ -28,6 +28,7 @@ class Rolling(PointJoint):
     track_radius: float = 0.0
 
     def constraint_rows(self, index: ModelIndex) -> list[RowFields]:
+        """Fields of its constraint rows."""
         pair = self.pair(index)
         if self.track_radius:
             reach = self.radius + self.track_radius
@@ -42,6 +43,7 @@ class Rolling(PointJoint):
         ]
 
     def wrenches(self, bodies: ObservedBodies) -> list[Wrench]:
+        """What it can transmit."""
         point = self._contact_point(bodies)
         return [Wrench({}, *self.bodies, np.broadcast_to(axis, point.shape), point) for axis in ((1.0, 0.0), (0.0, 1.0))]
 
@@ -67,7 +69,7 @@ class Rolling(PointJoint):
             return
         layer, origin = "ground" if body == GROUND else "body", np.array(self.second[1:])
         if self.track_radius:
-            yield Shape(layer, circle(origin, abs(self.track_radius)))
+            yield Shape(layer, circle(self.second[1:], abs(self.track_radius)))
             return
         low, high = travel(self.first, self.second, self.axis, drawing)
         ends = low - self.radius, high + self.radius

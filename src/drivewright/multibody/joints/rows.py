@@ -19,6 +19,7 @@ import numpy as np
 from drivewright._jit import generic, implements, inner
 from drivewright.multibody.curves import curve_at
 from drivewright.multibody.frames import rotated
+from drivewright.multibody.records import OneRecord
 
 LINEAR, DISTANCE, CIRCLE, FURTHER = range(4)  # FURTHER and above: equations that a model brings
 
@@ -26,7 +27,7 @@ Terms = tuple[float, float, float, float, float, float, float]
 
 
 @generic
-def row_terms(equation: Any, row: np.record, pose: np.record, dx: float, dy: float, ti: float, tj: float, tl: float) -> Terms:
+def row_terms(equation: Any, row: OneRecord, pose: OneRecord, dx: float, dy: float, ti: float, tj: float, tl: float) -> Terms:
     """(r, dr/dx, dr/dy, dr/d(ti), dr/d(tj), dr/d(tk), dr/d(tl)) of an equation.
 
     `pose` is that of the body k: its angle theta_k and its cosine c and sine s; (dx, dy) [m] in the world's axes; ti, tj, tl [rad].
@@ -36,7 +37,7 @@ def row_terms(equation: Any, row: np.record, pose: np.record, dx: float, dy: flo
 
 @generic
 def row_velocity_product(
-    equation: Any, row: np.record, pose: np.record, dx: float, dy: float, vx: float, vy: float, wi: float, wj: float, wl: float
+    equation: Any, row: OneRecord, pose: OneRecord, dx: float, dy: float, vx: float, vy: float, wi: float, wj: float, wl: float
 ) -> float:
     """d2r/dt2 of an equation where d and the angles change at constant rates: (vx, vy) [m/s] of d, wi, wj, wl and pose.w [rad/s]."""
     raise NotImplementedError
@@ -52,8 +53,8 @@ class Equations(NamedTuple):
     """An equation for the rows of kind `code`, and those for the others."""
 
     code: int
-    equation: Any
-    others: Any
+    equation: tuple[Any, ...]
+    others: "NoEquations | Equations"
 
 
 @implements(row_terms, NoEquations)
@@ -81,7 +82,7 @@ def _(equations, row, pose, dx, dy, vx, vy, wi, wj, wl):
 
 
 @inner
-def terms_of_row(system: Any, work: Any, row: np.record, dx: float, dy: float) -> Terms:
+def terms_of_row(system: Any, work: Any, row: OneRecord, dx: float, dy: float) -> Terms:
     """(residual, its gradient by (dx, dy) and by the angles of the bodies i, j, k, l) of a row of any kind."""
     first, second, third = work.poses[row.i], work.poses[row.j], work.poses[row.k]
     gi, gj, gk, gl = row.gi, row.gj, row.gk, 0.0
@@ -112,7 +113,7 @@ def terms_of_row(system: Any, work: Any, row: np.record, dx: float, dy: float) -
 
 
 @inner
-def velocity_product_of_row(system: Any, work: Any, row: np.record) -> float:
+def velocity_product_of_row(system: Any, work: Any, row: OneRecord) -> float:
     """Second derivative of a row's residual with all coordinates' accelerations zero."""
     first, second, third = work.poses[row.i], work.poses[row.j], work.poses[row.k]
     pix, piy = rotated(first, row.ax, row.ay)
@@ -120,7 +121,7 @@ def velocity_product_of_row(system: Any, work: Any, row: np.record) -> float:
     wi, wj, wk = first.w, second.w, third.w
     dx, dy = first.x + pix - second.x - pjx, first.y + piy - second.y - pjy
     vx, vy = first.vx - wi * piy - second.vx + wj * pjy, first.vy + wi * pix - second.vy - wj * pjx
-    ax, ay = first.bx - wi * wi * pix - second.bx + wj * wj * pjx, first.by - wi * wi * piy - second.by + wj * wj * pjy
+    ax, ay = first.bias_x - wi * wi * pix - second.bias_x + wj * wj * pjx, first.bias_y - wi * wi * piy - second.bias_y + wj * wj * pjy
     if row.kind == LINEAR:
         ux, uy = rotated(third, row.ex, row.ey)
         total = ux * ax + uy * ay + 2 * wk * (ux * vy - uy * vx) - wk * wk * (ux * dx + uy * dy)

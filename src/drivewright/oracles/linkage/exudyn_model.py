@@ -6,27 +6,32 @@ sliding speed up to a limit and is constant from there: Ambrosio's ramp without 
 by d/2.  Only `verify`, tests and benchmarks import this: Exudyn is an optional dependency.
 """
 
+from collections.abc import Iterable, Mapping
 from functools import singledispatchmethod
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-import exudyn
+import exudyn as exudyn_module
 import numpy as np
-from exudyn import itemInterface as item
+from exudyn import itemInterface as item_interface
 
+from drivewright._typing import Floats
 from drivewright.errors import InputError, SolverError
 from drivewright.multibody import model as mb
+from drivewright.multibody.model import MultibodyModel
 
+exudyn: Any = exudyn_module  # its stubs take the numbers of items for modules
+item: Any = item_interface
 LEAST_APPROACH = 1e-4  # floor of the speed at onset, as in the multibody kernel [m/s]
 
 
 class Run(NamedTuple):
     """Times (m,) and, by body, (m, 6): x, y of the centroid, angle, and their rates."""
 
-    time: np.ndarray
-    bodies: dict
+    time: Floats
+    bodies: dict[str, Floats]
 
 
-def run(model, start, duration, step, samples=200):
+def run(model: MultibodyModel, start: Mapping[str, Iterable[float]], duration: float, step: float, samples: int = 200) -> Run:
     """Integrate `model` over `duration` [s] by the trapezoidal rule with constraints on velocity level, in steps of `step` [s].
 
     start: {body: (x, y, angle, vx, vy, angular velocity)} of every body's centroid, consistent with joints and drives.  A pin
@@ -89,7 +94,7 @@ class _Twin:
     # -- one method per kind of element
 
     @singledispatchmethod
-    def add(self, element):
+    def add(self, element: object) -> None:
         raise InputError(
             f"verify: Exudyn's twin has no {type(element).__name__} ('{getattr(element, 'name', '')}'); it knows revolute, "
             "prismatic and pin-slot joints, springs, constant torques and forces, and drives of constant speed."
@@ -145,7 +150,7 @@ class _Twin:
         )
 
     @add.register
-    def _(self, spring: mb.Spring):
+    def _(self, spring: mb.PointSpring):
         self.system.AddObject(
             item.ObjectConnectorSpringDamper(
                 markerNumbers=[self.marker(spring.first), self.marker(spring.second)],
@@ -168,14 +173,14 @@ class _Twin:
         )
 
     @add.register
-    def _(self, torque: mb.Torque):
+    def _(self, torque: mb.AppliedTorque):
         value = _constant(torque.name, torque.load.curve)
         for body, moment in ((torque.body, value), (torque.on, -value)):
             marker = self.marker(mb.Marker(body, *self.centroids[body]))
             self.system.AddLoad(item.LoadTorqueVector(markerNumber=marker, loadVector=[0.0, 0.0, moment]))
 
     @add.register
-    def _(self, force: mb.Force):
+    def _(self, force: mb.AppliedForce):
         value = _constant(force.name, force.load.curve)
         self.system.AddLoad(
             item.LoadForceVector(
@@ -186,7 +191,7 @@ class _Twin:
         )
 
     @add.register
-    def _(self, drive: mb.Drive):
+    def _(self, drive: mb.JointDrive):
         joint = self.joints[drive.joint]
         if not isinstance(joint, mb.Revolute) or np.any(drive.motion.coefficients[:, 2:]) or np.ptp(drive.motion.coefficients[:, 1]):
             raise InputError(

@@ -1,12 +1,15 @@
 """Whether a linkage is a crank-driven four-bar, and its motion in the closed form of `four_bar_closed_form` then."""
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Complexes
+from drivewright.mechanisms.linkage.build import LinkageModel
 from drivewright.multibody.model import GROUND, Marker, Revolute, RotationalSpring
-from drivewright.multibody.observe import joined, observe
-from drivewright.multibody.simulate import Settings, clear_states, simulate
+from drivewright.multibody.observe import concatenate, observe
+from drivewright.multibody.simulate import Settings, simulate, states_outside_folds
 from drivewright.numerics.ode import integrate
 from drivewright.oracles.linkage.four_bar_closed_form import (
     COUPLER_TURN,
@@ -18,6 +21,7 @@ from drivewright.oracles.linkage.four_bar_closed_form import (
     positions,
     velocities,
 )
+from drivewright.registry import Row
 
 ROUTE = "closed form of the four-bar"
 SAMPLES = 721  # of a turn with ideal pins
@@ -35,12 +39,12 @@ class Step(NamedTuple):
 class Chain(NamedTuple):
     """Names of crank, coupler and rocker; the pins O2, A, B, O4; the bars O2-O4, O2-A, A-B, O4-B, complex, in their bodies' frames."""
 
-    bodies: tuple
-    steps: tuple
-    bars: np.ndarray
+    bodies: tuple[str, ...]
+    steps: tuple[Step, ...]
+    bars: Complexes
 
 
-def chain_of(model):
+def chain_of(model: LinkageModel) -> Chain | None:
     """The `Chain` of a mechanism driven at constant speed; None where it is no four-bar of ideal pins and massless links."""
     stated = model.assembly.model
     if not model.period or (len(stated.bodies), len(stated.joints), len(stated.drives)) != (3, 4, 1):
@@ -72,12 +76,12 @@ def _from_to(start, end):
     return complex(end.x - start.x, end.y - start.y)
 
 
-def closed_form(model):
+def closed_form(model: LinkageModel) -> Iterable[Row]:
     """Rows of a four-bar: a turn with ideal pins, half a turn with massless links; none for another mechanism."""
     chain = chain_of(model)
     if chain is None:
         return ()
-    return _turn(model, chain) if not model.links else _links(model, chain)
+    return _turn(model, chain) if not model.massless_links else _links(model, chain)
 
 
 def _directions(model, chain, seen):
@@ -102,7 +106,7 @@ def _branch(bar, crank, alphas, e):
 
 def _turn(model, chain):
     run = simulate(model.assembly, model.period, samples=np.linspace(0, model.period, SAMPLES))
-    seen = joined([observe(*states) for states in clear_states(run)])
+    seen = concatenate([observe(*states) for states in states_outside_folds(run)])
     e = _directions(model, chain, seen)
     crank, speed = np.angle(e[0]), model.spec.drive.speed
     both = [ideal_motion(_bar(chain)._replace(branch=sign), crank) for sign in (1.0, -1.0)]  # in a fold one goes over into the other
@@ -178,7 +182,7 @@ def _loaded(model, chain):
     weight = complex(*stated.gravity) * np.conj(chain.bars[0]) / abs(chain.bars[0])
     drag = {name: sum(force.damping for force in stated.forces if getattr(force, "first", None) == name) for name in chain.bodies[1:]}
     plain = all(isinstance(f, RotationalSpring) and f.stiffness == 0 and f.second == GROUND for f in stated.forces)
-    held = {joint.model.damping for joint in model.links}
+    held = {joint.massless_link.damping for joint in stated.joints if joint.massless_link}
     level = abs(weight.real) < 1e-12 * (1 + abs(weight)) and np.max(np.abs(arms.imag)) < 1e-12
     if not (plain and level and len(held) == 1 and len(set(drag.values())) == 1):
         return None

@@ -8,12 +8,14 @@ Rows are tuples (name, ours, other, unit, allowed difference, route) in SI.
 import numpy as np
 
 from drivewright.errors import MissingExtra
-from drivewright.mechanisms.linkage.build import ideal_record, run_of
+from drivewright.mechanisms.linkage.build import LinkageModel
+from drivewright.multibody.analyses.simulation_model import ideal_record, run_of
 from drivewright.multibody.model import GROUND, Dry, Ideal, PinSlot, Prismatic, Revolute
 from drivewright.multibody.observe import FIELDS, PIN_FIELDS, observe
 from drivewright.multibody.reactions import reactions
-from drivewright.multibody.simulate import Settings, clear_states, simulate
+from drivewright.multibody.simulate import Settings, simulate, states_outside_folds
 from drivewright.oracles.linkage.four_bar import closed_form
+from drivewright.registry import Row
 
 SHOWN = 400  # states at which joints are looked at
 POSE = slice(0, 6)  # of FIELDS: place, angle, and their rates
@@ -27,7 +29,7 @@ EXUDYN = "Exudyn: absolute coordinates, trapezoidal rule; allowed is five times 
 TIMES = 5  # a halved step shows the error of the second order and less of that of an impact
 
 
-def verify(model, result):
+def verify(model: LinkageModel, result: object) -> tuple[Row, ...]:
     """All rows; MissingExtra without Exudyn where it has a part in this."""
     seen = list(_seen(model))
     rows = [*_closed_joints(model, seen), *_newton_euler(model, seen), *_differences(model), *closed_form(model)]
@@ -41,7 +43,7 @@ def verify(model, result):
 
 def _closed_joints(model, seen):
     """How far the two halves of every joint without play part, in place and across its line."""
-    names, wide = model.assembly.names, model.assembly.wide
+    names, wide = model.assembly.names, model.assembly.expanded
     places = _Places(wide, names, np.concatenate([observed.bodies[:, :, POSE] for _, observed in seen]))
     misses = {Revolute: [], Prismatic: [], PinSlot: []}
     for joint in wide.joints:
@@ -81,7 +83,7 @@ class _Places:
 
 def _seen(model):
     """(system, `Observed`) of states spread over each stretch of the run, folds left out: there forces in the joints are mere limits."""
-    for system, t, y in clear_states(run_of(model)):
+    for system, t, y in states_outside_folds(run_of(model)):
         rows = slice(None, None, max(1, len(t) // SHOWN))
         yield system, observe(system, t[rows], y[rows])
 
@@ -151,7 +153,7 @@ def _exudyn(model):
     if found is None:
         return
     system, t, y, start = found
-    length = _until_lasting(model, system, t, y, min(PART[kind] * (model.period or LONGEST), model.duration))
+    length = _until_lasting(model, system, t, y, min(PART[kind] * (model.period or LONGEST), model.run_length))
     ours = _ours(model, system, t, y, length)
     step, finer = (model.period or LONGEST) / STEPS[kind], 4 if kind == "dry" else 2
     coarse, fine = (exudyn_model.run(model.assembly.model, start, length, h, samples=2) for h in (step, step / finer))

@@ -1,6 +1,6 @@
 """Wear of a bearing over many turns: a run tells what a turn wears off, a jump extrapolates it, the worn bearing runs again.
 
-The wall recedes where the journal rubs; the contact sees the depth on the side where the journal is (`multibody.loads.worn_off`).
+The wall recedes where the journal rubs; the contact sees the depth on the side where the journal is (`multibody.loads.wear_depth`).
 The stiffness of the contact keeps its value, and the journal its shape.
 """
 
@@ -9,16 +9,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from drivewright import cases
+from drivewright._typing import Floats
 from drivewright.contact.wear import deposit, worn
-from drivewright.mechanisms.linkage.analyse import no_run
-from drivewright.mechanisms.linkage.build import TURN
-from drivewright.mechanisms.linkage.ensemble import Statistics, repeats, shifted
-from drivewright.mechanisms.linkage.member import Member, acceleration, ends_of_turns, ideal_peak_of, means_of_turns, starting
-from drivewright.mechanisms.linkage.refusals import place
+from drivewright.multibody.analyses.ensemble import Statistics, orbit_turns, perturbed_start
+from drivewright.multibody.analyses.simulation_model import TURN, SimulationModel
+from drivewright.multibody.analyses.turns import RunNumbers, acceleration, ideal_peak, mean_per_turn, start_of_window, turn_ends
+from drivewright.multibody.assembly import Assembly
 from drivewright.multibody.measures import impact_load
 from drivewright.multibody.model import Marker
 from drivewright.multibody.observe import PIN_FIELDS
-from drivewright.multibody.record import record
+from drivewright.multibody.record import Record, record
 from drivewright.multibody.simulate import simulate
 from drivewright.numerics.ensemble import of_members
 from drivewright.result import Answer, Column, Table, Value
@@ -29,16 +29,32 @@ SMALL = 0.1  # depth of a jump over the clearance, likewise: the motion should n
 
 
 @dataclass(frozen=True)
+class WearingBearing:
+    """The bearing that wears, and how: name of its joint and of its body, radius, length and clearance [m], volume worn off per force
+    and way [m^2/N], turns of the drive in all, jumps among them, places around the bearing."""
+
+    joint: str
+    body: str
+    radius: float
+    length: float
+    clearance: float
+    coefficient: float
+    cycles: int
+    jumps: int
+    bins: int
+
+
+@dataclass(frozen=True)
 class Stage:
     """The bearing before a jump: turns behind it, depth (bins,) [m], what a turn of this run takes off (bins,) [m], largest force [N],
     impact load coefficient of every output, and the means over each turn of force times slip [W]."""
 
     cycles: float
-    depth: np.ndarray
-    per_turn: np.ndarray
+    depth: Floats
+    per_turn: Floats
     force: float
-    loads: tuple
-    rubbing: np.ndarray
+    loads: tuple[float, ...]
+    rubbing: Floats
 
 
 @dataclass(frozen=True)
@@ -46,74 +62,58 @@ class History:
     """A bearing that wears, one run a stage: the stages, depth (bins,) [m] at the end, why it ended early, and whether every run repeated
     itself."""
 
-    stages: tuple
-    depth: np.ndarray
+    stages: tuple[Stage, ...]
+    depth: Floats
     advice: str
     periodic: bool
 
-    def member(self, joint) -> Member:
+    def numbers(self, joint: WearingBearing) -> RunNumbers:
         """Its numbers, and by the turns of the last run whether they drift."""
         turns = {"rubbing": self.stages[-1].rubbing} if self.stages else {}
-        return Member(
+        return RunNumbers(
             turns,
             {
                 "max_depth": float(np.max(self.depth)),
                 "clearance_growth": clearance_growth(self.depth),
-                "volume": volume_of(joint, self.depth),
+                "volume": float(volume_of(joint, self.depth)),
             },
         )
 
 
-def no_wear(spec):
-    """Why nothing wears."""
-    if spec.wear is None:
-        return "the spec has no [wear] table"
-    joint = _joint(spec)
-    if joint.pin != "dry":
-        return f'joint {joint.name!r} is {joint.pin or joint.kind}; wear wants model = "dry" and a clearance'
-    return no_run(spec) or (f"joint {joint.name!r} states no wear_coefficient" if joint.wear_coefficient is None else None)
-
-
-def _joint(spec):
-    return next(joint for joint in spec.joints if joint.name == spec.wear.joint)
-
-
-def with_wear(assembly, pin, depth):
+def with_wear(assembly: Assembly, pin: int, depth: Floats) -> Assembly:
     """The assembly with a worn depth (bins,) [m] on the bearing of its pin number `pin`, over the angle in the bearing's body."""
     wear = np.zeros((len(assembly.system.contacts), len(depth)))
     wear[pin] = depth
     return replace(assembly, system=assembly.system._replace(wear=wear))
 
 
-def wear(model, done):
+def wear(model: SimulationModel, asked: WearingBearing) -> Answer:
     """Depth over the angle of the bearing, force and impact load over the turns: of a bearing, or the mean of an ensemble of bearings."""
-    joint, asked = _joint(model.spec), model.spec.wear
-    first, *others = histories = _histories(model)
+    first, *_ = histories = _histories(model, asked)
     count = len(first.stages)
-    found = Statistics(tuple(each.member(joint) for each in histories), int(first.periodic))
-    tables = (_profiles(joint, histories), _development(model, joint, histories)) if count else ()
+    found = Statistics(tuple(each.numbers(asked) for each in histories), int(first.periodic))
+    tables = (_profiles(asked, histories), _development(model, asked, histories)) if count else ()
     jump = asked.cycles / asked.jumps
-    findings = _findings(joint, first.depth, max((jump * np.max(stage.per_turn) for stage in first.stages), default=0.0))
+    findings = _findings(asked, first.depth, max((jump * np.max(stage.per_turn) for stage in first.stages), default=0.0))
     if first.advice:
         findings = (*findings, f"wear ends after {count} of {asked.jumps} jumps: {first.advice}")
-    return Answer(_values(joint, found, count * jump), tables, findings=findings, outcome="partial" if first.advice else "complete")
+    return Answer(_values(asked, found, count * jump), tables, findings=findings, outcome="partial" if first.advice else "complete")
 
 
-def _histories(model):
+def _histories(model, asked):
     """The `History` of a bearing, and where its motion does not repeat itself, of the others of the ensemble."""
-    first = history(model, 0)
+    first = history(model, asked, 0)
     if first.periodic or first.advice:
         return [first]
-    rows = cases.run(lambda number: history(model, number), range(1, model.ensemble), workers=None).rows
+    rows = cases.run(lambda number: history(model, asked, number), range(1, model.ensemble), workers=None).rows
     return [first, *(row.value for row in rows if row.ok and not row.value.advice)]
 
 
-def history(model, number):
+def history(model: SimulationModel, asked: WearingBearing, number: int) -> History:
     """The `History` of one bearing, whose runs start like those of this member of the ensemble."""
-    asked = model.spec.wear
     stages, depth, advice, periodic = [], np.zeros(asked.bins), "", True
     for jump in range(asked.jumps):
-        seen, advice = worn_run(model, depth, number)
+        seen, advice = worn_run(model, asked, depth, number)
         if advice:
             break
         cycles = asked.cycles / asked.jumps
@@ -121,69 +121,68 @@ def history(model, number):
             Stage(
                 jump * cycles,
                 depth,
-                depth_per_turn(seen, model, asked.bins),
-                _largest_force(seen, model),
+                depth_per_turn(seen, model, asked),
+                _largest_force(seen, model, asked),
                 _loads(seen, model),
-                _rubbing(seen, model),
+                _rubbing(seen, model, asked),
             )
         )
-        depth, periodic = worn(depth, stages[-1].per_turn, cycles), periodic and repeats(model, seen) > 0
+        depth, periodic = worn(depth, stages[-1].per_turn, cycles), periodic and orbit_turns(model, seen) > 0
     return History(tuple(stages), depth, advice, periodic)
 
 
 # -- one run -------------------------------------------------------------------------------------------------------------------
 
 
-def worn_run(model, depth, number=0):
+def worn_run(model: SimulationModel, asked: WearingBearing, depth: Floats, number: int = 0) -> tuple[Record, str]:
     """(record of the window of a run with a worn bearing, advice where the run ended early)."""
-    pin, joint = model.pins.index(model.spec.wear.joint), _joint(model.spec)
-    run = simulate(with_wear(model.assembly, pin, depth), model.duration, model.settings, state=shifted(model, number))
-    markers = model.markers | {BEARING + joint.name: Marker(place(joint.connects[0])[0])}
-    return record(run, markers, starting(model, run.end[1])), run.advice
+    pin = model.pins.index(asked.joint)
+    run = simulate(with_wear(model.assembly, pin, depth), model.run_length, model.settings, state=perturbed_start(model, number))
+    markers = {**model.markers, BEARING + asked.joint: Marker(asked.body)}
+    return record(run, markers, start_of_window(model, run.end[1])), run.advice
 
 
-def _rubbing(seen, model):
+def _rubbing(seen, model, asked):
     """Means over the turns of force times slip [W]."""
-    pin = _pin(seen, model)
-    return means_of_turns(seen.t, pin["normal"] * np.abs(pin["slip"]), ends_of_turns(model, seen.t[0], seen.t[-1]))
+    pin = _pin(seen, model, asked)
+    return mean_per_turn(seen.t, pin["normal"] * np.abs(pin["slip"]), turn_ends(model, seen.t[0], seen.t[-1]))
 
 
-def _pin(seen, model):
-    return dict(zip(PIN_FIELDS, np.moveaxis(seen.pins[:, model.pins.index(model.spec.wear.joint)], 1, 0), strict=True))
+def _pin(seen, model, asked):
+    return dict(zip(PIN_FIELDS, np.moveaxis(seen.pins[:, model.pins.index(asked.joint)], 1, 0), strict=True))
 
 
-def contact_angle(seen, model):
+def contact_angle(seen: Record, model: SimulationModel, asked: WearingBearing) -> Floats:
     """Where the journal touches the bearing, in the frame of the bearing's body (m,) [rad]."""
-    pin = _pin(seen, model)
-    return np.arctan2(-pin["ny"], -pin["nx"]) - seen.point(BEARING + model.spec.wear.joint, "angle")
+    pin = _pin(seen, model, asked)
+    return np.arctan2(-pin["ny"], -pin["nx"]) - seen.point(BEARING + asked.joint, "angle")
 
 
-def depth_per_turn(seen, model, bins):
+def depth_per_turn(seen: Record, model: SimulationModel, asked: WearingBearing) -> Floats:
     """Depth (bins,) [m] that a turn takes off the bearing, the mean over the window."""
-    pin, joint = _pin(seen, model), _joint(model.spec)
+    pin = _pin(seen, model, asked)
     taken = deposit(
-        seen.t, contact_angle(seen, model), pin["normal"], pin["slip"], joint.wear_coefficient, joint.bearing_radius, joint.length, bins
+        seen.t, contact_angle(seen, model, asked), pin["normal"], pin["slip"], asked.coefficient, asked.radius, asked.length, asked.bins
     )
-    return taken * model.period / (seen.t[-1] - seen.t[0])
+    return taken * model.turn_length / (seen.t[-1] - seen.t[0])
 
 
-def _largest_force(seen, model):
-    pin = _pin(seen, model)
+def _largest_force(seen, model, asked):
+    pin = _pin(seen, model, asked)
     return float(np.max(np.hypot(pin["fx"], pin["fy"])))
 
 
 def _loads(seen, model):
     return tuple(
-        impact_load(seen.t, acceleration(seen, output)[0], ideal_peak_of(model, output), model.period).coefficient
-        for output in model.spec.outputs
+        impact_load(seen.t, acceleration(seen, output)[0], ideal_peak(model, output), model.period).coefficient for output in model.outputs
     )
 
 
-# -- what is told --------------------------------------------------------------------------------------------------------------
+# -- answer ------------------------------------------------------------------------------------------------------------------
 
 
-def _values(joint, found, cycles):
-    name = joint.name
+def _values(joint: WearingBearing, found: Statistics, cycles: float):
+    name = joint.joint
 
     def of(key, unit, meaning):
         return Value.of(found.of_run(key, "rubbing"), unit, meaning)
@@ -198,12 +197,12 @@ def _values(joint, found, cycles):
     }
 
 
-def volume_of(joint, depth):
+def volume_of(joint: WearingBearing, depth: Floats) -> Floats:
     """Volume [m^3] behind the depths (..., bins) [m]."""
-    return TURN * joint.bearing_radius * joint.length * np.mean(depth, axis=-1)
+    return TURN * joint.radius * joint.length * np.mean(depth, axis=-1)
 
 
-def clearance_growth(depth):
+def clearance_growth(depth: Floats) -> float:
     """Largest growth of the radial clearance in any direction [m]: half the sum of the depths (bins,) of two opposite sides."""
     angles = np.arange(len(depth)) + len(depth) / 2
     return float(0.5 * np.max(depth + np.interp(angles, np.arange(2 * len(depth)), np.tile(depth, 2))))
@@ -213,10 +212,10 @@ def _profiles(joint, histories):
     after = np.array([[*(stage.depth for stage in each.stages[1:]), each.depth] for each in histories])
     middle, bins = after.shape[1] // 2, after.shape[2]
     return Table(
-        f"wear.{joint.name}",
-        f"Wear of the bearing of joint {joint.name!r}",
+        f"wear.{joint.joint}",
+        f"Wear of the bearing of joint {joint.joint!r}",
         (
-            Column("angle", "rad", f"place on the bearing, in the frame of {place(joint.connects[0])[0]!r}", np.arange(bins) * TURN / bins),
+            Column("angle", "rad", f"place on the bearing, in the frame of {joint.body!r}", np.arange(bins) * TURN / bins),
             *_columns("first", "m", "depth after the first jump", after[:, 0]),
             *_columns("middle", "m", f"depth after jump {middle + 1} of {after.shape[1]}", after[:, middle]),
             *_columns("last", "m", "depth at the end", after[:, -1]),
@@ -232,17 +231,17 @@ def _development(model, joint, histories):
 
     loads = [
         _columns(f"impact_load.{output.name}", "-", f"impact load coefficient of {output.name!r}", stages(lambda at, k=k: at.loads[k]))
-        for k, output in enumerate(model.spec.outputs)
+        for k, output in enumerate(model.outputs)
     ]
     return Table(
-        f"wear.{joint.name}.cycles",
-        f"Joint {joint.name!r} while it wears",
+        f"wear.{joint.joint}.cycles",
+        f"Joint {joint.joint!r} while it wears",
         (
             Column("cycles", "-", "turns of the drive behind it", np.array([stage.cycles for stage in histories[0].stages])),
             *_columns("max_depth", "m", "largest depth", stages(lambda at: np.max(at.depth))),
             *_columns("volume", "m^3", "volume worn off", stages(lambda at: volume_of(joint, at.depth))),
             *_columns("volume_per_turn", "m^3", "volume that a turn wears off", stages(lambda at: volume_of(joint, at.per_turn))),
-            *_columns("max_force", "N", f"largest force in joint {joint.name!r}", stages(lambda at: at.force)),
+            *_columns("max_force", "N", f"largest force in joint {joint.joint!r}", stages(lambda at: at.force)),
             *sum(loads, ()),
         ),
     )
@@ -259,13 +258,13 @@ def _findings(joint, depth, step):
     found, slope = [], float(np.max(np.abs(np.diff(depth, append=depth[0])))) * len(depth) / TURN
     if slope > FLAT * joint.clearance:
         found.append(
-            f"wear of joint {joint.name!r}: the worn profile has slopes of {1e3 * slope:.3g} mm/rad beside a clearance of "
+            f"wear of joint {joint.joint!r}: the worn profile has slopes of {1e3 * slope:.3g} mm/rad beside a clearance of "
             f"{1e3 * joint.clearance:.3g} mm. The contact is looked for on the side where the journal's centre is; that is good up to "
             f"slopes of about {FLAT:g} times the clearance. Take fewer cycles, or fewer bins"
         )
     if step > SMALL * joint.clearance:
         found.append(
-            f"wear of joint {joint.name!r}: a jump takes off up to {1e3 * step:.3g} mm, {step / joint.clearance:.2g} times the "
+            f"wear of joint {joint.joint!r}: a jump takes off up to {1e3 * step:.3g} mm, {step / joint.clearance:.2g} times the "
             f"clearance of {1e3 * joint.clearance:.3g} mm, as if the motion stayed the same meanwhile; take more jumps"
         )
     return tuple(found)

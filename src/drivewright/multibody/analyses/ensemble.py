@@ -1,21 +1,21 @@
 """Statistics of a run turn by turn: of the run itself where it repeats, else of an ensemble of runs that start almost alike."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
 from drivewright import cases
+from drivewright._typing import Floats
 from drivewright.errors import SolverError
-from drivewright.mechanisms.linkage.build import TURN, run_of
-from drivewright.mechanisms.linkage.member import ends_of_turns, motion_of, starting, window_of
-from drivewright.multibody.record import POINT_FIELDS
+from drivewright.multibody.analyses.simulation_model import TURN, SimulationModel, run_of
+from drivewright.multibody.analyses.turns import RunNumbers, output_numbers, start_of_window, turn_ends, window_record
+from drivewright.multibody.record import POINT_FIELDS, Record
 from drivewright.multibody.simulate import Run, simulate
 from drivewright.numerics.chaos import orbit_period
 from drivewright.numerics.ensemble import Estimate, estimate, estimate_statistic
-from drivewright.result import Check
+from drivewright.result import Check, Value
 
 SHIFT = 1e-3  # of the least clearance by which the starts of the members differ: below what is manufactured
 SAME = 1e-6  # of its range to which place and rate of an output repeat themselves in a periodic motion
@@ -27,7 +27,7 @@ STILL = 1e-6  # part of the mechanism's length, or of its drive's speed, over wh
 class Statistics:
     """The members' numbers, and after how many turns the motion repeats itself (0: it does not, or there are no turns to compare)."""
 
-    members: tuple
+    members: tuple[RunNumbers, ...]
     period: int
 
     def mean(self, name: str) -> Estimate:
@@ -74,7 +74,7 @@ def _exact(value):
     return Estimate(float(value), np.nan, np.nan, "", True, 1.0)
 
 
-def settled_check(name: str, estimates: Any, parts: tuple = ()) -> Check:
+def settled_check(name: str, estimates: Iterable[Value], parts: tuple[str, ...] = ()) -> Check:
     """The check that the statistics of a run no longer drift."""
     drifting = sum(not found.settled for found in estimates)
     return Check(
@@ -88,7 +88,7 @@ def settled_check(name: str, estimates: Any, parts: tuple = ()) -> Check:
     )
 
 
-def unsettled(values: dict) -> tuple[str, ...]:
+def unsettled(values: Mapping[str, Value]) -> tuple[str, ...]:
     """A finding that names the values which still drifted; none where all have settled."""
     names = [name for name, value in values.items() if not value.settled]
     shown = ", ".join(names[:MOST_NAMED]) + (f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else "")
@@ -96,44 +96,44 @@ def unsettled(values: dict) -> tuple[str, ...]:
 
 
 @lru_cache(maxsize=12)
-def statistics(model: Any, numbers: Callable = motion_of) -> Statistics:
-    """`numbers(model, run)`, a `Member`, of a model's run, and where that does not repeat itself, of the other runs of the ensemble."""
+def statistics(model: SimulationModel, numbers: Callable[[SimulationModel, Run], RunNumbers] = output_numbers) -> Statistics:
+    """`numbers(model, run)`, a `RunNumbers`, of a model's run, and where that does not repeat itself, of the other runs of the ensemble."""
     first = numbers(model, run_of(model))
     if model.assembly.freedom == 0:  # kinematics is exact
         return Statistics((replace(first, turns={}),), 0)
     others = cases.run(lambda run: numbers(model, run), other_runs(model), workers=None).rows
-    return Statistics((first, *(row.value for row in others)), period_of(model))
+    return Statistics((first, *(row.value for row in others)), turns_to_repeat(model))
 
 
 @lru_cache(maxsize=4)
-def period_of(model: Any) -> int:
+def turns_to_repeat(model: SimulationModel) -> int:
     """After how many turns the model's run repeats itself in its window; 0 where it does not."""
-    return repeats(model, window_of(model, run_of(model)))
+    return orbit_turns(model, window_record(model, run_of(model)))
 
 
 @lru_cache(maxsize=1)
-def other_runs(model: Any) -> tuple[Run, ...]:
+def other_runs(model: SimulationModel) -> tuple[Run, ...]:
     """The other runs of the ensemble, those that came to the end, in threads; kept for the analyses that follow.
 
     None where the run repeats itself, has no whole turn, ended early or is mere kinematics.
     """
     run = run_of(model)
-    turns = len(ends_of_turns(model, starting(model, run.end[1]), run.end[1])) - 1
-    if model.assembly.freedom == 0 or run.advice or not turns or period_of(model):
+    turns = len(turn_ends(model, start_of_window(model, run.end[1]), run.end[1])) - 1
+    if model.assembly.freedom == 0 or run.advice or not turns or turns_to_repeat(model):
         return ()
-    rows = cases.run(lambda number: member_run(model, number), range(1, model.ensemble), workers=None).rows
+    rows = cases.run(lambda number: ensemble_run(model, number), range(1, model.ensemble), workers=None).rows
     return tuple(row.value for row in rows if row.ok)
 
 
-def member_run(model: Any, number: int, per_step: int = 2) -> Run:
+def ensemble_run(model: SimulationModel, number: int, per_step: int = 2) -> Run:
     """The run of a member from its own start, with so many points a step; SolverError where it ends early."""
-    run = simulate(model.assembly, model.duration, replace(model.settings, per_step=per_step), state=shifted(model, number))
+    run = simulate(model.assembly, model.run_length, replace(model.settings, per_step=per_step), state=perturbed_start(model, number))
     if run.advice:
         raise SolverError(run.advice)
     return run
 
 
-def repeats(model: Any, seen: Any) -> int:
+def orbit_turns(model: SimulationModel, seen: Record) -> int:
     """After how many turns place and rate of every marker repeat themselves, in units of their range; 0 where they do not."""
     if not model.period:
         return 0
@@ -160,7 +160,7 @@ def _scaled(t, x, rate, times):
     return CubicHermiteSpline(t[keep], x[keep], rate[keep])(times) / np.ptp(x)
 
 
-def shifted(model: Any, number: int) -> np.ndarray:
+def perturbed_start(model: SimulationModel, number: int) -> Floats:
     """The start of a member, its independent coordinates moved by `SHIFT` of the least clearance in a direction of its own.
 
     Member 0 starts as stated; without play the least clearance is taken as a thousandth of the mechanism.
@@ -169,7 +169,7 @@ def shifted(model: Any, number: int) -> np.ndarray:
     if number == 0:
         return y
     free = np.searchsorted(system.stored, system.independent)
-    direction = np.random.default_rng((model.spec.simulate.seed if model.spec.simulate else 1, number)).normal(size=len(free))
+    direction = np.random.default_rng((model.seed, number)).normal(size=len(free))
     sizes = [joint.play.clearance for joint in model.assembly.model.joints if joint.play]
     clearance = min((size for size in sizes if size), default=1e-3 * system.length)
     y[free] += SHIFT * clearance / system.length * system.sizes[system.independent] * direction / np.linalg.norm(direction)

@@ -2,29 +2,28 @@
 
 import numpy as np
 
-from drivewright.mechanisms.linkage.analyse import ROWS, cycle_columns
-from drivewright.mechanisms.linkage.build import run_of
-from drivewright.mechanisms.linkage.ensemble import statistics
-from drivewright.mechanisms.linkage.member import joints_of, starting
-from drivewright.multibody.observe import joined, observe
+from drivewright.multibody.analyses.ensemble import statistics
+from drivewright.multibody.analyses.simulation_model import ROWS, SimulationModel, cycle_columns, run_of
+from drivewright.multibody.analyses.turns import joint_force_numbers, start_of_window
+from drivewright.multibody.observe import Observed, concatenate, observe
 from drivewright.multibody.reactions import reactions, unbounded_joints
-from drivewright.multibody.simulate import clear_states
+from drivewright.multibody.simulate import states_outside_folds
 from drivewright.result import Answer, Check, Column, Table, Value
 
 
-def seen_last(model):
+def observe_last_turn(model: SimulationModel) -> Observed:
     """`Observed` over the last whole turn, or over the run, thinned to about ROWS; the middles of folds left out."""
     run = run_of(model)
     turns = np.floor(run.end[1] / model.period + 1e-9) if model.period else 0
-    start = (turns - 1) * model.period if turns >= 1 else 0.0
-    return joined([observe(*states) for states in clear_states(run, start * (1 - 1e-12), ROWS)])
+    start = (turns - 1) * model.turn_length if turns >= 1 else 0.0
+    return concatenate([observe(*states) for states in states_outside_folds(run, start * (1 - 1e-12), ROWS)])
 
 
-def forces(model, done):
+def joint_forces(model: SimulationModel) -> Answer:
     """Largest force of every joint in the window, the forces over the last turn, and what Newton's and Euler's equations leave over."""
-    seen, numbers = seen_last(model), statistics(model, joints_of)
+    seen, numbers = observe_last_turn(model), statistics(model, joint_force_numbers)
     t, found = seen.t, reactions(model.assembly, run_of(model).end[0], seen)
-    unbounded = _unbounded(model, starting(model, run_of(model).end[1]))
+    unbounded = _unbounded(model, start_of_window(model, run_of(model).end[1]))
     values, checks, columns = {}, [], list(cycle_columns(model, t))
     for name, joint in found.joints.items():
         size = np.hypot(*joint.force.T)
@@ -45,7 +44,7 @@ def forces(model, done):
             Check.of(
                 least,
                 f"contact.{name}",
-                -model.spec.limits.link_compression,
+                -model.limits.link_compression,
                 ">=",
                 f"least tension of the massless link of joint {name!r}: a pin that is pushed has lost contact",
                 (name,),

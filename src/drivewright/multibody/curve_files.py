@@ -1,12 +1,13 @@
 """Quantities given row by row in a CSV file, as the curves that a multibody model takes."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 
 from drivewright.errors import InputError, SpecError
 from drivewright.motion.tables import read_table
-from drivewright.multibody.model import Curve, Load
+from drivewright.multibody.model import Curve, LoadCurve
 from drivewright.numerics.splines import interpolating_spline
 from drivewright.spec.csv_columns import read_columns
 
@@ -15,7 +16,7 @@ OVER = {"time": "time", "angle": "angle", "speed": "angular speed"}  # what a lo
 SMOOTH_ENDS = {"rest": ("clamped", 0), "free": ("natural", 1)}  # kind of spline, terms of the end pieces beyond the value
 
 
-def load_curve(file, what, dimension, periodic=False):
+def load_curve(file: Path, what: str, dimension: str, periodic: bool = False) -> LoadCurve:
     """The Load of a CSV file: `what` over time, angle or speed, straight from row to row and level beyond the last.
 
     A table over a whole turn of the angle, or one called periodic, repeats itself.
@@ -25,10 +26,10 @@ def load_curve(file, what, dimension, periodic=False):
     turns = rows.x_name == "angle" and math.isclose(span, TURN, rel_tol=1e-9)
     slopes = np.diff(rows.y) / np.diff(rows.x)
     curve = _curve(rows.x, np.column_stack([rows.y[:-1], slopes]), span if periodic or turns else 0.0)
-    return Load(curve if curve.period else _with_ends(curve, rows.y[[0, -1]], (0.0, 0.0)), rows.x_name)
+    return LoadCurve(curve if curve.period else _with_ends(curve, rows.y[[0, -1]], (0.0, 0.0)), rows.x_name)
 
 
-def profile_curve(file, ends, joint="revolute"):
+def profile_curve(file: Path, ends: str, joint: str = "revolute") -> Curve:
     """The Curve of a drive over time: a spline with continuous velocity.
 
     The angle of a revolute joint is counted from the first row, the travel of a prismatic one from the point of its line.
@@ -42,7 +43,7 @@ def profile_curve(file, ends, joint="revolute"):
     return _with_ends(_curve(rows.x, spline.c[::-1].T, 0.0), values[[0, -1]], speeds)
 
 
-def lift_curve(file):
+def lift_curve(file: Path) -> tuple[Curve, bool]:
     """(Curve over the cam's angle, whether the lift is an angle) of a CSV file of one turn."""
     rows = read_table(file)
     if rows.lift_unit is None or not math.isclose(rows.angle[-1] - rows.angle[0], TURN, rel_tol=1e-9):

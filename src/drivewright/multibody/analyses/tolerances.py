@@ -1,69 +1,29 @@
-"""Kinematic Monte Carlo of a linkage: clearances and tolerances of points, and what they make of the outputs."""
+"""Kinematic Monte Carlo of a mechanism: clearances and tolerances of points, and what they make of the outputs."""
 
-import math
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.special import ndtr
 
-from drivewright.mechanisms.linkage.describe import driven_joint
-from drivewright.multibody import tolerance
-from drivewright.multibody.tolerance import READINGS, Source, gradient, play, posture, sample, shares
+from drivewright.multibody.analyses.simulation_model import SimulationModel
+from drivewright.multibody.tolerance import CIRCLE, READINGS, Source, gradient, posture, sample, shares
 from drivewright.result import Answer, Column, Table, Value
 
 BARS = 60  # of a histogram
 
 
-def no_tolerances(spec):
-    """Why there is nothing to vary."""
-    if spec.tolerances is None:
-        return "the spec has no [tolerances] table"
-    if not spec.outputs:
-        return "the spec declares no [[outputs]]"
-    if not sources_of(spec):
-        return "no joint states a clearance and no dimension has a tolerance"
-    if spec.drive is None or spec.drive.motor:
-        return "no drive says where the mechanism stands"
-    return None if driven_joint(spec).kind == "revolute" else f"the drive pushes {spec.drive.joint!r}, so that it has no angle"
+def tolerances(model: SimulationModel, sources: Sequence[Source], angle: float, samples: int) -> Answer:
+    """Scatter of the outputs by Monte Carlo, every mechanism closed exactly, beside linear theory and its shares.
 
-
-def sources_of(spec):
-    """All that is random: the play of every pin that states a clearance, whatever its model, and the tolerances of points."""
-    plays = [
-        play(joint.name, joint.clearance)
-        for joint in spec.joints
-        if joint.kind == "revolute" and joint.model != "bushing" and joint.clearance
-    ]
-    return plays + [_deviation(spec, item) for item in spec.tolerances.dimensions if item.tolerance > 0]
-
-
-def _deviation(spec, item):
-    length = math.hypot(*item.axis)
-    marks = tuple(output.name for output in spec.outputs if output.point and f"{output.body}.{output.point}" == item.at)
-    return Source(
-        item.at, item.tolerance, item.distribution, tuple(_ends_at(spec, item.at)), (item.axis[0] / length, item.axis[1] / length), marks
-    )
-
-
-def _ends_at(spec, text):
-    """(joint, end) of all joints that hold on to a point."""
-    for joint in spec.joints:
-        ends = (joint.connects[1], joint.carrier) if joint.kind == "cam" else joint.connects
-        for end, at in enumerate(ends):
-            if at == text:
-                yield joint.name, end
-
-
-def tolerances(model, done):
-    """Scatter of the outputs by Monte Carlo, every mechanism closed exactly, beside linear theory and its shares."""
-    spec, asked = model.spec, model.spec.tolerances
-    sources = sources_of(spec)
-    held = posture(model.ideal, model.markers, sources, asked.angle)
-    found = sample(held, sources, asked.samples, spec.simulate.seed if spec.simulate else 1)
+    The driven body stands at `angle` [rad].
+    """
+    held = posture(model.ideal, model.markers, sources, angle)
+    found = sample(held, sources, samples, model.seed)
     slopes = gradient(held, len(sources))
     parts = shares(sources, slopes)
     closed = np.isfinite(found.deviations).all(axis=(1, 2))
     values, tables = {"tolerances.unclosed": Value(float(np.mean(~closed)), "-", "share of the random mechanisms that do not close")}, []
-    for number, output in enumerate(spec.outputs):
+    for number, output in enumerate(model.outputs):
         for reading in ("x", "y") if output.point else ("angle",):
             k = READINGS.index(reading)
             name = f"{output.name}.{reading}" if output.point else output.name
@@ -73,7 +33,7 @@ def tolerances(model, done):
     return Answer(
         values,
         tuple(tables),
-        findings=tuple(_findings(model, sources, closed)),
+        findings=tuple(_findings(sources, closed, samples)),
         outcome="partial" if found.interrupted or not closed.all() else "complete",
     )
 
@@ -85,7 +45,7 @@ def _unit(output):
 def _values(name, unit, data, share):
     """Numbers of one reading; nan, and so left out, where no mechanism closes."""
     worst, sigma = share
-    told = {
+    numbers = {
         "mean": (np.mean(data) if data.size else np.nan, "mean deviation"),
         "sigma": (np.std(data, ddof=1) if data.size > 1 else np.nan, "standard deviation"),
         "worst": (np.max(np.abs(data), initial=0.0) if data.size else np.nan, "largest deviation among the samples, either way"),
@@ -94,7 +54,7 @@ def _values(name, unit, data, share):
     }
     return {
         f"tolerances.{name}.{key}": Value(float(value), unit, f"{words} of {name!r}")
-        for key, (value, words) in told.items()
+        for key, (value, words) in numbers.items()
         if np.isfinite(value)
     }
 
@@ -138,12 +98,12 @@ def _tornado(name, unit, sources, share):
 
 
 def _label(source):
-    if source.law == tolerance.CIRCLE:
+    if source.law == CIRCLE:
         return f"play {source.name}"
     return f"{source.name} [{source.direction[0]:.3g}, {source.direction[1]:.3g}]"
 
 
-def _findings(model, sources, closed):
+def _findings(sources, closed, samples):
     if not closed.all():
         yield (
             f"tolerances: {np.sum(~closed)} of {len(closed)} random mechanisms do not close and are left out of the numbers; the "
@@ -152,5 +112,5 @@ def _findings(model, sources, closed):
     for source in sources:
         if not source.ends and not source.marks:
             yield f"tolerances: {source.name} carries no joint and no output; its tolerance moves nothing"
-    if len(closed) < model.spec.tolerances.samples:
-        yield f"tolerances: interrupted after {len(closed)} of {model.spec.tolerances.samples} samples"
+    if len(closed) < samples:
+        yield f"tolerances: interrupted after {len(closed)} of {samples} samples"

@@ -2,16 +2,16 @@
 
 import numpy as np
 
-from drivewright.mechanisms.linkage.build import TURN, run_of
+from drivewright.multibody.analyses.simulation_model import TURN, SimulationModel, run_of
 from drivewright.multibody.observe import FIELDS, observe
 from drivewright.multibody.passages import smallest_singular_values
 from drivewright.result import Answer, Column, Table, Value
 
 SAMPLES = 200  # states of a run whose smallest singular values give the median
-TOLD = 6  # bodies whose rates are told
+SHOWN = 6  # bodies whose rates are shown
 
 
-def singular(model, done):
+def singular_positions(model: SimulationModel) -> Answer:
     """Number of singular positions passed, each in a table, and what is done there."""
     passages = run_of(model).passages
     values = {"singular.count": Value(float(len(passages)), "-", "singular positions passed in the run")}
@@ -60,10 +60,10 @@ def _drive_angle(model, passages):
 def _rates(model, passed):
     """Angular velocities of the bodies there, over the largest of them."""
     seen = observe(passed.system, np.array([passed.time]), passed.state[None]).bodies[0, :, FIELDS.index("w")]
-    names = [name for name in model.assembly.names if name in model.spec.bodies][:TOLD]
+    names = [name for name in model.assembly.names if name in model.bodies][:SHOWN]
     rates = [seen[model.assembly.names.index(name)] for name in names]
     largest = max(map(abs, rates), default=0.0) or 1.0
-    return ", ".join(f"{name} {round(rate / largest, 3) + 0.0:g}" for name, rate in zip(names, rates, strict=True))
+    return ", ".join(f"{name} {round(float(rate / largest), 3) + 0.0:g}" for name, rate in zip(names, rates, strict=True))
 
 
 def _finding(model, passages):

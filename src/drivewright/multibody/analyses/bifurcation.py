@@ -1,0 +1,34 @@
+"""Bifurcation diagram: the points of a Poincare section over a parameter."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from drivewright import cases
+from drivewright._typing import Floats
+from drivewright.result import Answer, Column, Table
+
+
+def bifurcation(
+    name: str, over: str, unit: str, units: tuple[str, str], values: Floats, visits: Callable[[float], tuple[Floats, Floats]]
+) -> Answer:
+    """Positions and velocities that the motion `name` visits at each of the values (n,) of the parameter `over`.
+
+    visits(value): (positions (m,), velocities (m,)) of the section, in `units`; a value at which it raises is left out with the reason.
+    """
+    rows = cases.run(visits, values.tolist(), workers=None)
+    found = [(row.case, *row.value) for row in rows.rows if row.ok]
+    failed = tuple(f"bifurcation: {over} = {row.case:.6g} is left out: {row.reason}" for row in rows.failed)
+    words = f"of {name!r} at crank angle zero"
+    columns = [np.concatenate([np.empty(0), *parts]) for parts in zip(*((np.full(len(p), v), p, r) for v, p, r in found), strict=True)]
+    columns = columns or [np.empty(0)] * 3
+    table = Table(
+        "bifurcation",
+        f"Bifurcation over {over}",
+        (
+            Column("parameter", unit, over, columns[0]),
+            Column("position", units[0], f"position {words}", columns[1]),
+            Column("velocity", units[1], f"velocity {words}", columns[2]),
+        ),
+    )
+    return Answer(tables=(table,), findings=failed, outcome="partial" if rows.interrupted else "complete")

@@ -1,0 +1,101 @@
+"""Energy audit of a time history: the work of all elements against the change of energy."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.integrate import cumulative_simpson, trapezoid
+
+from drivewright._typing import Floats
+from drivewright.multibody.observe import POWER_FIELDS
+from drivewright.multibody.record import Record
+from drivewright.result import Answer, Check, Column, Table, Value
+
+IDLE = 1e-3  # part of the energy exchanged that drives do at least, for the power audit
+DRIVES = POWER_FIELDS.index("drives")
+
+
+@dataclass(frozen=True)
+class Audit:
+    """Work [J] of each kind of element from the start, over t (m,) [s]: works (m, kinds); gap (m,) between all work and the change of
+    energy; exchanged: all power, either way, over time, and all that the kinetic energy rises and falls; driven: the same of the power of
+    the drives alone."""
+
+    t: Floats
+    works: Floats
+    gap: Floats
+    exchanged: float
+    driven: float
+
+    @property
+    def error(self) -> float:
+        """Largest gap over the energy exchanged."""
+        return float(np.max(np.abs(self.gap)) / self.exchanged) if self.exchanged > 0 else 0.0
+
+    @property
+    def power_error(self) -> float:
+        """Largest difference between the work of the drives and the change of energy and losses, over the work that the drives do, give
+        and take; drives that do next to nothing count as a thousandth of what is exchanged."""
+        whole = max(self.driven, IDLE * self.exchanged)
+        return float(np.max(np.abs(self.gap)) / whole) if whole > 0 else 0.0
+
+
+def audit(seen: Record) -> Audit:
+    """The `Audit` of a record taken with two points per step: Simpson's rule over each step."""
+    t, power = seen.t[::2], seen.powers
+    steps = np.diff(t)[:, None]
+    begin, middle, end = power[:-2:2], power[1:-1:2], power[2::2]
+    works = np.concatenate([np.zeros((1, power.shape[1])), np.cumsum(steps / 6 * (begin + 4 * middle + end), axis=0)])
+    flow = np.sum(steps / 6 * (np.abs(begin) + 4 * np.abs(middle) + np.abs(end)), axis=0)
+    return _audit(t, works, flow, seen.energy[::2], seen.kinetic[::2], DRIVES)
+
+
+def audit_of_samples(seen: Record) -> Audit:
+    """The `Audit` of a record at any times, Simpson's rule over neighbouring samples: kinematics has no steps of its own."""
+    works = cumulative_simpson(seen.powers, x=seen.t, axis=0, initial=0.0)
+    flow = trapezoid(np.abs(seen.powers), seen.t, axis=0)
+    return _audit(seen.t, works, flow, seen.energy, seen.kinetic, DRIVES)
+
+
+def audit_of_powers(t: Floats, powers: Floats, energy: Floats, kinetic: Floats, drives: int) -> Audit:
+    """The `Audit` of any time history: powers (m, kinds) [W] that elements give, energy (m,) stored [J], kinetic energy (m,) alone [J].
+
+    drives: the column of the drive's power.  Where a time stands twice the powers may jump.
+    """
+    ends = [0, *(np.flatnonzero(np.diff(t) <= 0) + 1), len(t)]
+    works, flow = np.zeros_like(powers), np.zeros(powers.shape[1])
+    for first, end in zip(ends[:-1], ends[1:], strict=True):
+        piece = slice(first, end)
+        works[piece] = works[first - 1] if first else 0.0
+        if end - first > 1:
+            works[piece] += cumulative_simpson(powers[piece], x=t[piece], axis=0, initial=0.0)
+            flow += trapezoid(np.abs(powers[piece]), t[piece], axis=0)
+    return _audit(t, works, flow, energy, kinetic, drives)
+
+
+def _audit(t, works, flow, energy, kinetic, drives):
+    exchanged = float(np.sum(flow) + np.sum(np.abs(np.diff(kinetic))))
+    return Audit(t, works, energy - energy[0] - np.sum(works, axis=1), exchanged, float(flow[drives]))
+
+
+def audit_table(found: Audit, meanings: Mapping[str, str], most: int) -> Table:
+    """Stored energy, works and gap over time, in about so many rows; meanings {kind: what it is}, in the order of the works."""
+    rows = slice(None, None, max(1, len(found.t) // most))
+    columns = (
+        Column("time", "s", "time", found.t[rows]),
+        Column("stored", "J", "kinetic energy and energy of gravity, from the start", (found.gap + np.sum(found.works, axis=1))[rows]),
+        *(Column(f"work_{name}", "J", f"work of {words}", found.works[rows, k]) for k, (name, words) in enumerate(meanings.items())),
+        Column("gap", "J", "change of energy less all work: the audit's error", found.gap[rows]),
+    )
+    return Table("energy", "Energy audit", columns)
+
+
+def audit_answer(found: Audit, meanings: Mapping[str, str], limit: float, most: int) -> Answer:
+    """Works over the whole history, gap and error with its check, and the table of about so many rows."""
+    values = {
+        f"energy.{name}": Value(float(found.works[-1, k]), "J", f"work of {words}") for k, (name, words) in enumerate(meanings.items())
+    }
+    values["energy.gap"] = Value(float(np.max(np.abs(found.gap))), "J", "largest gap of the energy audit")
+    values["energy.error"] = Value(found.error, "-", "largest gap over the energy exchanged")
+    check = Check("energy_audit", found.error, limit, "<=", "-", values["energy.error"].meaning)
+    return Answer(values, (audit_table(found, meanings, most),), (check,))

@@ -1,0 +1,72 @@
+"""Forces, impacts and orbits of pins with play."""
+
+import numpy as np
+
+from drivewright.multibody.analyses.ensemble import settled_check, statistics, unsettled
+from drivewright.multibody.analyses.simulation_model import SimulationModel, cycle_columns, last_turn, run_of
+from drivewright.multibody.observe import PIN_FIELDS
+from drivewright.result import Answer, Check, Column, Table, Value
+
+
+def pins(model: SimulationModel) -> Answer:
+    """Largest force and penetration, impacts and contact share of every pin with play; orbit and force over the last turn."""
+    turn, limits = last_turn(model), model.limits
+    values, tables, checks = {}, [_impact_table(model, run_of(model))], []
+    for number, name in enumerate(model.pins):
+        numbers = _pin_values(model, name)
+        values |= {f"joints.{name}.{key}": value for key, value in numbers.items()}
+        tables.append(_pin_table(model, turn, number, name))
+        for limit, key in (
+            (limits.joint_force, "force"),
+            (limits.penetration or model.assembly.system.contacts[number].clearance, "penetration"),
+        ):
+            if limit:
+                checks.append(Check.of(numbers[f"max_{key}"], f"{key}.{name}", limit, "<=", f"largest {key} in joint {name!r}", (name,)))
+    return Answer(values, tuple(tables), (*checks, settled_check("settled.joints", values.values())), unsettled(values))
+
+
+def _pin_values(model, name):
+    """{key: Value} of one pin with play."""
+    found = statistics(model)
+    numbers = {
+        "max_force": Value.of(found.of_run(f"{name}.force"), "N", f"largest force in joint {name!r}"),
+        "max_penetration": Value.of(found.of_run(f"{name}.depth"), "m", f"largest penetration in joint {name!r}"),
+        "impacts_per_turn": Value.of(found.mean(f"{name}.hits"), "-", f"impacts of joint {name!r}"),
+        "contact_share": Value.of(found.mean(f"{name}.touching"), "-", f"share of the time in which joint {name!r} touches"),
+        "friction_power": Value.of(found.mean(f"{name}.lost"), "W", f"mean power lost by friction in joint {name!r}"),
+    }
+    return numbers if model.period else {key: value for key, value in numbers.items() if key != "impacts_per_turn"}
+
+
+def _impact_table(model, run):
+    t, pin, speed = run.impacts.T
+    return Table(
+        "impacts",
+        "Impacts",
+        (
+            Column("time", "s", "time of the impact", t),
+            Column("joint", "-", "joint", np.array(model.pins)[pin.astype(int)]),
+            Column("speed", "m/s", "speed of approach", speed),
+        ),
+    )
+
+
+def _pin_table(model, seen, number, name):
+    pin = dict(zip(PIN_FIELDS, np.moveaxis(seen.pins[:, number], 1, 0), strict=True))
+    clearance = model.assembly.system.contacts[number].clearance
+    away = clearance + pin["depth"]  # distance of the centres
+    return Table(
+        f"pin.{name}",
+        f"Joint {name!r} over the last turn" if model.period else f"Joint {name!r}",
+        (
+            *cycle_columns(model, seen.t),
+            Column("x", "m", "journal's centre from the bearing's, x", -away * pin["nx"]),
+            Column("y", "m", "journal's centre from the bearing's, y", -away * pin["ny"]),
+            Column("depth", "m", "penetration, below 0 in flight", pin["depth"]),
+            Column("force", "N", "force between journal and bearing", np.hypot(pin["fx"], pin["fy"])),
+            Column("force_x", "N", "force on the journal's body, x", -pin["fx"]),
+            Column("force_y", "N", "force on the journal's body, y", -pin["fy"]),
+            Column("slip", "m/s", "sliding speed", pin["slip"]),
+            Column("contact", "-", "1 in contact, 0 in flight", (pin["depth"] > 0).astype(float)),
+        ),
+    )

@@ -1,0 +1,55 @@
+"""Spectrum of a motion in orders of the drive."""
+
+import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.multibody.analyses.simulation_model import SimulationModel, ideal_record, record_of
+from drivewright.multibody.analyses.turns import acceleration
+from drivewright.multibody.record import record
+from drivewright.multibody.simulate import simulate
+from drivewright.numerics.ensemble import estimate
+from drivewright.numerics.signals import order_spectrum, spectrogram
+from drivewright.result import Answer, Column, Table
+
+ORDERS = 60
+PER_OSCILLATION = 20  # samples of the highest order, at least
+
+
+def spectrum(model: SimulationModel) -> Answer:
+    """Amplitudes of every output's acceleration in orders of the drive, with and without play."""
+    seen, tables = record_of(model), []
+    start, period = model.window_start, model.turn_length
+    turns = int(np.floor((seen.t[-1] - start) / period + 1e-9))
+    if turns < 1:
+        return Answer(findings=("the spectrum is left out: the window has no whole turn",))
+    samples = max(2 * model.samples_per_turn, PER_OSCILLATION * ORDERS)
+    times = start + np.linspace(0, turns * period, turns * samples + 1)
+    run = simulate(model.assembly, model.run_length, model.settings, samples=np.minimum(times, model.run_length))
+    even, ideal = record(run, model.markers), ideal_record(model)
+    orders = np.arange(ORDERS + 1.0)
+    for output in model.outputs:
+        data, unit, word = acceleration(even, output)
+        same, _, _ = acceleration(ideal, output)
+        amplitude, low, high = amplitudes(spectrogram(even.t, data, period, orders)[1])
+        column = Column("amplitude", unit, f"amplitude of the {word}", amplitude)
+        tables.append(
+            Table(
+                f"spectrum.{output.name}",
+                f"Spectrum of the {word} of {output.name!r}",
+                (
+                    Column("order", "-", "oscillations per turn", orders),
+                    column,
+                    *(column.bounds(low, high) if turns > 1 else ()),
+                    Column("ideal_amplitude", unit, "the same without play", order_spectrum(ideal.t, same, period, orders)),
+                ),
+            )
+        )
+    return Answer(tables=tuple(tables))
+
+
+def amplitudes(turns: Floats) -> Floats:
+    """(amplitude, low, high) of each order from the amplitudes (turns, orders) of single turns: the root of their mean square, so that
+    what is irregular keeps its size however many turns there are, with its interval.  A motion that repeats itself has the same in all."""
+    found = [estimate(power, scale=float(np.max(turns**2))) for power in (turns**2).T]
+    power = np.array([[one.value, one.low, one.high] for one in found])
+    return np.sqrt(np.maximum(power, 0.0)).T

@@ -1,0 +1,180 @@
+"""One run in numbers: of every turn of its window, and of the window as a whole."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.multibody.analyses.energy_audit import Audit, audit, audit_of_samples
+from drivewright.multibody.analyses.simulation_model import Output, SimulationModel, ideal_record, record_of, run_of
+from drivewright.multibody.measures import ImpactLoad, impact_load, largest, peaks, span
+from drivewright.multibody.observe import PIN_FIELDS, POWER_FIELDS, concatenate, observe
+from drivewright.multibody.reactions import reactions
+from drivewright.multibody.record import Record, record
+from drivewright.multibody.simulate import Run, states_outside_folds
+from drivewright.numerics.signals import time_mean
+
+
+@dataclass(frozen=True)
+class RunNumbers:
+    """One run in numbers: `turns` {name: (whole turns of the window,)}, `whole` {name: number of the whole window, or run}."""
+
+    turns: dict[str, Floats] = field(default_factory=dict)
+    whole: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def turn_count(self) -> int:
+        """Number of whole turns."""
+        return next(iter(self.turns.values())).size if self.turns else 0
+
+
+def acceleration(seen: Record, output: Output) -> tuple[Floats, str, str]:
+    """(samples, unit, word) of an output's acceleration: the point's where one is given, else that of the angle."""
+    if output.point is None:
+        return seen.point(output.name, "alpha"), "rad/s^2", "angular acceleration"
+    return np.hypot(seen.point(output.name, "ax"), seen.point(output.name, "ay")), "m/s^2", "acceleration"
+
+
+def start_of_window(model: SimulationModel, end: float) -> float:
+    """Start of the window of peaks and means [s], for a run that ends there: behind the discarded turns, unless it did not get so far."""
+    start = model.window_start
+    return start * (1 - 1e-12) if end > start else 0.0
+
+
+def turn_ends(model: SimulationModel, start: float, end: float) -> Floats:
+    """Ends (turns + 1,) of the whole turns of the drive between two times; the start alone without turns."""
+    count = int((end - start) / model.period + 1e-9) if model.period else 0
+    return start + (model.period or 0.0) * np.arange(count + 1, dtype=float)
+
+
+def output_numbers(model: SimulationModel, run: Run) -> RunNumbers:
+    """Outputs, drive and pins with play of a run."""
+    start = start_of_window(model, run.end[1])
+    seen, numbers = window_record(model, run), RunNumbers()
+    ends = turn_ends(model, start, seen.t[-1])
+    for output in model.outputs:
+        _motion(seen, output, ends, numbers)
+        add_impact_load(seen, output, ends, numbers, ideal_peak(model, output))
+    if model.assembly.model.drives:
+        torque = np.max(np.abs(seen.drives), axis=1)
+        numbers.whole["drive.torque"] = float(np.max(torque))
+        numbers.turns.update({"drive.torque": largest_per_turn(seen.t, torque, ends)} if len(ends) > 1 else {})
+    for number, name in enumerate(model.pins):
+        _pin(model, run, seen, number, name, ends, numbers)
+    return numbers
+
+
+def window_record(model: SimulationModel, run: Run) -> Record:
+    """The record of a run in the window of peaks and means."""
+    start = start_of_window(model, run.end[1])
+    return record_of(model).after(start) if run is run_of(model) else record(run, model.markers, start)
+
+
+def ideal_peak(model: SimulationModel, output: Output) -> float:
+    """Largest acceleration of an output without play."""
+    ideal = ideal_record(model)
+    return largest(ideal.t, acceleration(ideal, output)[0])
+
+
+def joint_force_numbers(model: SimulationModel, run: Run) -> RunNumbers:
+    """Force in every joint, tension of the massless links and whether they are pushed, the middles of folds left out."""
+    start, limit, numbers = start_of_window(model, run.end[1]), model.limits.link_compression, RunNumbers()
+    seen = concatenate([observe(*states) for states in states_outside_folds(run, start)])
+    ends, forces = turn_ends(model, start, seen.t[-1]), reactions(model.assembly, run.end[0], seen)
+    for name, joint in forces.joints.items():
+        size = np.hypot(*joint.force.T)
+        numbers.whole[f"{name}.force"] = float(np.max(size))
+        numbers.turns.update({f"{name}.force": largest_per_turn(seen.t, size, ends)} if len(ends) > 1 else {})
+    for name, tension in forces.tensions.items():
+        pushed, top = (tension < -limit).astype(float), float(np.max(tension))
+        numbers.whole.update({f"{name}.tension": float(np.min(tension)), f"{name}.pushed": time_mean(seen.t, pushed)})
+        if len(ends) > 1:
+            numbers.turns.update(
+                {
+                    f"{name}.tension": top - largest_per_turn(seen.t, top - tension, ends),
+                    f"{name}.pushed": mean_per_turn(seen.t, pushed, ends),
+                }
+            )
+    return numbers
+
+
+def energy_numbers(model: SimulationModel, run: Run) -> RunNumbers:
+    """Works over the run, by turns of the window too, and what the energy audit leaves over."""
+    account = audit_of_run(model, run)
+    ends = turn_ends(model, start_of_window(model, run.end[1]), run.end[1])
+    numbers = RunNumbers({}, {"gap": float(np.max(np.abs(account.gap))), "error": account.error, "power_error": account.power_error})
+    for k, name in enumerate(POWER_FIELDS):
+        numbers.whole[name] = float(account.works[-1, k])
+        numbers.turns.update({name: np.diff(np.interp(ends, account.t, account.works[:, k]))} if len(ends) > 1 else {})
+    return numbers
+
+
+def audit_of_run(model: SimulationModel, run: Run) -> Audit:
+    """The `Audit` of a run with two points a step."""
+    seen = record_of(model) if run is run_of(model) else record(run, {})
+    return audit_of_samples(seen) if model.assembly.freedom == 0 else audit(seen)  # kinematics has samples, not steps
+
+
+def _motion(seen, output, ends, numbers):
+    """Largest magnitudes and the range of the angle of an output, in SI."""
+    name, angle = output.name, seen.point(output.name, "angle")
+    sizes = {"alpha": np.abs(seen.point(name, "alpha"))} | ({"acceleration": acceleration(seen, output)[0]} if output.point else {})
+    numbers.whole.update({f"{name}.{key}": largest(seen.t, x) for key, x in sizes.items()} | {f"{name}.swing": span(seen.t, angle)})
+    if len(ends) > 1:
+        numbers.turns.update({f"{name}.{key}": largest_per_turn(*peaks(seen.t, x), ends) for key, x in sizes.items()})
+        low, high = np.min(angle), np.max(angle)
+        above, below = largest_per_turn(seen.t, angle - low, ends), largest_per_turn(seen.t, high - angle, ends)
+        numbers.turns[f"{name}.swing"] = above + below - (high - low)
+
+
+def add_impact_load(seen: Record, output: Output, ends: Floats, numbers: RunNumbers, peak: float) -> None:
+    """Add the impact load of an output, and its largest acceleration over that without play, to a `RunNumbers`."""
+    name, data = output.name, acceleration(seen, output)[0]
+    period = ends[1] - ends[0] if len(ends) > 1 else None
+    load = impact_load(seen.t, data, peak, period)
+    numbers.whole[f"{name}.ratio"] = largest(seen.t, data) / peak if peak else np.nan
+    numbers.whole.update({f"{name}.{field}": value for field, value in zip(ImpactLoad._fields, load, strict=True)})
+    if np.isfinite(load.turn_mean):
+        numbers.turns[f"{name}.peak"] = numbers.turns[f"{name}.turn_mean"] = largest_per_turn(*peaks(seen.t, np.abs(data)), ends) / peak
+
+
+def _pin(model, run, seen, number, name, ends, numbers):
+    pin = dict(zip(PIN_FIELDS, np.moveaxis(seen.pins[:, number], 1, 0), strict=True))
+    force, span = np.hypot(pin["fx"], pin["fy"]), seen.t[-1] - seen.t[0]
+    at = run.impacts[(run.impacts[:, 1] == number) & (run.impacts[:, 0] >= seen.t[0]) & (run.impacts[:, 0] <= seen.t[-1]), 0]
+    means = {"touching": (pin["depth"] > 0).astype(float), "lost": np.abs(pin["friction"] * pin["slip"])}
+    numbers.whole.update(
+        {
+            f"{name}.force": float(np.max(force)),
+            f"{name}.depth": max(float(np.max(pin["depth"])), 0.0),
+            f"{name}.hits": len(at) * (model.period or 0.0) / span,
+        }
+    )
+    numbers.whole.update({f"{name}.{key}": float(mean_per_turn(seen.t, x, seen.t[[0, -1]])[0]) for key, x in means.items()})
+    if len(ends) > 1:
+        numbers.turns.update(
+            {
+                f"{name}.force": largest_per_turn(seen.t, force, ends),
+                f"{name}.hits": np.histogram(at, ends)[0].astype(float),
+                f"{name}.depth": np.maximum(largest_per_turn(seen.t, pin["depth"], ends), 0.0),
+            }
+        )
+        numbers.turns.update({f"{name}.{key}": mean_per_turn(seen.t, x, ends) for key, x in means.items()})
+
+
+def largest_per_turn(t: Floats, x: Floats, ends: Floats) -> Floats:
+    """Largest of x (m,) between every two of the ends; 0 where there is none."""
+    turns = np.searchsorted(ends, t, side="right") - 1
+    numbers = np.zeros(len(ends) - 1)
+    inside = (turns >= 0) & (turns < len(numbers))
+    np.maximum.at(numbers, turns[inside], x[inside])
+    return numbers
+
+
+def mean_per_turn(t: Floats, x: Floats, ends: Floats) -> Floats:
+    """Time means (turns,) of the polygon x (m,) between every two of the ends."""
+    whole = np.concatenate([[0.0], np.cumsum(np.diff(t) * 0.5 * (x[1:] + x[:-1]))])
+    row = np.clip(np.searchsorted(t, ends, side="right") - 1, 0, len(t) - 2)
+    part = ends - t[row]
+    slope = np.divide(x[row + 1] - x[row], t[row + 1] - t[row], out=np.zeros(len(ends)), where=t[row + 1] > t[row])
+    return np.diff(whole[row] + part * (x[row] + 0.5 * part * slope)) / np.diff(ends)
