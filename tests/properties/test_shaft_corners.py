@@ -335,11 +335,12 @@ def test_verify_of_cases_that_the_solid_cannot_hold_as_they_are(change):
 
 
 def test_the_solid_stands_on_a_band_where_a_seat_is_a_point():
-    from drivewright.mechanisms.shaft.solid import bands
+    from drivewright.shafts.solid_check import bearing_bands
 
     for width, band in (("0 mm", 2e-3), ("1e-9 mm", 2e-3), ("5 mm", 5e-3)):
         model = dw.build(shaft(bearings=[SPRINGS[0] | {"width": width}, SPRINGS[1]]))
-        seats = tuple(bands(model, shafts.load(model.shaft, model.loads).equilibrium))
+        at_rest = shafts.load(model.shaft, model.loads).equilibrium
+        seats = bearing_bands(at_rest, model.direction, model.spec.analysis.solid_band)
         assert [seat.width for seat in seats] == pytest.approx([band, 2e-3], rel=1e-12)
 
 
