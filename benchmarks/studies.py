@@ -96,13 +96,13 @@ def overhead():
     spec = load(EXAMPLES / "hyvo_chain.toml", ('study.analyses=["closure"]',))
     studied = with_variation(spec, {key: linspace("1.0 mm", "1.6 mm", MANY)})
     task, mechanism = case_task(studied, (key,)), registry.mechanism(spec.mechanism)
-    wanted = runner.selection(mechanism.analyses, task.analyses)
+    wanted = runner.select_analyses(mechanism.analyses, task.analyses)
 
     def alone():
         for radius in np.linspace(1e-3, 1.6e-3, MANY):
             set_key(task.tables, key, SI(radius))
             each = from_document(task.tables, type(spec))
-            runner.ask(each, mechanism.build(each), wanted)
+            runner.run_analyses(each, mechanism.build(each), wanted)
 
     def kept():
         with tempfile.TemporaryDirectory() as folder:

@@ -47,7 +47,7 @@ def _faults_fail(request, monkeypatch):
     def fault(spec, error):
         raise error
 
-    monkeypatch.setattr("drivewright.runner._fault", fault)
+    monkeypatch.setattr("drivewright.runner._program_fault", fault)
 
 
 @cache

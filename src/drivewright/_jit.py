@@ -37,7 +37,7 @@ ABOVE = tuple(
     f"{PACKAGE}.{name}" for name in ("mechanisms", "oracles", "validation", "studies", "execution", "report", "view", "cli", "studio")
 )
 _generics = []
-_told_numba = []  # the generics numba knows of
+_overloaded = []  # the generics numba knows of
 _warmers = []
 
 
@@ -68,7 +68,7 @@ def _compiled(function: FunctionT, **options: Any) -> FunctionT:
     compiled: Any = numba.njit(nogil=True, error_model="numpy", **options)(function)
     compiled._cache = _KernelCache(function)
     for dispatch in _generics:
-        _tell_numba(dispatch)
+        _overload_for_kernels(dispatch)
     return compiled
 
 
@@ -81,8 +81,8 @@ def generic(stub: FunctionT) -> FunctionT:
 
     vars(dispatch)["formulas"] = {}
     _generics.append(dispatch)
-    if _told_numba:
-        _tell_numba(dispatch)
+    if _overloaded:
+        _overload_for_kernels(dispatch)
     return cast(FunctionT, dispatch)
 
 
@@ -145,9 +145,9 @@ def warm() -> Iterator[tuple[str, float]]:
         yield f"{function.__module__}.{function.__name__}", time.perf_counter() - start
 
 
-def _tell_numba(dispatch):
+def _overload_for_kernels(dispatch):
     """Let kernels call the generic: the version is chosen while compiling, from the type of the first argument."""
-    if dispatch in _told_numba:
+    if dispatch in _overloaded:
         return
     from numba.core.errors import TypingError
     from numba.extending import overload
@@ -156,7 +156,7 @@ def _tell_numba(dispatch):
     def choose(first, *rest):
         return formula_of(dispatch, getattr(first, "instance_class", first), TypingError)
 
-    _told_numba.append(dispatch)
+    _overloaded.append(dispatch)
 
 
 # ---------------------------------------------------------------------------------------------------------- disk cache

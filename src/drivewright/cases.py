@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 from drivewright.errors import DrivewrightError, InputError, brief
-from drivewright.stopped import collected
+from drivewright.stops import collect_stops
 
 CaseT = TypeVar("CaseT")
 ValueT = TypeVar("ValueT")
@@ -122,7 +122,7 @@ def _attempt(task: Callable[[CaseT], Any], cases: Sequence[CaseT], number: int, 
     """Files the outcome of one case.  The worker does it itself, so that nothing finished is lost, whenever Ctrl-C comes."""
     case = cases[number]
     try:
-        with collected() as stopped:
+        with collect_stops() as stopped:
             value = task(case)
         rows[number] = Outcome(case, value, "; ".join(map(str, stopped)))
     except DrivewrightError as error:

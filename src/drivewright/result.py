@@ -14,7 +14,7 @@ import numpy as np
 from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import UnknownName
 from drivewright.labels import label_of
-from drivewright.stopped import Stop
+from drivewright.stops import Stop
 
 if TYPE_CHECKING:
     import pyarrow

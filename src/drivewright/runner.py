@@ -17,7 +17,7 @@ from drivewright import registry
 from drivewright.errors import DEBUG, DrivewrightError, MissingExtra, SolverError, UnknownName
 from drivewright.registry import Analysis, Mechanism
 from drivewright.result import Answer, Answers, Result, SpecLike, SpecT, Table
-from drivewright.stopped import Stop, collected
+from drivewright.stops import Stop, collect_stops
 
 Progress: TypeAlias = Callable[[int, int, str], object]  # (done, total, name of what comes next)
 
@@ -38,46 +38,46 @@ def run(
     """
     started = time.perf_counter()
     mechanism = registry.mechanism(spec.mechanism)
-    wanted = selection(mechanism.analyses, only, everything)
+    selected = select_analyses(mechanism.analyses, only, everything)
     model = mechanism.build(spec) if model is None else model
-    answers = ask(spec, model, wanted, progress)
+    answers = run_analyses(spec, model, selected, progress)
     findings = [*getattr(model, "findings", ()), *_findings(answers)]
-    findings += [*stops(answers), *_holes(answers)]
+    findings += [*stop_findings(answers), *_missing_numbers(answers)]
     findings += [
         f"analysis '{a.name}' ({a.meaning}) runs on request: --only {a.name}"
         for a in mechanism.analyses
         if not only and not everything and not a.default
     ]
-    answers = {name: _until(answer) for name, answer in answers.items()}
+    answers = {name: _with_stop_times(answer) for name, answer in answers.items()}
     return _result(spec, mechanism, answers, findings, time.perf_counter() - started)
 
 
-def ask(
+def run_analyses(
     spec: SpecLike,
     model: Any,
-    wanted: Sequence[Analysis[Any, Any]],
+    selected: Sequence[Analysis[Any, Any]],
     progress: Progress | None = None,
-    through: tuple[type[BaseException], ...] = (),
+    reraise: tuple[type[BaseException], ...] = (),
 ) -> dict[str, Answer]:
-    """{name: Answer} of the wanted analyses, one after another; each sees those before it.
+    """{name: Answer} of the selected analyses, one after another; each sees those before it.
 
-    Exceptions of the kinds `through` are not the analysis' own (a study calls memory and imports the place's) and are let through.
+    Exceptions of the kinds `reraise` are not the analysis' own (a study calls memory and imports the place's) and are let through.
     """
     answers = {}
-    for number, analysis in enumerate(wanted):
+    for number, analysis in enumerate(selected):
         if progress:
-            progress(number, len(wanted), analysis.name)
-        answers[analysis.name] = _inherited(analysis, answers, *_answer(analysis, spec, model, answers, through))
+            progress(number, len(selected), analysis.name)
+        answers[analysis.name] = _with_inherited_stops(analysis, answers, *_answer(analysis, spec, model, answers, reraise))
     return answers
 
 
 def _findings(answers: Answers) -> Iterator[str]:
     """The findings of all analyses; those that failed for one and the same reason say it once."""
-    alike = {}
+    by_failure: dict[str, list[str]] = {}
     for name, answer in answers.items():
-        alike.setdefault(answer.failure, []).append(name)
+        by_failure.setdefault(answer.failure, []).append(name)
     for name, answer in answers.items():
-        names = alike[answer.failure] if answer.failure else [name]
+        names = by_failure[answer.failure] if answer.failure else [name]
         if len(names) == 1:
             yield from answer.findings
             continue
@@ -86,27 +86,27 @@ def _findings(answers: Answers) -> Iterator[str]:
             yield f"analyses {', '.join(map(repr, names))} fail alike; each {answer.failure}"
 
 
-def stops(answers: Answers) -> list[str]:
+def stop_findings(answers: Answers) -> list[str]:
     """A sentence for every run that stopped, with the analyses that look at it."""
-    found = {}
+    analyses: dict[Stop, list[str]] = {}
     for name, answer in answers.items():
         for stop in answer.stopped:
-            found.setdefault(stop, []).append(name)
-    return [f"{str(stop).rstrip('.')}. Partial for that reason: {', '.join(names)}" for stop, names in found.items()]
+            analyses.setdefault(stop, []).append(name)
+    return [f"{str(stop).rstrip('.')}. Partial for that reason: {', '.join(names)}" for stop, names in analyses.items()]
 
 
-def _holes(answers: Answers) -> Iterator[str]:
+def _missing_numbers(answers: Answers) -> Iterator[str]:
     """A sentence for every check and table with numbers that do not exist."""
     for answer in answers.values():
         for check in answer.checks:
             if not (math.isfinite(check.value) and math.isfinite(check.limit)):
                 yield f"check '{check.name}' ({check.message}) does not exist for this design: {check.value} {check.sense} {check.limit}"
         for table in answer.tables:
-            yield from _holes_of(table)
+            yield from _missing_numbers_of(table)
 
 
-def _holes_of(table: Table) -> Iterator[str]:
-    """The same of one table: the columns with holes, and the rows of the worst."""
+def _missing_numbers_of(table: Table) -> Iterator[str]:
+    """The same of one table: its columns with missing numbers, and how many rows the worst of them lacks."""
     columns = {c.name: int(np.sum(~np.isfinite(c.data))) for c in table.columns if np.asarray(c.data).dtype.kind == "f"}
     names = [name for name, count in columns.items() if count]
     if names:
@@ -117,13 +117,13 @@ def _holes_of(table: Table) -> Iterator[str]:
         )
 
 
-def reasons(answers: Answers) -> list[str]:
+def incomplete_reasons(answers: Answers) -> list[str]:
     """Why answers are not complete, in short."""
     left = [finding for answer in answers.values() if answer.outcome != "complete" for finding in answer.findings[-1:]]
-    return [*left, *stops(answers)]
+    return [*left, *stop_findings(answers)]
 
 
-def selection(
+def select_analyses(
     analyses: Iterable[Analysis[Any, Any]], only: Iterable[str] | str = (), everything: bool = False
 ) -> tuple[Analysis[Any, Any], ...]:
     """The analyses to do, each after those that it needs; UnknownName for a name that is none."""
@@ -147,23 +147,23 @@ def selection(
 
 
 def _answer(
-    analysis: Analysis[Any, Any], spec: SpecLike, model: Any, answers: Answers, through: tuple[type[BaseException], ...]
+    analysis: Analysis[Any, Any], spec: SpecLike, model: Any, answers: Answers, reraise: tuple[type[BaseException], ...]
 ) -> tuple[Answer, tuple[Stop, ...]]:
     """(answer, stops of what it looks at): an empty answer with a finding where input or an extra is missing, or where it fails."""
-    with collected() as stopped:
+    with collect_stops() as stopped:
         try:
-            unmet = (f"it needs '{name}', which is {answers[name].outcome}" for name in analysis.needs if not _usable(answers[name]))
+            unmet = (f"it needs '{name}', which is {answers[name].outcome}" for name in analysis.needs if not _is_usable(answers[name]))
             reason = analysis.missing(spec) or next(unmet, None)
             return (analysis.answer(model, answers) if reason is None else _left_out(analysis, reason)), tuple(stopped)
         except MissingExtra as error:
             return _left_out(analysis, error), ()
-        except through:
+        except reraise:
             raise
         except Exception as error:
             return _failed(analysis, spec, error), tuple(stopped)
 
 
-def _inherited(analysis: Analysis[Any, Any], answers: Answers, answer: Answer, stopped: tuple[Stop, ...]) -> Answer:
+def _with_inherited_stops(analysis: Analysis[Any, Any], answers: Answers, answer: Answer, stopped: tuple[Stop, ...]) -> Answer:
     """The answer with the stops of what it looked at, directly or through the analyses that it needs: it is no more complete than they."""
     needed = [answers[name] for name in analysis.needs]
     stops = dict.fromkeys((*answer.stopped, *stopped, *(stop for other in needed for stop in other.stopped)))
@@ -171,7 +171,7 @@ def _inherited(analysis: Analysis[Any, Any], answers: Answers, answer: Answer, s
     return replace(answer, stopped=tuple(stops), outcome="partial" if cut and answer.outcome == "complete" else answer.outcome)
 
 
-def _until(answer: Answer) -> Answer:
+def _with_stop_times(answer: Answer) -> Answer:
     """The answer whose values say until when they were computed, where a run stopped."""
     if not answer.stopped:
         return answer
@@ -183,7 +183,7 @@ def _left_out(analysis: Analysis[Any, Any], reason: object) -> Answer:
     return Answer(findings=(f"analysis '{analysis.name}' ({analysis.meaning}) is left out: {reason}",), outcome="left out")
 
 
-def _usable(answer: Answer) -> bool:
+def _is_usable(answer: Answer) -> bool:
     """Whether an analysis that needs this answer can go on from it."""
     return answer.outcome == "complete" or (answer.outcome == "partial" and answer.data is not None)
 
@@ -191,23 +191,23 @@ def _usable(answer: Answer) -> bool:
 def _failed(analysis: Analysis[Any, Any], spec: SpecLike, error: Exception) -> Answer:
     """What an analysis had when it failed, with a finding that says why: its solver, the design, the memory, or a fault of ours."""
     partial = getattr(error, "partial", None)
-    had = partial if isinstance(partial, Answer) else Answer()
+    partial_answer = partial if isinstance(partial, Answer) else Answer()
     of_design = "gave up: " if isinstance(error, SolverError) else "has no answer for this design: "
-    told = f"{of_design if isinstance(error, DrivewrightError) else ''}{reason_of(spec, error)}"
-    finding = f"analysis '{analysis.name}' ({analysis.meaning}) {told}"
-    return replace(had, outcome="partial", findings=(*had.findings, finding), failure=told)
+    failure = f"{of_design if isinstance(error, DrivewrightError) else ''}{failure_reason(spec, error)}"
+    finding = f"analysis '{analysis.name}' ({analysis.meaning}) {failure}"
+    return replace(partial_answer, outcome="partial", findings=(*partial_answer.findings, finding), failure=failure)
 
 
-def reason_of(spec: SpecLike, error: Exception) -> str:
+def failure_reason(spec: SpecLike, error: Exception) -> str:
     """Why something about a spec failed, in words: those of our own error, else the predicate of a sentence on the machine or on us."""
     if isinstance(error, DrivewrightError):
         return str(error)
     if isinstance(error, MemoryError):
         return "needs more memory than there is; ask for less (fewer turns, samples or elements), or leave it out"
-    return _fault(spec, error)
+    return _program_fault(spec, error)
 
 
-def _fault(spec: SpecLike, error: Exception) -> str:
+def _program_fault(spec: SpecLike, error: Exception) -> str:
     """What to say, and to report, of an exception that nobody expected."""
     if os.environ.get(DEBUG):
         traceback.print_exception(error)
@@ -250,10 +250,10 @@ def versions() -> dict[str, str]:
 
 @cache
 def _versions() -> dict[str, str]:
-    found = {"python": platform.python_version()}
+    by_library = {"python": platform.python_version()}
     for name in ("drivewright", "numpy", "scipy", "numba"):
         try:
-            found[name] = version(name)
+            by_library[name] = version(name)
         except PackageNotFoundError:
-            found[name] = "not installed"
-    return found
+            by_library[name] = "not installed"
+    return by_library

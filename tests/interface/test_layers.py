@@ -14,7 +14,7 @@ ROWS = [
     "motion curves contact materials",
     "numerics",
     "testing runner spec registry claims result scene cases",
-    "units digits labels _jit _typing errors stopped",
+    "units digits labels _jit _typing errors stops",
 ]
 PLACE = {name: (row, column) for row, names in enumerate(ROWS) for column, name in enumerate(names.split())}
 # runner reads the version for the provenance; result asks the registry for a view; __init__ has lazy names.

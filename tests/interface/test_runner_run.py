@@ -12,7 +12,7 @@ from drivewright import cases, registry, runner
 from drivewright.errors import DrivewrightError, InputError, MissingExtra, SolverError, SpecError, UnknownName
 from drivewright.registry import Analysis
 from drivewright.result import Answer, Check, Column, Table, Value
-from drivewright.stopped import Stop, collected, uses
+from drivewright.stops import Stop, collect_stops, note_stop
 
 SPEC = ToySpec(length="40 mm", title="a toy")
 
@@ -150,7 +150,9 @@ def test_a_partial_answer_with_data_can_be_built_on(kind):
     )
     result = runner.run(SPEC)
     assert result.outcome == "partial" and result["b"] == 7.0
-    assert runner.ask(SPEC, Model(), registry.mechanism("toy").analyses)["b"].outcome == "partial", "no more complete than what it needs"
+    assert runner.run_analyses(SPEC, Model(), registry.mechanism("toy").analyses)["b"].outcome == "partial", (
+        "no more complete than what it needs"
+    )
 
 
 def raises(error):
@@ -223,7 +225,7 @@ def test_a_study_says_which_exceptions_are_not_the_analysis_own(kind):
     kind(Analysis("a", raises(MemoryError()), ""))
     mechanism = registry.mechanism("toy")
     with pytest.raises(MemoryError):
-        runner.ask(SPEC, Model(), mechanism.analyses, through=(MemoryError,))
+        runner.run_analyses(SPEC, Model(), mechanism.analyses, reraise=(MemoryError,))
 
 
 @pytest.mark.faults
@@ -259,7 +261,7 @@ STOP = Stop("the run ends at t = 0.7 s of 3 s", "the limit of 40 steps is reache
 
 def looks(answer, stop=STOP):
     def looking(model, done):
-        uses(stop)
+        note_stop(stop)
         return answer(model, done)
 
     return looking
@@ -273,7 +275,7 @@ def test_whatever_looks_at_a_run_that_stopped_is_partial_and_says_until_when(kin
         Analysis("d", looks(says(d=4.0)), ""),
         Analysis("e", looks(says(e=4.0), None), ""),
     )
-    answers = runner.ask(SPEC, Model(), registry.mechanism("toy").analyses)
+    answers = runner.run_analyses(SPEC, Model(), registry.mechanism("toy").analyses)
     assert {name: answer.outcome for name, answer in answers.items()} == {
         "a": "partial",
         "b": "complete",
@@ -282,7 +284,7 @@ def test_whatever_looks_at_a_run_that_stopped_is_partial_and_says_until_when(kin
         "e": "complete",
     }
     result = runner.run(SPEC)
-    assert result.outcome == "partial" and f"{STOP.where}: {STOP.why}. Partial for that reason: a, c, d" in result.findings
+    assert result.outcome == "partial" and f"{STOP.where}: {STOP.reason}. Partial for that reason: a, c, d" in result.findings
     assert result.values["c"].meaning == f"meaning of c ({STOP.where})" and result.values["b"].meaning == "meaning of b"
     assert runner.run(SPEC, only="b").outcome == "complete"
 
@@ -300,22 +302,22 @@ def test_an_analysis_that_fails_on_a_stopped_run_says_both(kind):
 
 
 def test_a_stop_is_noted_where_it_was_used_and_nowhere_else():
-    uses(STOP)  # outside of an analysis nothing happens
-    with collected() as outer:
-        with collected() as inner:
-            uses(STOP)
+    note_stop(STOP)  # outside of an analysis nothing happens
+    with collect_stops() as outer:
+        with collect_stops() as inner:
+            note_stop(STOP)
         assert list(inner) == [STOP] and not outer
-        uses(STOP._replace(why="again"))
-    assert [stop.why for stop in outer] == ["again"] and list(inner) == [STOP]
+        note_stop(STOP._replace(reason="again"))
+    assert [stop.reason for stop in outer] == ["again"] and list(inner) == [STOP]
 
 
 @pytest.mark.parametrize("workers", [1, 3])
 def test_a_case_that_looks_at_a_stopped_run_is_a_row_with_the_reason(workers):
     def task(case):
-        uses(STOP if case == 2 else None)
+        note_stop(STOP if case == 2 else None)
         return 10 * case
 
-    with collected() as stopped:
+    with collect_stops() as stopped:
         found = cases.run(task, [1, 2, 3], workers)
     assert [(row.value, row.reason) for row in found.rows] == [(10, ""), (20, str(STOP)), (30, "")] and not stopped
 

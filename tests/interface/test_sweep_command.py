@@ -108,8 +108,8 @@ def test_the_command_says_what_it_did(tmp_path, capsys):
 
 
 def test_the_pusher_takes_its_compiled_route_for_the_values_it_offers(monkeypatch, tmp_path):
-    asked, ask = [], runner.ask
-    monkeypatch.setattr(runner, "ask", lambda *arguments: asked.append(1) or ask(*arguments))
+    asked, ask = [], runner.run_analyses
+    monkeypatch.setattr(runner, "run_analyses", lambda *arguments: asked.append(1) or ask(*arguments))
     monkeypatch.chdir(tmp_path)
     spec, key, names = EXAMPLES / "seedling_pusher.toml", "train.carrier_angle", ("cam.max_pressure_angle", "cam.curvature_ratio")
     assert command(spec, "--only", "cams", "--vary", f"{key}=5 deg:9 deg:9", "--values", ",".join(names), "--on", "serial") == 0
@@ -241,9 +241,9 @@ DESIGNS = {"size": ["1 mm", "-2 mm", "13 mm", "9 mm"], "ratio": [0.25, -1.0, 1.0
 
 def counted(monkeypatch, batch):
     """The calls of the runner with a toy that offers a compiled route."""
-    calls, ask = [], runner.ask
+    calls, ask = [], runner.run_analyses
     install(monkeypatch.setattr, replace(TOY, batch=batch))
-    monkeypatch.setattr(runner, "ask", lambda *arguments: calls.append(1) or ask(*arguments))
+    monkeypatch.setattr(runner, "run_analyses", lambda *arguments: calls.append(1) or ask(*arguments))
     return calls
 
 

@@ -141,7 +141,7 @@ def test_a_value_that_no_case_can_have_is_refused_before_the_first(tmp_path):
 
 
 def test_what_is_wrong_with_the_place_is_no_row(monkeypatch):
-    monkeypatch.setattr(evaluation.runner, "ask", lambda *_: (_ for _ in ()).throw(MemoryError()))
+    monkeypatch.setattr(evaluation.runner, "run_analyses", lambda *_: (_ for _ in ()).throw(MemoryError()))
     task = evaluation.case_task(chain(), ("joint.rolling_radius",))
     with pytest.raises(MemoryError):
         evaluation.evaluate(task, 0, {"joint.rolling_radius": np.array([1.0e-3])})

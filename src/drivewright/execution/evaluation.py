@@ -97,7 +97,7 @@ def case_task(spec: MechanismSpec, keys: Iterable[str]) -> CaseTask:
     for shared in ("study", "optimise"):
         tables.pop(shared, None)
     requested = (study.analyses, study.every_analysis, study.values) if study else ((), False, ())
-    runner.selection(registry.mechanism(spec.mechanism).analyses, requested[0])
+    runner.select_analyses(registry.mechanism(spec.mechanism).analyses, requested[0])
     return CaseTask(tables, tuple(keys), *requested, version=runner.versions()["drivewright"])
 
 
@@ -197,7 +197,7 @@ class PreparedTask:
         self.task, self._alone = task, Lock()
         self.spec: MechanismSpec = from_document(task.tables)
         self.mechanism = registry.mechanism(self.spec.mechanism)
-        self.analyses = runner.selection(self.mechanism.analyses, task.analyses, task.everything)
+        self.analyses = runner.select_analyses(self.mechanism.analyses, task.analyses, task.everything)
         self.kinds: dict[str, KeyKind] = {key: key_kind(self.spec, key) for key in task.keys}
         self.about: dict[str, About] = {name: (unit, meaning, bounds) for name, unit, meaning, bounds in task.compiled}
         offer = self.mechanism.batch if task.compiled else None
@@ -265,7 +265,7 @@ class PreparedTask:
 
     def run(self, spec: MechanismSpec) -> CaseResult:
         """`CaseResult` of a spec: "partial" where an analysis failed or used a run that stopped, "failed" where that leaves no value."""
-        by_analysis = runner.ask(spec, self.mechanism.build(spec), self.analyses, None, PLACE_ERRORS)
+        by_analysis = runner.run_analyses(spec, self.mechanism.build(spec), self.analyses, None, PLACE_ERRORS)
         answers = by_analysis.values()
         stated = {name: value for answer in answers for name, value in answer.values.items()}
         values = case_outputs(stated, [check for answer in answers for check in answer.checks])
@@ -278,7 +278,7 @@ class PreparedTask:
             }
         partial = any(answer.outcome == "partial" for answer in answers)
         status = "complete" if not partial else "partial" if values else "failed"
-        return CaseResult(values, status, _short("; ".join(runner.reasons(by_analysis))))
+        return CaseResult(values, status, _short("; ".join(runner.incomplete_reasons(by_analysis))))
 
 
 def _fault(error: Exception) -> str:

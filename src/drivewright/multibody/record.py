@@ -14,7 +14,7 @@ from drivewright.multibody.bodies import Marker
 from drivewright.multibody.observe import FIELDS, Observed, observe
 from drivewright.multibody.simulate import Run
 from drivewright.multibody.system import System
-from drivewright.stopped import Stop
+from drivewright.stops import Stop
 
 CHUNK = 20_000
 POINT_FIELDS = ("angle", "w", "alpha", "x", "y", "vx", "vy", "ax", "ay")

@@ -20,7 +20,7 @@ from drivewright.multibody.passages import Passage, passage, smallest_singular_v
 from drivewright.multibody.singular import Outlook, distance_to_singularity, look_ahead
 from drivewright.multibody.system import System, Work, motion, no_chart
 from drivewright.numerics.ode import Event, integrate
-from drivewright.stopped import Stop, uses
+from drivewright.stops import Stop, note_stop
 
 GEAR = 1e-3  # absolute over relative tolerance, at lengths and angles of the size of 1
 WARY, CAREFUL = 3.0, 0.2  # length of a leg towards a singular position, and longest step in it, over the time until it is reached
@@ -63,7 +63,7 @@ class Run:
     passages: tuple[Passage, ...] = ()
 
     def __post_init__(self):
-        uses(self.stop)
+        note_stop(self.stop)
 
     @property
     def outcome(self) -> str:

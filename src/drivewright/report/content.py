@@ -10,7 +10,7 @@ import numpy as np
 
 from drivewright import registry
 from drivewright.result import UNDECIDED
-from drivewright.runner import reason_of, versions
+from drivewright.runner import failure_reason, versions
 from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_thumbnail, svg
 from drivewright.view.motion import fractions
 from drivewright.view.panels import drawable, known_plots, panels
@@ -57,7 +57,7 @@ def _shown(what, make, model, nothing, spec):
     try:
         return (make(model) if make else nothing), ()
     except Exception as error:  # a picture that fails must not cost the numbers
-        return nothing, (f"no {what} to show: {reason_of(spec, error)}",)
+        return nothing, (f"no {what} to show: {failure_reason(spec, error)}",)
 
 
 def pictures(result, seen):
@@ -68,7 +68,7 @@ def pictures(result, seen):
         try:
             return Picture(name, title, svg(draw()))
         except Exception as error:  # one figure that fails must not cost the others
-            return Picture(name, title, _instead(f"This figure is missing: {reason_of(result.spec, error)}"))
+            return Picture(name, title, _instead(f"This figure is missing: {failure_reason(result.spec, error)}"))
 
     frames = [
         drawn(f"scene-{frame.name}", sentence(frame.label), partial(draw_scene, scene, frame.name, [_telling_phase(scene)], GHOSTS))

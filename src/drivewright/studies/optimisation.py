@@ -20,7 +20,7 @@ from drivewright.errors import InputError, SolverError
 from drivewright.execution.case_table import MESSAGE, STATUS
 from drivewright.execution.outputs import case_outputs
 from drivewright.result import Check, Column, Plot, Result, Table
-from drivewright.runner import ask, build, reasons, run, selection, versions
+from drivewright.runner import build, incomplete_reasons, run, run_analyses, select_analyses, versions
 from drivewright.studies import store
 from drivewright.studies.pareto import nondominated
 from drivewright.studies.search import history
@@ -213,8 +213,8 @@ def _front(problem, values):
 
 def _nothing(problem, table, x):
     """Why no design has an answer."""
-    reasons = Counter(message for message in table[MESSAGE].to_pylist() if message)
-    reason = reasons.most_common(1)[0][0]
+    incomplete_reasons = Counter(message for message in table[MESSAGE].to_pylist() if message)
+    reason = incomplete_reasons.most_common(1)[0][0]
     if reason == SILENT:
         reason = next(iter(_why_silent(problem.design(x))), reason)
     return (
@@ -227,7 +227,7 @@ def _why_silent(spec):
     """Why the compiled route has no numbers for a design, as its run tells."""
     try:
         wanted = registry.mechanism(spec.mechanism).analyses
-        return reasons(ask(spec, build(spec), selection(wanted)))
+        return incomplete_reasons(run_analyses(spec, build(spec), select_analyses(wanted)))
     except InputError as error:
         return [str(error)]
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from drivewright import registry
 from drivewright.errors import DrivewrightError, InputError, MissingExtra, SolverError
-from drivewright.runner import reason_of, run
+from drivewright.runner import failure_reason, run
 from drivewright.spec import MechanismSpec
 
 
@@ -45,4 +45,4 @@ def verify(spec: MechanismSpec) -> tuple[Comparison, ...]:
         if isinstance(error, DrivewrightError) and not result.provenance["failed"]:
             raise
         lacking = [f"the run lacks {', '.join(result.provenance['failed'])}"] if result.provenance["failed"] else []
-        raise SolverError("; ".join([f"the independent route failed: {reason_of(spec, error)}", *lacking])) from error
+        raise SolverError("; ".join([f"the independent route failed: {failure_reason(spec, error)}", *lacking])) from error

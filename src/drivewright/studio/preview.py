@@ -61,7 +61,7 @@ def _scene(spec, model):
     except MemoryError:  # of this process, which may be tried again
         raise
     except Exception as error:  # a drawing that fails must not cost the numbers
-        return None, [f"no motion to show: {runner.reason_of(spec, error)}"]
+        return None, [f"no motion to show: {runner.failure_reason(spec, error)}"]
 
 
 def page_result(result, scene, analyses):

@@ -16,7 +16,7 @@ from drivewright.mechanisms.seedling_pusher.build import TURN
 from drivewright.numerics.jets import cos
 from drivewright.numerics.ode import integrate, rate
 from drivewright.result import Answer, Check, Column, Table, Value
-from drivewright.stopped import Stop, uses
+from drivewright.stops import Stop, note_stop
 
 GRID = 4096
 SAMPLES = 7201
@@ -147,7 +147,7 @@ def simulate(model, system):
         max_steps=2_000_000,
     )
     if run.advice:
-        uses(Stop(f"the contact simulation ends at t = {run.t_end:.6g} s of {turns * period:.6g} s", run.advice))
+        note_stop(Stop(f"the contact simulation ends at t = {run.t_end:.6g} s of {turns * period:.6g} s", run.advice))
     if len(run.t) < 2:
         raise SolverError(f"the contact simulation ends before its last turn, at t = {run.t_end:.6g} s: {run.advice}")
     delta, delta_rate = run.y.T

@@ -9,7 +9,7 @@ from drivewright.mechanisms.seedling_pusher.dynamics import lever_system
 from drivewright.multibody.analyses.poincare import Section, section_answer
 from drivewright.numerics.ode import integrate
 from drivewright.result import Answer, Answers
-from drivewright.stopped import Stop, uses
+from drivewright.stops import Stop, note_stop
 
 TURNS, DISCARD = 48, 16  # of the carrier, and those of them that are left out
 STILL = 1e-3  # of the rod's range: the damper's force jumps at a touch, which costs digits
@@ -31,7 +31,7 @@ def poincare(model, done: Answers) -> Answer:
         max_steps=5_000_000,
     )
     if run.advice:
-        uses(Stop(f"the contact simulation ends at t = {run.t_end:.6g} s of {TURNS * period:.6g} s", run.advice))
+        note_stop(Stop(f"the contact simulation ends at t = {run.t_end:.6g} s of {TURNS * period:.6g} s", run.advice))
     if len(run.t) <= DISCARD:
         raise SolverError(f"the contact simulation ends before turn {DISCARD}, at t = {run.t_end:.6g} s: {run.advice}")
     start = model.swing(np.array([model.push_start]))

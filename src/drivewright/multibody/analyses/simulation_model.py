@@ -13,7 +13,7 @@ from drivewright.multibody.bodies import Marker
 from drivewright.multibody.record import Record, record
 from drivewright.multibody.simulate import Run, Settings, simulate
 from drivewright.result import Column
-from drivewright.stopped import collected, uses
+from drivewright.stops import collect_stops, note_stop
 
 TURN = 2 * np.pi
 IDEAL_SAMPLES = 7201  # of the ideal mechanism in a turn
@@ -133,7 +133,7 @@ def record_of(model: SimulationModel) -> Record:
 
 def _noted(found):
     """A run or record, which whoever takes it inherits the stop of: what is kept from before has been noted for another analysis."""
-    uses(found.stop)
+    note_stop(found.stop)
     return found
 
 
@@ -152,10 +152,10 @@ def ideal_record(model: SimulationModel) -> Record:
 
     Its stop is told only where the run itself may have come further.
     """
-    with collected():
+    with collect_stops():
         found = _ideal_record(model)
     if model.has_play and found.stop:
-        uses(found.stop._replace(where=f"without play, {found.stop.where}"))
+        note_stop(found.stop._replace(where=f"without play, {found.stop.where}"))
     return found
 
 

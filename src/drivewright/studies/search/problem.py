@@ -136,7 +136,7 @@ def _with_settings(spec):
 def _known(spec):
     """({name: analysis}, {name: Output}, {name: size}) of all that the spec itself gives."""
     mechanism = registry.mechanism(spec.mechanism)
-    answers = runner.ask(spec, mechanism.build(spec), runner.selection(mechanism.analyses))
+    answers = runner.run_analyses(spec, mechanism.build(spec), runner.select_analyses(mechanism.analyses))
     givers, known, sizes = {}, {}, {}
     for analysis, answer in answers.items():
         found = case_outputs(answer.values, answer.checks)

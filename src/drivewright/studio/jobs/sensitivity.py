@@ -63,7 +63,7 @@ def _asked(spec, tell, names):
     mechanism, model = registry.mechanism(spec.mechanism), runner.build(spec)
     result = runner.run(spec, model=model, progress=tell)
     began = time.perf_counter()  # of a second run: the first one compiles
-    answers = runner.ask(spec, model, runner.selection(mechanism.analyses))
+    answers = runner.run_analyses(spec, model, runner.select_analyses(mechanism.analyses))
     slow = time.perf_counter() - began > PATIENCE and not names
     given = {
         name: {*answer.values, *(f"{CHECK}{check.name}" for check in answer.checks)}
