@@ -8,6 +8,8 @@ from dataclasses import dataclass, fields
 
 from drivewright.errors import UnknownName
 
+__all__ = ["Material", "Source", "material", "names"]
+
 
 @dataclass(frozen=True)
 class Source:

@@ -17,6 +17,40 @@ from typing import Annotated, Any, ClassVar, TypeAlias
 
 from drivewright.errors import UnitError, brief, nearest
 
+__all__ = [
+    "BY_NAME",
+    "BY_UNIT",
+    "DIMENSIONS",
+    "Acceleration",
+    "Angle",
+    "Damping",
+    "Density",
+    "Dimension",
+    "Force",
+    "Frequency",
+    "Inertia",
+    "Length",
+    "LineForce",
+    "Mass",
+    "Pressure",
+    "RotationalDamping",
+    "RotationalStiffness",
+    "SI",
+    "Slowness",
+    "Speed",
+    "Stiffness",
+    "Time",
+    "Torque",
+    "Velocity",
+    "Viscosity",
+    "WearCoefficient",
+    "any_quantity",
+    "display",
+    "split",
+    "to_si",
+    "unit_factor",
+]
+
 # To 50 digits: as good as exact beside the 16 of a float.
 PI = "3.14159265358979323846264338327950288419716939937511"
 

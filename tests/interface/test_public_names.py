@@ -1,7 +1,10 @@
 """The public names are flat, sorted, and exactly these; importing the package loads nothing heavy."""
 
+import ast
+import re
 import subprocess
 import sys
+from pathlib import Path
 from types import ModuleType
 
 import pytest
@@ -56,6 +59,47 @@ def test_public_names_are_exactly_these():
 
 def test_every_public_name_loads():
     assert all(getattr(dw, name) is not None for name in NAMES)
+
+
+ROOT = Path(__file__).parents[2]
+PACKAGES = [name for name in NAMES if isinstance(getattr(dw, name), ModuleType)]
+NO_LIST_YET = {"chains"}  # packages without a list of what they export; one that has it has to leave
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_a_package_lists_what_it_exports(package):
+    module = getattr(dw, package)
+    exported = list(getattr(module, "__all__", ()))
+    if package in NO_LIST_YET:
+        assert not exported, f"{package} has a list: take it out of NO_LIST_YET"
+    else:
+        assert exported and len(exported) == len(set(exported))
+        assert [name for name in exported if not hasattr(module, name)] == []
+
+
+def shown():
+    """(file, package, name) of everything that a page or an example takes from a package."""
+    pages = [ROOT / "README.md", *ROOT.glob("docs/**/*.md"), *ROOT.glob("examples/**/*.py"), *ROOT.glob("src/**/*.md")]
+    for path in pages:
+        text = path.read_text(encoding="utf-8")
+        for package, name in re.findall(r"\bdw\.(\w+)\.(\w+)", text):
+            yield path.name, package, name
+        for package, names in re.findall(r"^from drivewright\.(\w+) import (.+)$", text, re.MULTILINE):
+            yield from ((path.name, package, name.split(" as ")[0].strip()) for name in names.split(","))
+
+
+def test_what_the_docs_show_of_a_package_is_exported():
+    used = [(page, package, name) for page, package, name in shown() if package in PACKAGES and package not in NO_LIST_YET]
+    assert used, "the docs show nothing of any package?"
+    assert [f"{page}: {package}.{name}" for page, package, name in used if name not in getattr(dw, package).__all__] == []
+
+
+def test_the_reference_shows_modules_that_exist():
+    tree = ast.parse((ROOT / "docs" / "generate.py").read_text(encoding="utf-8"))
+    pages = next(each.value for each in tree.body if isinstance(each, ast.Assign) and each.targets[0].id == "PAGES")
+    source = ROOT / "src" / "drivewright"
+    places = {name: source.joinpath(*name.split(".")) for name in ast.literal_eval(pages)}
+    assert [name for name, place in places.items() if not place.is_dir() and not place.with_suffix(".py").is_file()] == []
 
 
 def test_an_unknown_name_is_an_attribute_error():
