@@ -169,7 +169,8 @@ def slider_crank(play: float, normal: str = "lankarani-nikravesh") -> LinkageSpe
 def _slider_crank() -> Iterator[Row]:
     model = build(slider_crank(5e-4))
     common: dict[str, Any] = {"inputs": SLIDER, "pinned": AGREES}
-    pins = {joint.name: joint.model for joint in model.assembly.model.joints if isinstance(joint, Revolute) and isinstance(joint.model, Dry)}
+    joints = model.assembly.model.joints
+    pins = {joint.name: joint.model for joint in joints if isinstance(joint, Revolute) and isinstance(joint.model, Dry)}
     stiffness = pins["wrist"].stiffness
     yield Row("slider-crank, stiffness K of the contact, 1e10 N/m^1.5", rounded("6.6102", "-"), stiffness / 1e10, "-", **EARLIER, **common)
     motion, speed = ideal_record(model), model.spec.drive.speed
