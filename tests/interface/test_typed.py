@@ -32,7 +32,6 @@ NOT_YET = {  # packages that are still to be finished; one that is finished has 
     "result",
     "scene",
     "shafts",
-    "solids",
     "studies",
     "studio",
     "view",
