@@ -35,8 +35,8 @@ def system(radius):
 def running():
     """Explicit steps of 82 links at 2000 rpm, and all groups of the paper."""
     from drivewright.cases import run
-    from drivewright.chains.dynamics.simulate import Settings, simulate
-    from drivewright.chains.dynamics.stability import largest_step
+    from drivewright.chains.explicit.simulate import Settings, simulate
+    from drivewright.chains.explicit.stability import largest_step
 
     drive, settings = system(1.2), Settings(STEP, settle=0.1, run_in=0.0)
     seconds = best(lambda: simulate(drive, DURATION, settings), 5)
@@ -66,9 +66,9 @@ def running():
 def closures():
     """Rigid drives over a tooth, at rest with contacts, many designs."""
     from drivewright.chains.closure import Drive, close, phase_map
-    from drivewright.chains.dynamics.model import with_sprocket
     from drivewright.chains.implicit.equilibrium import equilibrium
     from drivewright.chains.link import link
+    from drivewright.chains.model import with_sprocket
 
     joint = link(PITCH, 1.2e-3, np.pi / 6, 0.0)
     means = {}
@@ -121,14 +121,14 @@ TIME = 1e-4  # [s]; over longer ones Newton's method of this model in Exudyn sto
 
 def roller_drive(joint):
     """24 links around 9 and 10 teeth, joints of a stiffness [N/m]."""
-    from drivewright.chains.dynamics import model as m
-    from drivewright.chains.dynamics.roller import RollerTooth
+    from drivewright.chains import model as m
     from drivewright.chains.link import Link
+    from drivewright.chains.roller_tooth import RollerTooth
 
     teeth = [RollerTooth(z, 0.5 * PITCH / np.sin(np.pi / z), SEAT, SEAT_ANGLE, FLANK, ROLLER) for z in (9, 10)]
     chain = m.Chain(Link(PITCH, 0.0, np.pi / 6, 0.0), 24, 2.5e-3, 6.4e-8, joint, 2e-6)
-    contact = m.Contact(STIFFNESS, DAMPING)
-    first = m.Sprocket(teeth[0], contact, angle=0.0, tip_radius=teeth[0].pitch_radius + 2e-3, drive=m.Drive(SPEED, SPEED))
+    contact = m.ChainContact(STIFFNESS, DAMPING)
+    first = m.Sprocket(teeth[0], contact, angle=0.0, tip_radius=teeth[0].pitch_radius + 2e-3, drive=m.SpeedRamp(SPEED, SPEED))
     second = m.Sprocket(
         teeth[1],
         contact,
@@ -138,7 +138,7 @@ def roller_drive(joint):
         inertia=2e-5,
         slide=m.Slide(0.0, FORCE, damping=100.0),
     )
-    return m.Model(chain, (first, second))
+    return m.ChainDrive(chain, (first, second))
 
 
 def space(tooth):
@@ -157,7 +157,7 @@ def exudyns(step):
     import exudyn
     from exudyn import itemInterface as item
 
-    from drivewright.chains.dynamics.assembly import start
+    from drivewright.chains.explicit.assembly import start
 
     exudyn.config.printToConsole = False
     model = roller_drive(1e13)
@@ -239,7 +239,7 @@ def _contact(mbs, item, wheel, rollers, tooth):
 
 def beside():
     """The first tenth of a millisecond of both, from the same start."""
-    from drivewright.chains.dynamics.simulate import Settings, simulate, tooth_time
+    from drivewright.chains.explicit.simulate import Settings, simulate, tooth_time
 
     model = roller_drive(10 * STIFFNESS)
     settings = Settings(1e-7, run_in=0.0, samples_per_tooth=round(tooth_time(model) / TIME))

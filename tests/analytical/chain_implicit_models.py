@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from drivewright.chains.dynamics.assembly import start
-from drivewright.chains.dynamics.model import Chain, Contact, Drive, Guide, Model, Slide, Sprocket
-from drivewright.chains.dynamics.roller import RollerTooth
+from drivewright.chains.explicit.assembly import start
 from drivewright.chains.link import link, seat_support
+from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket
+from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.chains.tooth import Tooth
 
 PITCH = 9.525e-3
@@ -36,8 +36,8 @@ def drive(
     tips = [0.5 * PITCH / np.sin(np.pi / z) - 0.9e-3 for z in teeth]
     mass = 2.5e-3
     plates = Chain(joined, links, mass, mass * (15e-3**2 + 9e-3**2) / 12, stiffness if joint is None else joint, beta, offset, **chain)
-    contact, centre = Contact(stiffness, damping), (0.5 * (links - sum(teeth) / 2) * PITCH, 0.0)
-    first = Sprocket(involutes[0], contact, angle=0.0, tip_radius=tips[0], drive=Drive(speed, speed))
+    contact, centre = ChainContact(stiffness, damping), (0.5 * (links - sum(teeth) / 2) * PITCH, 0.0)
+    first = Sprocket(involutes[0], contact, angle=0.0, tip_radius=tips[0], drive=SpeedRamp(speed, speed))
     second = Sprocket(
         involutes[1],
         contact,
@@ -49,7 +49,7 @@ def drive(
         torque=torque,
         slide=Slide(0.0, force, 0.0, 100.0),
     )
-    return Model(plates, (first, second), (), gravity)
+    return ChainDrive(plates, (first, second), (), gravity)
 
 
 def small(**changes):
@@ -76,7 +76,7 @@ def _guide(pose, side):
         polar + 0.06,
         side,
         1.2e-3,
-        Contact(1e7),
+        ChainContact(1e7),
         0.3,
         0.05,
         mass=0.1,

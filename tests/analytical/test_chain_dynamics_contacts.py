@@ -4,12 +4,20 @@ import numpy as np
 import pytest
 
 from drivewright._jit import plain
-from drivewright.chains.dynamics.bodies import follow, load_guide, load_rollers, turn_acceleration
-from drivewright.chains.dynamics.model import Chain, Contact, Drive, Guide, Model, Sprocket
-from drivewright.chains.dynamics.roller import RollerTooth
-from drivewright.chains.dynamics.state import FRICTION, lower
-from drivewright.chains.dynamics.step import acceleration, drift_plates, load_flanks, load_gravity, load_joints, lose_flanks, lose_joints
+from drivewright.chains.explicit.bodies import follow, load_guide, load_rollers, turn_acceleration
+from drivewright.chains.explicit.state import FRICTION, compile_model
+from drivewright.chains.explicit.step import (
+    acceleration,
+    drift_plates,
+    flank_damping_work,
+    joint_damping_work,
+    load_flanks,
+    load_gravity,
+    load_joints,
+)
 from drivewright.chains.link import link, seat_height, seat_support
+from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, SpeedRamp, Sprocket
+from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.chains.tooth import Tooth
 from drivewright.contact import KelvinVoigt, mean_force
 
@@ -21,8 +29,8 @@ ROLLER = RollerTooth(12, 9.525e-3 / (2 * np.sin(np.pi / 12)), 2.6e-3, np.radians
 
 def lowered(tooth=INVOLUTE, guides=(), offset=0.7e-3, damping=0.0, joint=JOINT):
     chain = Chain(joint, 8, 2.5e-3, 6.4e-8, 3e6, centre_offset=offset)
-    here = Sprocket(tooth, Contact(K, damping), (0.02, -0.01), drive=Drive(1.0, 1.0))
-    return lower(Model(chain, (here, Sprocket(tooth, Contact(K), (5.0, 0.0), inertia=1.0)), guides))
+    here = Sprocket(tooth, ChainContact(K, damping), (0.02, -0.01), drive=SpeedRamp(1.0, 1.0))
+    return compile_model(ChainDrive(chain, (here, Sprocket(tooth, ChainContact(K), (5.0, 0.0), inertia=1.0)), guides))
 
 
 def put(drive, x, y, angle, psi=0.4, centre=(0.02, -0.01), v=(0.0, 0.0, 0.0), body=0):
@@ -37,7 +45,7 @@ def put(drive, x, y, angle, psi=0.4, centre=(0.02, -0.01), v=(0.0, 0.0, 0.0), bo
 def flank(drive, seat, dt=1e-6):
     drive.touches.seat[0] = seat
     plain(load_flanks)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, dt)
-    plain(lose_flanks)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, dt)
+    plain(flank_damping_work)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, dt)
 
 
 def roller(drive, seat, dt=1e-6):
@@ -57,7 +65,7 @@ def at_tooth(dx, dy, turn, psi=0.4, tooth=2, offset=0.7e-3):
     return place.real, place.imag, angle + turn, seat
 
 
-GUIDES = tuple(Guide((0.02, -0.01), 0.03, 0.0, np.pi, side, 4e-3, Contact(K)) for side in ("inside", "outside"))
+GUIDES = tuple(Guide((0.02, -0.01), 0.03, 0.0, np.pi, side, 4e-3, ChainContact(K)) for side in ("inside", "outside"))
 CASES = {
     "both flanks": (INVOLUTE, (), flank, (*at_tooth(0, -4e-5, 2e-4)[:3],), at_tooth(0, 0, 0)[3]),
     "right flank": (INVOLUTE, (), flank, (*at_tooth(6e-5, -1e-5, 4e-3)[:3],), at_tooth(0, 0, 0)[3]),
@@ -108,7 +116,7 @@ def test_damping_power_is_that_of_the_forces(name):
     still, moving = (
         lowered(
             tooth,
-            tuple(Guide(g.centre, g.radius, g.start, g.end, g.side, g.distance, Contact(K, c)) for g in guides),
+            tuple(Guide(g.centre, g.radius, g.start, g.end, g.side, g.distance, ChainContact(K, c)) for g in guides),
             damping=c,
             joint=joint,
         )
@@ -155,7 +163,7 @@ def test_a_contact_acts_with_its_mean_over_the_step(name):
 def dampened(name, damping):
     """(drive of a case with damping in what it touches, its kernel, pose, seat, number of what it touches)."""
     tooth, guides, touch, pose, seat = CASES[name]
-    guides = tuple(Guide(g.centre, g.radius, g.start, g.end, g.side, g.distance, Contact(K, damping)) for g in guides)
+    guides = tuple(Guide(g.centre, g.radius, g.start, g.end, g.side, g.distance, ChainContact(K, damping)) for g in guides)
     drive = lowered(tooth, guides, damping=damping, joint=link(9.525e-3, 0.0, A, 2e-4) if tooth is ROLLER else JOINT)
     return drive, touch, pose, seat, 2 if guides else 0
 
@@ -210,7 +218,7 @@ def test_articulation_resists_the_turning_of_two_plates_against_each_other_alone
         plain(load_gravity)(each.chain, each.plates, each.touches)
         plain(load_joints)(each.chain, each.plates, each.joints)
         turned.append([plain(acceleration)(each.plates, each.joints, i) for i in range(8)])
-        plain(lose_joints)(each.chain, each.plates, each.joints, 1e-6)
+        plain(joint_damping_work)(each.chain, each.plates, each.joints, 1e-6)
     extra, against = np.diff(turned, axis=0)[0], spin - np.roll(spin, -1)
     np.testing.assert_allclose(6.4e-8 * extra[:, 2], 2e-4 * (np.roll(against, 1) - against), rtol=1e-6, atol=1e-9)
     np.testing.assert_array_equal(extra[:, :2], 0.0)
@@ -219,17 +227,17 @@ def test_articulation_resists_the_turning_of_two_plates_against_each_other_alone
 
 
 def test_a_sprocket_is_calm_at_its_own_rate():
-    """Damping resists what differs from `calm`: there the torque given is all that acts, elsewhere c (calm - w) besides."""
+    """Damping resists what differs from `reference_speed`: there the torque given is all that acts, elsewhere c (calm - w) besides."""
     chain = Chain(JOINT, 8, 2.5e-3, 6.4e-8, 3e6)
-    free = Sprocket(INVOLUTE, Contact(K), (5.0, 0.0), inertia=0.4, torque=0.3, damping=0.02, calm=-50.0)
-    bodies = lower(Model(chain, (Sprocket(INVOLUTE, Contact(K), drive=Drive(1.0, 1.0)), free))).bodies
+    free = Sprocket(INVOLUTE, ChainContact(K), (5.0, 0.0), inertia=0.4, torque=0.3, damping=0.02, reference_speed=-50.0)
+    bodies = compile_model(ChainDrive(chain, (Sprocket(INVOLUTE, ChainContact(K), drive=SpeedRamp(1.0, 1.0)), free))).bodies
     for rate, moment in ((-50.0, 0.3), (-80.0, 0.3 + 0.02 * 30), (10.0, 0.3 - 0.02 * 60)):
         bodies.w[1] = rate
         assert plain(turn_acceleration)(bodies, 1) == pytest.approx(moment / 0.4, rel=1e-12)
 
 
 def test_friction_on_a_guide_opposes_sliding_and_saturates():
-    at = Guide((0.02, -0.01), 0.03, 0.0, np.pi, "inside", 4e-3, Contact(K), friction=0.3, slip=1e-3)
+    at = Guide((0.02, -0.01), 0.03, 0.0, np.pi, "inside", 4e-3, ChainContact(K), friction=0.3, slip=1e-3)
     drive = lowered(guides=(at,), offset=0.0)
     for speed in (2.0, -2.0):
         put(drive, 0.02, 0.02395, 0.0, v=(speed, 0.0, 0.0), body=2)
@@ -244,7 +252,8 @@ def test_friction_on_a_guide_opposes_sliding_and_saturates():
 @pytest.mark.parametrize("side", [0, 1])
 def test_friction_power_is_that_of_the_forces_on_a_turning_plate(side):
     rough, smooth = (
-        lowered(guides=(Guide((0.02, -0.01), 0.03, 0.0, np.pi, GUIDES[side].side, 4e-3, Contact(K), friction=mu),)) for mu in (0.3, 0.0)
+        lowered(guides=(Guide((0.02, -0.01), 0.03, 0.0, np.pi, GUIDES[side].side, 4e-3, ChainContact(K), friction=mu),))
+        for mu in (0.3, 0.0)
     )
     v = np.array([0.4, 0.1, 30.0])
     for drive in (rough, smooth):
@@ -284,7 +293,7 @@ def test_joint_moments_are_the_slope_of_the_energy():
 
 
 def test_a_guide_ends_where_its_arc_does():
-    drive = lowered(guides=(Guide((0.02, -0.01), 0.03, np.pi / 2 + 0.1, np.pi, "inside", 4e-3, Contact(K)),), offset=0.0)
+    drive = lowered(guides=(Guide((0.02, -0.01), 0.03, np.pi / 2 + 0.1, np.pi, "inside", 4e-3, ChainContact(K)),), offset=0.0)
     for angle, touched in ((0.0, False), (0.2, True)):
         place = 0.02 - 0.01j + 0.03395j * np.exp(1j * angle)
         put(drive, place.real, place.imag, angle, body=2)

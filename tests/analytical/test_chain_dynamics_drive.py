@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from drivewright.chains.dynamics.assembly import start
-from drivewright.chains.dynamics.model import Chain, Contact, Drive, Model, Slide, Sprocket, with_sprocket
-from drivewright.chains.dynamics.simulate import Settings, simulate
-from drivewright.chains.dynamics.stability import fastest, largest_step
+from drivewright.chains.explicit.assembly import start
+from drivewright.chains.explicit.simulate import Settings, simulate
+from drivewright.chains.explicit.stability import fastest, largest_step
 from drivewright.chains.link import link, seat_support
+from drivewright.chains.model import Chain, ChainContact, ChainDrive, Slide, SpeedRamp, Sprocket, with_sprocket
 from drivewright.chains.tooth import Tooth
 
 PITCH, ANGLE = 9.525e-3, np.pi / 6
@@ -18,11 +18,11 @@ def drive(radius=1.2e-3, speed=-60.0, stiffness=1e7, force=150.0, thick=0.0, bet
     base = [PITCH * z / (2 * np.pi) * np.cos(ANGLE) for z in teeth]
     tooth = [Tooth(z, rb, seat_support(joint, z) - thick) for z, rb in zip(teeth, base, strict=True)]
     plates = Chain(joint, count, 2.5e-3, 6.4e-8, stiffness / 3, beta, **{"toe": 4e-3} | chain)
-    return Model(
+    return ChainDrive(
         plates,
         (
-            Sprocket(tooth[0], Contact(stiffness), drive=Drive(speed, speed)),
-            Sprocket(tooth[1], Contact(stiffness), (0.0692, 0.0), mass=0.2, inertia=2e-5, slide=Slide(0.0, force, damping=damping)),
+            Sprocket(tooth[0], ChainContact(stiffness), drive=SpeedRamp(speed, speed)),
+            Sprocket(tooth[1], ChainContact(stiffness), (0.0692, 0.0), mass=0.2, inertia=2e-5, slide=Slide(0.0, force, damping=damping)),
         ),
     )
 

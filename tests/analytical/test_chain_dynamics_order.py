@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from drivewright.chains.dynamics.ensemble import disturbed
-from drivewright.chains.dynamics.model import Chain, Contact, Drive, Model, Slide, Sprocket
-from drivewright.chains.dynamics.simulate import Settings, first_start, simulate
-from drivewright.chains.dynamics.stability import fastest
+from drivewright.chains.explicit.ensemble import disturbed
+from drivewright.chains.explicit.simulate import Settings, first_start, simulate
+from drivewright.chains.explicit.stability import fastest
 from drivewright.chains.implicit.simulate import Settings as Implicit
 from drivewright.chains.implicit.simulate import simulate as implicit
 from drivewright.chains.link import link, seat_height, seat_support
+from drivewright.chains.model import Chain, ChainContact, ChainDrive, Slide, SpeedRamp, Sprocket
 from drivewright.chains.tooth import Tooth
 from drivewright.contact import KelvinVoigt, mean_force
 
@@ -73,11 +73,11 @@ def drive(damping=0.0, beta=2e-6, slide=300.0, **chain):
     sprockets = []
     for z in (27, 29):
         tooth, height = Tooth(z, PITCH * z / (2 * np.pi) * np.cos(ANGLE), seat_support(joint, z)), seat_height(joint, z)
-        sprockets.append(Sprocket(tooth, Contact(1e8, damping), tip_radius=height - 1.9e-3, form_radius=height - 6.2e-3))
-    return Model(
+        sprockets.append(Sprocket(tooth, ChainContact(1e8, damping), tip_radius=height - 1.9e-3, form_radius=height - 6.2e-3))
+    return ChainDrive(
         Chain(joint, 72, 2.5e-3, 6.4e-8, 1e8 / 3, beta, toe=6e-3, crotch=1.4e-3, **chain),
         (
-            replace(sprockets[0], drive=Drive(-200.0, -200.0)),
+            replace(sprockets[0], drive=SpeedRamp(-200.0, -200.0)),
             replace(sprockets[1], centre=(0.2095, 0.0), mass=0.3, inertia=2e-4, slide=Slide(0.0, 150.0, damping=slide)),
         ),
     )

@@ -5,17 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from drivewright.chains.dynamics.assembly import start
-from drivewright.chains.dynamics.model import Chain, Contact, Drive, Guide, Model, Slide, Sprocket, with_sprocket
-from drivewright.chains.dynamics.roller import RollerTooth
-from drivewright.chains.dynamics.simulate import Settings, simulate
+from drivewright.chains.explicit.assembly import start
+from drivewright.chains.explicit.simulate import Settings, simulate
 from drivewright.chains.link import link, seat_height, seat_support
+from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket, with_sprocket
 from drivewright.chains.roller_sprocket import design_roller_sprocket
+from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.chains.tooth import Tooth
 
 PITCH, ANGLE, K, SPEED = 9.525e-3, np.pi / 6, 1e8, 60.0
 JOINT = link(PITCH, 1.2e-3, ANGLE, 2.6e-3)
-TOUCH = Contact(K, 50.0)
+TOUCH = ChainContact(K, 50.0)
 
 
 def tooth(z, joint=JOINT):
@@ -37,10 +37,10 @@ def drive(teeth=(27, 29), count=72, joint=JOINT, kind=None, wheels=(), **chain):
     chain = {"articulation_damping": 1e-5} | chain
     plates = Chain(joint, count, 2.5e-3, 6.4e-8, K / 3, 2e-6, **({} if joint.radius == 0 else {"toe": 6e-3, "crotch": 1.4e-3}) | chain)
     further = tuple(Sprocket(contact=TOUCH, centre=at, inertia=1e-5, damping=1e-4, **kind(z)) for z, at in wheels)
-    return Model(
+    return ChainDrive(
         plates,
         (
-            Sprocket(contact=TOUCH, drive=Drive(-SPEED, -SPEED), **kind(teeth[0])),
+            Sprocket(contact=TOUCH, drive=SpeedRamp(-SPEED, -SPEED), **kind(teeth[0])),
             Sprocket(
                 contact=TOUCH,
                 centre=(0.2095, 0.0),
@@ -121,7 +121,7 @@ def test_gravity_pulls_on_what_slides_and_hangs():
 
 
 def test_a_ramp_from_rest_ends_at_speed():
-    model = with_sprocket(drive(), 0, drive=Drive(-SPEED, 0.0, 0.05))
+    model = with_sprocket(drive(), 0, drive=SpeedRamp(-SPEED, 0.0, 0.05))
     run = simulate(model, 0.12, Settings(settle=0.08, tolerance=3e-4))
     assert run.outcome == "complete", run.advice
     assert run.column("kinetic")[0] < 1e-3 * run.column("kinetic")[-1]
@@ -146,7 +146,7 @@ def test_a_fixed_guide_bends_the_strand_by_its_force(side, sign):
     deep, radius = 2.5e-3, 0.15
     middle = -np.pi / 2 if side == "outside" else np.pi / 2
     centre = (0.105, height + off + radius - deep) if side == "outside" else (0.105, height - off - radius + deep)
-    guide = Guide(centre, radius, middle - 0.4, middle + 0.4, side, off, Contact(1e7, 50.0), friction=0.1)
+    guide = Guide(centre, radius, middle - 0.4, middle + 0.4, side, off, ChainContact(1e7, 50.0), friction=0.1)
     run = ran(replace(drive(), guides=(guide,)), 0.2)
     push = run.mean(run.body(2, "fy"))
     assert -sign * push == pytest.approx(75.0 * 4 * deep / 0.2095, rel=0.5)
@@ -164,7 +164,7 @@ def test_a_sprung_tensioner_takes_up_the_slack():
         np.pi / 2 + 0.4,
         "outside",
         3e-3,
-        Contact(1e7, 50.0),
+        ChainContact(1e7, 50.0),
         friction=0.1,
         mass=0.05,
         slide=Slide(np.pi / 2, 50.0, 1e3, 20.0),

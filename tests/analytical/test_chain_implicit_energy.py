@@ -6,8 +6,8 @@ from chain_implicit_models import small, with_guides, with_rollers
 from test_chain_implicit_ring import dense
 
 from drivewright.chains.implicit.energy import assemble
-from drivewright.chains.implicit.parts import assembled, at_rest, lower
-from drivewright.chains.implicit.touch import seek
+from drivewright.chains.implicit.parts import assembled, at_rest, compile_model
+from drivewright.chains.implicit.touch import find_candidates
 
 MODELS = {
     "teeth": (lambda: small(gravity=(3.0, -9.81), torque=0.4), 1.5e-4),
@@ -18,8 +18,8 @@ MODELS = {
 
 def shaken(model, amount, seed=0):
     """Parts and a state off the assembly by `amount` [m] and a hundred times that in angle."""
-    rng, parts, state = np.random.default_rng(seed), lower(model), assembled(model)
-    seek(parts, state)
+    rng, parts, state = np.random.default_rng(seed), compile_model(model), assembled(model)
+    find_candidates(parts, state)
     plates = state.plates + amount * rng.normal(size=state.plates.shape) * [1, 1, 100]
     return parts, at_rest(plates, state.bodies + amount * rng.normal(size=state.bodies.shape) * [1, 20])
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from chain_implicit_models import PITCH, drive
 
-from drivewright.chains.dynamics.model import with_sprocket
 from drivewright.chains.implicit.equilibrium import compliance_of, equilibrium, thickened
+from drivewright.chains.model import with_sprocket
 
 CLOSURE = {1.0e-3: 219.056810e-3, 1.3e-3: 219.057740e-3, 1.6e-3: 219.058711e-3, 0.0: 219.054018e-3}  # rigid plates, strands in equilibrium
 

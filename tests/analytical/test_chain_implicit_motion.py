@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from chain_implicit_models import drive, small, with_guides, with_rollers
 
-from drivewright.chains.dynamics.measure import ROW
-from drivewright.chains.dynamics.model import Contact, with_sprocket
-from drivewright.chains.dynamics.simulate import Settings as Explicit
-from drivewright.chains.dynamics.simulate import simulate as explicit
-from drivewright.chains.dynamics.simulate import tooth_time
+from drivewright.chains.explicit.measure import ROW
+from drivewright.chains.explicit.simulate import Settings as Explicit
+from drivewright.chains.explicit.simulate import simulate as explicit
+from drivewright.chains.explicit.simulate import tooth_time
 from drivewright.chains.implicit.equilibrium import equilibrium
 from drivewright.chains.implicit.simulate import Settings, simulate
+from drivewright.chains.model import ChainContact, with_sprocket
 
 SOFT = {"stiffness": 1e7, "joint": 1e7 / 3, "force": 75.0, "beta": 2e-6}
 COUNTS = ("contacts", "open joints", "utilisation")
@@ -20,7 +20,7 @@ COUNTS = ("contacts", "open joints", "utilisation")
 
 def damped(model, damping):
     for number, sprocket in enumerate(model.sprockets):
-        model = with_sprocket(model, number, contact=Contact(sprocket.contact.stiffness, damping), damping=1e-3)
+        model = with_sprocket(model, number, contact=ChainContact(sprocket.contact.stiffness, damping), damping=1e-3)
     return model
 
 

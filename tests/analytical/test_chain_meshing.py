@@ -159,7 +159,7 @@ def involute_gap(z, half_angle):
     roll = np.linspace(0, 0.7, 20001)
     turn = start + roll
     points = tooth.base_radius * np.stack([np.sin(turn) - roll * np.cos(turn), np.cos(turn) + roll * np.sin(turn)], axis=1)
-    line = plate.flank + n @ (0, seat_height(plate, z))
+    line = plate.flank_support + n @ (0, seat_height(plate, z))
     return points @ n - line, np.hypot(*points.T), tooth
 
 

@@ -15,8 +15,8 @@ from drivewright.scene import Arc, Line, circle, place, polygon
 
 P, A = 9.525e-3, np.radians(30)
 GROUP3 = link(P, 1.2e-3, A, 2.6e-3)
-CLASSICAL = Link(P + 14.8e-3, 7.4e-3, A, GROUP3.flank)
-HINGE = Link(P, 0.0, A, GROUP3.flank)
+CLASSICAL = Link(P + 14.8e-3, 7.4e-3, A, GROUP3.flank_support)
+HINGE = Link(P, 0.0, A, GROUP3.flank_support)
 LINKS = pytest.mark.parametrize("chain", [GROUP3, CLASSICAL, HINGE], ids=["round", "rocker", "hinge"])
 ROLLING = pytest.mark.parametrize("chain", [GROUP3, CLASSICAL, link(P, 0.9e-3, A, 2.6e-3)], ids=["round", "rocker", "small"])
 
@@ -122,9 +122,9 @@ def test_flanks_lie_where_the_link_says():
     for side, sign in (("right", 1), ("left", -1)):
         normal = np.array([sign * np.cos(A), -np.sin(A)])
         for end in (plate.flank(side).start, plate.flank(side).end):
-            assert normal @ end == pytest.approx(GROUP3.flank, rel=1e-14)
+            assert normal @ end == pytest.approx(GROUP3.flank_support, rel=1e-14)
         hole = np.array([sign * 0.5 * GROUP3.hole_pitch, 0.0])
-        assert GROUP3.flank - normal @ hole == pytest.approx(2.6e-3, rel=1e-14)
+        assert GROUP3.flank_support - normal @ hole == pytest.approx(2.6e-3, rel=1e-14)
 
 
 def test_inner_flanks_keep_their_gap_from_the_tooth_of_a_rack():
@@ -248,7 +248,7 @@ def test_walls_of_a_hinged_plate():
     walls = plate.walls()
     assert walls["between holes"] == pytest.approx(P - 3e-3, abs=3e-8)
     assert walls["hole to outline"] == pytest.approx(plate.back - 1.5e-3, abs=3e-8)
-    width = (GROUP3.flank + plate.toe * np.sin(A)) * 2 / np.cos(A) - P - plate.inner_gap / np.cos(A)
+    width = (GROUP3.flank_support + plate.toe * np.sin(A)) * 2 / np.cos(A) - P - plate.inner_gap / np.cos(A)
     assert walls["toe"] == pytest.approx(width, rel=1e-12)
 
 
@@ -258,7 +258,7 @@ def test_a_hole_that_breaks_out_leaves_no_wall():
 
 @ROLLING
 def test_three_times_the_chain_is_the_same_chain(chain):
-    big = Link(3 * chain.hole_pitch, 3 * chain.radius, chain.flank_angle, 3 * chain.flank)
+    big = Link(3 * chain.hole_pitch, 3 * chain.radius, chain.flank_angle, 3 * chain.flank_support)
     small, large = design_plate(chain), design_plate(big)
     assert large.moments.area == pytest.approx(9 * small.moments.area, rel=1e-12)
     assert large.moments.polar == pytest.approx(81 * small.moments.polar, rel=1e-12)

@@ -144,7 +144,7 @@ def test_flank_forces_keep_their_place():
     forces, moments = unbalanced(basis(), Loads(np.zeros((1, 2, 2)), [[0.0, force]], [[0.0, height]]))
     push = -force * np.array([np.cos(a), -np.sin(a)])
     assert np.allclose(forces[0], push, rtol=1e-12)
-    x = (plate().link.flank + height * np.sin(a)) / np.cos(a)
+    x = (plate().link.flank_support + height * np.sin(a)) / np.cos(a)
     assert moments[0] == pytest.approx(x * push[1] - height * push[0], rel=1e-3)
 
 

@@ -5,20 +5,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from drivewright.chains.dynamics.assembly import start
-from drivewright.chains.dynamics.model import Chain, Contact, Drive, Guide, Model, Slide, Sprocket, with_sprocket
-from drivewright.chains.dynamics.simulate import Settings, simulate
-from drivewright.chains.dynamics.sweep import Scatter, campbell, monte_carlo, scattered
+from drivewright.chains.explicit.assembly import start
+from drivewright.chains.explicit.batch import Scatter, campbell, monte_carlo, scattered
+from drivewright.chains.explicit.simulate import Settings, simulate
 from drivewright.chains.link import link, seat_support
+from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket, with_sprocket
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import DoesNotAssemble, InputError
 
 JOINT = link(9.525e-3, 1.2e-3, np.pi / 6, 2e-4)
 TEETH = [Tooth(z, 9.525e-3 * z / (2 * np.pi) * np.cos(np.pi / 6), seat_support(JOINT, z)) for z in (9, 10)]
 CHAIN = Chain(JOINT, 24, 2.5e-3, 6.4e-8, 3e6, 2e-6)
-DRIVER = Sprocket(TEETH[0], Contact(1e7), drive=Drive(-100.0, -100.0))
-DRIVEN = Sprocket(TEETH[1], Contact(1e7), (0.0692, 0.0), mass=0.2, inertia=2e-5, slide=Slide(0.0, 150.0, damping=100.0))
-MODEL = Model(CHAIN, (DRIVER, DRIVEN))
+DRIVER = Sprocket(TEETH[0], ChainContact(1e7), drive=SpeedRamp(-100.0, -100.0))
+DRIVEN = Sprocket(TEETH[1], ChainContact(1e7), (0.0692, 0.0), mass=0.2, inertia=2e-5, slide=Slide(0.0, 150.0, damping=100.0))
+MODEL = ChainDrive(CHAIN, (DRIVER, DRIVEN))
 
 
 @pytest.mark.parametrize(
@@ -41,7 +41,7 @@ def test_chains(change, told):
 @pytest.mark.parametrize(
     ("change", "told"),
     [
-        ({"contact": Contact(0.0)}, "sprocket 2: contact stiffness must be finite and above 0, got 0"),
+        ({"contact": ChainContact(0.0)}, "sprocket 2: contact stiffness must be finite and above 0, got 0"),
         ({"inertia": 0.0}, "sprocket 2: inertia of a sprocket without a drive must be finite and above 0"),
         ({"mass": 0.0}, "sprocket 2: mass of what slides"),
         ({"tip_radius": 0.01, "form_radius": 0.02}, "sprocket 2: tip radius 0.01 m must exceed form radius 0.02 m"),
@@ -55,11 +55,11 @@ def test_sprockets(change, told):
 
 def test_drives():
     with pytest.raises(InputError, match="1 sprocket cannot hold a loop"):
-        Model(CHAIN, (DRIVER,))
+        ChainDrive(CHAIN, (DRIVER,))
     with pytest.raises(InputError, match="no sprocket is driven"):
-        Model(CHAIN, (DRIVEN, DRIVEN))
+        ChainDrive(CHAIN, (DRIVEN, DRIVEN))
     with pytest.raises(InputError, match="guide 1: side must be 'outside' or 'inside', got 'top'"):
-        Model(CHAIN, (DRIVER, DRIVEN), (Guide((0, 0), 1.0, 0.0, 1.0, "top", 1e-3, Contact(1e6)),))
+        ChainDrive(CHAIN, (DRIVER, DRIVEN), (Guide((0, 0), 1.0, 0.0, 1.0, "top", 1e-3, ChainContact(1e6)),))
 
 
 def test_a_step_beyond_stability_names_the_largest():
@@ -68,7 +68,7 @@ def test_a_step_beyond_stability_names_the_largest():
 
 
 def test_literal_contact_damping_is_told_as_over_critical():
-    stiff = with_sprocket(MODEL, 0, contact=Contact(1e7, 1e4))
+    stiff = with_sprocket(MODEL, 0, contact=ChainContact(1e7, 1e4))
     with pytest.raises(InputError, match="damping of joints or contacts is .* times critical; take that step, .* or solve implicitly"):
         simulate(stiff, 0.01)
 

@@ -16,8 +16,8 @@ from drivewright.errors import InputError
 
 P, A = 9.525e-3, np.radians(30)
 CHAIN = link(P, 1.2e-3, A, 2.6e-3)
-HINGE = Link(P, 0.0, A, CHAIN.flank)
-CLASSICAL = Link(P + 14.8e-3, 7.4e-3, A, CHAIN.flank)
+HINGE = Link(P, 0.0, A, CHAIN.flank_support)
+CLASSICAL = Link(P + 14.8e-3, 7.4e-3, A, CHAIN.flank_support)
 
 
 def refuses(text, make, *args, **kwargs):

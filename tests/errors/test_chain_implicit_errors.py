@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from drivewright.chains.dynamics.model import Chain, Contact, Drive, Model, Slide, Sprocket
 from drivewright.chains.implicit.equilibrium import equilibrium
 from drivewright.chains.implicit.simulate import Settings, simulate
 from drivewright.chains.link import link, seat_support
+from drivewright.chains.model import Chain, ChainContact, ChainDrive, Slide, SpeedRamp, Sprocket
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import InputError, SolverError
 
@@ -18,22 +18,22 @@ PITCH = 9.525e-3
 def model(force=75.0, stiffness=1e8, speed=-60.0, torque=0.0):
     joined = link(PITCH, 1.2e-3, np.pi / 6, -0.5e-3)
     first, second = (Tooth(z, 0.5 * PITCH * z / np.pi * np.cos(np.pi / 6), seat_support(joined, z)) for z in (9, 10))
-    contact = Contact(stiffness)
+    contact = ChainContact(stiffness)
     sprockets = (
-        Sprocket(first, contact, angle=0.0, drive=Drive(speed, speed)),
+        Sprocket(first, contact, angle=0.0, drive=SpeedRamp(speed, speed)),
         Sprocket(second, contact, (7.25 * PITCH, 0.0), mass=0.1, inertia=1e-5, torque=torque, slide=Slide(0.0, force)),
     )
-    return Model(Chain(joined, 24, 2.5e-3, 6e-8, stiffness), sprockets)
+    return ChainDrive(Chain(joined, 24, 2.5e-3, 6e-8, stiffness), sprockets)
 
 
 @pytest.mark.parametrize(
     "call, says",
     [
-        (lambda: equilibrium("drive"), "equilibrium: wants a chain drive's Model, got str"),
+        (lambda: equilibrium("drive"), "equilibrium: wants a ChainDrive, got str"),
         (lambda: equilibrium(model(), 0), "positions = 0; it must be a whole number from 1 up"),
         (lambda: equilibrium(model(), 4, teeth=1.5), "teeth = 1.5; it must be a whole number"),
         (lambda: equilibrium(model(force=0.0)), "nothing holds the slide of sprocket 2; give it a force or a stiffness"),
-        (lambda: simulate("drive", 1.0), "simulate: wants a chain drive's Model, got str"),
+        (lambda: simulate("drive", 1.0), "simulate: wants a ChainDrive, got str"),
         (lambda: simulate(model(), -1.0), "the duration must be finite and above 0 s, got -1"),
         (lambda: simulate(model(), 1.0, Settings(rho=1.2)), "rho = 1.2; the highest frequencies shrink by a factor from 0 to 1"),
         (lambda: simulate(model(), 1.0, Settings(step=0.0)), "step must be above 0, got 0"),

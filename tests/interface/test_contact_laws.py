@@ -12,13 +12,13 @@ import pytest
 
 from drivewright import contact, registry
 from drivewright._jit import kernel, plain
-from drivewright.chains.dynamics.bodies import load_guide
-from drivewright.chains.dynamics.model import Chain, Contact, Drive, Guide, Model, Sprocket
-from drivewright.chains.dynamics.state import BODIES, Contacts, law_of, lower
-from drivewright.chains.dynamics.step import load_flanks, load_gravity
+from drivewright.chains.explicit.bodies import load_guide
+from drivewright.chains.explicit.state import BODIES, ContactLaws, compile_model, law_of
+from drivewright.chains.explicit.step import load_flanks, load_gravity
 from drivewright.chains.implicit import energy, parts
-from drivewright.chains.implicit.touch import seek
+from drivewright.chains.implicit.touch import find_candidates
 from drivewright.chains.link import link, seat_height, seat_support
+from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, SpeedRamp, Sprocket
 from drivewright.chains.tooth import Tooth
 from drivewright.contact import ContactParameters, HuntCrossley, KelvinVoigt, contact_law, mean_force, normal_force, stored_energy, tangent
 from drivewright.errors import InputError, UnknownName
@@ -82,9 +82,9 @@ def test_the_mean_over_a_step_of_a_linear_law_is_that_of_ours(depth, rate):
 
 def touching(law, guides=()):
     """One plate astride of a tooth, off its seat and moving."""
-    here = Sprocket(TOOTH, Contact(K, C, law), drive=Drive(1.0, 1.0))
-    there = Sprocket(TOOTH, Contact(K, C, law), (5.0, 0.0), inertia=1.0)
-    return Model(Chain(JOINT, 8, 2.5e-3, 6.4e-8, 3e6), (here, there), guides)
+    here = Sprocket(TOOTH, ChainContact(K, C, law), drive=SpeedRamp(1.0, 1.0))
+    there = Sprocket(TOOTH, ChainContact(K, C, law), (5.0, 0.0), inertia=1.0)
+    return ChainDrive(Chain(JOINT, 8, 2.5e-3, 6.4e-8, 3e6), (here, there), guides)
 
 
 def place(drive, x, y, angle, rates):
@@ -95,7 +95,7 @@ def place(drive, x, y, angle, rates):
 
 
 def on_flanks(law):
-    drive = lower(touching(law))
+    drive = compile_model(touching(law))
     drive.touches.seat[0] = -np.pi / 2
     place(drive, seat_height(JOINT, 12) - 4e-5, 0.0, 2e-4 - np.pi / 2, (-0.3, 0.02, 4.0))
     plain(load_flanks)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, 1e-6)
@@ -104,7 +104,7 @@ def on_flanks(law):
 
 
 def on_guide(law):
-    drive = lower(touching(law, (Guide((0.02, -0.01), 0.03, 0.0, np.pi, "inside", 4e-3, Contact(K, C, law), 0.1),)))
+    drive = compile_model(touching(law, (Guide((0.02, -0.01), 0.03, 0.0, np.pi, "inside", 4e-3, ChainContact(K, C, law), 0.1),)))
     place(drive, 0.021, 0.0239, 0.03, (0.02, 0.3, 4.0))
     plain(load_guide)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.arcs, 0, 0, 1, drive.power, 1e-6)
     return np.array([drive.touches.fx[0], drive.touches.fy[0], drive.touches.stored[0], *drive.power])
@@ -124,7 +124,7 @@ def implicit_field(law, shift=None):
     plates = np.column_stack([np.linspace(0, 1, 8) + 1.0, np.ones(8), np.zeros(8)])
     plates[0] = seat_height(JOINT, 12) - 4e-5, 0.0, 2e-4 - np.pi / 2
     state = parts.at_rest(plates if shift is None else plates + shift, np.zeros((3 - 1, 2)))
-    plain(seek)(made, state)
+    plain(find_candidates)(made, state)
     return plain(energy.assemble)(made, state, 0.0), made.field.plates.copy(), made.field.ring.diagonal.copy()
 
 
@@ -142,9 +142,9 @@ def test_the_implicit_run_takes_it():
 
 
 def test_one_drive_has_one_law():
-    model = touching(theirs.linear, (Guide((0.02, -0.01), 0.03, 0.0, np.pi, "inside", 4e-3, Contact(K)),))
+    model = touching(theirs.linear, (Guide((0.02, -0.01), 0.03, 0.0, np.pi, "inside", 4e-3, ChainContact(K)),))
     with pytest.raises(InputError, match="different contact laws; give all of them the same one"):
-        lower(model)
+        compile_model(model)
 
 
 # -- compiled --------------------------------------------------------------------------------------------------------------------
@@ -159,7 +159,7 @@ def mean_in_a_kernel(contacts, laws, body, depth, rate):
 
 def test_kernels_dispatch_on_the_type_of_the_law():
     law, other = contact_law(theirs.progressive, STATED), contact_law(theirs.linear, STATED)
-    contacts, laws = Contacts((other._replace(k=1.0), other)), Laws(2, law, Laws(1, other, NoLaws()))
+    contacts, laws = ContactLaws((other._replace(k=1.0), other)), Laws(2, law, Laws(1, other, NoLaws()))
     body = np.zeros(1, BODIES).view(np.recarray)[0]
     compiled = mean_in_a_kernel(contacts, laws, body, 3e-5, 0.1)
     assert compiled == plain(mean_in_a_kernel)(contacts, laws, body, 3e-5, 0.1)
@@ -222,7 +222,7 @@ contact.law = "progressive"
 """
 SCRIPT = """
 from drivewright import build, load
-from drivewright.chains.dynamics.simulate import Settings, simulate
+from drivewright.chains.explicit.simulate import Settings, simulate
 from drivewright.errors import SpecError
 from drivewright.mechanisms.silent_chain.moving import moving
 from drivewright.multibody.assembly import assemble

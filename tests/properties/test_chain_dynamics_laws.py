@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from drivewright._jit import plain
-from drivewright.chains.dynamics.advance import run, settle_rates
-from drivewright.chains.dynamics.measure import PLATE, ROW, measured
-from drivewright.chains.dynamics.model import Chain, Contact, Drive, Model, Slide, Sprocket
-from drivewright.chains.dynamics.shots import PLATES, empty_shots
-from drivewright.chains.dynamics.simulate import Settings, simulate
-from drivewright.chains.dynamics.state import lower
+from drivewright.chains.explicit.advance import run, settle_rates
+from drivewright.chains.explicit.measure import PLATE, ROW, measured
+from drivewright.chains.explicit.simulate import Settings, simulate
+from drivewright.chains.explicit.snapshots import PLATES, empty_snapshots
+from drivewright.chains.explicit.state import compile_model
 from drivewright.chains.link import link, seat_support
+from drivewright.chains.model import Chain, ChainContact, ChainDrive, Slide, SpeedRamp, Sprocket
 from drivewright.chains.tooth import Tooth
 
 PITCH, ANGLE, N = 9.525e-3, np.pi / 6, 14
@@ -23,8 +23,8 @@ def ring(radius=1.2e-3, beta=0.0, offset=0.0, seed=3, articulation=0.0):
     joint = link(PITCH, radius, ANGLE, 2e-4)
     tooth = Tooth(9, 0.0118, -5e-3)
     chain = Chain(joint, N, 2.5e-3, 6.4e-8, 1e6, beta, centre_offset=offset, articulation_damping=articulation)
-    far = [Sprocket(tooth, Contact(1e6), (9.0 + k, 9.0), inertia=1.0, drive=Drive(1.0, 1.0) if k == 0 else None) for k in (0, 1)]
-    drive, random = lower(Model(chain, tuple(far))), np.random.default_rng(seed)
+    far = [Sprocket(tooth, ChainContact(1e6), (9.0 + k, 9.0), inertia=1.0, drive=SpeedRamp(1.0, 1.0) if k == 0 else None) for k in (0, 1)]
+    drive, random = compile_model(ChainDrive(chain, tuple(far))), np.random.default_rng(seed)
     p, turn = drive.plates, 2 * np.pi / N
     angle = -turn * np.arange(N)
     height = (0.5 * joint.hole_pitch * np.cos(turn / 2) - radius) / np.sin(turn / 2)
@@ -40,10 +40,10 @@ def ring(radius=1.2e-3, beta=0.0, offset=0.0, seed=3, articulation=0.0):
 
 
 def rows_of(drive, samples, every, dt):
-    shots = empty_shots(samples, 2, N)
+    snapshots = empty_snapshots(samples, 2, N)
     settle_rates(drive, dt)
-    run(drive, shots, 0, samples, every, 50.0, dt)
-    rows = measured(drive, shots, (0,), 0).rows
+    run(drive, snapshots, 0, samples, every, 50.0, dt)
+    rows = measured(drive, snapshots, (0,), 0).rows
     return {name: rows[:, k] for k, name in enumerate(ROW)}
 
 
@@ -59,10 +59,10 @@ def test_a_free_ring_keeps_both_momenta(beta, offset, articulation):
 
 def test_the_watched_plate_moves_as_its_pins_push_it():
     drive, dt, i = ring(), 1e-6, 5
-    shots = empty_shots(20, 2, N)
+    snapshots = empty_snapshots(20, 2, N)
     settle_rates(drive, dt)
-    run(drive, shots, 0, 20, 10, 50.0, dt)
-    log, rows = measured(drive, shots, tuple(range(N)), i), {name: shots.plates[:, k, i] for k, name in enumerate(PLATES)}
+    run(drive, snapshots, 0, 20, 10, 50.0, dt)
+    log, rows = measured(drive, snapshots, tuple(range(N)), i), {name: snapshots.plates[:, k, i] for k, name in enumerate(PLATES)}
     plate = {name: log.plate[:, k] for k, name in enumerate(PLATE)}
     push = (plate["left x"] + plate["right x"] + 1j * (plate["left y"] + plate["right y"])) * np.exp(1j * plate["angle"])
     gained = 2 * 2.5e-3 / dt * (rows["hx"] - rows["vx"] + 1j * (rows["hy"] - rows["vy"]))
@@ -100,7 +100,7 @@ def test_compiled_and_plain_kernels_agree():
     compiled, twin = ring(), ring()
     rows_of(compiled, 2, 5, 1e-6)
     settle_rates(twin, 1e-6)
-    plain(run)(twin, empty_shots(2, 2, N), 0, 2, 5, 50.0, 1e-6)
+    plain(run)(twin, empty_snapshots(2, 2, N), 0, 2, 5, 50.0, 1e-6)
     np.testing.assert_allclose(twin.plates.x[:N], compiled.plates.x[:N], rtol=1e-14)
     np.testing.assert_allclose(twin.plates.hw[:N], compiled.plates.hw[:N], rtol=1e-9)
 
@@ -113,13 +113,13 @@ def drive(turn=0.0, shift=(0.0, 0.0), scale=1.0, offset=0.0):
     joint = link(PITCH, 1.2e-3, ANGLE, 2e-4)
     teeth = [Tooth(z, PITCH * z / (2 * np.pi) * np.cos(ANGLE), seat_support(joint, z)) for z in (9, 10)]
     chain = Chain(joint, 24, 2.5e-3, 6.4e-8, 3e6 / scale**2, 2e-6 * scale, centre_offset=offset, toe=4e-3)
-    contact = Contact(1e7 / scale**2, 5.0 / scale)
+    contact = ChainContact(1e7 / scale**2, 5.0 / scale)
     slide = Slide(turn, 150.0 / scale**2, 1e4 / scale**2, 200.0 / scale)
     centre = (shift[0] + 0.0692 * np.cos(turn), shift[1] + 0.0692 * np.sin(turn))
-    return Model(
+    return ChainDrive(
         chain,
         (
-            Sprocket(teeth[0], contact, shift, angle=turn, drive=Drive(-150 / scale, -150 / scale)),
+            Sprocket(teeth[0], contact, shift, angle=turn, drive=SpeedRamp(-150 / scale, -150 / scale)),
             Sprocket(teeth[1], contact, centre, mass=0.2, inertia=2e-5, torque=0.3 / scale**2, damping=1e-3 / scale, slide=slide),
         ),
     )

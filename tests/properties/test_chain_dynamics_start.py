@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from drivewright.chains.dynamics.assembly import start
-from drivewright.chains.dynamics.measure import ROW
-from drivewright.chains.dynamics.model import Chain, Contact, Drive, Guide, Model, Slide, Sprocket, with_sprocket
-from drivewright.chains.dynamics.simulate import Settings, simulate
+from drivewright.chains.explicit.assembly import start
+from drivewright.chains.explicit.measure import ROW
+from drivewright.chains.explicit.simulate import Settings, simulate
 from drivewright.chains.link import link, seat_height, seat_support
+from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket, with_sprocket
 from drivewright.chains.tooth import Tooth
 
 PITCH, ANGLE = 9.525e-3, np.pi / 6
@@ -20,11 +20,11 @@ def drive(speed=-200.0, thick=0.0, stiffness=1e8, beta=2e-6, damping=300.0, angl
     sprockets = []
     for z in (27, 29):
         tooth, height = Tooth(z, PITCH * z / (2 * np.pi) * np.cos(ANGLE), seat_support(joint, z) - thick), seat_height(joint, z)
-        sprockets.append(Sprocket(tooth, Contact(stiffness), tip_radius=height - 1.9e-3, form_radius=height - 6.2e-3))
-    return Model(
+        sprockets.append(Sprocket(tooth, ChainContact(stiffness), tip_radius=height - 1.9e-3, form_radius=height - 6.2e-3))
+    return ChainDrive(
         Chain(joint, 72, 2.5e-3, 6.4e-8, stiffness / 3, beta, **{"toe": 6e-3, "crotch": 1.4e-3} | chain),
         (
-            replace(sprockets[0], drive=Drive(speed, speed), angle=angle),
+            replace(sprockets[0], drive=SpeedRamp(speed, speed), angle=angle),
             replace(sprockets[1], centre=(0.2095, 0.0), mass=0.3, inertia=2e-4, slide=Slide(0.0, 150.0, damping=damping)),
         ),
     )
@@ -70,7 +70,7 @@ def test_thick_teeth_are_taken_on_without_a_blow():
 def test_pitches_and_guides_are_their_own_when_the_clock_starts():
     pitches = tuple(np.random.default_rng(2).normal(0, 1e-5, 72))
     low = start(drive()).poses[:, 1].min()
-    guide = Guide((0.105, low - 3e-3 - 0.146), 0.15, np.pi / 2 - 0.4, np.pi / 2 + 0.4, "outside", 3e-3, Contact(1e7, 50.0))
+    guide = Guide((0.105, low - 3e-3 - 0.146), 0.15, np.pi / 2 - 0.4, np.pi / 2 + 0.4, "outside", 3e-3, ChainContact(1e7, 50.0))
     run = simulate(replace(drive(deviations=pitches), guides=(guide,)), 0.02)
     assert (run.t[0], run.rows[0, ROW.index("joint damping")]) == (0.0, pytest.approx(0.0, abs=1e-3))
     assert run.outcome == "complete", run.advice
@@ -93,7 +93,7 @@ def test_without_damping_energy_is_kept():
 def test_what_damping_takes_is_counted_exactly():
     # flanks that close and open leave an error of second order, 6e-7; work at predicted rates would leave a hundred times as much
     model = drive(speed=-20.0)
-    model = with_sprocket(model, 0, contact=Contact(1e8, 100.0))
+    model = with_sprocket(model, 0, contact=ChainContact(1e8, 100.0))
     run = simulate(model, 0.01)
     assert np.ptp(run.column("joint damping")) > 100 * np.max(np.abs(run.energy_gap))
     assert np.ptp(run.column("contact damping")) > 10 * np.max(np.abs(run.energy_gap))

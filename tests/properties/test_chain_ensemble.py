@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import drivewright as dw
-from drivewright.chains.dynamics.ensemble import (
+from drivewright.chains.explicit.batch import quantiles, revolution_time
+from drivewright.chains.explicit.ensemble import (
     DISTURBANCE,
     Ensemble,
     amplitude_of,
@@ -20,11 +21,10 @@ from drivewright.chains.dynamics.ensemble import (
     mean_of,
     range_of,
 )
-from drivewright.chains.dynamics.motion import LOSSES, Motion
-from drivewright.chains.dynamics.run_in import SHORTEST, run_in_time
-from drivewright.chains.dynamics.simulate import Settings, first_start, tooth_time
-from drivewright.chains.dynamics.state import SUMS
-from drivewright.chains.dynamics.sweep import quantiles, revolution_time
+from drivewright.chains.explicit.motion import LOSSES, Motion
+from drivewright.chains.explicit.run_in import SHORTEST, run_in_time
+from drivewright.chains.explicit.simulate import Settings, first_start, tooth_time
+from drivewright.chains.explicit.state import SUMS
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import build
 from drivewright.mechanisms.silent_chain.moving import moving

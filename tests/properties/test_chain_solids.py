@@ -34,7 +34,7 @@ def test_strand_has_sheets_and_pins_of_every_link():
     assert parts[1].pose == pytest.approx(seated_poses(CHAIN, 35, [1])[0])
     pin = parts[0].solids[-1]
     assert pin.thickness == pytest.approx(3 * 2e-3 + 2 * 0.05e-3 + 1e-3) and pin.z == pytest.approx(-pin.thickness / 2)
-    hinge = design_plate(Link(P, 0.0, A, CHAIN.flank), HingePin(1.4e-3))
+    hinge = design_plate(Link(P, 0.0, A, CHAIN.flank_support), HingePin(1.4e-3))
     assert [len(part.solids) for part in strand_parts(hinge, np.zeros((3, 3)), (1, 2))] == [3, 3, 2]
 
 

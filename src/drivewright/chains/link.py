@@ -20,7 +20,7 @@ class Link(NamedTuple):
     hole_pitch: float
     radius: float
     flank_angle: float
-    flank: float
+    flank_support: float
 
     @property
     def pitch(self):
@@ -45,7 +45,7 @@ def seat_height(link, teeth):
 
 def seat_support(link, teeth):
     """Support H of a seated plate's right flank: its signed distance from the sprocket's centre along n, w - h sin a  [m]; below 0."""
-    return link.flank - seat_height(link, teeth) * np.sin(link.flank_angle)
+    return link.flank_support - seat_height(link, teeth) * np.sin(link.flank_angle)
 
 
 def chordal_rise(link, teeth):

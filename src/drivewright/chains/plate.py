@@ -79,7 +79,7 @@ class Plate:
 
     def _outer(self, y):
         """x of the right outer flank at height y."""
-        return (self.link.flank + y * np.sin(self.link.flank_angle)) / np.cos(self.link.flank_angle)
+        return (self.link.flank_support + y * np.sin(self.link.flank_angle)) / np.cos(self.link.flank_angle)
 
     def _inner(self, y):
         """x of the right inner flank at height y."""
@@ -205,7 +205,7 @@ def design_plate(link, pins=None, **lengths):
 def _toe_end(link, inner_gap):
     """Height at which a toe is a tenth of the pitch wide: 2 (w + y sin a)/cos a - p - gap/cos a = p/10."""
     a = link.flank_angle
-    return (0.5 * (1.1 * link.pitch * np.cos(a) + inner_gap) - link.flank) / np.sin(a)
+    return (0.5 * (1.1 * link.pitch * np.cos(a) + inner_gap) - link.flank_support) / np.sin(a)
 
 
 class LinkMass(NamedTuple):

@@ -14,9 +14,9 @@ from drivewright import fatigue
 from drivewright._typing import Floats
 from drivewright.chains import closure, meshing
 from drivewright.chains.closure.drive import Strands
-from drivewright.chains.dynamics.model import Chain, Contact, Drive, Model, Slide, Sprocket
 from drivewright.chains.implicit.equilibrium import Equilibrium, equilibrium
 from drivewright.chains.link import link, seat_support
+from drivewright.chains.model import Chain, ChainContact, ChainDrive, Slide, SpeedRamp, Sprocket
 from drivewright.chains.stress import rolling
 from drivewright.chains.tooth import Tooth
 from drivewright.validation.source import AGREES, EXPLAINED, OPEN, Explanation, Printed, Row, Source, rounded
@@ -223,10 +223,10 @@ def elastic_equilibrium(radius: float) -> Equilibrium:
     joint = link(P, radius * MM, np.pi / 6, (2.6 + (1.2 - radius) * np.cos(np.pi / 6)) * MM)
     plates = Chain(joint, LINKS, 2.5e-3, 6.4e-8, STIFFNESS / 3)  # at rest, masses do not matter
     teeth = [Tooth(z, P * z / (2 * np.pi) * np.cos(np.pi / 6), seat_support(joint, z)) for z in (Z1, Z2)]
-    first = Sprocket(teeth[0], Contact(STIFFNESS), angle=0.0, drive=Drive(-200.0, -200.0))
-    second = Sprocket(teeth[1], Contact(STIFFNESS), (219.056 * MM, 0.0), mass=0.6, inertia=9e-4, slide=Slide(0.0, 150.0))
+    first = Sprocket(teeth[0], ChainContact(STIFFNESS), angle=0.0, drive=SpeedRamp(-200.0, -200.0))
+    second = Sprocket(teeth[1], ChainContact(STIFFNESS), (219.056 * MM, 0.0), mass=0.6, inertia=9e-4, slide=Slide(0.0, 150.0))
     tips = [0.5 * P / np.sin(np.pi / z) - 0.9 * MM for z in (Z1, Z2)]
-    return equilibrium(Model(plates, tuple(replace(s, tip_radius=tip) for s, tip in zip((first, second), tips, strict=True))), 24)
+    return equilibrium(ChainDrive(plates, tuple(replace(s, tip_radius=tip) for s, tip in zip((first, second), tips, strict=True))), 24)
 
 
 ROUTES = {

@@ -1,1 +1,1 @@
-"""The chain drive of `chains.dynamics.model` by the other route: energy, exact tangent, equilibrium and implicit motion."""
+"""The chain drive of `chains.model` by the other route: energy, exact tangent, equilibrium and implicit motion."""

@@ -16,7 +16,7 @@ from drivewright.chains.implicit.energy import assemble
 from drivewright.chains.implicit.parts import TORQUE, Parts, State
 from drivewright.chains.implicit.relax import Work, downhill
 from drivewright.chains.implicit.ring import factor
-from drivewright.chains.implicit.touch import seek
+from drivewright.chains.implicit.touch import find_candidates
 
 WORKS = 11  # powers (see POWERS), drive, impulse x and y, turning impulse
 DRIVE, PUSH_X, PUSH_Y, PUSH_TURN = range(7, WORKS)
@@ -65,7 +65,7 @@ def steps(run, scheme, count):
         run.clock[0] += scheme.h
         _predict(run, scheme)
         drive_bodies(run)
-        seek(run.parts, run.state)
+        find_candidates(run.parts, run.state)
         if not _newton(run, scheme):
             return k
         _accept(run.true.plates, run.auxiliary.plates, scheme)

@@ -9,7 +9,7 @@ of an implicit step less its mass.  How damping and friction forces turn with th
 import numpy as np
 
 from drivewright._jit import inner, outer
-from drivewright.chains.dynamics.state import law_of
+from drivewright.chains.explicit.state import law_of
 from drivewright.chains.implicit.parts import ARC, CONTACT, GUIDE, JOINT, SLIDE, TORQUE, TURN
 from drivewright.chains.implicit.ring import clear
 from drivewright.chains.implicit.touch import depth_of, drag_guide
@@ -81,7 +81,7 @@ def _joint(parts, state, i, gain):
     has one of its own.
     """
     field, chain, half, x, v = parts.field, parts.chain, parts.half, state.plates, state.plate_rates
-    k, damping, r, offset = chain.joint_stiffness, chain.joint_damping, 0.5 * chain.rolling, chain.offset
+    k, damping, r, offset = chain.joint_stiffness, chain.joint_damping, 0.5 * chain.rolling_diameter, chain.offset
     articulation = chain.articulation_damping
     j = i + 1 if i + 1 < len(x) else 0
     c, s, c1, s1 = field.directions[i, 0], field.directions[i, 1], field.directions[j, 0], field.directions[j, 1]
@@ -137,7 +137,7 @@ def _put_block(block, stiff, x2, y2, x0, y0, turn):
 def _press(parts, state, pair, body, place, gain):
     """One contact: force of its law onto plate and body; returns its energy."""
     field, rate, force = parts.field, 0.0, 0.0
-    law = law_of(parts.chain.contacts, body, pair.body)
+    law = law_of(parts.chain.laws, body, pair.body)
     depth = depth_of(parts, state, pair, body, place)
     if depth > 0.0:
         for a in range(5):

@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.chains.dynamics.model import Model, with_sprocket
-from drivewright.chains.dynamics.stability import refuse_seats
-from drivewright.chains.implicit.parts import ARC, GAP, TOOTH, assembled, at_rest, lower
+from drivewright.chains.explicit.stability import refuse_seats
+from drivewright.chains.implicit.parts import ARC, GAP, TOOTH, assembled, at_rest, compile_model
 from drivewright.chains.implicit.relax import relax, work_for
+from drivewright.chains.model import ChainDrive, with_sprocket
 from drivewright.errors import InputError, SolverError
 
 _MOST = 1000
@@ -24,7 +24,7 @@ class Equilibrium:
     flank of a plate, or on the seat and the flank of its roller's gap [N]; residual: the largest force left unbalanced [N].
     """
 
-    model: Model
+    model: ChainDrive
     plates: np.ndarray
     bodies: np.ndarray
     joint_force: np.ndarray
@@ -93,7 +93,7 @@ def equilibrium(model, positions=48, teeth=1, tolerance=None):
     """
     _refuse(model, positions, teeth)
     refuse_seats(model)
-    parts = lower(_at_rest(model))
+    parts = compile_model(_at_rest(model))
     work, state = work_for(parts), at_rest(*assembled(model)[:2])
     small = _TOLERANCE * model.chain.joint_stiffness * model.chain.link.pitch if tolerance is None else tolerance
     relax(_endless(parts), state, work, small, _MOST)  # flanks of any length: nothing is lost on the way from the assembly
@@ -182,8 +182,8 @@ def _restless(model, k, positions, residual, small):
 
 
 def _refuse(model, positions, teeth):
-    if not isinstance(model, Model):
-        raise InputError(f"equilibrium: wants a chain drive's Model, got {type(model).__name__}.")
+    if not isinstance(model, ChainDrive):
+        raise InputError(f"equilibrium: wants a ChainDrive, got {type(model).__name__}.")
     for name, value in (("positions", positions), ("teeth", teeth)):
         if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < 1:
             raise InputError(f"equilibrium: {name} = {value!r}; it must be a whole number from 1 up.")

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.chains.dynamics import assembly, state
+from drivewright.chains.explicit import assembly, state
 from drivewright.chains.implicit.ring import Ring, empty_ring
 
 POWERS = ("joint damping", "contact damping", "slide damping", "turn damping", "friction", "guide damping", "torque")
@@ -87,7 +87,7 @@ class Parts(NamedTuple):
     (less psi), the forces of right and left flank (seat and flank of a roller's gap, guide and its friction); `size`[0] of them in use.
     """
 
-    chain: state.Chain
+    chain: state.ChainConstants
     half: np.ndarray
     gravity: np.ndarray
     bodies: np.ndarray
@@ -96,9 +96,9 @@ class Parts(NamedTuple):
     field: Field
 
 
-def lower(model):
+def compile_model(model):
     """The `Parts` of a `Model`."""
-    drive = state.lower(model)
+    drive = state.compile_model(model)
     bodies, count = _records(drive), model.chain.count
     border = int(max(bodies["slide_column"].max(), bodies["turn_column"].max())) + 1
     field = Field(

@@ -8,7 +8,7 @@ from drivewright._jit import inner, outer
 from drivewright.chains.implicit.energy import assemble
 from drivewright.chains.implicit.parts import State
 from drivewright.chains.implicit.ring import factor, solve
-from drivewright.chains.implicit.touch import seek
+from drivewright.chains.implicit.touch import find_candidates
 
 _FIRST_SHIFT, _LAST_SHIFT = 1e-8, 1e6  # of the joint stiffness
 _LONGEST = 0.2  # pitches, or radians, that a step may move a plate
@@ -44,12 +44,12 @@ def relax(parts, state, work, tolerance, most):
     A shift lambda stands for springs lambda k_j that hold every plate where it was: what the drive itself leaves free stays near there.
     It changes the way, not the place of rest.
     """
-    seek(parts, state)
+    find_candidates(parts, state)
     energy, shift, residual = assemble(parts, state, 0.0), 0.0, np.inf
     for step in range(most):
         residual = _residual(parts, work)
         if residual <= tolerance:
-            if not seek(parts, state):
+            if not find_candidates(parts, state):
                 return residual, step
             energy = assemble(parts, state, 0.0)
             continue
@@ -61,7 +61,7 @@ def relax(parts, state, work, tolerance, most):
             shift = max(10.0 * shift, _FIRST_SHIFT)
         elif share == 1.0:
             shift = 0.0 if shift <= _FIRST_SHIFT else 0.1 * shift
-        if share > 0.0 and seek(parts, state):
+        if share > 0.0 and find_candidates(parts, state):
             energy = assemble(parts, state, 0.0)
     return residual, most
 

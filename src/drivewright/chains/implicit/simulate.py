@@ -4,16 +4,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drivewright.chains.dynamics.measure import BODY, PLATE, PRESSED, ROW
-from drivewright.chains.dynamics.model import Model
-from drivewright.chains.dynamics.motion import Motion
-from drivewright.chains.dynamics.simulate import stepping
-from drivewright.chains.dynamics.stability import refuse_seats
+from drivewright.chains.explicit.measure import BODY, PLATE, PRESSED, ROW
+from drivewright.chains.explicit.motion import Motion
+from drivewright.chains.explicit.simulate import stepping
+from drivewright.chains.explicit.stability import refuse_seats
 from drivewright.chains.implicit.advance import WORKS, Run, drive_bodies, scheme, steps, tally
 from drivewright.chains.implicit.energy import assemble
-from drivewright.chains.implicit.parts import ARC, POWERS, State, assembled, lower
+from drivewright.chains.implicit.parts import ARC, POWERS, State, assembled, compile_model
 from drivewright.chains.implicit.relax import work_for
-from drivewright.chains.implicit.touch import seek
+from drivewright.chains.implicit.touch import find_candidates
+from drivewright.chains.model import ChainDrive
 from drivewright.errors import InputError, SolverError
 
 _WORKS = (*POWERS, "drive", "impulse x", "impulse y", "turning impulse")
@@ -61,12 +61,12 @@ def simulate(model, duration, settings=Settings(), *, begin=None, progress=None)
 
 def begun(model, begin_with=None):
     """The `Run` of a model at its start, with the accelerations a = -f/M there."""
-    parts, state = lower(model), assembled(model, begin_with)
+    parts, state = compile_model(model), assembled(model, begin_with)
     parts.bodies["psi0"] = state.bodies[:, 1]
     true, auxiliary = (State(*map(np.zeros_like, state)) for _ in range(2))
     run = Run(parts, state, true, auxiliary, work_for(parts), np.zeros(WORKS), np.zeros(WORKS), np.zeros(1), np.zeros(1, np.int64))
     drive_bodies(run)
-    seek(parts, state)
+    find_candidates(parts, state)
     assemble(parts, state, 0.0)
     tally(run)
     for start in (true, auxiliary):
@@ -171,8 +171,8 @@ def _unsettled(run, step, done):
 
 
 def _refuse(model, duration, settings):
-    if not isinstance(model, Model):
-        raise InputError(f"simulate: wants a chain drive's Model, got {type(model).__name__}.")
+    if not isinstance(model, ChainDrive):
+        raise InputError(f"simulate: wants a ChainDrive, got {type(model).__name__}.")
     if not (np.isfinite(duration) and duration > 0):
         raise InputError(f"simulate: the duration must be finite and above 0 s, got {duration:g}.")
     if not 0 <= settings.rho <= 1:

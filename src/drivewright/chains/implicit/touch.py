@@ -10,6 +10,10 @@ import numpy as np
 
 from drivewright._jit import inner, outer
 from drivewright.chains.implicit.parts import ARC, FRICTION, GAP
+from drivewright.chains.touching.flank import flank_contact, is_active
+from drivewright.chains.touching.guide import is_on_arc, nearest_on_plate
+from drivewright.chains.touching.roller import roller_contact
+from drivewright.chains.touching.seats import nearest_gap, nearest_tooth
 
 
 @outer
@@ -48,10 +52,11 @@ def _line(field, body, c, s, along, up, nx, ny, roll):
 def _flank(parts, body, c, s, along, up, turned, sign):
     """Depth of the right (sign 1) or left flank in its tooth; -1 where their contact lies off either's active flank."""
     chain = parts.chain
-    support, out = body.support + sign * body.base_radius * turned, up - chain.offset
-    depth = sign * chain.cos * along - chain.sin * out + chain.flank - support
-    place = body.base_radius - sign * chain.sin * along - chain.cos * out
-    if not (depth > 0.0 and body.low < support < body.high and chain.deepest < place < chain.highest):
+    rolled = body.base_radius * turned
+    depth, support, place = flank_contact(
+        chain.cos, chain.sin, chain.flank_support, body.base_radius, body.support, sign, along, up - chain.offset, rolled
+    )
+    if not (depth > 0.0 and is_active(support, body.low, body.high, place, chain.deepest, chain.highest)):
         return -1.0
     _line(parts.field, body, c, s, along, up, sign * chain.cos, -chain.sin, sign * body.base_radius)
     return depth
@@ -64,7 +69,7 @@ def _guide(parts, body, c, s, along, up):
     Where the nearest point of that line is its end, two plates make a corner that touches.
     """
     x, y, far = nearest(parts, body, along, up)
-    within = (c * x - s * y) * body.middle_x + (s * x + c * y) * body.middle_y >= body.opening * far
+    within = is_on_arc(c, s, x, y, far, body.middle_x, body.middle_y, body.opening)
     if not (far < body.radius and body.side * y > 0.0 and within):
         return -1.0
     if x == 0.0:
@@ -79,30 +84,28 @@ def _guide(parts, body, c, s, along, up):
 @inner
 def nearest(parts, body, along, up):
     """The nearest point of a plate's back or belly from a guide's centre, in the plate's frame, and its distance."""
-    half = parts.chain.half_plate
-    x, y = along + min(max(-along, -half), half), up - body.side * body.distance - parts.chain.offset
-    return x, y, np.hypot(x, y)
+    y = up - body.side * body.distance - parts.chain.offset
+    _, x, far = nearest_on_plate(along, y, parts.chain.half_plate)
+    return x, y, far
 
 
 @inner
 def _roller(parts, body, c, s, along, up, half, turn, place):
-    """Depth of the roller on the plate's right-hand pin in the seat (place 0) or flank of its gap; -1 in the other one and beyond the tip.
-
-    Concave seat: |e| - seat_gap, e the roller from the seat's centre; convex flank: flank_gap - |e - F|.
-    """
+    """Depth of the roller on the right-hand pin in the seat (place 0) or flank of its gap; -1 in the other one and beyond the tip."""
     arm_x, arm_y = half * c + parts.chain.offset * s, half * s - parts.chain.offset * c
     gx, gy = c * along - s * up + arm_x, s * along + c * up + arm_y
     co, si = np.cos(turn), np.sin(turn)
     across, out = si * gx - co * gy, co * gx + si * gy - body.seat_at
     mirror = 1.0 if across >= 0.0 else -1.0
-    seated = body.edge_x * out - body.edge_y * across * mirror <= 0.0
+    depth, far, x, y, seated = roller_contact(
+        across * mirror, out, body.edge_x, body.edge_y, body.flank_x, body.flank_y, body.seat_gap, body.flank_gap
+    )
     if seated != (place == 0) or not body.seat_at + out < body.low:
         return -1.0
-    x, y = (across, out) if seated else (across - mirror * body.flank_x, out - body.flank_y)
-    far, sign = max(np.hypot(x, y), 1e-15), 1.0 if seated else -1.0
+    x, far, sign = x * mirror, max(far, 1e-15), 1.0 if seated else -1.0
     wx, wy = sign * (x * si + y * co) / far, sign * (y * si - x * co) / far
     _point(parts.field, body, wx, wy, sign / far, arm_x, arm_y, gx, gy)
-    return far - body.seat_gap if seated else body.flank_gap - far
+    return depth
 
 
 @inner
@@ -161,7 +164,7 @@ def drag_guide(parts, state, pair, body, gain):
 
 
 @outer
-def seek(parts, state):
+def find_candidates(parts, state):
     """Pairs of a body and a plate near it, with the tooth that the plate may sit on; of the sprockets only the nearest counts.
 
     Returns whether anything of it is new.
@@ -202,8 +205,7 @@ def _distance(parts, state, n, plate):
 
 @inner
 def _seat(parts, state, n, plate):
-    """Angle of the tooth (for rollers: of the gap) nearest to the plate, against psi: for plates less a right angle, and in whole turns
-    as the plate's own angle."""
+    """Angle of the tooth (for rollers: of the gap) nearest to the plate, against psi; see `touching.seats`."""
     body, q, psi = parts.bodies[n], state.bodies[n, 0], state.bodies[n, 1]
     phi, half, offset, angle = body.pitch_angle, parts.half[plate], parts.chain.offset, state.plates[plate, 2]
     x, y = state.plates[plate, 0] - body.x0 - q * body.ux, state.plates[plate, 1] - body.y0 - q * body.uy
@@ -211,6 +213,5 @@ def _seat(parts, state, n, plate):
         return 0.0
     if body.kind == GAP:
         x, y = x + half * np.cos(angle) + offset * np.sin(angle), y + half * np.sin(angle) - offset * np.cos(angle)
-        return (np.floor((np.arctan2(y, x) - psi) / phi) + 0.5) * phi
-    seat = np.round((np.arctan2(y, x) - psi) / phi) * phi - 0.5 * np.pi
-    return seat + 2 * np.pi * np.round((angle - psi - seat) / (2 * np.pi))
+        return nearest_gap(x, y, psi, phi)
+    return nearest_tooth(x, y, psi, phi, angle)

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from drivewright.chains.dynamics.ensemble import amplitude_of, centre_distance, ensemble, greatest_of, mean_of, range_of
-from drivewright.chains.dynamics.simulate import Settings, simulate, tooth_time
-from drivewright.chains.dynamics.stability import largest_step, refuse_step
+from drivewright.chains.explicit.ensemble import amplitude_of, centre_distance, ensemble, greatest_of, mean_of, range_of
+from drivewright.chains.explicit.simulate import Settings, simulate, tooth_time
+from drivewright.chains.explicit.stability import largest_step, refuse_step
 from drivewright.chains.implicit import simulate as implicit
 from drivewright.errors import InputError, SolverError, SpecError
 from drivewright.mechanisms.silent_chain.moving import moving

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from drivewright.chains.dynamics.simulate import Settings
-from drivewright.chains.dynamics.sweep import Scatter, campbell, monte_carlo, revolution_time
+from drivewright.chains.explicit.batch import Scatter, campbell, monte_carlo, revolution_time
+from drivewright.chains.explicit.simulate import Settings
 from drivewright.chains.implicit.equilibrium import compliance_of, equilibrium
 from drivewright.mechanisms.silent_chain.dynamics import explicit_step
 from drivewright.mechanisms.silent_chain.moving import moving

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from drivewright.chains.dynamics.model import Chain, Contact, Drive, Guide, Model, Slide, Sprocket
-from drivewright.chains.dynamics.roller import RollerTooth
 from drivewright.chains.link import seat_support
+from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket
 from drivewright.chains.roller_sprocket import design_roller_sprocket
+from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.chains.standards import pitch_diameter
 from drivewright.chains.tooth import Tooth
 from drivewright.mechanisms.silent_chain.strands import link_of, strand_force
@@ -15,13 +15,13 @@ IN_LINE = 3  # plate on pin, pin on pin, pin on plate: contacts that make a join
 
 
 def moving(model):
-    """The `Model` of the chain drive for any solver of its motion."""
+    """The `ChainDrive` for any solver of its motion."""
     spec = model.spec
     damping = spec.contact.joint_damping * spec.contact.stiffness if spec.contact.damping is None else spec.contact.damping
-    touch = Contact(spec.contact.stiffness, damping, spec.contact.law)
+    touch = ChainContact(spec.contact.stiffness, damping, spec.contact.law)
     driven = [_driven(model, touch), *(_further(model, each, touch) for each in spec.sprockets)]
     guides = tuple(_guide(model, each, touch) for each in spec.guides)
-    return Model(_chain(model), (_driver(model, touch), *driven), guides, spec.drive.gravity)
+    return ChainDrive(_chain(model), (_driver(model, touch), *driven), guides, spec.drive.gravity)
 
 
 def _chain(model):
@@ -58,7 +58,7 @@ def _articulation(model, found):
 def _driver(model, touch):
     speed = model.spec.drive.speed
     start = 0.0 if model.spec.drive.ramp else -speed
-    return Sprocket(_tooth(model, 0), touch, drive=Drive(-speed, start, model.spec.drive.ramp), **_active(model, 0))
+    return Sprocket(_tooth(model, 0), touch, drive=SpeedRamp(-speed, start, model.spec.drive.ramp), **_active(model, 0))
 
 
 def _driven(model, touch):
@@ -78,7 +78,7 @@ def _driven(model, touch):
         inertia=inertia,
         torque=spec.drive.load_torque,
         damping=turning,
-        calm=nominal,
+        reference_speed=nominal,
         slide=slide,
         **_active(model, 1),
     )

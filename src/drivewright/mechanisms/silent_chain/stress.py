@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from drivewright import fatigue
-from drivewright.chains.dynamics.simulate import tooth_time
+from drivewright.chains.explicit.simulate import tooth_time
 from drivewright.chains.stress.life import life_table, plate_life
 from drivewright.chains.stress.plate import Loads, plate_basis, plate_body, stress_history, stress_picture, worst
 from drivewright.mechanisms.silent_chain.dynamics import no_dynamics

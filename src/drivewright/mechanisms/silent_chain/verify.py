@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 
 from drivewright.chains.closure import States
-from drivewright.chains.dynamics.assembly import start
-from drivewright.chains.dynamics.model import Slide, with_sprocket
-from drivewright.chains.dynamics.simulate import Settings, simulate, tooth_time
-from drivewright.chains.dynamics.stability import largest_step
+from drivewright.chains.explicit.assembly import start
+from drivewright.chains.explicit.simulate import Settings, simulate, tooth_time
+from drivewright.chains.explicit.stability import largest_step
 from drivewright.chains.implicit import simulate as implicit
 from drivewright.chains.implicit.equilibrium import compliance_of, stiffened
 from drivewright.chains.link import seat_support
+from drivewright.chains.model import Slide, with_sprocket
 from drivewright.mechanisms.silent_chain.build import SIDES
 from drivewright.mechanisms.silent_chain.moving import moving
 
@@ -114,7 +114,7 @@ def _tangency(model, result, side, number):
     polar = 0.5 * np.pi - 2 * np.pi / z + filled - (roll - np.arctan(roll))
     points = base * np.hypot(1.0, roll) * np.exp(1j * polar)
     normal = np.exp(-1j * link.flank_angle)
-    gap = (np.conj(normal) * (points - 1j * height)).real - link.flank
+    gap = (np.conj(normal) * (points - 1j * height)).real - link.flank_support
     nearest = int(np.argmin(gap))
     meant = model.sides[number].tooth.support - seat_support(link, z)
     yield f"gap of a seated plate.{side}", float(meant), float(gap[nearest]), "m", 1e-9, DENSE

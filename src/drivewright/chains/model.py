@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from drivewright.chains.dynamics.roller import RollerTooth
 from drivewright.chains.link import Link
+from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import InputError
 
@@ -23,8 +23,8 @@ LINEAR = "kelvin-voigt"
 
 
 @dataclass(frozen=True)
-class Contact:
-    """Contact with a body: stiffness k [N/m], damping c [N s/m], and the law that is made from them.
+class ChainContact:
+    """ChainContact with a body: stiffness k [N/m], damping c [N s/m], and the law that is made from them.
 
     law: LINEAR, force k depth + c rate, never tensile; or a registered contact law, by name or as the function that makes it.
     """
@@ -72,7 +72,7 @@ class Chain:
 
 
 @dataclass(frozen=True)
-class Drive:
+class SpeedRamp:
     """Prescribed speed [rad/s], reached from `start` within `ramp` [s]: start + (speed - start)(x - sin(2 pi x)/(2 pi)), x = t/ramp."""
 
     speed: float
@@ -96,11 +96,11 @@ class Sprocket:
 
     centre [m] at q = 0; angle psi [rad] at the start (None: as the chain asks); tip and form radius [m] of the active flank;
     drive, or free with inertia [kg m^2], torque [N m] counter-clockwise and rotational damping [N m s] against rates that differ from
-    `calm` [rad/s]; slide with mass [kg], or fixed.
+    `reference_speed` [rad/s]; slide with mass [kg], or fixed.
     """
 
     tooth: Tooth | RollerTooth
-    contact: Contact
+    contact: ChainContact
     centre: tuple = (0.0, 0.0)
     angle: float | None = None
     tip_radius: float = np.inf
@@ -109,8 +109,8 @@ class Sprocket:
     inertia: float = 0.0
     torque: float = 0.0
     damping: float = 0.0
-    calm: float = 0.0
-    drive: Drive | None = None
+    reference_speed: float = 0.0
+    drive: SpeedRamp | None = None
     slide: Slide | None = None
 
 
@@ -128,7 +128,7 @@ class Guide:
     end: float
     side: str
     distance: float
-    contact: Contact
+    contact: ChainContact
     friction: float = 0.0
     slip: float = 1e-2
     mass: float = 0.0
@@ -136,7 +136,7 @@ class Guide:
 
 
 @dataclass(frozen=True)
-class Model:
+class ChainDrive:
     """A drive: chain, sprockets clockwise, guides, gravity (x, y) [m/s^2]."""
 
     chain: Chain
@@ -156,8 +156,8 @@ class Model:
 def at_speed(model, speed):
     """The model with its driver at a constant speed [rad/s] from the start; loads are calm at speeds in the same ratio."""
     share = speed / model.sprockets[model.driver].drive.speed
-    calm = replace(model, sprockets=tuple(replace(each, calm=share * each.calm) for each in model.sprockets))
-    return with_sprocket(calm, model.driver, drive=Drive(speed, speed))
+    calm = replace(model, sprockets=tuple(replace(each, reference_speed=share * each.reference_speed) for each in model.sprockets))
+    return with_sprocket(calm, model.driver, drive=SpeedRamp(speed, speed))
 
 
 def with_sprocket(model, number, **changes):
@@ -178,7 +178,7 @@ def check(model):
     for number, sprocket in enumerate(model.sprockets, 1):
         _check_sprocket(sprocket, f"sprocket {number}")
     if not any(sprocket.drive for sprocket in model.sprockets):
-        raise InputError("chain drive: no sprocket is driven; give one a Drive(speed).")
+        raise InputError("chain drive: no sprocket is driven; give one a SpeedRamp(speed).")
     for number, guide in enumerate(model.guides, 1):
         _check_guide(guide, f"guide {number}")
     _finite("gravity", model.gravity)
@@ -211,7 +211,7 @@ def _check_sprocket(sprocket, where):
     elif not sprocket.drive.ramp >= 0 or not np.isfinite(sprocket.drive.speed + sprocket.drive.start):
         raise InputError(f"{where}: the drive needs finite speeds and a ramp of 0 s or more, got {sprocket.drive}.")
     _from_zero(where, "damping", sprocket.damping)
-    _finite(f"{where}: torque and calm rate", (sprocket.torque, sprocket.calm))
+    _finite(f"{where}: torque and calm rate", (sprocket.torque, sprocket.reference_speed))
     _check_slide(sprocket, where)
 
 

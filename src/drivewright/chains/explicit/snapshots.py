@@ -5,15 +5,15 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import inner
-from drivewright.chains.dynamics.state import SUMS
-from drivewright.chains.dynamics.step import total
+from drivewright.chains.explicit.state import SUMS
+from drivewright.chains.explicit.step import total
 
 SCALARS = ("t", "joint damping", "contact damping", *SUMS)
 BODIES = ("q", "vq", "psi", "w", "fx", "fy", "torque", "hq", "hw")
 PLATES = ("x", "y", "angle", "c", "s", "vx", "vy", "w", "hx", "hy", "hw", "fx", "fy", "rx", "ry", "stored", "left", "right")
 
 
-class Shots(NamedTuple):
+class Snapshots(NamedTuple):
     """scalars (S, SCALARS), bodies (S, BODIES, B), plates (S, PLATES, N), joints by the plate behind them."""
 
     scalars: np.ndarray
@@ -21,29 +21,29 @@ class Shots(NamedTuple):
     plates: np.ndarray
 
 
-def empty_shots(samples, bodies, count):
+def empty_snapshots(samples, bodies, count):
     """Room for so many."""
-    return Shots(np.zeros((samples, len(SCALARS))), np.zeros((samples, len(BODIES), bodies)), np.zeros((samples, len(PLATES), count)))
+    return Snapshots(np.zeros((samples, len(SCALARS))), np.zeros((samples, len(BODIES), bodies)), np.zeros((samples, len(PLATES), count)))
 
 
 @inner
-def shoot(chain, p, j, t, b, clock, power, sums, shots, shot, dt):
+def take_snapshot(chain, p, j, t, b, clock, power, sums, snapshots, number, dt):
     """One snapshot, at a whole step under its loads: rates are the means of the half steps on both sides, h those of the later one."""
-    out, n = shots.plates[shot], chain.count
+    out, n = snapshots.plates[number], chain.count
     for row, values in enumerate(
         (p.x, p.y, p.angle, p.c, p.s, p.vx, p.vy, p.w, p.hx, p.hy, p.hw, j.fx, j.fy, j.rx, j.ry, t.stored, t.left, t.right)
     ):
         for i in range(n):
             out[row, i] = values[i]
-    bodies = shots.bodies[shot]
+    bodies = snapshots.bodies[number]
     for m in range(b.q.size):
         for row, value in enumerate((b.q[m], b.vq[m], b.psi[m], b.w[m], b.fx[m], b.fy[m], b.torque[m], b.hq[m], b.hw[m])):
             bodies[row, m] = value
-    shoot_works(n, j, t, clock, power, sums, shots.scalars[shot], dt)
+    record_works(n, j, t, clock, power, sums, snapshots.scalars[number], dt)
 
 
 @inner
-def shoot_works(n, j, t, clock, power, sums, out, dt):
+def record_works(n, j, t, clock, power, sums, out, dt):
     """Time and works up to now; this step, already in the sums of the damping, counts with half its weight: the trapezoidal rule."""
     out[0] = clock[0]
     out[1] = 0.5 * dt * total(j.power, 0, n) - total(j.lost, 0, n)

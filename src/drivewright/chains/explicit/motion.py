@@ -5,8 +5,8 @@ from functools import cached_property
 
 import numpy as np
 
-from drivewright.chains.dynamics.measure import BODY, PLATE, ROW
-from drivewright.chains.dynamics.model import Model
+from drivewright.chains.explicit.measure import BODY, PLATE, ROW
+from drivewright.chains.model import ChainDrive
 from drivewright.numerics.signals import order_spectrum, time_mean
 
 LOSSES = ("drive", "torque", "slide damping", "turn damping", "friction", "guide damping", "joint damping", "contact damping")
@@ -16,7 +16,7 @@ LOSSES = ("drive", "torque", "slide damping", "turn damping", "friction", "guide
 class Motion:
     """A run: rows (m, ROW), bodies (m, sprockets and guides, BODY), tension (m, joints), plate (m, PLATE); columns by name, see below."""
 
-    model: Model
+    model: ChainDrive
     settings: object
     step: float
     every: int

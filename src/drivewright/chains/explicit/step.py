@@ -7,7 +7,8 @@ A contact's force is its mean over the step, see `contact.mean_force`.
 import numpy as np
 
 from drivewright._jit import inner
-from drivewright.chains.dynamics.state import flank_energy, law_of
+from drivewright.chains.explicit.state import PLATES_PER_VECTOR, flank_energy, law_of
+from drivewright.chains.touching.flank import flank_contact, is_active
 from drivewright.contact.time_step import mean_force
 
 
@@ -19,15 +20,15 @@ def load_joints(chain, p, j):
     two plates there: so the force is pure rolling, and conserves angular momentum with damping too.  Articulation, the turning of the
     two plates against each other, is resisted by the torque c (w - w1).
     """
-    k, damping, rolling, offset = chain.joint_stiffness, chain.joint_damping, chain.rolling, chain.offset
+    k, damping, rolling_diameter, offset = chain.joint_stiffness, chain.joint_damping, chain.rolling_diameter, chain.offset
     articulation = chain.articulation_damping
-    for i in range(8 * chain.blocks):
+    for i in range(PLATES_PER_VECTOR * chain.blocks):
         c, s, c1, s1 = p.c[i], p.s[i], p.c1[i], p.s1[i]
         x, y, x1, y1 = p.x[i], p.y[i], p.x1[i], p.y1[i]
         px, py = x + (p.half[i] * c + offset * s), y + (p.half[i] * s - offset * c)
         qx, qy = x1 - (p.half1[i] * c1 - offset * s1), y1 - (p.half1[i] * s1 + offset * c1)
         ux, uy = c + c1, s + s1
-        share = rolling / np.sqrt(ux * ux + uy * uy)
+        share = rolling_diameter / np.sqrt(ux * ux + uy * uy)
         mx, my = 0.5 * (px + qx), 0.5 * (py + qy)
         w, w1 = p.w[i], p.w1[i]
         rx = (p.vx[i] - w * (my - y)) - (p.vx1[i] - w1 * (my - y1))
@@ -44,13 +45,13 @@ def load_joints(chain, p, j):
 
 
 @inner
-def lose_joints(chain, p, j, dt):
+def joint_damping_work(chain, p, j, dt):
     """Power and work of the joints' damping: its force and torque, at the predicted rates, on the way between the half steps.
 
     So the leapfrog's balance of energy is exact, however fast the joints shake.
     """
     damping = chain.joint_damping
-    for i in range(8 * chain.blocks):
+    for i in range(PLATES_PER_VECTOR * chain.blocks):
         mx, my, w, w1 = j.mx[i], j.my[i], p.w[i], p.w1[i]
         rx = (p.vx[i] - w * (my - p.y[i])) - (p.vx1[i] - w1 * (my - p.y1[i]))
         ry = (p.vy[i] + w * (mx - p.x[i])) - (p.vy1[i] + w1 * (mx - p.x1[i]))
@@ -62,7 +63,7 @@ def lose_joints(chain, p, j, dt):
 @inner
 def load_gravity(chain, p, t):
     """Loads start anew with the weight."""
-    for i in range(8 * chain.blocks):
+    for i in range(PLATES_PER_VECTOR * chain.blocks):
         p.fx[i] = p.gx[i]
         p.fy[i] = p.gy[i]
         p.moment[i] = 0.0
@@ -73,11 +74,10 @@ def load_gravity(chain, p, t):
 def load_flanks(chain, p, t, b, teeth, n, first, last, dt):
     """Both flanks of the plates first .. last-1 on the involute teeth of sprocket n.
 
-    In the plate's frame D is its pin frame's origin seen from the sprocket's centre, delta how far it is turned against its seat.
-    Right flank: depth n.D + w - (H + rb delta), contact at s = rb - t.D along the flank; the left one is its mirror image.
+    Depths as in `touching.flank`, forces by the law of the sprocket.
     """
-    ca, sa, wide, offset = chain.cos, chain.sin, chain.flank, chain.offset
-    law, rb, support = law_of(chain.contacts, b[n], n), teeth.base[n], teeth.support[n]
+    ca, sa, wide, offset = chain.cos, chain.sin, chain.flank_support, chain.offset
+    law, rb, support = law_of(chain.laws, b[n], n), teeth.base[n], teeth.support[n]
     low, high, deep, top = teeth.low[n], teeth.high[n], chain.deepest, chain.highest
     bx, by, ux, uy, psi, spin = b.x[n], b.y[n], b.vx[n], b.vy[n], b.psi[n], b.w[n]
     for i in range(np.uint64(first), np.uint64(last)):
@@ -88,14 +88,12 @@ def load_flanks(chain, p, t, b, teeth, n, first, last, dt):
         dx, dy = c * zx + s * zy + w * (ey + offset), c * zy - s * zx - w * ex
         turned = rb * (p.angle[i] - psi - t.seat[i])
         turning = rb * (w - spin)
-        right, left = support + turned, support - turned
-        pen_r = ca * ex - sa * ey + wide - right
-        pen_l = -ca * ex - sa * ey + wide - left
+        pen_r, right, at_r = flank_contact(ca, sa, wide, rb, support, 1.0, ex, ey, turned)
+        pen_l, left, at_l = flank_contact(ca, sa, wide, rb, support, -1.0, ex, ey, turned)
         rate_r = ca * dx - sa * dy - turning
         rate_l = -ca * dx - sa * dy + turning
-        at_r, at_l = rb - sa * ex - ca * ey, rb + sa * ex - ca * ey
-        on_r = (right > low) & (right < high) & (at_r > deep) & (at_r < top)
-        on_l = (left > low) & (left < high) & (at_l > deep) & (at_l < top)
+        on_r = is_active(right, low, high, at_r, deep, top)
+        on_l = is_active(left, low, high, at_l, deep, top)
         elastic_r, fr, _ = mean_force(law, pen_r, rate_r, dt)
         elastic_l, fl, _ = mean_force(law, pen_l, rate_l, dt)
         elastic_r, elastic_l = (elastic_r if on_r else 0.0), (elastic_l if on_l else 0.0)
@@ -109,12 +107,12 @@ def load_flanks(chain, p, t, b, teeth, n, first, last, dt):
         t.torque[i] = rb * (fl - fr)
         t.damped_right[i] = fr - elastic_r
         t.damped_left[i] = fl - elastic_l
-        t.stored[i] += flank_energy(chain.contacts, law, pen_r, pen_l)
+        t.stored[i] += flank_energy(chain.laws, law, pen_r, pen_l)
         p.moment[i] += fr * at_r - fl * at_l + offset * fx
 
 
 @inner
-def lose_flanks(chain, p, t, b, teeth, n, first, last, dt):
+def flank_damping_work(chain, p, t, b, teeth, n, first, last, dt):
     """Power and work of the flanks' damping, as of the joints'."""
     ca, sa, rb = chain.cos, chain.sin, teeth.base[n]
     bx, by, ux, uy, spin = b.x[n], b.y[n], b.vx[n], b.vy[n], b.w[n]
@@ -146,7 +144,7 @@ def total(row, first, last):
 
 
 @inner
-def take_on(p, t, b, n, first, last):
+def add_contact_forces(p, t, b, n, first, last):
     """Contact forces onto the plates first .. last-1, and the opposite ones onto body n."""
     for i in range(np.uint64(first), np.uint64(last)):
         p.fx[i] += t.fx[i]
@@ -169,9 +167,9 @@ def acceleration(p, j, i):
 @inner
 def kick_plates(chain, p, j, dt):
     """Accelerations, half-step rates by them, and the mean of these rates with those before."""
-    for i in range(8 * chain.blocks):
+    for i in range(PLATES_PER_VECTOR * chain.blocks):
         p.fx[i], p.fy[i], p.moment[i] = acceleration(p, j, i)
-    for i in range(8 * chain.blocks):
+    for i in range(PLATES_PER_VECTOR * chain.blocks):
         ax, ay, a = p.fx[i], p.fy[i], p.moment[i]
         hx, hy, hw = p.hx[i], p.hy[i], p.hw[i]
         p.vx[i] = hx + 0.5 * dt * ax
@@ -185,7 +183,7 @@ def kick_plates(chain, p, j, dt):
 @inner
 def drift_plates(chain, p, dt):
     """Places by the half-step rates, directions by the increment of the angle (series, exact to 1e-19); rates predicted there."""
-    for i in range(8 * chain.blocks):
+    for i in range(PLATES_PER_VECTOR * chain.blocks):
         e, c, s = dt * p.hw[i], p.c[i], p.s[i]
         e2 = e * e
         sin, versin = e * (1.0 - e2 * (1.0 / 6.0 - e2 / 120.0)), e2 * (0.5 - e2 * (1.0 / 24.0 - e2 / 720.0))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from drivewright._jit import inner, outer, plain
-from drivewright.chains.dynamics.bodies import (
+from drivewright.chains.explicit.bodies import (
     drift_bodies,
     impulse,
     kick_bodies,
@@ -12,42 +12,43 @@ from drivewright.chains.dynamics.bodies import (
     slide_acceleration,
     turn_acceleration,
 )
-from drivewright.chains.dynamics.shots import shoot
-from drivewright.chains.dynamics.step import (
+from drivewright.chains.explicit.snapshots import take_snapshot
+from drivewright.chains.explicit.step import (
     acceleration,
+    add_contact_forces,
     close_rates,
     close_ring,
     drift_plates,
+    flank_damping_work,
+    joint_damping_work,
     kick_plates,
     load_flanks,
     load_gravity,
     load_joints,
-    lose_flanks,
-    lose_joints,
-    take_on,
 )
+from drivewright.chains.touching.seats import nearest_gap, nearest_tooth
 
 
 @outer
-def run(drive, shots, first, last, every, again, dt):
-    """Shots first .. last-1, `every` steps apart; candidates for contact are sought anew every `again` steps."""
-    chain, p, j, t, b, teeth, arcs, runs, gravity, clock, power, sums = drive
-    for shot in range(first, last):
+def run(drive, snapshots, first, last, every, search_interval, dt):
+    """Snapshots first .. last-1, `every` steps apart; candidates for contact are sought anew every `search_interval` steps."""
+    chain, p, j, t, b, teeth, arcs, candidates, gravity, clock, power, sums = drive
+    for number in range(first, last):
         for n in range(every):
-            if clock[1] % again == 0.0:
-                seek(chain, p, t, b, teeth, arcs, runs)
-            load(chain, p, j, t, b, teeth, arcs, runs, gravity, power, dt)
-            kick(chain, p, j, t, b, teeth, runs, gravity, power, dt)
+            if clock[1] % search_interval == 0.0:
+                find_candidates(chain, p, t, b, teeth, arcs, candidates)
+            load(chain, p, j, t, b, teeth, arcs, candidates, gravity, power, dt)
+            kick(chain, p, j, t, b, teeth, candidates, gravity, power, dt)
             if n == 0:
-                shoot(chain, p, j, t, b, clock, power, sums, shots, shot, dt)
+                take_snapshot(chain, p, j, t, b, clock, power, sums, snapshots, number, dt)
             drift(chain, p, b, clock, power, sums, dt)
 
 
 def settle_rates(drive, dt):
     """From rates at the first whole step to those half a step earlier, which the leapfrog starts with; once, so not worth compiling."""
-    chain, p, j, t, b, teeth, arcs, runs, gravity, _, power, _ = drive
-    plain(seek)(chain, p, t, b, teeth, arcs, runs)
-    plain(load)(chain, p, j, t, b, teeth, arcs, runs, gravity, power, dt)
+    chain, p, j, t, b, teeth, arcs, candidates, gravity, _, power, _ = drive
+    plain(find_candidates)(chain, p, t, b, teeth, arcs, candidates)
+    plain(load)(chain, p, j, t, b, teeth, arcs, candidates, gravity, power, dt)
     rates = np.array([plain(acceleration)(p, j, i) for i in range(chain.count)]).T
     for half, rate in zip((p.hx, p.hy, p.hw), rates, strict=True):
         half[: chain.count] -= 0.5 * dt * rate
@@ -60,7 +61,7 @@ def settle_rates(drive, dt):
 
 
 @inner
-def load(chain, p, j, t, b, teeth, arcs, runs, gravity, power, dt):
+def load(chain, p, j, t, b, teeth, arcs, candidates, gravity, power, dt):
     """All loads at the present places and predicted rates."""
     sprockets = teeth.base.size
     for n in range(b.q.size):
@@ -69,30 +70,30 @@ def load(chain, p, j, t, b, teeth, arcs, runs, gravity, power, dt):
         power[k] = 0.0
     load_joints(chain, p, j)
     load_gravity(chain, p, t)
-    for r in range(runs.size[0]):
-        n, first, last = runs.body[r], runs.first[r], runs.last[r]
+    for r in range(candidates.size[0]):
+        n, first, last = candidates.body[r], candidates.first[r], candidates.last[r]
         if n >= sprockets:
             load_guide(chain, p, t, b, arcs, n - sprockets, first, last, power, dt)
         elif teeth.rolls[n]:
             load_rollers(chain, p, t, b, teeth, n, first, last, dt)
         else:
             load_flanks(chain, p, t, b, teeth, n, first, last, dt)
-        take_on(p, t, b, n, first, last)
+        add_contact_forces(p, t, b, n, first, last)
     impulse(chain, p, b, gravity, power)
 
 
 @inner
-def kick(chain, p, j, t, b, teeth, runs, gravity, power, dt):
+def kick(chain, p, j, t, b, teeth, candidates, gravity, power, dt):
     """Rates one step on under the loads, and what damping takes meanwhile."""
     kick_plates(chain, p, j, dt)
     close_rates(chain, p)
     kick_bodies(b, gravity, power, dt)
     if chain.joint_damping + chain.articulation_damping > 0.0:
-        lose_joints(chain, p, j, dt)
-    for r in range(runs.size[0]):
-        n = runs.body[r]
+        joint_damping_work(chain, p, j, dt)
+    for r in range(candidates.size[0]):
+        n = candidates.body[r]
         if n < teeth.base.size and not teeth.rolls[n] and b.damping[n] > 0.0:
-            lose_flanks(chain, p, t, b, teeth, n, runs.first[r], runs.last[r], dt)
+            flank_damping_work(chain, p, t, b, teeth, n, candidates.first[r], candidates.last[r], dt)
 
 
 @inner
@@ -110,7 +111,7 @@ def drift(chain, p, b, clock, power, sums, dt):
 
 
 @inner
-def seek(chain, p, t, b, teeth, arcs, runs):
+def find_candidates(chain, p, t, b, teeth, arcs, candidates):
     """Runs of plates near each body, the tooth that each of them may sit on; directions anew from the angles, free of drift."""
     for i in range(chain.count):
         p.c[i], p.s[i] = np.cos(p.angle[i]), np.sin(p.angle[i])
@@ -123,14 +124,14 @@ def seek(chain, p, t, b, teeth, arcs, runs):
             if not near(chain, p.x[i], p.y[i], b, teeth, arcs, n):
                 continue
             if i == before + 1:
-                runs.last[size - 1] = i + 1
+                candidates.last[size - 1] = i + 1
             else:
-                runs.body[size], runs.first[size], runs.last[size] = n, i, i + 1
+                candidates.body[size], candidates.first[size], candidates.last[size] = n, i, i + 1
                 size += 1
             before = i
             if n < teeth.base.size:
                 t.seat[i] = seat_of(p, b, teeth, n, i)
-    runs.size[0] = size
+    candidates.size[0] = size
 
 
 @inner
@@ -148,12 +149,9 @@ def near(chain, x, y, b, teeth, arcs, n):
 
 @inner
 def seat_of(p, b, teeth, n, i):
-    """Angle of the tooth (of the gap, for rollers) nearest to plate i, against psi: for plates less a right angle, and in whole turns
-    as the plate's own angle."""
+    """Angle of the tooth (of the gap, for rollers) nearest to plate i, against psi; see `touching.seats`."""
     phi = teeth.pitch_angle[n]
     if teeth.rolls[n]:
         x, y = p.x[i] + p.half[i] * p.c[i] - b.x[n], p.y[i] + p.half[i] * p.s[i] - b.y[n]
-        return (np.floor((np.arctan2(y, x) - b.psi[n]) / phi) + 0.5) * phi
-    polar = np.arctan2(p.y[i] - b.y[n], p.x[i] - b.x[n])
-    seat = np.round((polar - b.psi[n]) / phi) * phi - 0.5 * np.pi
-    return seat + 2 * np.pi * np.round((p.angle[i] - b.psi[n] - seat) / (2 * np.pi))
+        return nearest_gap(x, y, b.psi[n], phi)
+    return nearest_tooth(p.x[i] - b.x[n], p.y[i] - b.y[n], b.psi[n], phi, p.angle[i])

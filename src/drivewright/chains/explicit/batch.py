@@ -6,9 +6,9 @@ import numpy as np
 from scipy.stats import binom
 
 from drivewright.cases import Outcomes, run
-from drivewright.chains.dynamics.ensemble import Ensemble, amplitude_of, centre_distance, ensemble, greatest_of, mean_of, range_of
-from drivewright.chains.dynamics.model import Model, at_speed, with_sprocket
-from drivewright.chains.dynamics.simulate import Settings, tooth_time
+from drivewright.chains.explicit.ensemble import Ensemble, amplitude_of, centre_distance, ensemble, greatest_of, mean_of, range_of
+from drivewright.chains.explicit.simulate import Settings, tooth_time
+from drivewright.chains.model import ChainDrive, at_speed, with_sprocket
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import InputError, SolverError
 from drivewright.numerics.ensemble import Estimate, of_members
@@ -96,7 +96,7 @@ class Spread:
     outcomes: Outcomes
 
 
-def scattered(model, scatter, seed) -> Model:
+def scattered(model, scatter, seed) -> ChainDrive:
     """The model with one draw of manufacturing scatter; the same seed gives the same drive."""
     random = np.random.default_rng(seed)
     drawn = np.asarray(model.chain.deviations or np.zeros(model.chain.count)) + random.normal(0.0, scatter.pitch, model.chain.count)

@@ -1,6 +1,6 @@
 """Statistics of a running chain: windows of one revolution of the chain, in several runs whose starts differ by nanometres.
 
-Contacts that open and close make the run of a chain chaotic: after some milliseconds such runs share nothing but their statistics.
+ContactLaws that open and close make the run of a chain chaotic: after some milliseconds such runs share nothing but their statistics.
 """
 
 from collections.abc import Callable
@@ -10,8 +10,8 @@ from functools import cached_property
 import numpy as np
 
 from drivewright.cases import run as run_cases
-from drivewright.chains.dynamics.motion import Motion
-from drivewright.chains.dynamics.simulate import Settings, first_start, simulate
+from drivewright.chains.explicit.motion import Motion
+from drivewright.chains.explicit.simulate import Settings, first_start, simulate
 from drivewright.errors import InputError, SolverError
 from drivewright.numerics.ensemble import ENOUGH, Estimate, estimate
 from drivewright.numerics.signals import order_spectrum, time_mean
@@ -26,7 +26,7 @@ ROUNDING = 1e-6  # windows that agree to this part of a statistic repeat each ot
 
 @dataclass(frozen=True)
 class Ensemble:
-    """Runs of one drive, the first undisturbed; the first alone where they stay together, and are not chaotic.
+    """ContactCandidates of one drive, the first undisturbed; the first alone where they stay together, and are not chaotic.
 
     A signal is a function of a run that returns its samples (m,).
     """

@@ -9,13 +9,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from drivewright._jit import generic, implements
-from drivewright.chains.dynamics.model import LINEAR, Guide, Model
-from drivewright.chains.dynamics.roller import RollerTooth
+from drivewright.chains.model import LINEAR, ChainDrive, Guide
+from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.contact.laws import ContactParameters, contact_law
 from drivewright.contact.normal import KelvinVoigt, stored_energy
 from drivewright.errors import InputError
 
-WIDTH = 8  # plates that one vector instruction may hold
+PLATES_PER_VECTOR = 8  # as many as one vector instruction may hold; loops over plates run over a whole number of these
 
 
 class Plates(NamedTuple):
@@ -165,7 +165,7 @@ ARCS = np.dtype([(name, float) for name in ("radius", "distance", "side", "middl
 """Per guide: radius; distance to the pin line; side (-1 outside, 1 inside); middle of its arc, cosine of half of it; friction, slip."""
 
 
-class Runs(NamedTuple):
+class ContactCandidates(NamedTuple):
     """Plates first .. last-1 that may touch a body; `size`[0] of them are in use."""
 
     body: np.ndarray  # sprockets first, then guides
@@ -174,13 +174,13 @@ class Runs(NamedTuple):
     size: np.ndarray
 
 
-class LinearContacts(NamedTuple):
+class LinearLaws(NamedTuple):
     """Every body is touched by a linear law, stiffness and damping in its record."""
 
     bodies: int
 
 
-class Contacts(NamedTuple):
+class ContactLaws(NamedTuple):
     """Every body has a law of its own, all of one class."""
 
     laws: tuple[Any, ...]
@@ -198,27 +198,27 @@ def flank_energy(contacts: Any, law: Any, right: float, left: float) -> float:
     raise NotImplementedError
 
 
-@implements(law_of, LinearContacts)
+@implements(law_of, LinearLaws)
 def _(contacts, body, number):
     return KelvinVoigt(body.stiffness, body.damping)
 
 
-@implements(flank_energy, LinearContacts)
+@implements(flank_energy, LinearLaws)
 def _(contacts, law, right, left):
     return 0.5 * law.k * (right * right + left * left)
 
 
-@implements(law_of, Contacts)
+@implements(law_of, ContactLaws)
 def _(contacts, body, number):
     return contacts.laws[number]
 
 
-@implements(flank_energy, Contacts)
+@implements(flank_energy, ContactLaws)
 def _(contacts, law, right, left):
     return stored_energy(law, -right) + stored_energy(law, -left)
 
 
-class Chain(NamedTuple):
+class ChainConstants(NamedTuple):
     """What all plates share."""
 
     count: int
@@ -226,30 +226,30 @@ class Chain(NamedTuple):
     joint_stiffness: float
     joint_damping: float  # beta k_j
     articulation_damping: float
-    rolling: float  # 2 r
+    rolling_diameter: float  # 2 r
     offset: float
     cos: float
     sin: float
-    flank: float
+    flank_support: float
     deepest: float  # limits of the contact's place along the flank
     highest: float
     half_plate: float
     mass: float
     inertia: float
-    contacts: LinearContacts | Contacts
+    laws: LinearLaws | ContactLaws
 
 
-class Drive(NamedTuple):
+class DriveArrays(NamedTuple):
     """All arrays of a drive; clock: time [s], steps done; power and its integral, see SUMS."""
 
-    chain: Chain
+    chain: ChainConstants
     plates: Plates
     joints: Joints
     touches: Touches
     bodies: np.recarray
     teeth: Teeth
     arcs: np.recarray
-    runs: Runs
+    candidates: ContactCandidates
     gravity: np.ndarray
     clock: np.ndarray
     power: np.ndarray
@@ -260,10 +260,10 @@ SUMS = ("drive", "torque", "slide damping", "turn damping", "friction", "guide d
 DRIVE, TORQUE, SLIDE_DAMPING, TURN_DAMPING, FRICTION, GUIDE_DAMPING, IMPULSE_X, IMPULSE_Y, TURNING_IMPULSE = range(len(SUMS))
 
 
-def lower(model):
-    """The `Drive` of a model, its plates not yet placed."""
+def compile_model(model):
+    """The `DriveArrays` of a model, its plates not yet placed."""
     chain = _chain(model)
-    return Drive(
+    return DriveArrays(
         chain,
         _plates(model, chain),
         _joints(chain),
@@ -282,8 +282,8 @@ def lower(model):
 def _chain(model):
     chain, link = model.chain, model.chain.link
     ca, sa = np.cos(link.flank_angle), np.sin(link.flank_angle)
-    along = [(link.flank * sa - depth) / ca for depth in (chain.toe, chain.crotch)]
-    blocks = chain.count // WIDTH + 1  # one more place than plates at least, for the copy of the first
+    along = [(link.flank_support * sa - depth) / ca for depth in (chain.toe, chain.crotch)]
+    blocks = chain.count // PLATES_PER_VECTOR + 1  # one more place than plates at least, for the copy of the first
     values = (
         chain.joint_stiffness,
         chain.joint_damping * chain.joint_stiffness,
@@ -292,37 +292,37 @@ def _chain(model):
         chain.centre_offset,
         ca,
         sa,
-        link.flank,
+        link.flank_support,
         *along,
         0.5 * link.pitch,
         chain.mass,
         chain.inertia,
     )
     # Whole numbers among them would be compiled for anew.
-    return Chain(int(chain.count), blocks, *map(float, values), _contacts(model))
+    return ChainConstants(int(chain.count), blocks, *map(float, values), _contacts(model))
 
 
-def _contacts(model: Model) -> LinearContacts | Contacts:
+def _contacts(model: ChainDrive) -> LinearLaws | ContactLaws:
     """The contact laws of all bodies, sprockets first."""
     contacts = [body.contact for body in (*model.sprockets, *model.guides)]
     if all(each.law == LINEAR for each in contacts):
-        return LinearContacts(len(contacts))
+        return LinearLaws(len(contacts))
     if len({each.law for each in contacts}) > 1:
         raise InputError("chain drive: sprockets and guides touch by different contact laws; give all of them the same one.")
-    return Contacts(tuple(contact_law(each.law, ContactParameters(each.stiffness, damping=each.damping)) for each in contacts))
+    return ContactLaws(tuple(contact_law(each.law, ContactParameters(each.stiffness, damping=each.damping)) for each in contacts))
 
 
-def _lanes(chain):
-    return np.zeros(WIDTH * chain.blocks + 1)
+def _padded_row(chain):
+    return np.zeros(PLATES_PER_VECTOR * chain.blocks + 1)
 
 
 def _plates(model, chain):
-    moving = [_lanes(chain) for _ in range(7)]
+    moving = [_padded_row(chain) for _ in range(7)]
     moving[2][:] = 1.0
-    half, rest = _lanes(chain), [_lanes(chain)[:-1] for _ in range(7)]
+    half, rest = _padded_row(chain), [_padded_row(chain)[:-1] for _ in range(7)]
     half[: chain.count] = 0.5 * model.chain.hole_pitches
     half[chain.count] = half[0]
-    live = np.where(np.arange(WIDTH * chain.blocks) < chain.count, 1.0, 0.0)
+    live = np.where(np.arange(PLATES_PER_VECTOR * chain.blocks) < chain.count, 1.0, 0.0)
     constants = (
         live / model.chain.mass,
         live / model.chain.inertia,
@@ -333,12 +333,12 @@ def _plates(model, chain):
 
 
 def _joints(chain):
-    rows = [_lanes(chain) for _ in range(5)]
-    return Joints(*(a[1:] for a in rows), *(a[:-1] for a in rows), *(_lanes(chain)[:-1] for _ in range(4)))
+    rows = [_padded_row(chain) for _ in range(5)]
+    return Joints(*(a[1:] for a in rows), *(a[:-1] for a in rows), *(_padded_row(chain)[:-1] for _ in range(4)))
 
 
 def _touches(chain):
-    return Touches(*(_lanes(chain)[:-1] for _ in Touches._fields))
+    return Touches(*(_padded_row(chain)[:-1] for _ in Touches._fields))
 
 
 def _bodies(model):
@@ -349,7 +349,7 @@ def _bodies(model):
         row.psi0 = row.psi = getattr(body, "angle", 0.0) or 0.0
         row.mass, row.inertia = body.mass if body.slide else 1.0, getattr(body, "inertia", 0.0) or 1.0
         row.turn_damping = getattr(body, "damping", 0.0)
-        row.load = getattr(body, "torque", 0.0) + row.turn_damping * getattr(body, "calm", 0.0)
+        row.load = getattr(body, "torque", 0.0) + row.turn_damping * getattr(body, "reference_speed", 0.0)
         row.stiffness, row.damping = body.contact.stiffness, body.contact.damping
         _slide(row, body.slide)
         _drive(row, getattr(body, "drive", None), isinstance(body, Guide))
@@ -416,4 +416,4 @@ def _arcs(guides):
 
 def _runs(model, chain):
     room = (len(model.sprockets) + len(model.guides)) * chain.count
-    return Runs(*(np.zeros(room, np.int64) for _ in range(3)), np.zeros(1, np.int64))
+    return ContactCandidates(*(np.zeros(room, np.int64) for _ in range(3)), np.zeros(1, np.int64))

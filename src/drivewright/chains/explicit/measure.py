@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.chains.dynamics.shots import BODIES, PLATES, SCALARS
-from drivewright.chains.dynamics.state import SUMS
+from drivewright.chains.explicit.snapshots import BODIES, PLATES, SCALARS
+from drivewright.chains.explicit.state import SUMS
 
 ROW = (
     "t",
@@ -43,19 +43,19 @@ def empty_log(samples, bodies, joints):
     )
 
 
-def measured(drive, shots, joints, plate):
+def measured(drive, snapshots, joints, plate):
     """The `Log` of snapshots; `joints` whose tension, `plate` whose forces are asked for."""
-    p = {name: shots.plates[:, k] for k, name in enumerate(PLATES)}
-    b = {name: shots.bodies[:, k] for k, name in enumerate(BODIES)}
+    p = {name: snapshots.plates[:, k] for k, name in enumerate(PLATES)}
+    b = {name: snapshots.bodies[:, k] for k, name in enumerate(BODIES)}
     tension, across, stretched = joint_forces(drive.chain, p)
-    columns = {name: shots.scalars[:, k] for k, name in enumerate(SCALARS)} | momenta(drive.chain, p)
+    columns = {name: snapshots.scalars[:, k] for k, name in enumerate(SCALARS)} | momenta(drive.chain, p)
     columns["kinetic"] = plates_kinetic(drive.chain, p) + bodies_kinetic(drive.bodies, b)
     columns["elastic"] = stretched + np.sum(p["stored"], axis=1)
     columns["potential"] = columns["elastic"] + weight(drive, p) + bodies_potential(drive, b)
     columns["contacts"] = np.sum(p["left"] > 0, axis=1) + np.sum(p["right"] > 0, axis=1)
     columns["open joints"] = np.sum(tension <= 0, axis=1)
     columns["utilisation"] = utilisation(tension, across)
-    bodies = np.moveaxis(shots.bodies[:, : len(BODY)], 1, 2)
+    bodies = np.moveaxis(snapshots.bodies[:, : len(BODY)], 1, 2)
     return Log(np.stack([columns[name] for name in ROW], axis=1), bodies, tension[:, list(joints)], watched(p, plate))
 
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drivewright.chains.dynamics.roller import RollerTooth
 from drivewright.chains.link import seat_height
+from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.errors import DoesNotAssemble, InputError, SolverError
 from drivewright.numerics.roots import newton
 
@@ -88,7 +88,7 @@ def start(model, before=0.0):
     if loop.slide is not None:
         places[loop.slide] = q
     pitches[np.concatenate(seated)] = loop.link.hole_pitch
-    supports = loop.link.flank - loop.height * np.sin(loop.link.flank_angle)
+    supports = loop.link.flank_support - loop.height * np.sin(loop.link.flank_angle)
     return Start(poses, rates, places, psi, np.zeros(len(psi)), speed, seated, tension, pitches, supports, -np.sign(speed[0]) * chain_speed)
 
 

@@ -3,9 +3,9 @@
 import numpy as np
 
 from drivewright._jit import warmer
-from drivewright.chains.dynamics.model import Chain, Contact, Drive, Model, Slide, Sprocket
-from drivewright.chains.dynamics.simulate import simulate
+from drivewright.chains.explicit.simulate import simulate
 from drivewright.chains.link import link, seat_support
+from drivewright.chains.model import Chain, ChainContact, ChainDrive, Slide, SpeedRamp, Sprocket
 from drivewright.chains.tooth import Tooth
 
 
@@ -15,7 +15,7 @@ def warm_chain_dynamics():
     joint = link(9.525e-3, 1.2e-3, np.pi / 6, 2e-4)
     tooth = Tooth(10, 9.525e-3 * 10 / (2 * np.pi) * np.cos(np.pi / 6), seat_support(joint, 10))
     sprockets = (
-        Sprocket(tooth, Contact(1e7), drive=Drive(-100.0, -100.0)),
-        Sprocket(tooth, Contact(1e7), (0.0667, 0.0), mass=0.2, inertia=2e-5, slide=Slide(0.0, 150.0)),
+        Sprocket(tooth, ChainContact(1e7), drive=SpeedRamp(-100.0, -100.0)),
+        Sprocket(tooth, ChainContact(1e7), (0.0667, 0.0), mass=0.2, inertia=2e-5, slide=Slide(0.0, 150.0)),
     )
-    simulate(Model(Chain(joint, 24, 2.5e-3, 6.4e-8, 3e6), sprockets), 1e-4)
+    simulate(ChainDrive(Chain(joint, 24, 2.5e-3, 6.4e-8, 3e6), sprockets), 1e-4)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from drivewright._jit import inner
-from drivewright.chains.dynamics.state import (
+from drivewright.chains.explicit.state import (
     DRIVE,
     FRICTION,
     GUIDE_DAMPING,
@@ -15,7 +15,9 @@ from drivewright.chains.dynamics.state import (
     TURNING_IMPULSE,
     law_of,
 )
-from drivewright.chains.dynamics.step import total
+from drivewright.chains.explicit.step import total
+from drivewright.chains.touching.guide import is_on_arc, nearest_on_plate
+from drivewright.chains.touching.roller import roller_contact
 from drivewright.contact.normal import stored_energy
 from drivewright.contact.time_step import mean_force
 
@@ -24,10 +26,9 @@ from drivewright.contact.time_step import mean_force
 def load_rollers(chain, p, t, b, teeth, n, first, last, dt):
     """Rollers on the right-hand pins of the plates first .. last-1 in the gaps of sprocket n.
 
-    e is the roller's centre seen from that of the seat, mirrored to the right, y outward.  Within the seat's angle the depth is
-    |e| + roller - ri, beyond it re + roller - |e - F| with F the centre of the flank's arc: both depth and normal are continuous.
+    Depths as in `touching.roller`, of the roller's centre seen from that of the seat, mirrored to the right.
     """
-    law, bx, by, spin = law_of(chain.contacts, b[n], n), b.x[n], b.y[n], b.w[n]
+    law, bx, by, spin = law_of(chain.laws, b[n], n), b.x[n], b.y[n], b.w[n]
     ex, ey, hx, hy = teeth.edge_x[n], teeth.edge_y[n], teeth.flank_x[n], teeth.flank_y[n]
     for i in range(first, last):
         rx, ry = p.half[i] * p.c[i] + chain.offset * p.s[i], p.half[i] * p.s[i] - chain.offset * p.c[i]
@@ -36,11 +37,9 @@ def load_rollers(chain, p, t, b, teeth, n, first, last, dt):
         across, out = s * gx - c * gy, c * gx + s * gy - teeth.seat_at[n]
         mirror = 1.0 if across >= 0.0 else -1.0
         across *= mirror
-        seated = ex * out - ey * across <= 0.0
-        far = np.hypot(across, out) if seated else np.hypot(across - hx, out - hy)
-        depth = far - teeth.seat_gap[n] if seated else teeth.flank_gap[n] - far
+        depth, far, x, y, seated = roller_contact(across, out, ex, ey, hx, hy, teeth.seat_gap[n], teeth.flank_gap[n])
         near = 1.0 / max(far, 1e-15)
-        nx, ny = (-across * near, -out * near) if seated else ((across - hx) * near, (out - hy) * near)
+        nx, ny = (-x * near, -y * near) if seated else (x * near, y * near)
         nx *= mirror
         wx, wy = nx * s + ny * c, ny * s - nx * c
         zx, zy = p.vx[i] - p.w[i] * ry - b.vx[n] + spin * gy, p.vy[i] + p.w[i] * rx - b.vy[n] - spin * gx
@@ -65,19 +64,18 @@ def load_guide(chain, p, t, b, arcs, n, first, last, power, dt):
     guide, the corner touches.  Depth R - |r|, normal r/|r|; friction -mu fn v/sqrt(v^2 + slip^2).
     """
     body = n + b.q.size - arcs.side.size
-    law, side, half = law_of(chain.contacts, b[body], body), arcs.side[n], chain.half_plate
+    law, side, half = law_of(chain.laws, b[body], body), arcs.side[n], chain.half_plate
     py = -side * arcs.distance[n] - chain.offset  # of the line, above the mass centre
     for i in range(first, last):
         c, s, w = p.c[i], p.s[i], p.w[i]
         gx, gy = p.x[i] - b.x[body], p.y[i] - b.y[body]
         zx, zy = p.vx[i] - b.vx[body], p.vy[i] - b.vy[body]
         ex, ry = c * gx + s * gy, c * gy - s * gx + py
-        px = min(max(-ex, -half), half)
-        far = np.hypot(ex + px, ry)
-        nx, ny = (ex + px) / far, ry / far
+        px, x, far = nearest_on_plate(ex, ry, half)
+        nx, ny = x / far, ry / far
         vx, vy = c * zx + s * zy - w * py, c * zy - s * zx + w * px
         depth, rate = arcs.radius[n] - far, -(nx * vx + ny * vy)
-        within = (c * nx - s * ny) * arcs.middle_x[n] + (s * nx + c * ny) * arcs.middle_y[n] >= arcs.opening[n]
+        within = is_on_arc(c, s, nx, ny, 1.0, arcs.middle_x[n], arcs.middle_y[n], arcs.opening[n])
         elastic, force, touching = mean_force(law, depth, rate, dt)
         on = touching and side * ry > 0.0 and within
         elastic, force = (elastic if on else 0.0), (force if on else 0.0)

@@ -10,8 +10,8 @@ settle soonest, so the run-in lasts two of their periods, most of it under about
 
 import numpy as np
 
-from drivewright.chains.dynamics.advance import run
-from drivewright.chains.dynamics.shots import empty_shots
+from drivewright.chains.explicit.advance import run
+from drivewright.chains.explicit.snapshots import empty_snapshots
 
 PARTS = 400  # of the run-in, between which rates are damped
 FADED = 1 / 3  # part of the run-in in which the parts take on their own measures
@@ -41,17 +41,17 @@ def steps_of(duration, step):
     return max(1, round(duration / PARTS / step))
 
 
-def run_in(drive, begin, steps, step, again):
+def run_in(drive, begin, steps, step, search_interval):
     """Run the drive in for PARTS of so many steps; afterwards its clock stands at 0 and its works start anew."""
     own, first = _measures(drive), _first_measures(drive, begin)
     ramps = drive.bodies.ramp.copy(), drive.bodies.speed.copy()
     drive.bodies.ramp[:], drive.bodies.speed[:] = 0.0, drive.bodies.w
-    shots = empty_shots(1, len(drive.bodies), drive.chain.count)
+    snapshots = empty_snapshots(1, len(drive.bodies), drive.chain.count)
     for part in range(PARTS):
         done = (part + 1) / PARTS
         faded = min(1.0, done / FADED)
         _set_measures(drive, first, own, faded * faded * (3 - 2 * faded))
-        run(drive, shots, 0, 1, steps, again, step)
+        run(drive, snapshots, 0, 1, steps, search_interval, step)
         rate = BLOWS * max(0.0, 1 - done / (1.2 * FADED)) ** 2 + STRANDS * (1 - done)
         _damp(drive, begin, 1 - np.exp(-rate / PARTS))
     drive.bodies.ramp[:], drive.bodies.speed[:] = ramps

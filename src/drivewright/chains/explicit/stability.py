@@ -64,7 +64,7 @@ def refuse_seats(model):
         if not isinstance(sprocket.tooth, Tooth):
             continue
         tooth = sprocket.tooth
-        depth = link.flank * np.sin(a) - (tooth.base_radius - seat_height(link, tooth.teeth) * np.cos(a)) * np.cos(a)
+        depth = link.flank_support * np.sin(a) - (tooth.base_radius - seat_height(link, tooth.teeth) * np.cos(a)) * np.cos(a)
         if not chain.crotch < depth < chain.toe:
             raise InputError(
                 f"sprocket {number}: a seated plate touches {1e3 * depth:.4g} mm below its pins, but its flank reaches from "

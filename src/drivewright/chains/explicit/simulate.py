@@ -5,20 +5,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drivewright.chains.dynamics.advance import run, settle_rates
-from drivewright.chains.dynamics.assembly import start
-from drivewright.chains.dynamics.measure import empty_log, measured
-from drivewright.chains.dynamics.model import Model
-from drivewright.chains.dynamics.motion import Motion
-from drivewright.chains.dynamics.run_in import PARTS, run_in, run_in_time, steps_of
-from drivewright.chains.dynamics.shots import Shots, empty_shots
-from drivewright.chains.dynamics.stability import refuse_seats, refuse_step
-from drivewright.chains.dynamics.state import lower
+from drivewright.chains.explicit.advance import run, settle_rates
+from drivewright.chains.explicit.assembly import start
+from drivewright.chains.explicit.measure import empty_log, measured
+from drivewright.chains.explicit.motion import Motion
+from drivewright.chains.explicit.run_in import PARTS, run_in, run_in_time, steps_of
+from drivewright.chains.explicit.snapshots import Snapshots, empty_snapshots
+from drivewright.chains.explicit.stability import refuse_seats, refuse_step
+from drivewright.chains.explicit.state import compile_model
+from drivewright.chains.model import ChainDrive
 from drivewright.errors import InputError
 
 CHUNK = 0.3  # seconds of computing between two looks at the outside world
 ROOM = 16000  # plates, over all snapshots, that are kept until they are measured: what a cache holds
-AGAIN = 50  # steps between two searches for who may touch whom
+SEARCH_INTERVAL = 50  # steps between two searches for who may touch whom
 DRIFT = 0.02  # of a tooth that a sprocket may turn in between
 
 
@@ -49,9 +49,9 @@ def simulate(model, duration, settings=Settings(), *, begin=None, progress=None)
     refuse_step(model, settings.step)
     refuse_seats(model)
     every, step, samples = stepping(model, duration, settings)
-    again = _again(model, step)
-    drive = _begun(model, begin, settings, step, again)
-    log = _in_chunks(drive, settings, samples, every, again, step, progress)
+    search_interval = _search_interval(model, step)
+    drive = _begun(model, begin, settings, step, search_interval)
+    log = _in_chunks(drive, settings, samples, every, search_interval, step, progress)
     return Motion(model, settings, step, every, log.rows, log.bodies, log.tension, log.plate)
 
 
@@ -68,13 +68,13 @@ def _run_in_steps(model, settings, step):
     return steps_of(duration, step) if duration > 0 else 0
 
 
-def _begun(model, begin, settings, step, again):
+def _begun(model, begin, settings, step, search_interval):
     """The drive run in, sprocket 1 at its angle."""
     begin = first_start(model, settings) if begin is None else begin
     steps = _run_in_steps(model, settings, step)
     drive = placed(model, begin, step)
     if steps:
-        run_in(drive, begin, steps, step, again)
+        run_in(drive, begin, steps, step, search_interval)
     return drive
 
 
@@ -94,7 +94,7 @@ def tooth_time(model):
 
 def placed(model, begin, step):
     """The arrays of a model at its start, its rates half a step before."""
-    drive = lower(model)
+    drive = compile_model(model)
     p, b, n, offset = drive.plates, drive.bodies, model.chain.count, model.chain.centre_offset
     x, y, angle = begin.poses.T
     c, s = np.cos(angle), np.sin(angle)
@@ -117,23 +117,23 @@ def _place_bodies(b, begin):
     b.vx[:], b.vy[:] = b.vq * b.ux, b.vq * b.uy
 
 
-def _again(model, step):
+def _search_interval(model, step):
     """Steps between two searches."""
     speed = 2 * np.pi / tooth_time(model)  # teeth times angular speed, of every sprocket
-    return float(max(1, min(AGAIN, int(2 * np.pi * DRIFT / (speed * step)))))
+    return float(max(1, min(SEARCH_INTERVAL, int(2 * np.pi * DRIFT / (speed * step)))))
 
 
-def _in_chunks(drive, settings, samples, every, again, step, progress):
+def _in_chunks(drive, settings, samples, every, search_interval, step, progress):
     """The `Log` of all samples, in chunks of so many as CHUNK seconds and ROOM hold."""
     bodies, count = len(drive.bodies), drive.chain.count
     log = empty_log(samples, bodies, len(settings.joints))
     room = min(samples, max(1, ROOM // count))
-    shots, done, many = empty_shots(room, bodies, count), 0, 1
+    snapshots, done, many = empty_snapshots(room, bodies, count), 0, 1
     while done < samples:
         began, now = time.perf_counter(), min(many, samples - done)
-        run(drive, shots, 0, now, every, again, step)
+        run(drive, snapshots, 0, now, every, search_interval, step)
         took = max(time.perf_counter() - began, 1e-9)
-        taken = measured(drive, Shots(*(each[:now] for each in shots)), settings.joints, settings.plate)
+        taken = measured(drive, Snapshots(*(each[:now] for each in snapshots)), settings.joints, settings.plate)
         for whole, part in zip(log, taken, strict=True):
             whole[done : done + now] = part
         many = max(1, min(int(now * CHUNK / took), 8 * many, room))
@@ -144,8 +144,8 @@ def _in_chunks(drive, settings, samples, every, again, step, progress):
 
 
 def _refuse(model, duration, settings):
-    if not isinstance(model, Model):
-        raise InputError(f"simulate: wants a chain drive's Model, got {type(model).__name__}.")
+    if not isinstance(model, ChainDrive):
+        raise InputError(f"simulate: wants a ChainDrive, got {type(model).__name__}.")
     if not (np.isfinite(duration) and duration > 0):
         raise InputError(f"simulate: the duration must be finite and above 0 s, got {duration:g}.")
     if not 0 <= settings.settle < duration:
