@@ -10,7 +10,7 @@ import drivewright as dw
 from drivewright import registry
 from drivewright.spec import document, from_document
 
-route = import_module("drivewright.mechanisms.silent_chain.verify")
+route = import_module("drivewright.oracles.silent_chain.independent_check")
 MECHANISM = registry.mechanism("silent-chain")
 ONLY = ("meshing", "closure", "contact")
 

@@ -12,8 +12,7 @@ from drivewright.mechanisms.silent_chain.meshing import meshing, no_meshing
 from drivewright.mechanisms.silent_chain.plots import plots
 from drivewright.mechanisms.silent_chain.scene import drawings, parts, scene
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
-from drivewright.mechanisms.silent_chain.verify import verify
-from drivewright.registry import Analysis, Mechanism
+from drivewright.registry import Analysis, Mechanism, oracle
 from drivewright.result import Answer
 
 
@@ -115,6 +114,6 @@ mechanism = Mechanism(
     plots=plots,
     drawings=drawings,
     parts=parts,
-    verify=verify,
+    verify=oracle("silent_chain"),
     batch=batch,
 )
