@@ -23,18 +23,18 @@ class Link(NamedTuple):
     flank_support: float
 
     @property
-    def pitch(self):
+    def pitch(self) -> float:
         """Pitch of the straight chain, A - 2 r  [m]."""
         return self.hole_pitch - 2 * self.radius
 
 
-def link(pitch, radius, flank_angle, apothem):
+def link(pitch: float, radius: float, flank_angle: float, apothem: float) -> Link:
     """A `Link` from its pitch p, rolling radius r, flank angle a and the distance f0 from hole centre to flank: w = f0 + A/2 cos a."""
     hole_pitch = pitch + 2 * radius
     return Link(hole_pitch, radius, flank_angle, apothem + 0.5 * hole_pitch * np.cos(flank_angle))
 
 
-def seat_height(link, teeth):
+def seat_height(link: Link, teeth: int) -> float:
     """Height h of a seated plate's pin line above the sprocket's centre: (A/2 cos t - r)/sin t, t = pi/z  [m].
 
     Neighbouring plates turned by 2t against each other close to a regular polygon; h follows from the joint alone.
@@ -43,12 +43,12 @@ def seat_height(link, teeth):
     return (0.5 * link.hole_pitch * np.cos(t) - link.radius) / np.sin(t)
 
 
-def seat_support(link, teeth):
+def seat_support(link: Link, teeth: int) -> float:
     """Support H of a seated plate's right flank: its signed distance from the sprocket's centre along n, w - h sin a  [m]; below 0."""
     return link.flank_support - seat_height(link, teeth) * np.sin(link.flank_angle)
 
 
-def chordal_rise(link, teeth):
+def chordal_rise(link: Link, teeth: int) -> float:
     """How far a straight strand that leaves the seated polygon rises and falls over a tooth  [m].
 
     (p/2) tan(t/2) + 2 r (tan(t/2) - sin(t/2)),  t = pi/z, half-way between two seats; for r = 0 it is that of a roller chain,

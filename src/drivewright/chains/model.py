@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.chains.link import Link
 from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.chains.tooth import Tooth
@@ -56,17 +57,17 @@ class Chain:
     toe: float = np.inf
     crotch: float = -np.inf
     elongation: float = 0.0
-    deviations: tuple = ()
+    deviations: tuple[float, ...] = ()
     articulation_damping: float = 0.0
 
     @property
-    def hole_pitches(self):
+    def hole_pitches(self) -> Floats:
         """Hole pitch of every plate, A + elongation p + its deviation (N,)  [m]."""
         own = np.asarray(self.deviations, float) if len(self.deviations) else np.zeros(self.count)
         return self.link.hole_pitch + self.elongation * self.link.pitch + own
 
     @property
-    def line_density(self):
+    def line_density(self) -> float:
         """Mass per length of the straight chain  [kg/m]."""
         return self.mass / self.link.pitch
 
@@ -101,7 +102,7 @@ class Sprocket:
 
     tooth: Tooth | RollerTooth
     contact: ChainContact
-    centre: tuple = (0.0, 0.0)
+    centre: tuple[float, float] = (0.0, 0.0)
     angle: float | None = None
     tip_radius: float = np.inf
     form_radius: float = 0.0
@@ -122,7 +123,7 @@ class Guide:
     below `slip` [m/s]; a slide with mass [kg] makes it a tensioner.
     """
 
-    centre: tuple
+    centre: tuple[float, float]
     radius: float
     start: float
     end: float
@@ -140,27 +141,29 @@ class ChainDrive:
     """A drive: chain, sprockets clockwise, guides, gravity (x, y) [m/s^2]."""
 
     chain: Chain
-    sprockets: tuple
-    guides: tuple = ()
-    gravity: tuple = (0.0, 0.0)
+    sprockets: tuple[Sprocket, ...]
+    guides: tuple[Guide, ...] = ()
+    gravity: tuple[float, float] = (0.0, 0.0)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         check(self)
 
     @property
-    def driver(self):
+    def driver(self) -> int:
         """Number of the first sprocket with a drive."""
         return next(n for n, sprocket in enumerate(self.sprockets) if sprocket.drive)
 
 
-def at_speed(model, speed):
-    """The model with its driver at a constant speed [rad/s] from the start; loads are calm at speeds in the same ratio."""
-    share = speed / model.sprockets[model.driver].drive.speed
-    calm = replace(model, sprockets=tuple(replace(each, reference_speed=share * each.reference_speed) for each in model.sprockets))
-    return with_sprocket(calm, model.driver, drive=SpeedRamp(speed, speed))
+def at_speed(model: ChainDrive, speed: float) -> ChainDrive:
+    """The model with its driver at a constant speed [rad/s] from the start; reference speeds of the dampers change in the same ratio."""
+    driver = model.sprockets[model.driver].drive
+    assert driver is not None
+    share = speed / driver.speed
+    slower = replace(model, sprockets=tuple(replace(each, reference_speed=share * each.reference_speed) for each in model.sprockets))
+    return with_sprocket(slower, model.driver, drive=SpeedRamp(speed, speed))
 
 
-def with_sprocket(model, number, **changes):
+def with_sprocket(model: ChainDrive, number: int, **changes: Any) -> ChainDrive:
     """The model with one sprocket changed."""
     changed = list(model.sprockets)
     changed[number] = replace(changed[number], **changes)
@@ -170,7 +173,7 @@ def with_sprocket(model, number, **changes):
 # ------------------------------------------------------------------------------------------------------------------ checks
 
 
-def check(model):
+def check(model: ChainDrive) -> None:
     """InputError where the description has no meaning."""
     _check_chain(model.chain)
     if len(model.sprockets) < 2:
@@ -211,7 +214,7 @@ def _check_sprocket(sprocket, where):
     elif not sprocket.drive.ramp >= 0 or not np.isfinite(sprocket.drive.speed + sprocket.drive.start):
         raise InputError(f"{where}: the drive needs finite speeds and a ramp of 0 s or more, got {sprocket.drive}.")
     _from_zero(where, "damping", sprocket.damping)
-    _finite(f"{where}: torque and calm rate", (sprocket.torque, sprocket.reference_speed))
+    _finite(f"{where}: torque and reference speed", (sprocket.torque, sprocket.reference_speed))
     _check_slide(sprocket, where)
 
 

@@ -1,6 +1,7 @@
 """Laws of touching: Hertz contact, impact and its losses, friction, oil film, wear."""
 
 from importlib import import_module
+from typing import Any
 
 from drivewright.contact.hertz import (
     LineContact,
@@ -65,7 +66,7 @@ __all__ = [
 ]
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> Any:
     if name not in _MODULE:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f"{__name__}.{_MODULE[name]}"), name)

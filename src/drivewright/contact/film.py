@@ -14,7 +14,7 @@ from drivewright._jit import kernel
 
 
 @kernel
-def _line_of_centres(ex, ey, vx, vy, spin, clearance):
+def _line_of_centres(ex: float, ey: float, vx: float, vy: float, spin: float, clearance: float) -> tuple[float, float, float, float, float]:
     """Direction (nx, ny), eccentricity ratio eps, wedge  eps w/2 - v_t/c  and squeeze  eps' = v_n/c  [1/s]."""
     size = np.hypot(ex, ey)
     nx, ny = (ex / size, ey / size) if size > 0.0 else (1.0, 0.0)
@@ -23,7 +23,9 @@ def _line_of_centres(ex, ey, vx, vy, spin, clearance):
 
 
 @kernel
-def long_bearing(ex, ey, vx, vy, spin, viscosity, length, radius, clearance):
+def long_bearing(
+    ex: float, ey: float, vx: float, vy: float, spin: float, viscosity: float, length: float, radius: float, clearance: float
+) -> tuple[float, float]:
     """(Fx, Fy) [N] on the journal of a bearing much longer than wide: Pinkus & Sternlicht (1961), recalled.
 
     With  P = mu L R^3/c^2,  wedge a = eps (w - 2 g')/2,  squeeze b = eps',  s = sqrt((1 - eps^2) (a^2 + b^2)):
@@ -48,7 +50,9 @@ def long_bearing(ex, ey, vx, vy, spin, viscosity, length, radius, clearance):
 
 
 @kernel
-def short_bearing(ex, ey, vx, vy, spin, viscosity, length, radius, clearance):
+def short_bearing(
+    ex: float, ey: float, vx: float, vy: float, spin: float, viscosity: float, length: float, radius: float, clearance: float
+) -> tuple[float, float]:
     """(Fx, Fy) [N] on the journal of a bearing much shorter than wide: Ocvirk (1952), recalled; squeeze included.
 
     Pressure along the line at the angle x from the line of centres:  mu L^3/c^2 (b cos x - a sin x)/(1 - eps cos x)^3 with wedge a and
@@ -66,7 +70,7 @@ def short_bearing(ex, ey, vx, vy, spin, viscosity, length, radius, clearance):
 
 
 @kernel
-def _moments(x, eps):
+def _moments(x: float, eps: float) -> tuple[float, float, float]:
     """Antiderivatives of (cos^2 x, cos x sin x, sin^2 x)/(1 - eps cos x)^3, continuous for |x| < 2 pi."""
     rest = 1.0 - eps * eps
     y = 2.0 * np.arctan2(np.sqrt(1.0 + eps) * np.sin(0.5 * x), np.sqrt(1.0 - eps) * np.cos(0.5 * x))

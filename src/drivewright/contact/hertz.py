@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.special import ellipkm1, elliprd
 
+from drivewright._typing import Floats, Numbers
 from drivewright.errors import InputError
 from drivewright.numerics.roots import extremes
 
@@ -17,25 +18,25 @@ from drivewright.numerics.roots import extremes
 class LineContact(NamedTuple):
     """half_width b [m], peak pressure p0 [Pa]."""
 
-    half_width: np.ndarray
-    pressure: np.ndarray
+    half_width: Numbers
+    pressure: Numbers
 
 
 class PointContact(NamedTuple):
     """Semi-axes a >= b [m] of the contact ellipse, a along the larger relative radius; peak pressure p0 [Pa]; approach [m]."""
 
-    major: np.ndarray
-    minor: np.ndarray
-    pressure: np.ndarray
-    approach: np.ndarray
+    major: Numbers
+    minor: Numbers
+    pressure: Numbers
+    approach: Numbers
 
 
-def effective_modulus(modulus1, poisson1, modulus2, poisson2):
+def effective_modulus(modulus1: Numbers, poisson1: Numbers, modulus2: Numbers, poisson2: Numbers) -> Numbers:
     """E*: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2  [Pa]."""
     return 1.0 / ((1 - np.square(poisson1)) / modulus1 + (1 - np.square(poisson2)) / modulus2)
 
 
-def effective_radius(radius1, radius2):
+def effective_radius(radius1: Numbers, radius2: Numbers) -> Numbers:
     """R: 1/R = 1/R1 + 1/R2  [m].  A concave radius is negative, a plane is inf.
 
     Raises InputError where the hollow is not wider than the body in it: there is no small contact.
@@ -52,7 +53,7 @@ def effective_radius(radius1, radius2):
 # ---------------------------------------------------------------------------------------------------------------- line
 
 
-def line_contact(force, length, radius, modulus):
+def line_contact(force: Numbers, length: Numbers, radius: Numbers, modulus: Numbers) -> LineContact:
     """Parallel cylinders: b = sqrt(4 F R/(pi L E*)),  p0 = sqrt(F E*/(pi L R)).
 
     force [N], length [m], effective radius R [m], effective modulus E* [Pa].
@@ -61,7 +62,7 @@ def line_contact(force, length, radius, modulus):
     return LineContact(np.sqrt(4 * load * radius / (np.pi * modulus)), np.sqrt(load * modulus / (np.pi * radius)))
 
 
-def line_shear(depth):
+def line_shear(depth: Numbers) -> Floats:
     """Greatest shear stress over p0 below the middle of a line contact: |z - z^2/sqrt(1 + z^2)|, z = depth/b.
 
     Half the difference of the stresses across and normal to the surface; the third one lies between them near the peak.
@@ -70,13 +71,15 @@ def line_shear(depth):
     return depth - depth**2 / np.sqrt(1 + depth**2)
 
 
-def line_greatest_shear():
+def line_greatest_shear() -> tuple[float, float]:
     """(depth/b, shear/p0) of the peak of `line_shear`, where fatigue of a rolling line contact begins: 0.786, 0.300."""
     _, _, depth, shear = extremes(line_shear, 0.0, 4.0)
     return depth, shear
 
 
-def cylinder_compression(force, length, half_width, radius, modulus, poisson):
+def cylinder_compression(
+    force: Numbers, length: Numbers, half_width: Numbers, radius: Numbers, modulus: Numbers, poisson: Numbers
+) -> Numbers:
     """How far a line contact comes nearer to the axis of ONE solid cylinder: F/L (1 - nu^2)/(pi E) (2 ln(4 R/b) - 1)  [m].
 
     The cylinder has its own radius R, E and nu, and is held by the opposite side.  The approach of two cylinders is the sum.
@@ -88,7 +91,7 @@ def cylinder_compression(force, length, half_width, radius, modulus, poisson):
 # --------------------------------------------------------------------------------------------------------------- point
 
 
-def relative_radii(radii1, radii2, angle=0.0):
+def relative_radii(radii1: tuple[Numbers, Numbers], radii2: tuple[Numbers, Numbers], angle: Numbers = 0.0) -> tuple[Floats, Floats]:
     """The principal relative radii (R', R''), R' >= R'', of two bodies that touch at a point  [m].
 
     radii1 = (R1', R1''), radii2 likewise: principal radii of each, concave negative, plane inf; `angle` [rad] between the
@@ -107,7 +110,7 @@ def relative_radii(radii1, radii2, angle=0.0):
     return 1.0 / low, 1.0 / high
 
 
-def point_contact(force, radii, modulus):
+def point_contact(force: Numbers, radii: tuple[Numbers, Numbers], modulus: Numbers) -> PointContact:
     """Contact ellipse, pressure and approach of two bodies with the principal relative radii (R', R''), R' >= R''.
 
     With the ratio of axes x = b/a from  R'/R'' = R_D(0, 1, x^2)/R_D(0, x^2, 1):
@@ -121,12 +124,12 @@ def point_contact(force, radii, modulus):
     return PointContact(major, ratio * major, pressure, 1.5 * force * ellipkm1(ratio**2) / (np.pi * major * modulus))
 
 
-def point_constant(radii, modulus):
+def point_constant(radii: tuple[Numbers, Numbers], modulus: Numbers) -> Numbers:
     """k of force = k approach^(3/2)  [N/m^1.5]; 4/3 E* sqrt(R) for a sphere."""
     return point_contact(1.0, radii, modulus).approach ** -1.5
 
 
-def axis_ratio(radius_ratio):
+def axis_ratio(radius_ratio: Numbers) -> Floats:
     """b/a, in (0, 1], of the contact ellipse for R'/R'' >= 1, by bisection of its logarithm."""
     wanted = np.asarray(radius_ratio, dtype=float)
     if not np.all(wanted >= 1):

@@ -16,6 +16,7 @@ import numpy as np
 
 from drivewright import registry
 from drivewright._jit import kernel
+from drivewright._typing import Floats, Numbers
 from drivewright.contact.normal import hunt_crossley_chi
 from drivewright.errors import InputError, UnknownName
 from drivewright.numerics.roots import bracketed_roots
@@ -33,12 +34,12 @@ class ImpactLaw(NamedTuple):
     source: str
 
 
-def impact_law_names():
+def impact_law_names() -> list[str]:
     """Names of all impact laws, built in or plugged in, sorted."""
     return sorted({*_BUILT_IN, *registry.plugins(PLUGINS)})
 
 
-def impact_law(name) -> ImpactLaw:
+def impact_law(name: str) -> ImpactLaw:
     """The impact law of a name; UnknownName with the nearest one otherwise."""
     if name not in impact_law_names():
         raise UnknownName("impact law", name, impact_law_names())
@@ -99,7 +100,7 @@ def _elastic(e):
     return 0.0
 
 
-def delivered_restitution(factor):
+def delivered_restitution(factor: float) -> float:
     """The coefficient of restitution e that a free impact with the factor h >= 0 really gives.
 
     Root of  h (1 + e) = ln((1 + h)/(1 - h e)).  With y = h e in 0 .. 1 it reads  -ln(1 - y) - y = h - ln(1 + h);  w = -ln(1 - y)
@@ -120,7 +121,7 @@ def delivered_restitution(factor):
 # ---------------------------------------------------------------------------------------------------------- Kelvin-Voigt
 
 
-def kelvin_voigt_restitution(damping, stiffness, mass):
+def kelvin_voigt_restitution(damping: float, stiffness: float, mass: float) -> float:
     """What a free impact delivers under F = max(K d + c d', 0): exp(-2 z acos(z)/sqrt(1 - z^2)),  z = c/(2 sqrt(K m)).
 
     c [N s/m], K [N/m], m [kg] the effective mass m1 m2/(m1 + m2).  The body leaves where the force is gone, before the spring is
@@ -129,7 +130,7 @@ def kelvin_voigt_restitution(damping, stiffness, mass):
     return math.exp(-_kelvin_voigt_loss(damping / (2 * math.sqrt(stiffness * mass))))
 
 
-def kelvin_voigt_damping(restitution, stiffness, mass):
+def kelvin_voigt_damping(restitution: float, stiffness: float, mass: float) -> float:
     """The damping c [N s/m] with which F = max(K d + c d', 0) delivers the restitution e in a free impact of the mass m.
 
     The root of `kelvin_voigt_restitution`.  The textbooks' c = -2 ln e sqrt(K m/(pi^2 + ln^2 e)) belongs to a force that may pull until
@@ -174,7 +175,7 @@ def lasting_factor(factor: float) -> float:
 # ---------------------------------------------------------------------------------------------------------- elastic force
 
 
-def journal_stiffness(bearing_radius, journal_radius, modulus):
+def journal_stiffness(bearing_radius: Numbers, journal_radius: Numbers, modulus: Numbers) -> Numbers:
     """K of F = K d^1.5:  4/3 E* sqrt(Rb Rj/(Rb - Rj))  [N/m^1.5], as for a ball of the journal's radius in a hollow ball.
 
     radii [m], E* [Pa] as from `effective_modulus`.  Lankarani & Nikravesh (1990), recalled.
@@ -187,7 +188,9 @@ def journal_stiffness(bearing_radius, journal_radius, modulus):
     return 4 / 3 * modulus * np.sqrt(bearing_radius * np.asarray(journal_radius) / clearance)
 
 
-def cylinder_depth(force, clearance, bearing_radius, journal_radius, modulus, length):
+def cylinder_depth(
+    force: Numbers, clearance: Numbers, bearing_radius: Numbers, journal_radius: Numbers, modulus: Numbers, length: Numbers
+) -> Floats:
     """Depth d [m] of a cylinder pressed into a cylindrical hollow:  d = x (ln(4 c/x) - 1),  x = F/(pi E* L).
 
     force [N] >= 0, radial clearance c = Rb - Rj [m], E* [Pa], length L [m]; arrays that broadcast.  It is the sum of both bodies'
@@ -203,7 +206,7 @@ def cylinder_depth(force, clearance, bearing_radius, journal_radius, modulus, le
 
 
 @kernel
-def cylinder_force(depth, clearance, bearing_radius, journal_radius, modulus, length):
+def cylinder_force(depth: float, clearance: float, bearing_radius: float, journal_radius: float, modulus: float, length: float) -> float:
     """The inverse of `cylinder_depth`, for kernels: force [N] of scalars, 0 where depth <= 0.
 
     Newton's method on  y (ln(4/y) - 1) = d/c,  y = x/c: the function is concave, so the first step lands below the root and the
@@ -226,7 +229,9 @@ def cylinder_force(depth, clearance, bearing_radius, journal_radius, modulus, le
 
 
 @kernel
-def cylinder_energy(depth, force, clearance, bearing_radius, journal_radius, modulus, length):
+def cylinder_energy(
+    depth: float, force: float, clearance: float, bearing_radius: float, journal_radius: float, modulus: float, length: float
+) -> float:
     """Elastic energy [J] at a depth where `cylinder_force` is `force`:  S c y^2 (ln(4/y)/2 - 3/4),  S = pi E* L c,  y = F/S.
 
     Beyond the end of Hertz' theory the depth grows linearly with the force, and the energy as the work along that line.

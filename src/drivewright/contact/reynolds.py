@@ -10,12 +10,14 @@ ends smoothly.  Second order in the grid.  It checks the closed forms of `contac
 length; it is not made for a time step.  In `FilmMap` everything is a pure number.
 """
 
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import splu, spsolve
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError, SolverError
 
 SHAPE = (180, 24)
@@ -24,10 +26,10 @@ SHAPE = (180, 24)
 class Film(NamedTuple):
     """angle (n,) in the axes of the eccentricity [rad], axial (m,) from the middle to the end [m], pressure (n, m) [Pa], force (2,) [N]."""
 
-    angle: np.ndarray
-    axial: np.ndarray
-    pressure: np.ndarray
-    force: np.ndarray
+    angle: Floats
+    axial: Floats
+    pressure: Floats
+    force: Floats
 
 
 class FilmMap(NamedTuple):
@@ -37,13 +39,23 @@ class FilmMap(NamedTuple):
     direction = atan2(a, b): 0 approach, pi/2 pure wedge, pi retreat.  A negative one mirrors the tangential part.
     """
 
-    eccentricity: np.ndarray
-    direction: np.ndarray
-    radial: np.ndarray
-    tangential: np.ndarray
+    eccentricity: Floats
+    direction: Floats
+    radial: Floats
+    tangential: Floats
 
 
-def solve_film(eccentricity, velocity, spin, viscosity, length, radius, clearance, cavitation="gumbel", shape=SHAPE) -> Film:
+def solve_film(
+    eccentricity: ArrayLike,
+    velocity: ArrayLike,
+    spin: float,
+    viscosity: float,
+    length: float,
+    radius: float,
+    clearance: float,
+    cavitation: str = "gumbel",
+    shape: tuple[int, int] = SHAPE,
+) -> Film:
     """The film at one instant; eccentricity (2,) [m], velocity (2,) [m/s] and spin [rad/s] as in `contact.film`.
 
     shape: nodes around and along half the length.  The pressure is never negative.
@@ -67,7 +79,9 @@ def solve_film(eccentricity, velocity, spin, viscosity, length, radius, clearanc
     return Film(grid.x + np.arctan2(n[1], n[0]), 0.5 * length * grid.u, scale * field, force)
 
 
-def film_map(slenderness, eccentricities, directions, shape=SHAPE) -> FilmMap:
+def film_map(
+    slenderness: float, eccentricities: Sequence[float] | Floats, directions: ArrayLike, shape: tuple[int, int] = SHAPE
+) -> FilmMap:
     """The dimensionless force of a bearing with L/D = slenderness, for every eccentricity ratio in [0, 1) and direction; Gumbel.
 
     Wedge and squeeze are solved once per eccentricity: before the negative part is cut off the pressure is linear in both.
@@ -82,7 +96,12 @@ def film_map(slenderness, eccentricities, directions, shape=SHAPE) -> FilmMap:
     return FilmMap(np.asarray(eccentricities, dtype=float), directions, radial, tangential)
 
 
-def closed_form_map(film, slenderness, eccentricities, directions) -> FilmMap:
+def closed_form_map(
+    film: Callable[..., tuple[float, float]],
+    slenderness: float,
+    eccentricities: Sequence[float] | Floats,
+    directions: Sequence[float] | Floats,
+) -> FilmMap:
     """The same table by a closed form, `long_bearing` or `short_bearing`."""
     forces = np.array(
         [[film(eps, 0.0, np.cos(d), -np.sin(d), 0.0, 1.0, 2 * slenderness, 1.0, 1.0) for d in directions] for eps in eccentricities]
@@ -90,7 +109,7 @@ def closed_form_map(film, slenderness, eccentricities, directions) -> FilmMap:
     return FilmMap(np.asarray(eccentricities, dtype=float), np.asarray(directions, dtype=float), forces[..., 0], forces[..., 1])
 
 
-def film_deviation(closed, solved):
+def film_deviation(closed: FilmMap, solved: FilmMap) -> Floats:
     """|difference of force| / |force| of two FilmMaps over the same places."""
     return np.hypot(closed.radial - solved.radial, closed.tangential - solved.tangential) / np.hypot(solved.radial, solved.tangential)
 
@@ -98,7 +117,7 @@ def film_deviation(closed, solved):
 class _Grid:
     """Nodes x (n,) around and u (m,) from the middle to the open end, and the equation -div(H^3 grad P) = right-hand side on them."""
 
-    def __init__(self, eps, slenderness, shape):
+    def __init__(self, eps: float, slenderness: float, shape: tuple[int, int]) -> None:
         around, along = shape
         if not (0 <= eps < 1 and slenderness > 0):
             raise InputError(
@@ -127,14 +146,14 @@ class _Grid:
         film = sparse.diags_array((1 - self.eps * np.cos(self.x)) ** 3)
         return sparse.kron(around, sparse.diags_array(length)) + sparse.kron(film, along)
 
-    def source(self, wedge, squeeze):
+    def source(self, wedge: float, squeeze: float) -> Floats:
         return np.repeat(squeeze * np.cos(self.x) - wedge * np.sin(self.x), self.shape[1] - 1) * self.weights
 
-    def solve(self, wedge, squeeze):
+    def solve(self, wedge: float, squeeze: float) -> Floats:
         """P (n, m) of the full film, negative parts included."""
         return self._with_end(spsolve(self.matrix, self.source(wedge, squeeze)))
 
-    def solve_cavitated(self, wedge, squeeze):
+    def solve_cavitated(self, wedge: float, squeeze: float) -> Floats:
         """P >= 0 with  A P >= f,  one of both equal at every node: Reynolds' condition, by Newton's method on min(P, A P - f) = 0.
 
         A is an M-matrix: the set of cavitated nodes settles after a few solutions.
@@ -152,7 +171,7 @@ class _Grid:
             full = now
         raise SolverError("film: the edge of the cavitated film does not settle; take cavitation = 'gumbel' or another grid.")
 
-    def force(self, pressure):
+    def force(self, pressure: Floats) -> Floats:
         """(radial, tangential) = -integral of the positive part of P (cos x, sin x) dx du, u from 0 to 1.
 
         Between two nodes around the film's edge P is taken as straight and cut where it is 0: second order wherever the edge lies.

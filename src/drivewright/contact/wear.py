@@ -8,10 +8,11 @@ The journal keeps its shape.
 import numpy as np
 
 from drivewright._jit import kernel
+from drivewright._typing import Floats, Numbers
 from drivewright.errors import InputError
 
 
-def wear_volume(coefficient, force, sliding):
+def wear_volume(coefficient: Numbers, force: Numbers, sliding: Numbers) -> Numbers:
     """V = k F s  [m^3]: k [m^3/(N m)] the specific wear rate, F [N], s [m] the length of sliding.
 
     Archard, J. Applied Physics 24 (1953), recalled; there k is a pure number over the hardness.
@@ -19,7 +20,9 @@ def wear_volume(coefficient, force, sliding):
     return coefficient * np.asarray(force) * sliding
 
 
-def deposit(time, angle, force, slip, coefficient, radius, length, bins):
+def deposit(
+    time: Floats, angle: Floats, force: Floats, slip: Floats, coefficient: float, radius: float, length: float, bins: int
+) -> Floats:
     """Wear depth (bins,) [m] of one cycle from its history: depth = k/(R dphi L) * integral of F |v| dt at each place.
 
     time [s] ascending, angle [rad] of the contact in the bearing's frame, normal force [N] (0 where there is no contact, the angle is
@@ -51,13 +54,13 @@ def _check_history(time, angle, force, slip, bins):
         raise InputError(f"wear: {bins} bins do not tell one side of the bearing from the other; take at least 3, better 72 or more.")
 
 
-def worn(depths, depth_per_cycle, cycles):
+def worn(depths: Floats, depth_per_cycle: Floats, cycles: float) -> Numbers:
     """The depths after `cycles` more cycles that each take off `depth_per_cycle` [m]: the jump over cycles that are all alike."""
     return np.asarray(depths) + cycles * np.asarray(depth_per_cycle)
 
 
 @kernel
-def wear_at(depths, angle):
+def wear_at(depths: Floats, angle: float) -> float:
     """Wear depth [m] at the angle [rad] on the bearing; periodic, linear between the nodes."""
     n = depths.shape[0]
     place = angle / (2.0 * np.pi) * n
