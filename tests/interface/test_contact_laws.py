@@ -120,7 +120,7 @@ def test_a_linear_law_of_another_package_acts_like_ours(touch):
 
 def implicit_field(law, shift=None):
     """(energy, gradient by the plates (8, 3), its tangent) of one plate deep between two teeth."""
-    made = parts.lower(touching(law))
+    made = parts.compile_model(touching(law))
     plates = np.column_stack([np.linspace(0, 1, 8) + 1.0, np.ones(8), np.zeros(8)])
     plates[0] = seat_height(JOINT, 12) - 4e-5, 0.0, 2e-4 - np.pi / 2
     state = parts.at_rest(plates if shift is None else plates + shift, np.zeros((3 - 1, 2)))
