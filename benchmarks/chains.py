@@ -67,10 +67,10 @@ def closures():
     """Rigid drives over a tooth, at rest with contacts, many designs."""
     from drivewright.chains.closure import Drive, close, phase_map
     from drivewright.chains.implicit.equilibrium import equilibrium
-    from drivewright.chains.link import link
+    from drivewright.chains.link import design_link
     from drivewright.chains.model import with_sprocket
 
-    joint = link(PITCH, 1.2e-3, np.pi / 6, 0.0)
+    joint = design_link(PITCH, 1.2e-3, np.pi / 6, 0.0)
     means = {}
     for strands in ("straight", "equilibrium"):
         drive = Drive(joint, 35, 37, 82, strands)
@@ -81,7 +81,10 @@ def closures():
             (f"mean {1e3 * means[strands]:.6f} mm, rest of the loop {close(drive).residual:.0e} m"),
         )
     drives = [
-        Drive(link(PITCH, r, np.pi / 6, 0.0), 35, z, n) for r in np.linspace(0, 7.4e-3, 5) for z in (33, 35, 37, 39) for n in range(78, 88)
+        Drive(design_link(PITCH, r, np.pi / 6, 0.0), 35, z, n)
+        for r in np.linspace(0, 7.4e-3, 5)
+        for z in (33, 35, 37, 39)
+        for n in range(78, 88)
     ]
     seconds = best(lambda: phase_map(drives, 24, CORES), 3)
     failed = len(phase_map(drives, 24, CORES).failed)

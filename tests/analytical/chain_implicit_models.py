@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from drivewright.chains.explicit.assembly import start
-from drivewright.chains.link import link, seat_support
+from drivewright.chains.link import design_link, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket
 from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.chains.tooth import Tooth
@@ -31,7 +31,7 @@ def drive(
     **chain,
 ):
     """The drive of the paper, masses assumed; both strands at force/2."""
-    joined = link(PITCH, radius, FLANK, apothem)
+    joined = design_link(PITCH, radius, FLANK, apothem)
     involutes = [Tooth(z, 0.5 * PITCH * z / np.pi * np.cos(FLANK), seat_support(joined, z)) for z in teeth]
     tips = [0.5 * PITCH / np.sin(np.pi / z) - 0.9e-3 for z in teeth]
     mass = 2.5e-3

@@ -10,13 +10,13 @@ from scipy.optimize import minimize
 from drivewright.chains.closure import Drive, close, departure, phase_map, states_at
 from drivewright.chains.closure.measures import measure
 from drivewright.chains.closure.strand import decay, plate_directions
-from drivewright.chains.link import chordal_rise, link
+from drivewright.chains.link import chordal_rise, design_link
 
 P = 9.525e-3
 
 
 def chain(radius):
-    return link(P, radius * 1e-3, np.pi / 6, 2.6e-3)
+    return design_link(P, radius * 1e-3, np.pi / 6, 2.6e-3)
 
 
 # radius: mean; greatest less least centre distance and transmission error of 48 equal steps, as the table was sampled

@@ -15,14 +15,14 @@ from drivewright.chains.explicit.step import (
     load_gravity,
     load_joints,
 )
-from drivewright.chains.link import link, seat_height, seat_support
+from drivewright.chains.link import design_link, seat_height, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, SpeedRamp, Sprocket
 from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.chains.tooth import Tooth
 from drivewright.contact import KelvinVoigt, mean_force
 
 A, K = np.pi / 6, 1e7
-JOINT = link(9.525e-3, 1.2e-3, A, 2e-4)
+JOINT = design_link(9.525e-3, 1.2e-3, A, 2e-4)
 INVOLUTE = Tooth(12, 9.525e-3 * 12 / (2 * np.pi) * np.cos(A), seat_support(JOINT, 12))
 ROLLER = RollerTooth(12, 9.525e-3 / (2 * np.sin(np.pi / 12)), 2.6e-3, np.radians(130), 8e-3, 2.5e-3)
 
@@ -80,7 +80,7 @@ CASES = {
 @pytest.mark.parametrize("name", CASES)
 def test_forces_are_the_slope_of_the_energy(name):
     tooth, guides, touch, pose, seat = CASES[name]
-    drive = lowered(tooth, guides, joint=link(9.525e-3, 0.0, A, 2e-4) if tooth is ROLLER else JOINT)
+    drive = lowered(tooth, guides, joint=design_link(9.525e-3, 0.0, A, 2e-4) if tooth is ROLLER else JOINT)
     body = 2 if guides else 0
     base = np.array([*pose, 0.02, -0.01, 0.4])
 
@@ -112,7 +112,7 @@ def test_a_seated_plate_touches_neither_flank_and_a_deeper_one_both_alike():
 @pytest.mark.parametrize("name", ["both flanks", "belly", "roller seat"])
 def test_damping_power_is_that_of_the_forces(name):
     tooth, guides, touch, pose, seat = CASES[name]
-    joint = link(9.525e-3, 0.0, A, 2e-4) if tooth is ROLLER else JOINT
+    joint = design_link(9.525e-3, 0.0, A, 2e-4) if tooth is ROLLER else JOINT
     still, moving = (
         lowered(
             tooth,
@@ -142,7 +142,7 @@ def test_damping_power_is_that_of_the_forces(name):
 @pytest.mark.parametrize("name", ["right flank", "left flank", "belly", "roller seat"])
 def test_a_contact_acts_with_its_mean_over_the_step(name):
     tooth, guides, touch, pose, seat = CASES[name]
-    drive = lowered(tooth, guides, joint=link(9.525e-3, 0.0, A, 2e-4) if tooth is ROLLER else JOINT)
+    drive = lowered(tooth, guides, joint=design_link(9.525e-3, 0.0, A, 2e-4) if tooth is ROLLER else JOINT)
     v, dt = np.array([0.0, -0.3, 0.0]), 4e-2  # through the whole depth within the step
 
     def depth(time):
@@ -164,7 +164,7 @@ def dampened(name, damping):
     """(drive of a case with damping in what it touches, its kernel, pose, seat, number of what it touches)."""
     tooth, guides, touch, pose, seat = CASES[name]
     guides = tuple(Guide(g.centre, g.radius, g.start, g.end, g.side, g.distance, ChainContact(K, damping)) for g in guides)
-    drive = lowered(tooth, guides, damping=damping, joint=link(9.525e-3, 0.0, A, 2e-4) if tooth is ROLLER else JOINT)
+    drive = lowered(tooth, guides, damping=damping, joint=design_link(9.525e-3, 0.0, A, 2e-4) if tooth is ROLLER else JOINT)
     return drive, touch, pose, seat, 2 if guides else 0
 
 

@@ -6,7 +6,7 @@ import pytest
 from drivewright.chains.explicit.assembly import start
 from drivewright.chains.explicit.simulate import Settings, simulate
 from drivewright.chains.explicit.stability import fastest, largest_step
-from drivewright.chains.link import link, seat_support
+from drivewright.chains.link import design_link, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Slide, SpeedRamp, Sprocket, with_sprocket
 from drivewright.chains.tooth import Tooth
 
@@ -14,7 +14,7 @@ PITCH, ANGLE = 9.525e-3, np.pi / 6
 
 
 def drive(radius=1.2e-3, speed=-60.0, stiffness=1e7, force=150.0, thick=0.0, beta=2e-6, damping=400.0, teeth=(9, 10), count=24, **chain):
-    joint = link(PITCH, radius, ANGLE, 2e-4)
+    joint = design_link(PITCH, radius, ANGLE, 2e-4)
     base = [PITCH * z / (2 * np.pi) * np.cos(ANGLE) for z in teeth]
     tooth = [Tooth(z, rb, seat_support(joint, z) - thick) for z, rb in zip(teeth, base, strict=True)]
     plates = Chain(joint, count, 2.5e-3, 6.4e-8, stiffness / 3, beta, **{"toe": 4e-3} | chain)

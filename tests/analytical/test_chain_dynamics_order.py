@@ -11,7 +11,7 @@ from drivewright.chains.explicit.simulate import Settings, first_start, simulate
 from drivewright.chains.explicit.stability import fastest
 from drivewright.chains.implicit.simulate import Settings as Implicit
 from drivewright.chains.implicit.simulate import simulate as implicit
-from drivewright.chains.link import link, seat_height, seat_support
+from drivewright.chains.link import design_link, seat_height, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Slide, SpeedRamp, Sprocket
 from drivewright.chains.tooth import Tooth
 from drivewright.contact import KelvinVoigt, mean_force
@@ -69,7 +69,7 @@ def test_a_damped_contact_rebounds_to_second_order():
 
 def drive(damping=0.0, beta=2e-6, slide=300.0, **chain):
     """27 and 29 teeth, 72 links, at 200 rad/s."""
-    joint = link(PITCH, 1.2e-3, ANGLE, 2.6e-3)
+    joint = design_link(PITCH, 1.2e-3, ANGLE, 2.6e-3)
     sprockets = []
     for z in (27, 29):
         tooth, height = Tooth(z, PITCH * z / (2 * np.pi) * np.cos(ANGLE), seat_support(joint, z)), seat_height(joint, z)

@@ -7,14 +7,14 @@ import pytest
 
 from drivewright.chains.explicit.assembly import start
 from drivewright.chains.explicit.simulate import Settings, simulate
-from drivewright.chains.link import link, seat_height, seat_support
+from drivewright.chains.link import design_link, seat_height, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket, with_sprocket
 from drivewright.chains.roller_sprocket import design_roller_sprocket
 from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.chains.tooth import Tooth
 
 PITCH, ANGLE, K, SPEED = 9.525e-3, np.pi / 6, 1e8, 60.0
-JOINT = link(PITCH, 1.2e-3, ANGLE, 2.6e-3)
+JOINT = design_link(PITCH, 1.2e-3, ANGLE, 2.6e-3)
 TOUCH = ChainContact(K, 50.0)
 
 
@@ -93,8 +93,8 @@ def by_force(run):
         (drive(teeth=(29, 27)), 150.0),
         (drive(teeth=(28, 28)), 150.0),
         (drive(elongation=3e-3), 150.0),
-        (drive(joint=link(PITCH, 0.0, ANGLE, 2.6e-3), toe=6e-3), 150.0),
-        (drive(joint=link(PITCH, 0.0, ANGLE, 2.6e-3), kind=roller_tooth), 150.0),
+        (drive(joint=design_link(PITCH, 0.0, ANGLE, 2.6e-3), toe=6e-3), 150.0),
+        (drive(joint=design_link(PITCH, 0.0, ANGLE, 2.6e-3), kind=roller_tooth), 150.0),
     ],
     ids=["plain", "odd", "larger driver", "equal", "worn", "round pins", "rollers"],
 )

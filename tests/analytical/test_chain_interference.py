@@ -18,14 +18,14 @@ from drivewright.chains.interference import (
     seated_poses,
     seating_speeds,
 )
-from drivewright.chains.link import Link, chordal_rise, link, seat_height
+from drivewright.chains.link import Link, chordal_rise, design_link, seat_height
 from drivewright.chains.plate import design_plate
 from drivewright.chains.sprocket import design_sprocket
 from drivewright.chains.tooth import matching_cutter
 from drivewright.scene import place
 
 P, A = 9.525e-3, np.radians(30)
-CHAIN = link(P, 1.2e-3, A, 2.6e-3)
+CHAIN = design_link(P, 1.2e-3, A, 2.6e-3)
 CLASSICAL = Link(P + 14.8e-3, 7.4e-3, A, CHAIN.flank_support)
 PLATE, SPROCKET = design_plate(CHAIN), design_sprocket(CHAIN, 35)
 SIDES = ("left", "right")
@@ -128,7 +128,7 @@ def test_profile_and_involute_agree_beside_a_flank():
 @pytest.mark.parametrize("teeth", [35, 37, 19])
 @pytest.mark.parametrize(
     "chain",
-    [CHAIN, CLASSICAL, link(P, 1.6e-3, A, CHAIN.flank_support - 0.5 * (P + 3.2e-3) * np.cos(A))],
+    [CHAIN, CLASSICAL, design_link(P, 1.6e-3, A, CHAIN.flank_support - 0.5 * (P + 3.2e-3) * np.cos(A))],
     ids=["group 3", "classical", "group 7"],
 )
 def test_default_plates_seat_without_touching_elsewhere(chain, teeth):

@@ -14,7 +14,7 @@ from drivewright.chains.explicit.ensemble import Ensemble
 from drivewright.chains.explicit.measure import BODY, PLATE, ROW
 from drivewright.chains.explicit.motion import LOSSES, Motion
 from drivewright.chains.explicit.simulate import Settings, tooth_time
-from drivewright.chains.link import link, seat_height, seat_support
+from drivewright.chains.link import design_link, seat_height, seat_support
 from drivewright.mechanisms.silent_chain import dynamics, many, stress
 from drivewright.mechanisms.silent_chain.geometry import geometry
 from drivewright.mechanisms.silent_chain.moving import link_of, moving
@@ -86,7 +86,7 @@ def test_a_worn_chain_closes_as_a_new_one_of_its_longer_pitch():
 def test_both_sides_of_the_closure_are_told_apart():
     found = run("closure")
     for side, teeth in (("drive", 23), ("driven", 31)):
-        leaving = departure(link(P, 1.2 * MM, np.pi / 6, 2.6 * MM), teeth)
+        leaving = departure(design_link(P, 1.2 * MM, np.pi / 6, 2.6 * MM), teeth)
         told = [found[f"{name}.{side}"] for name in ("chordal_rise", "seating_angle", "strand_slip")]
         assert told == pytest.approx([leaving.rise, leaving.seating, leaving.slip], rel=1e-12)
     assert found["wrap.drive"] + found["wrap.driven"] == pytest.approx(2 * np.pi, rel=1e-12)
@@ -99,7 +99,7 @@ def test_both_sides_of_the_closure_are_told_apart():
     heights = sum(0.5 * P / np.tan(np.pi / z) for z in (23, 31))  # of the polygons, and near those of the pins
     assert found.check("sprockets.apart").value == pytest.approx(found["centre_distance.mean"] - heights, rel=0.02)
     straight = run("closure", 'closure.strands="straight"')
-    assert straight["chordal_rise.drive"] == pytest.approx(departure(link(P, 1.2 * MM, 0.5, 0.0), 23, "straight").rise, rel=1e-12)
+    assert straight["chordal_rise.drive"] == pytest.approx(departure(design_link(P, 1.2 * MM, 0.5, 0.0), 23, "straight").rise, rel=1e-12)
 
 
 def test_a_fixed_centre_distance_may_not_stretch_the_chain():
@@ -339,7 +339,11 @@ def test_a_phase_map_looks_four_links_to_either_side():
     assert sorted(set(table["links"].data)) == list(range(62, 71))
     assert sorted(set(table["rolling_radius"].data)) == pytest.approx([0, 1.2 * MM, 0.78 * P])
     rows = phase_map(
-        [Drive(link(P, r, 0.5, 0.0), 23, 31, int(n)) for r, n in zip(table["rolling_radius"].data, table["links"].data, strict=True)], 24
+        [
+            Drive(design_link(P, r, 0.5, 0.0), 23, 31, int(n))
+            for r, n in zip(table["rolling_radius"].data, table["links"].data, strict=True)
+        ],
+        24,
     ).rows
     assert table["transmission_error"].data == pytest.approx([row.value.transmission_ripple for row in rows], rel=1e-12)
     best = np.argmin(table["fluctuation"].data)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from drivewright.chains import meshing as m
-from drivewright.chains.link import chordal_rise, link, seat_height, seat_support
+from drivewright.chains.link import chordal_rise, design_link, seat_height, seat_support
 from drivewright.chains.tooth import base_half_angle, cut_tooth, matching_cutter, modification_for
 
 MM = 1e-3
@@ -152,7 +152,7 @@ def test_the_tooth_is_the_same_for_all_cutters_of_one_base_pitch(z):
 def involute_gap(z, half_angle):
     """Signed distance of points of the real involute from the seated plate's flank line: positive is clear of the plate."""
     _, _, cutter, x = sprocket(z, half_angle)
-    tooth, plate = cut_tooth(z, cutter, x, ANGLE), link(P, 1.2 * MM, ANGLE, 2.6 * MM)
+    tooth, plate = cut_tooth(z, cutter, x, ANGLE), design_link(P, 1.2 * MM, ANGLE, 2.6 * MM)
     n = np.array([np.cos(ANGLE), -np.sin(ANGLE)])
     # involute from the base circle: tooth z clockwise by 2 pi/z, its near flank half a base thickness before its centre line
     start = 2 * np.pi / z - base_half_angle(tooth, ANGLE)  # clockwise from the plate's centre line
@@ -175,7 +175,7 @@ def test_cut_tooth_touches_the_seated_flank_and_nowhere_cuts_it(z, half_angle):
 def test_seat_from_the_joint_is_the_seat_of_the_published_measures():
     for z in (35, 37):
         seated, f, cutter, x = sprocket(z, 25)
-        plate = link(P, 1.2 * MM, ANGLE, 2.6 * MM)
+        plate = design_link(P, 1.2 * MM, ANGLE, 2.6 * MM)
         assert m.seat_of(f, seated, z, ANGLE) == pytest.approx(seat_support(plate, z), rel=1e-12)
         assert modification_for(z, cutter, seat_support(plate, z), ANGLE) == pytest.approx(x, rel=1e-11)
 
@@ -188,8 +188,8 @@ def test_the_offset_moves_only_the_line_it_is_counted_from(e):
         assert x == pytest.approx(reference_x, rel=1e-12)
         assert m.seat_of(f, seated, z, ANGLE) == pytest.approx(m.seat_of(reference_f, reference_seated, z, ANGLE), rel=1e-12)
         radius = 0.5 * seated / np.tan(np.pi / z)
-        assert radius - e * MM == pytest.approx(seat_height(link(P, 1.2 * MM, ANGLE, 2.6 * MM), z), rel=1e-13)
-    assert z == 37 and seat_height(link(P, 1.2 * MM, ANGLE, 2.6 * MM), 35) == pytest.approx(52.861816829169 * MM, rel=1e-13)
+        assert radius - e * MM == pytest.approx(seat_height(design_link(P, 1.2 * MM, ANGLE, 2.6 * MM), z), rel=1e-13)
+    assert z == 37 and seat_height(design_link(P, 1.2 * MM, ANGLE, 2.6 * MM), 35) == pytest.approx(52.861816829169 * MM, rel=1e-13)
 
 
 def test_the_other_reading_of_the_apothem_cuts_another_tooth():
@@ -206,7 +206,7 @@ def test_the_other_reading_of_the_apothem_cuts_another_tooth():
 
 def test_seated_pins_close_to_a_polygon():
     """Own and neighbour's pins of two seated plates are 2 r apart, along their mean direction."""
-    plate, z = link(P, 1.2 * MM, ANGLE, 2.6 * MM), 11
+    plate, z = design_link(P, 1.2 * MM, ANGLE, 2.6 * MM), 11
     t = np.pi / z
     centre = 1j * seat_height(plate, z)
     right = centre + 0.5 * plate.hole_pitch
@@ -216,13 +216,13 @@ def test_seated_pins_close_to_a_polygon():
 
 def test_chordal_rise_by_the_path_of_the_strand():
     for r, expected in ((1e-9, 0.213884), (1.2, 0.213993), (7.4, 0.214553)):
-        plate = link(P, r * MM, ANGLE, 2.6 * MM)
+        plate = design_link(P, r * MM, ANGLE, 2.6 * MM)
         assert chordal_rise(plate, 35) == pytest.approx(expected * MM, abs=6e-10)
         turn = np.linspace(0, 2 * np.pi / 35, 2001)
         height = seat_height(plate, 35) * np.cos(turn) + 0.5 * plate.hole_pitch * np.sin(turn) - 2 * plate.radius * np.sin(turn / 2)
         assert height[1000] - height[0] == pytest.approx(chordal_rise(plate, 35), rel=1e-9)
         assert -1e-12 < np.ptp(height) - chordal_rise(plate, 35) < 3e-6 * chordal_rise(plate, 35)
         assert height[-1] == pytest.approx(height[0], rel=1e-14)
-    hinge = link(P, 0.0, ANGLE, 2.6 * MM)
+    hinge = design_link(P, 0.0, ANGLE, 2.6 * MM)
     assert chordal_rise(hinge, 35) == pytest.approx(0.5 * P / np.sin(np.pi / 35) * (1 - np.cos(np.pi / 35)), rel=1e-10)
     assert hinge.pitch == P

@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from drivewright.chains.interference import sampled
-from drivewright.chains.link import Link, link, seat_height, seat_support
+from drivewright.chains.link import Link, design_link, seat_height, seat_support
 from drivewright.chains.plate import design_plate, link_mass, mass_per_pitch
 from drivewright.chains.plate_holes import HingePin, RockerPins, RoundPins, default_pins, neighbour_center
 from drivewright.chains.plate_outline import area_moments, mirrored, outline, rounded
@@ -14,11 +14,11 @@ from drivewright.curves import outline_area, perimeter
 from drivewright.scene import Arc, Line, circle, place, polygon
 
 P, A = 9.525e-3, np.radians(30)
-GROUP3 = link(P, 1.2e-3, A, 2.6e-3)
+GROUP3 = design_link(P, 1.2e-3, A, 2.6e-3)
 CLASSICAL = Link(P + 14.8e-3, 7.4e-3, A, GROUP3.flank_support)
 HINGE = Link(P, 0.0, A, GROUP3.flank_support)
 LINKS = pytest.mark.parametrize("chain", [GROUP3, CLASSICAL, HINGE], ids=["round", "rocker", "hinge"])
-ROLLING = pytest.mark.parametrize("chain", [GROUP3, CLASSICAL, link(P, 0.9e-3, A, 2.6e-3)], ids=["round", "rocker", "small"])
+ROLLING = pytest.mark.parametrize("chain", [GROUP3, CLASSICAL, design_link(P, 0.9e-3, A, 2.6e-3)], ids=["round", "rocker", "small"])
 
 
 def ends(piece):
@@ -220,7 +220,7 @@ def test_large_rolling_radius_needs_rockers_and_no_radius_a_hinge():
     assert isinstance(default_pins(GROUP3), RoundPins)
     assert isinstance(default_pins(CLASSICAL), RockerPins)
     assert default_pins(HINGE) == HingePin(P / 8)
-    design_plate(link(P, 0.1799 * P, A, 2.6e-3), back=3.6e-3)
+    design_plate(design_link(P, 0.1799 * P, A, 2.6e-3), back=3.6e-3)
 
 
 @pytest.mark.parametrize("side, facing", [("right", 0.0), ("left", np.pi)])

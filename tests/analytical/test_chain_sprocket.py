@@ -6,14 +6,14 @@ import shapely
 
 from drivewright import gears
 from drivewright.chains.interference import profile_gap
-from drivewright.chains.link import link, seat_support
+from drivewright.chains.link import design_link, seat_support
 from drivewright.chains.sprocket import Sprocket, design_sprocket
 from drivewright.chains.tooth import Cutter, cut_tooth, matching_cutter, modification_for
 from drivewright.curves import outline_area
 from drivewright.scene import Arc, Line, Spline, place
 
 P, A = 9.525e-3, np.radians(30)
-CHAIN = link(P, 1.2e-3, A, 2.6e-3)
+CHAIN = design_link(P, 1.2e-3, A, 2.6e-3)
 CUTTERS = [20.0, 25.0, 27.0, 30.0, 31.5]
 
 
@@ -196,7 +196,7 @@ def test_teeth_are_mirror_images_and_alike():
 
 
 def test_twice_the_chain_has_twice_the_sprocket():
-    small, large = design_sprocket(CHAIN, 35), design_sprocket(link(2 * P, 2.4e-3, A, 5.2e-3), 35)
+    small, large = design_sprocket(CHAIN, 35), design_sprocket(design_link(2 * P, 2.4e-3, A, 5.2e-3), 35)
     for name in ("form_radius", "tip_thickness", "best_pin", "tip_rounding", "pointed_radius"):
         assert getattr(large, name) == pytest.approx(2 * getattr(small, name), rel=1e-12)
     assert large.over_pins(large.best_pin) == pytest.approx(2 * small.over_pins(small.best_pin), rel=1e-12)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from drivewright import fatigue
-from drivewright.chains.link import link
+from drivewright.chains.link import design_link
 from drivewright.chains.plate import design_plate
 from drivewright.chains.stress.life import life_table, plate_life
 from drivewright.chains.stress.plate import Loads, amounts, plate_basis, plate_body, worst
@@ -22,7 +22,7 @@ def steel():
 
 @cache
 def basis():
-    plate = design_plate(link(9.525e-3, 1.2e-3, np.radians(30), 2.6e-3))
+    plate = design_plate(design_link(9.525e-3, 1.2e-3, np.radians(30), 2.6e-3))
     return plate_basis(plate, plate_body(plate, 206e9, 0.3, order=3))
 
 

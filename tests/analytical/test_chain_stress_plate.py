@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from drivewright.chains.link import link
+from drivewright.chains.link import design_link
 from drivewright.chains.plate import design_plate
 from drivewright.chains.plate_holes import HingePin
 from drivewright.chains.stress import bearing
@@ -20,7 +20,7 @@ PULL = 200.0
 
 @cache
 def plate():
-    return design_plate(link(9.525e-3, 1.2e-3, np.radians(30), 2.6e-3))
+    return design_plate(design_link(9.525e-3, 1.2e-3, np.radians(30), 2.6e-3))
 
 
 @cache
@@ -177,7 +177,7 @@ def test_a_balanced_seated_plate_is_not_accelerated():
 
 
 def test_a_hinge_s_hole_takes_forces_all_around():
-    hinge = replace(plate(), link=link(9.525e-3, 0.0, np.radians(30), 2.6e-3), pins=HingePin(1.2e-3), toe=-3.5e-3)
+    hinge = replace(plate(), link=design_link(9.525e-3, 0.0, np.radians(30), 2.6e-3), pins=HingePin(1.2e-3), toe=-3.5e-3)
     found = plate_basis(hinge, plate_body(hinge, 206e9, 0.3))
     assert np.isclose(np.ptp(found.directions[0]), 2 * np.pi)
     inwards = Loads([[[100.0, 0.0], [-100.0, 1e-9]]], np.zeros((1, 2)), np.zeros((1, 2)))

@@ -5,7 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from drivewright.chains.link import link
+from drivewright.chains.link import design_link
 from drivewright.chains.plate import design_plate
 from drivewright.chains.stress import bearing
 from drivewright.chains.stress.plate import Loads, plate_basis, plate_body, stress_history
@@ -21,7 +21,7 @@ PINS = np.array([[-200.0, 0.0], [200.0, 0.0]])
 
 @cache
 def plate():
-    return design_plate(link(9.525e-3, R, np.radians(30), 2.6e-3))
+    return design_plate(design_link(9.525e-3, R, np.radians(30), 2.6e-3))
 
 
 @cache

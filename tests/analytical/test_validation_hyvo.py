@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from drivewright.chains import closure
-from drivewright.chains.link import link
+from drivewright.chains.link import design_link
 from drivewright.validation import AGREES, EXPLAINED, OPEN, hyvo_paper
 
 PRINTED = (
@@ -68,7 +68,10 @@ def test_the_order_of_the_groups_turns_round_under_load(rows):
 def test_the_order_turns_round_with_an_odd_number_of_links():
     """What the erratum claims of 81 and 83 links."""
     for links in (81, 83):
-        found = [1e6 * closure.close(closure.Drive(link(9.525e-3, r * 1e-3, 0.5, 0.0), 35, 37, links)).fluctuation for r in (1.0, 1.6, 7.4)]
+        found = [
+            1e6 * closure.close(closure.Drive(design_link(9.525e-3, r * 1e-3, 0.5, 0.0), 35, 37, links)).fluctuation
+            for r in (1.0, 1.6, 7.4)
+        ]
         assert np.round(found, 1) == pytest.approx([7.7, 7.2, 2.6], abs=0.11)
 
 

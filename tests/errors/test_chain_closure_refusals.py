@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from drivewright.chains.closure import Drive, close, departure, phased, states_at, tracking
-from drivewright.chains.link import Link, link
+from drivewright.chains.link import Link, design_link
 from drivewright.errors import DoesNotAssemble, InputError, SolverError, UnknownName
 
-JOINT = link(9.525e-3, 1.2e-3, np.pi / 6, 2.6e-3)
+JOINT = design_link(9.525e-3, 1.2e-3, np.pi / 6, 2.6e-3)
 GOOD = Drive(JOINT, 35, 37, 82)
 
 CASES = [

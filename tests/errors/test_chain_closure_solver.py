@@ -4,9 +4,9 @@ import numpy as np
 
 from drivewright.chains.closure import Drive, tracking
 from drivewright.chains.closure.start import layout_of
-from drivewright.chains.link import link
+from drivewright.chains.link import design_link
 
-LAYOUT, SEATS, X = layout_of(Drive(link(9.525e-3, 1.2e-3, np.pi / 6, 2.6e-3), 11, 13, 40))
+LAYOUT, SEATS, X = layout_of(Drive(design_link(9.525e-3, 1.2e-3, np.pi / 6, 2.6e-3), 11, 13, 40))
 
 
 def outcome(layout, seats=SEATS, x=X):

@@ -8,12 +8,12 @@ import pytest
 from drivewright.chains.explicit.assembly import start
 from drivewright.chains.explicit.batch import Scatter, campbell, monte_carlo, scattered
 from drivewright.chains.explicit.simulate import Settings, simulate
-from drivewright.chains.link import link, seat_support
+from drivewright.chains.link import design_link, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket, with_sprocket
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import DoesNotAssemble, InputError
 
-JOINT = link(9.525e-3, 1.2e-3, np.pi / 6, 2e-4)
+JOINT = design_link(9.525e-3, 1.2e-3, np.pi / 6, 2e-4)
 TEETH = [Tooth(z, 9.525e-3 * z / (2 * np.pi) * np.cos(np.pi / 6), seat_support(JOINT, z)) for z in (9, 10)]
 CHAIN = Chain(JOINT, 24, 2.5e-3, 6.4e-8, 3e6, 2e-6)
 DRIVER = Sprocket(TEETH[0], ChainContact(1e7), drive=SpeedRamp(-100.0, -100.0))

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from drivewright.chains.link import Link, link
+from drivewright.chains.link import Link, design_link
 from drivewright.chains.plate import design_plate
 from drivewright.chains.plate_holes import HingePin, RockerPins, RoundPins
 from drivewright.chains.plate_stack import sheet_heights
@@ -15,7 +15,7 @@ from drivewright.chains.tooth import Cutter
 from drivewright.errors import InputError
 
 P, A = 9.525e-3, np.radians(30)
-CHAIN = link(P, 1.2e-3, A, 2.6e-3)
+CHAIN = design_link(P, 1.2e-3, A, 2.6e-3)
 HINGE = Link(P, 0.0, A, CHAIN.flank_support)
 CLASSICAL = Link(P + 14.8e-3, 7.4e-3, A, CHAIN.flank_support)
 
@@ -51,7 +51,7 @@ def test_plate_refuses(text, lengths):
         ("RoundPins: rolling radius r = 0 m.*HingePin", HINGE, RoundPins()),
         ("clearance = 1 pin radii; it lies between 1", CHAIN, RoundPins(clearance=1.0)),
         ("turn = -0.1 rad", CHAIN, RoundPins(turn=-0.1)),
-        ("reach 7.48.* mm inwards.*overlap in a plate of hole pitch 14.3.*RockerPins", link(P, 2.4e-3, A, 2.6e-3), RoundPins()),
+        ("reach 7.48.* mm inwards.*overlap in a plate of hole pitch 14.3.*RockerPins", design_link(P, 2.4e-3, A, 2.6e-3), RoundPins()),
         ("back_radius = -0.001 m", CLASSICAL, RockerPins(-1e-3, 1e-3, 1e-4)),
         ("thickness = 1.5 mm; with back_radius 1.5 mm.*between 1.55 mm.*and 3 mm", CLASSICAL, RockerPins(1.5e-3, 1.5e-3, 1e-4)),
         ("reach 5.1 mm from the pitch points overlap", CLASSICAL, RockerPins(3e-3, 5e-3, 1e-4)),

@@ -7,7 +7,7 @@ import pytest
 
 from drivewright.chains.implicit.equilibrium import equilibrium
 from drivewright.chains.implicit.simulate import Settings, simulate
-from drivewright.chains.link import link, seat_support
+from drivewright.chains.link import design_link, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Slide, SpeedRamp, Sprocket
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import InputError, SolverError
@@ -16,7 +16,7 @@ PITCH = 9.525e-3
 
 
 def model(force=75.0, stiffness=1e8, speed=-60.0, torque=0.0):
-    joined = link(PITCH, 1.2e-3, np.pi / 6, -0.5e-3)
+    joined = design_link(PITCH, 1.2e-3, np.pi / 6, -0.5e-3)
     first, second = (Tooth(z, 0.5 * PITCH * z / np.pi * np.cos(np.pi / 6), seat_support(joined, z)) for z in (9, 10))
     contact = ChainContact(stiffness)
     sprockets = (

@@ -17,7 +17,7 @@ from drivewright.chains.explicit.state import BODIES, ContactLaws, compile_model
 from drivewright.chains.explicit.step import load_flanks, load_gravity
 from drivewright.chains.implicit import energy, parts
 from drivewright.chains.implicit.touch import find_candidates
-from drivewright.chains.link import link, seat_height, seat_support
+from drivewright.chains.link import design_link, seat_height, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, SpeedRamp, Sprocket
 from drivewright.chains.tooth import Tooth
 from drivewright.contact import ContactParameters, HuntCrossley, KelvinVoigt, contact_law, mean_force, normal_force, stored_energy, tangent
@@ -26,7 +26,7 @@ from drivewright.multibody.forces.contact import Laws, NoLaws, further_force
 
 STATED = ContactParameters(4e6, damping=30.0, restitution=0.8)
 ANGLE, K, C = np.pi / 6, 1e7, 90.0
-JOINT = link(9.525e-3, 1.2e-3, ANGLE, 2e-4)
+JOINT = design_link(9.525e-3, 1.2e-3, ANGLE, 2e-4)
 TOOTH = Tooth(12, 9.525e-3 * 12 / (2 * np.pi) * np.cos(ANGLE), seat_support(JOINT, 12))
 
 

@@ -118,7 +118,7 @@ def test_a_name_is_still_the_function_after_its_module_was_imported():
     assert callable(dw.run) and callable(dw.optimise) and callable(dw.build)
 
 
-@pytest.mark.parametrize("package", [dw.studies], ids=lambda package: package.__name__)
+@pytest.mark.parametrize("package", [dw.chains, dw.studies], ids=lambda package: package.__name__)
 def test_names_of_a_package_are_sorted_and_load(package):
     assert list(package.__all__) == sorted(package.__all__)
     assert all(not isinstance(getattr(package, name), ModuleType) for name in package.__all__)

@@ -7,11 +7,11 @@ from drivewright import _jit
 from drivewright.chains.closure import Drive, close, departure, phase_map, phased, plates, states_at, tracking
 from drivewright.chains.closure.measures import measure
 from drivewright.chains.closure.start import layout_of
-from drivewright.chains.link import link, seat_height
+from drivewright.chains.link import design_link, seat_height
 
 
 def chain(radius, scale=1.0):
-    return link(9.525e-3 * scale, radius * 1e-3 * scale, np.pi / 6, 2.6e-3 * scale)
+    return design_link(9.525e-3 * scale, radius * 1e-3 * scale, np.pi / 6, 2.6e-3 * scale)
 
 
 DRIVES = [

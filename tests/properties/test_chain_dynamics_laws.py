@@ -11,7 +11,7 @@ from drivewright.chains.explicit.measure import PLATE, ROW, measured
 from drivewright.chains.explicit.simulate import Settings, simulate
 from drivewright.chains.explicit.snapshots import PLATES, empty_snapshots
 from drivewright.chains.explicit.state import compile_model
-from drivewright.chains.link import link, seat_support
+from drivewright.chains.link import design_link, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Slide, SpeedRamp, Sprocket
 from drivewright.chains.tooth import Tooth
 
@@ -20,7 +20,7 @@ PITCH, ANGLE, N = 9.525e-3, np.pi / 6, 14
 
 def ring(radius=1.2e-3, beta=0.0, offset=0.0, seed=3, articulation=0.0):
     """A free ring of plates, shaken and turning, far from two sprockets."""
-    joint = link(PITCH, radius, ANGLE, 2e-4)
+    joint = design_link(PITCH, radius, ANGLE, 2e-4)
     tooth = Tooth(9, 0.0118, -5e-3)
     chain = Chain(joint, N, 2.5e-3, 6.4e-8, 1e6, beta, centre_offset=offset, articulation_damping=articulation)
     far = [Sprocket(tooth, ChainContact(1e6), (9.0 + k, 9.0), inertia=1.0, drive=SpeedRamp(1.0, 1.0) if k == 0 else None) for k in (0, 1)]
@@ -110,7 +110,7 @@ def test_compiled_and_plain_kernels_agree():
 
 def drive(turn=0.0, shift=(0.0, 0.0), scale=1.0, offset=0.0):
     """Nine and ten teeth, 24 links; `scale` stretches time: rates 1/scale, forces and stiffness 1/scale^2."""
-    joint = link(PITCH, 1.2e-3, ANGLE, 2e-4)
+    joint = design_link(PITCH, 1.2e-3, ANGLE, 2e-4)
     teeth = [Tooth(z, PITCH * z / (2 * np.pi) * np.cos(ANGLE), seat_support(joint, z)) for z in (9, 10)]
     chain = Chain(joint, 24, 2.5e-3, 6.4e-8, 3e6 / scale**2, 2e-6 * scale, centre_offset=offset, toe=4e-3)
     contact = ChainContact(1e7 / scale**2, 5.0 / scale)

@@ -8,7 +8,7 @@ import pytest
 from drivewright.chains.explicit.assembly import start
 from drivewright.chains.explicit.measure import ROW
 from drivewright.chains.explicit.simulate import Settings, simulate
-from drivewright.chains.link import link, seat_height, seat_support
+from drivewright.chains.link import design_link, seat_height, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket, with_sprocket
 from drivewright.chains.tooth import Tooth
 
@@ -16,7 +16,7 @@ PITCH, ANGLE = 9.525e-3, np.pi / 6
 
 
 def drive(speed=-200.0, thick=0.0, stiffness=1e8, beta=2e-6, damping=300.0, angle=None, **chain):
-    joint = link(PITCH, 1.2e-3, ANGLE, 2.6e-3)
+    joint = design_link(PITCH, 1.2e-3, ANGLE, 2.6e-3)
     sprockets = []
     for z in (27, 29):
         tooth, height = Tooth(z, PITCH * z / (2 * np.pi) * np.cos(ANGLE), seat_support(joint, z) - thick), seat_height(joint, z)

@@ -8,7 +8,7 @@ import pytest
 
 import drivewright as dw
 from drivewright.chains.closure import Drive, close
-from drivewright.chains.link import link
+from drivewright.chains.link import design_link
 from drivewright.spec import from_document
 from drivewright.spec.parsing import change_key
 
@@ -41,7 +41,7 @@ def test_phase_map_counts_links_and_teeth():
     found = run("phase_map", "compare.links=[82, 83]", 'compare.rolling_radii=["1.2 mm"]', "compare.driven_teeth=[36, 37]")
     table = found.tables["phase_map"]
     for links, teeth, fluctuation in zip(*(table[n].data for n in ("links", "driven_teeth", "fluctuation")), strict=True):
-        own = close(Drive(link(9.525 * MM, 1.2 * MM, np.pi / 6, 0.0), 35, int(teeth), int(links)))
+        own = close(Drive(design_link(9.525 * MM, 1.2 * MM, np.pi / 6, 0.0), 35, int(teeth), int(links)))
         assert fluctuation == pytest.approx(own.fluctuation, rel=5e-3)
     assert found["phase_map.least_fluctuation"] == pytest.approx(np.min(table["fluctuation"].data), rel=1e-12)
     apart = run("phase_map", "compare.links=[38, 82]", 'compare.rolling_radii=["1.2 mm"]', "compare.driven_teeth=[110]")

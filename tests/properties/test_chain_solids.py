@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from drivewright.chains.interference import seated_poses
-from drivewright.chains.link import Link, link
+from drivewright.chains.link import Link, design_link
 from drivewright.chains.plate import design_plate
 from drivewright.chains.plate_holes import HingePin
 from drivewright.chains.plate_stack import sheet_heights, strand_parts
@@ -14,7 +14,7 @@ from drivewright.curves import outline_area
 from drivewright.scene import Part, Prism
 
 P, A = 9.525e-3, np.radians(30)
-CHAIN = link(P, 1.2e-3, A, 2.6e-3)
+CHAIN = design_link(P, 1.2e-3, A, 2.6e-3)
 PLATE = design_plate(CHAIN)
 
 

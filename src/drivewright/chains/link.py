@@ -28,7 +28,7 @@ class Link(NamedTuple):
         return self.hole_pitch - 2 * self.radius
 
 
-def link(pitch: float, radius: float, flank_angle: float, apothem: float) -> Link:
+def design_link(pitch: float, radius: float, flank_angle: float, apothem: float) -> Link:
     """A `Link` from its pitch p, rolling radius r, flank angle a and the distance f0 from hole centre to flank: w = f0 + A/2 cos a."""
     hole_pitch = pitch + 2 * radius
     return Link(hole_pitch, radius, flank_angle, apothem + 0.5 * hole_pitch * np.cos(flank_angle))

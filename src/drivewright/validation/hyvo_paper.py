@@ -15,7 +15,7 @@ from drivewright._typing import Floats
 from drivewright.chains import closure, meshing
 from drivewright.chains.closure.drive import Strands
 from drivewright.chains.implicit.equilibrium import Equilibrium, equilibrium
-from drivewright.chains.link import link, seat_support
+from drivewright.chains.link import design_link, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Slide, SpeedRamp, Sprocket
 from drivewright.chains.stress import rolling
 from drivewright.chains.tooth import Tooth
@@ -214,13 +214,13 @@ def _radii() -> Iterator[Row]:
 @cache
 def rigid_closure(radius: float, strands: Strands = "equilibrium") -> closure.Closure:
     """Closure of a group over a tooth."""
-    return closure.close(closure.Drive(link(P, radius * MM, np.pi / 6, 0.0), Z1, Z2, LINKS, strands))
+    return closure.close(closure.Drive(design_link(P, radius * MM, np.pi / 6, 0.0), Z1, Z2, LINKS, strands))
 
 
 @cache
 def elastic_equilibrium(radius: float) -> Equilibrium:
     """Equilibrium of a group with the paper's contact stiffness and force; the same outer flank for all, as in the paper."""
-    joint = link(P, radius * MM, np.pi / 6, (2.6 + (1.2 - radius) * np.cos(np.pi / 6)) * MM)
+    joint = design_link(P, radius * MM, np.pi / 6, (2.6 + (1.2 - radius) * np.cos(np.pi / 6)) * MM)
     plates = Chain(joint, LINKS, 2.5e-3, 6.4e-8, STIFFNESS / 3)  # at rest, masses do not matter
     teeth = [Tooth(z, P * z / (2 * np.pi) * np.cos(np.pi / 6), seat_support(joint, z)) for z in (Z1, Z2)]
     first = Sprocket(teeth[0], ChainContact(STIFFNESS), angle=0.0, drive=SpeedRamp(-200.0, -200.0))

@@ -4,7 +4,7 @@ import numpy as np
 
 from drivewright._jit import warmer
 from drivewright.chains.explicit.simulate import simulate
-from drivewright.chains.link import link, seat_support
+from drivewright.chains.link import design_link, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Slide, SpeedRamp, Sprocket
 from drivewright.chains.tooth import Tooth
 
@@ -12,7 +12,7 @@ from drivewright.chains.tooth import Tooth
 @warmer
 def warm_chain_dynamics():
     """A small drive for a few steps; every drive runs on the same kernel."""
-    joint = link(9.525e-3, 1.2e-3, np.pi / 6, 2e-4)
+    joint = design_link(9.525e-3, 1.2e-3, np.pi / 6, 2e-4)
     tooth = Tooth(10, 9.525e-3 * 10 / (2 * np.pi) * np.cos(np.pi / 6), seat_support(joint, 10))
     sprockets = (
         Sprocket(tooth, ChainContact(1e7), drive=SpeedRamp(-100.0, -100.0)),

@@ -8,7 +8,7 @@ import numpy as np
 
 from drivewright.chains import meshing
 from drivewright.chains.closure import Drive, close
-from drivewright.chains.link import Link, link, seat_height
+from drivewright.chains.link import Link, design_link, seat_height
 from drivewright.chains.plate import design_plate
 from drivewright.chains.plate_holes import HingePin, RockerPins, RoundPins
 from drivewright.chains.roller_sprocket import design_roller_sprocket
@@ -143,7 +143,7 @@ def build(spec):
     refuse_contradictions(spec)
     radius = 0.0 if spec.joint.kind == "revolute" else spec.joint.rolling_radius
     if spec.roller:
-        return ChainModel(spec, link(spec.pitch, 0.0, spec.plate.flank_angle, 0.0), findings=tuple(unused(spec)))
+        return ChainModel(spec, design_link(spec.pitch, 0.0, spec.plate.flank_angle, 0.0), findings=tuple(unused(spec)))
     offset = offset_of(spec, radius)
     angle = spec.plate.flank_angle
     apothem = spec.plate.apothem
@@ -153,7 +153,7 @@ def build(spec):
     cutter = matching_cutter(spec.pitch, angle, spec.cutter.half_angle)
     cutter = cutter if spec.cutter.pitch is None else cutter._replace(pitch=spec.cutter.pitch)
     sides = tuple(_side(spec, radius, offset, standard, cutter, z) for z in spec.teeth)
-    return ChainModel(spec, link(spec.pitch, radius, angle, apothem), offset, standard, cutter, sides, tuple(unused(spec)))
+    return ChainModel(spec, design_link(spec.pitch, radius, angle, apothem), offset, standard, cutter, sides, tuple(unused(spec)))
 
 
 def offset_of(spec, radius):

@@ -4,7 +4,7 @@ import numpy as np
 
 from drivewright.chains import meshing as published
 from drivewright.chains.closure import Drive, phase_map
-from drivewright.chains.link import link
+from drivewright.chains.link import design_link
 from drivewright.chains.stress.rolling import rolling_contact
 from drivewright.mechanisms.silent_chain.build import offset_of
 from drivewright.mechanisms.silent_chain.contact import no_contact
@@ -91,7 +91,7 @@ def _closed(model, cases):
     """(mean, fluctuation, transmission error) (n, 3) of chains (radius, links, driven teeth); nan where one does not close."""
     spec = model.spec
     drives = [
-        Drive(model.lengthened(link(spec.pitch, r, spec.plate.flank_angle, 0.0)), model.teeth[0], z, n, spec.closure.strands)
+        Drive(model.lengthened(design_link(spec.pitch, r, spec.plate.flank_angle, 0.0)), model.teeth[0], z, n, spec.closure.strands)
         for r, n, z in cases
     ]
     rows = phase_map(drives, POSITIONS).rows
