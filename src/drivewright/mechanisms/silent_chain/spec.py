@@ -1,6 +1,6 @@
 """What the user says of a chain drive: links, joint, plates, sprockets, drive, how it is computed."""
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
 from pydantic import model_validator
 
@@ -30,7 +30,10 @@ from drivewright.units import (
 )
 
 RULES = ("match-drive", "minimax")
-ContactLaw = Literal[("kelvin-voigt", *sorted(plugins("drivewright.contact_laws")))]
+if TYPE_CHECKING:
+    ContactLaw: TypeAlias = str
+else:
+    ContactLaw = Literal[("kelvin-voigt", *sorted(plugins("drivewright.contact_laws")))]
 TURN = 6.283185307179586
 
 
