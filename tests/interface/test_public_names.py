@@ -63,18 +63,14 @@ def test_every_public_name_loads():
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = [name for name in NAMES if isinstance(getattr(dw, name), ModuleType)]
-NO_LIST_YET = {"chains"}  # packages without a list of what they export; one that has it has to leave
 
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_a_package_lists_what_it_exports(package):
     module = getattr(dw, package)
     exported = list(getattr(module, "__all__", ()))
-    if package in NO_LIST_YET:
-        assert not exported, f"{package} has a list: take it out of NO_LIST_YET"
-    else:
-        assert exported and len(exported) == len(set(exported))
-        assert [name for name in exported if not hasattr(module, name)] == []
+    assert exported and len(exported) == len(set(exported))
+    assert [name for name in exported if not hasattr(module, name)] == []
 
 
 def shown():
