@@ -13,7 +13,7 @@ import numpy as np
 from drivewright import registry
 from drivewright.errors import UnitError
 from drivewright.spec import document, load
-from drivewright.studio.facts import facts
+from drivewright.studio.field_info import field_infos
 from drivewright.units import split
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -39,7 +39,7 @@ class Leaf(NamedTuple):
     """A key that can be changed: where it stands in the tables, what the schema says of it, its raw value (None: not said)."""
 
     path: tuple
-    fact: object
+    info: object
     value: object
 
 
@@ -61,9 +61,9 @@ def random_tables(kind, number, found=None):
         leaves = list(_leaves(tables, model))
         said = [leaf for leaf in leaves if leaf.value is not None]
         leaf = _one(said if said and rng.random() < 0.8 else leaves, rng)
-        if leaf.fact.kind == "choice" and rng.random() < 0.6:  # another kind of thing mostly wants other keys as well
+        if leaf.info.kind == "choice" and rng.random() < 0.6:  # another kind of thing mostly wants other keys as well
             continue
-        value = _changed(leaf.fact, leaf.value, rng)
+        value = _changed(leaf.info, leaf.value, rng)
         if value is not None:
             _put(tables, leaf.path, value)
             changes[".".join(map(str, leaf.path))] = value
@@ -83,20 +83,20 @@ def _copied(value):
 
 def _leaves(tables, model, path=()):
     """Every `Leaf` of a table: its keys that hold one value or a list of them, also those that are not said."""
-    for name, fact in facts(model).items():
-        if name in LEFT_ALONE or (not fact.table and fact.kind in ("text", "file", "any")):
+    for name, info in field_infos(model).items():
+        if name in LEFT_ALONE or (not info.table and info.kind in ("text", "file", "any")):
             continue
         value = tables.get(name)
-        if not fact.table:
-            yield Leaf((*path, name), fact, value)
+        if not info.table:
+            yield Leaf((*path, name), info, value)
         elif isinstance(value, list):
             for n, entry in enumerate(value):
-                yield from _leaves(entry, fact.table, (*path, name, n))
-        elif isinstance(value, dict) and fact.kind == "names":
+                yield from _leaves(entry, info.table, (*path, name, n))
+        elif isinstance(value, dict) and info.kind == "names":
             for key, entry in value.items():
-                yield from _leaves(entry, fact.table, (*path, name, key)) if isinstance(entry, dict) else ()
+                yield from _leaves(entry, info.table, (*path, name, key)) if isinstance(entry, dict) else ()
         elif isinstance(value, dict):
-            yield from _leaves(value, fact.table, (*path, name))
+            yield from _leaves(value, info.table, (*path, name))
 
 
 def _one(leaves, rng):
@@ -144,27 +144,27 @@ def _close(tables):
 # -- changing a value ----------------------------------------------------------------------------------------------------------
 
 
-def _changed(fact, value, rng):
+def _changed(info, value, rng):
     """Another raw value of a key; None where there is nothing to begin with."""
-    value = value if value is not None else fact.example if fact.example is not None else fact.default
-    if fact.kind == "list":
-        return _changed_list(fact, value, rng)
-    if fact.kind == "choice":
-        return _one(fact.choices, rng)
-    if fact.kind == "flag":
+    value = value if value is not None else info.example if info.example is not None else info.default
+    if info.kind == "list":
+        return _changed_list(info, value, rng)
+    if info.kind == "choice":
+        return _one(info.choices, rng)
+    if info.kind == "flag":
         return not value
-    if fact.kind == "quantity":
-        return _scaled_quantity(fact, value, rng)
-    if fact.kind in ("number", "integer") and value is not None:
-        return _within(fact, value * _factor(rng), rng)
+    if info.kind == "quantity":
+        return _scaled_quantity(info, value, rng)
+    if info.kind in ("number", "integer") and value is not None:
+        return _within(info, value * _factor(rng), rng)
     return None
 
 
-def _changed_list(fact, value, rng):
-    if not isinstance(value, list) or not value or not fact.items:
+def _changed_list(info, value, rng):
+    if not isinstance(value, list) or not value or not info.items:
         return None
     n = int(rng.integers(len(value)))
-    inner = _changed(fact.items[min(n, len(fact.items) - 1)], value[n], rng)
+    inner = _changed(info.items[min(n, len(info.items) - 1)], value[n], rng)
     return None if inner is None else [*value[:n], inner, *value[n + 1 :]]
 
 
@@ -174,34 +174,34 @@ def _factor(rng):
     return 10.0 ** rng.uniform(-reach, reach)
 
 
-def _scaled_quantity(fact, value, rng):
+def _scaled_quantity(info, value, rng):
     """A quantity as text, scaled; a zero takes the place of one unit now and then."""
     if not isinstance(value, str) or not value[:1].isdigit() and value[:1] not in "-.":  # "rigid" is no number
         return None
     number, unit = split(value)
     number = float(number) or float(rng.choice([0.0, 1.0, -1.0]))
-    sign = -1.0 if rng.random() < 0.05 and not _has_floor(fact) else 1.0
+    sign = -1.0 if rng.random() < 0.05 and not _has_floor(info) else 1.0
     text = f"{sign * number * _factor(rng):.6g} {unit}"
-    if rng.random() < 0.03 and not fact.limits.open_low and (fact.limits.low in (None, 0)):
+    if rng.random() < 0.03 and not info.limits.open_low and (info.limits.low in (None, 0)):
         return f"0 {unit}"
-    low, high = fact.limits.low, fact.limits.high
+    low, high = info.limits.low, info.limits.high
     try:
-        si = fact.dimension.parse(text) if fact.dimension else 0.0
+        si = info.dimension.parse(text) if info.dimension else 0.0
     except UnitError:  # a dimension with a limit of its own
         return value
     return text if (low is None or si > low) and (high is None or si < high) else value
 
 
-def _has_floor(fact):
-    return fact.limits.low is not None and fact.limits.low >= 0
+def _has_floor(info):
+    return info.limits.low is not None and info.limits.low >= 0
 
 
-def _within(fact, number, rng):
+def _within(info, number, rng):
     """A number inside its limits, now and then at one of them."""
-    low, high, open_low, open_high = fact.limits
+    low, high, open_low, open_high = info.limits
     ends = [end for end, is_open in ((low, open_low), (high, open_high)) if end is not None and not is_open]
     if ends and rng.random() < 0.1:
         number = float(rng.choice(ends))
     number = number if low is None else max(number, math.nextafter(low, math.inf) if open_low else low)
     number = number if high is None else min(number, math.nextafter(high, -math.inf) if open_high else high)
-    return int(round(number)) if fact.kind == "integer" else float(number)
+    return int(round(number)) if info.kind == "integer" else float(number)

@@ -12,7 +12,7 @@ from drivewright.errors import DoesNotAssemble, GeometryCheckFailed, InputError,
 from drivewright.mechanisms.seedling_pusher import dynamics
 from drivewright.report import content, export
 from drivewright.studies import verification as verify
-from drivewright.studio import looking
+from drivewright.studio import preview
 from drivewright.studio.session import opened
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -62,7 +62,7 @@ def test_a_scene_that_fails_is_a_remark(cam, monkeypatch, error, words):
     seen = content.views(cam, dw.build(cam.spec))
     assert seen.scene is None and seen.drawings and seen.remarks[0].startswith(words)
     told = []
-    found = looking.draw(told.append, opened(EXAMPLES / "disc_cam.toml"), ["motion"])
+    found = preview.draw(told.append, opened(EXAMPLES / "disc_cam.toml"), ["motion"])
     assert json.loads(told[0])["remarks"][0].startswith(words) and found["values"]
 
 

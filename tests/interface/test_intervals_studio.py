@@ -15,7 +15,7 @@ from drivewright.report.pack import floats, pack_plot_groups
 from drivewright.spec import document
 from drivewright.studio.design import Design
 from drivewright.studio.jobs import JOBS
-from drivewright.studio.looking import page_result
+from drivewright.studio.preview import page_result
 from drivewright.view.panels import known_plots
 
 WEB = Path(drivewright.__file__).parent / "studio" / "web"

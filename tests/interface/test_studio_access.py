@@ -2,7 +2,8 @@
 
 import loops
 import pytest
-from drivewright.studio.gate import COOKIE, LARGEST, Gate
+
+from drivewright.studio.access import COOKIE, LARGEST, AccessControl
 
 OWN = (b"host", b"127.0.0.1:8123")
 
@@ -31,7 +32,7 @@ def ask(*headers, token="", path="/", query=b"", kind="http", chunks=(b"",)):
         said.append(message)
 
     scope = {"type": kind, "path": path, "query_string": query, "headers": list(headers)}
-    loops.run(Gate(_inner, token)(scope, receive, send))
+    loops.run(AccessControl(_inner, token)(scope, receive, send))
     return said
 
 
@@ -111,7 +112,7 @@ def test_an_answer_that_has_begun_is_broken_off():
         said.append(message["type"])
 
     with pytest.raises(Exception, match="^$"):
-        loops.run(Gate(begins)({"type": "http", "path": "/", "query_string": b"", "headers": [OWN]}, receive, send))
+        loops.run(AccessControl(begins)({"type": "http", "path": "/", "query_string": b"", "headers": [OWN]}, receive, send))
     assert said == ["http.response.start"]
 
 

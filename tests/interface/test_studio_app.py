@@ -17,7 +17,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from drivewright.cli import main
-from drivewright.studio.gate import COOKIE, LARGEST
+from drivewright.studio.access import COOKIE, LARGEST
 
 pytestmark = pytest.mark.needs_studio
 
@@ -30,12 +30,12 @@ import sys
 from drivewright import cli
 from drivewright.studio import app
 
-class Offering(app.Workshop):
+class Offering(app.ServerResources):
     def __init__(self):
         super().__init__()
         print(self.offer('my "cäm".dxf', bytes([0, 255])), file=sys.stderr, flush=True)
 
-app.Workshop = Offering
+app.ServerResources = Offering
 sys.exit(cli.main())
 """
 

@@ -6,12 +6,12 @@ from types import SimpleNamespace
 
 import loops
 import pytest
-from drivewright.studio.computing import Computing
 
 from drivewright.errors import DoesNotAssemble, GeometryCheckFailed, SpecError
 from drivewright.execution.workers import Cancellation, WorkerDied, WorkerFault
 from drivewright.registry import Analysis
-from drivewright.studio import computing, looking
+from drivewright.studio import computations, preview
+from drivewright.studio.computations import TabComputations
 
 KIND = "toy"
 ANALYSES = tuple(Analysis(name, None, name) for name in ("motion", "forces"))
@@ -34,12 +34,12 @@ class Call:
 
 
 class Bench:
-    """Stands for the workshop, and holds all that the page has heard."""
+    """Stands for the resources, and holds all that the page has heard."""
 
     def __init__(self):
         self.said, self.calls, self.offered, self.busy = [], [], {}, 0
         self.quick, self.heavy = (SimpleNamespace(worker=lambda name=name: self._worker(name)) for name in ("quick", "heavy"))
-        self.computing = Computing(self.said.append, lambda error: f"in words: {error}", self)
+        self.computing = TabComputations(self.said.append, lambda error: f"in words: {error}", self)
 
     @asynccontextmanager
     async def _worker(self, name):
@@ -66,7 +66,7 @@ class Bench:
 
     async def look(self, gen):
         made = SimpleNamespace(kind=KIND, gen=gen)
-        self.computing.look(gen, made)
+        self.computing.update(gen, made)
         await settled()
         return made
 
@@ -98,8 +98,8 @@ def found(*names, value=1.0, unit="deg"):
 
 @pytest.fixture
 def bench(monkeypatch):
-    monkeypatch.setattr(computing, "REST", 0)
-    monkeypatch.setattr(computing.registry, "mechanism", {KIND: SimpleNamespace(analyses=ANALYSES)}.__getitem__)
+    monkeypatch.setattr(computations, "REST", 0)
+    monkeypatch.setattr(computations.registry, "mechanism", {KIND: SimpleNamespace(analyses=ANALYSES)}.__getitem__)
     return Bench()
 
 
@@ -204,8 +204,8 @@ async def test_a_design_without_a_solution_is_not_analysed(bench):
 
 
 def test_a_drawing_that_takes_long_says_so_and_is_given_up_at_last(bench, monkeypatch):
-    monkeypatch.setattr(computing, "SLOW", 0.05)
-    monkeypatch.setattr(computing, "PATIENCE", 0.2)
+    monkeypatch.setattr(computations, "SLOW", 0.05)
+    monkeypatch.setattr(computations, "PATIENCE", 0.2)
 
     async def tell():
         await bench.look(1)
@@ -267,7 +267,7 @@ async def test_analyses_tell_how_far_they_are_and_what_they_took(bench):
 
 
 def test_a_design_is_analysed_when_it_has_rested_only(bench, monkeypatch):
-    monkeypatch.setattr(computing, "REST", 0.05)
+    monkeypatch.setattr(computations, "REST", 0.05)
 
     async def tell():
         for gen in (1, 2):
@@ -423,7 +423,7 @@ async def test_another_design_has_nothing_of_the_one_before(bench):
     await bench.look(1)
     await bench.calls[0].answer(found("motion"))
     await bench.calls[1].answer((found("motion", "forces"), {"motion": 0.001}))
-    bench.computing.forget(2)
+    bench.computing.reset(2)
     await bench.look(2)
     await bench.calls[-1].answer(found("motion", value=2.0))
     assert bench.told("result")[-1]["result"] == found("motion", value=2.0)
@@ -433,7 +433,7 @@ async def test_another_design_has_nothing_of_the_one_before(bench):
 async def test_a_drawing_of_the_design_before_leaves_nothing_in_the_next_one(bench):
     bench.computing._seconds = {"motion": 0.001}
     await bench.look(1)
-    bench.computing.forget(2)
+    bench.computing.reset(2)
     await bench.look(2)
     await bench.calls[0].answer(found("motion", "forces"))
     await bench.calls[1].answer(found("motion", value=2.0))
@@ -445,7 +445,7 @@ async def test_a_drawing_of_the_design_before_leaves_nothing_in_the_next_one(ben
 
 @story
 async def test_a_reference_is_drawn_and_analysed(bench):
-    bench.computing.refer("quick-return", SimpleNamespace(kind=KIND, gen="other"))
+    bench.computing.compare_with("quick-return", SimpleNamespace(kind=KIND, gen="other"))
     await settled()
     assert bench.asked == [("heavy", "draw", "other")] and bench.calls[0].arguments[1] == ()
     bench.calls[0].send('{"scene": 1}')
@@ -465,7 +465,7 @@ async def test_a_reference_is_drawn_and_analysed(bench):
 def test_a_reference_that_is_none(bench, error, message):
     @story
     async def tell(bench):
-        bench.computing.refer("x", SimpleNamespace(kind=KIND, gen="other"))
+        bench.computing.compare_with("x", SimpleNamespace(kind=KIND, gen="other"))
         await settled()
         await bench.calls[0].fail(error)
         assert bench.said == [message]
@@ -476,7 +476,7 @@ def test_a_reference_that_is_none(bench, error, message):
 @story
 async def test_the_last_reference_counts(bench):
     for gen in (1, 2):
-        bench.computing.refer(str(gen), SimpleNamespace(kind=KIND, gen=gen))
+        bench.computing.compare_with(str(gen), SimpleNamespace(kind=KIND, gen=gen))
         await settled()
     assert bench.calls[0].stopped == (Cancellation.NOW,) and bench.calls[1].stopped is None
 
@@ -516,9 +516,9 @@ def test_in_its_process_a_job_is_called_by_its_name(monkeypatch):
         tell(2, points, "half", {"rows": 1})
         return design, points
 
-    monkeypatch.setitem(computing.JOBS, "study", toy)
+    monkeypatch.setitem(computations.JOBS, "study", toy)
     news = []
-    assert computing._work(news.append, "study", "design", {"points": 4}) == ("design", 4)
+    assert computations._work(news.append, "study", "design", {"points": 4}) == ("design", 4)
     assert news == [(1, 4, "", None), (2, 4, "half", {"rows": 1})]
 
 
@@ -619,10 +619,10 @@ async def test_a_tab_that_closes_ends_all_that_is_under_way(bench):
     await bench.calls[0].answer(None)
     study = await begun(bench)
     analysing = bench.calls[1]
-    assert analysing.function == looking.analyse.__name__
+    assert analysing.function == preview.analyse.__name__
     await bench.look(2)
     drawing = bench.calls[-1]
-    bench.computing.refer("x", SimpleNamespace(kind=KIND, gen="other"))
+    bench.computing.compare_with("x", SimpleNamespace(kind=KIND, gen="other"))
     await settled()
     bench.computing.close()
     await settled()
@@ -638,6 +638,6 @@ def test_closing_before_anything_was_looked_at(bench):
 async def test_another_design_ends_the_jobs_and_keeps_the_drawing(bench):
     study = await begun(bench)
     await bench.look(1)
-    bench.computing.forget(2)
+    bench.computing.reset(2)
     await settled()
     assert study.stopped == (Cancellation.NOW,) and bench.calls[1].stopped is None

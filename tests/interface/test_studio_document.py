@@ -13,10 +13,10 @@ from drivewright.errors import SpecError
 from drivewright.spec import read_document
 from drivewright.studio.design import Design
 from drivewright.studio.document import STEPS, Document, without_folder
-from drivewright.studio.entering import overlap, value_in
-from drivewright.studio.facts import ABSENT, facts
-from drivewright.studio.fitting import fresh, renamed
+from drivewright.studio.field_info import ABSENT, field_infos
 from drivewright.studio.form import form, values
+from drivewright.studio.input_parsing import keys_overlap, value_in
+from drivewright.studio.sample_values import unused_name, with_unused_name
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PRESETS = [path for kind in registry.kinds() for path in registry.mechanism(kind).presets().values()]
@@ -35,7 +35,7 @@ def example(name):
 def toy(monkeypatch, tmp_path):
     install(monkeypatch, tmp_path)
     (tmp_path / "lift.csv").write_text("angle [deg],lift [mm]\n0,0\n1,1\n")
-    facts.cache_clear()
+    field_infos.cache_clear()
     return Document(Design(tomllib.loads(FULL), tmp_path), "toy")
 
 
@@ -462,16 +462,20 @@ def test_a_missing_file_names_no_folder(toy, tmp_path):
     ],
 )
 def test_a_fresh_name(name, taken, found):
-    assert fresh(name, taken) == found
+    assert unused_name(name, taken) == found
 
 
 def test_a_key_overlaps_what_is_in_it_only():
-    assert overlap("bodies.crank", "bodies.crank") and overlap("bodies", "bodies.crank.mass") and overlap("bodies.crank.mass", "bodies")
-    assert not overlap("bodies.crank", "bodies.crank2") and not overlap("bodies.crank2.mass", "bodies.crank")
+    assert (
+        keys_overlap("bodies.crank", "bodies.crank")
+        and keys_overlap("bodies", "bodies.crank.mass")
+        and keys_overlap("bodies.crank.mass", "bodies")
+    )
+    assert not keys_overlap("bodies.crank", "bodies.crank2") and not keys_overlap("bodies.crank2.mass", "bodies.crank")
 
 
 def test_a_copy_shares_nothing_with_its_model():
     model = {"name": "arm", "at": ["1 mm"]}
-    copy, plain = renamed(model, [model]), renamed(["1 mm"], [])
+    copy, plain = with_unused_name(model, [model]), with_unused_name(["1 mm"], [])
     copy["at"][0] = "2 mm"
     assert copy["name"] == "arm2" and plain == ["1 mm"] and model == {"name": "arm", "at": ["1 mm"]}

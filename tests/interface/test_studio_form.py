@@ -13,9 +13,9 @@ from spec_cases import FULL, install
 from drivewright import registry
 from drivewright.spec import read_document, set_key
 from drivewright.studio.design import Design
-from drivewright.studio.entering import form_key, value_in
-from drivewright.studio.facts import ABSENT, fact_at, facts, plain_text, read
+from drivewright.studio.field_info import ABSENT, field_info_at, field_infos, parse_text, plain_text
 from drivewright.studio.form import changed_fields, form, values
+from drivewright.studio.input_parsing import form_key, value_in
 from drivewright.studio.sliders import Limits, slider, tidied, typical
 from drivewright.units import any_quantity
 
@@ -34,7 +34,7 @@ def opened(path):
 def toy(monkeypatch, tmp_path):
     install(monkeypatch, tmp_path)
     (tmp_path / "lift.csv").write_text("angle [deg],lift [mm]\n0,0\n1,1\n")
-    facts.cache_clear()
+    field_infos.cache_clear()
     return Design(tomllib.loads(FULL), tmp_path)
 
 
@@ -54,11 +54,11 @@ def leaves(value, path=()):
         yield ".".join(path), value
 
 
-def si(fact, value):
+def si(info, value):
     """A raw value as the spec has it."""
     if isinstance(value, list):
-        return tuple(si(fact.items[min(n, len(fact.items) - 1)] if fact.items else fact, entry) for n, entry in enumerate(value))
-    return fact.dimension.parse(value) if fact.dimension else value
+        return tuple(si(info.items[min(n, len(info.items) - 1)] if info.items else info, entry) for n, entry in enumerate(value))
+    return info.dimension.parse(value) if info.dimension else value
 
 
 @pytest.mark.parametrize("path", SPECS, ids=lambda path: path.stem)
@@ -71,14 +71,14 @@ def test_every_value_of_the_effective_spec_is_in_the_form(path):
         if key in tables:  # a table or a list of them that is not there
             assert value in (None, (), {}) and not tables[key]["fields"]
             continue
-        field, fact = fields[key], fact_at(type(spec), key.split("."))
+        field, info = fields[key], field_info_at(type(spec), key.split("."))
         shown = field["value"]
         if field["kind"] == "file":
             assert (shown and (path.parent / shown).resolve()) == value
         elif field["kind"] == "quantity" and isinstance(shown, float):
             assert any_quantity(f"{shown!r} {field['unit']}")[0] == pytest.approx(value, rel=1e-14)
-        elif fact.dimension or field["kind"] == "list":
-            assert (si(fact, shown) if shown is not None else None) in (value, value or None)
+        elif info.dimension or field["kind"] == "list":
+            assert (si(info, shown) if shown is not None else None) in (value, value or None)
         else:
             assert shown == value or field["text"] in (value, str(value))
         found += 1
@@ -89,11 +89,11 @@ def test_every_value_of_the_effective_spec_is_in_the_form(path):
 def test_what_a_box_shows_reads_back(path):
     design, spec, made = opened(path)
     for key, field in values(made).items():
-        fact, given = fact_at(type(spec), key.split(".")), value_in(design.tables, key)
-        wanted = fact.default if given is ABSENT else given
+        info, given = field_info_at(type(spec), key.split(".")), value_in(design.tables, key)
+        wanted = info.default if given is ABSENT else given
         assert field["given"] == (given is not ABSENT) or key.rpartition(".")[0] in values(made)
         if field["text"]:
-            got = read(fact, field["text"], field["text"])
+            got = parse_text(info, field["text"], field["text"])
             assert (got, type(got)) == (wanted, type(wanted)), key
         elif wanted not in (None, ""):
             pytest.fail(f"{key} shows nothing of {wanted!r}")
@@ -176,14 +176,14 @@ def test_limits_are_in_the_unit_shown(toy):
     ],
 )
 def test_typed_text_becomes_a_value(toy, key, text, shown, value):
-    got = read(fact_at(type(toy.spec()), key.split(".")), text, shown)
+    got = parse_text(field_info_at(type(toy.spec()), key.split(".")), text, shown)
     assert (got, type(got)) == (value, type(value))
 
 
 @pytest.mark.parametrize("key", ["nothing", "length.0", "drive.nothing", "joints.0", "joints.0.at.2", "weights.0.1", "spring"])
 def test_where_no_value_stands_there_is_no_fact(toy, key):
-    fact = fact_at(type(toy.spec()), key.split("."))
-    assert fact is None or fact.table
+    info = field_info_at(type(toy.spec()), key.split("."))
+    assert info is None or info.table
 
 
 def test_a_slider_move_sends_its_field_only(toy):
@@ -314,7 +314,7 @@ def test_an_open_limit_is_open_on_its_own_side():
         above: float = Field(1.0, gt=0, le=2)
         below: float = Field(1.0, ge=0, lt=2)
 
-    found = facts(Both)
+    found = field_infos(Both)
     assert found["above"].limits == Limits(0, 2, True, False) and found["below"].limits == Limits(0, 2, False, True)
 
 

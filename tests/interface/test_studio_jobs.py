@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from drivewright.studio.jobs.keys import is_locked, label, leaves, numbered
 
 import drivewright as dw
 from drivewright import registry, runner
@@ -22,6 +21,7 @@ from drivewright.spec import load
 from drivewright.studies.store import Memory
 from drivewright.studio.design import Design
 from drivewright.studio.jobs import JOBS, search
+from drivewright.studio.jobs.design_keys import is_locked, label, leaves, numbered
 from drivewright.studio.jobs.figures import themed
 from drivewright.studio.jobs.sensitivity import _effect
 from drivewright.studio.jobs.solid import shaded

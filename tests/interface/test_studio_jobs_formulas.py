@@ -10,7 +10,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from drivewright.studio.jobs.keys import label, numeric, plain, written
 
 from drivewright import runner
 from drivewright.errors import SpecError
@@ -21,6 +20,7 @@ from drivewright.studies.variables import Variable
 from drivewright.studio.design import Design
 from drivewright.studio.jobs import figures, files, search, solid
 from drivewright.studio.jobs import study as studying
+from drivewright.studio.jobs.design_keys import label, numeric, plain, written
 from drivewright.units import SI
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -5,13 +5,13 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from drivewright.studio.looking import affordable, merged, page_result
 
 from drivewright import registry
 from drivewright.errors import DoesNotAssemble, SpecError
 from drivewright.registry import Analysis
 from drivewright.result import Check
-from drivewright.studio import looking
+from drivewright.studio import preview
+from drivewright.studio.preview import affordable_analyses, merge_results, page_result
 from drivewright.studio.session import opened
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -42,24 +42,24 @@ SECONDS = {"motion": 0.004, "forces": 0.003, "wear": 0.008, "oil": 0.002}
     ],
 )
 def test_the_quickest_go_first_each_with_what_it_needs(budget, names):
-    assert affordable(CHAIN, SECONDS, budget) == names
+    assert affordable_analyses(CHAIN, SECONDS, budget) == names
 
 
 def test_what_is_needed_is_paid_once():
     both = (analysis("a", "base"), analysis("b", "base"), analysis("base"))
     seconds = {"a": 1.0, "b": 2.0, "base": 4.0}
-    assert affordable(both, seconds, 6.9) == ["a", "base"]
-    assert affordable(both, seconds, 7.1) == ["a", "b", "base"]
+    assert affordable_analyses(both, seconds, 6.9) == ["a", "base"]
+    assert affordable_analyses(both, seconds, 7.1) == ["a", "b", "base"]
 
 
 def test_nothing_is_run_of_which_nobody_knows_how_long_it_takes():
-    assert affordable(CHAIN, {}, 9.0) == []
-    assert affordable(CHAIN, {"forces": 0.003, "oil": 0.002}, 9.0) == ["oil"]  # forces needs motion
-    assert affordable(CHAIN, {"wear": 0.1, "forces": 0.003, "oil": 0.002}, 9.0) == ["oil"]  # and wear needs it through forces
+    assert affordable_analyses(CHAIN, {}, 9.0) == []
+    assert affordable_analyses(CHAIN, {"forces": 0.003, "oil": 0.002}, 9.0) == ["oil"]  # forces needs motion
+    assert affordable_analyses(CHAIN, {"wear": 0.1, "forces": 0.003, "oil": 0.002}, 9.0) == ["oil"]  # and wear needs it through forces
 
 
 def test_seconds_of_an_analysis_that_has_gone_say_nothing():
-    assert affordable(CHAIN, SECONDS | {"gone": 0.0}, 9.0) == ["motion", "forces", "wear", "oil"]
+    assert affordable_analyses(CHAIN, SECONDS | {"gone": 0.0}, 9.0) == ["motion", "forces", "wear", "oil"]
 
 
 # -- merging -------------------------------------------------------------------------------------------------------------------
@@ -85,7 +85,7 @@ def result(value, *names, unit="deg", **more):
 
 def test_new_answers_replace_their_own_and_the_others_are_stale():
     shown = result(1, "a", "b", "c")
-    both = merged(shown, result(2, "b"))
+    both = merge_results(shown, result(2, "b"))
     for part in (both["checks"], both["values"], both["plots"]["plots"]):
         assert part == [{"name": "a", "value": 1, "stale": True}, {"name": "b", "value": 2}, {"name": "c", "value": 1, "stale": True}]
     assert both["headline"] == [{"name": "a", "value": 1, "stale": True}, {"name": "b", "value": 2}]
@@ -95,18 +95,18 @@ def test_new_answers_replace_their_own_and_the_others_are_stale():
 
 
 def test_what_is_new_comes_behind():
-    both = merged(result(1, "a"), result(2, "b", "a"))
+    both = merge_results(result(1, "a"), result(2, "b", "a"))
     assert both["checks"] == both["values"] == [{"name": "a", "value": 2}, {"name": "b", "value": 2}]
     assert both["plots"]["plots"][0] == {"name": "a", "value": 2}
 
 
 def test_what_is_renewed_twice_is_not_stale():
-    both = merged(merged(result(1, "a", "b"), result(2, "a")), result(3, "a", "b"))
+    both = merge_results(merge_results(result(1, "a", "b"), result(2, "a")), result(3, "a", "b"))
     assert both["checks"] == [{"name": "a", "value": 3}, {"name": "b", "value": 3}]
 
 
 def test_bars_follow_the_checks_that_were_renewed():
-    assert merged(result(1, "a", "b"), result(2, "b"))["fractions"] == {"a": 1, "b": 2}
+    assert merge_results(result(1, "a", "b"), result(2, "b"))["fractions"] == {"a": 1, "b": 2}
 
 
 @pytest.mark.parametrize(
@@ -114,7 +114,7 @@ def test_bars_follow_the_checks_that_were_renewed():
     [(None, result(2, "a")["plots"]), (result(1, "a")["plots"], None), (result(1, "a")["plots"], result(2, "a", unit="s")["plots"])],
 )
 def test_plots_over_another_cycle_stay_until_all_are_there(old, new):
-    assert merged(result(1, "a", plots=old), result(2, "a", plots=new))["plots"] is old
+    assert merge_results(result(1, "a", plots=old), result(2, "a", plots=new))["plots"] is old
 
 
 # -- the page's result ---------------------------------------------------------------------------------------------------------
@@ -139,7 +139,7 @@ def check(name, value, limit, sense="<="):
     ],
 )
 def test_a_margin_as_a_part_of_its_limit(value, limit, sense, part):
-    assert looking._fraction(check("x", value, limit, sense)) == (part if part is None else pytest.approx(part, rel=1e-12))
+    assert preview._fraction(check("x", value, limit, sense)) == (part if part is None else pytest.approx(part, rel=1e-12))
 
 
 @pytest.fixture(scope="module")
@@ -151,7 +151,7 @@ def four_bar():
 def analysed(four_bar):
     """(told, answer) of all default analyses."""
     told = []
-    return told, looking.analyse(told.append, four_bar)
+    return told, preview.analyse(told.append, four_bar)
 
 
 def test_all_default_analyses_are_told_and_timed(four_bar, analysed):
@@ -173,7 +173,7 @@ def test_the_result_is_plain_and_whole(analysed):
 
 def test_every_analysis_has_its_own_seconds(four_bar, monkeypatch):
     now = iter(range(1000))
-    monkeypatch.setattr(looking, "time", SimpleNamespace(perf_counter=lambda: next(now)))
+    monkeypatch.setattr(preview, "time", SimpleNamespace(perf_counter=lambda: next(now)))
 
     def run(spec, progress, model):
         for n, name in enumerate(("a", "b", "c")):
@@ -182,9 +182,9 @@ def test_every_analysis_has_its_own_seconds(four_bar, monkeypatch):
                 next(now)
         return "result"
 
-    monkeypatch.setattr(looking.runner, "run", run)
-    monkeypatch.setattr(looking, "page_result", lambda result, scene, analyses: (result, analyses))
-    assert looking.analyse(lambda what: None, four_bar) == (("result", ["a", "b", "c"]), {"a": 1, "b": 11, "c": 21})
+    monkeypatch.setattr(preview.runner, "run", run)
+    monkeypatch.setattr(preview, "page_result", lambda result, scene, analyses: (result, analyses))
+    assert preview.analyse(lambda what: None, four_bar) == (("result", ["a", "b", "c"]), {"a": 1, "b": 11, "c": 21})
 
 
 def test_a_drawing_is_told_before_the_answers(four_bar):
@@ -193,10 +193,10 @@ def test_a_drawing_is_told_before_the_answers(four_bar):
     def tell(what):
         told.append(json.loads(what))
 
-    assert looking.draw(tell, four_bar, ()) is None
+    assert preview.draw(tell, four_bar, ()) is None
     assert [set(each) for each in told] == [{"scene", "remarks"}] and told[0]["remarks"] == []
     assert {body["name"] for body in told[0]["scene"]["bodies"]} >= {"crank", "coupler", "rocker"}
-    found = looking.draw(tell, four_bar, ["motion"])
+    found = preview.draw(tell, four_bar, ["motion"])
     assert told[1] == told[0] and found["analyses"] == ["motion"]
     names = {each["name"] for each in found["values"]}
     assert "rocker.max_angular_acceleration" in names and not any(name.startswith("joints.") for name in names)
@@ -206,13 +206,13 @@ def test_a_drawing_is_told_before_the_answers(four_bar):
 def test_a_drawing_follows_the_design(four_bar):
     told = []
     for design in (four_bar, four_bar.changed({"bodies.crank.points.A": ["35 mm", "0 mm"]})):
-        looking.draw(told.append, design, ())
+        preview.draw(told.append, design, ())
     assert told[0] != told[1]
 
 
 def test_a_design_that_is_none_says_so_before_anything_is_told(four_bar):
     told = []
-    for act in (lambda design: looking.draw(told.append, design, ()), lambda design: looking.analyse(told.append, design)):
+    for act in (lambda design: preview.draw(told.append, design, ()), lambda design: preview.analyse(told.append, design)):
         with pytest.raises(SpecError, match=r"drive\.speed: wants an angular speed, got '3 kg'"):
             act(four_bar.changed({"drive.speed": "3 kg"}))
     assert told == []
@@ -227,30 +227,30 @@ def without_a_scene(four_bar, monkeypatch):
 
     known = registry.mechanism(four_bar.kind)
     fake = SimpleNamespace(scene=scene, analyses=known.analyses)
-    monkeypatch.setattr(looking, "registry", SimpleNamespace(mechanism=lambda kind: fake))
+    monkeypatch.setattr(preview, "registry", SimpleNamespace(mechanism=lambda kind: fake))
     return fake
 
 
 def test_what_cannot_be_shown_is_remarked_and_still_computed(four_bar, without_a_scene):
     told = []
-    found = looking.draw(told.append, four_bar, ["motion"])
+    found = preview.draw(told.append, four_bar, ["motion"])
     assert json.loads(told[0]) == {"scene": None, "remarks": ["no motion to show: the loop stays open"]}
     assert found["plots"] is None and found["values"]
     without_a_scene.scene = None
-    looking.draw(told.append, four_bar, ())
+    preview.draw(told.append, four_bar, ())
     assert json.loads(told[1]) == {"scene": None, "remarks": []}
 
 
 def test_a_whole_result_without_a_scene_has_no_plots(four_bar, without_a_scene, monkeypatch):
-    monkeypatch.setattr(looking.runner, "run", lambda spec, progress, model: "result")
-    monkeypatch.setattr(looking, "page_result", lambda result, scene, analyses: scene)
-    assert looking.analyse(None, four_bar) == (None, {})
+    monkeypatch.setattr(preview.runner, "run", lambda spec, progress, model: "result")
+    monkeypatch.setattr(preview, "page_result", lambda result, scene, analyses: scene)
+    assert preview.analyse(None, four_bar) == (None, {})
     without_a_scene.scene = None
-    assert looking.analyse(None, four_bar) == (None, {})
+    assert preview.analyse(None, four_bar) == (None, {})
 
 
 def test_findings_and_the_outcome_come_along(monkeypatch):
-    monkeypatch.setattr(looking, "summary", lambda result: {"verdict": "good"})
+    monkeypatch.setattr(preview, "summary", lambda result: {"verdict": "good"})
     checks = (check("near", 3.0, 4.0), check("zero", 1.0, 0.0, ">="))
     made = SimpleNamespace(checks=checks, findings=("beware",), outcome="partial", provenance={"seconds": 2.5})
     assert page_result(made, None, ["a"]) == {
@@ -266,6 +266,6 @@ def test_findings_and_the_outcome_come_along(monkeypatch):
 
 def test_warming_loads_every_kind_and_tells_nothing(monkeypatch):
     loaded = []
-    monkeypatch.setattr(looking, "registry", SimpleNamespace(kinds=lambda: ["a", "b"], mechanism=loaded.append))
-    looking.warm(None)
+    monkeypatch.setattr(preview, "registry", SimpleNamespace(kinds=lambda: ["a", "b"], mechanism=loaded.append))
+    preview.warm(None)
     assert loaded == ["a", "b"]

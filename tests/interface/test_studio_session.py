@@ -8,8 +8,8 @@ import pytest
 
 from drivewright.errors import InputError, SpecError
 from drivewright.studio.jobs import JOBS
+from drivewright.studio.resources import KEPT, MOST_OFFERS, ServerResources
 from drivewright.studio.session import LARGEST, MOST_FILES, Session, first_design, opened, packed, unpacked
-from drivewright.studio.workshop import KEPT, MOST_OFFERS, Workshop
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -27,15 +27,15 @@ class Quiet:
 class Tab:
     """A session and all that it has said."""
 
-    def __init__(self, start, workshop):
+    def __init__(self, start, resources):
         self.heard = []
-        self.session = Session(self.heard.append, workshop, start)
-        self.session.computing = self.quiet = Quiet()
+        self.session = Session(self.heard.append, resources, start)
+        self.session.computations = self.quiet = Quiet()
 
     def say(self, what, **more):
         """What the session answers to one message."""
         self.heard.clear()
-        self.session.hear({"what": what, **more})
+        self.session.receive({"what": what, **more})
         json.dumps(self.heard, allow_nan=False)  # everything can be sent
         return list(self.heard)
 
@@ -45,16 +45,16 @@ class Tab:
 
 
 @pytest.fixture
-def workshop(tmp_path, monkeypatch):
+def resources(tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    shop = Workshop()
+    shop = ServerResources()
     yield shop
     shop.close()
 
 
 @pytest.fixture
-def tab(workshop, tmp_path):
-    found = Tab(opened(shutil.copy(EXAMPLES / "four_bar.toml", tmp_path)), workshop)
+def tab(resources, tmp_path):
+    found = Tab(opened(shutil.copy(EXAMPLES / "four_bar.toml", tmp_path)), resources)
     found.say("hello")
     return found
 
@@ -63,17 +63,17 @@ def only(messages, what):
     return [message for message in messages if message["what"] == what]
 
 
-def test_hello_brings_the_kinds_the_form_and_a_drawing(workshop):
-    tab = Tab(opened(EXAMPLES / "four_bar.toml"), workshop)
+def test_hello_brings_the_kinds_the_form_and_a_drawing(resources):
+    tab = Tab(opened(EXAMPLES / "four_bar.toml"), resources)
     assert tab.say("set", key="title", text="x") == []  # nothing before hello
     start, design = tab.say("hello")
     assert {kind["kind"] for kind in start["kinds"]} >= {tab.session.document.design.kind}
     assert design["title"] == "Crank-rocker four-bar" and design["form"]["groups"] and not design["undo"]
-    assert tab.quiet.asked[-1] == ("look", 1, tab.session.document.design)
+    assert tab.quiet.asked[-1] == ("update", 1, tab.session.document.design)
 
 
-def test_the_start_has_the_name_of_its_file_and_what_a_page_brings_has_none(workshop):
-    tab = Tab(opened(EXAMPLES / "four_bar.toml"), workshop)
+def test_the_start_has_the_name_of_its_file_and_what_a_page_brings_has_none(resources):
+    tab = Tab(opened(EXAMPLES / "four_bar.toml"), resources)
     tab.session.start_name = "four_bar"
     assert only(tab.say("hello"), "design")[0]["name"] == "four_bar"
     assert only(tab.say("hello", saved=tab.toml), "design")[0]["name"] == ""
@@ -84,7 +84,7 @@ def test_a_change_sends_its_field_only(tab):
     assert set(values["fields"]) == {"drive.speed"} and values["fields"]["drive.speed"]["text"] == "150 rpm"
     assert values["undo"] and values["changed"] and values["settled"] == ["drive.speed"] and values["gen"] == 2
     assert 'speed = "150 rpm"' in values["toml"]
-    assert tab.quiet.asked[-1][:2] == ("look", 2)
+    assert tab.quiet.asked[-1][:2] == ("update", 2)
 
 
 def test_a_refusal_has_the_words_of_the_command_line_and_changes_nothing(tab):
@@ -103,16 +103,16 @@ def test_undo_and_redo_are_designs_like_others(tab):
     assert 'speed = "150 rpm"' in again["toml"]
 
 
-def test_a_reload_brings_the_design_back(tab, workshop):
+def test_a_reload_brings_the_design_back(tab, resources):
     tab.say("set", key="drive.speed", text="150")
-    other = Tab(tab.session.start, workshop)
+    other = Tab(tab.session.start, resources)
     other.say("hello", saved=tab.toml, files="")
-    assert other.toml == tab.toml != Tab(tab.session.start, workshop).session.start.toml()
+    assert other.toml == tab.toml != Tab(tab.session.start, resources).session.start.toml()
 
 
 @pytest.mark.parametrize("saved", ["mechanism = ", 'mechanism = "nothing"', "x" * (LARGEST + 1), 7])
-def test_what_cannot_be_brought_back_is_told_and_the_start_is_there(tab, workshop, saved):
-    other = Tab(tab.session.start, workshop)
+def test_what_cannot_be_brought_back_is_told_and_the_start_is_there(tab, resources, saved):
+    other = Tab(tab.session.start, resources)
     said = other.say("hello", saved=saved)
     assert only(said, "refused") and only(said, "design")
     assert other.toml == tab.toml
@@ -160,7 +160,7 @@ def test_a_spec_opens_with_its_data_files(tab):
     said = tab.say("open", files=[{"name": "mine.toml", "text": sample_with_file("lift.csv")}, {"name": "lift.csv", "text": LIFT}])
     (design,) = only(said, "design")
     assert design["name"] == "mine" and design["files"] and '"lift.csv"' in design["toml"]
-    other = Tab(tab.session.start, tab.session.workshop)
+    other = Tab(tab.session.start, tab.session.resources)
     other.say("hello", saved=design["toml"], files=design["files"])  # and is there after a reload
     assert other.toml == design["toml"]
     (refused,) = tab.say("share")
@@ -185,7 +185,7 @@ def test_a_page_cannot_read_the_disk_nor_learn_what_is_on_it(tab, name):
 def test_nor_with_files_that_it_once_sent(tab, name):
     said = tab.say("open", files=[{"name": "mine.toml", "text": sample_with_file("lift.csv")}, {"name": "lift.csv", "text": LIFT}])
     token = only(said, "design")[0]["files"]
-    other = Tab(tab.session.start, tab.session.workshop)
+    other = Tab(tab.session.start, tab.session.resources)
     said = other.say("hello", saved=sample_with_file(name), files=token)
     assert "there is no such data file here" in only(said, "refused")[0]["message"] and other.toml == other.session.start.toml()
 
@@ -204,8 +204,8 @@ def test_only_some_files_are_looked_at(tab):
     assert f"here are 0 specs in {MOST_FILES} files" in refused["message"]
 
 
-def test_no_message_shows_a_folder_of_this_machine(workshop):
-    tab = Tab(opened(EXAMPLES / "oscillating_cam.toml"), workshop)
+def test_no_message_shows_a_folder_of_this_machine(resources):
+    tab = Tab(opened(EXAMPLES / "oscillating_cam.toml"), resources)
     said = tab.say("hello")
     said += tab.say("set", key="motion.file", text="missing.csv") + tab.say("text", toml="format = 1\n]")
     assert str(EXAMPLES) not in json.dumps(said)
@@ -239,7 +239,7 @@ ODD = ({}, [], None, "set", {"what": ["set"]}, {"what": None}, {"what": "close"}
 def test_what_is_no_request_is_nothing(tab, message):
     before = tab.toml
     tab.heard.clear()
-    tab.session.hear(message)
+    tab.session.receive(message)
     assert tab.heard == [] and tab.toml == before
 
 
@@ -283,7 +283,7 @@ def test_text_of_another_kind_is_another_drive(tab):
     tab.say("job", name="sensitivity", options={})
     (design,) = tab.say("text", toml=(EXAMPLES / "disc_cam.toml").read_text(encoding="utf-8"))
     assert design["opened"] and design["kind"] != first and design["settled"] == ["*"]
-    assert tab.quiet.asked[-2] == ("forget", tab.session.gen)
+    assert tab.quiet.asked[-2] == ("reset", tab.session.gen)
     (back,) = tab.say("undo")
     assert back["opened"] and back["kind"] == first
 
@@ -313,47 +313,47 @@ def test_what_is_saved_is_no_change_any_more(tab):
 def test_after_a_lost_connection_everything_comes_once_more(tab):
     (design,) = tab.say("again")
     assert design["what"] == "design" and design["form"]["groups"] and design["gen"] == 2
-    assert tab.quiet.asked[-1][:2] == ("look", 2)
+    assert tab.quiet.asked[-1][:2] == ("update", 2)
 
 
 def test_another_kind_forgets_what_was_computed(tab):
     other = next(kind["kind"] for kind in only(tab.say("hello"), "start")[0]["kinds"] if kind["kind"] != tab.session.document.design.kind)
     (design,) = tab.say("fresh", kind=other)
     assert design["kind"] == other and not design["undo"]
-    assert tab.quiet.asked[-2:-1] == [("forget", tab.session.gen)]
+    assert tab.quiet.asked[-2:-1] == [("reset", tab.session.gen)]
 
 
-def test_an_offered_file_is_fetched_once(workshop):
-    address = workshop.offer("../a b.dxf", b"0\nEOF")
+def test_an_offered_file_is_fetched_once(resources):
+    address = resources.offer("../a b.dxf", b"0\nEOF")
     token = address.rpartition("/")[2]
-    assert workshop.fetch(token) == ("a-b.dxf", b"0\nEOF")
-    assert workshop.fetch(token) is None and workshop.folder("nobody") is None and workshop.folder(["x"]) is None
+    assert resources.fetch(token) == ("a-b.dxf", b"0\nEOF")
+    assert resources.fetch(token) is None and resources.folder("nobody") is None and resources.folder(["x"]) is None
 
 
 def test_the_first_design_is_one():
     first_design().spec()
 
 
-def test_files_wait_for_a_while_and_some_at_a_time(workshop, monkeypatch):
+def test_files_wait_for_a_while_and_some_at_a_time(resources, monkeypatch):
     now = 0.0
-    monkeypatch.setattr("drivewright.studio.workshop.time.monotonic", lambda: now)
-    first = workshop.offer("a", b"a").rpartition("/")[2]
+    monkeypatch.setattr("drivewright.studio.resources.time.monotonic", lambda: now)
+    first = resources.offer("a", b"a").rpartition("/")[2]
     now = KEPT - 1
-    second = workshop.offer("b", b"b").rpartition("/")[2]
-    assert workshop.fetch(first) == ("a", b"a")
+    second = resources.offer("b", b"b").rpartition("/")[2]
+    assert resources.fetch(first) == ("a", b"a")
     now = 2 * KEPT
-    workshop.offer("c", b"c")
-    assert workshop.fetch(second) is None
-    tokens = [workshop.offer("d", b"d").rpartition("/")[2] for _ in range(MOST_OFFERS + 1)]
-    assert workshop.fetch(tokens[0]) is None and workshop.fetch(tokens[1]) == workshop.fetch(tokens[-1]) == ("d", b"d")
+    resources.offer("c", b"c")
+    assert resources.fetch(second) is None
+    tokens = [resources.offer("d", b"d").rpartition("/")[2] for _ in range(MOST_OFFERS + 1)]
+    assert resources.fetch(tokens[0]) is None and resources.fetch(tokens[1]) == resources.fetch(tokens[-1]) == ("d", b"d")
 
 
-def test_the_oldest_folder_goes_and_all_of_them_at_the_end(workshop, monkeypatch, tmp_path):
-    monkeypatch.setattr("drivewright.studio.workshop.TABS_FILES", 2)
-    (first, place), (second, _), (third, _) = (workshop.new_folder() for _ in range(3))
-    assert workshop.folder(first) is None and not place.exists()
-    assert all(workshop.folder(token).is_dir() for token in (second, third))
-    workshop.close()
+def test_the_oldest_folder_goes_and_all_of_them_at_the_end(resources, monkeypatch, tmp_path):
+    monkeypatch.setattr("drivewright.studio.resources.TABS_FILES", 2)
+    (first, place), (second, _), (third, _) = (resources.new_folder() for _ in range(3))
+    assert resources.folder(first) is None and not place.exists()
+    assert all(resources.folder(token).is_dir() for token in (second, third))
+    resources.close()
     assert not list(tmp_path.glob("drivewright-studio-*"))
 
 

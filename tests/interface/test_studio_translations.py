@@ -14,7 +14,7 @@ from drivewright.errors import InputError
 from drivewright.report.content import content
 from drivewright.spec import load
 from drivewright.spec.fields import containers_of, has_user_keys, table_of
-from drivewright.studio import words
+from drivewright.studio import translations
 from drivewright.view.panels import drawable, known_plots, panels
 from drivewright.view.text import sentence
 
@@ -56,8 +56,11 @@ def in_node(body, data):
 
 def translated(asked):
     """What words.js makes of [(kind, texts)]: a list of lists."""
-    own = words.texts(None)
-    data = [{"state": {"lang": "zh", "words": own, "design": {"words": words.texts(kind)}}, "texts": list(texts)} for kind, texts in asked]
+    own = translations.texts(None)
+    data = [
+        {"state": {"lang": "zh", "words": own, "design": {"words": translations.texts(kind)}}, "texts": list(texts)}
+        for kind, texts in asked
+    ]
     return in_node("console.log(JSON.stringify(data.map(({state, texts}) => texts.map(text => createWords({state})(text)))));", data)
 
 
@@ -130,7 +133,7 @@ def test_all_our_kinds_are_translated():
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_key_has_a_label_and_every_label_a_key(kind, part):
     wanted = {key for which, key in keys(registry.mechanism(kind).spec) if which == part}
-    assert len(wanted) > 5 and set(getattr(words, part)(kind)) == wanted
+    assert len(wanted) > 5 and set(getattr(translations, part)(kind)) == wanted
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -141,8 +144,8 @@ def test_every_preset_has_a_name_and_names_no_other(kind):
 
 @pytest.mark.parametrize("kind", [None, *KINDS])
 def test_values_are_chinese_and_keep_the_parts_that_vary(kind):
-    patterns = words.texts(kind)
-    labels = {} if kind is None else {**words.fields(kind), **words.tables(kind)}
+    patterns = translations.texts(kind)
+    labels = {} if kind is None else {**translations.fields(kind), **translations.tables(kind)}
     assert [text for text in (*patterns.values(), *labels.values()) if not CHINESE.search(text) and text not in SAME] == []
     assert [english for english, text in patterns.items() if english.count("*") != text.count("*")] == []
     assert [text for text in labels.values() if len(text) > 16] == []
@@ -150,10 +153,10 @@ def test_values_are_chinese_and_keep_the_parts_that_vary(kind):
 
 def test_label_takes_any_name_or_number_for_a_star():
     patterns = {"bodies.*.mass": "m", "bodies.*.*.deep": "d", "bodies.crank.mass": "own", "gravity": "g", "tolerances": "t"}
-    assert words.label("bodies.rocker.mass", patterns) == words.label("bodies.7.mass", patterns) == "m"
-    assert words.label("bodies.crank.mass", patterns) == "own"
-    assert words.label("gravity.1", patterns) == "g" and words.label("tolerances.dimensions.0", patterns) == "t"
-    assert words.label("mass", patterns) is None and words.label("ground.mass", patterns) is None
+    assert translations.label("bodies.rocker.mass", patterns) == translations.label("bodies.7.mass", patterns) == "m"
+    assert translations.label("bodies.crank.mass", patterns) == "own"
+    assert translations.label("gravity.1", patterns) == "g" and translations.label("tolerances.dimensions.0", patterns) == "t"
+    assert translations.label("mass", patterns) is None and translations.label("ground.mass", patterns) is None
 
 
 def test_a_kind_without_translations_has_those_that_all_share(tmp_path):
@@ -165,7 +168,7 @@ def test_a_kind_without_translations_has_those_that_all_share(tmp_path):
 
 
 def test_kinds_are_introduced_before_a_design_is_open():
-    said = words.texts(None)
+    said = translations.texts(None)
     for kind in KINDS:
         assert CHINESE.search(said[registry.mechanism(kind).summary]) and CHINESE.search(said[kind.replace("-", " ")])
     assert "design a" in said and "Area within the profile of a cam" not in said
@@ -239,14 +242,14 @@ def test_presets_and_examples_leave_no_english(kind):
 
 @pytest.mark.parametrize("module", sorted(path.name for path in WEB.glob("*.js")))
 def test_every_text_of_the_page_is_translated(module):
-    said = words.texts(None)
+    said = translations.texts(None)
     found = set(literals((WEB / module).read_text(encoding="utf-8"))) - {""}
     assert sorted(text for text in found if text not in said and re.search("[A-Za-z]{2}", text)) == []
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_no_kind_changes_what_the_page_says(kind):
-    own, found = words.texts(None), words.texts(kind)
+    own, found = translations.texts(None), translations.texts(kind)
     page = {text for path in WEB.glob("*.js") for text in literals(path.read_text(encoding="utf-8"))}
     assert {text: found[text] for text in page & set(own) if found[text] != own[text]} == {}
 
@@ -254,7 +257,7 @@ def test_no_kind_changes_what_the_page_says(kind):
 def test_every_text_of_the_player_is_translated():
     block = re.search(r"const TEXT = \{(.*?)\};", (SOURCE / "report" / "controls.js").read_text(encoding="utf-8"), re.DOTALL)[1]
     found = re.findall(r':\s*"([^"]+)"', block)
-    assert len(found) > 5 and [text for text in found if text not in words.texts(None)] == []
+    assert len(found) > 5 and [text for text in found if text not in translations.texts(None)] == []
 
 
 def test_the_search_for_texts_finds_them():

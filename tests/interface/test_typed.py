@@ -33,7 +33,6 @@ NOT_YET = {  # packages that are still to be finished; one that is finished has 
     "scene",
     "shafts",
     "studies",
-    "studio",
     "view",
 }
 KERNELS = {"kernel", "inner", "outer"}

@@ -97,7 +97,7 @@ def _fill(kept: Store, task: CaseTask, plan: Plan, workers: int | None, on: str 
         kept.remark(remarks)
         with closing(_computed(task, plan, scheduler, workers, on)) as each:
             for batch, table, seconds, reason in each:
-                table = failed_rows(task, batch.first, plan.cases(batch.first, batch.stop), reason) if reason else table
+                table = failed_rows(task, batch.first, plan.cases(batch.first, batch.stop), reason) if table is None else table
                 kept.add(batch.first, table, seconds)
                 done, trouble = done + table.num_rows, trouble + _incomplete(table)
                 progress(done, total, f"{trouble} not complete" if trouble else "")

@@ -1,17 +1,23 @@
 """Who may talk to the studio, and how much: hosts, origins, a token, counted bytes.  Plain ASGI, for pages and websockets alike."""
 
 import hmac
+from collections.abc import Awaitable, Callable, MutableMapping
 from contextlib import suppress
 from http.cookies import CookieError, SimpleCookie
+from typing import Any, TypeAlias
 from urllib.parse import parse_qs, urlsplit
 
+Scope: TypeAlias = MutableMapping[str, Any]
+Receive: TypeAlias = Callable[[], Awaitable[MutableMapping[str, Any]]]
+Send: TypeAlias = Callable[[MutableMapping[str, Any]], Awaitable[None]]
+Application: TypeAlias = Callable[[Scope, Receive, Send], Awaitable[None]]  # of ASGI
 LARGEST = 4_000_000  # bytes of a request's body
 COOKIE = "drivewright-studio"
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 OPEN = ("/healthz",)
 
 
-class Gate:
+class AccessControl:
     """Refuses what does not come from the studio's own page.
 
     On this machine only (`token` empty) the Host header must be one of this machine's own names, so that no other name that somebody
@@ -19,10 +25,10 @@ class Gate:
     host itself: a page of another site can neither post nor open a websocket.  Bodies are counted as they arrive.
     """
 
-    def __init__(self, app, token="", port=""):
+    def __init__(self, app: Application, token: str = "", port: int | str = "") -> None:
         self.app, self.token, self.cookie = app, token, f"{COOKIE}-{port}" if port else COOKIE  # cookies know no ports
 
-    async def __call__(self, scope, receive, send):
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """One request, or one websocket."""
         if scope["type"] not in ("http", "websocket"):
             return await self.app(scope, receive, send)

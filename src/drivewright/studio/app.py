@@ -1,23 +1,29 @@
 """The studio's server: NiceGUI carries the messages, our own modules draw the page.
 
-Everything that holds state lives in the `Session` of a tab; what tabs share is the `Workshop`.
+Everything that holds state lives in the `Session` of a tab; what tabs share is the `ServerResources`.
 """
 
 import asyncio
 import secrets
 import socket
 import webbrowser
+from collections.abc import Callable
 from contextlib import asynccontextmanager, suppress
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from drivewright.errors import InputError, MissingExtra
 from drivewright.report.html import MODULES
-from drivewright.studio import looking
-from drivewright.studio.gate import LOOPBACK, Gate
+from drivewright.studio import preview
+from drivewright.studio.access import LOOPBACK, AccessControl
+from drivewright.studio.design import Design
+from drivewright.studio.resources import ServerResources
 from drivewright.studio.session import Session
-from drivewright.studio.workshop import Workshop
 from drivewright.view.palette import style_sheet
+
+if TYPE_CHECKING:
+    from fastapi import FastAPI
 
 HERE = Path(__file__).parent
 PLAYER = HERE.parent / "report"
@@ -29,7 +35,15 @@ EVERY = ("0.0.0.0", "::")  # all addresses of this machine
 AWAY = 30.0  # seconds without a sign of life after which a tab counts as closed; also paces the signs of life
 
 
-def serve(start, name="", host="127.0.0.1", port=None, token="", browser=True, say=print):
+def serve(
+    start: Design,
+    name: str = "",
+    host: str = "127.0.0.1",
+    port: int | None = None,
+    token: str = "",
+    browser: bool = True,
+    say: Callable[[str], object] = print,
+) -> None:
     """Serve until Ctrl-C.  InputError where the port is taken, or a host that others can reach has no token.
 
     `start` is the design that a new page shows; `say(text)` tells the person at the terminal the address.
@@ -45,7 +59,7 @@ def serve(start, name="", host="127.0.0.1", port=None, token="", browser=True, s
     address = f"http://{name_of_host}:{number}/{f'?token={token}' if token else ''}"
     app = application(start, name, lambda: _ready(address, browser, say))
     config = uvicorn.Config(
-        Gate(app, token, number),
+        AccessControl(app, token, number),
         log_level="warning",
         ws_max_size=4_000_000,
         timeout_graceful_shutdown=1,
@@ -55,7 +69,7 @@ def serve(start, name="", host="127.0.0.1", port=None, token="", browser=True, s
         uvicorn.Server(config).run(sockets=[listening])
 
 
-def _listening(host, port):
+def _listening(host: str, port: int | None) -> socket.socket:
     """A socket at the port; without one the next that is free."""
     for number in [port] if port is not None else range(PORT, PORT + 20):
         with suppress(OSError, OverflowError):
@@ -80,21 +94,21 @@ def _ready(address, browser, say):
             webbrowser.open(address)
 
 
-def application(start, name="", ready=lambda: None):
+def application(start: Design, name: str = "", ready: Callable[[], object] = lambda: None) -> "FastAPI":
     """The ASGI application: the page, the modules, downloads, /healthz.  `ready()` is called when it has begun."""
     from fastapi import FastAPI, Response
     from nicegui import core, ui
 
-    workshops = []
+    started = []
 
     @asynccontextmanager
     async def lifespan(app):
-        workshops.append(Workshop())
-        warming = asyncio.create_task(_warmed(workshops[-1]))
+        started.append(ServerResources())
+        warming = asyncio.create_task(_warmed(started[-1]))
         ready()
         yield
         warming.cancel()
-        workshops.pop().close()
+        started.pop().close()
 
     app = FastAPI(lifespan=lifespan, docs_url=None, redoc_url=None, openapi_url=None)
 
@@ -109,7 +123,7 @@ def application(start, name="", ready=lambda: None):
 
     @app.get("/download/{token}")
     def download(token: str):
-        found = workshops[-1].fetch(token)
+        found = started[-1].fetch(token)
         if found is None:
             return Response("this file has been fetched already, or is too old: ask for it again\n", 404, media_type="text/plain")
         headers = SAFE | {"Content-Disposition": _attachment(found[0])}
@@ -117,7 +131,7 @@ def application(start, name="", ready=lambda: None):
 
     @ui.page("/", title="Drivewright studio", reconnect_timeout=AWAY)
     def page():
-        _page(workshops[-1], start, name)
+        _page(started[-1], start, name)
 
     core.sio.eio.max_http_buffer_size = 4_000_000
     ui.run_with(
@@ -131,7 +145,7 @@ def application(start, name="", ready=lambda: None):
     return app
 
 
-def _page(workshop, start, name):
+def _page(resources, start, name):
     """One tab: a session, and the one element that shows it."""
     from nicegui import background_tasks, core, ui
 
@@ -144,8 +158,8 @@ def _page(workshop, start, name):
     def send(message):
         background_tasks.create(core.sio.emit("studio", message, room=client.id))
 
-    session = Session(send, workshop, start, name)
-    _element()().on("say", lambda event: session.hear(event.args))
+    session = Session(send, resources, start, name)
+    _element()().on("say", lambda event: session.receive(event.args))
     client.on_delete(session.close)
 
 
@@ -166,14 +180,14 @@ def _files():
     return {path.name: (path.read_bytes(), TYPES[path.suffix]) for path in [*(PLAYER / name for name in SHARED), *own]}
 
 
-async def _warmed(workshop):
+async def _warmed(resources):
     """Load what the first drawing needs, before it is asked for."""
 
     async def warm(pool):
         async with pool.worker() as worker:
-            await worker.call(looking.warm)
+            await worker.call(preview.warm)
 
-    await asyncio.gather(warm(workshop.quick), warm(workshop.heavy), return_exceptions=True)
+    await asyncio.gather(warm(resources.quick), warm(resources.heavy), return_exceptions=True)
 
 
 def _attachment(name):

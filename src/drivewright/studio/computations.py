@@ -1,73 +1,80 @@
 """What is computed for one tab: always the newest drawing, the analyses when the design rests, and the jobs that were asked for."""
 
 import asyncio
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from typing import Any, TypeAlias
 
 from drivewright import registry
 from drivewright.errors import DrivewrightError, GeometryCheckFailed
 from drivewright.execution.workers import Cancellation, WorkerDied, WorkerFault
-from drivewright.studio import looking
+from drivewright.studio import preview
+from drivewright.studio.design import Design
 from drivewright.studio.jobs import JOBS
+from drivewright.studio.resources import ServerResources
 
+Message: TypeAlias = Mapping[str, Any]  # to the page: {"what": its name, ...}
 REST = 0.25  # seconds without a change after which the analyses follow
 SLOW = 3.0  # seconds after which a drawing says that it is under way
 PATIENCE = 120.0  # seconds after which it is given up: enough to compile what it needs
 BUDGET = 0.02  # seconds of analyses that go with every drawing
 
 
-class Computing:
-    """Computations of one tab.  `send(message)` tells the page; `words(error)` puts an error into its words."""
+class TabComputations:
+    """Computations of one tab.  `send(message)` tells the page; `describe(error)` gives its text for the page."""
 
-    def __init__(self, send, words, workshop):
-        self.send, self.words, self.workshop = send, words, workshop
-        self._newest = self._shown = None  # (gen, design); what the page shows of it
+    def __init__(self, send: Callable[[Message], object], describe: Callable[[Exception], str], resources: ServerResources) -> None:
+        self.send, self.describe, self.resources = send, describe, resources
+        self._newest: tuple[int, Design] | None = None
+        self._shown: dict[str, Any] | None = None  # what the page shows of it
         self._since = 0  # generation of the first design of this drive
         self._fresh = False  # whether what is shown is the full result of the newest design
-        self._drawing = self._pen = self._analysing = None
-        self._seconds = {}  # of each analysis, as last measured with this drive
-        self._jobs = {}
+        self._draw_loop: asyncio.Task[None] | None = None
+        self._draw_task: asyncio.Task[bool] | None = None
+        self._analyse_task: asyncio.Task[None] | None = None
+        self._seconds: dict[str, float] = {}  # of each analysis, as last measured with this drive
+        self._jobs: dict[str, asyncio.Task[None]] = {}
 
-    def look(self, gen, design):
+    def update(self, gen: int, design: Design) -> None:
         """Draw this design as soon as the one under way is drawn, and analyse it when it has rested."""
         self._newest = gen, design
-        if self._analysing and not self._analysing.cancelling():  # a second word would end the process
-            self._analysing.cancel()
+        if self._analyse_task and not self._analyse_task.cancelling():  # a second word would end the process
+            self._analyse_task.cancel()
         if self._fresh:
             self._fresh = False
             self.send({"what": "outdated"})
-        if not self._drawing:
-            self._drawing = asyncio.create_task(self._draw_newest())
+        if not self._draw_loop:
+            self._draw_loop = asyncio.create_task(self._draw_newest())
 
-    def analyse(self):
+    def analyse(self) -> None:
         """Begin with the newest design again, after its computation was cancelled."""
-        if not self._drawing:
-            self.look(*self._newest)
+        if not self._draw_loop and self._newest:
+            self.update(*self._newest)
 
-    def job(self, name, gen, design, options):
+    def job(self, name: str, gen: int, design: Design, options: Mapping[str, Any]) -> None:
         """Begin a job; one of the same name that is under way ends."""
         self.cancel(name)
         self._jobs[name] = asyncio.create_task(self._job(name, gen, design, options))
 
-    def refer(self, title, design):
+    def compare_with(self, title: str, design: Design) -> None:
         """Draw and analyse another design, to be compared with."""
         self.cancel("reference")
         self._jobs["reference"] = asyncio.create_task(self._reference(title, design))
 
-    def cancel(self, name):
+    def cancel(self, name: str) -> None:
         """End a job, or what is computed of the design ("look")."""
-        for task in (self._pen, self._analysing) if name == "look" else (self._jobs.get(name),):
-            if task:
-                task.cancel(Cancellation.NOW)
+        for task in (self._draw_task, self._analyse_task) if name == "look" else (self._jobs.get(name),):
+            _cancel_now(task)
 
-    def forget(self, since):
+    def reset(self, since: int) -> None:
         """Another drive begins with the generation `since`: nothing of the one before belongs to it."""
         self._since, self._shown, self._fresh, self._seconds = since, None, False, {}
         for name in self._jobs:
             self.cancel(name)
 
-    def close(self):
+    def close(self) -> None:
         """The tab has gone."""
-        for task in (self._drawing, self._pen, self._analysing):
+        for task in (self._draw_loop, self._draw_task, self._analyse_task):
             if task:
                 task.cancel()
         for name in self._jobs:
@@ -75,22 +82,23 @@ class Computing:
 
     # -- the drawing -----------------------------------------------------------------------------------------------------------
 
-    async def _draw_newest(self):
+    async def _draw_newest(self) -> None:
         """Draw until the newest is drawn; analyse it, where it has a solution."""
         drawn, solved = None, False
         try:
-            while drawn is not self._newest:
+            while self._newest and drawn is not self._newest:
                 drawn = self._newest
-                self._pen = asyncio.create_task(self._drawn(*drawn))
-                await asyncio.wait([self._pen])
-                solved = not self._pen.cancelled() and self._pen.result()
+                self._draw_task = asyncio.create_task(self._drawn(*drawn))
+                await asyncio.wait([self._draw_task])
+                solved = not self._draw_task.cancelled() and self._draw_task.result()
         finally:
-            self._pen.cancel()
-            self._drawing = None
-        if solved:
-            self._analysing = asyncio.create_task(self._analyse(*drawn))
+            if self._draw_task:
+                self._draw_task.cancel()
+            self._draw_loop = None
+        if drawn and solved:
+            self._analyse_task = asyncio.create_task(self._analyse(*drawn))
 
-    async def _drawn(self, gen, design):
+    async def _drawn(self, gen: int, design: Design) -> bool:
         """Whether the design has a solution; its drawing and the analyses that cost next to nothing, once more where the process died."""
         try:
             try:
@@ -109,28 +117,28 @@ class Computing:
             raise
         return True
 
-    def _lost(self, error):
+    def _lost(self, error: Exception) -> None:
         """A process that died, or a bug, in one line."""
-        self.send({"what": "work", "state": "lost", "text": _last_line(self.words(error))})
+        self.send({"what": "work", "state": "lost", "text": _last_line(self.describe(error))})
 
-    async def _draw(self, gen, design):
+    async def _draw(self, gen: int, design: Design) -> None:
         def on_message(text):
             self.send({"what": "scene", "gen": gen, "json": text})
 
-        quick = looking.affordable(registry.mechanism(design.kind).analyses, self._seconds, BUDGET)
-        async with self.workshop.quick.worker() as worker:
+        quick = preview.affordable_analyses(registry.mechanism(design.kind).analyses, self._seconds, BUDGET)
+        async with self.resources.quick.worker() as worker:
             with self._limited():
-                found = await worker.call(looking.draw, design, quick, on_message=on_message)
+                result = await worker.call(preview.draw, design, quick, on_message=on_message)
         self.send({"what": "possible", "gen": gen})
-        if found:
-            self._show(gen, found, quick)
+        if result:
+            self._show(gen, result, quick)
 
     @contextmanager
-    def _limited(self):
+    def _limited(self) -> Iterator[None]:
         """A drawing that takes long says so and can be cancelled; one that takes all too long is given up."""
-        loop, pen = asyncio.get_running_loop(), asyncio.current_task()
+        loop, task = asyncio.get_running_loop(), asyncio.current_task()
         slow = {"what": "work", "state": "analysing", "text": "drawing", "done": 0, "total": 0}
-        timers = loop.call_later(SLOW, self.send, slow), loop.call_later(PATIENCE, pen.cancel, Cancellation.NOW)
+        timers = loop.call_later(SLOW, self.send, slow), loop.call_later(PATIENCE, _cancel_now, task)
         try:
             yield
         except asyncio.CancelledError:
@@ -142,14 +150,14 @@ class Computing:
 
     def _impossible(self, gen, error):
         """A design that is a proper spec, but has no solution: the page keeps what it showed and says so."""
-        self.send({"what": "impossible", "gen": gen, "key": getattr(error, "key", None) or "", "message": self.words(error)})
+        self.send({"what": "impossible", "gen": gen, "key": getattr(error, "key", None) or "", "message": self.describe(error)})
 
-    def _show(self, gen, found, quick=None):
+    def _show(self, gen, result, quick=None):
         """A result; one of the quick analyses takes over from what is shown where it can, the rest is stale."""
         if gen < self._since:
             return
-        self._shown = found if quick is None or self._shown is None else looking.merged(self._shown, found)
-        self._fresh = quick is None and gen == self._newest[0]
+        self._shown = result if quick is None or self._shown is None else preview.merge_results(self._shown, result)
+        self._fresh = quick is None and self._newest is not None and gen == self._newest[0]
         self.send({"what": "result", "gen": gen, "full": self._fresh, "result": self._shown})
 
     # -- the analyses ----------------------------------------------------------------------------------------------------------
@@ -158,12 +166,12 @@ class Computing:
         """All default analyses, once the design has rested."""
         await asyncio.sleep(REST)
         try:
-            found, seconds = await self._analysed(design)
+            result, seconds = await self._analysed(design)
             self._seconds = seconds if gen >= self._since else {}
-            self._show(gen, found)
+            self._show(gen, result)
             self.send({"what": "work", "state": "idle", "text": ""})
         except asyncio.CancelledError as cancelled:
-            if self._analysing is asyncio.current_task():
+            if self._analyse_task is asyncio.current_task():
                 self.send({"what": "work", "state": "stopped" if Cancellation.NOW in cancelled.args else "drawing", "text": ""})
             raise
         except (WorkerDied, WorkerFault) as error:
@@ -177,18 +185,18 @@ class Computing:
             done, total, name = news
             self.send({"what": "work", "state": "analysing", "text": name, "done": done, "total": total})
 
-        async with self.workshop.heavy.worker() as worker:
-            return await worker.call(looking.analyse, design, on_message=on_message)
+        async with self.resources.heavy.worker() as worker:
+            return await worker.call(preview.analyse, design, on_message=on_message)
 
     async def _reference(self, title, design):
         scenes = []
         try:
-            async with self.workshop.heavy.worker() as worker:
-                await worker.call(looking.draw, design, (), on_message=scenes.append)
-                found, _ = await worker.call(looking.analyse, design)
-            self.send({"what": "reference", "title": title, "json": scenes[-1], "result": found})
+            async with self.resources.heavy.worker() as worker:
+                await worker.call(preview.draw, design, (), on_message=scenes.append)
+                result, _ = await worker.call(preview.analyse, design)
+            self.send({"what": "reference", "title": title, "json": scenes[-1], "result": result})
         except DrivewrightError as error:
-            self.send({"what": "refused", "key": "", "text": "", "message": self.words(error)})
+            self.send({"what": "refused", "key": "", "text": "", "message": self.describe(error)})
         except WorkerFault as error:
             self._lost(error)
 
@@ -208,16 +216,16 @@ class Computing:
 
         tell("running", done=0, total=0, text="", answer=None)
         try:
-            async with self.workshop.heavy.worker() as worker:
+            async with self.resources.heavy.worker() as worker:
                 answer = await worker.call(_work, name, design, options, on_message=on_message)
             tell("done", text="", answer=self._downloaded(answer))
         except asyncio.CancelledError:
             tell("cancelled", text="")
             raise
         except DrivewrightError as error:
-            tell("failed", text=self.words(error), **({"overridable": True} if isinstance(error, GeometryCheckFailed) else {}))
+            tell("failed", text=self.describe(error), **({"overridable": True} if isinstance(error, GeometryCheckFailed) else {}))
         except WorkerFault as error:
-            tell("failed", text=_last_line(self.words(error)))
+            tell("failed", text=_last_line(self.describe(error)))
         finally:
             if self._jobs.get(name) is own:
                 del self._jobs[name]
@@ -226,13 +234,18 @@ class Computing:
         """Files become addresses to fetch them from."""
         if not isinstance(answer, dict) or "files" not in answer:
             return answer
-        files = [{"name": file["name"], "url": self.workshop.offer(file["name"], file["data"])} for file in answer["files"]]
+        files = [{"name": file["name"], "url": self.resources.offer(file["name"], file["data"])} for file in answer["files"]]
         return {**answer, "files": files}
 
 
 def _work(tell, name, design, options):
     """In the process: a job by its name."""
     return JOBS[name](design, lambda done, total, text="", partial=None: tell((done, total, text, partial)), **options)
+
+
+def _cancel_now(task: asyncio.Task[Any] | None) -> None:
+    if task:
+        task.cancel(Cancellation.NOW)
 
 
 def _last_line(text):

@@ -1,13 +1,17 @@
 """A design on its way through the studio: the raw tables of a spec, and the folder that its data files are in."""
 
+from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
+from typing import Any, TypeAlias
 
 from drivewright.errors import MissingFile, SpecError
-from drivewright.spec import from_document, set_key
+from drivewright.spec import MechanismSpec, from_document, set_key
 from drivewright.spec.serialisation import toml_text
+
+Tables: TypeAlias = dict[str, Any]  # raw tables as TOML has them
 
 
 @dataclass(frozen=True)
@@ -17,16 +21,16 @@ class Design:
     `readable` are the data files that the tables may name, None for any: what a page sends must not read the disk.
     """
 
-    tables: dict
+    tables: Tables
     folder: Path = field(default_factory=Path.cwd)
-    readable: frozenset | None = None
+    readable: frozenset[Path] | None = None
 
     @property
-    def kind(self):
+    def kind(self) -> str:
         """Kind of drive."""
-        return self.tables.get("mechanism")
+        return self.tables.get("mechanism", "")
 
-    def spec(self):
+    def spec(self) -> MechanismSpec:
         """The spec; SpecError where the tables are none, or name a file that is not theirs."""
         try:
             spec = from_document(deepcopy(self.tables), folder=self.folder)
@@ -38,19 +42,19 @@ class Design:
             raise _not_here()
         return spec
 
-    def toml(self):
+    def toml(self) -> str:
         """The tables as TOML text, data files as the user named them."""
         return self._toml
 
     @cached_property
-    def _toml(self):
+    def _toml(self) -> str:
         return toml_text(self.tables)  # wanted several times for every change
 
-    def with_tables(self, tables):
+    def with_tables(self, tables: Tables) -> "Design":
         """Other tables in the same place."""
         return replace(self, tables=tables)
 
-    def changed(self, changes):
+    def changed(self, changes: Mapping[str, Any]) -> "Design":
         """The design with {dotted key: raw value} set; SpecError where a key cannot be entered."""
         tables = deepcopy(self.tables)
         for key, value in changes.items():
@@ -58,6 +62,6 @@ class Design:
         return self.with_tables(tables)
 
 
-def _not_here():
+def _not_here() -> SpecError:
     # The same words whether the file exists or not: a page learns nothing of the disk.
     return SpecError("there is no such data file here; open the spec together with the data files that it names")

@@ -4,16 +4,31 @@ A change that is refused raises SpecError in the words of the command line and l
 """
 
 import re
+from collections.abc import Mapping
 from copy import deepcopy
+from pathlib import Path
+from typing import Any
 
 from drivewright.errors import SpecError
 from drivewright.spec import set_key
 from drivewright.spec.keys import remove_key
 from drivewright.spec.parsing import parse_document
-from drivewright.studio.entering import drop_empty, enter, fill, form_key, has_place, model_of, overlap, settled, valid, value_in
-from drivewright.studio.facts import ABSENT, fact_at
-from drivewright.studio.fitting import first_fitting, fresh, renamed, samples_for
+from drivewright.studio.design import Design, Tables
+from drivewright.studio.field_info import ABSENT, FieldInfo, field_info_at
 from drivewright.studio.form import form, values
+from drivewright.studio.input_parsing import (
+    enter_text,
+    form_key,
+    insert_parents,
+    keys_overlap,
+    normalised,
+    parent_exists,
+    remove_empty_tables,
+    spec_class,
+    validated_spec,
+    value_in,
+)
+from drivewright.studio.sample_values import first_valid_design, sample_values_for, unused_name, with_unused_name
 from drivewright.studio.sliders import tidied
 
 STEPS = 200  # that can be undone
@@ -25,52 +40,54 @@ QUOTED = re.compile(r"""(['"])(?:[A-Za-z]:[\\/]|\\\\|/)[^'"\n]*[\\/]([^'"\\/\n]+
 class Document:
     """A design that changes step by step.  `design` is the present one; it is always valid, and never changed in place."""
 
-    def __init__(self, design, name=""):
-        self.design, self.name = settled(design), name
-        self.locks = frozenset()
-        self._past, self._future, self._gesture = [], [], None
+    def __init__(self, design: Design, name: str = "") -> None:
+        self.design, self.name = normalised(design), name
+        self.locks: frozenset[str] = frozenset()
+        self._past: list[Design] = []
+        self._future: list[Design] = []
+        self._gesture: tuple[str, str] | None = None
         self._saved = self.design
 
     # -- past and future -------------------------------------------------------------------------------------------------------
 
     @property
-    def can_undo(self):
+    def can_undo(self) -> bool:
         """Whether there is a step back."""
         return bool(self._past)
 
     @property
-    def can_redo(self):
+    def can_redo(self) -> bool:
         """Whether there is a step forward."""
         return bool(self._future)
 
     @property
-    def changed(self):
+    def changed(self) -> bool:
         """Whether the design is another one than the file has."""
         return self.design.kind != self._saved.kind or self.design.toml() != self._saved.toml()
 
-    def saved(self):
+    def saved(self) -> None:
         """The present design is in a file now."""
         self._saved = self.design
 
-    def undo(self):
+    def undo(self) -> None:
         """One step back, where there is one."""
         self._step(self._past, self._future)
 
-    def redo(self):
+    def redo(self) -> None:
         """One step forward, where there is one."""
         self._step(self._future, self._past)
 
-    def _step(self, source, target):
+    def _step(self, source: list[Design], target: list[Design]) -> None:
         if source:
             target.append(self.design)
             self.design, self._gesture = source.pop(), None
             self.locks &= values(form(self.design)).keys()  # of what is no longer there
 
-    def _accept(self, design, gesture=None):
+    def _accept(self, design: Design, gesture: tuple[str, str] | None = None) -> None:
         """The next design, unless it is refused; a step of the same gesture as the one before goes into the same undo step."""
         if self.locks and design.kind == self.design.kind:
             self._refuse_locked(design)
-        valid(design)
+        validated_spec(design)
         if design.toml() == self.design.toml() and design.folder == self.design.folder:
             return
         if gesture is None or gesture != self._gesture:
@@ -80,26 +97,26 @@ class Document:
 
     # -- locks -----------------------------------------------------------------------------------------------------------------
 
-    def lock(self, key, on):
+    def lock(self, key: str, on: bool) -> None:
         """Hold a key against every change but undo and redo, or let it go."""
         key = form_key(self.design.tables, key)
         if on and key not in values(form(self.design)):
             raise SpecError("is no field of this design, so it cannot be locked", key)
         self.locks = self.locks | {key} if on else self.locks - {key}
 
-    def _refuse_locked(self, design):
+    def _refuse_locked(self, design: Design) -> None:
         for lock in sorted(self.locks):
-            if not has_place(design, lock) or value_in(design.tables, lock) != value_in(self.design.tables, lock):
+            if not parent_exists(design, lock) or value_in(design.tables, lock) != value_in(self.design.tables, lock):
                 raise SpecError("is locked, and this would change it; unlock it first", lock)
 
-    def _keeping_locked(self, design):
+    def _keeping_locked(self, design: Design) -> Design:
         """Another design of the same kind with the locked values of this one."""
-        tables, model = deepcopy(design.tables), model_of(design)
+        tables, model = deepcopy(design.tables), spec_class(design)
         for lock in sorted(self.locks):
             value = value_in(self.design.tables, lock)
             try:
                 if value is not ABSENT:
-                    fill(tables, model, lock.split("."))
+                    insert_parents(tables, model, lock.split("."))
                     set_key(tables, lock, deepcopy(value))
                 elif value_in(tables, lock) is not ABSENT:
                     remove_key(tables, lock)
@@ -109,112 +126,112 @@ class Document:
 
     # -- changes ---------------------------------------------------------------------------------------------------------------
 
-    def set(self, key, text, gesture=""):
+    def set(self, key: str, text: str, gesture: str = "") -> None:
         """One key from typed text; the empty text takes it out.  Steps with the same `gesture` (one drag) on a key are one undo step."""
         key = form_key(self.design.tables, key)
         if not text.strip():
             return self.unset(key)
         tables = deepcopy(self.design.tables)
-        enter(tables, model_of(self.design), key, tidied(text) if gesture else text)
+        enter_text(tables, spec_class(self.design), key, tidied(text) if gesture else text)
         return self._accept(self.design.with_tables(tables), (key, gesture) if gesture else None)
 
-    def load(self, changes):
+    def load(self, changes: Mapping[str, str]) -> None:
         """Several keys, {key: typed text}, as one step; locked ones stay."""
-        tables, model = deepcopy(self.design.tables), model_of(self.design)
+        tables, model = deepcopy(self.design.tables), spec_class(self.design)
         for key, text in changes.items():
             key = form_key(tables, key)
-            if not any(overlap(key, lock) for lock in self.locks):
-                enter(tables, model, key, text)
+            if not any(keys_overlap(key, lock) for lock in self.locks):
+                enter_text(tables, model, key, text)
         self._accept(self.design.with_tables(tables))
 
-    def unset(self, key):
+    def unset(self, key: str) -> None:
         """A key back to its default, or out; a part of a point back to the default of that part."""
         tables, key = deepcopy(self.design.tables), form_key(self.design.tables, key)
         *above, last = key.split(".")
-        point = fact_at(model_of(self.design), above) if above else None
+        point = field_info_at(spec_class(self.design), above) if above else None
         if point and point.fixed and not point.table:
             self._unset_part(tables, point, key, last)
         elif value_in(tables, key) is not ABSENT:
             remove_key(tables, key)
-            drop_empty(tables, model_of(self.design), above)
+            remove_empty_tables(tables, spec_class(self.design), above)
         self._accept(self.design.with_tables(tables))
 
-    def _unset_part(self, tables, point, key, last):
+    def _unset_part(self, tables: Tables, point: FieldInfo, key: str, last: str) -> None:
         default = point.items[int(last)].default if last.isdecimal() and int(last) < len(point.items) else None
         if default is not None:
-            fill(tables, model_of(self.design), key.split("."))
+            insert_parents(tables, spec_class(self.design), key.split("."))
             set_key(tables, key, default)
         elif point.required:
             raise SpecError(f"wants a value; there are always {len(point.items)} of them", key)
         elif value_in(tables, above := key.rpartition(".")[0]) is not ABSENT:
             remove_key(tables, above)
 
-    def replace(self, design):
+    def replace(self, design: Design) -> None:
         """Another design: a preset, a file.  Of the same kind, it takes over what is locked."""
-        design = settled(design)
+        design = normalised(design)
         if design.kind == self.design.kind:
             return self._accept(self._keeping_locked(design))
         self.locks = frozenset()
         return self._accept(design)
 
-    def text(self, toml):
+    def text(self, toml: str) -> None:
         """The whole design as edited text; SpecError with the line where it is not TOML."""
-        design = settled(self.design.with_tables(parse_document(toml)))
+        design = normalised(self.design.with_tables(parse_document(toml)))
         if design.kind != self.design.kind:
             self.locks = frozenset()
         self._accept(design)
 
     # -- tables and elements ---------------------------------------------------------------------------------------------------
 
-    def add(self, key):
+    def add(self, key: str) -> None:
         """A further element of a list, or of a table whose keys the user chooses: a copy of the last one, else a sample."""
         key = form_key(self.design.tables, key)
-        fact, given = self._several(key)
+        info, given = self._several(key)
         if isinstance(given, dict):
-            return self.put(f"{key}.{fresh(next(reversed(given), 'a'), given)}")
-        copies = [renamed(given[-1], given)] if given else samples_for(self.design, fact, key)
-        return self._accept(first_fitting(self.design, f"{key}.{len(given)}", [[*given, element] for element in copies], key))
+            return self.put(f"{key}.{unused_name(next(reversed(given), 'a'), given)}")
+        copies = [with_unused_name(given[-1], given)] if given else sample_values_for(self.design, info, key)
+        return self._accept(first_valid_design(self.design, f"{key}.{len(given)}", [[*given, element] for element in copies], key))
 
-    def drop(self, key, index):
+    def drop(self, key: str, index: int) -> None:
         """An element of a list less."""
         key = form_key(self.design.tables, key)
         _, given = self._several(key)
         if not isinstance(given, list) or not 0 <= int(index) < len(given):
             raise SpecError(f"has no element {index}; it has {len(given)}", key)
         tables = deepcopy(self.design.tables)
-        fill(tables, model_of(self.design), [*key.split("."), str(index)])
+        insert_parents(tables, spec_class(self.design), [*key.split("."), str(index)])
         set_key(tables, key, [element for number, element in enumerate(given) if number != int(index)])
         self._accept(self.design.with_tables(tables))
 
-    def put(self, key):
+    def put(self, key: str) -> None:
         """An optional table, or an entry of a table whose keys the user chooses ("bodies.NAME"), with what it needs."""
         *above, name = key.split(".")
-        fact = fact_at(model_of(self.design), above) if above else None
+        info = field_info_at(spec_class(self.design), above) if above else None
         if value_in(self.design.tables, key) is not ABSENT:
             return None
-        if fact and fact.kind == "names":
+        if info and info.kind == "names":
             given = value_in(self.design.tables, ".".join(above))
             last = list(given.values())[-1:] if isinstance(given, dict) else []
-            return self._accept(first_fitting(self.design, key, last or samples_for(self.design, fact, key), key))
-        fact = fact_at(model_of(self.design), key.split("."))
-        if fact is None or not fact.table or fact.levels:
+            return self._accept(first_valid_design(self.design, key, last or sample_values_for(self.design, info, key), key))
+        info = field_info_at(spec_class(self.design), key.split("."))
+        if info is None or not info.table or info.levels:
             raise SpecError("is no table that could be put in", key)
-        return self._accept(first_fitting(self.design, key, samples_for(self.design, fact, key), key))
+        return self._accept(first_valid_design(self.design, key, sample_values_for(self.design, info, key), key))
 
-    def take(self, key):
+    def take(self, key: str) -> None:
         """An optional table, or an entry that the user has named, out."""
         self.unset(key)
 
-    def _several(self, key):
-        """(Fact, raw elements) of a list, or of a table whose keys the user chooses."""
-        fact = fact_at(model_of(self.design), key.split("."))
-        if fact is None or not fact.levels:
+    def _several(self, key: str) -> tuple[FieldInfo, Any]:
+        """(FieldInfo, raw elements) of a list, or of a table whose keys the user chooses."""
+        info = field_info_at(spec_class(self.design), key.split("."))
+        if info is None or not info.levels:
             raise SpecError("is no list, so it has no elements", key)
         given = value_in(self.design.tables, key)
-        return fact, deepcopy(given if given is not ABSENT else fact.begun or ({} if fact.kind == "names" else []))
+        return info, deepcopy(given if given is not ABSENT else info.initial_value or ({} if info.kind == "names" else []))
 
 
-def without_folder(message, *folders):
+def without_folder(message: str, *folders: Path) -> str:
     """A message without the folders of this machine: "/home/x/y/lift.csv" -> "lift.csv"."""
     for folder in sorted({text for each in folders for text in (str(each), str(each.resolve()))}, key=len, reverse=True):
         message = re.sub(re.escape(folder.rstrip("/\\")) + r"[/\\]+", "", message) if len(folder) > 1 else message

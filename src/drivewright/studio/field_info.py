@@ -1,79 +1,80 @@
-"""What a key of a spec is, read off its class: a `Fact`; and the way between a raw value and the text that a box shows."""
+"""What a key of a spec is, read off its class: a `FieldInfo`; and the way between a raw value and the text that a box shows."""
 
+from collections.abc import Sequence
 from copy import deepcopy
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path, PureWindowsPath
-from typing import Any, get_args, get_origin
+from typing import Any, TypeAlias, get_args, get_origin
 
-from pydantic import BaseModel
-from pydantic.fields import FieldInfo
+from pydantic.fields import FieldInfo as PydanticField
 
 from drivewright.errors import UnitError
-from drivewright.spec import MechanismSpec, document, from_document, read_value
+from drivewright.spec import MechanismSpec, Spec, document, from_document, read_value
 from drivewright.spec.fields import AnyUnit, choices_of, containers_of, dimension_of, marker_of, table_of, type_of
 from drivewright.spec.serialisation import to_plain, toml_value
 from drivewright.studio.sliders import Limits
-from drivewright.units import split
+from drivewright.units import Dimension, split
 
+Raw: TypeAlias = Any  # a value as TOML has it
 KINDS = {bool: "flag", int: "integer", float: "number", str: "text", Path: "file"}
 ABSENT = object()  # where a key is not said
 
 
 @dataclass(frozen=True, eq=False)
-class Fact:
+class FieldInfo:
     """What does not change about a field: all that its spec class says of it.  `items`: of each entry of a list or of a `Named`."""
 
     name: str
     hint: str
     kind: str
     required: bool
-    dimension: Any
-    choices: tuple
+    dimension: Dimension | None
+    choices: tuple[Any, ...]
     limits: Limits
-    default: Any  # raw, None where there is none
-    example: Any  # raw, None where there is none
-    table: type | None
-    levels: tuple
-    items: tuple = ()  # of a list or a `Named`: a Fact for each entry where their number is fixed, else one for all
+    default: Raw  # raw, None where there is none
+    example: Raw  # raw, None where there is none
+    table: type[Spec] | None
+    levels: tuple[Any, ...]
+    items: "tuple[FieldInfo, ...]" = ()  # of a list or a `Named`: a FieldInfo for each entry where their number is fixed, else one for all
     fixed: bool = False
-    own: tuple = ()  # of a table: (key, raw value) where its default says something else than its class
+    default_changes: tuple[tuple[str, Any], ...] = ()  # of a table: (key, raw value) where its default says something else than its class
 
     @property
-    def sample(self):
+    def sample(self) -> Any:
         """A raw value that an entry of a list could have."""
         usual = {"quantity": f"1 {self.dimension.shown}" if self.dimension else "", "number": 1.0, "integer": 1, "flag": False}
         return usual.get(self.kind, "...") if self.example is None else self.example
 
     @property
-    def begun(self):
+    def initial_value(self) -> Any:
         """What a file has to say before a part of this default can be changed; None where there is no default."""
         if self.kind == "list" and not self.table:
             return deepcopy(self.default or self.example or [item.sample for item in self.items if self.fixed])
         if self.table and isinstance(self.default, dict):
-            return dict(self.own)
+            return dict(self.default_changes)
         return deepcopy(self.default)
 
 
-# -- facts ---------------------------------------------------------------------------------------------------------------------
+# -- field infos ---------------------------------------------------------------------------------------------------------------------
 
 
 @cache
-def facts(model):
-    """The Fact of each key of a table class, values first, then sub-tables, those that all kinds share last."""
-    found = {name: fact_of(name, field) for name, field in model.model_fields.items()}
+def field_infos(model: type[Spec]) -> dict[str, FieldInfo]:
+    """The FieldInfo of each key of a table class, values first, then sub-tables, those that all kinds share last."""
+    found = {name: field_info_of(name, field) for name, field in model.model_fields.items()}
     shared = MechanismSpec.model_fields
-    order = sorted(found.values(), key=lambda fact: (bool(fact.table) or fact.kind == "names", bool(fact.table) and fact.name in shared))
-    return {fact.name: fact for fact in order}
+    order = sorted(found.values(), key=lambda info: (bool(info.table) or info.kind == "names", bool(info.table) and info.name in shared))
+    return {info.name: info for info in order}
 
 
-def fact_of(name, field):
-    """The Fact of a pydantic field."""
+def field_info_of(name: str, field: PydanticField) -> FieldInfo:
+    """The FieldInfo of a pydantic field."""
     dimension, required = dimension_of(field), field.is_required()
     example = field.examples[0] if field.examples else None
     default = None if required or field.default in ((), {}) else to_plain(field.default, dimension)
-    own = _own(field.default) if isinstance(field.default, BaseModel) else ()
-    return _fact(
+    own = _own(field.default) if isinstance(field.default, Spec) else ()
+    return _field_info(
         name,
         field.annotation,
         dimension or marker_of(field, AnyUnit),
@@ -86,19 +87,19 @@ def fact_of(name, field):
     )
 
 
-def _own(table):
+def _own(table: Spec) -> tuple[tuple[str, Any], ...]:
     """What a table says that its class does not say by itself."""
     kind, own = type(table), document(table)
     usual = document(from_document({name: own[name] for name, field in kind.model_fields.items() if field.is_required()}, kind))
     return tuple((name, value) for name, value in own.items() if usual.get(name) != value)
 
 
-def _fact(name, annotation, mark, limits, hint="", required=True, default=None, example=None, own=()):
+def _field_info(name, annotation, mark, limits, hint="", required=True, default=None, example=None, own=()):
     dimension = None if isinstance(mark, AnyUnit) else mark
     kind = _kind(annotation, mark)
     parts = () if table_of(annotation) else _parts(annotation)
     items = tuple(
-        _fact(
+        _field_info(
             str(n),
             part,
             dimension_of(_Bare(part)) or marker_of(_Bare(part), AnyUnit) or mark,
@@ -108,7 +109,7 @@ def _fact(name, annotation, mark, limits, hint="", required=True, default=None, 
         )
         for n, part in enumerate(parts)
     )
-    return Fact(
+    return FieldInfo(
         name,
         hint,
         kind,
@@ -126,29 +127,29 @@ def _fact(name, annotation, mark, limits, hint="", required=True, default=None, 
     )
 
 
-def fact_at(model, steps):
-    """The Fact at a path of keys below a table class, elements of lists by name or number; None where no value can stand."""
+def field_info_at(model: type[Spec], steps: Sequence[str]) -> FieldInfo | None:
+    """The FieldInfo at a path of keys below a table class, elements of lists by name or number; None where no value can stand."""
     step, *rest = steps
-    fact = facts(model).get(step)
-    while fact and rest:
+    info = field_infos(model).get(step)
+    while info and rest:
         step, *rest = rest
-        if fact.table:
-            rest = rest if fact.levels else [step, *rest]
-            return fact_at(fact.table, rest) if rest else None
-        number = int(step) if step.isdecimal() and fact.fixed else 0
-        fact = fact.items[number] if number < len(fact.items) else None
-    return fact
+        if info.table:
+            rest = rest if info.levels else [step, *rest]
+            return field_info_at(info.table, rest) if rest else None
+        number = int(step) if step.isdecimal() and info.fixed else 0
+        info = info.items[number] if number < len(info.items) else None
+    return info
 
 
 @dataclass(frozen=True)
 class _Bare:
     """An annotation that stands alone, looking like a field."""
 
-    annotation: Any
-    metadata: tuple = ()
+    annotation: object
+    metadata: tuple[object, ...] = ()
 
 
-def _kind(annotation, mark):
+def _kind(annotation: Any, mark: Any) -> str:
     """What sort of box a field has."""
     nested, choices, plain = containers_of(annotation), choices_of(annotation), type_of(annotation)
     if nested:
@@ -178,7 +179,7 @@ def _parts(annotation):
 def _marks(annotation):
     """What an annotation is annotated with."""
     marks = getattr(annotation, "__metadata__", ())
-    return [mark for given in marks for mark in (given.metadata if isinstance(given, FieldInfo) else [given])]
+    return [mark for given in marks for mark in (given.metadata if isinstance(given, PydanticField) else [given])]
 
 
 def _limits(marks):
@@ -190,55 +191,59 @@ def _limits(marks):
 # -- text ----------------------------------------------------------------------------------------------------------------------
 
 
-def read(fact, text, shown=""):
+def parse_text(info: FieldInfo, text: str, shown: str = "") -> Any:
     """The raw value of a typed text, `shown` being the text in the box before: its unit goes with a bare number."""
-    if fact.kind in ("text", "file"):
+    if info.kind in ("text", "file"):
         return text
     text = text.strip()
-    if fact.kind == "choice":
-        return next((choice for choice in fact.choices if str(choice) == text), text)
-    if fact.kind == "list":
-        return _read_list(fact, text, shown)
-    if fact.kind in ("quantity", "any") and is_bare(text):
-        unit = _unit(shown) or (_unit(plain_text(fact.default)) or fact.dimension.shown if fact.kind == "quantity" else "")
+    if info.kind == "choice":
+        return next((choice for choice in info.choices if str(choice) == text), text)
+    if info.kind == "list":
+        return _read_list(info, text, shown)
+    if info.kind in ("quantity", "any") and has_no_unit(text):
+        unit = _unit(shown) or (_unit(plain_text(info.default)) or info.dimension.shown if info.dimension else "")
         return f"{text} {unit}" if unit else read_value(text)
-    return text if fact.kind == "quantity" else read_value(text)
+    return text if info.kind == "quantity" else read_value(text)
 
 
-def _read_list(fact, text, shown):
+def _read_list(info: FieldInfo, text: str, shown: str) -> Any:
     """A list as TOML, or its entries with commas between them."""
     value = read_value(text) if text.startswith("[") else text
     texts = value if isinstance(value, list) else text.split(",")
     before = shown.split(",") or [""]
-    if len(fact.levels) > 1 or not fact.items:
+    if len(info.levels) > 1 or not info.items:
         return read_value(text)
     return [
-        read(fact.items[min(n, len(fact.items) - 1)], part.strip(), before[min(n, len(before) - 1)]) if isinstance(part, str) else part
+        parse_text(info.items[min(n, len(info.items) - 1)], part.strip(), before[min(n, len(before) - 1)])
+        if isinstance(part, str)
+        else part
         for n, part in enumerate(texts)
     ]
 
 
-def shown_text(fact, value, shown=""):
-    """The text that a box shows for a raw value; `read` gives the value back."""
+def display_text(info: FieldInfo, value: Any, shown: str = "") -> str:
+    """The text that a box shows for a raw value; `parse_text` gives the value back."""
     if value is None or value is ABSENT or value == "":
         return ""
-    if fact.kind == "file":  # a folder of the user's disk is nothing for the page
+    if info.kind == "file":  # a folder of the user's disk is nothing for the page
         return PureWindowsPath(value).name if Path(value).is_absolute() or PureWindowsPath(value).is_absolute() else value
-    if fact.kind == "list" and isinstance(value, list) and all(not isinstance(entry, (list, dict)) for entry in value):
-        text = ", ".join(shown_text(fact.items[min(n, len(fact.items) - 1)], entry) for n, entry in enumerate(value)) if fact.items else ""
+    if info.kind == "list" and isinstance(value, list) and all(not isinstance(entry, (list, dict)) for entry in value):
+        text = (
+            ", ".join(display_text(info.items[min(n, len(info.items) - 1)], entry) for n, entry in enumerate(value)) if info.items else ""
+        )
     else:
         text = plain_text(value)
-    return text if _same(read(fact, text, shown or text), value) and text else toml_value(value)
+    return text if _same(parse_text(info, text, shown or text), value) and text else toml_value(value)
 
 
-def plain_text(value):
+def plain_text(value: Any) -> str:
     """A raw value as people write it in a box."""
     if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
         return str(int(value))
     return "" if value is None else value if isinstance(value, str) else toml_value(value)
 
 
-def is_bare(text):
+def has_no_unit(text: str) -> bool:
     """Whether a text is a number without a unit."""
     try:
         return not split(text)[1]
@@ -246,12 +251,12 @@ def is_bare(text):
         return False
 
 
-def _unit(text):
+def _unit(text: str) -> str:
     try:
         return split(text)[1]
     except UnitError:
         return ""
 
 
-def _same(one, other):
+def _same(one: Any, other: Any) -> bool:
     return one == other and type(one) is type(other)

@@ -1,18 +1,22 @@
 """A design as the page's form: groups of fields, plain data, each field with its text, limits and slider."""
 
+from collections.abc import Mapping
 from functools import lru_cache
+from typing import Any, TypeAlias
 
 from drivewright import registry
 from drivewright.errors import UnitError
-from drivewright.studio.entering import step_of
-from drivewright.studio.facts import ABSENT, facts, shown_text
+from drivewright.studio.design import Design
+from drivewright.studio.field_info import ABSENT, display_text, field_infos
+from drivewright.studio.input_parsing import element_step
 from drivewright.studio.sliders import Limits, slider, typical
 from drivewright.units import split
 
+Form: TypeAlias = dict[str, Any]  # {"groups": [...]}, plain data
 BESIDE_THE_FORM = ("mechanism", "format")  # keys of every spec that nobody changes in a form
 
 
-def form(design, labels=None, old=None):
+def form(design: Design, labels: Mapping[str, str] | None = None, old: Form | None = None) -> Form:
     """The form of a design: {"groups": [...]}, as plain data.
 
     `labels`: {dotted key with * for a name or number: label in another language}.  `old`: the form before, whose sliders keep their ranges.
@@ -22,12 +26,12 @@ def form(design, labels=None, old=None):
     return {"groups": maker.groups}
 
 
-def values(form):
+def values(form: Form) -> dict[str, Any]:
     """Dotted key -> field of a form, parts of points and the like included."""
     return {each["key"]: each for group in form["groups"] for field in group["fields"] for each in (field, *field.get("parts", ()))}
 
 
-def changed_fields(old, new):
+def changed_fields(old: Form, new: Form) -> dict[str, Any] | None:
     """Dotted key -> field, of the fields that differ between two forms; None where more than fields does."""
     if len(old["groups"]) != len(new["groups"]):
         return None
@@ -54,34 +58,34 @@ class _Maker:
 
     def table(self, model, given, path, pattern, **about):
         """The group of one table, then those inside it."""
-        known = facts(model)
-        values = [fact for fact in known.values() if not fact.table and fact.kind != "names"]
+        known = field_infos(model)
+        values = [info for info in known.values() if not info.table and info.kind != "names"]
         fields = [
-            self.field(fact, given.get(fact.name, ABSENT), (*path, fact.name), (*pattern, fact.name))
-            for fact in values
-            if path or fact.name not in BESIDE_THE_FORM
+            self.field(info, given.get(info.name, ABSENT), (*path, info.name), (*pattern, info.name))
+            for info in values
+            if path or info.name not in BESIDE_THE_FORM
         ]
         self.group(path, pattern, fields, **{"role": "table", "hint": model.__doc__ or "", **about})
-        for fact in known.values():
-            if fact.table or fact.kind == "names":
-                self.inside(fact, given.get(fact.name, ABSENT), (*path, fact.name), (*pattern, fact.name))
+        for info in known.values():
+            if info.table or info.kind == "names":
+                self.inside(info, given.get(info.name, ABSENT), (*path, info.name), (*pattern, info.name))
 
-    def inside(self, fact, given, path, pattern):
+    def inside(self, info, given, path, pattern):
         """The groups of a sub-table, of a list of them, or of those that the user names."""
-        said = fact.hint not in ("", fact.name.replace("_", " "))
+        said = info.hint not in ("", info.name.replace("_", " "))
         about = {
-            "hint": fact.hint if said or not fact.table else fact.table.__doc__,
-            "optional": not fact.required and not fact.levels and fact.default is None,
+            "hint": info.hint if said or not info.table else info.table.__doc__,
+            "optional": not info.required and not info.levels and info.default is None,
         }
-        value = fact.begun if given is ABSENT else given
-        if fact.kind == "names":
-            self.names(fact, value or {}, path, pattern, about)
-        elif fact.kind == "list":
+        value = info.initial_value if given is ABSENT else given
+        if info.kind == "names":
+            self.names(info, value or {}, path, pattern, about)
+        elif info.kind == "list":
             self.group(path, pattern, [], role="list", **about)
             for number, element in enumerate(value or []):
-                step = step_of(value, number)
+                step = element_step(value, number)
                 self.table(
-                    fact.table,
+                    info.table,
                     element,
                     (*path, step),
                     (*pattern, "*"),
@@ -94,15 +98,15 @@ class _Maker:
         elif value is None:
             self.group(path, pattern, [], role="table", present=False, **about)
         else:
-            self.table(fact.table, value, path, pattern, role="table", **about)
+            self.table(info.table, value, path, pattern, role="table", **about)
 
-    def names(self, fact, value, path, pattern, about):
+    def names(self, info, value, path, pattern, about):
         """A table whose keys the user chooses: of values, which are its fields, or of tables, which are groups."""
-        entry = fact.items[0] if fact.items else None
+        entry = info.items[0] if info.items else None
         fields = [self.field(entry, one, (*path, name), (*pattern, "*"), optional=True) for name, one in value.items()] if entry else []
         self.group(path, pattern, fields, role="names", **about)
-        for name, table in value.items() if fact.table else ():
-            self.table(fact.table, table, (*path, name), (*pattern, "*"), role="element", hint="", list=".".join(path), optional=True)
+        for name, table in value.items() if info.table else ():
+            self.table(info.table, table, (*path, name), (*pattern, "*"), role="element", hint="", list=".".join(path), optional=True)
 
     def group(self, path, pattern, fields, *, role, hint, optional=False, present=True, list=None, index=None):
         title = path[-1].replace("_", " ") if path else ""
@@ -124,19 +128,19 @@ class _Maker:
             }
         )
 
-    def field(self, fact, value, path, pattern, optional=None):
+    def field(self, info, value, path, pattern, optional=None):
         """One field, with one for each part of a point and the like."""
         key, given, label = ".".join(path), value is not ABSENT, path[-1].replace("_", " ")
-        zh, optional = self.labels.get(".".join(pattern), ""), not fact.required if optional is None else optional
-        value = value if given else fact.default
-        if fact.kind != "list":
-            return _kept(fact, value, key, label, zh, given, optional, self.slid(key))
-        field = _field(fact, value, key, label, zh, given, optional)
-        if fact.fixed and len(fact.levels) == 1:
-            entries = value if isinstance(value, list) and len(value) == len(fact.items) else [None] * len(fact.items)
+        zh, optional = self.labels.get(".".join(pattern), ""), not info.required if optional is None else optional
+        value = value if given else info.default
+        if info.kind != "list":
+            return _kept(info, value, key, label, zh, given, optional, self.slid(key))
+        field = _field(info, value, key, label, zh, given, optional)
+        if info.fixed and len(info.levels) == 1:
+            entries = value if isinstance(value, list) and len(value) == len(info.items) else [None] * len(info.items)
             field["parts"] = [
                 self.field(part, entry, (*path, str(n)), (*pattern, str(n)), optional=False)
-                for n, (part, entry) in enumerate(zip(fact.items, entries, strict=True))
+                for n, (part, entry) in enumerate(zip(info.items, entries, strict=True))
             ]
         return field
 
@@ -149,28 +153,28 @@ class _Maker:
 # -- fields --------------------------------------------------------------------------------------------------------------------
 
 
-def _field(fact, value, key, label, zh, given, optional, slid=None):
+def _field(info, value, key, label, zh, given, optional, slid=None):
     """A field as plain data."""
-    unit, number = _number(fact, value)
-    limits = _in_unit(fact, unit)
-    ends, step = _slider(fact, number, unit, limits, slid) or (None, 1 if fact.kind == "integer" else None)
+    unit, number = _number(info, value)
+    limits = _in_unit(info, unit)
+    ends, step = _slider(info, number, unit, limits, slid) or (None, 1 if info.kind == "integer" else None)
     return {
         "key": key,
         "label": label,
         "zh": zh,
-        "hint": fact.hint,
-        "kind": fact.kind,
+        "hint": info.hint,
+        "kind": info.kind,
         "unit": unit,
         "value": number,
-        "text": shown_text(fact, value),
+        "text": display_text(info, value),
         "given": given,
-        "default": None if fact.default is None else shown_text(fact, fact.default),
+        "default": None if info.default is None else display_text(info, info.default),
         "optional": optional,
         "low": limits.low,
         "high": limits.high,
         "step": step,
         "slider": ends,
-        "choices": list(fact.choices),
+        "choices": list(info.choices),
     }
 
 
@@ -178,22 +182,22 @@ def _field(fact, value, key, label, zh, given, optional, slid=None):
 _kept = lru_cache(maxsize=16384, typed=True)(_field)
 
 
-def _slider(fact, number, unit, limits, slid):
+def _slider(info, number, unit, limits, slid):
     """(ends, step) of the slider of a field, None where it has none."""
-    if fact.kind not in ("quantity", "number", "integer") or not isinstance(number, (int, float)):
+    if info.kind not in ("quantity", "number", "integer") or not isinstance(number, (int, float)):
         return None
-    of, example = _number(fact, fact.example)
+    of, example = _number(info, info.example)
     around = typical(unit, example if of == unit and isinstance(example, (int, float)) else None)
     old = ([slid[0], slid[1]], slid[2]) if slid and slid[3] == unit else None
-    return slider(number, limits, integer=fact.kind == "integer", around=around, old=old)
+    return slider(number, limits, integer=info.kind == "integer", around=around, old=old)
 
 
-def _number(fact, value):
+def _number(info, value):
     """(unit, value) that a box shows: a quantity as its number; anything else as it is."""
-    shown = fact.dimension.shown if fact.dimension else ""
+    shown = info.dimension.shown if info.dimension else ""
     if value is None or value is ABSENT:
         return shown, None
-    if fact.kind in ("quantity", "any") and isinstance(value, str):
+    if info.kind in ("quantity", "any") and isinstance(value, str):
         try:
             number, unit = split(value)
         except UnitError:
@@ -202,13 +206,13 @@ def _number(fact, value):
     return shown, value
 
 
-def _in_unit(fact, unit):
+def _in_unit(info, unit):
     """Limits in the unit shown; none where that unit is of another kind than the limits."""
-    if not fact.dimension:
-        return fact.limits
+    if not info.dimension:
+        return info.limits
     try:
-        factor = fact.dimension.factor(unit)
+        factor = info.dimension.factor(unit)
     except UnitError:
         return Limits()
-    low, high = (None if limit is None else float(f"{limit / factor:.12g}") for limit in fact.limits[:2])
-    return Limits(low, high, *fact.limits[2:])
+    low, high = (None if limit is None else float(f"{limit / factor:.12g}") for limit in info.limits[:2])
+    return Limits(low, high, *info.limits[2:])

@@ -2,43 +2,49 @@
 
 import json
 import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
 
 from drivewright import registry, runner
+from drivewright.registry import Analysis
 from drivewright.report.content import summary
 from drivewright.report.pack import pack_plot_groups, pack_scene
+from drivewright.result import Result
+from drivewright.scene import Scene
+from drivewright.studio.design import Design
 from drivewright.view.panels import known_plots
 
 
-def warm(tell):
+def warm(send: Callable[[Any], object]) -> None:
     """Load what the first drawing needs."""
     for kind in registry.kinds():
         registry.mechanism(kind)
     runner.versions()
 
 
-def draw(tell, design, affordable):
-    """Tell the packed scene; answer the page's result of the affordable analyses, None where there are none.
+def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str]) -> dict[str, Any] | None:
+    """Send the packed scene; answer the page's result of the affordable analyses, None where there are none.
 
     `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
     """
     spec = design.spec()
     model = runner.build(spec)
     scene, remarks = _scene(spec, model)
-    tell(json.dumps({"scene": pack_scene(scene) if scene else None, "remarks": remarks}, allow_nan=False))
+    send(json.dumps({"scene": pack_scene(scene) if scene else None, "remarks": remarks}, allow_nan=False))
     if not affordable:
         return None
     return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable)
 
 
-def analyse(tell, design):
-    """Tell (done, total, analysis) on the way; answer (the page's result of all default analyses, seconds of each)."""
+def analyse(send: Callable[[Any], object], design: Design) -> tuple[dict[str, Any], dict[str, float]]:
+    """Send (done, total, analysis) on the way; answer (the page's result of all default analyses, seconds of each)."""
     spec = design.spec()
     model = runner.build(spec)
     began, seconds = [], {}
 
     def step(done, total, name):
         _end_of(began, seconds)
-        tell((done, total, name))
+        send((done, total, name))
         began.append((name, time.perf_counter()))
 
     result = runner.run(spec, progress=step, model=model)
@@ -64,7 +70,7 @@ def _scene(spec, model):
         return None, [f"no motion to show: {runner.failure_reason(spec, error)}"]
 
 
-def page_result(result, scene, analyses):
+def page_result(result: Result[Any], scene: Scene | None, analyses: Sequence[str]) -> dict[str, Any]:
     """Plain dictionary of a result for the page; `analyses` says whose answers it holds."""
     groups = pack_plot_groups(result, scene, tuple(known_plots(result).values())) if scene else None
     return {
@@ -84,7 +90,7 @@ def _fraction(check):
     return part if abs(part) < 1e6 else None
 
 
-def merged(shown, found):
+def merge_results(shown: Mapping[str, Any], found: Mapping[str, Any]) -> dict[str, Any]:
     """What is shown, with the answers of some analyses renewed; checks and plots of the others are marked stale."""
 
     def renewed(old, new, name):
@@ -112,11 +118,11 @@ def _merged_plots(shown, found):
     return {"cycle": found["cycle"], "plots": [fresh.get(plot["name"], {**plot, "stale": True}) for plot in shown["plots"]]}
 
 
-def affordable(analyses, seconds, budget):
+def affordable_analyses(analyses: Iterable[Analysis[Any, Any]], seconds: Mapping[str, float], budget: float) -> list[str]:
     """Names of the analyses that fit the budget [s], each with what it needs, the quickest first."""
     by_name = {analysis.name: analysis for analysis in analyses}
     chosen, spent = {}, 0.0
-    for name in sorted(seconds, key=seconds.get):
+    for name in sorted(seconds, key=lambda name: seconds[name]):
         more = {n for n in _needed(name, by_name) if n not in chosen}
         if name not in chosen and all(n in seconds for n in more):
             cost = sum(seconds[n] for n in more)

@@ -15,15 +15,17 @@ MOST_OFFERS = 50
 TABS_FILES = 200  # folders of files that pages sent; the oldest goes
 
 
-class Workshop:
+class ServerResources:
     """Made once, in the running loop of the server; `close` leaves nothing behind."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         most = max(2, worker_count(None))
         self.quick, self.heavy = WorkerPool(most), WorkerPool(most)
-        self._root, self._folders, self._offers = None, [], {}
+        self._root: Path | None = None
+        self._folders: list[str] = []
+        self._offers: dict[str, tuple[str, bytes, float]] = {}
 
-    def new_folder(self):
+    def new_folder(self) -> tuple[str, Path]:
         """(token, path) of a folder for the files of a page."""
         if self._root is None:
             self._root = Path(tempfile.mkdtemp(prefix="drivewright-studio-")).resolve()
@@ -34,11 +36,11 @@ class Workshop:
         (self._root / token).mkdir()
         return token, self._root / token
 
-    def folder(self, token):
+    def folder(self, token: str) -> Path | None:
         """The folder behind a token, None where it is none of ours."""
-        return self._root / token if token in self._folders else None
+        return self._root / token if self._root is not None and token in self._folders else None
 
-    def offer(self, name, data):
+    def offer(self, name: str, data: bytes) -> str:
         """Address where a file can be fetched, once."""
         now = time.monotonic()
         self._offers = {token: offer for token, offer in self._offers.items() if now - offer[2] < KEPT}
@@ -48,12 +50,12 @@ class Workshop:
             del self._offers[next(iter(self._offers))]
         return f"/download/{token}"
 
-    def fetch(self, token):
+    def fetch(self, token: str) -> tuple[str, bytes] | None:
         """(name, data) of an offered file, None where there is none."""
-        found = self._offers.pop(token, None)
-        return found and found[:2]
+        offer = self._offers.pop(token, None)
+        return offer and offer[:2]
 
-    def close(self):
+    def close(self) -> None:
         """Processes and files go."""
         self.quick.close()
         self.heavy.close()

@@ -2,8 +2,10 @@
 
 import math
 import re
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeAlias
 
+Slider: TypeAlias = tuple[list[float], float]  # ([from, to], step)
 NICE = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)  # where a range may end, times a power of ten
 STEPS = 200  # of a slider, about
 WIDE = 20.0  # limits further apart than so many times the value, or a usual one, make no slider
@@ -41,7 +43,9 @@ class Limits(NamedTuple):
     open_high: bool = False
 
 
-def slider(value, limits=Limits(), *, integer=False, around=1.0, old=None):
+def slider(
+    value: float, limits: Limits = Limits(), *, integer: bool = False, around: float = 1.0, old: Slider | None = None
+) -> Slider | None:
     """([from, to], step) of a slider for a value, or None where the limits leave it no room.
 
     Both limits, where they lie close enough together; else about half to twice the value.  `around` is the size of a usual value, for one
@@ -57,12 +61,12 @@ def slider(value, limits=Limits(), *, integer=False, around=1.0, old=None):
     return ([low, high], step) if low < high else None
 
 
-def typical(unit, example=None):
+def typical(unit: str, example: float | None = None) -> float:
     """Size of a usual value: that of an example where it is not 0, else by the unit."""
     return abs(example) if example else TYPICAL.get(unit, 1.0)
 
 
-def tidied(text):
+def tidied(text: str) -> str:
     """A text with its number to ten digits where it has more: a slider that counts in steps says "0.30000000000000004"."""
     match = re.match(r"\s*[+-]?[0-9.]+(?:[eE][+-]?[0-9]+)?", text)
     if not match or sum(map(str.isdigit, match[0])) <= DIGITS:
@@ -73,7 +77,7 @@ def tidied(text):
 # -- ranges --------------------------------------------------------------------------------------------------------------------
 
 
-def _range(value, limits, integer, around):
+def _range(value: float, limits: Limits, integer: bool, around: float) -> tuple[float, float]:
     """Where a slider begins and ends before it is clipped to the limits."""
     if limits.low is not None and limits.high is not None and limits.high - limits.low <= WIDE * max(abs(value), around):
         return limits.low, limits.high
@@ -86,7 +90,7 @@ def _range(value, limits, integer, around):
     return ends[0], ends[1]
 
 
-def _nice(size, way):
+def _nice(size: float, way: Callable[[float], int]) -> float:
     """The nice number next to a size > 0, below it (`way` math.floor) or above it (math.ceil)."""
     power = 10.0 ** math.floor(math.log10(size))
     if way is math.floor:
@@ -94,7 +98,7 @@ def _nice(size, way):
     return _short(min((n for n in NICE if n * power >= size * (1 - 1e-9)), default=10.0) * power)
 
 
-def _step(width, integer):
+def _step(width: float, integer: bool) -> float:
     """A two-hundredth of the range or less: 1, 2 or 5 times a power of ten; whole where the values are."""
     if width <= 0:
         return 1
@@ -103,7 +107,7 @@ def _step(width, integer):
     return max(1, round(step)) if integer else _short(step)
 
 
-def _clipped(low, high, step, value, limits):
+def _clipped(low: float, high: float, step: float, value: float, limits: Limits) -> tuple[float, float]:
     """The range inside the limits; an open limit is not reached."""
     if limits.low is not None and (low < limits.low or (limits.open_low and low <= limits.low)):
         low = min(value, limits.low + step if limits.open_low else limits.low)
@@ -112,15 +116,15 @@ def _clipped(low, high, step, value, limits):
     return _tidy(low), _tidy(high)
 
 
-def _within(ends, limits):
+def _within(ends: Sequence[float], limits: Limits) -> bool:
     return (limits.low is None or ends[0] >= limits.low) and (limits.high is None or ends[1] <= limits.high)
 
 
-def _tidy(number):
+def _tidy(number: float) -> float:
     """To twelve digits, whole where it is."""
     number = _short(number)
     return int(number) if number == int(number) and abs(number) < 1e15 else number
 
 
-def _short(number):
+def _short(number: float) -> float:
     return float(f"{number:.12g}")

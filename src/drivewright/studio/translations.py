@@ -5,6 +5,7 @@ They stand in `zh.toml`, here for what all kinds share and in the folder of each
 """
 
 import tomllib
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
@@ -13,25 +14,25 @@ from drivewright import registry
 LANGUAGE = "zh"
 
 
-def fields(kind):
+def fields(kind: str) -> dict[str, str]:
     """{dotted key with * for names and numbers: label} of every field of a kind; the dictionary is shared, do not change it."""
     return _merged(kind, "fields")
 
 
-def tables(kind):
+def tables(kind: str) -> dict[str, str]:
     """The same of its tables, which are the groups of a form."""
     return _merged(kind, "tables")
 
 
 @cache
-def texts(kind=None):
+def texts(kind: str | None = None) -> dict[str, str]:
     """{English text, with * for what varies: text} of a kind and the studio, or of the studio alone with what it says of all kinds."""
     if kind is None:
         return {english: text for each in registry.kinds() for english, text in _introduction(each).items()} | _own().get("texts", {})
     return _keys(kind) | _presets(kind) | _merged(kind, "texts")
 
 
-def label(key, patterns):
+def label(key: str, patterns: Mapping[str, str]) -> str | None:
     """The label of a dotted key among `patterns`, None where there is none; an element or a part (`.0`) has that of its list."""
     steps = key.split(".")
     fitting = [pattern for pattern in patterns if _fits(pattern.split("."), steps)]

@@ -1,8 +1,8 @@
-"""Work that takes a while: each job is `name(design, tell, **options) -> answer`, called in a worker process.
+"""Work that takes a while: each job is `name(design, progress, **options) -> answer`, called in a worker process.
 
-`tell(done, total, text, partial=None)` says how far it is; `partial` is a preview of the answer.  An answer is plain data for JSON without
-nan, or {"files": [{"name", "data": bytes}]}.  Our own errors go up to whoever asked, who shows their words.  A job may start processes of
-its own, so the process that it runs in must be no daemon.
+`progress(done, total, text, partial=None)` says how far it is; `partial` is a preview of the answer.  An answer is plain data for JSON
+without nan, or {"files": [{"name", "data": bytes}]}.  Our own errors go up to whoever asked, who shows their words.  A job
+may start processes of its own, so the process that it runs in must be no daemon.
 """
 
 from drivewright.studio.jobs import figures, files, search, sensitivity, solid, study

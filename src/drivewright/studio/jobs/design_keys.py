@@ -1,14 +1,17 @@
 """The keys of a design as jobs see them: which have values, how a value is written, what a person calls them."""
 
 import math
+from collections.abc import Iterable, Iterator
+from typing import Any
 
 from drivewright.errors import SpecError
-from drivewright.execution.keys import FIXED, key_kind
-from drivewright.spec import value_at
+from drivewright.execution.keys import FIXED, KeyKind, key_kind
+from drivewright.spec import MechanismSpec, value_at
+from drivewright.studio.design import Design, Tables
 from drivewright.view.text import shown
 
 
-def leaves(tables, path=()):
+def leaves(tables: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, Any]]:
     """(dotted key, raw value) of everything in raw tables that is no table; elements of lists by number."""
     for step, value in enumerate(tables) if isinstance(tables, list) else tables.items():
         here = (*path, str(step))
@@ -18,7 +21,7 @@ def leaves(tables, path=()):
             yield ".".join(here), value
 
 
-def numeric(design, spec):
+def numeric(design: Design, spec: MechanismSpec) -> dict[str, tuple[KeyKind, float]]:
     """{dotted key: (KeyKind, value in SI)} of the quantities and numbers that a design gives; whole numbers do not vary by per cent."""
     found = {}
     for key, _ in leaves(design.tables):
@@ -32,7 +35,7 @@ def numeric(design, spec):
     return found
 
 
-def numbered(tables, key):
+def numbered(tables: Tables, key: str) -> str:
     """A dotted key whose list elements go by number, whether they were named or not."""
     steps, place = [], tables
     for step in key.split("."):
@@ -46,23 +49,24 @@ def numbered(tables, key):
     return ".".join(steps)
 
 
-def is_locked(tables, key, locks):
+def is_locked(tables: Tables, key: str, locks: Iterable[str]) -> bool:
     """Whether a key, or a table or list that it is in, is locked."""
     key = numbered(tables, key)
     return any(key == lock or key.startswith(f"{lock}.") for lock in (numbered(tables, lock) for lock in locks))
 
 
-def written(kind, value):
+def written(kind: KeyKind, value: Any) -> str:
     """A value of a column as a person writes it into the spec, to the last digit."""
     given = kind.given(value)
-    if kind.name == "quantity" and not isinstance(given, str):
+    if kind.dimension and not isinstance(given, str):
         return kind.dimension.text(float(given))
     return str(given).lower() if isinstance(given, bool) else repr(given) if isinstance(given, float) else str(given)
 
 
-def label(tables, key):
+def label(tables: Tables, key: str) -> str:
     """A key in words: an element of a list by its name where it has one."""
-    words, place = [], tables
+    place: Any = tables
+    words = []
     for step in key.split("."):
         place = (
             place[int(step)]
@@ -76,7 +80,7 @@ def label(tables, key):
     return " · ".join(words)
 
 
-def plain(value, unit="-"):
+def plain(value: float, unit: str = "-") -> float | None:
     """A number in the unit people read, for JSON: None where there is none."""
     number = float(value) * shown(unit)[0]
     return number if math.isfinite(number) else None

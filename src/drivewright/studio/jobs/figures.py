@@ -1,14 +1,20 @@
 """Figures for the page: those of a run that do not move with the cycle, in the colours of its theme."""
 
 import re
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 from drivewright import registry, runner
-from drivewright.report.content import pictures, views
+from drivewright.report.content import Picture, pictures, views
 from drivewright.report.pack import pack_plots
+from drivewright.studio.design import Design
+from drivewright.studio.jobs.progress import Progress
 from drivewright.view.palette import ROLES, THEMES
 
 
-def figures(design, tell, theme="light", analyses=(), everything=False):
+def figures(
+    design: Design, progress: Progress, theme: str = "light", analyses: Sequence[str] = (), everything: bool = False
+) -> dict[str, Any]:
     """Every figure of a run that is not linked to the cycle: meshes, maps, drawings, plots over something else.
 
     {"figures": [{"name", "title", "svg"}], "requests": [{"name", "meaning", "missing"}] analyses that run on request and have not,
@@ -17,9 +23,9 @@ def figures(design, tell, theme="light", analyses=(), everything=False):
     spec = design.spec()
     mechanism, model = registry.mechanism(spec.mechanism), runner.build(spec)
     default = tuple(analysis.name for analysis in mechanism.analyses if analysis.default)
-    result = runner.run(spec, () if everything else (*default, *analyses), everything, tell, model)
+    result = runner.run(spec, () if everything else (*default, *analyses), everything, progress, model)
     done = result.provenance["analyses"]
-    tell(len(done), len(done), "drawing")
+    progress(len(done), len(done), "drawing")
     seen = views(result, model)
     unlinked = tuple(plot for plot in seen.plots if not _is_linked(result, seen.scene, plot))
     requests = [{"name": a.name, "meaning": a.meaning, "missing": a.missing(spec)} for a in mechanism.analyses if a.name not in done]
@@ -35,12 +41,12 @@ def _is_linked(result, scene, plot):
     return scene is not None and pack_plots(result, scene, (plot,)) is not None
 
 
-def drawn(found, theme):
+def drawn(found: Iterable[Picture], theme: str) -> list[dict[str, str]]:
     """Pictures as plain dictionaries in the colours of a theme."""
     return [{"name": picture.name, "title": picture.title, "svg": themed(picture.svg, theme)} for picture in found]
 
 
-def themed(svg, theme):
+def themed(svg: str, theme: str) -> str:
     """An SVG of the light theme in another one: the colour of each role changes, those of maps stay."""
     if theme not in THEMES or theme == THEMES[0]:
         return svg

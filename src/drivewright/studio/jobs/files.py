@@ -2,9 +2,11 @@
 
 import io
 import zipfile
+from collections.abc import Mapping
 from copy import deepcopy
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any, TypeAlias
 
 from drivewright import runner
 from drivewright.report.content import pictures, program, views
@@ -13,29 +15,32 @@ from drivewright.report.folder import file_name, write_run_folder
 from drivewright.report.html import write_report
 from drivewright.spec import set_key, value_at
 from drivewright.spec.serialisation import data_file_places, toml_text
-from drivewright.studio.jobs.keys import leaves
+from drivewright.studio.design import Design
+from drivewright.studio.jobs.design_keys import leaves
+from drivewright.studio.jobs.progress import Progress
 
+Files: TypeAlias = dict[str, list[dict[str, Any]]]  # {"files": [{"name", "data"}]}
 LONGEST = 80  # characters of a file's name
 BEGINNING = (1980, 1, 1, 0, 0, 0)  # of time in an archive: the same files, the same bytes
 
 
-def export(design, tell, format, anyway=False):
+def export(design: Design, progress: Progress, format: str, anyway: bool = False) -> Files:
     """{"files": [{"name", "data"}]}: the design in a format of `drivewright export`, several files in one archive.
 
     GeometryCheckFailed where a geometry check fails, unless `anyway`; MissingExtra where the format needs what is not installed.
     """
     with TemporaryDirectory() as folder:
-        written = write_export(design.spec(), (format,), Path(folder), anyway, tell)
+        written = write_export(design.spec(), (format,), Path(folder), anyway, progress)
         return _files(_stem(design), format, {path.name: path.read_bytes() for path in written})
 
 
-def report(design, tell, whole=False):
+def report(design: Design, progress: Progress, whole: bool = False) -> Files:
     """The report page of a run as one file, or the `whole` run folder as an archive."""
     spec = design.spec()
     model = runner.build(spec)
-    result = runner.run(spec, model=model, progress=tell)
+    result = runner.run(spec, model=model, progress=progress)
     done = len(result.provenance["analyses"])
-    tell(done, done, "drawing")
+    progress(done, done, "drawing")
     seen, stem = views(result, model), _stem(design)
     with TemporaryDirectory() as folder:
         if not whole:
@@ -47,7 +52,7 @@ def report(design, tell, whole=False):
         )
 
 
-def save(design, tell):
+def save(design: Design, progress: Progress) -> Files:
     """The spec as the user has it; where it names data files an archive with copies of them beside it."""
     spec, stem = design.spec(), _stem(design)
     places = data_file_places(spec.data_files())
@@ -60,7 +65,7 @@ def save(design, tell):
     return _one(f"{stem}.zip", archive({f"{stem}.toml": text, **copies})) if copies else _one(f"{stem}.toml", text)
 
 
-def archive(files):
+def archive(files: Mapping[str, bytes]) -> bytes:
     """The bytes of a ZIP archive of {path: bytes}; the same files, the same bytes."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as packed:
@@ -71,13 +76,13 @@ def archive(files):
     return stream.getvalue()
 
 
-def _stem(design):
+def _stem(design: Design) -> str:
     """The title as the name of a file, else the kind."""
     title = design.tables.get("title")
     return file_name(title[:LONGEST] if isinstance(title, str) and title.strip() else design.kind)
 
 
-def _files(stem, format, written):
+def _files(stem: str, format: str, written: Mapping[str, bytes]) -> Files:
     """One file under the name of the design, several in an archive."""
     if len(written) == 1:
         ((name, data),) = written.items()
@@ -85,5 +90,5 @@ def _files(stem, format, written):
     return _one(f"{stem}-{format}.zip", archive(written))
 
 
-def _one(name, data):
+def _one(name: str, data: bytes) -> Files:
     return {"files": [{"name": name, "data": data}]}

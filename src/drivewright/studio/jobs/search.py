@@ -1,7 +1,9 @@
 """The [optimise] of a design: a search for its best, told while it goes on."""
 
+from collections.abc import Sequence
 from copy import deepcopy
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -12,15 +14,19 @@ from drivewright.studies.optimisation import searched
 from drivewright.studies.search import history
 from drivewright.studies.search.problem import prepare
 from drivewright.studies.store import Memory, joined
+from drivewright.studio.design import Design
+from drivewright.studio.jobs.design_keys import is_locked, label, plain, written
 from drivewright.studio.jobs.figures import drawn
-from drivewright.studio.jobs.keys import is_locked, label, plain, written
+from drivewright.studio.jobs.progress import Progress
 from drivewright.studio.jobs.study import Live, thinned
 from drivewright.view.text import quantity, sentence, shown, uncertain
 
 MOST_FRONT = 500  # designs of a front that a page is sent
 
 
-def optimise(design, tell, locks=(), workers=None, on=None, theme="light"):
+def optimise(
+    design: Design, progress: Progress, locks: Sequence[str] = (), workers: int | None = None, on: str | None = None, theme: str = "light"
+) -> dict[str, Any]:
     """The best design of the [optimise] table, unknowns that are locked left as they are.
 
     {"changes": {key: text}, "unknowns", "objectives", "requirements", "feasible", "message", "findings", "verdict", "evaluations", "front":
@@ -30,7 +36,7 @@ def optimise(design, tell, locks=(), workers=None, on=None, theme="light"):
     free, left_out = _freed(design, locks)
     problem = prepare(free.spec())
     kept = Memory()
-    found = searched(problem, kept, workers, on, Live(tell, lambda: _so_far(problem, kept)))
+    found = searched(problem, kept, workers, on, Live(progress, lambda: _so_far(problem, kept)))
     return _told(design, found, left_out, theme)
 
 
@@ -136,10 +142,11 @@ def _unknowns(design, found):
 
 def _requirement(check):
     """Met is what the whole interval of the value meets."""
+    low, high = check.bounds or (None, None)
     return {
         "name": check.name,
         "ok": check.ok and not check.undecided,
-        "value": uncertain(check.value, check.unit, *(check.bounds or (None, None))),
+        "value": uncertain(check.value, check.unit, low, high),
         "limit": f"{SIGNS[check.sense]} {quantity(check.limit, check.unit)}",
     }
 

@@ -2,6 +2,8 @@
 
 import math
 import time
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from annotated_types import Ge, Gt, Le, Lt
@@ -18,14 +20,24 @@ from drivewright.studies.statistics import NORMAL
 from drivewright.studies.store import Memory
 from drivewright.studies.sweeps import compute_study
 from drivewright.studies.variables import Variable
-from drivewright.studio.jobs.keys import is_locked, label, numeric, plain
+from drivewright.studio.design import Design
+from drivewright.studio.jobs.design_keys import is_locked, label, numeric, plain
+from drivewright.studio.jobs.progress import Progress
 from drivewright.view.text import quantity, sentence, shown
 
 ROUNDING = 1e-12  # of a number: no change
 PATIENCE = 2.0  # seconds of a run, beyond which only the analyses that check something are asked
 
 
-def sensitivity(design, tell, locks=(), targets=None, share=0.01, workers=None, on=None):
+def sensitivity(
+    design: Design,
+    progress: Progress,
+    locks: Sequence[str] = (),
+    targets: Sequence[str] | None = None,
+    share: float = 0.01,
+    workers: int | None = None,
+    on: str | None = None,
+) -> dict[str, Any]:
     """How each number of a run follows each key of the design, by central differences of `share` of the key.
 
     {"targets": [{"name", "label", "unit", "kind", "base", "relative", "bars": [{"key", "label", "step", "low", "high", "effect"}],
@@ -38,7 +50,7 @@ def sensitivity(design, tell, locks=(), targets=None, share=0.01, workers=None, 
     keys = {key: found for key, found in numeric(design, spec).items() if not is_locked(design.tables, key, locks)}
     if not keys:
         raise SpecError("no number of this design is free to change; unlock some")
-    wanted, analyses = _asked(spec, tell, targets)
+    wanted, analyses = _asked(spec, progress, targets)
     steps = _steps(spec, keys, share)
     plan = _plan(keys, steps)
     asking = spec.model_copy(update={"study": Study(analyses=analyses, values=tuple(wanted))})
@@ -49,7 +61,7 @@ def sensitivity(design, tell, locks=(), targets=None, share=0.01, workers=None, 
         case_task(asking, plan.keys),
         workers,
         on,
-        lambda done, total, what: tell(done, total, f"design {done} of {total}"),
+        lambda done, total, what: progress(done, total, f"design {done} of {total}"),
     )
     told = [_target(design, study, name, about, keys, steps) for name, about in wanted.items()]
     return {"targets": told, "failed": _failed(study, keys), "remarks": list(study.remarks)}
@@ -58,10 +70,10 @@ def sensitivity(design, tell, locks=(), targets=None, share=0.01, workers=None, 
 # -- what is asked -------------------------------------------------------------------------------------------------------------
 
 
-def _asked(spec, tell, names):
+def _asked(spec, progress, names):
     """(what `_targets` says of the numbers to follow, the analyses that give them)."""
     mechanism, model = registry.mechanism(spec.mechanism), runner.build(spec)
-    result = runner.run(spec, model=model, progress=tell)
+    result = runner.run(spec, model=model, progress=progress)
     began = time.perf_counter()  # of a second run: the first one compiles
     answers = runner.run_analyses(spec, model, runner.select_analyses(mechanism.analyses))
     slow = time.perf_counter() - began > PATIENCE and not names

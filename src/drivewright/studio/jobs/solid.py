@@ -1,17 +1,22 @@
 """The assembly as triangles for a viewer: flat arrays for the graphics card, round surfaces smooth, edges sharp."""
 
+from typing import Any
+
 import numpy as np
 
 from drivewright import registry, runner
+from drivewright._typing import Floats, Ints
 from drivewright.errors import InputError
 from drivewright.report.pack import floats
 from drivewright.solids import facets
+from drivewright.studio.design import Design
+from drivewright.studio.jobs.progress import Progress
 
 CREASE = np.cos(np.radians(30))  # faces that turn by more meet in an edge
 TOLERANCE = 3e-5  # m: chords stay about so near to a round surface
 
 
-def solid(design, tell):
+def solid(design: Design, progress: Progress) -> dict[str, Any]:
     """{"unit": "m", "size", "low", "high", "parts": [{"name", "colour", "triangles", "positions", "normals", "edges"}]}.
 
     positions and normals: base64 of float32 x, y, z, three corners a triangle, counter-clockwise from outside; edges: two ends each.
@@ -25,7 +30,7 @@ def solid(design, tell):
         raise InputError(f"{mechanism.kind} has no solids to show")
     packed, ends = [], []
     for number, part in enumerate(parts):
-        tell(number, len(parts), part.name)
+        progress(number, len(parts), part.name)
         points, corners = facets.surface_triangles(part, TOLERANCE)
         ends += [points.min(axis=0), points.max(axis=0)]
         packed.append({"name": part.name, "colour": part.colour, "triangles": len(corners), **shaded(points, corners)})
@@ -33,7 +38,7 @@ def solid(design, tell):
     return {"unit": "m", "size": float(np.linalg.norm(high - low)), "low": low.tolist(), "high": high.tolist(), "parts": packed}
 
 
-def shaded(points, corners):
+def shaded(points: Floats, corners: Ints) -> dict[str, Any]:
     """{"positions", "normals", "edges"} of a closed surface: points (n, 3), corners (m, 3)."""
     corners, faces = _proper(points, corners)
     sides = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
@@ -89,7 +94,7 @@ def _sharp(sides, owners, faces):
     order = np.lexsort(sides.T)
     sides, owners, unit = sides[order], owners[order], _unit(faces)
     first = np.flatnonzero(np.concatenate([[True], np.any(np.diff(sides, axis=0) != 0, axis=1)]))
-    count = np.diff([*first, len(sides)])
+    count = np.diff(np.append(first, len(sides)))
     partner = np.minimum(first + 1, len(sides) - 1)
     flat = (count == 2) & (np.einsum("ij,ij->i", unit[owners[first]], unit[owners[partner]]) > CREASE)
     return sides[first[~flat]]

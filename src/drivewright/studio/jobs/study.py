@@ -1,11 +1,14 @@
 """The [study] of a design: its cases as rows of a table, and what they say."""
 
 import time
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from drivewright import registry
+from drivewright._typing import Ints
 from drivewright.errors import SpecError
 from drivewright.execution.case_table import CASE, CHECK, STATUS
 from drivewright.execution.evaluation import case_task
@@ -20,8 +23,10 @@ from drivewright.studies.store import Folder, Memory, joined
 from drivewright.studies.study import Study
 from drivewright.studies.sweeps import compute_study, study_identity
 from drivewright.studies.variation import with_options
+from drivewright.studio.design import Design
+from drivewright.studio.jobs.design_keys import label, numeric, plain, written
 from drivewright.studio.jobs.figures import drawn
-from drivewright.studio.jobs.keys import label, numeric, plain, written
+from drivewright.studio.jobs.progress import Progress
 from drivewright.view.text import quantity, sentence, shown
 
 MOST_ROWS, MOST_LIVE = 4000, 1000  # that a page is sent: at the end, and on the way
@@ -29,7 +34,17 @@ PAUSE = 0.5  # seconds between two looks at what is done so far
 SHARE = 10  # pauses are so many times as long as a look takes
 
 
-def study(design, tell, vary=(), samples=None, method=None, folder=None, workers=None, on=None, theme="light"):
+def study(
+    design: Design,
+    progress: Progress,
+    vary: Sequence[str] = (),
+    samples: int | None = None,
+    method: str | None = None,
+    folder: str | Path | None = None,
+    workers: int | None = None,
+    on: str | None = None,
+    theme: str = "light",
+) -> dict[str, Any]:
     """Every case of the [study] table, or of `vary` as on the command line ("key=1 mm:2 mm:5").
 
     {"columns": [{"name", "label", "unit", "role": key | value | check}], "rows" in the units people read, None where there is no number,
@@ -43,25 +58,25 @@ def study(design, tell, vary=(), samples=None, method=None, folder=None, workers
         raise SpecError(_remedy(design), "study.vary")
     plan = make_plan(spec)
     kept = Folder(Path(folder), spec, study_identity(spec, plan)) if folder is not None else Memory()
-    live = Live(tell, lambda: _rows(design, _so_far(spec, plan, kept), MOST_LIVE))
+    live = Live(progress, lambda: _rows(design, _so_far(spec, plan, kept), MOST_LIVE))
     try:
         found = compute_study(kept, spec, plan, case_task(spec, plan.keys), workers, on, live)
     finally:
         kept.close()
-    tell(len(plan), len(plan), "what the cases say")
+    progress(len(plan), len(plan), "what the cases say")
     return _told(design, found, theme)
 
 
 class Live:
     """Progress of cases, with a partial answer at most every `PAUSE`, and less often where one takes long to make."""
 
-    def __init__(self, tell, look):
-        self._tell, self._look, self._next = tell, look, 0.0
+    def __init__(self, progress: Progress, preview: Callable[[], Any]) -> None:
+        self._progress, self._preview, self._next = progress, preview, 0.0
 
-    def __call__(self, done, total, what):
+    def __call__(self, done: int, total: int, what: str) -> None:
         began = time.monotonic()
         due = done and began >= self._next
-        self._tell(done, total, what, self._look() if due else None)
+        self._progress(done, total, what, self._preview() if due else None)
         if due:
             self._next = time.monotonic() + max(PAUSE, SHARE * (time.monotonic() - began))
 
@@ -111,7 +126,7 @@ def _rows(design, study, most, always=()):
     }
 
 
-def thinned(count, most, always=()):
+def thinned(count: int, most: int, always: Sequence[int] = ()) -> Ints:
     """Numbers of up to about `most` of `count` rows, evenly spaced, and of those that must be there."""
     even = np.arange(count) if count <= most else np.linspace(0, count - 1, most).round().astype(int)
     return np.union1d(even, np.asarray(always, int)).astype(int)
