@@ -18,6 +18,7 @@ from drivewright.stops import Stop
 
 if TYPE_CHECKING:
     import pyarrow
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 SpecT = TypeVar("SpecT", bound="SpecLike")
@@ -331,11 +332,15 @@ class Result(Generic[SpecT]):
             raise UnknownName("table", name, self.tables)
         return self.tables[name].arrow()
 
-    def plot(self, name: str) -> "Figure":
-        """A matplotlib Figure of a table or of one of the mechanism's plots."""
+    def plot(self, name: str, ax: "Axes | None" = None) -> "Figure":
+        """A matplotlib Figure of a table or of one of the mechanism's plots.
+
+        With `ax` it is drawn into these axes, whose figure is returned; InputError for a plot that needs several axes, or others.
+        """
         from drivewright import registry  # the one import upwards: a view is asked for by name
 
-        return registry.load("drivewright.views", "matplotlib", "view")(self, name)
+        view = registry.load("drivewright.views", "matplotlib", "view")
+        return view(self, name) if ax is None else view(self, name, ax=ax)
 
     def __repr__(self) -> str:
         """One line; the numbers are in `values`, `tables`, `checks`."""

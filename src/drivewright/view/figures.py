@@ -1,30 +1,65 @@
 """Tables and plots as printable figures: labelled axes in the units people read, limits as labelled dashed lines."""
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
+from drivewright.errors import InputError
+from drivewright.result import Result
 from drivewright.view.histograms import draw_histogram
-from drivewright.view.maps import draw_map
+from drivewright.view.maps import draw_map, map_into
 from drivewright.view.meshes import draw_mesh
 from drivewright.view.palette import SERIES, colour
-from drivewright.view.panels import find_plot, panels
+from drivewright.view.panels import Panel, find_plot, panels
 from drivewright.view.ranked import draw_ranked
-from drivewright.view.rounds import draw_round
+from drivewright.view.rounds import draw_round, round_into
 from drivewright.view.style import BADGE, MUTED, angle_ticks, are_turned, legend_above, new_figure, places, show_places, styled, whole_ticks
 from drivewright.view.text import axis_label, literal, parts_of_label
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 FEW = 25  # up to so many points each one is marked
 MANY = 1500  # from so many points on lines are thinner and points smaller
 
 
-def plot_table(result, name, marks=()):
+def plot_table(result: Result[Any], name: str, marks: Sequence[tuple[float, str]] = (), ax: "Axes | None" = None) -> "Figure":
     """Figure of a plot of the result's mechanism, or of a whole table over its first column, by name.
 
-    `marks` are (x in SI, label): a phase begins at each; phases are shaded in turn.
+    `marks` are (x in SI, label): a phase begins at each; phases are shaded in turn.  With `ax` it is drawn into these axes, whose figure
+    is returned.
     """
-    return draw_panels(panels(result, find_plot(result, name)), marks=marks)
+    shown = panels(result, find_plot(result, name))
+    return draw_panels(shown, marks) if ax is None else draw_into(ax, shown, name, marks)
 
 
-def draw_panels(shown, marks=()):
+def draw_into(ax: "Axes", shown: Sequence[Panel], name: str, marks: Sequence[tuple[float, str]] = ()) -> "Figure":
+    """Draw the one panel of a plot into axes of the caller; InputError where it has several, or its style needs axes of its own."""
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    style = shown[0].style
+    if not isinstance(ax, Axes):
+        raise InputError(f"plot {name!r}: ax is a {type(ax).__name__}; give one matplotlib Axes, e.g. plt.subplots()[1], or leave ax out.")
+    if len(shown) > 1:
+        raise InputError(f"plot {name!r}: it has {len(shown)} panels, one under the other, and ax is one; leave ax out.")
+    if style in APART and style not in INTO:
+        raise InputError(f"plot {name!r}: its style {style!r} needs a figure of its own; leave ax out.")
+    if (style == "polar") != (ax.name == "polar"):
+        wanted = 'polar axes, e.g. figure.add_subplot(projection="polar")' if style == "polar" else "plain axes"
+        raise InputError(f"plot {name!r}: it needs {wanted}; these are {'polar' if ax.name == 'polar' else ax.name}.")
+    with styled():
+        if style in INTO:
+            INTO[style](ax, shown[0])
+        else:
+            _draw_panel(ax, shown[0], marks)
+            ax.set_xlabel(literal(axis_label(shown[0].x.label, shown[0].x.unit)))
+    return ax.figure if isinstance(ax.figure, Figure) else ax.figure.figure
+
+
+def draw_panels(shown: Sequence[Panel], marks: Sequence[tuple[float, str]] = ()) -> "Figure":
     """Figure of panels, one under the other over a common x; `marks` as in `plot_table` but in the unit of the x axis."""
     if shown[0].style in APART:
         return APART[shown[0].style](shown)
@@ -33,14 +68,22 @@ def draw_panels(shown, marks=()):
         figure = new_figure(4.6 if equal else _height(shown), shown[0].title)
         axes = figure.subplots(len(shown), 1, squeeze=False, sharex=not equal)[:, 0]
         for axis, panel in zip(axes, shown, strict=True):
-            _draw(axis, panel)
-            _shade(axis, panel, marks, named=axis is axes[0])
+            _draw_panel(axis, panel, marks, named=axis is axes[0])
         axes[-1].set_xlabel(literal(axis_label(shown[0].x.label, shown[0].x.unit)))
         figure.align_ylabels(list(axes))
     return figure
 
 
 APART = {"mesh": draw_mesh, "polar": draw_round, "map": draw_map, "histogram": draw_histogram, "ranked": draw_ranked}
+
+
+INTO = {"polar": round_into, "map": map_into}
+
+
+def _draw_panel(axis, panel, marks, named=True):
+    """One panel of lines, points, stems or bars, with its phases."""
+    _draw(axis, panel)
+    _shade(axis, panel, marks, named)
 
 
 def _height(shown):

@@ -1,11 +1,18 @@
 """A quantity over two others as coloured cells, each about its own point of the grid: levels may lie anywhere, a level may be a text."""
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from drivewright.view.palette import colour
-from drivewright.view.panels import decimals
+from drivewright.view.panels import Panel, decimals
 from drivewright.view.style import angle_ticks, legend_above, new_figure, places, show_places, styled, whole_ticks
 from drivewright.view.text import axis_label, literal, number, parts_of_label
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 LETTER, LINE = 0.075, 0.16  # inches that a written number needs across for each letter, and up
 FEWEST = 5  # levels from which on contours are drawn
@@ -14,26 +21,31 @@ FEW_LEVELS = 12  # whole levels that all get a tick
 DECADE = 10.0  # ratio of the ends from which on a geometric series of levels stands on a logarithmic axis
 
 
-def draw_map(shown):
+def draw_map(shown: Sequence[Panel]) -> "Figure":
     """Figure of a panel of style "map": cells, a colour bar, contours where the field is smooth, hatching where there is no value."""
     panel = shown[0]
-    (x, across), (y, up), cells = grid(panel)
+    levels = len(grid(panel)[1][0])
     with styled():
-        figure = new_figure(float(np.clip(1.6 + 0.24 * len(y), 3.4, 4.8)), panel.title)
-        axis = figure.subplots()
-        # What is not painted shows the ground.
-        axis.patch.set(facecolor=colour("raised"), edgecolor=colour("muted"), hatch="////", linewidth=0)
-        axis.grid(False)
-        _axis(axis.xaxis, x, across, panel.x.unit)
-        _axis(axis.yaxis, y, up, panel.series[0].unit)
-        axis.set_xlabel(literal(axis_label(panel.x.label, panel.x.unit)))
-        axis.set_ylabel(literal(axis_label(*parts_of_label(panel.label), width=34)))
-        painted = _paint(figure, axis, panel, x, y, cells)
-        lines = _contours(figure, axis, panel, (x, across), (y, up), cells)
-        if not lines and painted:
-            _write(axis, painted, x, y, cells)
-        legend_above(axis, [*_limits(axis, panel, x, y, cells), *_hatched(cells)])
+        figure = new_figure(float(np.clip(1.6 + 0.24 * levels, 3.4, 4.8)), panel.title)
+        map_into(figure.subplots(), panel)
     return figure
+
+
+def map_into(axis: "Axes", panel: Panel) -> None:
+    """Draw a panel of style "map" into axes, with its colour bar beside them."""
+    (x, across), (y, up), cells = grid(panel)
+    # What is not painted shows the ground.
+    axis.patch.set(facecolor=colour("raised"), edgecolor=colour("muted"), hatch="////", linewidth=0)
+    axis.grid(False)
+    _axis(axis.xaxis, x, across, panel.x.unit)
+    _axis(axis.yaxis, y, up, panel.series[0].unit)
+    axis.set_xlabel(literal(axis_label(panel.x.label, panel.x.unit)))
+    axis.set_ylabel(literal(axis_label(*parts_of_label(panel.label), width=34)))
+    painted = _paint(axis.figure, axis, panel, x, y, cells)
+    lines = _contours(axis.figure, axis, panel, (x, across), (y, up), cells)
+    if not lines and painted:
+        _write(axis, painted, x, y, cells)
+    legend_above(axis, [*_limits(axis, panel, x, y, cells), *_hatched(cells)])
 
 
 def grid(panel):
@@ -92,7 +104,7 @@ def _axis(axis, levels, names, unit):
     elif not logarithmic:
         show_places(axis, levels, names)
     if unit == "°" and names is None:
-        angle_ticks(axis, *ends)
+        angle_ticks(axis, float(ends[0]), float(ends[1]))
 
 
 def _are_few_whole(levels):

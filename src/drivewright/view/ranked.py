@@ -57,9 +57,9 @@ def _draw(axis, panel, labels):
         legend_above(axis, room=ROOM - max((len(line) for label in labels for line in label.splitlines()), default=0))
 
 
-def _told(value, ends):
+def _value_text(value, ends):
     """A number with the digits that its interval supports, three at most; as any number without zeros at its end."""
-    text = numbers(value, *ends, 3)[0] if ends else number(value, 3)
+    text = numbers(value, ends[0], ends[1], 3)[0] if ends else number(value, 3)
     return text.rstrip("0").rstrip(".") if "." in text and "×" not in text else text
 
 
@@ -88,7 +88,8 @@ def _write(axis, bars, place):
         if not np.isfinite(value):
             axis.annotate("no value", (0.0, row), **look)
         elif len(bars) == 1:
-            axis.annotate(_told(value, [end[row] for end in ends]), (min(low[row], 0.0) if value < 0 else max(high[row], 0.0), row), **look)
+            place = min(low[row], 0.0) if value < 0 else max(high[row], 0.0)
+            axis.annotate(_value_text(value, [end[row] for end in ends]), (place, row), **look)
     if len(bars) == 1:
         left, right = axis.get_xlim()
         wide = LETTER * max((len(text.get_text()) for text in axis.texts), default=0) * (right - left)

@@ -1,23 +1,34 @@
 """A quantity round a circle: what each place around a bearing carries."""
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, cast
+
 import numpy as np
 
 from drivewright.view.palette import colour
+from drivewright.view.panels import Panel
 from drivewright.view.style import new_figure, styled
 from drivewright.view.text import axis_label, parts_of_label
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
-def draw_round(shown):
+
+def draw_round(shown: Sequence[Panel]) -> "Figure":
     """Figure of a panel of style "polar": angles counter-clockwise from the right, x up and down as in the drawing."""
-    panel = shown[0]
-    angle = np.deg2rad(panel.x.data)
     with styled():
-        figure = new_figure(4.2, panel.title)
-        axis = figure.add_subplot(projection="polar")
-        for series in panel.series:
-            axis.vlines(angle, 0.0, series.data, color=colour(series.role), lw=1.2)
-            axis.plot(angle, series.data, color=colour(series.role), lw=1.0, marker="o", ms=4, label=series.label)
-        axis.set_ylim(0.0, max(1.05 * max(float(series.data.max()) for series in panel.series), 1e-12))
-        axis.set_rlabel_position(22.5)
-        axis.set_xlabel(axis_label(*parts_of_label(panel.label)))
+        figure = new_figure(4.2, shown[0].title)
+        round_into(figure.add_subplot(projection="polar"), shown[0])
     return figure
+
+
+def round_into(axis: "Axes", panel: Panel) -> None:
+    """Draw a panel of style "polar" into polar axes."""
+    angle = np.deg2rad(panel.x.data)
+    for series in panel.series:
+        axis.vlines(angle, 0.0, series.data, color=colour(series.role), lw=1.2)
+        axis.plot(angle, series.data, color=colour(series.role), lw=1.0, marker="o", ms=4, label=series.label)
+    axis.set_ylim(0.0, max(1.05 * max(float(series.data.max()) for series in panel.series), 1e-12))
+    cast(Any, axis).set_rlabel_position(22.5)
+    axis.set_xlabel(axis_label(*parts_of_label(panel.label)))

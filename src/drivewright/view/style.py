@@ -4,6 +4,7 @@ import io
 import math
 import re
 from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
 
@@ -70,7 +71,8 @@ def new_figure(height, title=""):
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(WIDTH, height), layout="constrained")
-    figure.get_layout_engine().set(w_pad=0.06, h_pad=0.05, hspace=0.02)
+    layout: Any = figure.get_layout_engine()
+    layout.set(w_pad=0.06, h_pad=0.05, hspace=0.02)
     figure.suptitle(literal(title), x=0.012, **TITLE)
     return figure
 

@@ -89,8 +89,9 @@ def quantity(value, unit, digits=EXACT):
 def uncertain(value, unit, low, high, digits=EXACT):
     """The same with its interval, '10.2 (8.1 to 12.4) mm'; as `quantity` where the interval says nothing."""
     factor, text = shown(unit)
-    told, *ends = numbers(value * factor, *(None if end is None else end * factor for end in (low, high)), digits)
-    return with_unit(f"{told} ({ends[0]} to {ends[1]})" if ends[0] else told, text)
+    below, above = (None if end is None else end * factor for end in (low, high))
+    middle, *ends = numbers(value * factor, below, above, digits)
+    return with_unit(f"{middle} ({ends[0]} to {ends[1]})" if ends[0] else middle, text)
 
 
 def interval_hint(value):
