@@ -20,7 +20,7 @@ def profile():
     """Exact trimming, and the same by shapely: the centre curve as a polygon of as many points, widened by the pin."""
     from shapely import LineString
 
-    from drivewright.indexing.plane import contacts, index_angles
+    from drivewright.indexing.plane import find_contacts, index_angles
 
     found = wheel()
     angles = index_angles(found)
@@ -30,7 +30,7 @@ def profile():
 
     def mapped():
         fresh = wheel()
-        return [contacts(fresh, angle) for angle in angles]
+        return [find_contacts(fresh, angle) for angle in angles]
 
     exact = ours()
     yield "profile of twelve pins, trimmed on both sides", best(ours), f"area {1e6 * exact.area:.6f} mm^2, {len(exact.corners)} corners"
@@ -56,11 +56,11 @@ def stiffness():
         changed = spec.replace(contact=spec.contact.replace(model=model))
         built = registry.mechanism("indexer").build(changed)
         built.drive.nodes  # noqa: B018 - the profile is timed above
-        from drivewright.mechanisms.indexer.stiffness import solved
+        from drivewright.indexing.stiffness.loading import solve_loaded
 
         yield (
             f"stiffness at 41 positions, {model}, contacts included",
-            best(lambda built=built: solved(built, built.angles, 1000.0)),
+            best(lambda built=built: solve_loaded(built.loaded_wheel, built.angles, 1000.0)),
             "wanted under 0.2 s",
         )
     yield from _peer(spec, registry.mechanism("indexer").build(spec))
@@ -71,29 +71,35 @@ def _peer(spec, built):
     from scipy.optimize import minimize
 
     from drivewright.indexing import stiffness as core
-    from drivewright.indexing.plane import contacts
-    from drivewright.indexing.stiffness.assembly import assemble, load_of, padded
-    from drivewright.indexing.stiffness.equilibrium import _linear, _part
-    from drivewright.indexing.stiffness.minimise import System, energy, slope_and_hessian
+    from drivewright.indexing.plane import find_contacts
+    from drivewright.indexing.stiffness.assembly import assemble_drivetrain, load_vector, pad_contacts
+    from drivewright.indexing.stiffness.equilibrium import _linear, _term
+    from drivewright.indexing.stiffness.minimise import ConvexEnergy, gradient_and_hessian, total_energy
 
     theta, torque = np.array([np.pi / 2]), 1000.0
-    near = [contacts(built.drive, theta[0], 2e-3)]
+    near = [find_contacts(built.drive, theta[0], 2e-3)]
 
     def ours():
-        return core.solve(built.train, theta, near, spec.eccentricity, torque, cams=spec.cams)
+        return core.solve_torsional_stiffness(built.train, theta, near, spec.eccentricity, torque, cams=spec.cams)
 
     yield "one position of it", best(ours), f"{ours().secant[0]:.6f} N m/rad in {ours().steps} steps"
-    assembly = assemble(built.train, spec.cams, spec.eccentricity * np.exp(1j * theta), padded(near, [np.isfinite(near[0].gap)]), False)
+    assembly = assemble_drivetrain(
+        built.train, spec.cams, spec.eccentricity * np.exp(1j * theta), pad_contacts(near, [np.isfinite(near[0].gap)]), False
+    )
     linear = assembly.basis.transpose(0, 2, 1) @ _linear(assembly) @ assembly.basis
-    system = System(linear, tuple(_part(group, assembly.basis) for group in assembly.groups), load_of(assembly, torque))
+    system = ConvexEnergy(
+        linear,
+        tuple(_term(group, group.law, assembly.basis) for group in assembly.groups if group.law is not None),
+        load_vector(assembly, torque),
+    )
 
     def theirs():
         return minimize(
-            lambda y: energy(system, y[None])[0],
+            lambda y: total_energy(system, y[None])[0],
             np.zeros(linear.shape[1]),
             method="trust-exact",
-            jac=lambda y: slope_and_hessian(system, y[None])[0][0],
-            hess=lambda y: slope_and_hessian(system, y[None])[1][0],
+            jac=lambda y: gradient_and_hessian(system, y[None])[0][0],
+            hess=lambda y: gradient_and_hessian(system, y[None])[1][0],
             options={"gtol": 1e-6, "maxiter": 2000},
         )
 
@@ -108,12 +114,12 @@ def _peer(spec, built):
 
 def designs():
     """Play, pressure angle and contacts of a thousand designs."""
-    from drivewright.indexing.designs import rate_designs
+    from drivewright.indexing.batch import evaluate_pin_wheels
     from drivewright.motion import law
 
     rng = np.random.default_rng(1)
     sizes = rng.uniform(0.005, 0.012, 1000), rng.uniform(0.006, 0.014, 1000), TURN * rng.uniform(0.4, 0.8, 1000)
-    seconds = best(lambda: rate_designs(law("modified-sine"), 12, 0.12, *sizes), 1)
+    seconds = best(lambda: evaluate_pin_wheels(law("modified-sine"), 12, 0.12, *sizes), 1)
     yield (
         f"1000 designs, play, contacts and pressure angle: {1000 / seconds[0]:.0f} designs per second",
         seconds,

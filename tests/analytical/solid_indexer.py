@@ -5,16 +5,17 @@ from functools import cache
 import numpy as np
 
 from drivewright.bearings import quick
-from drivewright.indexing.drivetrain import Drivetrain, GearMesh, SplitShaft, pin_contact, power_bearing
+from drivewright.indexing.drivetrain import Drivetrain, GearMesh, SplitShaft, pin_contact, power_law_bearing
 from drivewright.indexing.motion import index_motion
-from drivewright.indexing.pin_wheel import PinWheel, contacts
+from drivewright.indexing.pin_wheel import PinWheel
+from drivewright.indexing.plane import find_contacts
 from drivewright.indexing.solid import CamBody, ShaftBody, solid_stiffness
 from drivewright.shafts import Section
 
 WIDTH, E, NU = 0.018, 206e9, 0.3
 CAM, SHAFT = CamBody(WIDTH, 0.072), ShaftBody(0.035, WIDTH, 0.009, 0.014)
-CRANK = power_bearing(lambda force: quick.liu_roller(force, 14, 8.5e-3))
-SUPPORT = power_bearing(lambda force: quick.liu_ball(force, 11, 4.762e-3))
+CRANK = power_law_bearing(lambda force: quick.liu_roller(force, 14, 8.5e-3))
+SUPPORT = power_law_bearing(lambda force: quick.liu_ball(force, 11, 4.762e-3))
 ANGLES = np.radians([20.0, 45.0, 83.0])
 
 
@@ -35,4 +36,4 @@ def drive(cams=2, **changes):
 
 
 def solved(train, solids, torque=-1000.0, side="inside", theta=ANGLES, **settings):
-    return solid_stiffness(wheel(side), train, solids, theta, [contacts(wheel(side), each) for each in theta], torque, **settings)
+    return solid_stiffness(wheel(side), train, solids, theta, [find_contacts(wheel(side), each) for each in theta], torque, **settings)

@@ -9,10 +9,9 @@ import drivewright as dw
 from drivewright import bearings, registry
 from drivewright.indexing.solid import ShaftBody
 from drivewright.indexing.stiffness import statics
-from drivewright.indexing.stiffness.laws import bearing_law
-from drivewright.indexing.stiffness.rolling import rolling_law
-from drivewright.mechanisms.indexer.loads import _mean
-from drivewright.mechanisms.indexer.verify import seated
+from drivewright.indexing.stiffness.laws import radial_bearing_law
+from drivewright.indexing.stiffness.rolling import rolling_bearing_law
+from drivewright.oracles.indexer.independent_check import seated
 from drivewright.runner import build
 from drivewright.units import SI
 
@@ -31,8 +30,8 @@ def loads():
 
 def test_the_mean_load_of_a_turn_counts_its_start_once():
     """(mean F^p)^(1/p); positions without a load are left out."""
-    assert _mean(np.array([3.0, 4.0, np.nan, 5.0, 3.0]), 3) == pytest.approx((216 / 3) ** (1 / 3), rel=1e-14)
-    assert _mean(np.full(4, np.nan), 3) == 0
+    assert statics.equivalent_load(np.array([3.0, 4.0, np.nan, 5.0, 3.0]), 3) == pytest.approx((216 / 3) ** (1 / 3), rel=1e-14)
+    assert statics.equivalent_load(np.full(4, np.nan), 3) == 0
 
 
 @pytest.mark.parametrize(("group", "power", "rating"), [("crank", 10 / 3, 50e3), ("support", 3, 6e3)])
@@ -57,7 +56,7 @@ def test_lives_of_the_bearings_from_their_own_table(group, power, rating):
 )
 def test_clearance_is_across_the_diameter(changes):
     """Radial clearance of 20 um lets a ring move by 10 um either way."""
-    law = bearing_law(build(spec(*changes, 'crank_bearings.radial_clearance="20 um"')).train.crank)
+    law = radial_bearing_law(build(spec(*changes, 'crank_bearings.radial_clearance="20 um"')).train.crank)
     force = law(np.array([[6e-6, 7.9e-6], [6e-6, 8.1e-6]]))[1]
     assert np.all(force[0] == 0) and np.all(force[1] > 0)
 
@@ -65,8 +64,8 @@ def test_clearance_is_across_the_diameter(changes):
 def test_where_the_rings_of_a_rolling_bearing_are_held():
     """With a contact angle where it just touches: any radial move presses; without, in the middle of its axial play."""
     angular = bearings.BallBearing(balls=12, ball_diameter=SI(8e-3), pitch_diameter=SI(40e-3), contact_angle=SI(np.radians(25)))
-    assert rolling_law(angular).axial == 0.0
-    at_once = rolling_law(angular)(np.array([[1e-7, 0.0], [0.0, -1e-7]]))[1]
+    assert rolling_bearing_law(angular).axial == 0.0
+    at_once = rolling_bearing_law(angular)(np.array([[1e-7, 0.0], [0.0, -1e-7]]))[1]
     assert at_once[0, 0] > 0 > at_once[1, 1]
 
 

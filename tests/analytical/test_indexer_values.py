@@ -8,8 +8,8 @@ import pytest
 import drivewright as dw
 from drivewright import materials, registry
 from drivewright.curves.touching import touches
-from drivewright.indexing.plane import pressure_angle
-from drivewright.mechanisms.indexer.pins import hertz
+from drivewright.indexing.plane import contact_pressure_angle
+from drivewright.mechanisms.indexer.pins import pressure_on_pin
 from drivewright.runner import build
 
 PRESETS = registry.mechanism("indexer").presets()
@@ -100,7 +100,7 @@ def test_points_of_contact_lie_on_the_profile_and_on_their_pin(preset):
         level = levels[pin[k] // model.drive.pins]
         place, turn = (complex(jet.d0) for jet in level.pose(angle[k]))
         assert np.min(np.abs(touches(level.nodes, [(at[k] - place) * np.exp(-1j * turn)], 0.0, 1e-3).gap)) < 1e-7
-        assert abs(at[k] - level.centres(angle[k]).d0[pin[k] % model.drive.pins]) == pytest.approx(model.spec.pin_radius, rel=1e-9)
+        assert abs(at[k] - level.pin_centres(angle[k]).d0[pin[k] % model.drive.pins]) == pytest.approx(model.spec.pin_radius, rel=1e-9)
         seen.add(pin[k] // model.drive.pins)
     assert seen == set(range(len(levels)))
 
@@ -108,7 +108,7 @@ def test_points_of_contact_lie_on_the_profile_and_on_their_pin(preset):
 def test_pressure_angles_either_way_are_those_of_their_direction():
     """Away from the middle of the step, where both ways are alike."""
     one, model = found('load.angle="40 deg"', only=("contacts",)), build(spec())
-    ways = [float(pressure_angle(model.drive, np.radians(40), way)[0]) for way in (1, -1)]
+    ways = [float(contact_pressure_angle(model.drive, np.radians(40), way)[0]) for way in (1, -1)]
     assert abs(ways[0] - ways[1]) > 0.05
     assert [one[f"pressure_angle.{name}.maximum"] for name in ("forward", "backward")] == pytest.approx(ways, rel=1e-9)
     assert one["pressure_angle.maximum"] == pytest.approx(ways[0], rel=1e-9)  # in the first half the wheel is accelerated
@@ -155,8 +155,10 @@ def test_hertz_pressure_of_two_cylinders(curvature):
     steel = materials.material(model.spec.contact.material)
     shared = steel.modulus / (2 * (1 - steel.poisson**2))
     wanted = np.sqrt(3000.0 * shared / (np.pi * 18e-3) * (1 / 8e-3 + curvature))
-    assert hertz(model, 3000.0, curvature) == pytest.approx(wanted, rel=1e-9)
-    assert np.isnan([hertz(model, 3000.0, np.inf), hertz(model, -3000.0, curvature), hertz(model, 3000.0, -125.1)]).all()
+    assert pressure_on_pin(model, 3000.0, curvature) == pytest.approx(wanted, rel=1e-9)
+    assert np.isnan(
+        [pressure_on_pin(model, 3000.0, np.inf), pressure_on_pin(model, -3000.0, curvature), pressure_on_pin(model, 3000.0, -125.1)]
+    ).all()
 
 
 def test_pressures_of_the_pins_are_those_of_their_own_contacts():
@@ -167,7 +169,7 @@ def test_pressures_of_the_pins_are_those_of_their_own_contacts():
     assert len(own["pin"].data) > 4 and len(set(bends.values())) > 4
     for pin, force, pressure in zip(*(own[name].data for name in ("pin", "force", "pressure")), strict=True):
         if pin in bends:
-            assert pressure == pytest.approx(hertz(model, force, bends[pin]), rel=1e-9)
+            assert pressure == pytest.approx(pressure_on_pin(model, force, bends[pin]), rel=1e-9)
 
 
 def test_after_the_play_and_reversed_the_mirror_holds_too():

@@ -8,8 +8,8 @@ import pytest
 from drivewright.cams import oscillating
 from drivewright.indexing.motion import TURN, index_motion
 from drivewright.indexing.parallel import ParallelIndexer
-from drivewright.indexing.plane import centre_curvature, contacts, envelope_points, pitch_point, pressure_angle
-from drivewright.indexing.play import BACKWARD, FORWARD, play
+from drivewright.indexing.plane import centre_curvature, contact_pressure_angle, envelope_points, find_contacts, pitch_point
+from drivewright.indexing.play import BACKWARD, FORWARD, find_play
 from drivewright.numerics.jets import Jet, variable
 
 N, R, RZ, C = 8, 0.06, 0.009, 0.085
@@ -22,7 +22,7 @@ def drive(centre_distance=C, law="modified-sine", ratio=1.0, scale=1.0):
 
 
 def touching(level, theta):
-    found = contacts(level, theta, reach=1e-5)
+    found = find_contacts(level, theta, reach=1e-5)
     keep = found.intended
     return type(found)(*(column[keep] for column in found))
 
@@ -32,7 +32,7 @@ def test_rollers_run_along_the_pitch_curve_of_an_oscillating_follower(number):
     """The arm R swings about a pivot at the distance C; with the wheel's axis as pivot the line to the cam is at psi = 0."""
     level = drive().levels[number]
     motion = level.motion(THETA)
-    path = level.path(THETA)
+    path = level.pin_paths(THETA)
     for roller in range(N):
         psi = motion + (level.phase + TURN / N * roller)
         closed = -oscillating.pitch_curve(variable(THETA), psi, C, R, side=-1)
@@ -62,7 +62,7 @@ def test_contacts_lie_on_the_line_to_the_pole(number, theta):
 
 def _curvature(level, theta, found):
     """1/(rho - rz) of the cam where rho, that of the roller's path, is counted positive around the cam's side."""
-    path = level.path(theta)
+    path = level.pin_paths(theta)
     left = np.real(np.conj(1j * path.d1[found.pin]) * -found.normal * np.exp(1j * theta)) > 0
     bend = np.where(left, 1, -1) * centre_curvature(level, theta)[found.pin]
     return bend / (1 - RZ * bend)
@@ -71,7 +71,7 @@ def _curvature(level, theta, found):
 @pytest.mark.parametrize("direction", [FORWARD, BACKWARD])
 def test_pressure_angle_of_the_driving_roller(direction):
     """tan(alpha) = (R (1 + phi') - C cos psi)/(C sin psi), the oscillating follower's; the best roller that pushes that way."""
-    for theta, alpha in zip(THETA, pressure_angle(drive(), THETA, direction), strict=True):
+    for theta, alpha in zip(THETA, contact_pressure_angle(drive(), THETA, direction), strict=True):
         angles = []
         for level in drive().levels:
             found = touching(level, theta)
@@ -120,18 +120,18 @@ def test_the_second_cam_is_the_mirror_image_of_the_first():
 def test_both_cams_hold_the_wheel_at_every_angle():
     theta = np.deg2rad(np.arange(0.0, 360.0, 2.0))
     for direction in (FORWARD, BACKWARD):
-        np.testing.assert_allclose(play(drive(), theta, direction), 0, atol=1e-7)
-        assert np.max(play(drive().levels[0], theta, direction)) > 0.05  # one alone does not
+        np.testing.assert_allclose(find_play(drive(), theta, direction), 0, atol=1e-7)
+        assert np.max(find_play(drive().levels[0], theta, direction)) > 0.05  # one alone does not
 
 
 def test_shafts_too_close_leave_play_and_the_mirror_theorem_holds():
     near = drive(0.08)
     theta = np.deg2rad(np.arange(1.0, 180.0, 2.0))
-    forward, backward = play(near, theta, FORWARD), play(near, np.pi - theta, BACKWARD)
+    forward, backward = find_play(near, theta, FORWARD), find_play(near, np.pi - theta, BACKWARD)
     assert np.max(forward) > np.deg2rad(0.2)
     np.testing.assert_allclose(forward, backward, atol=1e-8)
 
 
 def test_play_knows_no_unit_of_length():
     theta = np.deg2rad(np.arange(3.0, 180.0, 9.0))
-    np.testing.assert_allclose(play(drive(0.08), theta, FORWARD), play(drive(0.08, scale=3.0), theta, FORWARD), atol=1e-7)
+    np.testing.assert_allclose(find_play(drive(0.08), theta, FORWARD), find_play(drive(0.08, scale=3.0), theta, FORWARD), atol=1e-7)

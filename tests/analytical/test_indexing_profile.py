@@ -8,7 +8,8 @@ import shapely
 
 from drivewright.curves.touching import touches
 from drivewright.indexing.motion import TURN, index_motion
-from drivewright.indexing.pin_wheel import PinWheel, centre_curvature, contacts, envelope_points, index_angles, pitch_point
+from drivewright.indexing.pin_wheel import PinWheel
+from drivewright.indexing.plane import centre_curvature, envelope_points, find_contacts, index_angles, pitch_point
 
 R, E = 0.12, 0.01
 
@@ -19,7 +20,7 @@ def wheel(pin_radius=8e-3, law="modified-sine", eccentricity=E, side="inside"):
 
 
 def touching_pins(drive, theta):
-    found = contacts(drive, theta, reach=1e-5)
+    found = find_contacts(drive, theta, reach=1e-5)
     return set(found.pin[found.intended])
 
 
@@ -43,9 +44,9 @@ TABLE = [
 @pytest.mark.parametrize(("angle", "pin", "centre", "point", "arm", "alpha"), TABLE)
 def test_contacts_of_the_sheet(angle, pin, centre, point, arm, alpha):
     drive, theta = wheel(), np.deg2rad(angle)
-    found = contacts(drive, theta)
+    found = find_contacts(drive, theta)
     number = int(np.flatnonzero((found.pin == pin) & found.intended)[0])
-    seen = found.centre[number] - drive.crank(theta).d0
+    seen = found.centre[number] - drive.crank_vector(theta).d0
     touched = seen - drive.pin_radius * found.normal[number]
     np.testing.assert_allclose([1e3 * seen.real, 1e3 * seen.imag], centre, atol=5.1e-5)
     np.testing.assert_allclose([1e3 * touched.real, 1e3 * touched.imag], point, atol=5.1e-5)
@@ -98,7 +99,7 @@ def test_the_uniform_law_gives_the_offset_of_an_epitrochoid(side, sign):
 def test_the_cam_is_its_own_mirror_image(angle):
     """theta -> pi - theta, pin k -> 5 - k, x -> -x: the same pins touch, their arms change sign."""
     drive, theta = wheel(), np.deg2rad(angle)
-    one, other = contacts(drive, theta, reach=1e-5), contacts(drive, np.pi - theta, reach=1e-5)
+    one, other = find_contacts(drive, theta, reach=1e-5), find_contacts(drive, np.pi - theta, reach=1e-5)
     one_way = sorted(zip(one.pin[one.intended], one.centre[one.intended], one.arm[one.intended], strict=True))
     there = other.intended
     back = sorted(zip((5 - other.pin[there]) % 12, -np.conj(other.centre[there]), -other.arm[there], strict=True))
@@ -110,7 +111,7 @@ def test_the_cam_is_its_own_mirror_image(angle):
 def test_shapely_leaves_the_same_profile(side):
     drive = wheel(8e-3, side=side)
     theta = np.linspace(0, TURN, 1441)
-    path = np.concatenate([drive.path(theta).d0[:-1, pin] for pin in range(12)])
+    path = np.concatenate([drive.pin_paths(theta).d0[:-1, pin] for pin in range(12)])
     swept = shapely.union_all(
         [
             shapely.LineString(np.stack([z.real, z.imag], axis=1)).buffer(8e-3, quad_segs=64)
@@ -128,7 +129,7 @@ def test_shapely_leaves_the_same_profile(side):
 
 def test_normals_pass_through_the_pitch_point():
     drive, theta = wheel(), 0.83
-    found = contacts(drive, theta, reach=1e-5)
+    found = find_contacts(drive, theta, reach=1e-5)
     to_pole = pitch_point(drive, theta) - found.centre
     off = np.imag(np.conj(found.normal) * to_pole)
     assert np.sum(found.intended) == 7
@@ -142,14 +143,14 @@ def test_curvature_of_the_centre_curve():
     drive = wheel()
     np.testing.assert_allclose(np.abs(centre_curvature(drive, 5.0)), 1 / E, rtol=1e-9)
     theta, h = 1.1, 1e-4
-    heading = np.angle(drive.path(theta + h).d1 / drive.path(theta - h).d1)
-    speed = np.abs(drive.path(theta).d1)
+    heading = np.angle(drive.pin_paths(theta + h).d1 / drive.pin_paths(theta - h).d1)
+    speed = np.abs(drive.pin_paths(theta).d1)
     np.testing.assert_allclose(centre_curvature(drive, theta), heading / (2 * h * speed), rtol=1e-6)
 
 
 def test_curvature_of_the_profile_in_the_dwell():
     """Lobe tops have the radius e - rz and are convex, valleys e + rz and are hollow."""
-    found = contacts(wheel(), 4.5, reach=1e-5)
+    found = find_contacts(wheel(), 4.5, reach=1e-5)
     convex = found.curvature > 0
     assert convex.any() and (~convex).any()
     np.testing.assert_allclose(found.curvature[convex], 1 / 2e-3, rtol=1e-9)
@@ -160,11 +161,11 @@ def test_curvature_of_the_profile_in_the_dwell():
 def test_curvature_of_the_profile_is_that_of_the_places_found(angle):
     """The exact curvature of a contact beside that of the cubics through the profile's nodes, good to some percent."""
     drive = wheel()
-    found = contacts(drive, np.deg2rad(angle), reach=1e-5)
-    seen = touches(drive.nodes, found.centre - drive.crank(np.deg2rad(angle)).d0, drive.pin_radius, 1e-6)
+    found = find_contacts(drive, np.deg2rad(angle), reach=1e-5)
+    seen = touches(drive.nodes, found.centre - drive.crank_vector(np.deg2rad(angle)).d0, drive.pin_radius, 1e-6)
     assert np.sum(found.intended) >= 7
     for k in np.flatnonzero(found.intended):
-        cubic = drive.way * seen.curvature[seen.centre == k]
+        cubic = drive.orientation * seen.curvature[seen.centre == k]
         assert np.min(np.abs(cubic - found.curvature[k])) < 0.03 * abs(found.curvature[k]) + 0.2
 
 

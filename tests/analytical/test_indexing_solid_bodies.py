@@ -7,7 +7,7 @@ import pytest
 from solid_indexer import CAM, NU, SHAFT, WIDTH, E, drive, solved, split_shaft, wheel
 
 from drivewright.indexing.drivetrain import SplitShaft, pin_contact
-from drivewright.indexing.pin_wheel import contacts
+from drivewright.indexing.plane import find_contacts
 from drivewright.indexing.solid import ShaftBody, Solids, bodies, meshes, solid_stiffness, surface_table, usual_wheel
 from drivewright.indexing.stiffness.layout import bending_flexibility, torsion_flexibility
 from drivewright.shafts import Section
@@ -39,7 +39,7 @@ FINENESS = 1.8
 @cache
 def strips():
     """The contacts at 45 deg, {(0, contact): (point, normal)}: on flanks and beside a corner."""
-    here = contacts(wheel(), np.radians(45.0))
+    here = find_contacts(wheel(), np.radians(45.0))
     at = here.centre - 0.008 * here.normal - 0.01 * np.exp(0.25j * np.pi)
     return {(0, int(c)): (complex(at[c]), complex(here.normal[c])) for c in np.flatnonzero(here.intended)}
 
@@ -131,7 +131,7 @@ def test_the_mirrored_drive_is_as_stiff():
     """K(theta, T) = K(180 deg - theta, -T); meshes are not symmetric, so that this is their error too."""
     theta = np.radians([38.0, 77.0])
     there, back = (
-        solid_stiffness(wheel(), drive(), Solids(CAM, SHAFT), at, [contacts(wheel(), each) for each in at], torque, fineness=FINENESS)
+        solid_stiffness(wheel(), drive(), Solids(CAM, SHAFT), at, [find_contacts(wheel(), each) for each in at], torque, fineness=FINENESS)
         for at, torque in ((theta, -900.0), (np.pi - theta, 900.0))
     )
     assert there.secant == pytest.approx(back.secant, rel=1e-3)

@@ -8,8 +8,8 @@ from solid_indexer import CAM, NU, SHAFT, E, drive, solved, wheel
 
 from drivewright.bearings import BallBearing
 from drivewright.errors import DoesNotAssemble, InputError
-from drivewright.indexing.drivetrain import GearMesh, PowerBearing, SplitShaft
-from drivewright.indexing.pin_wheel import contacts
+from drivewright.indexing.drivetrain import GearMesh, PowerLawBearing, SplitShaft
+from drivewright.indexing.plane import find_contacts
 from drivewright.indexing.solid import Solids, WheelBody, parts, solid_stiffness
 from drivewright.shafts import Section
 from drivewright.solids.coupling import InterfaceSpring, solve_coupled
@@ -28,8 +28,8 @@ from drivewright.units import SI
         ({}, 3, "inside"),
         ({}, 4, "inside"),
         ({}, 2, "outside"),
-        ({"housing": 3e8, "wheel": PowerBearing(2e8, 1.1, 3e-6), "wheel_torsion": 4e5}, 2, "inside"),
-        ({"gear": GearMesh(0.0275, 2.8e8, 0.3, 2e-5), "support": PowerBearing(6e7, 1.0, 5e-6)}, 2, "inside"),
+        ({"housing": 3e8, "wheel": PowerLawBearing(2e8, 1.1, 3e-6), "wheel_torsion": 4e5}, 2, "inside"),
+        ({"gear": GearMesh(0.0275, 2.8e8, 0.3, 2e-5), "support": PowerLawBearing(6e7, 1.0, 5e-6)}, 2, "inside"),
         ({"shaft": None, "gear": None, "support": None, "pins": None}, 2, "inside"),
         ({"shaft": None, "crank": None}, 2, "inside"),
     ],
@@ -129,4 +129,4 @@ def test_bodies_without_meaning_are_refused(solids, changes, message):
 
 def test_no_position_that_carries_is_refused():
     with pytest.raises(InputError, match="solid check: no position carries the torque: no contact without a gap resists the torque"):
-        solid_stiffness(wheel(), drive(), Solids(), [0.2], [contacts(wheel(), 0.2)], 1000.0)
+        solid_stiffness(wheel(), drive(), Solids(), [0.2], [find_contacts(wheel(), 0.2)], 1000.0)

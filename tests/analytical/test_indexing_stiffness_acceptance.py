@@ -10,18 +10,19 @@ import numpy as np
 import pytest
 
 from drivewright.bearings import bearing, quick
-from drivewright.indexing.drivetrain import Drivetrain, GearMesh, PowerBearing, SplitShaft, pin_contact, power_bearing
+from drivewright.indexing.drivetrain import Drivetrain, GearMesh, PowerLawBearing, SplitShaft, pin_contact, power_law_bearing
 from drivewright.indexing.motion import index_motion
-from drivewright.indexing.pin_wheel import PinWheel, contacts
-from drivewright.indexing.stiffness import GROUPS, solve, statics, take_up
+from drivewright.indexing.pin_wheel import PinWheel
+from drivewright.indexing.plane import find_contacts
+from drivewright.indexing.stiffness import COMPLIANCE_GROUPS, solve_torsional_stiffness, statics, take_up_play
 from drivewright.shafts import Section
 
 ARCMIN = 3437.7468
 E, G = 206e9, 79.3e9
 WHEEL = PinWheel(12, 0.12, 0.008, 0.01, index_motion("modified-sine", 12, 1.0))
 SHAFT = SplitShaft(tuple(Section(0.025, d, d) for d in (0.02, 0.025, 0.03, 0.025)), 0.0, (0.025, 0.1), (0.05, 0.075), E, E / (2 * G) - 1)
-ROLLER = power_bearing(lambda f: quick.liu_roller(f, 14, 8.5e-3))
-BALL = power_bearing(lambda f: quick.liu_ball(f, 11, 4.762e-3))
+ROLLER = power_law_bearing(lambda f: quick.liu_roller(f, 14, 8.5e-3))
+BALL = power_law_bearing(lambda f: quick.liu_ball(f, 11, 4.762e-3))
 SET_A = Drivetrain(0.11, pin_contact(0.018, 5e8), ROLLER, BALL, None, SHAFT, GearMesh(0.0275, 2.8e8, np.radians(20)))
 ANGLES = np.radians(np.arange(41) * 4.5)
 APPENDIX = (
@@ -51,12 +52,12 @@ APPENDIX = (
 
 @cache
 def touching(shift=0.0):
-    return [contacts(WHEEL, theta) for theta in ANGLES + np.radians(shift)]
+    return [find_contacts(WHEEL, theta) for theta in ANGLES + np.radians(shift)]
 
 
 @cache
 def solved(drive=SET_A, torque=1000.0, model="bonded", shift=0.0):
-    return solve(drive, ANGLES + np.radians(shift), touching(shift), 0.01, torque, model=model)
+    return solve_torsional_stiffness(drive, ANGLES + np.radians(shift), touching(shift), 0.01, torque, model=model)
 
 
 def test_the_whole_curve():
@@ -68,7 +69,7 @@ ROWS = [  # drive, torque, mean, range, {angle: value}, N m/arcmin; the sheet ro
     (SET_A, 300.0, 109, 128, {0: 181, 45: 92, 63: 63, 90: 53, 135: 92, 180: 181}),
     (SET_A, 1000.0, 142.1, 178.9, {0: 242.4, 45: 116.7, 67.5: 72.3, 90: 64.6, 135: 116.9, 180: 242.4}),
     (
-        SET_A._replace(crank=PowerBearing(4.5e8), support=PowerBearing(1.2e8)),
+        SET_A._replace(crank=PowerLawBearing(4.5e8), support=PowerLawBearing(1.2e8)),
         1000.0,
         145.0,
         200.9,
@@ -78,7 +79,13 @@ ROWS = [  # drive, torque, mean, range, {angle: value}, N m/arcmin; the sheet ro
 STIFF = {"spacing": 0.122, "shaft": SHAFT._replace(sections=(Section(0.1, 0.06, 0.06),)), "gear": GearMesh(0.0305, 5e9, np.radians(20))}
 ROWS += [
     (SET_A._replace(**STIFF), 1000.0, 217, 221, {0: 343, 45: 188, 90: 122, 135: 190.5, 180: 343}),
-    (SET_A._replace(**STIFF, crank=PowerBearing(5e8), support=PowerBearing(1.6e8)), 1000.0, 283, 346, {0: 485, 45: 230, 90: 139, 180: 485}),
+    (
+        SET_A._replace(**STIFF, crank=PowerLawBearing(5e8), support=PowerLawBearing(1.6e8)),
+        1000.0,
+        283,
+        346,
+        {0: 485, 45: 230, 90: 139, 180: 485},
+    ),
 ]
 
 
@@ -103,7 +110,7 @@ def test_budgets():
         "wheel": (0.0, 0.0),
     }
     found = solved()
-    for name in GROUPS:
+    for name in COMPLIANCE_GROUPS:
         assert found.shares[name][[0, 20]] * ARCMIN * 1e3 == pytest.approx(np.array(printed[name]), abs=6e-3)
 
 
@@ -130,7 +137,7 @@ def test_symmetry_theorem(drive, model):
     assert one.outcome == other.outcome[::-1]
     np.testing.assert_allclose(one.secant, other.secant[::-1], rtol=1e-9)
     np.testing.assert_allclose(one.tangent, other.tangent[::-1], rtol=1e-7)
-    for name in GROUPS:
+    for name in COMPLIANCE_GROUPS:
         np.testing.assert_allclose(one.shares[name], other.shares[name][::-1], rtol=1e-6, atol=1e-16)
 
 
@@ -150,20 +157,22 @@ def test_loading_on_after_the_play():
     """Where the wheel turns freely it is turned to the contact; the rotation counts from there."""
     first, place = solved(model="unilateral"), slice(3, 5)
     turned = np.radians([111.68, 74.52]) / 60
-    again = solve(SET_A, ANGLES[place], [contacts(WHEEL, a, turned=t) for a, t in zip(ANGLES[place], turned, strict=True)], 0.01, 1000.0)
-    part = solve(SET_A, ANGLES[place], touching()[place], 0.01, 1000.0)
-    both = take_up(part, again)
+    again = solve_torsional_stiffness(
+        SET_A, ANGLES[place], [find_contacts(WHEEL, a, turned=t) for a, t in zip(ANGLES[place], turned, strict=True)], 0.01, 1000.0
+    )
+    part = solve_torsional_stiffness(SET_A, ANGLES[place], touching()[place], 0.01, 1000.0)
+    both = take_up_play(part, again)
     assert part.outcome == ("free", "free") and set(both.outcome) == {"carried"} and first.outcome[3] == "free"
     assert both.secant == pytest.approx(again.secant)
     assert np.all(both.secant < 0.3 * solved().secant[place])
-    kept = solve(SET_A, ANGLES[20:22], touching()[20:22], 0.01, 1000.0)
-    assert take_up(kept, again).secant == pytest.approx(kept.secant, rel=0)
+    kept = solve_torsional_stiffness(SET_A, ANGLES[20:22], touching()[20:22], 0.01, 1000.0)
+    assert take_up_play(kept, again).secant == pytest.approx(kept.secant, rel=0)
 
 
 # ----------------------------------------------------------------------------------------------------- statics of the paper
 
 CENTRE = statics.cam_centre(0.01, ANGLES)
-LENGTHS = statics.Lengths(0.025, 0.025, 0.025, 0.025)
+LENGTHS = statics.ShaftLengths(0.025, 0.025, 0.025, 0.025)
 
 
 @pytest.mark.parametrize(("model", "torque"), [("bonded", 1000.0), ("bonded", -400.0), ("unilateral", -1000.0)])
@@ -214,7 +223,7 @@ def test_printed_gear_force_is_right_only_where_it_is_zero():
 def test_printed_support_loads():
     """(11) with the wrong sign, (12) with b1 for b2: right only for b1 = b2, and along y."""
     first, second, gear = 300.0 - 200.0j, 150.0 + 420.0j, 90.0
-    for lengths in (LENGTHS, statics.Lengths(0.02, 0.03, 0.025, 0.05)):
+    for lengths in (LENGTHS, statics.ShaftLengths(0.02, 0.03, 0.025, 0.05)):
         printed, right = (
             f(first, second, g, lengths) for f, g in ((statics.support_loads_printed, gear), (statics.support_loads, 1j * gear))
         )

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from drivewright.bearings import quick
-from drivewright.indexing.contacts import Contacts
-from drivewright.indexing.drivetrain import Drivetrain, GearMesh, PinContact, PowerBearing, SplitShaft, pin_contact, power_bearing
+from drivewright.indexing.contacts import CamContacts
+from drivewright.indexing.drivetrain import Drivetrain, GearMesh, PinContact, PowerLawBearing, SplitShaft, pin_contact, power_law_bearing
 from drivewright.indexing.motion import index_motion
-from drivewright.indexing.stiffness import solve
-from drivewright.indexing.stiffness.laws import Contact, bearing_law
+from drivewright.indexing.stiffness import solve_torsional_stiffness
+from drivewright.indexing.stiffness.laws import PinContactLaw, radial_bearing_law
 from drivewright.indexing.stiffness.layout import bending_flexibility, torsion_flexibility
 from drivewright.shafts import Section
 
@@ -31,11 +31,11 @@ def touching(theta, pins=range(N)):
     normal = path * 1j / np.abs(path) * np.repeat([1.0, -1.0], len(pins))
     size = len(centre)
     arm = np.imag(np.conj(centre) * normal)
-    return Contacts(np.tile(pins, 2), centre, normal, arm, np.zeros(size), np.zeros(size), np.ones(size, dtype=bool))
+    return CamContacts(np.tile(pins, 2), centre, normal, arm, np.zeros(size), np.zeros(size), np.ones(size, dtype=bool))
 
 
 def solved(drive, torque=800.0, angles=ANGLES, model="bonded", pins=range(N), **settings):
-    return solve(drive, angles, [touching(theta, pins) for theta in angles], E, torque, model=model, **settings)
+    return solve_torsional_stiffness(drive, angles, [touching(theta, pins) for theta in angles], E, torque, model=model, **settings)
 
 
 def crank_only(theta, k, spacing):
@@ -46,7 +46,7 @@ def crank_only(theta, k, spacing):
 
 @pytest.mark.parametrize("model", ["bonded", "unilateral"])
 def test_only_the_crank_bearings_yield(model):
-    found = solved(Drivetrain(L, crank=PowerBearing(4.5e7)), model=model)
+    found = solved(Drivetrain(L, crank=PowerLawBearing(4.5e7)), model=model)
     assert found.secant == pytest.approx(crank_only(ANGLES, 4.5e7, L), rel=1e-11)
     assert found.tangent == pytest.approx(found.secant, rel=3e-7)
     assert found.shares["crank"] == pytest.approx(1 / found.secant, rel=1e-10)
@@ -55,13 +55,13 @@ def test_only_the_crank_bearings_yield(model):
 def test_sheet_values_of_the_crank_bearings():
     """Evaluated, as the sheet's curves, a thousandth of a degree on."""
     angles = np.radians([0.0, 22.5, 45.0, 67.5, 90.0]) + np.radians(1e-3)
-    found = solved(Drivetrain(L, crank=PowerBearing(4.5e7)), angles=angles)
+    found = solved(Drivetrain(L, crank=PowerLawBearing(4.5e7)), angles=angles)
     assert found.secant / ARCMIN == pytest.approx([158.3886, 155.0763, 94.0923, 59.8341, 51.0743], rel=1e-6)
 
 
 def test_dwell_stiffness_of_the_crank_bearings():
     """All normals parallel: k l^2."""
-    found = solved(Drivetrain(L, crank=PowerBearing(4.5e7)), angles=np.radians([0.0, 200.0]))
+    found = solved(Drivetrain(L, crank=PowerLawBearing(4.5e7)), angles=np.radians([0.0, 200.0]))
     assert found.secant == pytest.approx(4.5e7 * L**2, rel=1e-10)
 
 
@@ -111,7 +111,7 @@ def test_backlash_turns_the_wheel_before_it_loads():
 
 
 def test_the_output_shaft_in_series():
-    drive = Drivetrain(L, crank=PowerBearing(4.5e7))
+    drive = Drivetrain(L, crank=PowerLawBearing(4.5e7))
     found = solved(drive._replace(wheel_torsion=3e5))
     assert 1 / found.secant == pytest.approx(1 / crank_only(ANGLES, 4.5e7, L) + 1 / 3e5, rel=1e-11)
     assert found.shares["wheel"] == pytest.approx(1 / 3e5, rel=1e-10)
@@ -120,13 +120,13 @@ def test_the_output_shaft_in_series():
 def test_only_the_supports_yield_midway():
     """One cam midway between two supports: together they are a crank bearing of twice their stiffness, under one cam instead of two."""
     shaft = SplitShaft((Section(0.1, 0.5, 0.5),), 0.0, (0.02, 0.08), (0.05,), 206e9, 0.3)  # so thick that it is nearly rigid
-    found = solved(Drivetrain(L, support=PowerBearing(2e7), shaft=shaft), cams=1)
+    found = solved(Drivetrain(L, support=PowerLawBearing(2e7), shaft=shaft), cams=1)
     assert found.secant == pytest.approx(crank_only(ANGLES, 4e7, L) / 2, rel=2e-6)
 
 
 def test_support_and_housing_in_series():
-    base = Drivetrain(L, support=PowerBearing(2e8))
-    seated, soft = solved(base._replace(housing=3e8)), solved(base._replace(support=PowerBearing(1.2e8)))
+    base = Drivetrain(L, support=PowerLawBearing(2e8))
+    seated, soft = solved(base._replace(housing=3e8)), solved(base._replace(support=PowerLawBearing(1.2e8)))
     assert seated.secant == pytest.approx(soft.secant, rel=1e-11)
     assert seated.shares["support"] / seated.shares["housing"] == pytest.approx(1.5, rel=1e-9)
 
@@ -139,11 +139,13 @@ SECANTS = {"roller": (339366, 363724, 389830, 427237, 457901), "ball": (51956, 6
 @pytest.mark.parametrize("kind", SECANTS)
 def test_secant_stiffness_of_the_bearings_in_the_sheet(kind):
     """Sheet, section 5, N/mm: from F = K d^n and its displacement."""
-    bearing = power_bearing({"roller": lambda f: quick.liu_roller(f, 14, 8.5e-3), "ball": lambda f: quick.liu_ball(f, 11, 4.762e-3)}[kind])
+    bearing = power_law_bearing(
+        {"roller": lambda f: quick.liu_roller(f, 14, 8.5e-3), "ball": lambda f: quick.liu_ball(f, 11, 4.762e-3)}[kind]
+    )
     force = np.array([500.0, 1000.0, 2000.0, 5000.0, 10000.0])
     away = (force / bearing.constant) ** (1 / bearing.exponent)
     assert force / away / 1e3 == pytest.approx(np.array(SECANTS[kind]), rel=2e-5)
-    law = bearing_law(bearing)
+    law = radial_bearing_law(bearing)
     assert np.hypot(*law(np.stack([0.6 * away, -0.8 * away], axis=1))[1].T) == pytest.approx(force, rel=1e-12)
     assert law.secant(force) == pytest.approx(force / away, rel=1e-12)
 
@@ -152,7 +154,7 @@ def test_pin_contact_of_the_sheet():
     """delta = (F/(8.06e4 b^(8/9)))^0.9 + F/k_pin in N and mm."""
     force = np.geomspace(1e-3, 1e5, 30)
     delta = ((force / (8.06e4 * 18 ** (8 / 9))) ** 0.9 + force / 5e5) * 1e-3
-    law = Contact(pin_contact(0.018, 5e8), both=False)
+    law = PinContactLaw(pin_contact(0.018, 5e8), bonded=False)
     assert law(delta[:, None])[1][:, 0] == pytest.approx(force, rel=1e-13)
     assert law.secant(force) == pytest.approx(force / delta, rel=1e-13)
 

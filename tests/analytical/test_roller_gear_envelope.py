@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from drivewright.indexing.motion import TURN, index_motion
-from drivewright.indexing.roller_gear import FLANKS, barrel, contact, globoidal
+from drivewright.indexing.roller_gear import FLANKS, barrel, flank_contact, globoidal
 
 MOTION = index_motion("modified-sine", 12, 2.0)
 
@@ -64,12 +64,12 @@ def derivative(f, x, step=1e-4):
 @pytest.mark.parametrize("travel, u, flank", PLACES)
 def test_the_contact_lies_on_the_roller_and_is_normal_to_the_cam(make, hand, travel, u, flank):
     cam = make(hand=hand)
-    found = contact(cam, travel, u, flank)
+    found = flank_contact(cam, travel, u, flank)
     foot, along = axis_of(cam, travel, u)
     np.testing.assert_allclose(found.point - foot, cam.roller_radius * found.normal, atol=1e-15)
     assert found.normal @ along == pytest.approx(0, abs=1e-14)
-    onward = derivative(lambda t: contact(cam, t, u, flank).point, travel)
-    for tangent in (onward, derivative(lambda s: contact(cam, travel, s, flank).point, u)):
+    onward = derivative(lambda t: flank_contact(cam, t, u, flank).point, travel)
+    for tangent in (onward, derivative(lambda s: flank_contact(cam, travel, s, flank).point, u)):
         assert found.normal @ tangent == pytest.approx(0, abs=1e-9 * np.linalg.norm(tangent))
     carried = derivative(lambda t: axis_of(cam, t, u)[0], travel)  # the roller's axis against the cam
     assert found.normal @ carried == pytest.approx(0, abs=1e-10)
@@ -80,14 +80,14 @@ def test_the_contact_lies_on_the_roller_and_is_normal_to_the_cam(make, hand, tra
 def test_curvature_is_that_of_the_surface(make, travel, u, flank):
     """Curvature across the contact line by finite differences of the normal; roller plus cam is the relative one."""
     cam = make()
-    found = contact(cam, travel, u, flank)
+    found = flank_contact(cam, travel, u, flank)
     along, onward = (
         derivative(f, x)
-        for f, x in ((lambda s: contact(cam, travel, s, flank).point, u), (lambda t: contact(cam, t, u, flank).point, travel))
+        for f, x in ((lambda s: flank_contact(cam, travel, s, flank).point, u), (lambda t: flank_contact(cam, t, u, flank).point, travel))
     )
     normal_along, normal_onward = (
         derivative(f, x)
-        for f, x in ((lambda s: contact(cam, travel, s, flank).normal, u), (lambda t: contact(cam, t, u, flank).normal, travel))
+        for f, x in ((lambda s: flank_contact(cam, travel, s, flank).normal, u), (lambda t: flank_contact(cam, t, u, flank).normal, travel))
     )
     line = along / np.linalg.norm(along)
     across = np.cross(found.normal, line)
@@ -104,7 +104,7 @@ def test_curvature_is_that_of_the_surface(make, travel, u, flank):
 @pytest.mark.parametrize("travel, u, flank", PLACES)
 def test_rolling_and_sliding_are_the_speed_of_the_roller_at_the_contact(make, travel, u, flank):
     cam = make(hand="left")
-    found = contact(cam, travel, u, flank)
+    found = flank_contact(cam, travel, u, flank)
     foot, along = axis_of(cam, travel, u)
 
     def carried(t):
@@ -124,7 +124,7 @@ def test_power_in_is_power_out(make):
     for hand, sign in (("right", -1.0), ("left", 1.0)):
         cam = make(hand=hand)
         for travel, u, flank in PLACES:
-            found = contact(cam, travel, u, flank)
+            found = flank_contact(cam, travel, u, flank)
             on_cam = sign * np.cross(found.point, found.normal)[1]
             assert found.arm * cam.motion(travel).d1 + on_cam == pytest.approx(0, abs=1e-15)
             assert np.sign(found.arm) == flank
@@ -134,7 +134,7 @@ def test_pressure_angle_of_the_globoidal_cam():
     """tan = rho phi'/(C - rho cos psi), rho the distance from the turret's axis."""
     cam, travel, u = hourglass(), np.linspace(0.2, 4, 9), 0.005
     psi, speed = cam.motion(travel).d0 + np.pi / 12, cam.motion(travel).d1
-    found = contact(cam, travel, u, 1)
+    found = flank_contact(cam, travel, u, 1)
     np.testing.assert_allclose(np.tan(found.pressure_angle), 0.085 * speed / (0.125 - 0.085 * np.cos(psi)), rtol=1e-13)
     np.testing.assert_allclose(found.arm, 0.085 * np.cos(found.pressure_angle), rtol=1e-13)
 
@@ -142,13 +142,13 @@ def test_pressure_angle_of_the_globoidal_cam():
 def test_pressure_angle_of_the_barrel():
     """Normal between the path of the roller and the rib: with C = R it vanishes where R phi' = s sin(psi) g, and is psi in the dwell."""
     cam = drum()
-    still = contact(cam, 5.0, 0.004, FLANKS)
+    still = flank_contact(cam, 5.0, 0.004, FLANKS)
     np.testing.assert_allclose(still.pressure_angle, np.pi / 12 + np.pi / 6, rtol=1e-13)
     travel = 1.9
     psi, speed = cam.motion(travel).d0 + np.pi / 12, cam.motion(travel).d1
     depth = 0.05 - 0.004
     wanted = (0.09 * speed + np.sin(psi) * depth) / (np.cos(psi) * depth)
-    np.testing.assert_allclose(np.tan(contact(cam, travel, 0.004, 1).pressure_angle), wanted, rtol=1e-13)
+    np.testing.assert_allclose(np.tan(flank_contact(cam, travel, 0.004, 1).pressure_angle), wanted, rtol=1e-13)
 
 
 def test_dwell_of_the_barrel_is_a_plane_ring():
@@ -156,7 +156,7 @@ def test_dwell_of_the_barrel_is_a_plane_ring():
     cam = drum()
     travel, u = np.linspace(4.4, 6.1, 5)[:, None], np.linspace(-0.008, 0.008, 4)
     for flank in FLANKS:
-        found = contact(cam, travel, u, flank)
+        found = flank_contact(cam, travel, u, flank)
         np.testing.assert_allclose(found.point[..., 1], 0.09 * np.sin(np.pi / 4) - flank * 0.012, rtol=1e-13)
         np.testing.assert_allclose(found.normal[..., 1], -flank, rtol=1e-13)
         np.testing.assert_allclose(found.relative_curvature, 1 / 0.012, rtol=1e-12)
@@ -168,7 +168,7 @@ def test_dwell_of_the_globoidal_cam_is_a_cone():
     cam, psi = hourglass(), np.pi / 12 - np.pi / 6
     travel, u = np.linspace(4.4, 6.1, 5)[:, None] - TURN * 2, np.linspace(-0.008, 0.008, 4)
     for flank in FLANKS:
-        found = contact(cam, travel, u, flank)
+        found = flank_contact(cam, travel, u, flank)
         away = 0.125 - (0.08 + u) * np.cos(psi) - flank * 0.012 * np.sin(psi)
         np.testing.assert_allclose(np.hypot(found.point[..., 0], found.point[..., 2]), np.broadcast_to(away, (5, 4)), rtol=1e-13)
         np.testing.assert_allclose(found.cam_curvature, np.broadcast_to(flank * np.sin(psi) / away, (5, 4)), rtol=1e-10)
@@ -180,7 +180,7 @@ def test_a_straight_groove_at_constant_speed_is_a_screw():
     count, pitch = 100_000_000, 0.04
     radius = pitch * count / TURN
     cam = drum(index_motion("uniform", count), pin_circle_radius=radius, centre_distance=radius, cam_length=0.08)
-    first, later = contact(cam, 0.3, 0.002, 1), contact(cam, 1.7, 0.002, 1)
+    first, later = flank_contact(cam, 0.3, 0.002, 1), flank_contact(cam, 1.7, 0.002, 1)
     moved = Rotation.from_euler("y", 1.4).apply(first.point) + [0, pitch * 1.4 / TURN, 0]  # right hand
     np.testing.assert_allclose(later.point, moved, atol=3e-9)
     assert later.relative_curvature == pytest.approx(first.relative_curvature, rel=1e-6)
@@ -200,7 +200,7 @@ def test_a_large_barrel_is_a_planar_cam():
         jet = cam.motion(angle)
         slope, bend = radius * jet.d1 / height, radius * jet.d2 / height**2
         for flank in FLANKS:
-            found = contact(cam, angle, 0.0, flank)
+            found = flank_contact(cam, angle, 0.0, flank)
             assert found.cam_curvature == pytest.approx(-flank * bend / (1 + slope**2) ** 1.5, rel=1e-4)
             assert np.tan(found.pressure_angle) == pytest.approx(slope + np.tan(found.psi), rel=1e-9)
 
@@ -212,7 +212,7 @@ def test_a_symmetric_law_makes_the_flanks_mirror_images(make, travel, u, flank):
     cam = make()
     image = cam if cam.kind == "globoidal" else make(hand="left")  # a barrel has no second plane of symmetry that restores the hand
     other = MOTION.motion_angle - 2 * TURN - travel  # psi = phi + pitch/2, and phi(motion_angle - t) = pitch - phi(t)
-    one, two = contact(cam, travel, u, flank), contact(image, other, u, -flank)
+    one, two = flank_contact(cam, travel, u, flank), flank_contact(image, other, u, -flank)
     assert one.psi + two.psi == pytest.approx(0, abs=1e-12)
     for name in ("pressure_angle", "opening", "relative_curvature", "cam_curvature", "line_slope"):
         assert getattr(one, name) == pytest.approx(getattr(two, name), rel=1e-8, abs=1e-9)
@@ -223,7 +223,7 @@ def test_a_symmetric_law_makes_the_flanks_mirror_images(make, travel, u, flank):
 def test_left_hand_is_the_mirror_image_of_right_hand():
     """Of the globoidal cam in the plane of the turret."""
     for travel, u, flank in PLACES:
-        one, two = contact(hourglass(), travel, u, flank), contact(hourglass(hand="left"), travel, u, flank)
+        one, two = flank_contact(hourglass(), travel, u, flank), flank_contact(hourglass(hand="left"), travel, u, flank)
         np.testing.assert_allclose(one.point * [1, 1, -1], two.point, atol=1e-16)
         assert one.relative_curvature == pytest.approx(two.relative_curvature, rel=1e-13)
 
@@ -233,7 +233,7 @@ def test_lengths_scale(make):
     cam = make()
     lengths = ("pin_circle_radius", "roller_radius", "roller_length", "centre_distance", "cam_length")
     big = make(**{name: 1000 * getattr(cam, name) for name in lengths}, **({"cam_radius": 50.0} if cam.kind == "barrel" else {}))
-    one, two = contact(cam, 1.3, 0.003, 1), contact(big, 1.3, 3.0, 1)
+    one, two = flank_contact(cam, 1.3, 0.003, 1), flank_contact(big, 1.3, 3.0, 1)
     np.testing.assert_allclose(1000 * one.point, two.point, rtol=1e-12)
     assert one.relative_curvature == pytest.approx(1000 * two.relative_curvature, rel=1e-12)
     assert one.pressure_angle == pytest.approx(two.pressure_angle, rel=1e-12)

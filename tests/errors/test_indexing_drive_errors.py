@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from drivewright.errors import InputError, SolverError
-from drivewright.indexing.designs import rate_designs
+from drivewright.indexing.batch import evaluate_pin_wheels
 from drivewright.indexing.motion import index_motion
 from drivewright.indexing.parallel import ParallelIndexer
 from drivewright.indexing.pin_wheel import PinWheel
@@ -37,12 +37,12 @@ def test_no_cam_is_left(drive, words):
 
 def test_a_batch_wants_a_law_from_rest_to_rest():
     with pytest.raises(InputError, match="velocity of law 'constant-velocity' jumps"):
-        rate_designs(law("constant-velocity"), 12, 0.12, 8e-3, 0.01, np.pi)
+        evaluate_pin_wheels(law("constant-velocity"), 12, 0.12, 8e-3, 0.01, np.pi)
 
 
 def test_a_batch_wants_a_side():
     with pytest.raises(InputError, match="side = 'left'; it is 'inside' or 'outside'"):
-        rate_designs(law("modified-sine"), 12, 0.12, 8e-3, 0.01, np.pi, side="left")
+        evaluate_pin_wheels(law("modified-sine"), 12, 0.12, 8e-3, 0.01, np.pi, side="left")
 
 
 def test_a_broken_loop_is_told():

@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from drivewright.errors import InputError
-from drivewright.indexing.contacts import Contacts
-from drivewright.indexing.drivetrain import Drivetrain, GearMesh, PinContact, PowerBearing, SplitShaft, check, pin_contact
-from drivewright.indexing.stiffness import solve
+from drivewright.indexing.contacts import CamContacts
+from drivewright.indexing.drivetrain import Drivetrain, GearMesh, PinContact, PowerLawBearing, SplitShaft, pin_contact, refuse_invalid
+from drivewright.indexing.stiffness import solve_torsional_stiffness
 from drivewright.indexing.stiffness.layout import bending_stiffness, torsion_stiffness
 from drivewright.shafts import Section
 
-DRIVE = Drivetrain(0.11, crank=PowerBearing(4e7))
+DRIVE = Drivetrain(0.11, crank=PowerLawBearing(4e7))
 SHAFT = SplitShaft((Section(0.1, 0.02, 0.02),), 0.0, (0.025, 0.1), (0.05, 0.075), 206e9, 0.3)
-ONE = Contacts(np.array([0]), np.array([0.12j]), np.array([1.0 + 0j]), np.array([-0.12]), np.zeros(1), np.zeros(1), np.array([True]))
+ONE = CamContacts(np.array([0]), np.array([0.12j]), np.array([1.0 + 0j]), np.array([-0.12]), np.zeros(1), np.zeros(1), np.array([True]))
 
 
 @pytest.mark.parametrize(
@@ -20,9 +20,9 @@ ONE = Contacts(np.array([0]), np.array([0.12j]), np.array([1.0 + 0j]), np.array(
     [
         (DRIVE._replace(spacing=0.0), ("spacing = 0 m", "above 0")),
         (DRIVE._replace(housing=-1e8), ("housing = -1e+08 N/m", "leave it out for a rigid part")),
-        (DRIVE._replace(crank=PowerBearing(-4e7)), ("crank.constant", "above 0")),
-        (DRIVE._replace(support=PowerBearing(4e7, 0.8)), ("support.exponent = 0.8", "1 or more")),
-        (DRIVE._replace(support=PowerBearing(4e7, 1.0, -1e-6)), ("support.clearance = -1e-06 m", "0 or more")),
+        (DRIVE._replace(crank=PowerLawBearing(-4e7)), ("crank.constant", "above 0")),
+        (DRIVE._replace(support=PowerLawBearing(4e7, 0.8)), ("support.exponent = 0.8", "1 or more")),
+        (DRIVE._replace(support=PowerLawBearing(4e7, 1.0, -1e-6)), ("support.clearance = -1e-06 m", "0 or more")),
         (DRIVE._replace(pins=PinContact(series=0.0)), ("pins.series = 0 N/m",)),
         (DRIVE._replace(gear=GearMesh(0.06, 2e8, 0.35)), ("60 mm", "110 mm apart", "below half")),
         (DRIVE._replace(gear=GearMesh(0.02, 2e8, 0.35, -1e-5)), ("gear.backlash = -1e-05 m", "0 or more")),
@@ -34,7 +34,7 @@ ONE = Contacts(np.array([0]), np.array([0.12j]), np.array([1.0 + 0j]), np.array(
 )
 def test_parts_without_a_meaning(drive, parts):
     with pytest.raises(InputError) as caught:
-        check(drive, 2)
+        refuse_invalid(drive, 2)
     for part in parts:
         assert part in str(caught.value)
 
@@ -57,14 +57,14 @@ def test_a_width_of_nothing():
 @pytest.mark.parametrize("torque", [0.0, np.nan, np.inf])
 def test_no_torque(torque):
     with pytest.raises(InputError, match="finite and not 0.*no secant"):
-        solve(DRIVE, [0.1], [ONE], 0.01, torque)
+        solve_torsional_stiffness(DRIVE, [0.1], [ONE], 0.01, torque)
 
 
 def test_as_many_contacts_as_positions():
     with pytest.raises(InputError, match="2 positions want as many sets of contacts, got 1"):
-        solve(DRIVE, [0.1, 0.2], [ONE], 0.01, 100.0)
+        solve_torsional_stiffness(DRIVE, [0.1, 0.2], [ONE], 0.01, 100.0)
 
 
 def test_an_unknown_model():
     with pytest.raises(InputError, match="no model 'glued'.*unilateral.*bonded"):
-        solve(DRIVE, [0.1], [ONE], 0.01, 100.0, model="glued")
+        solve_torsional_stiffness(DRIVE, [0.1], [ONE], 0.01, 100.0, model="glued")

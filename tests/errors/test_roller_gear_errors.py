@@ -5,7 +5,7 @@ import pytest
 
 from drivewright.errors import InputError
 from drivewright.indexing.motion import index_motion
-from drivewright.indexing.roller_gear import barrel, cam_part, developed, flanks, globoidal, roller_loads
+from drivewright.indexing.roller_gear import barrel, cam_part, compute_flanks, compute_roller_loads, develop_surface, globoidal
 
 MOTION = index_motion("modified-sine", 12, 2.0)
 HOURGLASS = {"pin_circle_radius": 0.08, "roller_radius": 0.012, "roller_length": 0.016, "centre_distance": 0.125, "cam_length": 0.06}
@@ -42,11 +42,11 @@ def test_impossible_designs_are_refused_with_the_limit(make, change, message):
 
 
 def test_loads_want_a_torque_and_a_modulus():
-    found = flanks(globoidal(MOTION, **HOURGLASS), np.array([0.3]), 3)
+    found = compute_flanks(globoidal(MOTION, **HOURGLASS), np.array([0.3]), 3)
     with pytest.raises(InputError, match="torque = 0.0 N m; it must be finite and not 0"):
-        roller_loads(found, 0.0, 115e9)
+        compute_roller_loads(found, 0.0, 115e9)
     with pytest.raises(InputError, match="effective modulus = -1.0 Pa"):
-        roller_loads(found, 100.0, -1.0)
+        compute_roller_loads(found, 100.0, -1.0)
 
 
 def test_no_solid_of_a_cam_with_undercut_nor_with_too_wide_a_bore():
@@ -59,4 +59,4 @@ def test_no_solid_of_a_cam_with_undercut_nor_with_too_wide_a_bore():
 
 def test_a_developed_view_runs_forward():
     with pytest.raises(InputError, match="from turn 1.0 to turn 0.0; the first must be below the second"):
-        developed(globoidal(MOTION, **HOURGLASS), 1.0, 0.0)
+        develop_surface(globoidal(MOTION, **HOURGLASS), 1.0, 0.0)

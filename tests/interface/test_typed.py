@@ -21,7 +21,6 @@ NOT_YET = {  # packages that are still to be finished; one that is finished has 
     "gears",
     "indexing",
     "mechanisms/cam",
-    "mechanisms/indexer",
     "mechanisms/seedling_pusher",
     "mechanisms/shaft",
     "mechanisms/silent_chain",

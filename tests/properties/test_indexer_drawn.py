@@ -6,7 +6,8 @@ import pytest
 import drivewright as dw
 from drivewright import registry
 from drivewright.curves.touching import touches
-from drivewright.mechanisms.indexer.scene import cam_poses, cams, parts, scene
+from drivewright.indexing.drawing import cam_poses
+from drivewright.mechanisms.indexer.scene import cams, parts, scene
 from drivewright.runner import build
 
 PRESETS = registry.mechanism("indexer").presets()
@@ -37,7 +38,7 @@ def test_the_pins_on_screen_touch_every_cam_and_enter_none(preset, changes):
     for cam in cams(model):
         poses = cam_poses(cam, angle)
         for (x, y, turn), wheel in zip(poses, phi, strict=True):
-            at = cam.drive.centres(0.0).d0 * np.exp(1j * wheel)
+            at = cam.drive.pin_centres(0.0).d0 * np.exp(1j * wheel)
             gap = touches(cam.drive.nodes, (at - complex(x, y)) * np.exp(-1j * turn), cam.drive.pin_radius, 1e-3).gap
             assert -1e-8 < gap.min() < 1e-6
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag
 
-from drivewright.indexing.contacts import Contacts
-from drivewright.indexing.drivetrain import Drivetrain, GearMesh, PinContact, PowerBearing, SplitShaft, pin_contact
+from drivewright.indexing.contacts import CamContacts
+from drivewright.indexing.drivetrain import Drivetrain, GearMesh, PinContact, PowerLawBearing, SplitShaft, pin_contact
 from drivewright.indexing.motion import index_motion
-from drivewright.indexing.stiffness import solve
+from drivewright.indexing.stiffness import solve_torsional_stiffness
 from drivewright.indexing.stiffness.layout import bending_flexibility, torsion_flexibility
 from drivewright.shafts import Section
 
@@ -15,11 +15,11 @@ N, R, E, L = 12, 0.12, 0.01, 0.11
 MOTION = index_motion("modified-sine", N, 1.0)
 ANGLES = np.radians([13.0, 45.0, 77.0, 131.0])
 SHAFT = SplitShaft((Section(0.06, 0.02, 0.02), Section(0.055, 0.03, 0.026)), 0.005, (0.025, 0.1), (0.05, 0.08), 206e9, 0.3)
-LINEAR = Drivetrain(L, PinContact(series=4e8), PowerBearing(3e8), PowerBearing(1e8), 2.5e8, SHAFT, None, PowerBearing(3e8))
+LINEAR = Drivetrain(L, PinContact(series=4e8), PowerLawBearing(3e8), PowerLawBearing(1e8), 2.5e8, SHAFT, None, PowerLawBearing(3e8))
 GEARED = LINEAR._replace(
     pins=pin_contact(0.018, 5e8),
-    crank=PowerBearing(2e9, 10 / 9),
-    support=PowerBearing(2e10, 1.5, 2e-6),
+    crank=PowerLawBearing(2e9, 10 / 9),
+    support=PowerLawBearing(2e10, 1.5, 2e-6),
     gear=GearMesh(0.025, 2.8e8, np.radians(20), 1e-5),
 )
 
@@ -32,12 +32,12 @@ def touching(theta, seed=0, gaps=0.0, sense=1.0, wheel=R, crank=E):
     path = 1j * (rate * centre - sense * crank * np.exp(1j * sense * theta))
     normal = 1j * path / np.abs(path) * rng.choice([-1.0, 1.0], N)
     gap = gaps * rng.uniform(0, 1, N) * (np.arange(N) % 3 > 0)
-    return Contacts(np.arange(N), centre, normal, np.imag(np.conj(centre) * normal), gap, np.zeros(N), gap == 0)
+    return CamContacts(np.arange(N), centre, normal, np.imag(np.conj(centre) * normal), gap, np.zeros(N), gap == 0)
 
 
 def solved(drive, torque=900.0, angles=ANGLES, model="bonded", cams=2, sense=1.0, **contacts):
     sets = [touching(theta, sense=sense, **contacts) for theta in angles]
-    return solve(drive, angles, sets, E, torque, cams=cams, sense=sense, model=model)
+    return solve_torsional_stiffness(drive, angles, sets, E, torque, cams=cams, sense=sense, model=model)
 
 
 # --------------------------------------------------------------------------------------------------- a second route: forces
@@ -169,7 +169,7 @@ def test_the_input_takes_torque_times_transmission(gear):
 @pytest.mark.parametrize("exponent", [10 / 9, 1.5])
 def test_power_laws_scale(exponent):
     """All that yields with one exponent n: K grows as T^(1 - 1/n), and the tangent is n times the secant."""
-    drive = Drivetrain(L, crank=PowerBearing(2e9, exponent), support=PowerBearing(5e9, exponent))
+    drive = Drivetrain(L, crank=PowerLawBearing(2e9, exponent), support=PowerLawBearing(5e9, exponent))
     low, high = solved(drive, 100.0), solved(drive, 800.0)
     assert high.secant / low.secant == pytest.approx(np.full(4, 8 ** (1 - 1 / exponent)), rel=1e-9)
     assert high.tangent == pytest.approx(exponent * high.secant, rel=1e-6)
@@ -196,15 +196,17 @@ def test_other_units_change_nothing():
     drive = Drivetrain(
         a * L,
         PinContact(GEARED.pins.line * b / a ** (10 / 9), 5e8 * b / a),
-        PowerBearing(crank.constant * b / a**crank.exponent, 10 / 9),
-        PowerBearing(support.constant * b / a**1.5, 1.5, a * support.clearance),
+        PowerLawBearing(crank.constant * b / a**crank.exponent, 10 / 9),
+        PowerLawBearing(support.constant * b / a**1.5, 1.5, a * support.clearance),
         2.5e8 * b / a,
         shaft,
         GearMesh(a * 0.025, 2.8e8 * b / a, np.radians(20), a * 1e-5),
-        PowerBearing(3e8 * b / a),
+        PowerLawBearing(3e8 * b / a),
     )
     ours = solved(GEARED)
-    theirs = solve(drive, ANGLES, [touching(t, wheel=a * R, crank=a * E) for t in ANGLES], a * E, 900.0 * a * b, model="bonded")
+    theirs = solve_torsional_stiffness(
+        drive, ANGLES, [touching(t, wheel=a * R, crank=a * E) for t in ANGLES], a * E, 900.0 * a * b, model="bonded"
+    )
     assert theirs.secant == pytest.approx(a * b * ours.secant, rel=1e-9)
 
 
@@ -214,7 +216,7 @@ def test_cams_change_places_half_a_turn_on():
     other = [each._replace(centre=-each.centre, normal=-each.normal) for each in map(touching, ANGLES)]
     shaft = SHAFT._replace(cams=SHAFT.cams[::-1])
     ours = solved(GEARED, model="unilateral")
-    theirs = solve(GEARED._replace(shaft=shaft), ANGLES + half, other, E, 900.0)
+    theirs = solve_torsional_stiffness(GEARED._replace(shaft=shaft), ANGLES + half, other, E, 900.0)
     assert theirs.secant == pytest.approx(ours.secant, rel=1e-10)
     assert theirs.crank_forces[:, :, ::-1] == pytest.approx(ours.crank_forces, abs=1e-5)
 
@@ -232,10 +234,10 @@ def test_one_position_as_among_many():
 def test_whatever_is_softer_never_stiffens():
     base = solved(GEARED, model="unilateral").secant
     softer = [
-        GEARED._replace(crank=PowerBearing(1e9, 10 / 9)),
+        GEARED._replace(crank=PowerLawBearing(1e9, 10 / 9)),
         GEARED._replace(housing=1e8),
         GEARED._replace(wheel_torsion=1e6),
-        GEARED._replace(wheel=PowerBearing(1e8)),
+        GEARED._replace(wheel=PowerLawBearing(1e8)),
         GEARED._replace(shaft=SHAFT._replace(modulus=150e9)),
     ]
     for drive in softer:
@@ -270,7 +272,7 @@ def test_rigid_pins_are_the_limit_of_stiff_ones(model):
 
 def test_rigid_bearings_are_the_limit_of_stiff_ones():
     """Their forces too, where statics leaves them open."""
-    stiff = GEARED._replace(crank=PowerBearing(1e14), support=PowerBearing(3e13), housing=None)
+    stiff = GEARED._replace(crank=PowerLawBearing(1e14), support=PowerLawBearing(3e13), housing=None)
     rigid = GEARED._replace(crank=None, support=None, housing=None)
     ours, theirs = solved(rigid, model="unilateral"), solved(stiff, model="unilateral")
     assert theirs.secant == pytest.approx(ours.secant, rel=1e-4)
@@ -283,26 +285,26 @@ def test_rigid_bearings_are_the_limit_of_stiff_ones():
 def one_sided(theta, sign):
     each = touching(theta)
     keep = np.sign(each.arm) == sign
-    return Contacts(*(part[keep] for part in each))
+    return CamContacts(*(part[keep] for part in each))
 
 
 def test_no_contact_that_resists_gives_no_number():
     sets = [one_sided(theta, sign) for theta, sign in zip(ANGLES, (1, -1, 1, -1), strict=True)]
-    found = solve(GEARED, ANGLES, sets, E, 900.0)
+    found = solve_torsional_stiffness(GEARED, ANGLES, sets, E, 900.0)
     assert found.outcome == ("free", "carried", "free", "carried")
     assert np.array_equal(np.isnan(found.secant), [True, False, True, False])
     assert np.isnan(found.support_forces[0]).all() and np.isnan(found.shares["crank"][2]) and np.isnan(found.pin_forces[2]).all()
-    assert solve(GEARED, ANGLES, sets, E, -900.0).outcome == ("carried", "free", "carried", "free")
+    assert solve_torsional_stiffness(GEARED, ANGLES, sets, E, -900.0).outcome == ("carried", "free", "carried", "free")
 
 
 def test_no_position_that_carries():
-    found = solve(GEARED, ANGLES, [one_sided(theta, 1) for theta in ANGLES], E, 900.0)
+    found = solve_torsional_stiffness(GEARED, ANGLES, [one_sided(theta, 1) for theta in ANGLES], E, 900.0)
     assert set(found.outcome) == {"free"} and np.isnan(found.secant).all()
 
 
 def test_a_gap_everywhere_is_play_not_stiffness():
     sets = [each._replace(gap=each.gap + 2e-5) for each in map(touching, ANGLES)]
-    assert set(solve(GEARED, ANGLES, sets, E, 900.0).outcome) == {"free"}
+    assert set(solve_torsional_stiffness(GEARED, ANGLES, sets, E, 900.0).outcome) == {"free"}
 
 
 def test_a_drive_without_anything_that_yields():
@@ -314,6 +316,6 @@ def test_a_drive_without_anything_that_yields():
 def test_hardly_an_arm_is_no_stiffness():
     """One pin touches, its normal 1e-5 rad off the radius: it would take a gigantic force."""
     centre, normal = np.array([R + 0j]), np.exp(1j * np.array([np.pi - 1e-5]))
-    each = Contacts(np.array([0]), centre, normal, np.imag(np.conj(centre) * normal), *np.zeros((2, 1)), np.array([True]))
-    found = solve(GEARED, [0.3], [each], E, -900.0)
+    each = CamContacts(np.array([0]), centre, normal, np.imag(np.conj(centre) * normal), *np.zeros((2, 1)), np.array([True]))
+    found = solve_torsional_stiffness(GEARED, [0.3], [each], E, -900.0)
     assert found.outcome == ("far",) and np.isnan(found.rotation[0])

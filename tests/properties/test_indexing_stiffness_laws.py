@@ -4,31 +4,31 @@ import numpy as np
 import pytest
 
 from drivewright.bearings import bearing
-from drivewright.indexing.drivetrain import PinContact, PowerBearing, pin_contact
-from drivewright.indexing.stiffness.laws import Contact, Flank, Rigid, bearing_law
-from drivewright.indexing.stiffness.minimise import Part, System, energy, rest, slope_and_hessian
+from drivewright.indexing.drivetrain import PinContact, PowerLawBearing, pin_contact
+from drivewright.indexing.stiffness.laws import GearFlankLaw, PinContactLaw, RigidContactLaw, radial_bearing_law
+from drivewright.indexing.stiffness.minimise import ConvexEnergy, ConvexTerm, gradient_and_hessian, minimise_energy, total_energy
 
 STEP = 1e-9
 CONTACTS = {
-    "line and series": Contact(pin_contact(0.018, 5e8), False),
-    "line and series, both ways": Contact(pin_contact(0.018, 5e8), True),
-    "line": Contact(PinContact(2e9), False),
-    "series": Contact(PinContact(series=5e8), False),
-    "series, both ways": Contact(PinContact(series=5e8), True),
-    "rigid": Rigid(np.full((40, 1), 300.0), np.array(3e8), False),
-    "rigid, both ways": Rigid(np.full((40, 1), -300.0), np.array(3e8), True),
-    "flank": Flank(2.8e8),
+    "line and series": PinContactLaw(pin_contact(0.018, 5e8), False),
+    "line and series, both ways": PinContactLaw(pin_contact(0.018, 5e8), True),
+    "line": PinContactLaw(PinContact(2e9), False),
+    "series": PinContactLaw(PinContact(series=5e8), False),
+    "series, both ways": PinContactLaw(PinContact(series=5e8), True),
+    "rigid": RigidContactLaw(np.full((40, 1), 300.0), np.array(3e8), False),
+    "rigid, both ways": RigidContactLaw(np.full((40, 1), -300.0), np.array(3e8), True),
+    "flank": GearFlankLaw(2.8e8),
 }
 BEARINGS = {
-    "linear": PowerBearing(4e8),
-    "linear with clearance": PowerBearing(4e8, clearance=4e-6),
-    "ball": PowerBearing(3e10, 1.5),
-    "roller with clearance": PowerBearing(2e9, 10 / 9, 3e-6),
+    "linear": PowerLawBearing(4e8),
+    "linear with clearance": PowerLawBearing(4e8, clearance=4e-6),
+    "ball": PowerLawBearing(3e10, 1.5),
+    "roller with clearance": PowerLawBearing(2e9, 10 / 9, 3e-6),
     "rolling, balls": bearing("61904"),
     "rolling, balls with clearance": bearing("61904").replace(radial_clearance="8 um"),
     "rolling, rollers": bearing("NU207E"),
 }
-LAWS = CONTACTS | {name: bearing_law(each) for name, each in BEARINGS.items()}
+LAWS = CONTACTS | {name: radial_bearing_law(each) for name, each in BEARINGS.items()}
 
 
 def strains(name, seed=3):
@@ -91,29 +91,31 @@ def system(seed=5):
     """Two positions of a random system of six unknowns under laws of both kinds."""
     rng = np.random.default_rng(seed)
     kinds = ((5, 1, "line and series"), (3, 2, "ball"), (2, 2, "roller with clearance"), (2, 1, "series, both ways"))
-    parts = tuple(Part(rng.normal(size=(2, k, c, 6)), rng.normal(scale=1e-6, size=(2, k, c)), LAWS[name]) for k, c, name in kinds)
-    return System(np.tile(1e5 * np.eye(6), (2, 1, 1)), parts, rng.normal(scale=3e3, size=(2, 6)))
+    parts = tuple(ConvexTerm(rng.normal(size=(2, k, c, 6)), rng.normal(scale=1e-6, size=(2, k, c)), LAWS[name]) for k, c, name in kinds)
+    return ConvexEnergy(np.tile(1e5 * np.eye(6), (2, 1, 1)), parts, rng.normal(scale=3e3, size=(2, 6)))
 
 
 def test_slope_and_hessian_of_a_system():
     whole, y = system(), np.random.default_rng(1).normal(scale=1e-5, size=(2, 6))
-    gradient, hessian = slope_and_hessian(whole, y)
+    gradient, hessian = gradient_and_hessian(whole, y)
     for k, way in enumerate(np.eye(6)):
-        assert (energy(whole, y + STEP * way) - energy(whole, y - STEP * way)) / (2 * STEP) == pytest.approx(gradient[:, k], rel=1e-5)
-        change = slope_and_hessian(whole, y + STEP * way)[0] - slope_and_hessian(whole, y - STEP * way)[0]
+        assert (total_energy(whole, y + STEP * way) - total_energy(whole, y - STEP * way)) / (2 * STEP) == pytest.approx(
+            gradient[:, k], rel=1e-5
+        )
+        change = gradient_and_hessian(whole, y + STEP * way)[0] - gradient_and_hessian(whole, y - STEP * way)[0]
         assert change / (2 * STEP) == pytest.approx(hessian[:, :, k], rel=2e-3, abs=2e-4 * np.abs(hessian).max())
 
 
 def test_rest_is_the_minimum():
     whole = system()
-    found = rest(whole, np.full((2, 6), 1e-6), 1.0)
-    assert found.settled.all()
-    least = energy(whole, found.y)
+    found = minimise_energy(whole, np.full((2, 6), 1e-6), 1.0)
+    assert found.converged.all()
+    least = total_energy(whole, found.y)
     for shift in np.random.default_rng(2).normal(scale=1e-6, size=(50, 2, 6)):
-        assert np.all(energy(whole, found.y + shift) > least)
+        assert np.all(total_energy(whole, found.y + shift) > least)
 
 
 def test_rest_from_far_away_is_the_same():
     whole = system()
-    near, far = (rest(whole, np.full((2, 6), start), 1.0).y for start in (1e-6, 3e-3))
+    near, far = (minimise_energy(whole, np.full((2, 6), start), 1.0).y for start in (1e-6, 3e-3))
     assert far == pytest.approx(near, rel=1e-9, abs=1e-15)

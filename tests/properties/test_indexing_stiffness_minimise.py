@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from drivewright.indexing.stiffness.minimise import System, _length, energy
+from drivewright.indexing.stiffness.minimise import ConvexEnergy, _length, total_energy
 
 
 def spring(load):
     """One linear spring of 1 N/m at each of the positions."""
-    return System(np.ones((len(load), 1, 1)), (), np.array(load)[:, None])
+    return ConvexEnergy(np.ones((len(load), 1, 1)), (), np.array(load)[:, None])
 
 
 def test_a_step_uphill_by_rounding_is_taken_whole_and_divides_by_nothing():
@@ -23,6 +23,6 @@ def test_a_step_too_long_is_cut_where_the_energy_falls_and_half_the_steepness_is
     system, y = spring([2.0]), np.zeros((1, 1))
     change = np.array([[2.0 * reach]])  # reach 1 ends at rest
     share = _length(system, y, change)
-    assert energy(system, y + share[:, None] * change) < energy(system, y)
+    assert total_energy(system, y + share[:, None] * change) < total_energy(system, y)
     assert abs(1 - share[0] * reach) <= 0.5 or share[0] == 1.0
     assert share[0] <= 1.0

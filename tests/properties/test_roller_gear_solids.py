@@ -8,7 +8,16 @@ from shapely import Point, Polygon, union_all
 
 from drivewright.errors import InputError
 from drivewright.indexing.motion import TURN, index_motion
-from drivewright.indexing.roller_gear import barrel, cam_part, centres, developed, flanks, globoidal, section, turret_part
+from drivewright.indexing.roller_gear import (
+    axial_section,
+    barrel,
+    cam_part,
+    compute_flanks,
+    develop_surface,
+    developed_roller_centres,
+    globoidal,
+    turret_part,
+)
 from drivewright.report.cad import write_step
 from drivewright.scene import Grooved, Part, polygon
 from drivewright.solids import cad, facets
@@ -25,7 +34,7 @@ def volume_by_sections(cam, count=24):
     """Pappus: sections through the cam's axis, turned a little each; half of the square of the radius over the length."""
     total = 0.0
     for theta in TURN * np.arange(count) / count:
-        for corners in section(cam, theta):
+        for corners in axial_section(cam, theta):
             (y, r), (y1, r1) = corners.T, np.roll(corners, -1, axis=0).T
             total += abs(np.sum((y1 - y) * (r**2 + r * r1 + r1**2) / 6))
     return total * TURN / count - np.pi * (BORE / 2) ** 2 * cam.cam_length
@@ -41,8 +50,8 @@ def test_the_solid_of_the_cam(cam, tmp_path):
     write_step([part], tmp_path / "cam.step")
     (solid,) = OCCGeometry(str(tmp_path / "cam.step")).shape.solids
     assert solid.mass * 1e-9 == pytest.approx(volume_by_sections(cam), rel=3e-4)
-    found = flanks(cam, np.linspace(0.013, TURN - 0.02, 23), 7)
-    points = found.contact.point[found.alive]
+    found = compute_flanks(cam, np.linspace(0.013, TURN - 0.02, 23), 7)
+    points = found.contact.point[found.on_cam]
     rng = np.random.default_rng(1)
     for point in 1e3 * (points[rng.choice(len(points), 10, replace=False)] + [cam.centre_distance, 0, cam.height]):
         assert min(Vertex(Pnt(*point)).Distance(face) for face in solid.faces) < 5e-4
@@ -102,10 +111,10 @@ def test_the_volume_of_a_grooved_body_is_left_to_the_kernel():
 @BOTH
 def test_the_unrolled_rollers_touch_the_unrolled_ribs(cam):
     """Developed view: each roller within the cam leaves no more than the error of unrolling to its ribs, and does not run into them."""
-    view = developed(cam, -0.5, 1.5)
+    view = develop_surface(cam, -0.5, 1.5)
     ribs = union_all([Polygon(rib) for rib in view.ribs])
     theta = np.linspace(0.3, 5.0, 17)
-    spots = (centres(cam, theta) + np.stack([view.pitch_radius * theta, 0 * theta], -1)).reshape(-1, 2)
+    spots = (developed_roller_centres(cam, theta) + np.stack([view.pitch_radius * theta, 0 * theta], -1)).reshape(-1, 2)
     inside = [Point(spot) for spot in spots if abs(spot[1]) < cam.cam_length / 2]
     assert len(inside) > 10
     for spot in inside:
@@ -116,6 +125,6 @@ def test_the_unrolled_rollers_touch_the_unrolled_ribs(cam):
 def test_the_developed_view_repeats_every_turn(cam):
     from shapely.affinity import translate
 
-    one, two = (union_all([Polygon(rib) for rib in developed(cam, a, a + 1).ribs]) for a in (0.2, 1.2))
+    one, two = (union_all([Polygon(rib) for rib in develop_surface(cam, a, a + 1).ribs]) for a in (0.2, 1.2))
     moved = translate(one, TURN * cam.pitch_radius)
     assert moved.symmetric_difference(two).area < 1e-6 * two.area

@@ -9,8 +9,8 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parents[1] / "analytical"))
 from torsion_loops import first_order, parallelogram  # noqa: E402
 
-from drivewright.indexing.torsion_test import Readings, Setup, evaluate, fit_line  # noqa: E402
-from drivewright.indexing.torsion_test.regression import _newey_west, student  # noqa: E402
+from drivewright.indexing.torsion_test import Readings, TorsionTestSettings, evaluate_loop, fit_line  # noqa: E402
+from drivewright.indexing.torsion_test.regression import _newey_west, student_half_width  # noqa: E402
 
 K, H, TOP = 2e5, 4e-4, 1000.0
 
@@ -23,7 +23,7 @@ def test_intervals_cover_the_slope_under_errors_of_first_order(rho, least):
     for _ in range(runs):
         line = fit_line(x, 3e-6 * x + first_order(rng, 240, rho, 1e-5), group)
         off = abs(line.slope - 3e-6)
-        inside += off < student(0.95, line.freedom) * np.sqrt(line.variance)
+        inside += off < student_half_width(0.95, line.freedom) * np.sqrt(line.variance)
         plain = line.residuals @ line.residuals / 235 / sum(np.var(x[group == g]) * 60 for g in range(4))
         naive += off < 1.96 * np.sqrt(plain)
     assert least <= inside / runs <= 0.99
@@ -37,7 +37,7 @@ def test_intervals_cover_with_slow_noise_under_white_noise():
     hits = 0
     for _ in range(300):
         line = fit_line(x, x + rng.normal(0, 60, 240) + first_order(rng, 240, 0.95, 60), np.arange(240) // 60)
-        hits += abs(line.slope - 1) < student(0.95, line.freedom) * np.sqrt(line.variance)
+        hits += abs(line.slope - 1) < student_half_width(0.95, line.freedom) * np.sqrt(line.variance)
     assert hits / 300 > 0.82
 
 
@@ -46,7 +46,7 @@ def test_the_stiffness_of_a_noisy_test_lies_in_its_intervals():
     clean, hits, boots = parallelogram(K, H, TOP, 40, 5), [], []
     for _ in range(80):
         noisy = clean._replace(angle=clean.angle + first_order(rng, clean.angle.size, 0.7, 5e-5))
-        test = evaluate(noisy, Setup(resamples=200))
+        test = evaluate_loop(noisy, TorsionTestSettings(resamples=200))
         hits.append(test.per_branch.low < K < test.per_branch.high)
         low, high = test.bootstrap["per_branch"]
         boots.append(low < K < high)
@@ -58,12 +58,12 @@ def test_the_bootstrap_is_repeatable_and_needs_three_cycles():
     rng = np.random.default_rng(14)
     clean = parallelogram(K, H, TOP, 40, 9)
     noisy = clean._replace(angle=clean.angle + rng.normal(0, 5e-5, clean.angle.size))
-    first, again, other = (evaluate(noisy, Setup(seed=seed)).bootstrap for seed in (1, 1, 2))
+    first, again, other = (evaluate_loop(noisy, TorsionTestSettings(seed=seed)).bootstrap for seed in (1, 1, 2))
     assert first == again != other and set(first) == {"whole_loop", "inverse", "per_branch"}
-    test = evaluate(noisy)
+    test = evaluate_loop(noisy)
     for name in first:
         assert first[name][0] < getattr(test, name).value < first[name][1]
-    short = evaluate(Readings(noisy.torque[:240], noisy.angle[:240]))
+    short = evaluate_loop(Readings(noisy.torque[:240], noisy.angle[:240]))
     assert short.bootstrap == {} and any("needs at least 3 cycles, there is 2" in text for text in short.findings)
 
 
@@ -85,18 +85,18 @@ def same(left, right, **factors):
 
 
 def test_the_zero_of_the_angle_changes_nothing(noisy):
-    same(evaluate(noisy), evaluate(noisy._replace(angle=noisy.angle + 0.37)))
+    same(evaluate_loop(noisy), evaluate_loop(noisy._replace(angle=noisy.angle + 0.37)))
 
 
 def test_the_sense_of_turning_changes_nothing(noisy):
-    turned = evaluate(Readings(-noisy.torque, -noisy.angle))
-    same(evaluate(noisy), turned)
-    assert turned.loading.value == pytest.approx(evaluate(noisy).unloading.value, rel=1e-12)
+    turned = evaluate_loop(Readings(-noisy.torque, -noisy.angle))
+    same(evaluate_loop(noisy), turned)
+    assert turned.loading.value == pytest.approx(evaluate_loop(noisy).unloading.value, rel=1e-12)
 
 
 def test_units_scale_and_nothing_else(noisy):
     """Metres, kilograms and radians are conventions: k goes with torque over angle, energy with their product."""
-    before, after = evaluate(noisy), evaluate(Readings(noisy.torque * 8.85, noisy.angle * 3437.7))
+    before, after = evaluate_loop(noisy), evaluate_loop(Readings(noisy.torque * 8.85, noisy.angle * 3437.7))
     for a, b, factors in zip(
         numbers(before),
         numbers(after),
@@ -110,17 +110,19 @@ def test_the_uncertainty_falls_with_the_root_of_the_number_of_cycles():
     def spread(cycles, seed):
         rng = np.random.default_rng(seed)
         clean = parallelogram(K, H, TOP, 40, cycles)
-        return evaluate(clean._replace(angle=clean.angle + rng.normal(0, 5e-5, clean.angle.size))).per_branch.uncertainty
+        return evaluate_loop(clean._replace(angle=clean.angle + rng.normal(0, 5e-5, clean.angle.size))).per_branch.uncertainty
 
     few, many = (np.mean([spread(cycles, seed) for seed in range(8)]) for cycles in (3, 9))
     assert few / many == pytest.approx(2.0, rel=0.12)  # 2 and 8 cycles after the first
 
 
 def test_higher_confidence_is_a_wider_interval_by_student(noisy):
-    wide, narrow = (evaluate(noisy, Setup(confidence=c)) for c in (0.99, 0.9))
+    wide, narrow = (evaluate_loop(noisy, TorsionTestSettings(confidence=c)) for c in (0.99, 0.9))
     f = narrow.line.freedom
     ratio = (1 / wide.per_branch.low - 1 / wide.per_branch.high) / (1 / narrow.per_branch.low - 1 / narrow.per_branch.high)
-    assert ratio == pytest.approx(student(0.99, f) / student(0.9, f), rel=1e-9) and student(0.95, 4) == pytest.approx(2.776445, rel=1e-6)
+    assert ratio == pytest.approx(student_half_width(0.99, f) / student_half_width(0.9, f), rel=1e-9) and student_half_width(
+        0.95, 4
+    ) == pytest.approx(2.776445, rel=1e-6)
 
 
 def test_newey_west_is_the_weighted_sum_over_all_pairs():

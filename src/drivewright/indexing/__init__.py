@@ -2,22 +2,25 @@
 
 from importlib import import_module
 
-from drivewright.indexing.contacts import Contacts
-from drivewright.indexing.motion import NO_DWELL, IndexMotion, index_motion
-
 # Their modules hold kernels, and the first kernel imports numba: loaded when first used.
+_MODULES = ("roller_gear", "torsion_test")
 _WHERE = {
+    "contacts": ("CamContacts",),
+    "motion": ("IndexMotion", "index_motion"),
+    "plane": ("PlaneDrive", "find_contacts", "pitch_point"),
     "pin_wheel": ("PinWheel",),
     "parallel": ("ParallelIndexer",),
-    "drivetrain": ("Drivetrain", "GearMesh", "PinContact", "PowerBearing", "SplitShaft", "pin_contact", "power_bearing"),
+    "play": ("find_play",),
+    "drivetrain": ("Drivetrain", "GearMesh", "PinContact", "PowerLawBearing", "SplitShaft", "pin_contact", "power_law_bearing"),
+    "stiffness": ("TorsionalStiffness", "solve_torsional_stiffness"),
+    "batch": ("evaluate_pin_wheels",),
 }
-_MODULES = ("plane", "play", "roller_gear", "stiffness", "torsion_test")
 _MODULE = {name: module for module, names in _WHERE.items() for name in names}
 
-__all__ = ["Contacts", "IndexMotion", "NO_DWELL", "index_motion", *_MODULE, *_MODULES]
+__all__ = [*_MODULE, *_MODULES]
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> object:
     if name in _MODULES:
         return import_module(f"{__name__}.{name}")
     if name not in _MODULE:

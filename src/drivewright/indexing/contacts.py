@@ -2,10 +2,10 @@
 
 from typing import NamedTuple
 
-import numpy as np
+from drivewright._typing import Bools, Complexes, Floats, Ints
 
 
-class Contacts(NamedTuple):
+class CamContacts(NamedTuple):
     """Contacts and near contacts of ONE cam with the wheel's pins at one input angle; arrays over the contacts.
 
     pin: number of the pin; centre: of the pin, complex x + i y [m] from the wheel's axis, not turning; normal: unit complex, direction of
@@ -15,10 +15,10 @@ class Contacts(NamedTuple):
     Cam j of n is cam 0 and all its contacts turned by 2 pi j/n about the wheel's axis.
     """
 
-    pin: np.ndarray
-    centre: np.ndarray
-    normal: np.ndarray
-    arm: np.ndarray
-    gap: np.ndarray
-    curvature: np.ndarray
-    intended: np.ndarray
+    pin: Ints
+    centre: Complexes
+    normal: Complexes
+    arm: Floats
+    gap: Floats
+    curvature: Floats
+    intended: Bools

@@ -5,10 +5,13 @@ and their crank pins, one a cam, carry every cam in two holes.  What is None is 
 would sit.  SI units.
 """
 
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from drivewright.bearings import BallBearing, RollerBearing
+from drivewright.bearings.quick import Stiffness
 from drivewright.errors import InputError
 from drivewright.shafts import Section
 
@@ -23,12 +26,15 @@ class PinContact(NamedTuple):
     series: float | None = None
 
 
-class PowerBearing(NamedTuple):
+class PowerLawBearing(NamedTuple):
     """Radial force F = constant max(d - clearance, 0)^exponent at the displacement d [N, m], alike in all directions."""
 
     constant: float
     exponent: float = 1.0
     clearance: float = 0.0
+
+
+BearingModel: TypeAlias = PowerLawBearing | BallBearing | RollerBearing
 
 
 class SplitShaft(NamedTuple):
@@ -55,39 +61,39 @@ class GearMesh(NamedTuple):
 class Drivetrain(NamedTuple):
     """spacing [m] of the split shafts, and what yields.
 
-    crank, support, wheel: bearings of the cams, the shafts, the wheel: a PowerBearing or a rolling bearing of `drivewright.bearings`;
+    crank, support, wheel: bearings of the cams, the shafts, the wheel: a PowerLawBearing or a rolling bearing of `drivewright.bearings`;
     housing [N/m]: radial stiffness of a seat of the supports, in series; wheel_torsion [N m/rad]: between pins and output.
     """
 
     spacing: float
     pins: PinContact | None = None
-    crank: Any = None
-    support: Any = None
+    crank: BearingModel | None = None
+    support: BearingModel | None = None
     housing: float | None = None
     shaft: SplitShaft | None = None
     gear: GearMesh | None = None
-    wheel: Any = None
+    wheel: BearingModel | None = None
     wheel_torsion: float | None = None
 
 
-def pin_contact(width, series=None):
+def pin_contact(width: float, series: float | None = None) -> PinContact:
     """The PinContact of a steel pin and cam that touch along `width` [m], with a linear stiffness [N/m] in series."""
     if not width > 0:
         raise InputError(f"pin contact: the width must be above 0, got {1e3 * width:g} mm; it is the thickness of the cam on the pin.")
     return PinContact(PALMGREN_LINE * width ** (8 / 9), series)
 
 
-def power_bearing(stiffness_of, clearance=0.0):
-    """The PowerBearing of a formula of `drivewright.bearings.quick`: stiffness_of(force) gives its Stiffness.
+def power_law_bearing(stiffness_of: Callable[[float], Stiffness], clearance: float = 0.0) -> PowerLawBearing:
+    """The PowerLawBearing of a formula of `drivewright.bearings.quick`: stiffness_of(force) gives its Stiffness.
 
     F = K d^n has the secant K^(1/n) F^(1 - 1/n), and n is tangent over secant.
     """
     at_one = stiffness_of(1.0)
     exponent = 1.0 / at_one.ratio
-    return PowerBearing(float(at_one.secant) ** exponent, exponent, clearance)
+    return PowerLawBearing(float(at_one.secant) ** exponent, exponent, clearance)
 
 
-def check(drive, cams):
+def refuse_invalid(drive: Drivetrain, cams: int) -> None:
     """InputError where a part has no meaning for a drive with that many cams."""
     for name, value, unit, least in _sizes(drive):
         if value is not None and not (value > 0 if least is None else value >= least):
@@ -99,7 +105,7 @@ def check(drive, cams):
         _check_gear(drive.gear, drive.spacing)
 
 
-def _check_shaft(shaft, cams):
+def _check_shaft(shaft: SplitShaft, cams: int) -> None:
     if len(shaft.cams) != cams:
         raise InputError(f"drive train: the split shaft has places for {len(shaft.cams)} cams, but the drive has {cams}; give one each.")
     front, rear = (1e3 * place for place in shaft.supports)
@@ -111,7 +117,7 @@ def _check_shaft(shaft, cams):
             raise InputError(f"drive train: gear and cams of a split shaft want different places; two stand at {1e3 * after:g} mm.")
 
 
-def _check_gear(gear, spacing):
+def _check_gear(gear: GearMesh, spacing: float) -> None:
     if not gear.pitch_radius < spacing / 2:
         raise InputError(
             f"drive train: the split gears' pitch radius {1e3 * gear.pitch_radius:g} mm leaves no input gear between shafts "
@@ -124,7 +130,7 @@ def _check_gear(gear, spacing):
         )
 
 
-def _sizes(drive):
+def _sizes(drive: Drivetrain) -> Iterator[tuple[str, float | None, str, float | None]]:
     """(name, value, unit, least value allowed; None: above 0)."""
     yield "spacing", drive.spacing, "m", None
     yield "housing", drive.housing, "N/m", None
@@ -138,7 +144,7 @@ def _sizes(drive):
         yield "gear.backlash", drive.gear.backlash, "m", 0.0
     for name in ("crank", "support", "wheel"):
         bearing = getattr(drive, name)
-        if isinstance(bearing, PowerBearing):
+        if isinstance(bearing, PowerLawBearing):
             yield f"{name}.constant", bearing.constant, "N/m^n", None
             yield f"{name}.exponent", bearing.exponent, "", 1.0
             yield f"{name}.clearance", bearing.clearance, "m", 0.0

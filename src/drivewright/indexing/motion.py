@@ -2,24 +2,26 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Numbers
 from drivewright.errors import InputError
 from drivewright.motion import MotionLaw, law
 from drivewright.numerics.jets import Jet
 
 TURN = 2 * np.pi
-NO_DWELL = "no-dwell"
+NO_DWELL: Literal["no-dwell"] = "no-dwell"
 
 
 @dataclass(frozen=True)
-class Stretch:
-    """A smooth stretch of one turn of the input, angles [rad]; `number` is its piece of the law, None in the dwell."""
+class MotionSegment:
+    """A smooth segment of one turn of the input, angles [rad]; `law_piece` is its piece of the law, None in the dwell."""
 
     start: float
     stop: float
-    number: int | None
+    law_piece: int | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,43 +36,44 @@ class IndexMotion:
     motion_angle: float
 
     @property
-    def pitch(self):
+    def pitch(self) -> float:
         """Angle of one step [rad]."""
         return TURN / self.divisions
 
     @cached_property
-    def stretches(self):
-        """Smooth stretches of one turn, the dwell last."""
+    def segments(self) -> tuple[MotionSegment, ...]:
+        """Smooth segments of one turn, the dwell last."""
         ends = self.motion_angle * np.asarray(self.law.breaks)
-        moving = tuple(Stretch(float(a), float(b), k) for k, (a, b) in enumerate(zip(ends[:-1], ends[1:], strict=True)))
-        return moving if self.motion_angle >= TURN else (*moving, Stretch(self.motion_angle, TURN, None))
+        moving = tuple(MotionSegment(float(a), float(b), k) for k, (a, b) in enumerate(zip(ends[:-1], ends[1:], strict=True)))
+        return moving if self.motion_angle >= TURN else (*moving, MotionSegment(self.motion_angle, TURN, None))
 
-    def on(self, stretch, theta, turn=0):
-        """Jet of phi [rad] by the input angle theta, counted in turn number `turn`, by the formula of a stretch; one-sided at its ends."""
+    def on_segment(self, segment: MotionSegment, theta: ArrayLike, turn: Numbers = 0) -> Jet:
+        """Jet of phi [rad] by the input angle theta, counted in turn number `turn`, by the formula of a segment; one-sided at its ends."""
         theta = np.asarray(theta, dtype=float)
-        if stretch.number is None:
+        if segment.law_piece is None:
             still = np.zeros_like(theta)
             return Jet(still + self.pitch * (turn + 1), still, still, still)
-        ends = self.law.breaks[stretch.number : stretch.number + 2]
-        s, v, a, j = self.law.on_piece(stretch.number, np.clip(theta / self.motion_angle, *ends))
+        ends = self.law.breaks[segment.law_piece : segment.law_piece + 2]
+        law = self.law.on_piece(segment.law_piece, np.clip(theta / self.motion_angle, *ends))
+        s, v, a, j = (np.asarray(part, dtype=float) for part in law)
         return Jet(self.pitch * (turn + s), *(self.pitch * d / self.motion_angle**k for k, d in enumerate((v, a, j), start=1)))
 
-    def __call__(self, theta):
-        """Jet of phi [rad] by the input angle theta [rad], any turn; at a joint the stretch that begins there."""
+    def __call__(self, theta: ArrayLike) -> Jet:
+        """Jet of phi [rad] by the input angle theta [rad], any turn; at a joint the segment that begins there."""
         theta = np.asarray(theta, dtype=float)
         turn = np.floor(theta / TURN)
         inside = theta - TURN * turn
-        starts = np.array([stretch.start for stretch in self.stretches])
+        starts = np.array([segment.start for segment in self.segments])
         number = np.clip(np.searchsorted(starts, inside, side="right") - 1, 0, len(starts) - 1)
         parts = np.zeros((4, *theta.shape))
-        for k, stretch in enumerate(self.stretches):
+        for k, segment in enumerate(self.segments):
             here = number == k
             if np.any(here):
-                parts[:, here] = np.stack(np.broadcast_arrays(*self.on(stretch, inside[here], turn[here])))
-        return Jet(*parts)
+                parts[:, here] = np.stack(np.broadcast_arrays(*self.on_segment(segment, inside[here], turn[here])))
+        return Jet(parts[0], parts[1], parts[2], parts[3])
 
 
-def index_motion(name, divisions, motion_to_dwell=1.0, **parameters):
+def index_motion(name: str, divisions: int, motion_to_dwell: float | Literal["no-dwell"] = 1.0, **parameters: float) -> IndexMotion:
     """IndexMotion of the law `name`: motion_angle = 2 pi r/(1 + r), r = motion_to_dwell; a full turn for "no-dwell" and for "uniform".
 
     Raises InputError for a law whose velocity jumps or that does not go from rest to rest where a dwell follows.
@@ -78,7 +81,7 @@ def index_motion(name, divisions, motion_to_dwell=1.0, **parameters):
     found = law(name, **parameters)
     if motion_to_dwell == NO_DWELL or name == "uniform":
         return IndexMotion(found, divisions, TURN)
-    if not (np.isfinite(motion_to_dwell) and motion_to_dwell > 0):
+    if isinstance(motion_to_dwell, str) or not (np.isfinite(motion_to_dwell) and motion_to_dwell > 0):
         raise InputError(f"motion_to_dwell = {motion_to_dwell}; the ratio of motion to dwell is above 0 and finite, or {NO_DWELL!r}.")
     if found.continuity < 1:
         raise InputError(

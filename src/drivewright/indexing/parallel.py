@@ -14,10 +14,11 @@ from functools import cached_property
 
 import numpy as np
 
+from drivewright._typing import ArrayLike
 from drivewright.errors import InputError
 from drivewright.indexing.motion import IndexMotion
 from drivewright.indexing.plane import PlaneDrive, refuse_overlap
-from drivewright.numerics.jets import constant, variable
+from drivewright.numerics.jets import Jet, constant, variable
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,16 +33,16 @@ class PlateCam(PlaneDrive):
     lead: float
 
     @property
-    def phase(self):
+    def phase(self) -> float:
         """Angle of roller 0 at theta = 0 [rad]."""
         return self.lead * self.motion.pitch
 
-    def pose(self, theta):
+    def pose(self, theta: ArrayLike) -> tuple[Jet, Jet]:
         """The input shaft and its turn -theta."""
         theta = np.asarray(theta, dtype=float)
         return constant(np.full(theta.shape, complex(self.centre_distance))), -variable(theta)
 
-    def refuse(self):
+    def refuse(self) -> None:
         """InputError where rollers overlap or, on the line of centres, reach the input shaft's axis."""
         refuse_overlap(self)
         reach = self.circle_radius + self.pin_radius
@@ -62,8 +63,12 @@ class ParallelIndexer:
     centre_distance: float
     motion: IndexMotion
 
-    @cached_property
-    def levels(self):
+    @property
+    def levels(self) -> tuple[PlateCam, PlateCam]:
         """The two cams, each with the rollers of its level."""
+        return self._levels
+
+    @cached_property
+    def _levels(self) -> tuple[PlateCam, PlateCam]:
         given = self.pins, self.circle_radius, self.pin_radius, self.centre_distance, self.motion
         return PlateCam(*given, 0.25), PlateCam(*given, -0.25)

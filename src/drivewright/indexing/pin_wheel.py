@@ -10,21 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from drivewright._typing import ArrayLike
 from drivewright.errors import InputError
 from drivewright.indexing.motion import IndexMotion
-from drivewright.indexing.plane import (
-    ALIVE,
-    PlaneDrive,
-    centre_curvature,
-    contacts,
-    envelope_points,
-    index_angles,
-    pitch_point,
-    refuse_overlap,
-)
-from drivewright.numerics.jets import constant, exp, variable
-
-__all__ = ["ALIVE", "PinWheel", "centre_curvature", "contacts", "envelope_points", "index_angles", "pitch_point", "refuse_impossible"]
+from drivewright.indexing.plane import PlaneDrive, refuse_overlap
+from drivewright.numerics.jets import Jet, constant, exp, variable
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,29 +32,29 @@ class PinWheel(PlaneDrive):
     side: str = "inside"
 
     @property
-    def sense(self):
+    def sense(self) -> float:
         """Sense in which the crank turns against the wheel's index direction: +1 inside, -1 outside."""
         return 1.0 if self.side == "inside" else -1.0
 
     @property
-    def lobes(self):
+    def lobes(self) -> int:
         """Lobes of the cam."""
         return self.pins - int(self.sense)
 
-    def crank(self, theta):
+    def crank_vector(self, theta: ArrayLike) -> Jet:
         """Centre of the cam e exp(i s theta): complex jet by theta."""
         return self.eccentricity * exp(1j * self.sense * variable(theta))
 
-    def pose(self, theta):
+    def pose(self, theta: ArrayLike) -> tuple[Jet, Jet]:
         """The cam's centre and its turn, which is 0."""
-        return self.crank(theta), constant(np.zeros(np.shape(theta)))
+        return self.crank_vector(theta), constant(np.zeros(np.shape(theta)))
 
-    def refuse(self):
+    def refuse(self) -> None:
         """InputError for measures that leave no cam or no wheel."""
         refuse_impossible(self)
 
 
-def refuse_impossible(wheel):
+def refuse_impossible(wheel: PinWheel) -> None:
     """InputError for measures that leave no cam or no wheel."""
     refuse_overlap(wheel)
     if wheel.eccentricity + wheel.pin_radius >= wheel.circle_radius:

@@ -5,79 +5,109 @@ The wheel turns about 0, the cam stands at p(theta) and has turned by w(theta). 
 profile is the envelope of one circle on it, on both sides, trimmed by all of it.
 """
 
+from collections.abc import Callable, Iterator
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Bools, Complexes, Floats
 from drivewright.curves import CircleFamily, Piece, Trimmed, trim
 from drivewright.curves.outlines import span_measures
-from drivewright.curves.touching import Nodes, nodes_of, touches
+from drivewright.curves.touching import Nodes, Touches, nodes_of, touches
 from drivewright.errors import InputError, SolverError
-from drivewright.indexing.contacts import Contacts
-from drivewright.indexing.motion import TURN
+from drivewright.indexing.contacts import CamContacts
+from drivewright.indexing.motion import TURN, IndexMotion, MotionSegment
 from drivewright.numerics.jets import Jet, exp
 
-ALIVE = 1e-6  # a point of contact nearer than this [m] to the profile is on it
+PROFILE_TOLERANCE = 1e-6  # a point of contact nearer than this [m] to the profile is on it
 _SAMPLES = (48, 96, 240)  # on each piece of the envelope: more where a crossing was missed
-_SLOW, _STANDSTILL = 0.05, 1e-7  # of the greatest speed of a path
-_TRIFLE = 2e-8  # rad
-_SAME = 1e-4  # a place nearer than this [m] to the envelope's own point is that point
-_STRAIGHT = 1e-9  # an arm below this, relative to the pin circle, turns the wheel neither way
+_SLOW, _AT_REST = 0.05, 1e-7  # of the greatest speed of a path
+_CUSP_MARGIN = 2e-8  # rad
+_SAME_POINT = 1e-4  # a place nearer than this [m] to the envelope's own point is that point
+_LEAST_ARM = 1e-9  # an arm below this, relative to the pin circle, turns the wheel neither way
+
+
+class PinDrive(Protocol):
+    """A drive whose wheel carries pins."""
+
+    @property
+    def motion(self) -> IndexMotion:
+        """Motion of the wheel over the input angle."""
+        ...
+
+    @property
+    def circle_radius(self) -> float:
+        """Radius of the pin circle [m]."""
+        ...
+
+    @property
+    def levels(self) -> "tuple[PlaneDrive, ...]":
+        """One drive for each shape of cam; all of them hold the wheel."""
+        ...
 
 
 class PlaneDrive:
     """One cam and the pins that it meets.
 
-    A kind has the attributes pins, circle_radius [m], pin_radius [m], motion (an IndexMotion) and states `pose` and `refuse`; `phase`
-    [rad] is where pin 0 stands at theta = 0, `side` on which side of the pins the cam lies, `levels` the drives whose cams differ.
+    A kind gives pins, circle_radius [m], pin_radius [m] and motion, and defines `pose` and `refuse`; `phase` [rad] is the angle of pin 0 at
+    theta = 0, `side` the side of the pins on which the cam lies, `levels` the drives whose cams differ.
     """
 
-    phase = 0.0
-    side = "inside"
+    pins: int
+    circle_radius: float
+    pin_radius: float
+    motion: IndexMotion
+    side: str = "inside"
 
-    def pose(self, theta):
+    @property
+    def phase(self) -> float:
+        """Angle of pin 0 at theta = 0 [rad]."""
+        return 0.0
+
+    def pose(self, theta: ArrayLike) -> tuple[Jet, Jet]:
         """Place p of the cam's axis [m] and its turn w [rad]: a complex and a real jet by theta."""
         raise NotImplementedError
 
-    def refuse(self):
+    def refuse(self) -> None:
         """InputError for measures that leave no cam or no wheel."""
         raise NotImplementedError
 
     @property
-    def levels(self):
+    def levels(self) -> "tuple[PlaneDrive, ...]":
         """The drives of the wheel, one for each shape of cam; all of them hold it."""
         return (self,)
 
-    def centres(self, theta):
+    def pin_centres(self, theta: ArrayLike) -> Jet:
         """Centres of the pins from the wheel's axis: complex jet by theta, shape (..., pins)."""
         phi = _column(self.motion(theta))
         return self.circle_radius * exp(1j * (phi + self.phase + TURN / self.pins * np.arange(self.pins)))
 
-    def path(self, theta):
+    def pin_paths(self, theta: ArrayLike) -> Jet:
         """Centres of the pins seen from the cam: complex jet by theta, shape (..., pins)."""
         place, turn = (_column(jet) for jet in self.pose(theta))
-        return (self.centres(theta) - place) * exp(-1j * turn)
+        return (self.pin_centres(theta) - place) * exp(-1j * turn)
 
     @cached_property
-    def family(self):
+    def family(self) -> CircleFamily:
         """All circles that cut the cam: pin 0 over as many turns of the input as there are pins."""
-        steps = [(stretch, self._formula(stretch)) for stretch in self.motion.stretches]  # one for all turns: evaluated together
+        steps = [(segment, self._formula(segment)) for segment in self.motion.segments]  # one for all turns: evaluated together
         pieces = [
-            Piece(start, stop, at, f"step {turn}", _shape(stretch))
-            for stretch, at in steps
-            for turn, start, stop in _between_cusps(at, stretch, self.pins)
+            Piece(start, stop, at, f"step {turn}", _shape(segment))
+            for segment, at in steps
+            for turn, start, stop in _between_cusps(at, segment, self.pins)
         ]
         pieces.sort(key=lambda piece: piece.start)
         return CircleFamily(tuple(pieces), self.pin_radius, self.side, both=True)
 
-    def _formula(self, stretch):
-        """Pin 0 seen from the cam by the formula of one stretch, theta counted over all turns."""
-        middle = 0.5 * (stretch.start + stretch.stop)
+    def _formula(self, segment: MotionSegment) -> Callable[[ArrayLike], Jet]:
+        """Pin 0 seen from the cam by the formula of one segment, theta counted over all turns."""
+        middle = 0.5 * (segment.start + segment.stop)
 
         def at(theta):
             theta = np.asarray(theta, dtype=float)
             turn = np.round((theta - middle) / TURN)
-            phi = self.motion.on(stretch, theta - TURN * turn, turn)
+            phi = self.motion.on_segment(segment, theta - TURN * turn, turn)
             place, angle = self.pose(theta)
             return (self.circle_radius * exp(1j * (phi + self.phase)) - place) * exp(-1j * angle)
 
@@ -97,7 +127,7 @@ class PlaneDrive:
                 if samples == _SAMPLES[-1]:
                     raise
                 continue
-            if _runs_around(found):
+            if _runs_around(found, self.family):
                 return found
         raise SolverError(
             f"profile: the loop of the envelope around the cam is broken; with {_SAMPLES[-1]} samples a piece a crossing is missed, "
@@ -110,51 +140,53 @@ class PlaneDrive:
         return nodes_of(self.profile.spans)
 
     @property
-    def way(self):
+    def orientation(self) -> float:
         """+1 where the profile's nodes run counter-clockwise."""
         a, b = self.nodes.a, self.nodes.b
         return float(np.sign(np.sum(np.imag(np.conj(a) * b))))
 
 
-def _runs_around(found):
+def _runs_around(profile: Trimmed, family: CircleFamily) -> bool:
     """Whether the profile runs the way it must for the part to lie on its side; the edge on the other side of the pins runs against it."""
-    side = found.family.side if found.family.material == "inside" else -found.family.side
-    return span_measures(found.spans)[0] * side > 0
+    side = family.side if family.material == "inside" else -family.side
+    return span_measures(profile.spans)[0] * side > 0
 
 
-def _between_cusps(at, stretch, turns, samples=181):
-    """(turn, start, stop) of a stretch in every turn, parted where the path stands still and turns back, which is left out by a trifle."""
+def _between_cusps(
+    at: Callable[[ArrayLike], Jet], segment: MotionSegment, turns: int, samples: int = 181
+) -> Iterator[tuple[int, float, float]]:
+    """(turn, start, stop) of a segment in every turn, parted where the path stands still and turns back, which is left out by a trifle."""
     starts = TURN * np.arange(turns)
-    t = starts[:, None] + np.linspace(stretch.start, stretch.stop, samples)
+    t = starts[:, None] + np.linspace(segment.start, segment.stop, samples)
     speed = np.abs(np.broadcast_to(at(t).d1, t.shape))
     around = np.pad(speed, ((0, 0), (1, 1)), constant_values=np.inf)
     row, column = np.nonzero((speed <= around[:, :-2]) & (speed <= around[:, 2:]) & (speed < _SLOW * np.max(speed)))
     place = t[row, column]
-    low, high = starts[row] + stretch.start, starts[row] + stretch.stop
+    low, high = starts[row] + segment.start, starts[row] + segment.stop
     for _ in range(12 if len(place) else 0):  # towards d1 = 0 along d2
         jet = at(place)
         place = np.clip(place - np.real(np.conj(jet.d2) * jet.d1) / np.abs(jet.d2) ** 2, low, high)
-    cusp = np.abs(at(place).d1) < _STANDSTILL * np.max(speed) if len(place) else np.zeros(0, dtype=bool)
+    cusp = np.abs(at(place).d1) < _AT_REST * np.max(speed) if len(place) else np.zeros(0, dtype=bool)
     for turn in range(turns):
         own = np.unique(np.round(place[cusp & (row == turn)], 12))
         ends = [
-            starts[turn] + stretch.start,
-            *(float(end) for spot in own for end in (spot - _TRIFLE, spot + _TRIFLE)),
-            starts[turn] + stretch.stop,
+            starts[turn] + segment.start,
+            *(float(end) for spot in own for end in (spot - _CUSP_MARGIN, spot + _CUSP_MARGIN)),
+            starts[turn] + segment.stop,
         ]
-        yield from ((turn, float(a), float(b)) for a, b in zip(ends[::2], ends[1::2], strict=True) if b - a > 2 * _TRIFLE)
+        yield from ((turn, float(a), float(b)) for a, b in zip(ends[::2], ends[1::2], strict=True) if b - a > 2 * _CUSP_MARGIN)
 
 
-def _shape(stretch):
-    return "smooth" if stretch.number is not None else "arc"
+def _shape(segment):
+    return "smooth" if segment.law_piece is not None else "arc"
 
 
-def _column(jet):
+def _column(jet: Jet) -> Jet:
     """The jet with an axis for the pins."""
     return Jet(*(np.asarray(part)[..., None] for part in jet))
 
 
-def pitch_point(drive, theta):
+def pitch_point(drive: PlaneDrive, theta: ArrayLike) -> Complexes:
     """Instant centre of wheel and cam, (p' - i w' p)/(i (phi' - w')) [m], complex; infinite in the dwell of a cam that does not turn.
 
     The normal of every contact passes through it.
@@ -165,22 +197,22 @@ def pitch_point(drive, theta):
     return np.where(still, np.inf, (place.d1 - 1j * turn.d1 * place.d0) / np.where(still, 1j, 1j * rate))
 
 
-def envelope_points(drive, theta):
+def envelope_points(drive: PlaneDrive, theta: ArrayLike) -> Complexes:
     """The two candidate points of contact of each pin, complex, shape (..., pins, 2), seen from the cam; nan where a pin stands still."""
-    path = drive.path(theta)
+    path = drive.pin_paths(theta)
     with np.errstate(divide="ignore", invalid="ignore"):
         normal = 1j * path.d1 / np.abs(path.d1)
     return path.d0[..., None] + drive.pin_radius * normal[..., None] * np.array([1.0, -1.0])
 
 
-def centre_curvature(drive, theta):
+def centre_curvature(drive: PlaneDrive, theta: ArrayLike) -> Floats:
     """Curvature of the centre curve of each pin, left turns positive [1/m], shape (..., pins)."""
-    path = drive.path(theta)
+    path = drive.pin_paths(theta)
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.imag(np.conj(path.d1) * path.d2) / np.abs(path.d1) ** 3
 
 
-def contacts(drive, theta, reach=5e-4, turned=0.0):
+def find_contacts(drive: PlaneDrive, theta: float, reach: float = 5e-4, turned: float = 0.0) -> CamContacts:
     """Contacts of the cam at one input angle theta with gaps up to `reach` [m]; `turned` [rad] is how far the wheel is off its place.
 
     A place is `intended` where it is the envelope's own point, lies on the profile and the wheel stands in its place; its curvature is
@@ -189,38 +221,40 @@ def contacts(drive, theta, reach=5e-4, turned=0.0):
     theta = float(theta)
     place, turn = (jet.d0 for jet in drive.pose(theta))
     upright = np.exp(-1j * turn)
-    centre = drive.centres(theta).d0 * np.exp(1j * turned)
-    found = touches(drive.nodes, (centre - place) * upright, drive.pin_radius, reach)
-    point, curvature, own = _own_points(drive, found, theta)
+    centre = drive.pin_centres(theta).d0 * np.exp(1j * turned)
+    touching = touches(drive.nodes, (centre - place) * upright, drive.pin_radius, reach)
+    point, curvature, own = _own_points(drive, touching, theta)
     intended = own & (turned == 0.0)
-    at = centre[found.centre]
-    arm = at - place - np.where(intended, point, found.point) / upright
+    at = centre[touching.centre]
+    arm = at - place - np.where(intended, point, touching.point) / upright
     normal = arm / np.abs(arm)
-    lever = np.imag(np.conj(at) * normal)
-    lever[np.abs(lever) < _STRAIGHT * drive.circle_radius] = 0.0
-    gap = np.where(intended, 0.0, np.maximum(found.gap, 0.0))
-    return Contacts(found.centre, at, normal, lever, gap, np.where(intended, curvature, drive.way * found.curvature), intended)
+    arm_about_wheel = np.imag(np.conj(at) * normal)
+    arm_about_wheel[np.abs(arm_about_wheel) < _LEAST_ARM * drive.circle_radius] = 0.0
+    gap = np.where(intended, 0.0, np.maximum(touching.gap, 0.0))
+    return CamContacts(
+        touching.centre, at, normal, arm_about_wheel, gap, np.where(intended, curvature, drive.orientation * touching.curvature), intended
+    )
 
 
-def _own_points(drive, found, theta):
+def _own_points(drive: PlaneDrive, touching: Touches, theta: float) -> tuple[Complexes, Floats, Bools]:
     """For each touch the envelope's own point that is nearest, the part's curvature there, and whether the touch is that point.
 
     The gap alone would not tell: where the own point is cut away beside a corner, the corner is nearly as near to the pin.
     """
     envelope = envelope_points(drive, theta)
-    own = envelope[found.centre]
-    apart = np.nan_to_num(np.abs(found.point[:, None] - own), nan=np.inf)
+    own = envelope[touching.centre]
+    apart = np.nan_to_num(np.abs(touching.point[:, None] - own), nan=np.inf)
     nearest = np.arange(len(apart)), np.argmin(apart, axis=1)
     left = np.zeros(envelope.size, dtype=bool)
-    left[touches(drive.nodes, envelope, 0.0, ALIVE).centre] = True
-    alive = left.reshape(envelope.shape)[found.centre][nearest]
-    bend = (1 - 2 * nearest[1]) * centre_curvature(drive, theta)[found.centre]  # towards the side of the part
+    left[touches(drive.nodes, envelope, 0.0, PROFILE_TOLERANCE).centre] = True
+    on_profile = left.reshape(envelope.shape)[touching.centre][nearest]
+    signed = (1 - 2 * nearest[1]) * centre_curvature(drive, theta)[touching.centre]  # towards the side of the part
     with np.errstate(divide="ignore", invalid="ignore"):
-        curvature = bend / (1 - drive.pin_radius * bend)
-    return own[nearest], curvature, alive & (apart[nearest] < _SAME) & (found.gap < ALIVE)
+        curvature = signed / (1 - drive.pin_radius * signed)
+    return own[nearest], curvature, on_profile & (apart[nearest] < _SAME_POINT) & (touching.gap < PROFILE_TOLERANCE)
 
 
-def refuse_overlap(wheel):
+def refuse_overlap(wheel: PlaneDrive) -> None:
     """InputError for fewer than three pins, and for pins that overlap."""
     chord = 2 * wheel.circle_radius * np.sin(np.pi / wheel.pins)
     if wheel.pins < 3:
@@ -232,12 +266,12 @@ def refuse_overlap(wheel):
         )
 
 
-def index_angles(drive, step=np.deg2rad(4.5)):
+def index_angles(drive: PinDrive, step: float = float(np.deg2rad(4.5))) -> Floats:
     """Input angles [rad] over the index period from its start to its end, in equal steps of about `step`."""
     return np.linspace(0.0, drive.motion.motion_angle, max(int(round(drive.motion.motion_angle / step)), 1) + 1)
 
 
-def pressure_angle(drive, theta, direction):
+def contact_pressure_angle(drive: PinDrive, theta: ArrayLike, direction: float) -> Floats:
     """acos(h/R) [rad] of the contact with the largest arm h that turns the wheel in the direction, at each of the input angles theta.
 
     nan where no intended contact of any level does.
@@ -246,6 +280,6 @@ def pressure_angle(drive, theta, direction):
     return np.arccos(np.where(best > 0, np.minimum(best / drive.circle_radius, 1.0), np.nan))
 
 
-def _best_arm(drive, theta, direction):
-    found = contacts(drive, theta, reach=2 * ALIVE)
+def _best_arm(drive: PlaneDrive, theta: float, direction: float) -> float:
+    found = find_contacts(drive, theta, reach=2 * PROFILE_TOLERANCE)
     return np.max(direction * found.arm[found.intended], initial=0.0)

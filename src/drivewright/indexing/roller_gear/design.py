@@ -14,9 +14,11 @@ through several turns: roller k at the cam angle theta is roller 0 at t = theta 
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NoReturn
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
 from drivewright.indexing.motion import TURN, IndexMotion
 
@@ -45,12 +47,12 @@ class RollerGear:
     phase: float
 
     @property
-    def pitch_radius(self):
+    def pitch_radius(self) -> float:
         """Least distance of the circle of the rollers' middles from the cam's axis [m]."""
         return self.centre_distance - self.pin_circle_radius if self.kind == "globoidal" else self.height
 
     @cached_property
-    def rollers(self):
+    def rollers(self) -> tuple[int, ...]:
         """Numbers k of the rollers that meet the cam at some angle of its turn, in the order of psi."""
         radius = self.pin_circle_radius - self.cosine * self.roller_length / 2
         reach = (self.cam_length / 2 + self.roller_radius) / radius
@@ -59,7 +61,7 @@ class RollerGear:
         high = np.ceil(most / self.motion.pitch - self.phase) - 1
         return tuple(range(int(low), int(high) + 1))
 
-    def in_blank(self, points):
+    def in_blank(self, points: Floats) -> Floats:
         """How far [m] points (..., 3) in the cam's frame lie inside the turned blank: above 0 inside.
 
         Ends at |y| = cam_length/2.  Outside of a barrel: a cylinder through the feet of the rollers; of a globoidal cam: a circle about the
@@ -76,7 +78,16 @@ class RollerGear:
         return np.hypot(self.centre_distance - away, axial) - (self.pin_circle_radius - half)
 
 
-def globoidal(motion, pin_circle_radius, roller_radius, roller_length, centre_distance, cam_length, hand="right", phase=0.5):
+def globoidal(
+    motion: IndexMotion,
+    pin_circle_radius: float,
+    roller_radius: float,
+    roller_length: float,
+    centre_distance: float,
+    cam_length: float,
+    hand: str = "right",
+    phase: float = 0.5,
+) -> RollerGear:
     """Hour-glass cam whose rollers stand radially on the turret; pin_circle_radius: of the middles of the rollers.
 
     Raises InputError where rollers overlap, reach the turret's centre or the cam's axis, or the cam is too short or too long.
@@ -110,7 +121,17 @@ def globoidal(motion, pin_circle_radius, roller_radius, roller_length, centre_di
     return cam
 
 
-def barrel(motion, pin_circle_radius, roller_radius, roller_length, cam_radius, cam_length, centre_distance=None, hand="right", phase=0.5):
+def barrel(
+    motion: IndexMotion,
+    pin_circle_radius: float,
+    roller_radius: float,
+    roller_length: float,
+    cam_radius: float,
+    cam_length: float,
+    centre_distance: float | None = None,
+    hand: str = "right",
+    phase: float = 0.5,
+) -> RollerGear:
     """Cylindrical cam whose rollers stand parallel to the turret's axis.
 
     cam_radius: distance of the cam's axis from the plane of the rollers' middles; centre_distance: shortest distance of the two axes,
@@ -145,13 +166,13 @@ def barrel(motion, pin_circle_radius, roller_radius, roller_length, cam_radius, 
     return cam
 
 
-def _sign(hand):
+def _sign(hand: str) -> float:
     if hand not in ("right", "left"):
         raise InputError(f"roller-gear cam: hand = {hand!r}; it is 'right' or 'left'.")
     return -1.0 if hand == "right" else 1.0
 
 
-def _refuse(cam, text):
+def _refuse(cam: RollerGear, text: str) -> NoReturn:
     raise InputError(f"{cam.kind} cam: {text}")
 
 
@@ -189,6 +210,6 @@ def _check_engaged(cam):
         )
 
 
-def turns(theta, rollers):
+def roller_travel(theta: ArrayLike, rollers: ArrayLike) -> Floats:
     """Travel t (rollers, theta) of the cam angles theta for the rollers k."""
     return np.asarray(theta, dtype=float) + TURN * np.asarray(rollers, dtype=float)[:, None]

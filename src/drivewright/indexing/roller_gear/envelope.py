@@ -19,8 +19,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
+from drivewright.indexing.roller_gear.design import RollerGear
 
-class Contact(NamedTuple):
+
+class FlankContact(NamedTuple):
     """Contact of roller 0 with a flank at travel t and place u of the roller; arrays that broadcast, SI units, rates per radian of the cam.
 
     point, normal (..., 3): in the cam's frame, the normal out of the roller into the cam; angle a on the roller; psi of the roller;
@@ -29,32 +32,32 @@ class Contact(NamedTuple):
     line_slope: length of the contact line per du; rolling, sliding [m]: relative speed around and along the roller.
     """
 
-    point: np.ndarray
-    normal: np.ndarray
-    angle: np.ndarray
-    psi: np.ndarray
-    pressure_angle: np.ndarray
-    arm: np.ndarray
-    opening: np.ndarray
-    relative_curvature: np.ndarray
-    cam_curvature: np.ndarray
-    line_slope: np.ndarray
-    rolling: np.ndarray
-    sliding: np.ndarray
+    point: Floats
+    normal: Floats
+    angle: Floats
+    psi: Floats
+    pressure_angle: Floats
+    arm: Floats
+    opening: Floats
+    relative_curvature: Floats
+    cam_curvature: Floats
+    line_slope: Floats
+    rolling: Floats
+    sliding: Floats
 
 
 class _Rates(NamedTuple):
     """P, Q and their derivatives by u and by t, with what they were made of."""
 
-    p: np.ndarray
-    q: np.ndarray
-    p_u: np.ndarray
-    q_u: np.ndarray
-    p_t: np.ndarray
-    q_t: np.ndarray
+    p: Floats
+    q: Floats
+    p_u: Floats
+    q_u: Floats
+    p_t: Floats
+    q_t: Floats
 
 
-def contact(cam, travel, u, flank):
+def flank_contact(cam: RollerGear, travel: ArrayLike, u: ArrayLike, flank: ArrayLike) -> FlankContact:
     """Contact of roller 0 at travel t [rad], place u [m] and flank +1 or -1, broadcast against each other."""
     travel, u, flank = np.broadcast_arrays(np.asarray(travel, float), np.asarray(u, float), np.asarray(flank, float))
     phi, speed, acceleration, _ = cam.motion(travel)
@@ -68,7 +71,7 @@ def contact(cam, travel, u, flank):
     with np.errstate(divide="ignore"):
         relative = gradient / opening
     own = around**2 / (cam.roller_radius * gradient)  # curvature of the roller across the contact line
-    return Contact(
+    return FlankContact(
         point,
         normal,
         np.arctan2(sin_a, cos_a),
@@ -84,7 +87,7 @@ def contact(cam, travel, u, flank):
     )
 
 
-def _rates(cam, psi, speed, acceleration, u):
+def _rates(cam: RollerGear, psi: Floats, speed: Floats, acceleration: Floats, u: Floats) -> _Rates:
     s, c = np.sin(psi), np.cos(psi)
     rho, depth = cam.pin_circle_radius + u * cam.cosine, cam.height - u * cam.sine
     return _Rates(
@@ -124,11 +127,11 @@ def _in_cam(cam, travel, psi, u, cos_a, sin_a):
     rho = cam.pin_circle_radius + u * cam.cosine
     axis = np.stack([rho * c - cam.centre_distance, rho * s, u * cam.sine - cam.height], axis=-1)
     back = -cam.hand_sign * travel
-    return turned(axis + cam.roller_radius * normal, back), turned(normal, back)
+    return rotate_about_y(axis + cam.roller_radius * normal, back), rotate_about_y(normal, back)
 
 
-def turned(vectors, angle):
-    """Vectors (..., 3) turned by `angle` about y."""
+def rotate_about_y(vectors: ArrayLike, angle: ArrayLike) -> Floats:
+    """Vectors (..., 3) turned by `angle` [rad] about y, by the right hand."""
     s, c = np.sin(angle), np.cos(angle)
     x, y, z = np.moveaxis(np.asarray(vectors, float), -1, 0)
     return np.stack(np.broadcast_arrays(x * c + z * s, y, z * c - x * s), axis=-1)

@@ -8,23 +8,26 @@ phi and every dip is refined.  A dip below -TOUCH covers the point.  The contact
 import numpy as np
 
 from drivewright._jit import inner, kernel, warmer
-from drivewright.indexing.motion import TURN
+from drivewright._typing import Bools, Floats
+from drivewright.indexing.motion import TURN, IndexMotion
+from drivewright.indexing.roller_gear.design import RollerGear
+from drivewright.indexing.roller_gear.envelope import FlankContact
 
 TOUCH = 1e-7  # of the roller's radius
 KNOTS = 360
-AWAY = np.inf
+FAR = np.inf
 
 
-def motion_table(motion, knots=KNOTS):
+def tabulate_motion(motion: IndexMotion, knots: int = KNOTS) -> tuple[Floats, Floats]:
     """(ends (n + 1,), coefficients (n, 6)): phi on each cell as a quintic of theta - ends[i], exact phi, phi', phi'' at both ends.
 
     No cell crosses a joint of the law, where higher derivatives jump.
     """
     ends, rows = [0.0], []
-    for stretch in motion.stretches:
-        count = max(4, int(np.ceil(knots * (stretch.stop - stretch.start) / TURN)))
-        theta = np.linspace(stretch.start, stretch.stop, count + 1)
-        f, d1, d2, _ = motion.on(stretch, theta)
+    for segment in motion.segments:
+        count = max(4, int(np.ceil(knots * (segment.stop - segment.start) / TURN)))
+        theta = np.linspace(segment.start, segment.stop, count + 1)
+        f, d1, d2, _ = motion.on_segment(segment, theta)
         rows.append(_quintic(np.diff(theta), f, d1, d2))
         ends.extend(theta[1:])
     return np.array(ends), np.concatenate(rows)
@@ -41,8 +44,8 @@ def _quintic(h, f, d1, d2):
     return np.stack([a0, a1, a2, a3, a4, a5], axis=1)
 
 
-def shape(cam):
-    """Numbers of the cam that the kernels read: R, r, half length, C, h, cos b, sin b, hand sign, pitch, phase."""
+def kernel_parameters(cam: RollerGear) -> Floats:
+    """(10,): parameters of the cam that the kernels read, SI units: R, r, half length, C, h, cos b, sin b, hand sign, pitch, phase."""
     return np.array(
         [
             cam.pin_circle_radius,
@@ -60,9 +63,9 @@ def shape(cam):
 
 
 @inner
-def gap_at(x, y, z, theta, phi, numbers):
+def roller_gap(x: float, y: float, z: float, theta: float, phi: float, parameters: Floats) -> float:
     """Gap [m] of a point (x, y, z) of the cam to the nearest roller at the cam angle theta, negative inside the roller."""
-    radius, roller, half, centre, height, cosine, sine, hand, pitch, phase = numbers
+    radius, roller, half, centre, height, cosine, sine, hand, pitch, phase = parameters
     s, c = np.sin(hand * theta), np.cos(hand * theta)
     px, pz = x * c + z * s + centre, z * c - x * s + height
     angle = np.arctan2(y, px) - phi - pitch * phase
@@ -74,12 +77,13 @@ def gap_at(x, y, z, theta, phi, numbers):
 
 @inner
 def _phi(cells, cell, h):
+    """phi [rad] of a cell of the table (cells (n, 6)) at h [rad] from its start."""
     a = cells[cell]
     return a[0] + h * (a[1] + h * (a[2] + h * (a[3] + h * (a[4] + h * a[5]))))
 
 
 @inner
-def _gap_near(x, y, z, theta, i, j, ends, cells, numbers):
+def _gap_near(x, y, z, theta, i, j, ends, cells, parameters):
     """Gap at a theta near knot i = end of cell i - 1 and start of cell i; j is the cell before, the last one for i = 0."""
     turn = ends[-1]
     if theta >= ends[i]:
@@ -88,78 +92,81 @@ def _gap_near(x, y, z, theta, i, j, ends, cells, numbers):
         phi = _phi(cells, j, theta - ends[j])
     else:
         phi = _phi(cells, j, theta + turn - ends[j])  # a pitch too much, which only names another roller
-    return gap_at(x, y, z, theta, phi, numbers)
+    return roller_gap(x, y, z, theta, phi, parameters)
 
 
 @inner
-def _dip(x, y, z, i, j, ends, cells, numbers):
+def _dip(x, y, z, i, j, ends, cells, parameters):
     """Least gap between the knots beside knot i, by golden section."""
     golden = 0.6180339887498949
     a = ends[i] - (ends[j + 1] - ends[j])
     b = ends[i + 1]
     p, q = b - golden * (b - a), a + golden * (b - a)
-    gp = _gap_near(x, y, z, p, i, j, ends, cells, numbers)
-    gq = _gap_near(x, y, z, q, i, j, ends, cells, numbers)
+    gp = _gap_near(x, y, z, p, i, j, ends, cells, parameters)
+    gq = _gap_near(x, y, z, q, i, j, ends, cells, parameters)
     least = min(gp, gq)
     for _ in range(32):
         if gp < gq:
             b, q, gq = q, p, gp
             p = b - golden * (b - a)
-            gp = _gap_near(x, y, z, p, i, j, ends, cells, numbers)
+            gp = _gap_near(x, y, z, p, i, j, ends, cells, parameters)
             least = min(least, gp)
         else:
             a, p, gp = p, q, gq
             q = a + golden * (b - a)
-            gq = _gap_near(x, y, z, q, i, j, ends, cells, numbers)
+            gq = _gap_near(x, y, z, q, i, j, ends, cells, parameters)
             least = min(least, gq)
     return least
 
 
 @kernel
-def least_gaps(points, ends, cells, numbers, limit):
-    """Least gap [m] (n,) of points (n, 3) of the cam to any roller at any angle of a turn; the search ends below -limit."""
+def minimum_gaps(points: Floats, ends: Floats, cells: Floats, parameters: Floats, limit: float) -> Floats:
+    """Least gap [m] (n,) of points (n, 3) of the cam to any roller at any angle of a turn; the search ends below -limit [m].
+
+    ends (m + 1,) [rad], cells (m, 6): the table of phi; parameters (10,): `kernel_parameters`.
+    """
     count = len(cells)
-    reach = 1.2 * numbers[2] * numbers[6] + 1.5 * numbers[1] * numbers[5]  # rollers stay well within this height
-    sines, cosines = np.sin(numbers[7] * ends), np.cos(numbers[7] * ends)
+    reach = 1.2 * parameters[2] * parameters[6] + 1.5 * parameters[1] * parameters[5]  # rollers stay well within this height
+    sines, cosines = np.sin(parameters[7] * ends), np.cos(parameters[7] * ends)
     result, gaps = np.empty(len(points)), np.empty(count)
     for n in range(len(points)):
         x, y, z = points[n]
         for i in range(count):
-            px, pz = x * cosines[i] + z * sines[i] + numbers[3], z * cosines[i] - x * sines[i] + numbers[4]
+            px, pz = x * cosines[i] + z * sines[i] + parameters[3], z * cosines[i] - x * sines[i] + parameters[4]
             near = px > 0 and abs(pz) <= reach
-            gaps[i] = gap_at(x, y, z, ends[i], cells[i, 0], numbers) if near else AWAY
+            gaps[i] = roller_gap(x, y, z, ends[i], cells[i, 0], parameters) if near else FAR
         least = gaps.min()
         for i in range(count):
             j, k = (i - 1) % count, (i + 1) % count
-            bend = gaps[j] + gaps[k] - 2 * gaps[i]
+            curvature = gaps[j] + gaps[k] - 2 * gaps[i]
             if least < -limit:
                 break
-            if gaps[i] < AWAY and gaps[i] <= gaps[j] and gaps[i] <= gaps[k] and gaps[i] < max(least, 0.0) + bend:
-                least = min(least, _dip(x, y, z, i, j, ends, cells, numbers))
+            if gaps[i] < FAR and gaps[i] <= gaps[j] and gaps[i] <= gaps[k] and gaps[i] < max(least, 0.0) + curvature:
+                least = min(least, _dip(x, y, z, i, j, ends, cells, parameters))
         result[n] = least
     return result
 
 
-class Survivors:
-    """Cover test of one cam; `margin` says for points of its frame whether they lie on the finished cam."""
+class TrimmingTest:
+    """Which points of one cam, in its own frame, lie on the finished cam."""
 
-    def __init__(self, cam, knots=KNOTS):
-        self.cam, self.numbers, self.table = cam, shape(cam), motion_table(cam.motion, knots)
+    def __init__(self, cam: RollerGear, knots: int = KNOTS):
+        self.cam, self.parameters, self.table = cam, kernel_parameters(cam), tabulate_motion(cam.motion, knots)
 
-    def least_gap(self, points):
+    def minimum_gaps(self, points: Floats) -> Floats:
         """Least gap [m] (...,) of points (..., 3) to any roller over a turn; what is deeper than TOUCH is only known to be so."""
         flat = np.ascontiguousarray(points, dtype=float).reshape(-1, 3)
         limit = TOUCH * self.cam.roller_radius
-        return least_gaps(flat, *self.table, self.numbers, limit).reshape(np.shape(points)[:-1])
+        return minimum_gaps(flat, *self.table, self.parameters, limit).reshape(np.shape(points)[:-1])
 
-    def alive(self, touching):
+    def on_cam(self, contact: FlankContact) -> Bools:
         """True where a Contact lies inside the blank, is no undercut and is covered by no roller."""
-        alive = (self.cam.in_blank(touching.point) >= -1e-12) & (touching.opening > 0)
-        alive[alive] = self.least_gap(touching.point[alive]) >= -TOUCH * self.cam.roller_radius
-        return alive
+        on_cam = (self.cam.in_blank(contact.point) >= -1e-12) & (contact.opening > 0)
+        on_cam[on_cam] = self.minimum_gaps(contact.point[on_cam]) >= -TOUCH * self.cam.roller_radius
+        return on_cam
 
 
 @warmer
 def _warm():
     ends = np.linspace(0.0, TURN, 5)
-    least_gaps(np.zeros((1, 3)), ends, np.zeros((4, 6)), np.ones(10), 1e-9)
+    minimum_gaps(np.zeros((1, 3)), ends, np.zeros((4, 6)), np.ones(10), 1e-9)

@@ -1,29 +1,30 @@
 """Planar pictures of a roller-gear cam: its surface unrolled, and its section in the plane through its axis that meets the rollers."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
 from drivewright.indexing.motion import TURN
-from drivewright.indexing.roller_gear.design import turns
-from drivewright.indexing.roller_gear.envelope import contact, turned
+from drivewright.indexing.roller_gear.design import RollerGear, roller_travel
+from drivewright.indexing.roller_gear.envelope import flank_contact, rotate_about_y
 
 STEPS = 361  # points on a turn of a groove
 
 
-class Developed(NamedTuple):
+class DevelopedSurface(NamedTuple):
     """The pitch surface unrolled: x = pitch_radius times the cam's angle, y along the path of the rollers [m].
 
     ribs: closed polygons (n, 2) of the material.  At the cam angle theta the ribs are shifted by -pitch_radius theta and the rollers are
     circles of roller_radius about `centres(theta)`; neighbours turns apart are the same rib.
     """
 
-    ribs: tuple
+    ribs: tuple[Floats, ...]
     pitch_radius: float
 
 
-def developed(cam, start=-0.5, stop=1.5):
+def develop_surface(cam: RollerGear, start: float = -0.5, stop: float = 1.5) -> DevelopedSurface:
     """Developed surface of a cam from the turn `start` to the turn `stop` of its angle."""
     from shapely import Polygon, box, union_all
 
@@ -31,24 +32,24 @@ def developed(cam, start=-0.5, stop=1.5):
         raise InputError(f"developed view: from turn {start} to turn {stop}; the first must be below the second.")
     half = _height_of(cam, cam.cam_length / 2)
     strip = box(start * TURN * cam.pitch_radius, -half, stop * TURN * cam.pitch_radius, half)
-    travel = np.linspace(*groove_range(cam), len(cam.rollers) * (STEPS - 1) + 1)
+    travel = np.linspace(*groove_travel_range(cam), len(cam.rollers) * (STEPS - 1) + 1)
     shape = np.array([_unrolled(cam, travel, side) for side in (1.0, -1.0)])
     groove = np.concatenate([shape[0], shape[1, ::-1]])
     shifts = range(int(np.floor(start)) - max(cam.rollers) - 2, int(np.ceil(stop)) - min(cam.rollers) + 3)
     grooves = [Polygon(groove + (TURN * cam.pitch_radius * k, 0.0)).buffer(0) for k in shifts]
-    return Developed(_polygons(strip.difference(union_all(grooves))), cam.pitch_radius)
+    return DevelopedSurface(_polygons(strip.difference(union_all(grooves))), cam.pitch_radius)
 
 
-def centres(cam, theta):
+def developed_roller_centres(cam: RollerGear, theta: ArrayLike) -> Floats:
     """Centres (roller, theta, 2) [m] of the rollers in the developed view, the cam's rollers in order of psi."""
-    psi = _psi(cam, turns(np.atleast_1d(theta), cam.rollers))
+    psi = _psi(cam, roller_travel(np.atleast_1d(theta), cam.rollers))
     if cam.kind == "globoidal":
         return np.stack([np.zeros_like(psi), cam.pin_circle_radius * psi], axis=-1)
     across = cam.hand_sign * (cam.pin_circle_radius * np.cos(psi) - cam.centre_distance)
     return np.stack([across, cam.pin_circle_radius * np.sin(psi)], axis=-1)
 
 
-def section(cam, theta):
+def axial_section(cam: RollerGear, theta: float) -> tuple[Floats, ...]:
     """Closed polygons (n, 2) [m], (y along the axis, distance from it), of the half of the cam that faces the rollers at the angle theta.
 
     The plane holds the cam's axis; of a globoidal cam it is the plane of the rollers' axes, of a barrel it is parallel to them.
@@ -56,10 +57,10 @@ def section(cam, theta):
     from shapely import Polygon, union_all
 
     grooves = [Polygon(_groove(cam, theta, roller)).buffer(0) for roller in cam.rollers]
-    return _polygons(Polygon(blank(cam)).difference(union_all(grooves)))
+    return _polygons(Polygon(blank_section(cam)).difference(union_all(grooves)))
 
 
-def blank(cam, count=65):
+def blank_section(cam: RollerGear, count: int = 65) -> Floats:
     """Half-section (n, 2) [m] of the turned blank, (y along the axis, distance from it), counter-clockwise from the axis."""
     end, foot = cam.cam_length / 2, cam.roller_length / 2
     y = np.linspace(end, -end, count)
@@ -70,17 +71,17 @@ def blank(cam, count=65):
     return np.concatenate([[[-end, 0.0], [end, 0.0]], top])
 
 
-def groove_range(cam):
+def groove_travel_range(cam: RollerGear) -> tuple[float, float]:
     """(start, stop) [rad] of the travel of roller 0 in which it is near the cam: the whole turns of the rollers that meet it."""
     return TURN * min(cam.rollers), TURN * (max(cam.rollers) + 1)
 
 
-def deep(cam):
+def groove_floor(cam: RollerGear) -> float:
     """u [m] of the floor of the grooves: the tips clear it by a twentieth of their radius.  It is as flat as the tip of a roller."""
     return cam.roller_length / 2 + cam.roller_radius / 20
 
 
-def shallow(cam):
+def groove_mouth(cam: RollerGear) -> float:
     """u [m] at which a groove is clear of the blank, below the feet of the rollers."""
     foot = cam.pin_circle_radius - cam.roller_length / 2
     sagitta = foot - np.sqrt(max(foot**2 - cam.roller_radius**2, 0.0)) if cam.kind == "globoidal" else 0.0
@@ -91,40 +92,40 @@ def _psi(cam, travel):
     return cam.motion(travel).d0 + cam.motion.pitch * cam.phase
 
 
-def _height_of(cam, axial):
+def _height_of(cam: RollerGear, axial: float) -> float:
     """Height in the developed view of the end of the cam."""
     return cam.pin_circle_radius * np.arcsin(axial / cam.pin_circle_radius) if cam.kind == "globoidal" else axial
 
 
-def _lag(cam, point, travel):
+def _lag(cam: RollerGear, point: Floats, travel: Floats) -> Floats:
     """Angle [rad] of the cam by which a point of its surface passes the reference plane later than at `travel`."""
-    x, _, z = np.moveaxis(turned(point, cam.hand_sign * travel), -1, 0)
+    x, _, z = np.moveaxis(rotate_about_y(point, cam.hand_sign * travel), -1, 0)
     away = np.arctan2(z, -x) if cam.kind == "globoidal" else -np.arctan2(x, -z)
     return -cam.hand_sign * away
 
 
-def _unrolled(cam, travel, side):
-    point = contact(cam, travel, 0.0, side).point
+def _unrolled(cam: RollerGear, travel: Floats, side: float) -> Floats:
+    point = flank_contact(cam, travel, 0.0, side).point
     distance = cam.pitch_radius * (travel + _lag(cam, point, travel))
     away = np.hypot(point[:, 0], point[:, 2])
     chi = np.arctan2(point[:, 1], cam.centre_distance - away)
     return np.column_stack([distance, cam.pin_circle_radius * chi if cam.kind == "globoidal" else point[:, 1]])
 
 
-def _groove(cam, theta, roller):
+def _groove(cam: RollerGear, theta: float, roller: int) -> Floats:
     """Section (n, 2) of the groove of a roller: down one wall, along the floor, up the other."""
-    travel = turns(np.linspace(theta - 0.6, theta + 0.6, 121), [roller])[0]
-    down, flat = np.linspace(shallow(cam), deep(cam), 17), np.linspace(1, -1, 9)[1:-1]
-    u = np.concatenate([down, np.full(len(flat), deep(cam)), down[::-1]])[:, None]
+    travel = roller_travel(np.linspace(theta - 0.6, theta + 0.6, 121), [roller])[0]
+    down, flat = np.linspace(groove_mouth(cam), groove_floor(cam), 17), np.linspace(1, -1, 9)[1:-1]
+    u = np.concatenate([down, np.full(len(flat), groove_floor(cam)), down[::-1]])[:, None]
     side = np.concatenate([np.ones(len(down)), flat, -np.ones(len(down))])[:, None]  # from flank +1 through the axis to flank -1
-    touching = contact(cam, travel, u, 1.0)
-    point = touching.point + (side[..., None] - 1) * cam.roller_radius * touching.normal
+    contact = flank_contact(cam, travel, u, 1.0)
+    point = contact.point + (side[..., None] - 1) * cam.roller_radius * contact.normal
     passing = travel + _lag(cam, point, travel)
     at = theta + TURN * roller
     spots = np.stack([point[..., 1], np.hypot(point[..., 0], point[..., 2])], axis=-1)
     return np.array([[np.interp(at, when, where[:, i]) for i in (0, 1)] for when, where in zip(passing, spots, strict=True)])
 
 
-def _polygons(shape):
+def _polygons(shape: Any) -> tuple[Floats, ...]:
     parts = getattr(shape, "geoms", [shape])
     return tuple(np.array(part.exterior.coords)[:-1] for part in parts if part.area > 0)

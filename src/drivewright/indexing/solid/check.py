@@ -20,8 +20,8 @@ from drivewright.indexing.drivetrain import SIDES
 from drivewright.indexing.solid import bodies as of
 from drivewright.indexing.solid.parts import check
 from drivewright.indexing.solid.springs import Position, springs, touched
-from drivewright.indexing.stiffness import TorsionalStiffness, solve
-from drivewright.indexing.stiffness.assembly import turn
+from drivewright.indexing.stiffness import TorsionalStiffness, solve_torsional_stiffness
+from drivewright.indexing.stiffness.assembly import cam_phases
 from drivewright.solids.coupling import InterfaceSpring, functional_offsets, solve_coupled
 from drivewright.solids.deformation import DisplacedSurface, displaced_table, exaggeration_for, with_mirror_images
 from drivewright.solids.elastic import superposed_field
@@ -75,13 +75,14 @@ def solid_stiffness(
 ):
     """`SolidStiffness` of a `PinWheel`, its `Drivetrain` and `Solids` at the angles theta (p,) [rad] under a torque [N m].
 
-    contacts: `Contacts` of cam 0, one a position, as for the reduced model; fineness: factor on all element sizes; strip: width sigma of a
+    contacts: `CamContacts` of cam 0, one a position, as for the reduced model; fineness: factor on all element sizes; strip: width sigma of
+    a
     contact on the cam in radii of a pin.
     """
     started = perf_counter()
     check(solids, wheel, drive, cams)
     theta = np.atleast_1d(np.asarray(theta, dtype=float))
-    reduced = solve(drive, theta, contacts, wheel.eccentricity, torque, cams=cams, sense=int(wheel.sense), model=model)
+    reduced = solve_torsional_stiffness(drive, theta, contacts, wheel.eccentricity, torque, cams=cams, sense=int(wheel.sense), model=model)
     places = {i: _position(wheel, reduced, contacts, i) for i, outcome in enumerate(reduced.outcome) if outcome == "carried"}
     if not places:
         raise InputError(f"solid check: no position carries the torque: {reduced.reasons[0]}.")
@@ -118,7 +119,7 @@ def condensed(wheel, drive, solids, places, cams, fineness=1.0, strip=STRIP):
     """{("cam", j), ("shaft", side), ("wheel",): Substructure} for all positions at once."""
     pairs = sorted(set().union(*(touched(place)[0] for place in places.values())))
     width = solids.cam.thickness if solids.cam else None
-    throws = [complex(c) for c in wheel.eccentricity * turn(cams)]
+    throws = [complex(c) for c in wheel.eccentricity * cam_phases(cams)]
     shaft = of.shaft(drive, solids.shaft, throws, fineness)
     made = _cams(wheel, drive, solids.cam, places, cams, fineness, strip * wheel.pin_radius)
     found = {("cam", j): body for j, body in enumerate(made)}
@@ -137,7 +138,7 @@ def _cams(wheel, drive, body, places, cams, fineness, sigma):
     outline = wheel.profile.outline() if body else None
     half = cams // 2 if cams % 2 == 0 else cams
     found = []
-    for way in turn(cams)[:half]:
+    for way in cam_phases(cams)[:half]:
         holes = [complex(side * drive.spacing / 2 / way) for side in SIDES]
         made = of.cam(outline, body, holes, strips, sigma, fineness)
         found.append(made if body is None else _undented(made, of.dent(sigma, wheel.pin_radius, body)))

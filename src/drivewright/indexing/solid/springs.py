@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright.errors import SolverError
-from drivewright.indexing.drivetrain import SIDES, PowerBearing
+from drivewright.indexing.drivetrain import SIDES, PowerLawBearing
 from drivewright.indexing.solid.bodies import TURN_RADIUS
-from drivewright.indexing.stiffness.assembly import flank_directions, turn
-from drivewright.indexing.stiffness.laws import bearing_law
+from drivewright.indexing.stiffness.assembly import cam_phases, flank_directions
+from drivewright.indexing.stiffness.laws import radial_bearing_law
 from drivewright.solids.coupling import InterfaceSpring
 
 LEAST = 1e-6  # of the typical force: below it a bearing keeps the secant that it has there
@@ -37,7 +37,7 @@ def springs(drive, place, number, both, solid_pins):
     typical = np.abs(place.cranks).max()
     yield from _pins(drive, place, number, both, solid_pins)
     for side in (0, 1):
-        for j, way in enumerate(turn(len(place.pins))):
+        for j, way in enumerate(cam_phases(len(place.pins))):
             seat = _vector(("cam", j), ("seat", side), 1 / way, 1.0)
             journal = _vector(("shaft", side), ("crank", j), np.exp(-1j * place.crank), -1.0)
             yield from _bearing("crank", drive.crank, place.cranks[side, j], typical, [a + b for a, b in zip(seat, journal, strict=True)])
@@ -59,7 +59,7 @@ def _vector(body, name, back, factor):
 def _pins(drive, place, number, both, solid_pins):
     """d = n . u_cam - n . u_pin of the contacts that carry."""
     back = np.exp(-1j * place.wheel)
-    for j, way in enumerate(turn(len(place.pins))):
+    for j, way in enumerate(cam_phases(len(place.pins))):
         for c, force in enumerate(place.pins[j]):
             if force == 0:
                 continue
@@ -105,9 +105,9 @@ def _bearing(group, bearing, force, typical, rows, behind=None):
 
 def displacement(bearing, force):
     """Displacement [m] of a bearing under a radial force [N], both complex."""
-    if isinstance(bearing, PowerBearing):
+    if isinstance(bearing, PowerLawBearing):
         return force / abs(force) * ((abs(force) / bearing.constant) ** (1 / bearing.exponent) + bearing.clearance)
-    law, wanted = bearing_law(bearing), np.array([force.real, force.imag])
+    law, wanted = radial_bearing_law(bearing), np.array([force.real, force.imag])
     at = wanted / law.secant(abs(force))
     energy, found, slope = law(at)
     for _ in range(MOST_STEPS):

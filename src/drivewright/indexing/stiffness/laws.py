@@ -4,44 +4,58 @@ A law is called with strains d (..., c), c = 1 for a contact and 2 for a bearing
 stiffness (..., c, c)); the force is the gradient of the convex energy.  `secant(force)` [N/m] is a usual stiffness to start from.
 """
 
-from typing import NamedTuple
+from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from drivewright.indexing.drivetrain import PinContact, PowerBearing
+from drivewright._typing import Floats
+from drivewright.indexing.drivetrain import BearingModel, PinContact, PowerLawBearing
 
 LINE = 10 / 9
 TURNS = 6  # of Newton's method for the share of the line contact: quadratic from a start within a few tens of per cent
 TINY = 1e-300
 
 
-class Contact(NamedTuple):
-    """Contacts (cams' pins): force of a `PinContact` against approach; `both`: they also pull, as if bonded."""
+Response: TypeAlias = tuple[Floats, Floats, Floats]  # energy (...) [J], force (..., c) [N], stiffness (..., c, c) [N/m]
+
+
+class ForceLaw(Protocol):
+    """Answers strains (..., c) [m] with its `Response`, and a force [N] with a usual stiffness [N/m]."""
+
+    def __call__(self, strain: Floats) -> Response: ...
+
+    def secant(self, force: float) -> float:
+        """A usual secant stiffness F/d [N/m]."""
+        ...
+
+
+class PinContactLaw(NamedTuple):
+    """Contacts (cams' pins): force of a `PinContact` against approach; `bonded`: they also pull, as if bonded."""
 
     pin: PinContact
-    both: bool
+    bonded: bool
 
-    def __call__(self, strain):
+    def __call__(self, strain: Floats) -> Response:
         """F(d) of d = s + F/k, F = c s^(10/9); V = 9/19 c s^(19/9) + F^2/2k;  dF/dd = 1/(0.9 s/F + 1/k)."""
         c, k = self.pin.line, self.pin.series
-        depth = np.abs(strain) if self.both else np.maximum(strain, 0.0)
+        depth = np.abs(strain) if self.bonded else np.maximum(strain, 0.0)
         if c is None:
-            force, slope, energy = k * depth, np.where((strain > 0) | self.both, k, 0.0), 0.5 * k * depth**2
+            force, slope, energy = k * depth, np.where((strain > 0) | self.bonded, k, 0.0), 0.5 * k * depth**2
         else:
-            share = depth if k is None else line_share(depth, c / k)
+            share = depth if k is None else line_contact_approach(depth, c / k)
             root = c * share ** (LINE - 1)
             force = root * share
             slope = root / (1 / LINE + (0.0 if k is None else root / k))
             energy = force * share / (1 + LINE) + (0.0 if k is None else 0.5 * force**2 / k)
-        return energy[..., 0], np.copysign(force, strain) if self.both else force, slope[..., None]
+        return energy[..., 0], np.copysign(force, strain) if self.bonded else force, slope[..., None]
 
-    def secant(self, force):
+    def secant(self, force: float) -> float:
         """F/d [N/m]."""
         line = 0.0 if self.pin.line is None else (force / self.pin.line) ** 0.9 / force
         return 1.0 / (line + (0.0 if self.pin.series is None else 1.0 / self.pin.series))
 
 
-def line_share(depth, ratio):
+def line_contact_approach(depth: Floats, ratio: float) -> Floats:
     """s of s + ratio s^(10/9) = depth."""
     share = depth / (1 + ratio * depth ** (LINE - 1))
     for _ in range(TURNS):
@@ -50,42 +64,46 @@ def line_share(depth, ratio):
     return share
 
 
-class Rigid(NamedTuple):
+class RigidContactLaw(NamedTuple):
     """Rigid contacts by the method of multipliers: F = max(m + k d, 0) with multipliers m (..., 1) that a loop moves to where d = 0.
 
     A stiffness k alone leaves the error F/k; here it only sets how fast the loop is.
     """
 
-    multipliers: np.ndarray
-    k: np.ndarray
-    both: bool
+    multipliers: Floats
+    k: Floats
+    bonded: bool
 
-    def __call__(self, strain):
+    def __call__(self, strain: Floats) -> Response:
         pull = self.multipliers + self.k * strain
-        force = pull if self.both else np.maximum(pull, 0.0)
-        slope = np.where((force > 0) | self.both, self.k, 0.0)
+        force = pull if self.bonded else np.maximum(pull, 0.0)
+        slope = np.where((force > 0) | self.bonded, self.k, 0.0)
         return ((force**2 - self.multipliers**2) / (2 * self.k))[..., 0], force, slope[..., None]
 
 
-class Flank(NamedTuple):
+StrainLaw: TypeAlias = ForceLaw | RigidContactLaw
+
+
+class GearFlankLaw(NamedTuple):
     """One-sided linear contact: F = k max(d, 0)."""
 
     k: float
 
-    def __call__(self, strain):
+    def __call__(self, strain: Floats) -> Response:
         depth = np.maximum(strain, 0.0)
         return 0.5 * self.k * depth[..., 0] ** 2, self.k * depth, np.where(strain > 0, self.k, 0.0)[..., None]
 
-    def secant(self, force):
+    def secant(self, force: float) -> float:
+        """F/d [N/m]."""
         return self.k
 
 
-class Radial(NamedTuple):
+class RadialBearingLaw(NamedTuple):
     """A bearing alike in all directions: F = K max(r - c, 0)^n along d, r = |d|;  dF = F' e e' + F/r (1 - e e')."""
 
-    bearing: PowerBearing
+    bearing: PowerLawBearing
 
-    def __call__(self, strain):
+    def __call__(self, strain: Floats) -> Response:
         constant, n, clearance = self.bearing
         length = np.hypot(strain[..., 0], strain[..., 1])
         depth = np.maximum(length - clearance, 0.0)
@@ -99,14 +117,15 @@ class Radial(NamedTuple):
         stiffness[..., 1, 1] += around
         return force * depth / (1 + n), around[..., None] * strain if clearance == 0 else force[..., None] * along, stiffness
 
-    def secant(self, force):
+    def secant(self, force: float) -> float:
+        """F/d [N/m]."""
         return self.bearing.constant ** (1 / self.bearing.exponent) * force ** (1 - 1 / self.bearing.exponent)
 
 
-def bearing_law(bearing):
-    """The law of a PowerBearing, or of a rolling bearing of `drivewright.bearings` with its axial place and tilts held."""
-    if isinstance(bearing, PowerBearing):
-        return Radial(bearing)
-    from drivewright.indexing.stiffness.rolling import rolling_law  # its kernel imports numba
+def radial_bearing_law(bearing: BearingModel) -> ForceLaw:
+    """The law of a PowerLawBearing, or of a rolling bearing of `drivewright.bearings` with its axial place and tilts held."""
+    if isinstance(bearing, PowerLawBearing):
+        return RadialBearingLaw(bearing)
+    from drivewright.indexing.stiffness.rolling import rolling_bearing_law  # its kernel imports numba
 
-    return rolling_law(bearing)
+    return rolling_bearing_law(bearing)

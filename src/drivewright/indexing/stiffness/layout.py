@@ -5,60 +5,64 @@ rotation at the gear and at every cam, displacement of its axis at the gear, the
 their seats.  Rotations are multiplied by half the spacing, so that all are lengths.  A row of complex coefficients gives a vector.
 """
 
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.indexing.drivetrain import SIDES
+from drivewright._typing import Floats
+from drivewright.indexing.drivetrain import SIDES, Drivetrain, SplitShaft
 from drivewright.shafts import EULER_BERNOULLI, Shaft, Support
 
 OUT, WHEEL, WHEEL_X = 0, 1, 2
 CAMS = 4  # the first unknown of the first cam
 
 
-class Layout(NamedTuple):
-    """Where the unknowns of a drive with so many cams stand."""
+class StiffnessLayout(NamedTuple):
+    """Numbers of the unknowns of a drive with `cams` cams."""
 
     cams: int
 
     @property
-    def of_a_shaft(self):
+    def shaft_unknowns(self) -> int:
+        """Unknowns of one split shaft."""
         return 11 + 3 * self.cams
 
     @property
-    def size(self):
-        return CAMS + 3 * self.cams + 2 * self.of_a_shaft
+    def size(self) -> int:
+        """Number of all unknowns."""
+        return CAMS + 3 * self.cams + 2 * self.shaft_unknowns
 
-    def cam(self, j):
+    def cam(self, j: int) -> int:
         """First unknown of cam j: x, y, rotation."""
         return CAMS + 3 * j
 
-    def twist(self, side, station):
+    def twist(self, side: int, station: int) -> int:
         """Rotation of a shaft; station 0 is the gear, j + 1 cam j."""
-        return CAMS + 3 * self.cams + side * self.of_a_shaft + station
+        return CAMS + 3 * self.cams + side * self.shaft_unknowns + station
 
-    def station(self, side, station):
+    def station(self, side: int, station: int) -> int:
         """First of the two displacements of a shaft's axis at the gear or a cam."""
         return self.twist(side, 0) + 1 + self.cams + 2 * station
 
-    def support(self, side, end):
+    def support(self, side: int, end: int) -> int:
         """... at the front (0) or rear (1) support."""
         return self.station(side, 1 + self.cams) + 2 * end
 
-    def ring(self, side, end):
+    def ring(self, side: int, end: int) -> int:
         """... of the ring of that support in its seat."""
         return self.support(side, 2) + 2 * end
 
 
-class Spring(NamedTuple):
+class LinearPart(NamedTuple):
     """A linear part: rows (r, size) of its strains and their stiffness (r, r); None is rigid."""
 
     name: str
-    rows: np.ndarray
-    stiffness: np.ndarray | None
+    rows: Floats
+    stiffness: Floats | None
 
 
-def vector_row(layout, terms):
+def vector_rows(layout: StiffnessLayout, terms: Sequence[tuple[int, float]]) -> Floats:
     """(2, size): the row of the vector sum of coefficient * unknown for terms (first of two unknowns, complex or real factor)."""
     row = np.zeros((2, layout.size))
     for at, factor in terms:
@@ -66,79 +70,80 @@ def vector_row(layout, terms):
     return row
 
 
-def springs(drive, layout):
-    """The linear parts of a drive, each a `Spring`."""
+def linear_parts(drive: Drivetrain, layout: StiffnessLayout) -> Iterator[LinearPart]:
+    """The linear parts of a drive, each a `LinearPart`."""
     lever = drive.spacing / 2
     output = np.zeros((1, layout.size))
     output[0, [OUT, WHEEL]] = 1 / lever, -1 / lever
-    yield Spring("output", output, None if drive.wheel_torsion is None else np.array([[drive.wheel_torsion]]))
+    yield LinearPart("output", output, None if drive.wheel_torsion is None else np.array([[drive.wheel_torsion]]))
     if drive.wheel is None:
-        yield Spring("wheel", vector_row(layout, [(WHEEL_X, 1.0)]), None)
+        yield LinearPart("wheel", vector_rows(layout, [(WHEEL_X, 1.0)]), None)
     for side in range(len(SIDES)):
         yield from _mounting(drive, layout, side)
-        yield Spring("bending", *_bending(drive.shaft, layout, side))
-        yield Spring("torsion", *_torsion(drive.shaft, layout, side, lever))
+        yield LinearPart("bending", *_bending(drive.shaft, layout, side))
+        yield LinearPart("torsion", *_torsion(drive.shaft, layout, side, lever))
         if drive.gear is None:
             held = np.zeros((1, layout.size))
             held[0, layout.twist(side, 0)] = 1 / lever
-            yield Spring("gear", held, None)
+            yield LinearPart("gear", held, None)
 
 
-def _mounting(drive, layout, side):
+def _mounting(drive: Drivetrain, layout: StiffnessLayout, side: int) -> Iterator[LinearPart]:
     for end in (0, 1):
-        seat = vector_row(layout, [(layout.ring(side, end), 1.0)])
-        yield Spring("housing", seat, None if drive.housing is None else drive.housing * np.eye(2))
+        seat = vector_rows(layout, [(layout.ring(side, end), 1.0)])
+        yield LinearPart("housing", seat, None if drive.housing is None else drive.housing * np.eye(2))
         if drive.support is None:
-            yield Spring("support", support_row(layout, side, end), None)
+            yield LinearPart("support", support_rows(layout, side, end), None)
 
 
-def support_row(layout, side, end):
+def support_rows(layout: StiffnessLayout, side: int, end: int) -> Floats:
     """(2, size): displacement of a shaft against the ring of a support."""
-    return vector_row(layout, [(layout.support(side, end), 1.0), (layout.ring(side, end), -1.0)])
+    return vector_rows(layout, [(layout.support(side, end), 1.0), (layout.ring(side, end), -1.0)])
 
 
-def _bending(shaft, layout, side):
+def _bending(shaft: SplitShaft | None, layout: StiffnessLayout, side: int) -> tuple[Floats, Floats | None]:
     """Stations off the line through the supports: energy 1/2 r' Phi^-1 r in x and in y, Phi on rigid supports."""
-    share = np.zeros(1 + layout.cams) if shaft is None else shares(shaft)
+    share = np.zeros(1 + layout.cams) if shaft is None else support_fractions(shaft)
     rows = [
-        vector_row(layout, [(layout.station(side, k), 1.0), (layout.support(side, 0), part - 1.0), (layout.support(side, 1), -part)])
+        vector_rows(layout, [(layout.station(side, k), 1.0), (layout.support(side, 0), part - 1.0), (layout.support(side, 1), -part)])
         for k, part in enumerate(share)
     ]
     # x of all stations, then y of all
     rows = np.concatenate([[row[0] for row in rows], [row[1] for row in rows]])
-    return rows, None if shaft is None else np.kron(np.eye(2), bending_stiffness(shaft))
+    return rows, None if shaft is None else np.asarray(np.kron(np.eye(2), bending_stiffness(shaft)), dtype=float)
 
 
-def _torsion(shaft, layout, side, lever):
+def _torsion(shaft: SplitShaft | None, layout: StiffnessLayout, side: int, lever: float) -> tuple[Floats, Floats | None]:
     rows = np.zeros((layout.cams, layout.size))
     for j in range(layout.cams):
         rows[j, [layout.twist(side, 0), layout.twist(side, j + 1)]] = -1 / lever, 1 / lever
     return rows, None if shaft is None else torsion_stiffness(shaft)
 
 
-def places(shaft):
+def station_positions(shaft: SplitShaft) -> Floats:
     """z of the stations: gear, then the cams."""
     return np.array([shaft.gear, *shaft.cams])
 
 
-def shares(shaft):
+def support_fractions(shaft: SplitShaft) -> Floats:
     """Where the stations stand between the supports: 0 at the front one, 1 at the rear one."""
     front, rear = shaft.supports
-    return (places(shaft) - front) / (rear - front)
+    return (station_positions(shaft) - front) / (rear - front)
 
 
-def bending_flexibility(shaft):
+def bending_flexibility(shaft: SplitShaft) -> Floats:
     """Phi (1 + n, 1 + n) [m/N] of the stations on rigid supports."""
     from drivewright.shafts import assemble, flexibility, solve
 
     rigid = (np.inf, np.inf, 0.0, 0.0, 0.0)
     model = assemble(
-        _beam(shaft, tuple(Support(name, z, rigid) for name, z in zip(("front", "rear"), shaft.supports, strict=True))), places(shaft)
+        _beam(shaft, tuple(Support(name, z, rigid) for name, z in zip(("front", "rear"), shaft.supports, strict=True))),
+        station_positions(shaft),
     )
-    return flexibility(solve(model, np.zeros(model.size)), places(shaft), (1.0, 0.0)).delta
+    return flexibility(solve(model, np.zeros(model.size)), station_positions(shaft), (1.0, 0.0)).delta
 
 
-def bending_stiffness(shaft):
+def bending_stiffness(shaft: SplitShaft) -> Floats:
     """Inverse of Phi; InputError where a station stands on a support, or two at one place."""
     from drivewright.shafts import stiffness
 
@@ -146,21 +151,21 @@ def bending_stiffness(shaft):
     return stiffness(bending_flexibility(shaft), names)
 
 
-def torsion_flexibility(shaft):
+def torsion_flexibility(shaft: SplitShaft) -> Floats:
     """(n, n) [rad/(N m)]: rotation of cam j against the gear under a torque at cam k: int dz/GJ of the way that both share."""
     from drivewright.shafts.beam import beam
 
-    found = beam(_beam(shaft, ()), places(shaft))
+    found = beam(_beam(shaft, ()), station_positions(shaft))
     softness = np.concatenate([[0.0], np.cumsum(found.flexibility[:, 1, 1] * (1 + shaft.poisson))])  # GJ = EI/(1 + nu)
     at = np.array([softness[found.node(z)] for z in shaft.cams]) - softness[found.node(shaft.gear)]
     shared = np.minimum(np.abs(at)[:, None], np.abs(at))
     return np.where(np.sign(at)[:, None] == np.sign(at), shared, 0.0)
 
 
-def torsion_stiffness(shaft):
+def torsion_stiffness(shaft: SplitShaft) -> Floats:
     """Inverse of `torsion_flexibility` [N m/rad]."""
-    return np.linalg.inv(torsion_flexibility(shaft))
+    return np.asarray(np.linalg.inv(torsion_flexibility(shaft)), dtype=float)
 
 
-def _beam(shaft, supports):
+def _beam(shaft: SplitShaft, supports: tuple[Support, ...]) -> Shaft:
     return Shaft(shaft.sections, shaft.modulus, shaft.poisson, 0.0, supports, shear=EULER_BERNOULLI)

@@ -1,22 +1,25 @@
-"""What the torsional stiffness of a pin-wheel indexer is made of: the result of `solve` and how it is read off the equilibrium."""
+"""The result of `solve_torsional_stiffness`, and how it is read off the equilibrium."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from drivewright.indexing.drivetrain import SIDES
-from drivewright.indexing.stiffness.assembly import flank_directions
+from drivewright._typing import Bools, Complexes, Floats, Ints
+from drivewright.indexing.drivetrain import SIDES, Drivetrain, GearMesh
+from drivewright.indexing.stiffness.assembly import DrivetrainAssembly, flank_directions
+from drivewright.indexing.stiffness.equilibrium import EquilibriumState
 from drivewright.indexing.stiffness.layout import OUT
 
-GROUPS = ("pin", "crank", "support", "housing", "bending", "torsion", "gear", "wheel")
-FARTHEST = 0.1  # rad: beyond it the contacts are others than those given
+COMPLIANCE_GROUPS = ("pin", "crank", "support", "housing", "bending", "torsion", "gear", "wheel")
+ROTATION_LIMIT = 0.1  # rad: beyond it the contacts are others than those given
 CARRIED, FREE, RIGID, FAR, UNSETTLED = "carried", "free", "rigid", "far", "unsettled"
 REASONS = {
     CARRIED: "",
     FREE: "no contact without a gap resists the torque: the wheel turns freely first; look at the play",
     RIGID: "every part in the way of the torque is rigid; give one of them a stiffness",
-    FAR: f"the wheel turns by more than {np.degrees(FARTHEST):.3g} deg, where other contacts act: what touches has next to no arm, or the "
-    "torque is beyond what the parts carry; look at the play beyond these contacts, or take less torque or stiffer parts",
+    FAR: f"the wheel turns by more than {np.degrees(ROTATION_LIMIT):.3g} deg, where other contacts act: what touches has next to no arm, "
+    "or the torque is beyond what the parts carry; look at the play beyond these contacts, or take less torque or stiffer parts",
     UNSETTLED: "no equilibrium found; look at clearances, and for torques far beyond what the parts carry",
 }
 
@@ -26,7 +29,7 @@ class TorsionalStiffness:
     """A wheel under `torque` [N m] with the input locked, at p positions; where `outcome` is not "carried" numbers are nan.
 
     rotation [rad] of the output; secant = torque/rotation and tangent [N m/rad].  Forces [N] in the plane are complex:
-    pin_forces: one array (cams, k) a position, of the cam on the pins of its k `Contacts` along their normals;
+    pin_forces: one array (cams, k) a position, of the cam on the pins of its k `CamContacts` along their normals;
     crank_forces (p, 2, cams): of the cams on the crank pins of either shaft; support_forces (p, 2, 2): of either shaft on its front and
     rear support; gear_forces (p, 2): of the input gear on either split gear, gear_torques [N m] about its axis (without a gear a couple
     holds the shaft); wheel_forces (p,): of the wheel on its bearing.
@@ -34,39 +37,48 @@ class TorsionalStiffness:
     steps: of Newton's method.
     """
 
-    theta: np.ndarray
+    theta: Floats
     torque: float
     model: str
-    outcome: tuple
-    rotation: np.ndarray
-    tangent: np.ndarray
-    pin_forces: tuple
-    crank_forces: np.ndarray
-    support_forces: np.ndarray
-    gear_forces: np.ndarray
-    gear_torques: np.ndarray
-    wheel_forces: np.ndarray
-    shares: dict
+    outcome: tuple[str, ...]
+    rotation: Floats
+    tangent: Floats
+    pin_forces: tuple[Floats, ...]
+    crank_forces: Complexes
+    support_forces: Complexes
+    gear_forces: Complexes
+    gear_torques: Floats
+    wheel_forces: Complexes
+    shares: dict[str, Floats]
     steps: int
 
     @property
-    def secant(self):
+    def secant(self) -> Floats:
         """T/phi [N m/rad]."""
         return self.torque / self.rotation
 
     @property
-    def reasons(self):
+    def reasons(self) -> tuple[str, ...]:
         """Why a position has no stiffness, "" where it has one."""
         return tuple(REASONS[each] for each in self.outcome)
 
 
-def collect(drive, theta, torque, model, kept, assembly, state, here):
+def collect_result(
+    drive: Drivetrain,
+    theta: Floats,
+    torque: float,
+    model: str,
+    kept: Sequence[Bools],
+    assembly: DrivetrainAssembly,
+    state: EquilibriumState,
+    here: Ints,
+) -> TorsionalStiffness:
     """The `TorsionalStiffness` at all positions from the state of those that may carry (`here`)."""
     outcome = np.full(len(theta), FREE, dtype=object)
-    outcome[here] = np.where(state.settled, CARRIED, UNSETTLED)
-    outcome[here[~state.yields]] = RIGID
+    outcome[here] = np.where(state.converged, CARRIED, UNSETTLED)
+    outcome[here[~state.deforms]] = RIGID
     rotation = state.q[:, OUT] / assembly.lever
-    outcome[here[(np.abs(rotation) > FARTHEST) | (np.abs(state.q).max(axis=1) > assembly.lever)]] = FAR
+    outcome[here[(np.abs(rotation) > ROTATION_LIMIT) | (np.abs(state.q).max(axis=1) > assembly.lever)]] = FAR
     good = outcome == CARRIED
 
     def spread(values):
@@ -75,6 +87,7 @@ def collect(drive, theta, torque, model, kept, assembly, state, here):
         return whole
 
     cams = assembly.layout.cams
+    gear_forces, gear_torques = _gears(drive.gear, state)
     tangent = spread(1 / np.where(good[here], state.compliance, np.nan))
     return TorsionalStiffness(
         theta,
@@ -86,14 +99,15 @@ def collect(drive, theta, torque, model, kept, assembly, state, here):
         _pin_forces(state, cams, kept, here, good),
         spread(_vectors(state, "crank").reshape(len(here), 2, cams)),
         spread(_vectors(state, "support").reshape(len(here), 2, 2)),
-        *(spread(each) for each in _gears(drive.gear, state)),
+        spread(gear_forces),
+        spread(gear_torques),
         spread(_vectors(state, "wheel")[:, 0]),
-        {name: spread(share) for name, share in shares(state, torque).items()},
+        {name: spread(share) for name, share in compliance_shares(state, torque).items()},
         state.steps,
     )
 
 
-def take_up(first, after):
+def take_up_play(first: TorsionalStiffness, after: TorsionalStiffness) -> TorsionalStiffness:
     """`first`, with the positions where the wheel turns freely taken from `after`, the same drive with the wheel turned by its play.
 
     Rotations there count from the turned wheel, so that the play adds to them and the secant is that of the loaded drive alone.
@@ -108,32 +122,32 @@ def take_up(first, after):
         first,
         outcome=tuple(np.where(new, after.outcome, first.outcome)),
         pin_forces=tuple(b if n else a for n, a, b in zip(new, first.pin_forces, after.pin_forces, strict=True)),
-        shares={name: chosen(first.shares[name], after.shares[name]) for name in GROUPS},
+        shares={name: chosen(first.shares[name], after.shares[name]) for name in COMPLIANCE_GROUPS},
         steps=first.steps + after.steps,
         **{name: chosen(getattr(first, name), getattr(after, name)) for name in arrays},
     )
 
 
-def shares(state, torque):
+def compliance_shares(state: EquilibriumState, torque: float) -> dict[str, Floats]:
     """Compliance [rad/(N m)] of each of GROUPS (p,): work of its parts, force times displacement, over torque^2."""
-    total = {name: np.zeros(len(state.q)) for name in GROUPS}
+    total = {name: np.zeros(len(state.q)) for name in COMPLIANCE_GROUPS}
     for part in state.parts:
         total["wheel" if part.name == "output" else part.name] += part.work / torque**2
     return total
 
 
-def _named(state, name):
+def _named(state: EquilibriumState, name: str) -> Floats:
     """(p, n): all components of the forces in the parts of a name."""
     return np.concatenate([part.flat for part in state.parts if part.name == name], axis=1)
 
 
-def _vectors(state, name):
+def _vectors(state: EquilibriumState, name: str) -> Complexes:
     """(p, n) complex."""
     forces = _named(state, name)
     return forces[:, 0::2] + 1j * forces[:, 1::2]
 
 
-def _gears(gear, state):
+def _gears(gear: GearMesh | None, state: EquilibriumState) -> tuple[Complexes, Floats]:
     """(forces (p, 2) complex, torques (p, 2)) of the input on either split shaft."""
     pressed = _named(state, "gear")
     if gear is None:
@@ -143,7 +157,7 @@ def _gears(gear, state):
     return forces, np.imag(np.conj(-np.array(SIDES) * gear.pitch_radius) * forces)
 
 
-def _pin_forces(state, cams, kept, here, good):
+def _pin_forces(state: EquilibriumState, cams: int, kept: Sequence[Bools], here: Ints, good: Bools) -> tuple[Floats, ...]:
     """One array (cams, contacts) a position; 0 for contacts that take no part, nan where the position does not carry."""
     found = [np.full((cams, len(keep)), np.nan) for keep in kept]
     forces = _named(state, "pin")

@@ -1,30 +1,31 @@
 """Torsion tests of a drive with its input locked: torque and angle of the output over loops of loading and unloading.
 
-`read` a CSV file, `evaluate` one loop or `evaluate_positions` of the crank.  SI throughout: N m, rad, N m/rad, J.
+`read_test` a CSV file, `evaluate_loop` one loop or `evaluate_positions` of the crank.  SI throughout: N m, rad, N m/rad, J.
 
 The order of work: samples -> passes between the turning points of the torque -> conditioning dropped -> drift and zero removed ->
 regressions with uncertainties that stand autocorrelated errors -> shape of the loop -> series correction.
 """
 
-from drivewright.indexing.torsion_test.evaluation import Evaluation, Setup, evaluate, evaluate_positions
-from drivewright.indexing.torsion_test.reading import Readings, read
-from drivewright.indexing.torsion_test.regression import Estimate, Line, fit_line
-from drivewright.indexing.torsion_test.series import Part, correct
-from drivewright.indexing.torsion_test.shape import Pieces, Shape, fit_pieces
+from drivewright.indexing.torsion_test.evaluation import evaluate_loop, evaluate_positions
+from drivewright.indexing.torsion_test.reading import Readings, read_test
+from drivewright.indexing.torsion_test.regression import Estimate, RegressionLine, fit_line
+from drivewright.indexing.torsion_test.result import TorsionTestResult, TorsionTestSettings
+from drivewright.indexing.torsion_test.series import SeriesSpring, remove_series_springs
+from drivewright.indexing.torsion_test.shape import LoopShape, PiecewiseStiffness, fit_pieces
 
 __all__ = [
     "Estimate",
-    "Evaluation",
-    "Line",
-    "Part",
-    "Pieces",
+    "TorsionTestResult",
+    "RegressionLine",
+    "SeriesSpring",
+    "PiecewiseStiffness",
     "Readings",
-    "Setup",
-    "Shape",
-    "correct",
-    "evaluate",
+    "TorsionTestSettings",
+    "LoopShape",
+    "remove_series_springs",
+    "evaluate_loop",
     "evaluate_positions",
     "fit_line",
     "fit_pieces",
-    "read",
+    "read_test",
 ]

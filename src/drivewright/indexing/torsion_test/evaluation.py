@@ -1,89 +1,57 @@
 """One torsion test from its readings to stiffness, play and hysteresis, and a test at several positions of the crank."""
 
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from dataclasses import replace
 
 import numpy as np
 
+from drivewright._typing import Bools, Ints
 from drivewright.errors import InputError
 from drivewright.indexing.torsion_test.findings import FEWEST_CYCLES, findings
-from drivewright.indexing.torsion_test.passes import WHOLE, drift, settled, split, without_drift
-from drivewright.indexing.torsion_test.regression import Estimate, Line, fit_line, inverse_estimate, slope_estimate
-from drivewright.indexing.torsion_test.series import correct
-from drivewright.indexing.torsion_test.shape import LOST_AT, Pieces, Shape, fit_pieces, folded, loop_of, shape
+from drivewright.indexing.torsion_test.passes import WHOLE_PASS, Passes, drop_conditioning, estimate_drift, remove_drift, split_passes
+from drivewright.indexing.torsion_test.reading import Readings
+from drivewright.indexing.torsion_test.regression import Estimate, fit_line, inverse_estimate, slope_estimate
+from drivewright.indexing.torsion_test.result import TorsionTestResult, TorsionTestSettings
+from drivewright.indexing.torsion_test.series import remove_series_springs
+from drivewright.indexing.torsion_test.shape import (
+    LOST_AT,
+    LoopShape,
+    PiecewiseStiffness,
+    average_loop,
+    fit_pieces,
+    fold_mid_line,
+    measure_shape,
+)
 
 SAME_PLACE = 1e-3  # rad: crank angles this close are one position
 JUMP_SURE = 4.0  # standard uncertainties of the jump of the angle at zero torque, from which the sides of a branch are taken apart ...
 JUMP_LARGE = 0.02  # ... where it is also this part of the angle's range
-NO_SHAPE = Shape(*[np.nan] * 6)
-NO_PIECES = Pieces(*[np.nan] * 6)
+NO_SHAPE = LoopShape(*[np.nan] * 6)
+NO_PIECES = PiecewiseStiffness(*[np.nan] * 6)
 
 
-class Setup(NamedTuple):
-    """How a test is to be evaluated: rated torque [N m] (None: the largest of the data), springs in series (`Part`s), confidence of the
-    intervals, resampled tests and the seed of their draw."""
-
-    rated_torque: float | None = None
-    parts: tuple = ()
-    confidence: float = 0.95
-    resamples: int = 1000
-    seed: int = 1
-
-
-@dataclass(frozen=True)
-class Evaluation:
-    """What one loop, or several cycles of it, says.  Stiffness in N m/rad as `Estimate`s.
-
-    whole_loop: ordinary least squares of torque on angle over all samples (paper, eq. 3); inverse: of angle on torque, turned;
-    per_branch: of angle on torque, each pass of a branch with an intercept of its own; loading, unloading: one branch alone, None where it
-    is missing; corrected: per_branch without the springs in series.  bootstrap: name -> (low, high) of resampled cycles.
-    torque, angle: the samples used, without drift and zero; group: number of the intercept of `line`, the fit behind per_branch, that
-    belongs to each sample, -1 for none; whole_line: the fit behind whole_loop; mid_line: (torque, angle) from zero torque on, or None.
-    """
-
-    whole_loop: Estimate
-    inverse: Estimate
-    per_branch: Estimate
-    loading: Estimate | None
-    unloading: Estimate | None
-    corrected: Estimate
-    shape: Shape
-    pieces: Pieces
-    rated_torque: float
-    drift: float | None  # rad over the whole test
-    bootstrap: dict
-    findings: tuple
-    torque: np.ndarray
-    angle: np.ndarray
-    group: np.ndarray
-    line: Line
-    whole_line: Line
-    mid_line: tuple | None
-    crank: float | None = None
-
-
-def evaluate(readings, setup=None, crank=None):
-    """The `Evaluation` of the readings of one position; InputError where they hold no stiffness."""
-    setup = Setup() if setup is None else setup
-    passes, dropped = settled(split(readings))
-    rate = drift(passes)
-    passes = passes if rate is None else without_drift(passes, rate)
+def evaluate_loop(readings: Readings, setup: TorsionTestSettings | None = None, crank: float | None = None) -> TorsionTestResult:
+    """The `TorsionTestResult` of the readings of one position; InputError where they hold no stiffness."""
+    setup = TorsionTestSettings() if setup is None else setup
+    passes, dropped = drop_conditioning(split_passes(readings))
+    rate = estimate_drift(passes)
+    passes = passes if rate is None else remove_drift(passes, rate)
     rated = float(np.max(np.abs(passes.torque))) if setup.rated_torque is None else float(setup.rated_torque)
-    loop = loop_of(passes, WHOLE)
-    seen = shape(loop, rated) if loop else NO_SHAPE
+    loop = average_loop(passes, WHOLE_PASS)
+    seen = measure_shape(loop, rated) if loop else NO_SHAPE
     passes = passes._replace(angle=passes.angle - (seen.zero if np.isfinite(seen.zero) else passes.angle.mean()))
-    curve = folded(loop) if loop else None
+    curve = fold_mid_line(loop) if loop else None
     group, used, jumped = _groups(passes, LOST_AT * rated)
     whole, back = fit_line(passes.angle, passes.torque), fit_line(passes.torque, passes.angle)
     branch = fit_line(passes.torque[used], passes.angle[used], group[used])
     _refuse_backwards(branch)
     per_branch = inverse_estimate(branch, setup.confidence)
-    found = Evaluation(
+    found = TorsionTestResult(
         slope_estimate(whole, setup.confidence),
         inverse_estimate(back, setup.confidence),
         per_branch,
-        *(_one_branch(passes, used, group, way, setup.confidence) for way in (True, False)),
-        correct(per_branch, branch.freedom, setup.parts, setup.confidence) if setup.parts else per_branch,
+        _one_branch(passes, used, group, True, setup.confidence),
+        _one_branch(passes, used, group, False, setup.confidence),
+        remove_series_springs(per_branch, branch.freedom, setup.parts, setup.confidence) if setup.parts else per_branch,
         seen,
         fit_pieces(*curve) if curve else NO_PIECES,
         rated,
@@ -101,17 +69,17 @@ def evaluate(readings, setup=None, crank=None):
     return replace(found, findings=tuple(findings(setup, found, passes, loop, dropped, jumped)))
 
 
-def evaluate_positions(readings, setup=None):
-    """The `Evaluation`s of a test at one or more positions of the crank, in rising order of the angle."""
+def evaluate_positions(readings: Readings, setup: TorsionTestSettings | None = None) -> tuple[TorsionTestResult, ...]:
+    """The `TorsionTestResult`s of a test at one or more positions of the crank, in rising order of the angle."""
     if readings.crank is None:
-        return (evaluate(readings, setup),)
+        return (evaluate_loop(readings, setup),)
     places = _places(readings.crank)
     found = []
     for place in sorted(set(places.tolist())):
         at = places == place
-        rows = type(readings)(*(None if column is None else column[at] for column in readings))
+        rows = readings.select(at)
         try:
-            found.append(evaluate(rows, setup, place))
+            found.append(evaluate_loop(rows, setup, place))
         except InputError as error:
             raise InputError(f"crank angle {np.degrees(place):g} deg: {error}") from None
     return tuple(found)
@@ -126,7 +94,7 @@ def _places(crank):
     return places
 
 
-def _groups(passes, near_zero):
+def _groups(passes: Passes, near_zero: float) -> tuple[Ints, Bools, bool]:
     """(number of the intercept of each sample, mask of the samples that count, whether the sides of zero torque were taken apart).
 
     A branch that jumps in angle at zero torque - the play of a drive without friction - is two straight parts.  Each then has its own
@@ -160,7 +128,7 @@ def _numbered(used, group):
     return numbers
 
 
-def _one_branch(passes, used, group, way, confidence):
+def _one_branch(passes: Passes, used: Bools, group: Ints, way: bool, confidence: float) -> Estimate | None:
     samples = used & passes.side(way)
     if np.unique(group[samples]).size + 2 > np.sum(samples):
         return None
@@ -176,9 +144,9 @@ def _refuse_backwards(branch):
         )
 
 
-def _bootstrap(passes, used, group, setup):
+def _bootstrap(passes: Passes, used: Bools, group: Ints, setup: TorsionTestSettings) -> dict[str, tuple[float, float]]:
     """Name -> (low, high): intervals of the confidence by drawing whole cycles with replacement; {} with fewer than 3 cycles."""
-    cycles = [np.flatnonzero(passes.block == block) for block in np.unique(passes.block)]
+    cycles = [np.flatnonzero(passes.cycle == each) for each in np.unique(passes.cycle)]
     if len(cycles) < FEWEST_CYCLES or setup.resamples < 1:
         return {}
     draws = np.random.default_rng(setup.seed).integers(len(cycles), size=(setup.resamples, len(cycles)))

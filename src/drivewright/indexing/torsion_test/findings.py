@@ -1,9 +1,13 @@
 """What a reader of a torsion test's numbers has to know, in words."""
 
+from collections.abc import Iterator, Sequence
+
 import numpy as np
 
-from drivewright.indexing.torsion_test.series import DOUBTFUL
-from drivewright.indexing.torsion_test.shape import LOST_AT
+from drivewright.indexing.torsion_test.passes import Passes
+from drivewright.indexing.torsion_test.result import TorsionTestResult, TorsionTestSettings
+from drivewright.indexing.torsion_test.series import DOUBTFUL_RATIO
+from drivewright.indexing.torsion_test.shape import LOST_AT, HysteresisLoop
 
 FEWEST_CYCLES = 3  # to resample
 NOISE = 0.02  # of the work put in: so much energy may seem to come out of a loop without hysteresis
@@ -11,8 +15,10 @@ SAME_TORQUE = 0.05  # of the torque's range: two samples this close are at the s
 GAP = 0.02  # of the angle's range, over the width of the loop: a larger gap between the ends of a loop is remarked
 
 
-def findings(setup, test, passes, loop, dropped, jumped):
-    """Texts about an `Evaluation`; `dropped` in words, `jumped` where the branches were taken apart at zero torque."""
+def findings(
+    setup: TorsionTestSettings, test: TorsionTestResult, passes: Passes, loop: HysteresisLoop | None, dropped: Sequence[str], jumped: bool
+) -> Iterator[str]:
+    """Texts about an `TorsionTestResult`; `dropped` in words, `jumped` where the branches were taken apart at zero torque."""
     yield from _of_torque(setup, test)
     yield f"left out: {' and '.join(dropped)}" if dropped else "nothing is left out as conditioning: one loop is all there is"
     if test.drift is None:
@@ -26,7 +32,7 @@ def findings(setup, test, passes, loop, dropped, jumped):
             f"the angle jumps or gives way at zero torque: the branches are taken apart there, without what lies within "
             f"{LOST_AT * test.rated_torque:.4g} N m, so that stiffness.per_branch is that of the drive in contact"
         )
-    cycles = np.unique(passes.block).size
+    cycles = np.unique(passes.cycle).size
     if cycles < FEWEST_CYCLES:
         yield f"the bootstrap needs at least {FEWEST_CYCLES} cycles, there is {cycles} to use"
     yield from _of_series(setup, test)
@@ -68,7 +74,7 @@ def _of_series(setup, test):
     ratio = test.corrected.value / test.per_branch.value
     if not setup.parts:
         yield "no stiffness of the loading bar or the support was given: stiffness.corrected is that of the branches as measured"
-    elif ratio > DOUBTFUL:
+    elif ratio > DOUBTFUL_RATIO:
         yield (
             f"the corrected stiffness is {ratio:.3g} times the measured one: most of the angle was the rig's, and the errors of its "
             "stiffness count in full; measure closer to the drive or stiffen the rig"

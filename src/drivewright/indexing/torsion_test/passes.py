@@ -4,37 +4,39 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Bools, Floats, Ints
 from drivewright.errors import InputError
+from drivewright.indexing.torsion_test.reading import Readings
 
 FEWEST = 8  # samples of a test
 TURNING = 0.1  # of the torque's range: so far the torque must come back before that is a turning point, not noise
-HELD = 0.01  # of the torque's range: samples this close to an extreme are held there
-WHOLE = 0.9  # of the torque's range: a pass so long is a whole branch
+HOLD_BAND = 0.01  # of the torque's range: samples this close to an extreme are held there
+WHOLE_PASS = 0.9  # of the torque's range: a pass so long is a whole branch
 KNOTS = 9  # of the shape of a branch, when its drift is looked for
 
 
 class Passes(NamedTuple):
     """torque [N m], angle [rad], number of the pass of each sample (m,); rising (p,) says which passes load in the sense of +torque.
 
-    block (m,): number of the cycle, for resampling.
+    cycle (m,): number of the cycle, for resampling.
     """
 
-    torque: np.ndarray
-    angle: np.ndarray
-    number: np.ndarray
-    rising: np.ndarray
-    block: np.ndarray
+    torque: Floats
+    angle: Floats
+    number: Ints
+    rising: Bools
+    cycle: Ints
 
-    def side(self, rising):
+    def side(self, rising: bool) -> Bools:
         """Samples of one branch: those of all passes with rising (True) or falling torque."""
         return self.rising[self.number] == rising
 
-    def span(self, samples):
+    def span(self, samples: Bools) -> float:
         """Part of the whole range of the torque that some samples (mask) cover."""
         return float(np.ptp(self.torque[samples]) / np.ptp(self.torque)) if np.any(samples) else 0.0
 
 
-def split(readings):
+def split_passes(readings: Readings) -> Passes:
     """The `Passes` of a test, cut at the turning points of the torque; InputError where there is too little to see.
 
     A turning point counts once the torque has come back by 10 % of its range, so that noise makes none.  Where the readings name
@@ -49,8 +51,8 @@ def split(readings):
     merged = np.concatenate([[0], np.cumsum(directions[1:] != directions[:-1])])  # +T -> 0 -> -T in two named branches is one pass
     rising = directions[np.concatenate([[True], directions[1:] != directions[:-1]])] > 0
     number = merged[number]
-    block = _cycles(torque, number, rising) if readings.cycle is None else np.asarray(readings.cycle)
-    return Passes(torque, angle, number, rising, block)
+    cycle = _cycles(torque, number, rising) if readings.cycle is None else np.asarray(readings.cycle)
+    return Passes(torque, angle, number, rising, cycle)
 
 
 def _refuse(torque, angle):
@@ -65,10 +67,10 @@ def _refuse(torque, angle):
             raise InputError(f"torsion test: the {what} is {column[0]:g} {unit} in all samples; a stiffness needs a {what} that changes")
 
 
-def turning_points(torque):
+def turning_points(torque: Floats) -> Ints:
     """Numbers of the samples that begin a new pass: behind an extreme from which the torque comes back by `TURNING` of its range.
 
-    The samples at the extreme, as far as they stay within `HELD` of the range, are shared by halves.
+    The samples at the extreme, as far as they stay within `HOLD_BAND` of the range, are shared by halves.
     """
     back = TURNING * np.ptp(torque)
     extremes, direction, low, high = [], 0, 0, 0
@@ -86,7 +88,7 @@ def turning_points(torque):
 
 def _middle(torque, extreme):
     """The sample behind the middle of those held at an extreme."""
-    away = np.abs(torque - torque[extreme]) > HELD * np.ptp(torque)
+    away = np.abs(torque - torque[extreme]) > HOLD_BAND * np.ptp(torque)
     before, after = np.flatnonzero(away[:extreme]), np.flatnonzero(away[extreme:])
     first = before[-1] + 1 if before.size else 0
     return first + (extreme + after[0] - first + 1) // 2
@@ -106,7 +108,7 @@ def _trend(values):
     return 1 if np.dot(np.arange(values.size) - (values.size - 1) / 2, values) > 0 else -1
 
 
-def settled(passes):
+def drop_conditioning(passes: Passes) -> tuple[Passes, tuple[str, ...]]:
     """(passes without the conditioning, what was dropped in words).
 
     The first cycle goes where what stays still holds both branches as far as they reach; else the first pass, where it starts on the way
@@ -123,17 +125,17 @@ def settled(passes):
 
 
 def _first_cycle(passes):
-    return passes.block == passes.block[0], "the first cycle (conditioning)"
+    return passes.cycle == passes.cycle[0], "the first cycle (conditioning)"
 
 
 def _rise_from_rest(passes):
     first = passes.number == 0
-    return first & (passes.span(first) < WHOLE), "the first rise from rest"
+    return first & (passes.span(first) < WHOLE_PASS), "the first rise from rest"
 
 
 def _unfinished_end(passes):
-    last = passes.block == passes.block[-1]
-    finished = all(passes.span(last & passes.side(way)) >= WHOLE * passes.span(passes.side(way)) for way in (True, False))
+    last = passes.cycle == passes.cycle[-1]
+    finished = all(passes.span(last & passes.side(way)) >= WHOLE_PASS * passes.span(passes.side(way)) for way in (True, False))
     return last & (not finished), "the unfinished last cycle"
 
 
@@ -145,10 +147,10 @@ def _holds(passes, samples):
 
 def _without(passes, drop):
     left, number = np.unique(passes.number[~drop], return_inverse=True)
-    return Passes(passes.torque[~drop], passes.angle[~drop], number, passes.rising[left], passes.block[~drop])
+    return Passes(passes.torque[~drop], passes.angle[~drop], number, passes.rising[left], passes.cycle[~drop])
 
 
-def drift(passes):
+def estimate_drift(passes: Passes) -> float | None:
     """Drift of the angle [rad per sample], or None where the test cannot tell.
 
     Hysteresis depends on torque and direction only: what changes from one pass of a branch to the next pass of the same branch is drift.
@@ -178,7 +180,7 @@ def _overlapping(passes):
     )
 
 
-def without_drift(passes, per_sample):
+def remove_drift(passes: Passes, per_sample: float) -> Passes:
     """The same with a drift [rad per sample] taken off, unmoved in the middle."""
     t = np.arange(passes.torque.size)
     return passes._replace(angle=passes.angle - per_sample * (t - t.mean()))

@@ -7,11 +7,14 @@ Further columns: `force [N]` in place of the torque, with the arm given apart; `
 import csv
 import math
 import re
+from collections.abc import Sequence
+from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Bools, Floats, Ints
 from drivewright.errors import SpecError, UnitError, brief, nearest
 from drivewright.units import unit_factor
 
@@ -27,19 +30,29 @@ class Readings(NamedTuple):
     Where the file says so: cycle (whole number of each sample), branch (+1 loading, -1 unloading), crank [rad] (angle of the input).
     """
 
-    torque: np.ndarray
-    angle: np.ndarray
-    cycle: np.ndarray | None = None
-    branch: np.ndarray | None = None
-    crank: np.ndarray | None = None
+    torque: Floats
+    angle: Floats
+    cycle: Ints | None = None
+    branch: Ints | None = None
+    crank: Floats | None = None
+
+    def select(self, samples: Bools) -> "Readings":
+        """The readings of some samples (mask)."""
+        return Readings(
+            self.torque[samples],
+            self.angle[samples],
+            None if self.cycle is None else self.cycle[samples],
+            None if self.branch is None else self.branch[samples],
+            None if self.crank is None else self.crank[samples],
+        )
 
 
 class _Column(NamedTuple):
-    index: int
+    place: int
     factor: float
 
 
-def read(file, arm=None):
+def read_test(file: str | PathLike[str], arm: float | None = None) -> Readings:
     """The `Readings` of a CSV file; `arm` [m] turns a column of forces into torques.  SpecError names file, line and column."""
     rows = list(_rows(file))
     if not rows:
@@ -65,11 +78,12 @@ def _rows(file):
             yield number, next(csv.reader([line]))
 
 
-def _columns(header, file):
+def _columns(header: Sequence[str], file: str | PathLike[str]) -> dict[str, _Column]:
     """Name -> `_Column` of what the header has of ours."""
     found = {}
     for index, cell in enumerate(header):
-        name, unit = re.fullmatch(r"\s*([^\[]*?)\s*(?:\[(.*)\])?\s*", cell, re.DOTALL).groups()
+        parts = re.fullmatch(r"\s*([^\[]*?)\s*(?:\[(.*)\])?\s*", cell, re.DOTALL)
+        name, unit = parts.groups() if parts else (cell.partition("[")[0].strip(), None)  # a bracket that is not closed
         if name.lower() in COLUMNS:
             if name.lower() in found:
                 raise SpecError(f"column '{name}' is there twice", file=str(file))
@@ -108,7 +122,7 @@ def _cells(line, row, columns, file):
     readers = {"cycle": _whole, "branch": _branch}
     found = {}
     for name, column in columns.items():
-        text = row[column.index].strip() if column.index < len(row) else ""
+        text = row[column.place].strip() if column.place < len(row) else ""
         try:
             found[name] = readers.get(name, _finite)(text) * column.factor
         except ValueError as error:

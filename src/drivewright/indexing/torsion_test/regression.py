@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
 
 CORRELATIONS = (-0.4, -0.2, 0.0, 0.2, 0.4, 0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.93, 0.95, 0.97, 0.98, 0.99)  # tried, of neighbouring errors
@@ -11,14 +12,14 @@ LAGS = (0, 1, 2, 3, 5, 8, 13, 21)  # samples apart, where the residuals are comp
 ROUNDING = 1e-13  # part of the signal: residuals this small are none
 
 
-class Line(NamedTuple):
+class RegressionLine(NamedTuple):
     """y = slope x + an intercept for each group; `variance` of the slope, `freedom` for Student's t."""
 
     slope: float
     variance: float
     freedom: float
-    intercepts: np.ndarray
-    residuals: np.ndarray
+    intercepts: Floats
+    residuals: Floats
 
 
 class Estimate(NamedTuple):
@@ -30,8 +31,9 @@ class Estimate(NamedTuple):
     high: float
 
 
-def fit_line(x, y, group=None):
-    """The `Line` of y (n,) over x (n,) by ordinary least squares; groups (n,) of whole numbers share the slope, each has its intercept.
+def fit_line(x: ArrayLike, y: ArrayLike, group: ArrayLike | None = None) -> RegressionLine:
+    """The `RegressionLine` of y (n,) over x (n,) by ordinary least squares; groups (n,) of whole numbers share the slope,
+    each has its intercept.
 
     The slope is that of the groups, weighted with their sum of (x - mean)^2.  Its variance is the larger of two that stand
     autocorrelated errors, the samples being in the order of measuring:
@@ -57,10 +59,10 @@ def fit_line(x, y, group=None):
     basis = np.column_stack([members / np.sqrt(counts), inside / size])
     variance, white = _variance(basis, residuals, float(np.sqrt(right @ right)))
     freedom = max(x.size * min(white / variance, 1.0) - basis.shape[1], 2.0) if variance else float(x.size - basis.shape[1])
-    return Line(slope, variance / size**2, freedom, y_mean - slope * x_mean, residuals)
+    return RegressionLine(slope, variance / size**2, freedom, y_mean - slope * x_mean, residuals)
 
 
-def _variance(basis, residuals, signal):
+def _variance(basis: Floats, residuals: Floats, signal: float) -> tuple[float, float]:
     """(variance of the last coefficient, that with white errors of the same size) for an orthonormal basis (n, p)."""
     if np.linalg.norm(residuals) <= ROUNDING * signal:
         return 0.0, 0.0
@@ -136,27 +138,27 @@ def _newey_west(scores, parameters):
     return total * n / (n - parameters)
 
 
-def student(confidence, freedom):
+def student_half_width(confidence: float, freedom: float) -> float:
     """Half width of the two-sided interval in standard uncertainties."""
     from scipy.special import stdtrit
 
     return float(stdtrit(freedom, 0.5 + confidence / 2))
 
 
-def slope_estimate(line, confidence):
+def slope_estimate(line: RegressionLine, confidence: float) -> Estimate:
     """The `Estimate` of a stiffness that is the slope of a line."""
     u = float(np.sqrt(line.variance))
-    reach = student(confidence, line.freedom) * u
+    reach = student_half_width(confidence, line.freedom) * u
     return Estimate(line.slope, u, line.slope - reach, line.slope + reach)
 
 
-def inverse_estimate(line, confidence):
+def inverse_estimate(line: RegressionLine, confidence: float) -> Estimate:
     """The `Estimate` of a stiffness that is one over the slope of a line (a compliance); the interval is that of the compliance, turned."""
     return compliance_estimate(line.slope, float(np.sqrt(line.variance)), line.freedom, confidence)
 
 
-def compliance_estimate(compliance, uncertainty, freedom, confidence):
+def compliance_estimate(compliance: float, uncertainty: float, freedom: float, confidence: float) -> Estimate:
     """Stiffness k = 1/c with u(k) = k^2 u(c); `high` is infinite where the interval of the compliance reaches zero."""
-    reach = student(confidence, freedom) * uncertainty
+    reach = student_half_width(confidence, freedom) * uncertainty
     high = 1 / (compliance - reach) if compliance > reach else np.inf
     return Estimate(1 / compliance, uncertainty / compliance**2, 1 / (compliance + reach), high)

@@ -1,16 +1,17 @@
 """Springs in series: what the loading bar and the support of the test rig took of the angle."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from drivewright.errors import InputError
-from drivewright.indexing.torsion_test.regression import compliance_estimate
+from drivewright.indexing.torsion_test.regression import Estimate, compliance_estimate
 
-DOUBTFUL = 2.0  # corrected over measured stiffness: beyond it most of the angle was the rig's
+DOUBTFUL_RATIO = 2.0  # corrected over measured stiffness: beyond it most of the angle was the rig's
 
 
-class Part(NamedTuple):
+class SeriesSpring(NamedTuple):
     """A spring in series with the drive: stiffness [N m/rad] and its standard uncertainty."""
 
     name: str
@@ -18,7 +19,7 @@ class Part(NamedTuple):
     uncertainty: float = 0.0
 
 
-def correct(measured, freedom, parts, confidence=0.95):
+def remove_series_springs(measured: Estimate, freedom: float, parts: Sequence[SeriesSpring], confidence: float = 0.95) -> Estimate:
     """The `Estimate` of k from 1/k = 1/k_r - sum 1/k_i; `measured` is the estimate of k_r, `freedom` its degrees of freedom.
 
     u(k) = k^2 sqrt((u_r/k_r^2)^2 + sum (u_i/k_i^2)^2).  InputError where the parts alone are as soft as what was measured.

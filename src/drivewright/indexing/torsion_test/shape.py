@@ -3,9 +3,12 @@
 A loop has two branches, angle over torque: loading (torque rising) below, unloading above.  Their mean is the mid-line.
 """
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.indexing.torsion_test.passes import Passes
 
 FINE = 400  # steps of the torque for areas
 LOST_AT = 0.03  # of the rated torque: where lost motion is read
@@ -14,7 +17,7 @@ TRIALS = (33, *[9] * 11)  # places of each breakpoint, search after search
 STRAIGHT = 0.002  # of the span of the angle: a mid-line this straight (r.m.s.) has no breakpoints
 
 
-class Shape(NamedTuple):
+class LoopShape(NamedTuple):
     """What a loop looks like; nan where the loop does not show it.
 
     lost_motion [rad]: angle between the mid-line at -3 % and +3 % of the rated torque; backlash [rad]: width of the loop at zero torque;
@@ -30,7 +33,7 @@ class Shape(NamedTuple):
     zero: float
 
 
-class Pieces(NamedTuple):
+class PiecewiseStiffness(NamedTuple):
     """Stiffness k1, k2, k3 [N m/rad] from zero torque on, changing at the torques t1 < t2 [N m]; t1, t2 nan where the line is straight.
 
     rms [rad] of the fit.
@@ -44,33 +47,36 @@ class Pieces(NamedTuple):
     rms: float
 
 
-class Loop(NamedTuple):
+Branch: TypeAlias = tuple[Floats, Floats]  # torque [N m], rising, and angle [rad]
+
+
+class HysteresisLoop(NamedTuple):
     """The two branches as (torque, angle), torque rising; the torques [low, high] that both reach; the torques (from, to) at which they
     may be read: a turning point that only one branch has counts for the other, too, which is a step further on."""
 
-    loading: tuple
-    unloading: tuple
+    loading: Branch
+    unloading: Branch
     low: float
     high: float
-    readable: tuple
+    readable: tuple[float, float]
 
 
-def loop_of(passes, whole):
-    """The mean `Loop` of some passes, or None with one branch only.  A pass over at least `whole` of the range stands for its branch;
+def average_loop(passes: Passes, whole: float) -> HysteresisLoop | None:
+    """The mean `HysteresisLoop` of some passes, or None with one branch only.  A pass over at least `whole` of the range is its branch;
     where none is so long, its parts together do."""
-    branches = [_branch(passes, way, whole) for way in (True, False)]
-    if None in branches:
+    loading, unloading = _branch(passes, True, whole), _branch(passes, False, whole)
+    if loading is None or unloading is None:
         return None
-    low, high = max(b[0][0] for b in branches), min(b[0][-1] for b in branches)
+    low, high = max(loading[0][0], unloading[0][0]), min(loading[0][-1], unloading[0][-1])
     span = np.ptp(passes.torque)
     if high - low <= 0.1 * span:
         return None
     step = max(0.02, 1.1 * sum(passes.span(passes.number == n) for n in range(len(passes.rising))) / passes.torque.size) * span
     ends = passes.torque.min() - 0.02 * span, passes.torque.max() + 0.02 * span
-    return Loop(*branches, low, high, (max(low - step, ends[0]), min(high + step, ends[1])))
+    return HysteresisLoop(loading, unloading, low, high, (max(low - step, ends[0]), min(high + step, ends[1])))
 
 
-def _branch(passes, way, whole):
+def _branch(passes: Passes, way: bool, whole: float) -> Branch | None:
     """(torque, angle) of a branch, sorted by torque: all samples of its whole passes."""
     numbers = np.flatnonzero(passes.rising == way)
     complete = [n for n in numbers if passes.span(passes.number == n) >= whole] or list(numbers)
@@ -81,13 +87,13 @@ def _branch(passes, way, whole):
     return passes.torque[samples][order], passes.angle[samples][order]
 
 
-def shape(loop, rated):
-    """The `Shape` of a `Loop` for a rated torque [N m]."""
+def measure_shape(loop: HysteresisLoop, rated: float) -> LoopShape:
+    """The `LoopShape` of a `HysteresisLoop` for a rated torque [N m]."""
     step = LOST_AT * rated
     widths = [read_branch(branch, 0.0, step) for branch in (loop.unloading, loop.loading)] if _within(loop, 0.0) else [np.nan] * 2
     lost = mid_line(loop, step, step) - mid_line(loop, -step, step) if _within(loop, -step) and _within(loop, step) else np.nan
     energy, put_in = _work(loop)
-    return Shape(
+    return LoopShape(
         lost, widths[0] - widths[1], energy, energy / put_in if put_in > 0 else np.nan, _secant(loop, rated, step), sum(widths) / 2
     )
 
@@ -99,7 +105,7 @@ def _secant(loop, rated, step):
         for sense in (1, -1)
         if _within(loop, sense * rated) and _within(loop, sense * rated / 2)
     ]
-    return 0.5 * rated / np.mean(turns) if turns else np.nan
+    return float(0.5 * rated / np.mean(turns)) if turns else np.nan
 
 
 def _within(loop, torque):
@@ -107,12 +113,12 @@ def _within(loop, torque):
     return loop.readable[0] <= torque <= loop.readable[1]
 
 
-def mid_line(loop, torque, reach):
+def mid_line(loop: HysteresisLoop, torque: float, reach: float) -> float:
     """Angle of the mid-line at a torque, read from samples within `reach` [N m]."""
     return 0.5 * (read_branch(loop.loading, torque, reach) + read_branch(loop.unloading, torque, reach))
 
 
-def read_branch(branch, torque, reach):
+def read_branch(branch: Branch, torque: float, reach: float) -> float:
     """Angle of a branch at a torque: the straight line through its samples within `reach`.
 
     Where these are fewer than 4, the 4 nearest ones: exact on a straight branch however it is sampled.
@@ -127,13 +133,13 @@ def read_branch(branch, torque, reach):
     return float(mean + slope * (torque - middle))
 
 
-def torques(loop):
+def torques(loop: HysteresisLoop) -> Floats:
     """Torques [N m] of a fine walk along a loop, zero among them."""
     places = np.linspace(loop.low, loop.high, FINE + 1)
     return np.union1d(places, [0.0]) if loop.low < 0 < loop.high else places
 
 
-def _work(loop):
+def _work(loop: HysteresisLoop) -> tuple[float, float]:
     """(area, work put in) [J] of the loop loading - unloading - back: dW = T d(angle), put in where it is positive."""
     t = torques(loop)
     forth, back = (np.interp(t, *branch) for branch in (loop.loading, loop.unloading))
@@ -142,7 +148,7 @@ def _work(loop):
     return float(steps.sum()), float(np.sum(np.maximum(steps, 0.0)))
 
 
-def folded(loop):
+def fold_mid_line(loop: HysteresisLoop) -> Branch | None:
     """(torque, angle) of the mid-line from zero torque on: the mean of both senses where both are there, or None.
 
     Both turn at zero torque; angle(0) = 0 for two senses by symmetry.
@@ -159,8 +165,8 @@ def folded(loop):
     return size, sign * (along - along[0])
 
 
-def fit_pieces(torque, angle):
-    """The `Pieces` of angle (m,) over torque (m,) >= 0 through the origin, by least squares.
+def fit_pieces(torque: Floats, angle: Floats) -> PiecewiseStiffness:
+    """The `PiecewiseStiffness` of angle (m,) over torque (m,) >= 0 through the origin, by least squares.
 
     angle = min(T, t1)/k1 + clip(T - t1, 0, t2 - t1)/k2 + max(T - t2, 0)/k3.  For given t1, t2 that is linear; these are searched on a
     grid that closes in on the best pair.
@@ -169,17 +175,20 @@ def fit_pieces(torque, angle):
     straight = float(torque @ angle / (torque @ torque))
     rms = float(np.sqrt(np.mean((angle - straight * torque) ** 2)))
     if rms <= STRAIGHT * span:
-        return Pieces(1 / straight, 1 / straight, 1 / straight, np.nan, np.nan, rms)
+        return PiecewiseStiffness(1 / straight, 1 / straight, 1 / straight, np.nan, np.nan, rms)
     low, high = np.array([0.02, 0.02]) * top, np.array([0.98, 0.98]) * top
-    for trials in TRIALS:
-        best, misfit, slopes = _best_pair(torque, angle, low, high, trials)
+    best, misfit, slopes = _best_pair(torque, angle, low, high, TRIALS[0])
+    for trials in TRIALS[1:]:
         width = 0.3 * (high - low)
         low, high = np.maximum(best - width, 0.005 * top), np.minimum(best + width, 0.995 * top)
+        best, misfit, slopes = _best_pair(torque, angle, low, high, trials)
     with np.errstate(divide="ignore"):
-        return Pieces(*(1 / slopes).tolist(), *best.tolist(), float(np.sqrt(misfit / torque.size)))
+        k1, k2, k3 = (1 / slopes).tolist()
+    t1, t2 = best.tolist()
+    return PiecewiseStiffness(k1, k2, k3, t1, t2, float(np.sqrt(misfit / torque.size)))
 
 
-def _best_pair(torque, angle, low, high, trials):
+def _best_pair(torque: Floats, angle: Floats, low: Floats, high: Floats, trials: int) -> tuple[Floats, float, Floats]:
     """(t1, t2), sum of squares and compliances of the best pair of a grid."""
     t1, t2 = (grid.ravel() for grid in np.meshgrid(np.linspace(low[0], high[0], trials), np.linspace(low[1], high[1], trials)))
     apart = t2 - t1 >= 0.02 * torque[-1]

@@ -1,19 +1,23 @@
 """The kind `indexer`: indexing drives with pins or rollers, and the evaluation of torsion tests."""
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeAlias
 
 from drivewright.mechanisms.indexer import geometry, loads, roller, stiffness, stress, torsion
-from drivewright.mechanisms.indexer.build import build
+from drivewright.mechanisms.indexer.batch import batch
+from drivewright.mechanisms.indexer.build import IndexerModel, build
 from drivewright.mechanisms.indexer.claims import claims
-from drivewright.mechanisms.indexer.designs import batch
 from drivewright.mechanisms.indexer.plots import plots
 from drivewright.mechanisms.indexer.scene import drawings, parts, scene
 from drivewright.mechanisms.indexer.spec import IndexerSpec
-from drivewright.mechanisms.indexer.verify import verify
-from drivewright.registry import Analysis, Mechanism
+from drivewright.registry import Analysis, Mechanism, oracle
+from drivewright.result import Answer, Answers
+
+Question: TypeAlias = Callable[[IndexerModel, Answers], Answer]
 
 
-def by_kind(plane, spatial):
+def by_kind(plane: Question, spatial: Question) -> Question:
     """The analysis of the plane or of the spatial kinds."""
     return lambda model, done: (spatial if model.spec.kind in ("barrel", "globoidal") else plane)(model, done)
 
@@ -73,7 +77,7 @@ mechanism = Mechanism(
     plots=plots,
     drawings=drawings,
     parts=parts,
-    verify=verify,
+    verify=oracle("indexer"),
     batch=batch,
     commands=(torsion.command,),
 )

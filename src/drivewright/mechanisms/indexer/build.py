@@ -1,24 +1,29 @@
 """From the spec to a wheel with its cams and to what yields between wheel and input, in SI and in plain data."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 
 from drivewright import bearings, materials
-from drivewright.bearings import quick
+from drivewright._typing import Floats
+from drivewright.bearings import BallBearing, Entry, RollerBearing, quick
 from drivewright.errors import InputError, SpecError
 from drivewright.indexing import drivetrain
-from drivewright.indexing.motion import index_motion
+from drivewright.indexing.motion import IndexMotion, index_motion
 from drivewright.indexing.parallel import ParallelIndexer
 from drivewright.indexing.pin_wheel import PinWheel
 from drivewright.indexing.plane import index_angles
-from drivewright.indexing.roller_gear.design import barrel, globoidal
-from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refuse_contradictions, unused
+from drivewright.indexing.roller_gear.design import RollerGear, barrel, globoidal
+from drivewright.indexing.stiffness.loading import LoadedWheel
+from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refuse_contradictions, required, unused
+from drivewright.mechanisms.indexer.spec import IndexerBearings, IndexerGear, IndexerShafts, IndexerSpec
 from drivewright.shafts import Section
 from drivewright.units import SI
 
+PartT = TypeVar("PartT")
 STEP = np.deg2rad(4.5)  # of the input, from position to position
 FORMULAS = {
     ("liu", "point"): quick.liu_ball,
@@ -32,42 +37,74 @@ FORMULAS = {
 class IndexerModel:
     """The drive (PinWheel, ParallelIndexer or RollerGear), the drive train of a pin wheel, and its rolling bearings by table name."""
 
-    spec: Any
-    drive: Any
-    train: Any = None
-    rolling: dict = field(default_factory=dict)
-    findings: tuple = ()
+    spec: IndexerSpec
+    drive: PinWheel | ParallelIndexer | RollerGear
+    train: drivetrain.Drivetrain | None = None
+    rolling: Mapping[str, BallBearing | RollerBearing] = field(default_factory=dict)
+    findings: tuple[str, ...] = ()
 
     @property
-    def translating(self):
+    def wheel(self) -> PinWheel:
+        """The drive of a translating kind."""
+        return _of_kind(self.drive, PinWheel)
+
+    @property
+    def plane(self) -> PinWheel | ParallelIndexer:
+        """The drive of a kind with plate cams."""
+        return _of_kind(self.drive, (PinWheel, ParallelIndexer))
+
+    @property
+    def cam(self) -> RollerGear:
+        """The drive of a kind with a roller-gear cam."""
+        return _of_kind(self.drive, RollerGear)
+
+    @property
+    def translating(self) -> bool:
         """Whether the cams translate on cranks."""
         return self.spec.kind in TRANSLATING
 
     @cached_property
-    def angles(self):
+    def angles(self) -> Floats:
         """Input angles [rad] of the tables: over the index period, or the one asked for."""
         if self.spec.load.angle is not None:
             return np.array([self.spec.load.angle])
-        return index_angles(self.drive, STEP)
+        return index_angles(self.plane, STEP)
 
     @property
-    def crank_bearing(self):
+    def torque(self) -> float:
+        """Torque on the wheel [N m]; of analyses that are left out without one."""
+        return _of_kind(self.spec.load.torque, float)
+
+    @property
+    def loaded_wheel(self) -> LoadedWheel:
+        """The pin wheel with its drive train, for the stiffness; of translating kinds alone."""
+        return LoadedWheel(self.wheel, _of_kind(self.train, drivetrain.Drivetrain), self.spec.cams, self.spec.contact.model)
+
+    @property
+    def crank_bearing(self) -> Entry | None:
         """Catalogue entry (bore, outer_diameter, width) of the crank bearings; None where none is named."""
         return _entry(self.spec, self.spec.crank_bearings)
 
     @property
-    def support_bearing(self):
+    def support_bearing(self) -> Entry | None:
         """The same of the support bearings."""
         return _entry(self.spec, self.spec.support_bearings)
 
     @property
-    def modulus(self):
+    def modulus(self) -> float:
         """Effective modulus of pin and cam [Pa]."""
         card = materials.material(self.spec.contact.material)
         return card.modulus / (2 * (1 - card.poisson**2))
 
 
-def build(spec):
+def _of_kind(part: object, kind: type[PartT] | tuple[type[PartT], ...]) -> PartT:
+    """The part, where it is of a type, or of one of several."""
+    if not isinstance(part, kind):
+        raise TypeError(f"an analysis of other kinds of indexer was asked about a {type(part).__name__}")
+    return part
+
+
+def build(spec: IndexerSpec) -> IndexerModel:
     """The `IndexerModel` of a spec; InputError where it has no cam."""
     refuse_contradictions(spec)
     law = {key: value for key in ("b", "c", "d") if (value := getattr(spec.motion, key)) is not None}
@@ -75,41 +112,41 @@ def build(spec):
     moving = index_motion(law_name(spec), spec.pins, 1.0 if ratio is None else ratio, **law)
     if spec.kind not in TRANSLATING:
         return IndexerModel(spec, OTHERS[spec.kind](spec, moving), findings=tuple(unused(spec)))
-    wheel = PinWheel(spec.pins, spec.pin_circle_radius, spec.pin_radius, spec.eccentricity, moving, spec.side)
+    wheel = PinWheel(spec.pins, spec.pin_circle_radius, spec.pin_radius, required(spec, "eccentricity"), moving, spec.side)
     wheel.refuse()
     rolling = {key: rolling_bearing(spec, key) for key in ("crank_bearings", "support_bearings") if _named(getattr(spec, key))}
     return IndexerModel(spec, wheel, drive_train(spec, rolling), rolling, tuple(unused(spec)))
 
 
-def _parallel(spec, moving):
-    drive = ParallelIndexer(spec.pins, spec.pin_circle_radius, spec.pin_radius, spec.centre_distance, moving)
+def _parallel(spec: IndexerSpec, moving: IndexMotion) -> ParallelIndexer:
+    drive = ParallelIndexer(spec.pins, spec.pin_circle_radius, spec.pin_radius, required(spec, "centre_distance"), moving)
     for level in drive.levels:
         level.refuse()
     return drive
 
 
-def _globoidal(spec, moving):
-    return globoidal(moving, spec.pin_circle_radius, spec.pin_radius, spec.pin_length, spec.centre_distance, spec.cam_length, spec.hand)
+def _globoidal(spec: IndexerSpec, moving: IndexMotion) -> RollerGear:
+    length, distance, cam_length = (required(spec, key) for key in ("pin_length", "centre_distance", "cam_length"))
+    return globoidal(moving, spec.pin_circle_radius, spec.pin_radius, length, distance, cam_length, spec.hand)
 
 
-def _barrel(spec, moving):
-    return barrel(
-        moving, spec.pin_circle_radius, spec.pin_radius, spec.pin_length, spec.cam_radius, spec.cam_length, spec.centre_distance, spec.hand
-    )
+def _barrel(spec: IndexerSpec, moving: IndexMotion) -> RollerGear:
+    length, radius, cam_length = (required(spec, key) for key in ("pin_length", "cam_radius", "cam_length"))
+    return barrel(moving, spec.pin_circle_radius, spec.pin_radius, length, radius, cam_length, spec.centre_distance, spec.hand)
 
 
 OTHERS = {"parallel": _parallel, "globoidal": _globoidal, "barrel": _barrel}
 
 
-def _entry(spec, given):
-    return bearings.entry(given.bearing, spec.catalogue) if _named(given) else None
+def _entry(spec: IndexerSpec, given: IndexerBearings | None) -> Entry | None:
+    return bearings.entry(given.bearing, spec.catalogue) if given is not None and given.bearing is not None else None
 
 
-def _named(given):
+def _named(given: IndexerBearings | None) -> bool:
     return given is not None and given.bearing is not None
 
 
-def rolling_bearing(spec, key):
+def rolling_bearing(spec: IndexerSpec, key: str) -> BallBearing | RollerBearing:
     """The rolling bearing of a table, with the clearance and the ratings that stand there in place of its own."""
     given = getattr(spec, key)
     try:
@@ -121,7 +158,7 @@ def rolling_bearing(spec, key):
     return found.replace(**changes) if changes else found
 
 
-def drive_train(spec, rolling):
+def drive_train(spec: IndexerSpec, rolling: Mapping[str, BallBearing | RollerBearing]) -> drivetrain.Drivetrain:
     """The `Drivetrain` of a spec; what has no table is rigid."""
     housing = spec.housing
     return drivetrain.Drivetrain(
@@ -132,17 +169,19 @@ def drive_train(spec, rolling):
         housing and housing.support_stiffness,
         spec.shafts and split_shaft(spec.shafts, spec.cams),
         _mesh(spec.gear),
-        drivetrain.PowerBearing(housing.wheel_stiffness) if housing and housing.wheel_stiffness else None,
+        drivetrain.PowerLawBearing(housing.wheel_stiffness) if housing and housing.wheel_stiffness else None,
         housing and housing.wheel_torsion,
     )
 
 
-def _law(given, rolling):
+def _law(given: IndexerBearings | None, rolling: BallBearing | RollerBearing | None) -> drivetrain.BearingModel | None:
     """How a bearing yields: None, a power law, or the rolling bearing itself."""
     if given is None:
         return None
     if rolling is None:
-        return drivetrain.PowerBearing(given.stiffness, clearance=(given.radial_clearance or 0.0) / 2)
+        return (
+            None if given.stiffness is None else drivetrain.PowerLawBearing(given.stiffness, clearance=(given.radial_clearance or 0.0) / 2)
+        )
     if given.law == "elements":
         return rolling
     contact = bearings.contact_of(rolling)
@@ -150,10 +189,10 @@ def _law(given, rolling):
         numbers = {"balls": rolling.balls, "ball_diameter": rolling.ball_diameter}
     else:
         numbers = {"rollers": rolling.rollers, "roller_length": rolling.roller_length}
-    return drivetrain.power_bearing(partial(FORMULAS[given.law, contact], **numbers), (given.radial_clearance or 0.0) / 2)
+    return drivetrain.power_law_bearing(partial(FORMULAS[given.law, contact], **numbers), (given.radial_clearance or 0.0) / 2)
 
 
-def split_shaft(given, cams):
+def split_shaft(given: IndexerShafts, cams: int) -> drivetrain.SplitShaft:
     """The stepped shaft from its gear to its rear support."""
     front = given.overhang
     first = front + given.front
@@ -165,7 +204,7 @@ def split_shaft(given, cams):
     return drivetrain.SplitShaft(sections, 0.0, (front, rear), places, given.youngs_modulus, poisson)
 
 
-def _mesh(gear):
+def _mesh(gear: IndexerGear | None) -> drivetrain.GearMesh | None:
     if gear is None:
         return None
     return drivetrain.GearMesh(gear.module * gear.teeth / 2, gear.stiffness, gear.pressure_angle, gear.backlash)

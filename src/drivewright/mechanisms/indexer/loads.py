@@ -1,21 +1,27 @@
 """Loads of the crank and support bearings over a turn of the crank, their lives, and the statics of equations (7) to (12)."""
 
+from collections.abc import Iterator, Mapping, Sequence
+
 import numpy as np
 
 from drivewright import bearings
+from drivewright._typing import Complexes
+from drivewright.indexing.contacts import CamContacts
 from drivewright.indexing.motion import TURN
 from drivewright.indexing.stiffness import statics
-from drivewright.indexing.stiffness.result import CARRIED
-from drivewright.mechanisms.indexer.build import STEP
+from drivewright.indexing.stiffness.loading import solve_after_play, solve_loaded
+from drivewright.indexing.stiffness.result import CARRIED, TorsionalStiffness
+from drivewright.indexing.stiffness.statics import equivalent_load
+from drivewright.mechanisms.indexer.build import STEP, IndexerModel
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
-from drivewright.mechanisms.indexer.stiffness import after_play, solved
-from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.mechanisms.indexer.spec import IndexerSpec
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 SHAFTS, PLACES = ("left", "right"), ("front", "rear")
 RATED = {"crank": "crank_bearings", "support": "support_bearings"}
 
 
-def no_loads(spec):
+def no_loads(spec: IndexerSpec) -> str | None:
     """Why there are none."""
     if spec.kind not in TRANSLATING:
         return f"kind {spec.kind!r} has no cranks"
@@ -24,12 +30,12 @@ def no_loads(spec):
     return None if spec.crank_bearings or spec.support_bearings else "no bearings are given; without them statics leaves their loads open"
 
 
-def bearing_loads(model, done):
+def bearing_loads(model: IndexerModel, done: Answers) -> Answer:
     """Forces on every bearing over the turn, largest and mean loads, lives, and the corrected statics beside them."""
-    torque = model.spec.load.torque
+    torque = model.torque
     angles = model.angles if model.spec.load.angle is not None else np.linspace(0, TURN, int(round(TURN / STEP)) + 1)
-    found, near = solved(model, angles, torque)
-    loaded, _, _ = after_play(model, angles, torque, found, near)
+    found, near = solve_loaded(model.loaded_wheel, angles, torque)
+    loaded, _, _ = solve_after_play(model.loaded_wheel, angles, torque, found, near)
     forces = dict(_named_forces(loaded, model.spec.cams))
     columns = [Column("angle", "rad", "input angle", angles)]
     for name, force in forces.items():
@@ -50,12 +56,12 @@ def bearing_loads(model, done):
         findings.append(
             f"bearing loads are absent at {lost} of {len(angles)} input angles, where nothing carries the torque; lives leave them out"
         )
-    if model.spec.cams == 2 and model.drive.side == "inside":
+    if model.spec.cams == 2 and model.wheel.side == "inside":
         values |= _statics(model, found, near)
     return Answer(values, (Table("bearing_loads", "Loads of the bearings", tuple(columns)),), tuple(checks), tuple(findings))
 
 
-def _named_forces(found, cams):
+def _named_forces(found: TorsionalStiffness, cams: int) -> Iterator[tuple[str, Complexes]]:
     """Name -> force (p,) on every crank and support bearing."""
     for s, shaft in enumerate(SHAFTS):
         for cam in range(cams):
@@ -65,7 +71,7 @@ def _named_forces(found, cams):
             yield f"support.{shaft}.{place}", found.support_forces[:, s, k]
 
 
-def _measures(model, group, own):
+def _measures(model: IndexerModel, group: str, own: Mapping[str, Complexes]) -> dict[str, Value]:
     """Largest load of a group; equivalent load and life of its worst bearing."""
     largest = max(float(np.nanmax(np.abs(force))) for force in own.values())
     values = {f"{group}.max_load": Value(largest, "N", f"largest load of a {group} bearing")}
@@ -73,7 +79,7 @@ def _measures(model, group, own):
     if rolling is None or rolling.dynamic_rating is None or len(model.angles) == 1:
         return values
     power = 10 / 3 if bearings.contact_of(rolling) == "line" else 3
-    mean = max(_mean(np.abs(force), power) for force in own.values())
+    mean = max(equivalent_load(np.abs(force), power) for force in own.values())
     if mean > 0:
         life = float(bearings.basic_life(rolling, mean))
         values[f"{group}.equivalent_load"] = Value(mean, "N", f"load of constant size with the same life, worst {group} bearing")
@@ -83,13 +89,7 @@ def _measures(model, group, own):
     return values
 
 
-def _mean(load, power):
-    """(mean F^p)^(1/p) over the turn, first and last position being one."""
-    carried = load[:-1][np.isfinite(load[:-1])]
-    return float(np.mean(carried**power) ** (1 / power)) if len(carried) else 0.0
-
-
-def static_rating(model, table):
+def static_rating(model: IndexerModel, table: str) -> float | None:
     """C0 [N] as given, else of the catalogue, else by the permissible pressure; None for a stiffness without one."""
     given, rolling = getattr(model.spec, table), model.rolling.get(table)
     if rolling is None:
@@ -97,7 +97,7 @@ def static_rating(model, table):
     return rolling.static_rating if rolling.static_rating is not None else bearings.geometric_static_rating(rolling)
 
 
-def _checks(model, group, own, values):
+def _checks(model: IndexerModel, group: str, own: Mapping[str, Complexes], values: Mapping[str, Value]) -> Iterator[Check]:
     limits, largest = model.spec.limits, values[f"{group}.max_load"].value
     rating = static_rating(model, RATED[group])
     if rating and largest > 0:
@@ -123,21 +123,11 @@ def _checks(model, group, own, values):
         )
 
 
-def _statics(model, found, near):
+def _statics(model: IndexerModel, found: TorsionalStiffness, near: Sequence[CamContacts]) -> dict[str, Value]:
     """Largest difference of the corrected equations (7)-(12) from the solver, over the largest load, and the same of the printed (8)."""
-    carried = np.array([outcome == CARRIED for outcome in found.outcome])
-    if not carried.any() or model.train.crank is None:
+    if model.train is None or model.train.crank is None:
         return {}
-    force, moment = statics.pin_resultants(found, near)
-    centre = statics.cam_centre(model.spec.eccentricity, found.theta)
-    spacing = model.train.spacing
-    corrected = statics.crank_loads(force[:, 0], moment[:, 0], centre, spacing)
-    printed = statics.crank_loads_printed(force[:, 0], centre, spacing)
-    size = np.nanmax(np.abs(found.crank_forces))
-    values = {}
-    for name, loads in (("corrected", corrected), ("printed", printed)):
-        off = max(float(np.nanmax(np.abs((loads[s] + found.crank_forces[:, s, 0]).imag[carried]))) for s in range(2))
-        values[f"statics.{name}.deviation"] = Value(
-            off / size, "-", f"equations (8) as {name} against the equilibrium, over the largest load"
-        )
-    return values
+    return {
+        f"statics.{name}.deviation": Value(deviation, "-", f"equations (8) as {name} against the equilibrium, over the largest load")
+        for name, deviation in statics.crank_load_deviations(found, near, model.wheel.eccentricity, model.train.spacing).items()
+    }

@@ -1,20 +1,21 @@
 """Hertz pressure of pins on the cams, and what is allowed."""
 
+from collections.abc import Iterator, Mapping
+
 import numpy as np
 
-from drivewright import contact, materials
-from drivewright.result import Check, Value
+from drivewright import materials
+from drivewright.indexing.pin_pressure import pin_pressure
+from drivewright.mechanisms.indexer.build import IndexerModel
+from drivewright.result import Check, Table, Value
 
 
-def hertz(model, force, curvature):
+def pressure_on_pin(model: IndexerModel, force: float, curvature: float) -> float:
     """Peak pressure [Pa] of a pin on the profile; nan at a corner, in a pull, or where the profile is as hollow as the pin."""
-    relative = 1 / model.spec.pin_radius + curvature
-    if not (force > 0 and np.isfinite(curvature) and relative > 0):
-        return np.nan
-    return float(contact.line_contact(force, model.spec.cam_width, 1 / relative, model.modulus).pressure)
+    return pin_pressure(force, curvature, model.spec.pin_radius, model.spec.cam_width, model.modulus)
 
 
-def largest(forces):
+def largest_pin_values(forces: Table) -> dict[str, Value]:
     """Largest force and pressure of a table of pins."""
     values = {}
     if len(forces["force"].data):
@@ -24,7 +25,7 @@ def largest(forces):
     return values
 
 
-def pressure_check(model, values):
+def pressure_check(model: IndexerModel, values: Mapping[str, Value]) -> Iterator[Check]:
     """The Hertz pressure against what is allowed, or what the material stands."""
     allowed = model.spec.limits.contact_pressure or materials.material(model.spec.contact.material).hertz_limit
     if allowed and "pins.max_pressure" in values:

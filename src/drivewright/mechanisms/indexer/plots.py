@@ -1,19 +1,22 @@
 """The plots of an indexing drive; they depend on what was computed."""
 
+from collections.abc import Iterator
+from typing import Any
+
 import numpy as np
 
-from drivewright.mechanisms.indexer.stiffness import GROUPS
-from drivewright.result import Plot
+from drivewright.mechanisms.indexer.stiffness import GROUP_LABELS
+from drivewright.result import Plot, Result
 
 TRACE = 1e-9  # a smaller share is rounding
 
 
-def plots(result):
+def plots(result: Result[Any]) -> tuple[Plot, ...]:
     """All plots whose table the result has."""
     return tuple(plot for plot in _all(result) if plot.table in result.tables)
 
 
-def _all(result):
+def _all(result: Result[Any]) -> Iterator[Plot]:
     yield Plot("motion", "Motion of the wheel by the input angle", "motion", "angle", ("wheel", "rate", "bend", "third"))
     for suffix, words in (("", ""), (".second", ", second cam")):
         if f"profile{suffix}" in result.tables and "z" not in [column.name for column in result.tables["profile"].columns]:
@@ -50,7 +53,7 @@ def _all(result):
     yield Plot("stiffness", "Torsional stiffness", "stiffness", "angle", ("secant", "tangent", "secant_reversed"))
     if "stiffness" in result.tables:
         table = result.tables["stiffness"]
-        largest = {name: np.nanmax(np.abs(table[name].data), initial=0.0) for name in GROUPS}
+        largest = {name: np.nanmax(np.abs(table[name].data), initial=0.0) for name in GROUP_LABELS}
         groups = tuple(name for name, share in largest.items() if share > TRACE * max(largest.values()))
         yield Plot("budget", "Who yields: compliance by parts", "stiffness", "angle", groups, style="bars")
     yield Plot("pin_forces", "Forces on the pins", "pin_forces", "angle", ("force", "pressure"), style="points")

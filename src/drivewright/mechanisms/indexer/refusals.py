@@ -1,7 +1,13 @@
 """What has no meaning, refused by name; what can be computed is left to the checks."""
 
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
 from drivewright import motion
 from drivewright.errors import SpecError, UnknownName
+
+if TYPE_CHECKING:
+    from drivewright.mechanisms.indexer.spec import IndexerSpec
 
 TRANSLATING = ("pin-wheel", "cycloid")
 NEEDED = {
@@ -27,7 +33,7 @@ OWN = {  # keys that only some kinds have
 LARGEST_RATIO = 1000.0
 
 
-def refuse_nonsense(spec):
+def refuse_nonsense(spec: "IndexerSpec") -> None:
     """SpecError for the first thing that has no meaning whatever else is said."""
     if spec.load.torque is not None and spec.load.torque == 0:
         raise SpecError("0 N m: without a load there is no stiffness; give another torque, or leave it out", "load.torque")
@@ -41,13 +47,21 @@ def refuse_nonsense(spec):
         )
 
 
-def refuse_contradictions(spec):
+def required(spec: "IndexerSpec", key: str) -> float:
+    """The value of a key that the kind needs; SpecError where it is missing."""
+    value = getattr(spec, key)
+    if value is None:
+        raise SpecError(f"is missing: kind {spec.kind!r} needs it", key)
+    return value
+
+
+def refuse_contradictions(spec: "IndexerSpec") -> None:
     """SpecError for the first key that is missing for the kind or contradicts another."""
     for check in (_kind, _motion, _pins, _drive, _bearings):
         check(spec)
 
 
-def unused(spec):
+def unused(spec: "IndexerSpec") -> Iterator[str]:
     """Findings about keys that say nothing of this kind, and limits that cannot be checked."""
     given = [key for key in OWN if key in spec.model_fields_set and spec.kind not in OWN[key]]
     if given:
@@ -69,15 +83,14 @@ def unused(spec):
         )
 
 
-def law_name(spec):
+def law_name(spec: "IndexerSpec") -> str:
     """The motion law: as said, else uniform for a cycloid and the modified sine for all others."""
     return spec.motion.law or ("uniform" if spec.kind == "cycloid" else "modified-sine")
 
 
 def _kind(spec):
     for key in NEEDED[spec.kind]:
-        if getattr(spec, key) is None:
-            raise SpecError(f"is missing: kind {spec.kind!r} needs it", key)
+        required(spec, key)
 
 
 def _motion(spec):

@@ -4,20 +4,21 @@ import numpy as np
 
 from drivewright.indexing import roller_gear
 from drivewright.indexing.motion import TURN
-from drivewright.scene import Body, Frame, Scene, Shape, circle, polygon
+from drivewright.mechanisms.indexer.build import IndexerModel
+from drivewright.scene import Body, Frame, Part, Scene, Shape, circle, polygon
 
 FRAMES = 361
 
 
-def scene(model):
+def scene(model: IndexerModel) -> Scene:
     """The developed surface: ribs pass the rollers as the cam turns; the rollers move along the wheel's circle."""
-    cam = model.drive
+    cam = model.cam
     angle = np.linspace(0, TURN, FRAMES)
-    unrolled = roller_gear.developed(cam)
+    unrolled = roller_gear.develop_surface(cam)
     moving = np.stack([-unrolled.pitch_radius * angle, 0 * angle, 0 * angle], axis=1)
     still = np.zeros((FRAMES, 3))
     bodies = [Body("cam", "ribs of the cam, unrolled", tuple(Shape("profile", polygon(rib)) for rib in unrolled.ribs), moving, "blue")]
-    places = roller_gear.centres(cam, angle)
+    places = roller_gear.developed_roller_centres(cam, angle)
     for number, place in zip(cam.rollers, places, strict=True):
         poses = np.column_stack([place, 0 * angle])
         bodies.append(
@@ -29,6 +30,6 @@ def scene(model):
     return Scene(angle, "input angle", "rad", period, tuple(bodies), frames, (), "motion", ((0.0, "step"), *dwell))
 
 
-def parts(model):
+def parts(model: IndexerModel) -> tuple[Part, ...]:
     """Cam and wheel as solids."""
-    return roller_gear.cam_part(model.drive), roller_gear.turret_part(model.drive)
+    return roller_gear.cam_part(model.cam), roller_gear.turret_part(model.cam)

@@ -18,7 +18,7 @@ Designation = Annotated[Text, BeforeValidator(lambda value: str(value) if type(v
 Diameter = Annotated[Length, Field(gt=0)]
 
 
-class Motion(Spec):
+class IndexerMotion(Spec):
     """The wheel over one turn of the input."""
 
     law: Text | None = Field(
@@ -35,7 +35,7 @@ class Motion(Spec):
     d: Number | None = Field(None, description='part of the cosine, for law = "scca"')
 
 
-class Load(Spec):
+class IndexerLoad(Spec):
     """What acts on the wheel."""
 
     torque: Torque | None = Field(
@@ -45,7 +45,7 @@ class Load(Spec):
     speed: Speed | None = Field(None, gt=0, description="speed of the input, for velocities and lives in hours", examples=["120 rpm"])
 
 
-class Contact(Spec):
+class IndexerContact(Spec):
     """Pins or rollers on the cams."""
 
     model: Literal["unilateral", "bonded"] = Field(
@@ -57,7 +57,7 @@ class Contact(Spec):
     material: Text = Field("100Cr6", description=f"of pins and cams, for the contact pressure: {', '.join(materials.names())}")
 
 
-class Bearings(Spec):
+class IndexerBearings(Spec):
     """Rolling bearings of one kind; one of bearing and stiffness."""
 
     bearing: Designation | None = Field(None, description="designation in the catalogue, e.g. NU207E", examples=["NU207E"])
@@ -77,7 +77,7 @@ class Bearings(Spec):
     static_rating: Force | None = Field(None, gt=0, description="basic static load rating C0, instead of the bearing's own")
 
 
-class Shafts(Spec):
+class IndexerShafts(Spec):
     """The two split shafts with their crank pins, alike; along each: gear, front support, cams, rear support."""
 
     overhang: Length = Field(gt=0, description="gear to front support", examples=["25 mm"])
@@ -91,7 +91,7 @@ class Shafts(Spec):
     shear_modulus: Pressure = Field("79.3 GPa", gt=0, description="shear modulus")
 
 
-class Gear(Spec):
+class IndexerGear(Spec):
     """The gears from the input to the split shafts, all alike; without this table the split shafts are held where they would sit."""
 
     module: Length = Field(gt=0, description="module", examples=["2.5 mm"])
@@ -101,7 +101,7 @@ class Gear(Spec):
     backlash: Length = Field("0 mm", ge=0, description="along the line of action")
 
 
-class Housing(Spec):
+class IndexerHousing(Spec):
     """What holds the supports and the wheel."""
 
     support_stiffness: Stiffness | None = Field(
@@ -115,7 +115,7 @@ class Housing(Spec):
     )
 
 
-class Limits(Spec):
+class IndexerLimits(Spec):
     """Requirements; each becomes a check."""
 
     play: Angle = Field("1 arcmin", ge=0, description="free rotation of the wheel in either direction, over the whole cycle")
@@ -159,16 +159,16 @@ class IndexerSpec(MechanismSpec):
         None, gt=0, description="distance of the two split shafts; pin-wheel and cycloid", examples=["110 mm"]
     )
     catalogue: DataFile | None = Field(None, description="a catalogue of rolling bearings of your own (TOML), beside ours")
-    motion: Motion = Field(Motion(), description="motion of the wheel")
-    load: Load = Field(Load(), description="load")
-    contact: Contact = Field(Contact(), description="contact of pins and cams")
-    crank_bearings: Bearings | None = Field(None, description="between cams and crank pins; rigid unless given")
-    support_bearings: Bearings | None = Field(None, description="of the split shafts; rigid unless given")
-    shafts: Shafts | None = Field(None, description="split shafts; rigid unless given")
-    gear: Gear | None = Field(None, description="gears; rigid unless given")
-    housing: Housing | None = Field(None, description="housing and wheel; rigid unless given")
+    motion: IndexerMotion = Field(IndexerMotion(), description="motion of the wheel")
+    load: IndexerLoad = Field(IndexerLoad(), description="load")
+    contact: IndexerContact = Field(IndexerContact(), description="contact of pins and cams")
+    crank_bearings: IndexerBearings | None = Field(None, description="between cams and crank pins; rigid unless given")
+    support_bearings: IndexerBearings | None = Field(None, description="of the split shafts; rigid unless given")
+    shafts: IndexerShafts | None = Field(None, description="split shafts; rigid unless given")
+    gear: IndexerGear | None = Field(None, description="gears; rigid unless given")
+    housing: IndexerHousing | None = Field(None, description="housing and wheel; rigid unless given")
     manufacture: Machining = Field(Machining(), description="milling of plate cams, for exports")
-    limits: Limits = Field(Limits(), description="requirements")
+    limits: IndexerLimits = Field(IndexerLimits(), description="requirements")
 
     @model_validator(mode="after")
     def _has_a_meaning(self):

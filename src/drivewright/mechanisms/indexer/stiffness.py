@@ -1,60 +1,34 @@
 """Torsional stiffness over the index period: who carries, how far the wheel yields, and where nothing holds it."""
 
+from collections.abc import Iterator, Mapping, Sequence
+
 import numpy as np
 
-from drivewright.indexing import stiffness as core
+from drivewright._typing import Bools, Floats
+from drivewright.indexing.contacts import CamContacts
 from drivewright.indexing.motion import TURN
-from drivewright.indexing.plane import contacts
-from drivewright.indexing.play import play
-from drivewright.indexing.stiffness.result import CARRIED
-from drivewright.mechanisms.indexer.build import STEP
-from drivewright.mechanisms.indexer.pins import hertz, largest, pressure_check
+from drivewright.indexing.stiffness.loading import solve_after_play, solve_at_contacts, solve_loaded
+from drivewright.indexing.stiffness.result import CARRIED, TorsionalStiffness
+from drivewright.mechanisms.indexer.build import STEP, IndexerModel
+from drivewright.mechanisms.indexer.pins import largest_pin_values, pressure_check, pressure_on_pin
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
-from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.mechanisms.indexer.spec import IndexerSpec
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
-REACH = 2e-3  # gaps up to this [m] may close under the load
 
-
-def no_stiffness(spec):
+def no_stiffness(spec: IndexerSpec) -> str | None:
     """Why there is none."""
     if spec.kind not in TRANSLATING:
         return f"kind {spec.kind!r} has no model of stiffness"
     return None if spec.load.torque else "load.torque is not given"
 
 
-def solved(model, angles, torque):
-    """(`TorsionalStiffness`, contacts) at the angles."""
-    wheel = model.drive
-    near = [contacts(wheel, angle, REACH) for angle in angles]
-    return _solve(model, angles, near, torque), near
-
-
-def _solve(model, angles, near, torque):
-    spec = model.spec
-    return core.solve(
-        model.train, angles, near, spec.eccentricity, torque, cams=spec.cams, sense=int(model.drive.sense), model=spec.contact.model
-    )
-
-
-def after_play(model, angles, torque, first, near):
-    """Where the wheel turns freely, solved again with the wheel at its first contact: (result, contacts, play [rad])."""
-    free = play(model.drive, angles, np.sign(torque))
-    turned = np.array([outcome == "free" for outcome in first.outcome]) & np.isfinite(free)
-    if model.spec.contact.model == "bonded" or not turned.any():
-        return first, near, np.where(turned, free, 0.0)
-    near = [
-        contacts(model.drive, angle, REACH, turned=float(np.sign(torque) * each) if way else 0.0)
-        for angle, each, way in zip(angles, free, turned, strict=True)
-    ]
-    return core.take_up(first, _solve(model, angles, near, torque)), near, np.where(turned, free, 0.0)
-
-
-def torsional(model, done):
+def torsional(model: IndexerModel, done: Answers) -> Answer:
     """Secant and tangent stiffness, compliance budget, forces of pins and bearings at every position."""
-    torque, angles = model.spec.load.torque, model.angles
-    found, near = solved(model, angles, torque)
-    loaded, touching, free = after_play(model, angles, torque, found, near)
-    reverse = _solve(model, angles, near, -torque)
+    torque, angles = model.torque, model.angles
+    found, near = solve_loaded(model.loaded_wheel, angles, torque)
+    loaded, touching, free = solve_after_play(model.loaded_wheel, angles, torque, found, near)
+    reverse = solve_at_contacts(model.loaded_wheel, angles, near, -torque)
     carried = np.array([outcome == CARRIED for outcome in found.outcome])
     values = {
         "stiffness.undefined_fraction": Value(
@@ -64,19 +38,19 @@ def torsional(model, done):
     values |= _summary(angles, found.secant, carried)
     values |= dwell(model, torque)
     forces = pin_forces(model, angles, touching, loaded)
-    values |= largest(forces)
+    values |= largest_pin_values(forces)
     tables = (stiffness_table(angles, found, loaded, free, reverse), forces)
     return Answer(values, tables, tuple(_checks(model, values)), tuple(_findings(angles, found, loaded, torque)), data=(found, near))
 
 
-def dwell(model, torque):
+def dwell(model: IndexerModel, torque: float) -> dict[str, Value]:
     """Holding, least stiffness and largest pin force in the dwell, where work is done on the table."""
-    start = model.drive.motion.motion_angle
+    start = model.wheel.motion.motion_angle
     count = int(np.ceil((TURN - start) / STEP))
     if model.spec.load.angle is not None or count < 2:
         return {}
     angles = np.linspace(start, TURN, count + 1)[1:-1]
-    found, near = solved(model, angles, torque)
+    found, near = solve_loaded(model.loaded_wheel, angles, torque)
     carried = np.array([outcome == CARRIED for outcome in found.outcome])
     values = {
         "dwell.undefined_fraction": Value(float(np.mean(~carried)), "-", "part of the dwell where the torque is not held without play")
@@ -90,7 +64,7 @@ def dwell(model, torque):
     return values
 
 
-def _summary(angles, secant, carried):
+def _summary(angles: Floats, secant: Floats, carried: Bools) -> dict[str, Value]:
     """Mean, minimum and range over the positions that carry the torque."""
     if not carried.any():
         return {}
@@ -105,14 +79,16 @@ def _summary(angles, secant, carried):
     }
 
 
-def stiffness_table(angles, found, loaded, free, reverse):
+def stiffness_table(
+    angles: Floats, found: TorsionalStiffness, loaded: TorsionalStiffness, free: Floats, reverse: TorsionalStiffness
+) -> Table:
     """Secant, tangent and the share of every group in the compliance; after the play where the wheel turns freely first."""
     columns = [
         Column("angle", "rad", "input angle", angles),
         Column("secant", "N m/rad", "torque over rotation of the wheel", found.secant),
         Column("tangent", "N m/rad", "change of torque over change of rotation", found.tangent),
     ]
-    columns += [Column(name, "rad/(N m)", words, found.shares[name]) for name, words in GROUPS.items()]
+    columns += [Column(name, "rad/(N m)", words, found.shares[name]) for name, words in GROUP_LABELS.items()]
     columns += [
         Column("free_rotation", "rad", "rotation before a contact takes the torque", free),
         Column("secant_after_play", "N m/rad", "torque over the rotation beyond that", loaded.secant),
@@ -121,7 +97,7 @@ def stiffness_table(angles, found, loaded, free, reverse):
     return Table("stiffness", "Torsional stiffness", tuple(columns))
 
 
-GROUPS = {
+GROUP_LABELS = {
     "pin": "contacts of the pins",
     "crank": "crank bearings",
     "support": "support bearings",
@@ -133,13 +109,13 @@ GROUPS = {
 }
 
 
-def pin_forces(model, angles, near, found):
+def pin_forces(model: IndexerModel, angles: Floats, near: Sequence[CamContacts], found: TorsionalStiffness) -> Table:
     """Force and Hertz pressure of every loaded contact, one row each."""
     rows = []
     for angle, each, forces in zip(angles, near, found.pin_forces, strict=True):
         for cam, row in enumerate(forces):
             loaded = np.flatnonzero(np.nan_to_num(row) != 0)
-            rows += [(angle, cam, each.pin[k], row[k], each.arm[k], hertz(model, row[k], each.curvature[k])) for k in loaded]
+            rows += [(angle, cam, each.pin[k], row[k], each.arm[k], pressure_on_pin(model, row[k], each.curvature[k])) for k in loaded]
     data = np.array(rows, dtype=float).reshape(-1, 6).T
     return Table(
         "pin_forces",
@@ -155,7 +131,7 @@ def pin_forces(model, angles, near, found):
     )
 
 
-def _checks(model, values):
+def _checks(model: IndexerModel, values: Mapping[str, Value]) -> Iterator[Check]:
     limits = model.spec.limits
     if limits.stiffness and "stiffness.minimum" in values:
         yield Check(
@@ -175,7 +151,7 @@ def _checks(model, values):
     yield from pressure_check(model, values)
 
 
-def _findings(angles, found, loaded, torque):
+def _findings(angles: Floats, found: TorsionalStiffness, loaded: TorsionalStiffness, torque: float) -> Iterator[str]:
     lost = [k for k, outcome in enumerate(found.outcome) if outcome != CARRIED]
     for reason in dict.fromkeys(found.reasons[k] for k in lost):
         at = [np.degrees(angles[k]) for k in lost if found.reasons[k] == reason]

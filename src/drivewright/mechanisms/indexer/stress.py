@@ -1,30 +1,34 @@
 """Forces and contact pressure of the kinds without a model of stiffness: by statics of rigid parts."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from drivewright.indexing.motion import TURN
-from drivewright.indexing.plane import contacts
+from drivewright.indexing.pin_pressure import best_resisting_contact
 from drivewright.mechanisms.indexer import roller
-from drivewright.mechanisms.indexer.pins import hertz, largest, pressure_check
+from drivewright.mechanisms.indexer.build import IndexerModel
+from drivewright.mechanisms.indexer.pins import largest_pin_values, pressure_check, pressure_on_pin
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
-from drivewright.result import Answer, Check, Column, Table
+from drivewright.mechanisms.indexer.spec import IndexerSpec
+from drivewright.result import Answer, Answers, Check, Column, Table
 
 
-def no_stress(spec):
+def no_stress(spec: IndexerSpec) -> str | None:
     """Why there is none."""
     return None if spec.load.torque or spec.kind in TRANSLATING else "load.torque is not given"
 
 
-def stress(model, done):
+def stress(model: IndexerModel, done: Answers) -> Answer:
     """Forces on the rollers and Hertz pressure under the torque; those on the pins of translating cams come with the stiffness."""
     if model.translating:
         return Answer()
     table, findings = (_plate if model.spec.kind == "parallel" else roller.stress)(model, done)
-    values = largest(table)
+    values = largest_pin_values(table)
     return Answer(values, (table,), (*pressure_check(model, values), *_held(model, table)), findings)
 
 
-def _held(model, table):
+def _held(model: IndexerModel, table: Table) -> Iterator[Check]:
     """Part of the input angles at which no roller takes the torque."""
     if model.spec.load.angle is None:
         angles = model.angles if model.spec.kind == "parallel" else np.linspace(0, TURN, roller.STEPS)
@@ -32,15 +36,15 @@ def _held(model, table):
         yield Check("held", lost, 0.0, "<=", "-", "part of the input angles at which no roller takes the torque", ("cam1", "wheel"))
 
 
-def _plate(model, done):
+def _plate(model: IndexerModel, done: Answers) -> tuple[Table, tuple[str, ...]]:
     """Of two plate cams: the roller with the longest lever alone."""
-    torque, rows = model.spec.load.torque, []
+    torque, rows = model.torque, []
     for angle in model.angles:
-        best = [_best(level, angle, torque) for level in model.drive.levels]
+        best = [best_resisting_contact(level, angle, torque) for level in model.plane.levels]
         number, (pin, arm, curvature) = max(enumerate(best), key=lambda each: abs(each[1][1]))
         if arm:
             force = abs(torque / arm)
-            rows.append((angle, pin + model.drive.pins * number, force, arm, hertz(model, force, curvature)))
+            rows.append((angle, pin + model.plane.pins * number, force, arm, pressure_on_pin(model, force, curvature)))
     data = np.array(rows, dtype=float).reshape(-1, 5).T
     lost = len(model.angles) - len(rows)
     findings = (f"nothing carries the torque at {lost} of {len(model.angles)} input angles",) if lost else ()
@@ -55,13 +59,3 @@ def _plate(model, done):
             Column("pressure", "Pa", "Hertz pressure", data[4]),
         ),
     ), findings
-
-
-def _best(level, angle, torque):
-    """(roller, lever, curvature) of the contact that resists the torque best; lever 0 where none does."""
-    found = contacts(level, angle)
-    lever = np.where(found.intended, -np.sign(torque) * found.arm, -np.inf)
-    if not len(lever) or np.max(lever) <= 0:
-        return 0, 0.0, 0.0
-    k = int(np.argmax(lever))
-    return int(found.pin[k]), float(found.arm[k]), float(found.curvature[k])

@@ -3,13 +3,22 @@
 Rows are tuples (name, ours, other, unit, allowed difference, route) in SI.
 """
 
+from collections.abc import Iterator
+from typing import Any
+
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.indexing import roller_gear, solid
+from drivewright.indexing.drivetrain import SplitShaft
 from drivewright.indexing.motion import TURN
-from drivewright.indexing.plane import contacts, pitch_point
-from drivewright.indexing.roller_gear.envelope import turned
-from drivewright.mechanisms.indexer.stiffness import solved
+from drivewright.indexing.plane import PlaneDrive, find_contacts, pitch_point
+from drivewright.indexing.roller_gear import RollerGear
+from drivewright.indexing.roller_gear.envelope import rotate_about_y
+from drivewright.indexing.stiffness.loading import solve_loaded
+from drivewright.mechanisms.indexer.build import IndexerModel
+from drivewright.registry import Row
+from drivewright.result import Result
 from drivewright.shafts import Section
 
 POLYGON = "centre curve widened by the pin, as a polygon"
@@ -21,25 +30,26 @@ ANGLES = (0.25, 0.5, 0.75)  # of the index period
 ALLOWED = 0.3  # the solids yield more than beams and rigid cams; beyond this the reduced model is not good enough
 
 
-def verify(model, result):
-    """All rows."""
+def verify(model: IndexerModel, result: Result[Any]) -> Iterator[Row]:
+    """Rows (name, ours, other, unit, allowed difference, route) of every independent route."""
     if model.spec.kind in ("barrel", "globoidal"):
-        yield from _flanks(model)
+        yield from _flanks(model.cam)
     else:
-        for number, level in enumerate(model.drive.levels):
+        for number, level in enumerate(model.plane.levels):
             yield from _profile(level, "" if not number else ".second")
             yield from _normals(level, model.angles)
     if model.translating and model.spec.load.torque and result.values["stiffness.undefined_fraction"].value < 1:
         yield from _solids(model)
 
 
-def _profile(drive, suffix):
+def _profile(drive: PlaneDrive, suffix: str) -> Iterator[Row]:
     """Area and perimeter of the cam as what the widened centre curve leaves."""
     from shapely import LineString, Point, Polygon
 
     theta = np.linspace(0, TURN, CHORDS, endpoint=False)
-    points = drive.path(theta).d0.T.ravel()
-    curve = LineString(np.stack([np.append(points, points[0]).real, np.append(points, points[0]).imag], axis=1))
+    points = drive.pin_paths(theta).d0.T.ravel()
+    closed = np.append(points, points[0])
+    curve = LineString(np.stack([np.real(closed), np.imag(closed)], axis=1))
     swept = curve.buffer(drive.pin_radius, quad_segs=128)
     if drive.side == "inside":
         left = next(ring for ring in swept.interiors if Polygon(ring).contains(Point(0, 0)))
@@ -51,27 +61,27 @@ def _profile(drive, suffix):
     yield f"profile{suffix}.perimeter", ours.perimeter, left.length, "m", 2e-3 * ours.perimeter, POLYGON
 
 
-def _normals(drive, angles):
+def _normals(drive: PlaneDrive, angles: Floats) -> Iterator[Row]:
     """Every normal found on the profile passes through the pitch point: the largest distance of one."""
     far = 0.0
     for angle in angles:
         pitch = complex(pitch_point(drive, angle))
         if np.isfinite(pitch) and abs(pitch) < 10 * drive.circle_radius:
-            found = contacts(drive, angle)
+            found = find_contacts(drive, angle)
             live = found.intended
             far = max(far, float(np.max(np.abs(np.imag(np.conj(found.normal[live]) * (pitch - found.centre[live]))), initial=0.0)))
     yield "distance of the normals from the pitch point", far, 0.0, "m", 1e-7, TANGENT
 
 
-def _flanks(model, count=200):
+def _flanks(cam: RollerGear, count: int = 200) -> Iterator[Row]:
     """Points of the finished flanks that some roller touches and none enters: least distance from any roller's skin."""
-    cam, found = model.drive, roller_gear.flanks(model.drive)
-    points = found.contact.point[found.alive]
+    found = roller_gear.compute_flanks(cam)
+    points = found.contact.point[found.on_cam]
     points = points[np.linspace(0, len(points) - 1, count).astype(int)]
     theta = np.linspace(0, TURN, 2880, endpoint=False)
     angle = cam.hand_sign * theta[:, None]
     least = np.full(count, np.inf)
-    at = turned(points[None], angle) + (cam.centre_distance, 0.0, cam.height)
+    at = rotate_about_y(points[None], angle) + (cam.centre_distance, 0.0, cam.height)
     for roller in cam.rollers:
         psi = cam.motion(theta).d0 + cam.motion.pitch * (cam.phase + roller)
         along, across = np.exp(1j * psi)[:, None], at[..., 0] + 1j * at[..., 1]
@@ -83,23 +93,23 @@ def _flanks(model, count=200):
     yield "greatest of the least gaps of a point", 0.0, float(least.max()), "m", 2e-6, SWEPT
 
 
-def _solids(model):
+def _solids(model: IndexerModel) -> Iterator[Row]:
     """Torsional stiffness at three angles with the contact state and the bearing values of the reduced model."""
-    parts = solid_parts(model)
-    if not any(parts):
+    parts, train = solid_parts(model), model.train
+    if train is None or not any(parts):
         return
-    angles = model.angles if len(model.angles) == 1 else model.drive.motion.motion_angle * np.array(ANGLES)
-    reduced, near = solved(model, angles, model.spec.load.torque)
-    train = model.train._replace(shaft=seated(model.train.shaft, parts.shaft))
+    angles = model.angles if len(model.angles) == 1 else model.wheel.motion.motion_angle * np.array(ANGLES)
+    reduced, near = solve_loaded(model.loaded_wheel, angles, model.torque)
+    train = train._replace(shaft=seated(train.shaft, parts.shaft))
     found = solid.solid_stiffness(
-        model.drive, train, parts, angles, near, model.spec.load.torque, cams=model.spec.cams, model=model.spec.contact.model
+        model.wheel, train, parts, angles, near, model.torque, cams=model.spec.cams, model=model.spec.contact.model
     )
     for angle, ours, other in zip(angles, reduced.secant, found.secant, strict=True):
         if np.isfinite(other) and np.isfinite(ours):
             yield f"stiffness at {np.degrees(angle):.4g} deg", float(ours), float(other), "N m/rad", ALLOWED * ours, SOLID
 
 
-def seated(shaft, body):
+def seated(shaft: SplitShaft | None, body: solid.ShaftBody | None) -> SplitShaft | None:
     """The split shaft with seats under its supports, as wide as the bearings and of the thinner of the diameters that meet there."""
     if shaft is None or body is None:
         return shaft
@@ -115,7 +125,7 @@ def seated(shaft, body):
     return shaft._replace(sections=tuple(pieces))
 
 
-def solid_parts(model):
+def solid_parts(model: IndexerModel) -> solid.Solids:
     """The bodies that the spec tells the size of; what it does not is as in the reduced model."""
     spec, entry = model.spec, model.crank_bearing
     cam = shaft = None
@@ -124,5 +134,5 @@ def solid_parts(model):
     if entry and entry.bore and spec.shafts:
         seat = model.support_bearing.width if model.support_bearing and model.support_bearing.width else 0.4 * min(spec.shafts.diameters)
         shaft = solid.ShaftBody(entry.bore, spec.cam_width, seat, 0.7 * spec.shafts.diameters[0])
-    wheel = solid.usual_wheel(model.drive, model.train, spec.cam_width) if model.train.shaft else None
+    wheel = solid.usual_wheel(model.wheel, model.train, spec.cam_width) if model.train and model.train.shaft else None
     return solid.Solids(cam, shaft, wheel)

@@ -1,41 +1,51 @@
-"""What a swept profile is worth, in compiled code: the pins that touch over the index period, their arms, and the play over the turn."""
+"""Values of one design from its sampled envelope, compiled: pins in contact over the index period, their arms, play over the turn."""
 
 import numpy as np
 
 from drivewright._jit import kernel, outer
+from drivewright._typing import Floats
 from drivewright.curves.touching import nearest
-from drivewright.indexing.loops import keep_loop, loop_around, nodes_along
-from drivewright.indexing.plane import ALIVE
+from drivewright.indexing.batch.envelope import (
+    LawTable,
+    PinWheelSizes,
+    find_exposed_samples,
+    sample_pin_path,
+    sort_into_cells,
+    trace_exposed_segments,
+)
+from drivewright.indexing.batch.loops import find_cam_loop, loop_nodes, restrict_to_loop
+from drivewright.indexing.plane import PROFILE_TOLERANCE
 from drivewright.indexing.play import BACKWARD, FORWARD, free_rotation
-from drivewright.indexing.sweep import bare_samples, cells_of, stretches_of, swept
 
 VALUES = 8
-_HOLDS = 1e-6  # an arm above this part of the pin circle stops the wheel
-_ROOM = 16
-_CELL = 0.5  # width of a cell over the pin's radius
+_LEAST_ARM = 1e-6  # an arm above this part of the pin circle stops the wheel
+FOOT_CAPACITY = 16
+_CELL_WIDTH = 0.5  # width of a cell over the pin's radius
 
 
 @kernel
-def rate(wheel, table, theta, index_stride, index_count, play_stride, values):
-    """Writes the VALUES of one design, in the order of `designs.Ratings`; none where no cam is left.
+def evaluate_pin_wheel(
+    wheel: PinWheelSizes, table: LawTable, theta: Floats, index_stride: int, index_count: int, play_stride: int, values: Floats
+) -> None:
+    """Writes the values (VALUES,) of one design, in the order and units of `PinWheelValues`; none where no cam is left.
 
-    theta: samples over one turn; the first `index_count` of every `index_stride`-th are the places of the contacts, every
+    theta (n,) [rad]: samples over one turn; the first `index_count` of every `index_stride`-th are the places of the contacts, every
     `play_stride`-th those of the play.
     """
-    path = swept(wheel, table, theta)
+    path = sample_pin_path(wheel, table, theta)
     margin = _spacing(path) ** 2 / (2 * wheel.pin_radius)
-    cells = cells_of(path, wheel.circle_radius + wheel.eccentricity + margin, _CELL * wheel.pin_radius)
-    bare = bare_samples(path, cells, wheel.pin_radius, margin)
-    found = stretches_of(wheel, table, path, cells, margin, bare)
-    loop = loop_around(found, wheel.sense > 0)
+    cells = sort_into_cells(path, wheel.circle_radius + wheel.eccentricity + margin, _CELL_WIDTH * wheel.pin_radius)
+    exposed = find_exposed_samples(path, cells, wheel.pin_radius, margin)
+    segments = trace_exposed_segments(wheel, table, path, cells, margin, exposed)
+    loop = find_cam_loop(segments, wheel.sense > 0)
     if not len(loop):
         return
-    keep_loop(bare, found, loop)
-    nodes = nodes_along(found, loop)
-    points, bends = np.empty(_ROOM, np.complex128), np.empty(_ROOM)
-    _rate_contacts(wheel, path, nodes, bare, index_stride, index_count, values, points, bends)
-    _rate_play(wheel, path, nodes, bare, play_stride, values, points, bends, np.empty(wheel.pins, np.complex128))
-    values[7] = _convex_radius(path, bare)
+    restrict_to_loop(exposed, segments, loop)
+    nodes = loop_nodes(segments, loop)
+    foot_points, curvatures = np.empty(FOOT_CAPACITY, np.complex128), np.empty(FOOT_CAPACITY)
+    _evaluate_contacts(wheel, path, nodes, exposed, index_stride, index_count, values, foot_points, curvatures)
+    _evaluate_play(wheel, path, nodes, exposed, play_stride, values, foot_points, curvatures, np.empty(wheel.pins, np.complex128))
+    values[7] = _convex_radius(path, exposed)
 
 
 @outer
@@ -50,7 +60,7 @@ def _spacing(path):
 
 
 @outer
-def _rate_contacts(wheel, path, nodes, bare, stride, count, values, points, bends):
+def _evaluate_contacts(wheel, path, nodes, exposed, stride, count, values, foot_points, curvatures):
     """Least and greatest number of pins that touch; worst angle of the best pin forward, backward, and the best of all."""
     fewest, most = wheel.pins, 0
     worst_forward, worst_backward, best = wheel.circle_radius, wheel.circle_radius, 0.0
@@ -59,16 +69,16 @@ def _rate_contacts(wheel, path, nodes, bare, stride, count, values, points, bend
         for turn in range(wheel.pins):
             touching = False
             for side in range(2):
-                if _touches(wheel, path, nodes, bare, j, turn, side, points, bends):
+                if _is_on_profile(wheel, path, nodes, exposed, j, turn, side, foot_points, curvatures):
                     touching = True
                     arm = _arm(wheel, path, j, turn, side)
                     forward, backward = max(forward, arm), max(backward, -arm)
             number += touching
         fewest, most = min(fewest, number), max(most, number)
         best = max(best, forward, backward)
-        if forward > _HOLDS * wheel.circle_radius:
+        if forward > _LEAST_ARM * wheel.circle_radius:
             worst_forward = min(worst_forward, forward)
-        if backward > _HOLDS * wheel.circle_radius:
+        if backward > _LEAST_ARM * wheel.circle_radius:
             worst_backward = min(worst_backward, backward)
     values[2], values[3] = fewest, most
     for n, arm in enumerate((worst_forward, worst_backward, best)):
@@ -76,16 +86,17 @@ def _rate_contacts(wheel, path, nodes, bare, stride, count, values, points, bend
 
 
 @outer
-def _touches(wheel, path, nodes, bare, j, turn, side, points, bends):
+def _is_on_profile(wheel, path, nodes, exposed, j, turn, side, foot_points, curvatures):
     """Whether the envelope's point lies on the profile."""
     k = turn * len(path.theta) + j
-    if bare[side, k]:
+    if exposed[side, k]:
         return True
-    return nearest(nodes, _offset(wheel, path, k, side), ALIVE, points, bends) > 0
+    return nearest(nodes, _envelope_point(wheel, path, k, side), PROFILE_TOLERANCE, foot_points, curvatures) > 0
 
 
 @outer
-def _offset(wheel, path, k, side):
+def _envelope_point(wheel, path, k, side):
+    """Point (complex, [m]) of the envelope at sample k on a side, seen from the cam."""
     return path.z[k] + (1 - 2 * side) * wheel.pin_radius * 1j * path.v[k] / abs(path.v[k])
 
 
@@ -100,42 +111,46 @@ def _arm(wheel, path, j, turn, side):
 
 @outer
 def _crank(wheel, theta):
+    """Centre of the cam e exp(i sense theta), complex [m]."""
     return wheel.eccentricity * complex(np.cos(theta), wheel.sense * np.sin(theta))
 
 
 @outer
-def _rate_play(wheel, path, nodes, bare, stride, values, points, bends, centres):
+def _evaluate_play(wheel, path, nodes, exposed, stride, values, foot_points, curvatures, centres):
     """Greatest play forward and backward; nan where nothing stops the wheel somewhere."""
     for n, direction in enumerate((FORWARD, BACKWARD)):
         values[n] = 0.0
         for j in range(0, len(path.theta), stride):
-            if not _held(wheel, path, bare, j, direction):
+            if not _is_stopped(wheel, path, exposed, j, direction):
                 crank = _crank(wheel, path.theta[j])
                 for turn in range(wheel.pins):
                     centres[turn] = path.z[turn * len(path.theta) + j] + crank
-                free = free_rotation(nodes, centres, crank, wheel.pin_radius, direction, 2 * np.pi / wheel.pins, points, bends)
+                free = free_rotation(nodes, centres, crank, wheel.pin_radius, direction, 2 * np.pi / wheel.pins, foot_points, curvatures)
                 values[n] = np.nan if free != free else max(values[n], free)
                 if free != free:
                     break
 
 
 @outer
-def _held(wheel, path, bare, j, direction):
+def _is_stopped(wheel, path, exposed, j, direction):
     """Whether a pin that touches stops the wheel in the direction."""
     for turn in range(wheel.pins):
         for side in range(2):
-            if bare[side, turn * len(path.theta) + j] and direction * _arm(wheel, path, j, turn, side) < -_HOLDS * wheel.circle_radius:
+            if (
+                exposed[side, turn * len(path.theta) + j]
+                and direction * _arm(wheel, path, j, turn, side) < -_LEAST_ARM * wheel.circle_radius
+            ):
                 return True
     return False
 
 
 @outer
-def _convex_radius(path, bare):
+def _convex_radius(path, exposed):
     """Least radius of curvature of the centre curve where the profile is convex, its centre of curvature on the side of the cam."""
     sharpest = 0.0
     for side in range(2):
         for k in range(len(path.z)):
-            if bare[side, k]:
+            if exposed[side, k]:
                 v, a = path.v[k], path.a[k]
                 sharpest = max(sharpest, (1 - 2 * side) * (v.real * a.imag - v.imag * a.real) / abs(v) ** 3)
     return 1.0 / sharpest

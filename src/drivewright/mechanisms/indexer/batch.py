@@ -1,12 +1,17 @@
 """Many pin wheels at once for the optimiser: play, contacts and pressure angles in the compiled sweep."""
 
+from collections.abc import Callable, Mapping, Sequence
+
 import numpy as np
 
 from drivewright import motion
+from drivewright._typing import Bools, Floats
 from drivewright.errors import InputError
-from drivewright.indexing.designs import rate_designs
+from drivewright.indexing.batch import evaluate_pin_wheels
 from drivewright.indexing.motion import NO_DWELL, TURN
 from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refuse_contradictions
+from drivewright.mechanisms.indexer.spec import IndexerSpec
+from drivewright.motion import MotionLaw
 
 SIZES = ("pin_circle_radius", "pin_radius", "eccentricity")
 RATIO = "motion.motion_to_dwell"
@@ -29,7 +34,7 @@ MOTION = {  # of the law's peaks, the pitch and the motion angle
 }
 
 
-def batch(spec, keys, names):
+def batch(spec: IndexerSpec, keys: Sequence[str], names: Sequence[str]) -> Callable[[Floats], dict[str, Floats]] | None:
     """designs (n, d) -> {name: (n,)}; None where a key or a value is beyond the sweep, which then runs one by one."""
     if spec.kind not in TRANSLATING or spec.load.angle is not None or not set(names) <= {*VALUES, *MOTION}:
         return None
@@ -37,7 +42,7 @@ def batch(spec, keys, names):
         return None
     refuse_contradictions(spec)
 
-    def evaluate(x):
+    def evaluate(x: Floats) -> dict[str, Floats]:
         """{name: (n,)} of designs (n, d), NaN for an impossible one."""
         columns = dict(zip(keys, np.asarray(x, float).T, strict=True))
         sizes = [columns.get(key, np.full(len(x), getattr(spec, key))) for key in SIZES]
@@ -48,28 +53,29 @@ def batch(spec, keys, names):
             law = _law(spec, dict(zip([LAW[key] for key in LAW if key in columns], shape, strict=True)))
             if law is not None:
                 angle = _motion_angle(spec, columns.get(RATIO), own)
-                ratings = rate_designs(law, spec.pins, *(size[own] for size in sizes), angle, spec.side)
+                circle, pin, throw = (size[own] for size in sizes)
+                design_values = evaluate_pin_wheels(law, spec.pins, circle, pin, throw, angle, spec.side)
                 for name in names:
-                    found[name][own] = VALUES[name](ratings) if name in VALUES else MOTION[name](law.peaks(), TURN / spec.pins, angle)
+                    found[name][own] = VALUES[name](design_values) if name in VALUES else MOTION[name](law.peaks(), TURN / spec.pins, angle)
         return found
 
     return evaluate
 
 
-def _law(spec, changed):
+def _law(spec: IndexerSpec, changed: Mapping[str, float]) -> MotionLaw | None:
     """The motion law with the parameters of a design; None where they make none."""
     given = {key: getattr(spec.motion, key) for key in LAW.values() if getattr(spec.motion, key) is not None}
     try:
-        found = motion.law(law_name(spec), **(given | changed))
+        found = motion.law(law_name(spec), **(given | dict(changed)))
     except InputError:
         return None
     return found if found.continuity >= 1 or found.name == "uniform" else None
 
 
-def _motion_angle(spec, ratios, own):
+def _motion_angle(spec: IndexerSpec, ratios: Floats | None, own: Bools) -> Floats:
     """Input angle of the step [rad] of each of the designs."""
     given = spec.motion.motion_to_dwell
     if law_name(spec) == "uniform" or (ratios is None and given == NO_DWELL):
-        return np.full(np.sum(own), TURN)
-    ratio = ratios[own] if ratios is not None else np.full(np.sum(own), 1.0 if given is None else given)
+        return np.full(int(np.sum(own)), TURN)
+    ratio = ratios[own] if ratios is not None else np.full(int(np.sum(own)), 1.0 if given is None else given)
     return TURN * ratio / (1 + ratio)

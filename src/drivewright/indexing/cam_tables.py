@@ -1,0 +1,106 @@
+"""Profile and contacts of plate cams as numbers and tables."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.curves import Trimmed
+from drivewright.indexing.contacts import CamContacts
+from drivewright.indexing.motion import TURN
+from drivewright.indexing.plane import PinDrive, PlaneDrive, find_contacts
+from drivewright.result import Column, Table
+
+
+def profile_table(trimmed: Trimmed, name: str, chords: int = 24) -> Table:
+    """Points along the profile with the input angle and the pin that cuts them; curvature positive where the cam is convex."""
+    rows = []
+    for span in trimmed.spans:
+        t = np.linspace(span.start, span.stop, chords + 1)
+        jet = span.piece.at(t)
+        curvature = np.imag(np.conj(jet.d1) * jet.d2) / np.maximum(np.abs(jet.d1), 1e-300) ** 3 * np.sign(span.stop - span.start)
+        rows.append(np.stack(np.broadcast_arrays(t, jet.d0.real, jet.d0.imag, curvature)))
+    t, x, y, curvature = np.concatenate(rows, axis=1)
+    turns = np.floor(np.clip(t, 0, None) / TURN * (1 - 1e-12))
+    way = np.sign(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+    return Table(
+        name,
+        "Trimmed profile of the cam",
+        (
+            Column("angle", "rad", "input angle at which a pin touches here", t - TURN * turns),
+            Column("pin", "-", "the pin", turns),
+            Column("x", "m", "from the cam's centre", x),
+            Column("y", "m", "from the cam's centre", y),
+            Column("curvature", "1/m", "of the profile, positive where the cam is convex", way * curvature),
+        ),
+    )
+
+
+def least_convex_radius(drive: PlaneDrive) -> float:
+    """Least radius of the centre curve [m] where the trimmed profile is convex; nan where it never is."""
+    radii = []
+    for span in drive.profile.spans:
+        jet = span.piece.at(np.linspace(span.start, span.stop, 257))
+        speed = np.maximum(np.abs(jet.d1), 1e-300)
+        curvature = np.imag(np.conj(jet.d1) * jet.d2) / speed**3 * np.sign(span.stop - span.start)
+        convex = drive.orientation * curvature > 0
+        radii.append(np.min(1 / np.abs(curvature[convex]) + drive.pin_radius, initial=np.inf))
+    least = float(np.min(radii))
+    return least if np.isfinite(least) else np.nan
+
+
+def find_all_contacts(drive: PinDrive, angle: float) -> CamContacts:
+    """Contacts of one cam of each shape; pins of the second level count on from those of the first."""
+    contacts = [find_contacts(level, angle) for level in drive.levels]
+    shifted = [each._replace(pin=each.pin + drive.levels[0].pins * k) for k, each in enumerate(contacts)]
+    return CamContacts(*(np.concatenate(parts) for parts in zip(*shifted, strict=True)))
+
+
+def best_pressure_angles(contacts: Sequence[CamContacts], circle_radius: float) -> Floats:
+    """(2, n) [rad]: pressure angle of the intended contact that pushes best forward, and backward, in each set; nan where none does."""
+    best = np.full((2, len(contacts)), np.nan)
+    for row, each in enumerate(contacts):
+        for side, sign in enumerate((1, -1)):
+            arms = sign * each.arm[each.intended]
+            if np.any(arms > 0):
+                best[side, row] = np.arccos(min(np.max(arms) / circle_radius, 1.0))
+    return best
+
+
+def driving_pressure_angle(acceleration: Floats, best: Floats) -> Floats:
+    """Pressure angle (n,) [rad] in the direction in which the wheel is accelerated; the worse of both where it is not.
+
+    acceleration (n,): d2 phi/d theta2; best (2, n) [rad]: of the pin pushed best forward, backward.
+    """
+    still = np.abs(acceleration) <= 1e-9 * np.max(np.abs(acceleration), initial=1e-9)
+    return np.where(still, np.fmax(best[0], best[1]), np.where(acceleration > 0, best[0], best[1]))
+
+
+def contact_points_table(angles: Floats, contacts: Sequence[CamContacts], drive: PinDrive, pin_radius: float) -> Table:
+    """Every contact of cam 0, one row each."""
+    live = [each.intended for each in contacts]
+    column = {
+        key: np.concatenate([getattr(each, key)[keep] for each, keep in zip(contacts, live, strict=True)])
+        for key in ("pin", "centre", "normal", "arm", "curvature")
+    }
+    at = column["centre"] - pin_radius * column["normal"]
+    return Table(
+        "contact_points",
+        "Contacts of one cam",
+        (
+            Column("angle", "rad", "input angle", np.repeat(angles, [np.sum(keep) for keep in live])),
+            Column("pin", "-", "pin", column["pin"].astype(float)),
+            Column("pin_forward", "-", "pin pushed forward", np.where(column["arm"] > 0, column["pin"], np.nan)),
+            Column("pin_backward", "-", "pin pushed backward", np.where(column["arm"] < 0, column["pin"], np.nan)),
+            Column("x", "m", "point of contact from the wheel's axis", at.real),
+            Column("y", "m", "the same, y", at.imag),
+            Column("arm", "m", "lever of the normal, forward above 0", column["arm"]),
+            Column(
+                "pressure_angle",
+                "rad",
+                "between the normal and the pin's way",
+                np.arccos(np.minimum(np.abs(column["arm"]) / drive.circle_radius, 1)),
+            ),
+            Column("curvature", "1/m", "of the profile, positive where the cam is convex", column["curvature"]),
+        ),
+    )

@@ -1,0 +1,54 @@
+"""A pin wheel under a torque at many input angles: its contacts, and again after its play where nothing holds it at first."""
+
+from collections.abc import Sequence
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.indexing.contacts import CamContacts
+from drivewright.indexing.drivetrain import Drivetrain
+from drivewright.indexing.pin_wheel import PinWheel
+from drivewright.indexing.plane import find_contacts
+from drivewright.indexing.play import find_play
+from drivewright.indexing.stiffness.result import FREE, TorsionalStiffness, take_up_play
+from drivewright.indexing.stiffness.solve import solve_torsional_stiffness
+
+REACH = 2e-3  # gaps up to this [m] may close under the load
+
+
+class LoadedWheel(NamedTuple):
+    """A pin wheel, what yields between wheel and input, its number of cams, and how contacts carry."""
+
+    wheel: PinWheel
+    train: Drivetrain
+    cams: int
+    model: Literal["unilateral", "bonded"]
+
+
+def solve_loaded(loaded: LoadedWheel, angles: Floats, torque: float) -> tuple[TorsionalStiffness, list[CamContacts]]:
+    """(result, contacts) at the input angles (p,) [rad] under a torque [N m], the unloaded wheel in its ideal place."""
+    contacts = [find_contacts(loaded.wheel, angle, REACH) for angle in angles]
+    return solve_at_contacts(loaded, angles, contacts, torque), contacts
+
+
+def solve_at_contacts(loaded: LoadedWheel, angles: Floats, contacts: Sequence[CamContacts], torque: float) -> TorsionalStiffness:
+    """The result with given contacts, one set an angle."""
+    wheel, train, cams, model = loaded
+    return solve_torsional_stiffness(train, angles, contacts, wheel.eccentricity, torque, cams=cams, sense=int(wheel.sense), model=model)
+
+
+def solve_after_play(
+    loaded: LoadedWheel, angles: Floats, torque: float, first: TorsionalStiffness, contacts: list[CamContacts]
+) -> tuple[TorsionalStiffness, list[CamContacts], Floats]:
+    """(result, contacts, play (p,) [rad]): where the wheel turns freely in `first`, solved again with the wheel at its first contact."""
+    free = find_play(loaded.wheel, angles, np.sign(torque))
+    turned = np.array([outcome == FREE for outcome in first.outcome]) & np.isfinite(free)
+    play = np.where(turned, free, 0.0)
+    if loaded.model == "bonded" or not turned.any():
+        return first, contacts, play
+    touching = [
+        find_contacts(loaded.wheel, angle, REACH, turned=float(np.sign(torque) * each) if way else 0.0)
+        for angle, each, way in zip(angles, free, turned, strict=True)
+    ]
+    return take_up_play(first, solve_at_contacts(loaded, angles, touching, torque)), touching, play
