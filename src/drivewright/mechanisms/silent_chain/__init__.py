@@ -16,7 +16,7 @@ from drivewright.registry import Analysis, Mechanism, oracle
 from drivewright.result import Answer
 
 
-def where_it_can(answer):
+def unless_impossible(answer):
     """The analysis, left out with the reason where the bodies, the card or the place that it asks for cannot be."""
 
     def guarded(model, done):
@@ -40,28 +40,35 @@ ANALYSES = (
     Analysis("trade_off", compare.trade_off, "what the rolling radius trades", missing=compare.no_comparison),
     Analysis("phase_map", compare.phases, "fluctuation over links, teeth and rolling radius", missing=compare.no_phase_map),
     Analysis(
-        "dynamics", where_it_can(dynamics.dynamics), "the running chain: centre distance, forces, spectrum", missing=dynamics.no_dynamics
+        "dynamics",
+        unless_impossible(dynamics.dynamics),
+        "the running chain: centre distance, forces, spectrum",
+        missing=dynamics.no_dynamics,
     ),
     Analysis(
         "quasi_static",
-        where_it_can(many.quasi_static),
+        unless_impossible(many.quasi_static),
         "the loaded chain at rest, teeth and joints elastic",
         default=False,
         missing=dynamics.no_dynamics,
     ),
     Analysis(
         "speeds",
-        where_it_can(many.speeds),
+        unless_impossible(many.speeds),
         "the running chain over the speed: Campbell diagram",
         default=False,
         missing=dynamics.no_dynamics,
     ),
     Analysis(
-        "scatter", where_it_can(many.scatter), "the running chain as it comes from manufacture", default=False, missing=dynamics.no_dynamics
+        "scatter",
+        unless_impossible(many.scatter),
+        "the running chain as it comes from manufacture",
+        default=False,
+        missing=dynamics.no_dynamics,
     ),
     Analysis(
         "stress",
-        where_it_can(stress.stress),
+        unless_impossible(stress.stress),
         "stress of a plate as it goes round, finite elements",
         default=False,
         needs=("dynamics",),
@@ -69,7 +76,7 @@ ANALYSES = (
     ),
     Analysis(
         "life",
-        where_it_can(stress.life),
+        unless_impossible(stress.life),
         "fatigue life of a plate on its critical planes",
         default=False,
         needs=("stress",),

@@ -74,9 +74,9 @@ class ChainModel:
     @cached_property
     def plate(self):
         """The plate of a silent chain; InputError where the lengths given leave none."""
-        said = self.spec.plate
-        lengths = {name: value for name in ("back", "toe", "crotch", "crotch_radius") if (value := getattr(said, name)) is not None}
-        return design_plate(self.link, self.pins, thickness=said.thickness, **lengths)
+        given = self.spec.plate
+        lengths = {name: value for name in ("back", "toe", "crotch", "crotch_radius") if (value := getattr(given, name)) is not None}
+        return design_plate(self.link, self.pins, thickness=given.thickness, **lengths)
 
     @cached_property
     def undrawn(self):
@@ -90,11 +90,11 @@ class ChainModel:
     @property
     def pins(self):
         """Pins of the joints and the holes they need."""
-        said, p = self.spec.joint, self.spec.pitch
-        if said.kind == "revolute":
-            return HingePin(0.5 * said.pin_diameter if said.pin_diameter else HINGE * p)
+        given, p = self.spec.joint, self.spec.pitch
+        if given.kind == "revolute":
+            return HingePin(0.5 * given.pin_diameter if given.pin_diameter else HINGE * p)
         turn = max(2 * np.pi / LEAST_TURNED, 2.2 * np.pi / min(self.teeth))
-        if said.kind == "round-pin":
+        if given.kind == "round-pin":
             return RoundPins(turn=turn)
         return RockerPins(*(share * p for share in ROCKER), turn)
 
@@ -109,26 +109,26 @@ class ChainModel:
 
     def sprocket(self, teeth, tooth):
         """A sprocket for this chain with a given tooth."""
-        said, height = self.spec.cutter, seat_height(self.link, teeth)
-        depths = {"tip_radius": said.tip_depth, "root_radius": said.root_depth}
+        given, height = self.spec.cutter, seat_height(self.link, teeth)
+        depths = {"tip_radius": given.tip_depth, "root_radius": given.root_depth}
         lengths = {name: height - depth for name, depth in depths.items() if depth is not None}
         lengths |= {
-            name: value for name, value in (("tip_rounding", said.tip_rounding), ("tip_chamfer", said.chamfer)) if value is not None
+            name: value for name, value in (("tip_rounding", given.tip_rounding), ("tip_chamfer", given.chamfer)) if value is not None
         }
         return replace(design_sprocket(self.link, teeth, self.cutter, **lengths), tooth=tooth)
 
     @property
     def bore(self):
         """Diameter of the sprockets' holes [m]."""
-        said = self.spec.cutter.bore
-        return BORE * pitch_diameter(self.spec.pitch, min(self.teeth)) if said is None else said
+        given = self.spec.cutter.bore
+        return BORE * pitch_diameter(self.spec.pitch, min(self.teeth)) if given is None else given
 
     @property
     def contact_length(self):
         """Length along which the pins touch, or of a roller chain's bushes [m]."""
-        said, plate = self.spec.joint.contact_length, self.spec.plate
-        if said is not None:
-            return said
+        given, plate = self.spec.joint.contact_length, self.spec.plate
+        if given is not None:
+            return given
         return BUSH * self.spec.pitch if self.spec.roller else sum(plate.lacing) * plate.thickness
 
     @property
@@ -157,11 +157,11 @@ def build(spec):
 
 
 def offset_of(spec, radius):
-    """Offset of the pins [m], as said or by its rule."""
-    said, (z1, z2), ideal = spec.joint.offset, spec.teeth, spec.meshing.ideal
-    if not isinstance(said, str):
-        return said
-    if said == "match-drive":
+    """Offset of the pins [m], as given or by its rule."""
+    given, (z1, z2), ideal = spec.joint.offset, spec.teeth, spec.meshing.ideal
+    if not isinstance(given, str):
+        return given
+    if given == "match-drive":
         return meshing.matching_offset(spec.pitch, radius, z1, ideal)
     return meshing.minimax_offset(spec.pitch, radius, z1, z2, ideal)
 

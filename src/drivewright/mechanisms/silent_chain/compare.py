@@ -53,10 +53,10 @@ def trade_off(model, done):
 
 def phases(model, done):
     """Fluctuation over the number of links, for rolling radii and tooth numbers."""
-    said, spec = model.spec.compare, model.spec
-    links = said.links or range(max(spec.links - AROUND, max(model.teeth) + 2), spec.links + AROUND + 1)
-    radii = [0.0] if spec.joint.kind == "revolute" else said.rolling_radii or (0.0, model.link.radius, 0.78 * spec.pitch)
-    cases = [(r, n, z) for z in said.driven_teeth or (model.teeth[1],) for r in radii for n in links]
+    given, spec = model.spec.compare, model.spec
+    links = given.links or range(max(spec.links - AROUND, max(model.teeth) + 2), spec.links + AROUND + 1)
+    radii = [0.0] if spec.joint.kind == "revolute" else given.rolling_radii or (0.0, model.link.radius, 0.78 * spec.pitch)
+    cases = [(r, n, z) for z in given.driven_teeth or (model.teeth[1],) for r in radii for n in links]
     found = _closed(model, cases)
     radius, count, teeth = np.array(cases, float).T
     names = np.array([f"r {1e3 * r:.4g} mm, z {model.teeth[0]}/{z}" for r, _, z in cases])
@@ -83,8 +83,8 @@ def phases(model, done):
 
 def _radii(model):
     """Rolling radii, ascending, above 0."""
-    said = [r for r in model.spec.compare.rolling_radii if r > 0]
-    return np.array(sorted(said or {*(share * model.spec.pitch for share in OVER_PITCH), model.link.radius}))
+    given = [r for r in model.spec.compare.rolling_radii if r > 0]
+    return np.array(sorted(given or {*(share * model.spec.pitch for share in OVER_PITCH), model.link.radius}))
 
 
 def _closed(model, cases):

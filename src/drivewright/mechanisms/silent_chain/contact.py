@@ -16,8 +16,8 @@ def no_contact(spec):
 def contact(model, done):
     """Forces of the strands and what they do to the pins."""
     force = model.spec.contact.force or strand_force(model)
-    said = model.spec.plate
-    rough = model.undrawn and not model.spec.roller and not (said.link_mass and said.link_inertia)
+    given = model.spec.plate
+    rough = model.undrawn and not model.spec.roller and not (given.link_mass and given.link_inertia)
     findings = [f"the mass of a link is estimated from the pitch: {model.undrawn}"] if rough else []
     values, checks = {**_strands(model), "pin.force": Value(force, "N", "of the strand, on the pins of a joint")}, []
     pressed, found = (_rolling if model.link.radius else _hinge)(model, force)

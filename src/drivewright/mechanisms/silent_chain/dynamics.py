@@ -125,29 +125,29 @@ def _remarks(runs, values):
 
 def _runs(model, system):
     """The ensemble of runs, by the integrator asked for."""
-    said = model.spec.dynamics
-    duration = said.settling + (said.duration or REVOLUTIONS * model.spec.links * tooth_time(system))
-    if duration - said.settling < 2 * tooth_time(system):
+    given = model.spec.dynamics
+    duration = given.settling + (given.duration or REVOLUTIONS * model.spec.links * tooth_time(system))
+    if duration - given.settling < 2 * tooth_time(system):
         raise SpecError(
-            f"{1e3 * (duration - said.settling):.4g} ms hold no two teeth of {1e3 * tooth_time(system):.4g} ms; give more",
+            f"{1e3 * (duration - given.settling):.4g} ms hold no two teeth of {1e3 * tooth_time(system):.4g} ms; give more",
             "dynamics.duration",
         )
-    common = {"settle": said.settling, "tolerance": said.largest_drift, "plate": WATCHED}
-    if said.integrator == "implicit":
-        settings, solve = implicit.Settings(said.step or IMPLICIT_STEP, **common), implicit.simulate
+    common = {"settle": given.settling, "tolerance": given.largest_drift, "plate": WATCHED}
+    if given.integrator == "implicit":
+        settings, solve = implicit.Settings(given.step or IMPLICIT_STEP, **common), implicit.simulate
     else:
         settings, solve = Settings(explicit_step(model, system), **common), simulate
         _refuse_endless(model, duration, settings.step)
-    return ensemble(system, duration, settings, said.ensemble, solve=solve)
+    return ensemble(system, duration, settings, given.ensemble, solve=solve)
 
 
 def _refuse_endless(model, duration, step):
     """SpecError for an explicit run of more steps than anybody waits for."""
-    said = model.spec.dynamics
-    work = duration / step * model.spec.links * said.ensemble
+    given = model.spec.dynamics
+    work = duration / step * model.spec.links * given.ensemble
     if work > MOST_STEPS:
         raise SpecError(
-            f"{said.ensemble} runs of {duration:.3g} s in steps of {step:.3g} s take {work:.2g} steps of a link, more than "
+            f"{given.ensemble} runs of {duration:.3g} s in steps of {step:.3g} s take {work:.2g} steps of a link, more than "
             f"{MOST_STEPS:.2g}; shorten the run, lower stiffness or damping, or solve implicitly",
             "dynamics.duration",
         )
@@ -155,12 +155,12 @@ def _refuse_endless(model, duration, step):
 
 def explicit_step(model, system):
     """Step of an explicit run [s]: as said, else a microsecond, or less where that is not safe."""
-    said = model.spec.dynamics.step
+    given = model.spec.dynamics.step
     try:
-        refuse_step(system, said or 0.1 * largest_step(system))
+        refuse_step(system, given or 0.1 * largest_step(system))
     except InputError as reason:
         raise SpecError(str(reason), "dynamics.step") from None
-    return said or min(STEP, SAFE * largest_step(system))
+    return given or min(STEP, SAFE * largest_step(system))
 
 
 def _more(model, runs):

@@ -19,8 +19,8 @@ PERCENTILES = (5, 50, 95)
 
 def speeds(model, done):
     """Fluctuation and mesh order over the speed, and the spectra: a Campbell diagram."""
-    drive, said = model.spec.drive, model.spec.compare.speeds
-    chosen = np.array(said) if said else drive.speed * BEYOND * np.arange(1, SPEEDS + 1) / SPEEDS
+    drive, given = model.spec.drive, model.spec.compare.speeds
+    chosen = np.array(given) if given else drive.speed * BEYOND * np.arange(1, SPEEDS + 1) / SPEEDS
     system = moving(model)
     found = campbell(system, -chosen, REVOLUTIONS, _settings(model, system), model.spec.dynamics.ensemble)
     rows = [(-row.case, row.value) for row in found.rows if row.ok]
@@ -86,10 +86,10 @@ def _peaks(level):
 
 def scatter(model, done):
     """Percentiles of mean and fluctuation of the centre distance over drives as they come from manufacture; each drive runs once."""
-    system, said = moving(model), model.spec.scatter
+    system, given = moving(model), model.spec.scatter
     settings = _settings(model, system)
     duration = settings.settle + REVOLUTIONS * revolution_time(system)
-    found = monte_carlo(system, Scatter(said.tooth_thickness, said.pitch), said.samples, duration, settings, PERCENTILES, said.seed)
+    found = monte_carlo(system, Scatter(given.tooth_thickness, given.pitch), given.samples, duration, settings, PERCENTILES, given.seed)
     values = {}
     for k, percent in enumerate(PERCENTILES):
         for name, numbers, what in (

@@ -50,8 +50,8 @@ def _articulation(model, found):
     A plate of inertia I between joints that stand still rocks under the force T of the strand with the stiffness T A, A from pin to pin;
     both its joints damp it, with 2 c: c = ratio sqrt(T A I).
     """
-    said = model.spec.contact.articulation_damping_ratio
-    ratio = (ROLLING if model.link.radius else HINGED) if said is None else said
+    given = model.spec.contact.articulation_damping_ratio
+    ratio = (ROLLING if model.link.radius else HINGED) if given is None else given
     return ratio * np.sqrt(strand_force(model) * model.link.hole_pitch * found.inertia)
 
 
@@ -63,10 +63,10 @@ def _driver(model, touch):
 
 def _driven(model, touch):
     """On its slide or fixed; its load resists changes of speed about the nominal one."""
-    spec, said = model.spec, model.spec.driven
-    mass = said.mass or _disc(model, model.teeth[1])
-    inertia, fixed = said.inertia or _inertia(model, mass, model.teeth[1]), said.centre_distance
-    stiffness, ratio = _strands(model), said.damping_ratio
+    spec, given = model.spec, model.spec.driven
+    mass = given.mass or _disc(model, model.teeth[1])
+    inertia, fixed = given.inertia or _inertia(model, mass, model.teeth[1]), given.centre_distance
+    stiffness, ratio = _strands(model), given.damping_ratio
     slide = None if fixed else Slide(0.0, spec.drive.preload, damping=2 * ratio * np.sqrt(stiffness * mass))
     turning = 0.0 if spec.drive.ramp else 2 * ratio * _pitch_radius(model, model.teeth[1]) * np.sqrt(stiffness * inertia)
     nominal = -spec.drive.speed * model.teeth[0] / model.teeth[1]
@@ -117,30 +117,32 @@ def _active(model, number):
     return {"tip_radius": sprocket.tip_radius - sprocket.tip_chamfer, "form_radius": sprocket.form_radius}
 
 
-def _further(model, said, touch):
+def _further(model, given, touch):
     """A sprocket that the chain passes besides, with teeth that fit."""
-    mass = said.mass or _disc(model, said.teeth)
-    inertia = said.inertia or _inertia(model, mass, said.teeth)
+    mass = given.mass or _disc(model, given.teeth)
+    inertia = given.inertia or _inertia(model, mass, given.teeth)
     if model.spec.roller:
-        wheel = design_roller_sprocket(said.teeth, model.spec.pitch, model.spec.roller.diameter, model.spec.roller.tooth_space)
+        wheel = design_roller_sprocket(given.teeth, model.spec.pitch, model.spec.roller.diameter, model.spec.roller.tooth_space)
         active, tooth = {"tip_radius": wheel.tip_radius}, _roller_tooth(wheel)
     else:
-        base = 0.5 * model.cutter.module * said.teeth * np.cos(model.cutter.half_angle)
-        wheel = model.sprocket(said.teeth, Tooth(said.teeth, base, seat_support(model.link, said.teeth)))
+        base = 0.5 * model.cutter.module * given.teeth * np.cos(model.cutter.half_angle)
+        wheel = model.sprocket(given.teeth, Tooth(given.teeth, base, seat_support(model.link, given.teeth)))
         tooth = wheel.tooth._replace(support=wheel.tooth.support - model.spec.dynamics.thickness_deviation)
         active = {"tip_radius": wheel.tip_radius - wheel.tip_chamfer, "form_radius": wheel.form_radius}
-    return Sprocket(tooth, touch, said.centre, mass=mass, inertia=inertia, torque=said.load_torque, **active)
+    return Sprocket(tooth, touch, given.centre, mass=mass, inertia=inertia, torque=given.load_torque, **active)
 
 
-def _guide(model, said, touch):
+def _guide(model, given, touch):
     """A rail, or a tensioner on a slide, against the backs or the toes."""
     plate = None if model.spec.roller else model.plate
-    distance = 0.45 * model.spec.pitch if plate is None else plate.back if said.side == "outside" else -plate.toe
+    distance = 0.45 * model.spec.pitch if plate is None else plate.back if given.side == "outside" else -plate.toe
     slide = None
-    if said.force is not None:
-        direction = said.direction if said.direction is not None else 0.0
-        slide = Slide(direction, said.force, said.stiffness, said.damping)
-    return Guide(said.centre, said.radius, said.start, said.end, said.side, distance, touch, said.friction, mass=said.mass, slide=slide)
+    if given.force is not None:
+        direction = given.direction if given.direction is not None else 0.0
+        slide = Slide(direction, given.force, given.stiffness, given.damping)
+    return Guide(
+        given.centre, given.radius, given.start, given.end, given.side, distance, touch, given.friction, mass=given.mass, slide=slide
+    )
 
 
 def _pitch_radius(model, teeth):

@@ -44,16 +44,16 @@ def slope(model):
 
 def link_of(model):
     """`LinkMass` of a pitch of chain: mass [kg], height of its centre [m], inertia [kg m^2]."""
-    said = model.spec.plate
+    given = model.spec.plate
     drawn = _rough(model) if model.spec.roller or model.undrawn else _drawn(model)
-    mass = said.link_mass or drawn.mass
-    return LinkMass(mass, drawn.height, said.link_inertia or drawn.inertia * mass / drawn.mass)
+    mass = given.link_mass or drawn.mass
+    return LinkMass(mass, drawn.height, given.link_inertia or drawn.inertia * mass / drawn.mass)
 
 
 def _drawn(model):
     """Mean of the two kinds of links in turn."""
-    said, density = model.spec.plate, model.spec.material.density
-    both = [link_mass(model.plate, plates, density, model.chain_width) for plates in said.lacing]
+    given, density = model.spec.plate, model.spec.material.density
+    both = [link_mass(model.plate, plates, density, model.chain_width) for plates in given.lacing]
     return LinkMass(*(0.5 * sum(each) for each in zip(*both, strict=True)))
 
 

@@ -90,13 +90,13 @@ def _meshing(model, result):
         yield f"modification.{side}", result[f"modification.{side}"], float(x), "-", 1e-11, route
 
 
-def _offset(said, hole, r, half, ideal, sin, cos):
-    """The offset e as said, or the one that leaves no deviation on the driver, or opposite ones on both."""
-    if not isinstance(said, str):
-        return type(hole)(float(said))
+def _offset(given, hole, r, half, ideal, sin, cos):
+    """The offset e as given, or the one that leaves no deviation on the driver, or opposite ones on both."""
+    if not isinstance(given, str):
+        return type(hole)(float(given))
     left = [hole - 2 * r / cos(t) - wanted for t, wanted in zip(half, ideal, strict=True)]
     slope = [2 * sin(t) / cos(t) for t in half]
-    return -left[0] / slope[0] if said == "match-drive" else -sum(left) / sum(slope)
+    return -left[0] / slope[0] if given == "match-drive" else -sum(left) / sum(slope)
 
 
 def _tangency(model, result, side, number):
