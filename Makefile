@@ -5,10 +5,18 @@ BIN    := $(VENV)/bin
 JOBS   ?= 2
 export MPLBACKEND = Agg
 
-.PHONY: demo test test-slow test-all system bench docs lint clean
+.PHONY: demo quick test test-slow durations system bench docs lint clean
 
 demo: $(VENV)/core.ready
 	$(BIN)/drivewright examples --run all --out out
+
+# About a minute: without the tests that tests/durations.json lists as long, and without those whose kernels are not compiled yet.
+quick: $(VENV)/test.ready
+	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(JOBS) -m "not slow and not needs_browser" --quick $(ARGS)
+
+# Measures all tests but the slow ones, kernels compiled (so after `make test`), and writes tests/durations.json.
+durations: $(VENV)/test.ready
+	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(JOBS) -m "not slow" --record-durations $(ARGS)
 
 test: $(VENV)/test.ready
 	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(JOBS) -m "not slow" $(ARGS)
@@ -25,6 +33,8 @@ docs: $(VENV)/docs.ready
 
 lint: $(VENV)/test.ready
 	$(BIN)/ruff check src tests benchmarks docs
+	$(BIN)/ruff format --check src tests benchmarks docs
+	$(BIN)/basedpyright
 
 system:
 	scripts/system.sh install

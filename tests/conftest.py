@@ -1,9 +1,15 @@
-"""Shared by all tests: numpy errors raised, our own warnings as errors, fixed seeds, and an honest word about what was skipped."""
+"""Shared by all tests: numpy errors raised, our own warnings as errors, fixed seeds, and an honest word about what was skipped.
+
+`make quick` runs with --quick: it leaves out what `durations.json` lists, the tests that take longer than `QUICK` (a file as a whole where
+its preparation does), and skips a test at the first kernel that would have to be compiled.  `make durations` writes that file anew.
+"""
 
 import importlib
+import json
 import os
 import shutil
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -28,6 +34,24 @@ EXTRAS = {
 BROWSER = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
 
 
+QUICK = 0.3  # seconds that a test of a quick run may take
+DURATIONS = Path(__file__).parent / "durations.json"  # {test or file: seconds} of all that take longer
+
+
+def pytest_addoption(parser):
+    parser.addoption("--quick", action="store_true", help="leave out what takes long, compile nothing")
+    parser.addoption("--record-durations", action="store_true", help=f"write tests/{DURATIONS.name} after the run")
+
+
+def pytest_collection_modifyitems(config, items):
+    if not config.getoption("--quick"):
+        return
+    long = json.loads(DURATIONS.read_text(encoding="utf-8"))
+    is_long = [item.nodeid in long or item.nodeid.partition("::")[0] in long for item in items]
+    config.hook.pytest_deselected(items=[item for item, each in zip(items, is_long, strict=True) if each])
+    items[:] = [item for item, each in zip(items, is_long, strict=True) if not each]
+
+
 def pytest_configure(config):
     config.addinivalue_line("filterwarnings", r"error:::drivewright(\..*)?")
 
@@ -35,6 +59,25 @@ def pytest_configure(config):
 @pytest.fixture(autouse=True)
 def _numpy_errors_raise():
     with np.errstate(divide="raise", over="raise", invalid="raise"):
+        yield
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _nothing_compiles(request):
+    """In a quick run a test that calls a kernel which is not in the cache is skipped there and then: compiling takes minutes."""
+    if not request.config.getoption("--quick"):
+        yield
+        return
+    from drivewright._jit import _KernelCache
+
+    def load_or_skip(self, signature, target):
+        compiled = self._for(signature).load_overload(signature, target)
+        if compiled is None:
+            pytest.skip("calls a kernel that is not compiled yet")
+        return compiled
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(_KernelCache, "load_overload", load_or_skip)
         yield
 
 
@@ -80,6 +123,20 @@ def pytest_terminal_summary(terminalreporter):
         if number := sum(f"{marker}: " in reason for reason in reasons):
             why, remedy = missing(marker) or ("?", "run it again")
             terminalreporter.write_line(f"skipped: {number} test(s) marked {marker} ({why}); what helps: {remedy}")
+
+    if terminalreporter.config.getoption("--record-durations"):
+        reports = [report for group in terminalreporter.stats.values() for report in group if isinstance(report, pytest.TestReport)]
+        DURATIONS.write_text(json.dumps(durations_of(reports), indent=0, sort_keys=True) + "\n", encoding="utf-8")
+
+
+def durations_of(reports):
+    """{test: seconds} of the calls that take longer than `QUICK`, {file: seconds} where the preparation of a test does."""
+    long = {}
+    for report in reports:
+        name = report.nodeid if report.when == "call" else report.nodeid.partition("::")[0]
+        if report.duration > QUICK:
+            long[name] = max(round(report.duration, 1), long.get(name, 0.0))
+    return {name: seconds for name, seconds in long.items() if "::" not in name or name.partition("::")[0] not in long}
 
 
 @pytest.fixture(scope="session")
