@@ -24,7 +24,6 @@ NOT_YET = {  # packages that are still to be finished; one that is finished has 
     "mechanisms/shaft",
     "mechanisms/silent_chain",
     "motion",
-    "multibody",
     "numerics",
     "oracles",
     "report",

@@ -80,7 +80,9 @@ def modes(linear: Linear) -> Modes:
     """`Modes` of a linearised system:  (s^2 mass + s damping + stiffness) x = 0."""
     free = len(linear.scale)
     if free == 0:
-        return Modes(np.zeros(0, complex), np.zeros(0), np.zeros(0), np.zeros((0, 0)), np.zeros((0, len(linear.motions), 3)))
+        return Modes(
+            np.zeros(0, complex), np.zeros(0), np.zeros(0), np.zeros((0, 0), complex), np.zeros((0, len(linear.motions), 3), complex)
+        )
     both = np.outer(linear.scale, linear.scale)
     (mass, damping, stiffness), speed = _in_own_time(linear.mass * both, linear.damping * both, linear.stiffness * both)
     unit, none = np.eye(free), np.zeros((free, free))

@@ -132,7 +132,7 @@ def _legs(assembly, t, end, y, settings, samples):
 
 def _stretched(system, t, y):
     """Whether a drive has brought a loop so far that it hardly closes: rates grow without bound there, and steps become too short."""
-    return len(system.driven) > 0 and len(system.rows) > 0 and smallest_singular_values(system, [t], y[None])[0] < STRETCHED
+    return len(system.driven) > 0 and len(system.rows) > 0 and smallest_singular_values(system, np.array([t]), y[None])[0] < STRETCHED
 
 
 def _joined(stretches):

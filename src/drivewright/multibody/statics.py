@@ -243,7 +243,7 @@ def coordinate_names(assembly: Assembly, system: System) -> tuple[str, ...]:
         names[link.turn] = f"{link.body.name}.angle"
         if link.free >= 0:
             names |= {link.free: f"{link.body.name}.x", link.free + 1: f"{link.body.name}.y"}
-        if link.slide >= 0:
+        if link.joint is not None and link.slide >= 0:
             names[link.slide] = f"{link.joint.name}.slide"
     return tuple(names[k] for k in system.independent)
 

@@ -147,7 +147,8 @@ def _loads(model: LinkageModel) -> dict[str, float]:
 
 def _coarse_peak_mean(model: LinkageModel) -> float:
     """Mean of the five largest maxima of the knife's angular acceleration, no more seen of it than `COARSE` samples per turn [rad/s^2]."""
-    start, turns = model.spec.start_of_window, model.spec.simulate.turns - model.spec.simulate.discard
+    start = model.window_start
+    turns = (model.run_length - start) / model.turn_length
     times = np.linspace(start, model.run_length, round(turns * COARSE) + 1)
     motion = record(simulate(model.assembly, model.run_length, model.settings, samples=times), model.markers)
     size = np.abs(motion.point("knife", "alpha"))
@@ -169,11 +170,9 @@ def slider_crank(play: float, normal: str = "lankarani-nikravesh") -> LinkageSpe
 def _slider_crank() -> Iterator[Row]:
     model = build(slider_crank(5e-4))
     common: dict[str, Any] = {"inputs": SLIDER, "pinned": AGREES}
-    joints = model.assembly.model.joints
-    pins = {joint.name: joint.model for joint in joints if isinstance(joint, Revolute) and isinstance(joint.model, Dry)}
-    stiffness = pins["wrist"].stiffness
+    stiffness = next(joint.dry_contact.stiffness for joint in model.assembly.model.joints if joint.dry_contact)
     yield Row("slider-crank, stiffness K of the contact, 1e10 N/m^1.5", rounded("6.6102", "-"), stiffness / 1e10, "-", **EARLIER, **common)
-    motion, speed = ideal_record(model), model.spec.drive.speed
+    motion, speed = ideal_record(model), model.drive_speed or 0.0
     ideal, closed = largest(motion.t, motion.point("output", "ax")), 0.05 * speed**2 * (1 + 0.05 / 0.12)
     name = "slider-crank without play, largest acceleration of the slider"
     yield Row(name, rounded("19419.36 m/s^2", "m/s^2"), ideal, "m/s^2", **EARLIER, **common)
@@ -212,8 +211,8 @@ def _steps_and_impacts(play: float) -> tuple[float, float]:
     """(steps, impacts) per turn, over many turns where the motion is chaotic."""
     model = build(slider_crank(play))
     first, turns = 10, 400 if play == PLAYS_OF_STEPS[-1] else 40
-    done = simulate(model.assembly, (first + turns) * model.period, Settings(1e-6), samples=np.empty(0))
-    return done.steps / (first + turns), np.sum(done.impacts[:, 0] > first * model.period) / turns
+    done = simulate(model.assembly, (first + turns) * model.turn_length, Settings(1e-6), samples=np.empty(0))
+    return done.steps / (first + turns), np.sum(done.impacts[:, 0] > first * model.turn_length) / turns
 
 
 def _exponent(case: tuple[float, float]) -> float:

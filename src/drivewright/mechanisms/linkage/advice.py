@@ -33,9 +33,11 @@ def clearance_share(spec: LinkageSpec) -> tuple[Check, ...]:
     length, body = shortest_link(spec)
     if not played or body is None:
         return ()
-    joint = max(played, key=lambda joint: joint.clearance)
+    joint = max(played, key=lambda joint: joint.clearance or 0.0)
     message = f"clearance of joint {joint.name!r} over the shortest link, {length * 1e3:.4g} mm of {body!r}"
-    return (Check("clearance_share", joint.clearance / length, spec.limits.clearance_share, "<=", "-", message, (joint.name, body)),)
+    return (
+        Check("clearance_share", (joint.clearance or 0.0) / length, spec.limits.clearance_share, "<=", "-", message, (joint.name, body)),
+    )
 
 
 def restitution(spec: LinkageSpec) -> tuple[Check, ...]:
@@ -90,6 +92,6 @@ def window(spec: LinkageSpec, end: float = math.inf) -> tuple[Check, ...]:
     """Turns that are left for peaks and means of a run that may end before its time."""
     if spec.simulate is None or spec.period is None:
         return ()
-    turns = max(min(spec.duration, end) - spec.start_of_window, 0.0) / spec.period
+    turns = max(min(spec.duration or math.inf, end) - spec.start_of_window, 0.0) / spec.period
     message = "turns after discard; the five largest peaks of fewer are not all main peaks"
     return (Check("window", turns, spec.limits.least_turns, ">=", "-", message),)

@@ -36,7 +36,7 @@ def _body(name, body):
 def marker(spec: LinkageSpec, text: str) -> Marker:
     """The Marker of "BODY.POINT"."""
     body, point = place(text)
-    return model.Marker(body, *points_of(spec, body)[point])
+    return model.Marker(body, *points_of(spec, body)[point or CENTROID])
 
 
 # -- joints --------------------------------------------------------------------------------------------------------------------
@@ -70,7 +70,8 @@ def _rolling(spec, joint, ideal):
 
 
 def _gear(spec, joint, ideal):
-    return model.Gear(joint.name, *joint.connects, joint.ratio, place(joint.carrier)[0])
+    first, second = joint.connects
+    return model.Gear(joint.name, first, second, joint.ratio, place(joint.carrier)[0])
 
 
 def _cam(spec, joint, ideal):
@@ -106,12 +107,12 @@ def dry(spec: LinkageSpec, joint: Joint) -> Dry:
     if joint.normal in contact_law_names():
         return _further(spec, joint)
     if linear:
-        stiffness, exponent, hysteresis, damping = joint.stiffness, 1.0, 0.0, _linear_damping(spec, joint)
+        stiffness, exponent, hysteresis, damping = joint.stiffness or 0.0, 1.0, 0.0, _linear_damping(spec, joint)
     else:
         law = impact_law(CYLINDER_LOSS if cylinder else joint.normal)
         stiffness, exponent, hysteresis, damping = _elastic(joint), 1.5, law.factor(joint.restitution), 0.0
     return model.Dry(
-        joint.clearance, joint.bearing_radius, stiffness, exponent, hysteresis, damping, cylinder, joint.length, _friction(joint)
+        joint.clearance or 0.0, joint.bearing_radius, stiffness, exponent, hysteresis, damping, cylinder, joint.length, _friction(joint)
     )
 
 
@@ -226,7 +227,7 @@ def driven_bodies(spec: LinkageSpec) -> tuple[str, str]:
 
 def driven_joint(spec: LinkageSpec) -> Joint:
     """The Joint of the drive."""
-    return next(joint for joint in spec.joints if joint.name == spec.drive.joint)
+    return next(joint for joint in spec.joints if spec.drive and joint.name == spec.drive.joint)
 
 
 def output_marker(spec: LinkageSpec, output: LinkageOutput) -> Marker:

@@ -12,7 +12,7 @@ import numpy as np
 from drivewright.errors import InputError
 from drivewright.mechanisms.linkage.build import LinkageModel
 from drivewright.mechanisms.linkage.joints import Joint
-from drivewright.mechanisms.linkage.refusals import GROUND, place, points_of
+from drivewright.mechanisms.linkage.refusals import CENTROID, GROUND, place, points_of
 from drivewright.mechanisms.linkage.scene import COLOURS
 from drivewright.mechanisms.linkage.sketch import nodes
 from drivewright.mechanisms.linkage.spec import LinkageSpec
@@ -52,7 +52,7 @@ def default_radius(spec: LinkageSpec) -> float:
 
 def _pin_points(spec, name):
     ends = [place(text) for joint in spec.joints if joint.kind == "revolute" for text in joint.connects]
-    return [point for body, point in ends if body == name]
+    return [point for body, point in ends if body == name and point]
 
 
 def holes(spec: LinkageSpec, name: str) -> dict[tuple[float, float], float]:
@@ -62,7 +62,7 @@ def holes(spec: LinkageSpec, name: str) -> dict[tuple[float, float], float]:
         for end, text in enumerate(joint.connects if joint.kind == "revolute" else ()):
             body, point = place(text)
             if body == name:
-                center = tuple(points_of(spec, body)[point])
+                center = points_of(spec, body)[point or CENTROID]
                 found[center] = max(found.get(center, 0.0), pin_radius(spec, joint, bearing=end == 0))
     for (a, r), (b, s) in itertools.combinations(found.items(), 2):
         if math.dist(a, b) <= r + s:
@@ -124,7 +124,7 @@ def _pins(spec, poses, levels):
     for joint in spec.joints:
         if joint.kind == "revolute":
             body, point = place(joint.connects[1])
-            spot = positions_of(points_of(spec, body)[point], np.array([poses[body]]))[0]
+            spot = positions_of(points_of(spec, body)[point or CENTROID], np.array([poses[body]]))[0]
             near = next((key for key in spots if math.dist(key, spot) < SAME), tuple(spot))
             spots.setdefault(near, []).append(joint)
     for spot, joints in spots.items():

@@ -67,6 +67,7 @@ def origins(model: SimulationModel, bodies: Floats) -> dict[str, Floats]:
     found = {}
     for number, name in enumerate(model.assembly.names):
         pose = bodies[:, number, :3]
-        back = positions_of(tuple(-c for c in centroids.get(name, (0.0, 0.0))), pose)
+        x, y = centroids.get(name, (0.0, 0.0))
+        back = positions_of((-x, -y), pose)
         found[name] = np.column_stack([back, pose[:, 2]])
     return found

@@ -53,7 +53,7 @@ class Dry:
     cylinder: bool = False  # the elastic force is that of a cylinder in a hollow instead of K d^n
     length: float = 0.0  # of the bearing [m]; cylinder law, film and wear
     friction: Friction = Friction()
-    law: Any = None  # a law of `contact.normal_force` instead of all that; stiffness and exponent still say how hard it is about
+    law: tuple[Any, ...] | None = None  # a law of `contact.normal_force` instead; stiffness and exponent tell roughly how hard it is
 
     noun: ClassVar[str] = "play"
 

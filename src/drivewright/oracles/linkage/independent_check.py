@@ -184,7 +184,7 @@ def _in_flight(model, stretch):
     return int(rows[0]) if len(rows) else None
 
 
-def _until_lasting(model, system, t, y, length):
+def _until_lasting(model, system, t, y, length) -> float:
     """The length, or less: to the end of the flight before the first contact that lasts, for which Exudyn keeps the approach speed."""
     if not model.pins:
         return length
