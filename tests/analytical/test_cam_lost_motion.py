@@ -7,8 +7,8 @@ import drivewright as dw
 from drivewright import curves
 from drivewright.errors import SolverError
 from drivewright.mechanisms.cam.build import build
-from drivewright.mechanisms.cam.verify import LAID, verify
 from drivewright.numerics.jets import variable
+from drivewright.oracles.cam.laid_follower import LAID, verify
 
 RISE = [("50 deg", "cycloidal", "20 mm"), ("90 deg", "cycloidal", "-20 mm"), ("220 deg", "dwell", None)]
 SWING = [("40 deg", "cycloidal", "25 deg"), ("70 deg", "cycloidal", "-25 deg"), ("250 deg", "dwell", None)]

@@ -92,8 +92,8 @@ def test_an_eccentric_circle_comes_back_as_a_circle(case):
     assert np.allclose(np.abs(contact.point.d0 - middle), RHO, atol=1e-15)
     assert np.allclose(contact.normal, (contact.point.d0 - middle) / RHO, atol=1e-12)
     assert np.allclose(contact.curvature.d0, 1 / RHO, rtol=1e-11)
-    assert np.allclose(contact.bend.d0, 1 / (RHO if flat else RHO + R), rtol=1e-11)
-    assert np.allclose(contact.bend.d1, 0, atol=1e-7 / RHO)
+    assert np.allclose(contact.pitch_curvature.d0, 1 / (RHO if flat else RHO + R), rtol=1e-11)
+    assert np.allclose(contact.pitch_curvature.d1, 0, atol=1e-7 / RHO)
     assert np.allclose(np.abs(contact.pitch.d0 - middle), RHO if flat else RHO + R, atol=1e-15)
 
 

@@ -10,7 +10,7 @@ from drivewright.numerics.ode import Functions, integrate
 
 H, MASS, K, P, F, DAMPING = 0.024, 0.7, 3000.0, 25.0, 8.0, 9.0
 HARMONIC = cams.Cycle(Programme((Segment(np.pi, "simple-harmonic", H), Segment(np.pi, "simple-harmonic", -H))).function)
-LOAD = cams.Load(MASS, 0.0, K, P, F)
+LOAD = cams.FollowerLoad(MASS, 0.0, K, P, F)
 
 
 def least_force(load, speed):
@@ -92,7 +92,7 @@ def test_power_in_is_power_out(follower, how):
     angle, lift = cycle.at(*cycle.samples())
     contact, travel = follower.contact(angle, lift, **how), follower.reach * lift
     required = cams.follower_force(travel, LOAD, 40.0)
-    normal = cams.normal_force(required, contact).d0
+    normal = cams.cam_normal_force(required, contact).d0
     moment = follower.sense * normal * np.imag(np.conj(contact.point.d0) * contact.normal)
     torque = cams.drive_torque(travel, required).d0
     assert np.max(np.abs(torque)) > 0.1
@@ -198,7 +198,7 @@ def test_acceleration_of_the_mass_is_that_of_its_path():
 
 def test_strong_damping_jumps_on_the_way_down():
     """Without mass c w s' + k s + P + F = 0 is linear in w: the least of -(k s + P + F)/(c s') over the return."""
-    load = cams.Load(0.0, DAMPING, K, P, F)
+    load = cams.FollowerLoad(0.0, DAMPING, K, P, F)
     theta = np.linspace(np.pi, 2 * np.pi, 200001)[1:-1]
     static, slope = K * H / 2 * (1 - np.cos(theta)) + P + F, H / 2 * np.sin(theta)
     assert cams.jump_speed(HARMONIC, 1.0, load) == pytest.approx(np.min(-static / (DAMPING * slope)), rel=1e-9)

@@ -13,18 +13,11 @@ import pytest
 SOURCE = Path(__file__).parents[2] / "src" / "drivewright"
 NOT_YET = {  # packages that are still to be finished; one that is finished has to leave
     "bearings",
-    "cams",
     "chains",
-    "curves",
     "fatigue",
-    "gears",
     "indexing",
-    "mechanisms/cam",
-    "mechanisms/seedling_pusher",
     "mechanisms/shaft",
     "mechanisms/silent_chain",
-    "motion",
-    "numerics",
     "oracles",
     "report",
     "result",

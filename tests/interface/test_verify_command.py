@@ -66,8 +66,8 @@ def test_verify_fails_when_the_routes_part(capsys, monkeypatch, other, code):
 
 def test_verify_without_its_extra_exits_with_2(capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "exudyn", None)
-    monkeypatch.delitem(sys.modules, "drivewright.mechanisms.seedling_pusher.prototype", raising=False)
-    monkeypatch.delattr("drivewright.mechanisms.seedling_pusher.prototype", raising=False)
+    monkeypatch.delitem(sys.modules, "drivewright.oracles.seedling_pusher.exudyn_model", raising=False)
+    monkeypatch.delattr("drivewright.oracles.seedling_pusher.exudyn_model", raising=False)
     code, out, err = run(capsys, "verify", PRESET)
     assert (code, out) == (2, "")
     assert "drivewright: verify, which runs the cam pair in Exudyn, needs the extra 'peers'" in err and "Traceback" not in err

@@ -6,7 +6,7 @@ import pytest
 from drivewright import curves, registry
 from drivewright.cli import main
 from drivewright.mechanisms.seedling_pusher import dynamics
-from drivewright.mechanisms.seedling_pusher.second_route import SecondRoute
+from drivewright.oracles.seedling_pusher.rolled_motion import RolledMotion
 from drivewright.spec import load
 
 pytestmark = pytest.mark.needs_peers
@@ -19,9 +19,9 @@ def model_of(preset, *changes):
 
 def rod_error(model):
     """(carrier angle since the start of the push, rod ahead of its programme [m], the run)."""
-    from drivewright.mechanisms.seedling_pusher import prototype
+    from drivewright.oracles.seedling_pusher import exudyn_model as prototype
 
-    run = prototype.simulate(model, SecondRoute(model).planet)
+    run = prototype.simulate(model, RolledMotion(model).planet)
     return run.angle, run.travel - model.rod(model.push_start + run.angle).d0, run
 
 

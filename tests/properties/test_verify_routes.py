@@ -11,12 +11,12 @@ import pytest
 from drivewright import registry
 from drivewright.errors import InputError, MissingExtra
 from drivewright.gears import EllipticGearPair
-from drivewright.mechanisms.seedling_pusher.second_route import SecondRoute, arc_speed, rolled_pair, roller_at_rest
+from drivewright.oracles.seedling_pusher.rolled_motion import RolledMotion, arc_speed, rolled_pair, roller_at_rest
 from drivewright.runner import run
 from drivewright.spec import load
 from drivewright.studies.verification import Comparison, verify
 
-routes = importlib.import_module("drivewright.mechanisms.seedling_pusher.verify")
+routes = importlib.import_module("drivewright.oracles.seedling_pusher.rows")
 PUSHER = registry.mechanism("seedling-pusher")
 ONLY = ("train", "planting", "cams")
 CASES = {
@@ -36,7 +36,7 @@ def case(request):
 
 
 def rows(model, result):
-    return [Comparison(*row) for row in routes.geometry(model, result, SecondRoute(model))]
+    return [Comparison(*row) for row in routes.geometry(model, result, RolledMotion(model))]
 
 
 def test_both_routes_agree(case):
@@ -159,8 +159,8 @@ def test_a_kind_without_a_second_route_says_so(monkeypatch):
 
 def without_exudyn(monkeypatch):
     monkeypatch.setitem(sys.modules, "exudyn", None)
-    monkeypatch.delitem(sys.modules, "drivewright.mechanisms.seedling_pusher.prototype", raising=False)
-    monkeypatch.delattr("drivewright.mechanisms.seedling_pusher.prototype", raising=False)
+    monkeypatch.delitem(sys.modules, "drivewright.oracles.seedling_pusher.exudyn_model", raising=False)
+    monkeypatch.delattr("drivewright.oracles.seedling_pusher.exudyn_model", raising=False)
 
 
 def test_without_exudyn_the_extra_is_named(monkeypatch):

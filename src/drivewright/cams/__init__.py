@@ -3,49 +3,65 @@
 from drivewright.cams import oscillating, translating
 from drivewright.cams.closure import Breadth, breadth, crossovers, opposite_contact, play
 from drivewright.cams.cycle import Cycle, Extreme
-from drivewright.cams.followers import Contact, OscillatingFlat, OscillatingRound, TranslatingFlat, TranslatingRound, curvature, flat_radius
-from drivewright.cams.loads import Load, drive_torque, follower_force, jump_speed, needed_preload, needed_stiffness, normal_force
+from drivewright.cams.followers import (
+    CamContact,
+    OscillatingFlat,
+    OscillatingRound,
+    TranslatingFlat,
+    TranslatingRound,
+    curvature,
+    flat_radius,
+)
+from drivewright.cams.loads import (
+    FollowerLoad,
+    cam_normal_force,
+    drive_torque,
+    follower_force,
+    jump_speed,
+    needed_preload,
+    needed_stiffness,
+)
 from drivewright.cams.profile import Sinking, family, path, sinking, spans
 from drivewright.cams.sizing import face_ends, least_base_radius
 from drivewright.cams.vibration import STIFFEST, Response, acceleration, amplitude, peak, periodic, propagator, transient
 
 __all__ = [
-    "Breadth",
-    "Contact",
-    "Cycle",
-    "Extreme",
-    "Load",
-    "OscillatingFlat",
-    "OscillatingRound",
-    "Response",
-    "STIFFEST",
-    "Sinking",
-    "TranslatingFlat",
-    "TranslatingRound",
     "acceleration",
     "amplitude",
+    "Breadth",
     "breadth",
+    "cam_normal_force",
+    "CamContact",
     "crossovers",
     "curvature",
+    "Cycle",
     "drive_torque",
+    "Extreme",
     "face_ends",
     "family",
     "flat_radius",
     "follower_force",
+    "FollowerLoad",
     "jump_speed",
     "least_base_radius",
     "needed_preload",
     "needed_stiffness",
-    "normal_force",
     "opposite_contact",
     "oscillating",
+    "OscillatingFlat",
+    "OscillatingRound",
     "path",
     "peak",
     "periodic",
     "play",
     "propagator",
+    "Response",
     "sinking",
+    "Sinking",
     "spans",
+    "STIFFEST",
     "transient",
     "translating",
+    "TranslatingFlat",
+    "TranslatingRound",
 ]

@@ -1,11 +1,14 @@
 """What keeps a follower on its cam where no spring does: a yoke, a groove, a second cam."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.numerics.jets import cos
+from drivewright.cams.cycle import Cycle, Quantity
+from drivewright.cams.followers import CamContact, TranslatingFlat, TranslatingRound
+from drivewright.numerics.jets import Jet, cos
 
 
 class Breadth(NamedTuple):
@@ -15,7 +18,7 @@ class Breadth(NamedTuple):
     error: float
 
 
-def breadth(cycle):
+def breadth(cycle: Cycle) -> Breadth:
     """`Breadth` of the lift over a turn.  A yoke between two faces or rollers wants error = 0."""
 
     def total(angle, lift):
@@ -25,19 +28,19 @@ def breadth(cycle):
     return Breadth(0.5 * (least + greatest), 0.5 * (greatest - least))
 
 
-def opposite_contact(cycle, follower, angle, lift):
-    """`Contact` of the second face of a yoke: that of the first half a turn later, driving the return."""
+def opposite_contact(cycle: Cycle, follower: TranslatingRound | TranslatingFlat, angle: Jet, lift: Jet) -> CamContact:
+    """`CamContact` of the second face of a yoke: that of the first half a turn later, driving the return."""
     later = follower.contact(angle + np.pi, cycle.after(np.pi, angle))
     return replace(later, leverage=-later.leverage)
 
 
-def crossovers(cycle, required):
+def crossovers(cycle: Cycle, required: Quantity) -> int:
     """How often per turn the force that the follower asks for changes its sign, so that the other flank or cam takes over."""
     signs = np.sign(required(*cycle.at(*cycle.samples())).d0)
     signs = signs[signs != 0]
     return int(np.sum(signs != np.roll(signs, 1)))
 
 
-def play(cycle, contact, clearance):
+def play(cycle: Cycle, contact: Callable[[Jet, Jet], CamContact], clearance: float) -> float:
     """Greatest travel [m] of the follower through a clearance [m] between two flanks: clearance/cos alpha."""
     return clearance * cycle.greatest(lambda angle, lift: 1 / cos(contact(angle, lift).pressure_angle)).value

@@ -1,15 +1,32 @@
 """One turn of a cam in smooth pieces: every quantity has a value on either side of a joint, and its extremes are exact."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
+from drivewright._typing import Floats, Ints, Numbers
 from drivewright.numerics.jets import Jet, variable
 from drivewright.numerics.roots import bracketed_roots
 
 STEP = np.radians(0.5)
 EQUAL = 1e-12  # values closer than this, relative to the largest, are one; the first of them is named
+
+Quantity: TypeAlias = Callable[[Jet, Jet], Jet]  # of the jets angle and lift
+
+
+class PiecewiseMotion(Protocol):
+    """What a `Cycle` needs of a motion over one turn; a `motion.Programme` has it."""
+
+    @property
+    def breaks(self) -> Floats:
+        """Ends of the smooth pieces [rad]."""
+        ...
+
+    def on_piece(self, k: Any, theta: Any, /) -> Any:
+        """Motion (s, v, a, j) by the formula of piece k."""
+        ...
 
 
 class Extreme(NamedTuple):
@@ -28,25 +45,25 @@ class Cycle:
     two jets angle and lift that returns a jet with a valid slope.
     """
 
-    motion: Any
-    chosen: tuple | None = None
+    motion: PiecewiseMotion
+    chosen: tuple[int, ...] | None = None
 
     @property
-    def pieces(self):
+    def pieces(self) -> Ints:
         """Numbers of the smooth pieces that count."""
         return np.arange(len(self.motion.breaks) - 1) if self.chosen is None else np.array(self.chosen)
 
-    def at(self, piece, angle):
+    def at(self, piece: int | Ints, angle: Numbers) -> tuple[Jet, Jet]:
         """(angle, lift): the jets at these angles by the formulas of these pieces."""
         return variable(angle), Jet(*self.motion.on_piece(piece, angle))
 
-    def after(self, shift, angle):
+    def after(self, shift: float, angle: Jet) -> Jet:
         """The jet of the lift a fixed angle later in the turn."""
         breaks = self.motion.breaks
         later = np.mod(angle.d0 + shift, breaks[-1])
         return self.at(np.clip(np.searchsorted(breaks, later, side="right") - 1, 0, len(breaks) - 2), later)[1]
 
-    def samples(self, step=STEP, least=8):
+    def samples(self, step: float = STEP, least: int = 8) -> tuple[Ints, Floats]:
         """(piece, angle): places at most `step` apart with both ends of every piece, so that each joint stands twice."""
         pieces, breaks = self.pieces, self.motion.breaks
         counts = np.maximum(np.ceil(np.diff(breaks)[pieces] / step).astype(int), least) + 1
@@ -54,7 +71,7 @@ class Cycle:
         angle = np.concatenate([np.linspace(breaks[k], breaks[k + 1], count) for k, count in zip(pieces, counts, strict=True)])
         return np.repeat(pieces, counts), angle
 
-    def greatest(self, quantity, step=STEP):
+    def greatest(self, quantity: Quantity, step: float = STEP) -> Extreme:
         """`Extreme` of a quantity; of equal ones the first.  The angle is exact to rounding."""
         piece, angle = self.samples(step)
         found = quantity(*self.at(piece, angle))
@@ -64,7 +81,7 @@ class Cycle:
         first = close[np.argmin(angle[close])]
         return Extreme(float(values[first]), float(angle[first]), int(piece[first]))
 
-    def least(self, quantity, step=STEP):
+    def least(self, quantity: Quantity, step: float = STEP) -> Extreme:
         """`Extreme` of the least value of a quantity; of equal ones the first."""
         found = self.greatest(lambda angle, lift: -quantity(angle, lift), step)
         return found._replace(value=-found.value)

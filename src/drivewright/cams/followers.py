@@ -1,7 +1,7 @@
 """Followers: how a lift becomes a cam profile, and what happens where the two touch.
 
 A face is round (a roller, a shoe, a knife edge of radius 0) or flat; a follower translates along +y or swings about a pivot on +x.
-Each follower is a few numbers and one method, `contact(angle, lift)`: jets of the cam angle and of the lift [m or rad] in, `Contact`
+Each follower is a few numbers and one method, `contact(angle, lift)`: jets of the cam angle and of the lift [m or rad] in, `CamContact`
 out.  `sense` is +1 for a cam that turns counter-clockwise, -1 for clockwise; at angle 0 the cam's frame is the machine's.
 """
 
@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from drivewright._typing import Complexes
 from drivewright.cams import oscillating, translating
 from drivewright.curves import derivative, envelope_of_line, tangent
 from drivewright.errors import DoesNotAssemble
@@ -16,10 +17,10 @@ from drivewright.numerics.jets import Jet, atan, constant, cos, exp, sin
 
 
 @dataclass(frozen=True, eq=False)
-class Contact:
-    """The touching of cam and follower, in the cam's frame.  Jets hold value and slope by the cam angle.
+class CamContact:
+    """The contact of cam and follower, in the cam's frame.  Jets hold value and slope by the cam angle.
 
-    pitch [m]: centre of a round face, the point of contact of a flat one; bend [1/m]: its curvature.
+    pitch [m]: centre of a round face, the point of contact of a flat one; pitch_curvature [1/m]: of its path.
     point [m], normal: where they touch and the unit vector from there into the follower.
     curvature [1/m]: of the cam's surface, positive convex.  pressure_angle [rad].
     leverage: travel along the normal per travel of the follower; force along its path = leverage * normal force, negative where the
@@ -29,9 +30,9 @@ class Contact:
     """
 
     pitch: Jet
-    bend: Jet
+    pitch_curvature: Jet
     point: Jet
-    normal: np.ndarray
+    normal: Complexes
     curvature: Jet
     pressure_angle: Jet
     leverage: Jet
@@ -39,7 +40,7 @@ class Contact:
     rolling: Jet
 
 
-def curvature(pitch, orientation=1):
+def curvature(pitch: Jet, orientation: int = 1) -> Jet:
     """Signed curvature kappa = o Im(conj(B') B'')/|B'|^3 [1/m] as a jet with one valid derivative.
 
     orientation o = +1 where the curve runs counter-clockwise about the cam's centre, -1 clockwise; kappa > 0 is convex from outside.
@@ -49,29 +50,29 @@ def curvature(pitch, orientation=1):
 
 
 def _round_contact(follower, pitch, flank, pressure, spin):
-    """Contact of the circle about `pitch`.  flank +1: the cam's side, -1: the outer wall of a groove; spin: of the body over the cam."""
-    bend, along = curvature(pitch, -follower.sense), tangent(pitch)
+    """CamContact of the circle about `pitch`.  flank +1: the cam's side, -1: the outer wall of a groove; spin: of the body over the cam."""
+    pitch_curvature, along = curvature(pitch, -follower.sense), tangent(pitch)
     inward = -1j * flank * follower.sense * along
     with np.errstate(divide="ignore", invalid="ignore"):  # at a cusp the curvature is infinite
-        surface = flank * bend / (1 - flank * follower.radius * bend)
+        surface = flank * pitch_curvature / (1 - flank * follower.radius * pitch_curvature)
     point = pitch + follower.radius * inward
     leverage = follower.side * flank * cos(pressure)
-    return Contact(pitch, bend, point, -inward.d0, surface, pressure, leverage, *_speeds(pitch, point, along, spin))
+    return CamContact(pitch, pitch_curvature, point, -inward.d0, surface, pressure, leverage, *_speeds(pitch, point, along, spin))
 
 
-def flat_radius(direction, support):
+def flat_radius(direction: Jet, support: Jet) -> Jet:
     """Radius of curvature p + p'' [m] under a line with its normal in `direction` phi at distance p = `support` (' = d/dphi), jets."""
     turn = derivative(direction)
     return support + derivative(derivative(support) / turn) / turn
 
 
 def _flat_contact(direction, support, reference, pressure, leverage):
-    """Contact of a line, as in `flat_radius`; `reference` is any point of the follower's body."""
+    """CamContact of a line, as in `flat_radius`; `reference` is any point of the follower's body."""
     turn, normal, point = derivative(direction), exp(1j * direction), envelope_of_line(direction, support)
     along = np.sign(turn.d0) * 1j * normal
     with np.errstate(divide="ignore", invalid="ignore"):
-        bend = 1 / flat_radius(direction, support)
-    return Contact(point, bend, point, normal.d0, bend, pressure, leverage, *_speeds(reference, point, along, turn))
+        surface = 1 / flat_radius(direction, support)
+    return CamContact(point, surface, point, normal.d0, surface, pressure, leverage, *_speeds(reference, point, along, turn))
 
 
 def _speeds(reference, point, tangent, spin):
@@ -92,7 +93,7 @@ class TranslatingRound:
 
     reach = 1.0  # travel of the follower [m] per lift
 
-    def pitch(self, angle, lift):
+    def pitch(self, angle: Jet, lift: Jet) -> Jet:
         """Centre of the face in the cam frame [m], from the jets of the cam angle and of the lift [m]."""
         low = translating.rest_height(self.prime_radius, self.offset) + np.min(self.side * lift.d0)
         if low <= 0:
@@ -103,8 +104,8 @@ class TranslatingRound:
         pitch = translating.pitch_curve(angle, lift, self.prime_radius, self.offset, self.side)
         return pitch if self.sense > 0 else -pitch.conj()
 
-    def contact(self, angle, lift, flank=1):
-        """`Contact` from the jets of the cam angle and of the lift [m]; flank -1 is the outer wall of a groove."""
+    def contact(self, angle: Jet, lift: Jet, flank: int = 1) -> CamContact:
+        """`CamContact` from the jets of the cam angle and of the lift [m]; flank -1 is the outer wall of a groove."""
         pressure = translating.pressure_angle(angle, lift, self.prime_radius, self.offset, self.side)
         return _round_contact(self, self.pitch(angle, lift), flank, pressure, -self.sense * derivative(angle))
 
@@ -124,23 +125,23 @@ class OscillatingRound:
     side: int = 1
 
     @property
-    def reach(self):
+    def reach(self) -> float:
         """Travel of the roller's centre [m] per swing [rad]."""
         return self.arm_length
 
     @property
-    def rest_angle(self):
+    def rest_angle(self) -> float:
         """Angle between the arm and the line from pivot to cam centre at zero lift [rad]."""
         return oscillating.rest_angle(self.prime_radius, self.pivot_distance, self.arm_length)
 
-    def pitch(self, angle, lift):
+    def pitch(self, angle: Jet, lift: Jet) -> Jet:
         """Centre of the face in the cam frame [m], from the jets of the cam angle and of the swing [rad]."""
         psi = self.rest_angle + self.side * lift
         _refuse_swing(psi.d0, 0.0, np.pi)
         return oscillating.pitch_curve(-self.sense * angle, psi, self.pivot_distance, self.arm_length, self.side)
 
-    def contact(self, angle, lift, flank=1):
-        """`Contact` from the jets of the cam angle and of the swing [rad]; flank -1 is the outer wall of a groove."""
+    def contact(self, angle: Jet, lift: Jet, flank: int = 1) -> CamContact:
+        """`CamContact` from the jets of the cam angle and of the swing [rad]; flank -1 is the outer wall of a groove."""
         psi = self.rest_angle + self.side * lift
         pressure = oscillating.pressure_angle(-self.sense * angle, psi, self.pivot_distance, self.arm_length, self.side)
         return _round_contact(self, self.pitch(angle, lift), flank, pressure, -(derivative(lift) + self.sense * derivative(angle)))
@@ -157,14 +158,14 @@ class TranslatingFlat:
 
     reach = 1.0
 
-    def face(self, angle, lift):
+    def face(self, angle: Jet, lift: Jet) -> tuple[Jet, Jet]:
         """(direction, support): of the normal of the face [rad] and the distance from the cam's centre [m], in the cam frame."""
         support = self.base_radius + np.cos(self.tilt) * lift
         _refuse_crossing(support.d0)
         return np.pi / 2 + self.sense * (self.tilt - angle), support
 
-    def contact(self, angle, lift):
-        """`Contact` from the jets of the cam angle and of the lift [m]."""
+    def contact(self, angle: Jet, lift: Jet) -> CamContact:
+        """`CamContact` from the jets of the cam angle and of the lift [m]."""
         reference = (self.sense * self.offset + 1j * lift) * exp(-1j * self.sense * angle)
         tilt = constant(self.tilt + 0.0 * lift.d0)
         return _flat_contact(*self.face(angle, lift), reference, tilt, cos(tilt))
@@ -184,12 +185,12 @@ class OscillatingFlat:
     sense: int = 1
 
     @property
-    def reach(self):
+    def reach(self) -> float:
         """Travel [m] at the arm length per swing [rad]."""
         return self.arm_length
 
     @property
-    def rest_angle(self):
+    def rest_angle(self) -> float:
         """asin((R - d)/C): angle between the face and the line from pivot to cam centre at zero lift [rad]."""
         height = self.base_radius - self.face_offset
         if not abs(height) < self.pivot_distance:
@@ -199,7 +200,7 @@ class OscillatingFlat:
             )
         return np.arcsin(height / self.pivot_distance)
 
-    def face(self, angle, lift):
+    def face(self, angle: Jet, lift: Jet) -> tuple[Jet, Jet]:
         """(direction, support): phi = pi/2 - psi - sense angle and p = C sin psi + d of the face in the cam frame, jets."""
         psi = self.rest_angle + lift
         _refuse_swing(psi.d0, -np.pi / 2, np.pi / 2)
@@ -212,8 +213,8 @@ class OscillatingFlat:
         _refuse_crossing(support.d0)
         return np.pi / 2 - psi - self.sense * angle, support
 
-    def contact(self, angle, lift):
-        """`Contact` from the jets of the cam angle and of the swing [rad]."""
+    def contact(self, angle: Jet, lift: Jet) -> CamContact:
+        """`CamContact` from the jets of the cam angle and of the swing [rad]."""
         # Distance of the contact from the foot of the pivot along the face.
         lever = self.pivot_distance * cos(self.rest_angle + lift) / (1 + self.sense * derivative(lift) / derivative(angle))
         pivot = self.pivot_distance * exp(-1j * self.sense * angle)

@@ -7,13 +7,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright.cams.cycle import Cycle
+from drivewright.cams.followers import CamContact
 from drivewright.curves import derivative
 from drivewright.errors import SolverError
+from drivewright.numerics.jets import Jet
 
 STEPS = 60
 
 
-class Load(NamedTuple):
+class FollowerLoad(NamedTuple):
     """What acts along the travel x; `force` and the spring press the follower onto the cam."""
 
     mass: float = 0.0  # kg
@@ -23,7 +26,7 @@ class Load(NamedTuple):
     force: float = 0.0  # N
 
 
-def follower_force(travel, load, speed):
+def follower_force(travel: Jet, load: FollowerLoad, speed: float) -> Jet:
     """Q = m w^2 x'' + c w x' + k x + P + F [N]: the force that the cam must exert along the travel, a jet of the cam angle.
 
     Where Q < 0 a one-sided contact is lost, and a second flank or cam takes over.
@@ -33,23 +36,23 @@ def follower_force(travel, load, speed):
     return inertia + load.damping * speed * velocity + load.stiffness * travel + (load.preload + load.force)
 
 
-def normal_force(required, contact):
+def cam_normal_force(required: Jet, contact: CamContact) -> Jet:
     """N = Q/leverage [N]: force between the surfaces from the force along the travel; both jets."""
     return required / contact.leverage
 
 
-def drive_torque(travel, required):
+def drive_torque(travel: Jet, required: Jet) -> Jet:
     """T = Q dx/dtheta [N m] that the cam shaft must be given, from the power balance T w = Q v."""
     return required * derivative(travel)
 
 
-def needed_preload(cycle, reach, load, speed):
+def needed_preload(cycle: Cycle, reach: float, load: FollowerLoad, speed: float) -> float:
     """Least preload [N] of the spring that keeps the contact closed with the stiffness as it is; 0 where none is needed."""
     lowest = cycle.least(lambda _, lift: follower_force(reach * lift, load._replace(preload=0.0), speed))
     return max(-lowest.value, 0.0)
 
 
-def needed_stiffness(cycle, reach, load, speed):
+def needed_stiffness(cycle: Cycle, reach: float, load: FollowerLoad, speed: float) -> float:
     """Least stiffness [N/m] of the spring that keeps the contact closed with the preload as it is; inf where no stiffness does.
 
     The greatest -Q0/x over the cycle, Q0 the force without the spring's stiffness, by Dinkelbach's iteration (recalled): the
@@ -68,7 +71,7 @@ def needed_stiffness(cycle, reach, load, speed):
     raise SolverError("cam spring: the stiffness did not settle; give a preload and let the stiffness be.", partial=stiffness)
 
 
-def jump_speed(cycle, reach, load):
+def jump_speed(cycle: Cycle, reach: float, load: FollowerLoad) -> float:
     """Least speed [rad/s] of the cam at which the follower loses contact; 0 where it does at rest, inf where it never does.
 
     m x'' w^2 + c x' w + (k x + P + F) = 0 gives a speed at every place; the place where the force at that speed is least gives the next.

@@ -9,14 +9,17 @@ A cam that turns counter-clockwise by theta under a standing pivot has p = -thet
 standing cam by an angle q from -y has p = q - pi/2; then B = -i C e^{iq} + i L e^{i(q - side psi)}.
 """
 
+from typing import Any
+
 import numpy as np
 
+from drivewright._typing import Numbers
 from drivewright.curves import derivative
 from drivewright.errors import DoesNotAssemble
-from drivewright.numerics.jets import atan, cos, exp, sin
+from drivewright.numerics.jets import Jet, atan, cos, exp, sin
 
 
-def rest_angle(prime_radius, pivot_distance, arm_length):
+def rest_angle(prime_radius: Numbers, pivot_distance: Numbers, arm_length: Numbers) -> Any:
     """psi0 = acos((C^2 + L^2 - R^2)/(2 C L)) [rad], at which the roller's centre is at the prime radius R from the cam's centre.
 
     Raises DoesNotAssemble unless |C - L| < R < C + L.
@@ -31,12 +34,12 @@ def rest_angle(prime_radius, pivot_distance, arm_length):
     return np.arccos((pivot_distance**2 + arm_length**2 - prime_radius**2) / (2 * pivot_distance * arm_length))
 
 
-def pitch_curve(pivot_angle, psi, pivot_distance, arm_length, side=1):
+def pitch_curve(pivot_angle: Jet, psi: Jet, pivot_distance: Numbers, arm_length: Numbers, side: int = 1) -> Jet:
     """Centre of the roller in the cam frame [m]: a complex jet of the driving angle, from the jets p and psi.  C, L may be arrays."""
     return (pivot_distance - arm_length * exp(-1j * side * psi)) * exp(1j * pivot_angle)
 
 
-def pressure_angle(pivot_angle, psi, pivot_distance, arm_length, side=1):
+def pressure_angle(pivot_angle: Jet, psi: Jet, pivot_distance: Numbers, arm_length: Numbers, side: int = 1) -> Jet:
     """Angle between the common normal and the path of the roller's centre [rad], a jet with one valid derivative.
 
     tan(alpha) = o (L (1 - side g) - C cos psi)/(C sin psi),  g = dpsi/dp,  o = -side sign(dp): positive where it opposes a

@@ -1,24 +1,28 @@
 """The finished profile: what the follower's face leaves standing when it has gone once around the cam."""
 
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
+from drivewright.cams.followers import OscillatingFlat, OscillatingRound, TranslatingFlat, TranslatingRound
 from drivewright.curves import CircleFamily, LineFamily, Piece, Span
+from drivewright.motion import Programme
 from drivewright.numerics.jets import Jet, constant, variable
 
+Follower: TypeAlias = TranslatingRound | OscillatingRound | TranslatingFlat | OscillatingFlat
 
-def path(programme, draw):
+
+def path(programme: Programme, draw: Callable[[Jet, Jet], Any]) -> tuple[Piece, ...]:
     """`curves.Piece`s of draw(angle, lift) over the programme, split where it has a joint or a jump; dwells are marked as arcs."""
     first = _cuts(programme)
     last = [*first[1:], programme.function.count]
     return tuple(_piece(programme, draw, a, b - 1) for a, b in zip(first, last, strict=True))
 
 
-def family(follower, programme, flank=1):
+def family(follower: Follower, programme: Programme, flank: int = 1) -> CircleFamily | LineFamily:
     """The `curves` family that the face sweeps in the cam frame: circles or lines.  flank -1: the outer wall of a groove."""
-    if hasattr(follower, "face"):
+    if isinstance(follower, TranslatingFlat | OscillatingFlat):
         return LineFamily(path(programme, follower.face))
     return CircleFamily(path(programme, follower.pitch), follower.radius, "inside" if flank > 0 else "outside")
 
@@ -30,17 +34,17 @@ class Sinking(NamedTuple):
     fastest: the most that a point of the face comes nearer per depth.
     """
 
-    place: Callable
+    place: Callable[[Any, Any], Any]
     fastest: float
 
 
-def sinking(follower, programme, flank=1):
+def sinking(follower: Follower, programme: Programme, flank: int = 1) -> Sinking:
     """The `Sinking` of a follower into its cam; flank -1: outwards, into the outer wall of a groove."""
 
     def lift(angle, depth):
         return constant(programme(angle).s - flank * getattr(follower, "side", 1) * depth / follower.reach)
 
-    if not hasattr(follower, "face"):
+    if not isinstance(follower, TranslatingFlat | OscillatingFlat):
         return Sinking(lambda angle, depth: follower.pitch(variable(angle), lift(angle, depth)).d0, 1.0)
 
     def face(angle, depth):
@@ -48,10 +52,10 @@ def sinking(follower, programme, flank=1):
         return np.stack([np.exp(1j * direction.d0), support.d0 + 0j])
 
     # A line about a pivot, which lies outside the cam: no point of the cam is farther from it than twice its distance from the centre.
-    return Sinking(face, 2 * follower.pivot_distance / follower.reach if hasattr(follower, "pivot_distance") else 1.0)
+    return Sinking(face, 2 * follower.pivot_distance / follower.reach if isinstance(follower, OscillatingFlat) else 1.0)
 
 
-def spans(pieces):
+def spans(pieces: Iterable[Piece]) -> tuple[Span, ...]:
     """The whole of the pieces as spans, for a profile that nothing trims (a knife edge, a pitch curve)."""
     return tuple(Span(piece, piece.start, piece.stop) for piece in pieces)
 

@@ -4,11 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from drivewright.cams.followers import TranslatingFlat, flat_radius
+from drivewright.cams.cycle import Cycle
+from drivewright.cams.followers import OscillatingFlat, TranslatingFlat, flat_radius
 from drivewright.curves import derivative
 
 
-def least_base_radius(cycle, follower):
+def least_base_radius(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -> float | None:
     """Base radius [m] below which a flat face undercuts the profile: 0 where none is too small, None where none is large enough.
 
     Translating: max(0, -min(s + s'') cos tilt), exact, as the radius of curvature is R + (s + s'') cos tilt.  Oscillating: the
@@ -34,7 +35,7 @@ def least_base_radius(cycle, follower):
     return float(brentq(sharpest, low, high, xtol=1e-15 * high, rtol=1e-14))
 
 
-def face_ends(cycle, follower):
+def face_ends(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -> tuple[float, float]:
     """(least, greatest) place of the contact along a flat face [m].
 
     Translating: from where the follower's line meets the face, positive on the side that the cam surface moves to on a rise;

@@ -12,10 +12,10 @@ import numpy as np
 
 from drivewright.curves import derivative
 from drivewright.errors import DoesNotAssemble
-from drivewright.numerics.jets import atan, exp
+from drivewright.numerics.jets import Jet, atan, exp
 
 
-def rest_height(prime_radius, offset):
+def rest_height(prime_radius: float, offset: float) -> float:
     """s0 = sqrt(R^2 - e^2) [m]: height of the roller's centre at zero lift.  Raises DoesNotAssemble unless |e| < R."""
     if not abs(offset) < prime_radius:
         raise DoesNotAssemble(
@@ -25,12 +25,12 @@ def rest_height(prime_radius, offset):
     return np.sqrt(prime_radius**2 - offset**2)
 
 
-def pitch_curve(angle, lift, prime_radius, offset=0.0, side=1):
+def pitch_curve(angle: Jet, lift: Jet, prime_radius: float, offset: float = 0.0, side: int = 1) -> Jet:
     """Centre of the roller in the cam frame [m]: a complex jet, from the jets of the cam angle and of the lift [m]."""
     return (offset + 1j * (side * rest_height(prime_radius, offset) + lift)) * exp(-1j * angle)
 
 
-def pressure_angle(angle, lift, prime_radius, offset=0.0, side=1):
+def pressure_angle(angle: Jet, lift: Jet, prime_radius: float, offset: float = 0.0, side: int = 1) -> Jet:
     """Angle between the common normal and the follower's path [rad], a jet with one valid derivative.
 
     tan(alpha) = side (ds/dtheta - e)/(s0 + side s): positive where it opposes the roller's way out of the cam.

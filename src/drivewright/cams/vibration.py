@@ -11,6 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats, Ints, Numbers
+from drivewright.cams.cycle import Cycle
 from drivewright.curves import derivative
 from drivewright.errors import InputError
 from drivewright.numerics.jets import Jet
@@ -23,12 +25,12 @@ PHASE = 0.5  # natural phase [rad] of one step: Gauss's rule of order 8 is then 
 class Response(NamedTuple):
     """Angle [rad] and piece of the steps, and the error z = x - y [m] there with its time derivatives; joints stand twice."""
 
-    angle: np.ndarray
-    piece: np.ndarray
+    angle: Floats
+    piece: Ints
     error: Jet
 
 
-def propagator(time, frequency, damping):
+def propagator(time: Numbers, frequency: float, damping: float) -> Floats:
     """Matrix (..., 2, 2) that carries (z, z') over a time without forcing; 0 <= damping < 1."""
     wd = frequency * np.sqrt(1 - damping**2)
     decay, c, s = np.exp(-damping * frequency * time), np.cos(wd * time), np.sin(wd * time) / wd
@@ -37,7 +39,7 @@ def propagator(time, frequency, damping):
     return np.moveaxis(decay * np.array(rows), (0, 1), (-2, -1))
 
 
-def transient(cycle, reach, speed, frequency, damping=0.0):
+def transient(cycle: Cycle, reach: float, speed: float, frequency: float, damping: float = 0.0) -> Response:
     """`Response` over one turn from rest at angle 0; frequency in rad/s, speed of the cam in rad/s."""
     _refuse(speed, frequency, damping)
     piece, angle = cycle.samples(min(np.radians(1.0), PHASE * speed / frequency))
@@ -53,7 +55,7 @@ def transient(cycle, reach, speed, frequency, damping=0.0):
     return _response(cycle, piece, angle, states.T, reach, speed, frequency, damping)
 
 
-def periodic(cycle, reach, speed, frequency, damping=0.0):
+def periodic(cycle: Cycle, reach: float, speed: float, frequency: float, damping: float = 0.0) -> Response:
     """`Response` of the steady state, which repeats itself every turn.  Raises InputError at an undamped resonance."""
     angle, piece, rest = transient(cycle, reach, speed, frequency, damping)
     turn = np.eye(2) - propagator(2 * np.pi / speed, frequency, damping)
@@ -68,19 +70,19 @@ def periodic(cycle, reach, speed, frequency, damping=0.0):
     return _response(cycle, piece, angle, free.T + (rest.d0, rest.d1), reach, speed, frequency, damping)
 
 
-def acceleration(response, frequency, damping=0.0):
+def acceleration(response: Response, frequency: float, damping: float = 0.0) -> Jet:
     """x'' = -2 zeta w z' - w^2 z [m/s^2] of the mass, a jet of time without its third derivative."""
     return -2 * damping * frequency * derivative(response.error) - frequency**2 * response.error
 
 
-def amplitude(response, frequency, damping=0.0):
+def amplitude(response: Response, frequency: float, damping: float = 0.0) -> Floats:
     """Envelope sqrt(z^2 + ((z' + zeta w z)/w_d)^2) [m]: what remains swinging where the planned travel rests."""
     wd = frequency * np.sqrt(1 - damping**2)
     error, rate, _, _ = response.error
     return np.hypot(error, (rate + damping * frequency * error) / wd)
 
 
-def peak(response, speed, quantity):
+def peak(response: Response, speed: float, quantity: Jet) -> float:
     """Largest magnitude over the turn of a jet of time at the response's steps; between them by quintic Hermite interpolation."""
     slope = quantity.d1
     turns = np.flatnonzero((response.piece[1:] == response.piece[:-1]) & (slope[1:] * slope[:-1] < 0))
@@ -96,7 +98,7 @@ def peak(response, speed, quantity):
 
 
 def _hermite(left, right, step):
-    """Coefficients (6, n) of the polynomials in 0..1 with value, slope and bend of both ends."""
+    """Coefficients (6, n) of the polynomials in 0..1 with value, slope and second derivative of both ends."""
     rise, (v0, v1), (a0, a1) = right.d0 - left.d0, (step * left.d1, step * right.d1), (step**2 * left.d2, step**2 * right.d2)
     return np.array(
         [

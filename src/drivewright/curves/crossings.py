@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.curves.pieces import gather
+from drivewright.curves.pieces import Chain, gather
 
 _TOLERANCE = 1e-12  # two branches meet when they are this close, relative to the size of the curve
 _TAIL, _JOINT_TAIL = 0.5, 5e-3  # a tail shorter than this [samples], on one piece or across a joint, is one branch meeting itself
@@ -24,7 +24,7 @@ class Crossing(NamedTuple):
     point: complex
 
 
-def self_crossings(chain):
+def self_crossings(chain: Chain) -> tuple[Crossing, ...]:
     """All crossings of the chain with itself, in order of their first place."""
     seeds = np.concatenate([_from_chords(chain), _from_joints(chain)])
     if not len(seeds):
@@ -48,12 +48,12 @@ def _apart(chain, a, b):
 
 def _from_chords(chain):
     """Places (n, 2) where two chords that are not neighbours cross."""
-    from scipy.spatial import cKDTree
+    from scipy.spatial import KDTree
 
     start = chain.segments
     a, b = chain.z[start], chain.z[start + 1]
     middle = 0.5 * (a + b)
-    pairs = cKDTree(np.stack([middle.real, middle.imag], axis=1)).query_pairs(1.0001 * np.max(np.abs(b - a)), output_type="ndarray")
+    pairs = KDTree(np.stack([middle.real, middle.imag], axis=1)).query_pairs(1.0001 * np.max(np.abs(b - a)), output_type="ndarray")
     i, j = np.sort(pairs, axis=1).T
     apart = _apart(chain, i, j) > 1  # chord number k runs from step k to k + 1
     i, j = i[apart], j[apart]

@@ -4,12 +4,14 @@ Second route beside `trim`.  Whether a point is cut away changes only across the
 the face around it of the plane that the envelope's chords divide; no crossing has to be solved for.
 """
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
 
-from drivewright.curves.pieces import gather
-from drivewright.curves.trim import trim
+from drivewright._typing import Complexes, Floats, Ints
+from drivewright.curves.pieces import Piece, gather
+from drivewright.curves.trim import EnvelopeFamily, trim
 from drivewright.numerics.jets import Jet
 from drivewright.scene import Line, Outline, Spline
 
@@ -21,7 +23,7 @@ _PROBES = 200  # members among which one that sweeps over the interior point is 
 _DEEP = 20  # tolerances by which a point of the picture may lie in a cutter, at a sharp crossing of two chords
 
 
-def drawn_outline(family, tolerance, interior=0j, fewest=17):
+def drawn_outline(family: EnvelopeFamily, tolerance: float, interior: complex = 0j, fewest: int = 17) -> Outline:
     """Outline within a few `tolerance` [m] of the exact profile of a family, knots on it; the exact one where chords do not tell it.
 
     fewest: chords on each piece of the envelope before those that turn are divided.  Errors are those of `trim`.
@@ -34,7 +36,7 @@ def drawn_outline(family, tolerance, interior=0j, fewest=17):
     return _outline(points)
 
 
-def simple_outline(family, tolerance, interior=0j, fewest=17):
+def simple_outline(family: EnvelopeFamily, tolerance: float, interior: complex = 0j, fewest: int = 17) -> Outline | None:
     """The same where the envelope does not cross itself, so that nothing of it is cut away; else None."""
     pieces = family.envelope()
     index, t, z = chords(pieces, tolerance, fewest)
@@ -66,7 +68,7 @@ def _run(points):
     return Spline(knots, *((float(end.real), float(end.imag)) for end in ends / np.abs(ends)))
 
 
-def chords(pieces, tolerance, fewest=17):
+def chords(pieces: Sequence[Piece], tolerance: float, fewest: int = 17) -> tuple[Ints, Floats, Complexes]:
     """Piece index, parameter and point of samples along the pieces, no chord further than about `tolerance` [m] from its curve."""
     count = fewest + 1
     index = np.repeat(np.arange(len(pieces)), count)

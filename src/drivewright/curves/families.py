@@ -6,9 +6,11 @@ when no member's gap is negative.  It is `whole` where its envelope is all that 
 
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from typing import Any
 
 import numpy as np
 
+from drivewright._typing import Complexes, Floats, Ints
 from drivewright.curves.pieces import Member, Piece, gather
 from drivewright.curves.plane import envelope_of_circle, envelope_of_line
 from drivewright.errors import InputError
@@ -27,7 +29,7 @@ class CircleFamily:
     part where the path turns back in loops (the pins of a wheel in its dwell); the second side is a loop of its own that runs backwards.
     """
 
-    path: tuple
+    path: tuple[Piece, ...]
     radius: float
     material: str = "inside"
     both: bool = False
@@ -40,12 +42,12 @@ class CircleFamily:
         _refuse_disorder(self.path)
 
     @property
-    def whole(self):
+    def whole(self) -> bool:
         """Whether the envelope is all that can bound the part."""
         return self.both
 
     @cached_property
-    def side(self):
+    def side(self) -> float:
         """+1 when the profile lies to the left of the centre's travel, -1 to the right.
 
         The sense is that in which the path goes round the axis (the origin); if it does not, that in which it encloses its area.
@@ -57,7 +59,7 @@ class CircleFamily:
         turn = np.sign(turns if turns else np.sum(step.imag))
         return turn if self.material == "inside" else -turn
 
-    def envelope(self):
+    def envelope(self) -> tuple[Piece, ...]:
         """Pieces of the envelope in the order of the motion, an arc put in wherever the path has a corner."""
         if not self.both:
             return tuple(self._envelope(self.side))
@@ -101,20 +103,20 @@ class CircleFamily:
         arm = side * self.radius * 1j * before.d1 / abs(before.d1)
         yield Piece(0.0, turn, Member(_around, (before.d0, arm)), f"{piece.label} corner", "arc")
 
-    def members(self, index, t):
+    def members(self, index: Ints, t: Floats) -> Complexes:
         """The centres at parameters t of the pieces `index`."""
         return gather(self.path, index, t).d0
 
-    def gap(self, centre, point):
+    def gap(self, centre: Any, point: Any) -> Any:
         """|point - centre| - radius; the point may be a jet."""
         apart = point - centre
         return (sqrt(apart.abs2()) if isinstance(apart, Jet) else np.abs(apart)) - self.radius
 
-    def deepest(self, members, points):
+    def deepest(self, members: Complexes, points: Complexes) -> Ints:
         """For each point the number of the member with the least gap."""
-        from scipy.spatial import cKDTree
+        from scipy.spatial import KDTree
 
-        return cKDTree(np.stack([members.real, members.imag], axis=1)).query(np.stack([points.real, points.imag], axis=1))[1]
+        return KDTree(np.stack([members.real, members.imag], axis=1)).query(np.stack([points.real, points.imag], axis=1))[1]
 
 
 @dataclass(frozen=True)
@@ -124,7 +126,7 @@ class LineFamily:
     The face is the line Re(conj(n) z) = p with n = e^{i beta}; the part lies on its side Re(conj(n) z) <= p, the follower beyond.
     """
 
-    motion: tuple
+    motion: tuple[Piece, ...]
     material: str = "inside"
 
     whole = True  # the envelope is all that can bound the part
@@ -134,7 +136,7 @@ class LineFamily:
             raise InputError(f"LineFamily: material = {self.material!r}; a straight face can only cut what lies 'inside' its envelope.")
         _refuse_disorder(self.motion)
 
-    def envelope(self):
+    def envelope(self) -> tuple[Piece, ...]:
         """Pieces of the envelope in the order of the motion, a straight piece put in wherever the contact point jumps."""
         pieces = [Piece(piece.start, piece.stop, self._branch(piece), piece.label, piece.shape, k) for k, piece in enumerate(self.motion)]
         size = max(abs(_end(piece, piece.start).d0) for piece in pieces)
@@ -150,17 +152,17 @@ class LineFamily:
         if abs(after - before) > _CORNER * size:
             yield Piece(0.0, 1.0, lambda u: before + (after - before) * variable(u), f"{piece.label} corner", "line")
 
-    def members(self, index, t):
+    def members(self, index: Ints, t: Floats) -> Complexes:
         """Rows of unit normal and support at parameters t of the pieces `index`."""
         direction, support = gather(self.motion, index, t)
         return np.stack([np.exp(1j * direction.d0), support.d0 + 0j])
 
-    def gap(self, member, point):
+    def gap(self, member: Any, point: Any) -> Any:
         """p - Re(conj(n) z); the point may be a jet."""
         normal, support = member
         return support.real - (normal.conj() * point).real
 
-    def deepest(self, members, points):
+    def deepest(self, members: Complexes, points: Complexes) -> Ints:
         """For each point the number of the member with the least gap."""
         normal, support = members
         reach = np.stack([points.real, points.imag], axis=1) @ np.stack([normal.real, normal.imag])

@@ -1,7 +1,12 @@
 """Outlines from surviving spans of exact curves; area, perimeter and parallel outline (tool path) of an outline."""
 
-import numpy as np
+from collections.abc import Sequence
+from typing import Any
 
+import numpy as np
+from scipy.interpolate import PPoly
+
+from drivewright._typing import Floats
 from drivewright.errors import InputError
 from drivewright.scene import Arc, Line, Outline, Spline
 
@@ -13,7 +18,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 _HIGHEST = np.stack([(k + 0.5) * _WEIGHTS * np.polynomial.legendre.Legendre.basis(k)(_NODES) for k in (6, 7)])
 
 
-def span_measures(spans):
+def span_measures(spans: Sequence[Any]) -> tuple[float, float]:
     """Signed area (1/2) int Im(conj(z) dz) [m^2] and length int |dz| [m] of the closed chain of spans."""
     area, length = np.sum([_integrals(span) for span in spans], axis=0)
     return float(area), float(length)
@@ -42,7 +47,7 @@ def _integrals(span, panels=12):
     return total + np.sum((half * (values @ _WEIGHTS))[:, rough], axis=1)
 
 
-def outline_of_spans(spans, tolerance, closed=True):
+def outline_of_spans(spans: Sequence[Any], tolerance: float, closed: bool = True) -> Outline:
     """Outline of the spans, turned counter-clockwise if closed: Arc and Line where flagged, else Spline.
 
     The knots of a spline lie on the exact curve, so close that no chord is further than `tolerance` [m] from it.
@@ -107,12 +112,12 @@ def _pair(z):
     return float(z.real), float(z.imag)
 
 
-def outline_area(outline):
+def outline_area(outline: Outline) -> float:
     """Area [m^2] of a closed outline, positive when it runs counter-clockwise."""
     return float(sum(_sector(piece) for piece in outline.pieces))
 
 
-def perimeter(outline):
+def perimeter(outline: Outline) -> float:
     """Length [m] of an outline."""
     return float(sum(_length(piece) for piece in outline.pieces))
 
@@ -146,7 +151,7 @@ def _gauss(spline):
     return curve(at), curve(at, 1), half * w
 
 
-def interpolant(spline):
+def interpolant(spline: Spline) -> tuple[PPoly, Floats]:
     """Cubic through the knots with the given end tangents, over the running chord length; returns (curve, u at the knots)."""
     from scipy.interpolate import CubicSpline
 

@@ -1,12 +1,13 @@
 """Curves made of smooth pieces joined end to end, and points spread along them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Complexes, Floats, Ints
 from drivewright.errors import InputError
 from drivewright.numerics.jets import Jet
 
@@ -28,14 +29,14 @@ class Piece:
 
     start: float
     stop: float
-    at: Callable
+    at: Callable[[Any], Any]
     label: str = ""
     shape: str = "smooth"
     source: int | None = None
     loop: int = 0
 
     @property
-    def sense(self):
+    def sense(self) -> float:
         """+1 where the piece runs with its parameter, -1 where against it."""
         return 1.0 if self.stop >= self.start else -1.0
 
@@ -43,14 +44,14 @@ class Piece:
 class Member(NamedTuple):
     """An `at` of a whole set of pieces that differ in numbers only: formula(*numbers, t), which takes arrays of every number too."""
 
-    formula: Callable
-    numbers: tuple
+    formula: Callable[..., Any]
+    numbers: tuple[Any, ...]  # floats, or arrays of what differs from piece to piece
 
     def __call__(self, t):
         return self.formula(*self.numbers, t)
 
 
-def gather(pieces, index, t):
+def gather(pieces: Sequence[Piece], index: Ints, t: Floats) -> Any:
     """Values of piece `index[k]` at `t[k]`: a Jet, or a tuple of Jets, of the shape of t; pieces with one formula together."""
     formulas = {}
     number = np.array([formulas.setdefault(getattr(piece.at, "formula", piece.at), len(formulas)) for piece in pieces])[index]
@@ -92,51 +93,51 @@ class Chain:
     A place on the chain is a float u: the sample number, fractions in between.
     """
 
-    pieces: tuple
-    index: np.ndarray
-    t: np.ndarray
-    z: np.ndarray
-    v: np.ndarray
+    pieces: tuple[Piece, ...]
+    index: Ints
+    t: Floats
+    z: Complexes
+    v: Complexes
 
     @cached_property
-    def first(self):
+    def first(self) -> Ints:
         """Sample number at which each piece starts, and the total number at the end."""
         return np.append(np.searchsorted(self.index, np.arange(len(self.pieces))), len(self.t))
 
     @cached_property
-    def loops(self):
+    def loops(self) -> Ints:
         """Number of the first piece of each loop, and the number of pieces at the end."""
         loop = np.array([piece.loop for piece in self.pieces])
         return np.append(np.flatnonzero(np.diff(loop, prepend=loop[0] - 1)), len(loop))
 
     @cached_property
-    def loop(self):
+    def loop(self) -> Ints:
         """Which of the `loops` each piece is in."""
         return np.repeat(np.arange(len(self.loops) - 1), np.diff(self.loops))
 
     @cached_property
-    def following(self):
+    def following(self) -> Ints:
         """Number of the piece after each piece of its loop."""
         following = np.arange(1, len(self.pieces) + 1)
         following[self.loops[1:] - 1] = self.loops[:-1]
         return following
 
     @cached_property
-    def previous(self):
+    def previous(self) -> Ints:
         """Number of the piece before each piece of its loop."""
         return np.argsort(self.following)
 
     @cached_property
-    def segments(self):
+    def segments(self) -> Ints:
         """Sample numbers that start a chord inside a piece."""
         return np.flatnonzero(self.index[:-1] == self.index[1:])
 
     @cached_property
-    def size(self):
+    def size(self) -> float:
         """Largest extent of the curve [m]."""
         return float(max(np.ptp(self.z.real), np.ptp(self.z.imag)))
 
-    def locate(self, u):
+    def locate(self, u: Floats) -> tuple[Ints, Floats]:
         """Piece index and parameter at the places u."""
         u = np.mod(u, len(self.t))
         index = np.clip(np.searchsorted(self.first, u, side="right") - 1, 0, len(self.pieces) - 1)
@@ -144,7 +145,7 @@ class Chain:
         below = np.minimum(np.floor(u).astype(int), self.first[index + 1] - 2)
         return index, self.t[below] + (u - below) * (self.t[below + 1] - self.t[below])
 
-    def place(self, index, t):
+    def place(self, index: Ints, t: Floats) -> Floats:
         """The places u of parameters t on pieces `index`."""
         u = np.empty(len(t))
         for k in np.unique(index):
@@ -154,7 +155,7 @@ class Chain:
         return u
 
 
-def sample(pieces, count=1440, least=96):
+def sample(pieces: Sequence[Piece], count: int = 1440, least: int = 96) -> Chain:
     """Chain of the pieces with about `count` samples, spread half by parameter, half by arc length; at least `least` per piece."""
     coarse = [np.linspace(piece.start, piece.stop, 33) for piece in pieces]
     speeds = np.abs(gather(pieces, np.repeat(np.arange(len(pieces)), 33), np.concatenate(coarse)).d1).reshape(-1, 33)

@@ -6,41 +6,42 @@ A quantity built from the first derivative has one derivative less than the curv
 
 import numpy as np
 
+from drivewright._typing import Floats, Numbers
 from drivewright.errors import InputError
 from drivewright.numerics.jets import Jet, exp
 
 
-def derivative(jet):
+def derivative(jet: Jet) -> Jet:
     """Jet of f' from the jet of f; its third derivative is unknown and nan."""
     return Jet(jet.d1, jet.d2, jet.d3, np.full_like(jet.d3, np.nan))
 
 
-def tangent(jet):
+def tangent(jet: Jet) -> Jet:
     """Unit tangent z'/|z'| as a jet (third derivative nan)."""
     _refuse_standstill(jet, "tangent")
     velocity = derivative(jet)
     return velocity * velocity.abs2() ** -0.5
 
 
-def normal(jet):
+def normal(jet: Jet) -> Jet:
     """Unit normal i z'/|z'| as a jet (third derivative nan); it points to the left of travel."""
     return 1j * tangent(jet)
 
 
-def curvature(jet):
+def curvature(jet: Jet) -> Floats:
     """kappa = Im(conj(z') z'') / |z'|^3  [1/m], positive where the curve turns left."""
     _refuse_standstill(jet, "curvature")
     return np.imag(np.conj(jet.d1) * jet.d2) / np.abs(jet.d1) ** 3
 
 
-def curvature_rate(jet):
+def curvature_rate(jet: Jet) -> Floats:
     """d kappa/ds = (Im(conj(z') z''') |z'|^2 - 3 Im(conj(z') z'') Re(conj(z') z'')) / |z'|^6  [1/m^2]."""
     _refuse_standstill(jet, "curvature_rate")
     along, second, third = np.abs(jet.d1) ** 2, np.conj(jet.d1) * jet.d2, np.conj(jet.d1) * jet.d3
     return (third.imag * along - 3 * second.imag * second.real) / along**3
 
 
-def offset(jet, distance):
+def offset(jet: Jet, distance: Numbers) -> Jet:
     """Parallel curve at `distance` [m] to the left (right if negative): z + distance i z'/|z'|, third derivative nan.
 
     It has a cusp where distance * curvature = 1 and runs backwards where the product is larger.
@@ -48,12 +49,12 @@ def offset(jet, distance):
     return jet + distance * normal(jet)
 
 
-def envelope_of_circle(centre, radius, side):
+def envelope_of_circle(centre: Jet, radius: float, side: float) -> Jet:
     """Envelope of a circle of `radius` whose centre runs along the jet `centre`: its left (side=+1) or right (side=-1) branch."""
     return offset(centre, side * radius)
 
 
-def envelope_of_line(direction, support):
+def envelope_of_line(direction: Jet, support: Jet) -> Jet:
     """Contact point of the moving line Re(conj(n) z) = p, n = e^{i beta}: q = (p + i p'/beta') n, third derivative nan.
 
     direction is the jet of beta(t) [rad], support that of p(t) [m].  q' = i n (beta' p + (p'/beta')'), along the line.

@@ -10,7 +10,7 @@ _SMOOTH = 1e-6  # a turn [rad] below this is rounding and no corner
 _GOUGE = 1e-4  # the cutter may come nearer to the far side of the outline by this part of its radius: sampling error
 
 
-def offset_outline(outline, distance):
+def offset_outline(outline: Outline, distance: float) -> Outline:
     """Outline parallel to a closed one, outside it for distance > 0, inside for distance < 0 [m].
 
     Arcs stay arcs, outer corners are rounded by arcs about the corner.  Raises InputError with place and radius where a

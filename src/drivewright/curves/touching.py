@@ -4,11 +4,13 @@ The profile is stored as nodes with exact points and tangents, so close that the
 nanometre; a place is sought on the cubic, or at a corner between two stretches.
 """
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from drivewright._jit import inner, kernel, outer
+from drivewright._typing import ArrayLike, Complexes, Floats, Ints
 from drivewright.curves.pieces import gather
 
 SAME = 1e-10  # feet nearer to each other than this [m] are one
@@ -25,12 +27,12 @@ class Nodes(NamedTuple):
     Chord k runs from a[k] to b[k] = a[k + 1]; a turn between the tangents at b[k] and a[k + 1] is a corner.
     """
 
-    a: np.ndarray
-    b: np.ndarray
-    leave: np.ndarray
-    arrive: np.ndarray
-    middle: np.ndarray
-    reach: np.ndarray
+    a: Complexes  # (n,)
+    b: Complexes  # (n,)
+    leave: Complexes  # (n,)
+    arrive: Complexes  # (n,)
+    middle: Complexes  # (blocks,)
+    reach: Floats  # (blocks,)
 
 
 class Touches(NamedTuple):
@@ -40,13 +42,13 @@ class Touches(NamedTuple):
     inf at a corner.
     """
 
-    centre: np.ndarray
-    point: np.ndarray
-    gap: np.ndarray
-    curvature: np.ndarray
+    centre: Ints
+    point: Complexes
+    gap: Floats
+    curvature: Floats
 
 
-def nodes_of(spans, tolerance=2e-10):
+def nodes_of(spans: Sequence[Any], tolerance: float = 2e-10) -> Nodes:
     """Nodes of the spans of a Trimmed profile, in order; in their middles the cubics leave it by less than the tolerance [m]."""
     index = np.repeat(np.arange(len(spans)), _CHORDS + 1)
     t = np.concatenate([np.linspace(span.start, span.stop, _CHORDS + 1) for span in spans])
@@ -80,7 +82,7 @@ def _blocks(a, b, chord):
     return middle, reach
 
 
-def touches(nodes, centres, radius, reach):
+def touches(nodes: Nodes, centres: ArrayLike, radius: float, reach: float) -> Touches:
     """Touches of circles of `radius` about the complex `centres` with gaps up to `reach` [m], in the order of the centres."""
     centres = np.asarray(centres, dtype=complex).ravel()
     room = 8
@@ -99,12 +101,13 @@ def touches(nodes, centres, radius, reach):
 
 @kernel
 def _search(nodes, centres, limit, number, found, curvature):
+    """`nearest` of every centre (m,), into rows of `number` (m,), `found` and `curvature` (m, places)."""
     for k in range(len(centres)):
         number[k] = nearest(nodes, centres[k], limit, found[k], curvature[k])
 
 
 @outer
-def nearest(nodes, centre, limit, found, curvature):
+def nearest(nodes: Nodes, centre: complex, limit: float, found: Complexes, curvature: Floats) -> int:
     """Writes points and curvatures of the places nearer to `centre` than `limit`; returns their number, which may exceed the room."""
     count = 0
     chords = len(nodes.a)
@@ -131,18 +134,20 @@ def nearest(nodes, centre, limit, found, curvature):
 
 
 @outer
-def _known(found, count, point):
+def _known(found: Complexes, count: int, point: complex) -> bool:
     """Whether a foot on the node between two chords, or between the last chord and the first, has been found already."""
     return count > 0 and min(abs(point - found[count - 1]), abs(point - found[0])) < SAME
 
 
 @inner
-def _cross(a, b):
+def _cross(a: complex, b: complex) -> float:
+    """Cross product of two vectors, complex."""
     return a.real * b.imag - a.imag * b.real
 
 
 @outer
-def _turn(a, b):
+def _turn(a: complex, b: complex) -> float:
+    """Sine of the angle between two vectors, complex, without its sign."""
     return abs(_cross(a, b)) / (abs(a) * abs(b))
 
 
@@ -173,10 +178,10 @@ def _foot(nodes, k, centre):
             low = u
         else:
             high = u
-        bend = abs(first) ** 2 + _rate(arm, second)
-        step = -rate / bend if bend > 0.0 else 0.0
+        half_second_derivative = abs(first) ** 2 + _rate(arm, second)
+        step = -rate / half_second_derivative if half_second_derivative > 0.0 else 0.0
         following = u + step
-        if bend <= 0.0 or following <= low or following >= high:
+        if half_second_derivative <= 0.0 or following <= low or following >= high:
             following = 0.5 * (low + high)
         if abs(following - u) < 1e-15:
             break

@@ -5,18 +5,46 @@ local curvature misses those made by distant members, so trimming is global: the
 a part survives when no member of the whole family covers it, and the survivors are chained into the loop around the part.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from drivewright.curves.crossings import self_crossings
+from drivewright._typing import Complexes, Floats, Ints
+from drivewright.curves.crossings import Crossing, self_crossings
 from drivewright.curves.outlines import outline_of_spans, span_measures
 from drivewright.curves.pieces import Chain, Piece, gather, sample
 from drivewright.errors import InputError, SolverError
+from drivewright.scene import Outline
 
 _UNSEEN = 1e-7  # swallowtails too small for the samples are this shallow, relative to the size of the curve
+
+
+class EnvelopeFamily(Protocol):
+    """What sweeps through the blank: `CircleFamily`, `LineFamily`, or a cutter of another kind."""
+
+    @property
+    def material(self) -> str:
+        """ "inside" or "outside": where the part is."""
+        ...
+
+    def envelope(self) -> Sequence[Piece]:
+        """Pieces of the candidate for the profile, in the order of the motion."""
+        ...
+
+    def members(self, index: Ints, t: Floats) -> Any:
+        """Members of the family at parameters t of the pieces `index`."""
+        ...
+
+    def gap(self, member: Any, point: Any, /) -> Any:
+        """Distance [m] of a point from a member, negative inside."""
+        ...
+
+    def deepest(self, members: Any, points: Complexes, /) -> Ints:
+        """For each point the number of the member with the least gap."""
+        ...
 
 
 class Span(NamedTuple):
@@ -43,30 +71,30 @@ class Trimmed:
     self-intersection of the envelope; area [m^2], perimeter [m] of the closed profile (of the part, or of the hole in it).
     """
 
-    family: object
-    spans: tuple
-    corners: tuple
-    crossings: tuple
+    family: EnvelopeFamily
+    spans: tuple[Span, ...]
+    corners: tuple[Corner, ...]
+    crossings: tuple[Crossing, ...]
     area: float
     perimeter: float
     chain: Chain = field(repr=False)
 
     @property
-    def undercut(self):
+    def undercut(self) -> bool:
         """True when some of the envelope was cut away."""
         return bool(self.removed)
 
     @cached_property
-    def removed(self):
+    def removed(self) -> tuple[tuple[float, float], ...]:
         """Intervals (start, stop) of the motion's parameter whose contact point was cut away, ascending."""
         return tuple(_merged(gap for piece in self.chain.pieces if piece.source is not None for gap in _missing(piece, self.spans)))
 
-    def outline(self, tolerance=1e-6):
+    def outline(self, tolerance: float = 1e-6) -> Outline:
         """Counter-clockwise Outline: true arcs on dwells and rounded corners, splines within `tolerance` [m] of their chords elsewhere."""
         return outline_of_spans(self.spans, tolerance)
 
 
-def trim(family, interior=0j, samples=1440, least=96):
+def trim(family: EnvelopeFamily, interior: complex = 0j, samples: int = 1440, least: int = 96) -> Trimmed:
     """Profile left by the family around the point `interior` (for material "outside": around the whole sweep).
 
     samples: points on the envelope from which crossings are sought, at least `least` on each piece; a swallowtail narrower than

@@ -5,9 +5,14 @@ far the follower sinks along its travel until it rests on the real profile; it s
 nearest point.  The *profile loss* is how far the intended point of contact lies off the real profile.
 """
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.curves.pieces import gather
+from drivewright.curves.trim import Trimmed
 from drivewright.errors import SolverError
 
 TOUCHING = 1e-12  # of the profile's size: the follower rests
@@ -16,7 +21,7 @@ MOST_STEPS = 200
 BOLD = 8.0  # a step of Newton's method over the one that cannot pass a contact
 
 
-def profile_gap(trimmed, t):
+def profile_gap(trimmed: Trimmed, t: ArrayLike) -> Floats:
     """Gap [m] between the follower in its planned place at the parameters t and the real profile.
 
     For a circle: distance from its planned centre to the profile minus the radius; for a line: its distance from the profile.
@@ -25,7 +30,7 @@ def profile_gap(trimmed, t):
     return _where_missing(trimmed, t, lambda missing: np.maximum(_nearest(trimmed, _planned(trimmed, missing))[0], 0.0))
 
 
-def lost_motion(trimmed, t, place, fastest=1.0):
+def lost_motion(trimmed: Trimmed, t: ArrayLike, place: Callable[[Floats, Floats], Any], fastest: float = 1.0) -> Floats:
     """How far [m] the follower sinks along its travel at the parameters t until it rests on the real profile; 0 where nothing is lost.
 
     place(t, depth): members of the family (as its `members`) sunk by `depth` (n,) [m] of travel from their planned place; fastest: the
@@ -34,12 +39,12 @@ def lost_motion(trimmed, t, place, fastest=1.0):
     return _where_missing(trimmed, t, lambda missing: _first_contact(trimmed, missing, place, fastest))
 
 
-def largest_profile_gap(trimmed):
+def largest_profile_gap(trimmed: Trimmed) -> tuple[float, float]:
     """(parameter, profile gap [m]) where it is greatest; (nan, 0.0) for an untrimmed profile."""
     return _largest(trimmed, lambda t: profile_gap(trimmed, t))
 
 
-def largest_lost_motion(trimmed, place, fastest=1.0):
+def largest_lost_motion(trimmed: Trimmed, place: Callable[[Floats, Floats], Any], fastest: float = 1.0) -> tuple[float, float]:
     """(parameter, lost motion [m]) where it is greatest; (nan, 0.0) for an untrimmed profile."""
     return _largest(trimmed, lambda t: lost_motion(trimmed, t, place, fastest))
 
@@ -128,13 +133,13 @@ def _first_contact(trimmed, t, place, fastest):
     )
 
 
-def profile_loss(trimmed, samples=20_001):
+def profile_loss(trimmed: Trimmed, samples: int = 20_001) -> float:
     """Greatest distance [m] of an intended point of contact from the real profile; 0.0 for an untrimmed one.
 
     Not the lost motion: the follower sinks until it touches elsewhere, while the intended point lies off the profile altogether.
     `samples` per stretch of the profile set the error, about (spacing)^2 / (8 loss).
     """
-    from scipy.spatial import cKDTree
+    from scipy.spatial import KDTree
 
     cut = np.zeros(len(trimmed.chain.t), dtype=bool)
     moving = np.array([piece.source is not None for piece in trimmed.chain.pieces])[trimmed.chain.index]
@@ -146,4 +151,4 @@ def profile_loss(trimmed, samples=20_001):
     points = np.concatenate([np.broadcast_to(stretch, samples) for stretch in along])
     flat = np.stack([points.real, points.imag], axis=1)
     lost = trimmed.chain.z[cut]
-    return float(cKDTree(flat).query(np.stack([lost.real, lost.imag], axis=1))[0].max())
+    return float(KDTree(flat).query(np.stack([lost.real, lost.imag], axis=1))[0].max())

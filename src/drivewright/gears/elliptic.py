@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from drivewright._typing import ArrayLike
 from drivewright.errors import InputError
 from drivewright.gears.rolling import RollingPair, check_length
 from drivewright.numerics.jets import Jet, compose
@@ -42,19 +43,19 @@ class EllipticGearPair(RollingPair):
             check_length("semi_major", self.semi_major)
 
     @property
-    def centre_distance(self):
+    def centre_distance(self) -> float:
         """Distance of the axes 2 a [m]."""
         if self.semi_major is None:
             raise InputError("EllipticGearPair: lengths need the size of the ellipse; give semi_major [m].")
         return 2 * self.semi_major
 
     @property
-    def least_ratio(self):
+    def least_ratio(self) -> float:
         """r: the ratio at angle 0, (1 - e)/(1 + e) for a near start, its inverse for a far one; the ratio's other extreme is 1/r."""
         r = (1 - self.eccentricity) / (1 + self.eccentricity)
         return r if self.start == "near" else 1 / r
 
-    def jet(self, angle):
+    def jet(self, angle: ArrayLike | Jet) -> Jet:
         """Driven angle [rad] as a jet; `angle` is an array or a jet."""
         x = np.asarray(angle.d0 if isinstance(angle, Jet) else angle, dtype=float)
         r = self.least_ratio
@@ -62,6 +63,6 @@ class EllipticGearPair(RollingPair):
         half = 0.5 * (x - 2 * np.pi * turns)
         value = 2 * np.arctan2(r * np.sin(half), np.cos(half)) + 2 * np.pi * turns
         swing = 0.5 * (1 - r**2)
-        d, slope, bend = 1 - swing * (1 - np.cos(x)), -swing * np.sin(x), -swing * np.cos(x)
-        outer = Jet(value, r / d, -r * slope / d**2, r * (2 * slope**2 / d**3 - bend / d**2))
+        d, slope, second = 1 - swing * (1 - np.cos(x)), -swing * np.sin(x), -swing * np.cos(x)
+        outer = Jet(value, r / d, -r * slope / d**2, r * (2 * slope**2 / d**3 - second / d**2))
         return compose(outer, angle) if isinstance(angle, Jet) else outer

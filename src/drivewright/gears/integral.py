@@ -1,8 +1,11 @@
 """Running integral of a smooth periodic function, at any argument and over many periods."""
 
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
+
+from drivewright._typing import ArrayLike, Floats
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
 
@@ -13,22 +16,22 @@ class RunningIntegral:
     f maps an array to an array.  Exact to rounding when f is smooth on the scale of a panel, 2 pi / panels.
     """
 
-    def __init__(self, f, panels=256):
+    def __init__(self, f: Callable[[Floats], Floats], panels: int = 256) -> None:
         self.f, self.panels = f, panels
 
     @cached_property
-    def edges(self):
+    def edges(self) -> Floats:
         """F at the panel edges, the first 0, the last the integral over one period."""
         width = 2 * np.pi / self.panels
         start = width * np.arange(self.panels)
         return np.append(0.0, np.cumsum(self._between(start, start + width)))
 
     @property
-    def total(self):
+    def total(self) -> float:
         """The integral over one period."""
         return float(self.edges[-1])
 
-    def __call__(self, x):
+    def __call__(self, x: ArrayLike) -> Floats:
         x = np.asarray(x, dtype=float)
         turn, rest = np.divmod(x, 2 * np.pi)
         panel = np.clip((rest * self.panels / (2 * np.pi)).astype(int), 0, self.panels - 1)
@@ -40,7 +43,7 @@ class RunningIntegral:
         points = 0.5 * (stop + start)[..., None] + half * _NODES
         return np.sum(half * _WEIGHTS * self.f(points), axis=-1)
 
-    def inverse(self, value, steps=60):
+    def inverse(self, value: ArrayLike, steps: int = 60) -> Floats:
         """x with F(x) = value, for positive f: Newton's method kept inside the panel."""
         value = np.asarray(value, dtype=float)
         turn, rest = np.divmod(value, self.total)

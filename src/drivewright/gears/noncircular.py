@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from drivewright._typing import ArrayLike
 from drivewright.errors import InputError
 from drivewright.gears.integral import RunningIntegral
 from drivewright.gears.rolling import RollingPair, check_length
@@ -26,7 +27,7 @@ class NonCircularPair(RollingPair):
     driven gear's pitch curve closes after m repeats.  Raises InputError telling by how much it does not.
     """
 
-    ratio_function: Callable
+    ratio_function: Callable[[Jet], Jet | float]
     centre_distance: float
 
     def __post_init__(self):
@@ -60,7 +61,7 @@ class NonCircularPair(RollingPair):
             )
         self._refuse_no_period(n)
 
-    def ratio_jet(self, angle):
+    def ratio_jet(self, angle: ArrayLike) -> Jet:
         """The ratio as a jet of the driver angle, an array."""
         value = self.ratio_function(variable(np.asarray(angle, dtype=float)))
         return value if isinstance(value, Jet) else variable(angle) * 0.0 + value
@@ -70,12 +71,12 @@ class NonCircularPair(RollingPair):
         return RunningIntegral(lambda angle: self.ratio_jet(angle).d0)
 
     @cached_property
-    def lobes(self):
+    def lobes(self) -> tuple[int, int]:
         """(n, m) with mean ratio n/m in lowest terms."""
         nearest = Fraction(self._integral.total / (2 * np.pi)).limit_denominator(_LARGEST)
         return nearest.numerator, nearest.denominator
 
-    def jet(self, angle):
+    def jet(self, angle: ArrayLike | Jet) -> Jet:
         """Driven angle [rad] as a jet; `angle` is an array or a jet."""
         x = np.asarray(angle.d0 if isinstance(angle, Jet) else angle, dtype=float)
         ratio = self.ratio_jet(x)

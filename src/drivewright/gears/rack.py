@@ -12,9 +12,11 @@ surface cuts when the normal there passes through z; with w = side (s - xi_c), h
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Complexes, Floats, Ints, Numbers
 from drivewright.curves import Member, Piece, derivative, tangent
 from drivewright.errors import InputError, SolverError
 from drivewright.gears.rolling import RollingPair
@@ -57,22 +59,22 @@ class Rack:
             )
 
     @property
-    def half_width(self):
+    def half_width(self) -> float:
         """Half the cutter tooth on the pitch line, in modules: pi/4 + backlash/4."""
         return np.pi / 4 + self.backlash / 4
 
     @property
-    def center_depth(self):
+    def center_depth(self) -> float:
         """Depth e of the centre of the rounding below the pitch line, in modules."""
         return self.dedendum - self.rounding
 
     @property
-    def land(self):
+    def land(self) -> float:
         """Half the flat tip u, in modules: the place of the centre of the rounding."""
         return self.half_width - (self.center_depth * np.sin(self.pressure_angle) + self.rounding) / np.cos(self.pressure_angle)
 
     @property
-    def straight(self):
+    def straight(self) -> float:
         """Depth to which the flank is straight, in modules."""
         return self.dedendum - self.rounding * (1 - np.sin(self.pressure_angle))
 
@@ -93,48 +95,48 @@ class RackFamily:
     material, whole = "inside", True
 
     @property
-    def period(self):
+    def period(self) -> float:
         """Driver angle during which the gear turns once."""
         n, m = self.pair.lobes
         return 2 * np.pi * (1.0 if self.gear == 1 else m / n)
 
     @cached_property
-    def module(self):
+    def module(self) -> float:
         """Module [m]."""
         return self.pair.module(self.teeth, self.gear)
 
     @property
-    def spaces(self):
+    def spaces(self) -> Floats:
         """Rack coordinates of the tooth spaces' centres [m]."""
         return (self.phase + 0.5 * (self.gear - 1) + np.arange(self.teeth)) * np.pi * self.module
 
-    def frame(self, x):
+    def frame(self, x: ArrayLike) -> tuple[Jet, Jet, Jet, Jet]:
         """z, T, N, s as jets of the driver angle (T and N: second derivative nan)."""
         z = self.pair.pitch_curve(self.gear, x)
         along = tangent(z)
         speed = derivative(z).abs2() ** 0.5
         return z, along, (1j if self.gear == 1 else -1j) * along, Jet(self.pair.arc_length(x), *list(speed)[:3])
 
-    def flank(self, center, side, x):
+    def flank(self, center: Numbers, side: Numbers, x: ArrayLike) -> Jet:
         """Envelope of the flank on the `side` (+1: ahead, -1: behind) of the cutter tooth at `center`."""
         s, c = np.sin(self.rack.pressure_angle), np.cos(self.rack.pressure_angle)
         half = self.rack.half_width * self.module
         z, along, outward, rolled = self.frame(x)
         return z + (side * (rolled - center) - half) * c * (s * outward - side * c * along)
 
-    def fillet(self, center, side, x):
+    def fillet(self, center: Numbers, side: Numbers, x: ArrayLike) -> Jet:
         """Envelope of the rounded corner of the cutter's tip."""
         land, depth, rounding = (self.module * value for value in (self.rack.land, self.rack.center_depth, self.rack.rounding))
         z, along, outward, rolled = self.frame(x)
         beside = land - side * (rolled - center)
         return z + (1 + rounding * (beside * beside + depth**2) ** -0.5) * (side * beside * along - depth * outward)
 
-    def parallel(self, height, x):
+    def parallel(self, height: Numbers, x: ArrayLike) -> Jet:
         """The curve at a height [m] outside the pitch curve: tip and root."""
         z, _, outward, _ = self.frame(x)
         return z + height * outward
 
-    def envelope(self):
+    def envelope(self) -> tuple[Piece, ...]:
         """Pieces of the gear's boundary in the direction of the driver angle, five per tooth space and the tip of the tooth after it."""
         tip, flank_ends, shape = Member(self.parallel, (self.rack.addendum * self.module,)), self._tip_corners, self.round_shape
         pieces = []
@@ -165,7 +167,7 @@ class RackFamily:
         return self.rack.land - self.rack.center_depth / np.tan(self.rack.pressure_angle)
 
     @cached_property
-    def round_shape(self):
+    def round_shape(self) -> str:
         """A pitch circle about the axis has arcs for tips and roots."""
         radius = np.abs(self.pair.pitch_curve(self.gear, np.linspace(0, self.period, 37)).d0)
         return "arc" if np.ptp(radius) < 1e-12 * np.max(radius) else "smooth"
@@ -196,11 +198,11 @@ class RackFamily:
 
     # -- the cutting family, as `curves.trim` asks for it ----------------------------------------------------------------------
 
-    def members(self, index, t):
+    def members(self, index: Ints, t: Floats) -> Complexes:
         """Rows z, T, N, s of the frame at driver angles t."""
         return np.stack([part.d0 + 0j for part in self.frame(t)])
 
-    def gap(self, member, point):
+    def gap(self, member: Any, point: Any) -> Any:
         """Distance [m] of a point from the rack in the given frame, negative inside a cutter tooth."""
         z, along, outward, rolled = member
         away, height = np.real(np.conj(along) * (point - z)), np.real(np.conj(outward) * (point - z))
@@ -216,13 +218,13 @@ class RackFamily:
         corner = (beside >= 0) & (beside * s + above * c <= 0)
         return np.where(corner, np.hypot(beside, above) - self.rack.rounding * self.module, straight)
 
-    def deepest(self, members, points, chunk=500):
+    def deepest(self, members: Complexes, points: Complexes, chunk: int = 500) -> Ints:
         """For each point the number of the member with the least gap, among those whose contact is within reach."""
-        from scipy.spatial import cKDTree
+        from scipy.spatial import KDTree
 
         rolled = np.mod(members[3].real, self.pair.perimeter(self.gear))
         order = np.argsort(rolled)
-        tree = cKDTree(np.stack([members[0].real, members[0].imag], axis=1))
+        tree = KDTree(np.stack([members[0].real, members[0].imag], axis=1))
         nearest = rolled[tree.query(np.stack([points.real, points.imag], axis=1))[1]]
         reach = _REACH * np.pi * self.module
         turn = self.pair.perimeter(self.gear)

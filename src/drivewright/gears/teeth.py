@@ -9,7 +9,8 @@ import numpy as np
 from drivewright.curves import Piece, Span, Trimmed, outline_of_spans, trim
 from drivewright.errors import InputError
 from drivewright.gears.rack import Rack, RackFamily
-from drivewright.scene import Drawing, Shape, circle
+from drivewright.gears.rolling import RollingPair
+from drivewright.scene import Drawing, Outline, Shape, circle
 
 
 class Undercut(NamedTuple):
@@ -31,30 +32,30 @@ class Gear:
 
     family: RackFamily
     profile: Trimmed
-    undercut: tuple
-    pointed: tuple
+    undercut: tuple[Undercut, ...]
+    pointed: tuple[int, ...]
 
     @property
-    def module(self):
+    def module(self) -> float:
         """Module [m]."""
         return self.family.module
 
     @property
-    def teeth(self):
+    def teeth(self) -> int:
         """Tooth count."""
         return self.family.teeth
 
-    def outline(self, tolerance=1e-6):
+    def outline(self, tolerance: float = 1e-6) -> Outline:
         """Counter-clockwise Outline of the toothed gear."""
         return self.profile.outline(tolerance)
 
-    def pitch_outline(self, tolerance=1e-6):
+    def pitch_outline(self, tolerance: float = 1e-6) -> Outline:
         """Counter-clockwise Outline of the pitch curve."""
         family = self.family
         piece = Piece(0.0, family.period, partial(family.parallel, 0.0), "pitch curve", family.round_shape)
         return outline_of_spans([Span(piece, piece.start, piece.stop)], tolerance)
 
-    def drawing(self, name, bore=0.0, thickness=0.0, tolerance=1e-6):
+    def drawing(self, name: str, bore: float = 0.0, thickness: float = 0.0, tolerance: float = 1e-6) -> Drawing:
         """Drawing for manufacture: profile, pitch curve and the bore (diameter [m]) about the axis."""
         shapes = [Shape("profile", self.outline(tolerance)), Shape("pitch", self.pitch_outline(tolerance))]
         if bore:
@@ -67,7 +68,7 @@ class Gear:
             shapes.append(Shape("hole", circle((0.0, 0.0), 0.5 * bore)))
         return Drawing(name, f"{self.teeth} teeth, module {self.module * 1e3:.4g} mm", tuple(shapes), thickness)
 
-    def describe_undercut(self):
+    def describe_undercut(self) -> str:
         """One sentence on the undercut for a check or a finding; empty without undercut."""
         if not self.undercut:
             return ""
@@ -80,7 +81,7 @@ class Gear:
         )
 
 
-def cut_gear(pair, gear, teeth, rack=None, phase=0.0):
+def cut_gear(pair: RollingPair, gear: int, teeth: int, rack: Rack | None = None, phase: float = 0.0) -> Gear:
     """Cut gear 1 (driver) or 2 (driven) of a rolling pair with a rack; returns Gear.
 
     teeth belong to this gear; with lobes (n, m) the mate has teeth m/n (or n/m) times as many.  phase: the first tooth space of

@@ -5,7 +5,9 @@ from functools import cached_property
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
+from drivewright.gears.rolling import RollingPair
 from drivewright.numerics.jets import Jet, exp, variable
 from drivewright.numerics.roots import bracketed_roots
 
@@ -23,8 +25,8 @@ class GearTrain:
     taken in the gear's own sense:  p_1 = E_1(t),  p_{k+1} = E_{k+1}(p_k +- bend_k), + for a gear that turns clockwise.
     """
 
-    pairs: tuple
-    bends: tuple = ()
+    pairs: tuple[RollingPair, ...]
+    bends: tuple[float, ...] = ()
 
     def __post_init__(self):
         if len(self.pairs) < 1 or len(self.bends) != len(self.pairs) - 1:
@@ -33,14 +35,14 @@ class GearTrain:
                 "intermediate axes."
             )
 
-    def angles(self, t):
+    def angles(self, t: ArrayLike) -> tuple[Jet, ...]:
         """Phases of sun, intermediate gears and planet relative to the carrier: jets in t, each in its own sense of rotation.
 
         The sun's is t itself, that of a driven gear the value of its mesh's driven angle.
         """
         return self._phases(t)[1]
 
-    def planet(self, t, zero=0.0):
+    def planet(self, t: ArrayLike, zero: float = 0.0) -> Jet:
         """Rotation of the planet relative to the carrier since the carrier angle `zero` [rad], a jet in t.
 
         zero=0 counts from the start; zero=train.collinear_angles()[-1] from the later collinear position.
@@ -49,16 +51,16 @@ class GearTrain:
         return phase - (self.phase if zero == 0.0 else float(self.angles(zero)[-1].d0))
 
     @cached_property
-    def phase(self):
+    def phase(self) -> float:
         """Phase of the planet at t = 0 [rad]: what `planet` leaves out."""
         return float(self.angles(0.0)[-1].d0)
 
-    def rotation(self, t):
+    def rotation(self, t: ArrayLike) -> Jet:
         """Rotation of the last gear in the world [rad], counter-clockwise, a jet in t: relative to the carrier minus t."""
         sense = 1 if len(self.pairs) % 2 == 0 else -1
         return sense * self.planet(t) - variable(t)
 
-    def collinear_angles(self, samples=721):
+    def collinear_angles(self, samples: int = 721) -> Floats:
         """Carrier angles in [0, 2 pi) where the last two gears stand symmetrically: the angle of their mesh is 0 or pi.
 
         For ellipses both centres and both foci then lie on the line of the two axes.
@@ -67,7 +69,7 @@ class GearTrain:
         found = bracketed_roots(lambda t: np.sin(self._phases(t)[0][-1].d0), grid)
         return found[found < 2 * np.pi * (1 - 1e-12)]
 
-    def axes(self, t, start=0.0):
+    def axes(self, t: ArrayLike, start: float = 0.0) -> tuple[Jet, ...]:
         """World positions of all axes, complex jets in t [m]: the sun at 0, the first arm at angle `start` for t = 0."""
         positions, direction = [0 * variable(t)], start - variable(t)
         for pair, bend in zip(self.pairs, (0.0, *self.bends), strict=True):

@@ -6,6 +6,7 @@ Only the shape matters: widths are parts of the whole, and the level is scaled s
 """
 
 import math
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -18,21 +19,21 @@ class Acceleration(NamedTuple):
     """a = sum_m poly[m] t^m + Re sum amplitude exp(i turn t/width) over a width, t from its middle; `waves` holds (amplitude, turn)."""
 
     width: float
-    poly: tuple = (0.0,)
-    waves: tuple = ()
+    poly: tuple[float, ...] = (0.0,)
+    waves: tuple[tuple[complex, float], ...] = ()
 
 
-def hold(width, level):
+def hold(width: float, level: float) -> Acceleration:
     """Constant acceleration; level 0 is a stretch of constant velocity."""
     return Acceleration(width, (level,))
 
 
-def wave(width, start, end, level=1.0):
+def wave(width: float, start: float, end: float, level: float = 1.0) -> Acceleration:
     """level sin(phase), the phase running evenly from start to end [rad], which must differ."""
     return Acceleration(width, waves=((level * np.exp(0.5j * (start + end - math.pi)), end - start),))
 
 
-def integrate(pieces, start_velocity=0.0):
+def integrate(pieces: Iterable[Acceleration], start_velocity: float = 0.0) -> Piecewise:
     """s(u) on 0..1 with s(0) = 0, s(1) = 1, whose acceleration is proportional to the pieces, v(0) likewise to start_velocity."""
     functions, x, s, v = [], 0.0, 0.0, start_velocity
     for piece in (piece for piece in pieces if piece.width > 0):

@@ -7,18 +7,22 @@ source recalled, verified by closed forms and quadrature in the tests).  More la
 
 import inspect
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any, TypeVar
 
 import numpy as np
 
 from drivewright import registry
+from drivewright._typing import Floats, Ints, Numbers
 from drivewright.errors import InputError, UnknownName
 from drivewright.motion.acceleration import Acceleration, hold, integrate, wave
-from drivewright.motion.piecewise import CLOSURE, Peaks, Piecewise
+from drivewright.motion.piecewise import CLOSURE, Motion, Peaks, Piecewise
 
 PLUGINS = "drivewright.motion_laws"
-BUILT_IN = {}
+BUILT_IN: "dict[str, Callable[..., Any]]" = {}
+BuildT = TypeVar("BuildT", bound=Callable[..., Any])
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,10 +37,10 @@ class MotionLaw:
     function: Piecewise = field(repr=False)
     span: float | None = None
 
-    def __call__(self, u):
+    def __call__(self, u: Numbers) -> Motion:
         return self.function(self.function.inside(u, 0.0, 1.0, f"motion law {self.name!r}: u", "a Programme repeats it over a cycle"))
 
-    def on_piece(self, k, u):
+    def on_piece(self, k: int | Ints, u: Numbers) -> Motion:
         """Motion by the formula of piece k (or pieces, an array), one-sided at its ends; u within breaks[k] .. breaks[k + 1]."""
         return self.function.on_own_piece(k, u, f"motion law {self.name!r} on a piece: u")
 
@@ -45,35 +49,35 @@ class MotionLaw:
         return self.function.peaks()
 
     @property
-    def breaks(self):
+    def breaks(self) -> Floats:
         """Ends of the pieces, 0 and 1 included."""
         return self.function.breaks
 
     @property
-    def closed(self):
+    def closed(self) -> bool:
         """True where the end meets the start, as for a table over a whole cycle."""
         return self.function.closed
 
     @property
-    def continuity(self):
+    def continuity(self) -> int:
         """Order of the highest derivative that does not jump: 0 position only, 1 velocity, 2 acceleration ... (6 stands for more)."""
         return self.function.continuity
 
     @cached_property
-    def monotone(self):
+    def monotone(self) -> bool:
         """True where the motion never turns back."""
         least, greatest = self.function.extremes(lambda k, u: self.function.on_piece(k, u)[1:3])
         return least >= -CLOSURE * greatest
 
     @cached_property
-    def symmetric(self):
+    def symmetric(self) -> bool:
         """True where the second half is the first turned about its end: s(1 - u) = s(0) + s(1) - s(u)."""
         u = np.linspace(0, 1, 1001)
         s = self.function(u).s
         return bool(np.max(np.abs(s + s[::-1] - s[0] - s[-1])) <= CLOSURE * np.max(np.abs(s)))
 
 
-def register(*names):
+def register(*names: str) -> Callable[[BuildT], BuildT]:
     """Decorator: a function of a law's parameters is built in under these names; it returns a `Piecewise` or a `MotionLaw`."""
 
     def keep(build):
@@ -83,12 +87,12 @@ def register(*names):
     return keep
 
 
-def names():
+def names() -> list[str]:
     """Names of all motion laws, built in or plugged in, sorted."""
     return sorted({*BUILT_IN, *registry.plugins(PLUGINS)})
 
 
-def law(name, **parameters) -> MotionLaw:
+def law(name: str, **parameters: Any) -> MotionLaw:
     """The motion law of a name, e.g. law("scca", b=0.25, c=0, d=0.75)."""
     if name not in names():
         raise UnknownName("motion law", name, names())

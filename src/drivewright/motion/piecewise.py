@@ -9,12 +9,14 @@ so that values, derivatives of any order, jumps at the breaks and peaks come fro
 """
 
 import math
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Complexes, Floats, Ints, Numbers
 from drivewright.errors import InputError
 from drivewright.numerics.roots import bracketed_roots
 
@@ -26,10 +28,10 @@ SLACK = 1e-12  # an argument this far outside, relative to the whole interval, i
 class Motion(NamedTuple):
     """Position and its first three derivatives; floats or arrays of one shape."""
 
-    s: float | np.ndarray
-    v: float | np.ndarray
-    a: float | np.ndarray
-    j: float | np.ndarray
+    s: Floats  # floats, where the argument is one
+    v: Floats
+    a: Floats
+    j: Floats
 
 
 class Peaks(NamedTuple):
@@ -49,28 +51,28 @@ class Piecewise:
     `closed`: the end meets the start again; otherwise everything stands still before and after.
     """
 
-    breaks: np.ndarray
-    poly: np.ndarray
-    amplitude: np.ndarray
-    frequency: np.ndarray
+    breaks: Floats
+    poly: Floats
+    amplitude: Complexes
+    frequency: Floats
     closed: bool = False
 
     @property
-    def count(self):
+    def count(self) -> int:
         """Number of pieces."""
         return len(self.poly)
 
     @cached_property
-    def middle(self):
+    def middle(self) -> Floats:
         """Middle of each piece, where its t is zero."""
         return 0.5 * (self.breaks[:-1] + self.breaks[1:])
 
-    def __call__(self, x):
+    def __call__(self, x: ArrayLike) -> Motion:
         x = np.asarray(x, dtype=float)
         # At a break the piece to its right speaks.
         return self.on_piece(np.clip(np.searchsorted(self.breaks, x, side="right") - 1, 0, self.count - 1), x)
 
-    def on_piece(self, k, x):
+    def on_piece(self, k: int | Ints, x: Numbers) -> Motion:
         """Motion at x by the formula of piece k, an index or an array of them."""
         t = x - self.middle[k]
         s = v = a = j = np.zeros_like(t)
@@ -84,7 +86,7 @@ class Piecewise:
             s, v, a, j = s + wave.real, v - w * wave.imag, a - w**2 * wave.real, j + w**3 * wave.imag
         return Motion(s, v, a, j) if np.ndim(t) else Motion(float(s), float(v), float(a), float(j))
 
-    def derivative(self, order=1):
+    def derivative(self, order: int = 1) -> "Piecewise":
         """The derivative of an order, in the same representation."""
         function = self
         for _ in range(order):
@@ -94,13 +96,13 @@ class Piecewise:
             function = Piecewise(self.breaks, poly, amplitude, self.frequency, self.closed)
         return function
 
-    def scaled(self, width=1.0, height=1.0, start=0.0, level=0.0):
+    def scaled(self, width: float = 1.0, height: float = 1.0, start: float = 0.0, level: float = 0.0) -> "Piecewise":
         """level + height s((x - start)/width) as a function of x."""
         poly = height * self.poly / width ** np.arange(self.poly.shape[1])
         poly[:, 0] += level
         return Piecewise(start + width * self.breaks, poly, height * self.amplitude, self.frequency / width, self.closed)
 
-    def inside(self, x, low, high, what, remedy):
+    def inside(self, x: ArrayLike, low: Numbers, high: Numbers, what: str, remedy: str) -> Floats:
         """x as floats, pulled onto low .. high where it is outside by rounding only; InputError where it is further out."""
         x = np.asarray(x, dtype=float)
         slack = SLACK * max(abs(self.breaks[0]), abs(self.breaks[-1]))
@@ -111,7 +113,7 @@ class Piecewise:
             raise InputError(f"{what} = {first:.9g} lies outside {low:.9g} .. {high:.9g}{count}; {remedy}.")
         return np.clip(x, low, high)
 
-    def on_own_piece(self, k, x, what):
+    def on_own_piece(self, k: int | Ints, x: Numbers, what: str) -> Motion:
         """`on_piece` for callers who may ask for a piece that is not there, or for x that is not on it: InputError."""
         k = np.asarray(k)
         if np.any((k < 0) | (k >= self.count)):
@@ -119,7 +121,7 @@ class Piecewise:
             raise InputError(f"{what}: there is no piece {wrong}; the pieces are 0 .. {self.count - 1}.")
         return self.on_piece(k, self.inside(x, self.breaks[k], self.breaks[k + 1], what, "call the motion itself, it finds the piece"))
 
-    def jumps(self, order):
+    def jumps(self, order: int) -> Floats:
         """Right minus left value of the derivative of an order at every break (n+1,); 0.0 where the difference is rounding.
 
         When closed, the two outer ends are compared with each other, otherwise with a standstill at the level reached.
@@ -140,12 +142,12 @@ class Piecewise:
         return CLOSURE * size + 64 * np.finfo(float).eps * lift / wider**order
 
     @cached_property
-    def continuity(self):
+    def continuity(self) -> int:
         """Order of the highest derivative that nowhere jumps (0: v jumps, 1: a jumps, 2: j jumps ...), at most HIGHEST_ORDER."""
         smooth = (order - 1 for order in range(HIGHEST_ORDER + 1) if np.any(self.jumps(order)))
         return next(smooth, HIGHEST_ORDER)
 
-    def peaks(self):
+    def peaks(self) -> Peaks:
         """`Peaks`, exact to rounding; j and the others one-sided at jumps."""
         slope = self.derivative()
         v, a = (self.extremes(lambda k, x, n=n: self.on_piece(k, x)[n : n + 2]) for n in (1, 2))
@@ -156,7 +158,7 @@ class Piecewise:
             a = power = math.inf
         return Peaks(v, a, j if self.continuity > 1 else math.inf, power)
 
-    def extremes(self, value_and_slope):
+    def extremes(self, value_and_slope: Callable[..., Sequence[Any]]) -> tuple[float, float]:
         """(least, greatest) of a quantity given as value_and_slope(k, x) on piece k, over all pieces with their ends."""
         k, x = self.samples(16 + 2 * self.poly.shape[1] + int(np.max(np.abs(self._turns), initial=0.0) * 8 / np.pi))
         # Each piece gets its own unit of y with a gap before the next, so that both sides of a break have a place.
@@ -169,7 +171,7 @@ class Piecewise:
     def _turns(self):
         return self.frequency * np.diff(self.breaks)[:, None]
 
-    def samples(self, intervals):
+    def samples(self, intervals: int) -> tuple[Ints, Floats]:
         """Piece numbers and places (n, intervals + 1), ends included."""
         k = np.repeat(np.arange(self.count)[:, None], intervals + 1, axis=1)
         return k, self.breaks[k] + np.diff(self.breaks)[k] * np.linspace(0, 1, intervals + 1)
@@ -184,7 +186,7 @@ def _power(motion):
     return motion.a * motion.v, motion.a**2 + motion.v * motion.j
 
 
-def joined(functions, closed):
+def joined(functions: Iterable[Piecewise], closed: bool) -> Piecewise:
     """One `Piecewise` of several that follow each other."""
     functions = list(functions)
     breaks = np.append(np.concatenate([f.breaks[:-1] for f in functions]), functions[-1].breaks[-1])

@@ -1,16 +1,18 @@
 """A motion programme: segments that follow each other around a closed cycle."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats, Ints, Numbers
 from drivewright.errors import InputError
 from drivewright.motion.laws import MotionLaw, law
 from drivewright.motion.piecewise import CLOSURE, Motion, Piecewise, joined
-from drivewright.numerics.jets import compose
+from drivewright.numerics.jets import Jet, compose
 
 TURN = 2 * math.pi
 DWELL = MotionLaw("dwell", Piecewise(np.array([0.0, 1.0]), np.zeros((1, 1)), np.zeros((1, 0), complex), np.zeros((1, 0))))
@@ -38,19 +40,26 @@ class Segment:
             raise InputError(f"segment {self.law.name!r}: its rise is {self.rise}; it must be finite.")
         self._refuse_rise()
 
-    def _refuse_rise(self):
-        reason = "a dwell does not move" if self.law.name == DWELL.name else "the lifts of a table are absolute" if self.law.span else ""
-        if reason and self.rise != 0:
-            raise InputError(f"segment {self.law.name!r}: a rise of {self.rise:.9g} is given, but {reason}; leave the rise out.")
-        if not reason and self.rise == 0:
-            raise InputError(f"segment {self.law.name!r}: no rise is given; say how far it moves, or make it a dwell.")
+    @property
+    def motion_law(self) -> MotionLaw:
+        """The law itself, where it was given by name too."""
+        assert isinstance(self.law, MotionLaw)
+        return self.law
 
-    def placed(self, start, level):
+    def _refuse_rise(self):
+        law = self.motion_law
+        reason = "a dwell does not move" if law.name == DWELL.name else "the lifts of a table are absolute" if law.span else ""
+        if reason and self.rise != 0:
+            raise InputError(f"segment {self.motion_law.name!r}: a rise of {self.rise:.9g} is given, but {reason}; leave the rise out.")
+        if not reason and self.rise == 0:
+            raise InputError(f"segment {self.motion_law.name!r}: no rise is given; say how far it moves, or make it a dwell.")
+
+    def placed(self, start: float, level: float) -> Piecewise:
         """Its motion as a function of the cycle's angle, beginning at angle `start` and lift `level`."""
-        if self.law.span is not None:
-            return self.law.function.scaled(width=self.angle, start=start)
-        offset = level - self.rise * self.law(0.0).s
-        return self.law.function.scaled(width=self.angle, height=self.rise, start=start, level=offset)
+        if self.motion_law.span is not None:
+            return self.motion_law.function.scaled(width=self.angle, start=start)
+        offset = level - self.rise * self.motion_law(0.0).s
+        return self.motion_law.function.scaled(width=self.angle, height=self.rise, start=start, level=offset)
 
 
 class Piece(NamedTuple):
@@ -81,7 +90,7 @@ class Programme:
     velocity or acceleration is no error but stands in `joints()`.
     """
 
-    segments: tuple
+    segments: tuple[Segment, ...]
     cycle: float = TURN
 
     def __post_init__(self):
@@ -91,45 +100,45 @@ class Programme:
         _refuse_open(self.levels, np.ptp(self._sampled_lift))
 
     @cached_property
-    def starts(self):
+    def starts(self) -> Floats:
         """Angle at which each segment begins, and the cycle itself (n+1,)."""
         return np.append(np.cumsum([0.0, *(segment.angle for segment in self.segments[:-1])]), self.cycle)
 
     @cached_property
-    def levels(self):
+    def levels(self) -> Floats:
         """Lift at the start of each segment and at the end of the cycle (n+1,)."""
-        first = self.segments[0].law
+        first = self.segments[0].motion_law
         levels = [first(0.0).s if first.span is not None else 0.0]
         for segment in self.segments:
             levels.append(segment.placed(0.0, levels[-1]).on_piece(-1, segment.angle).s)
         return np.array(levels)
 
     @cached_property
-    def function(self):
+    def function(self) -> Piecewise:
         """The whole cycle as one `Piecewise`."""
         parts = [segment.placed(start, level) for segment, start, level in zip(self.segments, self.starts, self.levels, strict=False)]
         whole = joined(parts, closed=True)
         return Piecewise(np.append(whole.breaks[:-1], self.cycle), whole.poly, whole.amplitude, whole.frequency, closed=True)
 
-    def __call__(self, theta):
+    def __call__(self, theta: Numbers) -> Motion:
         return self.function(np.mod(theta, self.cycle))
 
-    def on_piece(self, k, theta):
+    def on_piece(self, k: int | Ints, theta: Numbers) -> Motion:
         """Motion by the formula of piece k (or pieces, an array), one-sided at its ends; theta within breaks[k] .. breaks[k + 1]."""
         return self.function.on_own_piece(k, theta, "programme on a piece: theta")
 
     @property
-    def breaks(self):
+    def breaks(self) -> Floats:
         """Ends of the smooth pieces [rad], 0 and the cycle included."""
         return self.function.breaks
 
     @cached_property
-    def pieces(self):
+    def pieces(self) -> tuple[Piece, ...]:
         """The smooth intervals of the cycle, in order."""
         s = self._sampled_lift
         moves, up = np.ptp(s, axis=1) > CLOSURE * np.ptp(s), s[:, -1] >= s[:, 0]
         phases = np.where(moves, np.where(up, "rise", "return"), "dwell").tolist()
-        owners = np.repeat(np.arange(len(self.segments)), [segment.law.function.count for segment in self.segments]).tolist()
+        owners = np.repeat(np.arange(len(self.segments)), [segment.motion_law.function.count for segment in self.segments]).tolist()
         ends = self.function.breaks.tolist()
         return tuple(map(Piece, ends[:-1], ends[1:], owners, phases))
 
@@ -138,23 +147,23 @@ class Programme:
         """Lift at nine places of every piece, ends included (pieces, 9)."""
         return self.function.on_piece(*self.function.samples(8)).s
 
-    def joints(self):
+    def joints(self) -> list[Joint]:
         """The `Joint` at the start of every segment; the first is where the cycle closes."""
         jumps = [self.function.jumps(order) for order in range(4)]
         at = np.searchsorted(self.function.breaks, self.starts[:-1])
         return [Joint(float(angle), *(float(jump[k]) for jump in jumps)) for k, angle in zip(at, self.starts, strict=False)]
 
     @property
-    def continuity(self):
+    def continuity(self) -> int:
         """Order of the highest derivative that nowhere jumps, inside the laws included."""
         return self.function.continuity
 
-    def driven_by(self, angle_of):
+    def driven_by(self, angle_of: Callable[[Any], Jet]) -> Callable[[Any], Motion]:
         """The lift as a function of another variable t: angle_of(t) is the jet of theta(t), monotone or not."""
         return partial(_driven, self, angle_of)
 
 
-def through(motion, theta):
+def through(motion: Callable[[Any], Motion], theta: Jet) -> Motion:
     """Motion(s, ds/dt, ...) of motion(theta(t)) by the chain rule; `theta` is a jet, `motion` a programme, a law or one piece of it."""
     return Motion(*compose(motion(theta.d0), theta))
 
@@ -180,7 +189,7 @@ def _refuse_angles(segments, cycle):
 
 def _refuse_tables(segments, levels):
     for number, (segment, level) in enumerate(zip(segments, levels, strict=False), 1):
-        span = segment.law.span
+        span = segment.motion_law.span
         if span is None:
             continue
         if abs(span - segment.angle) > CLOSURE * segment.angle:
@@ -188,7 +197,7 @@ def _refuse_tables(segments, levels):
                 f"programme, segment {number}: its table ends at {math.degrees(span):.9g} deg, but the segment spans "
                 f"{math.degrees(segment.angle):.9g} deg; make the last angle of the table and the segment's angle equal."
             )
-        first = segment.law(0.0).s
+        first = segment.motion_law(0.0).s
         if abs(first - level) > CLOSURE * np.max(np.abs([first, *levels])):
             raise InputError(
                 f"programme, segment {number}: its table starts at a lift of {first:.9g}, but the segment before ends at "

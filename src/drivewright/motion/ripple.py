@@ -8,6 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats
+from drivewright.motion.piecewise import Piecewise
+
 LIMIT = 0.2  # part of the acceleration; sampled smooth laws stay below it from 12 rows a turn on
 MARGIN = 12  # rows added at either end, so that the ends are smoothed like the rest
 
@@ -19,12 +22,12 @@ class Ripple(NamedTuple):
     acceleration: float
 
     @property
-    def noticed(self):
+    def noticed(self) -> bool:
         """True where the ripple is too large to build from."""
         return self.acceleration > LIMIT
 
     @property
-    def message(self):
+    def message(self) -> str:
         """The finding in a sentence; empty where there is nothing to say."""
         if not self.noticed:
             return ""
@@ -34,7 +37,7 @@ class Ripple(NamedTuple):
         )
 
 
-def ripple(x, y, function):
+def ripple(x: Floats, y: Floats, function: Piecewise) -> Ripple:
     """`Ripple` of rows x, y on 0..1 against the interpolating `Piecewise` function, closed or at rest beyond its ends."""
     smooth = _smoothed(x, y, function.closed)
     acceleration, wanted = function(x).a, smooth(x, nu=2)

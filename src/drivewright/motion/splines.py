@@ -1,9 +1,11 @@
 """Motion through given points: interpolating splines of degree 3 or 5."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.errors import InputError
 from drivewright.motion.laws import register
 from drivewright.motion.piecewise import CLOSURE, Piecewise
@@ -11,7 +13,7 @@ from drivewright.motion.piecewise import CLOSURE, Piecewise
 LEAST_POINTS = 3
 
 
-def through_points(x, y, degree, ends, what):
+def through_points(x: Floats, y: Floats, degree: int, ends: str, what: str) -> Piecewise:
     """`Piecewise` interpolating spline, its pieces between neighbouring points.
 
     ends "periodic": all degree - 1 continuous derivatives agree at both ends; "clamped": v = 0 there, for degree 5 a = 0 too.
@@ -55,7 +57,7 @@ def _spline(points, degree=5, ends="clamped"):
     return through_points(np.array([0.0, *u[1:-1], 1.0]), np.array([first, *s[1:-1], last]), degree, ends, what)
 
 
-def refuse_disorder(x, y, what, places, x_name):
+def refuse_disorder(x: Floats, y: Floats, what: str, places: Sequence[str], x_name: str) -> None:
     """InputError naming the first place with a non-finite entry or where x does not increase."""
     for name, column in ((x_name, x), ("the lift", y)):
         if not np.all(np.isfinite(column)):

@@ -10,10 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.errors import InputError, UnitError
 from drivewright.motion.laws import MotionLaw, register
 from drivewright.motion.piecewise import CLOSURE
-from drivewright.motion.ripple import ripple
+from drivewright.motion.ripple import Ripple, ripple
 from drivewright.motion.splines import LEAST_POINTS, refuse_disorder, through_points
 from drivewright.units import unit_factor
 
@@ -24,23 +25,25 @@ HEADER = "angle [deg],lift [mm]"
 class TableLaw(MotionLaw):
     """A motion law through rows of angle [rad] and lift, `lift_unit` "m" or "rad" (None: not said).  Its s is the lift itself."""
 
-    rows: np.ndarray | None = field(default=None, repr=False)  # (n, 2): u and lift
+    rows: Floats | None = field(default=None, repr=False)  # (n, 2): u and lift
     lift_unit: str | None = None
 
     @cached_property
-    def ripple(self):
+    def ripple(self) -> Ripple:
         """What rounding of the rows does to the acceleration: a `Ripple`."""
-        return ripple(*self.rows.T, self.function)
+        assert self.rows is not None
+        u, lift = self.rows.T
+        return ripple(u, lift, self.function)
 
 
 class Rows(NamedTuple):
     """Columns in SI, and where each row was read."""
 
-    angle: np.ndarray
-    lift: np.ndarray
+    angle: Floats
+    lift: Floats
     lift_unit: str | None
     what: str
-    places: list
+    places: list[str]
 
 
 @register("table")
@@ -62,7 +65,7 @@ def _table(file=None, angle=None, lift=None, degree=5, ends=None):
     return TableLaw("table", function, span, np.column_stack([u, rows.lift]), rows.lift_unit)
 
 
-def read_table(file):
+def read_table(file: str | Path) -> Rows:
     """The `Rows` of a CSV file; columns "angle [unit]" and "lift [unit]", others are left alone."""
     path = Path(file)
     what = f"table '{path}'"

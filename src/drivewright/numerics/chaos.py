@@ -1,9 +1,11 @@
 """Regular or chaotic: the largest Lyapunov exponent of a map, and the period of its orbit."""
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError, SolverError
 
 _BLOCKS = 16
@@ -19,11 +21,21 @@ class Exponent(NamedTuple):
 
     per_cycle: float
     error: float
-    history: np.ndarray
+    history: Floats
     widest: float
 
 
-def largest_exponent(step, state, scales, *, cycles, discard, rng, separation=1e-8, continuous=None):
+def largest_exponent(
+    step: Callable[[Floats], ArrayLike],
+    state: ArrayLike,
+    scales: ArrayLike,
+    *,
+    cycles: int,
+    discard: int,
+    rng: np.random.Generator,
+    separation: float = 1e-8,
+    continuous: ArrayLike | None = None,
+) -> Exponent:
     """`Exponent` of the map step(state) -> state, from `cycles` applications after `discard` uncounted ones (Benettin's method).
 
     state (n,); scales: typical size of each component, (n,) or one for all.  A twin starts at `separation` scales from the state
@@ -110,7 +122,7 @@ def _block_error(growth):
     return float(np.std(means, ddof=1) / np.sqrt(_BLOCKS))
 
 
-def orbit_period(points, tolerance):
+def orbit_period(points: ArrayLike, tolerance: ArrayLike) -> int:
     """Number of distinct points that an orbit visits in turn: 1 for a fixed point, 2 after a doubling ...; 0 where it never repeats.
 
     points (m,) or (m, k): successive states of a map after its transient; tolerance: how far visits of one point may differ, a

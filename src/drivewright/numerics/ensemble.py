@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.errors import InputError
 
 LEVEL = 0.95
@@ -37,7 +38,7 @@ class Estimate:
     error: float = np.nan
 
 
-def estimate(samples: np.ndarray, *, rounding: float = ROUNDING, scale: float = 0.0) -> Estimate:
+def estimate(samples: Floats, *, rounding: float = ROUNDING, scale: float = 0.0) -> Estimate:
     """Mean over windows and members of `samples` (members, windows), or (windows,) of one run.
 
     value -+ t sigma / sqrt(n), with n = members windows / tau effective samples, tau = 1 + 2 sum (1 - k/windows) rho_k the integrated
@@ -68,7 +69,7 @@ def estimate(samples: np.ndarray, *, rounding: float = ROUNDING, scale: float = 
     return Estimate(value, value - reach, value + reach, made, effective >= ENOUGH and drift <= limit, effective, error)
 
 
-def estimate_statistic(samples: np.ndarray, statistic: Callable, *, rounding: float = ROUNDING, scale: float = 0.0) -> Estimate:
+def estimate_statistic(samples: Floats, statistic: Callable[..., Floats], *, rounding: float = ROUNDING, scale: float = 0.0) -> Estimate:
     """What `statistic(samples, axis=1)`, largest, percentile, root mean square ..., is in one run of so many windows.
 
     samples (members, windows).  The mean of the members' own statistics -+ t s / sqrt(members), t Student's quantile of members - 1
@@ -91,14 +92,14 @@ def estimate_statistic(samples: np.ndarray, statistic: Callable, *, rounding: fl
     return _of_members(numbers, bool(abs(np.mean(change)) <= paired and drift <= limit and whole.effective >= ENOUGH))
 
 
-def of_members(numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def of_members(numbers: Floats) -> tuple[Floats, Floats]:
     """(mean, half the width of its 95 % interval) of the members' numbers (members, ...), which share nothing: Student's; nan of one."""
     count = len(numbers)
     spread = np.std(numbers, axis=0, ddof=1) if count > 1 else np.full(numbers.shape[1:], np.nan)
     return np.mean(numbers, axis=0), _student(count - 1, (1 + LEVEL) / 2) * spread / np.sqrt(count)
 
 
-def draw(numbers: np.ndarray) -> Estimate:
+def draw(numbers: Floats) -> Estimate:
     """The first of the numbers (members,), with the interval in which one more lies: mean -+ t s sqrt(1 + 1/members), if they differ."""
     count, value = len(numbers), float(numbers[0])
     if np.ptp(numbers) == 0.0:

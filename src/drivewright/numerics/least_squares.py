@@ -1,23 +1,31 @@
 """Fit of parameters to data, with what the data say about their accuracy."""
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import least_squares
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError, SolverError
 
 
 class Fit(NamedTuple):
     """parameters (n,), covariance (n, n), root mean square of the residuals, residuals (m,)."""
 
-    parameters: np.ndarray
-    covariance: np.ndarray
+    parameters: Floats
+    covariance: Floats
     rms: float
-    residuals: np.ndarray
+    residuals: Floats
 
 
-def fit(residuals, start, scale=1.0, bounds=(-np.inf, np.inf), max_calls=1000):
+def fit(
+    residuals: Callable[[Floats], Floats],
+    start: ArrayLike,
+    scale: ArrayLike = 1.0,
+    bounds: tuple[ArrayLike, ArrayLike] = (-np.inf, np.inf),
+    max_calls: int = 1000,
+) -> Fit:
     """Parameters p that make the sum of squares of residuals(p) (m,) least.
 
     `scale`: typical size of each parameter.  Covariance s^2 (J^T J)^-1 with s^2 = sum of squares/(m - n), right for independent

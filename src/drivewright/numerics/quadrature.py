@@ -4,13 +4,15 @@ A function takes an array of abscissas (m,) and returns values (..., m); integra
 """
 
 import functools
+from collections.abc import Callable
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
 
 
-def integrate_pieces(f, breaks, points=16):
+def integrate_pieces(f: Callable[[Floats], Floats], breaks: ArrayLike, points: int = 16) -> Floats:
     """Integral of f from breaks[0] to breaks[-1], where f is smooth between neighbouring breaks.
 
     `points` Gauss nodes per piece are exact for polynomials of degree 2 points - 1 there.
@@ -18,13 +20,13 @@ def integrate_pieces(f, breaks, points=16):
     return _piece_integrals(f, breaks, points).sum(axis=-1)
 
 
-def cumulative_integral(f, breaks, points=16):
+def cumulative_integral(f: Callable[[Floats], Floats], breaks: ArrayLike, points: int = 16) -> Floats:
     """Integrals of f from breaks[0] to every break: (..., len(breaks)), the first one 0."""
     pieces = _piece_integrals(f, breaks, points)
     return np.concatenate([np.zeros_like(pieces[..., :1]), np.cumsum(pieces, axis=-1)], axis=-1)
 
 
-def integrate_periodic(f, period, samples=256, start=0.0):
+def integrate_periodic(f: Callable[[Floats], Floats], period: float, samples: int = 256, start: float = 0.0) -> Floats:
     """Integral of f over one period by the trapezoidal rule, which for a smooth periodic f converges faster than any power."""
     x = start + period * np.arange(samples) / samples
     return period * np.mean(_values(f, x), axis=-1)

@@ -3,12 +3,15 @@
 A scalar function here is vectorised: an array of abscissas in, an array of values out.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError, SolverError
 
 
-def bracketed_roots(f, grid):
+def bracketed_roots(f: Callable[[Floats], ArrayLike], grid: ArrayLike) -> Floats:
     """All x where the continuous f changes sign between neighbours of `grid`, or is exactly 0 on it, ascending.
 
     Each bracket is refined to a few units in the last place.  A pole also changes sign; it is recognised because |f| grows
@@ -60,7 +63,13 @@ def _next_fraction(a, b, c, fa, fb, fc, tolerance):
     return np.clip(np.where(fit & np.isfinite(t), t, 0.5), least, 1 - least)
 
 
-def newton(f_and_jacobian, x0, scale=1.0, tolerance=1e-12, max_steps=50):
+def newton(
+    f_and_jacobian: Callable[[Floats], tuple[Floats, Floats]],
+    x0: ArrayLike,
+    scale: ArrayLike = 1.0,
+    tolerance: float = 1e-12,
+    max_steps: int = 50,
+) -> Floats:
     """Solve f(x) = 0 for a small system by damped Newton steps; returns x.
 
     f_and_jacobian(x) -> f (n,), J (n, n).  `scale` is the typical size of each unknown; the iteration ends when every step is
@@ -109,7 +118,7 @@ def _solve(jacobian, f, x, count):
         ) from None
 
 
-def extremes(f, a, b, samples=721):
+def extremes(f: Callable[[Floats], ArrayLike], a: float, b: float, samples: int = 721) -> tuple[float, float, float, float]:
     """Global least and greatest value of a smooth f on [a, b]: (argmin, min, argmax, max), floats.
 
     `samples` equidistant values must show every hill; the best eight local candidates are then refined together.

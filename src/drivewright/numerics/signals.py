@@ -9,10 +9,11 @@ import numpy as np
 from scipy.fft import next_fast_len, rfft
 from scipy.interpolate import CubicSpline, PPoly
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
 
 
-def local_maxima(t, x):
+def local_maxima(t: ArrayLike, x: ArrayLike) -> tuple[Floats, Floats]:
     """(times, values) of the inner maxima of x, each at the vertex of the parabola through its three samples.
 
     t, x (m,).  Exact for a parabola; for a smooth signal with steps up to h the value is off by at most h^3 max|x'''|/(9 sqrt 3).
@@ -41,11 +42,11 @@ def _vertex(t, x, i, j, k):
     left, right = step / np.where(jump, 1.0, h)
     curvature = (right - left) / np.where(jump, 1.0, t[k] - t[i])
     slope = (left * h[1] + right * h[0]) / np.where(jump, 1.0, t[k] - t[i])
-    bend = np.where(jump, 1.0, curvature)
-    return t[j] - np.where(jump, 0.0, slope / (2 * bend)), x[j] - np.where(jump, 0.0, slope**2 / (4 * bend))
+    safe_curvature = np.where(jump, 1.0, curvature)
+    return t[j] - np.where(jump, 0.0, slope / (2 * safe_curvature)), x[j] - np.where(jump, 0.0, slope**2 / (4 * safe_curvature))
 
 
-def mean_of_largest(values, count):
+def mean_of_largest(values: ArrayLike, count: int) -> float:
     """Mean of the `count` largest of the values (m,); InputError where there are fewer."""
     values = np.asarray(values, dtype=float)
     if not 1 <= count <= values.size:
@@ -53,20 +54,20 @@ def mean_of_largest(values, count):
     return float(np.mean(np.sort(values)[-count:]))
 
 
-def time_mean(t, x):
+def time_mean(t: ArrayLike, x: ArrayLike) -> float:
     """Integral of x over the duration, divided by it (trapezoidal rule)."""
     t, x = _signal(t, x)
     return float(np.sum(np.diff(t) * 0.5 * (x[1:] + x[:-1])) / (t[-1] - t[0]))
 
 
-def root_mean_square(t, x):
+def root_mean_square(t: ArrayLike, x: ArrayLike) -> float:
     """Square root of the time mean of x^2; from a to b in a straight line that is (a^2 + a b + b^2)/3."""
     t, x = _signal(t, x)
     a, b = x[:-1], x[1:]
     return float(np.sqrt(np.sum(np.diff(t) * (a * a + a * b + b * b) / 3) / (t[-1] - t[0])))
 
 
-def percentile(t, x, q):
+def percentile(t: ArrayLike, x: ArrayLike, q: float) -> float:
     """The level that x stays at or below for q % of the time; 0 gives the least value, 100 the largest."""
     t, x = _signal(t, x)
     if not 0 <= q <= 100:
@@ -92,7 +93,7 @@ def _time_below(t, x, level):
     return below, below + float(np.sum(h[flat & (low == level)]))
 
 
-def order_spectrum(t, x, period, orders):
+def order_spectrum(t: ArrayLike, x: ArrayLike, period: float, orders: ArrayLike) -> Floats:
     """Amplitude of x at each order: of the harmonic with that many oscillations per period; at order 0 the size of the mean.
 
     t, x (m,) from start to end of a whole number N of periods; orders (k,) multiples of 1/N, so that 1/2 shows a doubled period.
@@ -113,7 +114,7 @@ def order_spectrum(t, x, period, orders):
     return _amplitudes(_spline(t, x).antiderivative(), t[0], t[-1], bins, t.size)
 
 
-def spectrogram(t, x, period, orders, turns=1):
+def spectrogram(t: ArrayLike, x: ArrayLike, period: float, orders: ArrayLike, turns: int = 1) -> tuple[Floats, Floats]:
     """(times, amplitudes): `order_spectrum` of windows of `turns` whole periods, each one period later; times of their middles.
 
     t, x (m,) over any time, the rest behind the last whole period is left out; orders (k,) multiples of 1/turns;
@@ -160,14 +161,14 @@ def _bins(orders, turns, samples):
 
 def _amplitudes(integral, start, end, bins, samples):
     """Amplitudes over [start, end] from averages over even cells, whose own damping sin(c)/c, c = pi bin/cells, is taken out."""
-    cells = next_fast_len(max(2 * samples, 16 * int(np.max(bins))), real=True)
+    cells = int(next_fast_len(max(2 * samples, 16 * int(np.max(bins))), real=True))  # pyright: ignore[reportArgumentType]  scipy's stub says None
     edges = np.linspace(start, end, cells + 1)
     averages = np.diff(integral(edges)) * cells / (end - start)
     transform = np.abs(rfft(averages))[bins] / cells / np.sinc(bins / cells)
     return np.where(bins == 0, transform, 2 * transform)
 
 
-def intervals(t, mask):
+def intervals(t: ArrayLike, mask: ArrayLike) -> tuple[Floats, Floats]:
     """(starts, ends) of the stretches in which the boolean mask (m,) of the samples holds.
 
     A change is set half way between the two samples that show it, so each inner end is known to half a step; the stretches of

@@ -3,13 +3,14 @@
 import numpy as np
 
 from drivewright._jit import outer
+from drivewright._typing import Floats, Ints
 
 SINGULAR = 1e-13  # a pivot below this part of the matrix' largest entry
 
 
 @outer
-def lu_factor(a, pivots):
-    """Overwrite the square matrix a with L and U, rows exchanged as told by `pivots`; False where it is singular."""
+def lu_factor(a: Floats, pivots: Ints) -> bool:
+    """Overwrite the square matrix a (n, n) with L and U, rows exchanged as `pivots` (n,) says; False where it is singular."""
     n = a.shape[0]
     largest = 0.0
     for i in range(n):
@@ -34,8 +35,8 @@ def lu_factor(a, pivots):
 
 
 @outer
-def lu_solve(lu, pivots, b):
-    """Overwrite b with the solution x of a x = b."""
+def lu_solve(lu: Floats, pivots: Ints, b: Floats) -> None:
+    """Overwrite b (n,) with the solution x of a x = b, from the factors (n, n) and `pivots` (n,) of `lu_factor`."""
     n = lu.shape[0]
     for k in range(n):
         best = pivots[k]
@@ -51,15 +52,16 @@ def lu_solve(lu, pivots, b):
 
 
 @outer
-def cholesky_solve(a, b):
-    """Overwrite b with x of a x = b, a symmetric and positive definite (its lower half is used up); nan in b where it is not."""
+def cholesky_solve(a: Floats, b: Floats) -> None:
+    """Overwrite b (n,) with x of a x = b, a (n, n) symmetric and positive definite (its lower half is used up); nan in b where it is
+    not."""
     cholesky_factor(a)
     cholesky_substitute(a, b)
 
 
 @outer
-def cholesky_factor(a):
-    """Overwrite the lower half of a, symmetric and positive definite, with its factor L, a = L L^T; nan where it is not."""
+def cholesky_factor(a: Floats) -> None:
+    """Overwrite the lower half of a (n, n), symmetric and positive definite, with its factor L, a = L L^T; nan where it is not."""
     n = a.shape[0]
     for j in range(n):
         for k in range(j):
@@ -72,8 +74,8 @@ def cholesky_factor(a):
 
 
 @outer
-def cholesky_substitute(a, b):
-    """Overwrite b with x of L L^T x = b, L in the lower half of a."""
+def cholesky_substitute(a: Floats, b: Floats) -> None:
+    """Overwrite b (n,) with x of L L^T x = b, L in the lower half of a (n, n)."""
     n = a.shape[0]
     for i in range(n):
         for k in range(i):

@@ -5,13 +5,14 @@ from math import factorial
 import numpy as np
 from scipy.interpolate import BSpline, PPoly, make_interp_spline, splrep
 
+from drivewright._typing import ArrayLike
 from drivewright.errors import InputError
 
 # Derivatives that vanish at an end, by kind of end and degree; a spline of degree k needs (k - 1)/2 of them.
 _VANISHING = {("clamped", 3): (1,), ("clamped", 5): (1, 2), ("natural", 3): (2,), ("natural", 5): (3, 4)}
 
 
-def interpolating_spline(x, y, degree=3, ends="natural"):
+def interpolating_spline(x: ArrayLike, y: ArrayLike, degree: int = 3, ends: str = "natural") -> PPoly:
     """The spline of degree 3 or 5 with y(x) = y and all derivatives below the degree continuous; breaks at x.
 
     x (m,) ascending, y (m, ...).  ends: "periodic" (y[0] = y[-1]); "clamped": at rest, first derivative 0 and for degree 5
@@ -28,7 +29,7 @@ def interpolating_spline(x, y, degree=3, ends="natural"):
     return _pieces(make_interp_spline(x, y, degree, bc_type=(conditions, conditions)), x, True)
 
 
-def smoothing_spline(x, y, tolerance, degree=3, periodic=False):
+def smoothing_spline(x: ArrayLike, y: ArrayLike, tolerance: float, degree: int = 3, periodic: bool = False) -> PPoly:
     """A spline with as few jumps of its highest derivative as keep the points (m,) within `tolerance` in the root mean square.
 
     The ripple of measured or rounded points is what remains: y - smoothing_spline(x, y, tolerance)(x).

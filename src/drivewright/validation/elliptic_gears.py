@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from drivewright.gears import EllipticGearPair, GearTrain
-from drivewright.mechanisms.seedling_pusher.second_route import rolled_pair
+from drivewright.oracles.seedling_pusher.rolled_motion import rolled_pair
 from drivewright.validation.source import AGREES, Printed, Row, Source, rounded
 
 ECCENTRICITY = 0.3

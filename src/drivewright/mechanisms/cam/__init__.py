@@ -8,8 +8,7 @@ from drivewright.mechanisms.cam.claims import claims
 from drivewright.mechanisms.cam.energy import energy
 from drivewright.mechanisms.cam.scene import PLOTS, drawings, parts, scene
 from drivewright.mechanisms.cam.spec import CamSpec
-from drivewright.mechanisms.cam.verify import verify
-from drivewright.registry import Analysis, Mechanism
+from drivewright.registry import Analysis, Mechanism, oracle
 
 ANALYSES = (
     Analysis("motion", analyse.motion, "the programme and its derivatives"),
@@ -20,6 +19,7 @@ ANALYSES = (
     Analysis("vibration", loads.vibration, "steady vibration of the follower", missing=loads.no_vibration),
     Analysis("energy", energy, "energy audit over the turn", default=False, missing=loads.no_forces),
 )
+
 
 mechanism = Mechanism(
     kind="cam",
@@ -33,7 +33,7 @@ mechanism = Mechanism(
     plots=PLOTS,
     drawings=drawings,
     parts=parts,
-    verify=verify,
+    verify=oracle("cam"),
     sources=(
         "Norton, Cam Design and Manufacturing Handbook (recalled; verified by closed forms)",
         "Rothbart, Cam Design Handbook (recalled; verified by closed forms)",

@@ -3,11 +3,12 @@
 import numpy as np
 
 from drivewright import cams, curves
+from drivewright.mechanisms.cam.build import CamModel, Track
 from drivewright.mechanisms.cam.spec import TURN
-from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 
-def motion(model, done):
+def motion(model: CamModel, done: Answers) -> Answer:
     """The programme over one turn, its jumps at the joints, and with a speed its velocities."""
     piece, angle = model.cycle.samples()
     lift = [np.broadcast_to(part, angle.shape) for part in model.cycle.at(piece, angle)[1]]
@@ -57,7 +58,7 @@ def _infinite(peaks):
 # -- geometry ------------------------------------------------------------------------------------------------------------------
 
 
-def geometry(model, done):
+def geometry(model: CamModel, done: Answers) -> Answer:
     """Pressure angles per phase and surface, curvature of the pitch curve, size of a flat face, closure."""
     cut = [track for track in model.tracks if track.cut]
     answers = [_closure(model), *(part for track in cut for part in (_pressure(model, track), _curvature(model, track)))]
@@ -131,14 +132,14 @@ def _profile_radius(track, name, place):
     return {f"{track.prefix}profile.min_{name}_radius": Value(radius, "m", meaning)}
 
 
-def flat_least(model, track):
+def flat_least(model: CamModel, track: Track) -> cams.Extreme:
     """The least radius of curvature of the profile under a flat face, negative where it is undercut."""
     return model.cycle.least(lambda angle, lift: cams.flat_radius(*track.follower.face(angle, lift)))
 
 
 def _sharpest(model, track, way):
     """Least radius of the pitch curve where it is convex (+1) or concave (-1); None where it is nowhere so."""
-    found = model.cycle.greatest(lambda angle, lift: way * track.contact(angle, lift).bend)
+    found = model.cycle.greatest(lambda angle, lift: way * track.contact(angle, lift).pitch_curvature)
     return found._replace(value=1 / found.value) if found.value > 0 else None
 
 
@@ -214,7 +215,9 @@ def _geometry_table(model, track):
         (
             Column("angle", "rad", "cam angle", angle),
             Column("pressure_angle", "rad", f"pressure angle{track.of}", contact.pressure_angle.d0 + 0 * angle),
-            Column("curvature", "1/m", f"curvature of the {track.curve}{track.of}, convex positive", contact.bend.d0 + 0 * angle),
+            Column(
+                "curvature", "1/m", f"curvature of the {track.curve}{track.of}, convex positive", contact.pitch_curvature.d0 + 0 * angle
+            ),
             Column("pitch_radius", "m", f"distance of the {track.curve}{track.of} from the cam's centre", np.abs(contact.pitch.d0)),
             Column("profile_x", "m", f"profile{track.of}, x at cam angle 0", contact.point.d0.real),
             Column("profile_y", "m", f"profile{track.of}, y at cam angle 0", contact.point.d0.imag),
@@ -225,7 +228,7 @@ def _geometry_table(model, track):
 def _undercut_table(model, track):
     """Curvature of the pitch curve against that of the face: above 1 the profile cuts itself away."""
     piece, angle = model.cycle.samples()
-    ratio = track.flank * track.radius * track.contact(*model.cycle.at(piece, angle)).bend.d0
+    ratio = track.flank * track.radius * track.contact(*model.cycle.at(piece, angle)).pitch_curvature.d0
     return Table(
         f"undercut{track.suffix}",
         f"Undercut{track.of}",

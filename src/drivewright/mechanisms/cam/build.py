@@ -3,13 +3,15 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache, partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from drivewright import cams, curves, materials, motion
+from drivewright.cams.profile import Follower
 from drivewright.errors import DoesNotAssemble, InputError, SolverError, SpecError
 from drivewright.mechanisms.cam.spec import CamSpec, Groove, Swing
+from drivewright.numerics.jets import Jet
 from drivewright.scene import Outline
 
 LAW_KEYS = ("file", "b", "c", "d", "start", "end", "interior", "points", "degree", "ends")
@@ -25,40 +27,40 @@ USED = {  # keys of the follower that each motion and face reads
 
 @dataclass(frozen=True)
 class Track:
-    """A surface of a cam and what runs on it: `contact(angle, lift)` gives the `cams.Contact`.
+    """A surface of a cam and what runs on it: `contact(angle, lift)` gives the `cams.CamContact`.
 
     `prefix` stands before the names of its values; flank -1 is the outer wall of a groove; `cut`: it needs a profile of its own.
     """
 
     name: str
     prefix: str
-    follower: object
-    contact: Callable
+    follower: Follower
+    contact: Callable[[Jet, Jet], cams.CamContact]
     flank: int = 1
     cut: bool = True
 
     @property
-    def flat(self):
+    def flat(self) -> bool:
         """Whether the face is flat."""
         return hasattr(self.follower, "face")
 
     @property
-    def suffix(self):
+    def suffix(self) -> str:
         """What stands behind the names of its tables and checks."""
         return f".{self.prefix[:-1]}" if self.prefix else ""
 
     @property
-    def of(self):
+    def of(self) -> str:
         """What stands behind the meaning of its values, to tell it from the cam."""
         return f" ({self.name})" if self.prefix else ""
 
     @property
-    def curve(self):
+    def curve(self) -> str:
         """The curve whose curvature counts."""
         return "profile" if self.flat else "pitch curve"
 
     @property
-    def radius(self):
+    def radius(self) -> float:
         """Radius of the face [m]; 0 for a knife edge, inf for a flat face."""
         return np.inf if self.flat else self.follower.radius
 
@@ -69,59 +71,59 @@ class CamModel:
 
     spec: CamSpec
     programme: motion.Programme
-    tracks: tuple
+    tracks: tuple[Track, ...]
     material: materials.Material
-    findings: tuple = field(default=())
+    findings: tuple[str, ...] = field(default=())
 
     @cached_property
-    def cycle(self):
+    def cycle(self) -> cams.Cycle:
         """The turn in smooth pieces."""
         return cams.Cycle(self.programme.function)
 
-    def phase(self, name):
+    def phase(self, name: str) -> cams.Cycle | None:
         """The pieces of the turn in a phase, "rise", "return" or "dwell"; None where there are none."""
         chosen = tuple(k for k, piece in enumerate(self.programme.pieces) if piece.phase == name)
         return replace(self.cycle, chosen=chosen) if chosen else None
 
     @property
-    def follower(self):
+    def follower(self) -> Any:
         """The follower on its first track."""
         return self.tracks[0].follower
 
     @property
-    def oscillating(self):
+    def oscillating(self) -> bool:
         """Whether the follower swings."""
         return self.spec.follower.motion == "oscillating"
 
     @property
-    def speed(self):
+    def speed(self) -> float | None:
         """Speed of the cam [rad/s], None where it is not said."""
         return self.spec.drive.speed if self.spec.drive else None
 
     @property
-    def yoke_breadth(self):
+    def yoke_breadth(self) -> float:
         """Distance of the two faces, or roller centres, of a yoke [m]."""
         radius = self.follower.base_radius if self.tracks[0].flat else self.follower.prime_radius
         return 2 * radius + cams.breadth(self.cycle).mean
 
     @property
-    def clearance(self):
+    def clearance(self) -> float:
         """Width of a groove less the diameter of its roller [m]."""
         return (self.spec.groove or Groove()).clearance
 
     @property
-    def load(self):
+    def load(self) -> cams.FollowerLoad:
         """What acts along the follower's travel."""
         load, spring = self.spec.load, self.spec.spring
         held = (spring.stiffness, spring.preload) if spring else (0.0, 0.0)
-        return cams.Load(load.mass, load.damping, *held, load.force)
+        return cams.FollowerLoad(load.mass, load.damping, *held, load.force)
 
-    def required(self, angle, lift):
+    def required(self, angle: Jet, lift: Jet) -> Jet:
         """Force that the cam must exert along the travel [N]; a jet."""
         return cams.follower_force(self.follower.reach * lift, self.load, self.speed)
 
 
-def build(spec):
+def build(spec: CamSpec) -> CamModel:
     """The `CamModel` of a spec."""
     programme = motion.Programme(tuple(_segment(spec, number) for number in range(len(spec.programme))))
     follower = _follower(spec)
@@ -275,7 +277,7 @@ class Profile(NamedTuple):
 
 
 @lru_cache(maxsize=16)
-def profile(model, number=0):
+def profile(model: CamModel, number: int = 0) -> "Profile":
     """The `Profile` of a track by its number."""
     track = model.tracks[number]
     if track.radius == 0:
@@ -291,7 +293,7 @@ def profile(model, number=0):
     return Profile(trimmed.outline(), trimmed)
 
 
-def pitch_outline(model, number=0):
+def pitch_outline(model: CamModel, number: int = 0) -> Outline:
     """The pitch curve of a track with a round face as an outline."""
     return _outline(cams.path(model.programme, model.tracks[number].follower.pitch))
 

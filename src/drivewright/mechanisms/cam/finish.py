@@ -4,12 +4,12 @@ import numpy as np
 
 from drivewright import cams, curves
 from drivewright.errors import DoesNotAssemble, SolverError
-from drivewright.mechanisms.cam.build import profile
+from drivewright.mechanisms.cam.build import CamModel, profile
 from drivewright.mechanisms.cam.spec import TURN
-from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 
-def finished(model, done):
+def finished(model: CamModel, done: Answers) -> Answer:
     """The profiles after global trimming: lost motion, size, walls, cutter; one inspection table each."""
     answers = [_one_profile(model, number) for number, track in enumerate(model.tracks) if track.cut]
     values = {name: value for answer in answers for name, value in answer.values.items()}
@@ -95,10 +95,10 @@ def _cutter_checks(model):
         width = 2 * model.follower.radius + model.clearance
         return (Check("cutter", cutter, width, "<=", "m", "diameter of the cutter, which must go into the groove", ("cam",)),)
     for track in (track for track in model.tracks if track.cut and not track.flat):
-        bend = model.cycle.least(lambda angle, lift, track=track: track.contact(angle, lift).bend).value
-        if bend < 0:
+        sharpest = model.cycle.least(lambda angle, lift, track=track: track.contact(angle, lift).pitch_curvature).value
+        if sharpest < 0:
             message = "least hollow radius of the profile against the radius of the cutter"
-            checks.append(Check(f"cutter{track.suffix}", track.radius - 1 / bend, cutter / 2, ">=", "m", message, (track.name,)))
+            checks.append(Check(f"cutter{track.suffix}", track.radius - 1 / sharpest, cutter / 2, ">=", "m", message, (track.name,)))
     return tuple(checks)
 
 

@@ -7,12 +7,14 @@ import numpy as np
 from drivewright import cams
 from drivewright.contact import hertz
 from drivewright.mechanisms.cam.analyse import flat_least
-from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.mechanisms.cam.build import CamModel
+from drivewright.mechanisms.cam.spec import CamSpec
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 NO_SPEED = "no [drive] speed"
 
 
-def no_forces(spec):
+def no_forces(spec: CamSpec) -> str | None:
     """Why there are no forces to compute, or None."""
     if spec.drive is None:
         return NO_SPEED
@@ -20,12 +22,12 @@ def no_forces(spec):
     return None if loaded else "no [load] and no [spring]"
 
 
-def no_spring(spec):
+def no_spring(spec: CamSpec) -> str | None:
     """Why there is no spring to size, or None."""
     return f'closure = "{spec.closure}" needs no spring' if spec.closure != "force" else no_forces(spec)
 
 
-def no_vibration(spec):
+def no_vibration(spec: CamSpec) -> str | None:
     """Why there is no vibration to compute, or None."""
     if spec.vibration is None or spec.drive is None:
         return NO_SPEED if spec.vibration else "no [vibration] natural_frequency"
@@ -33,7 +35,7 @@ def no_vibration(spec):
     return f"the natural frequency is {ratio:.3g} times the cam's speed, which is as good as rigid" if ratio > cams.STIFFEST else None
 
 
-def forces(model, done):
+def forces(model: CamModel, done: Answers) -> Answer:
     """Force along the travel, normal force and Hertz pressure on every surface, torque, sliding and rolling speeds."""
     piece, angle = model.cycle.samples()
     state = model.cycle.at(piece, angle)
@@ -85,8 +87,8 @@ def _flight(model, required):
 def _contact(model, track, state):
     """Normal force of one surface, which pushes only and carries what falls to it, and the speeds there."""
     contact, angle = track.contact(*state), state[0].d0
-    force = np.maximum(cams.normal_force(model.required(*state), contact).d0 + 0 * angle, 0.0)
-    greatest = model.cycle.greatest(lambda a, lift: cams.normal_force(model.required(a, lift), track.contact(a, lift)))
+    force = np.maximum(cams.cam_normal_force(model.required(*state), contact).d0 + 0 * angle, 0.0)
+    greatest = model.cycle.greatest(lambda a, lift: cams.cam_normal_force(model.required(a, lift), track.contact(a, lift)))
     values = {f"{track.prefix}max_contact_force": Value(max(greatest.value, 0.0), "N", f"largest normal force{track.of}")}
     rolls = model.spec.follower.face == "roller"
     ends = [extreme(lambda a, lift: track.contact(a, lift).sliding).value for extreme in (model.cycle.greatest, model.cycle.least)]
@@ -121,7 +123,7 @@ def _pressure(model, track, state):
     if reason := _no_pressure(model, track):
         return Answer(findings=(f"{track.prefix}max_contact_pressure is absent: {reason}",))
     contact, angle = track.contact(*state), state[0].d0
-    force = np.maximum(cams.normal_force(model.required(*state), contact).d0 + 0 * angle, 0.0)
+    force = np.maximum(cams.cam_normal_force(model.required(*state), contact).d0 + 0 * angle, 0.0)
     pressure = hertz.line_contact(force, model.spec.face.width, 1 / _relative_curvature(track, contact).d0, _modulus(model)).pressure
     table = Table(
         f"pressure{track.suffix}",
@@ -154,7 +156,7 @@ def _no_pressure(model, track):
         return "a knife edge has no contact pressure"
     if track.flat:
         return "the profile is undercut" if flat_least(model, track).value <= 0 else None
-    sharpest = model.cycle.greatest(lambda angle, lift: track.flank * track.contact(angle, lift).bend).value
+    sharpest = model.cycle.greatest(lambda angle, lift: track.flank * track.contact(angle, lift).pitch_curvature).value
     return "the profile is undercut" if sharpest * track.radius >= 1 else None
 
 
@@ -163,7 +165,7 @@ def _peak_pressure(model, track):
 
     def product(angle, lift):
         contact = track.contact(angle, lift)
-        return cams.normal_force(model.required(angle, lift), contact) * _relative_curvature(track, contact)
+        return cams.cam_normal_force(model.required(angle, lift), contact) * _relative_curvature(track, contact)
 
     worst = max(model.cycle.greatest(product).value, 0.0)
     return float(hertz.line_contact(worst, model.spec.face.width, 1.0, _modulus(model)).pressure)
@@ -174,7 +176,7 @@ def _modulus(model):
     return hertz.effective_modulus(card.modulus, card.poisson, card.modulus, card.poisson)
 
 
-def spring(model, done):
+def spring(model: CamModel, done: Answers) -> Answer:
     """Does the spring hold the follower on the cam; what preload, stiffness and speed are the limits."""
     cycle, reach, load, speed = model.cycle, model.follower.reach, model.load, model.speed
     least, needed, findings = cycle.least(model.required), cams.needed_preload(cycle, reach, load, speed), []
@@ -203,7 +205,7 @@ def spring(model, done):
     return Answer(values, (), (check,), tuple(findings))
 
 
-def vibration(model, done):
+def vibration(model: CamModel, done: Answers) -> Answer:
     """Steady vibration of the follower as one mass on a damped spring."""
     given, reach, speed = model.spec.vibration, model.follower.reach, model.speed
     frequency = 2 * np.pi * given.natural_frequency

@@ -6,7 +6,7 @@ import numpy as np
 
 from drivewright import cams, curves
 from drivewright.mechanisms.cam import sketch
-from drivewright.mechanisms.cam.build import Profile, pitch_outline, profile
+from drivewright.mechanisms.cam.build import CamModel, Profile, pitch_outline, profile
 from drivewright.mechanisms.cam.spec import TURN
 from drivewright.result import Plot
 from drivewright.scene import Body, Drawing, Frame, Part, Prism, Scene, Shape, Trace, circle, polygon
@@ -45,7 +45,7 @@ PLOTS = (
 # -- the moving picture ----------------------------------------------------------------------------------------------------------
 
 
-def scene(model):
+def scene(model: CamModel) -> Scene:
     """Cam and follower over one turn, seen from the machine and from the cam."""
     angle = np.linspace(0, TURN, FRAMES)
     lift = model.programme(angle).s
@@ -128,7 +128,7 @@ def _ground(model):
 # -- drawings and parts ------------------------------------------------------------------------------------------------------------
 
 
-def drawings(model):
+def drawings(model: CamModel) -> tuple[Drawing, ...]:
     """One drawing for each cam; the two walls of a groove share one."""
     found = []
     for number, track in enumerate(model.tracks):
@@ -147,7 +147,7 @@ def _title(model, track):
     return f"{model.spec.title or 'disc cam'}: {'second cam' if track.name == 'conjugate' else 'cam'}"
 
 
-def parts(model):
+def parts(model: CamModel) -> tuple[Part, ...]:
     """The cams with bore and hub, and what runs on them, at the start position."""
     width, found = model.spec.face.width, []
     for number, track in enumerate(model.tracks):

@@ -3,38 +3,41 @@
 Points are complex [m] and become (x, y) at the end.
 """
 
+from typing import Any
+
 import numpy as np
 
 from drivewright import cams
+from drivewright.mechanisms.cam.build import CamModel
 from drivewright.numerics.jets import constant, variable
 from drivewright.scene import Arc, Line, Outline, Shape, circle, polygon
 
 SLIM = 0.12  # width of stems and levers, of the size of the cam
 
 
-def rest_center(follower):
+def rest_center(follower: Any) -> complex:
     """Centre of a round face at zero lift, machine frame."""
     zero = np.array([0.0])
     return complex(follower.pitch(variable(zero), constant(zero)).d0[0])
 
 
-def size(model):
+def size(model: CamModel) -> float:
     """Greatest distance of the pitch curve from the cam's centre."""
     piece, angle = model.cycle.samples(np.radians(5))
     return float(np.max(np.abs(model.tracks[0].contact(*model.cycle.at(piece, angle)).pitch.d0)))
 
 
-def origin(model):
+def origin(model: CamModel) -> Any:
     """Origin of the follower's frame in the machine frame at zero lift."""
     return complex(model.follower.pivot_distance) if model.oscillating else 0j
 
 
-def pair(z):
+def pair(z: Any) -> Any:
     """(x, y) of a complex number."""
     return float(z.real), float(z.imag)
 
 
-def bar(a, b, width):
+def bar(a: complex, b: complex, width: float) -> Outline:
     """A link with round ends between two points."""
     along, half = float(np.angle(b - a)), 0.5 * width * np.exp(1j * (np.angle(b - a) + np.pi / 2))
     return Outline(
@@ -47,18 +50,18 @@ def bar(a, b, width):
     )
 
 
-def beam(a, b, depth):
+def beam(a: complex, b: complex, depth: float) -> Outline:
     """A rectangle from a to b, `depth` (complex) deep."""
     return polygon([pair(z) for z in (a, b, b + depth, a + depth)])
 
 
-def follower_shapes(model):
+def follower_shapes(model: CamModel) -> tuple[Shape, ...]:
     """Shapes of the follower in its own frame."""
     faces = _flat_faces(model) if model.tracks[0].flat else _round_faces(model)
     return (*_carrier(model, size(model)), *faces)
 
 
-def centers(model):
+def centers(model: CamModel) -> Any:
     """Centres of the round faces in the follower's frame: of the first track, of a second cam or of a yoke's second roller."""
     found = [rest_center(model.follower)]
     if model.spec.closure == "conjugate":

@@ -8,8 +8,7 @@ from drivewright.mechanisms.seedling_pusher.claims import claims
 from drivewright.mechanisms.seedling_pusher.designs import batch
 from drivewright.mechanisms.seedling_pusher.section import poincare
 from drivewright.mechanisms.seedling_pusher.spec import SeedlingPusherSpec
-from drivewright.mechanisms.seedling_pusher.verify import verify
-from drivewright.registry import Analysis, Mechanism
+from drivewright.registry import Analysis, Mechanism, oracle
 from drivewright.result import Plot
 
 ANALYSES = (
@@ -25,7 +24,7 @@ ANALYSES = (
 )
 
 PLOTS = (
-    Plot("rod", "Pusher rod over one carrier turn", "cycle", "carrier_angle", ("rod", "rod_velocity", "rod_acceleration")),
+    Plot("rod", "PusherModel rod over one carrier turn", "cycle", "carrier_angle", ("rod", "rod_velocity", "rod_acceleration")),
     Plot("planet", "Planet relative to the carrier", "cycle", "carrier_angle", ("planet_angle", "arm_rotation")),
     Plot("ratio", "Planet speed over carrier speed", "cycle", "carrier_angle", ("planet_ratio",)),
     Plot("needle", "Needle below the horizontal", "cycle", "carrier_angle", ("needle_angle",)),
@@ -53,6 +52,7 @@ PLOTS = (
     Plot("field_track", "Needle tip over the field", "cycle", "field_x", ("tip_y",), equal=True),
 )
 
+
 mechanism = Mechanism(
     kind="seedling-pusher",
     summary="seedling pusher: conjugate cams on a three-elliptic-gear planetary train",
@@ -65,7 +65,7 @@ mechanism = Mechanism(
     plots=PLOTS,
     drawings=scene.drawings,
     parts=scene.parts,
-    verify=verify,
+    verify=oracle("seedling_pusher"),
     batch=batch,
     sources=(
         "Chen Jianneng, Wang Ying, Zhao Xiong, Zhao Yun: Reverse design and simulation of walking-type rice transplanter's "

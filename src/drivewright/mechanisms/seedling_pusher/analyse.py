@@ -4,15 +4,15 @@ import numpy as np
 
 from drivewright import curves, materials
 from drivewright.contact import hertz
-from drivewright.mechanisms.seedling_pusher.build import GRID, TURN
+from drivewright.mechanisms.seedling_pusher.build import GRID, TURN, ConjugateCam, PusherModel
 from drivewright.numerics.jets import variable
 from drivewright.numerics.roots import extremes
-from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 SAMPLES = 181  # per smooth piece, before an extreme is refined
 
 
-def cams(model, done):
+def cams(model: PusherModel, done: Answers) -> Answer:
     """Pressure angles per phase, curvature, real profiles, lost motion of both cams."""
     found = [_one_cam(model, cam) for cam in model.cams]
     values = {k: v for f in found for k, v in f.values.items()}
@@ -63,7 +63,7 @@ def cams(model, done):
 DRIVES = {"main": "rise", "return": "return"}  # the phase in which each cam pushes the lever
 
 
-def phase_extreme(model, cam, phase):
+def phase_extreme(model: PusherModel, cam: ConjugateCam, phase: str) -> tuple[float, float]:
     """(largest magnitude of the pressure angle, carrier angle) in a phase, over its smooth pieces one-sidedly."""
     found = [
         extremes(lambda t, k=k: np.abs(model.pressure_angle(cam, t, k).d0), low, high, SAMPLES)[3:1:-1]
@@ -73,7 +73,7 @@ def phase_extreme(model, cam, phase):
     return max(found)
 
 
-def least_convex_radius(model, cam):
+def least_convex_radius(model: PusherModel, cam: ConjugateCam) -> tuple[float, float]:
     """(radius [m], carrier angle) of the sharpest convex place of the pitch curve."""
     found = [extremes(lambda t, k=k: model.curvature(cam, t, k), low, high, SAMPLES)[3:1:-1] for low, high, _, k in model.pieces()]
     sharpest, where = max(found)
@@ -153,7 +153,7 @@ def _cam_checks(model, cam, radius, reach, driving):
     )
 
 
-def cam_table(model):
+def cam_table(model: PusherModel) -> Table:
     """Pressure angle and curvature of both cams over the push cycle, one-sided at the joints."""
     parts = [(np.linspace(low, high, SAMPLES), k) for low, high, _, k in model.pieces()]
     t = np.concatenate([x for x, _ in parts])
@@ -181,7 +181,7 @@ def cam_table(model):
 # -- loads -----------------------------------------------------------------------------------------------------------------------
 
 
-def load(model, done):
+def load(model: PusherModel, done: Answers) -> Answer:
     """Rod dynamics at the given speed, quasi-static normal forces, Hertz pressure, torque."""
     parts = [(np.linspace(low, high, SAMPLES), phase, k) for low, high, phase, k in model.pieces()]
     rows = [_forces(model, t, phase, k) for t, phase, k in parts]

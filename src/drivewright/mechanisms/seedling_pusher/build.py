@@ -3,18 +3,21 @@
 All functions take the carrier angle as an array [rad] and give jets in it.  World frame: sun axis at the origin, y up.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property, lru_cache, partial
 
 import numpy as np
 
 from drivewright import curves, motion
+from drivewright._typing import ArrayLike, Complexes, Floats, Ints
 from drivewright.cams import oscillating
 from drivewright.errors import InputError, SpecError
-from drivewright.gears import EllipticGearPair, GearTrain, Rack, RackFamily, cut_gear
+from drivewright.gears import EllipticGearPair, Gear, GearTrain, Rack, RackFamily, cut_gear
 from drivewright.mechanisms.seedling_pusher.spec import SeedlingPusherSpec
 from drivewright.numerics.jets import Jet, atan, exp, variable
 from drivewright.numerics.roots import bracketed_roots
+from drivewright.scene import Outline
 
 TURN = 2 * np.pi
 GRID = np.linspace(0, TURN, 721)
@@ -33,25 +36,25 @@ class ConjugateCam:
     roller_radius: float
 
     @cached_property
-    def rest_angle(self):
+    def rest_angle(self) -> float:
         """Angle between arm and line pivot - cam axis with the rod in [rad]."""
         return oscillating.rest_angle(self.prime_radius, self.pivot_distance, self.arm)
 
-    def psi(self, swing):
+    def psi(self, swing: Jet) -> Jet:
         """Angle between arm and line pivot - cam axis, from the lever's swing."""
         return self.rest_angle + self.side * swing
 
-    def pitch(self, pivot_angle, swing):
+    def pitch(self, pivot_angle: Jet, swing: Jet) -> Jet:
         """Roller centre in the frame of the cams, a complex jet [m]."""
         return oscillating.pitch_curve(pivot_angle, self.psi(swing), self.pivot_distance, self.arm, self.side)
 
-    def pressure_angle(self, pivot_angle, swing):
+    def pressure_angle(self, pivot_angle: Jet, swing: Jet) -> Jet:
         """Angle between contact normal and roller path, a jet [rad]; positive where it opposes an opening arm."""
         return oscillating.pressure_angle(pivot_angle, self.psi(swing), self.pivot_distance, self.arm, self.side)
 
 
 @dataclass(frozen=True)
-class Pusher:
+class PusherModel:
     """The model: common types only, frozen."""
 
     spec: SeedlingPusherSpec
@@ -60,16 +63,16 @@ class Pusher:
     tip_start: float  # direction of the line planet axis - tip at t = 0
     programme: motion.Programme  # rod travel over the angle since the push started
     push_start: float
-    cams: tuple
-    findings: tuple = field(default=())
+    cams: tuple[ConjugateCam, ...]
+    findings: tuple[str, ...] = field(default=())
 
     @property
-    def orbit(self):
+    def orbit(self) -> int:
         """+1 where the lever pivot orbits the cams counter-clockwise, -1 clockwise."""
         return 1 if self.spec.cams.orbit == "counter-clockwise" else -1
 
     @property
-    def rod_distance(self):
+    def rod_distance(self) -> float:
         """Signed distance of the rod's line beyond the needle's, seen from the planet axis [m].
 
         The planet turns the arm counter-clockwise on the carrier.  A pivot that orbits the cams so, a lever that the main cam turns
@@ -80,31 +83,31 @@ class Pusher:
 
     # -- train and tip ---------------------------------------------------------------------------------------------------
 
-    def planet(self, t):
+    def planet(self, t: ArrayLike) -> Jet:
         """Planet relative to the carrier phi3(t) [rad], 0 at the start, counter-clockwise."""
         return self.train.planet(t)
 
-    def arm_rotation(self, t):
+    def arm_rotation(self, t: ArrayLike) -> Jet:
         """Rotation of the planting arm in the world [rad]: -t + phi3."""
         return self.planet(t) - variable(t)
 
-    def planet_axis(self, t):
+    def planet_axis(self, t: ArrayLike) -> Jet:
         """Axis of the planet in the world, complex jet [m]."""
         arm = 2 * self.spec.train.semi_major
         first = exp(1j * (self.spec.train.carrier_angle - variable(t)))
         return arm * (1 + np.exp(1j * self.bend)) * first
 
-    def tip(self, t):
+    def tip(self, t: ArrayLike) -> Jet:
         """Needle tip in the world (machine frame), complex jet [m]."""
         return self.planet_axis(t) + self.spec.arm.tip_distance * exp(1j * (self.tip_start + self.arm_rotation(t)))
 
-    def needle_angle(self, t):
+    def needle_angle(self, t: ArrayLike) -> Floats:
         """Needle below the horizontal [rad], pointing away from the planet axis."""
         direction = self.tip_start + self.arm_rotation(t).d0
         return -np.angle(np.exp(1j * direction)) + self.spec.arm.needle_angle
 
     @cached_property
-    def gear(self):
+    def gear(self) -> Gear:
         """One of the three congruent toothed gears: axis (focus) at the origin, the short focal radius along +x.
 
         An odd tooth count puts a space at the near vertex and a tooth at the far one, so that the gear meshes with itself.
@@ -113,77 +116,77 @@ class Pusher:
         return cut_gear(pair, 1, self.spec.train.teeth)
 
     @cached_property
-    def gear_outline(self):
+    def gear_outline(self) -> Outline:
         """Toothed outline of the gear."""
         return self.gear.outline(self.spec.manufacture.chord_tolerance)
 
     @cached_property
-    def drawn_gear(self):
+    def drawn_gear(self) -> Outline:
         """Toothed outline of the gear, as fine as a picture needs."""
         return _drawn_gear(self.train.pairs[0].eccentricity, self.spec.train.semi_major, self.spec.train.teeth, self.drawn_tolerance)
 
     @cached_property
-    def drawn_profiles(self):
+    def drawn_profiles(self) -> dict[str, Outline]:
         """Outline of the real profile of each cam by name, as fine as a picture needs."""
         return {cam.name: curves.drawn_outline(self.family(cam), self.drawn_tolerance, fewest=65) for cam in self.cams}
 
     @property
-    def drawn_tolerance(self):
+    def drawn_tolerance(self) -> float:
         """How far a drawn curve may leave the exact one [m]: some millionths of the picture's size."""
         return DRAWN * self.spec.train.semi_major
 
     @cached_property
-    def lowest(self):
+    def lowest(self) -> float:
         """Carrier angle in [0, 2 pi) where the tip is lowest."""
         return _extreme(lambda t: self.tip(t).imag, -1)
 
     @cached_property
-    def highest(self):
+    def highest(self) -> float:
         """Carrier angle in [0, 2 pi) where the tip is highest."""
         return _extreme(lambda t: self.tip(t).imag, +1)
 
     # -- rod, lever and cams -----------------------------------------------------------------------------------------------
 
-    def pieces(self):
+    def pieces(self) -> list[tuple[float, float, str, int]]:
         """(carrier angle from, to, phase, index) of the smooth intervals; one turn from the start of the push on."""
         return [(self.push_start + p.theta0, self.push_start + p.theta1, p.phase, k) for k, p in enumerate(self.programme.pieces)]
 
-    def rod(self, t, piece=None):
+    def rod(self, t: ArrayLike, piece: int | Ints | None = None) -> Jet:
         """Travel of the rod g(t), a jet [m]; by the formula of one piece where given."""
         angle = np.asarray(t) - self.push_start
         return Jet(*(self.programme(angle) if piece is None else self.programme.on_piece(piece, angle)))
 
-    def swing(self, t, piece=None):
+    def swing(self, t: ArrayLike, piece: int | Ints | None = None) -> Jet:
         """Swing of the lever, atan(g / l), a jet [rad]."""
         return atan(self.rod(t, piece) / self.spec.lever.output_arm)
 
-    def pivot_angle(self, t):
+    def pivot_angle(self, t: ArrayLike) -> Jet:
         """Direction of the lever pivot seen from the cams: q - pi/2 with q = orbit * phi3, a jet [rad]."""
         return self.orbit * self.planet(t) - np.pi / 2
 
-    def pitch(self, cam, t, piece=None):
+    def pitch(self, cam: ConjugateCam, t: ArrayLike, piece: int | Ints | None = None) -> Jet:
         """Pitch curve of a cam, complex jet [m]."""
         return cam.pitch(self.pivot_angle(t), self.swing(t, piece))
 
-    def pressure_angle(self, cam, t, piece=None):
+    def pressure_angle(self, cam: ConjugateCam, t: ArrayLike, piece: int | Ints | None = None) -> Jet:
         """Pressure angle of a cam, jet [rad]."""
         return cam.pressure_angle(self.pivot_angle(t), self.swing(t, piece))
 
-    def curvature(self, cam, t, piece=None):
+    def curvature(self, cam: ConjugateCam, t: ArrayLike, piece: int | Ints | None = None) -> Floats:
         """Curvature of the pitch curve [1/m], positive where convex seen from outside."""
         return self.orbit * curves.curvature(self.pitch(cam, t, piece))
 
     @cached_property
-    def trimmed(self):
+    def trimmed(self) -> dict[str, curves.Trimmed]:
         """Real profile of each cam by name."""
         return {cam.name: curves.trim(self.family(cam)) for cam in self.cams}
 
     @cached_property
-    def profiles(self):
+    def profiles(self) -> dict[str, Outline]:
         """Outline of the real profile of each cam by name, in the frame of its formulas."""
         return {name: trimmed.outline(self.spec.manufacture.chord_tolerance) for name, trimmed in self.trimmed.items()}
 
-    def sinking(self, cam):
+    def sinking(self, cam: ConjugateCam) -> tuple[Callable[[Floats, Floats], Complexes], float]:
         """How a roller sinks along its path into its cam, for `curves.lost_motion`."""
 
         def place(t, depth):
@@ -191,7 +194,7 @@ class Pusher:
 
         return place, 1.0
 
-    def family(self, cam):
+    def family(self, cam: ConjugateCam) -> curves.CircleFamily:
         """The roller's motion around its cam, for enveloping."""
         at = partial(self._pitch_on, cam)
         pieces = [
@@ -207,19 +210,19 @@ class Pusher:
 
 @lru_cache(maxsize=64)
 def _drawn_gear(eccentricity, semi_major, teeth, tolerance):
-    """The gear of `Pusher.gear` for the picture; it stays while other numbers of the design change."""
+    """The gear of `PusherModel.gear` for the picture; it stays while other numbers of the design change."""
     family = RackFamily(EllipticGearPair(eccentricity, semi_major), 1, teeth, Rack())
     return curves.drawn_outline(family, tolerance, fewest=4)
 
 
-def build(spec):
+def build(spec: SeedlingPusherSpec) -> PusherModel:
     """The model of a spec.  SpecError names the key where the numbers have no solution."""
     _refuse_even_teeth(spec)
     bend = _signed_bend(spec)
     train = _train(spec, bend)
-    still = Pusher(spec, train, bend, _tip_start(spec, bend), None, 0.0, ())
+    still = PusherModel(spec, train, bend, _tip_start(spec, bend), None, 0.0, ())
     end = still.lowest if spec.push.end_event == "lowest" else spec.push.end
-    return Pusher(spec, train, bend, still.tip_start, _programme(spec), end - spec.push.rise, _cams(spec))
+    return PusherModel(spec, train, bend, still.tip_start, _programme(spec), end - spec.push.rise, _cams(spec))
 
 
 def _train(spec, bend):

@@ -4,14 +4,17 @@ With half angles the elliptic pair is rational: tan(theta/2) = r tan(t/2).  On a
 trigonometric function per point, and the lever's atan(g / l) enters only through its sine and cosine.
 """
 
+from collections.abc import Callable, Sequence
 from functools import cache
 
 import numpy as np
 
 from drivewright import motion
 from drivewright._jit import kernel, warmer
-from drivewright.cams.rapid import convexity, peak, rest
-from drivewright.gears.rational import phase, planet, planet_at
+from drivewright._typing import Floats, Ints
+from drivewright.cams.oscillating_batch import pitch_curvature, rest_cosine, sampled_peak
+from drivewright.gears.elliptic_batch import phase, planet, planet_at
+from drivewright.mechanisms.seedling_pusher.spec import SeedlingPusherSpec
 
 TURN = 2 * np.pi
 TRACK, CAM = 360, 91  # points over the turn, and over each of push and retraction
@@ -57,7 +60,7 @@ NAMES = (
 )
 
 
-def batch(spec, keys, names):
+def batch(spec: SeedlingPusherSpec, keys: Sequence[str], names: Sequence[str]) -> Callable[[Floats], dict[str, Floats]] | None:
     """`evaluate(designs)` for designs (n, len(keys)) in SI -> {name: (n,)}; None where a key, name or event is not covered here."""
     if not set(keys) <= set(KEYS) or not set(names) <= set(NAMES) or spec.events.take == "gate":
         return None
@@ -96,22 +99,25 @@ def _at(spec, key):
 
 
 @cache
-def half_angles():
+def half_angles() -> tuple[Floats, Floats]:
     """cos(t/2), sin(t/2) on the track grid."""
     t = np.linspace(0, TURN, TRACK, endpoint=False)
     return np.cos(t / 2), np.sin(t / 2)
 
 
 @cache
-def law_table(name):
+def law_table(name: str) -> tuple[Floats, Floats, Floats]:
     """s, v, a of a motion law on the cam grid."""
     found = motion.law(name)(np.linspace(0, 1, CAM))
     return np.asarray(found.s), np.asarray(found.v), np.asarray(found.a)
 
 
 @kernel
-def evaluate_designs(rows, flags, cos_half, sin_half, s, v, a, out):
-    """All NAMES of each design; nan for what has no solution.  rows (n, KEYS), out (n, NAMES)."""
+def evaluate_designs(rows: Floats, flags: Ints, cos_half: Floats, sin_half: Floats, s: Floats, v: Floats, a: Floats, out: Floats) -> None:
+    """All NAMES of each design; nan for what has no solution.
+
+    rows (n, KEYS) in SI, out (n, NAMES) in SI, flags (9,); cos_half, sin_half (m,) of the track grid; s, v, a (k,) of the push law.
+    """
     for n in range(rows.shape[0]):
         evaluate_train(rows[n], flags, cos_half, sin_half, out[n])
         end = out[n, 0] if flags[3] else rows[n, 8]
@@ -121,7 +127,7 @@ def evaluate_designs(rows, flags, cos_half, sin_half, s, v, a, out):
 
 
 @kernel
-def shape(row, flags):
+def shape(row: Floats, flags: Ints) -> tuple[complex, float, complex, complex]:
     """(e^{is/2}, r, G, W): half bend, slope of the pair, and tip z = e^{-it} (G + W e^{ip})."""
     bend = np.pi - row[2] if flags[0] else row[2]
     eccentricity = np.sqrt(1 - row[1] ** 2)
@@ -134,8 +140,8 @@ def shape(row, flags):
 
 
 @kernel
-def tip(t, half, r, carrier, arm):
-    """(z, z', z'') of the needle tip."""
+def tip(t: float, half: complex, r: float, carrier: complex, arm: complex) -> tuple[complex, complex, complex]:
+    """(z, z', z'') of the needle tip [m] at the carrier angle t [rad], from what `shape` gives."""
     e, p1, p2 = planet(t, half, r)
     turn = np.exp(-1j * t)
     first = -1j * carrier + 1j * (p1 - 1) * arm * e
@@ -144,12 +150,12 @@ def tip(t, half, r, carrier, arm):
 
 
 @kernel
-def refine(t, axis, half, r, carrier, arm):
+def refine(t: float, axis: complex, half: complex, r: float, carrier: complex, arm: complex) -> float:
     """The stationary place of Re(conj(axis) z) near t, by Newton steps on its exact derivative."""
     for _ in range(6):
         _, z1, z2 = tip(t, half, r, carrier, arm)
-        slope, bend = (np.conj(axis) * z1).real, (np.conj(axis) * z2).real
-        step = -slope / bend if bend != 0 else 0.0
+        slope, second = (np.conj(axis) * z1).real, (np.conj(axis) * z2).real
+        step = -slope / second if second != 0 else 0.0
         t += min(max(step, -0.02), 0.02)
         if abs(step) < 1e-13:
             break
@@ -157,8 +163,8 @@ def refine(t, axis, half, r, carrier, arm):
 
 
 @kernel
-def evaluate_train(row, flags, cos_half, sin_half, out):
-    """Lowest and highest carrier angle, height and width of the tip track."""
+def evaluate_train(row: Floats, flags: Ints, cos_half: Floats, sin_half: Floats, out: Floats) -> None:
+    """Lowest and highest carrier angle [rad], height and width [m] of the tip track of one design; row (KEYS,), out (NAMES,)."""
     half, r, carrier, arm = shape(row, flags)
     low = high = left = right = 0
     y_low = x_low = np.inf
@@ -189,14 +195,14 @@ def evaluate_train(row, flags, cos_half, sin_half, out):
 
 
 @kernel
-def needle(row, flags, t):
+def needle(row: Floats, flags: Ints, t: float) -> float:
     """Needle below the horizontal [rad] at the carrier angle t."""
     half, r, _, arm = shape(row, flags)
     return -np.angle(arm * planet(t, half, r)[0] * np.exp(-1j * t)) + row[6]
 
 
 @kernel
-def finish_needle(row, flags, end, out):
+def finish_needle(row: Floats, flags: Ints, end: float, out: Floats) -> None:
     """Needle angles at the two events, the tip's height when the push starts, the rod's distance from the needle."""
     take = out[1] if flags[4] else row[19]
     push = out[0] if flags[5] == 0 else (end if flags[5] == 1 else end - row[9])
@@ -208,7 +214,7 @@ def finish_needle(row, flags, end, out):
 
 
 @kernel
-def mouth_width(row, flags, t_low):
+def mouth_width(row: Floats, flags: Ints, t_low: float) -> float:
     """Width of the hole at the soil surface, field frame [m]; 0 where the tip never leaves the soil."""
     half, r, carrier, arm = shape(row, flags)
     surface = tip(t_low, half, r, carrier, arm)[0].imag + row[20]
@@ -233,9 +239,9 @@ def mouth_width(row, flags, t_low):
 
 
 @kernel
-def evaluate_cams(row, flags, end, s, v, a, out):
+def evaluate_cams(row: Floats, flags: Ints, end: float, s: Floats, v: Floats, a: Floats, out: Floats) -> None:
     """Largest pressure angle of both cams, least convex radius over roller radius, largest pitch radius."""
-    cos_main, cos_return = rest(row[16], row[12], row[13]), rest(row[17], row[12], row[14])
+    cos_main, cos_return = rest_cosine(row[16], row[12], row[13]), rest_cosine(row[17], row[12], row[14])
     swing = np.arctan(row[7] / row[15])
     possible = abs(cos_main) < 1 and abs(cos_return) < 1 and row[9] + row[10] + row[11] < 2 * np.pi
     if not possible or np.arccos(cos_main) + swing >= np.pi or np.arccos(cos_return) <= swing:
@@ -253,7 +259,9 @@ def evaluate_cams(row, flags, end, s, v, a, out):
 
 
 @kernel
-def stretch(row, flags, t0, width, way, main, back, s, v, a):
+def stretch(
+    row: Floats, flags: Ints, t0: float, width: float, way: int, main: complex, back: complex, s: Floats, v: Floats, a: Floats
+) -> tuple[float, float]:
     """(greatest tan of the pressure angle, greatest convex curvature) of both cams over one push (`way` +1) or retraction (-1)."""
     half, r, _, _ = shape(row, flags)
     orbit = 1.0 if flags[6] else -1.0
@@ -263,7 +271,7 @@ def stretch(row, flags, t0, width, way, main, back, s, v, a):
     turn = np.exp(0.5j * dt)
     place = np.exp(0.5j * t0)
     steep_main, steep_back = np.zeros(n), np.zeros(n)
-    bend_main, bend_back = np.zeros(n), np.zeros(n)
+    curvature_main, curvature_back = np.zeros(n), np.zeros(n)
     for i in range(n):
         g = stroke * (s[i] if way > 0 else 1 - s[i])
         g1, g2 = way * stroke * v[i] / width, way * stroke * a[i] / width**2
@@ -274,15 +282,15 @@ def stretch(row, flags, t0, width, way, main, back, s, v, a):
         place *= turn
         q1, q2 = orbit * p1, orbit * p2
         psi_main, psi_back = main * unit, back * np.conj(unit)
-        bend_main[i] = orbit * convexity(pivot, row[13], q1, q2, q1 - f, q2 - f1, np.conj(psi_main))
-        bend_back[i] = orbit * convexity(pivot, row[14], q1, q2, q1 - f, q2 - f1, psi_back)
+        curvature_main[i] = orbit * pitch_curvature(pivot, row[13], q1, q2, q1 - f, q2 - f1, np.conj(psi_main))
+        curvature_back[i] = orbit * pitch_curvature(pivot, row[14], q1, q2, q1 - f, q2 - f1, psi_back)
         steep_main[i] = abs((row[13] * (1 - f / q1) - pivot * psi_main.real) / (pivot * psi_main.imag))
         steep_back[i] = abs((row[14] * (1 - f / q1) - pivot * psi_back.real) / (pivot * psi_back.imag))
-    return max(peak(steep_main), peak(steep_back)), max(peak(bend_main), peak(bend_back))
+    return max(sampled_peak(steep_main), sampled_peak(steep_back)), max(sampled_peak(curvature_main), sampled_peak(curvature_back))
 
 
 @warmer
-def warm_batch():
+def warm_batch() -> None:
     """Compile for `doctor --warm`."""
     out = np.empty((1, len(NAMES)))
     evaluate_designs(np.ones((1, len(KEYS))) * 0.5, np.zeros(9, dtype=np.int64), *half_angles(), *law_table("cycloidal"), out)

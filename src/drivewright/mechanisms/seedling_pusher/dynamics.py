@@ -10,12 +10,13 @@ import numpy as np
 
 from drivewright import curves
 from drivewright._jit import implements, kernel, warmer
+from drivewright._typing import Floats
 from drivewright.contact import KelvinVoigt, normal_force
 from drivewright.errors import SolverError
-from drivewright.mechanisms.seedling_pusher.build import TURN
+from drivewright.mechanisms.seedling_pusher.build import TURN, PusherModel
 from drivewright.numerics.jets import cos
-from drivewright.numerics.ode import integrate, rate
-from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.numerics.ode import Trajectory, integrate, rate
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 from drivewright.stops import Stop, note_stop
 
 GRID = 4096
@@ -29,7 +30,7 @@ class LeverBetweenCams(NamedTuple):
     """
 
     law: KelvinVoigt
-    tables: np.ndarray
+    tables: Floats  # (7, points, 2)
     start: float
     speed: float
     arm: float
@@ -40,8 +41,8 @@ class LeverBetweenCams(NamedTuple):
 
 
 @kernel
-def look_up(tables, quantity, place):
-    """(value, slope) by cubic Hermite interpolation at place = angle / step."""
+def look_up(tables: Floats, quantity: int, place: float) -> tuple[float, float]:
+    """(value, slope) of one quantity of the tables (quantities, points, 2) by cubic Hermite interpolation at place = angle / step."""
     n = tables.shape[1] - 1
     k = min(int(place), n - 1)
     x = place - k
@@ -52,8 +53,8 @@ def look_up(tables, quantity, place):
 
 
 @kernel
-def forces(system, angle, delta, delta_rate):
-    """(main, return) normal forces [N] at a carrier angle since the start of the push."""
+def forces(system: LeverBetweenCams, angle: float, delta: float, delta_rate: float) -> tuple[float, float]:
+    """(main, return) normal forces [N] at a carrier angle [rad] since the start of the push; delta [rad]: lever off its programme."""
     n = system.tables.shape[1] - 1
     place = (angle % (2 * np.pi)) / (2 * np.pi) * n
     per_second = system.speed / (2 * np.pi) * n
@@ -91,7 +92,7 @@ def _(system, t, y, dy):
 
 
 @warmer
-def warm_lever():
+def warm_lever() -> None:
     """Compile for `doctor --warm`: a lever at rest between two cams of unit leverage."""
     tables = np.zeros((7, 3, 2))
     tables[3:5, :, 0] = 1.0
@@ -100,7 +101,7 @@ def warm_lever():
     forces(system, 0.0, 0.0, 0.0)
 
 
-def lever_system(model, clearance=None, speed=None):
+def lever_system(model: PusherModel, clearance: float | None = None, speed: float | None = None) -> LeverBetweenCams:
     """The `LeverBetweenCams` of a model, for another play or speed where given."""
     spec = model.spec
     return LeverBetweenCams(
@@ -131,8 +132,8 @@ def _tables(model):
     return np.array([np.stack([value, slope * step], axis=1) for value, slope in rows])
 
 
-def simulate(model, system):
-    """(time in the last turn, delta, its rate, main force, return force, rod error) of a run of the given number of turns."""
+def simulate(model: PusherModel, system: LeverBetweenCams) -> tuple[Floats, Floats, Floats, Floats, Trajectory]:
+    """(carrier angle [rad], main force [N], return force [N], rod error [m], trajectory) of the last turn of a run."""
     period, turns = TURN / system.speed, model.spec.contact.turns
     times = (turns - 1) * period + np.linspace(0, period, SAMPLES)
     run = integrate(
@@ -158,7 +159,7 @@ def simulate(model, system):
     return angle, normal[:, 0], normal[:, 1], error, run
 
 
-def contact(model, done):
+def contact(model: PusherModel, done: Answers) -> Answer:
     """Contact forces, separation and rod error in the last simulated turn."""
     system = lever_system(model)
     angle, main, back, error, _ = simulate(model, system)
@@ -184,7 +185,7 @@ def contact(model, done):
     return Answer(values, (table,), checks)
 
 
-def clearance_study(model, done):
+def clearance_study(model: PusherModel, done: Answers) -> Answer:
     """Peak force and rod error over play at the given speed, and over speed without play."""
     plays, speeds = np.linspace(0, 0.1e-3, 5), model.spec.drive.speed * np.array([0.5, 1.0, 1.5])
     rows = [(play, model.spec.drive.speed) for play in plays] + [(0.0, speed) for speed in speeds]

@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.mechanisms.seedling_pusher.build import PusherModel
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 
-def inspection(model, done):
+def inspection(model: PusherModel, done: Answers) -> Answer:
     """Polar coordinates of both finished profiles at whole degrees, with the tolerance."""
     return Answer(tables=tuple(_polar(model, name, trimmed) for name, trimmed in model.trimmed.items()))
 
@@ -31,7 +32,7 @@ def _polar(model, name, trimmed):
     )
 
 
-def teeth(model, done):
+def teeth(model: PusherModel, done: Answers) -> Answer:
     """Perimeter, module and undercut of the three congruent gears."""
     gear = model.gear
     pair = gear.family.pair

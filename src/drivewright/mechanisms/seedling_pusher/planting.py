@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from drivewright.mechanisms.seedling_pusher.build import GRID, TURN
+from drivewright.mechanisms.seedling_pusher.build import GRID, TURN, PusherModel
 from drivewright.numerics.roots import bracketed_roots, extremes
-from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 
-def train(model, done):
+def train(model: PusherModel, done: Answers) -> Answer:
     """Collinear phase, tip track, arm rotation."""
     top, bottom = (model.tip(t).d0.imag for t in (model.highest, model.lowest))
     collinear = model.train.collinear_angles()
@@ -63,7 +63,7 @@ def _cycle_table(model):
     )
 
 
-def advance(model):
+def advance(model: PusherModel) -> float:
     """How far the machine drives per carrier turn, signed [m]."""
     return model.spec.field.spacing * (1 if model.spec.field.travel == "+x" else -1)
 
@@ -71,7 +71,7 @@ def advance(model):
 # -- planting ------------------------------------------------------------------------------------------------------------------
 
 
-def planting(model, done):
+def planting(model: PusherModel, done: Answers) -> Answer:
     """Needle angles at the two events, the hole in the soil, clearances: the requirements of planting."""
     take, push = take_event(model), push_event(model)
     if take is None:
@@ -139,13 +139,13 @@ def _planting_checks(model, take, push, difference, start_depth, mouth, clear):
     )
 
 
-def push_event(model):
+def push_event(model: PusherModel) -> float:
     """Carrier angle that counts as pushing."""
     start, rise = model.push_start, model.spec.push.rise
     return float({"lowest": model.lowest, "push-end": start + rise, "push-start": start}[model.spec.events.push])
 
 
-def take_event(model):
+def take_event(model: PusherModel) -> float | None:
     """Carrier angle that counts as taking; None where a gate line is never crossed."""
     events = model.spec.events
     if events.take == "top":
@@ -176,7 +176,7 @@ def _surface_crossings(model):
     return (before[-1], after[0]) if len(before) and len(after) else None
 
 
-def mouth_width(model):
+def mouth_width(model: PusherModel) -> float:
     """Width of the hole that the tip cuts at the soil surface, field frame [m]; 0 where the tip never leaves the soil."""
     crossings = _surface_crossings(model)
     if crossings is None:
@@ -185,7 +185,7 @@ def mouth_width(model):
     return float(abs(x[1] - x[0]))
 
 
-def axis_clearance(model):
+def axis_clearance(model: PusherModel) -> float:
     """Least distance in the field from the planet axis to the lower half of any planted seedling [m].
 
     A seedling stands upright over the point where the tip was lowest, one per turn.

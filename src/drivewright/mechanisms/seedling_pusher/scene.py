@@ -5,11 +5,13 @@ beside the planet axis at right angles to it: on the needle's side where the piv
 train turns the arm; on the far side, everything mirrored, where the spec says clockwise.
 """
 
+from collections.abc import Iterator, Mapping
 from functools import partial
 
 import numpy as np
 
-from drivewright.mechanisms.seedling_pusher.build import TURN
+from drivewright._typing import Floats, Numbers
+from drivewright.mechanisms.seedling_pusher.build import TURN, ConjugateCam, PusherModel
 from drivewright.mechanisms.seedling_pusher.planting import advance
 from drivewright.scene import (
     Arc,
@@ -34,7 +36,7 @@ FRAMES = 361
 GEAR_THICKNESS, LEVER_THICKNESS, PIN, GAP = 10e-3, 4e-3, 2.5e-3, 0.5e-3
 
 
-def scene(model):
+def scene(model: PusherModel) -> Scene:
     """One carrier turn: train, arm with lever and rod, cams; machine, field, carrier and arm frames."""
     t = np.linspace(0, TURN, FRAMES)
     spec = model.spec
@@ -106,17 +108,17 @@ def _field_shapes(model):
 # -- train -----------------------------------------------------------------------------------------------------------------------
 
 
-def sun_angle(model):
+def sun_angle(model: PusherModel) -> float:
     """Direction of the sun's short focal radius: towards the intermediate gear in a near start, away from it in a far start."""
     return model.spec.train.carrier_angle + (0.0 if model.spec.train.start == "near" else np.pi)
 
 
-def intermediate_angle(model, t):
+def intermediate_angle(model: PusherModel, t: Numbers) -> Floats:
     """Direction of the intermediate gear's short focal radius, in the world: clockwise by theta in the carrier, which turns by -t."""
     return sun_angle(model) - t - model.train.angles(t)[1].d0
 
 
-def planet_angle(model, t):
+def planet_angle(model: PusherModel, t: Numbers) -> Floats:
     """Direction of the planet's short focal radius: at phase p = 0 its long radius points at the intermediate gear (near start)."""
     return sun_angle(model) + model.bend - t + model.train.phase + model.planet(t).d0
 
@@ -131,17 +133,17 @@ def _carrier_shape(model):
 # -- arm, lever, rod: all in the frame of the arm at t = 0, origin on the planet axis ------------------------------------------------
 
 
-def side(model):
+def side(model: PusherModel) -> int:
     """+1 where the lever stands on the needle's side of the planet axis, -1 where mirrored."""
     return model.orbit
 
 
-def needle(model):
+def needle(model: PusherModel) -> complex:
     """Direction of needle and rod."""
     return np.exp(1j * (model.tip_start - model.spec.arm.needle_angle))
 
 
-def pivot(model):
+def pivot(model: PusherModel) -> complex:
     """Lever pivot."""
     return model.spec.lever.pivot_distance * _outwards(model)
 
@@ -150,7 +152,7 @@ def _outwards(model):
     return side(model) * 1j * needle(model)
 
 
-def rollers(model):
+def rollers(model: PusherModel) -> dict[str, complex]:
     """Roller centres with the rod in, relative to the lever pivot, by cam name."""
     return {cam.name: -cam.arm * np.exp(-1j * side(model) * cam.side * cam.rest_angle) * _outwards(model) for cam in model.cams}
 
@@ -189,13 +191,13 @@ def _rod_shape(model):
 # -- cams ------------------------------------------------------------------------------------------------------------------------
 
 
-def in_carrier(model):
+def in_carrier(model: PusherModel) -> tuple[tuple[float, float, float], bool]:
     """(pose, mirror) that carry a cam from the frame of its formulas to the carrier's frame at t = 0, origin on the planet axis."""
     angle = float(np.angle(_outwards(model)))
     return (0.0, 0.0, angle + side(model) * np.pi / 2), side(model) < 0
 
 
-def cam_shapes(model, cam, profiles):
+def cam_shapes(model: PusherModel, cam: ConjugateCam, profiles: Mapping[str, Outline]) -> Iterator[Shape]:
     """Profile, pitch curve, largest and least pitch circle, bore of a cam, in the carrier's frame."""
     pose, mirror = in_carrier(model)
     yield Shape("profile", profiles[cam.name].moved(pose, mirror))
@@ -216,7 +218,7 @@ def _pitch_pieces(model, cam):
             yield Spline(np.stack([jet.d0.real, jet.d0.imag], axis=1), _xy(tangents[0]), _xy(tangents[-1]))
 
 
-def drawings(model):
+def drawings(model: PusherModel) -> tuple[Drawing, ...]:
     """One drawing per cam, and one of the toothed gear."""
     width = model.spec.cams.face_width
     cams = tuple(
@@ -241,7 +243,7 @@ def drawings(model):
 # -- solids at the start position ------------------------------------------------------------------------------------------------
 
 
-def parts(model):
+def parts(model: PusherModel) -> tuple[Part, ...]:
     """Both cams on their hub, lever with rollers, rod, and the three gears, in their start position."""
     axis = complex(model.planet_axis(np.array(0.0)).d0)
     width = model.spec.cams.face_width

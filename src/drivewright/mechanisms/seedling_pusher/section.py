@@ -4,7 +4,7 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.errors import SolverError
-from drivewright.mechanisms.seedling_pusher.build import TURN
+from drivewright.mechanisms.seedling_pusher.build import TURN, PusherModel
 from drivewright.mechanisms.seedling_pusher.dynamics import lever_system
 from drivewright.multibody.analyses.poincare import Section, section_answer
 from drivewright.numerics.ode import integrate
@@ -15,7 +15,7 @@ TURNS, DISCARD = 48, 16  # of the carrier, and those of them that are left out
 STILL = 1e-3  # of the rod's range: the damper's force jumps at a touch, which costs digits
 
 
-def poincare(model, done: Answers) -> Answer:
+def poincare(model: PusherModel, done: Answers) -> Answer:
     """Deviation of the rod from its programme, and its rate, once a turn of the carrier, at the start of the push."""
     system = lever_system(model)
     period = TURN / system.speed

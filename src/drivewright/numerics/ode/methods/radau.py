@@ -250,6 +250,7 @@ def _error(work, system, control, t, h, y, trial, doubtful):
 
 @inner
 def _filtered(work, control, h, y, f):
+    """Root mean square of h f - h P'(0) (n,), damped, over its tolerance; what is damped stays in `real_rest`."""
     for i in range(y.size):
         work.real_rest[i] = f[i] + _sum(_ERROR, 0, work.z, i) / h
     _solve(work.real, work.real_pivots, work.real_rest)

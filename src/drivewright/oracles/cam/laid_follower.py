@@ -4,18 +4,23 @@ The profile is a polygon of the shapely library, the follower a point or a line 
 differences.  Rows are tuples (name, ours, other, unit, allowed difference, route) in SI.
 """
 
+from collections.abc import Iterator
+from typing import Any
+
 import numpy as np
 
 from drivewright import cams, curves
-from drivewright.mechanisms.cam.build import profile
+from drivewright.mechanisms.cam.build import CamModel, profile
 from drivewright.mechanisms.cam.spec import TURN
 from drivewright.numerics.jets import constant, variable
+from drivewright.registry import Row
+from drivewright.result import Result
 
 CHORD = 1e-9  # m: how far the polygon's chords are from the profile
 LAID = "follower laid on the polygon of the finished profile"
 
 
-def verify(model, result):
+def verify(model: CamModel, result: Result[Any]) -> Iterator[Row]:
     """All rows."""
     import shapely
 
@@ -41,9 +46,9 @@ def _sunk(model, result):
         if at is None:
             continue
         name, follower = f"{track.prefix}lost_motion", track.follower
-        trimmed, angle = profile(model, number).trimmed, at.value + np.linspace(-0.02, 0.02, 41)
+        outline, angle = _trimmed(model, number).outline(CHORD), at.value + np.linspace(-0.02, 0.02, 41)
         way = track.flank * getattr(follower, "side", 1)
-        sinks = _lowered(track, trimmed.outline(CHORD).points(CHORD), angle, model.programme(angle).s, way / follower.reach, result[name])
+        sinks = _lowered(track, outline.points(CHORD), angle, model.programme(angle).s, way / follower.reach, result[name])
         yield name, result[name], float(np.max(sinks)), "m", 1e-4 * result[name] + 1e-8, LAID
 
 
@@ -80,6 +85,12 @@ def _clear(track, body, angle, lift):
     return np.where(free, 1.0, -1.0) * shapely.distance(body.exterior, points) - track.follower.radius
 
 
+def _trimmed(model, number):
+    trimmed = profile(model, number).trimmed
+    assert trimmed, "a knife edge has no undercut"
+    return trimmed
+
+
 def _fine_outline(model):
     trimmed = profile(model, 0).trimmed
     if trimmed:
@@ -107,7 +118,7 @@ def _at_the_extremes(model, result, body, sunk):
     """Pressure angle and curvature from touching points and differences, at the places that the analyses name."""
     for name in ("max_pressure_angle", "min_pressure_angle"):
         if model.follower.radius and not sunk:
-            found = _leaning(model, body, result[f"{name}.at"])
+            found = _pressure_angle(model, body, result[f"{name}.at"])
             yield name, result[name], found, "rad", 5e-4, "touching point of the polygon, path by difference"
     if "min_convex_radius" in result.values:
         at = result["min_convex_radius.at"] + np.array([-1e-3, 0.0, 1e-3])
@@ -115,7 +126,7 @@ def _at_the_extremes(model, result, body, sunk):
         yield "min_convex_radius", ours, radius, "m", 1e-2 * ours, "circle through three near places of the roller's centre"
 
 
-def _leaning(model, body, angle):
+def _pressure_angle(model, body, angle):
     """Angle between the line from the touching point to the centre and the path of a lift that grows."""
     import shapely
 

@@ -5,11 +5,17 @@ difference, the profile is shapely's.  Motion: the cam pair runs as a multibody 
 Rows are tuples (name, ours, other, unit, allowed difference, route) in SI.
 """
 
+from collections.abc import Iterator
+from typing import Any
+
 import numpy as np
 
 from drivewright.errors import MissingExtra
-from drivewright.mechanisms.seedling_pusher.build import TURN
-from drivewright.mechanisms.seedling_pusher.second_route import SecondRoute
+from drivewright.mechanisms.seedling_pusher.build import TURN, PusherModel
+from drivewright.oracles.seedling_pusher.multibody_run import MultibodyRun
+from drivewright.oracles.seedling_pusher.rolled_motion import RolledMotion
+from drivewright.registry import Row
+from drivewright.result import Result
 
 ROD_ERROR = 0.2e-3  # what facets and elasticity of the contact may cost the rod [m]
 ROLLED, CONSTRUCTED = "ellipses rolled by arc length", "roller path by construction, differences"
@@ -17,40 +23,40 @@ ERODED = "shapely: eroded polygon of the constructed roller path"
 SUNK = "roller sunk on the eroded polygon along its arc"
 
 
-def verify(model, result):
+def verify(model: PusherModel, result: Result[Any]) -> tuple[Row, ...]:
     """All rows; MissingExtra without Exudyn."""
     try:
-        from drivewright.mechanisms.seedling_pusher import prototype
+        from drivewright.oracles.seedling_pusher import exudyn_model
     except ImportError as error:
         raise MissingExtra("verify, which runs the cam pair in Exudyn,", "peers", error) from None
-    second = SecondRoute(model)
-    return (*geometry(model, result, second), *motion(model, result, prototype.simulate(model, second.planet)))
+    rolled = RolledMotion(model)
+    return (*geometry(model, result, rolled), *motion(model, result, exudyn_model.simulate(model, rolled.planet)))
 
 
-def geometry(model, result, second):
+def geometry(model: PusherModel, result: Result[Any], rolled: RolledMotion) -> tuple[Row, ...]:
     """Rows of train, track and cams, which need no extra."""
-    cams = (row for cam in model.cams for row in (*_profile(model, result, second, cam), *_pitch_curve(result, second, cam)))
-    return (*_train(model, result, second), *_track(result, second), *cams, _roller_distance(model, result, second))
+    cams = (row for cam in model.cams for row in (*_profile(model, result, rolled, cam), *_pitch_curve(result, rolled, cam)))
+    return (*_train(model, result, rolled), *_track(result, rolled), *cams, _roller_distance(model, result, rolled))
 
 
 # -- train and track -------------------------------------------------------------------------------------------------------------
 
 
-def _train(model, result, second):
-    apart = np.abs(second.planet(second.turn) - model.planet(second.turn).d0)
+def _train(model, result, rolled):
+    apart = np.abs(rolled.planet(rolled.turn) - model.planet(rolled.turn).d0)
     size = 2 * model.spec.train.semi_major
     yield "train, planet angle: largest difference", 0.0, float(apart.max()), "rad", 1e-9, ROLLED
-    yield "train.collinear_angle", result["train.collinear_angle"], _collinear(second), "rad", 1e-9, ROLLED
-    yield "train, spacing of the free foci", size, _free_foci(model, second.turn), "m", 1e-12, "crossed four-bar of the free foci"
+    yield "train.collinear_angle", result["train.collinear_angle"], _collinear(rolled), "rad", 1e-9, ROLLED
+    yield "train, spacing of the free foci", size, _free_foci(model, rolled.turn), "m", 1e-12, "crossed four-bar of the free foci"
 
 
-def _collinear(second):
+def _collinear(rolled):
     """The later carrier angle at which the intermediate gear's major axis lies along the second arm, by bisection."""
-    multiples = np.pi * np.arange(4) - second.bend
+    multiples = np.pi * np.arange(4) - rolled.bend
     target, low, high = multiples[multiples < TURN].max(), 0.0, TURN
     for _ in range(60):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if second.driven(middle) < target else (low, middle)
+        low, high = (middle, high) if rolled.driven(middle) < target else (low, middle)
     return low
 
 
@@ -63,8 +69,8 @@ def _free_foci(model, t):
     return _farthest(np.abs(np.concatenate([on_sun - on_middle, on_middle - on_planet])), size)
 
 
-def _track(result, second):
-    t, tip = second.turn, second.tip(second.turn)
+def _track(result, rolled):
+    t, tip = rolled.turn, rolled.tip(rolled.turn)
     (low, depth), (_, height), (_, east), (_, west) = (_vertex(t, y) for y in (-tip.imag, tip.imag, tip.real, -tip.real))
     yield "tip.lowest_angle", result["tip.lowest_angle"], low, "rad", 1e-7, ROLLED
     yield "tip.track_height", result["tip.track_height"], height + depth, "m", 1e-9, ROLLED
@@ -86,10 +92,10 @@ def _farthest(values, ours):
 # -- cams ------------------------------------------------------------------------------------------------------------------------
 
 
-def _profile(model, result, second, cam):
+def _profile(model, result, rolled, cam):
     from shapely import LinearRing, Polygon, distance, points
 
-    prefix, centres = f"cam.{cam.name}", _pairs(second.roller(cam, second.cycle))
+    prefix, centres = f"cam.{cam.name}", _pairs(rolled.roller(cam, rolled.cycle))
     shape = Polygon(LinearRing(centres).buffer(cam.roller_radius, quad_segs=256).interiors[0])
     ours = LinearRing(model.trimmed[cam.name].outline(1e-8).points(1e-8))
     area, perimeter, gap = (result[f"{prefix}.{name}"] for name in ("profile_area", "profile_perimeter", "profile_gap"))
@@ -97,17 +103,17 @@ def _profile(model, result, second, cam):
     yield f"{prefix}.profile_area", area, shape.area, "m^2", 2e-5 * area, ERODED
     yield f"{prefix}.profile_perimeter", perimeter, shape.length, "m", 2e-5 * perimeter, ERODED
     yield f"{prefix}.profile_gap", gap, float(eroded.max()), "m", 1e-6, ERODED
-    yield f"{prefix}.lost_motion", result[f"{prefix}.lost_motion"], _sunk(second, cam, shape), "m", 1e-6, SUNK
+    yield f"{prefix}.lost_motion", result[f"{prefix}.lost_motion"], _sunk(rolled, cam, shape), "m", 1e-6, SUNK
     yield f"{prefix}, roller off our profile", gap, float(left.max()), "m", 2e-7, "our profile under the constructed rollers"
     yield f"{prefix}, roller pressed into our profile", 0.0, float(left.min()), "m", 2e-7, "our profile under the constructed rollers"
 
 
-def _sunk(second, cam, shape):
+def _sunk(rolled, cam, shape):
     """How far at most the roller sinks along its arc about the pivot until it rests on the polygon, by bisection of the arm's turn [m]."""
     from shapely import distance, points
 
-    t = second.cycle[::3]
-    centre, pivot = second.roller(cam, t), second.pivot(t)
+    t = rolled.cycle[::3]
+    centre, pivot = rolled.roller(cam, t), rolled.pivot(t)
 
     def clear(turn):
         moved = pivot + (centre - pivot) * np.exp(1j * turn)
@@ -126,31 +132,31 @@ def _pairs(z):
     return np.column_stack([z.real, z.imag])
 
 
-def _pitch_curve(result, second, cam):
+def _pitch_curve(result, rolled, cam):
     for phase in ("rise", "return"):
         name = f"cam.{cam.name}.max_pressure_angle.{phase}"
-        yield name, result[name], max(_pressure_angle(second, cam, t) for t in second.pieces(phase)), "rad", 1e-5, CONSTRUCTED
+        yield name, result[name], max(_pressure_angle(rolled, cam, t) for t in rolled.pieces(phase)), "rad", 1e-5, CONSTRUCTED
     name = f"cam.{cam.name}.min_convex_radius"
-    sharpest = max(_sharpness(second, cam, t) for t in second.pieces("rise", "return"))
+    sharpest = max(_sharpness(rolled, cam, t) for t in rolled.pieces("rise", "return"))
     yield name, result[name], 1 / sharpest, "m", 1e-6, CONSTRUCTED
 
 
-def _pressure_angle(second, cam, t):
+def _pressure_angle(rolled, cam, t):
     """Largest angle between the normal of the roller's path in the cam frame and its path about the pivot [rad]."""
-    centre = second.roller(cam, t)
-    along = np.gradient(centre, t, edge_order=2) * np.conj(centre - second.pivot(t))
+    centre = rolled.roller(cam, t)
+    along = np.gradient(centre, t, edge_order=2) * np.conj(centre - rolled.pivot(t))
     return float(np.max(np.abs(np.arctan(along.imag / along.real))))
 
 
-def _sharpness(second, cam, t):
+def _sharpness(rolled, cam, t):
     """Greatest curvature [1/m] of the circles through three roller centres, where they bend around the cam."""
-    z = second.roller(cam, t[::4])
+    z = rolled.roller(cam, t[::4])
     a, b = z[1:-1] - z[:-2], z[2:] - z[1:-1]
-    return float(np.max(2 * second.model.orbit * np.imag(np.conj(a) * b) / (np.abs(a) * np.abs(b) * np.abs(a + b))))
+    return float(np.max(2 * rolled.model.orbit * np.imag(np.conj(a) * b) / (np.abs(a) * np.abs(b) * np.abs(a + b))))
 
 
-def _roller_distance(model, result, second):
-    main, back = (second.roller(cam, second.turn) for cam in model.cams)
+def _roller_distance(model, result, rolled):
+    main, back = (rolled.roller(cam, rolled.turn) for cam in model.cams)
     ours = result["cam.roller_distance"]
     return "cam.roller_distance", ours, _farthest(np.abs(main - back), ours), "m", 1e-12, f"{CONSTRUCTED}; the one farthest from ours"
 
@@ -158,7 +164,7 @@ def _roller_distance(model, result, second):
 # -- motion ----------------------------------------------------------------------------------------------------------------------
 
 
-def motion(model, result, run):
+def motion(model: PusherModel, result: Result[Any], run: MultibodyRun) -> Iterator[Row]:
     """Rows of the multibody run: stroke, swing, and how far the rod leaves its programme."""
     route = "Exudyn: polyline cams in contact with rollers, rod in the lever's slot, no play"
     error = run.travel - model.rod(model.push_start + run.angle).d0

@@ -4,15 +4,17 @@ Frame: the planting arm, cam axis at the origin, lever pivot on -y; both cams tu
 Only `verify` imports this: Exudyn is an optional dependency.
 """
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any
 
 import exudyn
 import numpy as np
 from exudyn import itemInterface as item
 
 from drivewright.errors import SolverError
-from drivewright.mechanisms.seedling_pusher.build import TURN
-from drivewright.mechanisms.seedling_pusher.second_route import roller_at_rest
+from drivewright.mechanisms.seedling_pusher.build import TURN, PusherModel
+from drivewright.oracles.seedling_pusher.multibody_run import MultibodyRun
+from drivewright.oracles.seedling_pusher.rolled_motion import roller_at_rest
 
 FACETS = 720  # per cam; rod error of the published design without push force: 180 give 0.09 mm, 360 0.026 mm, 720 and 1440 0.012 mm
 STEPS = 5000  # per turn
@@ -20,15 +22,7 @@ STIFFNESS = 2e11  # contact force per area of overlap [N/m^2]; 2e9 gives 0.4 mm 
 LEVER_INERTIA = 1e-7  # the mass is the rod's; the solver wants something here [kg m^2]
 
 
-class Run(NamedTuple):
-    """Carrier angle since the start of the push [rad], swing of the lever [rad], travel of the rod [m], over one turn."""
-
-    angle: np.ndarray
-    swing: np.ndarray
-    travel: np.ndarray
-
-
-def simulate(model, planet):
+def simulate(model: PusherModel, planet: Callable[[Any], Any]) -> MultibodyRun:
     """One turn of the carrier from the start of the push, without play; `planet(t)` gives the pivot's orbit angle."""
     exudyn.config.printToConsole = False
     container = exudyn.SystemContainer()
@@ -49,7 +43,7 @@ def simulate(model, planet):
     system.Assemble()
     _solve(system, TURN / model.spec.drive.speed)
     swing, travel = (system.GetSensorStoredData(sensor) for sensor in sensors)
-    return Run(swing[:, 0] * model.spec.drive.speed, -swing[:, 1], travel[:, 1])
+    return MultibodyRun(swing[:, 0] * model.spec.drive.speed, -swing[:, 1], travel[:, 1])
 
 
 def _lever(system, model):

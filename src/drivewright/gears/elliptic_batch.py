@@ -10,21 +10,21 @@ from drivewright._jit import kernel
 
 
 @kernel
-def phase(half, r):
-    """e^{ip} of the planet, from the unit number e^{i x/2} of its input: tan(p/2) = r tan(x/2)."""
+def phase(half: complex, r: float) -> complex:
+    """Direction e^{ip} of the planet, from the unit number e^{i x/2} of its input: tan(p/2) = r tan(x/2)."""
     c, d = half.real, r * half.imag
     return complex(c * c - d * d, 2 * c * d) / (c * c + d * d)
 
 
 @kernel
-def planet(t, half, r):
-    """(e^{ip}, p', p'') at the carrier angle t."""
+def planet(t: float, half: complex, r: float) -> tuple[complex, float, float]:
+    """(e^{ip}, p', p'') of the planet at the carrier angle t [rad], derivatives by t."""
     c, d = np.cos(t / 2), np.sin(t / 2)
     return planet_at(c, d, half, r)
 
 
 @kernel
-def planet_at(c, d, half, r):
+def planet_at(c: float, d: float, half: complex, r: float) -> tuple[complex, float, float]:
     """The same from cos(t/2), sin(t/2).  With (c, r d) turned by half the bend to (x, y): p' = r^2/Q, Q = x^2 + r^2 y^2."""
     x, y = half.real * c - half.imag * r * d, half.imag * c + half.real * r * d
     x1, y1 = 0.5 * (-half.real * d - half.imag * r * c), 0.5 * (-half.imag * d + half.real * r * c)
