@@ -1,9 +1,11 @@
 """Kernels: forces on the bodies, element by element, at a known state."""
 
+from typing import Any
+
 import numpy as np
 
 from drivewright._jit import inner, outer
-from drivewright._typing import Floats
+from drivewright._typing import Floats, Numbers
 from drivewright.contact.film import long_bearing, short_bearing
 from drivewright.contact.friction import ambrosio, coulomb, lugre, lugre_rate
 from drivewright.contact.impact import cylinder_energy, cylinder_force
@@ -103,7 +105,7 @@ def wear_depth(wear: Floats, turned_by: float, dx: float, dy: float) -> tuple[fl
 
 
 @outer
-def normal_of(contact: OneRecord, depth: float, rate: float, memory: float, mobility: float) -> float:
+def normal_of(contact: OneRecord, depth: float, rate: float, memory: Numbers, mobility: float) -> float:
     """Normal force of a depth > 0 that changes at a rate; a contact never pulls.
 
     K d^n (1 + h d'/d0') + c d' from the touch at d0' = memory on, K d^n (1 + h_w d'/w) + c d' in a lasting contact, w of
@@ -180,7 +182,7 @@ def contact_signs(system: System, n: int, work: Work, y: Floats) -> tuple[float,
 
 
 @outer
-def friction_force(contact: OneRecord, normal: float, slip: float, bristle: float) -> tuple[float, float]:
+def friction_force(contact: OneRecord, normal: float, slip: float, bristle: Any) -> tuple[float, float]:
     """(friction force against the slip, rate of the bristle)."""
     if normal <= 0.0 or contact.law == 0:
         return 0.0, 0.0
@@ -193,7 +195,7 @@ def friction_force(contact: OneRecord, normal: float, slip: float, bristle: floa
 
 
 @inner
-def gap_motion(system: System, n: int, work: Work, memory: float) -> tuple[float, float, float, float, float, float, float]:
+def gap_motion(system: System, n: int, work: Work, memory: Numbers) -> tuple[float, float, float, float, float, float, float]:
     """(depth, its rate d', mobility, slip, nx, ny, wear_slope) of a pin with play; n points from the journal to the bearing's centre.
 
     A worn wall leans: its slope enters the rate.  Slip is the bearing's wall against the journal along t = (-ny, nx).

@@ -127,7 +127,7 @@ def history(model: SimulationModel, asked: WearingBearing, number: int) -> Histo
                 _rubbing(seen, model, asked),
             )
         )
-        depth, periodic = worn(depth, stages[-1].per_turn, cycles), periodic and orbit_turns(model, seen) > 0
+        depth, periodic = np.asarray(worn(depth, stages[-1].per_turn, cycles)), periodic and orbit_turns(model, seen) > 0
     return History(tuple(stages), depth, advice, periodic)
 
 
