@@ -5,9 +5,9 @@ import pytest
 
 import drivewright as dw
 from drivewright import bearings
-from drivewright.mechanisms.shaft import second_route
 from drivewright.mechanisms.shaft.build import material, tooth_force
-from drivewright.mechanisms.shaft.verify import _flexibility, verify
+from drivewright.oracles.shaft import moment_integrals
+from drivewright.oracles.shaft.independent_check import _flexibility, verify
 from drivewright.shafts import solid_check
 
 E, D, SPAN = 206e9, 0.02, 0.3
@@ -463,8 +463,8 @@ def test_a_bearing_alone_is_checked_within_a_limit_that_matters():
 def test_a_couple_on_a_cantilever_by_the_integrals():
     """Right of a clamped place a couple bends the shaft by x^2/2EI, a force by x^3/6EI."""
     shaft = dw.build(spec()).shaft
-    assert second_route.influence(shaft, 0.3, 0.1, couple=True) == pytest.approx(-(0.2**2) / (2 * E * I), rel=1e-12)
-    assert second_route.influence(shaft, 0.3, 0.1) == pytest.approx(0.2**3 / (6 * E * I), rel=1e-12)
+    assert moment_integrals.influence(shaft, 0.3, 0.1, couple=True) == pytest.approx(-(0.2**2) / (2 * E * I), rel=1e-12)
+    assert moment_integrals.influence(shaft, 0.3, 0.1) == pytest.approx(0.2**3 / (6 * E * I), rel=1e-12)
 
 
 # -- solid ---------------------------------------------------------------------------------------------------------------------

@@ -8,10 +8,10 @@ import pytest
 
 import drivewright as dw
 from drivewright import bearings, registry, scene
-from drivewright.mechanisms.shaft import second_route
 from drivewright.mechanisms.shaft.build import replaced, tooth_force
 from drivewright.mechanisms.shaft.designs import batch
 from drivewright.mechanisms.shaft.scene import exaggeration
+from drivewright.oracles.shaft import moment_integrals
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 STEPPED = {
@@ -174,7 +174,7 @@ def test_every_example_agrees_with_its_independent_routes(name):
 def test_the_integrals_agree_on_three_bearings_cones_and_bores():
     model = dw.build(shaft(bearings=[{k: v for k, v in b.items() if k != "tilt_stiffness"} for b in STEPPED["bearings"]]))
     springs = [(s.position, s.stiffness[0]) for s in model.shaft.supports]
-    other = second_route.flexibility(model.shaft, springs, model.places)
+    other = moment_integrals.flexibility(model.shaft, springs, model.places)
     ours = dw.run(model.spec).arrays["flexibility"].values
     assert ours == pytest.approx(other, rel=1e-9)
 

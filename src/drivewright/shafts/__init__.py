@@ -13,6 +13,10 @@ _WHERE = {
     "loaded": ("Diagram", "Loaded", "Loads", "diagram", "load"),
     "vibration": ("Critical", "Modes", "critical_speeds", "lowest_excited", "modes", "torsional"),
     "buckling": ("buckling_factor",),
+    "linearised": ("refined_equilibrium", "tangent_shaft"),
+    "sensitivity": ("flexibility_slopes",),
+    "unit_loads": ("flexibility_on_rigid_bearings", "peak_unit_stress", "unit_deflection"),
+    "solid_check": ("SolidFlexibility", "bearing_bands", "beam_on_bands", "solid_and_beam", "solid_flexibility"),
     "curves": ("Tangent", "tabulated", "with_play"),
     "batch": ("flexibilities",),
 }

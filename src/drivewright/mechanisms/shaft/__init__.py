@@ -9,8 +9,7 @@ from drivewright.mechanisms.shaft.designs import batch
 from drivewright.mechanisms.shaft.plots import plots
 from drivewright.mechanisms.shaft.scene import drawings, parts, scene
 from drivewright.mechanisms.shaft.spec import ShaftSpec
-from drivewright.mechanisms.shaft.verify import verify
-from drivewright.registry import Analysis, Mechanism
+from drivewright.registry import Analysis, Mechanism, oracle
 
 ANALYSES = (
     Analysis("statics", statics.statics, "deflection, reactions, moments and stress under the loads"),
@@ -76,6 +75,6 @@ mechanism = Mechanism(
     plots=plots,
     drawings=drawings,
     parts=parts,
-    verify=verify,
+    verify=oracle("shaft"),
     batch=batch,
 )

@@ -6,6 +6,7 @@ from drivewright import shafts
 from drivewright.errors import InputError, SpecError
 from drivewright.result import Answer, Check, Column, Table, Value
 from drivewright.shafts.beam import FREEDOMS
+from drivewright.shafts.linearised import refined_equilibrium
 
 ELEMENTS, MOST_ELEMENTS = 40, 1000  # along the shaft, at least and at most
 
@@ -57,20 +58,7 @@ def refined(model, at_rest):
         raise SpecError(
             f"makes {model.shaft.length / step:.0f} elements of the shaft; {MOST_ELEMENTS} are the most", "analysis.element_length"
         )
-    z = at_rest.model.beam.z
-    places = np.concatenate([np.linspace(a, b, int(np.ceil((b - a) / step - 1e-9)) + 1) for a, b in zip(z[:-1], z[1:], strict=True)])
-    fine = shafts.assemble(tangent_shaft(model.shaft, at_rest), places)
-    return shafts.solve(fine, 0 * shafts.work(fine, ()))
-
-
-def tangent_shaft(shaft, at_rest):
-    """The shaft on linear supports: those of the equilibrium, each with its tangent stiffness there."""
-    supports = []
-    for support, contact in zip(shaft.supports, at_rest.contact, strict=True):
-        if support.law is not None:
-            support = support._replace(law=shafts.Tangent(contact), mirrored=False)
-        supports.append(support._replace(offset=(0.0,) * 5, push=(0.0,) * 5))
-    return shaft._replace(supports=tuple(supports))
+    return refined_equilibrium(at_rest, step)
 
 
 def _massless(model, done, shapes):

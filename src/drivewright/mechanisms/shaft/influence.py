@@ -7,10 +7,8 @@ from drivewright.errors import InputError
 from drivewright.mechanisms.shaft.refusals import is_rolling
 from drivewright.mechanisms.shaft.statics import BALANCED
 from drivewright.result import Answer, Array, Check, Column, Table, Value
-from drivewright.shafts.beam import line
-from drivewright.shafts.sections import second_moment
+from drivewright.shafts.unit_loads import SAMPLES, flexibility_on_rigid_bearings, peak_unit_stress, unit_deflection
 
-SAMPLES = 181
 NO_STRESS = 1e-9  # of a force over the square of the shaft's length: that at a station on a bearing is rounding
 
 
@@ -65,41 +63,18 @@ def flexibility(model, done):
     return Answer(values, (_unit_table(model, found, at_rest), _share_table(model, found)), (check,), tuple(findings), arrays, data=found)
 
 
-def stiffened(model):
-    """(equilibrium, flexibility) of the same shaft on bearings that do not yield across it, for the comparison.
-
-    Springs against tilting stay as they are; a rolling bearing tilts freely, unless it alone holds the shaft.
-    """
-    alone = sum(_is_radial(support) for support in model.shaft.supports) == 1
-    supports = tuple(shafts.Support(s.name, s.position, _rigid(s, alone), width=s.width) for s in model.shaft.supports)
-    system = shafts.assemble(model.shaft._replace(supports=supports))
-    at_rest = shafts.solve(system, shafts.work(system, ()))
-    return at_rest, shafts.flexibility(at_rest, model.places, model.direction)
-
-
-def _is_radial(support):
-    return support.law is not None or support.stiffness[0] > 0
-
-
-def _rigid(support, alone):
-    across = np.inf if _is_radial(support) else 0.0
-    tilt = (np.inf, np.inf) if alone and support.law is not None else (0.0, 0.0)
-    return (across, across, 0.0, *(support.stiffness[3:] if any(support.stiffness[3:]) else tilt))
-
-
 def _unit_table(model, found, at_rest):
     """Deflection along the shaft under a unit force at each station, with the bearings as they are and rigid."""
     z = np.linspace(0.0, model.shaft.length, SAMPLES)
     columns = [Column("z", "m", "distance from the left end", z)]
-    shown = [("", "", at_rest, found), (", bearings rigid", ".rigid", *stiffened(model))]
+    shown = [
+        ("", "", at_rest, found),
+        (", bearings rigid", ".rigid", *flexibility_on_rigid_bearings(model.shaft, model.places, model.direction)),
+    ]
     for words, suffix, rest, answer in shown:
         for name, u in zip(model.names, answer.unknowns.T, strict=True):
-            columns.append(Column(f"{name}{suffix}", "m/N", f"force at {name!r}{words}", _deflection(model, rest, u, z)))
+            columns.append(Column(f"{name}{suffix}", "m/N", f"force at {name!r}{words}", unit_deflection(rest, u, z, model.direction)))
     return Table("unit_load", "Deflection by a unit force at a station", tuple(columns))
-
-
-def _deflection(model, rest, u, z):
-    return sum(way * line(rest.model.beam, plane, u, z).deflection for plane, way in enumerate(model.direction))
 
 
 def _share_table(model, found):
@@ -174,18 +149,6 @@ def _limits(model, found, at_rest, station):
         share = abs(found.reactions[number, station])
         if static_rating(model, bearing) and share > 1e-12:
             yield f"bearing {bearing.name}", static_rating(model, bearing) / share
-    stress = _unit_stress(model, found, at_rest, station)
+    stress = peak_unit_stress(at_rest, found.unknowns[:, station], model.direction)
     if model.yield_strength and stress > NO_STRESS / model.shaft.length**2:
         yield "shaft, yield", model.yield_strength / stress
-
-
-def _unit_stress(model, found, at_rest, station):
-    """Largest bending stress per unit force at a station [Pa/N]."""
-    beam, u = at_rest.model.beam, found.unknowns[:, station]
-    tiny = 1e-9 * model.shaft.length
-    z = np.sort(np.concatenate([np.linspace(0, model.shaft.length, SAMPLES), beam.z[:-1], beam.z[1:] - tiny]))
-    moment = sum(way * line(beam, plane, u, z).moment for plane, way in enumerate(model.direction))
-    element = np.clip(np.searchsorted(beam.z, z, side="right") - 1, 0, len(beam.pieces) - 1)
-    length, start, end, bore = beam.pieces[element].T
-    diameter = start + (end - start) * (z - beam.z[element]) / length
-    return float(np.max(np.abs(moment) * diameter / 2 / second_moment(diameter, bore)))

@@ -11,15 +11,11 @@ def no_solid(spec):
     return None if spec.stations else "the spec declares no [[stations]]"
 
 
-def solid_and_beam(model, at_rest):
-    """(the `SolidFlexibility`, flexibility of the beam) on the same bands."""
-    return solid_check.solid_and_beam(at_rest, model.places, model.direction, model.spec.analysis.solid_band)
-
-
 def solid(model, done):
     """Flexibility of the solid, how far the beam is from it, and the picture of the deformed solid."""
     try:
-        found, beam = solid_and_beam(model, done["statics"].data.equilibrium)
+        at_rest = done["statics"].data.equilibrium
+        found, beam = solid_check.solid_and_beam(at_rest, model.places, model.direction, model.spec.analysis.solid_band)
     except InputError as error:
         return Answer(findings=(f"the solid check is absent: {error}",), outcome="left out")
     scale = np.sqrt(np.outer(np.diag(found.flexibility), np.diag(found.flexibility)))

@@ -3,12 +3,18 @@
 Rows are tuples (name, ours, other, unit, allowed difference, route) in SI.
 """
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from drivewright import bearings, shafts
 from drivewright.errors import InputError
-from drivewright.mechanisms.shaft import second_route, solid
-from drivewright.shafts.solid_check import allowed_difference
+from drivewright.mechanisms.shaft.build import ShaftModel
+from drivewright.mechanisms.shaft.spec import ShaftSpec
+from drivewright.oracles.shaft import moment_integrals
+from drivewright.registry import Row
+from drivewright.result import Result
+from drivewright.shafts.solid_check import allowed_difference, solid_and_beam
 
 INTEGRAL = "integrals of M^2/EI, redundant reactions"
 GIVEN = "integral of the moments of loads and reactions"
@@ -16,7 +22,7 @@ ALONE = "rolling bearing alone, at the force found"
 SOLID = "solid of second-order finite elements"
 
 
-def verify(model, result):
+def verify(model: ShaftModel, result: Result[ShaftSpec]) -> Iterator[Row]:
     """All rows."""
     loaded = shafts.load(model.shaft, model.loads)
     yield from _flexibility(model, result)
@@ -32,7 +38,7 @@ def _flexibility(model, result):
     if "flexibility" not in result.arrays or not all(_is_spring(support) for support in model.shaft.supports):
         return
     ours = result.arrays["flexibility"].values
-    other = second_route.flexibility(
+    other = moment_integrals.flexibility(
         model.shaft, [(s.position, s.stiffness[0]) for s in model.shaft.supports if s.stiffness[0]], model.places
     )
     for name, i, j in _pairs(model):
@@ -77,10 +83,10 @@ def _deflections(model, loaded):
         return
     beam = equilibrium.model.beam
     for axis, name in enumerate("xy"):
-        forces, couples = second_route.acting(loaded, axis)
+        forces, couples = moment_integrals.acting(loaded, axis)
         ends = sorted(mount.support.position for mount in equilibrium.model.mounts)
         first, last = (equilibrium.u[6 * beam.node(place) + axis] for place in (ends[0], ends[-1]))
-        found = second_route.through(model.shaft, (ends[0], first), (ends[-1], last), forces, couples, model.places)
+        found = moment_integrals.deflections_through(model.shaft, (ends[0], first), (ends[-1], last), forces, couples, model.places)
         size = np.abs(equilibrium.u[: beam.size].reshape(-1, 6)[:, :2]).max()
         for station, other in zip(model.shaft.stations, found, strict=True):
             ours = equilibrium.u[6 * beam.node(station.position) + axis]
@@ -111,7 +117,7 @@ def _bearings(model, loaded):
 
 def _solid(model, at_rest):
     try:
-        found, beam = solid.solid_and_beam(model, at_rest)
+        found, beam = solid_and_beam(at_rest, model.places, model.direction, model.spec.analysis.solid_band)
     except InputError:  # one bearing alone, or bands that meet: no case for the solid
         return
     for name, i, j in _pairs(model):

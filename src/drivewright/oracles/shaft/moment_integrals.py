@@ -4,16 +4,23 @@ With the deflection w and loads positive one way, EI w'' = sum F_i <x - s_i> - s
 w' = -sum F_i <x - s_i>^0/(kappa G A): w(x) = C1 x + C2 + sum of influence functions g(x, s).
 """
 
+from collections.abc import Sequence
+from typing import TypeAlias
+
 import numpy as np
 
 from drivewright._jit import plain
+from drivewright._typing import ArrayLike, Floats
+from drivewright.shafts.loaded import Loaded
+from drivewright.shafts.model import Shaft
 from drivewright.shafts.sections import area, cowper, second_moment
 
+PlacedForces: TypeAlias = list[tuple[float, float]]  # (place [m], force [N] or couple [N m])
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(32)
 
 
-def compliance(shaft, z):
-    """(1/EI, 1/(kappa G A)) at places z, by looking the section up."""
+def compliance(shaft: Shaft, z: Floats) -> tuple[Floats, Floats]:
+    """(1/EI [1/(N m^2)], 1/(kappa G A) [1/N]) at places z (n,) [m], by looking the section up."""
     ends = shaft.ends
     at = np.clip(np.searchsorted(ends, z, side="right") - 1, 0, len(shaft.sections) - 1)
     length, start, end, bore = np.array([section[:4] for section in shaft.sections], float)[at].T
@@ -24,7 +31,7 @@ def compliance(shaft, z):
     return bend, 0 * bend if shaft.shear < 0 else 1 / (kappa * g * plain(area)(diameter, bore))
 
 
-def influence(shaft, x, s, couple=False):
+def influence(shaft: Shaft, x: float, s: float, couple: bool = False) -> float:
     """g(x, s) = int_s^x (x - t)(t - s)/EI dt - int_s^x dt/(kappa G A), 0 for x <= s; 32 Gauss points between two steps.
 
     Of a couple at s, positive as it lowers the slope right of it: -int_s^x (x - t)/EI dt.
@@ -41,8 +48,8 @@ def influence(shaft, x, s, couple=False):
     return total
 
 
-def deflections(shaft, springs, forces, wanted):
-    """Deflection (w,) at places `wanted` under `forces` [(place, force)] on `springs` [(place, stiffness)], inf is rigid.
+def deflections(shaft: Shaft, springs: ArrayLike, forces: PlacedForces, wanted: Sequence[float]) -> Floats:
+    """Deflection (w,) [m] at places `wanted` under `forces` [(place, force)] on `springs` [(place, stiffness)], inf is rigid.
 
     Unknowns C1, C2 and the reactions: w(x_j) = R_j/k_j, and the forces and moments balance.  Any number of springs from two on.
     """
@@ -69,12 +76,12 @@ def deflections(shaft, springs, forces, wanted):
     )
 
 
-def flexibility(shaft, springs, places):
-    """Flexibility (s, s) between places."""
+def flexibility(shaft: Shaft, springs: ArrayLike, places: Sequence[float]) -> Floats:
+    """Flexibility (s, s) [m/N] between places."""
     return np.stack([deflections(shaft, springs, [(place, 1.0)], places) for place in places], axis=1)
 
 
-def acting(loaded, axis):
+def acting(loaded: Loaded, axis: int) -> tuple[PlacedForces, PlacedForces]:
     """([(place, force)], [(place, couple)]) of loads and reactions on the shaft in the plane x (axis 0) or y (1).
 
     A couple counts as it turns the slope; spread loads and weight come as many forces.
@@ -94,12 +101,19 @@ def acting(loaded, axis):
     return forces, couples
 
 
-def through(shaft, first, last, forces, couples, wanted):
+def deflections_through(
+    shaft: Shaft,
+    first: tuple[float, float],
+    last: tuple[float, float],
+    forces: PlacedForces,
+    couples: PlacedForces,
+    wanted: Sequence[float],
+) -> list[float]:
     """Deflection at places `wanted` of the free shaft under forces that balance, through two points (place, deflection)."""
 
-    def bent(x):
+    def deflection(x: float) -> float:
         return sum(f * influence(shaft, x, s) for s, f in forces) + sum(m * influence(shaft, x, s, couple=True) for s, m in couples)
 
     (a, u), (b, v) = first, last
-    slope = ((v - bent(b)) - (u - bent(a))) / (b - a)
-    return [bent(x) + u - bent(a) + slope * (x - a) for x in wanted]
+    slope = ((v - deflection(b)) - (u - deflection(a))) / (b - a)
+    return [deflection(x) + u - deflection(a) + slope * (x - a) for x in wanted]

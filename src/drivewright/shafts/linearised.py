@@ -1,0 +1,26 @@
+"""The shaft about its equilibrium: linear supports with the tangent stiffness that the bearings have there."""
+
+import numpy as np
+
+from drivewright.shafts.assembly import assemble, work
+from drivewright.shafts.curves import Tangent
+from drivewright.shafts.equilibrium import Equilibrium, solve
+from drivewright.shafts.model import Shaft
+
+
+def tangent_shaft(equilibrium: Equilibrium) -> Shaft:
+    """The shaft on linear supports: those of the equilibrium, each with its tangent stiffness there."""
+    shaft, supports = equilibrium.model.beam.shaft, []
+    for support, contact in zip(shaft.supports, equilibrium.contact, strict=True):
+        if support.law is not None:
+            support = support._replace(law=Tangent(contact), mirrored=False)
+        supports.append(support._replace(offset=(0.0,) * 5, push=(0.0,) * 5))
+    return shaft._replace(supports=tuple(supports))
+
+
+def refined_equilibrium(equilibrium: Equilibrium, step: float) -> Equilibrium:
+    """The unloaded `tangent_shaft` at rest on elements of at most `step` [m], as fine as the shapes of the modes need."""
+    z = equilibrium.model.beam.z
+    places = np.concatenate([np.linspace(a, b, int(np.ceil((b - a) / step - 1e-9)) + 1) for a, b in zip(z[:-1], z[1:], strict=True)])
+    fine = assemble(tangent_shaft(equilibrium), places)
+    return solve(fine, 0 * work(fine, ()))

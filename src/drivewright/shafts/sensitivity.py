@@ -1,0 +1,116 @@
+"""How the flexibility follows every dimension, stiffness and modulus - and what is held while one of them changes.
+
+Derivatives d delta_ij/d ln(p).  Of stiffnesses and sections they follow from
+the shares: a change of a part's compliance changes delta by the virtual work of its forces, whatever else the shaft has.  Places are
+moved, and delta differentiated by central differences of order four; a place that cannot move both ways has no derivative.
+"""
+
+from collections.abc import Callable, Iterator
+from typing import TypeAlias
+
+import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.errors import InputError
+from drivewright.shafts import beam as beams
+from drivewright.shafts.assembly import assemble, work
+from drivewright.shafts.equilibrium import Equilibrium, solve
+from drivewright.shafts.influence import Flexibility, flexibility
+from drivewright.shafts.linearised import tangent_shaft
+from drivewright.shafts.model import Shaft, Support
+
+STEP = 2e-3
+WEIGHTS = ((-2, 1 / 12), (-1, -8 / 12), (1, 8 / 12), (2, -1 / 12))
+Slope: TypeAlias = tuple[str, str, Floats]  # parameter, what is held, d delta/d ln(parameter) (s, s) [m/N]
+
+
+def flexibility_slopes(equilibrium: Equilibrium, found: Flexibility, direction: Floats) -> Iterator[Slope]:
+    """(parameter, what is held, d delta/d ln(parameter) (s, s) [m/N]) of the flexibility between the shaft's stations along `direction`.
+
+    Bearings that are not linear keep their tangents at the equilibrium.
+    """
+    yield from _of_parts(equilibrium.model.beam.shaft, found)
+    yield from _of_sections(equilibrium, found)
+    yield from _of_places(equilibrium, direction)
+
+
+def _of_parts(shaft: Shaft, found: Flexibility) -> Iterator[Slope]:
+    """Modulus and bearings: delta is the sum of its shares, each inversely proportional to a stiffness."""
+    shares = dict(zip(found.names, found.shares, strict=True))
+    elastic = [support.name for support in shaft.supports if is_elastic(support)]
+    inside = [share for name, share in shares.items() if name in ("bending", "shear", "tension")]
+    yield "youngs_modulus", "shear modulus in proportion; bearings held", -np.sum(inside, axis=0)
+    if elastic:
+        yield "bearings.stiffness", "all bearings with their housings in proportion", -sum(shares[name] for name in elastic)
+    for name in elastic if len(elastic) > 1 else ():
+        yield f"bearings.{name}.stiffness", "with its housing; all else held", -shares[name]
+
+
+def is_elastic(support: Support) -> bool:
+    """Whether a support yields: by its law, a spring or its seat."""
+    return support.law is not None or any(0 < k < np.inf for k in (*support.stiffness, *support.seat))
+
+
+def _of_sections(at_rest: Equilibrium, found: Flexibility) -> Iterator[Slope]:
+    """Diameters: d delta_ij = sum over the pieces of f_i' dF f_j, F their flexibility and f the forces at their ends."""
+    beam, shaft = at_rest.model.beam, at_rest.model.beam.shaft
+    middles = beam.z[:-1] + 0.5 * beam.pieces[:, 0]
+    at = np.clip(np.searchsorted(shaft.ends, middles) - 1, 0, len(shaft.sections) - 1)
+    change = (
+        sum(weight * beams.clamped(beam.pieces * (1.0, np.exp(k * STEP), np.exp(k * STEP), 1.0), shaft)[0] for k, weight in WEIGHTS) / STEP
+    )
+    forces = np.array([[beams.end_forces(beam, plane, column) for column in found.unknowns.T] for plane in (0, 1)])
+    for number in range(len(shaft.sections)):
+        own = at == number
+        slope = np.einsum("pina,nab,pjnb->ij", forces[:, :, own], change[own], forces[:, :, own])
+        yield f"segments.{number}.diameter", "lengths and bore held", slope
+
+
+def _of_places(at_rest: Equilibrium, direction: Floats) -> Iterator[Slope]:
+    """Distances and places of stations."""
+    base = tangent_shaft(at_rest)
+    features = sorted((*base.supports, *base.stations), key=lambda each: each.position)
+    for one, two in zip(features, features[1:], strict=False):
+        if two.position > one.position:
+            yield (
+                f"distance.{one.name}-{two.name}",
+                "all other distances held, what is right of it moves along",
+                _slope(base, direction, lambda f, a=one.position, b=two.position: _stretched(base, a, b, f)),
+            )
+    for station in base.stations:
+        if 0 < station.position < base.length:
+            yield (
+                f"stations.{station.name}.position",
+                "all else held",
+                _slope(base, direction, lambda f, name=station.name: _moved(base, name, f)),
+            )
+
+
+def _slope(base: Shaft, direction: Floats, change: Callable[[float], Shaft]) -> Floats:
+    """d delta / d ln f at f = 1; nan where the changed shaft is none."""
+    try:
+        return sum(weight * _delta(direction, change(np.exp(k * STEP))) for k, weight in WEIGHTS) / STEP
+    except InputError:
+        return np.full((len(base.stations),) * 2, np.nan)
+
+
+def _delta(direction: Floats, shaft: Shaft) -> Floats:
+    system = assemble(shaft)
+    at_rest = solve(system, 0 * work(system, ()))
+    return flexibility(at_rest, [station.position for station in shaft.stations], direction).delta
+
+
+def _stretched(shaft: Shaft, start: float, end: float, factor: float) -> Shaft:
+    """The shaft with the stretch from `start` to `end` longer by a factor, everything beyond carried along."""
+
+    def place(z: float | Floats) -> float | Floats:
+        return z + (factor - 1) * np.clip(z - start, 0.0, end - start)
+
+    sections = tuple(section._replace(length=length) for section, length in zip(shaft.sections, np.diff(place(shaft.ends)), strict=True))
+    supports = tuple(support._replace(position=float(place(support.position))) for support in shaft.supports)
+    stations = tuple(station._replace(position=float(place(station.position))) for station in shaft.stations)
+    return shaft._replace(sections=sections, supports=supports, stations=stations)
+
+
+def _moved(shaft: Shaft, name: str, factor: float) -> Shaft:
+    return shaft._replace(stations=tuple(s._replace(position=factor * s.position) if s.name == name else s for s in shaft.stations))
