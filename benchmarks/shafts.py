@@ -155,7 +155,7 @@ def coupled():
     law = law_of(ball_bearing())
     supports = (shafts.Support("A", 0.0565, law=law), shafts.Support("B", 0.1365, law=law))
     shaft = shafts.Shaft((shafts.Section(0.34, 0.02, 0.02),), MODULUS, POISSON, 7850.0, supports, (shafts.Station("m2", 0.245),))
-    loads = shafts.Loads((shafts.Load(0.245, (0.0, -500.0, 0.0)),))
+    loads = shafts.ShaftLoads((shafts.ShaftLoad(0.245, (0.0, -500.0, 0.0)),))
     found = shafts.load(shaft, loads).equilibrium
     yield "shaft and two ball bearings, coupled", best(lambda: shafts.load(shaft, loads)), f"{found.steps} steps of Newton's method"
 

@@ -34,7 +34,7 @@ def full_tangent(seed=1):
 
 
 def loaded(one, *points, **more):
-    return shafts.load(one, shafts.Loads(tuple(points), **more))
+    return shafts.load(one, shafts.ShaftLoads(tuple(points), **more))
 
 
 def moved(found, position, freedom=1):
@@ -61,7 +61,7 @@ def mirrored_and_plain():
                 shafts.Support(
                     "B",
                     0.1,
-                    law=shafts.Tangent(turn[:, None] * k * turn),
+                    law=shafts.TangentSupport(turn[:, None] * k * turn),
                     mirrored=turn[2] < 0,
                     offset=tuple(turn * offset),
                     seat=seat,
@@ -75,7 +75,7 @@ def mirrored_and_plain():
 
 
 def test_a_mirrored_support_is_the_same_in_its_own_axes():
-    load = shafts.Load(0.22, (200.0, -500.0, 80.0), (3.0, -2.0, 0.0))
+    load = shafts.ShaftLoad(0.22, (200.0, -500.0, 80.0), (3.0, -2.0, 0.0))
     plain, turned = (loaded(one, load).equilibrium for one in mirrored_and_plain())
     assert turned.reactions == pytest.approx(plain.reactions, rel=1e-8, abs=1e-8)
     assert turned.relative == pytest.approx(plain.relative, rel=1e-8, abs=1e-14)
@@ -90,9 +90,9 @@ def test_a_mirrored_support_is_the_same_in_its_own_axes():
 def test_springs_of_a_mirrored_support_beside_its_law():
     """z and the tilts turn their signs on the way in and on the way out: what the shaft feels and exerts is the same."""
     k, springs = full_tangent(), (2e7, 3e7, 1e7, 4e3, 5e3)
-    load, found = shafts.Load(0.22, (200.0, -500.0, 80.0), (3.0, -2.0, 0.0)), []
+    load, found = shafts.ShaftLoad(0.22, (200.0, -500.0, 80.0), (3.0, -2.0, 0.0)), []
     for turn in (np.ones(5), T):
-        held = shafts.Support("B", 0.1, springs, law=shafts.Tangent(turn[:, None] * k * turn), mirrored=turn[2] < 0)
+        held = shafts.Support("B", 0.1, springs, law=shafts.TangentSupport(turn[:, None] * k * turn), mirrored=turn[2] < 0)
         found.append(loaded(shaft([support("A", 0.3, 4e7), held], [shafts.Station("q", 0.22)]), load).equilibrium)
     plain, turned = found
     assert turned.reactions == pytest.approx(plain.reactions, rel=1e-8) and np.abs(plain.reactions[1]).min() > 1
@@ -105,7 +105,7 @@ def test_springs_of_a_mirrored_support_beside_its_law():
 
 def test_a_coupled_support_on_a_seat_balances_and_its_shares_add_up():
     """Forces of support and seat are those of their matrices; the part of the seat is in the share of its support."""
-    load = shafts.Load(0.22, (200.0, -500.0, 80.0), (3.0, -2.0, 0.0))
+    load = shafts.ShaftLoad(0.22, (200.0, -500.0, 80.0), (3.0, -2.0, 0.0))
     one = mirrored_and_plain()[0]
     found = loaded(one, load).equilibrium
     held = one.supports[1]
@@ -124,11 +124,11 @@ def test_unit_reactions_are_what_one_newton_more_changes():
     way, one = (
         np.array([0.6, -0.8]),
         shaft(
-            [support("A", 0.05), shafts.Support("B", 0.2, law=shafts.Tangent(full_tangent())), support("C", 0.38, tilt=3e3)],
+            [support("A", 0.05), shafts.Support("B", 0.2, law=shafts.TangentSupport(full_tangent())), support("C", 0.38, tilt=3e3)],
             [shafts.Station("p", 0.12)],
         ),
     )
-    zero, unit = (loaded(one, shafts.Load(0.12, (force * 0.6, force * -0.8, 0.0))).equilibrium for force in (0.0, 1.0))
+    zero, unit = (loaded(one, shafts.ShaftLoad(0.12, (force * 0.6, force * -0.8, 0.0))).equilibrium for force in (0.0, 1.0))
     found = shafts.flexibility(zero, [0.12], way)
     assert found.reactions[:, 0] == pytest.approx(-(unit.reactions - zero.reactions)[:, :2] @ way, rel=1e-8)
     assert found.delta[0, 0] == pytest.approx(way @ [moved_by(unit, 0.12, freedom) for freedom in (0, 1)], rel=1e-9)
@@ -140,13 +140,13 @@ def moved_by(equilibrium, position, freedom):
 
 def test_a_shaft_stretched_by_coupled_bearings_has_a_share_of_tension():
     one = shaft(
-        [shafts.Support(n, z, law=shafts.Tangent(full_tangent(seed))) for n, z, seed in (("A", 0.1, 3), ("B", 0.3, 4))],
+        [shafts.Support(n, z, law=shafts.TangentSupport(full_tangent(seed))) for n, z, seed in (("A", 0.1, 3), ("B", 0.3, 4))],
         [shafts.Station("p", 0.0)],
     )
     found = shafts.flexibility(loaded(one).equilibrium, [0.0], (0.0, -1.0))
     share = found.shares[found.names.index("tension"), 0, 0]
     assert found.shares.sum(axis=0) == pytest.approx(found.delta, rel=1e-9, abs=0)
-    system = loaded(one, shafts.Load(0.0, (0.0, -1.0, 0.0)))
+    system = loaded(one, shafts.ShaftLoad(0.0, (0.0, -1.0, 0.0)))
     pull = shafts.diagram(system).axial
     assert share == pytest.approx(pull[np.argmax(np.abs(pull))] ** 2 * 0.2 / (E * A), rel=1e-6, abs=0)
 
@@ -169,7 +169,7 @@ def axial_spring():
 
 @pytest.mark.parametrize("force", [300.0, -300.0])
 def test_an_axial_spring_takes_both_ways(force):
-    found = loaded(axial_spring(), shafts.Load(L / 2, (0.0, 0.0, force)))
+    found = loaded(axial_spring(), shafts.ShaftLoad(L / 2, (0.0, 0.0, force)))
     assert moved(found, 0.0, 2) == pytest.approx(force / 4e6, rel=1e-9)
     assert found.equilibrium.reactions[0, 2] == pytest.approx(-force, rel=1e-9)
 
@@ -185,7 +185,7 @@ def test_an_angular_bearing_takes_its_way_and_no_other(mirrored):
     way = -1.0 if mirrored else 1.0
     one = shaft([support("A", 0.05), angular(mirrored)])
     alone = bearings.solve(BALLS, force=[0, 0, 300.0, 0, 0], held=("x", "y", "tilt_x", "tilt_y")).displacement[2]
-    found = loaded(one, shafts.Load(0.3, (0.0, 0.0, way * 300.0))).equilibrium
+    found = loaded(one, shafts.ShaftLoad(0.3, (0.0, 0.0, way * 300.0))).equilibrium
     assert found.relative[1, 2] == pytest.approx(way * alone, rel=1e-6)
     assert found.reactions[1, 2] == pytest.approx(-way * 300.0, rel=1e-8)
 
@@ -198,15 +198,15 @@ def test_a_roller_bearing_takes_one_way_only():
         one = shaft([support("A", 0.05), shafts.Support("B", 0.3, law=rollers, mirrored=mirrored)])
         way = 1.0 if mirrored else -1.0
         with pytest.raises(InputError, match=f"an axial force of {way * 50:g} N, and no bearing that takes a force to the {side}"):
-            loaded(one, shafts.Load(0.2, (0.0, -10.0, way * 50.0)))
-        found = loaded(one, shafts.Load(0.2, (0.0, -10.0, -way * 50.0))).equilibrium
+            loaded(one, shafts.ShaftLoad(0.2, (0.0, -10.0, way * 50.0)))
+        found = loaded(one, shafts.ShaftLoad(0.2, (0.0, -10.0, -way * 50.0))).equilibrium
         assert found.reactions[1, 2] == pytest.approx(way * 50.0, rel=1e-7)
 
 
 def test_a_seat_that_slides_takes_no_axial_force():
     one = shaft([support("A", 0.05), angular(False, seat=(RIGID, RIGID, 0.0, RIGID, RIGID))])
     with pytest.raises(InputError, match="no bearing that takes a force to the right"):
-        loaded(one, shafts.Load(0.2, (0.0, -10.0, 50.0)))
+        loaded(one, shafts.ShaftLoad(0.2, (0.0, -10.0, 50.0)))
 
 
 def test_a_sliding_seat_under_rollers_that_slide_anyway_changes_nothing():
@@ -218,7 +218,7 @@ def test_a_sliding_seat_under_rollers_that_slide_anyway_changes_nothing():
                 [support("A", 0.05, 3e7), shafts.Support("B", 0.3, law=rollers, seat=(RIGID, RIGID, along, RIGID, RIGID))],
                 [shafts.Station("p", L)],
             ),
-            shafts.Load(L, (0.0, -200.0, 0.0)),
+            shafts.ShaftLoad(L, (0.0, -200.0, 0.0)),
         ).equilibrium
         for along in (RIGID, 0.0)
     ]
@@ -229,7 +229,8 @@ def test_a_sliding_seat_under_rollers_that_slide_anyway_changes_nothing():
 def test_one_rolling_bearing_holds_by_its_tilt_stiffness_unless_its_seat_turns():
     """One bearing takes the moment of the overhanging load, with the sign that holds the shaft up."""
     found = loaded(
-        shaft([angular(False, seat=(RIGID, RIGID, RIGID, RIGID, RIGID), offset=(0, 0, -1e-5, 0, 0))]), shafts.Load(0.35, (0.0, -20.0, 0.0))
+        shaft([angular(False, seat=(RIGID, RIGID, RIGID, RIGID, RIGID), offset=(0, 0, -1e-5, 0, 0))]),
+        shafts.ShaftLoad(0.35, (0.0, -20.0, 0.0)),
     ).equilibrium
     assert found.reactions[0, 1] == pytest.approx(20.0, rel=1e-8) and found.reactions[0, 3] == pytest.approx(-20.0 * 0.05, rel=1e-7)
     with pytest.raises(InputError, match="'B'.* leave it free to swing"):
@@ -238,18 +239,18 @@ def test_one_rolling_bearing_holds_by_its_tilt_stiffness_unless_its_seat_turns()
 
 def test_torques_that_partly_cancel_do_not_balance():
     with pytest.raises(InputError, match="their sum is 2 N m"):
-        loaded(axial_spring(), shafts.Load(0.1, moment=(0, 0, 5.0)), shafts.Load(0.3, moment=(0, 0, -3.0)))
+        loaded(axial_spring(), shafts.ShaftLoad(0.1, moment=(0, 0, 5.0)), shafts.ShaftLoad(0.3, moment=(0, 0, -3.0)))
 
 
 @pytest.mark.parametrize("place", [-0.01, 0.45])
 def test_a_place_off_the_shaft_is_told(place):
     with pytest.raises(InputError, match=f"a place at {1e3 * place:g} mm is off the shaft, which runs from 0 to 400 mm"):
-        loaded(axial_spring(), shafts.Load(place, (0.0, 1.0, 0.0)))
+        loaded(axial_spring(), shafts.ShaftLoad(place, (0.0, 1.0, 0.0)))
 
 
 def test_places_close_together_stay_apart():
     """A station 0.2 mm beside a support moves a + by the slope there."""
-    found = loaded(shaft([support("A", 0.0), support("B", 0.3)], [shafts.Station("p", 0.3002)]), shafts.Load(L, (0.0, -100.0, 0.0)))
+    found = loaded(shaft([support("A", 0.0), support("B", 0.3)], [shafts.Station("p", 0.3002)]), shafts.ShaftLoad(L, (0.0, -100.0, 0.0)))
     slope = 100 * 0.1 * 0.3 / (3 * E * I)
     assert moved(found, 0.3002) == pytest.approx(-2e-4 * slope, rel=2e-2)
 
@@ -267,7 +268,7 @@ def along_cone(of):
 
 def test_a_cone_twists_and_stretches_by_its_integrals():
     one = shaft([support("A", 0.0, axial=RIGID), support("B", L)], sections=CONE)
-    found = loaded(one, shafts.Load(0.0, moment=(0, 0, -40.0)), shafts.Load(L, (0, 0, -900.0), (0, 0, 40.0)))
+    found = loaded(one, shafts.ShaftLoad(0.0, moment=(0, 0, -40.0)), shafts.ShaftLoad(L, (0, 0, -900.0), (0, 0, 40.0)))
     ring, polar = along_cone(lambda d: 4 / (np.pi * (d**2 - 0.015**2))), along_cone(lambda d: 32 / (np.pi * (d**4 - 0.015**4)))
     assert moved(found, L, 2) == pytest.approx(-900 / E * ring, rel=1e-9)
     assert moved(found, L, 5) == pytest.approx(40 / G * polar, rel=1e-9)
@@ -282,7 +283,7 @@ def test_a_cone_twists_and_stretches_by_its_integrals():
 def test_a_hollow_cone_bends_and_shears_by_its_integrals():
     """Clamped at one end, a force at the other: int x^2/EI + int 1/(kappa G A), kappa by Cowper at every place."""
     one = shaft([support("A", L, axial=RIGID, tilt=RIGID)], [shafts.Station("p", 0.0)], shafts.COWPER, CONE)
-    found = loaded(one, shafts.Load(0.0, (0.0, -1000.0, 0.0)))
+    found = loaded(one, shafts.ShaftLoad(0.0, (0.0, -1000.0, 0.0)))
     z = L * GAUSS[0]
     bend = along_cone(lambda d: z**2 * 64 / (np.pi * (d**4 - 0.015**4)))
     kappa = np.array([float(cowper(d, 0.015, NU)) for d in 0.03 + 0.03 * GAUSS[0]])
@@ -334,7 +335,7 @@ def test_bending_of_a_cone_under_its_weight_is_exact_between_the_nodes():
 LAWS = {
     "play": shafts.with_play(3e7, 8e-6),
     "table": shafts.tabulated([0.0, 1e-5, 3e-5, 4e-5], [0.0, 200.0, 1000.0, 1700.0]),
-    "tangent": shafts.Tangent(full_tangent()),
+    "tangent": shafts.TangentSupport(full_tangent()),
 }
 
 
@@ -390,7 +391,7 @@ def on_matrix(turn, matrix):
     c, s = np.cos(turn), np.sin(turn)
     round_axis = np.eye(5)
     round_axis[:2, :2] = round_axis[3:, 3:] = [[c, -s], [s, c]]
-    law = shafts.Tangent(round_axis @ matrix @ round_axis.T)
+    law = shafts.TangentSupport(round_axis @ matrix @ round_axis.T)
     return shaft([support("A", 0.05, axial=RIGID), shafts.Support("B", 0.3, law=law)], [shafts.Station("d", L, 3.0, 0.01, 0.006)])
 
 

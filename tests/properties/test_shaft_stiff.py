@@ -77,7 +77,7 @@ def test_a_stiff_tilt_spring_is_a_clamp(power):
     """F L^3/3EI + F L^2/k at the end, and the frequency of the mass there; k to infinity is the cantilever."""
     tilt, stiff = 10.0**power, 206e9 * np.pi / 64 * 0.02**4
     one = cantilever(tilt)._replace(density=0.0)
-    loaded = shafts.load(one, shafts.Loads((shafts.Load(0.3, (0.0, -100.0, 0.0)),)))
+    loaded = shafts.load(one, shafts.ShaftLoads((shafts.ShaftLoad(0.3, (0.0, -100.0, 0.0)),)))
     soft = 0.3**3 / 3 / stiff + 0.3**2 / tilt
     assert -loaded.equilibrium.u[-5] == pytest.approx(100 * soft, rel=1e-10)
     assert loaded.equilibrium.reactions[0, 3] == pytest.approx(-100 * 0.3, rel=1e-12)
@@ -148,7 +148,7 @@ def test_a_bearing_that_tilts_more_easily_one_way_is_not_round():
     def lowest(*tilts):
         support = shafts.Support("A", 0.0, (1e20, 1e20, 1e20, *tilts))
         one = cantilever(1.0)._replace(supports=(support,))
-        return shafts.modes(shafts.load(one, shafts.Loads()).equilibrium, 2)[0].frequencies
+        return shafts.modes(shafts.load(one, shafts.ShaftLoads()).equilibrium, 2)[0].frequencies
 
     soft, stiff, both = lowest(3e3, 3e3)[0], lowest(6e3, 6e3)[0], lowest(6e3, 3e3)
     assert both == pytest.approx([soft, stiff], rel=1e-9) and stiff > 1.1 * soft

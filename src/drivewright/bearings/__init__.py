@@ -1,12 +1,13 @@
 """Rolling bearings as force elements: inner geometry, load distribution, stiffness matrix, contact pressure, life."""
 
 from importlib import import_module
+from typing import Any
 
 # Their modules hold kernels, and the first kernel imports numba: loaded when first used.
 _WHERE = {
     "response": ("FREEDOMS", "respond"),  # the formula itself has the name of its module
-    "newton": ("Measures", "equilibria", "equilibrium", "measures"),
-    "solving": ("PERMISSIBLE", "Equilibrium", "contact_of", "elements", "geometric_static_rating", "law_of", "life_of", "solve"),
+    "newton": ("BearingMeasures", "equilibria", "equilibrium", "measures"),
+    "solving": ("PERMISSIBLE", "BearingEquilibrium", "contact_of", "elements", "geometric_static_rating", "law_of", "life_of", "solve"),
     "ball": ("BallBearing", "BallLaw"),
     "life": ("basic_dynamic_rating", "basic_life", "basic_static_rating"),
     "roller": ("RollerBearing", "RollerLaw", "roller_reference_life", "roller_static_rating"),
@@ -20,15 +21,15 @@ _WHERE = {
         "liu_roller",
         "palmgren_ball",
         "palmgren_roller",
-        "Stiffness",
+        "RadialStiffness",
     ),
 }
 _MODULE = {name: module for module, names in _WHERE.items() for name in names}
 
-__all__ = [*_MODULE]
+__all__ = sorted(_MODULE)
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> Any:
     if name not in _MODULE:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f"{__name__}.{_MODULE[name]}"), name)

@@ -15,7 +15,7 @@ from pydantic import model_validator
 
 from drivewright._jit import implements, warmer
 from drivewright.bearings.life import ball_reference_life, ball_static_rating
-from drivewright.bearings.newton import Measures, measures
+from drivewright.bearings.newton import BearingMeasures, measures
 from drivewright.bearings.response import response
 from drivewright.bearings.solving import elements, geometric_static_rating, law_of, life_of, warm
 from drivewright.contact import effective_modulus, point_contact, relative_radii
@@ -122,7 +122,7 @@ def _contacts(bearing):
 
 @implements(measures, BallLaw)
 def _(law):
-    return Measures(law.groove, law.arm, -law.axial, len(law.cosines), 0)
+    return BearingMeasures(law.groove, law.arm, -law.axial, len(law.cosines), 0)
 
 
 @implements(response, BallLaw)

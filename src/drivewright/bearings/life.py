@@ -75,7 +75,7 @@ def basic_life(bearing, load):
     """L10 [revolutions] of ISO 281: 1e6 (C/P)^p, p = 3 of balls and 10/3 of rollers; None without a dynamic rating.
 
     P [N] is the load itself where it is radial.  The factors X and Y for a combined load are not stated here: those recalled differ
-    from the reference life of this geometry by up to 30 % of the load.  Take `Equilibrium.reference_life` there.
+    from the reference life of this geometry by up to 30 % of the load.  Take `BearingEquilibrium.reference_life` there.
     """
     if not load > 0:
         raise InputError(f"bearing: the life wants a load above 0 N, got {load:g}.")

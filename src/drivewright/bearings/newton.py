@@ -13,7 +13,7 @@ MOST_LOADS = 60  # on the way from an easy load to the wanted one
 UNRESISTED, NOT_CONVERGED = -1, -2  # instead of the number of steps
 
 
-class Measures(NamedTuple):
+class BearingMeasures(NamedTuple):
     """What the solver must know of a law.
 
     length [m]: a displacement that matters; arm [m]: radius at which a tilt becomes a displacement; centre [m]: z where the inner
@@ -29,7 +29,7 @@ class Measures(NamedTuple):
 
 @generic
 def measures(law):
-    """The `Measures` of a law."""
+    """The `BearingMeasures` of a law."""
 
 
 class _Work(NamedTuple):

@@ -16,7 +16,7 @@ BALL, ROLLER = 2 / 3, 9 / 10  # secant over tangent: one over the exponent of th
 FULLEST_SHARE = 5.0  # load of the fullest element over F/(Z cos a), for usual clearance
 
 
-class Stiffness(NamedTuple):
+class RadialStiffness(NamedTuple):
     """A radial stiffness [N/m] at a load: `value` as the source gives it, and its `kind`; `ratio` = secant over tangent."""
 
     value: np.ndarray
@@ -39,28 +39,28 @@ def kraemer_ball(force, balls, ball_diameter, contact_angle=0.0):
     """k = 13e6 (Z^2 F D cos^5 a)^(1/3)  [N/m; N, m].  Some 10 % above the others: the same law with another constant."""
     _check(force, balls, ball_diameter, contact_angle)
     value = 13e6 * np.cbrt(balls**2 * force * ball_diameter * np.cos(contact_angle) ** 5)
-    return Stiffness(value, "tangent", BALL, _KRAEMER)
+    return RadialStiffness(value, "tangent", BALL, _KRAEMER)
 
 
 def kraemer_roller(force, rollers, roller_length, contact_angle=0.0):
     """k = 1.0e9 Z^0.9 l^0.8 F^0.1 cos^1.9 a  [N/m; N, m]."""
     _check(force, rollers, roller_length, contact_angle)
     value = 1.0e9 * rollers**0.9 * roller_length**0.8 * force**0.1 * np.cos(contact_angle) ** 1.9
-    return Stiffness(value, "tangent", ROLLER, _KRAEMER)
+    return RadialStiffness(value, "tangent", ROLLER, _KRAEMER)
 
 
 def gargiulo_ball(force, balls, ball_diameter, contact_angle=0.0):
     """k = 0.0325e6 (D F Z^2 cos^5 a)^(1/3)  [lbf/in; lbf, in], here in SI."""
     _check(force, balls, ball_diameter, contact_angle)
     value = 0.0325e6 * np.cbrt(ball_diameter / INCH * force / POUND * balls**2 * np.cos(contact_angle) ** 5)
-    return Stiffness(value * POUND / INCH, "tangent", BALL, _GARGIULO)
+    return RadialStiffness(value * POUND / INCH, "tangent", BALL, _GARGIULO)
 
 
 def gargiulo_roller(force, rollers, roller_length, contact_angle=0.0):
     """k = 0.300e6 F^0.1 Z^0.9 l^0.8 cos^1.9 a  [lbf/in; lbf, in], here in SI; for cylindrical and tapered rollers."""
     _check(force, rollers, roller_length, contact_angle)
     value = 0.300e6 * (force / POUND) ** 0.1 * rollers**0.9 * (roller_length / INCH) ** 0.8 * np.cos(contact_angle) ** 1.9
-    return Stiffness(value * POUND / INCH, "tangent", ROLLER, _GARGIULO)
+    return RadialStiffness(value * POUND / INCH, "tangent", ROLLER, _GARGIULO)
 
 
 def palmgren_ball(force, balls, ball_diameter, contact_angle=0.0):
@@ -68,7 +68,7 @@ def palmgren_ball(force, balls, ball_diameter, contact_angle=0.0):
     _check(force, balls, ball_diameter, contact_angle)
     fullest = FULLEST_SHARE * force / (balls * np.cos(contact_angle))
     approach = 4.4e-4 / np.cos(contact_angle) * np.cbrt(fullest**2 / (1e3 * ball_diameter)) * 1e-3
-    return Stiffness(force / approach, "secant", BALL, _PALMGREN)
+    return RadialStiffness(force / approach, "secant", BALL, _PALMGREN)
 
 
 def palmgren_roller(force, rollers, roller_length, contact_angle=0.0):
@@ -76,21 +76,21 @@ def palmgren_roller(force, rollers, roller_length, contact_angle=0.0):
     _check(force, rollers, roller_length, contact_angle)
     fullest = FULLEST_SHARE * force / (rollers * np.cos(contact_angle))
     approach = 7.7e-5 / np.cos(contact_angle) * fullest**0.9 / (1e3 * roller_length) ** 0.8 * 1e-3
-    return Stiffness(force / approach, "secant", ROLLER, _PALMGREN)
+    return RadialStiffness(force / approach, "secant", ROLLER, _PALMGREN)
 
 
 def liu_ball(force, balls, ball_diameter, contact_angle=0.0):
     """ky = 0.118e4 (d1 R Z^2 cos^5 b)^(1/3)  [N/mm; N, mm], here in SI: Liu et al. 2017, eq. (6)."""
     _check(force, balls, ball_diameter, contact_angle)
     value = 0.118e4 * np.cbrt(1e3 * ball_diameter * force * balls**2 * np.cos(contact_angle) ** 5)
-    return Stiffness(1e3 * value, "tangent", BALL, _LIU)
+    return RadialStiffness(1e3 * value, "tangent", BALL, _LIU)
 
 
 def liu_roller(force, rollers, roller_length, contact_angle=0.0):
     """kx = 0.340e4 R^0.1 Z^0.9 L^0.8 cos^1.9 g  [N/mm; N, mm], here in SI: Liu et al. 2017, eq. (5)."""
     _check(force, rollers, roller_length, contact_angle)
     value = 0.340e4 * force**0.1 * rollers**0.9 * (1e3 * roller_length) ** 0.8 * np.cos(contact_angle) ** 1.9
-    return Stiffness(1e3 * value, "tangent", ROLLER, _LIU)
+    return RadialStiffness(1e3 * value, "tangent", ROLLER, _LIU)
 
 
 def _check(force, count, size, contact_angle):

@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import model_validator
 
 from drivewright._jit import implements, inner, warmer
-from drivewright.bearings.newton import Measures, measures
+from drivewright.bearings.newton import BearingMeasures, measures
 from drivewright.bearings.response import response
 from drivewright.bearings.solving import PERMISSIBLE, elements, geometric_static_rating, law_of, life_of, refuse_other, warm
 from drivewright.contact import effective_modulus, line_contact
@@ -158,7 +158,7 @@ def contact_radii(bearing):
 
 @implements(measures, RollerLaw)
 def _(law):
-    return Measures(0.01 * law.diameter, law.reach, 0.0, len(law.cosines), len(law.arms))
+    return BearingMeasures(0.01 * law.diameter, law.reach, 0.0, len(law.cosines), len(law.arms))
 
 
 # ------------------------------------------------------------------------------------------------------------ response

@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 
 from drivewright._jit import generic, kernel
-from drivewright.bearings.newton import MOST_STEPS, NOT_CONVERGED, UNRESISTED, Measures, begin, equilibria, equilibrium, measures
+from drivewright.bearings.newton import MOST_STEPS, NOT_CONVERGED, UNRESISTED, BearingMeasures, begin, equilibria, equilibrium, measures
 from drivewright.bearings.response import FREEDOMS, respond, response
 from drivewright.errors import InputError, SolverError, UnknownName, brief
 
 __all__ = [
     "PERMISSIBLE",
-    "Equilibrium",
-    "Measures",
+    "BearingEquilibrium",
+    "BearingMeasures",
     "contact_of",
     "elements",
     "equilibria",
@@ -40,7 +40,7 @@ def law_of(bearing):
 
 @singledispatch
 def life_of(bearing, state):
-    """Reference life [revolutions] of a bearing in an `Equilibrium`; None without a dynamic rating."""
+    """Reference life [revolutions] of a bearing in an `BearingEquilibrium`; None without a dynamic rating."""
     raise InputError(f"bearing: no reference life is known for a {type(bearing).__name__}.")
 
 
@@ -82,7 +82,7 @@ def _state(law, displacement, force, stiffness, loads, angles, pressures, lamina
 
 
 @dataclass(frozen=True)
-class Equilibrium:
+class BearingEquilibrium:
     """A bearing under load.  Five freedoms: x, y, z [m, N] and rotations about x and y [rad, N m], z the axis.
 
     force: what is applied to the inner ring; displacement: of the inner ring against the outer; stiffness (5, 5): the tangent;
@@ -114,7 +114,7 @@ class Equilibrium:
 
 
 def solve(bearing, *, force=None, displacement=None, held=(), start=None):
-    """The `Equilibrium` of a bearing at one of: `force` (Fx, Fy, Fz, Mx, My) in N and N m, or `displacement` of its five freedoms [m, rad].
+    """The `BearingEquilibrium` at one of: `force` (Fx, Fy, Fz, Mx, My) in N and N m, or `displacement` of its five freedoms [m, rad].
 
     held: names from FREEDOMS that a given force does not move; they stay at their `start` (0 unless given), and the force found
     there is the reaction.  start (5,): where the search begins, and where what nothing resists remains.
@@ -180,7 +180,7 @@ def _state_of(bearing, law, displacement, steps):
     energy = _state(law, displacement, force, stiffness, loads, angles, pressures, laminae)
     if not np.isfinite(energy + loads.sum()):
         raise InputError(f"bearing: the displacement {_listed(displacement)} is beyond all numbers; it counts in m and rad.")
-    return Equilibrium(bearing, displacement, force, stiffness, loads, angles, pressures, laminae, energy, int(steps))
+    return BearingEquilibrium(bearing, displacement, force, stiffness, loads, angles, pressures, laminae, energy, int(steps))
 
 
 def warm(bearing, held=()):

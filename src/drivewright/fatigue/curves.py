@@ -114,7 +114,7 @@ def ramberg_osgood(stress, material):
     return stress / material.youngs_modulus + np.copysign(plastic, stress)
 
 
-class Local(NamedTuple):
+class NotchStress(NamedTuple):
     """Stress [Pa] and strain where the material yields."""
 
     stress: np.ndarray
@@ -122,14 +122,14 @@ class Local(NamedTuple):
 
 
 def neuber(elastic_stress, material):
-    """`Local` stress and strain amplitude at a notch whose elastic stress amplitude [Pa] is known; any shape, odd.
+    """`NotchStress`: stress and strain amplitude at a notch whose elastic stress amplitude [Pa] is known; any shape, odd.
 
     Neuber's rule s e = s_el^2/E on the cyclic curve of `ramberg_osgood`.
     """
     elastic = _numbers("neuber", "elastic_stress", elastic_stress)
     stress = _neuber_stresses(elastic.ravel(), material.youngs_modulus, material.strength_coefficient, material.hardening_exponent)
     stress = stress.reshape(elastic.shape)[()]
-    return Local(stress, ramberg_osgood(stress, material))
+    return NotchStress(stress, ramberg_osgood(stress, material))
 
 
 def _numbers(function, name, values):

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from drivewright.fatigue.curves import Local, neuber
+from drivewright.fatigue.curves import NotchStress, neuber
 from drivewright.fatigue.tensors import deviator, elastic_strain, symmetric, von_mises
 
 
 def neuber_history(elastic_stress, material):
-    """`Local` tensors (n, 3, 3) of one repeat of a block whose elastic stresses [Pa] are (n, 3, 3).
+    """`NotchStress` tensors (n, 3, 3) of one repeat of a block whose elastic stresses [Pa] are (n, 3, 3).
 
     Where no sample's von Mises stress exceeds the card's `cyclic_yield` the elastic stress and Hooke's strain come back as they are.
     Else, with the tensor T of the sample with the largest von Mises stress, made 1 in that measure:
@@ -22,17 +22,17 @@ def neuber_history(elastic_stress, material):
     stress = symmetric("neuber_history", "elastic_stress", elastic_stress, 1)
     size = von_mises(stress)
     if not np.max(size) > material.cyclic_yield:
-        return Local(stress, elastic_strain(stress, material))
+        return NotchStress(stress, elastic_strain(stress, material))
     unit = stress[np.argmax(size)] / np.max(size)
     along = 1.5 * np.sum(deviator(stress) * deviator(unit), axis=(1, 2))
     local = _followed(along, material)
     relaxed = stress + (local.stress - along)[:, None, None] * unit
     plastic = local.strain - local.stress / material.youngs_modulus
-    return Local(relaxed, elastic_strain(relaxed, material) + 1.5 * plastic[:, None, None] * deviator(unit))
+    return NotchStress(relaxed, elastic_strain(relaxed, material) + 1.5 * plastic[:, None, None] * deviator(unit))
 
 
 def _followed(elastic, material):
-    """`Local` stress and strain of a signed scalar block, from its largest absolute value on."""
+    """`NotchStress` stress and strain of a signed scalar block, from its largest absolute value on."""
     size, first = len(elastic), int(np.argmax(np.abs(elastic)))
     points = [(elastic[first], *neuber(elastic[first], material))]  # where the branches that are still open began
     found, last = np.empty((size, 2)), points[0]
@@ -46,4 +46,4 @@ def _followed(elastic, material):
         half = neuber((value - points[-1][0]) / 2, material)
         last = value, points[-1][1] + 2 * half.stress, points[-1][2] + 2 * half.strain
         found[k] = last[1:]
-    return Local(*found.T)
+    return NotchStress(*found.T)

@@ -1,31 +1,32 @@
 """Shafts on elastic, rolling and rigid bearings: deflection, flexibility at stations, modes; one by one and by the million."""
 
 from importlib import import_module
+from typing import Any
 
-from drivewright.shafts.model import COWPER, EULER_BERNOULLI, LineLoad, Load, Section, Shaft, Station, Support
+from drivewright.shafts.model import COWPER, EULER_BERNOULLI, LineLoad, Section, Shaft, ShaftLoad, Station, Support
 
 # Their modules hold kernels, and the first kernel imports numba: loaded when first used.
 _WHERE = {
     "audit": ("imbalance", "unit_imbalance"),
-    "assembly": ("Model", "assemble", "refuse_mechanism", "work"),
-    "equilibrium": ("Equilibrium", "solve"),
+    "assembly": ("ShaftSystem", "assemble", "refuse_mechanism", "work"),
+    "equilibrium": ("ShaftEquilibrium", "solve"),
     "influence": ("Flexibility", "flexibility", "stiffness"),
-    "loaded": ("Diagram", "Loaded", "Loads", "diagram", "load"),
-    "vibration": ("Critical", "Modes", "critical_speeds", "lowest_excited", "modes", "torsional"),
+    "loaded": ("Diagram", "LoadedShaft", "ShaftLoads", "diagram", "load"),
+    "vibration": ("CriticalSpeeds", "Modes", "critical_speeds", "lowest_excited", "modes", "torsional"),
     "buckling": ("buckling_factor",),
     "linearised": ("refined_equilibrium", "tangent_shaft"),
     "sensitivity": ("flexibility_slopes",),
     "unit_loads": ("flexibility_on_rigid_bearings", "peak_unit_stress", "unit_deflection"),
     "solid_check": ("SolidFlexibility", "bearing_bands", "beam_on_bands", "solid_and_beam", "solid_flexibility"),
-    "curves": ("Tangent", "tabulated", "with_play"),
+    "curves": ("TangentSupport", "tabulated", "with_play"),
     "batch": ("flexibilities",),
 }
 _MODULE = {name: module for module, names in _WHERE.items() for name in names}
 
-__all__ = ["COWPER", "EULER_BERNOULLI", "LineLoad", "Load", "Section", "Shaft", "Station", "Support", *_MODULE]
+__all__ = ["COWPER", "EULER_BERNOULLI", "LineLoad", "Section", "Shaft", "ShaftLoad", "Station", "Support", *sorted(_MODULE)]
 
 
-def __getattr__(name):
+def __getattr__(name: str) -> Any:
     if name not in _MODULE:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f"{__name__}.{_MODULE[name]}"), name)

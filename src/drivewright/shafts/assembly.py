@@ -51,7 +51,7 @@ class Mount(NamedTuple):
         return MIRROR if self.support.mirrored else np.ones(5)
 
 
-class Model(NamedTuple):
+class ShaftSystem(NamedTuple):
     """Beam and mounts; unknowns v: those of the beam, then rings, whose displacements are basis v.  The shaft pulls with `linear` v.
 
     Springs and seats are stated by their compliance, and their forces m (c,) are unknowns too: constraints v - compliance m = given.
@@ -77,7 +77,7 @@ class Model(NamedTuple):
 
 
 def assemble(shaft, places=()):
-    """The `Model` of a shaft with nodes also at `places`; InputError where the supports leave it free to move sideways."""
+    """The `ShaftSystem` of a shaft with nodes also at `places`; InputError where the supports leave it free to move sideways."""
     found = beams.beam(shaft, places)
     refuse_mechanism(shaft)
     size = found.size + sum(len(_yielding(support)) for support in shaft.supports)
@@ -93,7 +93,7 @@ def assemble(shaft, places=()):
     pinned = (AXIAL, TWIST) if free else (TWIST,)
     rows += [(np.eye(1, size, freedom)[0], 0.0, 0.0) for freedom in pinned]
     constraints, compliance, given = map(np.array, zip(*rows, strict=True))
-    return Model(found, tuple(mounts), basis, linear, constraints, compliance, given, pinned)
+    return ShaftSystem(found, tuple(mounts), basis, linear, constraints, compliance, given, pinned)
 
 
 def _constraints(mount):

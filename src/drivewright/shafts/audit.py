@@ -1,11 +1,17 @@
 """Whether forces and moments balance, summed from the loads as they were given: no element, no unknown of the solver is asked."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from drivewright._typing import Floats
+from drivewright.shafts.influence import Flexibility
+from drivewright.shafts.loaded import LoadedShaft, ShaftLoads
+from drivewright.shafts.model import Shaft
 from drivewright.shafts.sections import NODES, WEIGHTS, area
 
 
-def imbalance(loaded, loads):
+def imbalance(loaded: LoadedShaft, loads: ShaftLoads) -> float:
     """What is left of forces and moments on the shaft, over the sum of their magnitudes (moments: with the length as the arm) [-].
 
     Loads, weight and reactions about the left end: sum F = 0, sum (z x F + M) = 0 about x and y.  0 where nothing acts.
@@ -19,7 +25,7 @@ def imbalance(loaded, loads):
     return residual(np.array(rows), shaft.length)
 
 
-def residual(rows, length):
+def residual(rows: Floats, length: float) -> float:
     """The same of rows (n, 5): force (x, y, z) and moment about x and y at the left end."""
     total = np.abs(rows[:, :3]).sum() + np.abs(rows[:, 3:]).sum() / length
     if not total > 0:
@@ -27,7 +33,7 @@ def residual(rows, length):
     return float(np.abs(rows.sum(axis=0) / (1.0, 1.0, 1.0, length, length)).max() / total)
 
 
-def unit_imbalance(found, shaft, positions, direction):
+def unit_imbalance(found: Flexibility, shaft: Shaft, positions: Sequence[float], direction: Sequence[float] | Floats) -> float:
     """The largest `imbalance` of the unit loads of a `Flexibility`."""
     worst = 0.0
     for column, position in enumerate(positions):

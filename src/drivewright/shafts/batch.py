@@ -5,8 +5,8 @@ import numpy as np
 from drivewright import cases
 from drivewright._jit import warmer
 from drivewright.errors import InputError
+from drivewright.shafts.batch_kernels import DesignColumn, DesignColumns, fill, workspace
 from drivewright.shafts.model import COWPER
-from drivewright.shafts.sweep import Column, Designs, fill, workspace
 
 CHUNK = 1_000_000  # sections and pairs of points per chunk: a few hundredths of a second
 PER_DESIGN = ("youngs_modulus", "poisson", "shear")
@@ -69,9 +69,9 @@ def flexibilities(
 
 
 def _designs(*arguments):
-    """(Designs, (N, S, B, M))."""
-    tables = [_table(name, value, name in PER_DESIGN) for name, value in zip(Designs._fields, arguments, strict=True)]
-    named = dict(zip(Designs._fields, tables, strict=True))
+    """(DesignColumns, (N, S, B, M))."""
+    tables = [_table(name, value, name in PER_DESIGN) for name, value in zip(DesignColumns._fields, arguments, strict=True)]
+    named = dict(zip(DesignColumns._fields, tables, strict=True))
     widths = {name: named[name].shape[1] for name in ("lengths", "supports", "stations")}
     wanted = dict.fromkeys(("diameters", "end_diameters", "bores"), "lengths") | {"radial_stiffness": "supports"}
     rows = {len(table) for table in tables} - {1} or {1}
@@ -86,10 +86,10 @@ def _designs(*arguments):
         told = ", ".join(f"{name} {len(table)}" for name, table in named.items() if len(table) > 1)
         raise InputError(f"flexibilities: the arguments disagree in the number of designs ({told}); each must have that many rows, or one.")
     columns = [
-        Column(table.reshape(-1), *(step if size > 1 else 0 for step, size in zip((table.shape[1], 1), table.shape, strict=True)))
+        DesignColumn(table.reshape(-1), *(step if size > 1 else 0 for step, size in zip((table.shape[1], 1), table.shape, strict=True)))
         for table in tables
     ]
-    return Designs(*columns), (rows.pop(), *widths.values())
+    return DesignColumns(*columns), (rows.pop(), *widths.values())
 
 
 def _table(name, value, one_a_design):

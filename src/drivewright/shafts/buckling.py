@@ -7,10 +7,11 @@ from drivewright.errors import SolverError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.assembly import floor
 from drivewright.shafts.influence import FLOOR
+from drivewright.shafts.loaded import LoadedShaft
 from drivewright.shafts.vibration import WEIGHT, condensed, shapes
 
 
-def buckling_factor(loaded):
+def buckling_factor(loaded: LoadedShaft) -> float | None:
     """The least factor on the axial forces at which the shaft buckles; None where none of them presses it.
 
     det(K + f K_N) = 0 with K the stiffness at rest and K_N = int N t_i t_j dx, N the axial force (tension positive), t the slope of

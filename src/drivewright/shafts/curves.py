@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import implements, warmer
+from drivewright._typing import ArrayLike, Floats
 from drivewright.bearings.response import respond, response
 from drivewright.errors import InputError
 
@@ -15,9 +16,9 @@ class RadialCurve(NamedTuple):
     `energy` is the integral of F up to every r[i].
     """
 
-    r: np.ndarray
-    c: np.ndarray
-    energy: np.ndarray
+    r: Floats
+    c: Floats
+    energy: Floats
 
 
 @implements(response, RadialCurve)
@@ -44,12 +45,12 @@ def _(law, displacement, force, stiffness):
     return energy
 
 
-def with_play(stiffness, clearance):
+def with_play(stiffness: float, clearance: float) -> RadialCurve:
     """A spring [N/m] that is met after a radial clearance [m]."""
     return RadialCurve(np.array([0.0, clearance]), np.array([[0.0] * 4, [0.0, stiffness, 0.0, 0.0]]), np.zeros(2))
 
 
-def tabulated(displacement, force):
+def tabulated(displacement: ArrayLike, force: ArrayLike) -> RadialCurve:
     """A table of radial force over radial displacement, both rising from 0; in between a monotone cubic, beyond it a straight line.
 
     InputError where the table does not start at 0 or does not rise.
@@ -66,13 +67,13 @@ def tabulated(displacement, force):
     return RadialCurve(r, np.ascontiguousarray(np.vstack([pieces, last])), energy)
 
 
-class Tangent(NamedTuple):
+class TangentSupport(NamedTuple):
     """A linear support with all its couplings: K (5, 5), symmetric  [N/m, N/rad, N m/rad]."""
 
-    k: np.ndarray
+    k: Floats
 
 
-@implements(response, Tangent)
+@implements(response, TangentSupport)
 def _(law, displacement, force, stiffness):
     """V = 1/2 u'K u."""
     energy = 0.0
@@ -86,7 +87,7 @@ def _(law, displacement, force, stiffness):
 
 
 @warmer
-def warm_supports():
+def warm_supports() -> None:
     """Compile for `doctor --warm`."""
     respond(with_play(1.0, 1.0), np.zeros(5))
-    respond(Tangent(np.eye(5)), np.zeros(5))
+    respond(TangentSupport(np.eye(5)), np.zeros(5))

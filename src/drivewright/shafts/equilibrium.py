@@ -14,7 +14,7 @@ import numpy as np
 
 from drivewright.bearings.response import respond
 from drivewright.errors import InputError, SolverError
-from drivewright.shafts.assembly import AXIAL, Model, floor, refuse_unbalanced
+from drivewright.shafts.assembly import AXIAL, ShaftSystem, floor, refuse_unbalanced
 from drivewright.shafts.beam import FREEDOMS
 
 TOLERANCE = 1e-11  # of the residual over the forces at work
@@ -23,13 +23,13 @@ PASSES, EVEN = 20, 3.0  # of the scaling of the system, and how near to 1 is nea
 LEFT = 1e-8  # of the forces at work: what a freedom that nothing holds may seem to carry
 
 
-class Equilibrium(NamedTuple):
+class ShaftEquilibrium(NamedTuple):
     """The unknowns v, and of every support in the shaft's axes: reaction on the shaft, displacement, tangent stiffness there.
 
-    `hessian` is that of shaft and laws; springs and rigid supports hold by `multipliers` (c,), the forces m of `Model`.
+    `hessian` is that of shaft and laws; springs and rigid supports hold by `multipliers` (c,), the forces m of `ShaftSystem`.
     """
 
-    model: Model
+    model: ShaftSystem
     unknowns: np.ndarray
     reactions: np.ndarray  # (supports, 5) [N, N m]
     relative: np.ndarray  # (supports, 5) [m, rad]: of the shaft against the ring, or the seat where there is none
@@ -46,7 +46,7 @@ class Equilibrium(NamedTuple):
 
 
 def solve(model, force):
-    """The `Equilibrium` under the forces (size,) on nodes and rings; SolverError where it is not found."""
+    """The `ShaftEquilibrium` under the forces (size,) on nodes and rings; SolverError where it is not found."""
     refuse_unbalanced(model, force)
     load = model.basis.T @ force
     v, held = _first_guess(model, load)
@@ -218,4 +218,4 @@ def _equilibrium(model, v, held, steps):
         tangent.append(np.diag(support.stiffness) + law)
         contact.append(law)
     arrays = (np.array(each) for each in (reactions, relative, tangent, contact))
-    return Equilibrium(model, v, *arrays, _pull(model, v)[1], held, steps)
+    return ShaftEquilibrium(model, v, *arrays, _pull(model, v)[1], held, steps)

@@ -5,15 +5,17 @@ delta_ij = int M_i M_j/EI + int V_i V_j/(kappa G A) + int N_i N_j/EA + sum over 
 principle of virtual work), C and m being compliance and force of a spring, K and u tangent stiffness and displacement of a bearing.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError, SolverError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.assembly import floor
 from drivewright.shafts.beam import FREEDOMS
-from drivewright.shafts.equilibrium import saddle
+from drivewright.shafts.equilibrium import ShaftEquilibrium, saddle
 
 FLOOR = 1e-2  # of the solver's trifle under what a law does not resist: it makes the matrix regular and carries nothing
 ROUNDING = 1e-12
@@ -26,21 +28,21 @@ class Flexibility(NamedTuple):
     pressed (supports, 5, s): what the shaft exerts on the supports [N/N, N m/N].
     """
 
-    delta: np.ndarray
-    names: tuple
-    shares: np.ndarray
-    reactions: np.ndarray
-    pressed: np.ndarray
-    unknowns: np.ndarray  # (size, s): under each unit force
+    delta: Floats
+    names: tuple[str, ...]
+    shares: Floats
+    reactions: Floats
+    pressed: Floats
+    unknowns: Floats  # (size, s): under each unit force
 
     @property
-    def condition(self):
+    def condition(self) -> float:
         """Condition number of delta, which is that of the stiffness too."""
         return float(np.linalg.cond(self.delta))
 
 
-def flexibility(found, positions, direction):
-    """The `Flexibility` of a shaft at rest (`found`, an `Equilibrium`) for unit forces along `direction` (x, y) at positions.
+def flexibility(found: ShaftEquilibrium, positions: Sequence[float], direction: ArrayLike) -> Flexibility:
+    """The `Flexibility` of a shaft at rest (`found`, a `ShaftEquilibrium`) for unit forces along `direction` (x, y) at positions.
 
     InputError where a station is held by nothing: the bearings are unloaded and have no stiffness.
     """
@@ -103,7 +105,7 @@ def _pressed(found, v, held):
     return np.array(rows)
 
 
-def stiffness(delta, names, limit=1e12):
+def stiffness(delta: Floats, names: Sequence[str], limit: float = 1e12) -> Floats:
     """K = inv(delta) [N/m]; InputError naming the station that a rigid bearing holds, or two stations at one place."""
     scale = np.sqrt(np.maximum(np.diag(delta), 0.0))
     for name, size in zip(names, scale, strict=True):

@@ -3,22 +3,22 @@
 import numpy as np
 
 from drivewright.shafts.assembly import assemble, work
-from drivewright.shafts.curves import Tangent
-from drivewright.shafts.equilibrium import Equilibrium, solve
+from drivewright.shafts.curves import TangentSupport
+from drivewright.shafts.equilibrium import ShaftEquilibrium, solve
 from drivewright.shafts.model import Shaft
 
 
-def tangent_shaft(equilibrium: Equilibrium) -> Shaft:
+def tangent_shaft(equilibrium: ShaftEquilibrium) -> Shaft:
     """The shaft on linear supports: those of the equilibrium, each with its tangent stiffness there."""
     shaft, supports = equilibrium.model.beam.shaft, []
     for support, contact in zip(shaft.supports, equilibrium.contact, strict=True):
         if support.law is not None:
-            support = support._replace(law=Tangent(contact), mirrored=False)
+            support = support._replace(law=TangentSupport(contact), mirrored=False)
         supports.append(support._replace(offset=(0.0,) * 5, push=(0.0,) * 5))
     return shaft._replace(supports=tuple(supports))
 
 
-def refined_equilibrium(equilibrium: Equilibrium, step: float) -> Equilibrium:
+def refined_equilibrium(equilibrium: ShaftEquilibrium, step: float) -> ShaftEquilibrium:
     """The unloaded `tangent_shaft` at rest on elements of at most `step` [m], as fine as the shapes of the modes need."""
     z = equilibrium.model.beam.z
     places = np.concatenate([np.linspace(a, b, int(np.ceil((b - a) / step - 1e-9)) + 1) for a, b in zip(z[:-1], z[1:], strict=True)])

@@ -1,37 +1,40 @@
 """A shaft under all its loads: points, lines, weight - at rest, and what it carries along its length."""
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.shafts import beam as beams
 from drivewright.shafts.assembly import assemble, work
 from drivewright.shafts.beam import FREEDOMS
-from drivewright.shafts.equilibrium import solve
-from drivewright.shafts.model import Load
+from drivewright.shafts.equilibrium import ShaftEquilibrium, solve
+from drivewright.shafts.model import LineLoad, Shaft, ShaftLoad
 from drivewright.shafts.sections import area, second_moment
 
 
-class Loads(NamedTuple):
+class ShaftLoads(NamedTuple):
     """Point loads, line loads, and the acceleration of free fall (x, y, z) [m/s^2] that acts on the shaft and its stations."""
 
-    points: tuple = ()
-    lines: tuple = ()
-    gravity: tuple = (0.0, 0.0, 0.0)
+    points: tuple[ShaftLoad, ...] = ()
+    lines: tuple[LineLoad, ...] = ()
+    gravity: tuple[float, ...] = (0.0, 0.0, 0.0)
 
     @property
-    def places(self):
+    def places(self) -> list[float]:
+        """Places [m] that need a node."""
         return [load.position for load in self.points] + [end for load in self.lines for end in (load.start, load.end)]
 
 
-class Loaded(NamedTuple):
-    """An `Equilibrium`, and what loads it: per length in both planes, coefficients (2, n-1, 3) over the pieces; at points (6n,);
+class LoadedShaft(NamedTuple):
+    """A `ShaftEquilibrium`, and what loads it: per length in both planes, coefficients (2, n-1, 3) over the pieces; at points (6n,);
     and all as forces (size,) on the unknowns."""
 
-    equilibrium: object
-    spread: np.ndarray
-    points: np.ndarray
-    force: np.ndarray
+    equilibrium: ShaftEquilibrium
+    spread: Floats
+    points: Floats
+    force: Floats
 
 
 class Diagram(NamedTuple):
@@ -40,31 +43,31 @@ class Diagram(NamedTuple):
     axial [N], torque [N m]; bending [Pa], torsion [Pa] and von Mises stress [Pa] at the surface, nominal: without notches.
     """
 
-    z: np.ndarray
-    deflection: np.ndarray
-    slope: np.ndarray
-    shear: np.ndarray
-    moment: np.ndarray
-    axial: np.ndarray
-    torque: np.ndarray
-    bending: np.ndarray
-    torsion: np.ndarray
-    von_mises: np.ndarray
+    z: Floats
+    deflection: Floats
+    slope: Floats
+    shear: Floats
+    moment: Floats
+    axial: Floats
+    torque: Floats
+    bending: Floats
+    torsion: Floats
+    von_mises: Floats
 
 
-def load(shaft, loads, places=()):
-    """The `Loaded` shaft, with nodes also at `places`."""
+def load(shaft: Shaft, loads: ShaftLoads, places: Iterable[float] = ()) -> LoadedShaft:
+    """The `LoadedShaft`, with nodes also at `places`."""
     model = assemble(shaft, [*loads.places, *places])
     spread, force = _spread(model, loads), work(model, [*loads.points, *_weights(shaft, loads)])
     points = force[: model.beam.size].copy()
     for plane in (0, 1):
         force[: model.beam.size] += beams.nodal(model.beam, plane, spread[plane])
     force[: model.beam.size] += _axial_weight(model.beam, loads.gravity[2])
-    return Loaded(solve(model, force), spread, points, force)
+    return LoadedShaft(solve(model, force), spread, points, force)
 
 
 def _weights(shaft, loads):
-    return [Load(s.position, tuple(s.mass * g for g in loads.gravity)) for s in shaft.stations if s.mass and any(loads.gravity)]
+    return [ShaftLoad(s.position, tuple(s.mass * g for g in loads.gravity)) for s in shaft.stations if s.mass and any(loads.gravity)]
 
 
 def _spread(model, loads):
@@ -87,7 +90,7 @@ def _axial_weight(found, gravity):
     return total
 
 
-def diagram(loaded, count=201):
+def diagram(loaded: LoadedShaft, count: int = 201) -> Diagram:
     """The `Diagram` at about `count` places, twice at every node: just left and just right of it, for forces jump there."""
     found, v = loaded.equilibrium.model.beam, loaded.equilibrium.unknowns
     z = _places(found, count)

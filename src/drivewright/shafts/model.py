@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats
+
 COWPER, EULER_BERNOULLI = 0.0, -1.0  # special values of the shear coefficient
 RIGID = (np.inf,) * 5
 
@@ -32,12 +34,12 @@ class Support(NamedTuple):
 
     name: str
     position: float
-    stiffness: tuple = (0.0, 0.0, 0.0, 0.0, 0.0)
+    stiffness: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0, 0.0)
     law: Any = None
     mirrored: bool = False
-    offset: tuple = (0.0, 0.0, 0.0, 0.0, 0.0)
-    seat: tuple = RIGID
-    push: tuple = (0.0, 0.0, 0.0, 0.0, 0.0)
+    offset: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0, 0.0)
+    seat: tuple[float, ...] = RIGID
+    push: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0, 0.0)
     width: float = 0.0
 
 
@@ -51,12 +53,12 @@ class Station(NamedTuple):
     diametral: float = 0.0
 
 
-class Load(NamedTuple):
+class ShaftLoad(NamedTuple):
     """Force (x, y, z) [N] and moment (x, y, z) [N m] on the shaft at a place."""
 
     position: float
-    force: tuple = (0.0, 0.0, 0.0)
-    moment: tuple = (0.0, 0.0, 0.0)
+    force: tuple[float, ...] = (0.0, 0.0, 0.0)
+    moment: tuple[float, ...] = (0.0, 0.0, 0.0)
 
 
 class LineLoad(NamedTuple):
@@ -64,26 +66,27 @@ class LineLoad(NamedTuple):
 
     start: float
     end: float
-    first: tuple
-    last: tuple
+    first: tuple[float, ...]
+    last: tuple[float, ...]
 
 
 class Shaft(NamedTuple):
     """Sections from left to right, one material, supports and stations in any order.  `shear`: kappa, COWPER or EULER_BERNOULLI."""
 
-    sections: tuple
+    sections: tuple[Section, ...]
     modulus: float
     poisson: float
     density: float
-    supports: tuple
-    stations: tuple = ()
+    supports: tuple[Support, ...]
+    stations: tuple[Station, ...] = ()
     shear: float = COWPER
 
     @property
-    def length(self):
+    def length(self) -> float:
+        """Length [m]."""
         return float(sum(section.length for section in self.sections))
 
     @property
-    def ends(self):
-        """Places of the ends of the sections, from 0."""
+    def ends(self) -> Floats:
+        """Places (sections + 1,) [m] of the ends of the sections, from 0."""
         return np.concatenate([[0.0], np.cumsum([section.length for section in self.sections])])

@@ -6,25 +6,26 @@ Kernels of plain numbers; a solid section has the bore 0.
 import numpy as np
 
 from drivewright._jit import kernel, warmer
+from drivewright._typing import Floats, Numbers
 
 # Gauss-Legendre on 0 ... 1: exact to rounding for every taper that turns into a shaft (diameters up to 1 : 4 within one piece).
 NODES, WEIGHTS = (0.5 * (part + shift) for part, shift in zip(np.polynomial.legendre.leggauss(24), (1.0, 0.0), strict=True))
 
 
 @kernel
-def area(diameter, bore):
+def area(diameter: Numbers, bore: Numbers) -> Numbers:
     """A = pi/4 (D^2 - d^2)  [m^2]."""
     return 0.25 * np.pi * (diameter**2 - bore**2)
 
 
 @kernel
-def second_moment(diameter, bore):
+def second_moment(diameter: Numbers, bore: Numbers) -> Numbers:
     """I = pi/64 (D^4 - d^4)  [m^4] about a diameter; twice that about the axis."""
     return np.pi / 64.0 * (diameter**4 - bore**4)
 
 
 @kernel
-def cowper(diameter, bore, poisson):
+def cowper(diameter: Numbers, bore: Numbers, poisson: float) -> Numbers:
     """Shear coefficient kappa of a round section, m = d/D  (Cowper 1966, recalled; checked against the solid):
 
     kappa = 6 (1 + nu) (1 + m^2)^2 / [(7 + 6 nu) (1 + m^2)^2 + (20 + 12 nu) m^2].
@@ -35,7 +36,9 @@ def cowper(diameter, bore, poisson):
 
 
 @kernel
-def softness(length, start, end, bore, modulus, poisson, shear):
+def softness(
+    length: float, start: float, end: float, bore: float, modulus: float, poisson: float, shear: float
+) -> tuple[float, float, float, float]:
     """(int dx/EI, int x dx/EI, int x^2 dx/EI, int dx/(kappa G A)) over a piece of `length`, x from its start.
 
     start, end: outer diameters [m], the cone between them straight; bore [m]; modulus E [Pa]; poisson nu.
@@ -59,7 +62,7 @@ def softness(length, start, end, bore, modulus, poisson, shear):
 
 
 @kernel
-def softness_of(pieces, modulus, poisson, shear):
+def softness_of(pieces: Floats, modulus: float, poisson: float, shear: float) -> Floats:
     """`softness` of many pieces (n, 4) of (length, start, end, bore): (n, 4)."""
     found = np.zeros((len(pieces), 4))
     for i in range(len(pieces)):
@@ -70,6 +73,6 @@ def softness_of(pieces, modulus, poisson, shear):
 
 
 @warmer
-def warm_sections():
+def warm_sections() -> None:
     """Compile for `doctor --warm`."""
     softness_of(np.array([[1.0, 1.0, 1.0, 0.0]]), 1.0, 0.3, 0.0)

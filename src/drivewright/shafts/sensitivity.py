@@ -14,7 +14,7 @@ from drivewright._typing import Floats
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.assembly import assemble, work
-from drivewright.shafts.equilibrium import Equilibrium, solve
+from drivewright.shafts.equilibrium import ShaftEquilibrium, solve
 from drivewright.shafts.influence import Flexibility, flexibility
 from drivewright.shafts.linearised import tangent_shaft
 from drivewright.shafts.model import Shaft, Support
@@ -24,7 +24,7 @@ WEIGHTS = ((-2, 1 / 12), (-1, -8 / 12), (1, 8 / 12), (2, -1 / 12))
 Slope: TypeAlias = tuple[str, str, Floats]  # parameter, what is held, d delta/d ln(parameter) (s, s) [m/N]
 
 
-def flexibility_slopes(equilibrium: Equilibrium, found: Flexibility, direction: Floats) -> Iterator[Slope]:
+def flexibility_slopes(equilibrium: ShaftEquilibrium, found: Flexibility, direction: Floats) -> Iterator[Slope]:
     """(parameter, what is held, d delta/d ln(parameter) (s, s) [m/N]) of the flexibility between the shaft's stations along `direction`.
 
     Bearings that are not linear keep their tangents at the equilibrium.
@@ -51,7 +51,7 @@ def is_elastic(support: Support) -> bool:
     return support.law is not None or any(0 < k < np.inf for k in (*support.stiffness, *support.seat))
 
 
-def _of_sections(at_rest: Equilibrium, found: Flexibility) -> Iterator[Slope]:
+def _of_sections(at_rest: ShaftEquilibrium, found: Flexibility) -> Iterator[Slope]:
     """Diameters: d delta_ij = sum over the pieces of f_i' dF f_j, F their flexibility and f the forces at their ends."""
     beam, shaft = at_rest.model.beam, at_rest.model.beam.shaft
     middles = beam.z[:-1] + 0.5 * beam.pieces[:, 0]
@@ -66,7 +66,7 @@ def _of_sections(at_rest: Equilibrium, found: Flexibility) -> Iterator[Slope]:
         yield f"segments.{number}.diameter", "lengths and bore held", slope
 
 
-def _of_places(at_rest: Equilibrium, direction: Floats) -> Iterator[Slope]:
+def _of_places(at_rest: ShaftEquilibrium, direction: Floats) -> Iterator[Slope]:
     """Distances and places of stations."""
     base = tangent_shaft(at_rest)
     features = sorted((*base.supports, *base.stations), key=lambda each: each.position)

@@ -19,7 +19,7 @@ from drivewright.errors import InputError, SolverError
 from drivewright.result import Table
 from drivewright.shafts.assembly import assemble, work
 from drivewright.shafts.beam import POINT
-from drivewright.shafts.equilibrium import Equilibrium, solve
+from drivewright.shafts.equilibrium import ShaftEquilibrium, solve
 from drivewright.shafts.influence import flexibility
 from drivewright.shafts.model import Shaft, Support
 from drivewright.solids.cad import MM, frustum_solid
@@ -111,13 +111,13 @@ def surface_table(
 # -- beside the beam -----------------------------------------------------------------------------------------------------------
 
 
-def bearing_bands(equilibrium: Equilibrium, direction: ArrayLike, point_width: float) -> tuple[Band, ...]:
+def bearing_bands(equilibrium: ShaftEquilibrium, direction: ArrayLike, point_width: float) -> tuple[Band, ...]:
     """A `Band` for every bearing of a shaft at rest that resists along `direction` (x, y): its width [m], or `point_width` where it is a
     point, and its radial tangent stiffness there, its seat in series.  At an end of the shaft the band lies inside it."""
     return tuple(_bearing_bands(equilibrium, np.asarray(direction, float), point_width))
 
 
-def _bearing_bands(equilibrium: Equilibrium, direction: Floats, point_width: float) -> Iterator[Band]:
+def _bearing_bands(equilibrium: ShaftEquilibrium, direction: Floats, point_width: float) -> Iterator[Band]:
     shaft, way = equilibrium.model.beam.shaft, np.concatenate([direction, np.zeros(3)])
     for support, tangent in zip(shaft.supports, equilibrium.tangent, strict=True):
         rigid = np.isinf(np.diag(tangent)) @ np.abs(way) > 0
@@ -140,7 +140,7 @@ def beam_on_bands(shaft: Shaft, bands: Sequence[Band], stations: Sequence[float]
 
 
 def solid_and_beam(
-    equilibrium: Equilibrium, stations: Sequence[float], direction: ArrayLike, point_width: float
+    equilibrium: ShaftEquilibrium, stations: Sequence[float], direction: ArrayLike, point_width: float
 ) -> tuple[SolidFlexibility, Floats]:
     """The `SolidFlexibility` of a shaft at rest, and the flexibility (M, M) [m/N] of the beam, both on its `bearing_bands`."""
     shaft, bands = equilibrium.model.beam.shaft, bearing_bands(equilibrium, direction, point_width)

@@ -7,7 +7,7 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.shafts.assembly import assemble, work
 from drivewright.shafts.beam import line
-from drivewright.shafts.equilibrium import Equilibrium, solve
+from drivewright.shafts.equilibrium import ShaftEquilibrium, solve
 from drivewright.shafts.influence import Flexibility, flexibility
 from drivewright.shafts.model import Shaft, Support
 from drivewright.shafts.sections import second_moment
@@ -15,7 +15,7 @@ from drivewright.shafts.sections import second_moment
 SAMPLES = 181  # along the shaft, besides the nodes
 
 
-def flexibility_on_rigid_bearings(shaft: Shaft, positions: Sequence[float], direction: Floats) -> tuple[Equilibrium, Flexibility]:
+def flexibility_on_rigid_bearings(shaft: Shaft, positions: Sequence[float], direction: Floats) -> tuple[ShaftEquilibrium, Flexibility]:
     """(equilibrium, `Flexibility`) of the same shaft on bearings that do not yield across it, for the comparison.
 
     Springs against tilting stay as they are; a rolling bearing tilts freely, unless it alone holds the shaft.
@@ -37,12 +37,12 @@ def _rigid(support: Support, alone: bool) -> tuple[float, ...]:
     return (across, across, 0.0, *(support.stiffness[3:] if any(support.stiffness[3:]) else tilt))
 
 
-def unit_deflection(equilibrium: Equilibrium, unknowns: Floats, z: Floats, direction: Floats) -> Floats:
+def unit_deflection(equilibrium: ShaftEquilibrium, unknowns: Floats, z: Floats, direction: Floats) -> Floats:
     """Deflection (m,) [m/N] along `direction` (x, y) at places z (m,) [m] under a unit force with the unknowns (size,)."""
     return sum(way * line(equilibrium.model.beam, plane, unknowns, z).deflection for plane, way in enumerate(direction))
 
 
-def peak_unit_stress(equilibrium: Equilibrium, unknowns: Floats, direction: Floats) -> float:
+def peak_unit_stress(equilibrium: ShaftEquilibrium, unknowns: Floats, direction: Floats) -> float:
     """Largest bending stress [Pa/N] along the shaft, nominal, under a unit force along `direction` with the unknowns (size,)."""
     beam = equilibrium.model.beam
     length_of_shaft = beam.shaft.length

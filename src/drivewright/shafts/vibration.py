@@ -35,7 +35,7 @@ class Modes(NamedTuple):
         return Modes(self.frequencies[chosen], self.shapes[:, chosen])
 
 
-class Critical(NamedTuple):
+class CriticalSpeeds(NamedTuple):
     """Speeds [rad/s] at which the unbalance meets a natural frequency, whirling with the shaft or against it."""
 
     forward: np.ndarray
@@ -233,13 +233,13 @@ def _eigen(m, k):
 
 
 def critical_speeds(equilibrium, count):
-    """The lowest `Critical` speeds: the gyroscopic moments s G q' of a whirl at the speed s act like a mass.
+    """The lowest `CriticalSpeeds` speeds: the gyroscopic moments s G q' of a whirl at the speed s act like a mass.
 
     Round supports: K z = s^2 (M -+ P) z for z = x + iy, P the polar moments of inertia.  Others: q = phi e^(i s t) in space,
     K phi = s^2 (M - i G) phi; a whirl that is a line counts as one with the shaft.
     """
     if is_round(equilibrium):
-        return Critical(*(_whirl(equilibrium, way, count) for way in (1, -1)))
+        return CriticalSpeeds(*(_whirl(equilibrium, way, count) for way in (1, -1)))
     stiff, inertia, gyroscopic, chosen = _lateral(equilibrium)
     squares, vectors = _lowest(stiff, inertia - 1j * gyroscopic, equilibrium, chosen, 4 * count)
     whole = np.zeros((equilibrium.model.size, len(squares)), complex)
@@ -248,7 +248,7 @@ def critical_speeds(equilibrium, count):
     across = np.sum(np.abs(nodes[:, :2]) ** 2, axis=(0, 1))
     lateral = across > np.sum(np.abs(nodes[:, AXIAL]) ** 2, axis=0)
     backward = np.sum(np.conj(nodes[:, 0]) * nodes[:, 1], axis=0).imag > 1e-9 * across
-    return Critical(*(np.sqrt(squares[lateral & (backward == way)][:count]) for way in (False, True)))
+    return CriticalSpeeds(*(np.sqrt(squares[lateral & (backward == way)][:count]) for way in (False, True)))
 
 
 def lowest_excited(equilibrium, critical):

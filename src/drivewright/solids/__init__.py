@@ -4,6 +4,7 @@ Knows shapes, loads and springs, and no machine.  Volumes and surfaces of simple
 """
 
 from importlib import import_module
+from typing import Any
 
 _WHERE = {
     "cad": ("cad_assembly", "cad_solid"),
@@ -23,7 +24,7 @@ _MODULE = {name: module for module, names in _WHERE.items() for name in names}
 __all__ = sorted(_MODULE)
 
 
-def __getattr__(name: str) -> object:
+def __getattr__(name: str) -> Any:
     if name not in _MODULE:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f"{__name__}.{_MODULE[name]}"), name)

@@ -61,7 +61,7 @@ def build(spec):
         tuple(shafts.Station(s.name, s.position, s.mass, s.polar_inertia, s.diametral_inertia) for s in spec.stations),
         shear(spec.analysis),
     )
-    loads = shafts.Loads(tuple(_points(spec)), tuple(_lines(spec)), tuple(spec.gravity))
+    loads = shafts.ShaftLoads(tuple(_points(spec)), tuple(_lines(spec)), tuple(spec.gravity))
     shafts.refuse_mechanism(shaft)
     return ShaftModel(spec, shaft, loads, rolling, stuff["yield_strength"])
 
@@ -181,7 +181,7 @@ def _points(spec):
     for load in spec.loads:
         place = places[load.station] if load.station else load.position
         bend = load.moment * across(load.moment_angle)
-        yield shafts.Load(place, (*(load.force * across(load.angle)), load.axial_force), (*bend, load.torque))
+        yield shafts.ShaftLoad(place, (*(load.force * across(load.angle)), load.axial_force), (*bend, load.torque))
     for gear in spec.gears:
         yield tooth_force(gear)
 
@@ -193,7 +193,7 @@ def tooth_force(gear):
     tangential = gear.torque / radius
     force = tangential * along - abs(tangential) * np.tan(gear.pressure_angle) / np.cos(gear.helix_angle) * out
     axial = tangential * np.tan(gear.helix_angle)
-    return shafts.Load(gear.position, (*force, axial), (radius * axial * out[1], -radius * axial * out[0], gear.torque))
+    return shafts.ShaftLoad(gear.position, (*force, axial), (radius * axial * out[1], -radius * axial * out[0], gear.torque))
 
 
 def _lines(spec):

@@ -11,7 +11,7 @@ import numpy as np
 
 from drivewright._jit import plain
 from drivewright._typing import ArrayLike, Floats
-from drivewright.shafts.loaded import Loaded
+from drivewright.shafts.loaded import LoadedShaft
 from drivewright.shafts.model import Shaft
 from drivewright.shafts.sections import area, cowper, second_moment
 
@@ -81,7 +81,7 @@ def flexibility(shaft: Shaft, springs: ArrayLike, places: Sequence[float]) -> Fl
     return np.stack([deflections(shaft, springs, [(place, 1.0)], places) for place in places], axis=1)
 
 
-def acting(loaded: Loaded, axis: int) -> tuple[PlacedForces, PlacedForces]:
+def acting(loaded: LoadedShaft, axis: int) -> tuple[PlacedForces, PlacedForces]:
     """([(place, force)], [(place, couple)]) of loads and reactions on the shaft in the plane x (axis 0) or y (1).
 
     A couple counts as it turns the slope; spread loads and weight come as many forces.

@@ -18,57 +18,59 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import inner, outer
+from drivewright._typing import Floats, Ints
 from drivewright.shafts.closed_form import flexibility_entry, shares
 from drivewright.shafts.sections import softness
 
 OFF = 1e-9  # part of the shaft's length by which a place may lie beyond its end: sums of lengths are rounded
 
 
-class Column(NamedTuple):
+class DesignColumn(NamedTuple):
     """A table (designs, width) as its numbers in a row and the steps to the next design and entry, 0 where one serves all."""
 
-    values: np.ndarray
+    values: Floats
     row: int
     entry: int
 
 
-class Designs(NamedTuple):
+class DesignColumns(NamedTuple):
     """The shafts of a batch."""
 
-    lengths: Column
-    diameters: Column
-    end_diameters: Column
-    bores: Column
-    supports: Column
-    radial_stiffness: Column
-    stations: Column
-    youngs_modulus: Column
-    poisson: Column
-    shear: Column
+    lengths: DesignColumn
+    diameters: DesignColumn
+    end_diameters: DesignColumn
+    bores: DesignColumn
+    supports: DesignColumn
+    radial_stiffness: DesignColumn
+    stations: DesignColumn
+    youngs_modulus: DesignColumn
+    poisson: DesignColumn
+    shear: DesignColumn
 
 
-class Work(NamedTuple):
+class BatchWorkspace(NamedTuple):
     """What a design needs on its way, by point: a support or a station; supports are numbered first."""
 
-    order: np.ndarray  # (P,) number of each point, from left to right
-    place: np.ndarray  # (P,)
-    pieces: np.ndarray  # (P, 4): length, f, g from its left end, r of the shaft to the next point
-    sides: np.ndarray  # (2, P, 3): u, c, q of all that lies left and right of a point
+    order: Ints  # (P,) number of each point, from left to right
+    place: Floats  # (P,)
+    pieces: Floats  # (P, 4): length, f, g from its left end, r of the shaft to the next point
+    sides: Floats  # (2, P, 3): u, c, q of all that lies left and right of a point
 
 
-def workspace(points):
-    """The `Work` for so many points."""
-    return Work(np.empty(points, np.int64), np.empty(points), np.empty((points, 4)), np.empty((2, points, 3)))
+def workspace(points: int) -> BatchWorkspace:
+    """The `BatchWorkspace` for so many points."""
+    return BatchWorkspace(np.empty(points, np.int64), np.empty(points), np.empty((points, 4)), np.empty((2, points, 3)))
 
 
 @inner
-def at(column, design, entry):
+def at(column: DesignColumn, design: int, entry: int) -> float:
+    """The number of one design and entry."""
     return column.values[design * column.row + entry * column.entry]
 
 
 @outer
-def fill(designs, sections, begin, end, work, delta, carried):
-    """The rows begin ... end of delta and, where it has rows, carried."""
+def fill(designs: DesignColumns, sections: int, begin: int, end: int, work: BatchWorkspace, delta: Floats, carried: Floats) -> None:
+    """Writes the rows begin ... end of delta (N, M, M) [m/N] and, where it has rows, carried (N, B, M) [-]."""
     bearings, stations = carried.shape[1], carried.shape[2]
     wanted = carried.shape[0] > 0
     for n in range(begin, end):
