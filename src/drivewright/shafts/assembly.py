@@ -1,14 +1,17 @@
 """A shaft with its supports as one system of unknowns: what holds it, what carries it along its axis, what loads it."""
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats, Ints
 from drivewright.bearings.newton import measures
 from drivewright.bearings.response import respond
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.beam import FREEDOMS
+from drivewright.shafts.model import Shaft, ShaftLoad, Support
 
 MIRROR = np.array([1.0, 1.0, -1.0, -1.0, -1.0])
 AXIAL, TWIST = 2, 5
@@ -19,34 +22,34 @@ FLOOR = np.diag([1.0, 1.0, 1.0, 1e-4, 1e-4])  # N/m, N m/rad
 class Mount(NamedTuple):
     """A support in the unknowns: rows (5, size) of the displacement that its springs and its law feel, in its own axes."""
 
-    support: object
-    rows: np.ndarray
-    ring: np.ndarray  # unknowns of the ring on a seat that yields (at most 5), in the order of `ring_freedoms`
-    ring_freedoms: tuple
+    support: Support
+    rows: Floats
+    ring: Ints  # unknowns of the ring on a seat that yields (at most 5), in the order of `ring_freedoms`
+    ring_freedoms: tuple[int, ...]
     first: int  # number of its first constraint: those of its springs, then those of its seat
 
     @property
-    def sprung(self):
+    def sprung(self) -> list[int]:
         """Freedoms that a spring holds, or rigidly."""
         return [i for i in range(5) if self.support.stiffness[i] > 0]
 
     @property
-    def seated(self):
+    def seated(self) -> list[int]:
         """Numbers, within the ring, of the freedoms that a spring of the seat holds."""
         return [n for n, i in enumerate(self.ring_freedoms) if self.support.seat[i] > 0]
 
     @property
-    def springs(self):
+    def springs(self) -> slice:
         """The constraints of its springs."""
         return slice(self.first, self.first + len(self.sprung))
 
     @property
-    def seat(self):
+    def seat(self) -> slice:
         """The constraints of its seat."""
         return slice(self.springs.stop, self.springs.stop + len(self.seated))
 
     @property
-    def turn(self):
+    def turn(self) -> Floats:
         """Signs (5,) from the support's axes to the shaft's."""
         return MIRROR if self.support.mirrored else np.ones(5)
 
@@ -58,25 +61,27 @@ class ShaftSystem(NamedTuple):
     So nothing is large where a support is stiff, and rigid is the compliance 0.
     """
 
-    beam: object
-    mounts: tuple
-    basis: np.ndarray
-    linear: np.ndarray
-    constraints: np.ndarray  # (c, size)
-    compliance: np.ndarray  # (c,) m/N, rad/(N m)
-    given: np.ndarray  # (c,)
-    pinned: tuple  # freedoms (AXIAL, TWIST) of the first node that the last of them hold, for nothing else does: without force
+    beam: beams.Beam
+    mounts: tuple[Mount, ...]
+    basis: Floats
+    linear: Floats
+    constraints: Floats  # (c, size)
+    compliance: Floats  # (c,) m/N, rad/(N m)
+    given: Floats  # (c,)
+    pinned: tuple[int, ...]  # freedoms (AXIAL, TWIST) of the first node that the last of them hold, for nothing else does: without force
 
     @property
-    def size(self):
+    def size(self) -> int:
+        """Number of unknowns."""
         return len(self.linear)
 
     @property
-    def nonlinear(self):
+    def nonlinear(self) -> bool:
+        """Whether a support has a law of its own."""
         return any(mount.support.law is not None for mount in self.mounts)
 
 
-def assemble(shaft, places=()):
+def assemble(shaft: Shaft, places: Iterable[float] = ()) -> ShaftSystem:
     """The `ShaftSystem` of a shaft with nodes also at `places`; InputError where the supports leave it free to move sideways."""
     found = beams.beam(shaft, places)
     refuse_mechanism(shaft)
@@ -129,7 +134,7 @@ def _mount(found, support, basis, start, first):
     return Mount(support, rows @ basis, ring, freedoms, first)
 
 
-def refuse_mechanism(shaft):
+def refuse_mechanism(shaft: Shaft) -> None:
     """InputError unless the supports hold the shaft sideways and against tilting."""
     held = []
     for support in shaft.supports:
@@ -146,7 +151,7 @@ def refuse_mechanism(shaft):
         )
 
 
-def carries_axially(support, way):
+def carries_axially(support: Support, way: float) -> bool:
     """Whether a support can take a force on the shaft to the right (way +1) or to the left (-1)."""
     if support.stiffness[AXIAL] > 0:
         return support.seat[AXIAL] > 0
@@ -169,7 +174,7 @@ def _resists(support, freedom, way):
 # -- loads ---------------------------------------------------------------------------------------------------------------------
 
 
-def work(model, loads):
+def work(model: ShaftSystem, loads: Iterable[ShaftLoad]) -> Floats:
     """(size,) the forces on nodes and rings by point loads, and by the pushes on the rings."""
     total = np.zeros(model.size)
     for load in loads:
@@ -180,7 +185,7 @@ def work(model, loads):
     return total
 
 
-def refuse_unbalanced(model, force):
+def refuse_unbalanced(model: ShaftSystem, force: Floats) -> None:
     """InputError where a load drives what nothing holds: the shaft along its axis, or its turning."""
     nodes = force[: model.beam.size].reshape(-1, FREEDOMS)
     axial, torque = nodes[:, AXIAL].sum(), nodes[:, TWIST].sum()
@@ -197,7 +202,7 @@ def refuse_unbalanced(model, force):
 # -- a trifle -----------------------------------------------------------------------------------------------------------------
 
 
-def floor(model):
+def floor(model: ShaftSystem) -> Floats:
     """(size, size): the trifle `FLOOR` under every law and every ring."""
     total = np.zeros((model.size, model.size))
     for mount in model.mounts:

@@ -8,11 +8,14 @@ section, the element's start clamped and the force F and moment M at its end, M(
 Plane x: w = x, t = tilt_y.  Plane y: w = y, t = -tilt_x.
 """
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats, Ints
 from drivewright.errors import InputError
+from drivewright.shafts.model import Shaft
 from drivewright.shafts.sections import NODES, WEIGHTS, area, second_moment, softness_of
 
 FREEDOMS = 6  # a node: x, y, z, rotations about x, y, z
@@ -25,22 +28,23 @@ POINT = 1e-6  # of the shaft's length: what is narrower is a point, for nodes so
 class Beam(NamedTuple):
     """Nodes z (n,), pieces (n-1, 4) of (length, start, end, bore) between them, and the shaft they belong to."""
 
-    shaft: object
-    z: np.ndarray
-    pieces: np.ndarray
-    flexibility: np.ndarray  # (n-1, 2, 2) of the clamped piece; [0, 0] with shear
-    slip: np.ndarray  # (n-1,) the part of shear in it
+    shaft: Shaft
+    z: Floats
+    pieces: Floats
+    flexibility: Floats  # (n-1, 2, 2) of the clamped piece; [0, 0] with shear
+    slip: Floats  # (n-1,) the part of shear in it
 
     @property
-    def size(self):
+    def size(self) -> int:
+        """Number of freedoms: six a node."""
         return FREEDOMS * len(self.z)
 
-    def node(self, position):
+    def node(self, position: float) -> int:
         """Number of the node at a position."""
         return int(np.argmin(np.abs(self.z - position)))
 
 
-def beam(shaft, places=()):
+def beam(shaft: Shaft, places: Iterable[float] = ()) -> Beam:
     """The `Beam` of a shaft with nodes at every step, support, station and at the further `places`; InputError beyond all numbers."""
     z = _nodes(shaft, places)
     pieces = _pieces(shaft, z[:-1], z[1:])
@@ -83,7 +87,7 @@ def _pieces(shaft, left, right):
     return np.stack([right - left, first, last, bore], axis=1)
 
 
-def clamped(pieces, shaft):
+def clamped(pieces: Floats, shaft: Shaft) -> tuple[Floats, Floats]:
     """(flexibility (n, 2, 2) of clamped pieces for force and moment at the end, its part of shear (n,))."""
     zero, first, second, slip = softness_of(pieces, shaft.modulus, shaft.poisson, shaft.shear).T
     length = pieces[:, 0]
@@ -91,13 +95,13 @@ def clamped(pieces, shaft):
     return np.moveaxis(np.array([[force, mixed], [mixed, zero]]), -1, 0), slip
 
 
-def strain(length):
+def strain(length: Floats) -> Floats:
     """T (n, 2, 4): (w2 - w1 - L t1, t2 - t1) of the ends (w1, t1, w2, t2)."""
     one, none = np.ones_like(length), np.zeros_like(length)
     return np.moveaxis(np.array([[-one, -length, one, none], [none, -one, none, one]]), -1, 0)
 
 
-def places_of(element, plane):
+def places_of(element: int, plane: int) -> tuple[Ints, Floats]:
     """Numbers of the four freedoms of an element in a plane, and their signs."""
     w, t, sign = PLANES[plane]
     at = FREEDOMS * element
@@ -109,7 +113,7 @@ def places_of(element, plane):
 # from these strains without the difference of two nearly equal displacements, however short a piece is.
 
 
-def basis(found):
+def basis(found: Beam) -> Floats:
     """S (6n, 6n): displacements of all nodes = S v, of the unknowns v."""
     whole = np.zeros((found.size, found.size))
     whole[:FREEDOMS, :FREEDOMS] = np.eye(FREEDOMS)
@@ -123,7 +127,7 @@ def basis(found):
     return whole
 
 
-def stiffness(found):
+def stiffness(found: Beam) -> Floats:
     """K (6n, 6n) of the shaft without its supports, in the unknowns: a block for every piece, none for the first node."""
     whole = np.zeros((found.size, found.size))
     bending = np.linalg.inv(found.flexibility)
@@ -146,18 +150,18 @@ def _rods(found):
     return 1 / soft[0], 1 / soft[1]
 
 
-def strains(found, unknowns):
+def strains(found: Beam, unknowns: Floats) -> Floats:
     """(n-1, 6): the strains of the pieces among the unknowns."""
     return unknowns[FREEDOMS : found.size].reshape(-1, FREEDOMS)
 
 
-def stretch_energy(found, unknowns):
+def stretch_energy(found: Beam, unknowns: Floats) -> Floats:
     """(s, s): int N_i N_j/EA over the shaft, for the unknowns (>= 6n, s) of several loads."""
     pulled = unknowns[FREEDOMS + 2 : found.size : FREEDOMS]
     return pulled.T @ (_rods(found)[0][:, None] * pulled)
 
 
-def tension_and_torque(found, unknowns):
+def tension_and_torque(found: Beam, unknowns: Floats) -> Floats:
     """(n-1, 2): axial force, positive in tension, and torque in every piece."""
     stretch, twist = _rods(found)
     return strains(found, unknowns)[:, [2, 5]] * np.stack([stretch, twist], axis=1)
@@ -167,7 +171,7 @@ def tension_and_torque(found, unknowns):
 # A load per length over a piece is a + b x + c x^2, its coefficients (..., 3): exact for linear loads and for the weight of a cone.
 
 
-def beyond(coefficients, length, x):
+def beyond(coefficients: Floats, length: Floats, x: Floats) -> tuple[Floats, Floats]:
     """(shear force, moment) that the load between x and the end of the piece exerts at x."""
     a, b, c = np.moveaxis(coefficients, -1, 0)
     shear = a * (length - x) + b * (length**2 - x**2) / 2 + c * (length**3 - x**3) / 3
@@ -177,7 +181,7 @@ def beyond(coefficients, length, x):
     return shear, moment
 
 
-def sagging(pieces, coefficients, shaft):
+def sagging(pieces: Floats, coefficients: Floats, shaft: Shaft) -> Floats:
     """(n, 2): deflection and slope at the free end of clamped pieces under a load per length (n, 3)."""
     length, start, end, bore = pieces.T[:, :, None]
     x, weight = length * NODES, length * WEIGHTS
@@ -187,7 +191,7 @@ def sagging(pieces, coefficients, shaft):
     return np.stack([np.sum((length - x) * moment * zero + shear * slip, axis=1), np.sum(moment * zero, axis=1)], axis=1)
 
 
-def nodal(found, plane, coefficients):
+def nodal(found: Beam, plane: int, coefficients: Floats) -> Floats:
     """(6n,) forces and moments on the nodes that do the same as a load per length (n-1, 3) in a plane."""
     length, total = found.pieces[:, 0], np.zeros(found.size)
     sag = sagging(found.pieces, coefficients, found.shaft)
@@ -201,21 +205,21 @@ def nodal(found, plane, coefficients):
     return total
 
 
-def uniform(found, start, end, value=1.0):
+def uniform(found: Beam, start: float, end: float, value: float = 1.0) -> Floats:
     """Coefficients (n-1, 3) of a constant load per length between two nodes."""
     middle = 0.5 * (found.z[1:] + found.z[:-1])
     found_at = (middle > start) & (middle < end)
     return np.stack([np.where(found_at, value, 0.0), np.zeros(len(middle)), np.zeros(len(middle))], axis=1)
 
 
-def linear(found, start, end, first, last):
+def linear(found: Beam, start: float, end: float, first: float, last: float) -> Floats:
     """The same of a load from `first` at `start` to `last` at `end`, both nodes."""
     inside = uniform(found, start, end)[:, 0]
     slope = (last - first) / (end - start)
     return np.stack([inside * (first + slope * (found.z[:-1] - start)), inside * slope, 0 * inside], axis=1)
 
 
-def weight(found):
+def weight(found: Beam) -> Floats:
     """Mass per length (n-1, 3): rho A(x), a parabola over a cone."""
     length, start, end, bore = found.pieces.T
     grow = (end - start) / length
@@ -229,13 +233,13 @@ def weight(found):
 class Line(NamedTuple):
     """Along z (m,), in a plane: deflection, slope of the section, shear force V and bending moment M = EI dt/dz."""
 
-    deflection: np.ndarray
-    slope: np.ndarray
-    shear: np.ndarray
-    moment: np.ndarray
+    deflection: Floats
+    slope: Floats
+    shear: Floats
+    moment: Floats
 
 
-def end_forces(found, plane, unknowns, coefficients=None):
+def end_forces(found: Beam, plane: int, unknowns: Floats, coefficients: Floats | None = None) -> Floats:
     """(n-1, 2): force and moment at the end of every piece."""
     w, t, sign = PLANES[plane]
     bent = strains(found, unknowns)[:, [w, t]] * (1.0, sign)
@@ -244,7 +248,7 @@ def end_forces(found, plane, unknowns, coefficients=None):
     return np.linalg.solve(found.flexibility, bent[:, :, None])[:, :, 0]
 
 
-def line(found, plane, unknowns, z, coefficients=None):
+def line(found: Beam, plane: int, unknowns: Floats, z: Floats, coefficients: Floats | None = None) -> Line:
     """The `Line` at places z: the piece from the node before to z is a clamped piece itself, so this is exact anywhere."""
     w, t, sign = PLANES[plane]
     element = np.clip(np.searchsorted(found.z, z, side="right") - 1, 0, len(found.pieces) - 1)

@@ -19,11 +19,12 @@ and, through `plain`, for arrays.
 import numpy as np
 
 from drivewright._jit import inner, plain
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
 
 
 @inner
-def influence(x, s, span, bend, slip):
+def influence(x: float, s: float, span: float, bend: float, slip: float) -> float:
     """Deflection at x under a unit force at s on rigid supports  [m/N]; x, s from the left support, bend = 1/EI, slip = 1/(kappa G A)."""
     part = 1.0 / span
     y, t = np.minimum(np.maximum(x, 0.0), span), np.minimum(np.maximum(s, 0.0), span)
@@ -41,21 +42,23 @@ def influence(x, s, span, bend, slip):
 
 
 @inner
-def shares(x, span):
+def shares(x: float, span: float) -> tuple[float, float]:
     """What the left and the right support carry of a unit force at x, measured from the left one."""
     part = 1.0 / span
     return (span - x) * part, x * part
 
 
 @inner
-def flexibility_entry(x, s, span, bend, slip, left_give, right_give):
+def flexibility_entry(x: float, s: float, span: float, bend: float, slip: float, left_give: float, right_give: float) -> float:
     """`influence` and what the supports give way [m/N]: rA rA'/kA + rB rB'/kB, a Gram matrix: a softer bearing never stiffens."""
     left, right = shares(x, span)
     left2, right2 = shares(s, span)
     return influence(x, s, span, bend, slip) + left * left2 * left_give + right * right2 * right_give
 
 
-def flexibility(stations, supports, radial_stiffness, bending_stiffness, shear_stiffness=np.inf):
+def flexibility(
+    stations: ArrayLike, supports: ArrayLike, radial_stiffness: ArrayLike, bending_stiffness: ArrayLike, shear_stiffness: ArrayLike = np.inf
+) -> Floats:
     """(..., M, M) deflections at the stations under unit forces there  [m/N].
 
     stations (..., M) and supports (..., 2): places along the shaft [m]; radial_stiffness (..., 2) [N/m], inf is rigid;

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.bearings.response import respond
 from drivewright.errors import InputError, SolverError
 from drivewright.shafts.assembly import AXIAL, ShaftSystem, floor, refuse_unbalanced
@@ -30,22 +31,22 @@ class ShaftEquilibrium(NamedTuple):
     """
 
     model: ShaftSystem
-    unknowns: np.ndarray
-    reactions: np.ndarray  # (supports, 5) [N, N m]
-    relative: np.ndarray  # (supports, 5) [m, rad]: of the shaft against the ring, or the seat where there is none
-    tangent: np.ndarray  # (supports, 5, 5): springs and law together, without the seat
-    contact: np.ndarray  # (supports, 5, 5): that of the law alone
-    hessian: np.ndarray
-    multipliers: np.ndarray
+    unknowns: Floats
+    reactions: Floats  # (supports, 5) [N, N m]
+    relative: Floats  # (supports, 5) [m, rad]: of the shaft against the ring, or the seat where there is none
+    tangent: Floats  # (supports, 5, 5): springs and law together, without the seat
+    contact: Floats  # (supports, 5, 5): that of the law alone
+    hessian: Floats
+    multipliers: Floats
     steps: int
 
     @property
-    def u(self):
+    def u(self) -> Floats:
         """Displacements (size,) of all nodes, six each, then of the rings."""
         return self.model.basis @ self.unknowns
 
 
-def solve(model, force):
+def solve(model: ShaftSystem, force: Floats) -> ShaftEquilibrium:
     """The `ShaftEquilibrium` under the forces (size,) on nodes and rings; SolverError where it is not found."""
     refuse_unbalanced(model, force)
     load = model.basis.T @ force
@@ -116,7 +117,7 @@ def _newton_step(model, v, held, load):
     return found[: model.size], found[model.size :]
 
 
-def saddle(hessian, constraints, compliance, right):
+def saddle(hessian: Floats, constraints: Floats, compliance: Floats, right: Floats) -> Floats:
     """(size + c, ...): v and m of  H v + R' m = right,  R v - C m = right below; SolverError where rounding makes that singular."""
     whole = np.block([[hessian, constraints.T], [constraints, -np.diag(compliance)]])
     scale = scales(whole, len(hessian))
@@ -131,7 +132,7 @@ def saddle(hessian, constraints, compliance, right):
         ) from None
 
 
-def scales(matrix, size):
+def scales(matrix: Floats, size: int) -> Floats:
     """s (n,) with the largest entry of every row of the symmetric s_i A_ij s_j next to 1: rotations are no lengths, stiff is not soft.
 
     The first `size` by their diagonal, the constraints below by their rows: a small compliance says nothing of theirs.  Then what is

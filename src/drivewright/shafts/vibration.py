@@ -5,12 +5,13 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import block_diag, eigh
 
+from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.assembly import AXIAL, TWIST, floor
 from drivewright.shafts.assembly import FLOOR as TRIFLE
-from drivewright.shafts.beam import FREEDOMS, PLANES
-from drivewright.shafts.equilibrium import saddle, scales
+from drivewright.shafts.beam import FREEDOMS, PLANES, Beam
+from drivewright.shafts.equilibrium import ShaftEquilibrium, saddle, scales
 from drivewright.shafts.influence import FLOOR, HELD
 from drivewright.shafts.model import EULER_BERNOULLI
 from drivewright.shafts.sections import area, second_moment
@@ -27,10 +28,10 @@ SHARE, WEIGHT = (0.5 * (part + shift) for part, shift in zip(np.polynomial.legen
 class Modes(NamedTuple):
     """Natural frequencies [Hz] (m,), rising, and shapes (size, m)."""
 
-    frequencies: np.ndarray
-    shapes: np.ndarray
+    frequencies: Floats
+    shapes: Floats
 
-    def where(self, chosen):
+    def where(self, chosen: ArrayLike) -> "Modes":
         """Some of them."""
         return Modes(self.frequencies[chosen], self.shapes[:, chosen])
 
@@ -38,11 +39,11 @@ class Modes(NamedTuple):
 class CriticalSpeeds(NamedTuple):
     """Speeds [rad/s] at which the unbalance meets a natural frequency, whirling with the shaft or against it."""
 
-    forward: np.ndarray
-    backward: np.ndarray
+    forward: Floats
+    backward: Floats
 
 
-def shapes(found):
+def shapes(found: Beam) -> tuple[Floats, Floats]:
     """Deflection (n, p, 4) and slope (n, p, 4) at p places in every piece by unit displacements (w1, t1, w2, t2) of its ends."""
     length = found.pieces[:, 0]
     forces = np.linalg.solve(found.flexibility, beams.strain(length))  # (n, 2, 4) at the end
@@ -58,7 +59,7 @@ def shapes(found):
     return bent[0] + start[0] + x[:, :, None] * start[1], bent[1] + start[1]
 
 
-def mass(found, rotary=True):
+def mass(found: Beam, rotary: bool = True) -> tuple[Floats, Floats]:
     """(M (6n, 6n), G (6n, 6n)): consistent mass of the shaft with its stations, and polar moments of inertia that couple the tilts.
 
     At the speed s of the shaft the gyroscopic moments are  s G q',  G skew.
@@ -101,7 +102,7 @@ def _add_stations(found, whole, gyroscopic):
         gyroscopic[at + 3, at + 4] += station.polar
 
 
-def is_round(equilibrium):
+def is_round(equilibrium: ShaftEquilibrium) -> bool:
     """Whether the supports are the same in both planes, which then do not feel each other.
 
     Each stiffness is held against its own kind: one that is stiff along the axis, or against tilting, hides no other.
@@ -116,13 +117,13 @@ def is_round(equilibrium):
     return True
 
 
-def in_plane(found, plane=1):
+def in_plane(found: Beam, plane: int = 1) -> Ints:
     """Numbers of the freedoms of a plane: deflection and slope of every node."""
     w, t, _ = PLANES[plane]
     return np.sort(np.concatenate([FREEDOMS * np.arange(len(found.z)) + w, FREEDOMS * np.arange(len(found.z)) + t]))
 
 
-def condensed(stiff, constraints, compliance):
+def condensed(stiff: Floats, constraints: Floats, compliance: Floats) -> tuple[Floats, Floats]:
     """(basis (n, r), K (r, r)): shapes that the rigid supports allow, and the stiffness of the supported shaft on them.
 
     Shapes with all supports held, and for every spring the shape P that the shaft takes when it alone gives way: between the two
@@ -148,7 +149,7 @@ def _null_space(rows):
     return np.linalg.svd(rows)[2][len(rows) :].T if len(rows) else np.eye(rows.shape[1])
 
 
-def modes(equilibrium, count):
+def modes(equilibrium: ShaftEquilibrium, count: int) -> tuple[Modes, Modes]:
     """(bending, axial): the lowest `Modes` at rest, told apart by where most of the mass moves.
 
     Bending in one plane where the supports are round: every mode comes twice then.  A shaft that nothing holds along its axis has no
@@ -232,8 +233,8 @@ def _eigen(m, k):
         raise InputError(UNHELD) from None
 
 
-def critical_speeds(equilibrium, count):
-    """The lowest `CriticalSpeeds` speeds: the gyroscopic moments s G q' of a whirl at the speed s act like a mass.
+def critical_speeds(equilibrium: ShaftEquilibrium, count: int) -> CriticalSpeeds:
+    """The lowest `CriticalSpeeds`: the gyroscopic moments s G q' of a whirl at the speed s act like a mass.
 
     Round supports: K z = s^2 (M -+ P) z for z = x + iy, P the polar moments of inertia.  Others: q = phi e^(i s t) in space,
     K phi = s^2 (M - i G) phi; a whirl that is a line counts as one with the shaft.
@@ -251,7 +252,7 @@ def critical_speeds(equilibrium, count):
     return CriticalSpeeds(*(np.sqrt(squares[lateral & (backward == way)][:count]) for way in (False, True)))
 
 
-def lowest_excited(equilibrium, critical):
+def lowest_excited(equilibrium: ShaftEquilibrium, critical: CriticalSpeeds) -> float | None:
     """The lowest critical speed [rad/s] that an unbalance excites; None where there is none.
 
     The unbalance turns with the shaft: on round supports it does no work on a whirl against it, on others it does.
@@ -269,7 +270,7 @@ def _whirl(equilibrium, way, count):
     return np.sqrt(_lowest(stiff, inertia - way * polar, equilibrium, x, count)[0])
 
 
-def torsional(equilibrium, count):
+def torsional(equilibrium: ShaftEquilibrium, count: int) -> Modes:
     """The lowest torsional `Modes` of the free shaft, with the moments of inertia of its stations.
 
     The turning of the whole shaft is taken out, M - m m'/I with I = sum of all inertia, so a massless shaft with inertias on it is
