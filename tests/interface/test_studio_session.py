@@ -5,7 +5,6 @@ import shutil
 from pathlib import Path
 
 import pytest
-from drivewright.studio.workshop import KEPT, MOST_OFFERS, Workshop
 
 from drivewright.errors import InputError, SpecError
 from drivewright.studio.jobs import JOBS
