@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from drivewright.bearings import BallBearing, RollerBearing
-from drivewright.bearings.quick import Stiffness
+from drivewright.bearings.quick import RadialStiffness
 from drivewright.errors import InputError
 from drivewright.shafts import Section
 
@@ -83,8 +83,8 @@ def pin_contact(width: float, series: float | None = None) -> PinContact:
     return PinContact(PALMGREN_LINE * width ** (8 / 9), series)
 
 
-def power_law_bearing(stiffness_of: Callable[[float], Stiffness], clearance: float = 0.0) -> PowerLawBearing:
-    """The PowerLawBearing of a formula of `drivewright.bearings.quick`: stiffness_of(force) gives its Stiffness.
+def power_law_bearing(stiffness_of: Callable[[float], RadialStiffness], clearance: float = 0.0) -> PowerLawBearing:
+    """The PowerLawBearing of a formula of `drivewright.bearings.quick`: stiffness_of(force) gives its RadialStiffness.
 
     F = K d^n has the secant K^(1/n) F^(1 - 1/n), and n is tangent over secant.
     """
