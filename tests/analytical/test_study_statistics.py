@@ -16,7 +16,7 @@ def test_moments_and_intervals_are_the_textbook_ones():
     chi2 = stats.chi2.ppf([0.975, 0.025], n - 1)
     assert found.sigma == pytest.approx((sigma, *(sigma * np.sqrt((n - 1) / chi2))), rel=1e-12)
     assert found.skewness == pytest.approx(stats.skew(SAMPLE), rel=1e-12)
-    assert (found.least, found.greatest, found.count, found.absent) == (-0.4, 7.7, 7, 0)
+    assert (found.least, found.greatest, found.cases, found.absent) == (-0.4, 7.7, 7, 0)
     assert found.percentiles[PERCENTS.index(50.0)].value == 2.9
 
 
@@ -47,7 +47,7 @@ def test_missing_numbers_are_left_out_and_counted():
 
 def test_samples_that_say_little_say_so():
     nothing, one, equal = summary([np.nan]), summary([4.0]), summary([0.1] * 10)
-    assert nothing.count == 0 and nothing.absent == 1 and np.isnan(nothing.mean.value)
+    assert nothing.cases == 0 and nothing.absent == 1 and np.isnan(nothing.mean.value)
     assert one.mean.value == 4.0 and np.all(np.isnan([one.mean.low, *one.sigma, one.skewness]))
     assert equal.mean == (0.1, 0.1, 0.1) and equal.sigma == (0.0, 0.0, 0.0) and np.isnan(equal.skewness)
 

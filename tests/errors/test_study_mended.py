@@ -43,6 +43,8 @@ def test_points_are_the_same_floats_as_levels(tmp_path, unit):
         ("size [mm],size [mm]\n1,2\n", "column 'size' is there twice; give it once"),
         ("size [mm],ratio,size [m]\n1,2,3\n", "column 'size' is there twice"),
         ("count\n100000000000000000000\n", "wants a whole number"),
+        ('"si\nze [mm]"\n1\n', "has a line break in the heading"),
+        ('"si\nze [mm]"\n1\n', "has a line break in the heading"),
         ("form\nround\nrond\n", "wants round or square, got 'rond'"),
         ("teeth\n17\n", "teeth holds several values, not one; name an element, e.g. teeth.0"),
     ],

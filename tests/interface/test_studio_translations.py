@@ -151,14 +151,6 @@ def test_values_are_chinese_and_keep_the_parts_that_vary(kind):
     assert [text for text in labels.values() if len(text) > 16] == []
 
 
-def test_label_takes_any_name_or_number_for_a_star():
-    patterns = {"bodies.*.mass": "m", "bodies.*.*.deep": "d", "bodies.crank.mass": "own", "gravity": "g", "tolerances": "t"}
-    assert translations.label("bodies.rocker.mass", patterns) == translations.label("bodies.7.mass", patterns) == "m"
-    assert translations.label("bodies.crank.mass", patterns) == "own"
-    assert translations.label("gravity.1", patterns) == "g" and translations.label("tolerances.dimensions.0", patterns) == "t"
-    assert translations.label("mass", patterns) is None and translations.label("ground.mass", patterns) is None
-
-
 def test_a_kind_without_translations_has_those_that_all_share(tmp_path):
     bare = registry.Mechanism("toy", "a toy", object, None, (), tmp_path)
     assert bare.translations("zh") == {}

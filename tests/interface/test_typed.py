@@ -23,7 +23,6 @@ NOT_YET = {  # packages that are still to be finished; one that is finished has 
     "result",
     "scene",
     "shafts",
-    "studies",
     "view",
 }
 KERNELS = {"kernel", "inner", "outer"}

@@ -205,10 +205,6 @@ class WorkerPool:
         self._all.append(Worker())
         return self._all[-1]
 
-    def processes(self) -> list[int | None]:
-        """Ids of the processes."""
-        return [worker.process.pid for worker in self._all]
-
     def close(self) -> None:
         """Let all processes go."""
         for worker in self._all:

@@ -10,23 +10,30 @@ from contextlib import closing
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drivewright import registry, units
+from drivewright._typing import Floats
 from drivewright.digits import last_place, to_place
 from drivewright.errors import InputError, SolverError
 from drivewright.execution.case_table import MESSAGE, STATUS
 from drivewright.execution.outputs import case_outputs
 from drivewright.result import Check, Column, Plot, Result, Table
 from drivewright.runner import build, incomplete_reasons, run, run_analyses, select_analyses, versions
+from drivewright.spec import MechanismSpec
 from drivewright.studies import store
 from drivewright.studies.pareto import nondominated
 from drivewright.studies.search import history
-from drivewright.studies.search.evaluator import SILENT, Evaluator
+from drivewright.studies.search.evaluator import SILENT, Evaluator, Progress
 from drivewright.studies.search.problem import Problem, at_worst, prepare
 from drivewright.studies.search.searching import METHODS, method_of
+from drivewright.studies.store import Store
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 HISTORY = "history.parquet"
 DRAWN = 4000  # evaluations that a figure shows, evenly chosen, and the best ones
@@ -40,35 +47,35 @@ class Optimised:
     evaluation: `table` is a pyarrow.Table with unit and meaning of each column, a row per evaluation."""
 
     problem: Problem
-    best: Result
-    front: np.ndarray
-    front_values: dict
-    requirements: tuple
+    best: Result[Any]
+    front: Floats
+    front_values: dict[str, Floats]
+    requirements: tuple[Check, ...]
     feasible: bool
-    table: Any
+    table: "pa.Table"
     seconds: float
     method: str
-    findings: tuple
+    findings: tuple[str, ...]
     folder: Path | None = None
     interrupted: bool = False
 
     @property
-    def evaluations(self):
+    def evaluations(self) -> int:
         """How many designs were evaluated, in all starts together."""
         return self.table.num_rows
 
     @property
-    def seed(self):
+    def seed(self) -> int:
         """Of the random numbers."""
-        return self.problem.spec.optimise.seed
+        return self.problem.search.seed
 
     @cached_property
-    def history(self):
+    def history(self) -> dict[str, NDArray[Any]]:
         """{column: array} of the table: generation, unknowns, values (nan where there is none), violation."""
         names = [history.GENERATION, *self.problem.keys, *(history.column_of(self.problem, name) for name in self.problem.names)]
         return {name: self.table[name].to_numpy() for name in [*names, history.VIOLATION]}
 
-    def search(self):
+    def search(self) -> tuple[Table, Plot]:
         """(Table, Plot) of evaluations, of many a part: the objectives against each other, or the only one in the course of the search."""
         names = [name for name, _ in self.problem.objectives]
         sets = self._sets(names)
@@ -91,7 +98,7 @@ class Optimised:
         sets[[n for n, design in enumerate(designs) if bytes(design) in best]] = SETS[0]
         return sets
 
-    def objective_rows(self):
+    def objective_rows(self) -> list[tuple[str, str, str]]:
         """(value, reached, direction) as text."""
         reached = case_outputs(self.best.values, self.best.checks)
         return [
@@ -103,7 +110,7 @@ class Optimised:
             for name, sign in self.problem.objectives
         ]
 
-    def unknown_rows(self):
+    def unknown_rows(self) -> list[tuple[str, ...]]:
         """(key, best, lower, upper) as text."""
         keys, kinds = self.problem.keys, self.problem.kinds
         return [
@@ -112,23 +119,32 @@ class Optimised:
         ]
 
 
-def optimise(spec, *, out=None, workers=None, on=None, progress=None):
+def optimise(
+    spec: MechanismSpec,
+    *,
+    out: str | Path | None = None,
+    workers: int | None = None,
+    on: str | None = None,
+    progress: Progress | None = None,
+) -> Optimised:
     """`Optimised` of a spec with an [optimise] table.  SpecError where the table cannot be understood.
 
     `out` is the folder that keeps every evaluation: the same search given again goes on where it was, or answers from there.  None keeps
     them in memory.  `workers` processes (None: one per core, where the search is long enough), or `on` another place, see
-    `execution.executors`;
-    neither changes a bit.  What the mechanism evaluates in compiled code is done here.  `progress(done, total, what)` is called as
-    generations end.  Ctrl-C, also from `progress`, gives the best so far, `interrupted`.  SolverError where no design can be computed.
+    `execution.executors`; neither changes a bit.  What the mechanism evaluates in compiled code is done here.
+    `progress(done, total, what)` is called as generations end.  Ctrl-C, also from `progress`, gives the best so far, `interrupted`.
+    SolverError where no design can be computed.
     """
     problem = prepare(spec)
-    with closing(_place(out, spec, method_of(spec.optimise))) as kept:
+    with closing(_place(out, spec, method_of(problem.search))) as kept:
         return searched(problem, kept, workers, on, progress)
 
 
-def searched(problem, kept, workers=None, on=None, progress=None):
+def searched(
+    problem: Problem, kept: Store, workers: int | None = None, on: str | None = None, progress: Progress | None = None
+) -> Optimised:
     """`Optimised` of a problem; every evaluation goes to the store `kept` within a second.  The rest as of `optimise`."""
-    started, method = time.perf_counter(), method_of(problem.spec.optimise)
+    started, method = time.perf_counter(), method_of(problem.search)
     interrupted = _search(problem, method, Evaluator(problem, kept, workers, on, progress))
     tables = kept.tables()
     if not tables:
@@ -141,7 +157,7 @@ def _search(problem, method, evaluator):
     """Search to the end; whether it was interrupted."""
     try:
         with closing(evaluator):
-            METHODS[method](problem, problem.spec.optimise, evaluator)
+            METHODS[method](problem, problem.search, evaluator)
     except KeyboardInterrupt:
         return True
     return False
@@ -172,6 +188,7 @@ def _outcome(problem, table):
     best = run(problem.design(front[0]))
     feasible = bool(problem.total_violation(front_values)[0] <= 0)
     reached = case_outputs(best.values, best.checks)
+    bounds = {name: _bounds(reached, name) for name, _, _ in problem.limits}
     requirements = tuple(
         Check(
             name,
@@ -180,7 +197,8 @@ def _outcome(problem, table):
             sense,
             problem.about[name][0],
             "requirement",
-            **_bounds(reached, name),
+            low=bounds[name].get("low"),
+            high=bounds[name].get("high"),
         )
         for name, sense, limit in problem.limits
     )

@@ -1,13 +1,17 @@
 """Designs that no other design beats in every objective."""
 
 from bisect import bisect_right
+from collections.abc import Iterable, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
+
+from drivewright._typing import Bools, Floats
 
 FRONT, DOMINATED, FAILS, ABSENT = "front", "dominated", "fails", "absent"
 
 
-def sorted_out(columns, goals, passes):
+def sorted_out(columns: Sequence[Floats], goals: Iterable[str], passes: Bools) -> NDArray[np.object_]:
     """(n,) texts: front, dominated, fails (a limit; such a design beats nobody), or absent where an objective has no number.
 
     `columns`: an array (n,) for each objective; `goals`: minimise or maximise for each; `passes` (n,) whether every limit is kept.
@@ -21,7 +25,7 @@ def sorted_out(columns, goals, passes):
     return found
 
 
-def nondominated(points):
+def nondominated(points: Floats) -> Bools:
     """(n,) whether a point (n, m), to be made small, has no other that is nowhere greater and somewhere smaller; equal points share it.
 
     The distinct points in ascending order of all columns can be dominated by earlier ones only; n log n for two and three objectives.

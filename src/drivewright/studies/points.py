@@ -3,15 +3,18 @@
 import csv
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drivewright.errors import SpecError, UnitError, brief
 from drivewright.execution.keys import READABLE, key_kind
+from drivewright.spec import MechanismSpec
 from drivewright.studies.variables import Variable, column
 
 
-def read_points(spec, file):
+def read_points(spec: MechanismSpec, file: str | Path) -> dict[Variable, NDArray[Any]]:
     """{Variable: column in SI} of a file of points; SpecError naming file, column and line."""
     columns = _from_parquet(file) if Path(file).suffix.lower() in (".parquet", ".pq") else _from_csv(file)
     for number, (key, *_) in enumerate(columns):
@@ -30,7 +33,7 @@ def _read(spec, key, unit, cells, file):
     except SpecError as error:
         raise error.located(file=str(file)) from None
     values = [_cell(kind, cell, f"case {number}, column '{key}'", file) for number, cell in enumerate(cells)]
-    if kind.name == "quantity" and factor != 1 and isinstance(cells[0], str):  # rounded once, as the same text elsewhere
+    if kind.dimension and factor != 1 and isinstance(cells[0], str):  # rounded once, as the same text elsewhere
         values = [value if isinstance(value, str) else kind.dimension.parse(f"{value!r} {unit}") for value in values]
     elif kind.name == "quantity":
         values = [value if isinstance(value, str) else value * factor for value in values]
@@ -94,8 +97,15 @@ def _from_csv(file):
         if len(row) != len(rows[0]):
             hint = "; the columns are separated by commas, and a decimal point is a point" if ";" in "".join(rows[0]) else ""
             raise SpecError(f"case {number} has {len(row)} entries, the first line has {len(rows[0])}{hint}", file=str(file))
-    headings = [re.fullmatch(r"\s*(.*?)\s*(?:\[(.*)\])?\s*", cell) for cell in rows[0]] if rows else []
-    return [(match[1], match[2] or "", [row[n] for row in rows[1:]]) for n, match in enumerate(headings)]
+    return [(*_heading(cell, file), [row[n] for row in rows[1:]]) for n, cell in enumerate(rows[0] if rows else [])]
+
+
+def _heading(cell, file):
+    """(key, unit) of the first cell of a column."""
+    match = re.fullmatch(r"\s*(.*?)\s*(?:\[(.*)\])?\s*", cell)
+    if match is None:
+        raise SpecError(f"has a line break in the heading {brief(cell)}; give 'key [unit]'", file=str(file))
+    return match[1], match[2] or ""
 
 
 def _from_parquet(file):

@@ -5,11 +5,13 @@ of Sobol from a sample made for them.  The keys vary independently of each other
 the number.
 """
 
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats, Ints, Numbers
 from drivewright.studies.statistics import LEVEL, varies
 
 ROUNDS = 500  # of the bootstrap
@@ -24,16 +26,16 @@ class Linear(NamedTuple):
     line leaves out, 0 for a straight one), sigma by root sum of squares, and the ends that the sum of all |dy/dx| reaches.
     """
 
-    slope: np.ndarray
-    contribution: np.ndarray
-    share: np.ndarray
-    curvature: np.ndarray
+    slope: Floats
+    contribution: Floats
+    share: Floats
+    curvature: Floats
     sigma: float
     least: float
     greatest: float
 
 
-def linear(nominal, steps, sigmas, deviations, noise=0.0):
+def linear(nominal: float, steps: Floats, sigmas: Floats, deviations: Floats, noise: Numbers = 0.0) -> Linear:
     """`Linear` of a number: at the means, and with each key one sigma (d,) down and up, steps (2 d,) as the plan has them.
 
     `deviations` (d, 2): lower and upper end of each key less its mean.  dy/dx = (y+ - y-) / (2 sigma); exact for a parabola.
@@ -57,11 +59,11 @@ def linear(nominal, steps, sigmas, deviations, noise=0.0):
 class Regression(NamedTuple):
     """Standardised regression coefficients b sigma_x / sigma_y (d,), and the share R2 of the variance that the fit explains."""
 
-    coefficients: np.ndarray
+    coefficients: Floats
     determination: float
 
 
-def regression(x, y):
+def regression(x: Floats, y: Floats) -> Regression:
     """`Regression` of y (n,) on x (n, d) by least squares; nan where y does not vary or the cases are too few.
 
     For independent keys the square of a coefficient is the key's share of the variance, as far as the number is linear in the keys.
@@ -71,11 +73,11 @@ def regression(x, y):
     if len(y) < x.shape[1] + 2 or not varies(y):
         return Regression(np.full(x.shape[1], np.nan), np.nan)
     design, target = np.stack([_standardised(column) for column in x.T], axis=1), _standardised(y)
-    coefficients = np.linalg.lstsq(design, target, rcond=None)[0]
+    coefficients = np.asarray(np.linalg.lstsq(design, target, rcond=None)[0], float)
     return Regression(coefficients, float(1 - np.sum((target - design @ coefficients) ** 2) / np.sum(target**2)))
 
 
-def share_by_keys(y, noise):
+def share_by_keys(y: Floats, noise: Floats) -> float:
     """Share of the variance of y (n,) that is not within its cases, `noise` (n,) being the variance within each; nan where none is left.
 
     Scatter within the cases is independent from case to case: it adds its mean to the variance and nothing to what keys and y have in
@@ -84,7 +86,7 @@ def share_by_keys(y, noise):
     present = np.isfinite(y)
     whole = np.var(y[present]) if varies(y) else 0.0
     left = whole - np.mean(noise[present]) if whole > 0 else 0.0
-    return left / whole if left > 0 else np.nan
+    return float(left / whole) if left > 0 else np.nan
 
 
 def _standardised(column):
@@ -96,12 +98,12 @@ def _standardised(column):
     return part / np.sqrt(np.mean(part**2))
 
 
-def orders(x):
+def orders(x: Floats) -> Ints:
     """The cases in ascending order of each key (n, d), for `by_ranks`; once for all numbers of a study."""
     return np.argsort(x, axis=0, kind="stable")
 
 
-def by_ranks(order, y):
+def by_ranks(order: Ints, y: Floats) -> Floats:
     """First-order Sobol indices (d,) of y (n,) from any random sample: how alike the numbers of cases with neighbouring keys are.
 
     S = (sum y_j y_N(j) / n - mean^2) / variance, N(j) being the case whose key is next above, of the last the first one
@@ -131,15 +133,15 @@ class Indices(NamedTuple):
     The intervals (d, 2) are those of a bootstrap.  `rows` base cases are complete, `dropped` are not and left out.
     """
 
-    first: np.ndarray
-    first_interval: np.ndarray
-    total: np.ndarray
-    total_interval: np.ndarray
+    first: Floats
+    first_interval: Floats
+    total: Floats
+    total_interval: Floats
     rows: int
     dropped: int
 
 
-def indices(a, b, mixed, noise=(0.0, 0.0, 0.0)):
+def indices(a: Floats, b: Floats, mixed: Floats, noise: Sequence[Numbers] = (0.0, 0.0, 0.0)) -> Indices:
     """`Indices` of a number at the points A (n,), B (n,), and A with column k from B (d, n).
 
     S = mean(y_B (y_ABk - y_A)) / variance (Saltelli et al. 2010), T = mean((y_A - y_ABk)^2) / (2 variance) (Jansen 1999); both recalled,
@@ -152,7 +154,8 @@ def indices(a, b, mixed, noise=(0.0, 0.0, 0.0)):
     a, b, mixed = a[present], b[present], mixed[:, present]
     d, rows, dropped = len(mixed), int(present.sum()), int(np.sum(~present))
     if rows < 2 or not varies(np.concatenate([a, b])):
-        return Indices(*(np.full(shape, np.nan) for shape in (d, (d, 2), d, (d, 2))), rows, dropped)
+        one, ends = np.full(d, np.nan), np.full((d, 2), np.nan)
+        return Indices(one, ends, one, ends, rows, dropped)
     terms = _terms(a, b, mixed, *noise)
     first, total = _ratios(terms.sum(axis=0), d)
     drawn = _drawn(min(rows, GROUPS)) @ _grouped(terms)

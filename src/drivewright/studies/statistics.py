@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.result import Value
 
 LEVEL = 0.95
@@ -25,25 +26,25 @@ class Sampled(NamedTuple):
     low: float = np.nan
     high: float = np.nan
 
-    def named(self, unit, meaning):
+    def named(self, unit: str, meaning: str) -> Value:
         """As a `Value` of a result."""
         return Value(self.value, unit, meaning, self.low, self.high, "sample").plain()
 
 
 class Summary(NamedTuple):
-    """What `summary` says: `count` cases with the number, `absent` without; `percentiles` in the order of PERCENTS."""
+    """What `summary` says: `cases` with the number, `absent` without; `percentiles` in the order of PERCENTS."""
 
-    count: int
+    cases: int
     absent: int
     mean: Sampled
     sigma: Sampled
     skewness: float
     least: float
     greatest: float
-    percentiles: tuple
+    percentiles: tuple[Sampled, ...]
 
 
-def summary(sample):
+def summary(sample: Floats) -> Summary:
     """`Summary` of a sample (n,); the order of the cases changes nothing, not even the last bit."""
     ordered = finite(sample)
     absent = np.size(sample) - len(ordered)
@@ -63,19 +64,19 @@ def summary(sample):
     )
 
 
-def finite(sample):
+def finite(sample: ArrayLike) -> Floats:
     """The numbers of a sample that exist, ascending."""
     sample = np.ravel(np.asarray(sample, dtype=float))
     return np.sort(sample[np.isfinite(sample)])
 
 
-def varies(sample, rounding=0.0):
+def varies(sample: ArrayLike, rounding: float = 0.0) -> bool:
     """Whether a sample holds two numbers that differ by more than rounding: their own, and that of what they come from."""
     ordered = finite(sample)
     return bool(len(ordered) > 1 and ordered[-1] - ordered[0] > max(rounding, NOISE * max(abs(ordered[0]), abs(ordered[-1]))))
 
 
-def moments(ordered):
+def moments(ordered: Floats) -> tuple[float, float, float]:
     """(mean, standard deviation with n - 1, skewness m3 / m2^(3/2)) of an ascending sample.
 
     Taken on a scale from 0 to 1 over the sample's range: equal numbers have exactly no spread, and nothing overflows.  The skewness of a
@@ -110,7 +111,7 @@ def _sigma(sigma, n):
     return Sampled(sigma, float(low), float(high))
 
 
-def percentiles(ordered):
+def percentiles(ordered: Floats) -> tuple[Sampled, ...]:
     """`Sampled` of each of PERCENTS of an ascending sample, between neighbours in a straight line; intervals end at cases of the sample.
 
     The number of cases below the true percentile is binomial, whatever the distribution; so the r-th and s-th smallest case hold it.
@@ -135,7 +136,7 @@ def _ranks(n):
     return tuple(zip(low.tolist(), (high + 1).tolist(), strict=True))
 
 
-def share(passes, count):
+def share(passes: int, count: int) -> Sampled:
     """`Sampled` of a probability from `passes` of `count` cases, with the interval of Clopper and Pearson; nan of no cases."""
     from scipy.special import betaincinv
 
@@ -147,12 +148,12 @@ def share(passes, count):
     return Sampled(passes / count, low, high)
 
 
-def share_between(surely, passes, possibly, count):
+def share_between(surely: int, passes: int, possibly: int, count: int) -> Sampled:
     """The same where some cases are undecided: from the lower end for those that surely pass to the upper one for those that may."""
     return Sampled(share(passes, count).value, share(surely, count).low, share(possibly, count).high)
 
 
-def capability(margins):
+def capability(margins: Floats) -> float:
     """Capability index of a one-sided limit from the margins to it: Cpk = mean / (3 sigma); nan without spread."""
     ordered = finite(margins)
     mean, sigma, _ = moments(ordered) if varies(ordered) else (np.nan, np.nan, np.nan)

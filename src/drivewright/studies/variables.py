@@ -12,6 +12,8 @@ from drivewright.errors import SpecError, brief
 from drivewright.execution.keys import READABLE, KeyKind, key_kind
 from drivewright.spec import MechanismSpec, Vary, value_at
 
+Level: TypeAlias = float | int | bool | str
+Distribution: TypeAlias = Any  # a frozen one of scipy.stats, or None
 FAR = 3.0  # standard deviations: where an endless distribution is cut for corners, and what a tolerance is in a normal one
 
 
@@ -21,9 +23,9 @@ class Variable:
 
     key: str
     kind: KeyKind
-    nominal: Any = None
+    nominal: Level | None = None
     levels: NDArray[Any] | None = None
-    distribution: Any = None
+    distribution: Distribution = None
     also: tuple[str, ...] = ()  # keys that have the same value
     bounds: tuple[float, float] = (-np.inf, np.inf)  # that its distribution keeps, also after rounding
 

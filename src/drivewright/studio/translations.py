@@ -5,7 +5,6 @@ They stand in `zh.toml`, here for what all kinds share and in the folder of each
 """
 
 import tomllib
-from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
@@ -30,19 +29,6 @@ def texts(kind: str | None = None) -> dict[str, str]:
     if kind is None:
         return {english: text for each in registry.kinds() for english, text in _introduction(each).items()} | _own().get("texts", {})
     return _keys(kind) | _presets(kind) | _merged(kind, "texts")
-
-
-def label(key: str, patterns: Mapping[str, str]) -> str | None:
-    """The label of a dotted key among `patterns`, None where there is none; an element or a part (`.0`) has that of its list."""
-    steps = key.split(".")
-    fitting = [pattern for pattern in patterns if _fits(pattern.split("."), steps)]
-    if fitting:
-        return patterns[min(fitting, key=lambda pattern: pattern.count("*"))]
-    return label(".".join(steps[:-1]), patterns) if len(steps) > 1 else None
-
-
-def _fits(pattern, steps):
-    return len(pattern) == len(steps) and all(part in ("*", step) for part, step in zip(pattern, steps, strict=True))
 
 
 def _introduction(kind):

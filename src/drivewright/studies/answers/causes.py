@@ -1,11 +1,13 @@
 """Which keys cause the spread of which value: the tables and plots of `sensitivity`."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies import sensitivity
 from drivewright.studies.answers.maps import Response
-from drivewright.studies.answers.parts import BOUNDS, Part, table_of_rows, together
+from drivewright.studies.answers.parts import BOUNDS, Arranged, Part, table_of_rows, together
 from drivewright.studies.answers.within import variances
 from drivewright.studies.statistics import varies
 
@@ -50,7 +52,7 @@ INDICES = (
 )
 
 
-def causes(arranged):
+def causes(arranged: Arranged) -> Part:
     """`Part` of what the spread comes from, as far as the plan's blocks tell it."""
     return together([_linear(arranged), _contributions(arranged), _indices(arranged)])
 
@@ -176,7 +178,7 @@ def _contributions(arranged):
         for name, fit in fits.items()
         if arranged.combinations == 1 and np.isfinite(fit)
     }
-    return together([Part(values, (table,), findings=_remarks(rows, len(sample.rows))), plots])
+    return together([Part(values, (table,), findings=tuple(_remarks(rows, len(sample.rows)))), plots])
 
 
 def _remarks(rows, cases):
@@ -205,7 +207,7 @@ def _ranked(arranged, keys, wide):
     return Part(tables=tuple(tables), plots=tuple(plots))
 
 
-def responses(arranged):
+def responses(arranged: Arranged) -> Iterator[Response]:
     """`Response`s over the grid: the share of each key in the variance of the shown values, by the first method that there is."""
     sample = _Sample(arranged)
     for name in arranged.shown:

@@ -6,10 +6,13 @@ from itertools import combinations
 
 import numpy as np
 
+from drivewright._typing import Ints
+from drivewright.studies.plan import Plan
+
 MOST_AXES = 4  # keys that are crossed with each other in a file
 
 
-def crossed(plan):
+def crossed(plan: Plan) -> tuple[Plan, Ints]:
     """(plan of levels with the same cases, number that each case has there); the plan itself where its file is no full factorial.
 
     The levels of the file come after those of the plan, so that a case changes its place only within the file.

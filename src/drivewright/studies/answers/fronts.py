@@ -1,5 +1,7 @@
 """The trade-off between objectives: the Pareto front of the cases of a study."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from drivewright import units
@@ -8,11 +10,12 @@ from drivewright.execution.case_table import CHECK
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies.answers.parts import Part, listed, passing, plain
 from drivewright.studies.pareto import ABSENT, DOMINATED, FAILS, FRONT, sorted_out
+from drivewright.studies.study import Study
 
 DRAWN = (FRONT, DOMINATED, FAILS)  # from the top down
 
 
-def fronts(study, values=()):
+def fronts(study: Study, values: Sequence[str] = ()) -> Part:
     """`Part` of a study with two objectives or more: tables `pareto` and `front`, and the points of the former.
 
     Objectives and requirements are those of the spec's [optimise]; without, two values named are made small.

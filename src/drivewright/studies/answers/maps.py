@@ -1,5 +1,6 @@
 """Values over the levels of a grid: curves over one key, maps over two."""
 
+from collections.abc import Iterable, Iterator
 from itertools import product
 from typing import NamedTuple
 
@@ -7,7 +8,7 @@ import numpy as np
 
 from drivewright.execution.case_table import CASE, CHECK
 from drivewright.result import HIGH, LOW, Column, Plot, Table, Value
-from drivewright.studies.answers.parts import STATUSES, Part, level_text, status_codes, table_of_rows, together
+from drivewright.studies.answers.parts import STATUSES, Arranged, Part, level_text, status_codes, table_of_rows, together
 from drivewright.studies.statistics import finite
 
 MOST_PANELS = 4  # combinations of further keys that get plots of their own
@@ -39,13 +40,13 @@ class Response(NamedTuple):
 
     name: str
     title: str
-    columns: tuple
+    columns: tuple[Column, ...]
     in_steps: bool = False
-    limits: tuple = ()
-    ends: tuple = ()  # columns with the intervals of the others, NAME.low and NAME.high
+    limits: tuple[tuple[float, str], ...] = ()
+    ends: tuple[Column, ...] = ()  # columns with the intervals of the others, NAME.low and NAME.high
 
 
-def surveyed(arranged, responses):
+def surveyed(arranged: Arranged, responses: Iterable[Response]) -> Part:
     """`Part` of responses: tables `response` (one for each combination of further keys), curves or maps."""
     responses, axes = tuple(responses), _axes(arranged.plan)
     if not responses or not axes:
@@ -123,7 +124,7 @@ def _plots(plan, response, axes, table, suffix, told):
 # -- a grid alone --------------------------------------------------------------------------------------------------------------
 
 
-def ranges(arranged):
+def ranges(arranged: Arranged) -> Part:
     """`Part` of a grid without random keys: table `range` of all values."""
     cases = arranged.of(CASE)[:, 0]
     rows = [(0, name, arranged.study.unit(name), *_range(arranged, name, cases)) for name in arranged.study.value_names]
@@ -147,13 +148,16 @@ def _range(arranged, name, cases):
 
 
 def _range_values(arranged, rows):
-    for _, name, unit, _, least, _, greatest, _, *bounds in rows:
+    for _, name, unit, _, least, _, greatest, _, least_low, least_high, greatest_low, greatest_high in rows:
         what = arranged.study.meaning(name) or name
-        yield f"least.{name}", Value(least, unit, f"{what}: least over the grid", *bounds[:2], "of the case").plain()
-        yield f"greatest.{name}", Value(greatest, unit, f"{what}: greatest over the grid", *bounds[2:], "of the case").plain()
+        yield f"least.{name}", Value(least, unit, f"{what}: least over the grid", least_low, least_high, "of the case").plain()
+        yield (
+            f"greatest.{name}",
+            Value(greatest, unit, f"{what}: greatest over the grid", greatest_low, greatest_high, "of the case").plain(),
+        )
 
 
-def responses(arranged):
+def responses(arranged: Arranged) -> Iterator[Response]:
     """`Response`s of a grid without random keys: the shown values, the worst margin, the number of failing checks, the status."""
     for name in arranged.shown:
         column = Column(name, arranged.study.unit(name), arranged.study.meaning(name) or name, arranged.of(name)[:, 0])

@@ -1,17 +1,21 @@
 """What the answers of a study are made of: its table arranged by combination of levels, and parts that are put together."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from drivewright._typing import Bools, Floats, Ints
 from drivewright.execution.case_table import CASE, CHECK, STATUS
-from drivewright.result import Column, Table, Value
+from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies.answers.factorial import crossed
+from drivewright.studies.plan import Plan
 from drivewright.studies.statistics import LEVEL
 from drivewright.studies.study import Study
+from drivewright.studies.variables import Variable
 from drivewright.view.text import quantity
 
 STATUSES = ("complete", "partial", "failed")
@@ -23,12 +27,12 @@ class Part:
     """Some of the answers: values, tables, how to look at them, findings."""
 
     values: Mapping[str, Value] = field(default_factory=dict)
-    tables: tuple = ()
-    plots: tuple = ()
-    findings: tuple = ()
+    tables: tuple[Table, ...] = ()
+    plots: tuple[Plot, ...] = ()
+    findings: tuple[str, ...] = ()
 
 
-def together(parts):
+def together(parts: Iterable[Part]) -> Part:
     """One `Part` of several."""
     parts = tuple(parts)
     gathered = (tuple(item for part in parts for item in getattr(part, name)) for name in ("tables", "plots", "findings"))
@@ -40,90 +44,91 @@ class Arranged:
     """A study as arrays (combinations of levels, points that come with each), nan where a case is not there; `shown` get plots."""
 
     study: Study
-    shown: tuple
+    shown: tuple[str, ...]
 
     @cached_property
-    def _crossed(self):
+    def _crossed(self) -> tuple[Plan, Ints]:
         return crossed(self.study.plan)
 
     @property
-    def plan(self):
+    def plan(self) -> Plan:
         """The plan of the study; a file of points that is a full factorial as the levels that it combines."""
         return self._crossed[0]
 
     @cached_property
-    def combinations(self):
+    def combinations(self) -> int:
         """How many combinations of levels there are."""
         return len(self.plan) // self.plan.inner
 
     @cached_property
-    def sample(self):
+    def sample(self) -> Ints:
         """Rows of the points that are a random sample, or come from a file; none where there is only a grid, steps or corners."""
         if self.plan.listed:
             return np.arange(self.plan.inner)
         blocks = [np.arange(block.start, block.stop) for block in self.plan.blocks if block.name in ("sample", "a", "b")]
         return np.concatenate([np.zeros(0, dtype=int), *blocks])
 
-    def block(self, name):
+    def block(self, name: str) -> slice | None:
         """Slice of the points of a block, or None."""
         found = self.plan.block(name)
         return slice(found.start, found.stop) if found else None
 
-    def of(self, name):
+    def of(self, name: str) -> Floats:
         """A column by combination and point."""
         return self.arrange(np.asarray(self.study[name], dtype=float))
 
-    def bounds(self, name):
+    def bounds(self, name: str) -> tuple[Floats, Floats] | None:
         """(low, high): the ends of a column's 95 % intervals by combination and point, nan where it has none; None where no case has."""
         ends = self.study.bounds(name)
-        return None if ends is None else tuple(self.arrange(end) for end in ends)
+        return None if ends is None else (self.arrange(ends[0]), self.arrange(ends[1]))
 
-    def errors(self, name):
+    def errors(self, name: str) -> Floats | None:
         """Standard errors of a column by combination and point, nan where it has none; None where no case has one."""
         found = self.study.errors(name)
         return None if found is None else self.arrange(found)
 
-    def at_worst(self, name, sign):
+    def at_worst(self, name: str, sign: float) -> Floats:
         """A column by combination and point, at the lower (sign -1) or upper (+1) end of each interval."""
         return self.arrange(self.study.at_worst(name, sign))
 
-    def arrange(self, column):
+    def arrange(self, column: Floats) -> Floats:
         """Numbers of the rows of the table by combination and point."""
         found = np.full(len(self.plan), np.nan)
         found[self._crossed[1][np.asarray(self.study[CASE], dtype=int)]] = column
         return found.reshape(self.combinations, self.plan.inner)
 
     @cached_property
-    def status(self):
+    def status(self) -> Floats:
         """0 complete, 1 partial, 2 failed, by combination and point."""
         return self.arrange(status_codes(self.study).astype(float))
 
     @cached_property
-    def passing(self):
+    def passing(self) -> Floats:
         """1 where a case is complete and no check fails, else 0, by combination and point."""
         return self.arrange(passing(self.study).astype(float))
 
     @cached_property
-    def passing_ends(self):
+    def passing_ends(self) -> tuple[Floats, Floats]:
         """The same for cases that surely pass, whatever the intervals hold, and for those that may pass."""
-        return tuple(self.arrange(passing(self.study, sign).astype(float)) for sign in (-1, 1))
+        surely, possibly = (self.arrange(passing(self.study, sign).astype(float)) for sign in (-1, 1))
+        return surely, possibly
 
-    def level_columns(self, rows):
+    def level_columns(self, rows: Sequence[int]) -> tuple[Column, ...]:
         """A `Column` for each key of the grid: its level in the combinations `rows`."""
         places = np.unravel_index(np.asarray(rows, dtype=int), self.plan.shape) if self.plan.grid else ()
         return tuple(
-            Column(variable.key, variable.kind.unit, variable.key, plain(variable.levels[place]))
+            Column(variable.key, variable.kind.unit, variable.key, plain(variable.grid_levels[place]))
             for variable, place in zip(self.plan.grid, places, strict=True)
         )
 
 
-def level_text(variable, place):
+def level_text(variable: Variable, place: int) -> str:
     """A level as people read it."""
-    level = plain(variable.levels)[place]
+    level = plain(variable.grid_levels)[place]
     return str(level) if isinstance(level, str) else quantity(level, variable.kind.unit)
 
 
-def plain(column):
+def plain(column: NDArray[Any]) -> NDArray[Any]:
     """A column of numbers as it is; flags and texts as texts."""
     column = np.asarray(column)
     if column.dtype.kind == "b":
@@ -131,13 +136,13 @@ def plain(column):
     return column if column.dtype.kind in "iuf" else column.astype(str)
 
 
-def status_codes(study):
+def status_codes(study: Study) -> Ints:
     """Number of each row's status in STATUSES."""
     status = np.asarray(study[STATUS], dtype=str)
     return np.select([status == name for name in STATUSES], range(len(STATUSES)), len(STATUSES) - 1)
 
 
-def passing(study, sign=0):
+def passing(study: Study, sign: int = 0) -> Bools:
     """(rows,) whether a case is complete and none of the checks that it has fails; by the value, or surely (-1), or possibly (+1)."""
     passes = status_codes(study) == 0
     for name in study.check_names:
@@ -156,7 +161,9 @@ def estimate_values(
             yield f"{prefix}.{name}", getattr(estimate, attribute).named(unit, f"{meaning}: {what}")
 
 
-def table_of_rows(name, title, columns, rows, arranged=None):
+def table_of_rows(
+    name: str, title: str, columns: Sequence[tuple[str, str, str]], rows: Sequence[Sequence[Any]], arranged: Arranged | None = None
+) -> Table:
     """A `Table` of rows (combination, ...): `columns` (name, unit, meaning) of what follows, then the levels of the row's combination.
 
     Unit "" stands for the one that the row itself names.
@@ -165,7 +172,7 @@ def table_of_rows(name, title, columns, rows, arranged=None):
     return Table(name, title, (*filled, *(arranged.level_columns([row[0] for row in rows]) if arranged else ())))
 
 
-def listed(names, most=12):
+def listed(names: Sequence[str], most: int = 12) -> str:
     """Some names in one line."""
     more = len(names) - most
     return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")

@@ -1,11 +1,13 @@
 """How far the values of a random sample spread, how many cases pass, and how bad it gets at the corners."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from drivewright.execution.case_table import CHECK
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies.answers.maps import Response
-from drivewright.studies.answers.parts import BOUNDS, Part, estimate_values, table_of_rows, together
+from drivewright.studies.answers.parts import BOUNDS, Arranged, Part, estimate_values, table_of_rows, together
 from drivewright.studies.answers.within import within_cases
 from drivewright.studies.statistics import PERCENTS, Sampled, capability, finite, share_between, summary
 
@@ -47,7 +49,7 @@ WORST = (
 ESTIMATES = {"mean": ("mean", "mean of the sample"), "sigma": ("sigma", "standard deviation of the sample")}
 
 
-def spread(arranged):
+def spread(arranged: Arranged) -> Part:
     """`Part` of the sample: tables `tolerance`, `confidence` and `yield`, their values and histograms."""
     if not len(arranged.sample):
         return Part()
@@ -76,7 +78,7 @@ def _told(number, name, unit, found):
 def _sure(number, name, unit, found):
     """Row of the table `confidence`."""
     spread_ = (each for percent in found.percentiles for each in percent)
-    return (number, name, unit, found.count, *found.mean, *found.sigma, found.skewness, *spread_)
+    return (number, name, unit, found.cases, *found.mean, *found.sigma, found.skewness, *spread_)
 
 
 def _histograms(arranged):
@@ -153,7 +155,7 @@ def _yield_values(row):
         yield f"yield{end}", Value(value, "-", what + told)
 
 
-def responses(arranged):
+def responses(arranged: Arranged) -> Iterator[Response]:
     """`Response`s over the grid: mean and mean -+ sigma of each shown value, its sigma, and the yield, with their intervals."""
     for name in arranged.shown:
         unit, what = arranged.study.unit(name), arranged.study.meaning(name) or name
@@ -177,7 +179,7 @@ def responses(arranged):
 # -- corners -------------------------------------------------------------------------------------------------------------------
 
 
-def worst_case(arranged):
+def worst_case(arranged: Arranged) -> Part:
     """`Part` of the corners: table `worst_case` of all values and of the margins of all checks."""
     block = arranged.block("corners")
     if block is None:

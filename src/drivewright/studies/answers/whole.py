@@ -2,18 +2,20 @@
 
 import re
 from collections import Counter
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from drivewright import registry
 from drivewright.execution.case_table import CHECK, MESSAGE
-from drivewright.result import Result, Value
+from drivewright.result import Plot, Result, Value
 from drivewright.runner import versions
 from drivewright.studies.answers import causes, maps, spread
 from drivewright.studies.answers.fronts import fronts
 from drivewright.studies.answers.parts import STATUSES, Arranged, Part, listed, status_codes, together
 from drivewright.studies.statistics import LEVEL, finite, varies
+from drivewright.studies.study import Study
 
 MOST = 6  # values that get plots
 REASONS = 3  # that are quoted
@@ -25,11 +27,11 @@ LONGEST = 200  # characters of a quoted reason
 class Answers(NamedTuple):
     """The `Result` of a study, and its plots."""
 
-    result: Result
-    plots: tuple
+    result: Result[Any]
+    plots: tuple[Plot, ...]
 
 
-def analyse_study(study, values=()):
+def analyse_study(study: Study, values: Sequence[str] = ()) -> Answers:
     """`Answers` of a study.  `values` (check.NAME for the margin of a check) get plots; UnknownName where the study has no such column.
 
     Unless given they are those of the spec's [study] or else of the mechanism's headline, `MOST` at most.  Tables hold all values.
@@ -49,14 +51,14 @@ def _parts(arranged):
     if not len(arranged.study):
         return
     if not (len(arranged.sample) or arranged.plan.blocks):
-        yield Part(findings=_read_as_levels(arranged))
+        yield Part(findings=tuple(_read_as_levels(arranged)))
         yield maps.ranges(arranged)
         yield maps.surveyed(arranged, maps.responses(arranged))
         return
     yield spread.spread(arranged)
     yield spread.worst_case(arranged)
     yield causes.causes(arranged)
-    yield Part(findings=_assumptions(arranged))
+    yield Part(findings=tuple(_assumptions(arranged)))
     if arranged.combinations > 1:
         over_grid = (*(spread.responses(arranged) if len(arranged.sample) else ()), *causes.responses(arranged))
         yield maps.surveyed(arranged, over_grid)

@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.studies.answers.parts import BOUNDS, Part, estimate_values, table_of_rows
+from drivewright._typing import Floats
+from drivewright.studies.answers.parts import BOUNDS, Arranged, Part, estimate_values, table_of_rows
 from drivewright.studies.statistics import Sampled, summary
 
 WITHIN = (
@@ -41,13 +42,13 @@ class Apart(NamedTuple):
     keys: Sampled
 
     @property
-    def share(self):
+    def share(self) -> Sampled:
         """Of the variance of all cases, that within a case; its interval is from the ends of both, too wide rather than too narrow."""
         over = (self.sigma.value, self.sigma.high, self.sigma.low)
         return Sampled(*(min((within / sigma) ** 2, 1.0) if sigma > 0 else np.nan for within, sigma in zip(self.within, over, strict=True)))
 
 
-def variances(arranged, name):
+def variances(arranged: Arranged, name: str) -> Floats | None:
     """Variance of each case's own estimate (combinations, points), 0 where it has no interval; None where no case has one.
 
     The square of its standard error, unbiased over the cases; where a value only has an interval, half its width over 1.96, whose square
@@ -57,7 +58,7 @@ def variances(arranged, name):
     return None if error is None else np.where(np.isfinite(error), error, 0.0) ** 2
 
 
-def told_apart(sample, noise):
+def told_apart(sample: Floats, noise: Floats) -> Apart:
     """`Apart` of the values of a sample (n,) and the variance (n,) of each within its case.
 
     sigma_keys^2 = sigma^2 - mean(noise), and so for the ends of the interval of sigma, which is much the wider one; not below 0.
@@ -71,7 +72,7 @@ def _root(square):
     return float(np.sqrt(max(square, 0.0))) if np.isfinite(square) else np.nan
 
 
-def within_cases(arranged):
+def within_cases(arranged: Arranged) -> Part:
     """`Part` of a sample: table `within_cases` of the values with intervals, with values and a finding."""
     noises = {name: noise for name in arranged.study.value_names if (noise := variances(arranged, name)) is not None}
     rows = [

@@ -1,20 +1,26 @@
 """The designs of a search and their values: each is evaluated once, kept, and never again, also not after a new start."""
 
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import closing
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from drivewright import registry
+from drivewright._typing import Floats
 from drivewright.errors import InputError
 from drivewright.execution.batches import WORTH_HELP, Batch, BatchScheduler, missing_ranges, run_batches
 from drivewright.execution.case_table import MESSAGE, STATUS
 from drivewright.execution.evaluation import case_task, evaluate, failed_rows
 from drivewright.execution.executors import InProcessExecutor, make_executors
 from drivewright.studies.search import history
+from drivewright.studies.search.problem import Problem
 from drivewright.studies.search.searching import population_of
-from drivewright.studies.store import joined
+from drivewright.studies.store import Store, joined
 
+Progress: TypeAlias = Callable[[int, int, str], object]  # (done, total, what became of them)
 SILENT = "the compiled evaluation finds no solution; a run of this design says why"
 
 
@@ -22,9 +28,9 @@ class Rows(NamedTuple):
     """Evaluated designs from number `first` on: values {name: (m,)}, what became of each, and the seconds it took."""
 
     first: int
-    values: dict
-    statuses: list
-    messages: list
+    values: dict[str, Floats]
+    statuses: list[str]
+    messages: list[str]
     seconds: float
 
 
@@ -32,8 +38,10 @@ class Evaluator:
     """`evaluator(points)` with the points (m, n) of a generation gives {name: (m,)}; it is the same search each time, so what `kept` holds
     of an earlier start answers for the designs with the same numbers.  InputError where they are not the same designs."""
 
-    def __init__(self, problem, kept, workers=None, on=None, progress=None):
-        self.problem, self.generations = problem, problem.spec.optimise.generations
+    def __init__(
+        self, problem: Problem, kept: Store, workers: int | None = None, on: str | None = None, progress: Progress | None = None
+    ) -> None:
+        self.problem, self.generations = problem, problem.search.generations
         self.progress = progress or (lambda done, total, what: None)
         self.designs = []  # of each generation those that it brought
         self._answers = {}  # design (bytes) -> values, in the order of their numbers
@@ -41,7 +49,7 @@ class Evaluator:
         self._journal = history.Journal(kept)
         self._compute = compiled(problem) or Runs(problem, workers, on)
 
-    def __call__(self, points):
+    def __call__(self, points: Floats) -> dict[str, Floats]:
         designs = self.problem.designs(points)
         new = {key: row for key, row in zip(map(bytes, designs), designs, strict=True) if key not in self._answers}
         self._fill(np.array(list(new.values())).reshape(-1, designs.shape[1]))
@@ -49,7 +57,7 @@ class Evaluator:
             self._answers[key] = self._found.pop(number)[1]
         return self.values(points)
 
-    def values(self, points):
+    def values(self, points: Floats) -> dict[str, Floats]:
         """{name: (m,)} at points that have been evaluated."""
         rows = np.array([self._answers[key] for key in map(bytes, self.problem.designs(points))])
         return dict(zip(self.problem.names, rows.reshape(-1, len(self.problem.names)).T, strict=True))
@@ -63,7 +71,7 @@ class Evaluator:
                 f"the search asks for other designs than those that were kept, from evaluation {first} on: another version of "
                 "NumPy, SciPy or pymoo, or another machine. Go on there, or give another --out"
             )
-        done, ahead = first + len(have), (self.generations - generation) * population_of(self.problem.spec.optimise)
+        done, ahead = first + len(have), (self.generations - generation) * population_of(self.problem.search)
         if len(have) < len(designs):
             with closing(self._compute(first, designs, have, ahead)) as each:
                 for found in each:
@@ -80,7 +88,7 @@ class Evaluator:
         table = history.rows(self.problem, found.first, generation, designs, found.values, found.statuses, found.messages)
         self._journal.add(found.first, table, found.seconds)
 
-    def close(self):
+    def close(self) -> None:
         """What is evaluated goes to the store, whatever ends the search."""
         try:
             self._journal.flush()
@@ -106,7 +114,7 @@ def _missing(first, designs, have):
     return missing_ranges([(0, first), *((number, 1) for number in have)], first + len(designs))
 
 
-def compiled(problem):
+def compiled(problem: Problem) -> Compiled | None:
     """Evaluation of a whole generation by what the mechanism offers as `batch`; None where it has none for this problem."""
     offer = registry.mechanism(problem.spec.mechanism).batch
     many = offer(problem.spec, problem.keys, problem.names) if offer else None
@@ -116,10 +124,10 @@ def compiled(problem):
 class Compiled:
     """All missing designs of a generation in one call."""
 
-    def __init__(self, problem, many):
+    def __init__(self, problem: Problem, many: Callable[[Floats], Mapping[str, Floats]]) -> None:
         self._problem, self._many = problem, many
 
-    def __call__(self, first, designs, have, ahead):
+    def __call__(self, first: int, designs: Floats, have: Sequence[int], ahead: int) -> Generator[Rows, None, None]:
         for start, stop in _missing(first, designs, have):
             found = self._many(designs[start - first : stop - first])
             values = {name: np.asarray(found[name], float) for name in self._problem.names}
@@ -127,7 +135,7 @@ class Compiled:
             statuses, messages = ["failed" if no else "complete" for no in silent], [SILENT if no else "" for no in silent]
             yield Rows(start, values, statuses, messages, 0.0)
 
-    def close(self):
+    def close(self) -> None:
         """Nothing to let go."""
 
 
@@ -137,14 +145,14 @@ class Runs:
     Where nobody says who is to compute, this process begins, and has help as soon as the search would take long alone.
     """
 
-    def __init__(self, problem, workers, on):
+    def __init__(self, problem: Problem, workers: int | None, on: str | None) -> None:
         bare = problem.spec.model_copy(update={"study": None})
         self._task = case_task(bare, problem.keys)._replace(analyses=problem.analyses, names=problem.names)
         self._problem, self._place = problem, (workers, on)
         self._alone, self._executors = workers is None and on is None, ()
         self._count, self._seconds = 0, 0.0  # of what is done
 
-    def __call__(self, first, designs, have, ahead):
+    def __call__(self, first: int, designs: Floats, have: Sequence[int], ahead: int) -> Generator[Rows, None, None]:
         scheduler = BatchScheduler([(0, first), *((number, 1) for number in have)], first + len(designs), 1)
         if self._count:
             scheduler.record_timing(Batch(0, self._count), self._seconds)
@@ -164,7 +172,7 @@ class Runs:
 
     def _by(self, arguments, scheduler, enough=lambda: False):
         for batch, table, seconds, reason in run_batches(self._executors, evaluate, arguments, scheduler, enough):
-            if reason:
+            if table is None:
                 table = failed_rows(*arguments(batch), reason)
             else:
                 self._count, self._seconds = self._count + table.num_rows, self._seconds + seconds
@@ -187,7 +195,7 @@ class Runs:
             name: table[column].to_numpy().astype(float) if column in table.column_names else absent for name, column in columns.items()
         }
 
-    def close(self):
+    def close(self) -> None:
         """Let the executors go."""
         executors, self._executors = self._executors, ()
         for executor in executors:

@@ -1,22 +1,39 @@
 """Every evaluation of a search as a table, a row each: what a folder keeps of it, and what a start after that reads."""
 
+from __future__ import annotations
+
 import time
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from drivewright._typing import Floats, Ints
 from drivewright.execution.case_table import CASE, MESSAGE, STATUS, VALUE_PREFIX
-from drivewright.studies.store import joined
+from drivewright.studies.search.problem import Problem
+from drivewright.studies.store import Store, joined
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 GENERATION, VIOLATION = "generation", "violation"
 GATHER = 1.0  # seconds of evaluations that make a part
 
 
-def column_of(problem, name):
+def column_of(problem: Problem, name: str) -> str:
     """Name of a value's column; one that has the name of an unknown stands apart from it."""
     return f"{VALUE_PREFIX}{name}" if name in problem.keys else name
 
 
-def rows(problem, first, generation, designs, values, statuses, messages):
+def rows(
+    problem: Problem,
+    first: int,
+    generation: int,
+    designs: Floats,
+    values: Mapping[str, Floats],
+    statuses: Sequence[str],
+    messages: Sequence[str],
+) -> pa.Table:
     """The pyarrow.Table of the evaluations from number `first` on; designs (m, n) SI, values {name: (m,)}, nan is null."""
     import pyarrow as pa
 
@@ -42,13 +59,13 @@ def rows(problem, first, generation, designs, values, statuses, messages):
     return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
 
 
-def usable(values, statuses):
+def usable(values: Mapping[str, Floats], statuses: Sequence[str]) -> dict[str, Floats]:
     """The values as the search may see them: a design that is not complete has none."""
     complete = np.array([status == "complete" for status in statuses], bool)
     return {name: np.where(complete, column, np.nan) for name, column in values.items()}
 
 
-def read(problem, table):
+def read(problem: Problem, table: pa.Table) -> tuple[Ints, Floats, dict[str, Floats]]:
     """(numbers (m,), designs (m, n), values {name: (m,)} as the search may see them) of a table of evaluations."""
     designs = np.stack([table[key].to_numpy().astype(float) for key in problem.keys], axis=1)
     values = {name: table[column_of(problem, name)].to_numpy().astype(float) for name in problem.names}
@@ -58,16 +75,16 @@ def read(problem, table):
 class Journal:
     """Puts rows into a store, gathered to parts that are worth a file: the work of a second at least, or all there is at the end."""
 
-    def __init__(self, kept):
+    def __init__(self, kept: Store) -> None:
         self._kept, self._waiting, self._since = kept, {}, time.monotonic()
 
-    def add(self, first, table, seconds):
+    def add(self, first: int, table: pa.Table, seconds: float) -> None:
         """Take rows; they are safe after the next `flush`, which comes within a second of work."""
         self._waiting[first] = table, seconds
         if time.monotonic() - self._since >= GATHER:
             self.flush()
 
-    def flush(self):
+    def flush(self) -> None:
         """Everything to the store; a Ctrl-C in the middle loses nothing and puts nothing there twice."""
         there = {first for first, _ in self._kept.ranges()}
         for run in _runs(self._waiting):

@@ -5,6 +5,7 @@ A value with an interval meets a requirement only where the whole interval does:
 those that meet it by chance.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -12,12 +13,13 @@ from pathlib import Path
 import numpy as np
 
 from drivewright import registry, runner, units
+from drivewright._typing import Bools, Floats
 from drivewright.errors import SpecError, UnknownName
 from drivewright.execution.case_table import CHECK
-from drivewright.execution.keys import READABLE, key_kind
+from drivewright.execution.keys import READABLE, KeyKind, key_kind
 from drivewright.execution.outputs import case_outputs
 from drivewright.result import HIGH, LOW
-from drivewright.spec import MechanismSpec, document, from_document, set_key
+from drivewright.spec import MechanismSpec, Optimise, document, from_document, set_key
 from drivewright.spec.fields import field_at, type_of
 
 HOPELESS = 1e3  # violation of a design that has no solution at all, in units of the limits
@@ -29,40 +31,46 @@ class Problem:
     known `about` every value that is looked at, {name: (unit, meaning)}, and the analyses that give them."""
 
     spec: MechanismSpec
-    keys: tuple
-    kinds: tuple
-    bounds: np.ndarray
-    objectives: tuple
-    limits: tuple
-    scales: np.ndarray
-    about: dict
-    analyses: tuple
+    keys: tuple[str, ...]
+    kinds: tuple[KeyKind, ...]
+    bounds: Floats
+    objectives: tuple[tuple[str, float], ...]
+    limits: tuple[tuple[str, str, float], ...]
+    scales: Floats
+    about: dict[str, tuple[str, str]]
+    analyses: tuple[str, ...]
 
     @property
-    def names(self):
+    def search(self) -> Optimise:
+        """The [optimise] table."""
+        assert self.spec.optimise is not None
+        return self.spec.optimise
+
+    @property
+    def names(self) -> tuple[str, ...]:
         """Every value that is looked at."""
         return tuple(self.about)
 
     @cached_property
-    def whole(self):
+    def whole(self) -> Bools:
         """(n,) which unknowns are whole numbers."""
         return np.array([kind.name == "integer" for kind in self.kinds])
 
     @cached_property
-    def space(self):
+    def space(self) -> Floats:
         """(n, 2) where the search moves: half a step further for whole numbers, so that each has an equal share."""
         return self.bounds + np.where(self.whole, 0.5, 0.0)[:, None] * np.array([-1.0, 1.0])
 
-    def designs(self, points):
+    def designs(self, points: Floats) -> Floats:
         """The designs (m, n) at points of the search: within the bounds, whole where a key takes whole numbers."""
         return np.clip(np.where(self.whole, np.rint(points), points), *self.bounds.T) + 0.0  # + 0.0: -0.0 is the same design as 0.0
 
-    def objective_values(self, values):
+    def objective_values(self, values: Mapping[str, Floats]) -> Floats:
         """(objectives, designs), to be made small; nan becomes large (and such a design violates, see below)."""
         rows = np.array([sign * values[name] for name, sign in self.objectives])
         return np.where(np.isfinite(rows), rows, HOPELESS)
 
-    def violations(self, values):
+    def violations(self, values: Mapping[str, Floats]) -> Floats:
         """(limits + 1, designs): how far beyond each limit the worse end of the interval is, over the limit's scale, and whether an
         objective is missing; 0 or less is met."""
         rows = [
@@ -73,11 +81,11 @@ class Problem:
         rows.append(np.where(missing, HOPELESS, 0.0))
         return np.where(np.isfinite(rows), rows, HOPELESS)
 
-    def total_violation(self, values):
+    def total_violation(self, values: Mapping[str, Floats]) -> Floats:
         """(designs,): 0 exactly where every requirement is met."""
         return np.maximum(self.violations(values), 0.0).sum(axis=0)
 
-    def design(self, x):
+    def design(self, x: Floats) -> MechanismSpec:
         """The spec with the unknowns at x (SI)."""
         data = document(self.spec)
         for key, kind, value in zip(self.keys, self.kinds, x, strict=True):
@@ -85,18 +93,18 @@ class Problem:
         return from_document(data, type(self.spec))
 
 
-def worse_end(name, sense):
+def worse_end(name: str, sense: str) -> str:
     """The output that is the worse end of a value's interval for a requirement."""
     return f"{name}{LOW if sense == '>=' else HIGH}"
 
 
-def at_worst(values, name, sense):
+def at_worst(values: Mapping[str, Floats], name: str, sense: str) -> Floats:
     """The value (designs,) at the worse end of its interval; the value itself where it has none."""
     end = values.get(worse_end(name, sense), values[name])
     return np.where(np.isfinite(end), end, values[name])
 
 
-def prepare(spec):
+def prepare(spec: MechanismSpec) -> Problem:
     """The `Problem` of a spec; each complaint names the key of the [optimise] table."""
     if spec.optimise is None:
         raise SpecError("is missing; it says what may change, what is required and what is wanted (see `drivewright new`)", "optimise")

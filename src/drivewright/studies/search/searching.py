@@ -3,12 +3,27 @@
 A search calls `evaluator(points)` with each generation (m, n) and leaves it to the evaluator to remember what came of it.
 """
 
+from typing import Protocol
+
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.errors import MissingExtra, SpecError
+from drivewright.spec import Optimise
+from drivewright.studies.search.problem import Problem
 
 
-def method_of(search):
+class Evaluation(Protocol):
+    """What gives the values of a generation."""
+
+    def __call__(self, points: Floats) -> dict[str, Floats]: ...
+
+    def values(self, points: Floats) -> dict[str, Floats]:
+        """{name: (m,)} at points that have been evaluated."""
+        ...
+
+
+def method_of(search: Optimise) -> str:
     """Name of the method for an [optimise] table."""
     several = len(search.objectives) > 1
     if search.method == "differential-evolution" and several:
@@ -16,12 +31,12 @@ def method_of(search):
     return search.method if search.method != "auto" else ("nsga2" if several else "differential-evolution")
 
 
-def population_of(search):
+def population_of(search: Optimise) -> int:
     """Designs per generation that are asked for."""
     return search.population or max(16, 8 * len(search.unknowns))
 
 
-def differential_evolution(problem, search, evaluator):
+def differential_evolution(problem: Problem, search: Optimise, evaluator: Evaluation) -> None:
     """A whole generation per call, Lampinen's rule for the constraints."""
     from scipy.optimize import NonlinearConstraint, differential_evolution
 
@@ -47,13 +62,13 @@ def differential_evolution(problem, search, evaluator):
         mutation=(0.4, 0.9),
         recombination=0.9,
         tol=1e-6,
-        atol=0.0,
+        atol=0,
         init="sobol",
         constraints=NonlinearConstraint(violations, np.full(number, -np.inf), np.zeros(number)),
     )
 
 
-def nsga2(problem, search, evaluator):
+def nsga2(problem: Problem, search: Optimise, evaluator: Evaluation) -> None:
     """Non-dominated sorting of each generation with its parents."""
     try:
         from pymoo.algorithms.moo.nsga2 import NSGA2
