@@ -12,20 +12,18 @@ import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
-from functools import cache
 from importlib import import_module
-from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
+from drivewright import plugins
 from drivewright.claims import Claims
-from drivewright.errors import InputError, UnknownName
+from drivewright.errors import InputError
 
 if TYPE_CHECKING:
     from drivewright.result import Answer, Answers, Plot, Result, SpecLike
     from drivewright.scene import Drawing, Part, Scene
 
-OURS = "drivewright"
 SpecT = TypeVar("SpecT", bound="SpecLike")  # not imported from `result`, for listing what is registered must not import numpy
 ModelT = TypeVar("ModelT")
 Row: TypeAlias = tuple[str, float, float, str, float, str]  # of `verify`: name, ours, other, unit, allowed difference, route
@@ -115,46 +113,20 @@ def oracle(kind: str) -> "Callable[[Any, Result[Any]], Iterable[Row]]":
     """`verify` of the package drivewright.oracles.KIND, which is imported when it is called."""
 
     def verify(model: Any, result: "Result[Any]") -> Iterable[Row]:
-        return import_module(f"{OURS}.oracles.{kind}").verify(model, result)
+        return import_module(f"{plugins.OURS}.oracles.{kind}").verify(model, result)
 
     return verify
 
 
-@cache
-def plugins(group: str) -> dict[str, EntryPoint]:
-    """Name -> entry point of everything installed under `group`; InputError where two packages claim one name."""
-    found = {}
-    for point in entry_points(group=group):
-        other = found.setdefault(point.name, point)
-        if other.value != point.value:
-            raise InputError(f"{group}: {point.name!r} is claimed by {other.value} and by {point.value}; uninstall one of the packages")
-    return found
-
-
-@cache
-def load(group: str, name: str, what: str = "plug-in") -> Any:
-    """The object behind a name of a group; UnknownName with the nearest name otherwise."""
-    known = plugins(group)
-    if name not in known:
-        raise UnknownName(what, name, known)
-    try:
-        return known[name].load()
-    except ImportError as error:
-        owner = getattr(getattr(known[name], "dist", None), "name", OURS)
-        if owner == OURS:
-            raise
-        raise InputError(f"{what} {name!r} of the package {owner!r} does not load: {error}; repair or uninstall the package") from error
-
-
 def kinds() -> list[str]:
     """Names of all mechanism kinds, sorted."""
-    return sorted(plugins("drivewright.mechanisms"))
+    return sorted(plugins.installed("drivewright.mechanisms"))
 
 
 def mechanism(kind: str) -> Mechanism[Any, Any]:
     """The `Mechanism` of a kind, or the evaluation of a command by its name."""
-    if kind in plugins("drivewright.mechanisms") or kind not in commands():
-        return load("drivewright.mechanisms", kind, "mechanism")
+    if kind in plugins.installed("drivewright.mechanisms") or kind not in commands():
+        return plugins.load("drivewright.mechanisms", kind, "mechanism")
     return command(kind).evaluation
 
 
@@ -165,13 +137,13 @@ def is_known(kind: str) -> bool:
 
 def commands() -> dict[str, str]:
     """Name -> kind of the mechanism that brings it, sorted; nothing is imported."""
-    kind_of = {point.value: kind for kind, point in plugins("drivewright.mechanisms").items()}
-    return {name: kind_of.get(point.value, point.value) for name, point in sorted(plugins("drivewright.commands").items())}
+    kind_of = {point.value: kind for kind, point in plugins.installed("drivewright.mechanisms").items()}
+    return {name: kind_of.get(point.value, point.value) for name, point in sorted(plugins.installed("drivewright.commands").items())}
 
 
 def command(name: str) -> Command:
     """The `Command` of a name; InputError where the mechanism that is said to bring it does not."""
-    bringing = load("drivewright.commands", name, "command")
+    bringing = plugins.load("drivewright.commands", name, "command")
     found = next((each for each in bringing.commands if each.name == name), None)
     if found is None:
         raise InputError(f"command {name!r} is not among the commands of {bringing.kind!r}; repair the package that declares it")

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeAlias,
 
 import numpy as np
 
+from drivewright import plugins
 from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import UnknownName
 from drivewright.labels import label_of
@@ -337,9 +338,7 @@ class Result(Generic[SpecT]):
 
         With `ax` it is drawn into these axes, whose figure is returned; InputError for a plot that needs several axes, or others.
         """
-        from drivewright import registry  # the one import upwards: a view is asked for by name
-
-        view = registry.load("drivewright.views", "matplotlib", "view")
+        view = plugins.load("drivewright.views", "matplotlib", "view")
         return view(self, name) if ax is None else view(self, name, ax=ax)
 
     def __repr__(self) -> str:

@@ -10,7 +10,7 @@ from typing import Literal
 import pytest
 from pydantic import Field
 
-from drivewright import cli, registry
+from drivewright import cli, plugins, registry
 from drivewright.errors import InputError
 from drivewright.registry import Analysis, Command, Mechanism
 from drivewright.result import Answer, Check, Value
@@ -53,15 +53,15 @@ def scales(monkeypatch, tmp_path):
         EntryPoint("run", f"{__name__}:BRINGING", "drivewright.commands"),
         EntryPoint("broken", f"{__name__}:BRINGING", "drivewright.commands"),
     ]
-    real = registry.entry_points
-    monkeypatch.setattr(registry, "entry_points", lambda group: [*real(group=group), *(p for p in ours if p.group == group)])
-    registry.plugins.cache_clear()
-    registry.load.cache_clear()
+    real = plugins.entry_points
+    monkeypatch.setattr(plugins, "entry_points", lambda group: [*real(group=group), *(p for p in ours if p.group == group)])
+    plugins.installed.cache_clear()
+    plugins.load.cache_clear()
     monkeypatch.chdir(tmp_path)
     (tmp_path / "thing.txt").write_text("thirteen long")
     yield tmp_path
-    registry.plugins.cache_clear()
-    registry.load.cache_clear()
+    plugins.installed.cache_clear()
+    plugins.load.cache_clear()
 
 
 @pytest.fixture
@@ -144,7 +144,7 @@ def test_the_registry_knows_commands_apart_from_kinds():
 
 
 def test_every_declared_command_is_brought_and_every_brought_one_declared():
-    registry.plugins.cache_clear()
+    plugins.installed.cache_clear()
     declared = {name for name, kind in registry.commands().items() if kind != "scales"}
     brought = {each.name for kind in registry.kinds() if kind != "scales" for each in registry.mechanism(kind).commands}
     assert declared == brought

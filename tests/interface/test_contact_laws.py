@@ -10,7 +10,7 @@ import contact_law_plugin as theirs
 import numpy as np
 import pytest
 
-from drivewright import contact, registry
+from drivewright import contact, plugins
 from drivewright._jit import kernel, plain
 from drivewright.chains.explicit.bodies import load_guide
 from drivewright.chains.explicit.state import BODIES, ContactLaws, compile_model, law_of
@@ -32,8 +32,8 @@ TOOTH = Tooth(12, 9.525e-3 * 12 / (2 * np.pi) * np.cos(ANGLE), seat_support(JOIN
 
 def plugged(monkeypatch, **points):
     found = {name: SimpleNamespace(load=lambda point=point: point) for name, point in points.items()}
-    monkeypatch.setattr(registry, "plugins", lambda group: found if group == "drivewright.contact_laws" else {})
-    registry.load.cache_clear()
+    monkeypatch.setattr(plugins, "installed", lambda group: found if group == "drivewright.contact_laws" else {})
+    plugins.load.cache_clear()
 
 
 def test_a_law_is_made_from_what_a_place_of_contact_states(monkeypatch):

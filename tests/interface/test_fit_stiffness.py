@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from pydantic import Field
 
-from drivewright import cli, registry
+from drivewright import cli, plugins
 from drivewright.indexing.torsion_test import Estimate
 from drivewright.indexing.torsion_test.answers import estimate_values
 from drivewright.mechanisms.indexer import torsion
@@ -47,17 +47,17 @@ DESIGN = Mechanism("design", "a design", DesignSpec, lambda spec: spec, (Analysi
 @pytest.fixture(autouse=True)
 def bench(monkeypatch, tmp_path):
     """The command, where no installed package brings it yet, a kind of drive with a known stiffness, and an empty folder."""
-    real = registry.entry_points
+    real = plugins.entry_points
     ours = [EntryPoint("design", f"{__name__}:DESIGN", "drivewright.mechanisms")]
     if not any(point.name == torsion.command.name for point in real(group="drivewright.commands")):
         ours.append(EntryPoint(torsion.command.name, f"{__name__}:BRINGING", "drivewright.commands"))
-    monkeypatch.setattr(registry, "entry_points", lambda group: [*real(group=group), *(p for p in ours if p.group == group)])
-    registry.plugins.cache_clear()
-    registry.load.cache_clear()
+    monkeypatch.setattr(plugins, "entry_points", lambda group: [*real(group=group), *(p for p in ours if p.group == group)])
+    plugins.installed.cache_clear()
+    plugins.load.cache_clear()
     monkeypatch.chdir(tmp_path)
     yield tmp_path
-    registry.plugins.cache_clear()
-    registry.load.cache_clear()
+    plugins.installed.cache_clear()
+    plugins.load.cache_clear()
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from drivewright import motion, registry
+from drivewright import motion, plugins
 from drivewright.errors import InputError
 
 
@@ -19,9 +19,11 @@ def _half_sine(sharpness):
 
 @pytest.fixture
 def plugged(monkeypatch):
-    plugins = registry.plugins
+    installed = plugins.installed
     point = SimpleNamespace(load=lambda: _half_sine)
-    monkeypatch.setattr(registry, "plugins", lambda group: {"half-sine": point} if group == "drivewright.motion_laws" else plugins(group))
+    monkeypatch.setattr(
+        plugins, "installed", lambda group: {"half-sine": point} if group == "drivewright.motion_laws" else installed(group)
+    )
 
 
 def test_a_law_of_another_package_is_listed_built_and_used_like_ours(plugged):

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from drivewright import registry
+from drivewright import plugins, registry
 from drivewright.errors import InputError, UnknownName
 
 PENDULUM, GENEVA = (Path(__file__).parent / name for name in ("plugin", "geneva"))
@@ -114,12 +114,12 @@ def test_the_house_lists_it_and_finds_its_law(installed, tmp_path):
 def points(monkeypatch):
     """Entry points of one test; the caches are emptied around it."""
     found = []
-    monkeypatch.setattr(registry, "entry_points", lambda group: [point for point in found if point.group == group])
-    registry.plugins.cache_clear()
-    registry.load.cache_clear()
+    monkeypatch.setattr(plugins, "entry_points", lambda group: [point for point in found if point.group == group])
+    plugins.installed.cache_clear()
+    plugins.load.cache_clear()
     yield found
-    registry.plugins.cache_clear()
-    registry.load.cache_clear()
+    plugins.installed.cache_clear()
+    plugins.load.cache_clear()
 
 
 def test_an_unknown_kind_is_refused_with_the_nearest_known():
@@ -130,11 +130,11 @@ def test_an_unknown_kind_is_refused_with_the_nearest_known():
 
 def test_two_packages_that_claim_one_name_are_told_apart_or_refused(points):
     points += [EntryPoint("gear", "a:make", "g"), EntryPoint("gear", "a:make", "g"), EntryPoint("rack", "b:make", "g")]
-    assert {name: point.value for name, point in registry.plugins("g").items()} == {"gear": "a:make", "rack": "b:make"}
-    registry.plugins.cache_clear()
+    assert {name: point.value for name, point in plugins.installed("g").items()} == {"gear": "a:make", "rack": "b:make"}
+    plugins.installed.cache_clear()
     points.append(EntryPoint("rack", "c:make", "g"))
     with pytest.raises(InputError, match="g: 'rack' is claimed by b:make and by c:make; uninstall one of the packages"):
-        registry.plugins("g")
+        plugins.installed("g")
 
 
 def test_a_plug_in_that_does_not_load_is_named_with_its_package(points):

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright import registry
+from drivewright import plugins
 from drivewright._jit import kernel
 from drivewright._typing import Floats, Numbers
 from drivewright.contact.normal import hunt_crossley_chi
@@ -36,14 +36,14 @@ class ImpactLaw(NamedTuple):
 
 def impact_law_names() -> list[str]:
     """Names of all impact laws, built in or plugged in, sorted."""
-    return sorted({*_BUILT_IN, *registry.plugins(PLUGINS)})
+    return sorted({*_BUILT_IN, *plugins.installed(PLUGINS)})
 
 
 def impact_law(name: str) -> ImpactLaw:
     """The impact law of a name; UnknownName with the nearest one otherwise."""
     if name not in impact_law_names():
         raise UnknownName("impact law", name, impact_law_names())
-    found = _BUILT_IN.get(name) or registry.load(PLUGINS, name, "impact law")
+    found = _BUILT_IN.get(name) or plugins.load(PLUGINS, name, "impact law")
     if not isinstance(found, ImpactLaw):
         raise InputError(f"impact law {name!r}: its entry point gives a {type(found).__name__}; it must name an ImpactLaw.")
     return found

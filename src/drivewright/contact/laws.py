@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drivewright import registry
+from drivewright import plugins
 from drivewright._jit import formulas_of, implements
 from drivewright.contact.normal import normal_force, stored_energy, tangent
 from drivewright.contact.time_step import mean_force, sampled_mean_force
@@ -34,7 +34,7 @@ class ContactParameters(NamedTuple):
 
 def contact_law_names() -> list[str]:
     """Names of the contact laws that are plugged in, sorted."""
-    return sorted(registry.plugins(PLUGINS))
+    return sorted(plugins.installed(PLUGINS))
 
 
 def contact_law(wanted: str | Callable[[ContactParameters], Any], parameters: ContactParameters) -> Any:
@@ -59,7 +59,7 @@ def _registered(name: str) -> Any:
     """What the entry point of a law names."""
     if name not in contact_law_names():
         raise UnknownName("contact law", name, contact_law_names())
-    return registry.load(PLUGINS, name, "contact law")
+    return plugins.load(PLUGINS, name, "contact law")
 
 
 def complete(kind: type) -> None:

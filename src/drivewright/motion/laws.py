@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from drivewright import registry
+from drivewright import plugins
 from drivewright._typing import Floats, Ints, Numbers
 from drivewright.errors import InputError, UnknownName
 from drivewright.motion.acceleration import Acceleration, hold, integrate, wave
@@ -89,14 +89,14 @@ def register(*names: str) -> Callable[[BuildT], BuildT]:
 
 def names() -> list[str]:
     """Names of all motion laws, built in or plugged in, sorted."""
-    return sorted({*BUILT_IN, *registry.plugins(PLUGINS)})
+    return sorted({*BUILT_IN, *plugins.installed(PLUGINS)})
 
 
 def law(name: str, **parameters: Any) -> MotionLaw:
     """The motion law of a name, e.g. law("scca", b=0.25, c=0, d=0.75)."""
     if name not in names():
         raise UnknownName("motion law", name, names())
-    build = BUILT_IN.get(name) or registry.load(PLUGINS, name, "motion law")
+    build = BUILT_IN.get(name) or plugins.load(PLUGINS, name, "motion law")
     try:
         inspect.signature(build).bind(**parameters)
     except TypeError as error:

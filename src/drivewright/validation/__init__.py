@@ -3,7 +3,7 @@
 A plug-in adds a `Source` of its own under the entry point group `drivewright.validation`.
 """
 
-from drivewright import registry
+from drivewright import plugins
 from drivewright.errors import InputError, UnknownName
 from drivewright.validation import (
     clearance_joints,
@@ -38,7 +38,7 @@ def sources(name: str | None = None) -> tuple[Source, ...]:
     """All sources, ours first, or the one of that name; UnknownName where there is none."""
     group = "drivewright.validation"
     known = {}
-    for source in (*OURS, *(registry.load(group, point) for point in sorted(registry.plugins(group)))):
+    for source in (*OURS, *(plugins.load(group, point) for point in sorted(plugins.installed(group)))):
         if source.name in known:
             raise InputError(f"two validation sources are called {source.name!r}; rename or uninstall one of the plug-ins of {group}")
         known[source.name] = source

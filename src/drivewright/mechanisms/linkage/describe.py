@@ -2,7 +2,7 @@
 
 import math
 
-from drivewright import registry
+from drivewright import plugins
 from drivewright.contact.hertz import effective_modulus
 from drivewright.contact.impact import impact_law, impact_law_names, journal_stiffness, kelvin_voigt_damping
 from drivewright.contact.laws import ContactParameters, contact_law, contact_law_names
@@ -45,7 +45,7 @@ def marker(spec: LinkageSpec, text: str) -> Marker:
 def _joint(spec, joint, ideal):
     if joint.kind in JOINTS:
         return JOINTS[joint.kind](spec, joint, ideal)
-    return registry.load("drivewright.joints", joint.kind, "kind of joint")(joint, *_markers(spec, joint))
+    return plugins.load("drivewright.joints", joint.kind, "kind of joint")(joint, *_markers(spec, joint))
 
 
 def _markers(spec, item) -> tuple[Marker, Marker]:

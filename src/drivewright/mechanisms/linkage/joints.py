@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from drivewright.registry import plugins
+from drivewright.plugins import installed
 from drivewright.spec import DataFile, Name, Number, Spec, Text
 from drivewright.spec.fields import Field
 from drivewright.units import (
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     Kind: TypeAlias = str
     Normal: TypeAlias = str
 else:
-    Kind = Literal[(*KINDS, *sorted(plugins("drivewright.joints")))]
-    Normal = Literal[(*NORMALS, *sorted({*plugins("drivewright.impact_laws"), *plugins("drivewright.contact_laws")}))]
+    Kind = Literal[(*KINDS, *sorted(installed("drivewright.joints")))]
+    Normal = Literal[(*NORMALS, *sorted({*installed("drivewright.impact_laws"), *installed("drivewright.contact_laws")}))]
 
 
 class Joint(Spec):

@@ -8,7 +8,7 @@ from drivewright.chains.meshing import Ideal
 from drivewright.errors import UnitError, brief
 from drivewright.fatigue.material import StrainLife
 from drivewright.mechanisms.silent_chain.refusals import refuse_nonsense
-from drivewright.registry import plugins
+from drivewright.plugins import installed
 from drivewright.spec import Integer, MechanismSpec, Name, Number, Spec
 from drivewright.spec.fields import Field
 from drivewright.units import (
@@ -33,7 +33,7 @@ RULES = ("match-drive", "minimax")
 if TYPE_CHECKING:
     ContactLaw: TypeAlias = str
 else:
-    ContactLaw = Literal[("kelvin-voigt", *sorted(plugins("drivewright.contact_laws")))]
+    ContactLaw = Literal[("kelvin-voigt", *sorted(installed("drivewright.contact_laws")))]
 TURN = 6.283185307179586
 
 
