@@ -10,6 +10,7 @@ from html import escape
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drivewright import plugins
 from drivewright._typing import ArrayLike, Floats
@@ -52,17 +53,34 @@ class UncertainNumber(Protocol):
     """What `Value.of` makes a value from, e.g. `numerics.ensemble.Estimate`."""
 
     @property
-    def value(self) -> float: ...
+    def value(self) -> float:
+        """The number itself [SI]."""
+        ...
+
     @property
-    def low(self) -> float | None: ...
+    def low(self) -> float | None:
+        """Lower end of its 95 % interval."""
+        ...
+
     @property
-    def high(self) -> float | None: ...
+    def high(self) -> float | None:
+        """Upper end of it."""
+        ...
+
     @property
-    def interval(self) -> str: ...
+    def interval(self) -> str:
+        """How the interval was made."""
+        ...
+
     @property
-    def settled(self) -> bool: ...
+    def settled(self) -> bool:
+        """Whether a statistic has stopped to drift."""
+        ...
+
     @property
-    def error(self) -> float | None: ...
+    def error(self) -> float | None:
+        """The standard error."""
+        ...
 
 
 class Value(NamedTuple):
@@ -129,7 +147,7 @@ class Column(NamedTuple):
     name: str
     unit: str
     meaning: str
-    data: Any  # (rows,) numbers or texts
+    data: NDArray[Any]  # (rows,) numbers or texts
     label: str = ""
 
     def about(self) -> dict[str, str]:
@@ -278,6 +296,9 @@ class Plot(NamedTuple):
     meaning: str = ""  # a sentence on what it shows, where the title is not enough; the title is its label
 
 
+AnalysisData: TypeAlias = Any  # whatever an analysis hands to those that need it; they know what it is
+
+
 @dataclass(frozen=True)
 class Answer:
     """What one analysis found.  `data` carries objects for the analyses that need this one; it is not written to disk.
@@ -290,7 +311,7 @@ class Answer:
     findings: tuple[str, ...] = ()
     arrays: Mapping[str, Array] = field(default_factory=dict)
     outcome: str = "complete"
-    data: Any = None
+    data: AnalysisData = None
     stopped: tuple[Stop, ...] = ()
     failure: str = ""
 

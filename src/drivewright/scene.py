@@ -40,9 +40,11 @@ class Line(NamedTuple):
     end: Point
 
     def points(self, tolerance: float) -> Floats:
+        """The two ends (2, 2) [m]."""
         return np.array([self.start, self.end], float)
 
     def moved(self, pose: Pose, mirror: bool) -> "Line":
+        """The same reflected about the x axis where asked, then carried by a pose."""
         return Line(_point(self.start, pose, mirror), _point(self.end, pose, mirror))
 
 
@@ -55,11 +57,13 @@ class Arc(NamedTuple):
     sweep: float
 
     def points(self, tolerance: float) -> Floats:
+        """Points (n, 2) [m] whose chords keep `tolerance` [m]."""
         step = 2 * np.arccos(max(1 - tolerance / max(self.radius, tolerance), 0.0))
         angles = self.start + self.sweep * np.linspace(0, 1, max(3, int(np.ceil(abs(self.sweep) / step)) + 1))
         return np.asarray(self.center) + self.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
     def moved(self, pose: Pose, mirror: bool) -> "Arc":
+        """The same reflected about the x axis where asked, then carried by a pose."""
         sign = -1.0 if mirror else 1.0
         return Arc(_point(self.center, pose, mirror), self.radius, sign * self.start + pose[2], sign * self.sweep)
 
@@ -72,9 +76,11 @@ class Spline(NamedTuple):
     end_tangent: Point
 
     def points(self, tolerance: float) -> Floats:
+        """The knots (n, 2) [m]."""
         return np.asarray(self.knots, float)
 
     def moved(self, pose: Pose, mirror: bool) -> "Spline":
+        """The same reflected about the x axis where asked, then carried by a pose."""
         turn = (0.0, 0.0, pose[2])
         return Spline(place(self.knots, pose, mirror), _point(self.start_tangent, turn, mirror), _point(self.end_tangent, turn, mirror))
 
@@ -204,6 +210,7 @@ class Drawing:
     milled: bool = True
 
     def on(self, layer: str) -> tuple[Outline, ...]:
+        """The outlines on a layer."""
         return tuple(shape.outline for shape in self.shapes if shape.layer == layer)
 
 

@@ -20,8 +20,6 @@ NOT_YET = {  # packages that are still to be finished; one that is finished has 
     "mechanisms/silent_chain",
     "oracles",
     "report",
-    "result",
-    "scene",
     "shafts",
     "view",
 }
