@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from drivewright import registry
+from drivewright import plugins
 from drivewright._jit import plain
 from drivewright.contact import hertz, impact
 from drivewright.errors import InputError, UnknownName
@@ -99,7 +99,7 @@ def test_the_names_and_an_unknown_one():
 def test_a_law_of_another_package(monkeypatch):
     theirs = impact.ImpactLaw("half", lambda e: 1 - e, 0.8, "a test")
     points = {"half": SimpleNamespace(load=lambda: theirs), "broken": SimpleNamespace(load=lambda: 3.0)}
-    monkeypatch.setattr(registry, "plugins", lambda group: points if group == "drivewright.impact_laws" else {})
+    monkeypatch.setattr(plugins, "installed", lambda group: points if group == "drivewright.impact_laws" else {})
     assert "half" in impact.impact_law_names() and impact.impact_law("half") is theirs
     with pytest.raises(InputError, match="impact law 'broken': its entry point gives a float; it must name an ImpactLaw"):
         impact.impact_law("broken")

@@ -245,10 +245,11 @@ def test_numbers_of_members_have_students_interval():
 def test_value_of_an_estimate():
     found = estimate(autoregressive(1, 8, 16, 0.5)[0] + 10)
     value = Value.of(found, "m", "fluctuation")
-    assert value == Value(found.value, "m", "fluctuation", found.low, found.high, "ensemble", True, found.error)
+    assert value == Value(found.value, "m", "fluctuation", found.low, found.high, "ensemble", True, found.error, "Fluctuation")
     assert value.record() == {
         "value": found.value,
         "unit": "m",
+        "label": "Fluctuation",
         "meaning": "fluctuation",
         "low": found.low,
         "high": found.high,
@@ -259,7 +260,7 @@ def test_value_of_an_estimate():
 
 def test_value_without_interval_and_not_settled():
     value = Value.of(estimate([2.0]), "m", "fluctuation")
-    assert value.record() == {"value": 2.0, "unit": "m", "meaning": "fluctuation", "settled": False}
+    assert value.record() == {"value": 2.0, "unit": "m", "label": "Fluctuation", "meaning": "fluctuation", "settled": False}
     assert ENOUGH > 1
 
 
