@@ -13,8 +13,8 @@ import pytest
 
 from drivewright._jit import implements
 from drivewright.multibody.assembly import assemble
-from drivewright.multibody.drawing import JointDrawing
 from drivewright.multibody.joints import PointJoint, row_terms, row_velocity_product
+from drivewright.multibody.joints.joint import JointDrawing
 from drivewright.multibody.model import GROUND, Body, JointDrive, Marker, MultibodyModel, PinSlot, Prismatic, Revolute, line
 from drivewright.multibody.observe import observe
 from drivewright.multibody.reactions import reactions

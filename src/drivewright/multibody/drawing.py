@@ -1,28 +1,12 @@
 """How bodies and joints are drawn: outlines in the frames of the bodies, from the poses of a motion."""
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple
-
 import numpy as np
 
 from drivewright._typing import ArrayLike, Floats
 from drivewright.scene import Arc, Line, Outline, Point, capsule, circle, polygon
 
-if TYPE_CHECKING:
-    from drivewright.multibody.joints.joint import Joint
-
 PIN = 0.5  # radius of a pin over half a bar's width
 BLOCK = 2.6  # half the height of a sliding block over half a bar's width
-
-
-class JointDrawing(NamedTuple):
-    """What joints are drawn from: poses {body: (samples, 3)} [m, m, rad] of the bodies' own frames, half the width of a drawn bar [m],
-    the bodies in the order in which they are drawn, and all joints of the mechanism."""
-
-    poses: Mapping[str, Floats]
-    half_width: float
-    order: tuple[str, ...]
-    joints: "tuple[Joint, ...]"
 
 
 def rounded(points: ArrayLike, radius: float) -> Outline:

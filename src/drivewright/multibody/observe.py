@@ -1,7 +1,6 @@
 """What a moving system does at given states: poses, rates, accelerations, forces, powers, pins with play."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -11,34 +10,8 @@ from drivewright.multibody.chart import dependency_on_drive, update_kinematics
 from drivewright.multibody.dynamics import solve_accelerations, update_mass_matrix
 from drivewright.multibody.forces.contact import NO_FILM
 from drivewright.multibody.loads import apply_loads, apply_springs, clear_forces, contact_state, film_force, pin_forces
+from drivewright.multibody.observed import FIELDS, PIN_FIELDS, POWER_FIELDS, Observed
 from drivewright.multibody.system import BIAS, SCRATCH, Motion, System, Work, motion
-
-FIELDS = ("x", "y", "angle", "vx", "vy", "w", "ax", "ay", "alpha", "fx", "fy", "torque")
-PIN_FIELDS = ("depth", "normal", "friction", "slip", "nx", "ny", "fx", "fy")
-POWER_FIELDS = ("springs", "applied", "pins", "drives")
-
-
-class Observed(NamedTuple):
-    """Arrays over the times t (m,).
-
-    bodies (m, bodies, FIELDS): centroid, rates, accelerations, and the force and torque of all elements on the body, gravity left out;
-    pins (m, pins with play, PIN_FIELDS): depth below 0 in flight, n from the journal to the bearing's centre, force on the bearing;
-    powers (m, POWER_FIELDS) that the elements give to the bodies [W]; drives (m, drives): torque or force of each drive.
-    """
-
-    t: Floats
-    bodies: Floats
-    pins: Floats
-    powers: Floats
-    drives: Floats
-
-    def body(self, number: int | slice, field: str) -> Floats:
-        """One of FIELDS of a body (m,)."""
-        return self.bodies[:, number, FIELDS.index(field)]
-
-    def pin(self, number: int, field: str) -> Floats:
-        """One of PIN_FIELDS of a pin with play (m,)."""
-        return self.pins[:, number, PIN_FIELDS.index(field)]
 
 
 def observe(system: System, t: ArrayLike, y: ArrayLike) -> Observed:

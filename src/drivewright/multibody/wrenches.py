@@ -1,15 +1,13 @@
 """What joints can transmit, as unit wrenches in absolute coordinates, and where the bodies are that they act on."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.multibody.bodies import GROUND, Marker
-
-if TYPE_CHECKING:
-    from drivewright.multibody.observe import Observed
+from drivewright.multibody.observed import Observed
 
 Torques: TypeAlias = Mapping[str, float | Floats]  # by body: a number, or one per state
 
@@ -40,7 +38,7 @@ class ObservedBodies(NamedTuple):
     numbers: Mapping[str, int]
     centroids: Mapping[str, tuple[float, float]]
     start_angles: Mapping[str, float]
-    observed: "Observed"
+    observed: Observed
 
     def field(self, body: str, name: str) -> Floats:
         """One of observe.FIELDS (m,) of a body."""

@@ -10,7 +10,8 @@ from drivewright.mechanisms.linkage.describe import marker, output_marker
 from drivewright.mechanisms.linkage.refusals import GROUND
 from drivewright.mechanisms.linkage.sketch import half_width, nodes
 from drivewright.multibody.analyses.cycle_poses import FINE, cycle_poses
-from drivewright.multibody.drawing import JointDrawing, positions_of, rotate, rounded
+from drivewright.multibody.drawing import positions_of, rotate, rounded
+from drivewright.multibody.joints.joint import JointDrawing
 from drivewright.multibody.model import Revolute
 from drivewright.scene import Body, Frame, Scene, Shape, Trace, circle, polygon
 

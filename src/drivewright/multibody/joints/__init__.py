@@ -3,9 +3,10 @@
 from drivewright.multibody.joints.cam_pair import CamPair
 from drivewright.multibody.joints.gear import Gear
 from drivewright.multibody.joints.joint import Expansion, Joint, PointJoint, TreeRole
+from drivewright.multibody.joints.pin_models import Ideal, MasslessLink, PinModel
 from drivewright.multibody.joints.pin_slot import PinSlot
 from drivewright.multibody.joints.prismatic import Prismatic
-from drivewright.multibody.joints.revolute import Ideal, MasslessLink, PinModel, Revolute
+from drivewright.multibody.joints.revolute import Revolute
 from drivewright.multibody.joints.rolling import Rolling
 from drivewright.multibody.joints.rows import row_terms, row_velocity_product
 

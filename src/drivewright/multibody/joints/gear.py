@@ -6,9 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from drivewright.multibody.bodies import GROUND, Marker
-from drivewright.multibody.drawing import JointDrawing
 from drivewright.multibody.index import ModelIndex
-from drivewright.multibody.joints.joint import Joint, RowFields
+from drivewright.multibody.joints.joint import Joint, JointDrawing, RowFields
 from drivewright.multibody.wrenches import ObservedBodies, Wrench, sum_torques
 from drivewright.scene import Shape, circle
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.multibody.bodies import Body, Marker
-from drivewright.multibody.drawing import JointDrawing, positions_of, rotate
+from drivewright.multibody.drawing import positions_of, rotate
 from drivewright.multibody.index import ModelIndex
 from drivewright.multibody.wrenches import ObservedBodies, Reaction, Wrench, cross
 from drivewright.scene import Shape
@@ -20,7 +20,7 @@ from drivewright.scene import Shape
 if TYPE_CHECKING:
     from drivewright.multibody.forces.contact import Dry
     from drivewright.multibody.forces.element import ForceElement
-    from drivewright.multibody.joints.revolute import MasslessLink, Play
+    from drivewright.multibody.joints.pin_models import MasslessLink, Play
 
 RowFields: TypeAlias = Mapping[str, Any]  # fields of system.ROW; `kind` is a number of system, or an equation under @implements(row_terms)
 Axis: TypeAlias = tuple[float, float]  # a direction in a body's frame, of any length
@@ -43,6 +43,16 @@ class Expansion(NamedTuple):
     bodies: "tuple[Body, ...]"
     joints: "tuple[Joint, ...]"
     forces: "tuple[ForceElement, ...]"
+
+
+class JointDrawing(NamedTuple):
+    """What joints are drawn from: poses {body: (samples, 3)} [m, m, rad] of the bodies' own frames, half the width of a drawn bar [m],
+    the bodies in the order in which they are drawn, and all joints of the mechanism."""
+
+    poses: Mapping[str, Floats]
+    half_width: float
+    order: tuple[str, ...]
+    joints: "tuple[Joint, ...]"
 
 
 @dataclass(frozen=True)

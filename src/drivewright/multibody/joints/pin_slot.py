@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from drivewright.multibody.bodies import GROUND
-from drivewright.multibody.drawing import PIN, JointDrawing, rounded
+from drivewright.multibody.drawing import PIN, rounded
 from drivewright.multibody.index import ModelIndex, unit_axis
-from drivewright.multibody.joints.joint import SLIDING_PIN, Axis, PointJoint, RowFields, TreeRole, line_direction, travel
+from drivewright.multibody.joints.joint import SLIDING_PIN, Axis, JointDrawing, PointJoint, RowFields, TreeRole, line_direction, travel
 from drivewright.multibody.wrenches import NORMAL_OF, ObservedBodies, Wrench
 from drivewright.scene import Shape, circle
 

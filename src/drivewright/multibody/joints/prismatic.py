@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from drivewright.multibody.bodies import GROUND
-from drivewright.multibody.drawing import BLOCK, JointDrawing, block
+from drivewright.multibody.drawing import BLOCK, block
 from drivewright.multibody.index import ModelIndex, unit_axis
-from drivewright.multibody.joints.joint import PRISMATIC, Axis, PointJoint, RowFields, TreeRole, line_direction, travel
+from drivewright.multibody.joints.joint import PRISMATIC, Axis, JointDrawing, PointJoint, RowFields, TreeRole, line_direction, travel
 from drivewright.multibody.wrenches import NORMAL_OF, ObservedBodies, Wrench, sum_torques
 from drivewright.scene import Shape, polygon
 

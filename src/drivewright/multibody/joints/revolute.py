@@ -2,41 +2,20 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import ClassVar, TypeAlias
 
 import numpy as np
 
 from drivewright.multibody.bodies import GROUND, Body, Marker
 from drivewright.multibody.drawing import PIN as PIN_RADIUS
-from drivewright.multibody.drawing import JointDrawing
 from drivewright.multibody.forces.bushing import Bushing, BushingForce
 from drivewright.multibody.forces.contact import Dry, Lubricated, PinContact
 from drivewright.multibody.forces.element import ForceElement
 from drivewright.multibody.forces.rotational_spring import RotationalSpring
 from drivewright.multibody.index import ModelIndex
-from drivewright.multibody.joints.joint import PIN, Expansion, Joint, PointJoint, RowFields, TreeRole
+from drivewright.multibody.joints.joint import PIN, Expansion, Joint, JointDrawing, PointJoint, RowFields, TreeRole
+from drivewright.multibody.joints.pin_models import Ideal, MasslessLink, PinModel, Play
 from drivewright.multibody.wrenches import ObservedBodies, Wrench, sum_torques
 from drivewright.scene import Shape, circle
-
-
-@dataclass(frozen=True)
-class Ideal:
-    """No play."""
-
-
-@dataclass(frozen=True)
-class MasslessLink:
-    """Continuous contact: the journal's centre is held at the distance of the clearance by a rigid link without mass."""
-
-    clearance: float  # radial [m]
-    damping: float = 0.0  # of the link's own rotation [N m s/rad]
-    angle: float = 0.0  # start angle, from the centre of the first body's pin towards that of the second's [rad]
-
-    noun: ClassVar[str] = "play"
-
-
-Play: TypeAlias = MasslessLink | Dry | Lubricated | Bushing
-PinModel: TypeAlias = Ideal | Play
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,8 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.multibody.bodies import GROUND
-from drivewright.multibody.drawing import JointDrawing
 from drivewright.multibody.index import ModelIndex, unit_axis
-from drivewright.multibody.joints.joint import Axis, PointJoint, RowFields, line_direction, travel
+from drivewright.multibody.joints.joint import Axis, JointDrawing, PointJoint, RowFields, line_direction, travel
 from drivewright.multibody.joints.rows import CIRCLE, DISTANCE
 from drivewright.multibody.wrenches import NORMAL_OF, ObservedBodies, Wrench
 from drivewright.scene import Shape, circle, polygon
