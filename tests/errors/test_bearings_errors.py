@@ -116,7 +116,7 @@ def _(bearing):
 
 @implements(newton.measures, Track)
 def _(law):
-    return newton.Measures(1e-3, 1.0, 0.0, 0, 0)
+    return newton.BearingMeasures(1e-3, 1.0, 0.0, 0, 0)
 
 
 @implements(solving.elements, Track)
