@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from drivewright import registry, validation
+from drivewright import plugins, validation
 from drivewright.errors import InputError, UnitError, UnknownName
 from drivewright.validation import AGREES, EXPLAINED, OPEN, Explanation, Printed, Row, Source, rounded
 
@@ -68,9 +68,9 @@ def test_an_unknown_source_is_named_with_its_neighbour():
         validation.sources("pusher-papr")
 
 
-def plugged(monkeypatch, **plugins):
-    monkeypatch.setattr(registry, "plugins", lambda group: plugins if group == "drivewright.validation" else {})
-    monkeypatch.setattr(registry, "load", lambda group, name: plugins[name])
+def plugged(monkeypatch, **sources):
+    monkeypatch.setattr(plugins, "installed", lambda group: sources if group == "drivewright.validation" else {})
+    monkeypatch.setattr(plugins, "load", lambda group, name: sources[name])
 
 
 def test_a_plug_in_adds_a_source(monkeypatch):

@@ -37,7 +37,7 @@ LONG = {"folding-linkage", "clearance-joints"}  # sources whose rows take minute
 def computed(sources):
     """Sources with their rows computed once."""
     found = [(source, source.rows()) for source in sources]
-    return {source.name: replace(source, table=lambda rows=rows: rows) for source, rows in found}
+    return {source.name: replace(source, row_function=lambda rows=rows: rows) for source, rows in found}
 
 
 @pytest.fixture(scope="module")
