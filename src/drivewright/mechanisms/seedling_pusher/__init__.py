@@ -24,7 +24,7 @@ ANALYSES = (
 )
 
 PLOTS = (
-    Plot("rod", "PusherModel rod over one carrier turn", "cycle", "carrier_angle", ("rod", "rod_velocity", "rod_acceleration")),
+    Plot("rod", "Pusher rod over one carrier turn", "cycle", "carrier_angle", ("rod", "rod_velocity", "rod_acceleration")),
     Plot("planet", "Planet relative to the carrier", "cycle", "carrier_angle", ("planet_angle", "arm_rotation")),
     Plot("ratio", "Planet speed over carrier speed", "cycle", "carrier_angle", ("planet_ratio",)),
     Plot("needle", "Needle below the horizontal", "cycle", "carrier_angle", ("needle_angle",)),

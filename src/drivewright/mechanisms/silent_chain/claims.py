@@ -6,7 +6,7 @@ from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 REASONS = {
     "derivatives": "no table holds a place beside its rate; the running chain's energy balance tests the rates of its equations",
     "mirror": "the sense of travel along the plates' x is a convention: the mirror image is the same drive seen from behind",
-    "limits": "tests/properties/test_chain_mechanism.py tests the limit of stiff plates",
+    "limits": "the limit of stiff plates is that of the chain at rest under load, which no preset computes",
 }
 
 
