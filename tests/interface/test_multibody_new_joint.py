@@ -119,6 +119,7 @@ def test_its_reaction_balances_the_bodies(seen):
     assert np.allclose(found.drives, observed.drives, rtol=1e-9, atol=1e-9)
 
 
+@pytest.mark.slow  # its equation makes kernels of its own
 def test_an_ellipse_on_a_turning_body_moves_a_free_mechanism():
     """Carried by the crank, with the pin held in a straight slot of the ground: energy stays."""
     model = MultibodyModel(
