@@ -101,7 +101,8 @@ class Unknown(NamedTuple):
 
 
 def test_an_unknown_law_is_named_with_the_known_ones():
-    with pytest.raises(InputError, match="normal_force: no formula for a Unknown; it has one for: HuntCrossley, KelvinVoigt, PowerLaw, Spring"):
+    known = "HuntCrossley, KelvinVoigt, PowerLaw, Spring"
+    with pytest.raises(InputError, match=f"normal_force: no formula for a Unknown; it has one for: {known}"):
         normal_force(Unknown(1.0), -1.0, 0.0)
 
 
