@@ -1,13 +1,7 @@
 """One Chromium for all browser tests, and a report page made once."""
 
-import sys
-from pathlib import Path
-
 import pytest
 from browsing import until
-
-sys.path.append(str(Path(__file__).parents[1] / "interface"))
-
 
 COMPLAINTS, OURS = ("error", "warning"), "getImageData"  # reading the canvas is what the tests do
 

@@ -14,7 +14,7 @@ from drivewright.report.pack import pack_plot_groups, pack_scene
 from drivewright.scene import Body, Frame, Scene, Shape, polygon
 from drivewright.view.palette import style_sheet
 
-pytestmark = pytest.mark.needs_browser
+pytestmark = [pytest.mark.browser, pytest.mark.needs_browser]
 
 PAGE = """<!doctype html><meta charset="utf-8">
 <style>{style} body {{ margin: 0 }} #host {{ height: 600px; width: 900px }} .far {{ height: 3000px }}</style>

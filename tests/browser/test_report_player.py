@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from browsing import until
 
-pytestmark = pytest.mark.needs_browser
+pytestmark = [pytest.mark.browser, pytest.mark.needs_browser]
 
 PHASE = "drivewright.clock.phase"
 PIXELS = """() => { const c = document.querySelector('.dw-canvas'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;

@@ -1,14 +1,9 @@
 """Points, stems, dashed references, powers of ten and shaded ground in the report's linked plots."""
 
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
-
-sys.path.append(str(Path(__file__).parents[1] / "interface"))
-
 from sample_designs import four_bar_result, four_bar_scene
 
 from drivewright.report.content import Views
@@ -16,6 +11,8 @@ from drivewright.report.html import write_report
 from drivewright.result import Column, Plot, Table
 from drivewright.view.palette import colour
 from drivewright.view.panels import panels
+
+pytestmark = pytest.mark.browser
 
 X = np.linspace(0, 2 * np.pi, 41)
 TABLE = Table(

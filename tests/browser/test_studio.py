@@ -13,7 +13,7 @@ from studio_running import EXAMPLES, analysed, drawn, enter, field, own_port, ru
 
 from drivewright.spec import load
 
-pytestmark = [pytest.mark.needs_browser, pytest.mark.needs_studio]
+pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_studio]
 
 ONE_OF_EACH = ("disc_cam", "seedling_pusher", "four_bar", "pressure_roller_shaft", "pin_indexer", "hyvo_chain")
 FRAME = """async () => {

@@ -6,7 +6,7 @@ import pytest
 from browsing import until
 from studio_running import EXAMPLES, ROOT, analysed, drawn, enter, own_port, running, shared
 
-pytestmark = [pytest.mark.slow, pytest.mark.needs_browser, pytest.mark.needs_studio]
+pytestmark = [pytest.mark.browser, pytest.mark.slow, pytest.mark.needs_browser, pytest.mark.needs_studio]
 
 FOLDER = ROOT / "out" / "screenshots"
 NAMES = ("disc_cam", "seedling_pusher", "four_bar", "rubber_roller_61804", "pin_indexer", "hyvo_chain", "slider_crank_clearance")

@@ -4,6 +4,8 @@ import pytest
 
 from drivewright.testing import cases
 
+pytestmark = pytest.mark.conformance
+
 
 @pytest.mark.parametrize("case", cases(), ids=str)
 def test_conformance(case):

@@ -10,6 +10,8 @@ import pytest
 from drivewright import registry
 from drivewright.testing import label_faults
 
+pytestmark = pytest.mark.conformance
+
 LIST = Path(__file__).with_name("labels_to_mend.txt")
 
 

@@ -10,6 +10,8 @@ from drivewright.execution.keys import key_kind
 from drivewright.spec import document, load, preset_path
 from drivewright.studies.variation import tolerance
 
+pytestmark = pytest.mark.conformance
+
 LEVELS, SAMPLES = 3, 2
 
 

@@ -10,6 +10,8 @@ from drivewright.mechanisms.cam.claims import image
 from drivewright.result import Answer, Column, Table, Value
 from drivewright.spec import set_key
 
+pytestmark = pytest.mark.conformance
+
 CASES = {subject: testing.Case("cam", "default", subject) for subject in (*SUBJECTS, "units", "record")}
 KEYS = ("vibration.natural_frequency",)
 

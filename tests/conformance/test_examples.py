@@ -1,0 +1,76 @@
+"""Ourselves against accidents: every worked example runs, and a few of its numbers have not moved.
+
+These numbers are our own.  When one moves for a good reason, print the new one with `drivewright run examples/NAME.toml --json`,
+say in the commit why it moved, and change it here.
+"""
+
+import pytest
+from places import EXAMPLES
+
+import drivewright as dw
+
+pytestmark = pytest.mark.golden
+
+FOLDER = EXAMPLES
+PINNED = {
+    "disc_cam": {"max_pressure_angle": 0.47777217340123485, "min_convex_radius": 0.031610820401744206, "max_contact_force": 206.6133},
+    "oscillating_cam": {"max_pressure_angle": 0.42140923293097693, "min_convex_radius": 0.03150449711976596},
+    "yoke_cam": {"min_convex_radius": 0.042, "min_half_face": 0.01613085562113285},
+    "seedling_pusher": {
+        "tip.track_height": 0.18232325075379263,
+        "cam.max_pressure_angle": 0.5415328447258717,
+        "contact.peak_force": 602.777,
+    },
+    "four_bar": {"rocker.max_angular_acceleration": 799.6856085336536, "drive.max_torque": 0.6753569458094927},
+    "jansen_leg": {"foot.max_acceleration": 9.374857905206746, "drive.max_torque": 0.03531556050871491},
+    "knife_folder": {"knife.impact_load_coefficient": 1.6599560257699812, "knife_tip.peak_acceleration_ratio": 1.508782965780165},
+    "pressure_roller_shaft": {"stations.m2.deflection": 0.000357575392, "modes.1.frequency": 63.9497231},
+    "rubber_roller_shaft": {"stations.m3.deflection": 0.000312090678, "flexibility.m3.m3": 6.24181357e-07, "modes.1.frequency": 38.8348779},
+    "rubber_roller_61804": {
+        "stations.m3.deflection": 0.000398758557,
+        "bearings.C.reference_life": 34034277,
+        "bearings.C.stiffness.tangent": 118615240,
+    },
+    "spindle": {"stations.nose.deflection": 5.50790965e-06, "critical_speeds.forward.1": 5509.45005},
+    "pin_indexer": {
+        "profile.area": 0.0381221101584,
+        "play.forward.maximum": 0.033082967,
+        "stiffness.mean": 361238.11,
+        "crank.max_load": 28817.9164,
+    },
+    "pin_indexer_two_way": {"profile.area": 0.04299048005, "stiffness.mean": 35289711.4, "pins.max_pressure": 703033471.3},
+    "cycloid_reducer": {"profile.area": 0.00993052288449, "stiffness.mean": 340276.1185, "pins.max_pressure": 814187601.6},
+    "roller_gear_indexer": {
+        "pressure_angle.maximum": 0.48197626,
+        "profile.min_relative_radius": 0.0097356891,
+        "pins.max_pressure": 946802171.1,
+    },
+    "torsion_test": {"stiffness.per_branch": 359156.472, "hysteresis_energy": 0.0741732},
+    # Contacts of a running chain chatter: only what stands still is pinned.
+    "hyvo_chain": {"pitch_deviation.driven": 2.46695172e-06, "centre_distance.mean": 0.219057426, "over_pins.drive": 0.1064210048},
+    "hyvo_groups": {"centre_distance.fluctuation": 1.05445846e-06, "pin.contact_pressure": 1549806044.3},
+    "hyvo_classical": {
+        "centre_distance.mean": 0.219084033,
+        "centre_distance.fluctuation": 4.6700946e-06,
+        "pin.contact_pressure": 417528655.5,
+    },
+    "roller_chain": {"centre_distance.mean": 0.32017224765, "layout.centre_distance": 0.3201723026, "strand.tight_force": 244.208655},
+    # Chaotic: only what does not depend on which way the pin bounces.
+    "slider_crank_clearance": {"slider.ideal_peak": 19419.360511402672, "bodies.crank.angular_velocity": 523.5987755982989},
+    "seedling_pusher_improved": {"needle.angle_difference": 0.953388, "cam.max_pressure_angle": 0.310305, "cam.curvature_ratio": 1.680426},
+}
+
+
+def test_every_example_is_pinned():
+    assert {path.stem for path in FOLDER.glob("*.toml")} == set(PINNED)
+
+
+@pytest.mark.parametrize("name", PINNED)
+def test_an_example_runs_to_the_same_numbers(name):
+    result = dw.run(dw.load(FOLDER / f"{name}.toml"))
+    assert result.outcome == "complete"
+    assert {key: result[key] for key in PINNED[name]} == pytest.approx(PINNED[name], rel=2e-5)
+
+
+def test_the_improved_pusher_meets_every_requirement():
+    assert dw.run(dw.load(FOLDER / "seedling_pusher_improved.toml")).ok

@@ -1,0 +1,100 @@
+"""Places where a circle comes nearest to a closed profile: circles, corners and arcs in closed form, and brute force."""
+
+import numpy as np
+import pytest
+
+from drivewright import curves
+from drivewright._jit import plain
+from drivewright.curves import touching
+from drivewright.numerics.jets import exp, variable
+
+pytestmark = pytest.mark.analytical
+
+PI = np.pi
+
+
+def smooth(z, start, stop, shape="smooth"):
+    return curves.Span(curves.Piece(start, stop, z, "", shape), start, stop)
+
+
+def square(half):
+    corners = half * np.array([1 - 1j, 1 + 1j, -1 + 1j, -1 - 1j])
+    return tuple(
+        smooth(lambda t, a=a, b=b: a + (b - a) * variable(t), 0.0, 1.0, "line") for a, b in zip(corners, np.roll(corners, -1), strict=True)
+    )
+
+
+def wave():
+    """Five lobes about a point off the origin."""
+    return (smooth(lambda t: 0.003 + 0.05 * exp(1j * variable(t)) + 0.006 * exp(-4j * variable(t)), 0.0, 2 * PI),)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_a_round_profile_is_touched_on_the_line_through_its_centre(sense):
+    nodes = touching.nodes_of((smooth(lambda t: 0.002j + 0.03 * exp(sense * 1j * variable(t)), 0.0, 2 * PI, "arc"),))
+    outside = 0.002j + 0.041 * np.exp(1j * np.array([0.3, 2.2, -1.9]))
+    found = touching.touches(nodes, outside, 0.01, 2e-3)
+    assert list(found.centre) == [0, 1, 2]
+    np.testing.assert_allclose(found.gap, 1e-3, atol=1e-9)
+    np.testing.assert_allclose(found.point, 0.002j + 0.03 / 0.041 * (outside - 0.002j), atol=1e-9)
+    np.testing.assert_allclose(found.curvature, sense / 0.03, rtol=1e-4)
+
+
+def test_only_places_within_reach_are_told():
+    nodes = touching.nodes_of((smooth(lambda t: 0.03 * exp(1j * variable(t)), 0.0, 2 * PI, "arc"),))
+    assert len(touching.touches(nodes, [0.041 + 0j], 0.01, 0.99e-3).gap) == 0
+    assert len(touching.touches(nodes, [0.041 + 0j], 0.01, 1.01e-3).gap) == 1
+
+
+def test_a_corner_is_a_place_of_its_own():
+    """Beyond the corner of a square the corner itself is nearest, with no finite curvature; before a side its foot."""
+    nodes = touching.nodes_of(square(0.02))
+    found = touching.touches(nodes, [0.023 + 0.024j, 0.024 - 0.0031j], 0.004, 1.1e-3)
+    assert list(found.centre) == [0, 1]
+    np.testing.assert_allclose(found.point, [0.02 + 0.02j, 0.02 - 0.0031j], atol=1e-12)
+    np.testing.assert_allclose(found.gap, [0.005 - 0.004, 0.0], atol=1e-12)
+    assert np.isinf(found.curvature[0]) and found.curvature[1] == 0
+
+
+def test_inside_a_corner_both_sides_touch_and_the_corner_does_not():
+    found = touching.touches(touching.nodes_of(square(0.02)), [0.015 + 0.014j], 0.006, 1e-3)
+    np.testing.assert_allclose(sorted(found.gap), [-0.001, 0.0], atol=1e-12)
+    np.testing.assert_allclose(sorted(found.point, key=np.real), [0.015 + 0.02j, 0.02 + 0.014j], atol=1e-12)
+
+
+def test_all_local_minima_against_brute_force():
+    rng = np.random.default_rng(3)
+    centres = rng.uniform(0.0, 0.06, 40) * np.exp(1j * rng.uniform(-PI, PI, 40))
+    found = touching.touches(touching.nodes_of(wave()), centres, 0.0, 0.02)
+    t = np.linspace(0, 2 * PI, 100_001)[:-1]
+    z = 0.003 + 0.05 * np.exp(1j * t) + 0.006 * np.exp(-4j * t)
+    for k, centre in enumerate(centres):
+        away = np.abs(z - centre)
+        least = (away < np.roll(away, 1)) & (away <= np.roll(away, -1)) & (away < 0.02)
+        before, at, after = np.roll(away, 1)[least] ** 2, away[least] ** 2, np.roll(away, -1)[least] ** 2
+        vertex = at - (after - before) ** 2 / (8 * (after + before - 2 * at))
+        np.testing.assert_allclose(np.sort(found.gap[found.centre == k]), np.sort(np.sqrt(vertex)), atol=1e-9)
+    assert len(found.gap) > 20
+
+
+def test_the_curvature_is_that_of_the_curve():
+    found = touching.touches(touching.nodes_of(wave()), [0.061 + 0.004j, 0.02 + 0.06j], 0.0, 0.03)
+    t = np.linspace(0, 2 * PI, 200_001)
+    v, a = 0.05j * np.exp(1j * t) - 0.024j * np.exp(-4j * t), -0.05 * np.exp(1j * t) - 0.096 * np.exp(-4j * t)
+    z = 0.003 + 0.05 * np.exp(1j * t) + 0.006 * np.exp(-4j * t)
+    for point, curvature in zip(found.point, found.curvature, strict=True):
+        k = np.argmin(np.abs(z - point))
+        assert curvature == pytest.approx(np.imag(np.conj(v[k]) * a[k]) / abs(v[k]) ** 3, rel=1e-3)
+
+
+def test_the_kernel_gives_the_same_uncompiled():
+    nodes = touching.nodes_of(wave())
+    for limit in (0.006, 0.02):
+        seen = []
+        for search in (touching.nearest, plain(touching.nearest)):
+            found, curvature = np.zeros(9, complex), np.zeros(9)
+            count = search(nodes, 0.045 + 0.012j, limit, found, curvature)
+            seen.append((count, found, curvature))
+        assert seen[0][0] == seen[1][0] > 0
+        np.testing.assert_allclose(seen[0][1], seen[1][1], rtol=1e-13)
+        np.testing.assert_allclose(seen[0][2], seen[1][2], rtol=1e-9)

@@ -1,0 +1,107 @@
+import numpy as np
+import pytest
+
+from drivewright.errors import InputError
+from drivewright.numerics.splines import interpolating_spline, smoothing_spline
+
+pytestmark = pytest.mark.analytical
+
+X = np.array([0.0, 0.3, 0.9, 1.2, 2.0, 2.3, 3.1, 3.3, 4.0])
+Y = np.sin(1.3 * X) + 0.1 * X**2
+
+
+@pytest.mark.parametrize("degree", [3, 5])
+@pytest.mark.parametrize("ends", ["natural", "clamped", "periodic"])
+def test_interpolates_and_is_smooth_and_breaks_at_the_points(degree, ends):
+    y = np.where(X[-1] == X, Y[0], Y) if ends == "periodic" else Y
+    spline = interpolating_spline(X, y, degree, ends)
+    np.testing.assert_array_equal(spline.x, X)
+    assert spline.c.shape == (degree + 1, X.size - 1)
+    np.testing.assert_allclose(spline(X), y, atol=1e-13)
+    wrap = (X[0], X[-1]) if ends == "periodic" else ()
+    for order in range(degree):
+        left = [np.polyval(np.polyder(np.poly1d(spline.c[:, i]), order), X[i + 1] - X[i]) for i in range(X.size - 1)]
+        right = [np.polyval(np.polyder(np.poly1d(spline.c[:, i]), order), 0.0) for i in range(X.size - 1)]
+        np.testing.assert_allclose(left[:-1], right[1:], atol=2e-9)
+        if wrap:
+            assert left[-1] == pytest.approx(right[0], abs=2e-9)
+
+
+@pytest.mark.parametrize(
+    "degree, ends, orders", [(3, "natural", (2,)), (5, "natural", (3, 4)), (3, "clamped", (1,)), (5, "clamped", (1, 2))]
+)
+def test_end_conditions(degree, ends, orders):
+    spline = interpolating_spline(X, Y, degree, ends)
+    for order in orders:
+        np.testing.assert_allclose(spline.derivative(order)(X[[0, -1]]), 0, atol=1e-10)
+    free = {1, 2, 3, 4} - set(orders)
+    assert abs(spline.derivative(min(free))(X[0])) > 1e-3
+
+
+@pytest.mark.parametrize("degree", [3, 5])
+def test_order_of_interpolation(degree):
+    errors = []
+    for n in (10, 20, 40, 80):
+        x = 2 * np.pi * np.arange(n + 1) / n
+        spline = interpolating_spline(x, np.append(np.exp(np.sin(x[:-1])), 1.0), degree, "periodic")
+        fine = np.linspace(0, 2 * np.pi, 1234)
+        errors.append(np.abs(spline(fine) - np.exp(np.sin(fine))).max())
+    slope = np.polyfit(np.log([20, 40, 80]), np.log(errors[1:]), 1)[0]
+    assert -slope == pytest.approx(degree + 1, abs=0.5)
+
+
+def test_a_periodic_spline_goes_on_for_ever():
+    y = np.where(X[-1] == X, Y[0], Y)
+    spline = interpolating_spline(X, y, 3, "periodic")
+    np.testing.assert_allclose(spline(X[2] + 3 * X[-1]), y[2], rtol=1e-12)
+
+
+@pytest.mark.parametrize("ends", ["natural", "clamped", "periodic"])
+def test_a_point_in_the_plane_is_two_splines(ends):
+    y = np.column_stack([np.cos(X), Y**2])
+    y[-1] = y[0]
+    both = interpolating_spline(X, y, 5, ends)
+    for column in (0, 1):
+        np.testing.assert_allclose(both(1.23)[column], interpolating_spline(X, y[:, column], 5, ends)(1.23), rtol=1e-13)
+
+
+def test_rounding_does_not_open_a_period_but_a_micrometre_does():
+    y = 1e-3 * np.cos(np.pi / 2 * X)
+    interpolating_spline(X, np.append(y[:-1], y[0] + 1e-14), 3, "periodic")
+    with pytest.raises(InputError, match="differs from the first by 1e-07"):
+        interpolating_spline(X, np.append(y[:-1], y[0] + 1e-7), 3, "periodic")
+
+
+def test_smoothing_removes_ripple_and_keeps_the_shape():
+    x = np.linspace(0, 2 * np.pi, 361)
+    shape, ripple = 1e-3 * np.sin(x), 1e-6 * np.cos(45 * x)
+    smooth = smoothing_spline(x, shape + ripple, tolerance=1e-6 / np.sqrt(2), periodic=True)
+    assert np.abs(smooth(x) - shape).max() < 0.3e-6
+    assert len(smooth.x) < 40
+    rms = np.sqrt(np.mean((smooth(x) - shape - ripple) ** 2))
+    assert 0.9e-6 / np.sqrt(2) < rms <= 1.01e-6 / np.sqrt(2)
+    assert smooth(0.0) == pytest.approx(smooth(2 * np.pi - 1e-12), abs=1e-12)
+
+
+def test_smoothing_does_not_see_units():
+    x = np.linspace(0, 1, 60)
+    y = np.exp(x) + 1e-3 * np.sin(50 * x)
+    ours = smoothing_spline(x, 1e-6 * y, 5e-10)
+    np.testing.assert_allclose(1e6 * ours(x), smoothing_spline(x, y, 5e-4)(x), rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "call, word",
+    [
+        (lambda: interpolating_spline(X, Y, 4), "degree must be 3 or 5, got 4"),
+        (lambda: interpolating_spline(X, Y, 3, "free"), "'natural', got 'free'"),
+        (lambda: interpolating_spline(X, Y, 3, "periodic"), "Repeat the first value"),
+        (lambda: interpolating_spline(np.where(X == 1.2, 0.5, X), Y), r"x\[3\] = 0.5 follows 0.9"),
+        (lambda: interpolating_spline(X[:5], Y[:5], 5), "at least 6 points, got 5"),
+        (lambda: interpolating_spline(X, Y[:-1]), r"shapes \(9,\) and \(8,\)"),
+        (lambda: smoothing_spline(X, Y, 0.0), "tolerance must be above 0"),
+    ],
+)
+def test_messages(call, word):
+    with pytest.raises(InputError, match=word):
+        call()

@@ -1,0 +1,271 @@
+"""What a worker process does with a design: which analyses go with a drawing, what is told on the way, how answers are merged."""
+
+import json
+from types import SimpleNamespace
+
+import pytest
+from places import EXAMPLES
+
+from drivewright import registry
+from drivewright.errors import DoesNotAssemble, SpecError
+from drivewright.registry import Analysis
+from drivewright.result import Check
+from drivewright.studio import preview
+from drivewright.studio.preview import affordable_analyses, merge_results, page_result
+from drivewright.studio.session import opened
+
+pytestmark = pytest.mark.interface
+
+
+def analysis(name, *needs):
+    return Analysis(name, None, name, needs=needs)
+
+
+# -- what can be afforded ------------------------------------------------------------------------------------------------------
+
+CHAIN = (analysis("motion"), analysis("forces", "motion"), analysis("wear", "forces"), analysis("oil"))
+SECONDS = {"motion": 0.004, "forces": 0.003, "wear": 0.008, "oil": 0.002}
+
+
+@pytest.mark.parametrize(
+    ("budget", "names"),
+    [
+        (0.0, []),
+        (0.0019, []),
+        (0.002, ["oil"]),
+        (0.0059, ["oil"]),
+        (0.0061, ["motion", "oil"]),  # forces is quicker than motion, but costs both
+        (0.0089, ["motion", "oil"]),
+        (0.0091, ["motion", "forces", "oil"]),
+        (0.0169, ["motion", "forces", "oil"]),
+        (0.0171, ["motion", "forces", "wear", "oil"]),
+    ],
+)
+def test_the_quickest_go_first_each_with_what_it_needs(budget, names):
+    assert affordable_analyses(CHAIN, SECONDS, budget) == names
+
+
+def test_what_is_needed_is_paid_once():
+    both = (analysis("a", "base"), analysis("b", "base"), analysis("base"))
+    seconds = {"a": 1.0, "b": 2.0, "base": 4.0}
+    assert affordable_analyses(both, seconds, 6.9) == ["a", "base"]
+    assert affordable_analyses(both, seconds, 7.1) == ["a", "b", "base"]
+
+
+def test_nothing_is_run_of_which_nobody_knows_how_long_it_takes():
+    assert affordable_analyses(CHAIN, {}, 9.0) == []
+    assert affordable_analyses(CHAIN, {"forces": 0.003, "oil": 0.002}, 9.0) == ["oil"]  # forces needs motion
+    assert affordable_analyses(CHAIN, {"wear": 0.1, "forces": 0.003, "oil": 0.002}, 9.0) == ["oil"]  # and wear needs it through forces
+
+
+def test_seconds_of_an_analysis_that_has_gone_say_nothing():
+    assert affordable_analyses(CHAIN, SECONDS | {"gone": 0.0}, 9.0) == ["motion", "forces", "wear", "oil"]
+
+
+# -- merging -------------------------------------------------------------------------------------------------------------------
+
+
+def named(value, *names):
+    return [{"name": name, "value": value} for name in names]
+
+
+def result(value, *names, unit="deg", **more):
+    return {
+        "checks": named(value, *names),
+        "values": named(value, *names),
+        "headline": named(value, *names[:1]),
+        "findings": [value],
+        "verdict": {"state": "good", "text": "all pass"},
+        "fractions": dict.fromkeys(names, value),
+        "seconds": value,
+        "plots": {"cycle": {"unit": unit, "span": value}, "plots": named(value, *names)},
+        **more,
+    }
+
+
+def test_new_answers_replace_their_own_and_the_others_are_stale():
+    shown = result(1, "a", "b", "c")
+    both = merge_results(shown, result(2, "b"))
+    for part in (both["checks"], both["values"], both["plots"]["plots"]):
+        assert part == [{"name": "a", "value": 1, "stale": True}, {"name": "b", "value": 2}, {"name": "c", "value": 1, "stale": True}]
+    assert both["headline"] == [{"name": "a", "value": 1, "stale": True}, {"name": "b", "value": 2}]
+    assert both["verdict"] == {"state": "good", "text": "all pass", "stale": True}
+    assert both["plots"]["cycle"] == {"unit": "deg", "span": 2}
+    assert shown == result(1, "a", "b", "c")
+
+
+def test_what_is_new_comes_behind():
+    both = merge_results(result(1, "a"), result(2, "b", "a"))
+    assert both["checks"] == both["values"] == [{"name": "a", "value": 2}, {"name": "b", "value": 2}]
+    assert both["plots"]["plots"][0] == {"name": "a", "value": 2}
+
+
+def test_what_is_renewed_twice_is_not_stale():
+    both = merge_results(merge_results(result(1, "a", "b"), result(2, "a")), result(3, "a", "b"))
+    assert both["checks"] == [{"name": "a", "value": 3}, {"name": "b", "value": 3}]
+
+
+def test_bars_follow_the_checks_that_were_renewed():
+    assert merge_results(result(1, "a", "b"), result(2, "b"))["fractions"] == {"a": 1, "b": 2}
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [(None, result(2, "a")["plots"]), (result(1, "a")["plots"], None), (result(1, "a")["plots"], result(2, "a", unit="s")["plots"])],
+)
+def test_plots_over_another_cycle_stay_until_all_are_there(old, new):
+    assert merge_results(result(1, "a", plots=old), result(2, "a", plots=new))["plots"] is old
+
+
+# -- the page's result ---------------------------------------------------------------------------------------------------------
+
+
+def check(name, value, limit, sense="<="):
+    return Check(name, value, limit, sense, "mm", "says so")
+
+
+@pytest.mark.parametrize(
+    ("value", "limit", "sense", "part"),
+    [
+        (3.0, 4.0, "<=", 0.25),
+        (5.0, 4.0, "<=", -0.25),
+        (5.0, 4.0, ">=", 0.25),
+        (-3.0, -4.0, ">=", 0.25),
+        (-5.0, -4.0, ">=", -0.25),
+        (1.0, 0.0, ">=", None),
+        (float("inf"), 4.0, ">=", None),
+        (1.0, 1e-9, ">=", None),
+        (float("nan"), 4.0, ">=", None),
+    ],
+)
+def test_a_margin_as_a_part_of_its_limit(value, limit, sense, part):
+    assert preview._fraction(check("x", value, limit, sense)) == (part if part is None else pytest.approx(part, rel=1e-12))
+
+
+@pytest.fixture(scope="module")
+def four_bar():
+    return opened(EXAMPLES / "four_bar.toml")
+
+
+@pytest.fixture(scope="module")
+def analysed(four_bar):
+    """(told, answer) of all default analyses."""
+    told = []
+    return told, preview.analyse(told.append, four_bar)
+
+
+def test_all_default_analyses_are_told_and_timed(four_bar, analysed):
+    told, (found, seconds) = analysed
+    names = [each.name for each in registry.mechanism(four_bar.kind).analyses if each.default]
+    assert [name for _, _, name in told] == list(seconds) == found["analyses"] == names
+    assert [done for done, _, _ in told] == list(range(len(names))) and {total for _, total, _ in told} == {len(names)}
+    assert all(0 < each < found["seconds"] + 1 for each in seconds.values())
+    assert 0.5 * found["seconds"] < sum(seconds.values()) < 1.5 * found["seconds"] + 0.1
+
+
+def test_the_result_is_plain_and_whole(analysed):
+    found = analysed[1][0]
+    assert json.loads(json.dumps(found, allow_nan=False)) == found
+    assert set(found["fractions"]) == {each["name"] for each in found["checks"]}
+    assert found["verdict"]["state"] == "good" and found["outcome"] == "complete"
+    assert {"motion.rocker", "forces"} <= {plot["name"] for plot in found["plots"]["plots"]}
+
+
+def test_every_analysis_has_its_own_seconds(four_bar, monkeypatch):
+    now = iter(range(1000))
+    monkeypatch.setattr(preview, "time", SimpleNamespace(perf_counter=lambda: next(now)))
+
+    def run(spec, progress, model):
+        for n, name in enumerate(("a", "b", "c")):
+            progress(n, 3, name)
+            for _ in range(10 * n):
+                next(now)
+        return "result"
+
+    monkeypatch.setattr(preview.runner, "run", run)
+    monkeypatch.setattr(preview, "page_result", lambda result, scene, analyses: (result, analyses))
+    assert preview.analyse(lambda what: None, four_bar) == (("result", ["a", "b", "c"]), {"a": 1, "b": 11, "c": 21})
+
+
+def test_a_drawing_is_told_before_the_answers(four_bar):
+    told = []
+
+    def tell(what):
+        told.append(json.loads(what))
+
+    assert preview.draw(tell, four_bar, ()) is None
+    assert [set(each) for each in told] == [{"scene", "remarks"}] and told[0]["remarks"] == []
+    assert {body["name"] for body in told[0]["scene"]["bodies"]} >= {"crank", "coupler", "rocker"}
+    found = preview.draw(tell, four_bar, ["motion"])
+    assert told[1] == told[0] and found["analyses"] == ["motion"]
+    names = {each["name"] for each in found["values"]}
+    assert "rocker.max_angular_acceleration" in names and not any(name.startswith("joints.") for name in names)
+    assert found["plots"]["cycle"]["unit"] == told[0]["scene"]["cycle"]["unit"]
+
+
+def test_a_drawing_follows_the_design(four_bar):
+    told = []
+    for design in (four_bar, four_bar.changed({"bodies.crank.points.A": ["35 mm", "0 mm"]})):
+        preview.draw(told.append, design, ())
+    assert told[0] != told[1]
+
+
+def test_a_design_that_is_none_says_so_before_anything_is_told(four_bar):
+    told = []
+    for act in (lambda design: preview.draw(told.append, design, ()), lambda design: preview.analyse(told.append, design)):
+        with pytest.raises(SpecError, match=r"drive\.speed: wants an angular speed, got '3 kg'"):
+            act(four_bar.changed({"drive.speed": "3 kg"}))
+    assert told == []
+
+
+@pytest.fixture
+def without_a_scene(four_bar, monkeypatch):
+    """The mechanism, whose motion cannot be shown."""
+
+    def scene(model):
+        raise DoesNotAssemble("the loop stays open")
+
+    known = registry.mechanism(four_bar.kind)
+    fake = SimpleNamespace(scene=scene, analyses=known.analyses)
+    monkeypatch.setattr(preview, "registry", SimpleNamespace(mechanism=lambda kind: fake))
+    return fake
+
+
+def test_what_cannot_be_shown_is_remarked_and_still_computed(four_bar, without_a_scene):
+    told = []
+    found = preview.draw(told.append, four_bar, ["motion"])
+    assert json.loads(told[0]) == {"scene": None, "remarks": ["no motion to show: the loop stays open"]}
+    assert found["plots"] is None and found["values"]
+    without_a_scene.scene = None
+    preview.draw(told.append, four_bar, ())
+    assert json.loads(told[1]) == {"scene": None, "remarks": []}
+
+
+def test_a_whole_result_without_a_scene_has_no_plots(four_bar, without_a_scene, monkeypatch):
+    monkeypatch.setattr(preview.runner, "run", lambda spec, progress, model: "result")
+    monkeypatch.setattr(preview, "page_result", lambda result, scene, analyses: scene)
+    assert preview.analyse(None, four_bar) == (None, {})
+    without_a_scene.scene = None
+    assert preview.analyse(None, four_bar) == (None, {})
+
+
+def test_findings_and_the_outcome_come_along(monkeypatch):
+    monkeypatch.setattr(preview, "summary", lambda result: {"verdict": "good"})
+    checks = (check("near", 3.0, 4.0), check("zero", 1.0, 0.0, ">="))
+    made = SimpleNamespace(checks=checks, findings=("beware",), outcome="partial", provenance={"seconds": 2.5})
+    assert page_result(made, None, ["a"]) == {
+        "verdict": "good",
+        "plots": None,
+        "findings": ["beware"],
+        "outcome": "partial",
+        "seconds": 2.5,
+        "analyses": ["a"],
+        "fractions": {"near": 0.25, "zero": None},
+    }
+
+
+def test_warming_loads_every_kind_and_tells_nothing(monkeypatch):
+    loaded = []
+    monkeypatch.setattr(preview, "registry", SimpleNamespace(kinds=lambda: ["a", "b"], mechanism=loaded.append))
+    preview.warm(None)
+    assert loaded == ["a", "b"]

@@ -1,0 +1,364 @@
+"""One tab of the studio without a browser: what it is told, and what it lets nobody do."""
+
+import json
+import shutil
+
+import pytest
+from places import EXAMPLES
+
+from drivewright.errors import InputError, SpecError
+from drivewright.studio.jobs import JOBS
+from drivewright.studio.resources import KEPT, MOST_OFFERS, ServerResources
+from drivewright.studio.session import LARGEST, MOST_FILES, Session, first_design, opened, packed, unpacked
+
+pytestmark = pytest.mark.interface
+
+
+class Quiet:
+    """Stands for the computations: notes what is asked of them."""
+
+    def __init__(self):
+        self.asked = []
+
+    def __getattr__(self, name):
+        return lambda *arguments: self.asked.append((name, *arguments))
+
+
+class Tab:
+    """A session and all that it has said."""
+
+    def __init__(self, start, resources):
+        self.heard = []
+        self.session = Session(self.heard.append, resources, start)
+        self.session.computations = self.quiet = Quiet()
+
+    def say(self, what, **more):
+        """What the session answers to one message."""
+        self.heard.clear()
+        self.session.receive({"what": what, **more})
+        json.dumps(self.heard, allow_nan=False)  # everything can be sent
+        return list(self.heard)
+
+    @property
+    def toml(self):
+        return self.session.document.design.toml()
+
+
+@pytest.fixture
+def resources(tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    shop = ServerResources()
+    yield shop
+    shop.close()
+
+
+@pytest.fixture
+def tab(resources, tmp_path):
+    found = Tab(opened(shutil.copy(EXAMPLES / "four_bar.toml", tmp_path)), resources)
+    found.say("hello")
+    return found
+
+
+def only(messages, what):
+    return [message for message in messages if message["what"] == what]
+
+
+def test_hello_brings_the_kinds_the_form_and_a_drawing(resources):
+    tab = Tab(opened(EXAMPLES / "four_bar.toml"), resources)
+    assert tab.say("set", key="title", text="x") == []  # nothing before hello
+    start, design = tab.say("hello")
+    assert {kind["kind"] for kind in start["kinds"]} >= {tab.session.document.design.kind}
+    assert design["title"] == "Crank-rocker four-bar" and design["form"]["groups"] and not design["undo"]
+    assert tab.quiet.asked[-1] == ("update", 1, tab.session.document.design)
+
+
+def test_the_start_has_the_name_of_its_file_and_what_a_page_brings_has_none(resources):
+    tab = Tab(opened(EXAMPLES / "four_bar.toml"), resources)
+    tab.session.start_name = "four_bar"
+    assert only(tab.say("hello"), "design")[0]["name"] == "four_bar"
+    assert only(tab.say("hello", saved=tab.toml), "design")[0]["name"] == ""
+
+
+def test_a_change_sends_its_field_only(tab):
+    (values,) = tab.say("set", key="drive.speed", text="150")
+    assert set(values["fields"]) == {"drive.speed"} and values["fields"]["drive.speed"]["text"] == "150 rpm"
+    assert values["undo"] and values["changed"] and values["settled"] == ["drive.speed"] and values["gen"] == 2
+    assert 'speed = "150 rpm"' in values["toml"]
+    assert tab.quiet.asked[-1][:2] == ("update", 2)
+
+
+def test_a_refusal_has_the_words_of_the_command_line_and_changes_nothing(tab):
+    before = tab.toml
+    (refused,) = tab.say("set", key="drive.speed", text="3 kg")
+    assert refused == {"what": "refused", "key": "drive.speed", "text": "3 kg", "message": "wants an angular speed, got '3 kg' (mass)"}
+    assert tab.toml == before and tab.session.gen == 1
+
+
+def test_undo_and_redo_are_designs_like_others(tab):
+    before = tab.toml
+    tab.say("set", key="drive.speed", text="150")
+    (back,) = tab.say("undo")
+    assert back["toml"] == before and back["redo"] and not back["undo"] and set(back["fields"]) == {"drive.speed"}
+    (again,) = tab.say("redo")
+    assert 'speed = "150 rpm"' in again["toml"]
+
+
+def test_a_reload_brings_the_design_back(tab, resources):
+    tab.say("set", key="drive.speed", text="150")
+    other = Tab(tab.session.start, resources)
+    other.say("hello", saved=tab.toml, files="")
+    assert other.toml == tab.toml != Tab(tab.session.start, resources).session.start.toml()
+
+
+@pytest.mark.parametrize("saved", ["mechanism = ", 'mechanism = "nothing"', "x" * (LARGEST + 1), 7])
+def test_what_cannot_be_brought_back_is_told_and_the_start_is_there(tab, resources, saved):
+    other = Tab(tab.session.start, resources)
+    said = other.say("hello", saved=saved)
+    assert only(said, "refused") and only(said, "design")
+    assert other.toml == tab.toml
+
+
+def test_an_address_holds_a_whole_design(tab):
+    (shared,) = tab.say("share")
+    assert unpacked(shared["fragment"]) == tab.toml
+    assert len(shared["fragment"]) < 2000
+
+
+def test_texts_of_every_length_come_back():
+    for length in range(1, 40):
+        text = "".join(chr(48 + (7 * n * n + length) % 75) for n in range(length))
+        assert unpacked(packed(text)) == text
+
+
+@pytest.mark.parametrize("fragment", ["", "d=", "d=!!!", "d=AAAA", 3])
+def test_a_damaged_address(fragment):
+    with pytest.raises(InputError, match="damaged"):
+        unpacked(fragment)
+
+
+def test_an_address_that_unfolds_without_end():
+    with pytest.raises(InputError, match="1,000,000 characters"):
+        unpacked(packed("x" * 50_000_000))
+
+
+# -- files ---------------------------------------------------------------------------------------------------------------------
+
+
+def sample_with_file(name):
+    """The text of the example that names a data file, with another name in its place."""
+    text = (EXAMPLES / "oscillating_cam.toml").read_text(encoding="utf-8")
+    assert '"lift.csv"' in text
+    return text.replace('"lift.csv"', json.dumps(name))
+
+
+LIFT = (EXAMPLES / "lift.csv").read_text(encoding="utf-8")
+
+
+def test_a_spec_opens_with_its_data_files(tab):
+    said = tab.say("open", files=[{"name": "mine.toml", "text": sample_with_file("my lift.csv")}, {"name": "my lift.csv", "text": LIFT}])
+    assert only(said, "refused")  # the name on the disk is another one: blanks go
+    said = tab.say("open", files=[{"name": "mine.toml", "text": sample_with_file("lift.csv")}, {"name": "lift.csv", "text": LIFT}])
+    (design,) = only(said, "design")
+    assert design["name"] == "mine" and design["files"] and '"lift.csv"' in design["toml"]
+    other = Tab(tab.session.start, tab.session.resources)
+    other.say("hello", saved=design["toml"], files=design["files"])  # and is there after a reload
+    assert other.toml == design["toml"]
+    (refused,) = tab.say("share")
+    assert "data files" in refused["message"]
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd", "/etc/no-such-file", "../../../../../etc/passwd", "lift.csv", str(EXAMPLES / "lift.csv")])
+def test_a_page_cannot_read_the_disk_nor_learn_what_is_on_it(tab, name):
+    messages = set()
+    for what in (
+        {"what": "open", "files": [{"name": "a.toml", "text": sample_with_file(name)}]},
+        {"what": "text", "toml": sample_with_file(name)},
+    ):
+        (refused,) = tab.say(**what)
+        assert refused["what"] == "refused"
+        messages.add((refused["key"], refused["message"]))
+    # neither words nor key tell whether the file exists
+    assert messages == {("", "there is no such data file here; open the spec together with the data files that it names")}
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd", str(EXAMPLES / "lift.csv"), "../lift.csv", "other.csv"])
+def test_nor_with_files_that_it_once_sent(tab, name):
+    said = tab.say("open", files=[{"name": "mine.toml", "text": sample_with_file("lift.csv")}, {"name": "lift.csv", "text": LIFT}])
+    token = only(said, "design")[0]["files"]
+    other = Tab(tab.session.start, tab.session.resources)
+    said = other.say("hello", saved=sample_with_file(name), files=token)
+    assert "there is no such data file here" in only(said, "refused")[0]["message"] and other.toml == other.session.start.toml()
+
+
+def test_another_drive_has_no_files(tab):
+    tab.say("open", files=[{"name": "mine.toml", "text": sample_with_file("lift.csv")}, {"name": "lift.csv", "text": LIFT}])
+    kind = tab.session.start.kind
+    assert only(tab.say("fresh", kind=kind), "design")[0]["files"] == ""
+
+
+def test_only_some_files_are_looked_at(tab):
+    spec = {"name": "a.toml", "text": (EXAMPLES / "four_bar.toml").read_text(encoding="utf-8")}
+    others = [{"name": f"{n}.csv", "text": ""} for n in range(MOST_FILES)]
+    assert only(tab.say("open", files=[*others[1:], spec]), "design")
+    (refused,) = tab.say("open", files=[*others, spec])
+    assert f"here are 0 specs in {MOST_FILES} files" in refused["message"]
+
+
+def test_no_message_shows_a_folder_of_this_machine(resources):
+    tab = Tab(opened(EXAMPLES / "oscillating_cam.toml"), resources)
+    said = tab.say("hello")
+    said += tab.say("set", key="motion.file", text="missing.csv") + tab.say("text", toml="format = 1\n]")
+    assert str(EXAMPLES) not in json.dumps(said)
+
+
+def test_names_of_files_cannot_leave_their_folder(tab, tmp_path):
+    said = tab.say("open", files=[{"name": "../../evil.toml", "text": (EXAMPLES / "four_bar.toml").read_text(encoding="utf-8")}])
+    assert only(said, "design") and not list(tmp_path.glob("evil*"))
+    assert len(list(tmp_path.glob("drivewright-studio-*/*/*evil.toml"))) == 1
+
+
+@pytest.mark.parametrize("files", [[], [{"name": "a.csv", "text": ""}], [{"name": "a.toml", "text": ""}, {"name": "b.toml", "text": ""}]])
+def test_one_spec_at_a_time(tab, files):
+    (refused,) = tab.say("open", files=files)
+    assert "open one spec (.toml)" in refused["message"]
+
+
+def test_too_much_is_refused(tab):
+    half = "#" * (LARGEST // 2 + 1)
+    (refused,) = tab.say("open", files=[{"name": "a.toml", "text": half}, {"name": "b.csv", "text": half}])
+    assert "1,000,000 characters" in refused["message"]
+
+
+# -- odd pages -----------------------------------------------------------------------------------------------------------------
+
+
+ODD = ({}, [], None, "set", {"what": ["set"]}, {"what": None}, {"what": "close"}, {"what": "_open"}, {"what": "__init__"})
+
+
+@pytest.mark.parametrize("message", ODD)
+def test_what_is_no_request_is_nothing(tab, message):
+    before = tab.toml
+    tab.heard.clear()
+    tab.session.receive(message)
+    assert tab.heard == [] and tab.toml == before
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        {"what": "set"},
+        {"what": "set", "key": None, "text": None},
+        {"what": "set", "key": "drive.speed", "text": "1 rpm", "more": 1},
+        {"what": "load", "changes": 3},
+        {"what": "open", "files": 3},
+        {"what": "drop", "list": "joints", "index": "x"},
+        {"what": "job", "name": "rm"},
+        {"what": "job", "name": "study", "options": {"folder": "/tmp/x"}},
+        {"what": "drop", "list": "joints", "index": 1e999},
+        {"what": "job", "name": "optimise", "options": {"on": "tcp://127.0.0.1:1"}},
+        {"what": "text", "toml": "[a" + ".a" * 3000 + "]"},
+        {"what": "open", "files": [{"name": "x" * 300 + "/../" + "y" * 400 + ".toml", "text": "format = 1"}]},
+        {"what": "put", "table": "x.y"},
+        {"what": "fresh", "kind": "../x"},
+    ],
+)
+def test_an_odd_request_is_answered_and_changes_nothing(tab, message):
+    before = tab.toml
+    (refused,) = tab.say(**message)
+    assert refused["what"] == "refused" and refused["message"]
+    assert tab.toml == before
+
+
+def test_a_search_cannot_name_a_file(tab):
+    text = tab.toml + '[[optimise.settings]]\nkey = "torques.load.file"\nvalue = "/etc/passwd"\n'
+    text += '[[optimise.unknowns]]\nkey = "drive.speed"\nlower = "1 rpm"\nupper = "2 rpm"\n[[optimise.objectives]]\nvalue = "x"\n'
+    (design,) = tab.say("text", toml=text)[:1]
+    with pytest.raises(SpecError, match="is a data file, which a search cannot change") as caught:
+        JOBS["optimise"](tab.session.document.design, lambda *news: None)
+    assert caught.value.key == "optimise.settings.0.key"
+
+
+def test_text_of_another_kind_is_another_drive(tab):
+    first = tab.session.document.design.kind
+    tab.say("job", name="sensitivity", options={})
+    (design,) = tab.say("text", toml=(EXAMPLES / "disc_cam.toml").read_text(encoding="utf-8"))
+    assert design["opened"] and design["kind"] != first and design["settled"] == ["*"]
+    assert tab.quiet.asked[-2] == ("reset", tab.session.gen)
+    (back,) = tab.say("undo")
+    assert back["opened"] and back["kind"] == first
+
+
+def test_jobs_get_the_locks(tab):
+    tab.say("lock", key="drive.speed", on=True)
+    tab.say("job", name="sensitivity", options={})
+    assert tab.quiet.asked[-1] == ("job", "sensitivity", 1, tab.session.document.design, {"locks": ["drive.speed"]})
+    (refused,) = tab.say("set", key="drive.speed", text="1 rpm")
+    assert "lock" in refused["message"]
+
+
+def test_other_jobs_do_not(tab):
+    tab.say("lock", key="drive.speed", on=True)
+    tab.say("export", format="dxf")
+    assert tab.quiet.asked[-1] == ("job", "export", 1, tab.session.document.design, {"format": "dxf", "anyway": False})
+    tab.say("lock", key="drive.speed", on=False)
+    assert only(tab.say("set", key="drive.speed", text="1 rpm"), "values")
+
+
+def test_what_is_saved_is_no_change_any_more(tab):
+    assert tab.say("set", key="drive.speed", text="150")[0]["changed"]
+    (values,) = tab.say("save")
+    assert not values["changed"] and tab.quiet.asked[-1][:2] == ("job", "save")
+
+
+def test_after_a_lost_connection_everything_comes_once_more(tab):
+    (design,) = tab.say("again")
+    assert design["what"] == "design" and design["form"]["groups"] and design["gen"] == 2
+    assert tab.quiet.asked[-1][:2] == ("update", 2)
+
+
+def test_another_kind_forgets_what_was_computed(tab):
+    other = next(kind["kind"] for kind in only(tab.say("hello"), "start")[0]["kinds"] if kind["kind"] != tab.session.document.design.kind)
+    (design,) = tab.say("fresh", kind=other)
+    assert design["kind"] == other and not design["undo"]
+    assert tab.quiet.asked[-2:-1] == [("reset", tab.session.gen)]
+
+
+def test_an_offered_file_is_fetched_once(resources):
+    address = resources.offer("../a b.dxf", b"0\nEOF")
+    token = address.rpartition("/")[2]
+    assert resources.fetch(token) == ("a-b.dxf", b"0\nEOF")
+    assert resources.fetch(token) is None and resources.folder("nobody") is None and resources.folder(["x"]) is None
+
+
+def test_the_first_design_is_one():
+    first_design().spec()
+
+
+def test_files_wait_for_a_while_and_some_at_a_time(resources, monkeypatch):
+    now = 0.0
+    monkeypatch.setattr("drivewright.studio.resources.time.monotonic", lambda: now)
+    first = resources.offer("a", b"a").rpartition("/")[2]
+    now = KEPT - 1
+    second = resources.offer("b", b"b").rpartition("/")[2]
+    assert resources.fetch(first) == ("a", b"a")
+    now = 2 * KEPT
+    resources.offer("c", b"c")
+    assert resources.fetch(second) is None
+    tokens = [resources.offer("d", b"d").rpartition("/")[2] for _ in range(MOST_OFFERS + 1)]
+    assert resources.fetch(tokens[0]) is None and resources.fetch(tokens[1]) == resources.fetch(tokens[-1]) == ("d", b"d")
+
+
+def test_the_oldest_folder_goes_and_all_of_them_at_the_end(resources, monkeypatch, tmp_path):
+    monkeypatch.setattr("drivewright.studio.resources.TABS_FILES", 2)
+    (first, place), (second, _), (third, _) = (resources.new_folder() for _ in range(3))
+    assert resources.folder(first) is None and not place.exists()
+    assert all(resources.folder(token).is_dir() for token in (second, third))
+    resources.close()
+    assert not list(tmp_path.glob("drivewright-studio-*"))
+
+
+def test_a_spec_of_this_machine_may_read_the_tables_beside_it_only(tmp_path):
+    for name in ("four_bar.toml", "lift.csv"):
+        shutil.copy(EXAMPLES / name, tmp_path)
+    (tmp_path / "secret.txt").write_text("x")
+    assert opened(tmp_path / "four_bar.toml").readable == {tmp_path / "lift.csv"}

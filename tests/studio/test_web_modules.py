@@ -1,0 +1,54 @@
+"""The page's modules fit together: whatever one imports, another has and the studio serves; joined for the report they are in order."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from drivewright.report import html
+from drivewright.studio import app
+
+pytestmark = pytest.mark.interface
+
+OWN = Path(app.__file__).parent / "web"
+REPORT = Path(html.__file__).parent
+IMPORTS = re.compile(r'^(?:import|export) \{(.*)\} from "\./(.*)";$', re.MULTILINE)
+DEFINED = re.compile(r"^export (?:const|function\*?|class) (\w+)", re.MULTILINE)
+
+
+def modules():
+    return {name: data.decode() for name, (data, _) in app._files().items() if name.endswith(".js")}
+
+
+def exported(text):
+    """Names that a module gives others, those that it hands on among them."""
+    handed = ",".join(re.findall(r"^export \{(.*)\} from", text, re.MULTILINE))
+    return {*DEFINED.findall(text), *re.findall(r"\w+", handed)}
+
+
+def test_every_import_is_of_something_served():
+    served = modules()
+    wanted = {
+        (name, source, each.strip())
+        for name, text in served.items()
+        for names, source in IMPORTS.findall(text)
+        for each in names.split(",")
+    }
+    assert len(wanted) > 60
+    assert sorted((name, source, each) for name, source, each in wanted if each not in exported(served.get(source, ""))) == []
+
+
+def test_imports_are_written_as_these_tests_and_the_report_read_them():
+    for name, text in modules().items():
+        assert len(re.findall(r"^\s*import\b|^export .* from", text, re.MULTILINE)) == len(IMPORTS.findall(text)), name
+
+
+def test_no_module_of_the_studio_takes_the_name_of_one_of_the_report():
+    assert not {path.name for path in OWN.iterdir()} & {path.name for path in REPORT.iterdir()}
+    assert {path.name for path in REPORT.glob("*.js")} == set(html.MODULES)
+
+
+@pytest.mark.parametrize("place", range(len(html.MODULES)))
+def test_a_module_of_the_report_comes_behind_those_it_imports(place):
+    text = (REPORT / html.MODULES[place]).read_text(encoding="utf-8")
+    assert {source for _, source in IMPORTS.findall(text)} <= set(html.MODULES[:place])
