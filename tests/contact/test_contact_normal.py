@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
+from drivewright import contact
 from drivewright._jit import kernel, plain
 from drivewright.contact.normal import HuntCrossley, KelvinVoigt, Spring, hunt_crossley_chi, normal_force
 from drivewright.errors import InputError
@@ -123,3 +124,16 @@ def test_compiled_equals_plain(law):
     gaps, rates = rng.uniform(-1e-4, 3e-5, 50), rng.uniform(-1, 1, 50)
     assert total(law, gaps, rates) == pytest.approx(plain(total)(law, gaps, rates), rel=1e-15)
     assert total(law, gaps, rates) > 0
+
+
+@pytest.mark.parametrize("n", [1.0, 10 / 9, 1.5])
+def test_the_power_law_of_arrays_is_that_of_kernels(n):
+    law, depth, h = contact.PowerLaw(3e9, n), np.array([-2e-6, 1e-7, 4e-6, 3e-5]), 1e-10
+    found = contact.power_law_response(law, depth)
+    assert found.force == pytest.approx([contact.normal_force(law, -d, 0.0) for d in depth], rel=1e-14)
+    up, down = contact.power_law_response(law, depth + h), contact.power_law_response(law, depth - h)
+    assert found.force == pytest.approx((up.energy - down.energy) / (2 * h), rel=1e-5)
+    assert found.tangent == pytest.approx((up.force - down.force) / (2 * h), rel=1e-5)
+    touching = found.force[1:]
+    assert contact.power_law_depth(law, touching) == pytest.approx(depth[1:], rel=1e-13)
+    assert contact.power_law_secant(law, touching) == pytest.approx(found.secant[1:], rel=1e-13)

@@ -17,6 +17,7 @@ from drivewright.contact.hertz import (
     relative_radii,
 )
 from drivewright.contact.normal import HuntCrossley, KelvinVoigt, PowerLaw, Spring, hunt_crossley_chi, normal_force, stored_energy, tangent
+from drivewright.contact.power_law import PowerLawResponse, power_law_depth, power_law_response, power_law_secant
 
 # Their modules hold kernels, and the first kernel imports numba: loaded when first used.
 _WHERE = {
@@ -48,6 +49,7 @@ __all__ = [
     "LineContact",
     "PointContact",
     "PowerLaw",
+    "PowerLawResponse",
     "Spring",
     "cylinder_compression",
     "effective_modulus",
@@ -59,6 +61,9 @@ __all__ = [
     "normal_force",
     "point_constant",
     "point_contact",
+    "power_law_depth",
+    "power_law_response",
+    "power_law_secant",
     "relative_radii",
     "stored_energy",
     "tangent",

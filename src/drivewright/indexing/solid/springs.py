@@ -7,11 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright.contact import PowerLaw, power_law_depth
 from drivewright.errors import SolverError
-from drivewright.indexing.drivetrain import SIDES, PowerLawBearing
+from drivewright.indexing.drivetrain import SIDES, PinContact, PowerLawBearing
 from drivewright.indexing.solid.bodies import TURN_RADIUS
 from drivewright.indexing.stiffness.assembly import cam_phases, flank_directions
-from drivewright.indexing.stiffness.laws import radial_bearing_law
+from drivewright.indexing.stiffness.laws import pin_compliance, radial_bearing_law
 from drivewright.solids.coupling import InterfaceSpring
 
 LEAST = 1e-6  # of the typical force: below it a bearing keeps the secant that it has there
@@ -57,7 +58,8 @@ def _vector(body, name, back, factor):
 
 
 def _pins(drive, place, number, both, solid_pins):
-    """d = n . u_cam - n . u_pin of the contacts that carry."""
+    """d = n . u_cam - n . u_pin of the contacts that carry; a solid pin yields itself, in place of the spring behind the contact."""
+    yielding = PinContact() if drive.pins is None else drive.pins._replace(series=None) if solid_pins else drive.pins
     back = np.exp(-1j * place.wheel)
     for j, way in enumerate(cam_phases(len(place.pins))):
         for c, force in enumerate(place.pins[j]):
@@ -70,13 +72,7 @@ def _pins(drive, place, number, both, solid_pins):
                 (("wheel",), ("pin", pin, j, 0), -normal.real),
                 (("wheel",), ("pin", pin, j, 1), -normal.imag),
             )
-            yield InterfaceSpring("pin", terms, pin_compliance(drive.pins, abs(force), solid_pins), 0.0 if both else place.contacts.gap[c])
-
-
-def pin_compliance(pin, force, solid_pins):
-    """d/F of a contact [m/N]; a solid pin yields itself, in place of the spring behind the contact."""
-    line = 0.0 if pin is None or pin.line is None else (force / pin.line) ** 0.9 / force
-    return line + (0.0 if pin is None or pin.series is None or solid_pins else 1 / pin.series)
+            yield InterfaceSpring("pin", terms, pin_compliance(yielding, abs(force)), 0.0 if both else place.contacts.gap[c])
 
 
 def _pin(place, c, j):
@@ -106,7 +102,7 @@ def _bearing(group, bearing, force, typical, rows, behind=None):
 def displacement(bearing, force):
     """Displacement [m] of a bearing under a radial force [N], both complex."""
     if isinstance(bearing, PowerLawBearing):
-        return force / abs(force) * ((abs(force) / bearing.constant) ** (1 / bearing.exponent) + bearing.clearance)
+        return force / abs(force) * (power_law_depth(PowerLaw(bearing.constant, bearing.exponent), abs(force)) + bearing.clearance)
     law, wanted = radial_bearing_law(bearing), np.array([force.real, force.imag])
     at = wanted / law.secant(abs(force))
     energy, found, slope = law(at)

@@ -9,6 +9,7 @@ from typing import NamedTuple, Protocol, TypeAlias
 import numpy as np
 
 from drivewright._typing import Floats
+from drivewright.contact import PowerLaw, power_law_response, power_law_secant
 from drivewright.indexing.drivetrain import BearingModel, PinContact, PowerLawBearing
 
 LINE = 10 / 9
@@ -38,21 +39,26 @@ class PinContactLaw(NamedTuple):
     def __call__(self, strain: Floats) -> Response:
         """F(d) of d = s + F/k, F = c s^(10/9); V = 9/19 c s^(19/9) + F^2/2k;  dF/dd = 1/(0.9 s/F + 1/k)."""
         c, k = self.pin.line, self.pin.series
-        depth = np.abs(strain) if self.bonded else np.maximum(strain, 0.0)
+        depth = np.abs(strain) if self.bonded else strain
         if c is None:
-            force, slope, energy = k * depth, np.where((strain > 0) | self.bonded, k, 0.0), 0.5 * k * depth**2
+            energy, force, _, slope = power_law_response(PowerLaw(k, 1.0), depth)
         else:
-            share = depth if k is None else line_contact_approach(depth, c / k)
-            root = c * share ** (LINE - 1)
-            force = root * share
-            slope = root / (1 / LINE + (0.0 if k is None else root / k))
-            energy = force * share / (1 + LINE) + (0.0 if k is None else 0.5 * force**2 / k)
+            share = np.maximum(depth, 0.0)
+            line = power_law_response(PowerLaw(c, LINE), share if k is None else line_contact_approach(share, c / k))
+            force = line.force
+            slope = line.secant / (1 / LINE + (0.0 if k is None else line.secant / k))
+            energy = line.energy + (0.0 if k is None else 0.5 * force**2 / k)
         return energy[..., 0], np.copysign(force, strain) if self.bonded else force, slope[..., None]
 
     def secant(self, force: float) -> float:
         """F/d [N/m]."""
-        line = 0.0 if self.pin.line is None else (force / self.pin.line) ** 0.9 / force
-        return 1.0 / (line + (0.0 if self.pin.series is None else 1.0 / self.pin.series))
+        return 1.0 / pin_compliance(self.pin, force)
+
+
+def pin_compliance(pin: PinContact, force: float) -> float:
+    """d/F of a pin [m/N] under a force above 0: (F/c)^0.9/F + 1/k."""
+    line = 0.0 if pin.line is None else (force / pin.line) ** 0.9 / force
+    return line + (0.0 if pin.series is None else 1.0 / pin.series)
 
 
 def line_contact_approach(depth: Floats, ratio: float) -> Floats:
@@ -90,8 +96,8 @@ class GearFlankLaw(NamedTuple):
     k: float
 
     def __call__(self, strain: Floats) -> Response:
-        depth = np.maximum(strain, 0.0)
-        return 0.5 * self.k * depth[..., 0] ** 2, self.k * depth, np.where(strain > 0, self.k, 0.0)[..., None]
+        energy, force, _, slope = power_law_response(PowerLaw(self.k, 1.0), strain)
+        return energy[..., 0], force, slope[..., None]
 
     def secant(self, force: float) -> float:
         """F/d [N/m]."""
@@ -106,20 +112,19 @@ class RadialBearingLaw(NamedTuple):
     def __call__(self, strain: Floats) -> Response:
         constant, n, clearance = self.bearing
         length = np.hypot(strain[..., 0], strain[..., 1])
-        depth = np.maximum(length - clearance, 0.0)
-        root = constant * depth ** (n - 1) if n != 1 else np.where(length >= clearance, constant, 0.0)
-        force, safe = root * depth, np.maximum(length, TINY)
+        energy, force, root, slope = power_law_response(PowerLaw(constant, n), length - clearance)
+        safe = np.maximum(length, TINY)
         # Without clearance F/r tends to K r^(n-1), also where r is 0 and has no direction.
         around = root if clearance == 0 else force / safe
         along = strain / safe[..., None]
-        stiffness = ((n * root - around)[..., None] * along)[..., None] * along[..., None, :]
+        stiffness = ((slope - around)[..., None] * along)[..., None] * along[..., None, :]
         stiffness[..., 0, 0] += around
         stiffness[..., 1, 1] += around
-        return force * depth / (1 + n), around[..., None] * strain if clearance == 0 else force[..., None] * along, stiffness
+        return energy, around[..., None] * strain if clearance == 0 else force[..., None] * along, stiffness
 
     def secant(self, force: float) -> float:
         """F/d [N/m]."""
-        return self.bearing.constant ** (1 / self.bearing.exponent) * force ** (1 - 1 / self.bearing.exponent)
+        return power_law_secant(PowerLaw(self.bearing.constant, self.bearing.exponent), force)
 
 
 def radial_bearing_law(bearing: BearingModel) -> ForceLaw:
