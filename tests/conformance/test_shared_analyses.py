@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import drivewright as dw
-from drivewright.mechanisms.seedling_pusher.section import DISCARD, TURNS, rod_deviation
+from drivewright.cams.clearance import mass_deviation, mass_deviation_rate
+from drivewright.mechanisms.seedling_pusher.dynamics import DISCARD, TURNS
 from drivewright.multibody.analyses.energy_audit import audit_of_powers
 from drivewright.multibody.analyses.poincare import Section, section_answer
 from drivewright.registry import mechanism
@@ -29,10 +30,10 @@ def test_the_rod_of_the_pusher_comes_back_every_turn():
 
 def test_the_rod_deviation_is_the_difference_of_two_tangents():
     ahead, step = 2e-3, 1e-6
-    error, rate = rod_deviation(0.1, 0.3, 5.0, ahead, 0.7)
+    error, rate = mass_deviation(0.1, 0.3, ahead), mass_deviation_rate(0.1, 0.3, 5.0, ahead, 0.7)
     assert error == pytest.approx(0.1 * (np.tan(0.302) - np.tan(0.3)), rel=1e-12)
-    after, _ = rod_deviation(0.1, 0.3 + 5.0 * step, 5.0, ahead + 0.7 * step, 0.7)
-    before, _ = rod_deviation(0.1, 0.3 - 5.0 * step, 5.0, ahead - 0.7 * step, 0.7)
+    after = mass_deviation(0.1, 0.3 + 5.0 * step, ahead + 0.7 * step)
+    before = mass_deviation(0.1, 0.3 - 5.0 * step, ahead - 0.7 * step)
     assert rate == pytest.approx((after - before) / (2 * step), rel=1e-6)
 
 

@@ -8,6 +8,7 @@ from places import EXAMPLES
 
 import drivewright as dw
 from drivewright import registry, runner
+from drivewright.cams import clearance
 from drivewright.errors import DoesNotAssemble, GeometryCheckFailed, InputError, MissingExtra, SolverError
 from drivewright.mechanisms.seedling_pusher import dynamics
 from drivewright.report import content, export
@@ -109,9 +110,9 @@ def test_what_could_not_be_checked_is_not_manufactured(monkeypatch, tmp_path):
 
 @pytest.mark.parametrize(("share", "failed"), [(0.9, []), (0.1, ["contact"])])
 def test_the_pusher_says_until_when_its_contact_was_simulated(monkeypatch, share, failed):
-    integrate, model = dynamics.integrate, dw.build(dw.load(EXAMPLES / "seedling_pusher.toml"))
-    steps = int(share * dynamics.simulate(model, dynamics.lever_system(model))[-1].steps)
-    monkeypatch.setattr(dynamics, "integrate", lambda *given, **named: integrate(*given, **{**named, "max_steps": steps}))
+    integrate, model = clearance.integrate, dw.build(dw.load(EXAMPLES / "seedling_pusher.toml"))
+    steps = int(share * dynamics.simulate(model).trajectory.steps)
+    monkeypatch.setattr(clearance, "integrate", lambda *given, **named: integrate(*given, **{**named, "max_steps": steps}))
     result = runner.run(model.spec, only=("contact", "load"), model=model)
     (stop,) = (finding for finding in result.findings if finding.startswith("the contact simulation ends at t = "))
     assert result.outcome == "partial" and f"the limit of {steps} steps" in stop and stop.endswith("Partial for that reason: contact")

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from drivewright import registry
+from drivewright.cams.clearance import LeverBetweenCams, roller_forces
 from drivewright.contact import KelvinVoigt
 from drivewright.mechanisms.seedling_pusher import dynamics
-from drivewright.mechanisms.seedling_pusher.dynamics import LeverBetweenCams
 from drivewright.numerics.ode import integrate
 from drivewright.runner import run
 from drivewright.spec import load
@@ -25,7 +25,7 @@ def still(damping=0.0, clearance=0.0, lost=(0.0, 0.0)):
     values = np.array([SWING, 0.0, 0.0, LEVER, BACK, *lost])
     tables = np.zeros((7, 17, 2))
     tables[:, :, 0] = values[:, None]
-    return LeverBetweenCams(KelvinVoigt(STIFFNESS, damping), tables, 0.0, 1.0, ARM, MASS, 0.0, 0.3, clearance)
+    return LeverBetweenCams(KelvinVoigt(STIFFNESS, damping), tables, 1.0, ARM, MASS, 0.0, 0.3, clearance)
 
 
 def fly(system, duration, samples=4001, rate=AHEAD):
@@ -78,7 +78,7 @@ def test_a_contact_with_damping_only_takes_energy(clearance):
 def test_play_lets_the_lever_fly_that_far_before_it_touches():
     system = still(clearance=5e-6)
     t, delta, rate = fly(system, 0.6, rate=2e-2)
-    force = np.array([dynamics.forces(system, 0.0, d, v) for d, v in zip(delta, rate, strict=True)])
+    force = np.array([roller_forces(system, 0.0, d, v) for d, v in zip(delta, rate, strict=True)])
     flying = np.max(force, axis=1) == 0
     assert np.max(delta[flying]) == pytest.approx(5e-6 / BACK, rel=0.05)
     assert np.min(delta[flying]) == pytest.approx(-5e-6 / LEVER, rel=0.05)
@@ -89,10 +89,10 @@ def test_play_lets_the_lever_fly_that_far_before_it_touches():
 @pytest.mark.parametrize(("side", "taken"), [(0, (3e-6, 0.0)), (1, (0.0, 3e-6))])
 def test_what_undercut_has_taken_is_play_on_that_side_only(side, taken):
     system = still(lost=taken)
-    pressed = [dynamics.forces(system, 0.0, delta, 0.0) for delta in (-2e-6 / LEVER, 2e-6 / BACK)]
+    pressed = [roller_forces(system, 0.0, delta, 0.0) for delta in (-2e-6 / LEVER, 2e-6 / BACK)]
     assert pressed[side] == (0.0, 0.0)
     assert pressed[1 - side][1 - side] == pytest.approx(STIFFNESS * 2e-6, rel=1e-9)
-    deeper = [dynamics.forces(system, 0.0, delta, 0.0) for delta in (-5e-6 / LEVER, 5e-6 / BACK)]
+    deeper = [roller_forces(system, 0.0, delta, 0.0) for delta in (-5e-6 / LEVER, 5e-6 / BACK)]
     assert deeper[side][side] == pytest.approx(STIFFNESS * 2e-6, rel=1e-9)
 
 
@@ -102,9 +102,9 @@ def test_what_undercut_has_taken_is_play_on_that_side_only(side, taken):
 def simulate(*changes, preset="default"):
     """(peak force [N], largest rod error [m], share of the turn without contact) of the last turn."""
     model = PUSHER.build(load(PUSHER.presets()[preset], changes))
-    _, main, back, error, run = dynamics.simulate(model, dynamics.lever_system(model))
-    assert not run.advice
-    return max(main.max(), back.max()), np.max(np.abs(error)), np.mean((main <= 0) & (back <= 0))
+    run = dynamics.simulate(model)
+    assert not run.trajectory.advice
+    return run.peak_force, run.max_deviation, run.separation
 
 
 def test_without_play_the_rod_follows_and_the_rollers_stay():
@@ -116,7 +116,7 @@ def test_without_play_the_rod_follows_and_the_rollers_stay():
 
 def test_rod_error_is_the_travel_beyond_the_programme():
     model = PUSHER.build(load(PUSHER.presets()["design-b"], ["contact.clearance=0.1 mm"]))
-    angle, _, _, error, run = dynamics.simulate(model, dynamics.lever_system(model))
+    angle, _, _, error, run = dynamics.simulate(model)
     rod, arm = model.rod(model.push_start + angle).d0, model.spec.lever.output_arm
     assert error == pytest.approx(arm * np.tan(np.arctan2(rod, arm) + run.y[:, 0]) - rod, abs=1e-12)
 
@@ -131,7 +131,7 @@ def test_peak_force_grows_with_speed():
 def test_a_stiff_contact_needs_the_force_of_the_rigid_drive():
     """Slowly and without resistance the peak force is that of kinematics: rod acceleration times mass over the leverage."""
     model = PUSHER.build(load(PUSHER.presets()["default"], ["drive.speed=50 rpm", "load.push_force=0 N", "contact.stiffness=1e8 N/m"]))
-    angle, main, back, *_ = dynamics.simulate(model, dynamics.lever_system(model))
+    angle, main, back, *_ = dynamics.simulate(model)
     t = model.push_start + angle
     rod, swing = model.rod(t), model.swing(t)
     lever = model.spec.load.mass * rod.d2 * model.spec.drive.speed**2 * model.spec.lever.output_arm / np.cos(swing.d0) ** 2
@@ -181,8 +181,8 @@ def test_other_units_of_length_mass_and_time_change_no_pure_number():
     numbers = []
     for design in (spec, spec.replace(**changes)):
         model = PUSHER.build(design)
-        _, main, back, error, _ = dynamics.simulate(model, dynamics.lever_system(model))
-        numbers.append(np.array([main.max(), back.max(), np.max(np.abs(error)), np.mean((main <= 0) & (back <= 0))]))
+        run = dynamics.simulate(model)
+        numbers.append(np.array([run.main.max(), run.back.max(), run.max_deviation, run.separation]))
     factors = np.array([mass * length / time**2, mass * length / time**2, length])
     assert numbers[1][:3] / numbers[0][:3] == pytest.approx(factors, rel=2e-3)
-    assert numbers[1][3] == pytest.approx(numbers[0][3], abs=3 / dynamics.SAMPLES)  # counted in samples
+    assert numbers[1][3] == pytest.approx(numbers[0][3], abs=3 / len(run.angle))  # counted in samples

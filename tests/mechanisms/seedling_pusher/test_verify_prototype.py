@@ -61,8 +61,8 @@ def test_our_own_contact_model_agrees():
     """A contact as stiff as Exudyn's is at these forces, about 1e8 N/m: both rods within 50 um of each other all over the turn."""
     model = model_of("default", "contact.stiffness=1e8 N/m", "contact.turns=1")
     angle, error, _ = rod_error(model)
-    ours = dynamics.simulate(model, dynamics.lever_system(model))
-    assert np.max(np.abs(error - np.interp(angle, ours[0], ours[3]))) < 0.05e-3
+    ours = dynamics.simulate(model)
+    assert np.max(np.abs(error - np.interp(angle, ours.angle, ours.deviation))) < 0.05e-3
 
 
 def test_verify_prints_the_rod_error(capsys):

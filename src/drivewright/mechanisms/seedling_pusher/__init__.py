@@ -6,7 +6,6 @@ from drivewright.mechanisms.seedling_pusher import analyse, dynamics, manufactur
 from drivewright.mechanisms.seedling_pusher.build import build
 from drivewright.mechanisms.seedling_pusher.claims import claims
 from drivewright.mechanisms.seedling_pusher.designs import batch
-from drivewright.mechanisms.seedling_pusher.section import poincare
 from drivewright.mechanisms.seedling_pusher.spec import SeedlingPusherSpec
 from drivewright.registry import Analysis, Mechanism, oracle
 from drivewright.result import Plot
@@ -19,7 +18,7 @@ ANALYSES = (
     Analysis("contact", dynamics.contact, "lever between the cams with play: forces, separation, rod error"),
     Analysis("teeth", manufacture.teeth, "teeth of the elliptic gears", default=False),
     Analysis("inspection", manufacture.inspection, "radius and angle of both profiles with tolerance", default=False),
-    Analysis("poincare", poincare, "Poincare section of the rod's deviation in the contact run", default=False),
+    Analysis("poincare", dynamics.poincare, "Poincare section of the rod's deviation in the contact run", default=False),
     Analysis("clearance", dynamics.clearance_study, "peak force and rod error over clearance and speed", default=False),
 )
 
