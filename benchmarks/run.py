@@ -41,25 +41,25 @@ def designs():
     from drivewright.mechanisms.seedling_pusher import designs as d
 
     spec = load(EXAMPLE)
-    rows = np.tile(np.array([d._at(spec, key) for key in d.KEYS]), (20_000, 1))
+    rows = np.tile(d.base_row(spec), (20_000, 1))
     rows[:, 1] = np.linspace(0.97, 0.99, len(rows))
-    flags, out = np.array([0, 0, 0, 0, 1, 0, 0, 0, 1]), np.empty((len(rows), len(d.NAMES)))
+    choices, out = d.choices_of(spec, with_mouth=False), np.empty((len(rows), len(d.NAMES)))
     half, law = d.half_angles(), d.law_table(spec.push.law)
     train, cams = d.evaluate_train, d.evaluate_cams
 
     @kernel
-    def trains(rows, flags, c, s, out):
+    def trains(rows, choices, c, s, out):
         for n in range(rows.shape[0]):
-            train(rows[n], flags, c, s, out[n])
+            train(rows[n], choices, c, s, out[n])
 
     @kernel
-    def pairs(rows, flags, s, v, a, out):
+    def pairs(rows, choices, s, v, a, out):
         for n in range(rows.shape[0]):
-            cams(rows[n], flags, 1.5, s, v, a, out[n])
+            cams(rows[n], choices, 1.5, s, v, a, out[n])
 
     for name, call, wanted in (
-        ("train designs", lambda: trains(rows, flags, *half, out), 20_000),
-        ("cam-pair designs", lambda: pairs(rows, flags, *law, out), 15_000),
+        ("train designs", lambda: trains(rows, choices, *half, out), 20_000),
+        ("cam-pair designs", lambda: pairs(rows, choices, *law, out), 15_000),
     ):
         seconds = best(call)
         yield (

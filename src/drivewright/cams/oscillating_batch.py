@@ -1,4 +1,6 @@
-"""Curvature and extremes of an oscillating follower for many designs: what the jets give, on plain complex numbers."""
+"""Curvature and extremes of oscillating followers for many designs: what the jets give, on plain complex numbers."""
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -33,3 +35,43 @@ def sampled_peak(values: Floats) -> float:
     before, here, after = values[top - 1], values[top], values[top + 1]
     curvature = before - 2 * here + after
     return here - (after - before) ** 2 / (8 * curvature) if curvature < 0 else here
+
+
+class ConjugateLever(NamedTuple):
+    """A lever between a main and a return cam: pivot distance, both roller arms and the arm to the line of its output [m], and
+    e^{i psi0} of both roller arms at zero lift, against the line of centres."""
+
+    pivot_distance: float
+    main_arm: float
+    return_arm: float
+    output_arm: float
+    main: complex
+    back: complex
+
+
+@kernel
+def conjugate_extremes(
+    lever: ConjugateLever, stroke: float, width: float, way: int, orbit: float, p1: Floats, p2: Floats, s: Floats, v: Floats, a: Floats
+) -> tuple[float, float]:
+    """(greatest tan of the pressure angle [-], greatest convex curvature [1/m]) of both pitch curves over a rise (`way` +1) or return (-1).
+
+    stroke [m] of the output over a driving angle `width` [rad] by the motion law s, v, a (n,) [-]; the pivot orbits the cams in the
+    sense `orbit` (+1 counter-clockwise) at the rates p1 (n,) [-] and p2 (n,) [1/rad], magnitudes, by the driving angle.
+    """
+    arm, pivot = lever.output_arm, lever.pivot_distance
+    n = s.shape[0]
+    steep_main, steep_back = np.zeros(n), np.zeros(n)
+    curvature_main, curvature_back = np.zeros(n), np.zeros(n)
+    for i in range(n):
+        g = stroke * (s[i] if way > 0 else 1 - s[i])
+        g1, g2 = way * stroke * v[i] / width, way * stroke * a[i] / width**2
+        square = 1 / (arm * arm + g * g)
+        f, f1 = arm * g1 * square, arm * square * (g2 - 2 * g * g1 * g1 * square)
+        unit = complex(arm, g) * np.sqrt(square)  # e^{i swing}
+        q1, q2 = orbit * p1[i], orbit * p2[i]
+        psi_main, psi_back = lever.main * unit, lever.back * np.conj(unit)
+        curvature_main[i] = orbit * pitch_curvature(pivot, lever.main_arm, q1, q2, q1 - f, q2 - f1, np.conj(psi_main))
+        curvature_back[i] = orbit * pitch_curvature(pivot, lever.return_arm, q1, q2, q1 - f, q2 - f1, psi_back)
+        steep_main[i] = abs((lever.main_arm * (1 - f / q1) - pivot * psi_main.real) / (pivot * psi_main.imag))
+        steep_back[i] = abs((lever.return_arm * (1 - f / q1) - pivot * psi_back.real) / (pivot * psi_back.imag))
+    return max(sampled_peak(steep_main), sampled_peak(steep_back)), max(sampled_peak(curvature_main), sampled_peak(curvature_back))

@@ -7,6 +7,7 @@ direction e^{ip} and its first two derivatives by a dozen products.  `half` is e
 import numpy as np
 
 from drivewright._jit import kernel
+from drivewright._typing import Floats
 
 
 @kernel
@@ -31,3 +32,13 @@ def planet_at(c: float, d: float, half: complex, r: float) -> tuple[complex, flo
     q = x * x + r * r * y * y
     q1 = 2 * (x * x1 + r * r * y * y1)
     return complex(x * x - r * r * y * y, 2 * r * x * y) / q, r * r / q, -r * r * q1 / (q * q)
+
+
+@kernel
+def planet_rates(start: float, width: float, half: complex, r: float, first: Floats, second: Floats) -> None:
+    """Fill first and second (n,) with p' [-] and p'' [1/rad] at n equidistant carrier angles from `start` over `width` [rad]."""
+    n = first.shape[0]
+    turn, place = np.exp(0.5j * (width / (n - 1))), np.exp(0.5j * start)
+    for i in range(n):
+        _, first[i], second[i] = planet_at(place.real, place.imag, half, r)
+        place *= turn

@@ -183,10 +183,9 @@ def test_the_batch_runs_uncompiled_to_the_same_numbers():
     from drivewright._jit import plain
 
     spec = dw.load(EXAMPLE)
-    rows = np.array([[designs._at(spec, key) for key in designs.KEYS]])
-    flags = np.array([0, 0, 0, 0, 1, 0, 0, 1, 1])
+    rows, choices = designs.base_row(spec)[None], designs.choices_of(spec, with_mouth=True)
     compiled, interpreted = np.empty((1, len(designs.NAMES))), np.empty((1, len(designs.NAMES)))
-    arguments = (rows, flags, *designs.half_angles(), *designs.law_table("cycloidal"))
+    arguments = (rows, choices, *designs.half_angles(), *designs.law_table("cycloidal"))
     designs.evaluate_designs(*arguments, compiled)
     plain(designs.evaluate_designs)(*arguments, interpreted)
     assert compiled == pytest.approx(interpreted, rel=1e-13)

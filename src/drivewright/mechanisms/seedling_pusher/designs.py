@@ -6,18 +6,27 @@ trigonometric function per point, and the lever's atan(g / l) enters only throug
 
 from collections.abc import Callable, Sequence
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 
 from drivewright import motion
 from drivewright._jit import kernel, warmer
-from drivewright._typing import Floats, Ints
-from drivewright.cams.oscillating_batch import pitch_curvature, rest_cosine, sampled_peak
-from drivewright.gears.elliptic_batch import phase, planet, planet_at
+from drivewright._typing import Floats
+from drivewright.cams.oscillating_batch import ConjugateLever, conjugate_extremes, rest_cosine
+from drivewright.gears.elliptic_batch import planet_rates
+from drivewright.gears.elliptic_track import (
+    PlanetPoint,
+    half_angles,
+    opening_width,
+    planet_point,
+    point_direction,
+    track_extremes,
+    track_point,
+)
 from drivewright.mechanisms.seedling_pusher.spec import SeedlingPusherSpec
 
-TURN = 2 * np.pi
-TRACK, CAM = 360, 91  # points over the turn, and over each of push and retraction
+CAM = 91  # points over each of push and retraction
 
 KEYS = (
     "train.semi_major",
@@ -43,6 +52,30 @@ KEYS = (
     "field.mouth_height",
     "field.spacing",
 )
+(
+    SEMI_MAJOR,
+    AXIS_RATIO,
+    BEND,
+    CARRIER_ANGLE,
+    TIP_DISTANCE,
+    TIP_ANGLE,
+    NEEDLE_ANGLE,
+    STROKE,
+    END,
+    RISE,
+    HOLD,
+    RETRACTION,
+    PIVOT_DISTANCE,
+    ARM_MAIN,
+    ARM_RETURN,
+    OUTPUT_ARM,
+    PRIME_RADIUS_MAIN,
+    PRIME_RADIUS_RETURN,
+    ROLLER_RADIUS,
+    TAKE_ANGLE,
+    MOUTH_HEIGHT,
+    SPACING,
+) = range(len(KEYS))
 NAMES = (
     "tip.lowest_angle",
     "tip.highest_angle",
@@ -60,237 +93,149 @@ NAMES = (
 )
 
 
+class Choices(NamedTuple):
+    """What a spec chooses, for the kernels; 1 where it holds.  push_event: 0 lowest point, 1 end and 2 start of the push."""
+
+    interior_bend: int
+    far_start: int
+    tip_from_planet: int
+    end_at_lowest: int
+    take_at_top: int
+    push_event: int
+    counter_clockwise: int
+    with_mouth: int
+    forwards: int
+
+
 def batch(spec: SeedlingPusherSpec, keys: Sequence[str], names: Sequence[str]) -> Callable[[Floats], dict[str, Floats]] | None:
     """`evaluate(designs)` for designs (n, len(keys)) in SI -> {name: (n,)}; None where a key, name or event is not covered here."""
     if not set(keys) <= set(KEYS) or not set(names) <= set(NAMES) or spec.events.take == "gate":
         return None
-    base = np.array([_at(spec, key) for key in KEYS])
-    columns = [KEYS.index(key) for key in keys]
-    flags = np.array(
-        [
-            spec.train.bend_reading == "interior",
-            spec.train.start == "far",
-            spec.arm.tip_reference == "planet",
-            spec.push.end_event == "lowest",
-            spec.events.take == "top",
-            ("lowest", "push-end", "push-start").index(spec.events.push),
-            spec.cams.orbit == "counter-clockwise",
-            "planting.mouth_width" in names,
-            spec.field.travel == "+x",
-        ],
-        dtype=np.int64,
-    )
-    tables = (*half_angles(), *law_table(spec.push.law))
+    base, columns = base_row(spec), [KEYS.index(key) for key in keys]
+    choices, tables = choices_of(spec, "planting.mouth_width" in names), (*half_angles(), *law_table(spec.push.law))
 
     def evaluate(designs):
         rows = np.tile(base, (len(designs), 1))
         rows[:, columns] = designs
         out = np.empty((len(designs), len(NAMES)))
-        evaluate_designs(rows, flags, *tables, out)
+        evaluate_designs(rows, choices, *tables, out)
         return {name: out[:, NAMES.index(name)] for name in names}
 
     return evaluate
 
 
-def _at(spec, key):
-    table, name = key.split(".")
-    value = getattr(getattr(spec, table), name)
-    return 0.0 if value is None else value
+def base_row(spec: SeedlingPusherSpec) -> Floats:
+    """The values of KEYS of a spec (KEYS,) in SI; 0 for what is not given."""
+    values = [getattr(getattr(spec, table), name) for table, name in (key.split(".") for key in KEYS)]
+    return np.array([0.0 if value is None else value for value in values])
 
 
-@cache
-def half_angles() -> tuple[Floats, Floats]:
-    """cos(t/2), sin(t/2) on the track grid."""
-    t = np.linspace(0, TURN, TRACK, endpoint=False)
-    return np.cos(t / 2), np.sin(t / 2)
+def choices_of(spec: SeedlingPusherSpec, with_mouth: bool) -> Choices:
+    """The `Choices` of a spec; with_mouth: whether the width of the hole is computed as well."""
+    return Choices(
+        int(spec.train.bend_reading == "interior"),
+        int(spec.train.start == "far"),
+        int(spec.arm.tip_reference == "planet"),
+        int(spec.push.end_event == "lowest"),
+        int(spec.events.take == "top"),
+        ("lowest", "push-end", "push-start").index(spec.events.push),
+        int(spec.cams.orbit == "counter-clockwise"),
+        int(with_mouth),
+        int(spec.field.travel == "+x"),
+    )
 
 
 @cache
 def law_table(name: str) -> tuple[Floats, Floats, Floats]:
-    """s, v, a of a motion law on the cam grid."""
-    found = motion.law(name)(np.linspace(0, 1, CAM))
-    return np.asarray(found.s), np.asarray(found.v), np.asarray(found.a)
+    """s, v, a of a motion law, each (CAM,)."""
+    motions = motion.law(name)(np.linspace(0, 1, CAM))
+    return np.asarray(motions.s), np.asarray(motions.v), np.asarray(motions.a)
 
 
 @kernel
-def evaluate_designs(rows: Floats, flags: Ints, cos_half: Floats, sin_half: Floats, s: Floats, v: Floats, a: Floats, out: Floats) -> None:
+def evaluate_designs(
+    rows: Floats, choices: Choices, cos_half: Floats, sin_half: Floats, s: Floats, v: Floats, a: Floats, out: Floats
+) -> None:
     """All NAMES of each design; nan for what has no solution.
 
-    rows (n, KEYS) in SI, out (n, NAMES) in SI, flags (9,); cos_half, sin_half (m,) of the track grid; s, v, a (k,) of the push law.
+    rows (n, KEYS) in SI, out (n, NAMES) in SI; cos_half, sin_half (m,) [-] of `half_angles`; s, v, a (k,) [-] of the push law.
     """
     for n in range(rows.shape[0]):
-        evaluate_train(rows[n], flags, cos_half, sin_half, out[n])
-        end = out[n, 0] if flags[3] else rows[n, 8]
-        finish_needle(rows[n], flags, end, out[n])
-        evaluate_cams(rows[n], flags, end, s, v, a, out[n])
-        out[n, 12] = mouth_width(rows[n], flags, out[n, 0]) if flags[7] else np.nan
+        evaluate_train(rows[n], choices, cos_half, sin_half, out[n])
+        end = out[n, 0] if choices.end_at_lowest else rows[n, END]
+        evaluate_needle(rows[n], choices, end, out[n])
+        evaluate_cams(rows[n], choices, end, s, v, a, out[n])
 
 
 @kernel
-def shape(row: Floats, flags: Ints) -> tuple[complex, float, complex, complex]:
-    """(e^{is/2}, r, G, W): half bend, slope of the pair, and tip z = e^{-it} (G + W e^{ip})."""
-    bend = np.pi - row[2] if flags[0] else row[2]
-    eccentricity = np.sqrt(1 - row[1] ** 2)
-    r = (1 - eccentricity) / (1 + eccentricity)
-    r = 1 / r if flags[1] else r
-    start = row[3] + bend / 2 + np.pi + row[5] if flags[2] else row[3] - row[5]
-    half = np.exp(0.5j * bend)
-    carrier = 2 * row[0] * np.exp(1j * row[3]) * (1 + half * half)
-    return half, r, carrier, row[4] * np.exp(1j * start) * np.conj(phase(half, r))
+def needle_tip(row: Floats, choices: Choices) -> PlanetPoint:
+    """The needle's tip as a point on the planet; row (KEYS,) in SI."""
+    bend = np.pi - row[BEND] if choices.interior_bend else row[BEND]
+    eccentricity = np.sqrt(1 - row[AXIS_RATIO] ** 2)
+    slope = (1 - eccentricity) / (1 + eccentricity)
+    slope = 1 / slope if choices.far_start else slope
+    to_sun = row[CARRIER_ANGLE] + bend / 2 + np.pi
+    start = to_sun + row[TIP_ANGLE] if choices.tip_from_planet else row[CARRIER_ANGLE] - row[TIP_ANGLE]
+    return planet_point(row[SEMI_MAJOR], slope, bend, row[CARRIER_ANGLE], row[TIP_DISTANCE], start)
 
 
 @kernel
-def tip(t: float, half: complex, r: float, carrier: complex, arm: complex) -> tuple[complex, complex, complex]:
-    """(z, z', z'') of the needle tip [m] at the carrier angle t [rad], from what `shape` gives."""
-    e, p1, p2 = planet(t, half, r)
-    turn = np.exp(-1j * t)
-    first = -1j * carrier + 1j * (p1 - 1) * arm * e
-    second = -carrier + arm * e * complex(-((p1 - 1) ** 2), p2)
-    return turn * (carrier + arm * e), turn * first, turn * second
+def evaluate_train(row: Floats, choices: Choices, cos_half: Floats, sin_half: Floats, out: Floats) -> None:
+    """Lowest and highest carrier angle [rad], height and width [m] of the tip track of one design; row (KEYS,), out (NAMES,) in SI."""
+    tip = needle_tip(row, choices)
+    t = track_extremes(tip, cos_half, sin_half)
+    out[0], out[1] = t.lowest % (2 * np.pi), t.highest % (2 * np.pi)
+    out[2] = (track_point(t.highest, tip)[0] - track_point(t.lowest, tip)[0]).imag
+    out[3] = (track_point(t.rightmost, tip)[0] - track_point(t.leftmost, tip)[0]).real
 
 
 @kernel
-def refine(t: float, axis: complex, half: complex, r: float, carrier: complex, arm: complex) -> float:
-    """The stationary place of Re(conj(axis) z) near t, by Newton steps on its exact derivative."""
-    for _ in range(6):
-        _, z1, z2 = tip(t, half, r, carrier, arm)
-        slope, second = (np.conj(axis) * z1).real, (np.conj(axis) * z2).real
-        step = -slope / second if second != 0 else 0.0
-        t += min(max(step, -0.02), 0.02)
-        if abs(step) < 1e-13:
-            break
-    return t
+def evaluate_needle(row: Floats, choices: Choices, end: float, out: Floats) -> None:
+    """Needle angles at the two events [rad], tip height at the start of the push, rod's distance from the needle, width of the hole [m].
 
-
-@kernel
-def evaluate_train(row: Floats, flags: Ints, cos_half: Floats, sin_half: Floats, out: Floats) -> None:
-    """Lowest and highest carrier angle [rad], height and width [m] of the tip track of one design; row (KEYS,), out (NAMES,)."""
-    half, r, carrier, arm = shape(row, flags)
-    low = high = left = right = 0
-    y_low = x_low = np.inf
-    y_high = x_high = -np.inf
-    for i in range(cos_half.shape[0]):
-        c, d = cos_half[i], sin_half[i]
-        x, y = half.real * c - half.imag * r * d, half.imag * c + half.real * r * d
-        q = 1 / (x * x + r * r * y * y)
-        pr, pi = (x * x - r * r * y * y) * q, 2 * r * x * y * q
-        wr, wi = carrier.real + arm.real * pr - arm.imag * pi, carrier.imag + arm.real * pi + arm.imag * pr
-        tr, ti = c * c - d * d, -2 * c * d
-        zx, zy = wr * tr - wi * ti, wr * ti + wi * tr
-        if zy < y_low:
-            y_low, low = zy, i
-        if zy > y_high:
-            y_high, high = zy, i
-        if zx < x_low:
-            x_low, left = zx, i
-        if zx > x_high:
-            x_high, right = zx, i
-    step = 2 * np.pi / cos_half.shape[0]
-    t_low = refine(low * step, 1j, half, r, carrier, arm)
-    t_high = refine(high * step, 1j, half, r, carrier, arm)
-    t_left, t_right = refine(left * step, 1 + 0j, half, r, carrier, arm), refine(right * step, 1 + 0j, half, r, carrier, arm)
-    out[0], out[1] = t_low % (2 * np.pi), t_high % (2 * np.pi)
-    out[2] = (tip(t_high, half, r, carrier, arm)[0] - tip(t_low, half, r, carrier, arm)[0]).imag
-    out[3] = (tip(t_right, half, r, carrier, arm)[0] - tip(t_left, half, r, carrier, arm)[0]).real
-
-
-@kernel
-def needle(row: Floats, flags: Ints, t: float) -> float:
-    """Needle below the horizontal [rad] at the carrier angle t."""
-    half, r, _, arm = shape(row, flags)
-    return -np.angle(arm * planet(t, half, r)[0] * np.exp(-1j * t)) + row[6]
-
-
-@kernel
-def finish_needle(row: Floats, flags: Ints, end: float, out: Floats) -> None:
-    """Needle angles at the two events, the tip's height when the push starts, the rod's distance from the needle."""
-    take = out[1] if flags[4] else row[19]
-    push = out[0] if flags[5] == 0 else (end if flags[5] == 1 else end - row[9])
-    out[4], out[5] = needle(row, flags, take), needle(row, flags, push)
+    row (KEYS,), out (NAMES,) in SI; end: carrier angle at which the push ends [rad].
+    """
+    tip = needle_tip(row, choices)
+    take = out[1] if choices.take_at_top else row[TAKE_ANGLE]
+    push = out[0] if choices.push_event == 0 else (end if choices.push_event == 1 else end - row[RISE])
+    out[4], out[5] = -point_direction(take, tip) + row[NEEDLE_ANGLE], -point_direction(push, tip) + row[NEEDLE_ANGLE]
     out[6] = out[5] - out[4]
-    out[11] = abs((1.0 if flags[6] else -1.0) * (row[12] + row[15]) - row[4] * np.sin(row[6]))
-    half, r, carrier, arm = shape(row, flags)
-    out[7] = (tip(end - row[9], half, r, carrier, arm)[0] - tip(out[0], half, r, carrier, arm)[0]).imag
+    out[7] = (track_point(end - row[RISE], tip)[0] - track_point(out[0], tip)[0]).imag
+    orbit = 1.0 if choices.counter_clockwise else -1.0
+    out[11] = abs(orbit * (row[PIVOT_DISTANCE] + row[OUTPUT_ARM]) - row[TIP_DISTANCE] * np.sin(row[NEEDLE_ANGLE]))
+    advance = row[SPACING] * (1.0 if choices.forwards else -1.0)
+    out[12] = opening_width(tip, out[0], row[MOUTH_HEIGHT], advance) if choices.with_mouth else np.nan
 
 
 @kernel
-def mouth_width(row: Floats, flags: Ints, t_low: float) -> float:
-    """Width of the hole at the soil surface, field frame [m]; 0 where the tip never leaves the soil."""
-    half, r, carrier, arm = shape(row, flags)
-    surface = tip(t_low, half, r, carrier, arm)[0].imag + row[20]
-    advance = row[21] / (2 * np.pi) * (1.0 if flags[8] else -1.0)
-    edges = np.zeros(2)
-    for k in range(2):
-        step = 0.02 if k else -0.02
-        t = t_low
-        while abs(t - t_low) < np.pi and tip(t, half, r, carrier, arm)[0].imag < surface:
-            t += step
-        if abs(t - t_low) >= np.pi:
-            return 0.0
-        low, high = t - step, t
-        for _ in range(50):
-            middle = 0.5 * (low + high)
-            if tip(middle, half, r, carrier, arm)[0].imag < surface:
-                low = middle
-            else:
-                high = middle
-        edges[k] = tip(high, half, r, carrier, arm)[0].real + advance * high
-    return abs(edges[1] - edges[0])
+def evaluate_cams(row: Floats, choices: Choices, end: float, s: Floats, v: Floats, a: Floats, out: Floats) -> None:
+    """Largest pressure angle of both cams [rad], least convex radius over roller radius [-], largest pitch radius [m].
 
-
-@kernel
-def evaluate_cams(row: Floats, flags: Ints, end: float, s: Floats, v: Floats, a: Floats, out: Floats) -> None:
-    """Largest pressure angle of both cams, least convex radius over roller radius, largest pitch radius."""
-    cos_main, cos_return = rest_cosine(row[16], row[12], row[13]), rest_cosine(row[17], row[12], row[14])
-    swing = np.arctan(row[7] / row[15])
-    possible = abs(cos_main) < 1 and abs(cos_return) < 1 and row[9] + row[10] + row[11] < 2 * np.pi
+    row (KEYS,), out (NAMES,) in SI; end: carrier angle at which the push ends [rad]; s, v, a (k,) [-] of the push law.
+    """
+    pivot, arm = row[PIVOT_DISTANCE], row[ARM_MAIN]
+    cos_main, cos_return = rest_cosine(row[PRIME_RADIUS_MAIN], pivot, arm), rest_cosine(row[PRIME_RADIUS_RETURN], pivot, row[ARM_RETURN])
+    swing = np.arctan(row[STROKE] / row[OUTPUT_ARM])
+    possible = abs(cos_main) < 1 and abs(cos_return) < 1 and row[RISE] + row[HOLD] + row[RETRACTION] < 2 * np.pi
     if not possible or np.arccos(cos_main) + swing >= np.pi or np.arccos(cos_return) <= swing:
         out[8], out[9], out[10] = np.nan, np.nan, np.nan
         return
-    main = complex(cos_main, np.sqrt(1 - cos_main**2))
-    back = complex(cos_return, np.sqrt(1 - cos_return**2))
-    rise = stretch(row, flags, end - row[9], row[9], 1, main, back, s, v, a)
-    retraction = stretch(row, flags, end + row[10], row[11], -1, main, back, s, v, a)
+    main, back = complex(cos_main, np.sqrt(1 - cos_main**2)), complex(cos_return, np.sqrt(1 - cos_return**2))
+    lever, tip = ConjugateLever(pivot, arm, row[ARM_RETURN], row[OUTPUT_ARM], main, back), needle_tip(row, choices)
+    orbit, first, second = 1.0 if choices.counter_clockwise else -1.0, np.empty(s.shape[0]), np.empty(s.shape[0])
+    planet_rates(end - row[RISE], row[RISE], tip.half_bend, tip.slope, first, second)
+    rise = conjugate_extremes(lever, row[STROKE], row[RISE], 1, orbit, first, second, s, v, a)
+    planet_rates(end + row[HOLD], row[RETRACTION], tip.half_bend, tip.slope, first, second)
+    retraction = conjugate_extremes(lever, row[STROKE], row[RETRACTION], -1, orbit, first, second, s, v, a)
     out[8] = np.arctan(max(rise[0], retraction[0]))
-    sharpest = max(max(rise[1], retraction[1]), max(1 / row[16], 1 / row[17]))
+    sharpest = max(max(rise[1], retraction[1]), max(1 / row[PRIME_RADIUS_MAIN], 1 / row[PRIME_RADIUS_RETURN]))
     outermost = main * np.exp(1j * swing)
-    reach = np.sqrt(row[12] ** 2 + row[13] ** 2 - 2 * row[12] * row[13] * outermost.real)
-    out[9], out[10] = 1 / (sharpest * row[18]), max(reach, row[17])
-
-
-@kernel
-def stretch(
-    row: Floats, flags: Ints, t0: float, width: float, way: int, main: complex, back: complex, s: Floats, v: Floats, a: Floats
-) -> tuple[float, float]:
-    """(greatest tan of the pressure angle, greatest convex curvature) of both cams over one push (`way` +1) or retraction (-1)."""
-    half, r, _, _ = shape(row, flags)
-    orbit = 1.0 if flags[6] else -1.0
-    stroke, lever, pivot = row[7], row[15], row[12]
-    n = s.shape[0]
-    dt = width / (n - 1)
-    turn = np.exp(0.5j * dt)
-    place = np.exp(0.5j * t0)
-    steep_main, steep_back = np.zeros(n), np.zeros(n)
-    curvature_main, curvature_back = np.zeros(n), np.zeros(n)
-    for i in range(n):
-        g = stroke * (s[i] if way > 0 else 1 - s[i])
-        g1, g2 = way * stroke * v[i] / width, way * stroke * a[i] / width**2
-        square = 1 / (lever * lever + g * g)
-        f, f1 = lever * g1 * square, lever * square * (g2 - 2 * g * g1 * g1 * square)
-        unit = complex(lever, g) * np.sqrt(square)  # e^{i phi1}
-        _, p1, p2 = planet_at(place.real, place.imag, half, r)
-        place *= turn
-        q1, q2 = orbit * p1, orbit * p2
-        psi_main, psi_back = main * unit, back * np.conj(unit)
-        curvature_main[i] = orbit * pitch_curvature(pivot, row[13], q1, q2, q1 - f, q2 - f1, np.conj(psi_main))
-        curvature_back[i] = orbit * pitch_curvature(pivot, row[14], q1, q2, q1 - f, q2 - f1, psi_back)
-        steep_main[i] = abs((row[13] * (1 - f / q1) - pivot * psi_main.real) / (pivot * psi_main.imag))
-        steep_back[i] = abs((row[14] * (1 - f / q1) - pivot * psi_back.real) / (pivot * psi_back.imag))
-    return max(sampled_peak(steep_main), sampled_peak(steep_back)), max(sampled_peak(curvature_main), sampled_peak(curvature_back))
+    reach = np.sqrt(pivot**2 + arm**2 - 2 * pivot * arm * outermost.real)
+    out[9], out[10] = 1 / (sharpest * row[ROLLER_RADIUS]), max(reach, row[PRIME_RADIUS_RETURN])
 
 
 @warmer
 def warm_batch() -> None:
     """Compile for `doctor --warm`."""
     out = np.empty((1, len(NAMES)))
-    evaluate_designs(np.ones((1, len(KEYS))) * 0.5, np.zeros(9, dtype=np.int64), *half_angles(), *law_table("cycloidal"), out)
+    evaluate_designs(np.ones((1, len(KEYS))) * 0.5, Choices(*[0] * 9), *half_angles(), *law_table("cycloidal"), out)
