@@ -21,7 +21,7 @@ from drivewright.cams.loads import (
     needed_preload,
     needed_stiffness,
 )
-from drivewright.cams.profile import Sinking, family, path, sinking, spans
+from drivewright.cams.profile import FlatFollower, Follower, RoundFollower, Sinking, family, path, sinking, spans
 from drivewright.cams.sizing import face_ends, least_base_radius
 from drivewright.cams.vibration import STIFFEST, Response, acceleration, amplitude, peak, periodic, propagator, transient
 
@@ -40,6 +40,8 @@ __all__ = [
     "face_ends",
     "family",
     "flat_radius",
+    "FlatFollower",
+    "Follower",
     "follower_force",
     "FollowerLoad",
     "jump_speed",
@@ -56,6 +58,7 @@ __all__ = [
     "play",
     "propagator",
     "Response",
+    "RoundFollower",
     "sinking",
     "Sinking",
     "spans",

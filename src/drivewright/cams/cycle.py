@@ -76,7 +76,7 @@ class Cycle:
         piece, angle = self.samples(step)
         found = quantity(*self.at(piece, angle))
         values, slope = np.broadcast_to(found.d0, angle.shape), np.broadcast_to(found.d1, angle.shape)
-        piece, angle, values = np.append([piece, angle, values], self._tops(quantity, piece, angle, values, slope), axis=1)
+        piece, angle, values = np.concatenate([[piece, angle, values], self._tops(quantity, piece, angle, values, slope)], axis=1)
         close = np.flatnonzero(values >= values.max() - EQUAL * np.max(np.abs(values)))
         first = close[np.argmin(angle[close])]
         return Extreme(float(values[first]), float(angle[first]), int(piece[first]))

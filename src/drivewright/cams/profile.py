@@ -10,7 +10,9 @@ from drivewright.curves import CircleFamily, LineFamily, Piece, Span
 from drivewright.motion import Programme
 from drivewright.numerics.jets import Jet, constant, variable
 
-Follower: TypeAlias = TranslatingRound | OscillatingRound | TranslatingFlat | OscillatingFlat
+RoundFollower: TypeAlias = TranslatingRound | OscillatingRound
+FlatFollower: TypeAlias = TranslatingFlat | OscillatingFlat
+Follower: TypeAlias = RoundFollower | FlatFollower
 
 
 def path(programme: Programme, draw: Callable[[Jet, Jet], Any]) -> tuple[Piece, ...]:
@@ -22,7 +24,7 @@ def path(programme: Programme, draw: Callable[[Jet, Jet], Any]) -> tuple[Piece, 
 
 def family(follower: Follower, programme: Programme, flank: int = 1) -> CircleFamily | LineFamily:
     """The `curves` family that the face sweeps in the cam frame: circles or lines.  flank -1: the outer wall of a groove."""
-    if isinstance(follower, TranslatingFlat | OscillatingFlat):
+    if isinstance(follower, FlatFollower):
         return LineFamily(path(programme, follower.face))
     return CircleFamily(path(programme, follower.pitch), follower.radius, "inside" if flank > 0 else "outside")
 
@@ -44,7 +46,7 @@ def sinking(follower: Follower, programme: Programme, flank: int = 1) -> Sinking
     def lift(angle, depth):
         return constant(programme(angle).s - flank * getattr(follower, "side", 1) * depth / follower.reach)
 
-    if not isinstance(follower, TranslatingFlat | OscillatingFlat):
+    if not isinstance(follower, FlatFollower):
         return Sinking(lambda angle, depth: follower.pitch(variable(angle), lift(angle, depth)).d0, 1.0)
 
     def face(angle, depth):

@@ -32,7 +32,7 @@ def least_base_radius(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat)
         return None
     from scipy.optimize import brentq
 
-    return float(brentq(sharpest, low, high, xtol=1e-15 * high, rtol=1e-14))
+    return float(brentq(sharpest, low, high, xtol=1e-15 * high, rtol=1e-14))  # pyright: ignore[reportArgumentType]  scipy's stub: full_output
 
 
 def face_ends(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -> tuple[float, float]:

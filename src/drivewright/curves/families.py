@@ -116,7 +116,7 @@ class CircleFamily:
         """For each point the number of the member with the least gap."""
         from scipy.spatial import KDTree
 
-        return KDTree(np.stack([members.real, members.imag], axis=1)).query(np.stack([points.real, points.imag], axis=1))[1]
+        return np.asarray(KDTree(np.stack([members.real, members.imag], axis=1)).query(np.stack([points.real, points.imag], axis=1))[1])
 
 
 @dataclass(frozen=True)

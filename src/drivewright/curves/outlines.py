@@ -32,7 +32,7 @@ def _integrals(span, panels=12):
     edges = np.linspace(span.start, span.stop, panels + 1)
     low, high = edges[:-1], edges[1:]
     total, mean = np.zeros(2), None
-    for _ in range(_HALVINGS):
+    for halving in range(_HALVINGS):
         half = 0.5 * (high - low)
         jet = span.piece.at((0.5 * (low + high)[:, None] + half[:, None] * _NODES).ravel())
         values = np.stack([0.5 * np.imag(np.conj(jet.d0) * jet.d1), np.sign(span.stop - span.start) * np.abs(jet.d1)])
@@ -40,11 +40,13 @@ def _integrals(span, panels=12):
         mean = np.mean(np.abs(values), axis=(1, 2)) if mean is None else mean
         rough = np.any(np.abs(values @ _HIGHEST.T).sum(axis=2) > 1e-6 * mean[:, None], axis=0)
         total += np.sum(half * (values @ _WEIGHTS) * ~rough, axis=1)
-        if not rough.any():
-            return total
+        if halving == _HALVINGS - 1:
+            total += np.sum((half * (values @ _WEIGHTS))[:, rough], axis=1)
+        elif not rough.any():
+            break
         middle = 0.5 * (low + high)[rough]
         low, high = np.append(low[rough], middle), np.append(middle, high[rough])
-    return total + np.sum((half * (values @ _WEIGHTS))[:, rough], axis=1)
+    return total
 
 
 def outline_of_spans(spans: Sequence[Any], tolerance: float, closed: bool = True) -> Outline:
@@ -98,14 +100,14 @@ def _spline(span, tolerance):
 
 def _course(span, count=129):
     """Parameters along a span, lengths and turns between them, fine enough for its sharpest place."""
-    for _ in range(_HALVINGS):
+    most = (count - 1) * 2 ** (_HALVINGS - 1) + 1
+    while True:
         t = np.linspace(span.start, span.stop, count)
         speed = span.piece.at(t).d1
         turn = np.abs(np.angle(speed[1:] / speed[:-1]))
-        if np.max(turn) < _TURN:
-            break
+        if np.max(turn) < _TURN or count == most:
+            return t, 0.5 * np.abs(speed[1:] + speed[:-1]) * np.abs(np.diff(t)), turn
         count = 2 * count - 1
-    return t, 0.5 * np.abs(speed[1:] + speed[:-1]) * np.abs(np.diff(t)), turn
 
 
 def _pair(z):
@@ -158,4 +160,4 @@ def interpolant(spline: Spline) -> tuple[PPoly, Floats]:
     z = np.asarray(spline.knots) @ (1, 1j)
     u = np.append(0.0, np.cumsum(np.abs(np.diff(z))))
     ends = complex(*spline.start_tangent), complex(*spline.end_tangent)
-    return CubicSpline(u, z, bc_type=((1, ends[0]), (1, ends[1]))), u
+    return CubicSpline(u, z, bc_type=((1, ends[0]), (1, ends[1]))), u  # pyright: ignore[reportArgumentType]  scipy's stub says str

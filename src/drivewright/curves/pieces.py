@@ -151,7 +151,7 @@ class Chain:
         for k in np.unique(index):
             span = slice(self.first[k], self.first[k + 1])
             sense = self.pieces[k].sense
-            u[index == k] = self.first[k] + np.interp(sense * t[index == k], sense * self.t[span], np.arange(span.stop - span.start))
+            u[index == k] = self.first[k] + np.interp(sense * t[index == k], sense * self.t[span], np.arange(int(span.stop - span.start)))
         return u
 
 

@@ -92,7 +92,8 @@ def _refuse_gouge(outline, path, radius):
 
     ring, places = _dense(outline), _dense(path)
     chords = shapely.linestrings(np.stack([ring, np.roll(ring, -1, axis=0)], axis=1))
-    _, room = shapely.STRtree(chords).query_nearest(shapely.points(places), return_distance=True, all_matches=False)
+    tree = shapely.STRtree(np.asarray(chords, dtype=object))
+    _, room = tree.query_nearest(shapely.points(places), return_distance=True, all_matches=False)
     worst = int(np.argmin(room))
     if room[worst] < (1 - _GOUGE) * radius:
         x, y = places[worst] * 1e3

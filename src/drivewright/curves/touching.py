@@ -52,7 +52,8 @@ def nodes_of(spans: Sequence[Any], tolerance: float = 2e-10) -> Nodes:
     """Nodes of the spans of a Trimmed profile, in order; in their middles the cubics leave it by less than the tolerance [m]."""
     index = np.repeat(np.arange(len(spans)), _CHORDS + 1)
     t = np.concatenate([np.linspace(span.start, span.stop, _CHORDS + 1) for span in spans])
-    for _ in range(_HALVINGS):
+    halvings = 0
+    while True:
         points, headings = _along(spans, index, t)
         chords = np.flatnonzero(index[1:] == index[:-1])
         middles = 0.5 * (t[chords] + t[chords + 1])
@@ -60,8 +61,9 @@ def nodes_of(spans: Sequence[Any], tolerance: float = 2e-10) -> Nodes:
         a, b, leave, arrive = points[chords], points[chords + 1], headings[chords], headings[chords + 1]
         cubic = 0.5 * (a + b) + 0.125 * np.abs(b - a) * (leave - arrive)
         off = (np.abs(np.imag(np.conj(heading) * (cubic - exact))) > tolerance) | (np.real(np.conj(leave) * arrive) < _TURN)
-        if not off.any():
+        if not off.any() or halvings == _HALVINGS - 1:
             break
+        halvings += 1
         t, index = np.insert(t, chords[off] + 1, middles[off]), np.insert(index, chords[off] + 1, index[chords[off]])
     b = np.roll(a, -1)  # so that no foot falls between two ends that differ by rounding
     chord = np.abs(b - a)

@@ -155,16 +155,17 @@ def _parts(chain, cuts):
     """Parts of the chain, number k from cut k to the next cut of its loop, then the loops without a cut; and which part follows each."""
     bounds = chain.first[chain.loops]
     home = np.searchsorted(bounds, cuts, side="right") - 1
-    parts, following = [None] * len(cuts), [None] * len(cuts)
+    parts: dict[int, _Part] = {}
+    following, free = {}, len(cuts)
     for loop, (low, high) in enumerate(zip(bounds[:-1], bounds[1:], strict=True)):
         own = np.flatnonzero(home == loop)
         for k, after in zip(own, np.roll(own, -1), strict=True):
-            parts[k] = _Part(cuts[k], cuts[after] + (high - low if after <= k else 0), low, high)
-            following[k] = after
+            parts[int(k)] = _Part(cuts[k], cuts[after] + (high - low if after <= k else 0), low, high)
+            following[int(k)] = after
         if not len(own):
-            following.append(len(parts))
-            parts.append(_Part(float(low), float(high), low, high))
-    return parts, np.array(following)
+            parts[free], following[free] = _Part(float(low), float(high), low, high), free
+            free += 1
+    return [parts[k] for k in range(free)], np.array([following[k] for k in range(free)], dtype=int)
 
 
 def _alive(family, chain, parts):

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from drivewright._typing import ArrayLike, Floats
+from drivewright._typing import ArrayLike, Complexes, Floats
 from drivewright.curves.pieces import gather
 from drivewright.curves.trim import Trimmed
 from drivewright.errors import SolverError
@@ -64,12 +64,14 @@ def _where_missing(trimmed, t, found):
 def _largest(trimmed, lost_at):
     best = (np.nan, 0.0)
     for start, stop in trimmed.removed:
+        deepest = best
         for _ in range(3):  # each pass narrows the place by 32
             t = np.linspace(start, stop, 65)
             lost = lost_at(t)
             k = int(np.argmax(lost))
             start, stop = t[max(k - 1, 0)], t[min(k + 1, 64)]
-        best = max(best, (float(t[k]), float(lost[k])), key=lambda found: found[1])
+            deepest = float(t[k]), float(lost[k])
+        best = max(best, deepest, key=lambda found: found[1])
     return best
 
 
@@ -148,7 +150,7 @@ def profile_loss(trimmed: Trimmed, samples: int = 20_001) -> float:
     if not cut.any():
         return 0.0
     along = (span.piece.at(np.linspace(span.start, span.stop, samples)).d0 for span in trimmed.spans)
-    points = np.concatenate([np.broadcast_to(stretch, samples) for stretch in along])
+    points: Complexes = np.concatenate([np.broadcast_to(stretch, samples) for stretch in along])
     flat = np.stack([points.real, points.imag], axis=1)
     lost = trimmed.chain.z[cut]
     return float(KDTree(flat).query(np.stack([lost.real, lost.imag], axis=1))[0].max())

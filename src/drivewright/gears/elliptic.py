@@ -43,7 +43,7 @@ class EllipticGearPair(RollingPair):
             check_length("semi_major", self.semi_major)
 
     @property
-    def centre_distance(self) -> float:
+    def centre_distance(self) -> float:  # pyright: ignore[reportIncompatibleVariableOverride]  read only, as everywhere
         """Distance of the axes 2 a [m]."""
         if self.semi_major is None:
             raise InputError("EllipticGearPair: lengths need the size of the ellipse; give semi_major [m].")

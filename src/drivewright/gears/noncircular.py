@@ -71,7 +71,7 @@ class NonCircularPair(RollingPair):
         return RunningIntegral(lambda angle: self.ratio_jet(angle).d0)
 
     @cached_property
-    def lobes(self) -> tuple[int, int]:
+    def lobes(self) -> tuple[int, int]:  # pyright: ignore[reportIncompatibleVariableOverride]  read only, as everywhere
         """(n, m) with mean ratio n/m in lowest terms."""
         nearest = Fraction(self._integral.total / (2 * np.pi)).limit_denominator(_LARGEST)
         return nearest.numerator, nearest.denominator

@@ -108,7 +108,7 @@ class RackFamily:
     @property
     def spaces(self) -> Floats:
         """Rack coordinates of the tooth spaces' centres [m]."""
-        return (self.phase + 0.5 * (self.gear - 1) + np.arange(self.teeth)) * np.pi * self.module
+        return (self.phase + 0.5 * (self.gear - 1) + np.arange(self.teeth, dtype=float)) * np.pi * self.module
 
     def frame(self, x: ArrayLike) -> tuple[Jet, Jet, Jet, Jet]:
         """z, T, N, s as jets of the driver angle (T and N: second derivative nan)."""
@@ -141,7 +141,8 @@ class RackFamily:
         tip, flank_ends, shape = Member(self.parallel, (self.rack.addendum * self.module,)), self._tip_corners, self.round_shape
         pieces = []
         for k in range(self.teeth):
-            pieces += self._space(k, *flank_ends[0][k], shape)
+            behind, ahead = flank_ends[0][k]
+            pieces += self._space(k, behind, ahead, shape)
             following = flank_ends[1][(k + 1) % self.teeth, 0] + (self.period if k == self.teeth - 1 else 0.0)
             pieces.append(Piece(flank_ends[1][k, 1], following, tip, f"tip {k}", shape, 0))
         return tuple(pieces)
@@ -183,6 +184,7 @@ class RackFamily:
         centers, sides = np.repeat(self.spaces, 2), np.tile([-1.0, 1.0], self.teeth)
         x = self.pair.arc_length.inverse(centers + sides * (half + height / (s * c)))
         y = self.pair.arc_length.inverse(centers + sides * (half + height * s / c))
+        miss = np.full(len(x), np.inf, dtype=complex)
         for _ in range(30):
             p, q = self.flank(centers, sides, x), self.parallel(height, y)
             miss, area = q.d0 - p.d0, np.imag(np.conj(p.d1) * q.d1)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Complexes
 from drivewright.errors import InputError
 from drivewright.motion.piecewise import CLOSURE, Piecewise, joined
 
@@ -47,7 +48,8 @@ def integrate(pieces: Iterable[Acceleration], start_velocity: float = 0.0) -> Pi
 def _twice_integrated(piece, s, v):
     """The motion over a piece's own 0..width that starts with s and v."""
     frequency = np.array([[turn / piece.width for _, turn in piece.waves]])
-    amplitude = -np.array([[size for size, _ in piece.waves]], dtype=complex) / frequency**2
+    sizes: Complexes = np.array([[size for size, _ in piece.waves]], dtype=complex)
+    amplitude = -sizes / frequency**2
     powers = np.arange(1, len(piece.poly) + 1)
     poly = np.concatenate([[0.0, 0.0], np.asarray(piece.poly) / (powers * (powers + 1))])
     free = Piecewise(np.array([0.0, piece.width]), poly[None], amplitude, frequency)

@@ -81,7 +81,7 @@ def register(*names: str) -> Callable[[BuildT], BuildT]:
     """Decorator: a function of a law's parameters is built in under these names; it returns a `Piecewise` or a `MotionLaw`."""
 
     def keep(build):
-        BUILT_IN.update(dict.fromkeys(names, build))
+        BUILT_IN.update((name, build) for name in names)
         return build
 
     return keep

@@ -84,7 +84,7 @@ class Piecewise:
             w = frequency[k]
             wave = size[k] * np.exp(1j * w * t)
             s, v, a, j = s + wave.real, v - w * wave.imag, a - w**2 * wave.real, j + w**3 * wave.imag
-        return Motion(s, v, a, j) if np.ndim(t) else Motion(float(s), float(v), float(a), float(j))
+        return Motion(s, v, a, j) if np.ndim(t) else Motion(*map(float, (s, v, a, j)))  # pyright: ignore[reportArgumentType]  floats of a float
 
     def derivative(self, order: int = 1) -> "Piecewise":
         """The derivative of an order, in the same representation."""
@@ -190,7 +190,8 @@ def joined(functions: Iterable[Piecewise], closed: bool) -> Piecewise:
     """One `Piecewise` of several that follow each other."""
     functions = list(functions)
     breaks = np.append(np.concatenate([f.breaks[:-1] for f in functions]), functions[-1].breaks[-1])
-    return Piecewise(breaks, *(_stacked([getattr(f, name) for f in functions]) for name in ("poly", "amplitude", "frequency")), closed)
+    poly, amplitude, frequency = (_stacked([getattr(f, name) for f in functions]) for name in ("poly", "amplitude", "frequency"))
+    return Piecewise(breaks, poly, amplitude, frequency, closed)
 
 
 def _stacked(tables):

@@ -59,7 +59,7 @@ class Segment:
         if self.motion_law.span is not None:
             return self.motion_law.function.scaled(width=self.angle, start=start)
         offset = level - self.rise * self.motion_law(0.0).s
-        return self.motion_law.function.scaled(width=self.angle, height=self.rise, start=start, level=offset)
+        return self.motion_law.function.scaled(width=self.angle, height=self.rise, start=start, level=float(offset))
 
 
 class Piece(NamedTuple):
@@ -108,9 +108,9 @@ class Programme:
     def levels(self) -> Floats:
         """Lift at the start of each segment and at the end of the cycle (n+1,)."""
         first = self.segments[0].motion_law
-        levels = [first(0.0).s if first.span is not None else 0.0]
+        levels = [float(first(0.0).s) if first.span is not None else 0.0]
         for segment in self.segments:
-            levels.append(segment.placed(0.0, levels[-1]).on_piece(-1, segment.angle).s)
+            levels.append(float(segment.placed(0.0, levels[-1]).on_piece(-1, segment.angle).s))
         return np.array(levels)
 
     @cached_property

@@ -97,12 +97,16 @@ def _column(name, header, what):
 def _factor(column, dimensions, path):
     """(factor to SI, dimension) of a column's unit, by the first dimension that fits."""
     _, name, unit = column
-    for dimension in dimensions:
+    *others, last = dimensions
+    for dimension in others:
         try:
             return unit_factor(unit, dimension), dimension
-        except UnitError as error:
-            complaint = error
-    raise complaint.located(key=f"column '{name}'", file=path)
+        except UnitError:
+            continue
+    try:
+        return unit_factor(unit, last), last
+    except UnitError as error:
+        raise error.located(key=f"column '{name}'", file=path) from None
 
 
 def _number(cells, index, where, name):

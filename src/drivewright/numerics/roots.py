@@ -49,7 +49,7 @@ def _refine(f, a, b, fa, fb, steps=200):
         b, fb = np.where(same, b, a), np.where(same, fb, fa)
         a, fa = x, fx
         t = _next_fraction(a, b, c, fa, fb, fc, tolerance)
-    nearer_b = np.abs(fb) < np.abs(fa)
+    nearer_b = np.less(np.abs(fb), np.abs(fa))
     return np.where(nearer_b, b, a), np.where(nearer_b, fb, fa)
 
 
@@ -79,6 +79,7 @@ def newton(
     """
     x = np.array(x0, dtype=float)
     f, jacobian = f_and_jacobian(x)
+    size = np.inf
     for count in range(max_steps):
         step = _solve(jacobian, f, x, count)
         size = np.max(np.abs(step) / np.maximum(np.abs(x), scale))

@@ -29,9 +29,9 @@ def local_maxima(t: ArrayLike, x: ArrayLike) -> tuple[Floats, Floats]:
     first, last = first[top], last[top]
     before, after = (_vertex(t, x, first - 1, first, first + 1), _vertex(t, x, last - 1, last, last + 1))
     flat = last - first > 1
-    return tuple(
-        np.where(flat, plateau, 0.5 * (a + b)) for a, b, plateau in zip(before, after, (0.5 * (t[first] + t[last]), x[first]), strict=True)
-    )
+    plateau = 0.5 * (t[first] + t[last]), x[first]
+    times, tops = (np.where(flat, level, 0.5 * (a + b)) for a, b, level in zip(before, after, plateau, strict=True))
+    return times, tops
 
 
 def _vertex(t, x, i, j, k):
@@ -164,7 +164,7 @@ def _amplitudes(integral, start, end, bins, samples):
     cells = int(next_fast_len(max(2 * samples, 16 * int(np.max(bins))), real=True))  # pyright: ignore[reportArgumentType]  scipy's stub says None
     edges = np.linspace(start, end, cells + 1)
     averages = np.diff(integral(edges)) * cells / (end - start)
-    transform = np.abs(rfft(averages))[bins] / cells / np.sinc(bins / cells)
+    transform = np.abs(np.asarray(rfft(averages)))[bins] / cells / np.sinc(bins / cells)
     return np.where(bins == 0, transform, 2 * transform)
 
 

@@ -42,7 +42,7 @@ def smoothing_spline(x: ArrayLike, y: ArrayLike, tolerance: float, degree: int =
         _check_period(y)
     # Both are scaled to about 1: FITPACK compares with absolute numbers inside.
     size = max(np.max(np.abs(y)), tolerance)
-    t, c, k = splrep(x, y / size, k=degree, s=x.size * (tolerance / size) ** 2, per=periodic)
+    t, c, k = splrep(x, y / size, k=degree, s=x.size * (tolerance / size) ** 2, per=periodic)  # pyright: ignore[reportAssignmentType]  scipy's stub: full_output
     return _pieces(BSpline(t, c * size, k), np.unique(t[k : len(t) - k]), "periodic" if periodic else True)
 
 

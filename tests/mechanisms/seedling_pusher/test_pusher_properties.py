@@ -203,3 +203,14 @@ def test_the_batch_declines_what_it_does_not_know():
     spec = dw.load(EXAMPLE)
     assert designs.batch(spec, ("drive.speed",), ("tip.track_height",)) is None
     assert designs.batch(spec, ("push.rise",), ("contact.peak_force",)) is None
+
+
+def test_a_material_without_an_allowable_pressure_leaves_the_check_out():
+    """And says so; the pressure itself is computed, and a limit of one's own is checked."""
+    spec = dw.load(EXAMPLE, ["contact.material=C45"])
+    result = dw.run(spec, only="load")
+    assert not [check for check in result.checks if check.name.startswith("contact_pressure")]
+    assert any("contact_pressure.main is left out" in finding and "limits.contact_pressure" in finding for finding in result.findings)
+    assert result["cam.main.max_contact_pressure"] > 0
+    limited = dw.run(dw.load(EXAMPLE, ["contact.material=C45", "limits.contact_pressure=900 MPa"]), only="load")
+    assert limited.check("contact_pressure.main").limit == 900e6

@@ -22,9 +22,9 @@ def motion(model: CamModel, done: Answers) -> Answer:
         "lift": Value(float(np.ptp(lift[0])), unit, "stroke of the follower"),
         "continuity": Value(float(model.programme.continuity), "-", "order of the highest derivative of the lift that does not jump"),
     }
-    timed = _kinematics(model, angle, lift, peaks, unit) if model.speed else Answer()
+    timed = _kinematics(model, angle, lift, peaks, unit) if model.turns else Answer()
     tables = (Table("motion", "Motion of the follower", columns), *timed.tables)
-    return Answer(values | timed.values, tables, _continuity_checks(model, function), _infinite(peaks))
+    return Answer({**values, **timed.values}, tables, _continuity_checks(model, function), _infinite(peaks))
 
 
 def _kinematics(model, angle, lift, peaks, unit):
@@ -110,8 +110,10 @@ def _curvature(model, track):
     if track.flat:
         least = flat_least(model, track)
         places = {"convex": least if least.value > 0 else None}
+        checks = _flat_undercut(least)
     else:
         places = {"convex": _sharpest(model, track, 1), "concave": _sharpest(model, track, -1)}
+        checks = _undercut(model, track, places["convex" if track.flank > 0 else "concave"])
     values = {}
     for name, place in places.items():
         if place:
@@ -119,7 +121,6 @@ def _curvature(model, track):
             values |= _extreme_values(f"{track.prefix}min_{name}_radius", place, "m", meaning)
             values |= _profile_radius(track, name, place)
     absent = f"{track.prefix}min_convex_radius is absent: the radius of the {track.curve} passes through zero"
-    checks = _flat_undercut(least) if track.flat else _undercut(model, track, places["convex" if track.flank > 0 else "concave"])
     return Answer(values, (), checks, () if places["convex"] else (absent,))
 
 
@@ -134,7 +135,7 @@ def _profile_radius(track, name, place):
 
 def flat_least(model: CamModel, track: Track) -> cams.Extreme:
     """The least radius of curvature of the profile under a flat face, negative where it is undercut."""
-    return model.cycle.least(lambda angle, lift: cams.flat_radius(*track.follower.face(angle, lift)))
+    return model.cycle.least(lambda angle, lift: cams.flat_radius(*track.flat_face.face(angle, lift)))
 
 
 def _sharpest(model, track, way):

@@ -42,7 +42,7 @@ class Track:
     @property
     def flat(self) -> bool:
         """Whether the face is flat."""
-        return hasattr(self.follower, "face")
+        return isinstance(self.follower, cams.FlatFollower)
 
     @property
     def suffix(self) -> str:
@@ -60,9 +60,21 @@ class Track:
         return "profile" if self.flat else "pitch curve"
 
     @property
+    def round_face(self) -> cams.RoundFollower:
+        """The follower of a track whose face is round."""
+        assert not isinstance(self.follower, cams.FlatFollower)
+        return self.follower
+
+    @property
+    def flat_face(self) -> cams.FlatFollower:
+        """The follower of a track whose face is flat."""
+        assert isinstance(self.follower, cams.FlatFollower)
+        return self.follower
+
+    @property
     def radius(self) -> float:
         """Radius of the face [m]; 0 for a knife edge, inf for a flat face."""
-        return np.inf if self.flat else self.follower.radius
+        return np.inf if self.flat else self.round_face.radius
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,9 +108,15 @@ class CamModel:
         return self.spec.follower.motion == "oscillating"
 
     @property
-    def speed(self) -> float | None:
-        """Speed of the cam [rad/s], None where it is not said."""
-        return self.spec.drive.speed if self.spec.drive else None
+    def turns(self) -> bool:
+        """Whether the spec states a speed."""
+        return self.spec.drive is not None
+
+    @property
+    def speed(self) -> float:
+        """Speed of the cam [rad/s]; asked only where the spec states one."""
+        assert self.spec.drive is not None
+        return self.spec.drive.speed
 
     @property
     def yoke_breadth(self) -> float:
@@ -281,7 +299,7 @@ def profile(model: CamModel, number: int = 0) -> "Profile":
     """The `Profile` of a track by its number."""
     track = model.tracks[number]
     if track.radius == 0:
-        return Profile(_outline(cams.path(model.programme, track.follower.pitch)), None)
+        return Profile(_outline(cams.path(model.programme, track.round_face.pitch)), None)
     family = cams.family(track.follower, model.programme, track.flank)
     try:
         trimmed = curves.trim(family)
@@ -295,7 +313,7 @@ def profile(model: CamModel, number: int = 0) -> "Profile":
 
 def pitch_outline(model: CamModel, number: int = 0) -> Outline:
     """The pitch curve of a track with a round face as an outline."""
-    return _outline(cams.path(model.programme, model.tracks[number].follower.pitch))
+    return _outline(cams.path(model.programme, model.tracks[number].round_face.pitch))
 
 
 def _outline(pieces):

@@ -35,7 +35,7 @@ def _one_profile(model, number):
     checks = (*_wall_checks(model, track, least), *lost.checks)
     findings = (*lost.findings, *([found.finding] if found.finding else []))
     outcome = "partial" if found.finding or lost.outcome == "partial" else "complete"
-    return Answer(values | lost.values, (_inspection(model, track, found),), checks, findings, outcome=outcome)
+    return Answer({**values, **lost.values}, (_inspection(model, track, found),), checks, findings, outcome=outcome)
 
 
 def _radii(model, track, found):

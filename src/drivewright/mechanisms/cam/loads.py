@@ -124,7 +124,8 @@ def _pressure(model, track, state):
         return Answer(findings=(f"{track.prefix}max_contact_pressure is absent: {reason}",))
     contact, angle = track.contact(*state), state[0].d0
     force = np.maximum(cams.cam_normal_force(model.required(*state), contact).d0 + 0 * angle, 0.0)
-    pressure = hertz.line_contact(force, model.spec.face.width, 1 / _relative_curvature(track, contact).d0, _modulus(model)).pressure
+    radius = 1 / _relative_curvature(track, contact).d0
+    pressure = np.asarray(hertz.line_contact(force, model.spec.face.width, radius, _modulus(model)).pressure)
     table = Table(
         f"pressure{track.suffix}",
         f"Contact pressure{track.of}",
@@ -208,6 +209,7 @@ def spring(model: CamModel, done: Answers) -> Answer:
 def vibration(model: CamModel, done: Answers) -> Answer:
     """Steady vibration of the follower as one mass on a damped spring."""
     given, reach, speed = model.spec.vibration, model.follower.reach, model.speed
+    assert given is not None
     frequency = 2 * np.pi * given.natural_frequency
     found = cams.periodic(model.cycle, reach, speed, frequency, given.damping_ratio)
     lift = reach * model.cycle.at(found.piece, found.angle)[1].d0

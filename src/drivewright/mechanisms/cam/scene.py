@@ -68,8 +68,8 @@ def scene(model: CamModel) -> Scene:
         else (Trace("center", "centre of the follower's face", "follower", sketch.pair(sketch.centers(model)[0])),)
     )
     programme = model.programme
-    marks = tuple((float(start), segment.law.name) for start, segment in zip(programme.starts, programme.segments, strict=False))
-    period = TURN / model.speed if model.speed else 2.0
+    marks = tuple((float(start), segment.motion_law.name) for start, segment in zip(programme.starts, programme.segments, strict=False))
+    period = TURN / model.speed if model.turns else 2.0
     return Scene(angle, "cam angle", "rad", period, tuple(bodies), frames, traces, "motion", marks)
 
 

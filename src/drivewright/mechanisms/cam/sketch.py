@@ -50,7 +50,7 @@ def bar(a: complex, b: complex, width: float) -> Outline:
     )
 
 
-def beam(a: complex, b: complex, depth: float) -> Outline:
+def beam(a: complex, b: complex, depth: complex) -> Outline:
     """A rectangle from a to b, `depth` (complex) deep."""
     return polygon([pair(z) for z in (a, b, b + depth, a + depth)])
 

@@ -66,11 +66,11 @@ DRIVES = {"main": "rise", "return": "return"}  # the phase in which each cam pus
 def phase_extreme(model: PusherModel, cam: ConjugateCam, phase: str) -> tuple[float, float]:
     """(largest magnitude of the pressure angle, carrier angle) in a phase, over its smooth pieces one-sidedly."""
     found = [
-        extremes(lambda t, k=k: np.abs(model.pressure_angle(cam, t, k).d0), low, high, SAMPLES)[3:1:-1]
+        extremes(lambda t, k=k: np.abs(model.pressure_angle(cam, t, k).d0), low, high, SAMPLES)
         for low, high, name, k in model.pieces()
         if name == phase
     ]
-    return max(found)
+    return max((greatest, place) for _, _, place, greatest in found)
 
 
 def least_convex_radius(model: PusherModel, cam: ConjugateCam) -> tuple[float, float]:
@@ -195,13 +195,17 @@ def load(model: PusherModel, done: Answers) -> Answer:
             float(np.max(np.abs(joined["torque"]))), "N m", "peak torque of the pusher on the carrier, relative to the arm"
         ),
     }
-    checks = []
+    checks, findings = [], []
     for cam in model.cams:
         force, pressure = joined[f"{cam.name}.force"], joined[f"{cam.name}.pressure"]
         values[f"cam.{cam.name}.max_force"] = Value(float(force.max()), "N", "largest normal force, no clearance")
         values[f"cam.{cam.name}.max_contact_pressure"] = Value(
             float(pressure.max()), "Pa", "largest Hertz pressure on the intended profile"
         )
+        if allowed is None:
+            unknown = f"no allowable pressure is known for {material.name}; give limits.contact_pressure"
+            findings.append(f"check contact_pressure.{cam.name} is left out: {unknown}")
+            continue
         checks.append(
             Check(
                 f"contact_pressure.{cam.name}",
@@ -222,7 +226,7 @@ def load(model: PusherModel, done: Answers) -> Answer:
             for name, data in joined.items()
         ),
     )
-    return Answer(values, (table,), tuple(checks))
+    return Answer(values, (table,), tuple(checks), tuple(findings))
 
 
 MEANINGS = {

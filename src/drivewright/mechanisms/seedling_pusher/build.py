@@ -4,7 +4,7 @@ All functions take the carrier angle as an array [rad] and give jets in it.  Wor
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache, partial
 
 import numpy as np
@@ -106,14 +106,20 @@ class PusherModel:
         direction = self.tip_start + self.arm_rotation(t).d0
         return -np.angle(np.exp(1j * direction)) + self.spec.arm.needle_angle
 
+    @property
+    def eccentricity(self) -> float:
+        """Of the pitch ellipses, which are alike [-]."""
+        (first, *_) = self.train.pairs
+        assert isinstance(first, EllipticGearPair)
+        return first.eccentricity
+
     @cached_property
     def gear(self) -> Gear:
         """One of the three congruent toothed gears: axis (focus) at the origin, the short focal radius along +x.
 
         An odd tooth count puts a space at the near vertex and a tooth at the far one, so that the gear meshes with itself.
         """
-        pair = EllipticGearPair(self.train.pairs[0].eccentricity, self.spec.train.semi_major)
-        return cut_gear(pair, 1, self.spec.train.teeth)
+        return cut_gear(EllipticGearPair(self.eccentricity, self.spec.train.semi_major), 1, self.spec.train.teeth)
 
     @cached_property
     def gear_outline(self) -> Outline:
@@ -123,7 +129,7 @@ class PusherModel:
     @cached_property
     def drawn_gear(self) -> Outline:
         """Toothed outline of the gear, as fine as a picture needs."""
-        return _drawn_gear(self.train.pairs[0].eccentricity, self.spec.train.semi_major, self.spec.train.teeth, self.drawn_tolerance)
+        return _drawn_gear(self.eccentricity, self.spec.train.semi_major, self.spec.train.teeth, self.drawn_tolerance)
 
     @cached_property
     def drawn_profiles(self) -> dict[str, Outline]:
@@ -220,9 +226,9 @@ def build(spec: SeedlingPusherSpec) -> PusherModel:
     _refuse_even_teeth(spec)
     bend = _signed_bend(spec)
     train = _train(spec, bend)
-    still = PusherModel(spec, train, bend, _tip_start(spec, bend), None, 0.0, ())
-    end = still.lowest if spec.push.end_event == "lowest" else spec.push.end
-    return PusherModel(spec, train, bend, still.tip_start, _programme(spec), end - spec.push.rise, _cams(spec))
+    model = PusherModel(spec, train, bend, _tip_start(spec, bend), _programme(spec), 0.0, _cams(spec))
+    end = model.lowest if spec.push.end_event == "lowest" else spec.push.end
+    return replace(model, push_start=end - spec.push.rise)
 
 
 def _train(spec, bend):
@@ -262,13 +268,13 @@ def _programme(spec):
             f"rise, hold and retraction sum to {np.degrees(TURN - rest):.6g} deg; they must leave a rest within one turn of 360 deg", "push"
         )
     try:
-        segments = [
+        segments = (
             motion.Segment(push.rise, push.law, push.stroke),
             motion.Segment(push.hold, "dwell") if push.hold else None,
             motion.Segment(push.retraction, push.law, -push.stroke),
             motion.Segment(rest, "dwell"),
-        ]
-        return motion.Programme([segment for segment in segments if segment])
+        )
+        return motion.Programme(tuple(segment for segment in segments if segment))
     except InputError as error:
         raise SpecError(str(error), "push.law") from None
 

@@ -71,7 +71,7 @@ def scene(model: PusherModel) -> Scene:
 
 def _poses(position, angle):
     position, angle = np.broadcast_arrays(position, angle)
-    return np.stack([position.real, position.imag, angle.astype(float)], axis=1)
+    return np.stack([np.real(position), np.imag(position), angle.astype(float)], axis=1)
 
 
 def _xy(z):
