@@ -420,3 +420,13 @@ def test_exudyn_comes_nearer_with_its_step():
         mine = seen_at(found, part * TURN).body(assembly.names.index("slider"), "x")[0]
         misses = [abs(exudyn_model.run(model, poses, part * TURN, step).bodies["slider"][-1, 0] - mine) for step in (1e-6, 2e-7)]
         assert misses[1] < 0.4 * misses[0] < bound
+
+
+@pytest.mark.slow  # its kernel is one of its own
+def test_steps_of_one_size_meet_the_adaptive_run():
+    """The first bounces of a journal in a bearing, by rk4 and by dopri5."""
+    dry = Dry(1e-4, 0.02, 5e8, hysteresis=impact_law("flores-2011").factor(0.8))
+    ready = assemble(journal(dry))
+    runs = [simulate(ready, 1e-3, settings) for settings in (Settings(rtol=1e-11), Settings(method="rk4", max_step=1e-7))]
+    assert [run.outcome for run in runs] == ["complete"] * 2 and len(runs[0].impacts) == len(runs[1].impacts) > 0
+    np.testing.assert_allclose(runs[1].end[2], runs[0].end[2], rtol=1e-6, atol=1e-9)

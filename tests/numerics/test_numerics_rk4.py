@@ -81,6 +81,21 @@ def test_a_rate_that_is_no_number_ends_the_run(start):
     assert run.outcome == "not_finite" and 0.47 < run.t_end <= 0.5
 
 
+@pytest.mark.parametrize(
+    ("rate", "y0", "limit"), [(lambda t, y: np.array([y[1], -y[0]]), [1.0, 0.0], 8**0.5), (lambda t, y: -y, [1.0], 2.785)]
+)
+def test_steps_are_stable_up_to_the_stated_limit(rate, y0, limit):
+    """The amplification of y' = i w y and y' = -r y by 1 + z + z^2/2 + z^3/6 + z^4/24 is 1 there."""
+    below, above = (rk4(Functions(rate), 0.0, 1000 * limit, y0, max_step=share * limit) for share in (0.99, 1.01))
+    assert np.linalg.norm(below.y_end) < 1.0 < np.linalg.norm(above.y_end)
+
+
+def test_a_run_that_grows_without_bound_advises_a_smaller_step():
+    with np.errstate(over="ignore", invalid="ignore"):
+        run = rk4(Functions(lambda t, y: -(y**3)), 0.0, 100.0, [10.0], max_step=0.5)
+    assert run.outcome == "not_finite" and "take a smaller max_step" in run.advice
+
+
 @pytest.mark.parametrize("more", [{}, {"max_step": 0.0}, {"first_step": 0.1}])
 def test_the_step_must_be_given(more):
     with pytest.raises(InputError, match="'rk4' takes steps of one size; give it as max_step"):

@@ -48,11 +48,16 @@ def contact_law(wanted: str | Callable[[ContactParameters], Any], parameters: Co
             f"contact law {name!r}: its function returns a {type(law).__name__}; "
             "it must return a NamedTuple whose class has a formula under @implements(normal_force, ...)."
         )
-    law = type(law)(*(float(value) if isinstance(value, int | float) else value for value in law))
+    law = _with_floats(law)
     if normal_force(law, 1.0, 0.0) != 0.0:
         raise InputError(f"contact law {name!r}: gives {normal_force(law, 1.0, 0.0):g} N across a gap of 1 m; its force there must be 0.")
     complete(type(law))
     return law
+
+
+def _with_floats(law: Any) -> Any:
+    """The law with its whole numbers as floats: kernels know one type of parameter."""
+    return type(law)(*(float(value) if isinstance(value, int | float) else value for value in law))
 
 
 def _registered(name: str) -> Any:

@@ -1,11 +1,13 @@
 """The power law F = k d^n and its inverse for arrays of depths and forces; `normal_force` takes one depth at a time, in kernels too."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from drivewright._typing import Floats, Numbers
+from drivewright._typing import Floats
 from drivewright.contact.normal import PowerLaw
+
+ForceT = TypeVar("ForceT", float, Floats)
 
 
 class PowerLawResponse(NamedTuple):
@@ -25,11 +27,12 @@ def power_law_response(law: PowerLaw, depth: Floats) -> PowerLawResponse:
     return PowerLawResponse(force * inside / (1 + law.n), force, secant, law.n * secant)
 
 
-def power_law_depth(law: PowerLaw, force: Numbers) -> Numbers:
+def power_law_depth(law: PowerLaw, force: ForceT) -> ForceT:
     """The depth [m] under forces [N] >= 0: (F/k)^(1/n)."""
-    return (force / law.k) ** (1 / law.n)
+    depth: Any = (force / law.k) ** (1 / law.n)
+    return depth
 
 
-def power_law_secant(law: PowerLaw, force: Numbers) -> Numbers:
+def power_law_secant(law: PowerLaw, force: ForceT) -> ForceT:
     """F/d [N/m] under forces [N] > 0: k^(1/n) F^(1 - 1/n)."""
     return law.k ** (1 / law.n) * force ** (1 - 1 / law.n)

@@ -64,7 +64,7 @@ def solve_film(
     size = np.hypot(*e)
     n = e / size if size > 0 else np.array([1.0, 0.0])
     across = n[0] * v[1] - n[1] * v[0]
-    wedge, squeeze = (0.5 * spin * size - across) / clearance, n @ v / clearance
+    wedge, squeeze = float(0.5 * spin * size - across) / clearance, float(n @ v) / clearance
     grid = _Grid(size / clearance, length / (2 * radius), shape)
     if cavitation == "gumbel":
         pressure = grid.solve(wedge, squeeze)
@@ -135,14 +135,12 @@ class _Grid:
         dx, du = 2 * np.pi / n, 1.0 / (m - 1)
         between = (1 - self.eps * np.cos(self.x + 0.5 * dx)) ** 3 / dx**2
         before = np.roll(between, 1)
-        around = sparse.diags_array(
-            [between + before, -between[:-1], -between[:-1], -between[-1:], -between[-1:]], offsets=[0, 1, -1, n - 1, 1 - n]
-        )
+        around = _diagonals([between + before, -between[:-1], -between[:-1], -between[-1:], -between[-1:]], [0, 1, -1, n - 1, 1 - n])
         length = np.ones(m - 1)
         length[0] = 0.5
         self.weights = np.outer(np.ones(n), length).ravel()
         off = -np.ones(m - 2)
-        along = sparse.diags_array([np.r_[1.0, np.full(m - 2, 2.0)], off, off], offsets=[0, 1, -1]) / (slenderness * du) ** 2
+        along = _diagonals([np.r_[1.0, np.full(m - 2, 2.0)], off, off], [0, 1, -1]) / (slenderness * du) ** 2
         film = sparse.diags_array((1 - self.eps * np.cos(self.x)) ** 3)
         return sparse.kron(around, sparse.diags_array(length)) + sparse.kron(film, along)
 
@@ -187,3 +185,8 @@ class _Grid:
     def _with_end(self, inner):
         n, m = self.shape
         return np.column_stack([inner.reshape(n, m - 1), np.zeros(n)])
+
+
+def _diagonals(values: Sequence[Floats], offsets: Sequence[int]) -> sparse.dia_array:
+    """A sparse matrix of its diagonals."""
+    return sparse.diags_array(values, offsets=offsets)  # pyright: ignore[reportArgumentType]  scipy's default 0 passes for the type

@@ -31,8 +31,9 @@ def deposit(
     time, angle, force, slip = (np.asarray(each, dtype=float) for each in (time, angle, force, slip))
     _check_history(time, angle, force, slip, bins)
     share = 0.5 * (np.diff(time, prepend=time[0]) + np.diff(time, append=time[-1]))  # trapezoidal weights
-    worn_off = wear_volume(coefficient, force, np.abs(slip) * share)[force > 0]
-    place = np.mod(angle[force > 0], 2 * np.pi) * bins / (2 * np.pi)
+    touching = force > 0
+    worn_off = wear_volume(coefficient, force[touching], (np.abs(slip) * share)[touching])
+    place = np.mod(angle[touching], 2 * np.pi) * bins / (2 * np.pi)
     node, part = np.floor(place).astype(int), place % 1.0
     volume = np.bincount(node % bins, worn_off * (1 - part), bins) + np.bincount((node + 1) % bins, worn_off * part, bins)
     return volume * bins / (2 * np.pi * radius * length)

@@ -30,7 +30,10 @@ GRID = 720  # samples of a turn where the drives leave no freedom and so no step
 
 @dataclass(frozen=True)
 class Settings:
-    """How to integrate.  `max_step` [s] None: a hundredth of a turn of the drive.  method: "dopri5", or "radau" for heavy damping."""
+    """How to integrate.  `max_step` [s] None: a hundredth of a turn of the drive.  method: "dopri5", or "radau" for heavy damping.
+
+    "rk4" takes `max_step` for every step, which contacts in pins need well below a thousandth of a turn, and disregards rtol and atol.
+    """
 
     rtol: float = 1e-8
     atol: float | None = None  # of positions [m] and angles [rad]; rates get it times 10 times the drive's speed

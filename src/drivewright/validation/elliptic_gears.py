@@ -57,7 +57,7 @@ def _pair() -> Iterator[Row]:
     form |= {"where": "complete elliptic integral", "unit": "m"}
     yield Row("perimeter", _computed(0.4 * ellipe(e**2), "m"), pair.perimeter(), **form)
     for at in (30, 75, 140, 250):
-        yield _rolling_row(f"driven angle at {at} deg", rolled(np.radians(at)), pair.driven(np.radians(at)), common)
+        yield _rolling_row(f"driven angle at {at} deg", rolled(np.radians(at)), float(pair.driven(np.radians(at))), common)
 
 
 def _train() -> Iterator[Row]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from drivewright.contact import PowerLaw, power_law_depth
 from drivewright.errors import SolverError
-from drivewright.indexing.drivetrain import SIDES, PinContact, PowerLawBearing
+from drivewright.indexing.drivetrain import SIDES, BearingModel, PinContact, PowerLawBearing
 from drivewright.indexing.solid.bodies import TURN_RADIUS
 from drivewright.indexing.stiffness.assembly import cam_phases, flank_directions
 from drivewright.indexing.stiffness.laws import pin_compliance, radial_bearing_law
@@ -99,7 +99,7 @@ def _bearing(group, bearing, force, typical, rows, behind=None):
         yield InterfaceSpring(group, tuple(row), softness, part)
 
 
-def displacement(bearing, force):
+def displacement(bearing: BearingModel, force: complex) -> complex:
     """Displacement [m] of a bearing under a radial force [N], both complex."""
     if isinstance(bearing, PowerLawBearing):
         return force / abs(force) * (power_law_depth(PowerLaw(bearing.constant, bearing.exponent), abs(force)) + bearing.clearance)

@@ -41,6 +41,7 @@ class PinContactLaw(NamedTuple):
         c, k = self.pin.line, self.pin.series
         depth = np.abs(strain) if self.bonded else strain
         if c is None:
+            assert k is not None  # a pin without both is rigid
             energy, force, _, slope = power_law_response(PowerLaw(k, 1.0), depth)
         else:
             share = np.maximum(depth, 0.0)

@@ -43,6 +43,7 @@ _ADVICE = {
     "the others; loosen rtol and atol, or stop at the jump with a terminal event.",
     "not_finite": "the right-hand side is not finite. Check the start and the parameters, or stop before the singular place with an event.",
 }
+_ADVICE_EQUAL_STEPS = "Too long steps of one size let the solution grow without bound: take a smaller max_step."
 _OUTCOMES = ("max_steps", "finished", "event", "min_step", "not_finite")  # by code; a run that still goes on has met max_steps
 
 
@@ -159,7 +160,7 @@ def integrate(
         crossings.append(_crossings(batch, hits))
         parts.append(_points(batch, done, clock[TIME], per_step) if times is None else _sampled(batch, done, times, clock[TIME]))
         steps, rejected = steps + done, rejected + refused
-    return _trajectory(t0, np.array(y0, dtype=float), parts, times, clock[TIME], y, crossings, code, control, steps, rejected)
+    return _trajectory(t0, np.array(y0, dtype=float), parts, times, clock[TIME], y, crossings, code, control, steps, rejected, chosen)
 
 
 def method_by_name(method: str | Method) -> Method:
@@ -234,12 +235,15 @@ def _sampled(batch, done, samples, end):
     return t, polynomial(np.moveaxis(batch.dense[row], 1, 0), theta[:, None])
 
 
-def _trajectory(t0, y0, parts, samples, t_end, y_end, crossings, code, control, steps, rejected):
+def _trajectory(t0, y0, parts, samples, t_end, y_end, crossings, code, control, steps, rejected, method):
     # The samples of a batch lie in (start, end]; without samples the start of each step is given and the end is missing.
     at_start = samples[samples == t0] if samples is not None else np.empty(0)
     rest = [(np.array([t_end]), y_end[None])] if samples is None else []
     parts = [(at_start, np.repeat(y0[None], at_start.size, axis=0)), *parts, *rest]
     outcome = _OUTCOMES[code]
+    advice = _ADVICE[outcome].format(steps=steps, min_step=control.min_step)
+    if outcome == "not_finite" and not method.adaptive:
+        advice = f"{advice} {_ADVICE_EQUAL_STEPS}"
     empty = EventCrossings(np.empty(0), np.empty(0, dtype=int), np.empty((0, y0.size)))
     crossings = EventCrossings(*(np.concatenate(pieces) for pieces in zip(empty, *crossings, strict=True)))
     return Trajectory(
@@ -249,7 +253,7 @@ def _trajectory(t0, y0, parts, samples, t_end, y_end, crossings, code, control, 
         y_end=y_end,
         crossings=crossings,
         outcome=outcome,
-        advice=_ADVICE[outcome].format(steps=steps, min_step=control.min_step),
+        advice=advice,
         steps=steps,
         rejected=rejected,
     )
