@@ -19,7 +19,7 @@ from test_report_page import Page
 from drivewright.errors import InputError
 from drivewright.execution.keys import key_kind
 from drivewright.report import tabular
-from drivewright.report.study import cases, reasons, said, varied, verdict, write_answers
+from drivewright.report.study import cases, reasons, study_content, varied, verdict, write_answers
 from drivewright.report.tabular import rounded, write_study_table
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.spec import from_document
@@ -162,7 +162,7 @@ def test_small_tables_are_on_the_page_in_the_units_of_their_rows():
     small = Table("small", "Small", tuple(Column(name, unit, name, np.array(data)) for name, (unit, data) in rows.items()))
     large = replace(small, name="large", columns=tuple(c._replace(data=np.resize(c.data, 41)) for c in small.columns))
     found = analyse_study(study)
-    told = said(study, Answers(replace(found.result, tables={"small": small, "large": large}, values={}), ()))
+    told = study_content(study, Answers(replace(found.result, tables={"small": small, "large": large}, values={}), ()))
     assert told["tables"][0]["printed"] == [("play", "2\u00a0mm", "30"), ("k", "0.5", "45")]
     assert [head["unit"] for head in told["tables"][0]["columns"]] == ["", "", "°"]
     assert "printed" not in told["tables"][1] and told["tables"][1]["rows"] == 41
@@ -174,7 +174,7 @@ def test_the_tiles_are_the_yield_and_what_has_a_plot():
     found = Answers(
         replace(analyse_study(study).result, values=values, tables={}), (Plot("p", "P", "t", "x", ("key", "play"), style="map"),)
     )
-    assert [tile["name"] for tile in said(study, found)["headline"]] == ["least.play", "yield", "greatest.play"]
+    assert [tile["name"] for tile in study_content(study, found)["headline"]] == ["least.play", "yield", "greatest.play"]
 
 
 def test_a_study_cut_short_is_never_good():

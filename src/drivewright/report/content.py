@@ -3,14 +3,17 @@
 import html
 import math
 import textwrap
+from collections.abc import Sequence
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from drivewright import registry
-from drivewright.result import UNDECIDED
+from drivewright._typing import ArrayLike, Floats
+from drivewright.result import UNDECIDED, Array, Check, Plot, Result, Table, Value
 from drivewright.runner import failure_reason, versions
+from drivewright.scene import Drawing, Scene
 from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_thumbnail, svg
 from drivewright.view.motion import fractions
 from drivewright.view.panels import drawable, known_plots, panels
@@ -18,6 +21,7 @@ from drivewright.view.text import interval_hint, number, numbers, sentence, show
 
 GHOSTS = tuple(n / 5 for n in range(5))
 SIGNS = {"<=": "≤", ">=": "≥"}
+Content: TypeAlias = dict[str, Any]  # plain text and numbers, as the templates take them
 LARGEST_ARRAY = 400  # entries: a larger one is only named; result.json has it
 
 
@@ -32,13 +36,13 @@ class Picture(NamedTuple):
 class Views(NamedTuple):
     """What there is to see of a run besides its numbers; `remarks` say what could not be drawn."""
 
-    scene: Any = None
-    plots: tuple = ()
-    drawings: tuple = ()
-    remarks: tuple = ()
+    scene: Scene | None = None
+    plots: tuple[Plot, ...] = ()
+    drawings: tuple[Drawing, ...] = ()
+    remarks: tuple[str, ...] = ()
 
 
-def views(result, model=None):
+def views(result: Result[Any], model: object = None) -> Views:
     """What the result's mechanism shows of its spec; a design that cannot be drawn still gets its report, with a remark.
 
     `model` is the spec's own, where it has been built already.
@@ -60,7 +64,7 @@ def _shown(what, make, model, nothing, spec):
         return nothing, (f"no {what} to show: {failure_reason(spec, error)}",)
 
 
-def pictures(result, seen):
+def pictures(result: Result[Any], seen: Views) -> tuple[Picture, ...]:
     """Every figure of a run: the scene for each observer, the plots, the drawings."""
     scene = seen.scene
 
@@ -70,10 +74,14 @@ def pictures(result, seen):
         except Exception as error:  # one figure that fails must not cost the others
             return Picture(name, title, _instead(f"This figure is missing: {failure_reason(result.spec, error)}"))
 
-    frames = [
-        drawn(f"scene-{frame.name}", sentence(frame.label), partial(draw_scene, scene, frame.name, [_telling_phase(scene)], GHOSTS))
-        for frame in (scene.frames if scene else ())
-    ]
+    frames = (
+        [
+            drawn(f"scene-{frame.name}", sentence(frame.label), partial(draw_scene, scene, frame.name, [_telling_phase(scene)], GHOSTS))
+            for frame in scene.frames
+        ]
+        if scene
+        else []
+    )
     curves = [
         drawn(f"plot-{plot.name}", plot.title, lambda plot=plot: draw_panels(panels(result, plot), _marks(result, plot, scene)))
         for plot in drawable(result, seen.plots)
@@ -82,7 +90,7 @@ def pictures(result, seen):
     return (*frames, *curves, *parts)
 
 
-def _instead(text):
+def _instead(text: str) -> str:
     """A picture that says in words why it is none."""
     lines = textwrap.wrap(text, 90)
     spans = "".join(f'<tspan x="10" dy="18">{html.escape(line)}</tspan>' for line in lines)
@@ -90,23 +98,23 @@ def _instead(text):
     return f'<svg xmlns="http://www.w3.org/2000/svg" {size}><text font-family="sans-serif" font-size="13" y="4">{spans}</text></svg>'
 
 
-def thumbnail(scene):
+def thumbnail(scene: Scene) -> Picture:
     """The picture of a scene for a gallery."""
     return Picture("thumbnail", "thumbnail", svg(draw_thumbnail(scene, _telling_phase(scene))))
 
 
-def _telling_phase(scene):
+def _telling_phase(scene: Scene) -> float:
     """The first mark behind the start of the cycle, else 0.3: a machine at its start often shows nothing."""
     marked = np.interp([value for value, _ in scene.marks], *_rising(scene.cycle)) if scene.marks else np.array([])
     return float(next((phase for phase in sorted(marked) if phase > 0), 0.3))
 
 
-def _rising(cycle):
+def _rising(cycle: ArrayLike) -> tuple[Floats, Floats]:
     order = np.argsort(cycle)
     return np.asarray(cycle)[order], fractions(cycle)[order]
 
 
-def _marks(result, plot, scene):
+def _marks(result: Result[Any], plot: Plot, scene: Scene | None) -> tuple[tuple[float, str], ...]:
     """The scene's marks in the unit of the x axis, for a plot over the scene's cycle."""
     if scene is None or plot.table != scene.table or plot.x != result.tables[plot.table].columns[0].name:
         return ()
@@ -114,7 +122,7 @@ def _marks(result, plot, scene):
     return tuple((value * factor, label) for value, label in scene.marks)
 
 
-def content(result, remarks=(), headlines=None):
+def content(result: Result[Any], remarks: Sequence[str] = (), headlines: Sequence[str] | None = None) -> Content:
     """Title, verdict, headline, checks, values, arrays, tables, findings, sources and provenance of a result.
 
     `headlines` names the values shown first; the mechanism's unless given.
@@ -135,7 +143,7 @@ def content(result, remarks=(), headlines=None):
     }
 
 
-def summary(result, headlines=None):
+def summary(result: Result[Any], headlines: Sequence[str] | None = None) -> Content:
     """Verdict, headline, checks and values of a result: what changes with every number of a design."""
     return {
         "verdict": verdict([bool(check.ok) for check in result.checks], result.outcome, sum(check.undecided for check in result.checks)),
@@ -145,12 +153,12 @@ def summary(result, headlines=None):
     }
 
 
-def program():
+def program() -> str:
     """Our own version."""
     return versions()["drivewright"]
 
 
-def verdict(passed, outcome, undecided=0):
+def verdict(passed: Sequence[bool], outcome: str, undecided: int = 0) -> dict[str, str]:
     """{'state': 'good' | 'bad' | 'warn', 'text'} of checks as booleans; an unfinished, unchecked or undecided run is never good."""
     failed, count = passed.count(False), len(passed)
     if failed:
@@ -164,7 +172,7 @@ def verdict(passed, outcome, undecided=0):
     return {"state": "good", "text": "1 check passes" if count == 1 else f"all {count} checks pass"}
 
 
-def headline(result, names=None):
+def headline(result: Result[Any], names: Sequence[str] | None = None) -> list[Content]:
     """The values of those names; unless given the mechanism's headline values, or the first six; those that the run has."""
     if names is None:
         known = registry.is_known(result.mechanism)
@@ -172,15 +180,16 @@ def headline(result, names=None):
     return [_value(name, result.values[name]) for name in names]
 
 
-def _value(name, value):
+def _value(name: str, value: Value) -> Content:
     """`shown` in full; `number`, `unit` and the interval `low` .. `high` apart, "" where it says nothing, with its `hint`."""
     factor, unit = shown(value.unit)
-    told, low, high = numbers(value.value * factor, *(None if end is None else end * factor for end in (value.low, value.high)))
+    low, high = (None if end is None else end * factor for end in (value.low, value.high))
+    text, low, high = numbers(value.value * factor, low, high)
     return {
         "name": name,
         "meaning": sentence(value.meaning or name),
         "shown": uncertain(value.value, value.unit, value.low, value.high),
-        "number": told,
+        "number": text,
         "unit": unit,
         "low": low,
         "high": high,
@@ -190,17 +199,17 @@ def _value(name, value):
     }
 
 
-def _check(check):
+def _check(check: Check) -> Content:
     """The interval of the value is `low` .. `high`, the unit behind the latter; "" where it says nothing."""
     factor, unit = shown(check.unit)
     limit = with_unit(number(check.limit * factor), unit)
-    told, low, high = numbers(check.value * factor, *(end * factor for end in check.bounds or (math.nan, math.nan)))
+    text, low, high = numbers(check.value * factor, *_scaled(check.bounds, factor))
     margin = _margin(check, factor) if math.isfinite(check.margin) else ""
     return {
         "name": check.name,
         "label": sentence(check.name.replace("_", " ").replace(".", " · ")),
         "ok": bool(check.ok),
-        "value": with_unit(told, unit),
+        "value": with_unit(text, unit),
         "low": low,
         "high": with_unit(high, unit) if high else "",
         "undecided": UNDECIDED if check.undecided else "",
@@ -211,13 +220,19 @@ def _check(check):
     }
 
 
-def _margin(check, factor):
+def _margin(check: Check, factor: float) -> str:
     """With a sign, and the digits that the check's value has."""
-    told = numbers(check.margin * factor, *(end * factor for end in check.margin_bounds or (math.nan, math.nan)), 4)[0]
-    return told if told.startswith("−") else f"+{told}"
+    text = numbers(check.margin * factor, *_scaled(check.margin_bounds, factor), 4)[0]
+    return text if text.startswith("−") else f"+{text}"
 
 
-def _array(name, array):
+def _scaled(bounds: tuple[float, float] | None, factor: float) -> tuple[float, float]:
+    """Ends of an interval in the unit people read; nan where there is none."""
+    low, high = bounds or (math.nan, math.nan)
+    return low * factor, high * factor
+
+
+def _array(name: str, array: Array) -> Content:
     values = np.atleast_1d(np.asarray(array.values))
     small = values.ndim <= 2 and values.size <= LARGEST_ARRAY
     rows = [[number(v) for v in row] for row in np.atleast_2d(values)] if small else []
@@ -232,7 +247,7 @@ def _array(name, array):
     }
 
 
-def _table(table):
+def _table(table: Table) -> Content:
     """A column whose intervals are in the table stands for their ends too."""
     heads = [(c, " (with its interval)" if table.bounds_of(c.name) else "") for c in table.columns if not table.bounded(c.name)]
     return {
@@ -243,13 +258,13 @@ def _table(table):
     }
 
 
-def provenance(result):
+def provenance(result: Result[Any]) -> list[tuple[str, str]]:
     """Rows (what, text) of where the numbers came from; lists and mappings on one line."""
     rows = [("outcome", result.outcome), ("digest", result.digest)]
     return rows + [(key, _flat(value)) for key, value in result.provenance.items() if key != "sources"]
 
 
-def _flat(value):
+def _flat(value: object) -> str:
     if isinstance(value, dict):
         return ", ".join(f"{key} {item}" for key, item in value.items())
     return ", ".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)

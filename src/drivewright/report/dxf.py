@@ -1,14 +1,21 @@
 """DXF drawings of flat parts: true arcs and circles, lines, splines; millimetres; one layer per role of a shape."""
 
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import groupby
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.errors import InputError
 from drivewright.report.atomic import replacing
-from drivewright.scene import Arc, Drawing, Line
+from drivewright.scene import Arc, Drawing, Line, Piece, Shape
 from drivewright.solids import outlines, pieces
+
+if TYPE_CHECKING:
+    from ezdxf.layouts.layout import Modelspace
 
 MM = 1e3
 LAYERS = {  # colour index, line type
@@ -26,19 +33,20 @@ LAYERS = {  # colour index, line type
 LONG_RUN = 8  # more lines than this in a row stand for a curve (a sampled pitch curve) and become one polyline
 
 
-def write_dxf(drawings, path, tolerance=1e-6, splines=True):
+def write_dxf(drawings: Drawing | Iterable[Drawing], path: str | Path, tolerance: float = 1e-6, splines: bool = True) -> None:
     """DXF R2010 file of one drawing, or of several side by side; the origin of the first is the origin of the file.
 
     Splines are C2 cubic B-splines within `tolerance` [m] of their knots; with `splines=False` polylines with chords
     within it, for machines that read none.  Title, thickness and overall size stand on layer `notes`.
     """
-    import ezdxf
+    from ezdxf import units
+    from ezdxf.filemanagement import new
 
     drawings = (drawings,) if isinstance(drawings, Drawing) else tuple(drawings)
     if not drawings:
         raise InputError("a DXF file needs at least one drawing")
     with replacing(path) as temporary, _reproducible():
-        document = ezdxf.new("R2010", setup=True, units=ezdxf.units.MM)
+        document = new("R2010", setup=True, units=units.MM)
         for name in dict.fromkeys([shape.layer for drawing in drawings for shape in drawing.shapes] + ["notes"]):
             colour, linetype = LAYERS.get(name, (7, "CONTINUOUS"))
             document.layers.add(name, color=colour, linetype=linetype)
@@ -46,16 +54,16 @@ def write_dxf(drawings, path, tolerance=1e-6, splines=True):
         document.saveas(temporary)
 
 
-def extent(drawing, layer=None):
+def extent(drawing: Drawing, layer: str | None = None) -> tuple[Floats, Floats]:
     """Lower left and upper right corner (2,), (2,) [m] of a layer of a drawing, or of all its shapes where that layer is empty."""
-    outlines = drawing.on(layer) or tuple(shape.outline for shape in drawing.shapes)
+    outlines = (drawing.on(layer) if layer else ()) or tuple(shape.outline for shape in drawing.shapes)
     if not outlines:
         raise InputError(f"drawing {drawing.name!r} has no shapes; give it at least a profile")
     points = np.concatenate([outline.points(1e-6) for outline in outlines])
     return points.min(axis=0), points.max(axis=0)
 
 
-def _lay_out(space, drawings, tolerance, splines):
+def _lay_out(space: "Modelspace", drawings: Sequence[Drawing], tolerance: float, splines: bool) -> None:
     """The drawings from left to right with room between for their notes; the first keeps its origin."""
     shift = 0.0
     for number, drawing in enumerate(drawings):
@@ -68,21 +76,22 @@ def _lay_out(space, drawings, tolerance, splines):
         shift += high[0]
 
 
-def _draw(space, shape, name, shift, tolerance, splines):
+def _draw(space: "Modelspace", shape: Shape, name: str, shift: float, tolerance: float, splines: bool) -> None:
     outline, at = outlines.normalised(shape.outline, name), {"layer": shape.layer}
     if ring := outlines.full_circle(outline):
         space.add_circle(_mm(ring.center, shift), MM * ring.radius, dxfattribs=at)
         return
-    for kind, run in groupby(outline.pieces, type):
+    for _, run in groupby(outline.pieces, type):
         run = list(run)
-        if kind is Line and len(run) > LONG_RUN:
-            space.add_lwpolyline([_mm(p, shift) for p in (run[0].start, *(line.end for line in run))], dxfattribs=at)
+        lines = [piece for piece in run if isinstance(piece, Line)]
+        if len(lines) > LONG_RUN:
+            space.add_lwpolyline([_mm(p, shift) for p in (lines[0].start, *(line.end for line in lines))], dxfattribs=at)
             continue
         for piece in run:
             _entity(space, piece, at, shift, tolerance, splines)
 
 
-def _entity(space, piece, at, shift, tolerance, splines):
+def _entity(space: "Modelspace", piece: Piece, at: dict[str, str], shift: float, tolerance: float, splines: bool) -> None:
     if isinstance(piece, Line):
         space.add_line(_mm(piece.start, shift), _mm(piece.end, shift), dxfattribs=at)
     elif isinstance(piece, Arc):
@@ -95,11 +104,11 @@ def _entity(space, piece, at, shift, tolerance, splines):
         space.add_lwpolyline([_mm(p, shift) for p in pieces.polyline(piece, tolerance)], dxfattribs=at)
 
 
-def _mm(point, shift):
+def _mm(point: Sequence[float] | Floats, shift: float) -> tuple[float, float]:
     return (MM * float(point[0]) + shift, MM * float(point[1]))
 
 
-def _notes(space, drawing, corner, shift, text):
+def _notes(space: "Modelspace", drawing: Drawing, corner: Floats, shift: float, text: float) -> None:
     """Title above, overall width of the profile below and its height on the left, clear of the `corner` of all shapes; lengths in mm."""
     low, high = (MM * point + (shift, 0) for point in extent(drawing, "profile"))
     at = {"layer": "notes"}
@@ -113,13 +122,13 @@ def _notes(space, drawing, corner, shift, text):
 
 
 @contextmanager
-def _reproducible():
+def _reproducible() -> Iterator[None]:
     """Equal drawings give equal bytes: ezdxf leaves out its dates and random identifiers."""
-    import ezdxf
+    from ezdxf import options  # pyright: ignore[reportPrivateImportUsage]  # documented as ezdxf.options
 
-    before = ezdxf.options.write_fixed_meta_data_for_testing
-    ezdxf.options.write_fixed_meta_data_for_testing = True
+    before = options.write_fixed_meta_data_for_testing
+    options.write_fixed_meta_data_for_testing = True
     try:
         yield
     finally:
-        ezdxf.options.write_fixed_meta_data_for_testing = before
+        options.write_fixed_meta_data_for_testing = before

@@ -1,17 +1,29 @@
 """Manufacturing files of a design: everything that `drivewright export` can write."""
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 from drivewright import registry, runner
 from drivewright.errors import GeometryCheckFailed, InputError, UnknownName
+from drivewright.registry import Mechanism
 from drivewright.report import dxf, gcode, svgout, tabular
 from drivewright.report.folder import file_name
+from drivewright.result import Result
+from drivewright.scene import Drawing, Part
+from drivewright.spec import MechanismSpec
 from drivewright.view.text import quantity
 
 FORMATS = ("dxf", "svg", "csv", "step", "stl", "gcode", "pdf")
 
 
-def export(spec, formats, folder, anyway=False, progress=None):
+def export(
+    spec: MechanismSpec,
+    formats: Sequence[str],
+    folder: str | Path,
+    anyway: bool = False,
+    progress: Callable[[int, int, str], object] | None = None,
+) -> list[Path]:
     """Write the formats of a design into `folder`; returns the paths.
 
     GeometryCheckFailed where a geometry check fails, unless `anyway`; a solid format needs the extra 'fe', the PDF the extra 'pdf'.
@@ -31,7 +43,7 @@ def export(spec, formats, folder, anyway=False, progress=None):
     return files
 
 
-def _refuse_unknown(formats):
+def _refuse_unknown(formats: Sequence[str]) -> None:
     if not formats:
         raise InputError(f"export wants at least one format of {', '.join(FORMATS)}")
     for name in formats:
@@ -39,7 +51,7 @@ def _refuse_unknown(formats):
             raise UnknownName("export format", name, FORMATS)
 
 
-def _refuse_bad_geometry(result):
+def _refuse_bad_geometry(result: Result[Any]) -> None:
     if failed := _failures(result):
         raise GeometryCheckFailed(
             f"this design fails a geometry check and is not exported: {'; '.join(failed)}. Mend the design, or export it with --anyway"
@@ -50,7 +62,7 @@ def _refuse_bad_geometry(result):
         )
 
 
-def _failures(result):
+def _failures(result: Result[Any]) -> list[str]:
     """The failed geometry checks in words."""
     return [
         f"{check.name} = {quantity(check.value, check.unit)}, limit {check.sense} {quantity(check.limit, check.unit)} ({check.message})"
@@ -59,14 +71,14 @@ def _failures(result):
     ]
 
 
-def _drawings(mechanism, model):
+def _drawings(mechanism: Mechanism[Any, Any], model: object) -> tuple[Drawing, ...]:
     drawings = tuple(mechanism.drawings(model)) if mechanism.drawings else ()
     if not drawings:
         raise InputError(f"{mechanism.kind} has no flat parts to draw; try step or csv")
     return drawings
 
 
-def _parts(mechanism, model):
+def _parts(mechanism: Mechanism[Any, Any], model: object) -> tuple[Part, ...]:
     parts = tuple(mechanism.parts(model)) if mechanism.parts else ()
     if not parts:
         raise InputError(f"{mechanism.kind} has no solids; try dxf or csv")

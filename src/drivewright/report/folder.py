@@ -4,16 +4,19 @@ import json
 import os
 import re
 import shutil
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 from drivewright.errors import InputError
-from drivewright.report.content import pictures, thumbnail, views
+from drivewright.report.content import Picture, Views, pictures, thumbnail, views
 from drivewright.report.html import write_report
+from drivewright.result import Result, Table
 
 OURS = {"result.json", "report.html", "spec.toml", "figures", "tables", "data"}  # what a run writes, and the next one replaces
 
 
-def write_run_folder(result, out, figures=True, seen=None):
+def write_run_folder(result: Result[Any], out: str | Path, figures: bool = True, seen: Views | None = None) -> Path:
     """Write the run folder of a result to `out` and return its path.
 
     result.json, report.html, figures/*.svg, tables/*.parquet, spec.toml.  `seen` is a `Views`; None takes what the result's
@@ -33,7 +36,7 @@ def write_run_folder(result, out, figures=True, seen=None):
     return out
 
 
-def is_run_folder(path):
+def is_run_folder(path: str | Path) -> bool:
     """Whether `path` holds the result.json of a run."""
     try:
         return "drivewright" in json.loads((Path(path) / "result.json").read_text(encoding="utf-8"))
@@ -41,7 +44,7 @@ def is_run_folder(path):
         return False
 
 
-def refuse_foreign(out):
+def refuse_foreign(out: Path) -> None:
     """InputError where writing to `out` would take the place of something that is no run folder."""
     inside = sorted(path.name for path in out.iterdir()) if out.is_dir() else []
     if inside and inside != ["cad"] and not is_run_folder(out):
@@ -54,17 +57,17 @@ def refuse_foreign(out):
         raise InputError(f"{out}: is a file, a run folder cannot take its place; choose another --out")
 
 
-def record_text(result):
+def record_text(result: Result[Any]) -> str:
     """The text of result.json."""
     return json.dumps(result.record(), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def file_name(name):
+def file_name(name: str) -> str:
     """A name as part of a file name: what no file system minds."""
     return re.sub(r"[^\w.-]+", "-", name).strip(".-") or "unnamed"
 
 
-def _fill(folder, result, seen, figures):
+def _fill(folder: Path, result: Result[Any], seen: Views, figures: bool) -> None:
     """Everything of one run, the result first: it is what makes a folder a run folder."""
     (folder / "result.json").write_text(record_text(result), encoding="utf-8")
     result.spec.write(folder / "spec.toml")
@@ -74,13 +77,13 @@ def _fill(folder, result, seen, figures):
     _write_figures(folder, [*named, thumbnail(seen.scene)] if figures and seen.scene else named)
 
 
-def _write_figures(folder, named):
+def _write_figures(folder: Path, named: Iterable[Picture]) -> None:
     for picture in named:
         (folder / "figures").mkdir(exist_ok=True)
         (folder / "figures" / f"{picture.name}.svg").write_text(picture.svg, encoding="utf-8")
 
 
-def _write_tables(folder, tables):
+def _write_tables(folder: Path, tables: Iterable[Table]) -> None:
     from pyarrow import parquet
 
     for table in tables:
@@ -88,7 +91,7 @@ def _write_tables(folder, tables):
         parquet.write_table(table.arrow(), folder / "tables" / f"{file_name(table.name)}.parquet")
 
 
-def _move_in(fresh, out):
+def _move_in(fresh: Path, out: Path) -> None:
     """Put the finished folder in its place; the old one goes back where that fails."""
     old = _sibling(out, "old")
     _remove(old)
@@ -104,16 +107,16 @@ def _move_in(fresh, out):
     _remove(old)
 
 
-def _keep_what_is_not_ours(old, out):
+def _keep_what_is_not_ours(old: Path, out: Path) -> None:
     """Exports and whatever a person put into the run folder go over into the new one."""
     for entry in sorted(old.iterdir()) if old.is_dir() else ():
         if entry.name not in OURS and not (out / entry.name).exists():
             entry.rename(out / entry.name)
 
 
-def _sibling(out, role):
+def _sibling(out: Path, role: str) -> Path:
     return out.with_name(f"{out.name}.{role}-{os.getpid()}")
 
 
-def _remove(path):
+def _remove(path: Path) -> None:
     shutil.rmtree(path, ignore_errors=True)

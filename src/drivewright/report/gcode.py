@@ -5,38 +5,41 @@ travelled clockwise and bores counter-clockwise.  ISO 6983 recalled; the words u
 """
 
 import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from drivewright.curves import offset_outline
 from drivewright.errors import InputError
 from drivewright.report.atomic import write_text
-from drivewright.scene import Arc
+from drivewright.scene import Arc, Drawing
 from drivewright.solids import outlines, pieces
 
 MM = 1e3
 
 
-def write_gcode(drawing, path, **settings):
+def write_gcode(drawing: Drawing, path: str | Path, **settings: Any) -> None:
     """The program of `gcode` as a file."""
     write_text(path, gcode(drawing, **settings))
 
 
 def gcode(
-    drawing,
+    drawing: Drawing,
     *,
-    cutter_diameter,
-    feed,
-    plunge,
-    step_down,
-    spindle_speed,
-    depth=None,
-    safe_height=5e-3,
-    lead_radius=None,
-    tolerance=2e-6,
-    bores=True,
-    warnings=(),
-):
+    cutter_diameter: float,
+    feed: float,
+    plunge: float,
+    step_down: float,
+    spindle_speed: float,
+    depth: float | None = None,
+    safe_height: float = 5e-3,
+    lead_radius: float | None = None,
+    tolerance: float = 2e-6,
+    bores: bool = True,
+    warnings: Sequence[str] = (),
+) -> str:
     """Program text: round holes by a helix (with `bores`), then the profile in passes, with tangential quarter circles in and out.
 
     `cutter_diameter`, `depth` (default: the drawing's thickness), `step_down`, `safe_height` above the plate, `lead_radius`

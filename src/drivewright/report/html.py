@@ -2,19 +2,26 @@
 
 import json
 import re
+from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from drivewright.report.atomic import write_text
-from drivewright.report.content import content
+from drivewright.report.content import Picture, Views, content
 from drivewright.report.pack import pack_plots, pack_scene
+from drivewright.result import Result
 from drivewright.view.palette import style_sheet
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+    from markupsafe import Markup
 
 HERE = Path(__file__).parent
 MODULES = ("clock.js", "scene.js", "drawing.js", "controls.js", "player.js", "plots.js")  # each behind those that it imports
 
 
-def write_report(result, seen, folder, pictures=()):
+def write_report(result: Result[Any], seen: Views, folder: str | Path, pictures: Sequence[Picture] = ()) -> Path:
     """Write `folder`/report.html: numbers, checks, motion player with linked plots, pictures, sources.  `seen` is a `Views`."""
     text = page(
         "report.html.j2",
@@ -27,7 +34,7 @@ def write_report(result, seen, folder, pictures=()):
     return path
 
 
-def player_data(result, seen):
+def player_data(result: Result[Any], seen: Views) -> str | None:
     """The player's and the plots' data as JSON that cannot end a script element; None without a scene."""
     if seen.scene is None:
         return None
@@ -35,14 +42,15 @@ def player_data(result, seen):
     return json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
-def page(template, values, **more):
+def page(template: str, values: Mapping[str, Any], **more: object) -> str:
     """A template filled in; every value is escaped unless the template marks it safe."""
     look = _text("templates/report.css") + _text("player.css")
     return environment().get_template(template).render(**values, **more, colours=style_sheet(), style=look, script=scripts())
 
 
 @cache
-def environment():
+def environment() -> "Environment":
+    """The Jinja environment of the page templates, which escapes every value."""
     import jinja2
 
     found = jinja2.Environment(
@@ -56,7 +64,7 @@ def environment():
     return found
 
 
-def _breakable(name):
+def _breakable(name: str) -> "Markup":
     """A dotted name that may be broken behind its dots and underscores."""
     from markupsafe import Markup, escape
 
@@ -64,17 +72,17 @@ def _breakable(name):
 
 
 @cache
-def scripts():
+def scripts() -> str:
     """The modules of the player and the plots as one: the lines that import from one another go, the rest stays as it is."""
     return "\n".join(re.sub(r"^(import|export) \{.*\} from .*$", "", _text(name), flags=re.MULTILINE) for name in MODULES)
 
 
 @cache
-def _text(name):
+def _text(name: str) -> str:
     return (HERE / name).read_text(encoding="utf-8")
 
 
-def embedded(picture):
+def embedded(picture: Picture) -> "dict[str, str | Markup]":
     """A picture as an image of its own, so that the ids inside several SVGs cannot meet; as text, a quarter smaller than base64."""
     from markupsafe import Markup
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+from collections.abc import Iterable
 from pathlib import Path
 from urllib.parse import quote
 
@@ -15,7 +16,7 @@ from drivewright.view.text import interval_hint, number, sentence, uncertain
 MOST = 4  # headline numbers on a card
 
 
-def write_index(folders, path):
+def write_index(folders: Iterable[str | Path], path: str | Path) -> Path:
     """Write the gallery of some run folders to `path`; links are relative, so that the whole tree can be moved."""
     path = Path(path)
     cards = [_card(Path(folder), path.parent) for folder in folders]
@@ -39,7 +40,7 @@ def _card(folder, base):
     }
 
 
-def _link(target, base):
+def _link(target: Path, base: Path) -> str:
     return quote(os.path.relpath(target, base).replace(os.sep, "/"))
 
 

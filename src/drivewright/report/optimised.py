@@ -6,11 +6,12 @@ from pathlib import Path
 from drivewright.report import atomic
 from drivewright.report.content import views
 from drivewright.report.folder import refuse_foreign, write_run_folder
+from drivewright.report.records import OptimisedRecord
 
 MARK = "history.parquet"
 
 
-def write_optimised(found, folder):
+def write_optimised(found: OptimisedRecord, folder: str | Path) -> Path:
     """Write history.parquet, front.parquet, best/ (run folder) and best.toml, each whole or not at all; returns the folder."""
     folder = Path(folder).resolve()
     if folder != found.folder and not (folder / MARK).is_file():

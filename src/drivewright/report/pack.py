@@ -1,9 +1,14 @@
 """A scene and the linked plots as JSON for the browser: arrays as base64 of little-endian float32, equal ones once."""
 
 import base64
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats, Ints
+from drivewright.result import Plot, Result
+from drivewright.scene import Body, Scene
 from drivewright.view.motion import fractions
 from drivewright.view.outlines import overall_size, thinned
 from drivewright.view.panels import STANDING, decimals, drawable, panels
@@ -13,12 +18,12 @@ FINENESS = 3e-5  # curves become chords within this part of the scene's size: un
 MOST_ROWS = 2000  # a longer table is thinned: more points than a plot is wide
 
 
-def floats(array):
+def floats(array: ArrayLike) -> str:
     """base64 of an array as float32, row by row."""
     return base64.b64encode(np.ascontiguousarray(array, "<f4").tobytes()).decode()
 
 
-def pack_scene(scene):
+def pack_scene(scene: Scene) -> dict[str, Any]:
     """Plain dictionary of a scene for `createPlayer`.
 
     `motions` holds every different set of poses once, as (frames or 1) x (x, y, angle) with continuous angles, and `shapes` every
@@ -62,12 +67,12 @@ def pack_scene(scene):
     }
 
 
-def _fineness(size):
+def _fineness(size: float) -> float:
     """A power of two, so that a scene that grows a little keeps the chords of its curves, and a viewer what it has made of them."""
     return 2.0 ** np.floor(np.log2(FINENESS * size))
 
 
-def _magnified(body, motions):
+def _magnified(body: Body, motions: dict[str, int]) -> dict[str, float]:
     """What the viewer needs to draw play or deflection larger or smaller; nothing of a body that is where it is."""
     if body.rest is None:
         return {}
@@ -75,7 +80,7 @@ def _magnified(body, motions):
     return {"rest": _pooled(body.rest, motions), "magnified": float(body.magnified), **limit}
 
 
-def _cycle(scene):
+def _cycle(scene: Scene) -> dict[str, Any]:
     """The driving quantity in the unit people read, with its marks as (0 ... 1, label)."""
     factor, unit = shown(scene.cycle_unit)
     start, span = float(scene.cycle[0]), float(scene.cycle[-1] - scene.cycle[0])
@@ -83,7 +88,7 @@ def _cycle(scene):
     return {"label": scene.cycle_label, "unit": unit, "start": start * factor, "span": span * factor, "marks": marks}
 
 
-def _pooled(poses, motions):
+def _pooled(poses: ArrayLike, motions: dict[str, int]) -> int:
     """Number of these poses in the pool, which takes them in when they are new; poses that never change are one row."""
     poses = np.asarray(poses, float)
     turned = np.column_stack([poses[:, :2], np.unwrap(poses[:, 2])])
@@ -100,13 +105,13 @@ def _drawn(shapes, pool, tolerance):
     return [pool[id(shape)][0] for shape in shapes]
 
 
-def pack_plots(result, scene, plots):
+def pack_plots(result: Result[Any], scene: Scene, plots: Sequence[Plot]) -> dict[str, Any] | None:
     """Plain dictionary for `createPlots`: the panels over the scene's cycle, one after another; None where there are none."""
     packed = pack_plot_groups(result, scene, plots)
     return packed and {"cycle": packed["cycle"], "panels": [panel for plot in packed["plots"] for panel in plot["panels"]]}
 
 
-def pack_plot_groups(result, scene, plots):
+def pack_plot_groups(result: Result[Any], scene: Scene, plots: Sequence[Plot]) -> dict[str, Any] | None:
     """The same with the panels of every plot together: {"cycle", "plots": [{"name", "title", "panels"}]}; None where there are none.
 
     A plot is linked when its x column is the one that leads the scene's table and covers one cycle at most, whichever table it is in.
@@ -125,7 +130,7 @@ def pack_plot_groups(result, scene, plots):
     return {"cycle": _cycle(scene), "plots": packed} if packed else None
 
 
-def _along(x, scene):
+def _along(x: ArrayLike, scene: Scene) -> Floats | None:
     """x as 0 ... 1 along the scene's closed cycle, wherever on it x starts; None where x covers more than one cycle."""
     u = (np.asarray(x, float) - scene.cycle[0]) / (scene.cycle[-1] - scene.cycle[0])
     if not len(u) or not np.all(np.isfinite(u)) or np.ptp(u) > 1 + 1e-6:
@@ -170,7 +175,7 @@ def _shade(panel, scene):
     return [[(edge / factor - start) / span for edge in stretch] for stretch in panel.shade]
 
 
-def telling_rows(lines, most=MOST_ROWS):
+def telling_rows(lines: Sequence[Floats], most: int = MOST_ROWS) -> Ints:
     """Rows that draw the same picture: all of a short table; of a long one the lowest and highest of each line in equal stretches."""
     count = len(lines[0])
     if count <= most:

@@ -2,17 +2,20 @@
 
 import json
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from drivewright.errors import MissingExtra
 from drivewright.report.atomic import replacing
-from drivewright.report.content import content, pictures, views
+from drivewright.report.content import Picture, Views, content, pictures, views
+from drivewright.result import Result
 from drivewright.view.palette import ROLES
 
 TEMPLATE = Path(__file__).parent / "templates" / "report.typ"
 
 
-def write_pdf(result, path, seen=None, figures=None):
+def write_pdf(result: Result[Any], path: str | Path, seen: Views | None = None, figures: Sequence[Picture] | None = None) -> Path:
     """Write the report of a result to `path`; MissingExtra without typst.
 
     `seen` is a `Views` (None: what the result's mechanism shows), `figures` are pictures already drawn (None: draw them).

@@ -2,6 +2,7 @@
 
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from drivewright.report.atomic import replacing, write_text
 from drivewright.report.content import Views, content, pictures
 from drivewright.report.folder import file_name, record_text
 from drivewright.report.html import embedded, page
+from drivewright.report.records import AnswersRecord, StudyRecord, VariableRecord
 from drivewright.view.text import SOLID, number, quantity, sentence, shown, uncertain, unit_text, with_unit
 
 STATUS, MESSAGE = "status", "message"  # columns of a study's table
@@ -22,7 +24,7 @@ COMMAND = "drivewright sweep study.toml --out again"
 VARIED = ("Key", "Over", "Nominal")
 
 
-def write_answers(study, found, folder):
+def write_answers(study: StudyRecord, found: AnswersRecord, folder: str | Path) -> Path:
     """Write what was found in a study (`studies.answers.answers`) into `folder` and return the path of its report.html.
 
     answers.json, figures/*.svg, tables/*.parquet, report.html; each file whole or not at all, the report last.  What an older report
@@ -34,7 +36,7 @@ def write_answers(study, found, folder):
     _write_figures(folder / "figures", drawn)
     write_text(folder / "answers.json", record_text(found.result))
     path = folder / "report.html"
-    write_text(path, page("study.html.j2", said(study, found), pictures=[embedded(picture) for picture in drawn]))
+    write_text(path, page("study.html.j2", study_content(study, found), pictures=[embedded(picture) for picture in drawn]))
     return path
 
 
@@ -65,10 +67,10 @@ def _forget(folder, pattern, kept):
 # -- what the page says --------------------------------------------------------------------------------------------------------
 
 
-def said(study, found):
+def study_content(study: StudyRecord, found: AnswersRecord) -> dict[str, Any]:
     """What the page says, as plain text in plain dictionaries."""
     result = found.result
-    tables = [told | _printed(table) for told, table in zip(content(result)["tables"], result.tables.values(), strict=True)]
+    tables = [described | _printed(table) for described, table in zip(content(result)["tables"], result.tables.values(), strict=True)]
     return content(result, headlines=_headlines(found)) | {
         "verdict": verdict(study),
         "tables": tables,
@@ -82,39 +84,39 @@ def said(study, found):
     }
 
 
-def verdict(study):
+def verdict(study: StudyRecord) -> dict[str, str]:
     """{'state', 'text'}: how many cases of the plan are complete; never good where one is not."""
     complete, total = study.counts.get("complete", 0), len(study.plan)
     state = "good" if complete == total else "warn" if complete else "bad"
     return {"state": state, "text": f"all {total} cases complete" if complete == total > 1 else f"{complete} of {total} cases complete"}
 
 
-def cases(study):
+def cases(study: StudyRecord) -> list[dict[str, Any]]:
     """Rows {name, count, state, share} of every status, and of the cases that are not there."""
     counts = [(name, study.counts.get(name, 0), state) for name, state in STATES.items()]
     counts += [("not computed yet", len(study.plan) - len(study), "none")] if not study.complete else []
     return [{"name": name, "count": str(count), "state": state, "share": count} for name, count, state in counts]
 
 
-def reasons(study):
+def reasons(study: StudyRecord) -> list[dict[str, Any]]:
     """The commonest reasons {status, count, text} of what is not complete: those that differ in their numbers only are one."""
     import pyarrow.compute as pc
 
-    rows = study.table.select([STATUS, MESSAGE]).filter(pc.not_equal(study.table[STATUS], "complete"))
+    rows = study.table.select([STATUS, MESSAGE]).filter(pc.field(STATUS) != "complete")
     kinds = {}
     for row in rows.group_by([STATUS, MESSAGE], use_threads=False).aggregate([([], "count_all")]).to_pylist():
         kind = (row[STATUS], re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "#", row[MESSAGE] or ""))
         kinds.setdefault(kind, []).append((row["count_all"], row[MESSAGE] or "no reason given"))
     found = sorted(
-        ({"status": status, "count": sum(count for count, _ in told), "text": _example(told)} for (status, _), told in kinds.items()),
+        ({"status": status, "count": sum(count for count, _ in rows), "text": _example(rows)} for (status, _), rows in kinds.items()),
         key=lambda each: (-each["count"], each["status"], each["text"]),
     )
     return found[:MOST_REASONS]
 
 
-def _example(told):
-    """The first message of its kind, which says when the others differ."""
-    return told[0][1] + (" (and the like with other numbers)" if len(told) > 1 else "")
+def _example(messages):
+    """The first of some (count, message) of one kind, which says when the others differ."""
+    return messages[0][1] + (" (and the like with other numbers)" if len(messages) > 1 else "")
 
 
 def _headlines(found):
@@ -153,7 +155,7 @@ def _cells(column, named, bounds):
 # -- what varied ---------------------------------------------------------------------------------------------------------------
 
 
-def varied(variable):
+def varied(variable: VariableRecord) -> tuple[str, str, str]:
     """(key and those that go with it, levels or distribution, nominal value) as people read them."""
     if variable.levels is not None:
         over = _levels(variable)
@@ -166,7 +168,7 @@ def varied(variable):
 def _text(variable, value):
     if isinstance(value, (bool, np.bool_)):
         return str(bool(value)).lower()
-    return quantity(value, variable.kind.unit) if isinstance(value, (int, float, np.number)) else str(value)
+    return quantity(float(value), variable.kind.unit) if isinstance(value, (int, float, np.number)) else str(value)
 
 
 def _levels(variable):
@@ -207,16 +209,16 @@ def _distribution(variable):
 # -- how to do it again --------------------------------------------------------------------------------------------------------
 
 
-def sampling(study):
+def sampling(study: StudyRecord) -> str:
     """How the cases come about, in a sentence."""
-    plan, method = study.plan, study.spec.study.method
+    plan, method = study.plan, study.spec.study.method if study.spec.study else ""
     levels = f"{' × '.join(map(str, plan.shape))} levels" if plan.grid else ""
     blocks = " + ".join(f"{block.stop - block.start} {block.name}" for block in plan.blocks)
     points = f"{plan.inner} points of a file" if plan.listed else f"{plan.inner} points by {method} ({blocks})" if plan.random else ""
     return f"{' × '.join(part for part in (levels, points) if part)} = {len(plan)} cases."
 
 
-def recipe(study):
+def recipe(study: StudyRecord) -> str:
     """What has to be the same for the same numbers."""
     place = "study.toml is in the study's folder" if study.folder else "study.toml is the spec below"
     return (

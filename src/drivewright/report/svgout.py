@@ -1,12 +1,15 @@
 """SVG drawings of flat parts in true millimetres, for laser cutters and plots: arcs are SVG arcs, splines cubic Beziers."""
 
+from collections.abc import Sequence
 from html import escape
+from pathlib import Path
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.report.atomic import write_text
 from drivewright.report.dxf import extent
-from drivewright.scene import Arc, Line
+from drivewright.scene import Arc, Drawing, Line, Outline, Piece
 from drivewright.solids import outlines, pieces
 
 MM = 1e3
@@ -22,7 +25,7 @@ STROKES = {
 DASHES = {"pitch": "4 1 1 1", "axis": "4 1 1 1", "base": "2 1"}
 
 
-def write_svg(drawing, path, tolerance=1e-6, margin=2e-3, stroke=1e-4):
+def write_svg(drawing: Drawing, path: str | Path, tolerance: float = 1e-6, margin: float = 2e-3, stroke: float = 1e-4) -> None:
     """SVG file of a drawing at scale 1:1, y up as in the drawing, one group per layer; lengths of the arguments in metres.
 
     Splines stay within `tolerance` of their knots; `margin` surrounds the shapes; `stroke` is the width of the lines.
@@ -43,14 +46,14 @@ def write_svg(drawing, path, tolerance=1e-6, margin=2e-3, stroke=1e-4):
     write_text(path, "\n".join([*lines, "</svg>", ""]))
 
 
-def path_data(outline, name, tolerance=1e-6):
+def path_data(outline: Outline, name: str, tolerance: float = 1e-6) -> str:
     """The `d` of an SVG path [mm, y down] of an outline."""
     outline = outlines.normalised(outline, f"drawing {name!r}")
     steps = [f"M{_pair(pieces.start(outline.pieces[0]))}", *(_step(piece, tolerance) for piece in outline.pieces)]
     return " ".join(steps + ["Z"] * outline.closed)
 
 
-def _step(piece, tolerance):
+def _step(piece: Piece, tolerance: float) -> str:
     if isinstance(piece, Line):
         return f"L{_pair(piece.end)}"
     if isinstance(piece, Arc):  # y points down in SVG, so counter-clockwise is its negative sense
@@ -64,9 +67,9 @@ def _step(piece, tolerance):
     )
 
 
-def _pair(point):
+def _pair(point: Sequence[float] | Floats) -> str:
     return f"{_number(point[0])} {_number(-point[1])}"
 
 
-def _number(metres):
+def _number(metres: float) -> str:
     return f"{round(MM * float(metres), 6) + 0.0:.6f}".rstrip("0").rstrip(".")

@@ -2,20 +2,28 @@
 
 import csv
 import io
+from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.errors import InputError
 from drivewright.report.atomic import replacing, write_text
+from drivewright.report.records import StudyRecord
+from drivewright.result import Column, Table
 from drivewright.units import display
+
+if TYPE_CHECKING:
+    import pyarrow
 
 DIGITS = 12  # significant figures of what is written as text or shown in a sheet
 SLICE = 65_536  # rows of a study at a time, so that a long one needs little memory
 SHEET_ROWS, SHEET_COLUMNS, SHEET_LETTERS = 1_048_576, 16_384, 32_767  # what an Excel sheet and one of its cells hold
 
 
-def write_csv(table, path, digits=DIGITS):
+def write_csv(table: Table, path: str | Path, digits: int = DIGITS) -> None:
     """CSV file of a `result.Table`: header `name [unit]` (a pure number: `name`), numbers to `digits` figures, missing ones empty."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -24,18 +32,18 @@ def write_csv(table, path, digits=DIGITS):
     write_text(path, text.getvalue())
 
 
-def heading(column):
+def heading(column: Column) -> str:
     """`name [unit]` with the unit that is shown."""
     return titled(column.name, column.unit)
 
 
-def titled(name, unit):
+def titled(name: str, unit: str) -> str:
     """`name [unit]` of a name and an SI unit."""
     shown = display(unit)[1]
     return name if shown in ("", "-") else f"{name} [{shown}]"
 
 
-def _cells(column, digits):
+def _cells(column: Column, digits: int) -> list[str]:
     data = np.asarray(column.data)
     if data.dtype.kind not in "iuf":
         return [str(value) for value in data.tolist()]
@@ -49,7 +57,7 @@ def _cells(column, digits):
 # -- studies -------------------------------------------------------------------------------------------------------------------
 
 
-def write_study_table(study, path):
+def write_study_table(study: StudyRecord, path: str | Path) -> Path:
     """Write the cases of a study as one table and return its path: .csv, .xlsx or .parquet.
 
     CSV and Excel: units people read, named in the first line, missing numbers empty.  Parquet: SI, with unit and meaning in the
@@ -125,15 +133,15 @@ def _study_parquet(table, path):
     parquet.write_table(table, path)
 
 
-def _headings(table):
+def _headings(table: "pyarrow.Table") -> list[str]:
     return [titled(field.name, _unit(field)) for field in table.schema]
 
 
-def _unit(field):
+def _unit(field: "pyarrow.Field") -> str:
     return (field.metadata or {}).get(b"unit", b"").decode()
 
 
-def _slices(table):
+def _slices(table: "pyarrow.Table") -> "Iterator[pyarrow.Table]":
     """The table in slices, numbers in the units people read, what is not finite as null."""
     import pyarrow as pa
 
@@ -154,7 +162,7 @@ def _as_shown(column, factor):
     return pa.array(rounded(np.where(finite, data, 0.0)), mask=~finite)
 
 
-def rounded(data):
+def rounded(data: Floats) -> Floats:
     """Finite numbers to `DIGITS` figures: the floats nearest to those decimals, so that they print short."""
     size = np.abs(data)
     exponent = DIGITS - 1 - np.floor(np.log10(np.where(size > 0, size, 1.0))).astype(int)

@@ -88,7 +88,8 @@ def _limit_faces(shape: EngineObject, tolerance: float) -> None:
 
 def _along(edge: EngineObject, count: int) -> Floats:
     """Points (count, 3) [mm] along an edge."""
-    return np.array([[p.x, p.y, p.z] for p in map(edge.Value, np.linspace(*edge.parameter_interval, count).tolist())])
+    start, end = edge.parameter_interval
+    return np.array([[p.x, p.y, p.z] for p in map(edge.Value, np.linspace(start, end, count).tolist())])
 
 
 def _smallest_radius(points: Floats) -> float:

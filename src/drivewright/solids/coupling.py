@@ -7,14 +7,16 @@ side, c and o compliances and offsets, p the load and a the rigid motions,
     [-H B'         0   ] [a] = [-H p     ]        and the displacements are  u = G (p - B' s) + H' a.
 """
 
-from collections.abc import Hashable, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.errors import DoesNotAssemble
 from drivewright.solids.substructures import InterfaceName, Substructure
+
+BodyName: TypeAlias = tuple[Any, ...]  # what kind of body, then its numbers: ("cam", 0)
 
 SINGULAR = 1e-13  # relative: smaller singular values count as 0
 FREE = 1e-9  # a rigid motion with so small a part in every strain is held by nothing
@@ -27,7 +29,7 @@ class InterfaceSpring(NamedTuple):
     """
 
     group: str
-    terms: tuple[tuple[Hashable, InterfaceName, float], ...]
+    terms: tuple[tuple[BodyName, InterfaceName, float], ...]
     compliance: float
     offset: float = 0.0
 
@@ -40,17 +42,17 @@ class CoupledSolution(NamedTuple):
     strains: Floats
     loads: Floats
     displacements: Floats
-    motions: dict[Hashable, Floats]
+    motions: dict[BodyName, Floats]
 
 
-def functional_offsets(bodies: Mapping[Hashable, Substructure]) -> tuple[dict[Hashable, int], int]:
+def functional_offsets(bodies: Mapping[BodyName, Substructure]) -> tuple[dict[BodyName, int], int]:
     """{body: first of its functionals} of {body: Substructure}, and their number."""
     sizes = [len(body.flexibility) for body in bodies.values()]
     return dict(zip(bodies, np.concatenate([[0], np.cumsum(sizes)[:-1]]), strict=True)), sum(sizes)
 
 
 def solve_coupled(
-    bodies: Mapping[Hashable, Substructure], springs: Sequence[InterfaceSpring], load: tuple[Hashable, InterfaceName, float]
+    bodies: Mapping[BodyName, Substructure], springs: Sequence[InterfaceSpring], load: tuple[BodyName, InterfaceName, float]
 ) -> CoupledSolution:
     """`CoupledSolution` of {name: Substructure}, `InterfaceSpring`s and a load (body, functional, force) [N]; DoesNotAssemble where
     something moves freely."""
@@ -69,7 +71,7 @@ def solve_coupled(
     return CoupledSolution(forces, rows @ displacements, loads, displacements, dict(zip(bodies, np.split(motions, ends[:-1]), strict=True)))
 
 
-def _blocks(bodies: Mapping[Hashable, Substructure], start: Mapping[Hashable, int], size: int) -> tuple[Floats, Floats]:
+def _blocks(bodies: Mapping[BodyName, Substructure], start: Mapping[BodyName, int], size: int) -> tuple[Floats, Floats]:
     flexibility, resultants = np.zeros((size, size)), []
     for name, body in bodies.items():
         here = slice(start[name], start[name] + len(body.flexibility))
@@ -94,7 +96,7 @@ def _solved(
     matrix = np.block([[soft / scale, -(held / length).T], [-held / length, np.zeros((count, count))]])
     right = np.concatenate([(rows @ flexibility @ applied - offset) / scale, -(resultants / length) @ applied])
     # Rigid parts that hold one another more than once share as they like; the displacements are the same for any share.
-    solution = np.linalg.lstsq(matrix, right, rcond=SINGULAR)[0]
+    solution = np.asarray(np.linalg.lstsq(matrix, right, rcond=SINGULAR)[0], float)
     return solution[: len(springs)], scale * solution[len(springs) :] / length[:, 0]
 
 

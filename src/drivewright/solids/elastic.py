@@ -172,7 +172,8 @@ class FreeBody:
         vertices = np.concatenate([self.space.Range(i).start + np.arange(self.mesh.nv) for i in range(3)])
         vertices = vertices[np.array(list(free))[vertices]]
         table = np.array([np.array(mode)[vertices] for mode in self._modes])
-        for number in vertices[qr(table, mode="r", pivoting=True)[1][: len(table)]]:
+        order = np.asarray(qr(table, mode="r", pivoting=True)[-1])
+        for number in vertices[order[: len(table)]]:
             free.Clear(int(number))
         return free
 
@@ -230,7 +231,7 @@ def spring_supported(response: Response, stiffness: ArrayLike) -> SpringSupporte
     scale = np.abs(springs).max()  # brings the balance rows to the size of the others
     matrix = np.block([[springs, scale * kept[:, :count].T], [scale * kept[:, :count], np.zeros((len(kept), len(kept)))]])
     right = np.vstack([flexibility[:count, count:], scale * kept[:, count:]])
-    solution = -np.linalg.solve(matrix, right)
+    solution = -np.asarray(np.linalg.solve(matrix, right), float)
     return SpringSupported(flexibility[count:, count:] + right.T @ solution, solution[:count], scale * basis @ solution[count:])
 
 

@@ -52,10 +52,11 @@ def polyline(outline: Outline, tolerance: float) -> Floats:
 
 def full_circle(outline: Outline) -> Arc | None:
     """The first arc of a `normalised` outline that is one full circle, else None."""
-    first = outline.pieces[0]
-    if not (outline.closed and all(isinstance(piece, Arc) for piece in outline.pieces)):
+    arcs = [piece for piece in outline.pieces if isinstance(piece, Arc)]
+    if not outline.closed or len(arcs) < len(outline.pieces):
         return None
-    same = all(np.hypot(*np.subtract(p.center, first.center)) + abs(p.radius - first.radius) < SNAP for p in outline.pieces)
+    first = arcs[0]
+    same = all(np.hypot(*np.subtract(arc.center, first.center)) + abs(arc.radius - first.radius) < SNAP for arc in arcs)
     return first if same else None
 
 
@@ -76,14 +77,18 @@ def outline_polygon(outline: Outline, name: str, tolerance: float = 1e-6) -> "sh
 
 def prism_region(prism: Prism, name: str, tolerance: float = 1e-6) -> "shapely.Polygon":
     """shapely Polygon [m] of a prism's outline minus its holes; InputError where a hole is outside or breaks it up."""
+    import shapely
+
     rest = outline_polygon(normalised(prism.outline, name), name, tolerance)
     for number, hole in enumerate(prism.holes):
         cutter = outline_polygon(normalised(hole, f"hole {number} of {name}"), f"hole {number} of {name}", tolerance)
         if not cutter.intersects(rest) or cutter.covers(rest):
             raise InputError(f"{name}: hole {number} lies outside the outline or leaves nothing of it; move it or make it smaller")
-        rest = rest.difference(cutter)
-        if rest.geom_type != "Polygon":
-            raise InputError(f"{name}: hole {number} cuts the outline into {len(rest.geoms)} pieces; make it smaller")
+        remaining = rest.difference(cutter)
+        if not isinstance(remaining, shapely.Polygon):
+            count = len(shapely.get_parts(remaining))
+            raise InputError(f"{name}: hole {number} cuts the outline into {count} pieces; make it smaller")
+        rest = remaining
     return rest
 
 

@@ -106,7 +106,7 @@ class PlaneBody:
 
     def displacement(self, fields: Floats) -> Floats:
         """Displacement (L, n, 2) [m] of the points of the rim."""
-        half = self._trace.shape[1]
+        half = fields.shape[1] // 2
         return np.stack([(self._trace @ part.T).T for part in (fields[:, :half], fields[:, half:])], axis=-1)
 
     def stress(self, fields: Floats) -> Floats:
@@ -191,7 +191,7 @@ def order_error(body: PlaneBody, tractions: ArrayLike) -> Floats:
 
 def _parts(gram: Floats, tests: Floats, rows: Floats) -> Floats:
     """Amounts (L, 3) that make rows less amounts times the other set have no product with any of the tests (3, n)."""
-    return np.linalg.solve(gram, tests @ rows.T).T
+    return np.asarray(np.linalg.solve(gram, tests @ rows.T), float).T
 
 
 def _rigid_motions(ng: Any, mesh: EngineObject) -> list[EngineObject]:

@@ -4,8 +4,8 @@ A functional of a body is a mean displacement over one of its interfaces in one 
 interface.  A rigid body has the same functionals without flexibility.
 """
 
-from collections.abc import Hashable, Iterator, Mapping, Sequence
-from typing import NamedTuple, TypeAlias
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from drivewright.solids.engine import EngineObject
 
 BALANCE = 3e-4  # relative difference of resultants to those of the undeformed geometry that is refused
 PLANAR, NO_AXIAL, ALL = (0, 1, 5), (0, 1, 3, 4, 5), (0, 1, 2, 3, 4, 5)  # rigid motions: three shifts, three turns
-InterfaceName: TypeAlias = tuple[Hashable, ...]
+InterfaceName: TypeAlias = tuple[Any, ...]  # what kind of interface, then its numbers: ("seat", 0, 1)
 
 
 class InterfaceLoad(NamedTuple):
@@ -47,7 +47,7 @@ def radial_loads(name: InterfaceName, point: ArrayLike) -> Iterator[InterfaceLoa
     """The two `InterfaceLoad`s of the mean displacement at a point (x, y, z) [m], along x and along y."""
     for axis in (0, 1):
         along = np.eye(3)[axis]
-        yield InterfaceLoad((*name, axis), along, np.cross(point, along))
+        yield InterfaceLoad((*name, axis), along, np.cross(np.asarray(point, float), along))
 
 
 def rigid_substructure(loads: Sequence[InterfaceLoad], motions: tuple[int, ...]) -> Substructure:

@@ -1,10 +1,21 @@
 """How often a sample takes which values, with its mean, its tails and its limits."""
 
-import numpy as np
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from drivewright._typing import Floats
 from drivewright.view.palette import colour
+from drivewright.view.panels import Panel
 from drivewright.view.style import BADGE, legend_above, new_figure, styled, whole_ticks
 from drivewright.view.text import axis_label, literal, number, with_unit
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 MOST_BINS = 100
 TAILS = (5.0, 95.0)  # percentiles that are marked
@@ -13,7 +24,7 @@ CONSTANT = 1e-9  # a spread so small beside the values is rounding
 APART = 1.5  # a limit farther off than so many times the range of the samples is told, not drawn
 
 
-def draw_histogram(shown):
+def draw_histogram(shown: Sequence[Panel]) -> "Figure":
     """Figure of a panel of style "histogram": counts, mean, 5 % and 95 %, limits as dashed lines."""
     panel = shown[0]
     samples = panel.series[0].data
@@ -33,7 +44,7 @@ def draw_histogram(shown):
     return figure
 
 
-def bin_edges(samples):
+def bin_edges(samples: NDArray[Any]) -> Floats:
     """Edges of about sqrt(n) bins, fewer where the rule of Freedman and Diaconis, a width of 2 IQR / n^(1/3), asks for fewer.
 
     Whole numbers lie in the middle of their bins; samples that are all the same have one bin.
@@ -51,7 +62,7 @@ def bin_edges(samples):
     return np.linspace(low, high, int(np.ceil(bins)) + 1)
 
 
-def _bars(axis, found, absent):
+def _bars(axis: "Axes", found: Floats, absent: int) -> "list[Artist]":
     """The bars; their entry in the legend tells how many samples there are."""
     from matplotlib.patches import Patch
 
@@ -66,7 +77,7 @@ def _bars(axis, found, absent):
     return [Patch(label=label, **look)]
 
 
-def _marks(axis, found, unit):
+def _marks(axis: "Axes", found: Floats, unit: str) -> "list[Artist]":
     """Lines at the mean and at the tails, told in the legend."""
     if not len(found):
         return []
@@ -74,7 +85,7 @@ def _marks(axis, found, unit):
     digits = figures(found, spread)
     text = f"Mean {with_unit(number(mean, digits), unit)}"
     text += f", standard deviation {with_unit(number(spread, 3), unit)}" if spread else ""
-    handles = [axis.axvline(mean, color=colour("ink"), lw=1.3, label=text)]
+    handles: list[Artist] = [axis.axvline(mean, color=colour("ink"), lw=1.3, label=text)]
     if len(found) >= ENOUGH and spread:
         ends = np.percentile(found, TAILS)
         told = " … ".join(number(end, digits) for end in ends)
@@ -83,13 +94,13 @@ def _marks(axis, found, unit):
     return handles[:2]
 
 
-def figures(samples, spread):
+def figures(samples: Floats, spread: float) -> int:
     """Figures that a number of the sample needs to tell a hundredth of its spread; 4 to 12."""
     size = float(np.abs(samples).max())
     return int(np.clip(np.ceil(np.log10(size / spread)) + 3, 4, 12)) if spread and size else 4
 
 
-def _reachable(limits, found):
+def _reachable(limits: Sequence[tuple[float, str]], found: Floats) -> "tuple[Sequence[tuple[float, str]], list[Artist]]":
     """(limits near enough to be drawn, legend entries of the others)."""
     from matplotlib.lines import Line2D
 
@@ -105,7 +116,7 @@ def _reachable(limits, found):
     ]
 
 
-def _limit(axis, value, text):
+def _limit(axis: "Axes", value: float, text: str) -> None:
     """A dashed upright line with its name and value along it, inside the picture."""
     axis.axvline(value, color=colour("bad"), lw=1.0, ls=(0, (5, 3)))
     left = value > sum(axis.get_xlim()) / 2

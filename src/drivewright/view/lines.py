@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.result import Column
+from drivewright.result import Column, Plot, Table
 from drivewright.view.text import quantity
 
 
@@ -12,27 +12,27 @@ class Line(NamedTuple):
     """A column to draw, those that it is compared with, and the columns (low, high) of its intervals."""
 
     column: Column
-    references: tuple = ()
-    ends: tuple = ()
+    references: tuple[Column, ...] = ()
+    ends: tuple[Column, ...] = ()
 
 
-def lines_of(table, plot):
+def lines_of(table: Table, plot: Plot) -> tuple[Column, list[Line]]:
     """(x column, lines) of a plot."""
     return LINES[plot.style](table, plot) if plot.style in LINES else _grouped(table, plot) if plot.by else _compared(table, plot)
 
 
-def _compared(table, plot):
+def _compared(table: Table, plot: Plot) -> tuple[Column, list[Line]]:
     """(x column, lines): every line a column, with its reference behind it where there is one."""
     references = [(table[name],) for name in plot.reference]
     references += [()] * (len(plot.y) - len(references))
     return table[plot.x], [_line(table, name, reference) for name, reference in zip(plot.y, references, strict=True)]
 
 
-def _line(table, name, references=()):
+def _line(table: Table, name: str, references: tuple[Column, ...] = ()) -> Line:
     return Line(table[name], references, table.bounds_of(name) or ())
 
 
-def _grouped(table, plot):
+def _grouped(table: Table, plot: Plot) -> tuple[Column, list[Line]]:
     """(x column, lines): for every y column a line for each value of the column `by`, over all values of x; gaps are nan."""
     by, x = table[plot.by], table[plot.x]
     values, group = np.unique(by.data, return_inverse=True)
@@ -54,7 +54,7 @@ def _grouped(table, plot):
     return x._replace(data=places), lines
 
 
-def _ranked(table, plot):
+def _ranked(table: Table, plot: Plot) -> tuple[Column, list[Line]]:
     """(labels, lines): the rows in the order of the first y column's magnitude, what has none last; with it the ends of its error bars."""
     first = np.asarray(table[plot.y[0]].data, float)
     order = np.argsort(-np.where(np.isfinite(first), np.abs(first), -1.0), kind="stable")
@@ -67,7 +67,7 @@ def _ranked(table, plot):
     return ordered(table[plot.x]), [Line(ordered(line.column), (), tuple(map(ordered, line.ends))) for line in lines]
 
 
-def _samples(table, plot):
+def _samples(table: Table, plot: Plot) -> tuple[Column, list[Line]]:
     """(samples, lines) of a histogram."""
     return table[plot.y[0]], [Line(table[plot.y[0]])]
 

@@ -1,10 +1,12 @@
 """A quantity over two others as coloured cells, each about its own point of the grid: levels may lie anywhere, a level may be a text."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.view.palette import colour
 from drivewright.view.panels import Panel, decimals
 from drivewright.view.style import angle_ticks, legend_above, new_figure, places, show_places, styled, whole_ticks
@@ -12,8 +14,11 @@ from drivewright.view.text import axis_label, literal, number, parts_of_label
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
+Levels: TypeAlias = tuple[NDArray[Any], list[str] | None]  # places along an axis, and their names where it holds texts
+Cells: TypeAlias = np.ma.MaskedArray[Any, Any]
 LETTER, LINE = 0.075, 0.16  # inches that a written number needs across for each letter, and up
 FEWEST = 5  # levels from which on contours are drawn
 SMOOTH = 0.7  # mean second difference over mean first one: 1.7 in white noise, about 3 / n in a hump over n levels
@@ -48,7 +53,7 @@ def map_into(axis: "Axes", panel: Panel) -> None:
     legend_above(axis, [*_limits(axis, panel, x, y, cells), *_hatched(cells)])
 
 
-def grid(panel):
+def grid(panel: Panel) -> tuple[Levels, Levels, Cells]:
     """((x places, names or None), (y places, names or None), cells (y, x)) of a long table; a cell without a value is masked."""
     axes, where = [], []
     for data in (panel.x.data, panel.series[0].data):
@@ -64,7 +69,7 @@ def grid(panel):
     return axes[0], axes[1], np.ma.masked_array(cells, bad)
 
 
-def edges(levels, logarithmic=False):
+def edges(levels: ArrayLike, logarithmic: bool = False) -> Floats:
     """Borders (n + 1) of cells about n rising levels: half way to the neighbours, in the logarithm on such an axis."""
     if logarithmic:
         return np.exp(edges(np.log(levels)))
@@ -76,7 +81,7 @@ def edges(levels, logarithmic=False):
     return np.concatenate([[2 * levels[0] - middle[0]], middle, [2 * levels[-1] - middle[-1]]])
 
 
-def is_geometric(levels):
+def is_geometric(levels: Floats) -> bool:
     """Whether positive levels are a geometric series over at least a decade."""
     if len(levels) < 3 or levels[0] <= 0 or levels[-1] < DECADE * levels[0]:
         return False
@@ -84,7 +89,7 @@ def is_geometric(levels):
     return bool(np.ptp(steps) < 1e-6 * steps.mean())
 
 
-def is_smooth(cells):
+def is_smooth(cells: Cells) -> bool:
     """Whether contours of a grid mean something: its second differences are small beside its first ones, along both axes."""
     for along in (0, 1):
         first, second = (np.ma.abs(np.ma.masked_invalid(np.diff(cells.filled(np.nan), n, axis=along))).mean() for n in (1, 2))
@@ -93,9 +98,9 @@ def is_smooth(cells):
     return True
 
 
-def _axis(axis, levels, names, unit):
+def _axis(axis: "Axis", levels: NDArray[Any], names: list[str] | None, unit: str) -> None:
     """Scale, range and ticks of an axis of cells."""
-    along, logarithmic = axis.axis_name, names is None and is_geometric(levels)
+    along, logarithmic = "x" if axis is axis.axes.xaxis else "y", names is None and is_geometric(levels)
     ends = edges(levels, logarithmic)[[0, -1]] if len(levels) else (0.0, 1.0)
     getattr(axis.axes, f"set_{along}scale")("log" if logarithmic else "linear")
     getattr(axis.axes, f"set_{along}lim")(*ends)
@@ -107,7 +112,7 @@ def _axis(axis, levels, names, unit):
         angle_ticks(axis, float(ends[0]), float(ends[1]))
 
 
-def _are_few_whole(levels):
+def _are_few_whole(levels: NDArray[Any]) -> bool:
     """Whether every level gets its tick: some whole numbers at equal distances."""
     return levels.dtype.kind in "iu" and len(levels) <= FEW_LEVELS and len(set(np.diff(levels).tolist())) == 1
 
@@ -189,23 +194,23 @@ def _write(axis, painted, x, y, cells):
         axis.text(x[column], y[row], text, ha="center", va="center", fontsize=7.5, color=ink)
 
 
-def written(cells):
+def written(cells: Cells) -> dict[tuple[int, int], str]:
     """{(row, column): text} of the cells that have a value, to the same decimals: three figures of the largest, none of whole numbers."""
     largest = float(np.abs(cells).max())
     places = 0 if are_whole(cells) else decimals(float(cells.min()), float(cells.max()), 3)
     plain = largest == 0 or 1e-3 <= largest < 1e6
     return {
-        (row, column): f"{cells[row, column]:.{places}f}".replace("-", "−") if plain else number(cells[row, column], 3)
+        (row, column): f"{cells[row, column]:.{places}f}".replace("-", "−") if plain else number(float(cells[row, column]), 3)
         for row, column in zip(*np.nonzero(~np.ma.getmaskarray(cells)), strict=True)
     }
 
 
-def are_whole(cells):
+def are_whole(cells: Cells) -> bool:
     """Whether every cell that has a value counts something."""
     return bool(np.all(cells.compressed() % 1 == 0))
 
 
-def least_part(levels, logarithmic):
+def least_part(levels: ArrayLike, logarithmic: bool) -> float:
     """Width of the narrowest cell over that of them all."""
     borders = edges(levels, logarithmic)
     borders = np.log(borders) if logarithmic else borders

@@ -1,16 +1,25 @@
 """A closed triangle surface seen from the side: nearest triangles last, coloured by a quantity, lightly shaded, its shape before dashed."""
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 import numpy as np
 
+from drivewright._typing import Bools, Floats, Ints
 from drivewright.view.palette import colour
+from drivewright.view.panels import Panel
 from drivewright.view.style import WIDTH, new_figure, styled
 from drivewright.view.text import axis_label, parts_of_label
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 LIGHT = np.array([-0.35, 0.75, 0.56])  # from the upper left, in front: right, up, towards the viewer
 DARKEST = 0.72  # brightness of what the light does not reach
 
 
-def draw_mesh(shown):
+def draw_mesh(shown: Sequence[Panel]) -> "Figure":
     """Figure of a panel of style "mesh"; axes in the panel's units at one scale, a colour bar below."""
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
@@ -37,7 +46,7 @@ def draw_mesh(shown):
     return figure
 
 
-def facing(corners):
+def facing(corners: Floats) -> tuple[Bools, Ints, Floats]:
     """Of triangles (m, 3, 3), z towards the viewer: (which face the viewer (m,), their order from far to near, their brightness)."""
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     seen = normal[:, 2] > 0
@@ -46,7 +55,7 @@ def facing(corners):
     return seen, np.argsort(corners[seen, :, 2].mean(axis=1), kind="stable"), bright
 
 
-def silhouette(right, up):
+def silhouette(right: Floats, up: Floats) -> list[Floats]:
     """Rings (n, 2) around the picture of triangles, three rows each."""
     import shapely
 
@@ -55,14 +64,14 @@ def silhouette(right, up):
     return [shapely.get_coordinates(shapely.simplify(ring, 1e-4 * np.ptp(right))) for ring in shapely.get_parts(shapely.boundary(shape))]
 
 
-def _paint(axis, triangles, colours):
+def _paint(axis: "Axes", triangles: Floats, colours: Floats) -> None:
     """Triangles as an image: as outlines they would be megabytes."""
     from matplotlib.collections import PolyCollection
 
-    axis.add_collection(PolyCollection(triangles, facecolors=colours, linewidths=0, antialiaseds=False, rasterized=True, zorder=2))
+    axis.add_collection(PolyCollection(list(triangles), facecolors=colours, linewidths=0, antialiaseds=False, rasterized=True, zorder=2))
 
 
-def _height(corners):
+def _height(corners: Floats) -> float:
     """Inches: room for the picture at full width, between a flat strip and a square."""
     wide, tall = np.ptp(corners.reshape(-1, 3), axis=0)[:2]
     return float(np.clip(1.9 + 0.85 * WIDTH * tall / wide, 2.7, 6.0))

@@ -4,26 +4,29 @@ from functools import lru_cache
 
 import numpy as np
 
+from drivewright._typing import Floats
+from drivewright.scene import Outline, Scene
+
 _KEPT = 512  # outlines whose points are remembered: bodies of a scene share shapes, and the next scene has most of them again
 
 
 class _Itself:
     """An outline with arrays as a key: equal to itself only."""
 
-    def __init__(self, outline):
+    def __init__(self, outline: Outline) -> None:
         self.outline = outline
 
-    def __eq__(self, other):
+    def __eq__(self, other: object) -> bool:
         return isinstance(other, _Itself) and self.outline is other.outline
 
-    def __hash__(self):
+    def __hash__(self) -> int:
         return id(self.outline)
 
-    def points(self, tolerance):
+    def points(self, tolerance: float) -> Floats:
         return self.outline.points(tolerance)
 
 
-def _key(outline):
+def _key(outline: Outline) -> "Outline | _Itself":
     """What the points of an outline are remembered by."""
     try:
         hash(outline)
@@ -32,13 +35,13 @@ def _key(outline):
     return outline
 
 
-def thinned(outline, tolerance):
+def thinned(outline: Outline, tolerance: float) -> Floats:
     """Points (n, 2) of an outline, read-only, each dropped that lies within `tolerance` [m] of the line through its neighbours."""
     return _thinned(_key(outline), 2.0 ** (np.floor(8 * np.log2(tolerance)) / 8))  # in steps, which a picture that grows a little keeps
 
 
 @lru_cache(maxsize=_KEPT)
-def _thinned(outline, tolerance):
+def _thinned(outline: "Outline | _Itself", tolerance: float) -> Floats:
     import shapely
 
     points = outline.points(tolerance)
@@ -48,7 +51,7 @@ def _thinned(outline, tolerance):
     return kept
 
 
-def overall_size(scene):
+def overall_size(scene: Scene) -> float:
     """A length that stands for the whole scene: the larger of the spread of the bodies' origins and the largest shape [m]."""
     spots = np.concatenate([np.asarray(body.poses)[:, :2] for body in scene.bodies])
     extents = (_extent(_key(shape.outline)) for body in scene.bodies for shape in body.shapes)
@@ -56,5 +59,5 @@ def overall_size(scene):
 
 
 @lru_cache(maxsize=_KEPT)
-def _extent(outline):
+def _extent(outline: "Outline | _Itself") -> float:
     return float(np.ptp(outline.points(1e-3), axis=0).max())

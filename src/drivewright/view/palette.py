@@ -35,17 +35,17 @@ TRACES = ("violet", "orange", "green", "blue", "steel")
 THEMES = ("light", "dark")
 
 
-def colour(role, theme="light"):
+def colour(role: str, theme: str = "light") -> str:
     """Hex colour of a role; an unknown role of a scene is drawn as steel."""
     return ROLES.get(role, ROLES["steel"])[THEMES.index(theme)]
 
 
-def declarations(theme):
+def declarations(theme: str) -> str:
     """The roles as custom properties of a style sheet: `--blue: #1b55bd; ...`."""
     return " ".join(f"--{role}: {colour(role, theme)};" for role in ROLES)
 
 
-def style_sheet():
+def style_sheet() -> str:
     """Rules that set every role for both themes: by the reader's preference, or forced with data-theme on the root element."""
     light, dark = (declarations(theme) for theme in THEMES)
     return (

@@ -4,14 +4,17 @@ Figures and the player's plots both draw these panels, so both show the same thi
 """
 
 import itertools
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from drivewright import registry
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import UnknownName
-from drivewright.result import Plot
-from drivewright.view.lines import lines_of
+from drivewright.result import Column, Plot, Result, Table
+from drivewright.view.lines import Line, lines_of
 from drivewright.view.palette import MARKERS, SERIES
 from drivewright.view.text import axis_label, dimension, number, quantity, sentence, shown, with_unit
 
@@ -30,11 +33,11 @@ class Series(NamedTuple):
     name: str
     label: str
     unit: str
-    data: np.ndarray
+    data: NDArray[Any]  # (rows,) numbers or texts
     role: str = "ink"
     dashed: bool = False
     marker: str = ""
-    ends: tuple = ()
+    ends: tuple[Floats, ...] = ()
 
 
 class Panel(NamedTuple):
@@ -48,18 +51,18 @@ class Panel(NamedTuple):
     title: str
     label: str
     x: Series
-    series: tuple
-    limits: tuple
+    series: tuple[Series, ...]
+    limits: tuple[tuple[float, str], ...]
     low: float
     high: float
     equal: bool
     style: str = "line"
     log: bool = False
-    shade: tuple = ()
-    rings: tuple = ()
+    shade: tuple[tuple[float, float], ...] = ()
+    rings: tuple[tuple[float, str], ...] = ()
 
 
-def known_plots(result):
+def known_plots(result: Result[Any]) -> dict[str, Plot]:
     """Name -> Plot of the result's mechanism; none where the kind is not installed here."""
     if not registry.is_known(result.mechanism):
         return {}
@@ -67,7 +70,7 @@ def known_plots(result):
     return {plot.name: plot for plot in (plots(result) if callable(plots) else plots)}
 
 
-def find_plot(result, name):
+def find_plot(result: Result[Any], name: str) -> Plot:
     """The mechanism's plot of that name, else a whole table over its first column; UnknownName otherwise."""
     plots = known_plots(result)
     plot = plots.get(name) or (whole_table(result.tables[name]) if name in result.tables else None)
@@ -78,19 +81,19 @@ def find_plot(result, name):
     return plot
 
 
-def whole_table(table):
+def whole_table(table: Table) -> Plot:
     """The plot of every column of numbers over the first column."""
     first, *rest = table.columns
     numbers = (c.name for c in rest if np.asarray(c.data).dtype.kind in "fiub")
     return Plot(table.name, table.title, table.name, first.name, tuple(name for name in numbers if not table.bounded(name)))
 
 
-def drawable(result, plots):
+def drawable(result: Result[Any], plots: Sequence[Plot]) -> tuple[Plot, ...]:
     """Those plots whose table is in the result; an analysis that was left out takes its plots with it."""
     return tuple(plot for plot in plots if plot.table in result.tables)
 
 
-def panels(result, plot):
+def panels(result: Result[Any], plot: Plot) -> tuple[Panel, ...]:
     """The panels of a plot, one for each unit among its y columns (at most as many lines in one as there are colours)."""
     table = result.tables[plot.table]
     if plot.style == "mesh":
@@ -113,13 +116,13 @@ def panels(result, plot):
     )
 
 
-def _label(table, plot, chunk):
+def _label(table: Table, plot: Plot, chunk: Sequence[Line]) -> tuple[str, str]:
     """(meaning, SI unit) of the y axis: that of the only line, or of the column that another one splits into lines; else the dimension."""
     column = chunk[0].column if len(chunk) == 1 else table[plot.y[0]] if plot.by and len(plot.y) == 1 else None
     return (column.meaning or column.name if column else dimension(chunk[0].column.unit)), chunk[0].column.unit
 
 
-def _cloud_panel(result, plot, table, name):
+def _cloud_panel(result: Result[Any], plot: Plot, table: Table, name: str) -> Panel:
     """Points of a column told apart by colour and shape; the rows of the other groups are nan."""
     column = _series(table[name], ends=table.bounds_of(name) or ())
     names, group = _groups(table[plot.by])
@@ -140,7 +143,7 @@ def _cloud_panel(result, plot, table, name):
     return _panel(plot, _series(table[plot.x]), series or [column], (column.label, table[name].unit), limits, ())
 
 
-def _groups(by):
+def _groups(by: Column) -> tuple[list[str], NDArray[np.int64]]:
     """(names, number of the group of each row): texts as they come, numbers rising; the last of very many are one group."""
     is_text = np.asarray(by.data).dtype.kind not in "fiub"
     values, first, group = np.unique(np.asarray(by.data).astype(str) if is_text else by.data, return_index=True, return_inverse=True)
@@ -152,7 +155,7 @@ def _groups(by):
     return names, np.minimum(place, len(names) - 1)
 
 
-def _coloured(chunk, roles):
+def _coloured(chunk: Sequence[Line], roles: Iterator[str]) -> list[Series]:
     """Series of some lines, each line in its colour."""
     found = []
     for line in chunk:
@@ -161,7 +164,7 @@ def _coloured(chunk, roles):
     return _told_apart(found)
 
 
-def _shaded(x, column):
+def _shaded(x: Column, column: Column) -> tuple[tuple[float, float], ...]:
     """Stretches (from, to) of x, as shown, in which a column is above 0; each sample stands for half the way to its neighbours."""
     place = np.asarray(x.data) * shown(x.unit)[0]
     edges = np.concatenate([place[:1], (place[1:] + place[:-1]) / 2, place[-1:]])
@@ -170,7 +173,7 @@ def _shaded(x, column):
     return tuple((float(edges[a]), float(edges[b])) for a, b in zip(starts, ends, strict=True))
 
 
-def _limits(result, plot):
+def _limits(result: Result[Any], plot: Plot) -> Iterator[tuple[float, str]]:
     """(value, label) of every limit line; those of a check that this run did not make are left out."""
     known = {check.name: check.limit for check in result.checks}
     for value, label in plot.limits:
@@ -205,7 +208,7 @@ def _panel(plot, x, series, label, limits, shade):
     )
 
 
-def _mesh_panel(plot, table):
+def _mesh_panel(plot: Plot, table: Table) -> Panel:
     """The panel of a surface: series up, depth and colour (lengths in um), then the dashed right and up of the surface before."""
     up, depth, colour = (_series(table[name]) for name in plot.y)
     if table[plot.y[2]].unit == "m":
@@ -215,7 +218,7 @@ def _mesh_panel(plot, table):
     return Panel(plot.title, label, _series(table[plot.x]), (up, depth, colour, *before), (), *span([up.data]), True, "mesh")
 
 
-def _map_panel(result, plot, table):
+def _map_panel(result: Result[Any], plot: Plot, table: Table) -> Panel:
     """The panel of cells over two axes; its range and its limits are those of the colour."""
     up, tint = (_series(table[name]) for name in plot.y)
     factor, text = shown(table[plot.y[1]].unit)
@@ -227,23 +230,30 @@ def _map_panel(result, plot, table):
     return Panel(sentence(plot.title), label, _series(table[plot.x]), (up, tint), limits, low, high, False, "map", plot.log)
 
 
-def _series(column, role="ink", dashed=False, ends=()):
+def _series(column: Column, role: str = "ink", dashed: bool = False, ends: Sequence[Column] = ()) -> Series:
     factor, text = shown(column.unit)
     data = np.asarray(column.data)
     # Whole numbers stay whole, so that their axis has whole ticks.
     if data.dtype.kind in "fb" or (data.dtype.kind in "iu" and factor != 1):
         data = data * factor
-    ends = tuple(np.asarray(end.data, float) * factor for end in ends)
-    return Series(column.name, sentence(column.meaning or column.name), text, data, role, dashed, ends=ends)
+    return Series(
+        column.name,
+        sentence(column.meaning or column.name),
+        text,
+        data,
+        role,
+        dashed,
+        ends=tuple(np.asarray(end.data, float) * factor for end in ends),
+    )
 
 
-def limit_text(value, label, unit):
+def limit_text(value: float, label: str, unit: str) -> str:
     """The words on a limit line: its name and its value, unless the name says the number already."""
     text = number(value, 4)
     return label if text.lstrip("−") in label else f"{label} {with_unit(text, unit)}".strip()
 
 
-def _told_apart(series):
+def _told_apart(series: list[Series]) -> list[Series]:
     """Lines of one panel with the same meaning get the part of their names in which they differ: 'normal force · main'."""
     labels = [s.label for s in series]
     if len(set(labels)) == len(labels):
@@ -254,7 +264,7 @@ def _told_apart(series):
     return [s._replace(label=f"{s.label} · {'.'.join(name)}") for s, name in zip(series, names, strict=True)]
 
 
-def span(lines, limits=()):
+def span(lines: Sequence[ArrayLike], limits: Sequence[float] = ()) -> tuple[float, float]:
     """(low, high) that shows the finite part of all lines and the limits, with a little air; poles are cut at `REACH` times the limit."""
     data = np.concatenate([np.ravel(line) for line in lines]).astype(float)
     data = data[np.isfinite(data)]
@@ -268,7 +278,7 @@ def span(lines, limits=()):
     return low - air, high + air
 
 
-def log_span(lines, limits=()):
+def log_span(lines: Sequence[ArrayLike], limits: Sequence[float] = ()) -> tuple[float, float]:
     """(low, high) of the positive part of all lines and the limits, with a little air, over `DECADES` powers of ten at most."""
     data = np.concatenate([*(np.ravel(line) for line in lines), limits]).astype(float)
     data = data[np.isfinite(data) & (data > 0)]
@@ -280,7 +290,7 @@ def log_span(lines, limits=()):
     return low / air, high * air
 
 
-def decimals(low, high, digits=4):
+def decimals(low: float, high: float, digits: int = 4) -> int:
     """Decimals that show a range with so many digits: fixed, so that a running number does not jump."""
     largest = max(abs(low), abs(high), 1e-300)
     return int(np.clip(digits - 1 - np.floor(np.log10(largest)), 0, 9))

@@ -1,10 +1,19 @@
 """What matters most: lying bars, the longest on top."""
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 import numpy as np
 
+from drivewright._typing import Floats, Ints
 from drivewright.view.palette import SERIES, colour
+from drivewright.view.panels import Panel, Series
 from drivewright.view.style import legend_above, new_figure, styled
 from drivewright.view.text import axis_label, literal, number, numbers, parts_of_label, wrapped
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 MOST_ROWS = 30  # the rest is counted, not drawn
 HATCHES = ("", "///", "...", "xxx", "\\\\\\")  # so that bars side by side differ on a grey printer
@@ -13,7 +22,7 @@ THICK = 0.8  # of the room of a row
 LETTER = 0.018  # room of a letter beside the longest bar, over the width of all bars
 
 
-def draw_ranked(shown):
+def draw_ranked(shown: Sequence[Panel]) -> "Figure":
     """Figure of panels of style "ranked", one under the other: a row for each label, in it a bar for each column."""
     labels = [literal(wrapped(str(label), 40)) for label in shown[0].x.data[:MOST_ROWS]]
     with styled():
@@ -25,7 +34,7 @@ def draw_ranked(shown):
     return figure
 
 
-def _draw(axis, panel, labels):
+def _draw(axis: "Axes", panel: Panel, labels: Sequence[str]) -> None:
     bars = panel.series
     place, thick = np.arange(len(labels)), THICK / max(len(bars), 1)
     for n, series in enumerate(bars):
@@ -42,7 +51,7 @@ def _draw(axis, panel, labels):
             label=literal(series.label),
         )
         if series.ends:
-            _errors(axis, middle, data, *(end[: len(labels)] for end in series.ends))
+            _errors(axis, np.asarray(middle, float), data, *(end[: len(labels)] for end in series.ends))
     axis.axvline(0.0, color=colour("muted"), lw=0.8)
     axis.set_yticks(place, labels)
     axis.tick_params(axis="y", length=0)
@@ -57,13 +66,13 @@ def _draw(axis, panel, labels):
         legend_above(axis, room=ROOM - max((len(line) for label in labels for line in label.splitlines()), default=0))
 
 
-def _value_text(value, ends):
+def _value_text(value: float, ends: Sequence[float]) -> str:
     """A number with the digits that its interval supports, three at most; as any number without zeros at its end."""
     text = numbers(value, ends[0], ends[1], 3)[0] if ends else number(value, 3)
     return text.rstrip("0").rstrip(".") if "." in text and "×" not in text else text
 
 
-def _errors(axis, middle, data, low, high):
+def _errors(axis: "Axes", middle: Floats, data: Floats, low: Floats, high: Floats) -> None:
     """Bars from the lower to the upper end; they need not hold the value."""
     known = np.isfinite(data) & np.isfinite(low) & np.isfinite(high)
     axis.hlines(middle[known], low[known], high[known], color=colour("ink"), lw=1.2)
@@ -71,7 +80,7 @@ def _errors(axis, middle, data, low, high):
         axis.plot(end[known], middle[known], ls="none", marker="|", ms=6, mew=1.2, color=colour("ink"))
 
 
-def _write(axis, bars, place):
+def _write(axis: "Axes", bars: Sequence[Series], place: Ints) -> None:
     """The number of each single bar beyond its end, with room for it, and a word where there is none."""
     data, *ends = (each[: len(place)] for each in (bars[0].data, *bars[0].ends))
     low, high = (np.fmin.reduce([data, *ends]), np.fmax.reduce([data, *ends]))
@@ -88,8 +97,8 @@ def _write(axis, bars, place):
         if not np.isfinite(value):
             axis.annotate("no value", (0.0, row), **look)
         elif len(bars) == 1:
-            place = min(low[row], 0.0) if value < 0 else max(high[row], 0.0)
-            axis.annotate(_value_text(value, [end[row] for end in ends]), (place, row), **look)
+            tip = min(low[row], 0.0) if value < 0 else max(high[row], 0.0)
+            axis.annotate(_value_text(value, [float(end[row]) for end in ends]), (tip, row), **look)
     if len(bars) == 1:
         left, right = axis.get_xlim()
         wide = LETTER * max((len(text.get_text()) for text in axis.texts), default=0) * (right - left)

@@ -1,14 +1,20 @@
 """Scenes and drawings as figures, to scale."""
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from drivewright.errors import UnknownName
-from drivewright.scene import place
+from drivewright.scene import Drawing, Scene, place
 from drivewright.view.motion import path, pose_at, seen_from, step_back
 from drivewright.view.outlines import overall_size, thinned
 from drivewright.view.palette import TRACES, colour
 from drivewright.view.style import MUTED, arrange, figure_to_scale, legend_columns, nice_length, styled
 from drivewright.view.text import number, quantity, sentence, shown, with_unit
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 FINENESS = 4e-4  # curves become chords within this part of the whole picture: a twentieth of a millimetre on paper
 BAR_ROOM = 0.07  # room for the scale bar below a drawing, over its larger side
@@ -48,7 +54,7 @@ NAMES = {
 }
 
 
-def draw_scene(scene, frame=None, at=(0.0,), ghosts=()):
+def draw_scene(scene: Scene, frame: str | None = None, at: Sequence[float] = (0.0,), ghosts: Sequence[float] = ()) -> "Figure":
     """Figure of a scene for one observer (the first one by default).
 
     A panel for each phase 0 ... 1 of the cycle in `at`; the bodies' edges at the phases in `ghosts` lie faintly behind.
@@ -64,7 +70,7 @@ def draw_scene(scene, frame=None, at=(0.0,), ghosts=()):
     return figure
 
 
-def draw_thumbnail(scene, phase=0.3):
+def draw_thumbnail(scene: Scene, phase: float = 0.3) -> "Figure":
     """Small figure of a scene for its first observer: no axes, no names."""
     with styled():
         figure, axes = figure_to_scale(1)
@@ -175,12 +181,12 @@ def _legend(figure, scene):
         Line2D([], [], color=colour(TRACES[n % len(TRACES)]), ls=(0, (4, 2)), lw=1.2, label=sentence(trace.label))
         for n, trace in enumerate(scene.traces)
     ]
-    columns = legend_columns([key.get_label() for key in keys])
+    columns = legend_columns([str(key.get_label()) for key in keys])
     figure.legend(handles=keys, loc="lower left", ncols=columns, handlelength=1.6, borderaxespad=0.3)
     return -(-len(keys) // columns)
 
 
-def draw_drawing(drawing):
+def draw_drawing(drawing: Drawing) -> "Figure":
     """Figure of a flat part: its layers to one scale, a scale bar, its overall size."""
     factor, unit = _length()
     tolerance = FINENESS * float(np.ptp(_points(drawing), axis=0).max())

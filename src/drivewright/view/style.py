@@ -3,13 +3,22 @@
 import io
 import math
 import re
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.view.palette import colour
 from drivewright.view.text import literal, wrapped
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+    from matplotlib.figure import Figure
 
 WIDTH = 7.2  # inches: the text width of an A4 page with normal margins
 TITLE = {"ha": "left", "fontsize": 11, "fontweight": "bold"}
@@ -58,7 +67,7 @@ PARAMETERS = {
 
 
 @contextmanager
-def styled():
+def styled() -> Iterator[None]:
     """Context in which figures are made and written: our parameters over matplotlib's own defaults, whatever the user set elsewhere."""
     import matplotlib.style
 
@@ -66,7 +75,7 @@ def styled():
         yield
 
 
-def new_figure(height, title=""):
+def new_figure(height: float, title: str = "") -> "Figure":
     """An empty figure of the common width, laid out by itself; it belongs to no window and no global list."""
     from matplotlib.figure import Figure
 
@@ -77,7 +86,7 @@ def new_figure(height, title=""):
     return figure
 
 
-def figure_to_scale(count, title=""):
+def figure_to_scale(count: int, title: str = "") -> "tuple[Figure, list[Axes]]":
     """(figure, axes side by side) for pictures of one scale; `arrange` gives them their place when the extent is known."""
     from matplotlib.figure import Figure
 
@@ -86,7 +95,17 @@ def figure_to_scale(count, title=""):
     return figure, [figure.add_axes((0, 0, 1, 1), label=str(n)) for n in range(count)]
 
 
-def arrange(figure, axes, low, high, left=0.8, right=0.15, top=0.6, bottom=0.55, trim=False):
+def arrange(
+    figure: "Figure",
+    axes: "Sequence[Axes]",
+    low: Sequence[float] | Floats,
+    high: Sequence[float] | Floats,
+    left: float = 0.8,
+    right: float = 0.15,
+    top: float = 0.6,
+    bottom: float = 0.55,
+    trim: bool = False,
+) -> None:
     """Show the box low ... high (x, y) in all axes at one scale, in a figure as high as that needs; margins in inches.
 
     `trim` also makes it as narrow as that needs.  matplotlib's own layouts lose the room of a legend where the aspect is fixed.
@@ -103,7 +122,7 @@ def arrange(figure, axes, low, high, left=0.8, right=0.15, top=0.6, bottom=0.55,
     figure.suptitle(figure.get_suptitle(), x=0.012, y=1 - 0.06 / height, va="top", **TITLE)
 
 
-def svg(figure):
+def svg(figure: "Figure") -> str:
     """The figure as SVG text: the same input, the same bytes.
 
     Letters stay text (selectable, a third of the size) in DejaVu Sans, for which the figure is laid out; the fonts named after it
@@ -116,12 +135,12 @@ def svg(figure):
     return re.sub(r' d="([^"]+)"', lambda path: f' d="{_short(path[1])}"', text)
 
 
-def _short(path):
+def _short(path: str) -> str:
     """The commands of an SVG path with two decimals and no needless blanks."""
     return re.sub(r"\s*([MLCQz])\s*", r"\1", re.sub(r"(\.\d\d)\d+", r"\1", path)).strip()
 
 
-def angle_ticks(axis, low, high, most=9):
+def angle_ticks(axis: "Axis", low: float, high: float, most: int = 9) -> None:
     """Ticks of an angle in degrees at 5, 15, 30, 45, 90 ... where the range is a good part of a turn."""
     from matplotlib.ticker import MultipleLocator
 
@@ -131,7 +150,7 @@ def angle_ticks(axis, low, high, most=9):
         axis.set_major_locator(MultipleLocator(step))
 
 
-def places(data):
+def places(data: ArrayLike) -> tuple[NDArray[Any], list[str] | None]:
     """(numbers on an axis, names of the places 0, 1, 2 ... where the column holds texts, else None); texts come in their own order."""
     data = np.asarray(data)
     if data.dtype.kind in "fiub":
@@ -141,29 +160,29 @@ def places(data):
     return np.array([place[name] for name in data.tolist()], int), [str(name) for name in names]
 
 
-def show_places(axis, numbers, names):
+def show_places(axis: "Axis", numbers: ArrayLike, names: Sequence[str] | None) -> None:
     """Ticks of an axis (xaxis, yaxis): names at their places, or whole numbers for whole numbers."""
     if names is not None:
-        turned = {"rotation": 40, "ha": "right", "rotation_mode": "anchor"} if axis.axis_name == "x" and are_turned(names) else {}
+        turned = {"rotation": 40, "ha": "right", "rotation_mode": "anchor"} if axis is axis.axes.xaxis and are_turned(names) else {}
         each = -(-len(names) // MOST_NAMES)
         axis.set_ticks(range(0, len(names), each), [literal(wrapped(name, 28)) for name in names[::each]], **turned)
     elif np.asarray(numbers).dtype.kind in "iu":
         whole_ticks(axis)
 
 
-def are_turned(names):
+def are_turned(names: Sequence[str]) -> bool:
     """Whether names under an axis are too long to stand beside each other."""
     return sum(len(name) + 2 for name in names) > TURNED
 
 
-def whole_ticks(axis):
+def whole_ticks(axis: "Axis") -> None:
     """Ticks at whole numbers only."""
     from matplotlib.ticker import MaxNLocator
 
     axis.set_major_locator(MaxNLocator("auto", steps=[1, 2, 5, 10], integer=True, min_n_ticks=1))
 
 
-def legend_above(axis, handles=None, room=84):
+def legend_above(axis: "Axes", handles: "Sequence[Artist] | None" = None, room: int = 84) -> None:
     """The legend in rows of `room` letters above an axis, from its left end on; none without anything to tell."""
     handles = axis.get_legend_handles_labels()[0] if handles is None else handles
     if handles:
@@ -174,17 +193,17 @@ def legend_above(axis, handles=None, room=84):
             borderaxespad=0.1,
             handlelength=1.4,
             columnspacing=1.2,
-            ncols=legend_columns([handle.get_label() for handle in handles], room),
+            ncols=legend_columns([str(handle.get_label()) for handle in handles], room),
         )
 
 
-def legend_columns(labels, room=92):
+def legend_columns(labels: Sequence[str], room: int = 92) -> int:
     """Columns of a legend so that its rows, even in length, stay within `room` letters: the figure's width at the legend's size."""
     rows = max(1, math.ceil(sum(len(label) + 6 for label in labels) / room))
     return max(1, math.ceil(len(labels) / rows))
 
 
-def nice_length(largest):
+def nice_length(largest: float) -> float:
     """The largest of 1, 2, 5 times a power of ten up to `largest`."""
     power = 10.0 ** math.floor(math.log10(largest))
     return next(step * power for step in (5, 2, 1) if step * power <= largest * (1 + 1e-12))

@@ -5,6 +5,7 @@ import re
 import textwrap
 
 from drivewright.digits import EXACT, last_place, to_place
+from drivewright.result import Value
 from drivewright.units import BY_UNIT, display
 
 SUPERSCRIPT = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
@@ -12,7 +13,7 @@ UNSPOKEN = {"J": "energy"}  # what results have and nobody writes into a spec
 THIN, SOLID = "\u202f", "\u00a0"
 
 
-def number(value, digits=EXACT):
+def number(value: float, digits: int = EXACT) -> str:
     """`value` to `digits` significant digits: thin spaces from 10 000 on, powers of ten outside 0.001 ... 1e6."""
     value = float(value)
     if not math.isfinite(value):
@@ -28,38 +29,42 @@ def number(value, digits=EXACT):
     return _signed(text)
 
 
-def _powered(mantissa, exponent):
+def _powered(mantissa: str, exponent: int) -> str:
     return f"{mantissa}×10{str(exponent).translate(SUPERSCRIPT)}"
 
 
-def _signed(text):
+def _signed(text: str) -> str:
     """With the minus sign of print."""
     return text.replace("-", "−", 1) if text.startswith("-") else text
 
 
-def numbers(value, low, high, digits=EXACT):
+def numbers(value: float, low: float | None, high: float | None, digits: int = EXACT) -> tuple[str, str, str]:
     """(value, low, high) as texts with the digits that the interval supports, all with the same power of ten.
 
     The bounds are "" where there are none, or where they say nothing beyond the printed digits: then the value stands as if exact.
     """
     place = last_place(value, low, high, digits)
-    if place is None:
+    if place is None or low is None or high is None:
         return number(value, digits), "", ""
     exponent = math.floor(math.log10(max(abs(value), abs(low), abs(high))))
+    return _to_place(value, place, exponent), _to_place(low, place, exponent), _to_place(high, place, exponent)
+
+
+def _to_place(value: float, place: int, exponent: int) -> str:
+    """A number rounded to the power of ten `place`, in powers of ten where `exponent`, that of the largest beside it, asks for them."""
     if -3 <= exponent < 6:
-        texts = [to_place(each, place) for each in (value, low, high)]
-        return tuple(_signed(_grouped(text)) for text in texts)
-    texts = [to_place(each / 10.0**exponent, min(place - exponent, 0)) for each in (value, low, high)]
-    return tuple("0" if not text.strip("-0.") else _signed(_powered(text, exponent)) for text in texts)
+        return _signed(_grouped(to_place(value, place)))
+    text = to_place(value / 10.0**exponent, min(place - exponent, 0))
+    return _signed(_powered(text, exponent)) if text.strip("-0.") else "0"
 
 
-def _grouped(text):
+def _grouped(text: str) -> str:
     """Thin spaces between thousands from 10 000 on."""
     whole, point, rest = text.partition(".")
     return f"{int(whole):,}".replace(",", THIN) + point + rest if len(whole.lstrip("-")) > 4 else text
 
 
-def unit_text(unit):
+def unit_text(unit: str) -> str:
     """A unit as printed: 'm/s^2' -> 'm/s²', 'deg' -> '°', none for a pure number."""
     if unit in ("-", "", "1"):
         return ""
@@ -67,26 +72,26 @@ def unit_text(unit):
     return re.sub(r"\bdeg\b", "°", raised).replace(" ", SOLID)
 
 
-def shown(unit):
+def shown(unit: str) -> tuple[float, str]:
     """(factor, printed unit) that turn an SI number into the one people read."""
     factor, text = display(unit)
     return factor, unit_text(text)
 
 
-def with_unit(text, unit):
+def with_unit(text: str, unit: str) -> str:
     """A number's text and its printed unit; a degree sign stands close, and infinity has no unit."""
     if text in ("n/a", "∞", "−∞"):
         return text
     return f"{text}{unit}" if unit.startswith("°") or not unit else f"{text}{SOLID}{unit}"
 
 
-def quantity(value, unit, digits=EXACT):
+def quantity(value: float, unit: str, digits: int = EXACT) -> str:
     """An SI number in the unit people read."""
     factor, text = shown(unit)
     return with_unit(number(value * factor, digits), text)
 
 
-def uncertain(value, unit, low, high, digits=EXACT):
+def uncertain(value: float, unit: str, low: float | None, high: float | None, digits: int = EXACT) -> str:
     """The same with its interval, '10.2 (8.1 to 12.4) mm'; as `quantity` where the interval says nothing."""
     factor, text = shown(unit)
     below, above = (None if end is None else end * factor for end in (low, high))
@@ -94,28 +99,28 @@ def uncertain(value, unit, low, high, digits=EXACT):
     return with_unit(f"{middle} ({ends[0]} to {ends[1]})" if ends[0] else middle, text)
 
 
-def interval_hint(value):
+def interval_hint(value: Value) -> str:
     """How the interval of a `result.Value` was made, '95 %, ensemble'; "" where it has none."""
     made = f"95{SOLID}%, {value.interval}" if value.interval else ""
     return made if value.settled else ", ".join(filter(None, (made, "not settled")))
 
 
-def sentence(text):
+def sentence(text: str) -> str:
     """First letter large, the rest untouched; a dotted name at the start stays as it is."""
     return text if re.match(r"\w+[._]\w", text) else text[:1].upper() + text[1:]
 
 
-def axis_label(meaning, unit, width=60):
+def axis_label(meaning: str, unit: str, width: int = 60) -> str:
     """'Lift of the roller [mm]', wrapped; `unit` as printed."""
     return textwrap.fill(sentence(meaning) + (f" [{unit}]" if unit else ""), width)
 
 
-def literal(text):
+def literal(text: object) -> str:
     """A text of the user's for matplotlib, which would take what stands between two dollar signs for a formula."""
     return str(text).replace("$", r"\$")
 
 
-def wrapped(name, width=32):
+def wrapped(name: str, width: int = 32) -> str:
     """A long dotted name on several lines, broken behind dots, underscores, hyphens and blanks where it has some."""
     pieces = [piece[i : i + width] for piece in re.findall(r"[^._ -]*[._ -]|[^._ -]+", name) for i in range(0, len(piece), width)]
     lines = [""]
@@ -126,12 +131,12 @@ def wrapped(name, width=32):
     return "\n".join(line.rstrip() for line in lines)
 
 
-def dimension(unit):
+def dimension(unit: str) -> str:
     """Name of what an SI unit measures: 'm' -> 'length'; 'value' where it has no name."""
     return BY_UNIT[unit].name if unit in BY_UNIT else UNSPOKEN.get(unit, "value")
 
 
-def parts_of_label(label):
+def parts_of_label(label: str) -> tuple[str, str]:
     """(meaning, unit) of an axis label, so that it can be wrapped anew."""
     meaning, bracket, unit = label.partition(" [")
     return (meaning, unit.rstrip("]")) if bracket else (label, "")

@@ -39,6 +39,6 @@ def compute_roller_loads(flanks: CamFlanks, torque: float, modulus: float) -> Ro
         load = np.where(leverage > 0, abs(torque) / leverage, np.nan)
     force = load * flanks.integrate_along_lines(np.ones_like(flanks.contact.arm))[side]
     curvature = np.where(flanks.on_cam[side], flanks.contact.relative_curvature[side], np.nan)
-    pressure = hertz.line_contact(load[:, None], 1.0, 1.0 / curvature, modulus).pressure
+    pressure = np.asarray(hertz.line_contact(load[:, None], 1.0, 1.0 / curvature, modulus).pressure)
     worst = np.where(np.isfinite(pressure), pressure, -np.inf).max(axis=(0, 2))
     return RollerLoads(load, force, pressure, np.where(np.isfinite(worst), worst, np.nan))

@@ -1,11 +1,31 @@
 """Every body of a pin-wheel indexer condensed to the loads on its interfaces, a `Substructure`."""
 
+from collections.abc import Mapping, Sequence
+from typing import TypeAlias
+
 import numpy as np
 
+from drivewright._typing import Floats
+from drivewright.indexing.drivetrain import Drivetrain, SplitShaft
+from drivewright.indexing.pin_wheel import PinWheel
 from drivewright.indexing.solid import meshes
+from drivewright.indexing.solid.parts import CamBody, ShaftBody, WheelBody
 from drivewright.indexing.stiffness.layout import bending_flexibility, torsion_flexibility
+from drivewright.scene import Outline
 from drivewright.solids.elastic import FreeBody
-from drivewright.solids.substructures import ALL, NO_AXIAL, PLANAR, InterfaceLoad, elastic_substructure, radial_loads, rigid_substructure
+from drivewright.solids.substructures import (
+    ALL,
+    NO_AXIAL,
+    PLANAR,
+    InterfaceLoad,
+    Substructure,
+    elastic_substructure,
+    radial_loads,
+    rigid_substructure,
+)
+
+ContactKey: TypeAlias = tuple[int, int]  # position, number of the contact
+Strip: TypeAlias = tuple[complex, complex]  # point [m] on the profile, normal
 
 HALVES = 2
 EULER = 0.5772156649015329
@@ -15,13 +35,20 @@ TURN_RADIUS = 0.01  # m: at which the rotation of a gear's seat counts as a disp
 # ----------------------------------------------------------------------------------------------------------------------- cam
 
 
-def cam(outline, body, holes, strips, sigma, fineness):
+def cam(
+    outline: Outline | None,
+    body: CamBody | None,
+    holes: Sequence[complex],
+    strips: Mapping[ContactKey, Strip],
+    sigma: float,
+    fineness: float,
+) -> Substructure:
     """Condensed cam in its own frame: ("seat", side, axis) at the complex hole centres, ("contact", *key) of strips {key: (point, normal)}.
 
     point complex [m] on the profile, normal the direction of the displacement, out of the cam.
     """
     places = cam_places(holes, strips)
-    if body is None:
+    if body is None or outline is None:
         return rigid_substructure(places, PLANAR)
     mesh = meshes.cam_mesh(outline, body, holes, sigma, fineness)
     free = FreeBody(mesh, HALVES * body.modulus, body.poisson, dirichletz="middle")  # so stiff, the half carries the whole force
@@ -30,7 +57,8 @@ def cam(outline, body, holes, strips, sigma, fineness):
     return elastic_substructure(free, functionals, places, PLANAR, "the cam")
 
 
-def cam_places(holes, strips):
+def cam_places(holes: Sequence[complex], strips: Mapping[ContactKey, Strip]) -> list[InterfaceLoad]:
+    """Interface loads of a cam: its two seats along x and y, then each contact along its normal."""
     seats = [place for side, c in enumerate(holes) for place in radial_loads(("seat", side), (c.real, c.imag, 0.0))]
     contacts = [
         InterfaceLoad(("contact", *key), np.array([n.real, n.imag, 0.0]), np.array([0.0, 0.0, (p.conjugate() * n).imag]))
@@ -39,7 +67,7 @@ def cam_places(holes, strips):
     return seats + contacts
 
 
-def dent(sigma, depth, body):
+def dent(sigma: float, depth: float, body: CamBody) -> float:
     """Approach [m/N] of a Gaussian strip on a half-space of the cam's width b and a point at `depth` under it, mean over the strip:
 
     2 (1 - nu^2)/(pi E b) [ln(depth/sigma) + gamma/2 - 1/(2 (1 - nu))],
@@ -53,13 +81,13 @@ def dent(sigma, depth, body):
 # --------------------------------------------------------------------------------------------------------------------- shaft
 
 
-def shaft(drive, body, throws, fineness):
+def shaft(drive: Drivetrain, body: ShaftBody | None, throws: Sequence[complex], fineness: float) -> Substructure:
     """Condensed split shaft, its axis at the origin and its crank pins at the complex `throws`.
 
     ("support", end, axis), ("crank", j, axis), ("gear", axis), and ("gear", "turn"): the rotation of the gear's seat times TURN_RADIUS.
     """
     places = shaft_places(drive.shaft, throws)
-    if body is None:
+    if body is None or drive.shaft is None:
         return rigid_substructure(places, NO_AXIAL)._replace(flexibility=beam_flexibility(drive.shaft, places))
     mesh, faces = meshes.shaft_mesh(drive.shaft, body, throws, fineness)
     free = FreeBody(mesh, drive.shaft.modulus, drive.shaft.poisson)
@@ -68,7 +96,7 @@ def shaft(drive, body, throws, fineness):
     return elastic_substructure(free, functionals, places, NO_AXIAL, "the split shaft")
 
 
-def shaft_places(shaft, throws):
+def shaft_places(shaft: SplitShaft | None, throws: Sequence[complex]) -> list[InterfaceLoad]:
     """A rigid shaft without measures stands on its front support, as in the reduced model."""
     supports, cams, gear = (shaft.supports, shaft.cams, shaft.gear) if shaft else ((0.0, 1.0), [0.0] * len(throws), 0.0)
     places = [place for end, z in enumerate(supports) for place in radial_loads(("support", end), (0.0, 0.0, z))]
@@ -78,7 +106,7 @@ def shaft_places(shaft, throws):
     return [*places, InterfaceLoad(("gear", "turn"), np.zeros(3), np.array([0.0, 0.0, TURN_RADIUS]))]
 
 
-def beam_flexibility(shaft, places):
+def beam_flexibility(shaft: SplitShaft | None, places: Sequence[InterfaceLoad]) -> Floats:
     """(n, n) of the reduced model's beam and rod: bending against the supports, torsion against the gear."""
     found = np.zeros((len(places), len(places)))
     if shaft is None:
@@ -99,14 +127,16 @@ def beam_flexibility(shaft, places):
 # --------------------------------------------------------------------------------------------------------------------- wheel
 
 
-def wheel(drive, wheel, body, width, touched, fineness):
+def wheel(
+    drive: Drivetrain, wheel: PinWheel, body: WheelBody | None, width: float | None, touched: Sequence[tuple[int, int]], fineness: float
+) -> Substructure:
     """Condensed pin wheel with pin 0 on the x axis: ("pin", k, j, axis) for `touched` (k, j), and ("flange", motion) of its output.
 
     Rotations of the flange are times the radius of the pin circle.
     """
     heights = drive.shaft.cams if drive.shaft else None
     radius = wheel.circle_radius
-    if body is None:
+    if body is None or heights is None or width is None:
         return rigid_substructure(wheel_places(wheel, np.zeros(wheel.pins), touched, 0.0), PLANAR)
     places = wheel_places(wheel, heights, touched, meshes.flange_height(body, heights))
     free = FreeBody(meshes.wheel_mesh(wheel, body, heights, width, fineness), body.modulus, body.poisson)
@@ -116,7 +146,10 @@ def wheel(drive, wheel, body, width, touched, fineness):
     return elastic_substructure(free, functionals, places, ALL, "the pin wheel")
 
 
-def wheel_places(wheel, heights, touched, flange):
+def wheel_places(
+    wheel: PinWheel, heights: Sequence[float] | Floats, touched: Sequence[tuple[int, int]], flange: float
+) -> list[InterfaceLoad]:
+    """Interface loads of the wheel: each touched pin (k, j) at the height of cam j along x and y, then the motions of the flange."""
     middles = wheel.circle_radius * np.exp(2j * np.pi * np.arange(wheel.pins) / wheel.pins)
     places = [place for k, j in touched for place in radial_loads(("pin", k, j), (middles[k].real, middles[k].imag, heights[j]))]
     places += [InterfaceLoad(("flange", n), along, np.cross((0.0, 0.0, flange), along)) for n, along in enumerate(np.eye(3))]

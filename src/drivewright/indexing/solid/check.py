@@ -9,22 +9,30 @@ already holds that dent, so the dent of the same strip on a half-space, down to 
 flexibility; the strip's width then drops out.  The pin's displacement is the mean over its skin where the cam touches, without a dent.
 """
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from time import perf_counter
-from typing import Literal
+from typing import Literal, TypeAlias
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
-from drivewright.indexing.drivetrain import SIDES
+from drivewright.indexing.contacts import CamContacts
+from drivewright.indexing.drivetrain import SIDES, Drivetrain
+from drivewright.indexing.pin_wheel import PinWheel
 from drivewright.indexing.solid import bodies as of
-from drivewright.indexing.solid.parts import check
+from drivewright.indexing.solid.parts import CamBody, Solids, check
 from drivewright.indexing.solid.springs import Position, springs, touched
 from drivewright.indexing.stiffness import TorsionalStiffness, solve_torsional_stiffness
 from drivewright.indexing.stiffness.assembly import cam_phases
-from drivewright.solids.coupling import InterfaceSpring, functional_offsets, solve_coupled
+from drivewright.result import Table
+from drivewright.solids.coupling import BodyName, CoupledSolution, InterfaceSpring, functional_offsets, solve_coupled
 from drivewright.solids.deformation import DisplacedSurface, displaced_table, exaggeration_for, with_mirror_images
 from drivewright.solids.elastic import superposed_field
+from drivewright.solids.substructures import Substructure
+
+Bodies: TypeAlias = dict[BodyName, Substructure]
 
 HALVES = (((1, 1, 1), (1, 1, 1)), ((1, 1, -1), (1, 1, -1)))  # the upper half of a cam, and its image in the middle plane
 DRAWN = 0.03  # the largest displacement is drawn as about this part of the cam
@@ -44,35 +52,35 @@ class SolidStiffness:
     surface: the `DisplacedSurface` of cam 0, displacements (p, n, 3) [m]; None without a solid cam.
     """
 
-    theta: np.ndarray
+    theta: Floats
     torque: float
-    secant: np.ndarray
+    secant: Floats
     reduced: TorsionalStiffness
-    shares: dict
-    astray: np.ndarray
-    unknowns: dict
+    shares: dict[str, Floats]
+    astray: Floats
+    unknowns: dict[str, int]
     seconds: float
     surface: DisplacedSurface | None = None
 
     @property
-    def ratio(self):
+    def ratio(self) -> Floats:
         """Stiffness with solids over that of the reduced model."""
         return self.secant / self.reduced.secant
 
 
 def solid_stiffness(
-    wheel,
-    drive,
-    solids,
-    theta,
-    contacts,
-    torque,
+    wheel: PinWheel,
+    drive: Drivetrain,
+    solids: Solids,
+    theta: ArrayLike,
+    contacts: Sequence[CamContacts],
+    torque: float,
     *,
-    cams=2,
+    cams: int = 2,
     model: Literal["unilateral", "bonded"] = "unilateral",
-    fineness=1.0,
-    strip=STRIP,
-):
+    fineness: float = 1.0,
+    strip: float = STRIP,
+) -> SolidStiffness:
     """`SolidStiffness` of a `PinWheel`, its `Drivetrain` and `Solids` at the angles theta (p,) [rad] under a torque [N m].
 
     contacts: `CamContacts` of cam 0, one a position, as for the reduced model; fineness: factor on all element sizes; strip: width sigma of
@@ -92,16 +100,18 @@ def solid_stiffness(
     astray = _spread(theta, {i: each for i, (_, _, each) in found.items()})
     unknowns = {name: bodies[key].unknowns for name, key in (("cam", ("cam", 0)), ("shaft", ("shaft", 0)), ("wheel", ("wheel",)))}
     surface = None if solids.cam is None else _deformed(bodies, {i: each[0] for i, each in found.items()}, len(theta))
-    return SolidStiffness(theta, torque, 1 / sum(shares.values()), reduced, shares, astray, unknowns, perf_counter() - started, surface)
+    return SolidStiffness(
+        theta, torque, 1 / np.sum(list(shares.values()), axis=0), reduced, shares, astray, unknowns, perf_counter() - started, surface
+    )
 
 
-def _spread(theta, values):
+def _spread(theta: Floats, values: Mapping[int, float]) -> Floats:
     return np.array([values.get(i, np.nan) for i in range(len(theta))])
 
 
-def _position(wheel, reduced, contacts, i):
+def _position(wheel: PinWheel, reduced: TorsionalStiffness, contacts: Sequence[CamContacts], i: int) -> Position:
     here = contacts[i]
-    turned = np.angle(np.mean(here.centre * np.exp(-2j * np.pi * here.pin / wheel.pins)))
+    turned = float(np.angle(np.mean(here.centre * np.exp(-2j * np.pi * here.pin / wheel.pins))))
     return Position(
         wheel.sense * reduced.theta[i],
         turned,
@@ -115,19 +125,29 @@ def _position(wheel, reduced, contacts, i):
     )
 
 
-def condensed(wheel, drive, solids, places, cams, fineness=1.0, strip=STRIP):
+def condensed(
+    wheel: PinWheel,
+    drive: Drivetrain,
+    solids: Solids,
+    places: Mapping[int, Position],
+    cams: int,
+    fineness: float = 1.0,
+    strip: float = STRIP,
+) -> Bodies:
     """{("cam", j), ("shaft", side), ("wheel",): Substructure} for all positions at once."""
     pairs = sorted(set().union(*(touched(place)[0] for place in places.values())))
     width = solids.cam.thickness if solids.cam else None
     throws = [complex(c) for c in wheel.eccentricity * cam_phases(cams)]
     shaft = of.shaft(drive, solids.shaft, throws, fineness)
     made = _cams(wheel, drive, solids.cam, places, cams, fineness, strip * wheel.pin_radius)
-    found = {("cam", j): body for j, body in enumerate(made)}
+    found: Bodies = {("cam", j): body for j, body in enumerate(made)}
     found |= {("shaft", side): shaft for side in (0, 1)}
     return found | {("wheel",): of.wheel(drive, wheel, solids.wheel, width, pairs, fineness)}
 
 
-def _cams(wheel, drive, body, places, cams, fineness, sigma):
+def _cams(
+    wheel: PinWheel, drive: Drivetrain, body: CamBody | None, places: Mapping[int, Position], cams: int, fineness: float, sigma: float
+) -> list[Substructure]:
     """Condensed cams; half a turn brings the holes back on each other, so that two opposite cams are one body with its seats exchanged."""
     strips = {
         (i, c): (complex(point), complex(place.contacts.normal[c]))
@@ -145,23 +165,25 @@ def _cams(wheel, drive, body, places, cams, fineness, sigma):
     return found + [_exchanged(body) for body in found[: cams - half]]
 
 
-def _touching_point(wheel, place, c):
+def _touching_point(wheel: PinWheel, place: Position, c: int) -> complex:
     """Where contact c touches, seen from cam 0."""
     here = place.contacts
     return here.centre[c] - wheel.pin_radius * here.normal[c] - wheel.eccentricity * np.exp(1j * place.crank)
 
 
-def _undented(body, dent):
+def _undented(body: Substructure, dent: float) -> Substructure:
     taken = [dent if name[0] == "contact" else 0.0 for name in body.number]
     return body._replace(flexibility=body.flexibility - np.diag(taken))
 
 
-def _exchanged(body):
+def _exchanged(body: Substructure) -> Substructure:
     """The body with its seats 0 and 1 named the other way round."""
     return body._replace(number={("seat", 1 - name[1], name[2]) if name[0] == "seat" else name: n for name, n in body.number.items()})
 
 
-def _coupled(bodies, drive, solids, wheel, place, number, model, torque):
+def _coupled(
+    bodies: Bodies, drive: Drivetrain, solids: Solids, wheel: PinWheel, place: Position, number: int, model: str, torque: float
+) -> tuple[CoupledSolution, dict[str, float], float]:
     """(`CoupledSolution`, {group: compliance [rad/(N m)]}, part of the pins' force that is astray) of one position."""
     links = list(springs(drive, place, number, model == "bonded", solids.wheel is not None))
     if solids.wheel is not None:  # its output does not move along the axis, nor tilt
@@ -172,15 +194,15 @@ def _coupled(bodies, drive, solids, wheel, place, number, model, torque):
     return found, _shares(bodies, drive, links, found, torque), wrong.max() / np.abs(pins).max()
 
 
-def _shares(bodies, drive, links, found, torque):
+def _shares(bodies: Bodies, drive: Drivetrain, links: Sequence[InterfaceSpring], found: CoupledSolution, torque: float) -> dict[str, float]:
     """Work of springs and bodies over torque^2; of the output shaft, in series, its compliance."""
-    shares = dict.fromkeys(GROUPS, 0.0)
+    shares: dict[str, float] = dict.fromkeys(GROUPS, 0.0)
     for link, force, strain in zip(links, found.forces, found.strains, strict=True):
         shares[link.group] += force * strain / torque**2
     start, _ = functional_offsets(bodies)
     for name, body in bodies.items():
         loads = found.loads[start[name] : start[name] + len(body.flexibility)]
-        shares[name[0]] += loads @ body.flexibility @ loads / torque**2
+        shares[name[0]] += float(loads @ body.flexibility @ loads) / torque**2
     shares["output"] += 0.0 if drive.wheel_torsion is None else 1 / drive.wheel_torsion
     return shares
 
@@ -188,9 +210,10 @@ def _shares(bodies, drive, links, found, torque):
 # ------------------------------------------------------------------------------------------------------------------- surface
 
 
-def _deformed(bodies, found, count):
+def _deformed(bodies: Bodies, found: Mapping[int, CoupledSolution], count: int) -> DisplacedSurface:
     """`DisplacedSurface` of cam 0, displacements (count, n, 3) [m] relative to its middle, mirrored in its middle plane."""
     body = bodies[("cam", 0)]
+    assert body.free is not None  # a solid cam has its mesh
     start, _ = functional_offsets(bodies)
     at = slice(start[("cam", 0)], start[("cam", 0)] + len(body.flexibility))
     fields = [superposed_field(body.fields, each.loads[at]) for each in found.values()]
@@ -201,9 +224,14 @@ def _deformed(bodies, found, count):
     return whole._replace(displacements=displacements)
 
 
-def surface_table(solid, position, name="solid_cam", title="Deformed cam", exaggeration=None):
+def surface_table(
+    solid: SolidStiffness, position: int, name: str = "solid_cam", title: str = "Deformed cam", exaggeration: float | None = None
+) -> Table:
     """Table of the deformed cam 0 at one position for a plot of style "mesh": three rows a triangle, without its motion as a whole."""
-    surface, displacement = solid.surface, solid.surface.displacements[position]
+    surface = solid.surface
+    if surface is None:
+        raise InputError("solid check: the cam is rigid and has no deformed surface; give it as a solid.")
+    displacement = surface.displacements[position]
     factor = exaggeration or exaggeration_for(np.ptp(surface.points[:, 0]), displacement, DRAWN, (1,))
     drawn = (0, "across"), (1, "height"), (2, "along the axis")
     return displaced_table(name, title, surface, displacement, factor, drawn, ((0, "across, unloaded"), (1, "height, unloaded")))

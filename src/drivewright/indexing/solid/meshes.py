@@ -1,14 +1,19 @@
 """Meshes [mm] of cam, split shaft and pin wheel, second order, with named faces whose areas are checked (extra `fe`)."""
 
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from drivewright.errors import SolverError
-from drivewright.scene import Part, Prism, circle
+from drivewright.indexing.drivetrain import SplitShaft
+from drivewright.indexing.pin_wheel import PinWheel
+from drivewright.indexing.solid.parts import CamBody, ShaftBody, WheelBody
+from drivewright.scene import Outline, Part, Prism, circle
 from drivewright.solids.cad import MM, cad_solid, frustum_solid
-from drivewright.solids.engine import fe_module, translated_errors
+from drivewright.solids.engine import EngineObject, fe_module, translated_errors
 from drivewright.solids.meshing import PURPOSE, check_boundary_measures, solid_mesh
+from drivewright.solids.substructures import InterfaceName
 from drivewright.solids.turning import Band, Frustum, split_rings
 
 FLAT = 1e-4  # mm: a face no higher than this is a plane across the axis
@@ -20,7 +25,7 @@ GRADING = 0.4  # of the elements, from fine to coarse
 AREA = 0.02  # relative error of a named area that is refused: a face missed would be a load missed, silently
 
 
-def cam_mesh(outline, cam, holes, sigma, fineness=1.0):
+def cam_mesh(outline: Outline, cam: CamBody, holes: Sequence[complex], sigma: float, fineness: float = 1.0) -> EngineObject:
     """Half a cam, 0 <= z <= thickness/2; faces "middle" (z = 0), "profile", "seat0", "seat1" of the complex hole centres."""
     circles = [circle((c.real, c.imag), d / 2) for c, d in _holes(cam, holes)]
     shape = cad_solid(Part("cam", (Prism(outline, tuple(circles), 0.0, cam.thickness / 2),)), CAM_TOLERANCE)
@@ -53,10 +58,12 @@ class ShaftPiece(NamedTuple):
 
     frustum: Frustum
     axis: complex
-    place: tuple | None
+    place: InterfaceName | None
 
 
-def shaft_mesh(shaft, body, throws, fineness=1.0):
+def shaft_mesh(
+    shaft: SplitShaft, body: ShaftBody, throws: Sequence[complex], fineness: float = 1.0
+) -> tuple[EngineObject, dict[InterfaceName, str]]:
     """(mesh, {place: name of its faces}): the split shaft with its crank pins at the complex `throws`.
 
     Places: ("support", end), ("crank", j), ("gear",).
@@ -68,7 +75,8 @@ def shaft_mesh(shaft, body, throws, fineness=1.0):
         shape = occ.Glue([frustum_solid(occ, piece.frustum, "the split shaft", piece.axis) for piece in pieces])
     fine = fineness * PER_SHAFT * MM * min(piece.frustum.end for piece in pieces) / 2
     for face in shape.faces:
-        face.name = names.get(_seat_under(face, pieces), "rest")
+        place = _seat_under(face, pieces)
+        face.name = "rest" if place is None else names[place]
         if face.name != "rest":
             face.maxh = fine
     mesh = _generated(shape, fineness * MM * max(piece.frustum.start for piece in pieces) / 4, "the split shaft")
@@ -80,14 +88,14 @@ def shaft_mesh(shaft, body, throws, fineness=1.0):
     return mesh, names
 
 
-def shaft_seats(shaft, body):
+def shaft_seats(shaft: SplitShaft, body: ShaftBody) -> dict[InterfaceName, Band]:
     """{place: Band} of all seats on the split shaft."""
-    seats = {("support", end): Band(z, body.support_width) for end, z in enumerate(shaft.supports)}
+    seats: dict[InterfaceName, Band] = {("support", end): Band(z, body.support_width) for end, z in enumerate(shaft.supports)}
     seats |= {("crank", j): Band(z, body.crank_width) for j, z in enumerate(shaft.cams)}
     return seats | {("gear",): Band(shaft.gear, body.gear_width)}
 
 
-def shaft_pieces(shaft, body, throws):
+def shaft_pieces(shaft: SplitShaft, body: ShaftBody, throws: Sequence[complex]) -> list[ShaftPiece]:
     """The split shaft as `ShaftPiece`s between all ends of sections and edges of seats."""
     seats = shaft_seats(shaft, body)
     begin, sections = _extended(shaft, seats.values())
@@ -95,7 +103,9 @@ def shaft_pieces(shaft, body, throws):
     return [_shaft_piece(frustum, begin, seats, body, throws) for frustum in split_rings(sections, edges)]
 
 
-def _shaft_piece(frustum, begin, seats, body, throws):
+def _shaft_piece(
+    frustum: Frustum, begin: float, seats: Mapping[InterfaceName, Band], body: ShaftBody, throws: Sequence[complex]
+) -> ShaftPiece:
     low, high = begin + frustum.low, begin + frustum.high
     place = next((place for place, band in seats.items() if band.holds(low, high)), None)
     if place is not None and place[0] == "crank":
@@ -113,7 +123,7 @@ def _extended(shaft, bands):
     return -before, sections[sections[:, 0] > 0]
 
 
-def _seat_under(face, pieces):
+def _seat_under(face: EngineObject, pieces: Sequence[ShaftPiece]) -> InterfaceName | None:
     """The place whose seat a face is, None across the axis and in a bore."""
     low, high = face.bounding_box
     if high[2] - low[2] < FLAT:
@@ -123,7 +133,7 @@ def _seat_under(face, pieces):
     return piece.place if outside else None
 
 
-def wheel_mesh(wheel, body, cams, width, fineness=1.0):
+def wheel_mesh(wheel: PinWheel, body: WheelBody, cams: Sequence[float], width: float, fineness: float = 1.0) -> EngineObject:
     """The rings with their pins, pin 0 on the x axis; faces "pin<k>_<j>" where cam j at z = cams[j] touches, "flange"."""
     occ = fe_module("netgen.occ", PURPOSE)
     cuts = _pin_cuts(body, cams, width)
@@ -183,7 +193,7 @@ def _cylinder(occ, centre, radius, low, high):
     return occ.Cylinder(occ.Pnt(MM * centre.real, MM * centre.imag, MM * low), occ.Z, r=MM * radius, h=MM * (high - low))
 
 
-def flange_height(body, cams):
+def flange_height(body: WheelBody, cams: Sequence[float]) -> float:
     """Height of the outer face of the last ring, away from the cams."""
     low, high = body.rings[-1]
     return high if (low + high) / 2 > np.mean(cams) else low

@@ -8,6 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright.errors import InputError
+from drivewright.indexing.drivetrain import Drivetrain
+from drivewright.indexing.pin_wheel import PinWheel
 
 STEEL, POISSON = 206e9, 0.3
 
@@ -58,37 +60,41 @@ class Solids(NamedTuple):
     wheel: WheelBody | None = None
 
 
-def usual_wheel(wheel, drive, width, ends=2):
+def usual_wheel(wheel: PinWheel, drive: Drivetrain, width: float, ends: int = 2) -> WheelBody:
     """A `WheelBody` where nothing is said, for cams of `width` [m].
 
     Rings three pin radii thick, a quarter of the width away from the cams; with ends=2 joined by a drum two pin radii thick on that side of
     the pins where the cams are not, half a pin radius away from them; with ends=1 only the one behind the last cam.
     """
+    if drive.shaft is None:
+        raise InputError("solid check: a solid wheel stands at the heights of the split shaft; give the drive train one.")
     radius, pin, way = wheel.circle_radius, wheel.pin_radius, wheel.sense
     near = radius + way * (2 * wheel.eccentricity + 0.5 * pin)
-    drum = tuple(2 * r for r in sorted((near, near + 2 * way * pin)))
+    inner, outer = sorted((near, near + 2 * way * pin))
+    drum = (2 * inner, 2 * outer)
     bore, rim = (2 * r for r in sorted((radius - 2.5 * way * pin, near + 2 * way * pin)))
     first, last = min(drive.shaft.cams) - 0.75 * width, max(drive.shaft.cams) + 0.75 * width
     rings = ((first - 3 * pin, first), (last, last + 3 * pin))[2 - ends :]
     return WheelBody(rings, bore, rim, drum, drum if ends == 2 else None)
 
 
-def check(solids, wheel, drive, cams):
+def check(solids: Solids, wheel: PinWheel, drive: Drivetrain, cams: int) -> None:
     """InputError where the bodies have no meaning or do not fit."""
     for body in solids:
         if body is not None:
             _refuse_sizes(body)
-    if drive.shaft is None and (solids.shaft is not None or solids.wheel is not None):
+    heights = drive.shaft.cams if drive.shaft else None
+    if heights is None and (solids.shaft is not None or solids.wheel is not None):
         raise InputError("solid check: the solids of shaft and wheel stand at the heights of the split shaft; give the drive train one.")
     if solids.cam is not None:
         _refuse_cam(solids.cam, drive.spacing)
     if solids.shaft is not None:
         _refuse_shaft(solids.shaft, wheel.eccentricity, drive.shaft)
-    if solids.wheel is not None:
+    if solids.wheel is not None and heights is not None:
         width = None if solids.cam is None else solids.cam.thickness
         if width is None:
             raise InputError("solid check: the pins of a solid wheel are loaded over the width of the cams; give the cam as a solid too.")
-        _refuse_wheel(solids.wheel, wheel, drive.shaft.cams[:cams], width)
+        _refuse_wheel(solids.wheel, wheel, heights[:cams], width)
 
 
 def _refuse_sizes(body):

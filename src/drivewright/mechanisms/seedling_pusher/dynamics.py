@@ -92,7 +92,9 @@ def poincare(model: PusherModel, done: Answers) -> Answer:
     """Deviation of the rod from its programme, and its rate, once a turn of the carrier, at the start of the push."""
     system = lever_system(model)
     # Finer than the contact run: visits are compared with each other.
-    run = simulate_turns(system, TURNS, system.period * np.arange(TURNS + 1, dtype=float), rtol=1e-10, atol=(1e-13, 1e-10), max_steps=5_000_000)
+    run = simulate_turns(
+        system, TURNS, system.period * np.arange(TURNS + 1, dtype=float), rtol=1e-10, atol=(1e-13, 1e-10), max_steps=5_000_000
+    )
     if len(run.t) <= DISCARD:
         raise SolverError(f"the contact simulation ends before turn {DISCARD}, at t = {run.t_end:.6g} s: {run.advice}")
     start, turn = (model.swing(model.push_start + angle) for angle in (np.array([0.0]), np.linspace(0.0, TURN, 721)))
