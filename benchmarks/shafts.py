@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from timing import best
 
-sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "properties"))  # the peers' models are those of the tests
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "support"))  # the peers' models are those of the tests
 MODULUS, POISSON, CORES = 206e9, 0.3, 2
 UNIFORM = {"sections": [[0.34, 0.02, 0.0]], "supports": [0.0565, 0.1365], "stiffness": [3e7, 3e7], "stations": [0.0, 0.245]}
 # Nine nodes: five ends of sections, three bearings, two stations, of which one at an end.
@@ -116,7 +116,7 @@ def peers():
         )
     except ImportError as error:
         yield "PyNite", None, f"not available: {error}"
-    helper = Path(__file__).parent.parent / "tests" / "properties" / "ross_shaft.py"
+    helper = Path(__file__).parent.parent / "tests" / "support" / "ross_shaft.py"
     told = subprocess.run([sys.executable, helper], input=json.dumps({"shafts": [shaft], "repeat": 20}), capture_output=True, text=True)
     if told.returncode:
         yield "ROSS", None, f"not available: {told.stderr.splitlines()[-1]}"

@@ -118,6 +118,12 @@ def polygon(points: ArrayLike, closed: bool = True) -> Outline:
     return Outline(tuple(Line(a, b) for a, b in zip(corners, ends, strict=False)), closed)
 
 
+def rectangle(center: Point, width: float, height: float) -> Outline:
+    """Outline of a rectangle, `width` along x, about its centre."""
+    (x, y), half, rise = center, width / 2, height / 2
+    return polygon([(x - half, y - rise), (x + half, y - rise), (x + half, y + rise), (x - half, y + rise)])
+
+
 def capsule(start: Point, end: Point, radius: float) -> Outline:
     """Outline of a bar with round ends: all points within `radius` of the segment start - end."""
     (x0, y0), (x1, y1) = start, end

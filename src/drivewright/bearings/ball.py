@@ -17,7 +17,7 @@ from drivewright._jit import implements, warmer
 from drivewright.bearings.life import ball_reference_life, ball_static_rating
 from drivewright.bearings.newton import BearingMeasures, measures
 from drivewright.bearings.response import response
-from drivewright.bearings.solving import elements, geometric_static_rating, law_of, life_of, warm
+from drivewright.bearings.solving import basic_static_rating, elements, law_of, life_of, warm
 from drivewright.contact import effective_modulus, point_contact, relative_radii
 from drivewright.errors import SpecError
 from drivewright.spec import Integer, Number, Spec
@@ -179,7 +179,7 @@ def _(law, displacement, loads, angles, pressures, laminae):
         pressures[k, 1] = law.outer_pressure * np.cbrt(loads[k])
 
 
-geometric_static_rating.register(BallBearing)(ball_static_rating)
+basic_static_rating.register(BallBearing)(ball_static_rating)
 
 
 @life_of.register(BallBearing)

@@ -4,11 +4,15 @@ ISO 281 (basic ratings, equivalent load), ISO/TS 16281 (reference life) and Lund
 compare the reference life with another program and the two lives with each other.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from drivewright.bearings.solving import PERMISSIBLE, contact_of, geometric_static_rating, law_of
+from drivewright._typing import Floats
+from drivewright.bearings.solving import PERMISSIBLE, contact_of, law_of
 from drivewright.errors import InputError
 
+AXIAL_SHARE = 0.19  # least e of ISO 281: axial over radial force up to which P = Fr in every deep-groove bearing
 REVOLUTIONS = 1e6  # to which ratings refer
 MATERIAL = 1.3  # b_m, today's steel against that of 1947
 
@@ -59,11 +63,6 @@ def basic_dynamic_rating(bearing):
     return float(MATERIAL * factor * np.cos(bearing.contact_angle) ** 0.7 * bearing.balls ** (2 / 3) * size)
 
 
-def basic_static_rating(bearing):
-    """C0 [N] of ISO 76 by the inner geometry of a bearing of balls or rollers."""
-    return geometric_static_rating(bearing)
-
-
 def ball_static_rating(bearing):
     """C0 [N]: the radial load F whose most loaded ball, Q = 5 F/(Z cos a), reaches 4200 MPa at one of its races."""
     law = law_of(bearing)
@@ -83,3 +82,12 @@ def basic_life(bearing, load):
     if bearing.dynamic_rating is None:
         return None
     return REVOLUTIONS * (bearing.dynamic_rating / load) ** power
+
+
+def equivalent_radial_load(force: Sequence[float] | Floats, contact_angle: float = 0.0) -> float | None:
+    """P [N] of ISO 281 under a force (Fx, Fy, Fz, ...) [N] where it is the radial force itself; None where X and Y would count.
+
+    So it is without a contact angle and with |Fz| <= e Fr, e = 0.19 being the least of all deep-groove bearings.
+    """
+    radial, axial = float(np.hypot(*force[:2])), abs(force[2])
+    return None if contact_angle or not radial > 0 or axial > AXIAL_SHARE * radial else radial

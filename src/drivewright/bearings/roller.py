@@ -14,7 +14,7 @@ from pydantic import model_validator
 from drivewright._jit import implements, inner, warmer
 from drivewright.bearings.newton import BearingMeasures, measures
 from drivewright.bearings.response import response
-from drivewright.bearings.solving import PERMISSIBLE, elements, geometric_static_rating, law_of, life_of, refuse_other, warm
+from drivewright.bearings.solving import PERMISSIBLE, basic_static_rating, elements, law_of, life_of, refuse_other, warm
 from drivewright.contact import effective_modulus, line_contact
 from drivewright.errors import SpecError
 from drivewright.spec import Integer, Number, Spec
@@ -287,7 +287,7 @@ def roller_static_rating(bearing):
     return float(fullest * bearing.rollers * np.cos(bearing.contact_angle) / GREATEST_SHARE)
 
 
-geometric_static_rating.register(RollerBearing)(roller_static_rating)
+basic_static_rating.register(RollerBearing)(roller_static_rating)
 
 
 @life_of.register(RollerBearing)

@@ -23,7 +23,7 @@ __all__ = [
     "elements",
     "equilibria",
     "equilibrium",
-    "geometric_static_rating",
+    "basic_static_rating",
     "law_of",
     "life_of",
     "measures",
@@ -62,8 +62,8 @@ def contact_of(bearing):
 
 
 @singledispatch
-def geometric_static_rating(bearing):
-    """C0 [N] by the inner geometry: the radial load at which the most loaded element, 5 F/(Z cos a), reaches the permissible pressure."""
+def basic_static_rating(bearing):
+    """C0 [N] of ISO 76: the radial load at which the fullest element, 5 F/(Z cos a), has the permissible pressure."""
     law_of(bearing)
     raise InputError(f"bearing: no static rating is known for a {type(bearing).__name__}.")
 
@@ -106,6 +106,12 @@ class BearingEquilibrium:
     def reference_life(self):
         """L10r [revolutions]; inf where nothing is loaded, None where the bearing has no dynamic rating."""
         return life_of(self.bearing, self)
+
+    @property
+    def static_safety(self) -> float:
+        """(permissible pressure/pressure)^3 of balls, ^2 of rollers [-]: how many times the load would reach the static rating."""
+        pressure, power = PERMISSIBLE[contact_of(self.bearing)]
+        return float((pressure / self.pressures.max()) ** power) if self.pressures.max() > 0 else np.inf
 
     @property
     def reversed_elements(self):

@@ -1,12 +1,15 @@
 """Many shafts at once: flexibility at the stations, and reactions, of a million stepped shafts in one call."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from drivewright import cases
 from drivewright._jit import warmer
+from drivewright._typing import Floats
 from drivewright.errors import InputError
 from drivewright.shafts.batch_kernels import DesignColumn, DesignColumns, fill, workspace
-from drivewright.shafts.model import COWPER
+from drivewright.shafts.model import COWPER, Shaft
 
 CHUNK = 1_000_000  # sections and pairs of points per chunk: a few hundredths of a second
 PER_DESIGN = ("youngs_modulus", "poisson", "shear")
@@ -63,6 +66,40 @@ def flexibilities(
     if cases.run(chunk, range(0, count, per_chunk), workers, progress).interrupted:
         raise KeyboardInterrupt
     return (delta, carried) if reactions else delta
+
+
+# -- of one shaft --------------------------------------------------------------------------------------------------------------
+
+
+class DesignTables(NamedTuple):
+    """Arguments of `flexibilities` by their names, a row for each design; writable."""
+
+    lengths: Floats
+    diameters: Floats
+    end_diameters: Floats
+    bores: Floats
+    supports: Floats
+    radial_stiffness: Floats
+    stations: Floats
+
+
+def is_batchable(shaft: Shaft) -> bool:
+    """Whether `flexibilities` covers a shaft: all supports are radial springs at points."""
+    return all(s.law is None and not s.width and not any(s.stiffness[3:]) and s.stiffness[0] > 0 for s in shaft.supports)
+
+
+def design_tables(shaft: Shaft, count: int) -> DesignTables:
+    """`DesignTables` of `count` designs that are all this shaft."""
+    rows = (
+        [s.length for s in shaft.sections],
+        [s.start for s in shaft.sections],
+        [s.end for s in shaft.sections],
+        [s.bore for s in shaft.sections],
+        [s.position for s in shaft.supports],
+        [s.stiffness[0] for s in shaft.supports],
+        [s.position for s in shaft.stations],
+    )
+    return DesignTables(*(np.tile(np.array(row, float), (count, 1)) for row in rows))
 
 
 # -- arguments -----------------------------------------------------------------------------------------------------------------

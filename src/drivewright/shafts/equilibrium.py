@@ -45,6 +45,21 @@ class ShaftEquilibrium(NamedTuple):
         """Displacements (size,) of all nodes, six each, then of the rings."""
         return self.model.basis @ self.unknowns
 
+    def displacement_at(self, position: float) -> Floats:
+        """Displacement (x, y) [m] of the shaft at a node."""
+        at = FREEDOMS * self.model.beam.node(position)
+        return self.u[at : at + 2]
+
+    def slope_at(self, position: float) -> Floats:
+        """Slope (x, y) [rad] of the section at a node: of x by z the rotation about y, of y by z that about x turned round."""
+        at = FREEDOMS * self.model.beam.node(position)
+        return np.array([self.u[at + 4], -self.u[at + 3]])
+
+    @property
+    def axial_displacements(self) -> Floats:
+        """Displacements (n,) [m] of the nodes along the axis."""
+        return self.u[AXIAL : self.model.beam.size : FREEDOMS]
+
 
 def solve(model: ShaftSystem, force: Floats) -> ShaftEquilibrium:
     """The `ShaftEquilibrium` under the forces (size,) on nodes and rings; SolverError where it is not found."""

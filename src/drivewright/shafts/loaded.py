@@ -101,6 +101,11 @@ def diagram(loaded: LoadedShaft, count: int = 201) -> Diagram:
     return Diagram(z, deflection, slope, shear, moment, axial, torque, *_stresses(found, element, z, moment, axial, torque))
 
 
+def largest_displacement(loaded: LoadedShaft, along: Diagram) -> float:
+    """The largest displacement [m] of the shaft, across its axis (in its `Diagram`) or along it."""
+    return float(max(np.hypot(*along.deflection.T).max(), np.abs(loaded.equilibrium.axial_displacements).max()))
+
+
 def _places(found, count):
     """Even places and both sides of every node, rising."""
     tiny = 1e-9 * found.shaft.length

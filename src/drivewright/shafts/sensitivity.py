@@ -20,6 +20,7 @@ from drivewright.shafts.linearised import tangent_shaft
 from drivewright.shafts.model import Shaft, Support
 
 STEP = 2e-3
+NO_FLEXIBILITY = 1e-12  # of the largest entry: rounding
 WEIGHTS = ((-2, 1 / 12), (-1, -8 / 12), (1, 8 / 12), (2, -1 / 12))
 Slope: TypeAlias = tuple[str, str, Floats]  # parameter, what is held, d delta/d ln(parameter) (s, s) [m/N]
 
@@ -32,6 +33,15 @@ def flexibility_slopes(equilibrium: ShaftEquilibrium, found: Flexibility, direct
     yield from _of_parts(equilibrium.model.beam.shaft, found)
     yield from _of_sections(equilibrium, found)
     yield from _of_places(equilibrium, direction)
+
+
+def relative_flexibility_slopes(equilibrium: ShaftEquilibrium, found: Flexibility, direction: Floats) -> Iterator[Slope]:
+    """`flexibility_slopes` as relative changes over relative changes, d ln(delta)/d ln(p) [-]; nan where delta is 0."""
+    known = np.abs(found.delta) > NO_FLEXIBILITY * np.abs(found.delta).max()
+    for name, held, slope in flexibility_slopes(equilibrium, found, direction):
+        with np.errstate(divide="ignore", invalid="ignore"):
+            relative = np.where(known, slope / found.delta, np.nan)
+        yield name, held, relative
 
 
 def _of_parts(shaft: Shaft, found: Flexibility) -> Iterator[Slope]:

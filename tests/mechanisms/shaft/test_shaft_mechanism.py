@@ -8,7 +8,7 @@ from places import EXAMPLES
 
 import drivewright as dw
 from drivewright import bearings, registry, scene
-from drivewright.mechanisms.shaft.build import replaced, tooth_force
+from drivewright.mechanisms.shaft.build import tooth_load
 from drivewright.mechanisms.shaft.designs import batch
 from drivewright.mechanisms.shaft.scene import exaggeration
 from drivewright.oracles.shaft import moment_integrals
@@ -304,7 +304,7 @@ def test_a_clearance_in_the_spec_goes_before_the_bearings_own():
     # the overhung end swings through half the clearance at either bearing
     assert loose["bearings.B.displacement"] - snug["bearings.B.displacement"] > 9e-6
     inner = bearings.bearing("61804")
-    wanted = bearings.solve(replaced(inner, {"radial_clearance": 20e-6}), force=[0, -1178.125, 0, 0, 0])
+    wanted = bearings.solve(inner.replace(radial_clearance="20 um"), force=[0, -1178.125, 0, 0, 0])
     assert loose["bearings.B.displacement"] == pytest.approx(-wanted.displacement[1], rel=1e-6)
 
 
@@ -370,7 +370,7 @@ def test_tooth_forces_make_the_torque_and_push_the_gear_away():
         ],
         loads=[],
     )
-    load = tooth_force(spec.gears[0])
+    load = tooth_load(spec.gears[0])
     r = 0.03 * np.array([np.cos(np.pi / 6), np.sin(np.pi / 6), 0.0])
     assert np.cross(r, load.force) == pytest.approx(load.moment, abs=1e-9) and load.moment[2] == pytest.approx(30.0)
     radial, axial = np.dot(load.force, r) / 0.03, load.force[2]

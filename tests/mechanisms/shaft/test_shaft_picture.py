@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 import drivewright as dw
+from drivewright.bearings.drawing import bearing_section
 from drivewright.curves import outline_area
-from drivewright.mechanisms.shaft import sketch
 from drivewright.mechanisms.shaft.scene import drawings, scene
+from drivewright.shafts.drawing import ARROW, silhouette, slices
 
 pytestmark = pytest.mark.property
 
@@ -93,17 +94,17 @@ def test_arrows_ride_on_the_shaft_on_the_side_the_load_comes_from():
     drawn = scene(model())
     arrows = {body.name: body for body in bodies(drawn, "load.")}
     assert set(arrows) == {"load.0", "load.1"}
-    slices = np.array([body.poses[30] for body in bodies(drawn, "shaft.")])
+    places = np.array([body.poses[30] for body in bodies(drawn, "shaft.")])
     for body, place, radius, side in ((arrows["load.0"], 0.0, 0.0125, 1), (arrows["load.1"], 0.12, 0.01625, -1)):
         head, tail = (points(shape.outline) for shape in body.shapes)
         assert side * head[0, 1] == pytest.approx(radius) and head[0, 0] == 0.0
-        assert np.max(side * tail[:, 1]) == pytest.approx(radius + sketch.ARROW * 0.32)
-        assert body.poses[30][:2] == pytest.approx((place, np.interp(place, slices[:, 0], slices[:, 1])), abs=1e-9)
+        assert np.max(side * tail[:, 1]) == pytest.approx(radius + ARROW * 0.32)
+        assert body.poses[30][:2] == pytest.approx((place, np.interp(place, places[:, 0], places[:, 1])), abs=1e-9)
     assert abs(arrows["load.0"].poses[30][1]) > 1e-3
 
 
 def test_the_outline_at_rest_has_the_area_of_the_section():
-    (_, base) = sketch.silhouette(model().shaft)
+    (_, base) = silhouette(model().shaft)
     assert outline_area(base.outline) == pytest.approx(sum(length * (a + b) / 2 for length, a, b, _ in SECTIONS), rel=1e-9)
 
 
@@ -111,7 +112,7 @@ def test_slices_are_the_outline_in_pieces():
     """Edges end where the next begins, faces close the steps and both ends."""
     shaft = model().shaft
     z = np.unique(np.concatenate([np.linspace(0, 0.32, 41), shaft.ends]))
-    drawn = list(sketch.slices(shaft, z))
+    drawn = list(slices(shaft, z))
     middles, area, faces = 0.5 * (z[1:] + z[:-1]), 0.0, []
     for middle, shapes in zip(middles, drawn, strict=True):
         for shape in shapes:
@@ -137,7 +138,7 @@ def test_tapered_rollers_lean_against_the_force_they_take(carries):
     taper = {"rollers": 15, "roller_diameter": "4 mm", "roller_length": "8 mm", "pitch_diameter": "36 mm", "contact_angle": "14 deg"}
     held = [{"name": "A", "position": "40 mm", "roller_geometry": taper, "carries": carries}, TABLES["bearings"][1]]
     one = model(bearings=held)
-    shapes = list(sketch.bearing(one, one.shaft.supports[0]))
+    shapes = list(bearing_section(one.rolling["A"], 0.04, 0.025, one.shaft.supports[0].mirrored))
     rings, rollers = ([points(s.outline) for s in shapes if s.layer == layer] for layer in ("body", "roller"))
     assert [np.abs(ring[:, 1]).min() for ring in rings] == pytest.approx([0.0125] * 2)
     assert [np.abs(ring[:, 1]).max() for ring in rings] == pytest.approx([0.036 - 0.0125] * 2)

@@ -5,7 +5,7 @@ import pytest
 
 import drivewright as dw
 from drivewright import bearings
-from drivewright.mechanisms.shaft.build import material, tooth_force
+from drivewright.mechanisms.shaft.build import material, tooth_load
 from drivewright.oracles.shaft import moment_integrals
 from drivewright.oracles.shaft.independent_check import _flexibility, verify
 from drivewright.shafts import solid_check
@@ -201,7 +201,7 @@ def test_loads_of_the_spec_in_the_shafts_axes():
 @pytest.mark.parametrize("torque", [30.0, -30.0])
 def test_the_mate_pushes_a_gear_away_whichever_way_it_turns(torque):
     gear = {"name": "g", "position": "100 mm", "pitch_diameter": "60 mm", "torque": f"{torque} N m", "helix_angle": "15 deg"}
-    load = tooth_force(spec(gears=[gear]).gears[0])
+    load = tooth_load(spec(gears=[gear]).gears[0])
     assert load.force == pytest.approx(
         (-1000 * np.tan(np.radians(20)) / np.cos(np.radians(15)), torque / 0.03, torque / 0.03 * np.tan(np.radians(15)))
     )

@@ -94,7 +94,7 @@ def static_rating(model: IndexerModel, table: str) -> float | None:
     given, rolling = getattr(model.spec, table), model.rolling.get(table)
     if rolling is None:
         return given.static_rating if given else None
-    return rolling.static_rating if rolling.static_rating is not None else bearings.geometric_static_rating(rolling)
+    return rolling.static_rating if rolling.static_rating is not None else bearings.basic_static_rating(rolling)
 
 
 def _checks(model: IndexerModel, group: str, own: Mapping[str, Complexes], values: Mapping[str, Value]) -> Iterator[Check]:

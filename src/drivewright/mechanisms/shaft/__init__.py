@@ -32,7 +32,9 @@ ANALYSES = (
         needs=("statics", "flexibility"),
         missing=influence.no_stations,
     ),
-    Analysis("solid", solid.solid, "the shaft as a solid of finite elements", default=False, needs=("statics",), missing=solid.no_solid),
+    Analysis(
+        "solid", solid.solid, "the shaft as a solid of finite elements", default=False, needs=("statics",), missing=influence.no_stations
+    ),
 )
 
 HEADLINE = (

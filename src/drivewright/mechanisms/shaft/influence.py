@@ -1,90 +1,77 @@
-"""Flexibility and stiffness at the stations, who contributes what, and what fails first."""
+"""Flexibility and stiffness at the stations, the parts of it, and what fails first."""
+
+from collections.abc import Iterator
 
 import numpy as np
 
 from drivewright import bearings, shafts
 from drivewright.errors import InputError
+from drivewright.mechanisms.shaft.build import ShaftModel
+from drivewright.mechanisms.shaft.matrices import pair_values, station_array, station_pairs
 from drivewright.mechanisms.shaft.refusals import is_rolling
+from drivewright.mechanisms.shaft.spec import Bearing, ShaftSpec
 from drivewright.mechanisms.shaft.statics import BALANCED
-from drivewright.result import Answer, Array, Check, Column, Table, Value
-from drivewright.shafts.unit_loads import SAMPLES, flexibility_on_rigid_bearings, peak_unit_stress, unit_deflection
-
-NO_STRESS = 1e-9  # of a force over the square of the shaft's length: that at a station on a bearing is rounding
+from drivewright.result import Answer, Answers, Array, Check, Column, Table, Value
+from drivewright.shafts.unit_loads import SAMPLES
 
 
-def no_stations(spec):
+def no_stations(spec: ShaftSpec) -> str | None:
+    """Why nothing can be said of stations."""
     return None if spec.stations else "the spec declares no [[stations]]"
 
 
-def flexibility(model, done):
+def flexibility(model: ShaftModel, done: Answers) -> Answer:
     """Flexibility, its shares, stiffness, reactions per unit load, at the equilibrium of the loads; `data` is the `Flexibility`."""
-    at_rest = done["statics"].data.equilibrium
+    at_rest: shafts.ShaftEquilibrium = done["statics"].data.equilibrium
     try:
         found = shafts.flexibility(at_rest, model.places, model.direction)
     except InputError as error:
         return Answer(findings=(f"flexibility and stiffness are absent: {error}",), outcome="left out")
-    labels, bearings = model.names, tuple(support.name for support in model.shaft.supports)
+    labels, names = model.names, tuple(support.name for support in model.shaft.supports)
     arrays = {
-        "flexibility": Array("m/N", ("station", "station"), (labels, labels), found.delta),
+        "flexibility": station_array(labels, found.delta, "m/N"),
         "flexibility.shares": Array("m/N", ("part", "station", "station"), (found.names, labels, labels), found.shares),
-        "reactions.unit_load": Array("-", ("bearing", "station"), (bearings, labels), found.reactions),
+        "reactions.unit_load": Array("-", ("bearing", "station"), (names, labels), found.reactions),
     }
-    values = {
-        f"flexibility.{a}.{b}": Value(float(found.delta[i, j]), "m/N", f"displacement of {a!r} by a unit force at {b!r}")
-        for i, a in enumerate(labels)
-        for j, b in enumerate(labels)
-        if j >= i
-    }
+    values = pair_values("flexibility", labels, found.delta, "m/N", "displacement of {a!r} by a unit force at {b!r}")
     findings = []
     try:
-        stiff = shafts.stiffness(found.delta, labels)
-        arrays["stiffness"] = Array("N/m", ("station", "station"), (labels, labels), stiff)
-        values |= {
-            f"stiffness.{a}.{b}": Value(float(stiff[i, j]), "N/m", f"force at {a!r} by a unit displacement of {b!r}, others held")
-            for i, a in enumerate(labels)
-            for j, b in enumerate(labels)
-            if j >= i
-        }
+        stiffness = shafts.stiffness(found.delta, labels)
+        arrays["stiffness"] = station_array(labels, stiffness, "N/m")
+        values |= pair_values("stiffness", labels, stiffness, "N/m", "force at {a!r} by a unit displacement of {b!r}, others held")
         values["condition_number"] = Value(found.condition, "-", "condition number of flexibility and stiffness")
     except InputError as error:
         findings.append(f"array 'stiffness' is absent: {error}")
     if any(support.law is not None for support in model.shaft.supports):
         findings.append("bearings are not linear: flexibility and stiffness are tangents at the equilibrium of the given loads")
-    off = shafts.unit_imbalance(found, model.shaft, model.places, model.direction)
-    check = Check(
-        "equilibrium.unit_loads",
-        off,
-        BALANCED,
-        "<=",
-        "-",
+    off, message = (
+        shafts.unit_imbalance(found, model.shaft, model.places, model.direction),
         "forces and moments that do not balance under a unit force at a station, the largest",
-        ("shaft",),
     )
+    check = Check("equilibrium.unit_loads", off, BALANCED, "<=", "-", message, ("shaft",))
     return Answer(values, (_unit_table(model, found, at_rest), _share_table(model, found)), (check,), tuple(findings), arrays, data=found)
 
 
-def _unit_table(model, found, at_rest):
+def _unit_table(model: ShaftModel, found: shafts.Flexibility, at_rest: shafts.ShaftEquilibrium) -> Table:
     """Deflection along the shaft under a unit force at each station, with the bearings as they are and rigid."""
     z = np.linspace(0.0, model.shaft.length, SAMPLES)
+    rigid = shafts.flexibility_on_rigid_bearings(model.shaft, model.places, model.direction)
     columns = [Column("z", "m", "distance from the left end", z)]
-    shown = [
-        ("", "", at_rest, found),
-        (", bearings rigid", ".rigid", *flexibility_on_rigid_bearings(model.shaft, model.places, model.direction)),
-    ]
-    for words, suffix, rest, answer in shown:
-        for name, u in zip(model.names, answer.unknowns.T, strict=True):
-            columns.append(Column(f"{name}{suffix}", "m/N", f"force at {name!r}{words}", unit_deflection(rest, u, z, model.direction)))
+    for words, suffix, equilibrium, each in (("", "", at_rest, found), (", bearings rigid", ".rigid", *rigid)):
+        for name, u in zip(model.names, each.unknowns.T, strict=True):
+            deflection = shafts.unit_deflection(equilibrium, u, z, model.direction)
+            columns.append(Column(f"{name}{suffix}", "m/N", f"force at {name!r}{words}", deflection))
     return Table("unit_load", "Deflection by a unit force at a station", tuple(columns))
 
 
-def _share_table(model, found):
+def _share_table(model: ShaftModel, found: shafts.Flexibility) -> Table:
     """One row for every flexibility entry and part."""
-    pairs = [(i, j) for i in range(len(model.names)) for j in range(i, len(model.names))]
+    pairs = list(station_pairs(model.names))
     entries = np.array([f"{model.names[i]}, {model.names[j]}" for i, j in pairs])
     columns = [Column("entry", "-", "stations", entries), Column("total", "m/N", "flexibility", np.array([found.delta[p] for p in pairs]))]
     columns += [
-        Column(name, "m/N", name if number < 2 else f"bearing {name}" if name != "tension" else name, np.array([share[p] for p in pairs]))
-        for number, (name, share) in enumerate(zip(found.names, found.shares, strict=True))
+        Column(name, "m/N", name if name in ("bending", "shear", "tension") else f"bearing {name}", np.array([share[p] for p in pairs]))
+        for name, share in zip(found.names, found.shares, strict=True)
     ]
     return Table("shares", "Who contributes what to the flexibility", tuple(columns))
 
@@ -92,63 +79,48 @@ def _share_table(model, found):
 # -- what fails first ----------------------------------------------------------------------------------------------------------
 
 
-def no_strength(spec):
-    if no_stations(spec):
-        return no_stations(spec)
+def no_strength(spec: ShaftSpec) -> str | None:
+    """Why nothing can be said of what fails first."""
     rated = any(b.static_rating or is_rolling(b) for b in spec.bearings)
-    known = spec.material.yield_strength or spec.material.card
-    return None if rated or known else "neither a static rating of a bearing nor a yield strength is given"
+    known = rated or spec.material.yield_strength or spec.material.card
+    return no_stations(spec) or (None if known else "neither a static rating of a bearing nor a yield strength is given")
 
 
-def failure(model, done):
+def failure(model: ShaftModel, done: Answers) -> Answer:
     """For a force at each station alone: at which size a bearing reaches its static rating, and the shaft its yield strength."""
     found, at_rest = done["flexibility"].data, done["statics"].data.equilibrium
+    ratings = [_static_rating(model, bearing) for bearing in model.spec.bearings]
     shock, rows, values = model.spec.limits.shock_factor, [], {}
     for number, name in enumerate(model.names):
-        limits = list(_limits(model, found, at_rest, number))
+        limits = list(_limits(shafts.limit_loads(found, at_rest, number, model.direction, ratings, model.yield_strength)))
         if not limits:  # it stands on a bearing that has no rating
             continue
-        what, least = min(limits, key=lambda row: row[1])
+        what, lowest = min(limits, key=lambda row: row[1])
+        allowed = f"steady force at {name!r} alone that is allowed, with the shock factor {shock:g}"
         values |= {
-            f"stations.{name}.limit_load": Value(least, "N", f"force at {name!r} alone at which {what} is at its limit"),
-            f"stations.{name}.allowed_load": Value(
-                least / shock, "N", f"steady force at {name!r} alone that is allowed, with the shock factor {shock:g}"
-            ),
+            f"stations.{name}.limit_load": Value(lowest, "N", f"force at {name!r} alone at which {what} is at its limit"),
+            f"stations.{name}.allowed_load": Value(lowest / shock, "N", allowed),
         }
-        rows += [(name, part, load, load / shock, load == least) for part, load in limits]
+        rows += [(name, part, load, load / shock, load == lowest) for part, load in limits]
     if not rows:
         return Answer(findings=("what fails first is absent: no bearing has a static rating, and no yield strength is given",))
     names, parts, loads, steady, first = zip(*rows, strict=True)
-    return Answer(
-        values,
-        (
-            Table(
-                "failure",
-                "What fails first",
-                (
-                    Column("station", "-", "station of the force", np.array(names)),
-                    Column("part", "-", "what reaches its limit", np.array(parts)),
-                    Column("load", "N", "force at which it does", np.array(loads)),
-                    Column("steady_load", "N", "the same over the shock factor", np.array(steady)),
-                    Column("first", "-", "1 where it is the first", np.array(first, float)),
-                ),
-            ),
-        ),
+    columns = (
+        Column("station", "-", "station of the force", np.array(names)),
+        Column("part", "-", "what reaches its limit", np.array(parts)),
+        Column("load", "N", "force at which it does", np.array(loads)),
+        Column("steady_load", "N", "the same over the shock factor", np.array(steady)),
+        Column("first", "-", "1 where it is the first", np.array(first, float)),
     )
+    return Answer(values, (Table("failure", "What fails first", columns),))
 
 
-def static_rating(model, bearing):
+def _static_rating(model: ShaftModel, bearing: Bearing) -> float | None:
     """C0 of a bearing [N]: as given, of a rolling bearing else by its inner geometry; None where neither is known."""
     rolling = model.rolling.get(bearing.name)
-    return bearing.static_rating if rolling is None else rolling.static_rating or bearings.geometric_static_rating(rolling)
+    return bearing.static_rating if rolling is None else rolling.static_rating or bearings.basic_static_rating(rolling)
 
 
-def _limits(model, found, at_rest, station):
-    """(what, force at the station) of every bearing with a rating and of the shaft."""
-    for number, bearing in enumerate(model.spec.bearings):
-        share = abs(found.reactions[number, station])
-        if static_rating(model, bearing) and share > 1e-12:
-            yield f"bearing {bearing.name}", static_rating(model, bearing) / share
-    stress = peak_unit_stress(at_rest, found.unknowns[:, station], model.direction)
-    if model.yield_strength and stress > NO_STRESS / model.shaft.length**2:
-        yield "shaft, yield", model.yield_strength / stress
+def _limits(loads: Iterator[shafts.LimitLoad]) -> Iterator[tuple[str, float]]:
+    """(what reaches its limit, in words, force)."""
+    return ((f"bearing {support}" if support is not None else "shaft, yield", force) for support, force in loads)

@@ -1,199 +1,144 @@
 """The rolling bearings under the shaft's load: stiffness with the load behind it, load distribution, pressure, life."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
-from drivewright import bearings
+from drivewright import bearings, shafts
+from drivewright._typing import Floats
+from drivewright.bearings import BallBearing, BearingEquilibrium, RollerBearing
 from drivewright.errors import InputError, SolverError
+from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.refusals import is_rolling
-from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.mechanisms.shaft.spec import ShaftSpec
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
-LEAST_E = 0.19  # axial over radial force up to which P = Fr in every deep-groove bearing (ISO 281, recalled)
-LOADS = np.geomspace(0.02, 4.0, 25)  # of the curve of stiffness, over the bearing's load
+FACTORS = np.geomspace(0.02, 4.0, 25)  # of the curve of stiffness, over the bearing's load
 
 
-def no_rolling(spec):
+def no_rolling(spec: ShaftSpec) -> str | None:
+    """Why there is nothing to say of rolling bearings."""
     return None if any(is_rolling(b) or b.table or b.radial_clearance for b in spec.bearings) else "all bearings are linear springs"
 
 
-def rolling(model, done):
+def rolling(model: ShaftModel, done: Answers) -> Answer:
     """Every bearing that is not linear, at the equilibrium of the loads."""
-    at_rest = done["statics"].data.equilibrium
+    at_rest: shafts.ShaftEquilibrium = done["statics"].data.equilibrium
     values, tables, checks, findings = {}, [], [], []
     for number, mount in enumerate(at_rest.model.mounts):
+        name = mount.support.name
         if mount.support.law is None:
             continue
-        found = _stiffness(model, at_rest, number)
-        values |= found
-        if not found:
-            findings.append(f"stiffness of bearing {mount.support.name!r} is absent: nothing loads it")
-        inner = model.rolling.get(mount.support.name)
-        if inner is not None and _is_idle(at_rest, number):
-            findings.append(f"bearing {mount.support.name!r} carries nothing under these loads")
-        elif inner is not None:
-            state = bearings.solve(inner, displacement=mount.rows @ at_rest.unknowns - mount.support.offset)
-            values |= _elements(model, mount.support.name, inner, state)
-            tables += [_element_table(mount.support.name, state), *_curve(model, mount.support.name, inner, state)]
-            checks += _checks(model, mount.support.name, inner, state)
-            findings += _findings(mount.support.name, inner, state)
+        stiffness = _stiffness(name, shafts.support_stiffness(at_rest, number, model.direction))
+        values |= stiffness
+        if not stiffness:
+            findings.append(f"stiffness of bearing {name!r} is absent: nothing loads it")
+        bearing = model.rolling.get(name)
+        if bearing is not None and shafts.is_idle(at_rest, number):
+            findings.append(f"bearing {name!r} carries nothing under these loads")
+        elif bearing is not None:
+            state = bearings.solve(bearing, displacement=shafts.bearing_displacement(at_rest, number))
+            values |= _values(model, name, bearing, state)
+            tables += [_element_table(name, bearing, state), *_load_curve(name, bearing, state)]
+            checks += _checks(model, name, state)
+            findings += _findings(name, bearing, state)
     return Answer(values, tuple(tables), tuple(checks), tuple(findings))
 
 
-def _is_idle(at_rest, number):
-    """Whether a bearing carries no more than rounding leaves to it."""
-    forces = np.abs(at_rest.reactions[:, :3])
-    return not forces[number].max() > 1e-9 * forces.max()
-
-
-def _stiffness(model, at_rest, number):
+def _stiffness(name: str, found: shafts.SupportStiffness) -> dict[str, Value]:
     """Tangent along the radial reaction and secant, with the load behind them; nothing where there is no load."""
-    force, moved = -at_rest.reactions[number, :2], at_rest.relative[number, :2]
-    size, name = float(np.hypot(*force)), at_rest.model.mounts[number].support.name
-    way = force / size if size > 0 else model.direction
-    tangent = float(way @ at_rest.tangent[number, :2, :2] @ way)
-    values = {f"bearings.{name}.stiffness.load": Value(size, "N", f"radial force of bearing {name!r} behind its stiffness")}
-    if tangent > 0:
-        values[f"bearings.{name}.stiffness.tangent"] = Value(
-            tangent, "N/m", f"change of radial force over displacement of bearing {name!r}, all else held"
-        )
-    if size > 0 and way @ moved > 0:
-        values[f"bearings.{name}.stiffness.secant"] = Value(
-            size / float(way @ moved), "N/m", f"radial force over displacement of bearing {name!r}, from the seat's axis"
-        )
-    for freedom, key, unit in ((2, "axial", "N/m"), (3, "tilt_x", "N m/rad"), (4, "tilt_y", "N m/rad")):
-        own = float(at_rest.tangent[number, freedom, freedom])
-        if np.isfinite(own):
-            values[f"bearings.{name}.stiffness.{key}"] = Value(
-                own, unit, f"tangent stiffness of bearing {name!r}, {key.replace('_', ' about ')}"
-            )
-    return values if tangent > 0 else {}
+    rows = (
+        ("load", found.load, "N", f"radial force of bearing {name!r} behind its stiffness"),
+        ("tangent", found.tangent, "N/m", f"change of radial force over displacement of bearing {name!r}, all else held"),
+        ("secant", found.secant, "N/m", f"radial force over displacement of bearing {name!r}, from the seat's axis"),
+        ("axial", found.axial, "N/m", f"tangent stiffness of bearing {name!r}, axial"),
+        ("tilt_x", found.tilt_x, "N m/rad", f"tangent stiffness of bearing {name!r}, tilt about x"),
+        ("tilt_y", found.tilt_y, "N m/rad", f"tangent stiffness of bearing {name!r}, tilt about y"),
+    )
+    values = {f"bearings.{name}.stiffness.{key}": Value(value, unit, meaning) for key, value, unit, meaning in rows if np.isfinite(value)}
+    return values if found.tangent > 0 else {}
 
 
-def _elements(model, name, inner, state):
-    about, unit = f"of bearing {name!r}", f"bearings.{name}"
+def _values(model: ShaftModel, name: str, bearing: BallBearing | RollerBearing, state: BearingEquilibrium) -> dict[str, Value]:
+    of, unit = f"of bearing {name!r}", f"bearings.{name}"
     loaded = int(np.sum(state.element_loads > 0))
     values = {
-        f"{unit}.max_element_load": Value(float(state.element_loads.max()), "N", f"load of the most loaded rolling element {about}"),
-        f"{unit}.max_pressure": Value(float(state.pressures.max()), "Pa", f"largest Hertz pressure {about}"),
-        f"{unit}.loaded_elements": Value(float(loaded), "-", f"rolling elements under load {about}"),
+        f"{unit}.max_element_load": Value(float(state.element_loads.max()), "N", f"load of the most loaded rolling element {of}"),
+        f"{unit}.max_pressure": Value(float(state.pressures.max()), "Pa", f"largest Hertz pressure {of}"),
+        f"{unit}.loaded_elements": Value(float(loaded), "-", f"rolling elements under load {of}"),
     }
-    if state.pressures.max() > 0:
-        values[f"{unit}.static_safety"] = Value(
-            static_safety(inner, state), "-", f"load at the permissible static pressure over the load {about}"
-        )
-    values |= _basic_life(name, inner, state)
-    life = state.reference_life
+    if loaded:
+        values[f"{unit}.static_safety"] = Value(state.static_safety, "-", f"load at the permissible static pressure over the load {of}")
+    load = bearings.equivalent_radial_load(state.force, bearing.contact_angle)
+    basic = None if load is None else bearings.basic_life(bearing, load)
+    if basic is not None:
+        meaning = f"basic life L10 (ISO 281) {of}, revolutions, at P = its radial force"
+        values[f"{unit}.basic_life"] = Value(float(basic), "-", meaning)
+    life, drive = state.reference_life, model.spec.drive
     if life is not None and np.isfinite(life):
-        values[f"{unit}.reference_life"] = Value(float(life), "-", f"reference life L10r {about}, revolutions")
-        if model.spec.drive:
-            values[f"{unit}.reference_life.time"] = Value(
-                float(life) * 2 * np.pi / model.spec.drive.speed, "s", f"the same {about} at the shaft's speed"
-            )
+        values[f"{unit}.reference_life"] = Value(float(life), "-", f"reference life L10r {of}, revolutions")
+        if drive:
+            values[f"{unit}.reference_life.time"] = Value(_duration(life, drive.speed), "s", f"the same {of} at the shaft's speed")
     return values
 
 
-def _basic_life(name, inner, state):
-    """L10 of ISO 281 where the equivalent load is the radial one: no axial force that counts, no contact angle."""
-    radial, axial = float(np.hypot(*state.force[:2])), abs(state.force[2])
-    if inner.dynamic_rating is None or inner.contact_angle or not radial > 0 or axial > LEAST_E * radial:
-        return {}
-    return {
-        f"bearings.{name}.basic_life": Value(
-            float(bearings.basic_life(inner, radial)),
-            "-",
-            f"basic life L10 (ISO 281) of bearing {name!r}, revolutions, at P = its radial force",
-        )
-    }
+def _duration(revolutions: float, speed: float) -> float:
+    """Time [s] of so many revolutions at a speed [rad/s]."""
+    return float(revolutions) * 2 * np.pi / speed
 
 
-def static_safety(inner, state):
-    """(permissible pressure / pressure)^3 of balls, ^2 of rollers: how many times the load would reach the static rating."""
-    pressure, power = bearings.PERMISSIBLE[bearings.contact_of(inner)]
-    return float((pressure / state.pressures.max()) ** power)
-
-
-def _checks(model, name, inner, state):
-    limits = model.spec.limits
-    shock = limits.shock_factor
+def _checks(model: ShaftModel, name: str, state: BearingEquilibrium) -> Iterator[Check]:
+    limits, shock, life = model.spec.limits, model.spec.limits.shock_factor, state.reference_life
     if state.pressures.max() > 0:
         under = f", at {shock:g} times the load" if shock > 1 else ""
-        yield Check(
-            f"static_safety.{name}",
-            static_safety(inner, state) / shock,
-            limits.static_safety,
-            ">=",
-            "-",
-            f"static load of bearing {name!r} by its contact pressure over its load{under}",
-            (name,),
-        )
-    life = state.reference_life
+        message = f"static load of bearing {name!r} by its contact pressure over its load{under}"
+        yield Check(f"static_safety.{name}", state.static_safety / shock, limits.static_safety, ">=", "-", message, (name,))
     if limits.life and model.spec.drive and life is not None and np.isfinite(life):
-        seconds = float(life) * 2 * np.pi / model.spec.drive.speed
-        yield Check(
-            f"life.{name}",
-            seconds,
-            limits.life,
-            ">=",
-            "s",
-            f"reference life of bearing {name!r}: {seconds / 3600:.4g} h of {limits.life / 3600:.4g} h",
-            (name,),
-        )
+        seconds = _duration(life, model.spec.drive.speed)
+        message = f"reference life of bearing {name!r}: {seconds / 3600:.4g} h of {limits.life / 3600:.4g} h"
+        yield Check(f"life.{name}", seconds, limits.life, ">=", "s", message, (name,))
 
 
-def _findings(name, inner, state):
-    if inner.dynamic_rating is None:
+def _findings(name: str, bearing: BallBearing | RollerBearing, state: BearingEquilibrium) -> Iterator[str]:
+    if bearing.dynamic_rating is None:
         yield f"life of bearing {name!r} is absent: it has no dynamic_rating"
-    if inner.contact_angle and getattr(state, "reversed_elements", 0):
+    if bearing.contact_angle and state.reversed_elements:
         yield (
             f"bearing {name!r}: {state.reversed_elements} of its elements bear on the side that an angular-contact bearing does not have; "
             "it needs more preload or axial load, or turn it round (carries)"
         )
 
 
-def _element_table(name, state):
+def _element_table(name: str, bearing: BallBearing | RollerBearing, state: BearingEquilibrium) -> Table:
     n = len(state.element_loads)
-    return Table(
-        f"elements.{name}",
-        f"Rolling elements of bearing {name}",
-        (
-            Column(
-                "angle", "rad", "place of the element, from x towards y", 2 * np.pi * np.arange(n + 1) / n + state.bearing.first_element
-            ),
-            Column("load", "N", "load", _round(state.element_loads)),
-            Column("contact_angle", "rad", "contact angle", _round(state.contact_angles)),
-            Column("inner_pressure", "Pa", "peak pressure at the inner race", _round(state.pressures[:, 0])),
-            Column("outer_pressure", "Pa", "peak pressure at the outer race", _round(state.pressures[:, 1])),
-        ),
+    angle = 2 * np.pi * np.arange(n + 1) / n + bearing.first_element
+    columns = (
+        Column("angle", "rad", "place of the element, from x towards y", angle),
+        Column("load", "N", "load", _closed(state.element_loads)),
+        Column("contact_angle", "rad", "contact angle", _closed(state.contact_angles)),
+        Column("inner_pressure", "Pa", "peak pressure at the inner race", _closed(state.pressures[:, 0])),
+        Column("outer_pressure", "Pa", "peak pressure at the outer race", _closed(state.pressures[:, 1])),
     )
+    return Table(f"elements.{name}", f"Rolling elements of bearing {name}", columns)
 
 
-def _round(data):
+def _closed(data: Floats) -> Floats:
     """Once round: the first element again at the end."""
     return np.concatenate([data, data[:1]])
 
 
-def _curve(model, name, inner, state):
-    """Displacement and stiffness over the load, its direction kept."""
-    force = state.force * [1, 1, 1, 0, 0]
-    if not np.hypot(*force[:2]) > 0:
+def _load_curve(name: str, bearing: BallBearing | RollerBearing, state: BearingEquilibrium) -> Iterator[Table]:
+    """Displacement and stiffness over the load, its direction kept; nothing where no radial force acts or not all loads can be borne."""
+    if not np.hypot(*state.force[:2]) > 0:
         return
-    way, rows = force[:2] / np.hypot(*force[:2]), []
-    held = ("tilt_x", "tilt_y") + (() if bearings.contact_of(inner) == "point" or inner.contact_angle else ("z",))
-    for factor in LOADS:
-        try:
-            found = bearings.solve(inner, force=factor * np.where([True, True, "z" not in held, True, True], force, 0.0), held=held)
-        except (InputError, SolverError):
-            return
-        moved = float(way @ found.displacement[:2])
-        load = factor * float(np.hypot(*force[:2]))
-        rows.append((load, moved, float(way @ found.stiffness[:2, :2] @ way), load / moved if moved > 0 else np.nan))
-    load, moved, tangent, secant = np.array(rows).T
-    yield Table(
-        f"curve.{name}",
-        f"Bearing {name} over its load",
-        (
-            Column("load", "N", "radial force, axial force in proportion", load),
-            Column("displacement", "m", "radial displacement", moved),
-            Column("tangent", "N/m", "tangent stiffness", tangent),
-            Column("secant", "N/m", "secant stiffness", secant),
-        ),
+    try:
+        curve = bearings.load_curve(bearing, state.force, FACTORS)
+    except (InputError, SolverError):
+        return
+    columns = (
+        Column("load", "N", "radial force, axial force in proportion", curve.load),
+        Column("displacement", "m", "radial displacement", curve.displacement),
+        Column("tangent", "N/m", "tangent stiffness", curve.tangent),
+        Column("secant", "N/m", "secant stiffness", curve.secant),
     )
+    yield Table(f"curve.{name}", f"Bearing {name} over its load", columns)

@@ -2,41 +2,30 @@
 
 import numpy as np
 
-from drivewright.result import Answer, Column, Table, Value
-from drivewright.shafts.sensitivity import flexibility_slopes
+from drivewright import shafts
+from drivewright.mechanisms.shaft.build import ShaftModel
+from drivewright.mechanisms.shaft.matrices import station_pairs
+from drivewright.result import Answer, Answers, Column, Table, Value
 
 
-def sensitivities(model, done):
+def sensitivities(model: ShaftModel, done: Answers) -> Answer:
     """A row for every parameter; where bearings are not linear they keep their tangents at the equilibrium."""
     at_rest, found = done["statics"].data.equilibrium, done["flexibility"].data
-    pairs = [(i, j) for i in range(len(model.names)) for j in range(i, len(model.names))]
+    pairs, names = list(station_pairs(model.names)), model.names
     rows, values = [], {}
-    for name, held, slope in flexibility_slopes(at_rest, found, model.direction):
-        with np.errstate(divide="ignore", invalid="ignore"):
-            part = np.where(np.abs(found.delta) > 1e-12 * np.abs(found.delta).max(), slope / found.delta, np.nan)
-        rows.append((name, held, *(part[p] for p in pairs)))
+    for parameter, held, relative in shafts.relative_flexibility_slopes(at_rest, found, model.direction):
+        rows.append((parameter, held, *(relative[p] for p in pairs)))
+        meaning = f"relative change of the flexibility over that of {parameter}; {held}"
         values |= {
-            f"sensitivity.{model.names[i]}.{model.names[j]}.{name}": Value(
-                float(part[i, j]), "-", f"relative change of the flexibility over that of {name}; {held}"
-            )
+            f"sensitivity.{names[i]}.{names[j]}.{parameter}": Value(float(relative[i, j]), "-", meaning)
             for i, j in pairs
-            if np.isfinite(part[i, j])
+            if np.isfinite(relative[i, j])
         }
-    names, held, *columns = zip(*rows, strict=True)
-    return Answer(
-        values,
-        (
-            Table(
-                "sensitivities",
-                "Sensitivities of the flexibility, relative change over relative change",
-                (
-                    Column("parameter", "-", "parameter", np.array(names)),
-                    Column("held", "-", "what is held", np.array(held)),
-                    *(
-                        Column(f"{model.names[i]}.{model.names[j]}", "-", f"of {model.names[i]}, {model.names[j]}", np.array(column))
-                        for (i, j), column in zip(pairs, columns, strict=True)
-                    ),
-                ),
-            ),
-        ),
-    )
+    parameters, held, *data = zip(*rows, strict=True)
+    columns = [Column("parameter", "-", "parameter", np.array(parameters)), Column("held", "-", "what is held", np.array(held))]
+    columns += [
+        Column(f"{names[i]}.{names[j]}", "-", f"of {names[i]}, {names[j]}", np.array(column))
+        for (i, j), column in zip(pairs, data, strict=True)
+    ]
+    title = "Sensitivities of the flexibility, relative change over relative change"
+    return Answer(values, (Table("sensitivities", title, tuple(columns)),))

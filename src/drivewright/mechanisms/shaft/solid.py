@@ -3,15 +3,13 @@
 import numpy as np
 
 from drivewright.errors import InputError
-from drivewright.result import Answer, Array, Check, Value
+from drivewright.mechanisms.shaft.build import ShaftModel
+from drivewright.mechanisms.shaft.matrices import pair_values, station_array
+from drivewright.result import Answer, Answers, Check, Value
 from drivewright.shafts import solid_check
 
 
-def no_solid(spec):
-    return None if spec.stations else "the spec declares no [[stations]]"
-
-
-def solid(model, done):
+def solid(model: ShaftModel, done: Answers) -> Answer:
     """Flexibility of the solid, how far the beam is from it, and the picture of the deformed solid."""
     try:
         at_rest = done["statics"].data.equilibrium
@@ -19,33 +17,20 @@ def solid(model, done):
     except InputError as error:
         return Answer(findings=(f"the solid check is absent: {error}",), outcome="left out")
     scale = np.sqrt(np.outer(np.diag(found.flexibility), np.diag(found.flexibility)))
-    apart = (beam - found.flexibility) / scale
+    deviation = float(np.abs((beam - found.flexibility) / scale).max())
+    meaning = "largest difference of beam and solid, over the geometric mean of the two diagonals"
     values = {
-        "solid.deviation": Value(
-            float(np.abs(apart).max()), "-", "largest difference of beam and solid, over the geometric mean of the two diagonals"
-        ),
+        "solid.deviation": Value(deviation, "-", meaning),
         "solid.unknowns": Value(float(found.unknowns), "-", "unknowns of the finite elements"),
         "solid.seconds": Value(float(found.seconds), "s", "time to mesh and solve"),
     }
-    values |= {
-        f"solid.flexibility.{a}.{b}": Value(float(found.flexibility[i, j]), "m/N", f"displacement of {a!r} by a unit force at {b!r}, solid")
-        for i, a in enumerate(model.names)
-        for j, b in enumerate(model.names)
-        if j >= i
-    }
+    words = "displacement of {a!r} by a unit force at {b!r}, solid"
+    values |= pair_values("solid.flexibility", model.names, found.flexibility, "m/N", words)
     arrays = {
-        "solid.flexibility": Array("m/N", ("station", "station"), (model.names, model.names), found.flexibility),
-        "solid.beam": Array("m/N", ("station", "station"), (model.names, model.names), beam),
+        "solid.flexibility": station_array(model.names, found.flexibility, "m/N"),
+        "solid.beam": station_array(model.names, beam, "m/N"),
     }
-    last = len(model.names) - 1
+    last, allowed = len(model.names) - 1, solid_check.allowed_difference(model.shaft)
     table = solid_check.surface_table(found, last, title=f"Shaft as a solid, force at {model.names[last]}")
-    check = Check(
-        "solid",
-        float(np.abs(apart).max()),
-        solid_check.allowed_difference(model.shaft),
-        "<=",
-        "-",
-        "beam against solid, over the diagonals",
-        ("shaft",),
-    )
+    check = Check("solid", deviation, allowed, "<=", "-", "beam against solid, over the diagonals", ("shaft",))
     return Answer(values, (table,), (check,), (), arrays)

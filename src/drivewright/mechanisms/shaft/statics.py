@@ -1,11 +1,15 @@
 """The loaded shaft: deflections, reactions, forces and stresses along it."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from drivewright import shafts
+from drivewright._typing import Floats
+from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.refusals import is_rolling
-from drivewright.result import Answer, Check, Column, Table, Value
-from drivewright.shafts.beam import FREEDOMS
+from drivewright.mechanisms.shaft.spec import Bearing
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 FINE = 21  # places along the shaft for its buckling
 BALANCED = 1e-9  # of all forces; Newton's method stops at 1e-11
@@ -13,79 +17,62 @@ NO_FORCE = 1e-9  # of the largest load
 SAMPLES = 241  # along the shaft, besides the nodes
 
 
-def statics(model, done):
-    """Equilibrium under all loads; `data` is the `Loaded` shaft for the analyses that start from it."""
+def statics(model: ShaftModel, done: Answers) -> Answer:
+    """Equilibrium under all loads; `data` is the `LoadedShaft` for the analyses that start from it."""
     loaded = shafts.load(model.shaft, model.loads)
-    checks = (*_slenderness(model),)
-    values = {
-        f"bearings.{m.support.name}.{key}": value
-        for m, b in zip(loaded.equilibrium.model.mounts, model.spec.bearings, strict=True)
-        if not is_rolling(b) and b.radial_stiffness not in (None, np.inf) and not b.radial_clearance
-        for key, value in _linear_stiffness(m.support).items()
-    }
+    values, checks = _linear_stiffness(model), tuple(_slenderness(model))
     if not model.loaded:
-        return Answer(
-            values,
-            (),
-            checks,
-            ("there are no loads: deflections and stresses are absent, flexibility is that of the unloaded shaft",),
-            data=loaded,
-        )
-    drawn = shafts.diagram(loaded, SAMPLES)
-    values |= _stations(model, loaded) | _bearings(model, loaded) | _extremes(model, drawn)
-    return Answer(
-        values, (_diagram_table(model, drawn), _reaction_table(model, loaded)), (*checks, *_checks(model, loaded, drawn)), data=loaded
-    )
+        findings = ("there are no loads: deflections and stresses are absent, flexibility is that of the unloaded shaft",)
+        return Answer(values, (), checks, findings, data=loaded)
+    along = shafts.diagram(loaded, SAMPLES)
+    values |= _stations(model, loaded.equilibrium) | _bearings(model, loaded.equilibrium) | _extremes(along)
+    tables = (_diagram_table(model, along), _reaction_table(model, loaded.equilibrium))
+    return Answer(values, tables, (*checks, *_checks(model, loaded, along)), data=loaded)
 
 
-def _linear_stiffness(support):
-    radial = support.stiffness[0]
-    return {
-        "stiffness.tangent": Value(radial, "N/m", f"change of radial force over displacement of bearing {support.name!r}, at any load"),
-        "stiffness.secant": Value(radial, "N/m", f"radial force over displacement of bearing {support.name!r}, at any load"),
-    }
+def _linear_stiffness(model: ShaftModel) -> dict[str, Value]:
+    """The radial stiffness of the springs that have no clearance: the same at any load."""
+    values = {}
+    for support, bearing in zip(model.shaft.supports, model.spec.bearings, strict=True):
+        if not is_rolling(bearing) and bearing.radial_stiffness not in (None, np.inf) and not bearing.radial_clearance:
+            stiffness, name = support.stiffness[0], f"bearings.{support.name}.stiffness"
+            words = f"radial force over displacement of bearing {support.name!r}, at any load"
+            values |= {f"{name}.tangent": Value(stiffness, "N/m", f"change of {words}"), f"{name}.secant": Value(stiffness, "N/m", words)}
+    return values
 
 
-def with_load(model, vector):
+def _along(model: ShaftModel, vector: Floats) -> float:
     """Component of a vector (x, y) along the unit loads."""
     return float(np.dot(model.direction, vector))
 
 
-def _stations(model, loaded):
-    found, u = loaded.equilibrium.model.beam, loaded.equilibrium.u
+def _stations(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> dict[str, Value]:
     values = {}
     for station in model.shaft.stations:
-        at, name = FREEDOMS * found.node(station.position), f"stations.{station.name}"
-        move, slope = u[at : at + 2], np.array([u[at + 4], -u[at + 3]])
-        place = f"of station {station.name!r}"
+        move, slope = at_rest.displacement_at(station.position), at_rest.slope_at(station.position)
+        name, at = f"stations.{station.name}", f"of station {station.name!r}"
         values |= {
-            f"{name}.deflection": Value(with_load(model, move), "m", f"deflection {place} along the unit loads: positive with the load"),
-            f"{name}.displacement": Value(float(np.hypot(*move)), "m", f"deflection {place}, magnitude"),
-            f"{name}.deflection_x": Value(float(move[0]), "m", f"deflection {place} along x"),
-            f"{name}.deflection_y": Value(float(move[1]), "m", f"deflection {place} along y (up)"),
-            f"{name}.slope": Value(with_load(model, slope), "rad", f"slope {place}, positive where the deflection grows with z"),
+            f"{name}.deflection": Value(_along(model, move), "m", f"deflection {at} along the unit loads: positive with the load"),
+            f"{name}.displacement": Value(float(np.hypot(*move)), "m", f"deflection {at}, magnitude"),
+            f"{name}.deflection_x": Value(float(move[0]), "m", f"deflection {at} along x"),
+            f"{name}.deflection_y": Value(float(move[1]), "m", f"deflection {at} along y (up)"),
+            f"{name}.slope": Value(_along(model, slope), "rad", f"slope {at}, positive where the deflection grows with z"),
         }
     return values
 
 
-def _bearings(model, loaded):
+def _bearings(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> dict[str, Value]:
     values = {}
-    for mount, reaction, moved in zip(
-        loaded.equilibrium.model.mounts, loaded.equilibrium.reactions, loaded.equilibrium.relative, strict=True
-    ):
-        name, at = f"bearings.{mount.support.name}", f"of bearing {mount.support.name!r}"
-        slope = slope_at(loaded, mount.support.position)
+    for support, reaction, moved in zip(model.shaft.supports, at_rest.reactions, at_rest.relative, strict=True):
+        name, at, inside = f"bearings.{support.name}", f"of bearing {support.name!r}", f"of the shaft in bearing {support.name!r}"
+        slope, against = float(np.hypot(*at_rest.slope_at(support.position))), "along the unit loads, positive against the load"
         values |= {
-            f"{name}.reaction": Value(
-                -with_load(model, reaction[:2]), "N", f"radial reaction {at} on the shaft along the unit loads, positive against the load"
-            ),
+            f"{name}.reaction": Value(-_along(model, reaction[:2]), "N", f"radial reaction {at} on the shaft {against}"),
             f"{name}.reaction_x": Value(reaction[0], "N", f"reaction {at} on the shaft along x"),
             f"{name}.reaction_y": Value(reaction[1], "N", f"reaction {at} on the shaft along y"),
             f"{name}.radial_force": Value(float(np.hypot(*reaction[:2])), "N", f"radial force {at}, magnitude"),
-            f"{name}.displacement": Value(
-                with_load(model, moved[:2]), "m", f"displacement of the shaft in bearing {mount.support.name!r}, positive with the load"
-            ),
-            f"{name}.slope": Value(float(np.hypot(*slope)), "rad", f"slope of the shaft in bearing {mount.support.name!r}, magnitude"),
+            f"{name}.displacement": Value(_along(model, moved[:2]), "m", f"displacement {inside}, positive with the load"),
+            f"{name}.slope": Value(slope, "rad", f"slope {inside}, magnitude"),
         }
         if abs(reaction[2]) > 0:
             values[f"{name}.axial_force"] = Value(reaction[2], "N", f"axial reaction {at} on the shaft, positive to the right")
@@ -94,110 +81,23 @@ def _bearings(model, loaded):
     return values
 
 
-def slope_at(loaded, position):
-    """Slope (x, y) of the shaft at a place with a node."""
-    at = FREEDOMS * loaded.equilibrium.model.beam.node(position)
-    return np.array([loaded.equilibrium.u[at + 4], -loaded.equilibrium.u[at + 3]])
-
-
-def _extremes(model, drawn):
-    told = (
-        ("max_deflection", np.hypot(*drawn.deflection.T), "m", "largest deflection along the shaft"),
-        ("max_moment", np.hypot(*drawn.moment.T), "N m", "largest bending moment"),
-        ("max_stress", drawn.von_mises, "Pa", "largest von Mises stress, nominal: without notches"),
-    )
+def _extremes(along: shafts.Diagram) -> dict[str, Value]:
     values = {}
-    for name, data, unit, meaning in told:
+    for name, data, unit, meaning in (
+        ("max_deflection", np.hypot(*along.deflection.T), "m", "largest deflection along the shaft"),
+        ("max_moment", np.hypot(*along.moment.T), "N m", "largest bending moment"),
+        ("max_stress", along.von_mises, "Pa", "largest von Mises stress, nominal: without notches"),
+    ):
         at = int(np.argmax(data))
-        values |= {
-            f"shaft.{name}": Value(float(data[at]), unit, meaning),
-            f"shaft.{name}.at": Value(float(drawn.z[at]), "m", f"where {name} is"),
-        }
+        values[f"shaft.{name}"] = Value(float(data[at]), unit, meaning)
+        values[f"shaft.{name}.at"] = Value(float(along.z[at]), "m", f"where {name} is")
     return values
 
 
-def _checks(model, loaded, drawn):
-    limits, shock = model.spec.limits, model.spec.limits.shock_factor
-    stress, under = float(drawn.von_mises.max()), f", at {shock:g} times the load" if shock > 1 else ""
-    if model.yield_strength and stress > 0:
-        yield Check(
-            "yield_safety",
-            model.yield_strength / (shock * stress),
-            limits.yield_safety,
-            ">=",
-            "-",
-            f"yield strength over the largest nominal stress{under}",
-            ("shaft",),
-        )
-    yield Check(
-        "equilibrium",
-        shafts.imbalance(loaded, model.loads),
-        BALANCED,
-        "<=",
-        "-",
-        "forces and moments on the shaft that do not balance, over the sum of all",
-        ("shaft",),
-    )
-    yield Check(
-        "small_deflections",
-        _farthest(loaded, drawn) / model.shaft.length,
-        limits.largest_deflection,
-        "<=",
-        "-",
-        "largest deflection over the length of the shaft: beyond it the linear theory does not hold",
-        ("shaft",),
-    )
-    slope = float(np.hypot(*drawn.slope.T).max())
-    yield Check(
-        "small_slopes", slope, limits.largest_slope, "<=", "rad", "largest slope: beyond it the linear theory does not hold", ("shaft",)
-    )
-    pressed = drawn.axial.min() < -NO_FORCE * np.abs(loaded.force).max(initial=0)
-    factor = shafts.buckling_factor(shafts.load(model.shaft, model.loads, np.linspace(0.0, model.shaft.length, FINE))) if pressed else None
-    if factor is not None:
-        yield Check(
-            "buckling",
-            factor / shock,
-            limits.buckling,
-            ">=",
-            "-",
-            f"axial force at which the shaft buckles over the axial force{under}",
-            ("shaft",),
-        )
-    for station in model.shaft.stations if limits.deflection else ():
-        at = FREEDOMS * loaded.equilibrium.model.beam.node(station.position)
-        size = float(np.hypot(*loaded.equilibrium.u[at : at + 2]))
-        yield Check(f"deflection.{station.name}", size, limits.deflection, "<=", "m", f"deflection of station {station.name!r}", ("shaft",))
-    for bearing, reaction in zip(model.spec.bearings, loaded.equilibrium.reactions, strict=True):
-        yield from _bearing_checks(model, loaded, bearing, float(np.hypot(*reaction[:2])), under)
+# -- checks --------------------------------------------------------------------------------------------------------------------
 
 
-def _farthest(loaded, drawn):
-    """The largest displacement of the shaft, across or along its axis."""
-    found, u = loaded.equilibrium.model.beam, loaded.equilibrium.u
-    return float(max(np.hypot(*drawn.deflection.T).max(), np.abs(u[2 : found.size : FREEDOMS]).max()))
-
-
-def _bearing_checks(model, loaded, bearing, force, under):
-    limits = model.spec.limits
-    if limits.slope:
-        slope = float(np.hypot(*slope_at(loaded, bearing.position)))
-        yield Check(
-            f"slope.{bearing.name}", slope, limits.slope, "<=", "rad", f"slope of the shaft in bearing {bearing.name!r}", (bearing.name,)
-        )
-    if bearing.static_rating and force > 0:  # of a rolling bearing beside the check of its pressure
-        name = "static_rating" if bearing.name in model.rolling else "static_safety"
-        yield Check(
-            f"{name}.{bearing.name}",
-            bearing.static_rating / (limits.shock_factor * force),
-            limits.static_safety,
-            ">=",
-            "-",
-            f"static rating of bearing {bearing.name!r} over its radial force{under}",
-            (bearing.name,),
-        )
-
-
-def _slenderness(model):
+def _slenderness(model: ShaftModel) -> Iterator[Check]:
     """Whether a length may have been given in a wrong unit."""
     ratio = model.shaft.length / min(min(s.start, s.end) for s in model.shaft.sections)
     limits, message = model.spec.limits, "length of the shaft over its least diameter; far off, a unit may have slipped"
@@ -205,45 +105,82 @@ def _slenderness(model):
     yield Check("stockiness", ratio, limits.stockiness, ">=", "-", message, ("shaft",))
 
 
-def _diagram_table(model, drawn):
-    pairs = (
-        ("deflection", drawn.deflection, "m", "deflection"),
-        ("slope", drawn.slope, "rad", "slope"),
-        ("shear", drawn.shear, "N", "shear force"),
-        ("moment", drawn.moment, "N m", "bending moment"),
-    )
-    columns = [Column("z", "m", "distance from the left end", drawn.z)]
-    for name, data, unit, meaning in pairs:
-        columns += [
-            Column(name, unit, f"{meaning}, in the direction of the unit loads", data @ model.direction),
-            Column(
-                f"{name}_across",
-                unit,
-                f"{meaning}, square to it: a quarter of a turn clockwise",
-                data @ [model.direction[1], -model.direction[0]],
-            ),
-        ]
+def _checks(model: ShaftModel, loaded: shafts.LoadedShaft, along: shafts.Diagram) -> Iterator[Check]:
+    limits, shock, own = model.spec.limits, model.spec.limits.shock_factor, ("shaft",)
+    under, beyond = f", at {shock:g} times the load" if shock > 1 else "", "beyond it the linear theory does not hold"
+    stress = float(along.von_mises.max())
+    if model.yield_strength and stress > 0:
+        message = f"yield strength over the largest nominal stress{under}"
+        yield Check("yield_safety", model.yield_strength / (shock * stress), limits.yield_safety, ">=", "-", message, own)
+    message = "forces and moments on the shaft that do not balance, over the sum of all"
+    yield Check("equilibrium", shafts.imbalance(loaded, model.loads), BALANCED, "<=", "-", message, own)
+    farthest, message = shafts.largest_displacement(loaded, along), f"largest deflection over the length of the shaft: {beyond}"
+    yield Check("small_deflections", farthest / model.shaft.length, limits.largest_deflection, "<=", "-", message, own)
+    slope = float(np.hypot(*along.slope.T).max())
+    yield Check("small_slopes", slope, limits.largest_slope, "<=", "rad", f"largest slope: {beyond}", own)
+    factor = _buckling_factor(model, loaded, along)
+    if factor is not None:
+        message = f"axial force at which the shaft buckles over the axial force{under}"
+        yield Check("buckling", factor / shock, limits.buckling, ">=", "-", message, own)
+    for station in model.shaft.stations if limits.deflection else ():
+        size, message = float(np.hypot(*loaded.equilibrium.displacement_at(station.position))), f"deflection of station {station.name!r}"
+        yield Check(f"deflection.{station.name}", size, limits.deflection, "<=", "m", message, own)
+    for bearing, reaction in zip(model.spec.bearings, loaded.equilibrium.reactions, strict=True):
+        yield from _bearing_checks(model, loaded.equilibrium, bearing, float(np.hypot(*reaction[:2])), under)
+
+
+def _buckling_factor(model: ShaftModel, loaded: shafts.LoadedShaft, along: shafts.Diagram) -> float | None:
+    """The factor on the axial forces at which the shaft buckles; None where nothing presses it."""
+    if not along.axial.min() < -NO_FORCE * np.abs(loaded.force).max(initial=0):
+        return None
+    return shafts.buckling_factor(shafts.load(model.shaft, model.loads, np.linspace(0.0, model.shaft.length, FINE)))
+
+
+def _bearing_checks(model: ShaftModel, at_rest: shafts.ShaftEquilibrium, bearing: Bearing, force: float, under: str) -> Iterator[Check]:
+    limits, own = model.spec.limits, (bearing.name,)
+    if limits.slope:
+        slope, message = float(np.hypot(*at_rest.slope_at(bearing.position))), f"slope of the shaft in bearing {bearing.name!r}"
+        yield Check(f"slope.{bearing.name}", slope, limits.slope, "<=", "rad", message, own)
+    if bearing.static_rating and force > 0:  # of a rolling bearing beside the check of its pressure
+        name = "static_rating" if bearing.name in model.rolling else "static_safety"
+        safety, message = (
+            bearing.static_rating / (limits.shock_factor * force),
+            f"static rating of bearing {bearing.name!r} over its radial force",
+        )
+        yield Check(f"{name}.{bearing.name}", safety, limits.static_safety, ">=", "-", message + under, own)
+
+
+# -- tables --------------------------------------------------------------------------------------------------------------------
+
+
+def _diagram_table(model: ShaftModel, along: shafts.Diagram) -> Table:
+    direction = model.direction
+    columns = [Column("z", "m", "distance from the left end", along.z)]
+    for name, data, unit, meaning in (
+        ("deflection", along.deflection, "m", "deflection"),
+        ("slope", along.slope, "rad", "slope"),
+        ("shear", along.shear, "N", "shear force"),
+        ("moment", along.moment, "N m", "bending moment"),
+    ):
+        columns.append(Column(name, unit, f"{meaning}, in the direction of the unit loads", data @ direction))
+        across = data @ [direction[1], -direction[0]]
+        columns.append(Column(f"{name}_across", unit, f"{meaning}, square to it: a quarter of a turn clockwise", across))
     columns += [
-        Column("axial", "N", "axial force, tension positive", drawn.axial),
-        Column("torque", "N m", "torque", drawn.torque),
-        Column("bending_stress", "Pa", "nominal stress by bending and tension", drawn.bending),
-        Column("torsion_stress", "Pa", "nominal shear stress by torsion", drawn.torsion),
-        Column("stress", "Pa", "von Mises stress, nominal", drawn.von_mises),
+        Column("axial", "N", "axial force, tension positive", along.axial),
+        Column("torque", "N m", "torque", along.torque),
+        Column("bending_stress", "Pa", "nominal stress by bending and tension", along.bending),
+        Column("torsion_stress", "Pa", "nominal shear stress by torsion", along.torsion),
+        Column("stress", "Pa", "von Mises stress, nominal", along.von_mises),
     ]
     return Table("diagram", "The loaded shaft along its length", tuple(columns))
 
 
-def _reaction_table(model, loaded):
-    reactions, moved = loaded.equilibrium.reactions, loaded.equilibrium.relative
-    names = np.array([bearing.name for bearing in model.spec.bearings])
-    units, told = ("N", "N", "N", "N m", "N m"), ("along x", "along y", "along z", "moment about x", "moment about y")
+def _reaction_table(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> Table:
+    keys, names = ("x", "y", "z", "tilt_x", "tilt_y"), np.array([bearing.name for bearing in model.spec.bearings])
+    words = ("along x", "along y", "along z", "moment about x", "moment about y")
     columns = [Column("bearing", "-", "bearing", names)]
-    columns += [
-        Column(f"reaction_{key}", unit, f"reaction on the shaft, {words}", reactions[:, i])
-        for i, (key, unit, words) in enumerate(zip(("x", "y", "z", "tilt_x", "tilt_y"), units, told, strict=True))
-    ]
-    columns += [
-        Column(f"displacement_{key}", unit, f"of the shaft against the seat, {key}", moved[:, i])
-        for i, (key, unit) in enumerate(zip(("x", "y", "z", "tilt_x", "tilt_y"), ("m", "m", "m", "rad", "rad"), strict=True))
-    ]
+    for key, unit, of, data in zip(keys, ("N", "N", "N", "N m", "N m"), words, at_rest.reactions.T, strict=True):
+        columns.append(Column(f"reaction_{key}", unit, f"reaction on the shaft, {of}", data))
+    for key, unit, data in zip(keys, ("m", "m", "m", "rad", "rad"), at_rest.relative.T, strict=True):
+        columns.append(Column(f"displacement_{key}", unit, f"of the shaft against the seat, {key}", data))
     return Table("reactions", "Bearings under load", tuple(columns))
