@@ -4,7 +4,7 @@ A result is a value: frozen, picklable, SI throughout, every number with a unit 
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
@@ -314,6 +314,21 @@ class Answer:
     data: AnalysisData = None
     stopped: tuple[Stop, ...] = ()
     failure: str = ""
+
+
+def merge_answers(answers: Iterable[Answer]) -> Answer:
+    """Values, tables, checks and findings of several answers, in their order; partial where one is.  `data` stays with each."""
+    answers = tuple(answers)
+    values = {name: value for answer in answers for name, value in answer.values.items()}
+    arrays = {name: array for answer in answers for name, array in answer.arrays.items()}
+    return Answer(
+        values,
+        tuple(table for answer in answers for table in answer.tables),
+        tuple(check for answer in answers for check in answer.checks),
+        tuple(finding for answer in answers for finding in answer.findings),
+        arrays,
+        "partial" if any(answer.outcome == "partial" for answer in answers) else "complete",
+    )
 
 
 Answers: TypeAlias = Mapping[str, Answer]  # of the analyses that ran before, by name

@@ -105,6 +105,11 @@ class Outline(NamedTuple):
         return Outline(tuple(piece.moved(pose, mirror) for piece in self.pieces), self.closed)
 
 
+def xy(z: complex) -> Point:
+    """The point (x, y) of a complex number."""
+    return float(z.real), float(z.imag)
+
+
 def circle(center: Point, radius: float) -> Outline:
     """Outline of a full circle, in two half arcs as most CAD kernels want it."""
     x, y = center

@@ -220,7 +220,7 @@ def test_extremes_are_one_sided_and_exact():
     b = np.radians(100)
     programme = Programme((Segment(b, "parabolic", 0.01), Segment(2 * np.pi - 2 * b, "dwell"), Segment(b, "parabolic", -0.01)))
     cycle = cams.Cycle(programme.function)
-    highest = cycle.greatest(lambda _, lift: Jet(lift.d2, lift.d3, lift.d3, lift.d3))
+    highest = cycle.maximum(lambda _, lift: Jet(lift.d2, lift.d3, lift.d3, lift.d3))
     assert highest.value == pytest.approx(0.04 / b**2, rel=1e-12)
     assert highest.angle == 0.0
     assert highest.piece == 0
@@ -230,10 +230,10 @@ def test_extreme_inside_a_piece_is_found_to_rounding():
     b = 1.3
     programme = Programme((Segment(b, "cycloidal", 0.01), Segment(2 * np.pi - 2 * b, "dwell"), Segment(b, "cycloidal", -0.01)))
     cycle = cams.Cycle(programme.function)
-    steepest = cycle.greatest(lambda _, lift: Jet(lift.d1, lift.d2, lift.d3, lift.d3))
+    steepest = cycle.maximum(lambda _, lift: Jet(lift.d1, lift.d2, lift.d3, lift.d3))
     assert steepest.angle == pytest.approx(b / 2, abs=1e-12)
     assert steepest.value == pytest.approx(0.02 / b, rel=1e-14)
-    lowest = cycle.least(lambda _, lift: Jet(lift.d1, lift.d2, lift.d3, lift.d3))
+    lowest = cycle.minimum(lambda _, lift: Jet(lift.d1, lift.d2, lift.d3, lift.d3))
     assert lowest.angle == pytest.approx(2 * np.pi - b / 2, abs=1e-12)
 
 
@@ -250,5 +250,5 @@ def test_restricted_to_some_pieces():
     b = 1.3
     programme = Programme((Segment(b, "cycloidal", 0.01), Segment(2 * np.pi - 2 * b, "dwell"), Segment(b, "cycloidal", -0.01)))
     cycle = cams.Cycle(programme.function, chosen=(1,))
-    found = cycle.greatest(lambda _, lift: lift)
+    found = cycle.maximum(lambda _, lift: lift)
     assert (found.value, found.angle) == (pytest.approx(0.01), b)

@@ -16,7 +16,7 @@ LOAD = cams.FollowerLoad(MASS, 0.0, K, P, F)
 
 
 def least_force(load, speed):
-    return HARMONIC.least(lambda _, lift: cams.follower_force(lift, load, speed)).value
+    return HARMONIC.minimum(lambda _, lift: cams.follower_force(lift, load, speed)).value
 
 
 @pytest.mark.parametrize("speed", [20.0, 65.0, 120.0])
@@ -118,7 +118,7 @@ def test_crossovers_and_play():
     assert cams.crossovers(HARMONIC, lambda _, lift: cams.follower_force(lift, free, 30.0)) == 2
     assert cams.crossovers(HARMONIC, lambda _, lift: cams.follower_force(lift, LOAD, 30.0)) == 0
     follower = cams.TranslatingRound(0.045, 0.008)
-    steepest = HARMONIC.greatest(lambda angle, lift: follower.contact(angle, lift).pressure_angle).value
+    steepest = HARMONIC.maximum(lambda angle, lift: follower.contact(angle, lift).pressure_angle).value
     assert cams.play(HARMONIC, follower.contact, 5e-5) == pytest.approx(5e-5 / np.cos(steepest), rel=1e-12)
 
 

@@ -115,27 +115,27 @@ def test_flat_face_supports_the_profile_everywhere(follower, rise):
 
 
 @pytest.mark.parametrize(("follower", "rise"), FLAT)
-def test_least_base_radius_is_where_the_profile_gets_a_corner(follower, rise):
+def test_min_base_radius_is_where_the_profile_gets_a_corner(follower, rise):
     cycle = cams.Cycle(programme(1.2 * rise).function)
-    base = cams.least_base_radius(cycle, follower)
+    base = cams.min_base_radius(cycle, follower)
     assert base > 0
-    least = cycle.least(lambda angle, lift: cams.flat_radius(*replace(follower, base_radius=base).face(angle, lift))).value
+    least = cycle.minimum(lambda angle, lift: cams.flat_radius(*replace(follower, base_radius=base).face(angle, lift))).value
     assert least == pytest.approx(0, abs=1e-13)
 
 
 def test_a_swing_that_no_base_radius_can_follow():
     cycle = cams.Cycle(programme(0.4, angles=(70, 20, 80, 190)).function)
-    assert cams.least_base_radius(cycle, FLAT[2][0]) is None
+    assert cams.min_base_radius(cycle, FLAT[2][0]) is None
 
 
-def test_least_base_radius_of_a_slide_is_a_formula():
+def test_min_base_radius_of_a_slide_is_a_formula():
     """A cosine s = h/2 (1 - cos theta) has s + s'' = h/2 everywhere: no base radius is too small."""
     smooth = Programme((Segment(np.pi, "simple-harmonic", 0.02), Segment(np.pi, "simple-harmonic", -0.02)))
-    assert cams.least_base_radius(cams.Cycle(smooth.function), cams.TranslatingFlat(0.05)) == 0
+    assert cams.min_base_radius(cams.Cycle(smooth.function), cams.TranslatingFlat(0.05)) == 0
     # Twice per turn, s = h/2 (1 - cos 2 theta): s + s'' = h/2 (1 + 3 cos 2 theta), least -h.
     quick = Programme(tuple(Segment(np.pi / 2, "simple-harmonic", sign * 0.02) for sign in (1, -1, 1, -1)))
-    assert cams.least_base_radius(cams.Cycle(quick.function), cams.TranslatingFlat(0.05)) == pytest.approx(0.02, rel=1e-12)
-    tilted = cams.least_base_radius(cams.Cycle(quick.function), cams.TranslatingFlat(0.05, 0.2))
+    assert cams.min_base_radius(cams.Cycle(quick.function), cams.TranslatingFlat(0.05)) == pytest.approx(0.02, rel=1e-12)
+    tilted = cams.min_base_radius(cams.Cycle(quick.function), cams.TranslatingFlat(0.05, 0.2))
     assert tilted == pytest.approx(0.02 * np.cos(0.2), rel=1e-12)
 
 

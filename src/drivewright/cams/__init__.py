@@ -1,10 +1,35 @@
-"""Cams: follower kinematics, pressure angle, curvature, profile, closure, forces and vibration; plain numbers, no spec."""
+"""Cams: follower kinematics, pressure angle, curvature, profile, closure, forces and vibration; plain numbers, no spec.
+
+`translating`, `oscillating`  pitch curve and pressure angle of the two kinds of follower
+`followers`          a follower with its face: from lift to contact
+`cycle`              one turn in smooth pieces; extremes of any quantity
+`profile`            family of the face in the cam frame, overtravel
+`finished`           the trimmed profile, its size, inspection table
+`sizing`             least radii of curvature and base radius, length of a flat face
+`closure`            yoke, groove, conjugate cam
+`loads`, `pressure`  forces, torque, spring; Hertz pressure
+`vibration`          the follower train as one mass on a damped spring
+`clearance`          a lever between conjugate cams with clearance: contact, flight, impact
+`oscillating_batch`  kernels for many designs at once
+`follower_shapes`    the follower as shapes, for scene and solids
+"""
 
 from drivewright.cams import oscillating, translating
 from drivewright.cams.closure import Breadth, breadth, crossovers, opposite_contact, play
 from drivewright.cams.cycle import Cycle, Extreme
+from drivewright.cams.finished import (
+    FinishedProfile,
+    drawn_profile,
+    finished_profile,
+    inspection_table,
+    min_hollow_radius,
+    pitch_outline,
+    profile_radii,
+)
+from drivewright.cams.follower_shapes import FollowerShapes
 from drivewright.cams.followers import (
     CamContact,
+    ContactAt,
     OscillatingFlat,
     OscillatingRound,
     TranslatingFlat,
@@ -21,50 +46,67 @@ from drivewright.cams.loads import (
     needed_preload,
     needed_stiffness,
 )
-from drivewright.cams.profile import FlatFollower, Follower, RoundFollower, Sinking, family, path, sinking, spans
-from drivewright.cams.sizing import face_ends, least_base_radius
+from drivewright.cams.pressure import contact_pressure, pair_modulus, peak_contact_pressure, relative_curvature, roller_pressure
+from drivewright.cams.profile import FlatFollower, Follower, Overtravel, RoundFollower, family, overtravel, path, spans
+from drivewright.cams.sizing import face_ends, min_base_radius, min_flat_radius, min_pitch_radius
 from drivewright.cams.vibration import STIFFEST, Response, acceleration, amplitude, peak, periodic, propagator, transient
 
 __all__ = [
-    "acceleration",
-    "amplitude",
     "Breadth",
-    "breadth",
-    "cam_normal_force",
     "CamContact",
-    "crossovers",
-    "curvature",
+    "ContactAt",
     "Cycle",
-    "drive_torque",
     "Extreme",
-    "face_ends",
-    "family",
-    "flat_radius",
+    "FinishedProfile",
     "FlatFollower",
     "Follower",
-    "follower_force",
     "FollowerLoad",
+    "FollowerShapes",
+    "OscillatingFlat",
+    "OscillatingRound",
+    "Overtravel",
+    "Response",
+    "RoundFollower",
+    "STIFFEST",
+    "TranslatingFlat",
+    "TranslatingRound",
+    "acceleration",
+    "amplitude",
+    "breadth",
+    "cam_normal_force",
+    "contact_pressure",
+    "crossovers",
+    "curvature",
+    "drawn_profile",
+    "drive_torque",
+    "face_ends",
+    "family",
+    "finished_profile",
+    "flat_radius",
+    "follower_force",
+    "inspection_table",
     "jump_speed",
-    "least_base_radius",
+    "min_base_radius",
+    "min_flat_radius",
+    "min_hollow_radius",
     "needed_preload",
     "needed_stiffness",
     "opposite_contact",
     "oscillating",
-    "OscillatingFlat",
-    "OscillatingRound",
+    "overtravel",
+    "pair_modulus",
     "path",
     "peak",
+    "peak_contact_pressure",
     "periodic",
+    "pitch_outline",
     "play",
+    "profile_radii",
     "propagator",
-    "Response",
-    "RoundFollower",
-    "sinking",
-    "Sinking",
+    "relative_curvature",
+    "roller_pressure",
+    "min_pitch_radius",
     "spans",
-    "STIFFEST",
     "transient",
     "translating",
-    "TranslatingFlat",
-    "TranslatingRound",
 ]

@@ -1,13 +1,12 @@
 """What keeps a follower on its cam where no spring does: a yoke, a groove, a second cam."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from drivewright.cams.cycle import Cycle, Quantity
-from drivewright.cams.followers import CamContact, TranslatingFlat, TranslatingRound
+from drivewright.cams.followers import CamContact, ContactAt, TranslatingFlat, TranslatingRound
 from drivewright.numerics.jets import Jet, cos
 
 
@@ -24,7 +23,7 @@ def breadth(cycle: Cycle) -> Breadth:
     def total(angle, lift):
         return lift + cycle.after(np.pi, angle)
 
-    least, greatest = cycle.least(total).value, cycle.greatest(total).value
+    least, greatest = cycle.minimum(total).value, cycle.maximum(total).value
     return Breadth(0.5 * (least + greatest), 0.5 * (greatest - least))
 
 
@@ -41,6 +40,6 @@ def crossovers(cycle: Cycle, required: Quantity) -> int:
     return int(np.sum(signs != np.roll(signs, 1)))
 
 
-def play(cycle: Cycle, contact: Callable[[Jet, Jet], CamContact], clearance: float) -> float:
+def play(cycle: Cycle, contact: ContactAt, clearance: float) -> float:
     """Greatest travel [m] of the follower through a clearance [m] between two flanks: clearance/cos alpha."""
-    return clearance * cycle.greatest(lambda angle, lift: 1 / cos(contact(angle, lift).pressure_angle)).value
+    return clearance * cycle.maximum(lambda angle, lift: 1 / cos(contact(angle, lift).pressure_angle)).value

@@ -57,11 +57,14 @@ class Cycle:
         """(angle, lift): the jets at these angles by the formulas of these pieces."""
         return variable(angle), Jet(*self.motion.on_piece(piece, angle))
 
+    def at_angle(self, angle: Numbers) -> tuple[Jet, Jet]:
+        """(angle, lift): the same by the piece in which each angle lies; at a joint by the later one."""
+        breaks = self.motion.breaks
+        return self.at(np.clip(np.searchsorted(breaks, angle, side="right") - 1, 0, len(breaks) - 2), angle)
+
     def after(self, shift: float, angle: Jet) -> Jet:
         """The jet of the lift a fixed angle later in the turn."""
-        breaks = self.motion.breaks
-        later = np.mod(angle.d0 + shift, breaks[-1])
-        return self.at(np.clip(np.searchsorted(breaks, later, side="right") - 1, 0, len(breaks) - 2), later)[1]
+        return self.at_angle(np.mod(angle.d0 + shift, self.motion.breaks[-1]))[1]
 
     def samples(self, step: float = STEP, least: int = 8) -> tuple[Ints, Floats]:
         """(piece, angle): places at most `step` apart with both ends of every piece, so that each joint stands twice."""
@@ -71,7 +74,7 @@ class Cycle:
         angle = np.concatenate([np.linspace(breaks[k], breaks[k + 1], count) for k, count in zip(pieces, counts, strict=True)])
         return np.repeat(pieces, counts), angle
 
-    def greatest(self, quantity: Quantity, step: float = STEP) -> Extreme:
+    def maximum(self, quantity: Quantity, step: float = STEP) -> Extreme:
         """`Extreme` of a quantity; of equal ones the first.  The angle is exact to rounding."""
         piece, angle = self.samples(step)
         found = quantity(*self.at(piece, angle))
@@ -81,9 +84,9 @@ class Cycle:
         first = close[np.argmin(angle[close])]
         return Extreme(float(values[first]), float(angle[first]), int(piece[first]))
 
-    def least(self, quantity: Quantity, step: float = STEP) -> Extreme:
+    def minimum(self, quantity: Quantity, step: float = STEP) -> Extreme:
         """`Extreme` of the least value of a quantity; of equal ones the first."""
-        found = self.greatest(lambda angle, lift: -quantity(angle, lift), step)
+        found = self.maximum(lambda angle, lift: -quantity(angle, lift), step)
         return found._replace(value=-found.value)
 
     def _tops(self, quantity, piece, angle, value, slope):

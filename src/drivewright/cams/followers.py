@@ -5,7 +5,9 @@ Each follower is a few numbers and one method, `contact(angle, lift)`: jets of t
 out.  `sense` is +1 for a cam that turns counter-clockwise, -1 for clockwise; at angle 0 the cam's frame is the machine's.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
@@ -38,6 +40,9 @@ class CamContact:
     leverage: Jet
     sliding: Jet
     rolling: Jet
+
+
+ContactAt: TypeAlias = Callable[[Jet, Jet], CamContact]  # of the jets angle and lift
 
 
 def curvature(pitch: Jet, orientation: int = 1) -> Jet:

@@ -48,7 +48,7 @@ def drive_torque(travel: Jet, required: Jet) -> Jet:
 
 def needed_preload(cycle: Cycle, reach: float, load: FollowerLoad, speed: float) -> float:
     """Least preload [N] of the spring that keeps the contact closed with the stiffness as it is; 0 where none is needed."""
-    lowest = cycle.least(lambda _, lift: follower_force(reach * lift, load._replace(preload=0.0), speed))
+    lowest = cycle.minimum(lambda _, lift: follower_force(reach * lift, load._replace(preload=0.0), speed))
     return max(-lowest.value, 0.0)
 
 
@@ -61,7 +61,7 @@ def needed_stiffness(cycle: Cycle, reach: float, load: FollowerLoad, speed: floa
     stiffness = 0.0
     for _ in range(STEPS):
         tried = load._replace(stiffness=stiffness)
-        lowest = cycle.least(lambda _, lift, tried=tried: follower_force(reach * lift, tried, speed))
+        lowest = cycle.minimum(lambda _, lift, tried=tried: follower_force(reach * lift, tried, speed))
         x = reach * cycle.at(lowest.piece, lowest.angle)[1].d0
         if lowest.value >= -1e-13 * stiffness * abs(x):
             return stiffness
@@ -76,13 +76,13 @@ def jump_speed(cycle: Cycle, reach: float, load: FollowerLoad) -> float:
 
     m x'' w^2 + c x' w + (k x + P + F) = 0 gives a speed at every place; the place where the force at that speed is least gives the next.
     """
-    if cycle.least(lambda _, lift: follower_force(reach * lift, load, 0.0)).value <= 0:
+    if cycle.minimum(lambda _, lift: follower_force(reach * lift, load, 0.0)).value <= 0:
         return 0.0
     speed = np.min(_separating_speed(cycle, reach, load, *cycle.samples()))
     for _ in range(STEPS):
         if not np.isfinite(speed):
             return np.inf
-        lowest = cycle.least(lambda _, lift, speed=speed: follower_force(reach * lift, load, speed))
+        lowest = cycle.minimum(lambda _, lift, speed=speed: follower_force(reach * lift, load, speed))
         lower = float(_separating_speed(cycle, reach, load, lowest.piece, lowest.angle))
         if not lower < speed * (1 - 1e-14):
             return float(speed)

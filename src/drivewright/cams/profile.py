@@ -1,4 +1,4 @@
-"""The finished profile: what the follower's face leaves standing when it has gone once around the cam."""
+"""What the follower's face sweeps when it goes once around the cam: its family in the cam frame, and its overtravel."""
 
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple, TypeAlias
@@ -29,8 +29,8 @@ def family(follower: Follower, programme: Programme, flank: int = 1) -> CircleFa
     return CircleFamily(path(programme, follower.pitch), follower.radius, "inside" if flank > 0 else "outside")
 
 
-class Sinking(NamedTuple):
-    """A follower that sinks along its travel beyond its programme: what `curves.lost_motion` wants.
+class Overtravel(NamedTuple):
+    """The motion of a follower along its travel beyond its programme, into an undercut cam: what `curves.lost_motion` wants.
 
     place(angle, depth): members of the family, `depth` [m] of travel (of the arm's end where it swings) below the planned place;
     fastest: the most that a point of the face comes nearer per depth.
@@ -40,21 +40,21 @@ class Sinking(NamedTuple):
     fastest: float
 
 
-def sinking(follower: Follower, programme: Programme, flank: int = 1) -> Sinking:
-    """The `Sinking` of a follower into its cam; flank -1: outwards, into the outer wall of a groove."""
+def overtravel(follower: Follower, programme: Programme, flank: int = 1) -> Overtravel:
+    """The `Overtravel` of a follower into its cam; flank -1: outwards, into the outer wall of a groove."""
 
     def lift(angle, depth):
         return constant(programme(angle).s - flank * getattr(follower, "side", 1) * depth / follower.reach)
 
     if not isinstance(follower, FlatFollower):
-        return Sinking(lambda angle, depth: follower.pitch(variable(angle), lift(angle, depth)).d0, 1.0)
+        return Overtravel(lambda angle, depth: follower.pitch(variable(angle), lift(angle, depth)).d0, 1.0)
 
     def face(angle, depth):
         direction, support = follower.face(variable(angle), lift(angle, depth))
         return np.stack([np.exp(1j * direction.d0), support.d0 + 0j])
 
     # A line about a pivot, which lies outside the cam: no point of the cam is farther from it than twice its distance from the centre.
-    return Sinking(face, 2 * follower.pivot_distance / follower.reach if isinstance(follower, OscillatingFlat) else 1.0)
+    return Overtravel(face, 2 * follower.pivot_distance / follower.reach if isinstance(follower, OscillatingFlat) else 1.0)
 
 
 def spans(pieces: Iterable[Piece]) -> tuple[Span, ...]:

@@ -1,15 +1,26 @@
-"""How large a flat-faced follower and its cam must be."""
+"""Least radii of curvature of a cam, and how large a flat-faced follower and its cam must be."""
 
 from dataclasses import replace
 
 import numpy as np
 
-from drivewright.cams.cycle import Cycle
-from drivewright.cams.followers import OscillatingFlat, TranslatingFlat, flat_radius
+from drivewright.cams.cycle import Cycle, Extreme
+from drivewright.cams.followers import ContactAt, OscillatingFlat, TranslatingFlat, flat_radius
 from drivewright.curves import derivative
 
 
-def least_base_radius(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -> float | None:
+def min_flat_radius(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -> Extreme:
+    """Least radius of curvature [m] of the profile under a flat face, negative where it is undercut, and where."""
+    return cycle.minimum(lambda angle, lift: flat_radius(*follower.face(angle, lift)))
+
+
+def min_pitch_radius(cycle: Cycle, contact_at: ContactAt, sign: int) -> Extreme | None:
+    """Least radius of curvature [m] of the pitch curve where it is convex (sign +1) or concave (-1), and where; None if nowhere."""
+    sharpest = cycle.maximum(lambda angle, lift: sign * contact_at(angle, lift).pitch_curvature)
+    return sharpest._replace(value=1 / sharpest.value) if sharpest.value > 0 else None
+
+
+def min_base_radius(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -> float | None:
     """Base radius [m] below which a flat face undercuts the profile: 0 where none is too small, None where none is large enough.
 
     Translating: max(0, -min(s + s'') cos tilt), exact, as the radius of curvature is R + (s + s'') cos tilt.  Oscillating: the
@@ -18,11 +29,11 @@ def least_base_radius(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat)
 
     def sharpest(radius):
         changed = replace(follower, base_radius=radius)
-        return cycle.least(lambda angle, lift: flat_radius(*changed.face(angle, lift))).value
+        return min_flat_radius(cycle, changed).value
 
     if isinstance(follower, TranslatingFlat):
         return max(0.0, follower.base_radius - sharpest(follower.base_radius))
-    highest = cycle.greatest(lambda _, lift: lift).value
+    highest = cycle.maximum(lambda _, lift: lift).value
     # The lever is short of its dead point at the greatest lift.
     low, high = 1e-6 * follower.pivot_distance, follower.face_offset + follower.pivot_distance * np.cos(highest) * (1 - 1e-9)
     low = max(low, follower.face_offset - follower.pivot_distance * (1 - 1e-9))
@@ -49,4 +60,4 @@ def face_ends(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -> tupl
         foot = (follower.base_radius + follower.offset * sin) / cos + lift
         return cos * derivative(lift) - follower.offset * cos - sin * foot
 
-    return cycle.least(along).value, cycle.greatest(along).value
+    return cycle.minimum(along).value, cycle.maximum(along).value

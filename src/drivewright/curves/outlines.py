@@ -8,7 +8,7 @@ from scipy.interpolate import PPoly
 
 from drivewright._typing import Floats
 from drivewright.errors import InputError
-from drivewright.scene import Arc, Line, Outline, Spline
+from drivewright.scene import Arc, Line, Outline, Spline, xy
 
 _ARC = 1e-8  # a piece flagged as an arc may differ from one by this, relative to its radius
 _FEWEST = 8  # chords in a spline
@@ -71,7 +71,7 @@ def _arc(span, tolerance):
             f"{np.max(np.abs(np.abs(arms) - radius)) * 1e3:.3g} mm. Flag only dwells about a fixed axis as arcs."
         )
     sweep = float(np.sum(np.angle(arms[1:] / arms[:-1])))
-    return Arc(_pair(center), float(radius), float(np.angle(arms[0])), sweep)
+    return Arc(xy(center), float(radius), float(np.angle(arms[0])), sweep)
 
 
 def _center(a, b, c):
@@ -83,7 +83,7 @@ def _center(a, b, c):
 
 def _line(span, tolerance):
     ends = span.piece.at(np.array([span.start, span.stop])).d0
-    return Line(_pair(ends[0]), _pair(ends[1]))
+    return Line(xy(ends[0]), xy(ends[1]))
 
 
 def _spline(span, tolerance):
@@ -95,7 +95,7 @@ def _spline(span, tolerance):
     knots[0], knots[-1] = span.start, span.stop
     jet = span.piece.at(knots)
     heading = jet.d1 / np.abs(jet.d1) * np.sign(span.stop - span.start)
-    return Spline(np.stack([jet.d0.real, jet.d0.imag], axis=1), _pair(heading[0]), _pair(heading[-1]))
+    return Spline(np.stack([jet.d0.real, jet.d0.imag], axis=1), xy(heading[0]), xy(heading[-1]))
 
 
 def _course(span, count=129):
@@ -108,10 +108,6 @@ def _course(span, count=129):
         if np.max(turn) < _TURN or count == most:
             return t, 0.5 * np.abs(speed[1:] + speed[:-1]) * np.abs(np.diff(t)), turn
         count = 2 * count - 1
-
-
-def _pair(z):
-    return float(z.real), float(z.imag)
 
 
 def outline_area(outline: Outline) -> float:

@@ -4,7 +4,7 @@ import numpy as np
 
 from drivewright.curves.outlines import interpolant, outline_area
 from drivewright.errors import InputError
-from drivewright.scene import Arc, Line, Outline, Spline
+from drivewright.scene import Arc, Line, Outline, Spline, xy
 
 _SMOOTH = 1e-6  # a turn [rad] below this is rounding and no corner
 _GOUGE = 1e-4  # the cutter may come nearer to the far side of the outline by this part of its radius: sampling error
@@ -35,7 +35,7 @@ def _parallel(piece, left):
         return piece._replace(radius=float(piece.radius - toward))
     if isinstance(piece, Line):
         shift = 1j * left * _heading(piece, "end")
-        return Line(_pair(complex(*piece.start) + shift), _pair(complex(*piece.end) + shift))
+        return Line(xy(complex(*piece.start) + shift), xy(complex(*piece.end) + shift))
     return _parallel_spline(piece, left)
 
 
@@ -64,7 +64,7 @@ def _around_corner(piece, following, left):
     corner = _point(piece)
     if turn * left > 0:
         _too_tight(0.0, corner, left)
-    yield Arc(_pair(corner), float(abs(left)), float(np.angle(1j * left * before)), turn)
+    yield Arc(xy(corner), float(abs(left)), float(np.angle(1j * left * before)), turn)
 
 
 def _heading(piece, end):
@@ -123,7 +123,3 @@ def _too_tight(radius, place, left):
         f"{radius * 1e3:.4g} mm; "
         f"a cutter of radius {abs(left) * 1e3:.4g} mm cannot reach it. Take a smaller cutter, or round the place to a larger radius."
     )
-
-
-def _pair(z):
-    return float(z.real), float(z.imag)

@@ -3,9 +3,9 @@
 import numpy as np
 
 from drivewright import cams, curves
-from drivewright.mechanisms.cam.build import CamModel, Track
+from drivewright.mechanisms.cam.build import CamModel
 from drivewright.mechanisms.cam.spec import TURN
-from drivewright.result import Answer, Answers, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Column, Table, Value, merge_answers
 
 
 def motion(model: CamModel, done: Answers) -> Answer:
@@ -64,10 +64,8 @@ def geometry(model: CamModel, done: Answers) -> Answer:
     answers = [_closure(model), *(part for track in cut for part in (_pressure(model, track), _curvature(model, track)))]
     if model.tracks[0].flat:
         answers.append(_face(model))
-    values = {name: value for answer in answers for name, value in answer.values.items()}
-    checks, findings = (tuple(x for answer in answers for x in getattr(answer, name)) for name in ("checks", "findings"))
-    tables = tuple(table for track in cut for table in _tables(model, track))
-    return Answer(values, tables, checks, findings)
+    answers += [Answer(tables=tuple(_tables(model, track))) for track in cut]
+    return merge_answers(answers)
 
 
 def _tables(model, track):
@@ -90,12 +88,12 @@ def _pressure(model, track):
     def angle_of(angle, lift):
         return track.contact(angle, lift).pressure_angle
 
-    high, low = model.cycle.greatest(angle_of), model.cycle.least(angle_of)
+    high, low = model.cycle.maximum(angle_of), model.cycle.minimum(angle_of)
     values = _extreme_values(f"{track.prefix}max_pressure_angle", high, "rad", "largest pressure angle, positive where it opposes the rise")
     values |= _extreme_values(f"{track.prefix}min_pressure_angle", low, "rad", "least pressure angle, positive where it opposes the rise")
     for phase in ("rise", "return"):
         if cycle := model.phase(phase):
-            size = max(cycle.greatest(angle_of).value, -cycle.least(angle_of).value)
+            size = max(cycle.maximum(angle_of).value, -cycle.minimum(angle_of).value)
             values[f"{track.prefix}max_pressure_angle.{phase}"] = Value(size, "rad", f"largest pressure angle in the {phase}, magnitude")
     if track.flank < 0:  # the walls of a groove share their normals
         return Answer(values)
@@ -108,11 +106,14 @@ def _pressure(model, track):
 def _curvature(model, track):
     """Sharpest convex and concave places of the pitch curve (of the profile under a flat face), and undercut."""
     if track.flat:
-        least = flat_least(model, track)
+        least = cams.min_flat_radius(model.cycle, track.flat_face)
         places = {"convex": least if least.value > 0 else None}
         checks = _flat_undercut(least)
     else:
-        places = {"convex": _sharpest(model, track, 1), "concave": _sharpest(model, track, -1)}
+        places = {
+            "convex": cams.min_pitch_radius(model.cycle, track.contact, 1),
+            "concave": cams.min_pitch_radius(model.cycle, track.contact, -1),
+        }
         checks = _undercut(model, track, places["convex" if track.flank > 0 else "concave"])
     values = {}
     for name, place in places.items():
@@ -131,17 +132,6 @@ def _profile_radius(track, name, place):
         return {}
     meaning = f"least radius of curvature of the profile where it is {name} seen from outside"
     return {f"{track.prefix}profile.min_{name}_radius": Value(radius, "m", meaning)}
-
-
-def flat_least(model: CamModel, track: Track) -> cams.Extreme:
-    """The least radius of curvature of the profile under a flat face, negative where it is undercut."""
-    return model.cycle.least(lambda angle, lift: cams.flat_radius(*track.flat_face.face(angle, lift)))
-
-
-def _sharpest(model, track, way):
-    """Least radius of the pitch curve where it is convex (+1) or concave (-1); None where it is nowhere so."""
-    found = model.cycle.greatest(lambda angle, lift: way * track.contact(angle, lift).pitch_curvature)
-    return found._replace(value=1 / found.value) if found.value > 0 else None
 
 
 def _flat_undercut(least):
@@ -166,7 +156,7 @@ def _undercut(model, track, place):
 def _face(model):
     """How large a flat-faced cam and its face must be."""
     low, high = cams.face_ends(model.cycle, model.follower)
-    slope = [extreme(lambda _, lift: curves.derivative(lift)).value for extreme in (model.cycle.least, model.cycle.greatest)]
+    slope = [extreme(lambda _, lift: curves.derivative(lift)).value for extreme in (model.cycle.minimum, model.cycle.maximum)]
     half = 0.5 * (high - low) if model.oscillating else max(-slope[0], slope[1])
     about = "" if model.oscillating else ", about the cam's axis: max |ds/dtheta|"
     origin = "the foot of the pivot" if model.oscillating else "the follower's line"
@@ -175,7 +165,7 @@ def _face(model):
         "face.end": Value(high, "m", f"greatest place of the contact on the face, from {origin}"),
         "min_half_face": Value(half, "m", f"half the length of face that is used{about}"),
     }
-    base, findings = cams.least_base_radius(model.cycle, model.follower), ()
+    base, findings = cams.min_base_radius(model.cycle, model.follower), ()
     if base is None:
         findings = ("min_base_radius is absent: no base radius is free of undercut; move the pivot away or reduce the swing",)
     else:

@@ -1,18 +1,17 @@
 """Spec -> model: the programme over one turn and the surfaces that touch: cam and follower, second cam, outer wall, second face."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache, partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from drivewright import cams, curves, materials, motion
+from drivewright import cams, materials, motion
+from drivewright.cams.follower_shapes import FollowerShapes
 from drivewright.cams.profile import Follower
-from drivewright.errors import DoesNotAssemble, InputError, SolverError, SpecError
+from drivewright.errors import DoesNotAssemble, InputError, SpecError
 from drivewright.mechanisms.cam.spec import CamSpec, Groove, Swing
 from drivewright.numerics.jets import Jet
-from drivewright.scene import Outline
 
 LAW_KEYS = ("file", "b", "c", "d", "start", "end", "interior", "points", "degree", "ends")
 USED = {  # keys of the follower that each motion and face reads
@@ -35,7 +34,7 @@ class Track:
     name: str
     prefix: str
     follower: Follower
-    contact: Callable[[Jet, Jet], cams.CamContact]
+    contact: cams.ContactAt
     flank: int = 1
     cut: bool = True
 
@@ -92,6 +91,12 @@ class CamModel:
         """The turn in smooth pieces."""
         return cams.Cycle(self.programme.function)
 
+    @cached_property
+    def shapes(self) -> FollowerShapes:
+        """The follower for pictures and solids."""
+        followers = tuple(track.follower for track in self.tracks if track.cut and track.flank > 0)
+        return FollowerShapes(followers, self.spec.follower.face, self.cycle, self.yoke_breadth if self.spec.closure == "yoke" else 0.0)
+
     def phase(self, name: str) -> cams.Cycle | None:
         """The pieces of the turn in a phase, "rise", "return" or "dwell"; None where there are none."""
         chosen = tuple(k for k, piece in enumerate(self.programme.pieces) if piece.phase == name)
@@ -139,6 +144,16 @@ class CamModel:
     def required(self, angle: Jet, lift: Jet) -> Jet:
         """Force that the cam must exert along the travel [N]; a jet."""
         return cams.follower_force(self.follower.reach * lift, self.load, self.speed)
+
+    def normal_force(self, track: Track, angle: Jet, lift: Jet) -> Jet:
+        """Normal force between the surfaces of a track [N], negative where it falls to another one; a jet."""
+        return cams.cam_normal_force(self.required(angle, lift), track.contact(angle, lift))
+
+    def torque(self, angle: Jet, lift: Jet) -> Jet:
+        """Torque of the contact force on the cam shaft [N m], a jet; where a follower closed by force has left the cam there is none."""
+        required = self.required(angle, lift)
+        held = required * (required.d0 > 0) if self.spec.closure == "force" else required
+        return cams.drive_torque(self.follower.reach * lift, held)
 
 
 def build(spec: CamSpec) -> CamModel:
@@ -286,35 +301,11 @@ def _conjugate(spec, follower):
 # -- profile -------------------------------------------------------------------------------------------------------------------
 
 
-class Profile(NamedTuple):
-    """What is left of a cam: its outline, the trimmed envelope (None for a knife edge), and a finding where trimming failed."""
-
-    outline: Outline
-    trimmed: curves.Trimmed | None
-    finding: str = ""
-
-
 @lru_cache(maxsize=16)
-def profile(model: CamModel, number: int = 0) -> "Profile":
-    """The `Profile` of a track by its number."""
+def profile(model: CamModel, number: int = 0) -> cams.FinishedProfile:
+    """The finished profile of a track by its number; DoesNotAssemble where nothing is left of it."""
     track = model.tracks[number]
-    if track.radius == 0:
-        return Profile(_outline(cams.path(model.programme, track.round_face.pitch)), None)
-    family = cams.family(track.follower, model.programme, track.flank)
     try:
-        trimmed = curves.trim(family)
-    except SolverError as error:
-        finding = f"{track.name}: the undercut profile could not be trimmed ({error}); it is drawn untrimmed"
-        return Profile(_outline(family.envelope()), None, finding)
+        return cams.finished_profile(track.follower, model.programme, track.flank)
     except InputError as error:
         raise DoesNotAssemble(f"cam: nothing is left of the {track.name}. {error}") from None
-    return Profile(trimmed.outline(), trimmed)
-
-
-def pitch_outline(model: CamModel, number: int = 0) -> Outline:
-    """The pitch curve of a track with a round face as an outline."""
-    return _outline(cams.path(model.programme, model.tracks[number].round_face.pitch))
-
-
-def _outline(pieces):
-    return curves.outline_of_spans(cams.spans(pieces), 1e-6)

@@ -3,7 +3,6 @@
 import numpy as np
 
 from drivewright.mechanisms.cam.build import CamModel
-from drivewright.mechanisms.cam.loads import _torque
 from drivewright.multibody.analyses.energy_audit import audit_answer, audit_of_powers
 from drivewright.result import Answer, Answers
 
@@ -20,7 +19,7 @@ def energy(model: CamModel, done: Answers) -> Answer:
     piece, angle = model.cycle.samples()
     place, lift = model.cycle.at(piece, angle)
     load, speed, reach = model.load, model.speed, model.follower.reach
-    torque, travel, velocity = _torque(model, place, lift).d0, reach * lift.d0, reach * lift.d1 * speed
+    torque, travel, velocity = model.torque(place, lift).d0, reach * lift.d0, reach * lift.d1 * speed
     powers = [torque * speed, -(load.stiffness * travel + load.preload) * velocity, -load.force * velocity, -load.damping * velocity**2]
     kinetic = 0.5 * load.mass * velocity**2
     found = audit_of_powers(angle / speed, np.stack(np.broadcast_arrays(*powers), axis=1), kinetic, kinetic, drives=0)

@@ -5,11 +5,9 @@ from functools import partial
 import numpy as np
 
 from drivewright import cams
-from drivewright.contact import hertz
-from drivewright.mechanisms.cam.analyse import flat_least
 from drivewright.mechanisms.cam.build import CamModel
 from drivewright.mechanisms.cam.spec import CamSpec
-from drivewright.result import Answer, Answers, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Column, Table, Value, merge_answers
 
 NO_SPEED = "no [drive] speed"
 
@@ -39,38 +37,23 @@ def forces(model: CamModel, done: Answers) -> Answer:
     """Force along the travel, normal force and Hertz pressure on every surface, torque, sliding and rolling speeds."""
     piece, angle = model.cycle.samples()
     state = model.cycle.at(piece, angle)
-    required = model.required(*state)
-    table = Table(
-        "load",
-        "Force and torque over the turn",
-        (
-            Column("angle", "rad", "cam angle", angle),
-            Column("required_force", "N", "force on the follower along its travel", required.d0 + 0 * angle),
-            Column("torque", "N m", "torque on the cam shaft", _torque(model, *state).d0 + 0 * angle),
-        ),
+    required, torque = model.required(*state).d0 + 0 * angle, model.torque(*state).d0 + 0 * angle
+    columns = (
+        Column("angle", "rad", "cam angle", angle),
+        Column("required_force", "N", "force on the follower along its travel", required),
+        Column("torque", "N m", "torque on the cam shaft", torque),
     )
-    answers = [part for track in model.tracks for part in (_contact(model, track, state), _pressure(model, track, state))]
+    least = "least torque on the cam shaft, negative where the follower drives the cam"
     values = {
-        "max_torque": Value(model.cycle.greatest(partial(_torque, model)).value, "N m", "largest torque on the cam shaft"),
-        "min_torque": Value(
-            model.cycle.least(partial(_torque, model)).value,
-            "N m",
-            "least torque on the cam shaft, negative where the follower drives the cam",
-        ),
+        "max_torque": Value(model.cycle.maximum(model.torque).value, "N m", "largest torque on the cam shaft"),
+        "min_torque": Value(model.cycle.minimum(model.torque).value, "N m", least),
     }
-    values |= {name: value for answer in answers for name, value in answer.values.items()}
+    drive = Answer(values, (Table("load", "Force and torque over the turn", columns),), findings=_flight(model, required))
+    answers = [part for track in model.tracks for part in (_contact(model, track, state), _pressure(model, track, state))]
     if len(model.tracks) > 1:
-        changes = float(cams.crossovers(model.cycle, model.required))
-        values["crossovers"] = Value(changes, "-", "changes of the surface that drives, per turn")
-    tables, checks, findings = (tuple(x for answer in answers for x in getattr(answer, name)) for name in ("tables", "checks", "findings"))
-    return Answer(values, (table, *tables), checks, (*_flight(model, required.d0 + 0 * angle), *findings))
-
-
-def _torque(model, angle, lift):
-    """Torque of the contact force; where a follower closed by force has left the cam there is none."""
-    required = model.required(angle, lift)
-    held = required * (required.d0 > 0) if model.spec.closure == "force" else required
-    return cams.drive_torque(model.follower.reach * lift, held)
+        changes = Value(float(cams.crossovers(model.cycle, model.required)), "-", "changes of the surface that drives, per turn")
+        answers.append(Answer({"crossovers": changes}))
+    return merge_answers((drive, *answers))
 
 
 def _flight(model, required):
@@ -87,68 +70,50 @@ def _flight(model, required):
 def _contact(model, track, state):
     """Normal force of one surface, which pushes only and carries what falls to it, and the speeds there."""
     contact, angle = track.contact(*state), state[0].d0
-    force = np.maximum(cams.cam_normal_force(model.required(*state), contact).d0 + 0 * angle, 0.0)
-    greatest = model.cycle.greatest(lambda a, lift: cams.cam_normal_force(model.required(a, lift), track.contact(a, lift)))
+    greatest = model.cycle.maximum(partial(model.normal_force, track))
     values = {f"{track.prefix}max_contact_force": Value(max(greatest.value, 0.0), "N", f"largest normal force{track.of}")}
     rolls = model.spec.follower.face == "roller"
-    ends = [extreme(lambda a, lift: track.contact(a, lift).sliding).value for extreme in (model.cycle.greatest, model.cycle.least)]
+    ends = [extreme(lambda a, lift: track.contact(a, lift).sliding).value for extreme in (model.cycle.maximum, model.cycle.minimum)]
     body = max(map(abs, ends)) * model.speed
     if rolls and track.cut:
         spin = body / track.radius
         values[f"{track.prefix}max_roller_speed"] = Value(spin, "rad/s", f"largest speed of the roller on its pin{track.of}")
     if not rolls and track.cut:
         values[f"{track.prefix}max_sliding_speed"] = Value(body, "m/s", f"largest sliding speed{track.of}")
-    table = Table(
-        f"contact{track.suffix}",
-        f"Contact of cam and follower{track.of}",
-        (
-            Column("angle", "rad", "cam angle", angle),
-            Column("contact_force", "N", f"normal force{track.of}", force),
-            Column(
-                "surface_speed",
-                "m/s",
-                f"{'circumferential speed of the roller' if rolls else 'sliding speed'}{track.of}",
-                np.abs(contact.sliding.d0) * model.speed + 0 * angle,
-            ),
-            Column(
-                "rolling_speed", "m/s", f"speed of the contact along the profile{track.of}", contact.rolling.d0 * model.speed + 0 * angle
-            ),
-        ),
+    surface = f"{'circumferential speed of the roller' if rolls else 'sliding speed'}{track.of}"
+    rolling = contact.rolling.d0 * model.speed + 0 * angle
+    columns = (
+        Column("angle", "rad", "cam angle", angle),
+        Column("contact_force", "N", f"normal force{track.of}", _pushing_force(model, track, state)),
+        Column("surface_speed", "m/s", surface, np.abs(contact.sliding.d0) * model.speed + 0 * angle),
+        Column("rolling_speed", "m/s", f"speed of the contact along the profile{track.of}", rolling),
     )
-    return Answer(values, (table,))
+    return Answer(values, (Table(f"contact{track.suffix}", f"Contact of cam and follower{track.of}", columns),))
+
+
+def _pushing_force(model, track, state):
+    return np.maximum(model.normal_force(track, *state).d0 + 0 * state[0].d0, 0.0)
 
 
 def _pressure(model, track, state):
     """Hertz pressure of one surface, where it has a meaning."""
     if reason := _no_pressure(model, track):
         return Answer(findings=(f"{track.prefix}max_contact_pressure is absent: {reason}",))
-    contact, angle = track.contact(*state), state[0].d0
-    force = np.maximum(cams.cam_normal_force(model.required(*state), contact).d0 + 0 * angle, 0.0)
-    radius = 1 / _relative_curvature(track, contact).d0
-    pressure = np.asarray(hertz.line_contact(force, model.spec.face.width, radius, _modulus(model)).pressure)
-    table = Table(
-        f"pressure{track.suffix}",
-        f"Contact pressure{track.of}",
-        (Column("angle", "rad", "cam angle", angle), Column("contact_pressure", "Pa", f"peak Hertz pressure{track.of}", pressure)),
+    across = (track.radius, model.spec.face.width, cams.pair_modulus(model.material))
+    pressure = cams.contact_pressure(_pushing_force(model, track, state), track.contact(*state), *across)
+    columns = (
+        Column("angle", "rad", "cam angle", state[0].d0),
+        Column("contact_pressure", "Pa", f"peak Hertz pressure{track.of}", pressure),
     )
-    peak, allowed = _peak_pressure(model, track), model.spec.limits.contact_pressure or model.material.hertz_limit
+    table = Table(f"pressure{track.suffix}", f"Contact pressure{track.of}", columns)
+    peak = cams.peak_contact_pressure(model.cycle, partial(model.normal_force, track), track.contact, *across)
     values = {f"{track.prefix}max_contact_pressure": Value(peak, "Pa", f"largest Hertz pressure{track.of}, steady contact")}
+    name, allowed = f"contact_pressure{track.suffix}", model.spec.limits.contact_pressure or model.material.hertz_limit
     if allowed is None:
-        return Answer(
-            values,
-            (table,),
-            (),
-            (
-                f"check contact_pressure{track.suffix} is left out: no allowable pressure is known for "
-                f"{model.material.name}; give limits.contact_pressure",
-            ),
-        )
-    name, parts = f"contact_pressure{track.suffix}", (track.name, "follower")
-    return Answer(values, (table,), (Check(name, peak, allowed, "<=", "Pa", "Hertz line contact of follower and cam", parts),))
-
-
-def _relative_curvature(track, contact):
-    return contact.curvature + 1 / track.radius
+        unknown = f"no allowable pressure is known for {model.material.name}; give limits.contact_pressure"
+        return Answer(values, (table,), findings=(f"check {name} is left out: {unknown}",))
+    check = Check(name, peak, allowed, "<=", "Pa", "Hertz line contact of follower and cam", (track.name, "follower"))
+    return Answer(values, (table,), (check,))
 
 
 def _no_pressure(model, track):
@@ -156,31 +121,15 @@ def _no_pressure(model, track):
     if track.radius == 0:
         return "a knife edge has no contact pressure"
     if track.flat:
-        return "the profile is undercut" if flat_least(model, track).value <= 0 else None
-    sharpest = model.cycle.greatest(lambda angle, lift: track.flank * track.contact(angle, lift).pitch_curvature).value
+        return "the profile is undercut" if cams.min_flat_radius(model.cycle, track.flat_face).value <= 0 else None
+    sharpest = model.cycle.maximum(lambda angle, lift: track.flank * track.contact(angle, lift).pitch_curvature).value
     return "the profile is undercut" if sharpest * track.radius >= 1 else None
-
-
-def _peak_pressure(model, track):
-    """Largest pressure over the turn: it goes with force times relative curvature."""
-
-    def product(angle, lift):
-        contact = track.contact(angle, lift)
-        return cams.cam_normal_force(model.required(angle, lift), contact) * _relative_curvature(track, contact)
-
-    worst = max(model.cycle.greatest(product).value, 0.0)
-    return float(hertz.line_contact(worst, model.spec.face.width, 1.0, _modulus(model)).pressure)
-
-
-def _modulus(model):
-    card = model.material
-    return hertz.effective_modulus(card.modulus, card.poisson, card.modulus, card.poisson)
 
 
 def spring(model: CamModel, done: Answers) -> Answer:
     """Does the spring hold the follower on the cam; what preload, stiffness and speed are the limits."""
     cycle, reach, load, speed = model.cycle, model.follower.reach, model.load, model.speed
-    least, needed, findings = cycle.least(model.required), cams.needed_preload(cycle, reach, load, speed), []
+    least, needed, findings = cycle.minimum(model.required), cams.needed_preload(cycle, reach, load, speed), []
     values = {
         "min_required_force": Value(least.value, "N", "least force on the follower along its travel; below 0 it leaves the cam"),
         "min_required_force.at": Value(least.angle % (2 * np.pi), "rad", "cam angle of it, from the start of the programme"),

@@ -4,12 +4,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from drivewright import cams, curves
-from drivewright.mechanisms.cam import sketch
-from drivewright.mechanisms.cam.build import CamModel, Profile, pitch_outline, profile
+from drivewright import cams
+from drivewright.cams.follower_shapes import SLIM
+from drivewright.mechanisms.cam.build import CamModel, profile
 from drivewright.mechanisms.cam.spec import TURN
 from drivewright.result import Plot
-from drivewright.scene import Body, Drawing, Frame, Part, Prism, Scene, Shape, Trace, circle, polygon
+from drivewright.scene import Body, Drawing, Frame, Part, Prism, Scene, Shape, Trace, circle, polygon, xy
 
 FRAMES = 181
 DRAWN = 1e-5  # on screen a profile stays within this part of the cam's size
@@ -50,23 +50,19 @@ def scene(model: CamModel) -> Scene:
     angle = np.linspace(0, TURN, FRAMES)
     lift = model.programme(angle).s
     turning, still = _poses(0.0, 0.0, model.follower.sense * angle), _poses(0.0, 0.0, 0.0 * angle)
-    moving = _poses(sketch.origin(model).real, 0.0, -lift) if model.oscillating else _poses(0.0, lift, 0.0)
+    moving = _poses(model.shapes.origin.real, 0.0, -lift) if model.oscillating else _poses(0.0, lift, 0.0)
     colours = {"cam": "blue", "outer wall": "blue", "conjugate": "green"}
     bodies = [
-        Body(track.name, track.name, tuple(_cam_shapes(model, number, _shown)), turning, colours[track.name])
+        Body(track.name, track.name, tuple(_cam_shapes(model, number, _drawn_profile)), turning, colours[track.name])
         for number, track in enumerate(model.tracks)
         if track.cut
     ]
     bodies += [
-        Body("follower", "follower", tuple(sketch.follower_shapes(model)), moving, "orange"),
+        Body("follower", "follower", model.shapes(), moving, "orange"),
         Body("frame", "frame", tuple(_ground(model)), still, "ground"),
     ]
     frames = (Frame("machine", "machine frame", still), Frame("cam", "seen from the cam", turning))
-    traces = (
-        ()
-        if model.tracks[0].flat
-        else (Trace("center", "centre of the follower's face", "follower", sketch.pair(sketch.centers(model)[0])),)
-    )
+    traces = () if model.tracks[0].flat else (Trace("center", "centre of the follower's face", "follower", xy(model.shapes.centers[0])),)
     programme = model.programme
     marks = tuple((float(start), segment.motion_law.name) for start, segment in zip(programme.starts, programme.segments, strict=False))
     period = TURN / model.speed if model.turns else 2.0
@@ -78,14 +74,11 @@ def _poses(x, y, angle):
 
 
 @lru_cache(maxsize=16)
-def _shown(model, number):
-    """The `Profile` of a track for the screen: as fine as that needs where nothing is trimmed away, else the exact one."""
+def _drawn_profile(model, number):
+    """The profile of a track for the screen: as fine as that needs where nothing is trimmed away, else the exact one."""
     track = model.tracks[number]
-    if track.radius == 0:
-        return profile(model, number)
-    family = cams.family(track.follower, model.programme, track.flank)
-    outline = curves.simple_outline(family, DRAWN * sketch.size(model))
-    return Profile(outline, None) if outline else profile(model, number)
+    outline = cams.drawn_profile(track.follower, model.programme, DRAWN * model.shapes.size, track.flank)
+    return cams.FinishedProfile(outline, None) if outline else profile(model, number)
 
 
 def _cam_shapes(model, number, profile_of=profile):
@@ -95,15 +88,14 @@ def _cam_shapes(model, number, profile_of=profile):
     if track.flank > 0:
         yield Shape("base", circle((0, 0), float(np.min(np.hypot(*found.outline.points(1e-6).T)))))
         if not track.flat and track.radius:
-            yield Shape("pitch", pitch_outline(model, number))
+            yield Shape("pitch", cams.pitch_outline(track.round_face, model.programme))
         if model.spec.manufacture.bore:
             yield Shape("hole", circle((0, 0), model.spec.manufacture.bore / 2))
     else:
         yield Shape("body", circle((0, 0), _disc_radius(model, profile_of)))
     for start, stop in found.trimmed.removed if found.trimmed else ():
         angle = np.linspace(start, stop, 33)
-        piece = np.clip(np.searchsorted(model.cycle.motion.breaks, angle, side="right") - 1, 0, len(model.cycle.motion.breaks) - 2)
-        point = track.contact(*model.cycle.at(piece, angle)).point.d0
+        point = track.contact(*model.cycle.at_angle(angle)).point.d0
         yield Shape("defect", polygon(np.stack([point.real, point.imag], axis=1), closed=False))
 
 
@@ -114,12 +106,12 @@ def _disc_radius(model, profile_of=profile):
 
 def _ground(model):
     """Bearing of the cam; pivot of a lever or guide of a slide."""
-    size = sketch.size(model)
+    size = model.shapes.size
     yield Shape("ground", circle((0, 0), 0.05 * size))
     if model.oscillating:
         yield Shape("ground", circle((model.follower.pivot_distance, 0), 0.05 * size))
         return
-    x, gap = model.follower.sense * model.spec.follower.offset, 0.6 * sketch.SLIM * size
+    x, gap = model.follower.sense * model.spec.follower.offset, 0.6 * SLIM * size
     low = size + 0.35 * size
     for side in (x - gap, x + gap):
         yield Shape("ground", polygon([(side, low), (side, low + 0.4 * size)], closed=False))
@@ -136,7 +128,7 @@ def drawings(model: CamModel) -> tuple[Drawing, ...]:
             shapes = [shape for shape in _cam_shapes(model, number) if shape.layer != "defect"]
             if model.spec.closure == "groove":
                 shapes += [shape for shape in _cam_shapes(model, 1) if shape.layer != "defect"]
-            reach = 1.1 * sketch.size(model)
+            reach = 1.1 * model.shapes.size
             ends = (((-reach, 0), (reach, 0)), ((0, -reach), (0, reach)))
             shapes += [Shape("axis", polygon(pair, closed=False)) for pair in ends]
             found.append(Drawing(track.name, _title(model, track), tuple(shapes), model.spec.face.width, model.spec.closure != "groove"))
@@ -177,12 +169,12 @@ def _follower_parts(model, width):
     lift = float(model.programme(0.0).s)
     pose = (model.follower.pivot_distance, 0.0, -lift) if model.oscillating else (0.0, lift, 0.0)
     if model.spec.follower.face == "roller":
-        for number, center in enumerate(sketch.centers(model)):
+        for number, center in enumerate(model.shapes.centers):
             track = model.tracks[number] if model.spec.closure == "conjugate" else model.tracks[0]
             z = -1.5 * width if number and model.spec.closure == "conjugate" else 0.0
-            outline = circle(sketch.pair(center), track.radius)
-            pin = circle(sketch.pair(center), 0.3 * track.radius)
+            outline = circle(xy(center), track.radius)
+            pin = circle(xy(center), 0.3 * track.radius)
             yield Part("roller" if not number else "second roller", (Prism(outline, (pin,), z, width),), pose, "orange")
         return
-    bodies = [shape.outline for shape in sketch.follower_shapes(model) if shape.layer == "body" and shape.outline.closed]
+    bodies = [shape.outline for shape in model.shapes() if shape.layer == "body" and shape.outline.closed]
     yield Part("follower", tuple(Prism(outline, (), 0.0, width) for outline in bodies), pose, "orange")

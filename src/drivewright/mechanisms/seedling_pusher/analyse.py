@@ -84,7 +84,7 @@ def _one_cam(model, cam):
     prefix, spec = f"cam.{cam.name}", model.spec
     radius, where = least_convex_radius(model, cam)
     trimmed = model.trimmed[cam.name]
-    lost_at, lost = curves.largest_lost_motion(trimmed, *model.sinking(cam))
+    lost_at, lost = curves.largest_lost_motion(trimmed, *model.overtravel(cam))
     reach = extremes(lambda t: np.abs(model.pitch(cam, t).d0), model.push_start, model.push_start + TURN)
     steepest = {phase: phase_extreme(model, cam, phase)[0] for phase in ("rise", "return")}
     values = {

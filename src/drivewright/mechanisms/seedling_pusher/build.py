@@ -192,7 +192,7 @@ class PusherModel:
         """Outline of the real profile of each cam by name, in the frame of its formulas."""
         return {name: trimmed.outline(self.spec.manufacture.chord_tolerance) for name, trimmed in self.trimmed.items()}
 
-    def sinking(self, cam: ConjugateCam) -> tuple[Callable[[Floats, Floats], Complexes], float]:
+    def overtravel(self, cam: ConjugateCam) -> tuple[Callable[[Floats, Floats], Complexes], float]:
         """How a roller sinks along its path into its cam, for `curves.lost_motion`."""
 
         def place(t, depth):

@@ -30,6 +30,7 @@ from drivewright.scene import (
     capsule,
     circle,
     polygon,
+    xy,
 )
 
 FRAMES = 361
@@ -64,7 +65,7 @@ def scene(model: PusherModel) -> Scene:
         ),
     )
     tip_in_arm = spec.arm.tip_distance * np.exp(1j * model.tip_start)
-    traces = (Trace("tip", "needle tip", "arm", _xy(tip_in_arm)), Trace("axis", "planet axis", "arm", (0.0, 0.0)))
+    traces = (Trace("tip", "needle tip", "arm", xy(tip_in_arm)), Trace("axis", "planet axis", "arm", (0.0, 0.0)))
     marks = ((model.highest, "top"), (model.lowest, "lowest"), (model.push_start % TURN, "push"))
     return Scene(t, "carrier angle", "rad", TURN / spec.drive.speed, bodies, _frames(model, t, axis, rotation), traces, "cycle", marks)
 
@@ -72,10 +73,6 @@ def scene(model: PusherModel) -> Scene:
 def _poses(position, angle):
     position, angle = np.broadcast_arrays(position, angle)
     return np.stack([np.real(position), np.imag(position), angle.astype(float)], axis=1)
-
-
-def _xy(z):
-    return (float(z.real), float(z.imag))
 
 
 def _gear(name, label, outline, poses, colour):
@@ -127,7 +124,7 @@ def _carrier_shape(model):
     arm, start = 2 * model.spec.train.semi_major, model.spec.train.carrier_angle
     middle = arm * np.exp(1j * start)
     end = middle + arm * np.exp(1j * (start + model.bend))
-    return polygon([(0.0, 0.0), _xy(middle), _xy(end)], closed=False)
+    return polygon([(0.0, 0.0), xy(middle), xy(end)], closed=False)
 
 
 # -- arm, lever, rod: all in the frame of the arm at t = 0, origin on the planet axis ------------------------------------------------
@@ -162,16 +159,16 @@ def _arm_shapes(model):
     back = tip - 60e-3 * needle(model)
     reach = max(cam.prime_radius for cam in model.cams) + spec.cams.roller_radius + 4e-3
     yield Shape("body", circle((0, 0), reach))
-    yield Shape("axis", polygon([(0.0, 0.0), _xy(back), _xy(tip)], closed=False))
-    yield Shape("body", capsule(_xy(back), _xy(tip), 1.2e-3))
+    yield Shape("axis", polygon([(0.0, 0.0), xy(back), xy(tip)], closed=False))
+    yield Shape("body", capsule(xy(back), xy(tip), 1.2e-3))
 
 
 def _lever_shapes(model):
     radius = model.spec.cams.roller_radius
     for centre in rollers(model).values():
-        yield Shape("body", capsule((0.0, 0.0), _xy(centre), 3.5e-3))
-        yield Shape("roller", circle(_xy(centre), radius))
-    yield Shape("body", capsule((0.0, 0.0), _xy(model.spec.lever.output_arm * _outwards(model)), 3.5e-3))
+        yield Shape("body", capsule((0.0, 0.0), xy(centre), 3.5e-3))
+        yield Shape("roller", circle(xy(centre), radius))
+    yield Shape("body", capsule((0.0, 0.0), xy(model.spec.lever.output_arm * _outwards(model)), 3.5e-3))
 
 
 def _rod_ends(model):
@@ -185,7 +182,7 @@ def _rod_ends(model):
 
 def _rod_shape(model):
     back, front = _rod_ends(model)
-    return capsule(_xy(back), _xy(front), 2e-3)
+    return capsule(xy(back), xy(front), 2e-3)
 
 
 # -- cams ------------------------------------------------------------------------------------------------------------------------
@@ -215,7 +212,7 @@ def _pitch_pieces(model, cam):
             yield Arc((0.0, 0.0), float(abs(jet.d0[0])), float(np.angle(jet.d0[0])), sweep)
         else:
             tangents = jet.d1 / np.abs(jet.d1)
-            yield Spline(np.stack([jet.d0.real, jet.d0.imag], axis=1), _xy(tangents[0]), _xy(tangents[-1]))
+            yield Spline(np.stack([jet.d0.real, jet.d0.imag], axis=1), xy(tangents[0]), xy(tangents[-1]))
 
 
 def drawings(model: PusherModel) -> tuple[Drawing, ...]:
@@ -248,7 +245,7 @@ def parts(model: PusherModel) -> tuple[Part, ...]:
     axis = complex(model.planet_axis(np.array(0.0)).d0)
     width = model.spec.cams.face_width
     level = {"main": 0.0, "return": width + 2 * GAP + LEVER_THICKNESS}
-    here = (*_xy(axis), 0.0)
+    here = (*xy(axis), 0.0)
     return (*_cam_parts(model, level, here), *_lever_parts(model, level, axis), _rod_part(model, level, here), *_gear_parts(model, level))
 
 
@@ -266,26 +263,26 @@ def _cam_parts(model, level, here):
 
 
 def _lever_parts(model, level, axis):
-    spec, here = model.spec, (*_xy(axis + pivot(model)), 0.0)
+    spec, here = model.spec, (*xy(axis + pivot(model)), 0.0)
     plate = spec.cams.face_width + GAP
     slot_end = spec.lever.output_arm * _outwards(model)
     boss = partial(capsule, (0.0, 0.0))
     along = slot_end / abs(slot_end)
-    slot = capsule(_xy(slot_end - 4e-3 * along), _xy(slot_end + 4e-3 * along), 2.1e-3)
-    solids = [Prism(boss(_xy(slot_end + 4e-3 * along), 4.5e-3), (slot, circle((0, 0), 2.5e-3)), plate, LEVER_THICKNESS)]
+    slot = capsule(xy(slot_end - 4e-3 * along), xy(slot_end + 4e-3 * along), 2.1e-3)
+    solids = [Prism(boss(xy(slot_end + 4e-3 * along), 4.5e-3), (slot, circle((0, 0), 2.5e-3)), plate, LEVER_THICKNESS)]
     for name, centre in rollers(model).items():
-        solids.append(Prism(boss(_xy(centre), 4e-3), (circle((0, 0), 2.5e-3),), plate, LEVER_THICKNESS))
+        solids.append(Prism(boss(xy(centre), 4e-3), (circle((0, 0), 2.5e-3),), plate, LEVER_THICKNESS))
         low, high = sorted((level[name], plate)) if name == "main" else (plate + LEVER_THICKNESS, level[name] + spec.cams.face_width)
-        solids.append(Prism(circle(_xy(centre), PIN), (), low, high - low))
+        solids.append(Prism(circle(xy(centre), PIN), (), low, high - low))
     yield Part("lever", tuple(solids), here, "blue")
     for name, centre in rollers(model).items():
-        ring = Prism(circle(_xy(centre), spec.cams.roller_radius), (circle(_xy(centre), PIN),), level[name], spec.cams.face_width)
+        ring = Prism(circle(xy(centre), spec.cams.roller_radius), (circle(xy(centre), PIN),), level[name], spec.cams.face_width)
         yield Part(f"roller_{name}", (ring,), here, "steel")
 
 
 def _rod_part(model, level, here):
     back, front = _rod_ends(model)
-    return Part("rod", (Bar(_xy(back), _xy(front), model.spec.cams.face_width + GAP + LEVER_THICKNESS / 2, 4e-3),), here, "orange")
+    return Part("rod", (Bar(xy(back), xy(front), model.spec.cams.face_width + GAP + LEVER_THICKNESS / 2, 4e-3),), here, "orange")
 
 
 def _gear_parts(model, level):
@@ -298,4 +295,4 @@ def _gear_parts(model, level):
         "gear_planet": (complex(model.planet_axis(zero).d0), planet_angle(model, zero)),
     }
     for name, (centre, angle) in places.items():
-        yield Part(name, (Prism(outline, bore, -GEAR_THICKNESS - 3e-3, GEAR_THICKNESS),), (*_xy(centre), float(angle)), "steel")
+        yield Part(name, (Prism(outline, bore, -GEAR_THICKNESS - 3e-3, GEAR_THICKNESS),), (*xy(centre), float(angle)), "steel")

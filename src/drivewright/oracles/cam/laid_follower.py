@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from drivewright import cams, curves
+from drivewright import cams
 from drivewright.mechanisms.cam.build import CamModel, profile
 from drivewright.mechanisms.cam.spec import TURN
 from drivewright.numerics.jets import constant, variable
@@ -95,7 +95,7 @@ def _fine_outline(model):
     trimmed = profile(model, 0).trimmed
     if trimmed:
         return trimmed.outline(CHORD)
-    return curves.outline_of_spans(cams.spans(cams.path(model.programme, model.follower.pitch)), CHORD)
+    return cams.pitch_outline(model.tracks[0].round_face, model.programme, CHORD)
 
 
 def _laid(model, body, angle, sunk=0.0):

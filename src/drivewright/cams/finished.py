@@ -1,0 +1,89 @@
+"""The finished profile: what the follower's face leaves of a cam, its size, and the table to inspect it by."""
+
+from typing import NamedTuple, TypeGuard
+
+import numpy as np
+
+from drivewright.cams.cycle import Cycle
+from drivewright.cams.followers import ContactAt
+from drivewright.cams.profile import FlatFollower, Follower, RoundFollower, family, path, spans
+from drivewright.curves import Trimmed, outline_of_spans, simple_outline, trim
+from drivewright.errors import SolverError
+from drivewright.motion import Programme
+from drivewright.result import Column, Table
+from drivewright.scene import Outline
+
+
+class FinishedProfile(NamedTuple):
+    """What is left of a cam: its outline, the trimmed envelope (None for a knife edge), and why trimming failed, if it did."""
+
+    outline: Outline
+    trimmed: Trimmed | None
+    failure: str = ""
+
+
+def finished_profile(follower: Follower, programme: Programme, flank: int = 1) -> FinishedProfile:
+    """The `FinishedProfile` that a follower leaves; untrimmed where trimming fails.  flank -1: the outer wall of a groove.
+
+    Raises InputError where nothing is left of the cam.
+    """
+    if _is_knife(follower):
+        return FinishedProfile(pitch_outline(follower, programme), None)
+    swept = family(follower, programme, flank)
+    try:
+        trimmed = trim(swept)
+    except SolverError as error:
+        return FinishedProfile(outline_of_spans(spans(swept.envelope()), 1e-6), None, str(error))
+    return FinishedProfile(trimmed.outline(), trimmed)
+
+
+def drawn_profile(follower: Follower, programme: Programme, tolerance: float, flank: int = 1) -> Outline | None:
+    """The outline of a cam within a tolerance [m] where nothing of it is trimmed away, for pictures; else None."""
+    return None if _is_knife(follower) else simple_outline(family(follower, programme, flank), tolerance)
+
+
+def pitch_outline(follower: RoundFollower, programme: Programme, tolerance: float = 1e-6) -> Outline:
+    """The pitch curve of a follower with a round face as an outline within a tolerance [m]."""
+    return outline_of_spans(spans(path(programme, follower.pitch)), tolerance)
+
+
+def profile_radii(cycle: Cycle, contact_at: ContactAt, trimmed: Trimmed | None) -> tuple[float, float]:
+    """(least, greatest) distance of a profile from the cam's centre [m]; contact_at: as it is meant, trimmed: what is left of it."""
+    if trimmed and trimmed.undercut:
+        radii = np.hypot(*trimmed.outline(1e-9).points(1e-9).T)
+        return float(radii.min()), float(radii.max())
+
+    def square(angle, lift):
+        return contact_at(angle, lift).point.abs2()
+
+    return float(np.sqrt(cycle.minimum(square).value)), float(np.sqrt(cycle.maximum(square).value))
+
+
+def min_hollow_radius(cycle: Cycle, contact_at: ContactAt, radius: float) -> float | None:
+    """Least radius of curvature [m] of the hollow stretches of the profile under a face of that radius [m]; None where none is hollow."""
+    sharpest = cycle.minimum(lambda angle, lift: contact_at(angle, lift).pitch_curvature).value
+    return radius - 1 / sharpest if sharpest < 0 else None
+
+
+def inspection_table(cycle: Cycle, contact_at: ContactAt, trimmed: Trimmed | None, tolerance: float, name: str, title: str) -> Table:
+    """Nominal points of a profile at whole degrees of the cam angle, with its tolerance [m]; what was trimmed away is left out."""
+    angle = np.radians(np.arange(360.0))
+    for start, stop in trimmed.removed if trimmed else ():
+        angle = angle[(angle <= start) | (angle >= stop)]
+    contact = contact_at(*cycle.at_angle(angle))
+    point = contact.point.d0
+    columns = (
+        Column("angle", "rad", "cam angle", angle),
+        Column("polar_angle", "rad", "direction of the point at cam angle 0", np.angle(point)),
+        Column("radius", "m", "distance of the point from the cam's centre", np.abs(point)),
+        Column("x", "m", "point, x at cam angle 0", point.real),
+        Column("y", "m", "point, y at cam angle 0", point.imag),
+        Column("normal", "rad", "direction of the outward normal at cam angle 0", np.angle(contact.normal)),
+        Column("pitch_radius", "m", "distance of the follower's face centre from the cam's centre", np.abs(contact.pitch.d0)),
+        Column("tolerance", "m", "allowed deviation along the normal, plus and minus", np.full(angle.shape, tolerance)),
+    )
+    return Table(name, title, columns)
+
+
+def _is_knife(follower: Follower) -> TypeGuard[RoundFollower]:
+    return not isinstance(follower, FlatFollower) and follower.radius == 0
