@@ -11,10 +11,11 @@ import pytest
 from places import EXAMPLES, SOURCE
 
 from drivewright.contact.impact import delivered_restitution, kelvin_voigt_restitution
-from drivewright.mechanisms.linkage.advice import advice, shortest_link, widest_gyration
+from drivewright.mechanisms.linkage.advice import advice, shortest_link
 from drivewright.mechanisms.linkage.describe import describe, driven_bodies, output_marker
 from drivewright.mechanisms.linkage.spec import LinkageSpec
 from drivewright.multibody import model
+from drivewright.multibody.bodies import largest_radius_of_gyration
 from drivewright.spec import from_document, read_document, set_key
 
 pytestmark = pytest.mark.interface
@@ -362,12 +363,13 @@ def test_a_pivot_inertia_read_as_central_reaches_beyond_the_body():
     assert not found.ok
 
 
-def test_the_widest_gyration():
-    assert widest_gyration([(0, 0), (3, 0)], (1, 0)) == pytest.approx(math.sqrt(2))
-    assert widest_gyration([(0, 0), (1, 0), (2, 0), (3, 0)], (1, 0)) == pytest.approx(math.sqrt(2))
-    assert widest_gyration([(1, 0), (-1, 0), (0, 1), (0, -1)], (0.2, 0.1)) == pytest.approx(math.sqrt(1 - 0.05))  # corners at one distance
-    assert widest_gyration([(0, 0), (3, 0)], (1, 0.5)) is None and widest_gyration([(1, 0)], (1, 0)) is None
-    assert widest_gyration([], (0, 0)) is None and widest_gyration([(1, 0), (-1, 0), (0, 1)], (0.3, -0.3)) is None
+def test_the_largest_radius_of_gyration():
+    assert largest_radius_of_gyration([(0, 0), (3, 0)], (1, 0)) == pytest.approx(math.sqrt(2))
+    assert largest_radius_of_gyration([(0, 0), (1, 0), (2, 0), (3, 0)], (1, 0)) == pytest.approx(math.sqrt(2))
+    corners_at_one_distance = [(1, 0), (-1, 0), (0, 1), (0, -1)]
+    assert largest_radius_of_gyration(corners_at_one_distance, (0.2, 0.1)) == pytest.approx(math.sqrt(1 - 0.05))
+    assert largest_radius_of_gyration([(0, 0), (3, 0)], (1, 0.5)) is None and largest_radius_of_gyration([(1, 0)], (1, 0)) is None
+    assert largest_radius_of_gyration([], (0, 0)) is None and largest_radius_of_gyration([(1, 0), (-1, 0), (0, 1)], (0.3, -0.3)) is None
 
 
 def test_a_short_window_is_pointed_out():

@@ -6,10 +6,11 @@ from drivewright.mechanisms.linkage.analyses import ANALYSES
 from drivewright.mechanisms.linkage.build import build
 from drivewright.mechanisms.linkage.claims import claims
 from drivewright.mechanisms.linkage.plates import drawings, parts
-from drivewright.mechanisms.linkage.plots import plots
 from drivewright.mechanisms.linkage.scene import scene
 from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.multibody.analyses.plots import simulation_plots
 from drivewright.registry import Mechanism, oracle
+from drivewright.result import Plot, Result
 
 HEADLINE = (
     "output.max_acceleration",
@@ -34,6 +35,14 @@ SOURCES = (
     "South University (Science and Technology) 42(4), 2011, 972 ff. (in Chinese).",
     "Flores, Machado, Silva, Martins 2011; Lankarani, Nikravesh 1990; Hunt, Crossley 1975: impact laws (recalled, verified by closed form)",
 )
+
+
+def plots(result: Result[LinkageSpec]) -> tuple[Plot, ...]:
+    """The plots of a result: its tables are named after the outputs and joints of the spec."""
+    outputs = {output.name: output.point is not None for output in result.spec.outputs}
+    clearances = {joint.name: joint.clearance for joint in result.spec.joints}
+    return simulation_plots(result.tables, outputs, clearances, any(joint.pin not in (None, "ideal") for joint in result.spec.joints))
+
 
 mechanism = Mechanism(
     kind="linkage",

@@ -3,11 +3,9 @@
 import itertools
 import math
 
-import numpy as np
-
-from drivewright._typing import ArrayLike
 from drivewright.mechanisms.linkage.refusals import central_inertia, ends_on, points_of
 from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.multibody.bodies import largest_radius_of_gyration
 from drivewright.result import Check
 
 BOUNCY = ("lankarani-nikravesh", "hunt-crossley")  # deliver more restitution than asked, the more the less is asked
@@ -61,31 +59,12 @@ def inertia_extent(spec: LinkageSpec) -> tuple[Check, ...]:
     """Radius of gyration of each body against the largest that mass within its named points can have."""
     checks = []
     for name, body in spec.bodies.items():
-        widest = widest_gyration(list(body.points.values()), body.centroid)
+        widest = largest_radius_of_gyration(list(body.points.values()), body.centroid)
         if body.mass > 0 and widest is not None:
             gyration = math.sqrt(max(central_inertia(body), 0.0) / body.mass)
             message = f"radius of gyration of {name!r}, which mass between its points cannot exceed; is its inertia about a pivot?"
             checks.append(Check(f"inertia.{name}", gyration, widest, "<=", "m", message, (name,)))
     return tuple(checks)
-
-
-def widest_gyration(points: ArrayLike, centroid: ArrayLike) -> float | None:
-    """Largest radius of gyration about the centroid [m] of mass within the hull of some points.
-
-    None where the centroid is outside, or in a corner.
-
-    The largest of sum w r^2 over shares w >= 0 with sum w = 1 and sum w (p - c) = 0.  It is linear in w, so three points at most carry
-    mass; of a bar with the ends a and b off its centroid it is sqrt(a b).
-    """
-    arms = np.asarray(points, dtype=float).reshape(-1, 2) - centroid
-    size = np.max(np.abs(arms), initial=0.0)
-    best = -1.0
-    for corners in itertools.combinations_with_replacement(range(len(arms)), 3):
-        equations = np.vstack([arms[list(corners)].T / (size or 1.0), np.ones(3)])
-        shares = np.linalg.lstsq(equations, np.array([0.0, 0.0, 1.0]), rcond=None)[0]
-        if np.min(shares) > -1e-9 and np.allclose(equations @ shares, [0.0, 0.0, 1.0], atol=1e-9):
-            best = max(best, float(shares @ np.sum(arms[list(corners)] ** 2, axis=1)))
-    return math.sqrt(best) if best > (1e-6 * size) ** 2 else None
 
 
 def window(spec: LinkageSpec, end: float = math.inf) -> tuple[Check, ...]:
