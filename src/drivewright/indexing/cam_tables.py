@@ -4,12 +4,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from drivewright._typing import Floats
+from drivewright._typing import Bools, Floats
 from drivewright.curves import Trimmed
 from drivewright.indexing.contacts import CamContacts
 from drivewright.indexing.motion import TURN
 from drivewright.indexing.plane import PinDrive, PlaneDrive, find_contacts
-from drivewright.result import Column, Table
+from drivewright.result import Array, Column, Table
 
 
 def profile_table(trimmed: Trimmed, name: str, chords: int = 24) -> Table:
@@ -104,3 +104,52 @@ def contact_points_table(angles: Floats, contacts: Sequence[CamContacts], drive:
             Column("curvature", "1/m", "of the profile, positive where the cam is convex", column["curvature"]),
         ),
     )
+
+
+def contact_ways(contacts: Sequence[CamContacts], drive: PinDrive) -> tuple[Bools, Floats]:
+    """(touching, way), both (sets, pins): whether a pin touches a cam, and 1 where that pushes it forward, -1 backward, 0 neither way."""
+    pins = drive.levels[0].pins * len(drive.levels)
+    touching, way = np.zeros((len(contacts), pins), dtype=bool), np.zeros((len(contacts), pins))
+    for row, each in enumerate(contacts):
+        touching[row, each.pin[each.intended]] = True
+        way[row, each.pin[each.intended]] = np.sign(each.arm[each.intended])
+    return touching, way
+
+
+def contact_count_table(angles: Floats, contacts: Sequence[CamContacts], drive: PinDrive, driving: Floats, best: Floats) -> Table:
+    """How many pins touch one cam at every input angle, which way it can push them, and the pressure angles of the best ones.
+
+    driving (n,) [rad] and best (2, n) [rad] as of `driving_pressure_angle` and `best_pressure_angles`.
+    """
+    touching, way = contact_ways(contacts, drive)
+    return Table(
+        "contacts",
+        "Pins in contact with one cam",
+        (
+            Column("angle", "rad", "input angle", angles),
+            Column("pins", "-", "pins that touch", touching.sum(axis=1).astype(float)),
+            Column("forward", "-", "pins that the cam can push forward", np.sum(way > 0, axis=1).astype(float)),
+            Column("backward", "-", "pins that the cam can push backward", np.sum(way < 0, axis=1).astype(float)),
+            Column("pressure_angle", "rad", "of the pin that accelerates the wheel best", driving),
+            Column("pressure_angle_forward", "rad", "of the pin pushed best forward", best[0]),
+            Column("pressure_angle_backward", "rad", "of the pin pushed best backward", best[1]),
+        ),
+    )
+
+
+def contact_map_array(angles: Floats, contacts: Sequence[CamContacts], drive: PinDrive) -> Array:
+    """(angle, pin): 1 where the pin touches and is pushed forward, -1 backward, 0.5 neither way, 0 where it does not touch."""
+    touching, way = contact_ways(contacts, drive)
+    names = (tuple(f"{np.degrees(angle):.6g} deg" for angle in angles), tuple(str(k) for k in range(touching.shape[1])))
+    return Array("-", ("angle", "pin"), names, np.where(touching, np.where(way == 0, 0.5, way), 0.0))
+
+
+def angle_ranges(angles: Floats, mask: Bools, most: int = 6) -> str:
+    """The stretches of rising angles [rad] in which a mask is True as text in degrees, `most` of them: "0 to 13.5, 180 deg"."""
+    degrees = np.degrees(angles)
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype(int), [0]])))
+    parts = [
+        f"{degrees[a]:.4g}" if b - a == 1 else f"{degrees[a]:.4g} to {degrees[b - 1]:.4g}"
+        for a, b in zip(edges[::2], edges[1::2], strict=True)
+    ]
+    return f"{', '.join(parts[:most])}{' ...' if len(parts) > most else ''} deg"

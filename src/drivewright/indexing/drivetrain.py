@@ -5,17 +5,24 @@ and their crank pins, one a cam, carry every cam in two holes.  What is None is 
 would sit.  SI units.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from drivewright.bearings import BallBearing, RollerBearing
+from drivewright.bearings import BallBearing, RollerBearing, contact_of, quick
 from drivewright.bearings.quick import RadialStiffness
 from drivewright.errors import InputError
 from drivewright.shafts import Section
 
 PALMGREN_LINE = 8.06e10  # N/m^2: F = 8.06e4 b^(8/9) s^(10/9) of one steel line contact in N and mm; Palmgren, recalled
+FORMULAS = {  # of the radial stiffness, by name and kind of contact
+    ("liu", "point"): quick.liu_ball,
+    ("liu", "line"): quick.liu_roller,
+    ("palmgren", "point"): quick.palmgren_ball,
+    ("palmgren", "line"): quick.palmgren_roller,
+}
 SIDES = (-1.0, 1.0)  # of the two split shafts
 
 
@@ -91,6 +98,32 @@ def power_law_bearing(stiffness_of: Callable[[float], RadialStiffness], clearanc
     at_one = stiffness_of(1.0)
     exponent = 1.0 / at_one.ratio
     return PowerLawBearing(float(at_one.secant) ** exponent, exponent, clearance)
+
+
+def formula_bearing(name: str, bearing: BallBearing | RollerBearing, clearance: float = 0.0) -> PowerLawBearing:
+    """The PowerLawBearing of a rolling bearing by a formula of its catalogue numbers, "liu" or "palmgren"; clearance [m] in the radius."""
+    if isinstance(bearing, BallBearing):
+        numbers = {"balls": bearing.balls, "ball_diameter": bearing.ball_diameter}
+    else:
+        numbers = {"rollers": bearing.rollers, "roller_length": bearing.roller_length}
+    return power_law_bearing(partial(FORMULAS[name, contact_of(bearing)], **numbers), clearance)
+
+
+def split_shaft(
+    lengths: tuple[float, float, float, float], diameters: Sequence[float], cams: int, modulus: float, shear_modulus: float
+) -> SplitShaft:
+    """The stepped SplitShaft from its gear to its rear support.
+
+    lengths [m]: gear to front support, front support to first cam, cam to cam, last cam to rear support; diameters (4,) [m] along these
+    stretches, the third one from the first to the last cam; moduli [Pa].
+    """
+    overhang, front, pitch, rear = lengths
+    first = overhang + front
+    places = tuple(first + pitch * number for number in range(cams))
+    stretches = (overhang, front, places[-1] - first, rear)
+    sections = tuple(Section(length, d, d) for length, d in zip(stretches, diameters, strict=True) if length > 0)
+    poisson = modulus / (2 * shear_modulus) - 1
+    return SplitShaft(sections, 0.0, (overhang, places[-1] + rear), places, modulus, poisson)
 
 
 def refuse_invalid(drive: Drivetrain, cams: int) -> None:

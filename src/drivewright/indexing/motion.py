@@ -10,6 +10,7 @@ from drivewright._typing import ArrayLike, Numbers
 from drivewright.errors import InputError
 from drivewright.motion import MotionLaw, law
 from drivewright.numerics.jets import Jet
+from drivewright.result import Column, Table
 
 TURN = 2 * np.pi
 NO_DWELL: Literal["no-dwell"] = "no-dwell"
@@ -89,3 +90,20 @@ def index_motion(name: str, divisions: int, motion_to_dwell: float | Literal["no
             f'Take a law from rest to rest, as "modified-sine", or motion_to_dwell = "{NO_DWELL}".'
         )
     return IndexMotion(found, divisions, TURN * motion_to_dwell / (1 + motion_to_dwell))
+
+
+def motion_table(motion: IndexMotion, points: int = 721) -> Table:
+    """The wheel's angle and its derivatives by the input angle over one turn of the input."""
+    angle = np.linspace(0, TURN, points)
+    phi, rate, second, third = motion(angle)
+    return Table(
+        "motion",
+        "Motion of the wheel",
+        (
+            Column("angle", "rad", "input angle", angle),
+            Column("wheel", "rad", "wheel angle", phi),
+            Column("rate", "-", "speed of the wheel over that of the input", rate),
+            Column("bend", "1/rad", "second derivative of the wheel angle", second),
+            Column("third", "1/rad^2", "third derivative of the wheel angle", third),
+        ),
+    )

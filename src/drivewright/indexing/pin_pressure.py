@@ -3,7 +3,9 @@
 import numpy as np
 
 from drivewright import contact
-from drivewright.indexing.plane import PlaneDrive, find_contacts
+from drivewright._typing import Floats
+from drivewright.indexing.plane import PinDrive, PlaneDrive, find_contacts
+from drivewright.result import Column, Table
 
 
 def pin_pressure(force: float, curvature: float, pin_radius: float, width: float, modulus: float) -> float:
@@ -25,3 +27,31 @@ def best_resisting_contact(drive: PlaneDrive, angle: float, torque: float) -> tu
         return 0, 0.0, 0.0
     k = int(np.argmax(lever))
     return int(contacts.pin[k]), float(contacts.arm[k]), float(contacts.curvature[k])
+
+
+def longest_lever_table(drive: PinDrive, angles: Floats, torque: float, width: float, modulus: float) -> Table:
+    """Force T/r and Hertz pressure of the roller with the longest lever r against a torque [N m], as if it carried all of it.
+
+    angles (n,) [rad]: a row for each at which a roller of any cam resists; width of the cams [m], effective modulus E* [Pa].
+    """
+    rows = []
+    for angle in angles:
+        best = [best_resisting_contact(level, angle, torque) for level in drive.levels]
+        number, (pin, arm, curvature) = max(enumerate(best), key=lambda each: abs(each[1][1]))
+        if arm:
+            force, level = abs(torque / arm), drive.levels[number]
+            rows.append(
+                (angle, pin + drive.levels[0].pins * number, force, arm, pin_pressure(force, curvature, level.pin_radius, width, modulus))
+            )
+    data = np.array(rows, dtype=float).reshape(-1, 5).T
+    return Table(
+        "pin_forces",
+        "Force on the roller with the longest lever",
+        (
+            Column("angle", "rad", "input angle", data[0]),
+            Column("pin", "-", "roller", data[1]),
+            Column("force", "N", "force on the roller", data[2]),
+            Column("arm", "m", "lever about the wheel's axis", data[3]),
+            Column("pressure", "Pa", "Hertz pressure", data[4]),
+        ),
+    )

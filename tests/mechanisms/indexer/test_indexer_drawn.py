@@ -7,7 +7,7 @@ import drivewright as dw
 from drivewright import registry
 from drivewright.curves.touching import touches
 from drivewright.indexing.drawing import cam_poses
-from drivewright.mechanisms.indexer.scene import cams, parts, scene
+from drivewright.mechanisms.indexer.scene import parts, plates, scene
 from drivewright.runner import build
 
 pytestmark = pytest.mark.property
@@ -36,8 +36,8 @@ def test_the_pins_on_screen_touch_every_cam_and_enter_none(preset, changes):
     angle = np.radians([0.0, 33.0, 71.0, 118.0, 200.0, 291.0])
     phi = model.drive.motion(angle).d0
     if model.translating:  # copies evenly around the wheel's axis are in balance
-        assert np.abs(sum(cam_poses(cam, angle)[:, :2] for cam in cams(model))).max() < 1e-15
-    for cam in cams(model):
+        assert np.abs(sum(cam_poses(cam, angle)[:, :2] for cam in plates(model).placed_cams)).max() < 1e-15
+    for cam in plates(model).placed_cams:
         poses = cam_poses(cam, angle)
         for (x, y, turn), wheel in zip(poses, phi, strict=True):
             at = cam.drive.pin_centres(0.0).d0 * np.exp(1j * wheel)

@@ -8,14 +8,18 @@ import pytest
 import drivewright as dw
 from drivewright import materials, registry
 from drivewright.curves.touching import touches
+from drivewright.indexing.pin_pressure import pin_pressure
 from drivewright.indexing.plane import contact_pressure_angle
-from drivewright.mechanisms.indexer.pins import pressure_on_pin
 from drivewright.runner import build
 
 pytestmark = pytest.mark.analytical
 
 PRESETS = registry.mechanism("indexer").presets()
 TURN = 2 * np.pi
+
+
+def pressure_on_pin(model, force, curvature):
+    return pin_pressure(force, curvature, model.spec.pin_radius, model.spec.cam_width, model.modulus)
 
 
 def spec(*changes, preset="default"):

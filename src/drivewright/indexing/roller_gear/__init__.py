@@ -4,27 +4,34 @@ from drivewright.indexing.roller_gear.design import RollerGear, barrel, globoida
 from drivewright.indexing.roller_gear.envelope import FlankContact, flank_contact
 from drivewright.indexing.roller_gear.flanks import FLANKS, CamFlanks, compute_flanks, find_trim_edges
 from drivewright.indexing.roller_gear.play import find_turret_play
+from drivewright.indexing.roller_gear.scenes import roller_gear_scene
 from drivewright.indexing.roller_gear.solid import cam_part, turret_part
 from drivewright.indexing.roller_gear.stress import RollerLoads, compute_roller_loads
+from drivewright.indexing.roller_gear.tables import contact_count_table, contact_map_array, flank_table, roller_force_table
 from drivewright.indexing.roller_gear.views import DevelopedSurface, axial_section, develop_surface, developed_roller_centres
 
 __all__ = [
+    "CamFlanks",
+    "DevelopedSurface",
     "FLANKS",
     "FlankContact",
-    "DevelopedSurface",
-    "CamFlanks",
-    "RollerLoads",
     "RollerGear",
+    "RollerLoads",
+    "axial_section",
     "barrel",
     "cam_part",
-    "developed_roller_centres",
-    "flank_contact",
-    "develop_surface",
     "compute_flanks",
-    "globoidal",
-    "find_turret_play",
     "compute_roller_loads",
-    "axial_section",
+    "contact_count_table",
+    "contact_map_array",
+    "develop_surface",
+    "developed_roller_centres",
     "find_trim_edges",
+    "find_turret_play",
+    "flank_contact",
+    "flank_table",
+    "globoidal",
+    "roller_force_table",
+    "roller_gear_scene",
     "turret_part",
 ]

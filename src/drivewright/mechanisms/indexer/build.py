@@ -2,14 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
 
 from drivewright import bearings, materials
 from drivewright._typing import Floats
-from drivewright.bearings import BallBearing, Entry, RollerBearing, quick
+from drivewright.bearings import BallBearing, Entry, RollerBearing
 from drivewright.errors import InputError, SpecError
 from drivewright.indexing import drivetrain
 from drivewright.indexing.motion import IndexMotion, index_motion
@@ -20,17 +20,10 @@ from drivewright.indexing.roller_gear.design import RollerGear, barrel, globoida
 from drivewright.indexing.stiffness.loading import LoadedWheel
 from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refuse_contradictions, required, unused
 from drivewright.mechanisms.indexer.spec import IndexerBearings, IndexerGear, IndexerShafts, IndexerSpec
-from drivewright.shafts import Section
 from drivewright.units import SI
 
 PartT = TypeVar("PartT")
 STEP = np.deg2rad(4.5)  # of the input, from position to position
-FORMULAS = {
-    ("liu", "point"): quick.liu_ball,
-    ("liu", "line"): quick.liu_roller,
-    ("palmgren", "point"): quick.palmgren_ball,
-    ("palmgren", "line"): quick.palmgren_roller,
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +55,11 @@ class IndexerModel:
     def translating(self) -> bool:
         """Whether the cams translate on cranks."""
         return self.spec.kind in TRANSLATING
+
+    @property
+    def flat(self) -> bool:
+        """Whether the cams are plates."""
+        return not isinstance(self.drive, RollerGear)
 
     @cached_property
     def angles(self) -> Floats:
@@ -182,26 +180,13 @@ def _law(given: IndexerBearings | None, rolling: BallBearing | RollerBearing | N
         return (
             None if given.stiffness is None else drivetrain.PowerLawBearing(given.stiffness, clearance=(given.radial_clearance or 0.0) / 2)
         )
-    if given.law == "elements":
-        return rolling
-    contact = bearings.contact_of(rolling)
-    if contact == "point":
-        numbers = {"balls": rolling.balls, "ball_diameter": rolling.ball_diameter}
-    else:
-        numbers = {"rollers": rolling.rollers, "roller_length": rolling.roller_length}
-    return drivetrain.power_law_bearing(partial(FORMULAS[given.law, contact], **numbers), (given.radial_clearance or 0.0) / 2)
+    return rolling if given.law == "elements" else drivetrain.formula_bearing(given.law, rolling, (given.radial_clearance or 0.0) / 2)
 
 
 def split_shaft(given: IndexerShafts, cams: int) -> drivetrain.SplitShaft:
     """The stepped shaft from its gear to its rear support."""
-    front = given.overhang
-    first = front + given.front
-    places = tuple(first + given.pitch * number for number in range(cams))
-    rear = places[-1] + given.rear
-    lengths = (front, given.front, places[-1] - first, given.rear)
-    sections = tuple(Section(length, d, d) for length, d in zip(lengths, given.diameters, strict=True) if length > 0)
-    poisson = given.youngs_modulus / (2 * given.shear_modulus) - 1
-    return drivetrain.SplitShaft(sections, 0.0, (front, rear), places, given.youngs_modulus, poisson)
+    lengths = (given.overhang, given.front, given.pitch, given.rear)
+    return drivetrain.split_shaft(lengths, given.diameters, cams, given.youngs_modulus, given.shear_modulus)
 
 
 def _mesh(gear: IndexerGear | None) -> drivetrain.GearMesh | None:

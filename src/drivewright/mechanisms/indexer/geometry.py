@@ -4,47 +4,42 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from drivewright._typing import Bools, Floats
+from drivewright._typing import Floats
 from drivewright.indexing.cam_tables import (
+    angle_ranges,
     best_pressure_angles,
+    contact_count_table,
+    contact_map_array,
     contact_points_table,
     driving_pressure_angle,
     find_all_contacts,
     least_convex_radius,
     profile_table,
 )
-from drivewright.indexing.motion import TURN
+from drivewright.indexing.motion import TURN, motion_table
 from drivewright.indexing.plane import PROFILE_TOLERANCE, PlaneDrive
 from drivewright.indexing.play import BACKWARD, FORWARD, find_play, refine_about_peak
 from drivewright.mechanisms.indexer.build import IndexerModel
-from drivewright.result import Answer, Answers, Array, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 SUFFIXES = ("", ".second")  # of the values of cams that differ
-POINTS = 721  # of the tables over the whole turn
+POINTS = 721  # of the search of play over the whole turn
 WAYS = (("forward", FORWARD), ("backward", BACKWARD))
 
 
 def motion(model: IndexerModel, done: Answers) -> Answer:
     """The wheel over one turn of the input."""
-    angle = np.linspace(0, TURN, POINTS)
-    phi, rate, bend, third = model.drive.motion(angle)
+    table = motion_table(model.drive.motion)
+    rate, bend = (np.max(np.abs(table[name].data)) for name in ("rate", "bend"))
     values = {
         "motion.motion_angle": Value(model.drive.motion.motion_angle, "rad", "input angle in which the wheel moves"),
-        "motion.velocity_factor": Value(np.max(np.abs(rate)), "-", "largest speed of the wheel over that of the input"),
-        "motion.acceleration_factor": Value(np.max(np.abs(bend)), "1/rad", "largest d2 phi/d theta2"),
+        "motion.velocity_factor": Value(rate, "-", "largest speed of the wheel over that of the input"),
+        "motion.acceleration_factor": Value(bend, "1/rad", "largest d2 phi/d theta2"),
     }
-    columns = [
-        Column("angle", "rad", "input angle", angle),
-        Column("wheel", "rad", "wheel angle", phi),
-        Column("rate", "-", "speed of the wheel over that of the input", rate),
-        Column("bend", "1/rad", "second derivative of the wheel angle", bend),
-        Column("third", "1/rad^2", "third derivative of the wheel angle", third),
-    ]
-    speed = model.spec.load.speed
-    if speed:
-        values["motion.peak_speed"] = Value(np.max(np.abs(rate)) * speed, "rad/s", "largest speed of the wheel")
-        values["motion.peak_acceleration"] = Value(np.max(np.abs(bend)) * speed**2, "rad/s^2", "largest angular acceleration of the wheel")
-    return Answer(values, (Table("motion", "Motion of the wheel", tuple(columns)),))
+    if speed := model.spec.load.speed:
+        values["motion.peak_speed"] = Value(rate * speed, "rad/s", "largest speed of the wheel")
+        values["motion.peak_acceleration"] = Value(bend * speed**2, "rad/s^2", "largest angular acceleration of the wheel")
+    return Answer(values, (table,))
 
 
 def profile(model: IndexerModel, done: Answers) -> Answer:
@@ -124,67 +119,47 @@ def _remarks(model: IndexerModel) -> Iterator[str]:
 
 
 def contact_map(model: IndexerModel, done: Answers) -> Answer:
-    """Which pins touch at every position, which way they can push, and how well."""
+    """Which pins touch one cam, which way it can push them, and how well."""
     drive, angles = model.plane, model.angles
     contacts = [find_all_contacts(drive, angle) for angle in angles]
-    pins = drive.levels[0].pins * len(drive.levels)
-    way, touching = np.zeros((len(angles), pins)), np.zeros((len(angles), pins), dtype=bool)
-    for row, each in enumerate(contacts):
-        live = each.intended
-        touching[row, each.pin[live]] = True
-        way[row, each.pin[live]] = np.sign(each.arm[live])
-    count = touching.sum(axis=1)
-    one = "one cam" if len(drive.levels) == 1 else "the two cams together"
-    values = {
-        "contacts.minimum": Value(float(count.min()), "-", f"fewest pins that touch {one} over the index period"),
-        "contacts.maximum": Value(float(count.max()), "-", f"most pins that touch {one} over the index period"),
-    }
-    checks, findings = [], []
     best = best_pressure_angles(contacts, drive.circle_radius)
     driving = driving_pressure_angle(drive.motion(angles).d2, best)
+    table = contact_count_table(angles, contacts, drive, driving, best)
+    one = "one cam" if len(drive.levels) == 1 else "the two cams together"
+    values = contact_counts(
+        table, f"fewest pins that touch {one} over the index period", f"most pins that touch {one} over the index period"
+    )
+    checks = []
     if np.isfinite(driving).any():
         worst = float(np.nanmax(driving))
         values["pressure_angle.maximum"] = Value(worst, "rad", "largest pressure angle of the pin that accelerates the wheel best")
-        for side, name in enumerate(("forward", "backward")):
+        for side, (name, _) in enumerate(WAYS):
             if np.isfinite(best[side]).any():
                 values[f"pressure_angle.{name}.maximum"] = Value(
                     float(np.nanmax(best[side])), "rad", f"largest pressure angle of the pin that pushes best {name}"
                 )
-        checks.append(
-            Check(
-                "pressure_angle",
-                worst,
-                model.spec.limits.pressure_angle,
-                "<=",
-                "rad",
-                "angle between the normal and the way of the pin that accelerates the wheel best",
-                ("cam", "wheel"),
-            )
-        )
-    for side, name in enumerate(("forward", "backward")):
-        lost = np.isnan(best[side])
-        if lost.any():
-            findings.append(
-                f"no pin can be pushed {name} by contact at {lost.sum()} of {len(angles)} positions ({angle_ranges(angles, lost)}): "
-                f"it does not hold the wheel there against a torque that acts {'backward' if name == 'forward' else 'forward'}"
-            )
-    table = Table(
-        "contacts",
-        "Pins in contact with one cam",
-        (
-            Column("angle", "rad", "input angle", angles),
-            Column("pins", "-", "pins that touch", count.astype(float)),
-            Column("forward", "-", "pins that the cam can push forward", np.sum(way > 0, axis=1).astype(float)),
-            Column("backward", "-", "pins that the cam can push backward", np.sum(way < 0, axis=1).astype(float)),
-            Column("pressure_angle", "rad", "of the pin that accelerates the wheel best", driving),
-            Column("pressure_angle_forward", "rad", "of the pin pushed best forward", best[0]),
-            Column("pressure_angle_backward", "rad", "of the pin pushed best backward", best[1]),
-        ),
+        words = "angle between the normal and the way of the pin that accelerates the wheel best"
+        checks.append(pressure_angle_check(model, worst, words))
+    findings = tuple(
+        f"no pin can be pushed {name} by contact at {lost.sum()} of {len(angles)} positions ({angle_ranges(angles, lost)}): "
+        f"it does not hold the wheel there against a torque that acts {'backward' if name == 'forward' else 'forward'}"
+        for (name, _), lost in zip(WAYS, np.isnan(best), strict=True)
+        if lost.any()
     )
-    points = contact_points_table(angles, contacts, drive, drive.levels[0].pin_radius)
-    names = (tuple(f"{np.degrees(angle):.6g} deg" for angle in angles), tuple(str(k) for k in range(pins)))
-    arrays = {"contact_map": Array("-", ("angle", "pin"), names, np.where(touching, np.where(way == 0, 0.5, way), 0.0))}
-    return Answer(values, (table, points), tuple(checks), tuple(findings), arrays, data=contacts)
+    tables = (table, contact_points_table(angles, contacts, drive, drive.levels[0].pin_radius))
+    arrays = {"contact_map": contact_map_array(angles, contacts, drive)}
+    return Answer(values, tables, tuple(checks), findings, arrays, data=contacts)
+
+
+def contact_counts(table: Table, fewest: str, most: str) -> dict[str, Value]:
+    """Fewest and most pins in contact of a table of contacts, in those words."""
+    count = table["pins"].data
+    return {"contacts.minimum": Value(float(count.min()), "-", fewest), "contacts.maximum": Value(float(count.max()), "-", most)}
+
+
+def pressure_angle_check(model: IndexerModel, worst: float, words: str) -> Check:
+    """The largest pressure angle [rad] against its limit."""
+    return Check("pressure_angle", worst, model.spec.limits.pressure_angle, "<=", "rad", words, ("cam", "wheel"))
 
 
 def free_play(model: IndexerModel, done: Answers) -> Answer:
@@ -239,14 +214,3 @@ def play_answer(model: IndexerModel, angle: Floats, rotations: Mapping[str, Floa
         )
     checks = [] if model.spec.load.angle is not None else checks  # of one angle they would speak of the cycle
     return Answer(values, (Table("play", "Play of the wheel", tuple(columns)),), tuple(checks), tuple(findings))
-
-
-def angle_ranges(angles: Floats, lost: Bools, most: int = 6) -> str:
-    """In words, the stretches of the table of angles that are lost."""
-    degrees = np.degrees(angles)
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], lost.astype(int), [0]])))
-    parts = [
-        f"{degrees[a]:.4g}" if b - a == 1 else f"{degrees[a]:.4g} to {degrees[b - 1]:.4g}"
-        for a, b in zip(edges[::2], edges[1::2], strict=True)
-    ]
-    return f"{', '.join(parts[:most])}{' ...' if len(parts) > most else ''} deg"

@@ -12,12 +12,12 @@ from drivewright.indexing.stiffness import statics
 from drivewright.indexing.stiffness.loading import solve_after_play, solve_loaded
 from drivewright.indexing.stiffness.result import CARRIED, TorsionalStiffness
 from drivewright.indexing.stiffness.statics import equivalent_load
+from drivewright.indexing.stiffness.tables import bearing_forces, bearing_load_table
 from drivewright.mechanisms.indexer.build import STEP, IndexerModel
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
 from drivewright.mechanisms.indexer.spec import IndexerSpec
-from drivewright.result import Answer, Answers, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Value
 
-SHAFTS, PLACES = ("left", "right"), ("front", "rear")
 RATED = {"crank": "crank_bearings", "support": "support_bearings"}
 
 
@@ -36,15 +36,7 @@ def bearing_loads(model: IndexerModel, done: Answers) -> Answer:
     angles = model.angles if model.spec.load.angle is not None else np.linspace(0, TURN, int(round(TURN / STEP)) + 1)
     found, near = solve_loaded(model.loaded_wheel, angles, torque)
     loaded, _, _ = solve_after_play(model.loaded_wheel, angles, torque, found, near)
-    forces = dict(_named_forces(loaded, model.spec.cams))
-    columns = [Column("angle", "rad", "input angle", angles)]
-    for name, force in forces.items():
-        words = name.replace(".", " ")
-        columns += [
-            Column(name, "N", words, np.abs(force)),
-            Column(f"{name}.x", "N", f"{words}, along x", force.real),
-            Column(f"{name}.y", "N", f"{words}, along y", force.imag),
-        ]
+    forces = bearing_forces(loaded)
     values, checks, findings = {}, [], []
     for group in RATED:
         own = {name: force for name, force in forces.items() if name.startswith(group)}
@@ -58,17 +50,7 @@ def bearing_loads(model: IndexerModel, done: Answers) -> Answer:
         )
     if model.spec.cams == 2 and model.wheel.side == "inside":
         values |= _statics(model, found, near)
-    return Answer(values, (Table("bearing_loads", "Loads of the bearings", tuple(columns)),), tuple(checks), tuple(findings))
-
-
-def _named_forces(found: TorsionalStiffness, cams: int) -> Iterator[tuple[str, Complexes]]:
-    """Name -> force (p,) on every crank and support bearing."""
-    for s, shaft in enumerate(SHAFTS):
-        for cam in range(cams):
-            yield f"crank.{shaft}.cam{cam + 1}", found.crank_forces[:, s, cam]
-    for s, shaft in enumerate(SHAFTS):
-        for k, place in enumerate(PLACES):
-            yield f"support.{shaft}.{place}", found.support_forces[:, s, k]
+    return Answer(values, (bearing_load_table(angles, forces),), tuple(checks), tuple(findings))
 
 
 def _measures(model: IndexerModel, group: str, own: Mapping[str, Complexes]) -> dict[str, Value]:

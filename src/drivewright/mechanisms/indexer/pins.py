@@ -5,14 +5,8 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from drivewright import materials
-from drivewright.indexing.pin_pressure import pin_pressure
 from drivewright.mechanisms.indexer.build import IndexerModel
 from drivewright.result import Check, Table, Value
-
-
-def pressure_on_pin(model: IndexerModel, force: float, curvature: float) -> float:
-    """Peak pressure [Pa] of a pin on the profile; nan at a corner, in a pull, or where the profile is as hollow as the pin."""
-    return pin_pressure(force, curvature, model.spec.pin_radius, model.spec.cam_width, model.modulus)
 
 
 def largest_pin_values(forces: Table) -> dict[str, Value]:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from drivewright.mechanisms.indexer.stiffness import GROUP_LABELS
+from drivewright.indexing.stiffness.tables import GROUP_LABELS
 from drivewright.result import Plot, Result
 
 TRACE = 1e-9  # a smaller share is rounding

@@ -1,13 +1,9 @@
-"""What has no meaning, refused by name; what can be computed is left to the checks."""
+"""Keys that are missing for a kind or contradict another, refused by name; what can be computed is left to the checks."""
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
-from drivewright import motion
-from drivewright.errors import SpecError, UnknownName
-
-if TYPE_CHECKING:
-    from drivewright.mechanisms.indexer.spec import IndexerSpec
+from drivewright.errors import SpecError
+from drivewright.mechanisms.indexer.spec import IndexerSpec
 
 TRANSLATING = ("pin-wheel", "cycloid")
 NEEDED = {
@@ -33,21 +29,7 @@ OWN = {  # keys that only some kinds have
 LARGEST_RATIO = 1000.0
 
 
-def refuse_nonsense(spec: "IndexerSpec") -> None:
-    """SpecError for the first thing that has no meaning whatever else is said."""
-    if spec.load.torque is not None and spec.load.torque == 0:
-        raise SpecError("0 N m: without a load there is no stiffness; give another torque, or leave it out", "load.torque")
-    if spec.motion.law is not None and spec.motion.law not in motion.names():
-        raise SpecError(str(UnknownName("motion law", spec.motion.law, motion.names())), "motion.law")
-    if spec.motion.law in ("table", "spline"):
-        raise SpecError(
-            f"law {spec.motion.law!r} needs points of its own, for which an indexing drive has no key; take a law by formula, or "
-            "register one as a plug-in",
-            "motion.law",
-        )
-
-
-def required(spec: "IndexerSpec", key: str) -> float:
+def required(spec: IndexerSpec, key: str) -> float:
     """The value of a key that the kind needs; SpecError where it is missing."""
     value = getattr(spec, key)
     if value is None:
@@ -55,13 +37,13 @@ def required(spec: "IndexerSpec", key: str) -> float:
     return value
 
 
-def refuse_contradictions(spec: "IndexerSpec") -> None:
+def refuse_contradictions(spec: IndexerSpec) -> None:
     """SpecError for the first key that is missing for the kind or contradicts another."""
     for check in (_kind, _motion, _pins, _drive, _bearings):
         check(spec)
 
 
-def unused(spec: "IndexerSpec") -> Iterator[str]:
+def unused(spec: IndexerSpec) -> Iterator[str]:
     """Findings about keys that say nothing of this kind, and limits that cannot be checked."""
     given = [key for key in OWN if key in spec.model_fields_set and spec.kind not in OWN[key]]
     if given:
@@ -83,17 +65,17 @@ def unused(spec: "IndexerSpec") -> Iterator[str]:
         )
 
 
-def law_name(spec: "IndexerSpec") -> str:
-    """The motion law: as said, else uniform for a cycloid and the modified sine for all others."""
+def law_name(spec: IndexerSpec) -> str:
+    """The motion law: as given, else uniform for a cycloid and the modified sine for all others."""
     return spec.motion.law or ("uniform" if spec.kind == "cycloid" else "modified-sine")
 
 
-def _kind(spec):
+def _kind(spec: IndexerSpec) -> None:
     for key in NEEDED[spec.kind]:
         required(spec, key)
 
 
-def _motion(spec):
+def _motion(spec: IndexerSpec) -> None:
     name, ratio = law_name(spec), spec.motion.motion_to_dwell
     if spec.kind == "cycloid" and name != "uniform":
         raise SpecError(
@@ -109,7 +91,7 @@ def _motion(spec):
         )
 
 
-def _pins(spec):
+def _pins(spec: IndexerSpec) -> None:
     if spec.kind in TRANSLATING and spec.pins % spec.cams:
         fitting = [str(number) for number in range(1, 5) if spec.pins % number == 0]
         raise SpecError(
@@ -119,7 +101,7 @@ def _pins(spec):
         )
 
 
-def _drive(spec):
+def _drive(spec: IndexerSpec) -> None:
     given = [key for key in YIELDING if getattr(spec, key) is not None]
     if not given:
         return
@@ -136,7 +118,7 @@ def _drive(spec):
         )
 
 
-def _bearings(spec):
+def _bearings(spec: IndexerSpec) -> None:
     for key in ("crank_bearings", "support_bearings"):
         given = getattr(spec, key)
         if given is None:

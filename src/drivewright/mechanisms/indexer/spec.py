@@ -1,12 +1,12 @@
-"""What the user says of an indexing drive: wheel, cams, motion, load, and what yields."""
+"""Spec of an indexing drive: wheel, cams, motion, load, and what yields."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import BeforeValidator, model_validator
 
-from drivewright import materials
+from drivewright import materials, motion
+from drivewright.errors import SpecError, UnknownName
 from drivewright.indexing.motion import NO_DWELL, TURN
-from drivewright.mechanisms.indexer.refusals import refuse_nonsense
 from drivewright.spec import DataFile, Integer, Machining, MechanismSpec, Number, Spec, Text
 from drivewright.spec.fields import Field
 from drivewright.units import Angle, Force, Length, Pressure, RotationalStiffness, Speed, Stiffness, Time, Torque
@@ -171,6 +171,17 @@ class IndexerSpec(MechanismSpec):
     limits: IndexerLimits = Field(IndexerLimits(), description="requirements")
 
     @model_validator(mode="after")
-    def _has_a_meaning(self):
-        refuse_nonsense(self)
+    def _refuse_impossible(self) -> Self:
+        """SpecError for the first value that has no meaning whatever the other keys are."""
+        if self.load.torque == 0:
+            raise SpecError("0 N m: without a load there is no stiffness; give another torque, or leave it out", "load.torque")
+        law = self.motion.law
+        if law is not None and law not in motion.names():
+            raise SpecError(str(UnknownName("motion law", law, motion.names())), "motion.law")
+        if law in ("table", "spline"):
+            raise SpecError(
+                f"law {law!r} needs points of its own, for which an indexing drive has no key; take a law by formula, or "
+                "register one as a plug-in",
+                "motion.law",
+            )
         return self

@@ -9,11 +9,12 @@ from drivewright.indexing.contacts import CamContacts
 from drivewright.indexing.motion import TURN
 from drivewright.indexing.stiffness.loading import solve_after_play, solve_at_contacts, solve_loaded
 from drivewright.indexing.stiffness.result import CARRIED, TorsionalStiffness
+from drivewright.indexing.stiffness.tables import pin_force_table, stiffness_table
 from drivewright.mechanisms.indexer.build import STEP, IndexerModel
-from drivewright.mechanisms.indexer.pins import largest_pin_values, pressure_check, pressure_on_pin
+from drivewright.mechanisms.indexer.pins import largest_pin_values, pressure_check
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
 from drivewright.mechanisms.indexer.spec import IndexerSpec
-from drivewright.result import Answer, Answers, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Table, Value
 
 
 def no_stiffness(spec: IndexerSpec) -> str | None:
@@ -37,7 +38,7 @@ def torsional(model: IndexerModel, done: Answers) -> Answer:
     }
     values |= _summary(angles, found.secant, carried)
     values |= dwell(model, torque)
-    forces = pin_forces(model, angles, touching, loaded)
+    forces = _pin_forces(model, angles, touching, loaded)
     values |= largest_pin_values(forces)
     tables = (stiffness_table(angles, found, loaded, free, reverse), forces)
     return Answer(values, tables, tuple(_checks(model, values)), tuple(_findings(angles, found, loaded, torque)), data=(found, near))
@@ -59,7 +60,7 @@ def dwell(model: IndexerModel, torque: float) -> dict[str, Value]:
         least = int(np.nanargmin(found.secant))
         values["dwell.stiffness.minimum"] = Value(float(found.secant[least]), "N m/rad", "least secant stiffness in the dwell")
         values["dwell.stiffness.minimum.at"] = Value(float(angles[least]), "rad", "input angle of the least stiffness in the dwell")
-        forces = pin_forces(model, angles, near, found)["force"].data
+        forces = _pin_forces(model, angles, near, found)["force"].data
         values["dwell.pins.max_force"] = Value(float(np.max(forces)), "N", "largest force on a pin in the dwell")
     return values
 
@@ -79,56 +80,8 @@ def _summary(angles: Floats, secant: Floats, carried: Bools) -> dict[str, Value]
     }
 
 
-def stiffness_table(
-    angles: Floats, found: TorsionalStiffness, loaded: TorsionalStiffness, free: Floats, reverse: TorsionalStiffness
-) -> Table:
-    """Secant, tangent and the share of every group in the compliance; after the play where the wheel turns freely first."""
-    columns = [
-        Column("angle", "rad", "input angle", angles),
-        Column("secant", "N m/rad", "torque over rotation of the wheel", found.secant),
-        Column("tangent", "N m/rad", "change of torque over change of rotation", found.tangent),
-    ]
-    columns += [Column(name, "rad/(N m)", words, found.shares[name]) for name, words in GROUP_LABELS.items()]
-    columns += [
-        Column("free_rotation", "rad", "rotation before a contact takes the torque", free),
-        Column("secant_after_play", "N m/rad", "torque over the rotation beyond that", loaded.secant),
-        Column("secant_reversed", "N m/rad", "torque over rotation, torque reversed", reverse.secant),
-    ]
-    return Table("stiffness", "Torsional stiffness", tuple(columns))
-
-
-GROUP_LABELS = {
-    "pin": "contacts of the pins",
-    "crank": "crank bearings",
-    "support": "support bearings",
-    "housing": "housing",
-    "bending": "bending of the shafts",
-    "torsion": "torsion of the shafts",
-    "gear": "gears",
-    "wheel": "wheel and its bearing",
-}
-
-
-def pin_forces(model: IndexerModel, angles: Floats, near: Sequence[CamContacts], found: TorsionalStiffness) -> Table:
-    """Force and Hertz pressure of every loaded contact, one row each."""
-    rows = []
-    for angle, each, forces in zip(angles, near, found.pin_forces, strict=True):
-        for cam, row in enumerate(forces):
-            loaded = np.flatnonzero(np.nan_to_num(row) != 0)
-            rows += [(angle, cam, each.pin[k], row[k], each.arm[k], pressure_on_pin(model, row[k], each.curvature[k])) for k in loaded]
-    data = np.array(rows, dtype=float).reshape(-1, 6).T
-    return Table(
-        "pin_forces",
-        "Forces of the cams on the pins",
-        (
-            Column("angle", "rad", "input angle", data[0]),
-            Column("cam", "-", "cam", data[1]),
-            Column("pin", "-", "pin, counted from the first cam's own line", data[2]),
-            Column("force", "N", "force on the pin", data[3]),
-            Column("arm", "m", "lever about the wheel's axis", data[4]),
-            Column("pressure", "Pa", "Hertz pressure", data[5]),
-        ),
-    )
+def _pin_forces(model: IndexerModel, angles: Floats, contacts: Sequence[CamContacts], found: TorsionalStiffness) -> Table:
+    return pin_force_table(angles, contacts, found, model.spec.pin_radius, model.spec.cam_width, model.modulus)
 
 
 def _checks(model: IndexerModel, values: Mapping[str, Value]) -> Iterator[Check]:

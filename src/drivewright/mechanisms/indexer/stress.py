@@ -5,13 +5,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from drivewright.indexing.motion import TURN
-from drivewright.indexing.pin_pressure import best_resisting_contact
+from drivewright.indexing.pin_pressure import longest_lever_table
 from drivewright.mechanisms.indexer import roller
 from drivewright.mechanisms.indexer.build import IndexerModel
-from drivewright.mechanisms.indexer.pins import largest_pin_values, pressure_check, pressure_on_pin
+from drivewright.mechanisms.indexer.pins import largest_pin_values, pressure_check
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
 from drivewright.mechanisms.indexer.spec import IndexerSpec
-from drivewright.result import Answer, Answers, Check, Column, Table
+from drivewright.result import Answer, Answers, Check, Table
 
 
 def no_stress(spec: IndexerSpec) -> str | None:
@@ -38,24 +38,7 @@ def _held(model: IndexerModel, table: Table) -> Iterator[Check]:
 
 def _plate(model: IndexerModel, done: Answers) -> tuple[Table, tuple[str, ...]]:
     """Of two plate cams: the roller with the longest lever alone."""
-    torque, rows = model.torque, []
-    for angle in model.angles:
-        best = [best_resisting_contact(level, angle, torque) for level in model.plane.levels]
-        number, (pin, arm, curvature) = max(enumerate(best), key=lambda each: abs(each[1][1]))
-        if arm:
-            force = abs(torque / arm)
-            rows.append((angle, pin + model.plane.pins * number, force, arm, pressure_on_pin(model, force, curvature)))
-    data = np.array(rows, dtype=float).reshape(-1, 5).T
-    lost = len(model.angles) - len(rows)
-    findings = (f"nothing carries the torque at {lost} of {len(model.angles)} input angles",) if lost else ()
-    return Table(
-        "pin_forces",
-        "Force on the roller with the longest lever",
-        (
-            Column("angle", "rad", "input angle", data[0]),
-            Column("pin", "-", "roller", data[1]),
-            Column("force", "N", "force on the roller", data[2]),
-            Column("arm", "m", "lever about the wheel's axis", data[3]),
-            Column("pressure", "Pa", "Hertz pressure", data[4]),
-        ),
-    ), findings
+    table = longest_lever_table(model.plane, model.angles, model.torque, model.spec.cam_width, model.modulus)
+    count = len(model.angles)
+    lost = count - len(table["angle"].data)
+    return table, (f"nothing carries the torque at {lost} of {count} input angles",) if lost else ()

@@ -1,0 +1,74 @@
+"""Flanks, contacts and loads of a roller gear as tables."""
+
+import numpy as np
+
+from drivewright.indexing.roller_gear.flanks import FLANKS, CamFlanks
+from drivewright.indexing.roller_gear.stress import RollerLoads
+from drivewright.result import Array, Column, Table
+
+
+def flank_table(flanks: CamFlanks) -> Table:
+    """Points of the finished cam in its own frame, y along its axis."""
+    flank, roller, theta, u = np.nonzero(flanks.on_cam)
+    touch = flanks.contact
+    at = touch.point[flanks.on_cam]
+    curvature, pressure_angle = (
+        np.broadcast_to(each, flanks.on_cam.shape)[flanks.on_cam] for each in (touch.cam_curvature, touch.pressure_angle)
+    )
+    return Table(
+        "profile",
+        "Flanks of the cam",
+        (
+            Column("angle", "rad", "input angle", flanks.theta[theta]),
+            Column("pin", "-", "roller", np.array(flanks.cam.rollers, float)[roller]),
+            Column("flank", "-", "1 pushes the wheel forward, -1 backward", FLANKS[flank]),
+            Column("along", "m", "along the roller from its middle", flanks.u[u]),
+            Column("x", "m", "from the cam's axis", at[:, 0]),
+            Column("y", "m", "along the cam's axis", at[:, 1]),
+            Column("z", "m", "from the cam's axis", at[:, 2]),
+            Column("curvature", "1/m", "of the cam across the contact line, positive where it is convex", curvature),
+            Column("pressure_angle", "rad", "between normal and the roller's way", pressure_angle),
+        ),
+    )
+
+
+def contact_count_table(flanks: CamFlanks) -> Table:
+    """How many rollers touch the cam at every input angle, and on which flank."""
+    forward, backward = (np.sum(side, axis=0) for side in flanks.contact_map)
+    count = np.sum(flanks.contact_map.any(axis=0), axis=0)
+    return Table(
+        "contacts",
+        "Rollers in contact with the cam",
+        (
+            Column("angle", "rad", "input angle", flanks.theta),
+            Column("pins", "-", "rollers that touch", count.astype(float)),
+            Column("forward", "-", "rollers that the cam can push forward", forward.astype(float)),
+            Column("backward", "-", "rollers that the cam can push backward", backward.astype(float)),
+            Column("pressure_angle", "rad", "largest pressure angle", flanks.pressure_angle_maximum),
+        ),
+    )
+
+
+def contact_map_array(flanks: CamFlanks) -> Array:
+    """(angle, roller): 1 where the roller touches the flank that pushes it forward, -1 where it touches the other, 0 elsewhere or both."""
+    way = flanks.contact_map[0].astype(float) - flanks.contact_map[1]
+    names = (tuple(f"{np.degrees(angle):.6g} deg" for angle in flanks.theta), tuple(str(k) for k in flanks.cam.rollers))
+    return Array("-", ("angle", "pin"), names, way.T)
+
+
+def roller_force_table(flanks: CamFlanks, loads: RollerLoads) -> Table:
+    """Force and largest Hertz pressure of every loaded roller, one row each, in the order of the input angle."""
+    pressure = np.nanmax(np.where(np.isfinite(loads.pressure), loads.pressure, -1.0), axis=2)
+    roller, theta = np.nonzero(np.nan_to_num(loads.force) > 0)
+    order = np.argsort(flanks.theta[theta], kind="stable")
+    roller, theta = roller[order], theta[order]
+    return Table(
+        "pin_forces",
+        "Forces of the cam on the rollers",
+        (
+            Column("angle", "rad", "input angle", flanks.theta[theta]),
+            Column("pin", "-", "roller", np.array(flanks.cam.rollers, float)[roller]),
+            Column("force", "N", "force on the roller", loads.force[roller, theta]),
+            Column("pressure", "Pa", "Hertz pressure", pressure[roller, theta]),
+        ),
+    )

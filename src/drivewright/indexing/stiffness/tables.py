@@ -1,0 +1,89 @@
+"""Torsional stiffness, forces of pins and loads of bearings as tables."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from drivewright._typing import Complexes, Floats
+from drivewright.indexing.contacts import CamContacts
+from drivewright.indexing.pin_pressure import pin_pressure
+from drivewright.indexing.stiffness.result import TorsionalStiffness
+from drivewright.result import Column, Table
+
+GROUP_LABELS = {
+    "pin": "contacts of the pins",
+    "crank": "crank bearings",
+    "support": "support bearings",
+    "housing": "housing",
+    "bending": "bending of the shafts",
+    "torsion": "torsion of the shafts",
+    "gear": "gears",
+    "wheel": "wheel and its bearing",
+}
+SHAFTS, ENDS = ("left", "right"), ("front", "rear")
+
+
+def stiffness_table(
+    angles: Floats, found: TorsionalStiffness, loaded: TorsionalStiffness, free: Floats, reverse: TorsionalStiffness
+) -> Table:
+    """Secant, tangent and the share of every group in the compliance; after the play where the wheel turns freely first.
+
+    angles (p,) [rad]; found: at the contacts without a gap; loaded: after the free rotation `free` (p,) [rad]; reverse: torque reversed.
+    """
+    columns = [
+        Column("angle", "rad", "input angle", angles),
+        Column("secant", "N m/rad", "torque over rotation of the wheel", found.secant),
+        Column("tangent", "N m/rad", "change of torque over change of rotation", found.tangent),
+    ]
+    columns += [Column(name, "rad/(N m)", words, found.shares[name]) for name, words in GROUP_LABELS.items()]
+    columns += [
+        Column("free_rotation", "rad", "rotation before a contact takes the torque", free),
+        Column("secant_after_play", "N m/rad", "torque over the rotation beyond that", loaded.secant),
+        Column("secant_reversed", "N m/rad", "torque over rotation, torque reversed", reverse.secant),
+    ]
+    return Table("stiffness", "Torsional stiffness", tuple(columns))
+
+
+def pin_force_table(
+    angles: Floats, contacts: Sequence[CamContacts], found: TorsionalStiffness, pin_radius: float, width: float, modulus: float
+) -> Table:
+    """Force and Hertz pressure of every loaded contact, one row each; lengths [m], effective modulus E* [Pa]."""
+    rows = []
+    for angle, each, forces in zip(angles, contacts, found.pin_forces, strict=True):
+        for cam, row in enumerate(forces):
+            for k in np.flatnonzero(np.nan_to_num(row) != 0):
+                pressure = pin_pressure(row[k], each.curvature[k], pin_radius, width, modulus)
+                rows.append((angle, cam, each.pin[k], row[k], each.arm[k], pressure))
+    data = np.array(rows, dtype=float).reshape(-1, 6).T
+    return Table(
+        "pin_forces",
+        "Forces of the cams on the pins",
+        (
+            Column("angle", "rad", "input angle", data[0]),
+            Column("cam", "-", "cam", data[1]),
+            Column("pin", "-", "pin, counted from the first cam's own line", data[2]),
+            Column("force", "N", "force on the pin", data[3]),
+            Column("arm", "m", "lever about the wheel's axis", data[4]),
+            Column("pressure", "Pa", "Hertz pressure", data[5]),
+        ),
+    )
+
+
+def bearing_forces(found: TorsionalStiffness) -> dict[str, Complexes]:
+    """{name: force (p,) [N], complex} of every bearing: "crank.left.cam1", ..., "support.right.rear"."""
+    cams = found.crank_forces.shape[2]
+    cranks = {f"crank.{side}.cam{cam + 1}": found.crank_forces[:, s, cam] for s, side in enumerate(SHAFTS) for cam in range(cams)}
+    return cranks | {f"support.{side}.{end}": found.support_forces[:, s, k] for s, side in enumerate(SHAFTS) for k, end in enumerate(ENDS)}
+
+
+def bearing_load_table(angles: Floats, forces: Mapping[str, Complexes]) -> Table:
+    """Size and components of the forces of `bearing_forces` over the input angle (p,) [rad]."""
+    columns = [Column("angle", "rad", "input angle", angles)]
+    for name, force in forces.items():
+        words = name.replace(".", " ")
+        columns += [
+            Column(name, "N", words, np.abs(force)),
+            Column(f"{name}.x", "N", f"{words}, along x", force.real),
+            Column(f"{name}.y", "N", f"{words}, along y", force.imag),
+        ]
+    return Table("bearing_loads", "Loads of the bearings", tuple(columns))
