@@ -7,11 +7,21 @@ from typing import Any
 _WHERE = {
     "response": ("FREEDOMS", "respond"),  # the formula itself has the name of its module
     "newton": ("BearingMeasures", "equilibria", "equilibrium", "measures"),
-    "solving": ("PERMISSIBLE", "BearingEquilibrium", "basic_static_rating", "contact_of", "elements", "law_of", "life_of", "solve"),
+    "solving": (
+        "PERMISSIBLE",
+        "BearingEquilibrium",
+        "RollingBearing",
+        "basic_static_rating",
+        "contact_of",
+        "elements",
+        "law_of",
+        "life_of",
+        "solve",
+    ),
     "stiffness_curve": ("LoadCurve", "load_curve"),
     "drawing": ("bearing_section",),
     "ball": ("BallBearing", "BallLaw"),
-    "life": ("basic_dynamic_rating", "basic_life", "equivalent_radial_load"),
+    "life": ("basic_dynamic_rating", "basic_life", "equivalent_radial_load", "life_exponent", "static_rating"),
     "roller": ("RollerBearing", "RollerLaw", "roller_reference_life", "roller_static_rating"),
     "catalogue": ("Entry", "bearing", "entry", "load_catalogue", "names"),
     "quick": (

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.bearings.solving import PERMISSIBLE, contact_of, law_of
+from drivewright.bearings.solving import PERMISSIBLE, RollingBearing, basic_static_rating, contact_of, law_of
 from drivewright.errors import InputError
 
 AXIAL_SHARE = 0.19  # least e of ISO 281: axial over radial force up to which P = Fr in every deep-groove bearing
@@ -63,11 +63,21 @@ def basic_dynamic_rating(bearing):
     return float(MATERIAL * factor * np.cos(bearing.contact_angle) ** 0.7 * bearing.balls ** (2 / 3) * size)
 
 
+def static_rating(bearing: RollingBearing) -> float:
+    """C0 [N] as the bearing gives it, else by its inner geometry (`basic_static_rating`)."""
+    return basic_static_rating(bearing) if bearing.static_rating is None else bearing.static_rating
+
+
 def ball_static_rating(bearing):
     """C0 [N]: the radial load F whose most loaded ball, Q = 5 F/(Z cos a), reaches 4200 MPa at one of its races."""
     law = law_of(bearing)
     ball = (PERMISSIBLE["point"][0] / max(law.inner_pressure, law.outer_pressure)) ** 3
     return float(ball * bearing.balls * np.cos(bearing.contact_angle) / 5)
+
+
+def life_exponent(bearing: RollingBearing) -> float:
+    """p of ISO 281: 3 of balls, 10/3 of rollers."""
+    return 10 / 3 if contact_of(bearing) == "line" else 3
 
 
 def basic_life(bearing, load):
@@ -78,7 +88,7 @@ def basic_life(bearing, load):
     """
     if not load > 0:
         raise InputError(f"bearing: the life wants a load above 0 N, got {load:g}.")
-    power = 10 / 3 if contact_of(bearing) == "line" else 3
+    power = life_exponent(bearing)
     if bearing.dynamic_rating is None:
         return None
     return REVOLUTIONS * (bearing.dynamic_rating / load) ** power
@@ -89,5 +99,5 @@ def equivalent_radial_load(force: Sequence[float] | Floats, contact_angle: float
 
     So it is without a contact angle and with |Fz| <= e Fr, e = 0.19 being the least of all deep-groove bearings.
     """
-    radial, axial = float(np.hypot(*force[:2])), abs(force[2])
+    radial, axial = float(np.hypot(force[0], force[1])), abs(force[2])
     return None if contact_angle or not radial > 0 or axial > AXIAL_SHARE * radial else radial

@@ -6,7 +6,7 @@ under each of `response`, `measures` and `elements`.  Nothing here knows their n
 
 from dataclasses import dataclass
 from functools import cached_property, singledispatch
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -19,6 +19,7 @@ __all__ = [
     "PERMISSIBLE",
     "BearingEquilibrium",
     "BearingMeasures",
+    "RollingBearing",
     "contact_of",
     "elements",
     "equilibria",
@@ -30,6 +31,22 @@ __all__ = [
     "solve",
     "warm",
 ]
+
+
+class RollingBearing(Protocol):
+    """What every spec of a rolling bearing gives: nominal contact angle and place of the first element [rad], ratings C and C0 [N]."""
+
+    @property
+    def contact_angle(self) -> float: ...
+
+    @property
+    def first_element(self) -> float: ...
+
+    @property
+    def dynamic_rating(self) -> float | None: ...
+
+    @property
+    def static_rating(self) -> float | None: ...
 
 
 @singledispatch

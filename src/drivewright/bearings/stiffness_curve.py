@@ -6,9 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.bearings.ball import BallBearing
-from drivewright.bearings.roller import RollerBearing
-from drivewright.bearings.solving import contact_of, solve
+from drivewright.bearings.solving import RollingBearing, contact_of, solve
 
 
 class LoadCurve(NamedTuple):
@@ -20,13 +18,13 @@ class LoadCurve(NamedTuple):
     secant: Floats
 
 
-def load_curve(bearing: BallBearing | RollerBearing, force: Sequence[float] | Floats, factors: Sequence[float] | Floats) -> LoadCurve:
+def load_curve(bearing: RollingBearing, force: Sequence[float] | Floats, factors: Sequence[float] | Floats) -> LoadCurve:
     """The `LoadCurve` of a bearing under multiples of a force (Fx, Fy, Fz) [N] with a radial part; its rings stay parallel.
 
     A bearing that resists no axial displacement, one of cylindrical rollers, is held along the axis.  Errors as those of `solve`.
     """
-    radial = float(np.hypot(*force[:2]))
-    way = np.asarray(force[:2]) / radial
+    radial = float(np.hypot(force[0], force[1]))
+    way = np.array([force[0], force[1]]) / radial
     held = ("tilt_x", "tilt_y") + (() if contact_of(bearing) == "point" or bearing.contact_angle else ("z",))
     load = np.array([*force[:2], 0.0 if "z" in held else force[2], 0.0, 0.0])
     rows = []

@@ -1,6 +1,7 @@
 """A shaft seen from the side: its outline, slices of it that bend, supports, gears and loads on it; and the turned part."""
 
 from collections.abc import Iterator
+from typing import Literal
 
 import numpy as np
 
@@ -12,12 +13,12 @@ ARROW = 0.09  # length of an arrow over the shaft's
 OVERHANG = 0.03  # of the axis beyond the ends of the turned part, over the shaft's length
 
 
-def radius_at(shaft: Shaft, z: float | Floats, side: str = "right") -> float | Floats:
-    """Outer radius [m] at places z [m], of the section right (or left) of a step."""
+def radius_at(shaft: Shaft, z: float, side: Literal["left", "right"] = "right") -> float:
+    """Outer radius [m] at a place z [m], of the section right (or left) of a step."""
     ends = shaft.ends
-    at = np.clip(np.searchsorted(ends, z, side=side) - 1, 0, len(shaft.sections) - 1)
-    length, start, end, _ = np.array([section[:4] for section in shaft.sections], float)[at].T
-    return 0.5 * (start + (end - start) * (z - ends[at]) / length)
+    at = int(np.clip(np.searchsorted(ends, z, side=side) - 1, 0, len(shaft.sections) - 1))
+    length, start, end, _ = shaft.sections[at]
+    return float(0.5 * (start + (end - start) * (z - ends[at]) / length))
 
 
 def silhouette(shaft: Shaft) -> Iterator[Shape]:
@@ -54,7 +55,7 @@ def slices(shaft: Shaft, z: Floats) -> Iterator[list[Shape]]:
 
 def spring_symbol(shaft: Shaft, position: float) -> Iterator[Shape]:
     """A support as a triangle and a line below the shaft at a place [m]."""
-    outer = float(radius_at(shaft, position))
+    outer = radius_at(shaft, position)
     size = max(0.8 * outer, 0.02 * shaft.length)
     yield Shape("body", polygon([(position, -outer), (position - 0.6 * size, -outer - size), (position + 0.6 * size, -outer - size)]))
     yield Shape("body", polygon([(position - size, -outer - 1.15 * size), (position + size, -outer - 1.15 * size)], closed=False))
@@ -62,7 +63,7 @@ def spring_symbol(shaft: Shaft, position: float) -> Iterator[Shape]:
 
 def gear_symbol(shaft: Shaft, position: float, pitch_diameter: float) -> Iterator[Shape]:
     """A gear [m] as a ring about the shaft, about its place on the axis."""
-    inner, outer = float(radius_at(shaft, position)), pitch_diameter / 2
+    inner, outer = radius_at(shaft, position), pitch_diameter / 2
     for side in (1, -1):
         yield Shape("body", rectangle((0.0, side * 0.5 * (inner + outer)), 0.3 * pitch_diameter, max(outer - inner, 1e-6)))
 
@@ -71,7 +72,7 @@ def load_arrow(shaft: Shaft, position: float, force: float) -> Iterator[Shape]:
     """An arrow onto the shaft at a place [m], about that place on the axis; a force above 0 points down."""
     length = ARROW * shaft.length
     side = np.sign(force)  # the tail lies where the load comes from
-    tip = side * float(radius_at(shaft, min(position, shaft.length * (1 - 1e-12))))
+    tip = side * radius_at(shaft, min(position, shaft.length * (1 - 1e-12)))
     head, half = 0.35 * length, 0.12 * length
     yield Shape("body", polygon([(0.0, tip), (-half, tip + side * head), (half, tip + side * head)]))
     yield Shape("body", Outline(polygon([(0.0, tip + side * head), (0.0, tip + side * length)], closed=False).pieces, False))

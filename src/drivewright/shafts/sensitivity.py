@@ -6,7 +6,7 @@ moved, and delta differentiated by central differences of order four; a place th
 """
 
 from collections.abc import Callable, Iterator
-from typing import TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,10 +22,17 @@ from drivewright.shafts.model import Shaft, Support
 STEP = 2e-3
 NO_FLEXIBILITY = 1e-12  # of the largest entry: rounding
 WEIGHTS = ((-2, 1 / 12), (-1, -8 / 12), (1, 8 / 12), (2, -1 / 12))
-Slope: TypeAlias = tuple[str, str, Floats]  # parameter, what is held, d delta/d ln(parameter) (s, s) [m/N]
 
 
-def flexibility_slopes(equilibrium: ShaftEquilibrium, found: Flexibility, direction: Floats) -> Iterator[Slope]:
+class FlexibilitySlope(NamedTuple):
+    """How the flexibility follows a parameter p, and what is held meanwhile: `slope` (s, s) is d delta/d ln(p) [m/N], or relative [-]."""
+
+    parameter: str
+    held: str
+    slope: Floats
+
+
+def flexibility_slopes(equilibrium: ShaftEquilibrium, found: Flexibility, direction: Floats) -> Iterator[FlexibilitySlope]:
     """(parameter, what is held, d delta/d ln(parameter) (s, s) [m/N]) of the flexibility between the shaft's stations along `direction`.
 
     Bearings that are not linear keep their tangents at the equilibrium.
@@ -35,25 +42,26 @@ def flexibility_slopes(equilibrium: ShaftEquilibrium, found: Flexibility, direct
     yield from _of_places(equilibrium, direction)
 
 
-def relative_flexibility_slopes(equilibrium: ShaftEquilibrium, found: Flexibility, direction: Floats) -> Iterator[Slope]:
+def relative_flexibility_slopes(equilibrium: ShaftEquilibrium, found: Flexibility, direction: Floats) -> Iterator[FlexibilitySlope]:
     """`flexibility_slopes` as relative changes over relative changes, d ln(delta)/d ln(p) [-]; nan where delta is 0."""
     known = np.abs(found.delta) > NO_FLEXIBILITY * np.abs(found.delta).max()
     for name, held, slope in flexibility_slopes(equilibrium, found, direction):
         with np.errstate(divide="ignore", invalid="ignore"):
             relative = np.where(known, slope / found.delta, np.nan)
-        yield name, held, relative
+        yield FlexibilitySlope(name, held, relative)
 
 
-def _of_parts(shaft: Shaft, found: Flexibility) -> Iterator[Slope]:
+def _of_parts(shaft: Shaft, found: Flexibility) -> Iterator[FlexibilitySlope]:
     """Modulus and bearings: delta is the sum of its shares, each inversely proportional to a stiffness."""
     shares = dict(zip(found.names, found.shares, strict=True))
     elastic = [support.name for support in shaft.supports if is_elastic(support)]
     inside = [share for name, share in shares.items() if name in ("bending", "shear", "tension")]
-    yield "youngs_modulus", "shear modulus in proportion; bearings held", -np.sum(inside, axis=0)
+    yield FlexibilitySlope("youngs_modulus", "shear modulus in proportion; bearings held", -np.sum(inside, axis=0))
     if elastic:
-        yield "bearings.stiffness", "all bearings with their housings in proportion", -sum(shares[name] for name in elastic)
+        together = -np.sum([shares[name] for name in elastic], axis=0)
+        yield FlexibilitySlope("bearings.stiffness", "all bearings with their housings in proportion", together)
     for name in elastic if len(elastic) > 1 else ():
-        yield f"bearings.{name}.stiffness", "with its housing; all else held", -shares[name]
+        yield FlexibilitySlope(f"bearings.{name}.stiffness", "with its housing; all else held", -shares[name])
 
 
 def is_elastic(support: Support) -> bool:
@@ -61,35 +69,37 @@ def is_elastic(support: Support) -> bool:
     return support.law is not None or any(0 < k < np.inf for k in (*support.stiffness, *support.seat))
 
 
-def _of_sections(at_rest: ShaftEquilibrium, found: Flexibility) -> Iterator[Slope]:
+def _of_sections(at_rest: ShaftEquilibrium, found: Flexibility) -> Iterator[FlexibilitySlope]:
     """Diameters: d delta_ij = sum over the pieces of f_i' dF f_j, F their flexibility and f the forces at their ends."""
     beam, shaft = at_rest.model.beam, at_rest.model.beam.shaft
     middles = beam.z[:-1] + 0.5 * beam.pieces[:, 0]
     at = np.clip(np.searchsorted(shaft.ends, middles) - 1, 0, len(shaft.sections) - 1)
-    change = (
-        sum(weight * beams.clamped(beam.pieces * (1.0, np.exp(k * STEP), np.exp(k * STEP), 1.0), shaft)[0] for k, weight in WEIGHTS) / STEP
-    )
+    factors = [np.exp(k * STEP) for k, _ in WEIGHTS]
+    flexibilities = [
+        weight * beams.clamped(beam.pieces * (1.0, f, f, 1.0), shaft)[0] for f, (_, weight) in zip(factors, WEIGHTS, strict=True)
+    ]
+    change = np.sum(flexibilities, axis=0) / STEP
     forces = np.array([[beams.end_forces(beam, plane, column) for column in found.unknowns.T] for plane in (0, 1)])
     for number in range(len(shaft.sections)):
         own = at == number
         slope = np.einsum("pina,nab,pjnb->ij", forces[:, :, own], change[own], forces[:, :, own])
-        yield f"segments.{number}.diameter", "lengths and bore held", slope
+        yield FlexibilitySlope(f"segments.{number}.diameter", "lengths and bore held", slope)
 
 
-def _of_places(at_rest: ShaftEquilibrium, direction: Floats) -> Iterator[Slope]:
+def _of_places(at_rest: ShaftEquilibrium, direction: Floats) -> Iterator[FlexibilitySlope]:
     """Distances and places of stations."""
     base = tangent_shaft(at_rest)
     features = sorted((*base.supports, *base.stations), key=lambda each: each.position)
     for one, two in zip(features, features[1:], strict=False):
         if two.position > one.position:
-            yield (
+            yield FlexibilitySlope(
                 f"distance.{one.name}-{two.name}",
                 "all other distances held, what is right of it moves along",
                 _slope(base, direction, lambda f, a=one.position, b=two.position: _stretched(base, a, b, f)),
             )
     for station in base.stations:
         if 0 < station.position < base.length:
-            yield (
+            yield FlexibilitySlope(
                 f"stations.{station.name}.position",
                 "all else held",
                 _slope(base, direction, lambda f, name=station.name: _moved(base, name, f)),
@@ -99,7 +109,7 @@ def _of_places(at_rest: ShaftEquilibrium, direction: Floats) -> Iterator[Slope]:
 def _slope(base: Shaft, direction: Floats, change: Callable[[float], Shaft]) -> Floats:
     """d delta / d ln f at f = 1; nan where the changed shaft is none."""
     try:
-        return sum(weight * _delta(direction, change(np.exp(k * STEP))) for k, weight in WEIGHTS) / STEP
+        return np.sum([weight * _delta(direction, change(np.exp(k * STEP))) for k, weight in WEIGHTS], axis=0) / STEP
     except InputError:
         return np.full((len(base.stations),) * 2, np.nan)
 

@@ -7,8 +7,7 @@ import numpy as np
 
 from drivewright import bearings
 from drivewright._typing import Floats
-from drivewright.bearings.ball import BallBearing
-from drivewright.bearings.roller import RollerBearing
+from drivewright.bearings.solving import RollingBearing
 from drivewright.shafts.curves import RadialCurve
 from drivewright.shafts.equilibrium import ShaftEquilibrium
 from drivewright.shafts.model import Support
@@ -48,7 +47,7 @@ def spring_support(
 def rolling_support(
     name: str,
     position: float,
-    bearing: BallBearing | RollerBearing,
+    bearing: RollingBearing,
     *,
     preload: float = 0.0,
     mirrored: bool = False,

@@ -60,8 +60,7 @@ def _measures(model: IndexerModel, group: str, own: Mapping[str, Complexes]) -> 
     rolling = model.rolling.get(RATED[group])
     if rolling is None or rolling.dynamic_rating is None or len(model.angles) == 1:
         return values
-    power = 10 / 3 if bearings.contact_of(rolling) == "line" else 3
-    mean = max(equivalent_load(np.abs(force), power) for force in own.values())
+    mean = max(equivalent_load(np.abs(force), bearings.life_exponent(rolling)) for force in own.values())
     if mean > 0:
         life = float(bearings.basic_life(rolling, mean))
         values[f"{group}.equivalent_load"] = Value(mean, "N", f"load of constant size with the same life, worst {group} bearing")
@@ -76,7 +75,7 @@ def static_rating(model: IndexerModel, table: str) -> float | None:
     given, rolling = getattr(model.spec, table), model.rolling.get(table)
     if rolling is None:
         return given.static_rating if given else None
-    return rolling.static_rating if rolling.static_rating is not None else bearings.basic_static_rating(rolling)
+    return bearings.static_rating(rolling)
 
 
 def _checks(model: IndexerModel, group: str, own: Mapping[str, Complexes], values: Mapping[str, Value]) -> Iterator[Check]:

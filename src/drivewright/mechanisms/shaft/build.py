@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,9 +15,19 @@ from drivewright.mechanisms.shaft.spec import Analysis, Bearing, Gear, Material,
 from drivewright.spec.csv_columns import read_columns
 from drivewright.units import SI
 
-STEEL = {"youngs_modulus": 206e9, "poisson_ratio": 0.3, "density": 7850.0, "yield_strength": None}
 DOWN = np.array([0.0, -1.0])
-CARD = {"youngs_modulus": "modulus", "poisson_ratio": "poisson", "density": "density", "yield_strength": "yield_strength"}
+
+
+class ShaftMaterial(NamedTuple):
+    """Young's modulus [Pa], Poisson's ratio, density [kg/m^3], yield strength [Pa] or None."""
+
+    youngs_modulus: float
+    poisson_ratio: float
+    density: float
+    yield_strength: float | None
+
+
+STEEL = ShaftMaterial(206e9, 0.3, 7850.0, None)
 
 
 @dataclass(frozen=True)
@@ -55,27 +66,28 @@ class ShaftModel:
 def build(spec: ShaftSpec) -> ShaftModel:
     """The `ShaftModel` of a spec; InputError where its bearings do not hold it."""
     refuse_contradictions(spec)
-    steel = material(spec.material)
+    properties = material(spec.material)
     rolling = {b.name: rolling_bearing(spec, b) for b in spec.bearings if is_rolling(b)}
     shaft = shafts.Shaft(
         tuple(shafts.Section(s.length, s.diameter, s.end_diameter or s.diameter, s.bore) for s in spec.segments),
-        steel["youngs_modulus"],
-        steel["poisson_ratio"],
-        steel["density"],
+        properties.youngs_modulus,
+        properties.poisson_ratio,
+        properties.density,
         tuple(_support(b, rolling.get(b.name)) for b in spec.bearings),
         tuple(shafts.Station(s.name, s.position, s.mass, s.polar_inertia, s.diametral_inertia) for s in spec.stations),
         _shear_coefficient(spec.analysis),
     )
     loads = shafts.ShaftLoads(tuple(_points(spec)), tuple(_lines(spec)), tuple(spec.gravity))
     shafts.refuse_mechanism(shaft)
-    return ShaftModel(spec, shaft, loads, rolling, steel["yield_strength"])
+    return ShaftModel(spec, shaft, loads, rolling, properties.yield_strength)
 
 
-def material(given: Material) -> dict[str, float | None]:
+def material(given: Material) -> ShaftMaterial:
     """The numbers of the material: as given, else of its card, else of steel."""
     card = materials.material(given.card) if given.card else None
-    known = {key: (getattr(given, key), getattr(card, CARD[key], None), usual) for key, usual in STEEL.items()}
-    return {key: next((value for value in values if value is not None), None) for key, values in known.items()}
+    usual = STEEL if card is None else ShaftMaterial(card.modulus, card.poisson, card.density, card.yield_strength)
+    own = {key: getattr(given, key) for key in ShaftMaterial._fields}
+    return usual._replace(**{key: value for key, value in own.items() if value is not None})
 
 
 def _shear_coefficient(analysis: Analysis) -> float:
@@ -119,13 +131,12 @@ def _support(bearing: Bearing, rolling: BallBearing | RollerBearing | None) -> s
 
 def rolling_bearing(spec: ShaftSpec, bearing: Bearing) -> BallBearing | RollerBearing:
     """The rolling bearing of a table, with the clearance and the ratings that stand there in place of its own."""
-    if bearing.bearing is not None:
+    found = bearing.geometry or bearing.roller_geometry
+    if found is None:
         try:
-            found = bearings.bearing(bearing.bearing, spec.catalogue)
+            found = bearings.bearing(str(bearing.bearing), spec.catalogue)
         except InputError as error:
             raise SpecError(str(error), f"bearings.{bearing.name}.bearing") from None
-    else:
-        found = bearing.geometry or bearing.roller_geometry
     keys = ("radial_clearance", "dynamic_rating", "static_rating")
     changes = {key: SI(getattr(bearing, key)) for key in keys if getattr(bearing, key) is not None}
     return found.replace(**changes) if changes else found
@@ -137,7 +148,7 @@ def rolling_bearing(spec: ShaftSpec, bearing: Bearing) -> BallBearing | RollerBe
 def _points(spec: ShaftSpec) -> Iterator[shafts.ShaftLoad]:
     places = {station.name: station.position for station in spec.stations}
     for load in spec.loads:
-        place = places[load.station] if load.station else load.position
+        place = places[str(load.station)] if load.position is None else load.position
         force = load.force * shafts.transverse_direction(load.angle)
         moment = load.moment * shafts.transverse_direction(load.moment_angle)
         yield shafts.ShaftLoad(place, (*force, load.axial_force), (*moment, load.torque))

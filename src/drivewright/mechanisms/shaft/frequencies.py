@@ -8,7 +8,8 @@ from drivewright import shafts
 from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.spec import ShaftSpec
-from drivewright.result import Answer, Answers, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Value
+from drivewright.shafts.tables import mode_table
 
 ELEMENTS, MAX_ELEMENTS = 40, 1000  # along the shaft: unless a length is given, and at most
 
@@ -49,7 +50,7 @@ def frequencies(model: ShaftModel, done: Answers) -> Answer:
         )
         values["critical_speeds.lowest"] = Value(lowest, "rad/s", excited)
     massless, findings = _massless(model, done, bending)
-    return Answer(values | massless, (_shape_table(fine, bending),), tuple(_speed_check(model, lowest)), findings)
+    return Answer(values | massless, (mode_table(fine, bending),), tuple(_speed_check(model, lowest)), findings)
 
 
 def _refined(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> shafts.ShaftEquilibrium:
@@ -85,13 +86,3 @@ def _speed_check(model: ShaftModel, lowest: float | None) -> Iterator[Check]:
     if drive is not None and lowest:
         message = "lowest critical speed that an unbalance excites over the speed of the shaft"
         yield Check("critical_speed", lowest / drive.speed, model.spec.limits.critical_speed, ">=", "-", message, ("shaft",))
-
-
-def _shape_table(fine: shafts.ShaftEquilibrium, modes: shafts.Modes) -> Table:
-    beam = fine.model.beam
-    columns = [Column("z", "m", "distance from the left end", beam.z)]
-    for number, (frequency, shape) in enumerate(zip(modes.frequencies, modes.shapes.T, strict=True), 1):
-        planar = shafts.planar_shape(beam, shape)
-        plane = "" if planar.alone else f" along {planar.plane}"
-        columns.append(Column(f"mode_{number}", "-", f"mode {number}, {frequency:.4g} Hz{plane}", planar.deflection))
-    return Table("modes", "Shapes of the natural modes", tuple(columns))

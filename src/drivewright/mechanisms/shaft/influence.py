@@ -7,12 +7,12 @@ import numpy as np
 from drivewright import bearings, shafts
 from drivewright.errors import InputError
 from drivewright.mechanisms.shaft.build import ShaftModel
-from drivewright.mechanisms.shaft.matrices import pair_values, station_array, station_pairs
+from drivewright.mechanisms.shaft.matrices import pair_values, station_array
 from drivewright.mechanisms.shaft.refusals import is_rolling
 from drivewright.mechanisms.shaft.spec import Bearing, ShaftSpec
 from drivewright.mechanisms.shaft.statics import BALANCED
 from drivewright.result import Answer, Answers, Array, Check, Column, Table, Value
-from drivewright.shafts.unit_loads import SAMPLES
+from drivewright.shafts.tables import share_table, unit_load_table
 
 
 def no_stations(spec: ShaftSpec) -> str | None:
@@ -44,36 +44,11 @@ def flexibility(model: ShaftModel, done: Answers) -> Answer:
         findings.append(f"array 'stiffness' is absent: {error}")
     if any(support.law is not None for support in model.shaft.supports):
         findings.append("bearings are not linear: flexibility and stiffness are tangents at the equilibrium of the given loads")
-    off, message = (
-        shafts.unit_imbalance(found, model.shaft, model.places, model.direction),
-        "forces and moments that do not balance under a unit force at a station, the largest",
-    )
+    off = shafts.unit_imbalance(found, model.shaft, model.places, model.direction)
+    message = "forces and moments that do not balance under a unit force at a station, the largest"
     check = Check("equilibrium.unit_loads", off, BALANCED, "<=", "-", message, ("shaft",))
-    return Answer(values, (_unit_table(model, found, at_rest), _share_table(model, found)), (check,), tuple(findings), arrays, data=found)
-
-
-def _unit_table(model: ShaftModel, found: shafts.Flexibility, at_rest: shafts.ShaftEquilibrium) -> Table:
-    """Deflection along the shaft under a unit force at each station, with the bearings as they are and rigid."""
-    z = np.linspace(0.0, model.shaft.length, SAMPLES)
-    rigid = shafts.flexibility_on_rigid_bearings(model.shaft, model.places, model.direction)
-    columns = [Column("z", "m", "distance from the left end", z)]
-    for words, suffix, equilibrium, each in (("", "", at_rest, found), (", bearings rigid", ".rigid", *rigid)):
-        for name, u in zip(model.names, each.unknowns.T, strict=True):
-            deflection = shafts.unit_deflection(equilibrium, u, z, model.direction)
-            columns.append(Column(f"{name}{suffix}", "m/N", f"force at {name!r}{words}", deflection))
-    return Table("unit_load", "Deflection by a unit force at a station", tuple(columns))
-
-
-def _share_table(model: ShaftModel, found: shafts.Flexibility) -> Table:
-    """One row for every flexibility entry and part."""
-    pairs = list(station_pairs(model.names))
-    entries = np.array([f"{model.names[i]}, {model.names[j]}" for i, j in pairs])
-    columns = [Column("entry", "-", "stations", entries), Column("total", "m/N", "flexibility", np.array([found.delta[p] for p in pairs]))]
-    columns += [
-        Column(name, "m/N", name if name in ("bending", "shear", "tension") else f"bearing {name}", np.array([share[p] for p in pairs]))
-        for name, share in zip(found.names, found.shares, strict=True)
-    ]
-    return Table("shares", "Who contributes what to the flexibility", tuple(columns))
+    tables = (unit_load_table(at_rest, found, labels, model.direction), share_table(found, labels))
+    return Answer(values, tables, (check,), tuple(findings), arrays, data=found)
 
 
 # -- what fails first ----------------------------------------------------------------------------------------------------------
@@ -89,7 +64,7 @@ def no_strength(spec: ShaftSpec) -> str | None:
 def failure(model: ShaftModel, done: Answers) -> Answer:
     """For a force at each station alone: at which size a bearing reaches its static rating, and the shaft its yield strength."""
     found, at_rest = done["flexibility"].data, done["statics"].data.equilibrium
-    ratings = [_static_rating(model, bearing) for bearing in model.spec.bearings]
+    ratings = [static_rating(model, bearing) for bearing in model.spec.bearings]
     shock, rows, values = model.spec.limits.shock_factor, [], {}
     for number, name in enumerate(model.names):
         limits = list(_limits(shafts.limit_loads(found, at_rest, number, model.direction, ratings, model.yield_strength)))
@@ -115,10 +90,10 @@ def failure(model: ShaftModel, done: Answers) -> Answer:
     return Answer(values, (Table("failure", "What fails first", columns),))
 
 
-def _static_rating(model: ShaftModel, bearing: Bearing) -> float | None:
+def static_rating(model: ShaftModel, bearing: Bearing) -> float | None:
     """C0 of a bearing [N]: as given, of a rolling bearing else by its inner geometry; None where neither is known."""
     rolling = model.rolling.get(bearing.name)
-    return bearing.static_rating if rolling is None else rolling.static_rating or bearings.basic_static_rating(rolling)
+    return bearing.static_rating if rolling is None else bearings.static_rating(rolling)
 
 
 def _limits(loads: Iterator[shafts.LimitLoad]) -> Iterator[tuple[str, float]]:

@@ -1,14 +1,10 @@
 """Symmetric matrices between the stations of a shaft, as values, arrays and rows."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from drivewright._typing import Floats
 from drivewright.result import Array, Value
-
-
-def station_pairs(names: Sequence[str]) -> Iterator[tuple[int, int]]:
-    """Numbers (i, j >= i) of all pairs of stations."""
-    return ((i, j) for i in range(len(names)) for j in range(i, len(names)))
+from drivewright.shafts.tables import station_pairs
 
 
 def pair_values(key: str, names: Sequence[str], matrix: Floats, unit: str, meaning: str) -> dict[str, Value]:

@@ -5,13 +5,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from drivewright import bearings, shafts
-from drivewright._typing import Floats
-from drivewright.bearings import BallBearing, BearingEquilibrium, RollerBearing
+from drivewright.bearings import BearingEquilibrium, RollingBearing
+from drivewright.bearings.tables import element_table, load_curve_table
 from drivewright.errors import InputError, SolverError
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.refusals import is_rolling
 from drivewright.mechanisms.shaft.spec import ShaftSpec
-from drivewright.result import Answer, Answers, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Table, Value
 
 FACTORS = np.geomspace(0.02, 4.0, 25)  # of the curve of stiffness, over the bearing's load
 
@@ -39,7 +39,7 @@ def rolling(model: ShaftModel, done: Answers) -> Answer:
         elif bearing is not None:
             state = bearings.solve(bearing, displacement=shafts.bearing_displacement(at_rest, number))
             values |= _values(model, name, bearing, state)
-            tables += [_element_table(name, bearing, state), *_load_curve(name, bearing, state)]
+            tables += [element_table(state, f"elements.{name}", f"Rolling elements of bearing {name}"), *_load_curve(name, bearing, state)]
             checks += _checks(model, name, state)
             findings += _findings(name, bearing, state)
     return Answer(values, tuple(tables), tuple(checks), tuple(findings))
@@ -59,7 +59,7 @@ def _stiffness(name: str, found: shafts.SupportStiffness) -> dict[str, Value]:
     return values if found.tangent > 0 else {}
 
 
-def _values(model: ShaftModel, name: str, bearing: BallBearing | RollerBearing, state: BearingEquilibrium) -> dict[str, Value]:
+def _values(model: ShaftModel, name: str, bearing: RollingBearing, state: BearingEquilibrium) -> dict[str, Value]:
     of, unit = f"of bearing {name!r}", f"bearings.{name}"
     loaded = int(np.sum(state.element_loads > 0))
     values = {
@@ -99,7 +99,7 @@ def _checks(model: ShaftModel, name: str, state: BearingEquilibrium) -> Iterator
         yield Check(f"life.{name}", seconds, limits.life, ">=", "s", message, (name,))
 
 
-def _findings(name: str, bearing: BallBearing | RollerBearing, state: BearingEquilibrium) -> Iterator[str]:
+def _findings(name: str, bearing: RollingBearing, state: BearingEquilibrium) -> Iterator[str]:
     if bearing.dynamic_rating is None:
         yield f"life of bearing {name!r} is absent: it has no dynamic_rating"
     if bearing.contact_angle and state.reversed_elements:
@@ -109,25 +109,7 @@ def _findings(name: str, bearing: BallBearing | RollerBearing, state: BearingEqu
         )
 
 
-def _element_table(name: str, bearing: BallBearing | RollerBearing, state: BearingEquilibrium) -> Table:
-    n = len(state.element_loads)
-    angle = 2 * np.pi * np.arange(n + 1) / n + bearing.first_element
-    columns = (
-        Column("angle", "rad", "place of the element, from x towards y", angle),
-        Column("load", "N", "load", _closed(state.element_loads)),
-        Column("contact_angle", "rad", "contact angle", _closed(state.contact_angles)),
-        Column("inner_pressure", "Pa", "peak pressure at the inner race", _closed(state.pressures[:, 0])),
-        Column("outer_pressure", "Pa", "peak pressure at the outer race", _closed(state.pressures[:, 1])),
-    )
-    return Table(f"elements.{name}", f"Rolling elements of bearing {name}", columns)
-
-
-def _closed(data: Floats) -> Floats:
-    """Once round: the first element again at the end."""
-    return np.concatenate([data, data[:1]])
-
-
-def _load_curve(name: str, bearing: BallBearing | RollerBearing, state: BearingEquilibrium) -> Iterator[Table]:
+def _load_curve(name: str, bearing: RollingBearing, state: BearingEquilibrium) -> Iterator[Table]:
     """Displacement and stiffness over the load, its direction kept; nothing where no radial force acts or not all loads can be borne."""
     if not np.hypot(*state.force[:2]) > 0:
         return
@@ -135,10 +117,4 @@ def _load_curve(name: str, bearing: BallBearing | RollerBearing, state: BearingE
         curve = bearings.load_curve(bearing, state.force, FACTORS)
     except (InputError, SolverError):
         return
-    columns = (
-        Column("load", "N", "radial force, axial force in proportion", curve.load),
-        Column("displacement", "m", "radial displacement", curve.displacement),
-        Column("tangent", "N/m", "tangent stiffness", curve.tangent),
-        Column("secant", "N/m", "secant stiffness", curve.secant),
-    )
-    yield Table(f"curve.{name}", f"Bearing {name} over its load", columns)
+    yield load_curve_table(curve, f"curve.{name}", f"Bearing {name} over its load")

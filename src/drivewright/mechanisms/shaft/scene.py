@@ -61,7 +61,7 @@ def _support_shapes(model: ShaftModel, support: shafts.Support) -> Iterator[Shap
     rolling = model.rolling.get(support.name)
     if rolling is None:
         return drawing.spring_symbol(model.shaft, support.position)
-    return bearing_section(rolling, support.position, 2 * float(drawing.radius_at(model.shaft, support.position)), support.mirrored)
+    return bearing_section(rolling, support.position, 2 * drawing.radius_at(model.shaft, support.position), support.mirrored)
 
 
 def _visible_loads(model: ShaftModel) -> Iterator[tuple[float, float]]:

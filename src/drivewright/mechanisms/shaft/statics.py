@@ -9,7 +9,8 @@ from drivewright._typing import Floats
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.refusals import is_rolling
 from drivewright.mechanisms.shaft.spec import Bearing
-from drivewright.result import Answer, Answers, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Value
+from drivewright.shafts.tables import diagram_table, reaction_table
 
 FINE = 21  # places along the shaft for its buckling
 BALANCED = 1e-9  # of all forces; Newton's method stops at 1e-11
@@ -26,7 +27,7 @@ def statics(model: ShaftModel, done: Answers) -> Answer:
         return Answer(values, (), checks, findings, data=loaded)
     along = shafts.diagram(loaded, SAMPLES)
     values |= _stations(model, loaded.equilibrium) | _bearings(model, loaded.equilibrium) | _extremes(along)
-    tables = (_diagram_table(model, along), _reaction_table(model, loaded.equilibrium))
+    tables = (diagram_table(along, model.direction), reaction_table(loaded.equilibrium))
     return Answer(values, tables, (*checks, *_checks(model, loaded, along)), data=loaded)
 
 
@@ -122,9 +123,13 @@ def _checks(model: ShaftModel, loaded: shafts.LoadedShaft, along: shafts.Diagram
     if factor is not None:
         message = f"axial force at which the shaft buckles over the axial force{under}"
         yield Check("buckling", factor / shock, limits.buckling, ">=", "-", message, own)
-    for station in model.shaft.stations if limits.deflection else ():
-        size, message = float(np.hypot(*loaded.equilibrium.displacement_at(station.position))), f"deflection of station {station.name!r}"
-        yield Check(f"deflection.{station.name}", size, limits.deflection, "<=", "m", message, own)
+    if limits.deflection:
+        for station in model.shaft.stations:
+            size, message = (
+                float(np.hypot(*loaded.equilibrium.displacement_at(station.position))),
+                f"deflection of station {station.name!r}",
+            )
+            yield Check(f"deflection.{station.name}", size, limits.deflection, "<=", "m", message, own)
     for bearing, reaction in zip(model.spec.bearings, loaded.equilibrium.reactions, strict=True):
         yield from _bearing_checks(model, loaded.equilibrium, bearing, float(np.hypot(*reaction[:2])), under)
 
@@ -148,39 +153,3 @@ def _bearing_checks(model: ShaftModel, at_rest: shafts.ShaftEquilibrium, bearing
             f"static rating of bearing {bearing.name!r} over its radial force",
         )
         yield Check(f"{name}.{bearing.name}", safety, limits.static_safety, ">=", "-", message + under, own)
-
-
-# -- tables --------------------------------------------------------------------------------------------------------------------
-
-
-def _diagram_table(model: ShaftModel, along: shafts.Diagram) -> Table:
-    direction = model.direction
-    columns = [Column("z", "m", "distance from the left end", along.z)]
-    for name, data, unit, meaning in (
-        ("deflection", along.deflection, "m", "deflection"),
-        ("slope", along.slope, "rad", "slope"),
-        ("shear", along.shear, "N", "shear force"),
-        ("moment", along.moment, "N m", "bending moment"),
-    ):
-        columns.append(Column(name, unit, f"{meaning}, in the direction of the unit loads", data @ direction))
-        across = data @ [direction[1], -direction[0]]
-        columns.append(Column(f"{name}_across", unit, f"{meaning}, square to it: a quarter of a turn clockwise", across))
-    columns += [
-        Column("axial", "N", "axial force, tension positive", along.axial),
-        Column("torque", "N m", "torque", along.torque),
-        Column("bending_stress", "Pa", "nominal stress by bending and tension", along.bending),
-        Column("torsion_stress", "Pa", "nominal shear stress by torsion", along.torsion),
-        Column("stress", "Pa", "von Mises stress, nominal", along.von_mises),
-    ]
-    return Table("diagram", "The loaded shaft along its length", tuple(columns))
-
-
-def _reaction_table(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> Table:
-    keys, names = ("x", "y", "z", "tilt_x", "tilt_y"), np.array([bearing.name for bearing in model.spec.bearings])
-    words = ("along x", "along y", "along z", "moment about x", "moment about y")
-    columns = [Column("bearing", "-", "bearing", names)]
-    for key, unit, of, data in zip(keys, ("N", "N", "N", "N m", "N m"), words, at_rest.reactions.T, strict=True):
-        columns.append(Column(f"reaction_{key}", unit, f"reaction on the shaft, {of}", data))
-    for key, unit, data in zip(keys, ("m", "m", "m", "rad", "rad"), at_rest.relative.T, strict=True):
-        columns.append(Column(f"displacement_{key}", unit, f"of the shaft against the seat, {key}", data))
-    return Table("reactions", "Bearings under load", tuple(columns))

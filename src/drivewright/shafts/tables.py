@@ -1,0 +1,100 @@
+"""Answers about a shaft as tables of a result; `direction` is the unit vector (x, y) of the unit loads."""
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.result import Column, Table
+from drivewright.shafts.equilibrium import ShaftEquilibrium
+from drivewright.shafts.influence import Flexibility
+from drivewright.shafts.loaded import Diagram
+from drivewright.shafts.mode_shapes import planar_shape
+from drivewright.shafts.sensitivity import FlexibilitySlope
+from drivewright.shafts.unit_loads import SAMPLES, flexibility_on_rigid_bearings, unit_deflection
+from drivewright.shafts.vibration import Modes
+
+PARTS = ("bending", "shear", "tension")  # of a flexibility; the others are bearings
+
+
+def diagram_table(along: Diagram, direction: Floats) -> Table:
+    """The loaded shaft along its length: vectors along the unit loads and square to them, forces and stresses."""
+    columns = [Column("z", "m", "distance from the left end", along.z)]
+    for name, data, unit, meaning in (
+        ("deflection", along.deflection, "m", "deflection"),
+        ("slope", along.slope, "rad", "slope"),
+        ("shear", along.shear, "N", "shear force"),
+        ("moment", along.moment, "N m", "bending moment"),
+    ):
+        columns.append(Column(name, unit, f"{meaning}, in the direction of the unit loads", data @ direction))
+        across = data @ [direction[1], -direction[0]]
+        columns.append(Column(f"{name}_across", unit, f"{meaning}, square to it: a quarter of a turn clockwise", across))
+    columns += [
+        Column("axial", "N", "axial force, tension positive", along.axial),
+        Column("torque", "N m", "torque", along.torque),
+        Column("bending_stress", "Pa", "nominal stress by bending and tension", along.bending),
+        Column("torsion_stress", "Pa", "nominal shear stress by torsion", along.torsion),
+        Column("stress", "Pa", "von Mises stress, nominal", along.von_mises),
+    ]
+    return Table("diagram", "The loaded shaft along its length", tuple(columns))
+
+
+def reaction_table(equilibrium: ShaftEquilibrium) -> Table:
+    """A row for every support: reaction on the shaft and displacement in it."""
+    keys, names = ("x", "y", "z", "tilt_x", "tilt_y"), [support.name for support in equilibrium.model.beam.shaft.supports]
+    words = ("along x", "along y", "along z", "moment about x", "moment about y")
+    columns = [Column("bearing", "-", "bearing", np.array(names))]
+    for key, unit, of, data in zip(keys, ("N", "N", "N", "N m", "N m"), words, equilibrium.reactions.T, strict=True):
+        columns.append(Column(f"reaction_{key}", unit, f"reaction on the shaft, {of}", data))
+    for key, unit, data in zip(keys, ("m", "m", "m", "rad", "rad"), equilibrium.relative.T, strict=True):
+        columns.append(Column(f"displacement_{key}", unit, f"of the shaft against the seat, {key}", data))
+    return Table("reactions", "Bearings under load", tuple(columns))
+
+
+def unit_load_table(equilibrium: ShaftEquilibrium, found: Flexibility, names: Sequence[str], direction: Floats) -> Table:
+    """Deflection along the shaft under a unit force at each of its stations, with the bearings as they are and rigid."""
+    shaft = equilibrium.model.beam.shaft
+    z = np.linspace(0.0, shaft.length, SAMPLES)
+    rigid = flexibility_on_rigid_bearings(shaft, [station.position for station in shaft.stations], direction)
+    columns = [Column("z", "m", "distance from the left end", z)]
+    for words, suffix, at_rest, each in (("", "", equilibrium, found), (", bearings rigid", ".rigid", *rigid)):
+        for name, unknowns in zip(names, each.unknowns.T, strict=True):
+            deflection = unit_deflection(at_rest, unknowns, z, direction)
+            columns.append(Column(f"{name}{suffix}", "m/N", f"force at {name!r}{words}", deflection))
+    return Table("unit_load", "Deflection by a unit force at a station", tuple(columns))
+
+
+def station_pairs(names: Sequence[str]) -> list[tuple[int, int]]:
+    """Numbers (i, j >= i) of all pairs of stations: the entries of a symmetric matrix."""
+    return [(i, j) for i in range(len(names)) for j in range(i, len(names))]
+
+
+def share_table(found: Flexibility, names: Sequence[str]) -> Table:
+    """A row for every entry of the flexibility, a column for every part of it."""
+    pairs = station_pairs(names)
+    entries = np.array([f"{names[i]}, {names[j]}" for i, j in pairs])
+    columns = [Column("entry", "-", "stations", entries), Column("total", "m/N", "flexibility", np.array([found.delta[p] for p in pairs]))]
+    for name, share in zip(found.names, found.shares, strict=True):
+        columns.append(Column(name, "m/N", name if name in PARTS else f"bearing {name}", np.array([share[p] for p in pairs])))
+    return Table("shares", "Who contributes what to the flexibility", tuple(columns))
+
+
+def sensitivity_table(slopes: Iterable[FlexibilitySlope], names: Sequence[str]) -> Table:
+    """A row for every parameter of `relative_flexibility_slopes`, a column for every entry of the flexibility."""
+    pairs = station_pairs(names)
+    parameters, held, relative = zip(*slopes, strict=True)
+    columns = [Column("parameter", "-", "parameter", np.array(parameters)), Column("held", "-", "what is held", np.array(held))]
+    for i, j in pairs:
+        columns.append(Column(f"{names[i]}.{names[j]}", "-", f"of {names[i]}, {names[j]}", np.array([each[i, j] for each in relative])))
+    return Table("sensitivities", "Sensitivities of the flexibility, relative change over relative change", tuple(columns))
+
+
+def mode_table(equilibrium: ShaftEquilibrium, modes: Modes) -> Table:
+    """The shape of every mode over the nodes, each scaled to 1."""
+    beam = equilibrium.model.beam
+    columns = [Column("z", "m", "distance from the left end", beam.z)]
+    for number, (frequency, shape) in enumerate(zip(modes.frequencies, modes.shapes.T, strict=True), 1):
+        planar = planar_shape(beam, shape)
+        plane = "" if planar.alone else f" along {planar.plane}"
+        columns.append(Column(f"mode_{number}", "-", f"mode {number}, {frequency:.4g} Hz{plane}", planar.deflection))
+    return Table("modes", "Shapes of the natural modes", tuple(columns))
