@@ -6,13 +6,13 @@ from places import EXAMPLES
 
 import drivewright as dw
 from drivewright.mechanisms.linkage.build import build
-from drivewright.mechanisms.linkage.vary import varied
 from drivewright.multibody.analyses.energy_audit import audit
 from drivewright.multibody.analyses.joint_forces import joint_forces, observe_last_turn
 from drivewright.multibody.analyses.poincare import zero_times
 from drivewright.multibody.analyses.simulation_model import record_of, run_of
 from drivewright.numerics.signals import intervals
 from drivewright.spec import from_document, read_document
+from drivewright.units import SI
 
 pytestmark = pytest.mark.property
 
@@ -253,8 +253,8 @@ def test_a_bifurcation_diagram_over(over, start, stop):
     table = table_of(dw.run(slider_crank(bifurcation=asked), only="bifurcation"), "bifurcation")
     assert len(table["position"]) == 6 and len(set(table["parameter"])) == 2  # visits at the turns 2, 3 and 4
     last = dw.run(
-        varied(
-            slider_crank(poincare={"output": "slider"}, simulate={"turns": 4, "relative_tolerance": 1e-7}), {over: table["parameter"][-1]}
+        slider_crank(poincare={"output": "slider"}, simulate={"turns": 4, "relative_tolerance": 1e-7}).replace(
+            {over: SI(table["parameter"][-1])}
         ),
         only="poincare",
     )

@@ -6,7 +6,7 @@ from random_specs import EXAMPLES
 
 from drivewright import runner
 from drivewright.errors import SpecError
-from drivewright.mechanisms.linkage.refusals import place
+from drivewright.mechanisms.linkage.tables import place
 from drivewright.spec import document, from_document, load
 
 pytestmark = pytest.mark.property

@@ -3,8 +3,8 @@
 import itertools
 import math
 
-from drivewright.mechanisms.linkage.refusals import central_inertia, ends_on, points_of
 from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.mechanisms.linkage.tables import central_inertia, ends_on, points_of
 from drivewright.multibody.bodies import largest_radius_of_gyration
 from drivewright.result import Check
 

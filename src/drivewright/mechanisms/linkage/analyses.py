@@ -11,9 +11,8 @@ from drivewright.mechanisms.linkage.advice import advice
 from drivewright.mechanisms.linkage.build import LinkageModel, build
 from drivewright.mechanisms.linkage.describe import driven_joint
 from drivewright.mechanisms.linkage.joints import Joint
-from drivewright.mechanisms.linkage.refusals import place
-from drivewright.mechanisms.linkage.spec import Bifurcation, Deviation, LinkageSpec
-from drivewright.mechanisms.linkage.vary import varied
+from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.mechanisms.linkage.tables import Bifurcation, Deviation, place
 from drivewright.multibody.analyses.bifurcation import bifurcation
 from drivewright.multibody.analyses.energy import energy
 from drivewright.multibody.analyses.impact_load import ideal_acceleration_peak, load_table
@@ -33,6 +32,7 @@ from drivewright.multibody.tolerance import Source, play
 from drivewright.registry import Analysis
 from drivewright.result import Answer, Answers
 from drivewright.spec import dimension_at
+from drivewright.units import SI
 
 # -- what is missing ---------------------------------------------------------------------------------------------------------------
 
@@ -135,7 +135,7 @@ def _bifurcation(model: LinkageModel, done: Answers) -> Answer:
 
 def _visits(spec: LinkageSpec, asked: Bifurcation, value: float):
     """(positions, velocities) of the Poincare section of one run, the first turns discarded."""
-    model = build(varied(spec, {asked.over: value}))
+    model = build(spec.replace({asked.over: SI(value)}))
     settings = replace(model.settings, per_step=1)
     section, run = simulate_section(model, output_named(model, asked.output), asked.turns * model.turn_length, settings)
     if run.advice:
@@ -152,9 +152,9 @@ def _load_table(model: LinkageModel, done: Answers) -> Answer:
     points = [(speed, clearance) for speed in asked.speeds for clearance in asked.clearances]
 
     def model_at(point: tuple[float, float]) -> LinkageModel:
-        return build(varied(spec, {"drive.speed": point[0]} | {f"joints.{name}.clearance": point[1] for name in with_play}))
+        return build(spec.replace({"drive.speed": SI(point[0])} | {f"joints.{name}.clearance": SI(point[1]) for name in with_play}))
 
-    ideal = {speed: ideal_acceleration_peak(build(varied(spec, {"drive.speed": speed})), output) for speed in asked.speeds}
+    ideal = {speed: ideal_acceleration_peak(build(spec.replace({"drive.speed": SI(speed)})), output) for speed in asked.speeds}
     return load_table(output, points, model_at, ideal)
 
 

@@ -3,21 +3,19 @@
 import math
 
 from drivewright import plugins
-from drivewright.contact.hertz import effective_modulus
-from drivewright.contact.impact import impact_law, impact_law_names, journal_stiffness, kelvin_voigt_damping
-from drivewright.contact.laws import ContactParameters, contact_law, contact_law_names
+from drivewright.contact.impact import impact_law_names
+from drivewright.contact.laws import contact_law_names
 from drivewright.errors import SpecError
 from drivewright.mechanisms.linkage.joints import NORMALS, Joint
-from drivewright.mechanisms.linkage.refusals import CENTROID, GROUND, central_inertia, place, points_of
-from drivewright.mechanisms.linkage.spec import LinkageOutput, LinkageSpec
+from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.mechanisms.linkage.tables import CENTROID, GROUND, LinkageOutput, central_inertia, place, points_of
 from drivewright.multibody import model
 from drivewright.multibody.bodies import Marker
 from drivewright.multibody.curve_files import lift_curve, load_curve, profile_curve
 from drivewright.multibody.forces.contact import Dry
+from drivewright.multibody.forces.dry_contact import dry_contact
 from drivewright.multibody.model import MultibodyModel
 from drivewright.spec.csv_columns import PURE
-
-CYLINDER_LOSS = "flores-2011"  # the cylinder law says nothing of losses
 
 
 def describe(spec: LinkageSpec, ideal: bool = False) -> MultibodyModel:
@@ -103,57 +101,26 @@ def _link(spec, joint):
 
 def dry(spec: LinkageSpec, joint: Joint) -> Dry:
     """The dry contact of a joint: stiffness from radii and material, loss from the restitution."""
-    linear, cylinder = joint.normal == "kelvin-voigt", joint.normal == "cylinder"
-    if joint.normal in contact_law_names():
-        return _further(spec, joint)
-    if linear:
-        stiffness, exponent, hysteresis, damping = joint.stiffness or 0.0, 1.0, 0.0, _linear_damping(spec, joint)
-    else:
-        law = impact_law(CYLINDER_LOSS if cylinder else joint.normal)
-        stiffness, exponent, hysteresis, damping = _elastic(joint), 1.5, law.factor(joint.restitution), 0.0
-    return model.Dry(
-        joint.clearance or 0.0, joint.bearing_radius, stiffness, exponent, hysteresis, damping, cylinder, joint.length, _friction(joint)
+    key = f"joints.{joint.name}"
+    if joint.normal in contact_law_names() and joint.normal in (*NORMALS, *impact_law_names()):
+        raise SpecError(f"{joint.normal!r} is the name of two laws; uninstall the package that brings the second one", key=f"{key}.normal")
+    masses = {body: spec.bodies[body].mass for body in (place(text)[0] for text in joint.connects) if body != GROUND}
+    light = min(masses, key=lambda body: masses[body])
+    if joint.normal == "kelvin-voigt" and joint.damping is None and masses[light] == 0:
+        raise SpecError(f"is missing: {light!r} has no mass, so no damping follows from the restitution", key=f"{key}.damping")
+    return dry_contact(
+        joint.normal,
+        joint.clearance or 0.0,
+        joint.bearing_radius,
+        joint.length,
+        joint.modulus,
+        joint.poisson,
+        joint.restitution,
+        0.0 if masses[light] == 0 else 1 / sum(1 / mass for mass in masses.values()),  # the ground does not move
+        joint.stiffness,
+        joint.damping,
+        _friction(joint),
     )
-
-
-def _further(spec, joint):
-    """A dry contact by a law of another package, made from what the joint states."""
-    if joint.normal in (*NORMALS, *impact_law_names()):
-        raise SpecError(
-            f"{joint.normal!r} is the name of two laws; uninstall the package that brings the second one", key=f"joints.{joint.name}.normal"
-        )
-    stiffness, exponent = (joint.stiffness, 1.0) if joint.stiffness is not None else (_elastic(joint), 1.5)
-    parameters = ContactParameters(stiffness, exponent, joint.damping or 0.0, joint.restitution, _effective_mass(spec, joint))
-    law = contact_law(joint.normal, parameters)
-    return model.Dry(joint.clearance, joint.bearing_radius, stiffness, exponent, length=joint.length, friction=_friction(joint), law=law)
-
-
-def _effective_mass(spec, joint):
-    """m1 m2/(m1 + m2) of the two bodies [kg]; the ground does not move."""
-    masses = [spec.bodies[body].mass for body in (place(text)[0] for text in joint.connects) if body != GROUND]
-    return 0.0 if min(masses) == 0 else 1 / sum(1 / mass for mass in masses)
-
-
-def _elastic(joint):
-    """K of K d^1.5, or the effective modulus of the cylinder law."""
-    modulus = effective_modulus(joint.modulus, joint.poisson, joint.modulus, joint.poisson)
-    if joint.normal == "cylinder":
-        return float(modulus)
-    return float(journal_stiffness(joint.bearing_radius, joint.bearing_radius - joint.clearance, modulus))
-
-
-def _linear_damping(spec, joint):
-    """As given, or what gives the restitution in a free impact of the two bodies; the ground does not move."""
-    if joint.damping is not None:
-        return joint.damping
-    bodies = [place(text)[0] for text in joint.connects]
-    masses = [spec.bodies[body].mass for body in bodies if body != GROUND]
-    if min(masses) == 0:
-        raise SpecError(
-            f"is missing: {bodies[masses.index(0.0)]!r} has no mass, so no damping follows from the restitution",
-            key=f"joints.{joint.name}.damping",
-        )
-    return kelvin_voigt_damping(joint.restitution, joint.stiffness, 1 / sum(1 / mass for mass in masses))
 
 
 def _friction(joint):

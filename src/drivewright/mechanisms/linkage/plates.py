@@ -6,9 +6,9 @@ A pin with a bearing has its radii: the bearing in the first body, the seat of t
 from drivewright.mechanisms.linkage.build import LinkageModel
 from drivewright.mechanisms.linkage.describe import marker
 from drivewright.mechanisms.linkage.joints import Joint
-from drivewright.mechanisms.linkage.refusals import CENTROID, place, points_of
 from drivewright.mechanisms.linkage.scene import nodes
 from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.mechanisms.linkage.tables import CENTROID, place, points_of
 from drivewright.multibody.analyses.animation import COLOURS
 from drivewright.multibody.analyses.cycle_poses import start_poses
 from drivewright.multibody.link_plates import LinkPlate, PlatePin, link_plate, plate_drawing, stacked_parts, usual_pin_radius

@@ -1,46 +1,25 @@
 """What has no meaning in a linkage: names that nobody has, numbers that contradict each other.  Each is a SpecError with its key."""
 
-import math
-from typing import TYPE_CHECKING
-
 from drivewright.errors import SpecError, nearest
+from drivewright.mechanisms.linkage.tables import (
+    CENTROID,
+    GROUND,
+    LinkageTables,
+    central_inertia,
+    ends_on,
+    pivot_distance,
+    place,
+    points_of,
+)
 from drivewright.spec import dimension_at
 
-if TYPE_CHECKING:
-    from drivewright.mechanisms.linkage.joints import Joint
-    from drivewright.mechanisms.linkage.spec import LinkageBody, LinkageSpec
-
-GROUND, CENTROID = "ground", "centroid"
-PLAYS = ("massless-link", "dry", "lubricated")
 NO_PERIOD = "wants a drive at constant speed, which gives the turn its length"
 
 
-def refuse_nonsense(spec: "LinkageSpec") -> None:
-    """Raise SpecError for the first thing in a LinkageSpec that has no meaning."""
+def refuse_nonsense(spec: LinkageTables) -> None:
+    """Raise SpecError for the first thing in the tables of a linkage that has no meaning."""
     for rule in (_bodies, _names, _places, _joints, _zero_links, _massless_chains, _loads, _drive, _run, _studies):
         rule(spec)
-
-
-def points_of(spec: "LinkageSpec", body: str) -> dict[str, tuple[float, float]]:
-    """Name -> (x, y) [m] of all points of a body or of the ground, in its frame."""
-    return dict(spec.ground.points) if body == GROUND else {**spec.bodies[body].points, CENTROID: spec.bodies[body].centroid}
-
-
-def place(text: str) -> tuple[str, str | None]:
-    """(body, point) of a "BODY.POINT"; the point of "BODY" alone is None."""
-    body, _, point = text.partition(".")
-    return body, point or None
-
-
-def central_inertia(body: "LinkageBody") -> float:
-    """Moment of inertia about the centroid [kg m^2]: Steiner's share m d^2 taken off where it was given about a point."""
-    return body.inertia - body.mass * _distance(body) ** 2
-
-
-def _distance(body):
-    if body.inertia_about == CENTROID:
-        return 0.0
-    return math.dist(body.points[body.inertia_about], body.centroid)
 
 
 def _known(name, known, what, key):
@@ -59,11 +38,11 @@ def _bodies(spec):
         if CENTROID in body.points:
             raise SpecError("every body has a point of this name, at its `centroid`; choose another", key=f"{key}.points.centroid")
         _known(body.inertia_about, [CENTROID, *body.points], f"point of {name!r}", f"{key}.inertia_about")
-        share = body.mass * _distance(body) ** 2
+        share = body.mass * pivot_distance(body) ** 2
         if body.inertia < share * (1 - 1e-12):
             raise SpecError(
                 f"{body.inertia:.6g} kg m^2 about {body.inertia_about!r} is less than the mass in the centroid alone has there: m d^2 = "
-                f"{body.mass:.6g} kg x ({_distance(body) * 1e3:.6g} mm)^2 = {share:.6g} kg m^2. If it was meant about the centroid, "
+                f"{body.mass:.6g} kg x ({pivot_distance(body) * 1e3:.6g} mm)^2 = {share:.6g} kg m^2. If it was meant about the centroid, "
                 "leave inertia_about out",
                 key=f"{key}.inertia",
             )
@@ -190,12 +169,6 @@ def _play(joint, key):
             f"{joint.friction_dead_speed:.4g} m/s",
             key=f"{key}.friction_dead_speed",
         )
-
-
-def ends_on(spec: "LinkageSpec", body: str) -> list[tuple["Joint", str | None]]:
-    """[(joint, point)] where joints hold a body."""
-    found = [(joint, place(text)) for joint in spec.joints for text in joint.connects]
-    return [(joint, point) for joint, (name, point) in found if name == body]
 
 
 def _zero_links(spec):

@@ -2,8 +2,8 @@
 
 from drivewright._typing import Floats
 from drivewright.mechanisms.linkage.build import LinkageModel
-from drivewright.mechanisms.linkage.refusals import CENTROID, GROUND, place, points_of
 from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.mechanisms.linkage.tables import CENTROID, GROUND, place, points_of
 from drivewright.multibody.analyses.animation import animate
 from drivewright.multibody.drawing import distinct_points
 from drivewright.scene import Scene
