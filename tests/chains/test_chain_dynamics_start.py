@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from drivewright.chains.explicit.assembly import start
 from drivewright.chains.explicit.measure import ROW
@@ -71,12 +72,16 @@ def test_thick_teeth_are_taken_on_without_a_blow():
 
 def test_pitches_and_guides_are_their_own_when_the_clock_starts():
     pitches = tuple(np.random.default_rng(2).normal(0, 1e-5, 72))
-    low = start(drive()).poses[:, 1].min()
-    guide = Guide((0.105, low - 3e-3 - 0.146), 0.15, np.pi / 2 - 0.4, np.pi / 2 + 0.4, "outside", 3e-3, ChainContact(1e7, 50.0))
-    run = simulate(replace(drive(deviations=pitches), guides=(guide,)), 0.02)
-    assert (run.t[0], run.rows[0, ROW.index("joint damping")]) == (0.0, pytest.approx(0.0, abs=1e-3))
-    assert run.outcome == "complete", run.advice
-    assert -run.mean(run.body(2, "fy")) == pytest.approx(75.0 * 4 * 2.5e-3 / 0.2095, rel=0.6)
+    low, depths, pushes, angles = start(drive()).poses[:, 1].min(), (4e-3, 6.5e-3), [], []
+    for depth in depths:
+        guide = Guide((0.105, low - 3e-3 - 0.15 + depth), 0.15, np.pi / 2 - 0.4, np.pi / 2 + 0.4, "outside", 3e-3, ChainContact(1e7, 50.0))
+        run = simulate(replace(drive(deviations=pitches), guides=(guide,)), 0.02)
+        assert (run.t[0], run.rows[0, ROW.index("joint damping")]) == (0.0, pytest.approx(0.0, abs=1e-3))
+        assert run.outcome == "complete", run.advice
+        pushes.append(-run.mean(run.body(2, "fy")))
+        # the strands run from the ends of the span at the angle a around the rail: (L/2) sin a + (R - depth) cos a = R
+        angles.append(brentq(lambda a, depth=depth: 0.10475 * np.sin(a) + (0.15 - depth) * np.cos(a) - 0.15, 0.0, 0.3))
+    assert pushes[1] - pushes[0] == pytest.approx(2 * 75.0 * np.ptp(np.sin(angles)), rel=0.15)
 
 
 def test_the_clock_starts_with_the_first_sprocket_at_its_angle():
