@@ -230,8 +230,8 @@ def test_plain_python_gives_the_same_numbers():
         for follow in (tracking.follow, _jit.plain(tracking.follow)):
             layout, seats, x = layout_of(drive)
             tracks.append(follow(layout, seats, x, np.linspace(0, layout.phi_1, 5)))
-        count = tracks[0].count[0]
-        assert tracks[1].count[0] == count
+        count = tracks[0].length[0]
+        assert tracks[1].length[0] == count
         np.testing.assert_allclose(tracks[1].x[:count], tracks[0].x[:count], rtol=1e-12, atol=1e-12)
         np.testing.assert_array_equal(tracks[1].seats[:count], tracks[0].seats[:count])
 

@@ -71,7 +71,7 @@ def test_a_solver_that_gives_up_says_where_and_hands_over_what_it_had(monkeypatc
 
     def interrupted(*given):
         track = follow(*given)
-        track.outcome[0], track.count[0] = outcome, 20
+        track.outcome[0], track.length[0] = outcome, 20
         return track
 
     monkeypatch.setattr(tracking, "follow", interrupted)

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from chain_implicit_models import PITCH, drive
+from chain_implicit_models import PITCH, drive, thickened
 
-from drivewright.chains.implicit.equilibrium import compliance_of, equilibrium, thickened
+from drivewright.chains.implicit.equilibrium import compliance_of, equilibrium
 from drivewright.chains.model import with_sprocket
 
 pytestmark = pytest.mark.analytical

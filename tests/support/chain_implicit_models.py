@@ -6,7 +6,7 @@ import numpy as np
 
 from drivewright.chains.explicit.assembly import start
 from drivewright.chains.link import design_link, seat_support
-from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket
+from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket, with_sprocket
 from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.chains.tooth import Tooth
 
@@ -93,3 +93,9 @@ def with_rollers(**changes):
         tooth = RollerTooth(z, 0.5 * PITCH / np.sin(np.pi / z), 3.2e-3, 2.2, 8e-3, 3.17e-3)
         sprockets.append(replace(sprocket, tooth=tooth, tip_radius=tooth.pitch_radius + 2e-3))
     return replace(model, sprockets=tuple(sprockets))
+
+
+def thickened(model, number, thickness):
+    """The model with every flank of one sprocket standing out by `thickness` [m], against the plates."""
+    tooth = model.sprockets[number].tooth
+    return with_sprocket(model, number, tooth=tooth._replace(support=tooth.support - thickness))

@@ -3,15 +3,21 @@
 Sprocket frame: axis at the origin, a tooth on the y axis.  Gaps are negative where plate and tooth overlap.
 """
 
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from drivewright.chains.link import seat_height
-from drivewright.scene import place
+from drivewright._typing import ArrayLike, Floats
+from drivewright.chains.link import Link, seat_height
+from drivewright.chains.plate import Plate
+from drivewright.chains.sprocket import Sprocket
+from drivewright.chains.tooth import Tooth
+from drivewright.scene import Arc, Line, place
 
 
-def folded(points, teeth):
+def folded(points: Floats, teeth: int) -> tuple[Floats, Floats]:
     """Points (..., 2) turned by whole teeth, and reflected, to the tooth on the y axis: radius, angle in [0, pi/z] from its centre line."""
     x, y = np.moveaxis(np.asarray(points, float), -1, 0)
     pitch = 2 * np.pi / teeth
@@ -19,7 +25,7 @@ def folded(points, teeth):
     return np.hypot(x, y), np.abs(angle - pitch * np.round(angle / pitch))
 
 
-def involute_gap(sprocket, points):
+def involute_gap(sprocket: Sprocket, points: Floats) -> Floats:
     """Exact distance [m] along the normal from the nearest tooth's involute to points (..., 2): rb (polar angle + inv - psi).
 
     nan below the base circle.  The foot is a real one while it lies between form and tip radius: see `foot_radius`.
@@ -31,7 +37,7 @@ def involute_gap(sprocket, points):
     return base * (angle + rest - np.arctan(rest) - sprocket.half_angle)
 
 
-def foot_radius(sprocket, points):
+def foot_radius(sprocket: Sprocket, points: Floats) -> Floats:
     """Radius [m] on which the foot of the normal through a point lies on the involute: one base tangent, shorter by the gap."""
     radius, _ = folded(points, sprocket.tooth.teeth)
     base = sprocket.tooth.base_radius
@@ -39,7 +45,7 @@ def foot_radius(sprocket, points):
         return np.hypot(base, np.sqrt(radius**2 - base**2) - involute_gap(sprocket, points))
 
 
-def profile_gap(sprocket, points, tolerance=1e-8):
+def profile_gap(sprocket: Sprocket, points: Floats, tolerance: float = 1e-8) -> Floats:
     """Signed distance [m] of points (n, 2) from the sprocket's whole outline, chamfer and root included, within `tolerance` [m].
 
     By symmetry the nearest point of the outline lies in the same half of the same tooth.
@@ -65,12 +71,12 @@ def _signed(profile, z):
     return -np.sign(side[np.arange(len(z)), chosen]) * nearest
 
 
-def in_sprocket(points, pose, sprocket_angle=0.0):
+def in_sprocket(points: Floats, pose: Floats, sprocket_angle: float = 0.0) -> Floats:
     """Points (n, 2) of a plate at a pose (x, y, angle) in the frame of a sprocket turned by sprocket_angle [rad]."""
     return place(place(points, pose), (0.0, 0.0, -sprocket_angle))
 
 
-def seated_poses(link, teeth, numbers, sprocket_angle=0.0):
+def seated_poses(link: Link, teeth: int, numbers: Sequence[int] | range, sprocket_angle: float = 0.0) -> Floats:
     """Poses (n, 3) of plates seated astride of the teeth with these numbers, clockwise from the tooth on the y axis."""
     turn = sprocket_angle - 2 * np.pi / teeth * np.asarray(numbers, float)
     h = seat_height(link, teeth)
@@ -86,7 +92,7 @@ class FlankGap(NamedTuple):
     height: float
 
 
-def flank_gap(link, tooth, pose, side, sprocket_angle=0.0):
+def flank_gap(link: Link, tooth: Tooth, pose: Floats, side: str, sprocket_angle: float = 0.0) -> FlankGap:
     """`FlankGap` of an active flank ("left" or "right") of a plate at a pose (x, y, angle), by supports: the involute's less the plate's.
 
     Flank and involutes are taken as endless; of the involutes, one base pitch apart, the nearest is meant.  The contact is real where its
@@ -104,7 +110,7 @@ def flank_gap(link, tooth, pose, side, sprocket_angle=0.0):
     return FlankGap(float(gap), float(abs(touch)), float(on_flank.imag))
 
 
-def in_sprocket_pose(pose, sprocket_angle):
+def in_sprocket_pose(pose: Floats, sprocket_angle: float) -> tuple[float, float, float]:
     """A pose (x, y, angle) seen from the sprocket."""
     (x, y), turn = place(np.asarray(pose, float)[None, :2], (0.0, 0.0, -sprocket_angle))[0], pose[2] - sprocket_angle
     return x, y, turn
@@ -114,11 +120,13 @@ class PlateGap(NamedTuple):
     """Least signed gap [m] of a plate's whole outline to the sprocket, the place (x, y) in the pin frame and the piece of the outline."""
 
     gap: float
-    point: tuple
+    point: tuple[float, float]
     piece: str
 
 
-def plate_gaps(plate, sprocket, poses, sprocket_angle=0.0, spacing=2e-5, tolerance=1e-8):
+def plate_gaps(
+    plate: Plate, sprocket: Sprocket, poses: ArrayLike, sprocket_angle: float = 0.0, spacing: float = 2e-5, tolerance: float = 1e-8
+) -> tuple[PlateGap, ...]:
     """`PlateGap` of a plate at each of the poses (n, 3) about a sprocket with its axis at the origin; samples every `spacing` [m].
 
     Between samples the gap is smaller by spacing^2/(8 radius of the tooth's flank) at most where a straight piece touches.
@@ -133,10 +141,11 @@ def _plate_gap(sprocket, names, points, here, tolerance):
     near = np.flatnonzero(far - sprocket.tip_radius <= max(lowest, 0.0))  # no other point can have a smaller gap
     gaps = profile_gap(sprocket, here[near], tolerance)
     least = int(np.argmin(gaps))
-    return PlateGap(float(gaps[least]), tuple(map(float, points[near[least]])), str(names[near[least]]))
+    x, y = map(float, points[near[least]])
+    return PlateGap(float(gaps[least]), (x, y), str(names[near[least]]))
 
 
-def sampled(pieces, spacing):
+def sampled(pieces: Mapping[str, Arc | Line], spacing: float) -> tuple[NDArray[np.str_], Floats]:
     """Names (n,) and points (n, 2) along named pieces, no further apart than `spacing` [m]."""
     names, points = [], []
     for name, piece in pieces.items():
@@ -147,7 +156,7 @@ def sampled(pieces, spacing):
     return np.array(names), np.concatenate(points)
 
 
-def overlap_area(plate, sprocket, pose, sprocket_angle=0.0, tolerance=1e-7):
+def overlap_area(plate: Plate, sprocket: Sprocket, pose: Floats, sprocket_angle: float = 0.0, tolerance: float = 1e-7) -> float:
     """Area [m^2] that a plate at a pose and the sprocket have in common."""
     import shapely
 
@@ -155,7 +164,7 @@ def overlap_area(plate, sprocket, pose, sprocket_angle=0.0, tolerance=1e-7):
     return float(shapely.intersection(body, shapely.Polygon(sprocket.outline(tolerance).points(tolerance))).area)
 
 
-def seating_speeds(plate, tooth, side):
+def seating_speeds(plate: Plate, tooth: Tooth, side: str) -> tuple[float, float]:
     """Speeds (approach, sliding) [m/s] of a flank's contact point per rad/s of the joint as the plate arrives on its tooth.
 
     The plate, the last one clockwise, rolls on the pin of its seated neighbour and turns about the pins' contact.  Approach is along the

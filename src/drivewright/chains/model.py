@@ -149,6 +149,13 @@ class ChainDrive:
         check(self)
 
     @property
+    def drive(self) -> SpeedRamp:
+        """Speed of the driver."""
+        drive = self.sprockets[self.driver].drive
+        assert drive is not None
+        return drive
+
+    @property
     def driver(self) -> int:
         """Number of the first sprocket with a drive."""
         return next(n for n, sprocket in enumerate(self.sprockets) if sprocket.drive)
@@ -156,9 +163,7 @@ class ChainDrive:
 
 def at_speed(model: ChainDrive, speed: float) -> ChainDrive:
     """The model with its driver at a constant speed [rad/s] from the start; reference speeds of the dampers change in the same ratio."""
-    driver = model.sprockets[model.driver].drive
-    assert driver is not None
-    share = speed / driver.speed
+    share = speed / model.drive.speed
     slower = replace(model, sprockets=tuple(replace(each, reference_speed=share * each.reference_speed) for each in model.sprockets))
     return with_sprocket(slower, model.driver, drive=SpeedRamp(speed, speed))
 

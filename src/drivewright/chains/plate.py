@@ -10,10 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright.chains.link import Link, seat_height
-from drivewright.chains.plate_holes import default_pins
-from drivewright.chains.plate_outline import area_moments, mirrored, outline, rounded
+from drivewright.chains.plate_holes import Pins, default_pins
+from drivewright.chains.plate_outline import Moments, Pieces, area_moments, mirrored, outline, rounded
+from drivewright.chains.tooth import Tooth
 from drivewright.errors import InputError
-from drivewright.scene import Drawing, Shape
+from drivewright.scene import Arc, Drawing, Line, Outline, Shape, Spline
 
 _SIDES = ("left", "right")
 
@@ -34,7 +35,7 @@ class Plate:
     """
 
     link: Link
-    pins: tuple
+    pins: Pins
     back: float
     toe: float
     crotch: float
@@ -86,7 +87,7 @@ class Plate:
         return self.link.pitch - self._outer(y) + self.inner_gap / np.cos(self.link.flank_angle)
 
     @cached_property
-    def pieces(self):
+    def pieces(self) -> Pieces:
         """The outline, counter-clockwise from the back on: {name: Line or Arc}.
 
         "back", "crotch"; for each side, e.g. "flank right": shoulder, flank, toe outer, toe, toe inner, inner, crotch.
@@ -111,43 +112,47 @@ class Plate:
             ),
         )
 
-    def hole(self, side):
+    def hole(self, side: str) -> Pieces:
         """The hole at the "left" or "right" end, counter-clockwise: {name: Line or Arc}; the own pin presses on "seat"."""
         pieces = self.pins.hole(self.link)
         return pieces if _side(side) > 0 else mirrored(pieces)
 
     @property
-    def outline(self):
+    def outline(self) -> Outline:
         """Counter-clockwise Outline without the holes."""
         return outline(self.pieces)
 
     @property
-    def holes(self):
+    def holes(self) -> tuple[Outline, Outline]:
         """Outlines (left, right) of the holes, counter-clockwise."""
-        return tuple(outline(self.hole(side)) for side in _SIDES)
+        return outline(self.hole("left")), outline(self.hole("right"))
 
     @property
-    def own_pins(self):
+    def own_pins(self) -> tuple[Outline, Outline]:
         """Outlines (left, right) of the plate's own pins."""
         pin = self.pins.pin(self.link)
-        return outline(mirrored(dict(enumerate(pin.pieces)))), pin
+        return outline(mirrored({str(n): piece for n, piece in enumerate(pin.pieces) if not isinstance(piece, Spline)})), pin
 
-    def flank(self, side):
+    def flank(self, side: str) -> Line:
         """The Line of the active outer flank at a side."""
-        return self.pieces[f"flank {side}"]
+        flank = self.pieces[f"flank {side}"]
+        assert isinstance(flank, Line)
+        return flank
 
-    def seat(self, side):
+    def seat(self, side: str) -> Arc:
         """The Arc of the hole on which the own pin presses, facing outwards."""
-        return self.hole(side)["seat"]
+        seat = self.hole(side)["seat"]
+        assert isinstance(seat, Arc)
+        return seat
 
-    def contact(self, tooth, side):
+    def contact(self, tooth: Tooth, side: str) -> tuple[float, float]:
         """Point (x, y) of the flank that touches the sprocket when the plate is seated: H n - rb n' seen from the pin line."""
         a = self.link.flank_angle
         x = tooth.support * np.cos(a) + tooth.base_radius * np.sin(a)
         y = -tooth.support * np.sin(a) + tooth.base_radius * np.cos(a) - seat_height(self.link, tooth.teeth)
         return _side(side) * float(x), float(y)
 
-    def walls(self, tolerance=1e-8):
+    def walls(self, tolerance: float = 1e-8) -> dict[str, float]:
         """Least widths of material [m]: {"between holes", "hole to outline", "toe"}, of outlines within `tolerance` [m].
 
         A hole that breaks through the outline leaves 0.
@@ -163,12 +168,12 @@ class Plate:
         }
 
     @property
-    def moments(self):
+    def moments(self) -> Moments:
         """`Moments` of the plate's area, holes taken out."""
         left, right = (area_moments(hole) for hole in self.holes)
         return area_moments(self.outline) - left - right
 
-    def drawing(self, name="plate"):
+    def drawing(self, name: str = "plate") -> Drawing:
         """Drawing for manufacture: profile and holes."""
         shapes = (Shape("profile", self.outline), *(Shape("hole", hole) for hole in self.holes))
         title = f"chain plate, pitch {self.link.pitch * 1e3:.5g} mm, hole pitch {self.link.hole_pitch * 1e3:.5g} mm"
@@ -181,7 +186,7 @@ def _side(side):
     return 1.0 if side == "right" else -1.0
 
 
-def design_plate(link, pins=None, **lengths):
+def design_plate(link: Link, pins: Pins | None = None, **lengths: float) -> Plate:
     """A `Plate` with the lengths given and the others in proportion to the pitch.
 
     Toes end higher where they would be narrower than a tenth of the pitch.
@@ -216,7 +221,7 @@ class LinkMass(NamedTuple):
     inertia: float
 
 
-def link_mass(plate, plates, density, pin_length):
+def link_mass(plate: Plate, plates: int, density: float, pin_length: float) -> LinkMass:
     """`LinkMass` of one link: `plates` equal plates and its own two pins of `pin_length` [m]; half of each shared hinge pin."""
     left, right = (area_moments(pin) for pin in plate.own_pins)
     sheet, pins, depth = plate.moments, left + right, plates * plate.thickness
@@ -227,6 +232,6 @@ def link_mass(plate, plates, density, pin_length):
     return LinkMass(float(mass), float(first.imag / mass), float(polar - abs(first) ** 2 / mass))
 
 
-def mass_per_pitch(plate, lacing, density, pin_length):
+def mass_per_pitch(plate: Plate, lacing: tuple[int, int], density: float, pin_length: float) -> float:
     """Mass of a chain per link [kg] for a lacing (a, b): links of a and of b plates in turn."""
     return 0.5 * sum(link_mass(plate, plates, density, pin_length).mass for plates in lacing)

@@ -5,26 +5,28 @@ arc called "seat".  A joint turned by the angle t (positive over a sprocket, neg
 rolling on the own pin, to (A/2, 0) + 2 r (-cos(t/2), sin(t/2)): the line of centres turns half as far as the plate.
 """
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from drivewright.chains.plate_outline import outline
+from drivewright._typing import ArrayLike, Floats, Numbers
+from drivewright.chains.link import Link
+from drivewright.chains.plate_outline import Pieces, outline
 from drivewright.errors import InputError
 from drivewright.numerics.roots import bracketed_roots
-from drivewright.scene import Arc, Line, circle
+from drivewright.scene import Arc, Line, Outline, circle
 
 _TURN = 2 * np.pi / 17  # a sprocket with fewer teeth than 17 is rare in a silent chain
 
 
-def neighbour_center(link, turn):
+def neighbour_center(link: Link, turn: Numbers) -> Floats:
     """Centre (..., 2) of the neighbour's pin when the joint is turned by `turn` [rad]."""
     half = 0.5 * np.asarray(turn, float)
     reach = 2 * link.radius
     return np.stack([0.5 * link.hole_pitch - reach * np.cos(half), reach * np.sin(half)], axis=-1)
 
 
-def default_pins(link):
+def default_pins(link: Link) -> "Pins":
     """Pins that suit a link: one hinge pin for r = 0, round pins while two of their holes fit into a plate, else rockers."""
     if link.radius == 0:
         return HingePin(0.125 * link.pitch)
@@ -38,7 +40,8 @@ class HingePin(NamedTuple):
     radius: float
     pins_per_joint = 1
 
-    def check(self, link):
+    def check(self, link: Link) -> None:
+        """InputError where these pins do not fit the link."""
         if link.radius:
             raise InputError(f"HingePin: the link's pins roll with r = {link.radius * 1e3:.4g} mm; take RoundPins or RockerPins, or r = 0.")
         if not 0 < self.radius < 0.5 * link.hole_pitch:
@@ -46,16 +49,16 @@ class HingePin(NamedTuple):
                 f"HingePin: radius = {self.radius * 1e3:.4g} mm; it lies between 0 and half the pitch, {link.hole_pitch * 500:.4g} mm."
             )
 
-    def hole(self, link):
+    def hole(self, link: Link) -> Pieces:
         """Pieces {name: Arc} of the hole, counter-clockwise."""
         center = (0.5 * link.hole_pitch, 0.0)
         return {"seat": Arc(center, self.radius, -0.5 * np.pi, np.pi), "slack": Arc(center, self.radius, 0.5 * np.pi, np.pi)}
 
-    def pin(self, link):
+    def pin(self, link: Link) -> Outline:
         """Outline of the plate's own pin."""
         return circle((0.5 * link.hole_pitch, 0.0), self.radius)
 
-    def limits(self, link):
+    def limits(self, link: Link) -> tuple[float, float]:
         """Joint angles (back, forward) [rad] between which the joint turns freely."""
         return -np.inf, np.inf
 
@@ -74,7 +77,8 @@ class RoundPins(NamedTuple):
     rounding: float = 0.15
     pins_per_joint = 2
 
-    def check(self, link):
+    def check(self, link: Link) -> None:
+        """InputError where these pins do not fit the link."""
         if not link.radius > 0:
             raise InputError(f"RoundPins: rolling radius r = {link.radius:.4g} m; it must be positive. A hinge with r = 0 takes HingePin.")
         if not 1 < self.clearance < 2:
@@ -100,7 +104,7 @@ class RoundPins(NamedTuple):
         """Turn of the line of centres that uses up the play: 4 r sin(s/2) = (clearance - 1) r."""
         return 2 * np.arcsin((self.clearance - 1) / 4)
 
-    def hole(self, link):
+    def hole(self, link: Link) -> Pieces:
         """Pieces {name: Arc} of the hole, counter-clockwise."""
         r, own = link.radius, 0.5 * link.hole_pitch
         c, k = self.clearance * r, self.rounding * r
@@ -123,11 +127,11 @@ class RoundPins(NamedTuple):
         }
         return {name: arc for name, arc in pieces.items() if arc.radius > 0}
 
-    def pin(self, link):
+    def pin(self, link: Link) -> Outline:
         """Outline of the plate's own pin."""
         return circle((0.5 * link.hole_pitch, 0.0), link.radius)
 
-    def limits(self, link):
+    def limits(self, link: Link) -> tuple[float, float]:
         """Joint angles (back, forward) [rad] at which the neighbour's pin meets the ends of the slot."""
         return -self.back_turn, self.turn + 2 * self._swing(link)
 
@@ -146,7 +150,8 @@ class RockerPins(NamedTuple):
     turn: float = _TURN
     pins_per_joint = 2
 
-    def check(self, link):
+    def check(self, link: Link) -> None:
+        """InputError where these pins do not fit the link."""
         b, t = self.back_radius, self.thickness
         if not (b > 0 and self.clearance > 0 and 0 < self.turn < np.pi):
             raise InputError(
@@ -174,7 +179,7 @@ class RockerPins(NamedTuple):
                 f"{np.degrees(self.turn):.4g} deg are wanted. Take a larger back_radius, more clearance or less turn."
             )
 
-    def rod_center(self, link, turn):
+    def rod_center(self, link: Link, turn: ArrayLike) -> Floats:
         """Centre (..., 2) of the neighbour's rod when the joint is turned by `turn` [rad]."""
         arm = link.radius - self.thickness + self.back_radius
         turn = np.asarray(turn, float)
@@ -186,7 +191,7 @@ class RockerPins(NamedTuple):
     def _own(self, link):
         return 0.5 * link.pitch + self.thickness - self.back_radius
 
-    def hole(self, link):
+    def hole(self, link: Link) -> Pieces:
         """Pieces {name: Arc or Line} of the hole, counter-clockwise."""
         own, b = complex(self._own(link)), self.back_radius
         other, c = complex(*self._middle(link)), self.back_radius + self.clearance
@@ -210,7 +215,7 @@ class RockerPins(NamedTuple):
         along = (gap**2 + link.radius**2 - self.back_radius**2) / (2 * gap)
         return np.sqrt(link.radius**2 - along**2)
 
-    def pin(self, link):
+    def pin(self, link: Link) -> Outline:
         """Outline of the plate's own rocker."""
         edge, own, face = self._edge(link), self._own(link), 0.5 * link.hole_pitch
         half = np.arcsin(edge / link.radius)
@@ -219,7 +224,7 @@ class RockerPins(NamedTuple):
             {"back": Arc((own, 0.0), self.back_radius, -back, 2 * back), "face": Arc((face, 0.0), link.radius, np.pi - half, 2 * half)}
         )
 
-    def limits(self, link):
+    def limits(self, link: Link) -> tuple[float, float]:
         """Joint angles (back, forward) [rad]: the neighbour's rod meets the hole, or the contact reaches the edge of the rolling faces."""
         edge = 2 * np.arcsin(self._edge(link) / link.radius)
         middle = self._middle(link)
@@ -230,3 +235,6 @@ class RockerPins(NamedTuple):
         roots = bracketed_roots(play, np.linspace(-edge, edge, 201))
         before, after = roots[roots < 0.5 * self.turn], roots[roots > 0.5 * self.turn]
         return float(before[-1]) if len(before) else -edge, float(after[0]) if len(after) else edge
+
+
+Pins: TypeAlias = HingePin | RoundPins | RockerPins

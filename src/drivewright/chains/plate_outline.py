@@ -1,33 +1,36 @@
 """Outlines of straight lines and true arcs whose pieces have names: polygons with rounded corners, mirror images, exact area moments."""
 
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from drivewright._typing import Complexes
 from drivewright.errors import InputError
-from drivewright.scene import Arc, Line, Outline
+from drivewright.scene import Arc, Line, Outline, Spline
 
+Pieces: TypeAlias = dict[str, Arc | Line]  # of an outline by name, in its sense
 _NOTHING = 1e-9  # a straight piece shorter than this, relative to the polygon's size, is none
 
 
-def rounded(corners, radii, edges, arcs):
+def rounded(corners: Sequence[tuple[float, float]], radii: Sequence[float], edges: Sequence[str], arcs: Sequence[str]) -> Pieces:
     """Pieces {name: Line or Arc} of a polygon with rounded corners, in its sense, from the first edge on.
 
     corners (n, 2) [m], radii (n,) [m]; edge i runs from corner i to the next and is called edges[i]; arc i at corner i is called arcs[i].
     Fillets that use up an edge exactly leave it out.
     """
-    corners = np.asarray(corners, float) @ (1, 1j)
-    along = np.roll(corners, -1) - corners
+    points: Complexes = np.asarray(corners, float) @ np.array([1, 1j])
+    along = np.roll(points, -1) - points
     length, heading = np.abs(along), along / np.abs(along)
     turn = np.angle(heading / np.roll(heading, 1))
     cut = np.asarray(radii, float) * np.abs(np.tan(turn / 2))
     left = length - cut - np.roll(cut, -1)
-    size = np.ptp(corners.real) + np.ptp(corners.imag)
+    size = np.ptp(points.real) + np.ptp(points.imag)
     _refuse_short(left, length, edges, arcs, size)
     pieces = {}
     for i, name in enumerate(edges):
-        j = (i + 1) % len(corners)
-        start, end = corners[i] + cut[i] * heading[i], corners[j] - cut[j] * heading[i]
+        j = (i + 1) % len(points)
+        start, end = points[i] + cut[i] * heading[i], points[j] - cut[j] * heading[i]
         if left[i] > _NOTHING * size:
             pieces[name] = Line(_pair(start), _pair(end))
         if radii[j] > 0 and turn[j] != 0:
@@ -55,7 +58,7 @@ def _pair(z):
     return float(z.real), float(z.imag)
 
 
-def mirrored(pieces):
+def mirrored(pieces: Pieces) -> Pieces:
     """The mirror image of named pieces about the y axis, in the same sense."""
     return {name: _backwards(piece.moved((0.0, 0.0, np.pi), True)) for name, piece in reversed(pieces.items())}
 
@@ -66,7 +69,7 @@ def _backwards(piece):
     return Arc(piece.center, piece.radius, piece.start + piece.sweep, -piece.sweep)
 
 
-def outline(pieces):
+def outline(pieces: Mapping[str, Arc | Line | Spline]) -> Outline:
     """Closed Outline of named pieces."""
     return Outline(tuple(pieces.values()))
 
@@ -85,17 +88,17 @@ class Moments(NamedTuple):
         return Moments(*(a - b for a, b in zip(self, other, strict=True)))
 
     @property
-    def centroid(self):
+    def centroid(self) -> tuple[float, float]:
         """Centre of area (x, y)  [m]."""
         return _pair(self.first / self.area)
 
     @property
-    def central(self):
+    def central(self) -> float:
         """Polar moment about the centre of area  [m^4]."""
         return self.polar - abs(self.first) ** 2 / self.area
 
 
-def area_moments(closed):
+def area_moments(closed: Outline) -> Moments:
     """Exact `Moments` of what a counter-clockwise Outline of lines and arcs encloses, by Green's formulas.
 
     int dA = (1/2i) oint z* dz;  int z dA = (1/2i) oint z z* dz;  int |z|^2 dA = (1/4i) oint z z*^2 dz.

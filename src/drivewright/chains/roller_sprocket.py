@@ -58,12 +58,12 @@ class RollerSprocket:
             )
 
     @property
-    def pitch_radius(self):
+    def pitch_radius(self) -> float:
         """Radius of the circle through the seated rollers' centres, p/(2 sin(pi/z))  [m]."""
         return 0.5 * self.pitch / np.sin(np.pi / self.teeth)
 
     @property
-    def root_radius(self):
+    def root_radius(self) -> float:
         """Pitch radius less the roller's radius  [m]."""
         return self.pitch_radius - 0.5 * self.roller_diameter
 
@@ -94,11 +94,11 @@ class RollerSprocket:
         return np.pi / self.teeth - (0.5 * np.pi - np.angle(edge))
 
     @property
-    def tip_thickness(self):
+    def tip_thickness(self) -> float:
         """Width of the teeth along the tip circle  [m]."""
         return float(2 * self.tip_radius * self._tip_polar)
 
-    def outline(self):
+    def outline(self) -> Outline:
         """Counter-clockwise Outline of all teeth in true arcs."""
         half, join, end = 0.5 * self.seat_angle, 0.5 * (np.pi + self.seat_angle), self._flank_end
         f, c, r = self._flank_center, self._seat_center, self.flank_radius
@@ -112,12 +112,12 @@ class RollerSprocket:
         turns = 2 * np.pi / self.teeth * np.arange(self.teeth)
         return Outline(tuple(piece.moved((0.0, 0.0, float(turn)), False) for turn in turns for piece in pieces))
 
-    def roller(self, number=0):
+    def roller(self, number: int = 0) -> Outline:
         """Outline of the roller seated in a space, counted counter-clockwise from the y axis."""
         at = 1j * self.pitch_radius * np.exp(2j * np.pi * number / self.teeth)
         return circle((float(at.real), float(at.imag)), 0.5 * self.roller_diameter)
 
-    def drawing(self, bore=0.0, thickness=0.0, name="sprocket"):
+    def drawing(self, bore: float = 0.0, thickness: float = 0.0, name: str = "sprocket") -> Drawing:
         """Drawing for manufacture: profile, pitch circle and the bore (diameter [m])."""
         shapes = [Shape("profile", self.outline()), Shape("pitch", circle((0.0, 0.0), self.pitch_radius))]
         shapes += [Shape("hole", hole) for hole in self._bore(bore)]
@@ -129,7 +129,7 @@ class RollerSprocket:
             milled=False,
         )
 
-    def part(self, bore, thickness, name="sprocket", pose=(0.0, 0.0, 0.0)):
+    def part(self, bore: float, thickness: float, name: str = "sprocket", pose: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Part:
         """`Part`: prism of this thickness with a bore (diameter [m]), its middle plane at height 0."""
         return Part(name, (Prism(self.outline(), self._bore(bore), -0.5 * thickness, thickness),), pose)
 
@@ -141,7 +141,7 @@ class RollerSprocket:
         return (circle((0.0, 0.0), 0.5 * diameter),) if diameter else ()
 
 
-def design_roller_sprocket(teeth, pitch, roller_diameter, space=0.5, **lengths):
+def design_roller_sprocket(teeth: int, pitch: float, roller_diameter: float, space: float = 0.5, **lengths: float) -> RollerSprocket:
     """A `RollerSprocket` between the smallest (space = 0) and the largest (1) tooth space of the common roller-chain standards.
 
     With the roller's diameter d1 and z teeth, smallest to largest: seat radius 0.505 d1 to 0.505 d1 + 0.069 d1^(1/3) (in mm), seat angle
@@ -165,7 +165,7 @@ def design_roller_sprocket(teeth, pitch, roller_diameter, space=0.5, **lengths):
     return RollerSprocket(teeth, pitch, roller_diameter, **{**standard, **lengths})
 
 
-def roller_plate(pitch, end_radius, waist_radius):
+def roller_plate(pitch: float, end_radius: float, waist_radius: float) -> Outline:
     """Outline of a roller chain's plate: two round ends about the pins at (+-p/2, 0), a waist of two arcs tangent to both.
 
     The centre of a waist arc stands sqrt((e + w)^2 - (p/2)^2) beside the plate's axis.

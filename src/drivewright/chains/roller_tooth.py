@@ -4,6 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats
+
 
 class RollerTooth(NamedTuple):
     """teeth z; pitch radius of the seat centres; seat radius ri and its whole seating angle; flank radius re; roller radius  [m], [rad].
@@ -20,7 +22,7 @@ class RollerTooth(NamedTuple):
     roller_radius: float
 
     @property
-    def flank_centre(self):
+    def flank_centre(self) -> Floats:
         """Centre of the right flank's arc from the seat's centre (towards the tooth, outward)  [m]: ri + re along the end of the seat."""
         half = 0.5 * self.seat_angle
         return (self.seat_radius + self.flank_radius) * np.array([np.sin(half), -np.cos(half)])

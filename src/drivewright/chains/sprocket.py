@@ -10,15 +10,16 @@ from functools import cached_property
 
 import numpy as np
 
-from drivewright.chains.link import seat_height, seat_support
-from drivewright.chains.sprocket_root import Root, full_rounding, hob, root
+from drivewright._typing import Floats, Numbers
+from drivewright.chains.link import Link, seat_height, seat_support
+from drivewright.chains.sprocket_root import Hob, Root, full_rounding, hob, root
 from drivewright.chains.tooth import Cutter, Tooth, base_half_angle, matching_cutter
 from drivewright.errors import InputError
 from drivewright.numerics.roots import bracketed_roots
 from drivewright.scene import Arc, Drawing, Line, Outline, Part, Prism, Shape, Spline, circle
 
 
-def involute(angle):
+def involute(angle: Numbers) -> Numbers:
     """inv(a) = tan a - a."""
     return np.tan(angle) - angle
 
@@ -49,49 +50,49 @@ class Sprocket:
     # -- angles and radii ----------------------------------------------------------------------------------------------------------
 
     @property
-    def half_angle(self):
+    def half_angle(self) -> float:
         """psi: half the angle that a tooth fills on the base circle  [rad]."""
         return base_half_angle(self.tooth, self.flank_angle)
 
-    def pressure_angle(self, radius):
+    def pressure_angle(self, radius: Numbers) -> Numbers:
         """Angle between the flank and the radius [rad]: acos(rb/radius)."""
         return np.arccos(self.tooth.base_radius / radius)
 
-    def flank_polar(self, radius):
+    def flank_polar(self, radius: Numbers) -> Numbers:
         """Angle [rad] from the tooth's centre line to its flank: psi - inv(acos(rb/radius))."""
         return self.half_angle - involute(self.pressure_angle(radius))
 
-    def thickness(self, radius):
+    def thickness(self, radius: float) -> float:
         """Tooth thickness along the circle of this radius  [m]."""
-        return 2 * radius * self.flank_polar(radius)
+        return float(2 * radius * self.flank_polar(radius))
 
     @property
-    def tip_thickness(self):
+    def tip_thickness(self) -> float:
         """Width of the tooth's tip between the chamfers, along the tip circle  [m]."""
         return 2 * self.tip_radius * self._tip_polar
 
     @property
-    def _tip_polar(self):
-        return self.flank_polar(self.tip_radius - self.tip_chamfer) - self.tip_chamfer / self.tip_radius
+    def _tip_polar(self) -> float:
+        return float(self.flank_polar(self.tip_radius - self.tip_chamfer) - self.tip_chamfer / self.tip_radius)
 
     @property
-    def pointed_radius(self):
+    def pointed_radius(self) -> float:
         """Radius at which the two flanks of a tooth meet  [m]."""
         angle = bracketed_roots(lambda a: involute(a) - self.half_angle, np.linspace(0.0, 1.5, 200))
         return float(self.tooth.base_radius / np.cos(angle[0])) if len(angle) else np.inf
 
     @property
-    def form_radius(self):
+    def form_radius(self) -> float:
         """Radius at which the involute begins  [m]."""
         return self._root.form_radius
 
     @property
-    def undercut(self):
+    def undercut(self) -> bool:
         """True where the hob's tip has cut away a part of the involute that its straight flank had made."""
         return self._root.undercut
 
     @property
-    def hob(self):
+    def hob(self) -> Hob:
         """The hob's tip, as it generates the root."""
         return hob(self.tooth.teeth, self.cutter, self.half_angle, self.root_radius, self.tip_rounding)
 
@@ -100,7 +101,7 @@ class Sprocket:
         return root(self.hob, self.tooth.base_radius, self.half_angle)
 
     @property
-    def contact_margins(self):
+    def contact_margins(self) -> tuple[float, float]:
         """How far the seated plate's contact lies above the form radius and below the chamfered tip  [m]; negative: off the flank."""
         at = self.tooth.contact_radius
         return float(at - self.form_radius), float(self.tip_radius - self.tip_chamfer - at)
@@ -108,25 +109,25 @@ class Sprocket:
     # -- measuring pins -------------------------------------------------------------------------------------------------------------
 
     @property
-    def best_pin(self):
+    def best_pin(self) -> float:
         """Diameter of the measuring pin that touches the flanks where the seated plates do  [m]: 2 rb (tan(b + tan ac) - tan ac).
 
         b = t - psi half the angle of a space on the base circle, ac the flank's pressure angle there.
         """
         roll = self.tooth.curvature_radius / self.tooth.base_radius
-        return 2 * self.tooth.base_radius * (np.tan(np.pi / self.tooth.teeth - self.half_angle + roll) - roll)
+        return float(2 * self.tooth.base_radius * (np.tan(np.pi / self.tooth.teeth - self.half_angle + roll) - roll))
 
-    def pin_center_radius(self, diameter):
+    def pin_center_radius(self, diameter: float) -> float:
         """Radius on which the centre of a measuring pin stands  [m]: rb/cos aM with inv aM = d/(2 rb) + psi - t."""
         wanted = 0.5 * diameter / self.tooth.base_radius + self.half_angle - np.pi / self.tooth.teeth
-        angle = bracketed_roots(lambda a: involute(a) - wanted, np.linspace(0.0, 1.5, 200)) if wanted > 0 else ()
+        angle = bracketed_roots(lambda a: involute(a) - wanted, np.linspace(0.0, 1.5, 200)) if wanted > 0 else np.empty(0)
         if not len(angle):
             raise InputError(
                 f"Sprocket: a measuring pin of {diameter * 1e3:.4g} mm touches no flank; the best one has {self.best_pin * 1e3:.4g} mm."
             )
         return float(self.tooth.base_radius / np.cos(angle[0]))
 
-    def over_pins(self, diameter):
+    def over_pins(self, diameter: float) -> float:
         """Distance over two measuring pins in opposite spaces [m]; with odd z, in the spaces nearest to opposite."""
         center, z = self.pin_center_radius(diameter), self.tooth.teeth
         rest = np.sqrt(center**2 - self.tooth.base_radius**2) - 0.5 * diameter  # length of the base tangent up to the contact
@@ -145,14 +146,14 @@ class Sprocket:
     def _flank_ends(self):
         return np.array([self.form_radius, self.tip_radius - self.tip_chamfer])
 
-    def flank_points(self, count=200):
+    def flank_points(self, count: int = 200) -> Floats:
         """Points (count, 2) of the right flank of the tooth on the y axis, from form radius to tip or chamfer."""
         base = self.tooth.base_radius
         ends = np.sqrt(np.maximum(self._flank_ends**2 - base**2, 0.0))
-        radius = np.hypot(base, np.linspace(*ends, count))
+        radius = np.hypot(base, np.linspace(ends[0], ends[1], count))
         return _polar(radius, 0.5 * np.pi - self.flank_polar(radius))
 
-    def half_profile(self, tolerance=1e-8):
+    def half_profile(self, tolerance: float = 1e-8) -> Floats:
         """Polyline (n, 2) from the middle of the space right of the tooth on the y axis up to the middle of its tip."""
         middle, edge = 0.5 * np.pi - np.pi / self.tooth.teeth, 0.5 * np.pi - self._root.polar
         low = Arc((0.0, 0.0), self.root_radius, middle, edge - middle).points(tolerance)
@@ -169,7 +170,7 @@ class Sprocket:
         """Points of a trochoid, nowhere sharper than the hob's rounding, whose chords stay within a tolerance."""
         return 8 + int(1.2 * (self.form_radius - self.root_radius + self.tip_rounding) / np.sqrt(8 * tolerance * self.tip_rounding))
 
-    def outline(self, tolerance=1e-6):
+    def outline(self, tolerance: float = 1e-6) -> Outline:
         """Counter-clockwise Outline of all teeth: arcs for root and tip, splines with knots on the exact trochoids and involutes."""
         tooth = self._tooth_pieces(tolerance)
         turns = -2 * np.pi / self.tooth.teeth * np.arange(self.tooth.teeth)[::-1]
@@ -179,20 +180,21 @@ class Sprocket:
         """Pieces of the tooth on the y axis and the root before it, counter-clockwise."""
         rise, ends = self._root, self._flank_ends
         headings = _polar(1.0, 0.5 * np.pi - self.flank_polar(ends) + self.pressure_angle(ends))
-        up = [
+        leave, arrive = (_point(way) for way in headings)
+        up: list[Spline | Line] = [
             Spline(rise.points(self._root_count(tolerance)), rise.hob.heading(0.0), rise.hob.heading(rise.end)),
-            Spline(self.flank_points(self._flank_count(tolerance)), *(tuple(map(float, way)) for way in headings)),
+            Spline(flank := self.flank_points(self._flank_count(tolerance)), leave, arrive),
         ]
         if self.tip_chamfer:
             tip = Arc((0.0, 0.0), self.tip_radius, 0.5 * np.pi - self._tip_polar, 0.0).points(1.0)[0]
-            up.append(Line(tuple(map(float, up[-1].knots[-1])), tuple(map(float, tip))))
+            up.append(Line(_point(flank[-1]), _point(tip)))
         down = [_backwards(piece.moved((0.0, 0.0, np.pi), True)) for piece in reversed(up)]
         space = 2 * (np.pi / self.tooth.teeth - self._root.polar)
         low = Arc((0.0, 0.0), self.root_radius, 0.5 * np.pi - self._root.polar - space, space)
         top = Arc((0.0, 0.0), self.tip_radius, 0.5 * np.pi - self._tip_polar, 2 * self._tip_polar)
         return [*([low] if space > 1e-9 else []), *up, top, *down]
 
-    def drawing(self, bore=0.0, thickness=0.0, name="sprocket", tolerance=1e-6):
+    def drawing(self, bore: float = 0.0, thickness: float = 0.0, name: str = "sprocket", tolerance: float = 1e-6) -> Drawing:
         """Drawing for manufacture: profile, base circle, and the bore (diameter [m]) about the axis."""
         shapes = [Shape("profile", self.outline(tolerance)), Shape("base", circle((0.0, 0.0), self.tooth.base_radius))]
         shapes += [Shape("hole", hole) for hole in self._bore(bore)]
@@ -204,7 +206,14 @@ class Sprocket:
             milled=False,
         )
 
-    def part(self, bore, thickness, name="sprocket", pose=(0.0, 0.0, 0.0), tolerance=1e-6):
+    def part(
+        self,
+        bore: float,
+        thickness: float,
+        name: str = "sprocket",
+        pose: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        tolerance: float = 1e-6,
+    ) -> Part:
         """`Part`: prism of this thickness with a bore (diameter [m]), its middle plane at height 0."""
         return Part(name, (Prism(self.outline(tolerance), self._bore(bore), -0.5 * thickness, thickness),), pose)
 
@@ -260,7 +269,11 @@ def _refuse_heights(sprocket):
         )
 
 
-def design_sprocket(link, teeth, cutter=None, **lengths):
+def _point(place: Floats) -> tuple[float, float]:
+    return float(place[0]), float(place[1])
+
+
+def design_sprocket(link: Link, teeth: int, cutter: Cutter | None = None, **lengths: float) -> Sprocket:
     """The `Sprocket` on which a chain of this `Link` sits, with the lengths given and the others in proportion to the pitch.
 
     Without a cutter it is cut by the one with the chain's base pitch and flank angle.  For p = 9.525 mm the tip lies 1.7 mm and the root

@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Complexes, Floats, Numbers
+from drivewright.chains.tooth import Cutter
 from drivewright.errors import InputError
 from drivewright.numerics.roots import bracketed_roots
 
@@ -27,30 +29,30 @@ class Hob(NamedTuple):
     height: float
     place: float
 
-    def point(self, q):
+    def point(self, q: Numbers) -> Complexes | complex:
         """Points (complex) of the trochoid in the gear's frame."""
         arm = np.asarray(q) + 1j * self.height
         z = arm * (1 + self.rounding / np.abs(arm)) + 1j * self.pitch_radius
         return z * np.exp(1j * (q - self.place) / self.pitch_radius)
 
-    def heading(self, q):
+    def heading(self, q: float) -> tuple[float, float]:
         """Unit tangent (x, y) of the trochoid towards the flank: square to the arm from the pitch point."""
         arm = q + 1j * self.height
         along = -1j * arm / abs(arm) * np.exp(1j * (q - self.place) / self.pitch_radius)
         return float(along.real), float(along.imag)
 
     @property
-    def join(self):
+    def join(self) -> float:
         """q at which the rounding passes over into the straight flank: e cot a2."""
         return self.height / np.tan(self.half_angle)
 
     @property
-    def flank_end(self):
+    def flank_end(self) -> float:
         """Depth of the lower end of the straight flank below the pitch line  [m]."""
         return self.rounding * np.sin(self.half_angle) - self.height
 
 
-def hob(teeth, cutter, half_angle, root_radius, rounding):
+def hob(teeth: int, cutter: Cutter, half_angle: float, root_radius: float, rounding: float) -> Hob:
     """The `Hob` that cuts down to root_radius a tooth that fills 2 half_angle on the base circle.
 
     On the rolling circle the tooth is 2 r2 (psi - inv a2) thick, and so is the hob's space on its pitch line.
@@ -86,17 +88,17 @@ class Root:
     undercut: bool
 
     @property
-    def polar(self):
+    def polar(self) -> float:
         """Angle [rad] from the tooth's centre line to the end of the root circle's arc."""
         return self.hob.place / self.hob.pitch_radius
 
-    def points(self, count=200):
+    def points(self, count: int = 200) -> Floats:
         """Points (count, 2) from the root circle up."""
         z = self.hob.point(np.linspace(0.0, self.end, count))
         return np.stack([z.real, z.imag], axis=1)
 
 
-def full_rounding(teeth, cutter, half_angle, root_radius):
+def full_rounding(teeth: float, cutter: Cutter, half_angle: float, root_radius: float) -> float:
     """The rounding that leaves the hob's tip no land [m]: half its straight tip times cos a2/(1 - sin a2)."""
     a2 = cutter.half_angle
     pitch_radius = 0.5 * cutter.module * teeth
@@ -104,7 +106,7 @@ def full_rounding(teeth, cutter, half_angle, root_radius):
     return half_tip * np.cos(a2) / (1 - np.sin(a2))
 
 
-def root(hob, base_radius, half_angle):
+def root(hob: Hob, base_radius: float, half_angle: float) -> Root:
     """The `Root` of a hob beside the involute that fills 2 half_angle on the base circle."""
     slope = np.sin(hob.half_angle)
     along = hob.pitch_radius * slope - hob.flank_end / slope  # of the base tangent, where the hob's straight flank ends

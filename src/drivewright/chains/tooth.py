@@ -8,6 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Numbers
+
 
 class Tooth(NamedTuple):
     """teeth z; base radius rb [m]; support H [m].
@@ -21,12 +23,12 @@ class Tooth(NamedTuple):
     support: float
 
     @property
-    def contact_radius(self):
+    def contact_radius(self) -> float:
         """Radius where the seated plate touches: sqrt(H^2 + rb^2)  [m]."""
         return np.hypot(self.support, self.base_radius)
 
     @property
-    def curvature_radius(self):
+    def curvature_radius(self) -> Numbers:
         """Radius of curvature of the flank there, |H|  [m]."""
         return abs(self.support)
 
@@ -38,17 +40,17 @@ class Cutter(NamedTuple):
     half_angle: float
 
     @property
-    def module(self):
+    def module(self) -> float:
         """m2 = p2/pi  [m]."""
         return self.pitch / np.pi
 
 
-def matching_cutter(pitch, flank_angle, half_angle):
+def matching_cutter(pitch: Numbers, flank_angle: Numbers, half_angle: float) -> Cutter:
     """The cutter with the base pitch of the chain  (8): p2 = p cos a/cos a2."""
     return Cutter(pitch * np.cos(flank_angle) / np.cos(half_angle), half_angle)
 
 
-def cut_tooth(teeth, cutter, modification, flank_angle):
+def cut_tooth(teeth: int, cutter: Cutter, modification: float, flank_angle: float) -> Tooth:
     """The `Tooth` that a cutter shifted by `modification` x (in its modules) generates, its support at the flank angle a.
 
     The cutter's flank through (3/4 p2, z m2/2 + x m2) has the support (3/4) p2 cos a2 - (z/2 + x) m2 sin a2 at a2, and
@@ -59,14 +61,14 @@ def cut_tooth(teeth, cutter, modification, flank_angle):
     return Tooth(teeth, base, at_cutter - base * (flank_angle - cutter.half_angle))
 
 
-def modification_for(teeth, cutter, support, flank_angle):
+def modification_for(teeth: int, cutter: Cutter, support: float, flank_angle: float) -> float:
     """The shift x with which a cutter leaves the support H at the flank angle: the inverse of `cut_tooth`."""
     base = 0.5 * cutter.module * teeth * np.cos(cutter.half_angle)
     at_cutter = support + base * (flank_angle - cutter.half_angle)
     return (0.75 * cutter.pitch * np.cos(cutter.half_angle) - at_cutter) / (cutter.module * np.sin(cutter.half_angle)) - teeth / 2
 
 
-def base_half_angle(tooth, flank_angle):
+def base_half_angle(tooth: Tooth, flank_angle: float) -> float:
     """Half the angle that a tooth fills on its base circle [rad], (pi/2 + 2 x tan a2)/z + tan a2 - a2 for a cutter.
 
     The next flank touches at H n - rb dn/da; where H(a0) = 0 the involute begins, at a0 = a + H/rb clockwise of the plate's centre line.

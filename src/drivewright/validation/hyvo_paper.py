@@ -13,7 +13,7 @@ import numpy as np
 from drivewright import fatigue
 from drivewright._typing import Floats
 from drivewright.chains import closure, meshing
-from drivewright.chains.closure.drive import Strands
+from drivewright.chains.closure.model import Strands
 from drivewright.chains.implicit.equilibrium import Equilibrium, equilibrium
 from drivewright.chains.link import design_link, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Slide, SpeedRamp, Sprocket
@@ -60,18 +60,18 @@ def rows() -> Iterator[Row]:
 
 def pin_offset(radius: float) -> float:
     """Pin offset of a group [m] by (21)."""
-    return meshing.matching_offset(P, radius * MM, Z1)
+    return float(meshing.matching_offset(P, radius * MM, Z1))
 
 
 def pitch_deviation(radius: float) -> float:
     """delta_p2 of a group  (22)  [m]."""
-    return meshing.pitch_deviation(P, radius * MM, pin_offset(radius), Z2)
+    return float(meshing.pitch_deviation(P, radius * MM, pin_offset(radius), Z2))
 
 
 def seated_pitch_difference(radius: float, e: float) -> float:
     """pp2'' - pp1''  (25)  [m]."""
     seats = [meshing.seated_pitch(meshing.hole_pitch(P, radius * MM), radius * MM, e, teeth) for teeth in (Z2, Z1)]
-    return seats[0] - seats[1]
+    return float(seats[0] - seats[1])
 
 
 # -- section 4.3 ---------------------------------------------------------------------------------------------------------------
@@ -84,10 +84,10 @@ def _pitches() -> Iterator[Row]:
     seated = meshing.seated_pitch(meshing.hole_pitch(P, MM), MM, pin_offset(1.0), Z1)
     truncated = Explanation("Cut off after the sixth digit, not rounded.", float(np.floor(seated * 1e9) * 1e-9))
     explained: dict[str, Any] = common | {"pinned": EXPLAINED, "explanation": truncated}
-    yield Row("seated pitch pp1'' = pp01''", rounded("9.563499 mm", "m"), seated, "m", **explained)
-    yield Row("constant k", rounded("11.464849", "-"), meshing.pitch_constant(Z1, Z2), "-", **common)
+    yield Row("seated pitch pp1'' = pp01''", rounded("9.563499 mm", "m"), float(seated), "m", **explained)
+    yield Row("constant k", rounded("11.464849", "-"), float(meshing.pitch_constant(Z1, Z2)), "-", **common)
     yield Row("boundary radius r10", rounded("5.0548 mm", "m"), float(meshing.boundary_radius(P, Z1, Z2)), "m", **common)
-    yield Row("reference deviation delta12", rounded("0.00406 mm", "m"), meshing.reference_deviation(P, Z1, Z2), "m", **common)
+    yield Row("reference deviation delta12", rounded("0.00406 mm", "m"), float(meshing.reference_deviation(P, Z1, Z2)), "m", **common)
     common["where"] = "section 6"
     yield Row("2000 rpm in rad/s, over pi", rounded("66.7", "-"), 2000 / 30, "-", **common)
 
@@ -96,13 +96,13 @@ def _table() -> Iterator[Row]:
     common: dict[str, Any] = {"pinned": AGREES, "kind": "published table", "where": "Table 2", "inputs": CHAIN}
     for number, radius in enumerate(NEW_RADII, 1):
         hole, pin = (rounded(f"{text} mm", "m") for text in TABLE[radius])
-        yield Row(f"hole pitch A, group {number}", hole, meshing.hole_pitch(P, radius * MM), "m", **common)
+        yield Row(f"hole pitch A, group {number}", hole, float(meshing.hole_pitch(P, radius * MM)), "m", **common)
         yield Row(f"pin offset e, group {number}", pin, pin_offset(radius), "m", **common)
     common["pinned"] = OPEN
     yield Row(
         "hole pitch A, control group",
         rounded("8.16 mm", "m"),
-        meshing.hole_pitch(P, CLASSICAL_RADIUS * MM),
+        float(meshing.hole_pitch(P, CLASSICAL_RADIUS * MM)),
         "m",
         note="Eq. (1) is for round pins, whose centres are those of the holes. Where those of the classical chain lie is not "
         "drawn; its motion depends on the radius of the rolling arcs and the pitch alone.",
@@ -170,14 +170,14 @@ def _radii() -> Iterator[Row]:
     yield Row(
         "largest delta_p2 of groups 1 to 7 over delta12",
         Printed("below 1, eq. (30)", *BELOW_ONE),
-        max(map(pitch_deviation, NEW_RADII)) / reference,
+        float(max(map(pitch_deviation, NEW_RADII)) / reference),
         where="Fig. 8",
         **common,
     )
     yield Row(
         "delta_p2 of the control group over delta12",
         Printed("above 1, eq. (31)", *ABOVE_ONE),
-        classical / reference,
+        float(classical / reference),
         where="eq. (31)",
         assumed="arcs of 7.4 mm with e = R sin(gamma)",
         **common,
@@ -201,7 +201,7 @@ def _radii() -> Iterator[Row]:
     yield Row(
         "radius below which p'' grows with the angle up to the seat",
         rounded("5.0548 mm", "m"),
-        meshing.monotone_radius(P, Z1),
+        float(meshing.monotone_radius(P, Z1)),
         explanation=not_monotone,
         where="conclusion 2",
         **common | {"unit": "m", "pinned": EXPLAINED},
@@ -358,7 +358,7 @@ def _deviations(route: str, groups: Floats, control: float, common: dict[str, An
 def pin_stresses(radius: float) -> tuple[float, float]:
     """(p0, greatest von Mises stress below the surface) of two pins of a radius [mm] under 200 N  [Pa]."""
     limits = rolling.pressure_limits(YIELD, POISSON)
-    radii = (radius * MM,) * 2
+    radii = radius * MM, radius * MM
     pressure = float(rolling.rolling_contact(200.0, 6 * MM, radii, MODULUS, POISSON).pressure)
     return pressure, pressure * YIELD / limits.first_yield
 

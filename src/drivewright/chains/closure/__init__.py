@@ -6,7 +6,8 @@ teeth such a chain touches at all is a question of its own.
 """
 
 from drivewright.chains.closure.departure import Departure, departure
-from drivewright.chains.closure.drive import POSITIONS, Closure, Drive, States, close, phase_map
+from drivewright.chains.closure.drive import POSITIONS, close, phase_map
+from drivewright.chains.closure.model import Closure, Drive, States
 from drivewright.chains.closure.positions import Phased, phased, plates, states_at
 
 __all__ = [

@@ -11,7 +11,7 @@ from drivewright._jit import kernel, outer
 from drivewright.chains.closure.drive import LEAST_TEETH, refuse_count, refuse_joint, refuse_strands
 from drivewright.chains.closure.measures import measure
 from drivewright.chains.closure.strand import decay, pressing, reach
-from drivewright.chains.link import seat_height
+from drivewright.chains.link import Link, seat_height
 
 _NODES, _HALVINGS = 129, 60
 _STRAIGHT = 1e-17  # of its first bend is left at the end of a strand that counts as long
@@ -28,7 +28,7 @@ class Departure(NamedTuple):
     slip: float
 
 
-def departure(link, teeth, strands="equilibrium"):
+def departure(link: Link, teeth: int, strands: str = "equilibrium") -> Departure:
     """The `Departure` of a strand from a sprocket with so many teeth; for straight ones the rise is `chordal_rise`."""
     refuse_joint(link)
     refuse_count("teeth", teeth, LEAST_TEETH)

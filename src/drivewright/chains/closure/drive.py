@@ -1,96 +1,23 @@
 """Quasi-static closure of a chain around two sprockets: rigid plates, both strands taut, no load, over one tooth of the driver."""
 
-from dataclasses import dataclass
-from typing import Literal, NamedTuple, get_args
+from collections.abc import Callable, Sequence
+from typing import Any, get_args
 
 import numpy as np
 
-from drivewright.cases import run
+from drivewright.cases import Outcomes, run
 from drivewright.chains.closure import tracking
 from drivewright.chains.closure.measures import measure
+from drivewright.chains.closure.model import Closure, Drive, States, Strands
 from drivewright.chains.closure.start import layout_of
 from drivewright.chains.link import Link
 from drivewright.errors import DoesNotAssemble, InputError, SolverError, UnknownName, brief
 
-Strands = Literal["straight", "equilibrium"]
 POSITIONS = 48
 LEAST_TEETH = 5
 
 
-class Drive(NamedTuple):
-    """A chain of `links` plates around a driver and a driven sprocket.
-
-    strands: "equilibrium" bends each strand until its force is the same all along; "straight" is the simpler measure.
-    """
-
-    link: Link
-    driver_teeth: int
-    driven_teeth: int
-    links: int
-    strands: Strands = "equilibrium"
-
-
-class States(NamedTuple):
-    """Positions of a drive, one per row.
-
-    driver_angle, driven_angle, centre_distance [rad, rad, m]; strand_angle (.., 2): direction of the force in the upper strand, from the
-    driver on, and in the lower one, back to it [rad]; seats (.., 4): the teeth where the chain leaves the driver, meets and leaves the
-    driven sprocket, meets the driver.  The centre of tooth j of a sprocket at the angle psi lies at psi + j 2 pi/z.
-    """
-
-    driver_angle: np.ndarray
-    driven_angle: np.ndarray
-    centre_distance: np.ndarray
-    strand_angle: np.ndarray
-    seats: np.ndarray
-
-    @property
-    def seated(self):
-        """(.., 2) plates seated on the driver and on the driven sprocket."""
-        seats = self.seats
-        return np.stack([seats[..., 3] - seats[..., 0], seats[..., 1] - seats[..., 2]], axis=-1) + 1
-
-    @property
-    def wrap(self):
-        """(.., 2) by how much the strands' forces turn around the driver and around the driven sprocket [rad]; together 2 pi."""
-        turned = self.strand_angle[..., 0] - self.strand_angle[..., 1]
-        return np.stack([2 * np.pi - turned, turned], axis=-1)
-
-
-@dataclass(frozen=True, eq=False)
-class Closure:
-    """The motion over one tooth of the driver, both ends included.
-
-    `event` (S,) marks the samples where a plate seats or leaves; the seats of a sample hold from there to the next one.
-    mean, fluctuation: integral mean and greatest less least centre distance [m].  transmission_error (S,): psi_2 - psi_1 z1/z2, its
-    integral mean taken off [rad]; transmission_ripple: greatest less least.  All extremes are those of the curves, not of the samples.
-    before, after (S, 2): dpsi_2/dpsi_1 [-] and dSd/dpsi_1 [m] on either side of a sample.
-    residual [m]: by how much a strand misses its end at most.
-    """
-
-    drive: Drive
-    states: States
-    event: np.ndarray
-    before: np.ndarray
-    after: np.ndarray
-    transmission_error: np.ndarray
-    transmission_ripple: float
-    mean: float
-    fluctuation: float
-    residual: float
-
-    @property
-    def driver_angle(self):
-        """(S,) samples of the driver's angle [rad]."""
-        return self.states.driver_angle
-
-    @property
-    def centre_distance(self):
-        """(S,)  [m]."""
-        return self.states.centre_distance
-
-
-def close(drive, positions=POSITIONS):
+def close(drive: Drive, positions: int = POSITIONS) -> Closure:
     """The `Closure` of a `Drive`, at `positions` equal steps of a tooth and at every event between them.
 
     InputError for numbers that make no chain, DoesNotAssemble where the chain is too short for a free plate in each strand or the wrap
@@ -110,13 +37,15 @@ def close(drive, positions=POSITIONS):
     return _closure(drive, track)
 
 
-def phase_map(drives, positions=POSITIONS, workers=1, progress=None):
+def phase_map(
+    drives: Sequence[Drive], positions: int = POSITIONS, workers: int = 1, progress: Callable[..., Any] | None = None
+) -> Outcomes:
     """`Outcomes` of `close` for many drives in the order given; a chain that cannot be is a row with the reason.  See `cases.run`."""
     return run(lambda drive: close(drive, positions), drives, workers, progress)
 
 
 def _closure(drive, track):
-    count, p = track.count[0], drive.link.pitch
+    count, p = track.length[0], drive.link.pitch
     psi, x = track.psi[:count], track.x[:count] * np.array([1.0, p, 1.0, 1.0])
     before, after = (slope[:count, :2] * np.array([1.0, p]) for slope in (track.before, track.after))
     mean, low, high = measure(psi, x[:, 1], before[:, 1], after[:, 1])
@@ -128,7 +57,7 @@ def _closure(drive, track):
     return Closure(drive, states, track.event[:count].copy(), before, after, error - offset, ahead - behind, mean, high - low, residual)
 
 
-def refuse_joint(joint):
+def refuse_joint(joint: Link) -> None:
     """InputError for a joint that leaves no pitch."""
     if not (np.isfinite(joint.hole_pitch) and 0 <= joint.radius < joint.hole_pitch / 2):
         raise InputError(
@@ -137,13 +66,13 @@ def refuse_joint(joint):
         )
 
 
-def refuse_count(name, value, least):
+def refuse_count(name: str, value: int, least: int) -> None:
     """InputError for what is no whole number from `least` up."""
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
         raise InputError(f"chain: {name} = {brief(value)}; it must be a whole number from {least} up.")
 
 
-def refuse_strands(strands):
+def refuse_strands(strands: str) -> None:
     """UnknownName for a form of the strands that nobody wrote."""
     if strands not in get_args(Strands):
         raise UnknownName("form of the strands", strands, get_args(Strands))
@@ -162,7 +91,7 @@ def _failure(drive, track, x):
             f"chain: {where} leave fewer than two plates on a sprocket, at a centre distance of about {distance:.4g} mm. "
             "Take more teeth there, or tooth numbers nearer to each other and more links."
         )
-    count = track.count[0]
+    count = track.length[0]
     angle = track.psi[count - 1] if count else 0.0
     what = "seats of the plates do not settle" if outcome == tracking.RESTLESS else "position of the plates is not found"
     return SolverError(

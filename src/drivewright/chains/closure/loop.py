@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import inner, kernel, outer
+from drivewright._typing import Floats, Ints
 from drivewright.chains.closure.strand import pressing, reach
 from drivewright.numerics.small import lu_factor, lu_solve
 
@@ -41,13 +42,13 @@ class Layout(NamedTuple):
 class Work(NamedTuple):
     """What a solution leaves: the misses of both strands, dx/dpsi_1 and the two margins of each end of a strand; the rest is scratch."""
 
-    miss: np.ndarray
-    slope: np.ndarray
-    margins: np.ndarray
-    step: np.ndarray
-    jacobian: np.ndarray
-    pivots: np.ndarray
-    strand: np.ndarray
+    miss: Floats
+    slope: Floats
+    margins: Floats
+    step: Floats
+    jacobian: Floats
+    pivots: Ints
+    strand: Floats
 
 
 class Side(NamedTuple):
@@ -60,20 +61,20 @@ class Side(NamedTuple):
 
 
 @kernel
-def workspace(links):
+def workspace(links: int) -> Work:
     """An empty `Work` for a chain of so many plates."""
     jacobian, pivots = np.empty((UNKNOWNS, UNKNOWNS)), np.empty(UNKNOWNS, np.int64)
     return Work(np.empty(UNKNOWNS), np.empty(UNKNOWNS), np.empty(2 * ENDS), np.empty(UNKNOWNS), jacobian, pivots, np.empty((3, links + 2)))
 
 
 @outer
-def free_plates(layout, seats):
+def free_plates(layout: Layout, seats: Ints) -> tuple[int, int]:
     """Numbers of free plates in the upper and the lower strand."""
     return layout.lead - seats[1] + seats[0] - 1, layout.links - layout.lead - seats[3] + seats[2] - 1
 
 
 @outer
-def solve(layout, seats, psi, x, work):
+def solve(layout: Layout, seats: Ints, psi: float, x: Floats, work: Work) -> bool:
     """Brings x to the solution for these seats and fills `work`; False where Newton's method does not settle."""
     for _ in range(_STEPS):
         _equations(layout, seats, psi, x, work)

@@ -3,11 +3,14 @@
 import numpy as np
 
 from drivewright._jit import kernel
+from drivewright._typing import Floats
 
 
 @kernel
-def measure(x, y, before, after):
+def measure(x: Floats, y: Floats, before: Floats, after: Floats) -> tuple[float, float, float]:
     """Integral mean, least and greatest value of y(x); `before` and `after`: slopes on both sides of a sample, which differ at a kink.
+
+    x, y (n,) in units of their own, before, after (n,) [y/x].
 
     The area under the cubic is h (y0 + y1)/2 + h^2 (s0 - s1)/12.
     """

@@ -4,9 +4,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.chains.closure import tracking
-from drivewright.chains.closure.drive import States
 from drivewright.chains.closure.loop import free_plates
+from drivewright.chains.closure.model import Closure, States
 from drivewright.chains.closure.start import layout_of
 from drivewright.chains.closure.strand import plate_directions
 from drivewright.errors import InputError, SolverError
@@ -17,15 +18,15 @@ class Phased(NamedTuple):
     distance [m], and greatest less least of it [m] and of the transmission error [rad].
     """
 
-    driver_angle: np.ndarray
-    centre_distance: np.ndarray
-    transmission_error: np.ndarray
+    driver_angle: Floats
+    centre_distance: Floats
+    transmission_error: Floats
     mean: float
     fluctuation: float
     transmission_ripple: float
 
 
-def states_at(closure, driver_angle):
+def states_at(closure: Closure, driver_angle: ArrayLike) -> States:
     """The `States` at any angles of the driver [rad], over many teeth too: exact positions, not interpolated ones.
 
     A tooth further the same positions come back with the driven sprocket a tooth further.
@@ -47,7 +48,7 @@ def states_at(closure, driver_angle):
     return States(angle, x[:, 0] + teeth * layout.phi_2, p * x[:, 1], x[:, 2:].copy(), seats - further)
 
 
-def plates(closure, states):
+def plates(closure: Closure, states: States) -> Floats:
     """(S, links, 3) places [m] and directions [rad] of the pin frames of all plates, for every row of `states`.
 
     Row 0 is the plate on the driver's tooth z1//2; the others follow clockwise, the same plate in the same row at every angle.  Directions
@@ -62,7 +63,7 @@ def plates(closure, states):
     return found
 
 
-def phased(closure, share=0.5):
+def phased(closure: Closure, share: float = 0.5) -> Phased:
     """The `Phased` motion of two equal chains side by side, the teeth of the second ahead by `share` of a pitch on both shafts.
 
     Each alone would hold the driven sprocket where it closes; together, equally stiff, they hold it halfway.
@@ -72,10 +73,10 @@ def phased(closure, share=0.5):
     period, own = closure.driver_angle[-1], closure.driver_angle
     grid = np.unique(np.concatenate([own, np.mod(own - share * period, period)]))
     angle = np.insert(grid, np.arange(1, len(grid)), 0.5 * (grid[:-1] + grid[1:]))
-    both = [states_at(closure, angle), states_at(closure, angle + share * period)]
+    one, other = states_at(closure, angle), states_at(closure, angle + share * period)
     ratio = closure.drive.driver_teeth / closure.drive.driven_teeth
-    distance = 0.5 * sum(each.centre_distance for each in both)
-    error = 0.5 * sum(each.driven_angle - ratio * each.driver_angle for each in both)
+    distance = 0.5 * (one.centre_distance + other.centre_distance)
+    error = 0.5 * ((one.driven_angle - ratio * one.driver_angle) + (other.driven_angle - ratio * other.driver_angle))
     mean, low, high = _parabolas(angle, distance)
     offset, behind, ahead = _parabolas(angle, error)
     return Phased(angle, distance, error - offset, mean, high - low, ahead - behind)

@@ -2,14 +2,16 @@
 
 import numpy as np
 
+from drivewright._typing import Floats, Ints
 from drivewright.chains.closure.loop import Layout
+from drivewright.chains.closure.model import Drive
 from drivewright.chains.link import seat_height
 from drivewright.errors import DoesNotAssemble
 
 _HALVINGS = 60
 
 
-def layout_of(drive):
+def layout_of(drive: Drive) -> tuple[Layout, Ints, Floats]:
     """The `Layout` of a drive, and seats and x to start from at the driver's angle 0; DoesNotAssemble where the chain is too short."""
     p = drive.link.pitch
     radii = [0.5 / np.sin(np.pi / teeth) for teeth in (drive.driver_teeth, drive.driven_teeth)]  # of the pitch circles, in pitches
@@ -22,9 +24,9 @@ def layout_of(drive):
     off_1, on_1 = np.ceil(tangent / phi_1), np.floor((2 * np.pi - tangent) / phi_1)
     on_2, off_2 = np.floor((tangent - psi_2) / phi_2), np.ceil((-tangent - psi_2) / phi_2)
     seats = np.array([off_1, on_2, off_2, on_1]).astype(np.int64)
-    heights = [seat_height(drive.link, teeth) / p for teeth in (drive.driver_teeth, drive.driven_teeth)]
+    height_1, height_2 = (seat_height(drive.link, teeth) / p for teeth in (drive.driver_teeth, drive.driven_teeth))
     bent = drive.strands == "equilibrium"
-    layout = Layout(drive.link.hole_pitch / p, drive.link.radius / p, bent, phi_1, phi_2, *heights, drive.links, lead)
+    layout = Layout(drive.link.hole_pitch / p, drive.link.radius / p, bent, phi_1, phi_2, height_1, height_2, drive.links, lead)
     return layout, seats, np.array([psi_2, distance, rise, -np.pi - rise])
 
 

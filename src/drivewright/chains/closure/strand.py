@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import inner, kernel, outer
+from drivewright._typing import Floats
 
 _STEPS = 40
 _STILL = 1e-13  # rad
@@ -34,7 +35,7 @@ class Reach(NamedTuple):
 
 
 @outer
-def reach(A, r, bent, count, start, end, work):
+def reach(A: float, r: float, bent: bool, count: int, start: float, end: float, work: Floats) -> Reach:
     """The `Reach` of `count` free plates between seated ones with the directions `start` and `end`; work (3, count + 2) is scratch."""
     if bent:
         return _bent(A, r, count, start, end, work)
@@ -44,15 +45,15 @@ def reach(A, r, bent, count, start, end, work):
 
 
 @kernel
-def plate_directions(A, r, bent, count, start, end):
-    """Directions of the free plates of a strand against its force."""
+def plate_directions(A: float, r: float, bent: bool, count: int, start: float, end: float) -> Floats:
+    """Directions (count,) [rad] of the free plates of a strand against its force."""
     work = np.zeros((3, count + 2))
     reach(A, r, bent, count, start, end, work)
     return work[0, 1 : count + 1].copy()
 
 
 @inner
-def pressing(A, r, phi, seated, first):
+def pressing(A: float, r: float, phi: float, seated: float, first: float) -> float:
     """Moment by which a force A^-1 in a strand presses the last seated plate onto its seat  [-]; negative: it lifts the plate.
 
     A sin d_0 - r (sin m_-1 + sin m_0) for the force 1: `seated` d_0 and `first` d_1 are the directions of the last seated and the first
@@ -62,13 +63,14 @@ def pressing(A, r, phi, seated, first):
 
 
 @outer
-def decay(A, r):
+def decay(A: float, r: float) -> float:
     """By which factor the bend of a strand shrinks from plate to plate: the smaller root of r (1 + x^2) = 2 (A - r) x."""
     return r / (A - r + np.sqrt(A * (A - 2 * r)))
 
 
 @outer
 def _bent(A, r, count, start, end, work):
+    """The `Reach` of plates in equilibrium, by Newton's method from two bends that decay; work (3, count + 2) is scratch."""
     d, diagonal, side = work[0], work[1], work[2]
     shrink = decay(A, r)
     d[0], d[count + 1] = start, end

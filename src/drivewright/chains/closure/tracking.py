@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import inner, kernel, outer
-from drivewright.chains.closure.loop import ENDS, UNKNOWNS, free_plates, solve, workspace
+from drivewright._typing import Bools, Floats, Ints
+from drivewright.chains.closure.loop import ENDS, UNKNOWNS, Layout, free_plates, solve, workspace
 
 DONE, LOST, RESTLESS, NO_STRAND, NO_WRAP = range(5)
 _TIE = 1e-12  # a margin as little below 0 is a tie, and accepted
@@ -21,19 +22,19 @@ _HALVINGS = 100
 class Track(NamedTuple):
     """Samples: angle, x, dx/dpsi_1 before and after it, seats after it, whether they change there, miss; how many samples; how it ended."""
 
-    psi: np.ndarray
-    x: np.ndarray
-    before: np.ndarray
-    after: np.ndarray
-    seats: np.ndarray
-    event: np.ndarray
-    miss: np.ndarray
-    count: np.ndarray
-    outcome: np.ndarray
+    psi: Floats
+    x: Floats
+    before: Floats
+    after: Floats
+    seats: Ints
+    event: Bools
+    miss: Floats
+    length: Ints
+    outcome: Ints
 
 
 @kernel
-def follow(layout, seats, x, grid):
+def follow(layout: Layout, seats: Ints, x: Floats, grid: Floats) -> Track:
     """The `Track` over the ascending angles `grid`; `seats` and x are where to start from, and are overwritten."""
     room = len(grid) * (1 + 2 * ENDS) + _CHANGES
     track = Track(
@@ -60,7 +61,7 @@ def follow(layout, seats, x, grid):
 
 
 @kernel
-def solve_at(layout, psi, x, seats):
+def solve_at(layout: Layout, psi: Floats, x: Floats, seats: Ints) -> float:
     """Brings each row of x to the solution at its angle and with its seats; the largest miss, inf where one is not found."""
     work, worst = workspace(layout.links), 0.0
     for k in range(len(psi)):
@@ -90,7 +91,7 @@ def _settle(layout, seats, psi, x, work):
 def _advance(layout, seats, target, x, start, work, held, track):
     """Follows the motion to `target` and writes the samples, those at events too; `start` and `held` are scratch."""
     for _ in range(_CHANGES):
-        last = track.count[0] - 1
+        last = track.length[0] - 1
         psi = track.psi[last]
         _keep(x, start)
         _keep(work.margins, held)
@@ -176,12 +177,14 @@ def _change(seats, margin):
 
 @inner
 def _keep(source, target):
+    """target (n,) = source (n,); a slice would allocate."""
     for k in range(len(source)):
         target[k] = source[k]
 
 
 @inner
 def _least(margins):
+    """Index of the least of margins (n,); of one that is nan, where there is any."""
     worst = 0
     for k in range(1, len(margins)):
         if not margins[k] >= margins[worst]:
@@ -191,6 +194,7 @@ def _least(margins):
 
 @inner
 def _largest(miss):
+    """Largest magnitude of miss (n,)."""
     worst = 0.0
     for k in range(len(miss)):
         worst = max(worst, abs(miss[k]))
@@ -199,10 +203,11 @@ def _largest(miss):
 
 @outer
 def _write(track, psi, x, work, before, seats, event):
-    k = track.count[0]
+    """One more sample: x (UNKNOWNS,), its slopes before and after, seats (ENDS,); RESTLESS where there is no room for it."""
+    k = track.length[0]
     if k >= len(track.psi):
         return RESTLESS
-    track.psi[k], track.event[k], track.miss[k], track.count[0] = psi, event, _largest(work.miss), k + 1
+    track.psi[k], track.event[k], track.miss[k], track.length[0] = psi, event, _largest(work.miss), k + 1
     for i in range(UNKNOWNS):
         track.x[k, i], track.before[k, i], track.after[k, i] = x[i], before[i], work.slope[i]
     for end in range(ENDS):

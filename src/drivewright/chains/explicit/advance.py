@@ -3,6 +3,7 @@
 import numpy as np
 
 from drivewright._jit import inner, outer, plain
+from drivewright._typing import Floats, Records
 from drivewright.chains.explicit.bodies import (
     drift_bodies,
     impulse,
@@ -12,7 +13,8 @@ from drivewright.chains.explicit.bodies import (
     slide_acceleration,
     turn_acceleration,
 )
-from drivewright.chains.explicit.snapshots import take_snapshot
+from drivewright.chains.explicit.snapshots import Snapshots, take_snapshot
+from drivewright.chains.explicit.state import ChainConstants, ContactCandidates, DriveArrays, Joints, Plates, Teeth, Touches
 from drivewright.chains.explicit.step import (
     acceleration,
     add_contact_forces,
@@ -30,7 +32,7 @@ from drivewright.chains.touching.seats import nearest_gap, nearest_tooth
 
 
 @outer
-def run(drive, snapshots, first, last, every, search_interval, dt):
+def run(drive: DriveArrays, snapshots: Snapshots, first: int, last: int, every: int, search_interval: float, dt: float) -> None:
     """Snapshots first .. last-1, `every` steps apart; candidates for contact are sought anew every `search_interval` steps."""
     chain, p, j, t, b, teeth, arcs, candidates, gravity, clock, power, sums = drive
     for number in range(first, last):
@@ -44,7 +46,7 @@ def run(drive, snapshots, first, last, every, search_interval, dt):
             drift(chain, p, b, clock, power, sums, dt)
 
 
-def settle_rates(drive, dt):
+def settle_rates(drive: DriveArrays, dt: float) -> None:
     """From rates at the first whole step to those half a step earlier, which the leapfrog starts with; once, so not worth compiling."""
     chain, p, j, t, b, teeth, arcs, candidates, gravity, _, power, _ = drive
     plain(find_candidates)(chain, p, t, b, teeth, arcs, candidates)
@@ -61,7 +63,19 @@ def settle_rates(drive, dt):
 
 
 @inner
-def load(chain, p, j, t, b, teeth, arcs, candidates, gravity, power, dt):
+def load(
+    chain: ChainConstants,
+    p: Plates,
+    j: Joints,
+    t: Touches,
+    b: Records,
+    teeth: Teeth,
+    arcs: Records,
+    candidates: ContactCandidates,
+    gravity: Floats,
+    power: Floats,
+    dt: float,
+) -> None:
     """All loads at the present places and predicted rates."""
     sprockets = teeth.base.size
     for n in range(b.q.size):
@@ -83,7 +97,18 @@ def load(chain, p, j, t, b, teeth, arcs, candidates, gravity, power, dt):
 
 
 @inner
-def kick(chain, p, j, t, b, teeth, candidates, gravity, power, dt):
+def kick(
+    chain: ChainConstants,
+    p: Plates,
+    j: Joints,
+    t: Touches,
+    b: Records,
+    teeth: Teeth,
+    candidates: ContactCandidates,
+    gravity: Floats,
+    power: Floats,
+    dt: float,
+) -> None:
     """Rates one step on under the loads, and what damping takes meanwhile."""
     kick_plates(chain, p, j, dt)
     close_rates(chain, p)
@@ -97,7 +122,7 @@ def kick(chain, p, j, t, b, teeth, candidates, gravity, power, dt):
 
 
 @inner
-def drift(chain, p, b, clock, power, sums, dt):
+def drift(chain: ChainConstants, p: Plates, b: Records, clock: Floats, power: Floats, sums: Floats, dt: float) -> None:
     """Places one step on."""
     drift_plates(chain, p, dt)
     close_ring(chain, p)
@@ -111,7 +136,9 @@ def drift(chain, p, b, clock, power, sums, dt):
 
 
 @inner
-def find_candidates(chain, p, t, b, teeth, arcs, candidates):
+def find_candidates(
+    chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth: Teeth, arcs: Records, candidates: ContactCandidates
+) -> None:
     """Runs of plates near each body, the tooth that each of them may sit on; directions anew from the angles, free of drift."""
     for i in range(chain.count):
         p.c[i], p.s[i] = np.cos(p.angle[i]), np.sin(p.angle[i])
@@ -135,7 +162,7 @@ def find_candidates(chain, p, t, b, teeth, arcs, candidates):
 
 
 @inner
-def near(chain, x, y, b, teeth, arcs, n):
+def near(chain: ChainConstants, x: float, y: float, b: Records, teeth: Teeth, arcs: Records, n: int) -> bool:
     """Whether a plate at (x, y) may touch body n soon; of the sprockets only the nearest counts."""
     sprockets = teeth.base.size
     far = np.hypot(x - b.x[n], y - b.y[n])
@@ -148,7 +175,7 @@ def near(chain, x, y, b, teeth, arcs, n):
 
 
 @inner
-def seat_of(p, b, teeth, n, i):
+def seat_of(p: Plates, b: Records, teeth: Teeth, n: int, i: int) -> float:
     """Angle of the tooth (of the gap, for rollers) nearest to plate i, against psi; see `touching.seats`."""
     phi = teeth.pitch_angle[n]
     if teeth.rolls[n]:

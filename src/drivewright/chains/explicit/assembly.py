@@ -8,7 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drivewright.chains.link import seat_height
+from drivewright._typing import Complexes, Floats
+from drivewright.chains.link import Link, seat_height
+from drivewright.chains.model import ChainDrive
 from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.errors import DoesNotAssemble, InputError, SolverError
 from drivewright.numerics.roots import newton
@@ -25,16 +27,16 @@ class Start:
     plates; tension.
     """
 
-    poses: np.ndarray
-    rates: np.ndarray
-    q: np.ndarray
-    psi: np.ndarray
-    rate_q: np.ndarray
-    rate_psi: np.ndarray
-    seated: tuple  # numbers of the plates on each sprocket
+    poses: Floats
+    rates: Floats
+    q: Floats
+    psi: Floats
+    rate_q: Floats
+    rate_psi: Floats
+    seated: tuple[Floats, Floats]  # numbers of the plates on each sprocket
     tension: float
-    hole_pitches: np.ndarray
-    supports: np.ndarray
+    hole_pitches: Floats
+    supports: Floats
     speed: float
 
 
@@ -42,10 +44,10 @@ class Start:
 class _Loop:
     """Geometry of a loop in the making; slide: number of the sprocket that makes it close, or None."""
 
-    link: object
-    teeth: np.ndarray
-    height: np.ndarray
-    centre: np.ndarray  # (m,) complex
+    link: Link
+    teeth: Floats
+    height: Floats
+    centre: Complexes  # (m,) complex
     slide: int | None
     direction: complex
     taut: float  # stretch of the joints of free plates by the tension
@@ -70,7 +72,7 @@ class _Loop:
         return 2 * self.link.radius - self.taut
 
 
-def start(model, before=0.0):
+def start(model: ChainDrive, before: float = 0.0) -> Start:
     """The `Start` of a model, `before` [s] ahead of sprocket 1 being at its angle; DoesNotAssemble where the chain fits at no place of the
     slide."""
     loop = _loop(model, 0.0)

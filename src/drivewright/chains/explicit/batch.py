@@ -1,10 +1,12 @@
 """Many runs: over speed, and over the scatter of manufacturing."""
 
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.stats import binom
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.cases import Outcomes, run
 from drivewright.chains.explicit.ensemble import Ensemble, amplitude_of, centre_distance, ensemble, greatest_of, mean_of, range_of
 from drivewright.chains.explicit.simulate import Settings, tooth_time
@@ -25,23 +27,23 @@ class Level:
     speed: float
     mean: Estimate
     fluctuation: Estimate
-    amplitudes: tuple
-    frequency: np.ndarray
-    spectrum: np.ndarray
-    reach: np.ndarray
+    amplitudes: tuple[Estimate, ...]
+    frequency: Floats
+    spectrum: Floats
+    reach: Floats
     tension: Estimate
     utilisation: Estimate
     energy_drift: float
 
 
-def level(runs: Ensemble, orders=ORDERS) -> Level:
+def level(runs: Ensemble, orders: Sequence[float] = ORDERS) -> Level:
     """The `Level` of an ensemble; SolverError, with the level as its partial, where a run is not complete."""
     if not all(np.all(np.isfinite(each.rows)) for each in runs.members):
         raise SolverError(runs.advice)
     first, (mesh, amplitudes) = runs.first, runs.mesh_orders
     spectrum, reach = of_members(amplitudes)
     found = Level(
-        first.model.sprockets[first.model.driver].drive.speed,
+        first.model.drive.speed,
         runs.estimate(mean_of(centre_distance), range_of(centre_distance)),
         runs.estimate(range_of(centre_distance)),
         tuple(runs.estimate(amplitude_of(centre_distance, order)) for order in orders),
@@ -57,7 +59,15 @@ def level(runs: Ensemble, orders=ORDERS) -> Level:
     return found
 
 
-def campbell(model, speeds, revolutions=2, settings=Settings(), members=4, workers=None, progress=None) -> Outcomes:
+def campbell(
+    model: ChainDrive,
+    speeds: Iterable[float],
+    revolutions: int = 2,
+    settings: Settings = Settings(),
+    members: int = 4,
+    workers: int | None = None,
+    progress: Callable[[int, int, str], object] | None = None,
+) -> Outcomes:
     """`Outcomes` of `Level` at each speed of the driver [rad/s]: a Campbell diagram is `spectrum` over `frequency` and speed.
 
     Every speed is an ensemble of so many members that last settings.settle [s] and so many revolutions of the chain.
@@ -72,7 +82,7 @@ def campbell(model, speeds, revolutions=2, settings=Settings(), members=4, worke
     return run(task, [float(speed) for speed in speeds], workers, progress)
 
 
-def revolution_time(model):
+def revolution_time(model: ChainDrive) -> float:
     """Time of a revolution of the chain at full speed  [s]."""
     return model.chain.count * tooth_time(model)
 
@@ -90,13 +100,13 @@ class Spread:
     """Percentiles of mean and fluctuation of the centre distance  [m] over all samples that ran: rows value, low, high (3, k), nan where
     so few samples do not bound them; outcomes of all."""
 
-    percentiles: tuple
-    mean: np.ndarray
-    fluctuation: np.ndarray
+    percentiles: tuple[float, ...]
+    mean: Floats
+    fluctuation: Floats
     outcomes: Outcomes
 
 
-def scattered(model, scatter, seed) -> ChainDrive:
+def scattered(model: ChainDrive, scatter: Scatter, seed: int | tuple[int, ...]) -> ChainDrive:
     """The model with one draw of manufacturing scatter; the same seed gives the same drive."""
     random = np.random.default_rng(seed)
     drawn = np.asarray(model.chain.deviations or np.zeros(model.chain.count)) + random.normal(0.0, scatter.pitch, model.chain.count)
@@ -109,8 +119,17 @@ def scattered(model, scatter, seed) -> ChainDrive:
 
 
 def monte_carlo(
-    model, scatter, samples, duration, settings=Settings(), percentiles=(5, 50, 95), seed=0, members=1, workers=None, progress=None
-):
+    model: ChainDrive,
+    scatter: Scatter,
+    samples: int,
+    duration: float,
+    settings: Settings = Settings(),
+    percentiles: Sequence[float] = (5, 50, 95),
+    seed: int = 0,
+    members: int = 1,
+    workers: int | None = None,
+    progress: Callable[[int, int, str], object] | None = None,
+) -> Spread:
     """The `Spread` over so many drives of `scatter`, each an ensemble of so many runs for `duration` [s]."""
     if samples < 2 or min(scatter.tooth_thickness, scatter.pitch) < 0:
         raise InputError(f"monte_carlo: needs 2 samples or more and deviations of 0 or more, got {samples} and {scatter}.")
@@ -131,7 +150,7 @@ def monte_carlo(
     )
 
 
-def quantiles(sample, percentiles):
+def quantiles(sample: ArrayLike, percentiles: Sequence[float]) -> Floats:
     """Percentiles of a sample (n,) with their 95 % intervals: rows value, low, high (3, k).
 
     Low and high are the order statistics that enclose the percentile with 2.5 % left on either side, by the binomial distribution of how

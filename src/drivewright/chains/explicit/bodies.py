@@ -3,6 +3,7 @@
 import numpy as np
 
 from drivewright._jit import inner
+from drivewright._typing import Floats, Records
 from drivewright.chains.explicit.state import (
     DRIVE,
     FRICTION,
@@ -13,6 +14,10 @@ from drivewright.chains.explicit.state import (
     TORQUE,
     TURN_DAMPING,
     TURNING_IMPULSE,
+    ChainConstants,
+    Plates,
+    Teeth,
+    Touches,
     law_of,
 )
 from drivewright.chains.explicit.step import total
@@ -23,7 +28,7 @@ from drivewright.contact.time_step import mean_force
 
 
 @inner
-def load_rollers(chain, p, t, b, teeth, n, first, last, dt):
+def load_rollers(chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth: Teeth, n: int, first: int, last: int, dt: float) -> None:
     """Rollers on the right-hand pins of the plates first .. last-1 in the gaps of sprocket n.
 
     Depths as in `touching.roller`, of the roller's centre seen from that of the seat, mirrored to the right.
@@ -57,7 +62,9 @@ def load_rollers(chain, p, t, b, teeth, n, first, last, dt):
 
 
 @inner
-def load_guide(chain, p, t, b, arcs, n, first, last, power, dt):
+def load_guide(
+    chain: ChainConstants, p: Plates, t: Touches, b: Records, arcs: Records, n: int, first: int, last: int, power: Floats, dt: float
+) -> None:
     """Plates first .. last-1 on the arc of guide n, the body `n` + number of sprockets: the plate's back or belly, half a pitch either way.
 
     r leads from the arc's centre to the nearest point of that line, which may be its end: where two plates make a corner towards the
@@ -91,7 +98,7 @@ def load_guide(chain, p, t, b, arcs, n, first, last, power, dt):
 
 
 @inner
-def kick_bodies(b, gravity, power, dt):
+def kick_bodies(b: Records, gravity: Floats, power: Floats, dt: float) -> None:
     """Accelerations of slides and free sprockets, half-step rates by them, their mean with those before; powers with these means."""
     for n in range(b.q.size):
         if b.slides[n]:
@@ -112,7 +119,7 @@ def kick_bodies(b, gravity, power, dt):
 
 
 @inner
-def drift_bodies(b, clock, dt):
+def drift_bodies(b: Records, clock: Floats, dt: float) -> None:
     """Places and predicted rates of sprockets and guides one step on; driven angles by their law."""
     later = (clock[1] + 1.0) * dt  # not summed up: a sum of so many steps loses digits
     for n in range(b.q.size):
@@ -129,27 +136,27 @@ def drift_bodies(b, clock, dt):
 
 
 @inner
-def set_rate(b, n, rate):
+def set_rate(b: Records, n: int, rate: float) -> None:
     """Rate of body n along its slide, and of its centre."""
     b.vq[n] = rate
     b.vx[n], b.vy[n] = rate * b.ux[n], rate * b.uy[n]
 
 
 @inner
-def slide_acceleration(b, gravity, n):
+def slide_acceleration(b: Records, gravity: Floats, n: int) -> float:
     """Acceleration of body n along its slide."""
     along = (b.fx[n] + b.mass[n] * gravity[0]) * b.ux[n] + (b.fy[n] + b.mass[n] * gravity[1]) * b.uy[n]
     return (along + b.force[n] - b.spring[n] * b.q[n] - b.slide_damping[n] * b.vq[n]) / b.mass[n]
 
 
 @inner
-def turn_acceleration(b, n):
+def turn_acceleration(b: Records, n: int) -> float:
     """Angular acceleration of the free body n."""
     return (b.torque[n] + b.load[n] - b.turn_damping[n] * b.w[n]) / b.inertia[n]
 
 
 @inner
-def follow(b, n, time):
+def follow(b: Records, n: int, time: float) -> None:
     """Prescribed angle and speed: w = start + (speed - start)(x - sin(2 pi x)/(2 pi)), x = t/ramp up to 1, and its integral."""
     change, ramp = b.speed[n] - b.start[n], b.ramp[n]
     if time >= ramp:
@@ -162,7 +169,7 @@ def follow(b, n, time):
 
 
 @inner
-def impulse(chain, p, b, gravity, power):
+def impulse(chain: ChainConstants, p: Plates, b: Records, gravity: Floats, power: Floats) -> None:
     """Force and moment about the origin with which bodies and weight act on all plates, to check the momenta by."""
     for n in range(b.q.size):
         power[IMPULSE_X] -= b.fx[n]

@@ -6,12 +6,16 @@ ContactLaws that open and close make the run of a chain chaotic: after some mill
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.cases import run as run_cases
+from drivewright.chains.explicit.assembly import Start
 from drivewright.chains.explicit.motion import Motion
 from drivewright.chains.explicit.simulate import Settings, first_start, simulate
+from drivewright.chains.model import ChainDrive
 from drivewright.errors import InputError, SolverError
 from drivewright.numerics.ensemble import ENOUGH, Estimate, estimate
 from drivewright.numerics.signals import order_spectrum, time_mean
@@ -31,7 +35,7 @@ class Ensemble:
     A signal is a function of a run that returns its samples (m,).
     """
 
-    members: tuple
+    members: tuple[Motion, ...]
     chaotic: bool = True
 
     @property
@@ -125,12 +129,22 @@ def amplitude_of(signal: Callable, order: float = 1.0) -> Callable:
     return amplitude
 
 
-def centre_distance(run):
+def centre_distance(run: Motion) -> Floats:
     """Signal: distance of the sliding sprocket from the driver."""
     return run.centre_distance
 
 
-def ensemble(model, duration, settings=Settings(), members=4, *, seed=0, solve=simulate, workers=None, progress=None) -> Ensemble:
+def ensemble(
+    model: ChainDrive,
+    duration: float,
+    settings: Settings = Settings(),
+    members: int = 4,
+    *,
+    seed: int = 0,
+    solve: Callable[..., Any] = simulate,
+    workers: int | None = None,
+    progress: Callable[[int, int, str], object] | None = None,
+) -> Ensemble:
     """The `Ensemble` of so many runs of `solve` (explicit or implicit), from starts disturbed by `DISTURBANCE`, in threads.
 
     Where the second run stays with the first the drive is not chaotic, and the first stands alone: its windows make the intervals.
@@ -164,7 +178,7 @@ def _same(one, other):
     return bool(np.max(np.abs(a - b)) <= TOGETHER * np.ptp(a))
 
 
-def disturbed(begin, seed):
+def disturbed(begin: Start, seed: tuple[int, int]) -> Start:
     """The `Start` with every plate moved by nanometres."""
     shifts = np.random.default_rng(seed).normal(0.0, DISTURBANCE, (len(begin.poses), 2))
     return replace(begin, poses=begin.poses + np.pad(shifts, ((0, 0), (0, 1))))

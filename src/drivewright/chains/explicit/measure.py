@@ -1,11 +1,13 @@
 """The record of a run from its snapshots: energies, works, momenta, and what the plates, joints and sprockets feel."""
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.chains.explicit.snapshots import BODIES, PLATES, SCALARS
-from drivewright.chains.explicit.state import SUMS
+from drivewright._typing import Floats, Records
+from drivewright.chains.explicit.snapshots import BODIES, PLATES, SCALARS, Snapshots
+from drivewright.chains.explicit.state import SUMS, ChainConstants, DriveArrays
 
 ROW = (
     "t",
@@ -30,20 +32,20 @@ PRESSED = 0.05  # part of the largest joint force below which friction utilisati
 class Log(NamedTuple):
     """Rows (samples, ROW), bodies (samples, bodies, BODY), tension (samples, joints), plate (samples, PLATE)."""
 
-    rows: np.ndarray
-    bodies: np.ndarray
-    tension: np.ndarray
-    plate: np.ndarray
+    rows: Floats
+    bodies: Floats
+    tension: Floats
+    plate: Floats
 
 
-def empty_log(samples, bodies, joints):
+def empty_log(samples: int, bodies: int, joints: int) -> Log:
     """Room for so many."""
     return Log(
         np.zeros((samples, len(ROW))), np.zeros((samples, bodies, len(BODY))), np.zeros((samples, joints)), np.zeros((samples, len(PLATE)))
     )
 
 
-def measured(drive, snapshots, joints, plate):
+def measured(drive: DriveArrays, snapshots: Snapshots, joints: tuple[int, ...], plate: int) -> Log:
     """The `Log` of snapshots; `joints` whose tension, `plate` whose forces are asked for."""
     p = {name: snapshots.plates[:, k] for k, name in enumerate(PLATES)}
     b = {name: snapshots.bodies[:, k] for k, name in enumerate(BODIES)}
@@ -59,7 +61,7 @@ def measured(drive, snapshots, joints, plate):
     return Log(np.stack([columns[name] for name in ROW], axis=1), bodies, tension[:, list(joints)], watched(p, plate))
 
 
-def twice(half, mean):
+def twice(half: Floats, mean: Floats) -> Floats:
     """Product h (2 v - h) of the rates half a step after and before.
 
     With it the leapfrog's kinetic energy changes by exactly the mean force of two steps times the path between them, so that the energy of
@@ -68,18 +70,18 @@ def twice(half, mean):
     return half * (2 * mean - half)
 
 
-def dot(a, b):
+def dot(a: Floats, b: Floats) -> Floats:
     """Sum over the last axis of the products."""
     return np.einsum("...i,...i->...", a, b)
 
 
-def plates_kinetic(chain, p):
+def plates_kinetic(chain: ChainConstants, p: Mapping[str, Floats]) -> Floats:
     """Kinetic energy of all plates (S,)  [J]."""
     x, y, turning = (2 * dot(p[half], p[mean]) - dot(p[half], p[half]) for half, mean in (("hx", "vx"), ("hy", "vy"), ("hw", "w")))
     return 0.5 * (chain.mass * (x + y) + chain.inertia * turning)
 
 
-def momenta(chain, p):
+def momenta(chain: ChainConstants, p: Mapping[str, Floats]) -> dict[str, Floats]:
     """Momentum and angular momentum about the origin of all plates, (S,) each."""
     turning = chain.mass * (dot(p["x"], p["vy"]) - dot(p["y"], p["vx"])) + chain.inertia * np.sum(p["w"], axis=1)
     return {
@@ -89,26 +91,26 @@ def momenta(chain, p):
     }
 
 
-def weight(drive, p):
+def weight(drive: DriveArrays, p: Mapping[str, Floats]) -> Floats:
     """Energy of the plates' weight (S,)  [J]."""
     return -drive.chain.mass * (drive.gravity[0] * np.sum(p["x"], axis=1) + drive.gravity[1] * np.sum(p["y"], axis=1))
 
 
-def bodies_kinetic(b, seen):
+def bodies_kinetic(b: Records, seen: Mapping[str, Floats]) -> Floats:
     """Kinetic energy of sprockets and guides (S,)  [J]; what is driven counts as outside."""
     slid = np.where(b.slides, b.mass * twice(seen["hq"], seen["vq"]), 0.0)
     turned = np.where(b.driven, 0.0, b.inertia * twice(seen["hw"], seen["w"]))
     return 0.5 * np.sum(slid + turned, axis=1)
 
 
-def bodies_potential(drive, seen):
+def bodies_potential(drive: DriveArrays, seen: Mapping[str, Floats]) -> Floats:
     """Energy of springs, steady forces and weights of what slides (S,)  [J]."""
     b, q = drive.bodies, seen["q"]
     force = b.force + b.mass * (drive.gravity[0] * b.ux + drive.gravity[1] * b.uy)
     return np.sum(np.where(b.slides, 0.5 * b.spring * q * q - force * q, 0.0), axis=1)
 
 
-def joint_forces(chain, p):
+def joint_forces(chain: ChainConstants, p: Mapping[str, Floats]) -> tuple[Floats, Floats, Floats]:
     """Tension along the mean direction of the two plates and force across it (S, N); energy stored in all joints (S,)."""
     ux, uy = p["c"] + np.roll(p["c"], -1, axis=1), p["s"] + np.roll(p["s"], -1, axis=1)
     inverse, fx, fy, rx, ry, c = 1 / np.sqrt(ux * ux + uy * uy), p["fx"], p["fy"], p["rx"], p["ry"], chain.joint_damping
@@ -116,13 +118,13 @@ def joint_forces(chain, p):
     return -(fx * ux + fy * uy) * inverse, (fy * ux - fx * uy) * inverse, 0.5 / chain.joint_stiffness * stretched
 
 
-def utilisation(tension, across):
+def utilisation(tension: Floats, across: Floats) -> Floats:
     """The most friction that pure rolling asks for in joints pressed together (S,), over the force that presses them."""
     least = PRESSED * np.max(tension, axis=1, keepdims=True).clip(1e-300)
     return np.max(np.where(tension > least, np.abs(across) / np.maximum(tension, least), 0.0), axis=1)
 
 
-def watched(p, i):
+def watched(p: Mapping[str, Floats], i: int) -> Floats:
     """Pose of a plate and the forces on it (S, PLATE): pins in its own frame, flanks along their normals."""
     c, s = p["c"][:, i], p["s"][:, i]
     (lx, ly), (rx, ry) = (p["fx"][:, i - 1], p["fy"][:, i - 1]), (-p["fx"][:, i], -p["fy"][:, i])

@@ -11,7 +11,10 @@ settle soonest, so the run-in lasts two of their periods, most of it under about
 import numpy as np
 
 from drivewright.chains.explicit.advance import run
+from drivewright.chains.explicit.assembly import Start
 from drivewright.chains.explicit.snapshots import empty_snapshots
+from drivewright.chains.explicit.state import DriveArrays
+from drivewright.chains.model import ChainDrive
 
 PARTS = 400  # of the run-in, between which rates are damped
 FADED = 1 / 3  # part of the run-in in which the parts take on their own measures
@@ -20,7 +23,7 @@ PERIODS = 2  # of the slowest strand, that the run-in lasts; no more than a revo
 SHORTEST = 0.02  # [s]
 
 
-def run_in_time(model, begin):
+def run_in_time(model: ChainDrive, begin: Start) -> float:
     """Duration of the run-in [s]: periods of the longest strand as a moving string, 2 L c/(c^2 - v^2)."""
     density, pitch = model.chain.line_density, model.chain.link.pitch
     strand = _longest_strand(begin) * pitch
@@ -36,12 +39,12 @@ def _longest_strand(begin):
     return np.max(np.diff(np.append(seated, seated[0] + len(begin.poses))))
 
 
-def steps_of(duration, step):
+def steps_of(duration: float, step: float) -> int:
     """Steps of each of the PARTS."""
     return max(1, round(duration / PARTS / step))
 
 
-def run_in(drive, begin, steps, step, search_interval):
+def run_in(drive: DriveArrays, begin: Start, steps: int, step: float, search_interval: float) -> None:
     """Run the drive in for PARTS of so many steps; afterwards its clock stands at 0 and its works start anew."""
     own, first = _measures(drive), _first_measures(drive, begin)
     ramps = drive.bodies.ramp.copy(), drive.bodies.speed.copy()

@@ -1,18 +1,19 @@
 """Run a chain drive: settings in, `Motion` out."""
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from drivewright.chains.explicit.advance import run, settle_rates
-from drivewright.chains.explicit.assembly import start
+from drivewright.chains.explicit.assembly import Start, start
 from drivewright.chains.explicit.measure import empty_log, measured
-from drivewright.chains.explicit.motion import Motion
+from drivewright.chains.explicit.motion import Motion, RunSettings
 from drivewright.chains.explicit.run_in import PARTS, run_in, run_in_time, steps_of
 from drivewright.chains.explicit.snapshots import Snapshots, empty_snapshots
 from drivewright.chains.explicit.stability import refuse_seats, refuse_step
-from drivewright.chains.explicit.state import compile_model
+from drivewright.chains.explicit.state import DriveArrays, compile_model
 from drivewright.chains.model import ChainDrive
 from drivewright.errors import InputError
 
@@ -36,11 +37,18 @@ class Settings:
     settle: float = 0.0
     samples_per_tooth: int = 24
     tolerance: float = 1e-3
-    joints: tuple = (0,)
+    joints: tuple[int, ...] = (0,)
     plate: int = 0
 
 
-def simulate(model, duration, settings=Settings(), *, begin=None, progress=None):
+def simulate(
+    model: ChainDrive,
+    duration: float,
+    settings: Settings = Settings(),
+    *,
+    begin: Start | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Motion:
     """The `Motion` of a model over `duration` [s], from `begin` (a `Start`; None: assembled).
 
     progress(done, total) is called with samples, from the caller's thread; Ctrl-C comes through within a third of a second.
@@ -55,7 +63,7 @@ def simulate(model, duration, settings=Settings(), *, begin=None, progress=None)
     return Motion(model, settings, step, every, log.rows, log.bodies, log.tension, log.plate)
 
 
-def first_start(model, settings):
+def first_start(model: ChainDrive, settings: Settings) -> Start:
     """The `Start` from which `simulate` runs a drive in, so that the clock starts with sprocket 1 at its angle."""
     _, step, _ = stepping(model, tooth_time(model), settings)
     return start(model, PARTS * _run_in_steps(model, settings, step) * step)
@@ -78,21 +86,20 @@ def _begun(model, begin, settings, step, search_interval):
     return drive
 
 
-def stepping(model, duration, settings):
+def stepping(model: ChainDrive, duration: float, settings: RunSettings) -> tuple[int, float, int]:
     """(steps per sample, step, samples): a whole number of steps per sample and of samples per tooth."""
     between = tooth_time(model) / settings.samples_per_tooth
     every = int(np.ceil(between / settings.step - 1e-9))
     return every, between / every, int(np.ceil(duration / between - 1e-9)) + 1
 
 
-def tooth_time(model):
+def tooth_time(model: ChainDrive) -> float:
     """Time in which the driver turns by one tooth at full speed  [s]."""
-    sprocket = model.sprockets[model.driver]
-    speed = max(abs(sprocket.drive.speed), abs(sprocket.drive.start))
-    return 2 * np.pi / (sprocket.tooth.teeth * speed)
+    speed = max(abs(model.drive.speed), abs(model.drive.start))
+    return 2 * np.pi / (model.sprockets[model.driver].tooth.teeth * speed)
 
 
-def placed(model, begin, step):
+def placed(model: ChainDrive, begin: Start, step: float) -> DriveArrays:
     """The arrays of a model at its start, its rates half a step before."""
     drive = compile_model(model)
     p, b, n, offset = drive.plates, drive.bodies, model.chain.count, model.chain.centre_offset
@@ -154,7 +161,7 @@ def _refuse(model, duration, settings):
         raise InputError(f"simulate: run_in must be finite and 0 s or more, got {settings.run_in:g}.")
     if settings.samples_per_tooth < 20:
         raise InputError(f"simulate: {settings.samples_per_tooth} samples per tooth alias its harmonics; take 20 or more.")
-    drive = model.sprockets[model.driver].drive
+    drive = model.drive
     if max(abs(drive.speed), abs(drive.start)) == 0:
         raise InputError("simulate: the driver stands still, so a tooth takes no time; give it a speed.")
     for name, numbers in (("joint", settings.joints), ("plate", (settings.plate,))):

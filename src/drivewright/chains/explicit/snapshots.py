@@ -5,7 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import inner
-from drivewright.chains.explicit.state import SUMS
+from drivewright._typing import Floats, Records
+from drivewright.chains.explicit.state import SUMS, ChainConstants, Joints, Plates, Touches
 from drivewright.chains.explicit.step import total
 
 SCALARS = ("t", "joint damping", "contact damping", *SUMS)
@@ -16,18 +17,30 @@ PLATES = ("x", "y", "angle", "c", "s", "vx", "vy", "w", "hx", "hy", "hw", "fx", 
 class Snapshots(NamedTuple):
     """scalars (S, SCALARS), bodies (S, BODIES, B), plates (S, PLATES, N), joints by the plate behind them."""
 
-    scalars: np.ndarray
-    bodies: np.ndarray
-    plates: np.ndarray
+    scalars: Floats
+    bodies: Floats
+    plates: Floats
 
 
-def empty_snapshots(samples, bodies, count):
+def empty_snapshots(samples: int, bodies: int, count: int) -> Snapshots:
     """Room for so many."""
     return Snapshots(np.zeros((samples, len(SCALARS))), np.zeros((samples, len(BODIES), bodies)), np.zeros((samples, len(PLATES), count)))
 
 
 @inner
-def take_snapshot(chain, p, j, t, b, clock, power, sums, snapshots, number, dt):
+def take_snapshot(
+    chain: ChainConstants,
+    p: Plates,
+    j: Joints,
+    t: Touches,
+    b: Records,
+    clock: Floats,
+    power: Floats,
+    sums: Floats,
+    snapshots: Snapshots,
+    number: int,
+    dt: float,
+) -> None:
     """One snapshot, at a whole step under its loads: rates are the means of the half steps on both sides, h those of the later one."""
     out, n = snapshots.plates[number], chain.count
     for row, values in enumerate(
@@ -43,7 +56,7 @@ def take_snapshot(chain, p, j, t, b, clock, power, sums, snapshots, number, dt):
 
 
 @inner
-def record_works(n, j, t, clock, power, sums, out, dt):
+def record_works(n: int, j: Joints, t: Touches, clock: Floats, power: Floats, sums: Floats, out: Floats, dt: float) -> None:
     """Time and works up to now; this step, already in the sums of the damping, counts with half its weight: the trapezoidal rule."""
     out[0] = clock[0]
     out[1] = 0.5 * dt * total(j.power, 0, n) - total(j.lost, 0, n)

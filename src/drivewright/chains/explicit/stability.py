@@ -7,11 +7,12 @@ omega^2 dt^2 + 4 gamma dt < 4, gamma = c/m: the step with which the fastest mode
 import numpy as np
 
 from drivewright.chains.link import seat_height
+from drivewright.chains.model import ChainDrive
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import InputError
 
 
-def fastest(model):
+def fastest(model: ChainDrive) -> tuple[float, float]:
     """(omega^2 [1/s^2], gamma [1/s]) of the stiffest plate, bounds from above.
 
     Joints: 4 k_j (1/m + a^2/I), every plate having two and every joint two plates, a half the hole pitch, and 4 c/I of their
@@ -35,13 +36,13 @@ def _touch(body, ease):
     return tuple(2 * value * (ease + for_body) for value in (body.contact.stiffness, body.contact.damping))
 
 
-def largest_step(model):
+def largest_step(model: ChainDrive) -> float:
     """Largest stable step [s]: 2 (sqrt(gamma^2 + omega^2) - gamma)/omega^2."""
     square, gamma = fastest(model)
     return 2 / (np.sqrt(gamma**2 + square) + gamma)
 
 
-def refuse_step(model, step):
+def refuse_step(model: ChainDrive, step: float) -> None:
     """InputError for a step beyond the stable one; it tells whether damping is what makes it small."""
     largest = largest_step(model)
     if 0 < step <= largest:
@@ -56,7 +57,7 @@ def refuse_step(model, step):
     raise InputError(f"chain drive: a step of {step:.3g} s is not between 0 and the largest stable one, {largest:.3g} s: {reason}.")
 
 
-def refuse_seats(model):
+def refuse_seats(model: ChainDrive) -> None:
     """InputError where a plate seated on a sprocket would touch it beyond the active part of a flank."""
     chain = model.chain
     link, a = chain.link, chain.link.flank_angle

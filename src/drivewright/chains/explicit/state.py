@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from drivewright._jit import generic, implements
+from drivewright._typing import Bools, Floats, Ints, Records
 from drivewright.chains.model import LINEAR, ChainDrive, Guide
 from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.contact.laws import ContactParameters, contact_law
@@ -26,33 +27,33 @@ class Plates(NamedTuple):
     `x1` ... are the same memory one plate further.
     """
 
-    x: np.ndarray
-    y: np.ndarray
-    c: np.ndarray
-    s: np.ndarray
-    vx: np.ndarray
-    vy: np.ndarray
-    w: np.ndarray
-    x1: np.ndarray
-    y1: np.ndarray
-    c1: np.ndarray
-    s1: np.ndarray
-    vx1: np.ndarray
-    vy1: np.ndarray
-    w1: np.ndarray
-    angle: np.ndarray
-    hx: np.ndarray
-    hy: np.ndarray
-    hw: np.ndarray
-    fx: np.ndarray
-    fy: np.ndarray
-    moment: np.ndarray
-    half: np.ndarray  # half the hole pitch
-    half1: np.ndarray
-    by_mass: np.ndarray  # 1/m, 0 for dead plates
-    by_inertia: np.ndarray
-    gx: np.ndarray  # weight, 0 for dead plates
-    gy: np.ndarray
+    x: Floats
+    y: Floats
+    c: Floats
+    s: Floats
+    vx: Floats
+    vy: Floats
+    w: Floats
+    x1: Floats
+    y1: Floats
+    c1: Floats
+    s1: Floats
+    vx1: Floats
+    vy1: Floats
+    w1: Floats
+    angle: Floats
+    hx: Floats
+    hy: Floats
+    hw: Floats
+    fx: Floats
+    fy: Floats
+    moment: Floats
+    half: Floats  # half the hole pitch
+    half1: Floats
+    by_mass: Floats  # 1/m, 0 for dead plates
+    by_inertia: Floats
+    gx: Floats  # weight, 0 for dead plates
+    gy: Floats
 
 
 class Joints(NamedTuple):
@@ -62,37 +63,37 @@ class Joints(NamedTuple):
     `fx_` ... are the same memory one joint earlier.
     """
 
-    fx: np.ndarray
-    fy: np.ndarray
-    mx: np.ndarray
-    my: np.ndarray
-    turn: np.ndarray
-    fx_: np.ndarray
-    fy_: np.ndarray
-    mx_: np.ndarray
-    my_: np.ndarray
-    turn_: np.ndarray
-    rx: np.ndarray
-    ry: np.ndarray
-    power: np.ndarray
-    lost: np.ndarray
+    fx: Floats
+    fy: Floats
+    mx: Floats
+    my: Floats
+    turn: Floats
+    fx_: Floats
+    fy_: Floats
+    mx_: Floats
+    my_: Floats
+    turn_: Floats
+    rx: Floats
+    ry: Floats
+    power: Floats
+    lost: Floats
 
 
 class Touches(NamedTuple):
     """Per plate: seat angle of its tooth (less psi), forces of the right and left flank (of roller seat and flank) and what of them is
     damping, loss power and its sum, energy stored, force on the plate, torque on the body."""
 
-    seat: np.ndarray
-    right: np.ndarray
-    left: np.ndarray
-    damped_right: np.ndarray
-    damped_left: np.ndarray
-    power: np.ndarray
-    lost: np.ndarray
-    stored: np.ndarray
-    fx: np.ndarray
-    fy: np.ndarray
-    torque: np.ndarray
+    seat: Floats
+    right: Floats
+    left: Floats
+    damped_right: Floats
+    damped_left: Floats
+    power: Floats
+    lost: Floats
+    stored: Floats
+    fx: Floats
+    fy: Floats
+    torque: Floats
 
 
 BODIES = np.dtype(
@@ -145,20 +146,20 @@ Records, as of guides: a tuple of so many arrays takes long to compile.
 class Teeth(NamedTuple):
     """Per sprocket: base radius, support, limits of the support for form and tip, tooth angle, reach; then what a roller's tooth needs."""
 
-    base: np.ndarray
-    support: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
-    pitch_angle: np.ndarray
-    reach: np.ndarray
-    rolls: np.ndarray  # bool
-    seat_at: np.ndarray
-    seat_gap: np.ndarray  # seat less roller radius
-    flank_gap: np.ndarray  # flank plus roller radius
-    edge_x: np.ndarray  # end of the seat, direction from its centre
-    edge_y: np.ndarray
-    flank_x: np.ndarray
-    flank_y: np.ndarray
+    base: Floats
+    support: Floats
+    low: Floats
+    high: Floats
+    pitch_angle: Floats
+    reach: Floats
+    rolls: Bools
+    seat_at: Floats
+    seat_gap: Floats  # seat less roller radius
+    flank_gap: Floats  # flank plus roller radius
+    edge_x: Floats  # end of the seat, direction from its centre
+    edge_y: Floats
+    flank_x: Floats
+    flank_y: Floats
 
 
 ARCS = np.dtype([(name, float) for name in ("radius", "distance", "side", "middle_x", "middle_y", "opening", "friction", "slip")])
@@ -168,10 +169,10 @@ ARCS = np.dtype([(name, float) for name in ("radius", "distance", "side", "middl
 class ContactCandidates(NamedTuple):
     """Plates first .. last-1 that may touch a body; `size`[0] of them are in use."""
 
-    body: np.ndarray  # sprockets first, then guides
-    first: np.ndarray
-    last: np.ndarray
-    size: np.ndarray
+    body: Ints  # sprockets first, then guides
+    first: Ints
+    last: Ints
+    size: Ints
 
 
 class LinearLaws(NamedTuple):
@@ -187,7 +188,7 @@ class ContactLaws(NamedTuple):
 
 
 @generic
-def law_of(contacts: Any, body: np.record, number: int) -> Any:
+def law_of(contacts: Any, body: Records, number: int) -> Any:
     """The contact law of a body, a sprocket or a guide."""
     raise NotImplementedError
 
@@ -221,7 +222,7 @@ def _(contacts, law, right, left):
 class ChainConstants(NamedTuple):
     """What all plates share."""
 
-    count: int
+    count: int  # pyright: ignore[reportIncompatibleMethodOverride]  of plates; nobody counts values of a tuple here
     blocks: int
     joint_stiffness: float
     joint_damping: float  # beta k_j
@@ -246,21 +247,21 @@ class DriveArrays(NamedTuple):
     plates: Plates
     joints: Joints
     touches: Touches
-    bodies: np.recarray
+    bodies: Records
     teeth: Teeth
-    arcs: np.recarray
+    arcs: Records
     candidates: ContactCandidates
-    gravity: np.ndarray
-    clock: np.ndarray
-    power: np.ndarray
-    sums: np.ndarray
+    gravity: Floats
+    clock: Floats
+    power: Floats
+    sums: Floats
 
 
 SUMS = ("drive", "torque", "slide damping", "turn damping", "friction", "guide damping", "impulse x", "impulse y", "turning impulse")
 DRIVE, TORQUE, SLIDE_DAMPING, TURN_DAMPING, FRICTION, GUIDE_DAMPING, IMPULSE_X, IMPULSE_Y, TURNING_IMPULSE = range(len(SUMS))
 
 
-def compile_model(model):
+def compile_model(model: ChainDrive) -> DriveArrays:
     """The `DriveArrays` of a model, its plates not yet placed."""
     chain = _chain(model)
     return DriveArrays(
@@ -299,7 +300,7 @@ def _chain(model):
         chain.inertia,
     )
     # Whole numbers among them would be compiled for anew.
-    return ChainConstants(int(chain.count), blocks, *map(float, values), _contacts(model))
+    return ChainConstants(int(chain.count), blocks, *map(float, values), laws=_contacts(model))
 
 
 def _contacts(model: ChainDrive) -> LinearLaws | ContactLaws:
@@ -329,7 +330,7 @@ def _plates(model, chain):
         model.chain.mass * model.gravity[0] * live,
         model.chain.mass * model.gravity[1] * live,
     )
-    return Plates(*(a[:-1] for a in moving), *(a[1:] for a in moving), *rest, half[:-1], half[1:], *constants)
+    return Plates(*[a[:-1] for a in moving], *[a[1:] for a in moving], *rest, *[half[:-1], half[1:], *constants])
 
 
 def _joints(chain):
@@ -416,4 +417,4 @@ def _arcs(guides):
 
 def _runs(model, chain):
     room = (len(model.sprockets) + len(model.guides)) * chain.count
-    return ContactCandidates(*(np.zeros(room, np.int64) for _ in range(3)), np.zeros(1, np.int64))
+    return ContactCandidates(*(np.zeros(room, np.int64) for _ in range(3)), size=np.zeros(1, np.int64))

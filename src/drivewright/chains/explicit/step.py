@@ -7,13 +7,14 @@ A contact's force is its mean over the step, see `contact.mean_force`.
 import numpy as np
 
 from drivewright._jit import inner
-from drivewright.chains.explicit.state import PLATES_PER_VECTOR, flank_energy, law_of
+from drivewright._typing import Floats, Records
+from drivewright.chains.explicit.state import PLATES_PER_VECTOR, ChainConstants, Joints, Plates, Teeth, Touches, flank_energy, law_of
 from drivewright.chains.touching.flank import flank_contact, is_active
 from drivewright.contact.time_step import mean_force
 
 
 @inner
-def load_joints(chain, p, j):
+def load_joints(chain: ChainConstants, p: Plates, j: Joints) -> None:
     """Rolling joints: stretch d = P - Q - 2r u, force f = k d + beta k d' on both plates where the two pins touch, midway between them.
 
     u is the mean of the two plates' directions.  The rate d' seen by both plates turning together is the relative velocity of the
@@ -45,7 +46,7 @@ def load_joints(chain, p, j):
 
 
 @inner
-def joint_damping_work(chain, p, j, dt):
+def joint_damping_work(chain: ChainConstants, p: Plates, j: Joints, dt: float) -> None:
     """Power and work of the joints' damping: its force and torque, at the predicted rates, on the way between the half steps.
 
     So the leapfrog's balance of energy is exact, however fast the joints shake.
@@ -61,7 +62,7 @@ def joint_damping_work(chain, p, j, dt):
 
 
 @inner
-def load_gravity(chain, p, t):
+def load_gravity(chain: ChainConstants, p: Plates, t: Touches) -> None:
     """Loads start anew with the weight."""
     for i in range(PLATES_PER_VECTOR * chain.blocks):
         p.fx[i] = p.gx[i]
@@ -71,7 +72,7 @@ def load_gravity(chain, p, t):
 
 
 @inner
-def load_flanks(chain, p, t, b, teeth, n, first, last, dt):
+def load_flanks(chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth: Teeth, n: int, first: int, last: int, dt: float) -> None:
     """Both flanks of the plates first .. last-1 on the involute teeth of sprocket n.
 
     Depths as in `touching.flank`, forces by the law of the sprocket.
@@ -112,7 +113,9 @@ def load_flanks(chain, p, t, b, teeth, n, first, last, dt):
 
 
 @inner
-def flank_damping_work(chain, p, t, b, teeth, n, first, last, dt):
+def flank_damping_work(
+    chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth: Teeth, n: int, first: int, last: int, dt: float
+) -> None:
     """Power and work of the flanks' damping, as of the joints'."""
     ca, sa, rb = chain.cos, chain.sin, teeth.base[n]
     bx, by, ux, uy, spin = b.x[n], b.y[n], b.vx[n], b.vy[n], b.w[n]
@@ -128,7 +131,7 @@ def flank_damping_work(chain, p, t, b, teeth, n, first, last, dt):
 
 
 @inner
-def total(row, first, last):
+def total(row: Floats, first: int, last: int) -> float:
     """Sum of row[first:last] in eight strands."""
     a, b, c, d = 0.0, 0.0, 0.0, 0.0
     i = np.uint64(first)
@@ -144,7 +147,7 @@ def total(row, first, last):
 
 
 @inner
-def add_contact_forces(p, t, b, n, first, last):
+def add_contact_forces(p: Plates, t: Touches, b: Records, n: int, first: int, last: int) -> None:
     """Contact forces onto the plates first .. last-1, and the opposite ones onto body n."""
     for i in range(np.uint64(first), np.uint64(last)):
         p.fx[i] += t.fx[i]
@@ -155,7 +158,7 @@ def add_contact_forces(p, t, b, n, first, last):
 
 
 @inner
-def acceleration(p, j, i):
+def acceleration(p: Plates, j: Joints, i: int) -> tuple[float, float, float]:
     """Accelerations (x, y, angle) of plate i: its own load and the joints on both sides."""
     x, y = p.x[i], p.y[i]
     fx, fy, gx, gy = j.fx[i], j.fy[i], j.fx_[i], j.fy_[i]
@@ -165,7 +168,7 @@ def acceleration(p, j, i):
 
 
 @inner
-def kick_plates(chain, p, j, dt):
+def kick_plates(chain: ChainConstants, p: Plates, j: Joints, dt: float) -> None:
     """Accelerations, half-step rates by them, and the mean of these rates with those before."""
     for i in range(PLATES_PER_VECTOR * chain.blocks):
         p.fx[i], p.fy[i], p.moment[i] = acceleration(p, j, i)
@@ -181,7 +184,7 @@ def kick_plates(chain, p, j, dt):
 
 
 @inner
-def drift_plates(chain, p, dt):
+def drift_plates(chain: ChainConstants, p: Plates, dt: float) -> None:
     """Places by the half-step rates, directions by the increment of the angle (series, exact to 1e-19); rates predicted there."""
     for i in range(PLATES_PER_VECTOR * chain.blocks):
         e, c, s = dt * p.hw[i], p.c[i], p.s[i]
@@ -198,14 +201,14 @@ def drift_plates(chain, p, dt):
 
 
 @inner
-def close_rates(chain, p):
+def close_rates(chain: ChainConstants, p: Plates) -> None:
     """The rates behind the last plate are a copy of those of the first one."""
     n = chain.count
     p.vx[n], p.vy[n], p.w[n] = p.vx[0], p.vy[0], p.w[0]
 
 
 @inner
-def close_ring(chain, p):
+def close_ring(chain: ChainConstants, p: Plates) -> None:
     """The place behind the last plate holds a copy of the first one."""
     n = chain.count
     p.x[n], p.y[n], p.c[n], p.s[n] = p.x[0], p.y[0], p.c[0], p.s[0]

@@ -10,7 +10,7 @@ from drivewright.chains.tooth import Tooth
 
 
 @warmer
-def warm_chain_dynamics():
+def warm_chain_dynamics() -> None:
     """A small drive for a few steps; every drive runs on the same kernel."""
     joint = design_link(9.525e-3, 1.2e-3, np.pi / 6, 2e-4)
     tooth = Tooth(10, 9.525e-3 * 10 / (2 * np.pi) * np.cos(np.pi / 6), seat_support(joint, 10))

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import inner, outer
+from drivewright._typing import Floats, Ints
 from drivewright.chains.implicit.energy import assemble
 from drivewright.chains.implicit.parts import TORQUE, Parts, State
 from drivewright.chains.implicit.relax import Work, downhill
@@ -43,13 +44,13 @@ class Run(NamedTuple):
     true: State
     auxiliary: State
     work: Work
-    works: np.ndarray
-    powers: np.ndarray
-    clock: np.ndarray
-    spent: np.ndarray
+    works: Floats
+    powers: Floats
+    clock: Floats
+    spent: Ints
 
 
-def scheme(h, rho, tolerance, most=80):
+def scheme(h: float, rho: float, tolerance: float, most: int = 80) -> Scheme:
     """The `Scheme` of spectral radius rho, 0 .. 1, at infinite frequency."""
     am, af = (2 * rho - 1) / (rho + 1), rho / (rho + 1)
     g = 0.5 - am + af
@@ -57,7 +58,7 @@ def scheme(h, rho, tolerance, most=80):
 
 
 @outer
-def steps(run, scheme, count):
+def steps(run: Run, scheme: Scheme, count: int) -> int:
     """`count` steps; how many of them succeeded."""
     for k in range(count):
         for j in range(WORKS):
@@ -86,6 +87,7 @@ def _predict(run, scheme):
 
 @inner
 def _predict_table(q, v, true, auxiliary, scheme):
+    """The same of one table: places q, rates v, true and auxiliary accelerations, all (n, a)."""
     h = scheme.h
     for i in range(q.shape[0]):
         for a in range(q.shape[1]):
@@ -175,7 +177,7 @@ def _improve(run, inertial, gain, share):
 
 
 @outer
-def drive_bodies(run):
+def drive_bodies(run: Run) -> None:
     """Prescribed angles and speeds: w = start + (speed - start)(x - sin(2 pi x)/(2 pi)), x = t/ramp up to 1."""
     time = run.clock[0]
     for n in range(len(run.parts.bodies)):
@@ -191,7 +193,7 @@ def drive_bodies(run):
 
 
 @outer
-def tally(run):
+def tally(run: Run) -> None:
     """Powers at the end of the step: losses below 0, load torques, drive; push of bodies and weight on all plates, and its moment."""
     parts, field, state, powers = run.parts, run.parts.field, run.state, run.powers
     for j in range(7):

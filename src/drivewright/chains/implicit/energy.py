@@ -10,14 +10,14 @@ import numpy as np
 
 from drivewright._jit import inner, outer
 from drivewright.chains.explicit.state import law_of
-from drivewright.chains.implicit.parts import ARC, CONTACT, GUIDE, JOINT, SLIDE, TORQUE, TURN
+from drivewright.chains.implicit.parts import ARC, CONTACT, GUIDE, JOINT, SLIDE, TORQUE, TURN, Parts, State
 from drivewright.chains.implicit.ring import clear
 from drivewright.chains.implicit.touch import depth_of, drag_guide
 from drivewright.contact.normal import normal_force, stored_energy, tangent
 
 
 @outer
-def assemble(parts, state, gain):
+def assemble(parts: Parts, state: State, gain: float) -> float:
     """Fill the field of the parts at this state; returns V."""
     field = parts.field
     clear(field.ring)
@@ -116,6 +116,7 @@ def _joint(parts, state, i, gain):
 
 @inner
 def _put(row, x, y, turn):
+    """Add a force and a moment to row (3,)."""
     row[0] += x
     row[1] += y
     row[2] += turn

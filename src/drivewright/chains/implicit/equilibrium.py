@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.chains.explicit.stability import refuse_seats
 from drivewright.chains.implicit.parts import ARC, GAP, TOOTH, assembled, at_rest, compile_model
 from drivewright.chains.implicit.relax import relax, work_for
@@ -25,19 +26,19 @@ class Equilibrium:
     """
 
     model: ChainDrive
-    plates: np.ndarray
-    bodies: np.ndarray
-    joint_force: np.ndarray
-    flank_force: np.ndarray
+    plates: Floats
+    bodies: Floats
+    joint_force: Floats
+    flank_force: Floats
     residual: float
 
     @property
-    def driver_angle(self):
+    def driver_angle(self) -> Floats:
         """(S,)  [rad]."""
         return self.bodies[:, self.model.driver, 1]
 
     @property
-    def slide(self):
+    def slide(self) -> int:
         """Number of the first sprocket on a slide, else of the last one."""
         return next((n for n, s in enumerate(self.model.sprockets) if s.slide), len(self.model.sprockets) - 1)
 
@@ -47,33 +48,33 @@ class Equilibrium:
         return complex(*sprocket.centre) + self.bodies[:, number, 0] * way
 
     @property
-    def centre_distance(self):
+    def centre_distance(self) -> Floats:
         """Distance of the sliding sprocket from the driver (S,)  [m]."""
         return np.abs(self._centre(self.slide) - self._centre(self.model.driver))
 
     @property
-    def mean(self):
+    def mean(self) -> float:
         """Mean centre distance  [m]."""
         return float(np.mean(self.centre_distance))
 
     @property
-    def fluctuation(self):
+    def fluctuation(self) -> float:
         """Largest less least centre distance  [m]."""
         return float(np.ptp(self.centre_distance))
 
-    def transmission_error(self, number):
+    def transmission_error(self, number: int) -> Floats:
         """Angle of a sprocket less that of the driver times the ratio of teeth, its mean taken off (S,)  [rad]."""
         teeth = [s.tooth.teeth for s in self.model.sprockets]
         error = self.bodies[:, number, 1] - self.driver_angle * teeth[self.model.driver] / teeth[number]
         return error - np.mean(error)
 
     @property
-    def tension(self):
+    def tension(self) -> Floats:
         """(S, N) size of the joints' forces  [N]."""
         return np.hypot(self.joint_force[..., 0], self.joint_force[..., 1])
 
     @property
-    def contacts(self):
+    def contacts(self) -> Floats:
         """(S,) number of flanks that touch."""
         return np.sum(self.flank_force > 0, axis=(1, 2))
 
@@ -86,7 +87,7 @@ class Compliance(NamedTuple):
     rigid_fluctuation: float
 
 
-def equilibrium(model, positions=48, teeth=1, tolerance=None):
+def equilibrium(model: ChainDrive, positions: int = 48, teeth: int = 1, tolerance: float | None = None) -> Equilibrium:
     """The `Equilibrium` of a model at `positions` angles of the driver per tooth, over `teeth` of them in its sense of rotation.
 
     tolerance [N]: the largest force left unbalanced.  SolverError where a position does not come to rest, with those before it.
@@ -108,7 +109,7 @@ def equilibrium(model, positions=48, teeth=1, tolerance=None):
     return _result(model, found)
 
 
-def compliance_of(model, positions=24, factor=8.0):
+def compliance_of(model: ChainDrive, positions: int = 24, factor: float = 8.0) -> Compliance:
     """The `Compliance` of a drive, from its equilibrium and that with all stiffnesses `factor` times higher.
 
     What contact and joints add is of first order in 1/k: rigid = (factor stiff - soft)/(factor - 1).
@@ -119,7 +120,7 @@ def compliance_of(model, positions=24, factor=8.0):
     return Compliance(rigid, soft.mean - rigid, ripple)
 
 
-def stiffened(model, factor):
+def stiffened(model: ChainDrive, factor: float) -> ChainDrive:
     """The model with its joints, teeth and guides stiffer by a factor."""
     for number, sprocket in enumerate(model.sprockets):
         contact = replace(sprocket.contact, stiffness=factor * sprocket.contact.stiffness)
@@ -131,12 +132,6 @@ def stiffened(model, factor):
 def _at_rest(model):
     """The model without rotational dampers: what does not turn is not damped."""
     return replace(model, sprockets=tuple(replace(each, damping=0.0) for each in model.sprockets))
-
-
-def thickened(model, number, thickness):
-    """The model with every flank of one sprocket standing out by `thickness` [m], against the plates."""
-    tooth = model.sprockets[number].tooth
-    return with_sprocket(model, number, tooth=tooth._replace(support=tooth.support - thickness))
 
 
 def _endless(parts):
@@ -171,7 +166,7 @@ def _flanks(parts):
 
 def _result(model, found):
     plates, bodies, joints, flanks, residual = zip(*found, strict=True)
-    return Equilibrium(model, *map(np.array, (plates, bodies, joints, flanks)), float(max(residual)))
+    return Equilibrium(model, *map(np.array, (plates, bodies, joints, flanks)), residual=float(max(residual)))
 
 
 def _restless(model, k, positions, residual, small):

@@ -4,8 +4,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats, Ints, Records
 from drivewright.chains.explicit import assembly, state
+from drivewright.chains.explicit.assembly import Start
 from drivewright.chains.implicit.ring import Ring, empty_ring
+from drivewright.chains.model import ChainDrive
 
 POWERS = ("joint damping", "contact damping", "slide damping", "turn damping", "friction", "guide damping", "torque")
 JOINT, CONTACT, SLIDE, TURN, FRICTION, GUIDE, TORQUE = range(len(POWERS))
@@ -54,10 +57,10 @@ PAIR = np.dtype([("body", np.int64), ("plate", np.int64), ("seat", float), ("rig
 class State(NamedTuple):
     """Plates (N, 3): x, y of the mass centre, angle; bodies (B, 2): place q on the slide, angle psi; their rates."""
 
-    plates: np.ndarray
-    bodies: np.ndarray
-    plate_rates: np.ndarray
-    body_rates: np.ndarray
+    plates: Floats
+    bodies: Floats
+    plate_rates: Floats
+    body_rates: Floats
 
 
 class Field(NamedTuple):
@@ -68,15 +71,15 @@ class Field(NamedTuple):
     slope (5,), bend (5, 5).
     """
 
-    plates: np.ndarray
-    bodies: np.ndarray
+    plates: Floats
+    bodies: Floats
     ring: Ring
-    joints: np.ndarray
-    powers: np.ndarray
-    loads: np.ndarray
-    directions: np.ndarray
-    slope: np.ndarray
-    bend: np.ndarray
+    joints: Floats
+    powers: Floats
+    loads: Floats
+    directions: Floats
+    slope: Floats
+    bend: Floats
 
 
 class Parts(NamedTuple):
@@ -88,15 +91,15 @@ class Parts(NamedTuple):
     """
 
     chain: state.ChainConstants
-    half: np.ndarray
-    gravity: np.ndarray
-    bodies: np.ndarray
-    pairs: np.ndarray
-    size: np.ndarray
+    half: Floats
+    gravity: Floats
+    bodies: Records
+    pairs: Records
+    size: Ints
     field: Field
 
 
-def compile_model(model):
+def compile_model(model: ChainDrive) -> Parts:
     """The `Parts` of a `Model`."""
     drive = state.compile_model(model)
     bodies, count = _records(drive), model.chain.count
@@ -136,13 +139,13 @@ def _records(drive):
     return rows
 
 
-def at_rest(plates, bodies):
+def at_rest(plates: Floats, bodies: Floats) -> State:
     """A `State` without rates."""
     plates, bodies = np.array(plates, float), np.array(bodies, float)
     return State(plates, bodies, np.zeros_like(plates), np.zeros_like(bodies))
 
 
-def assembled(model, begin=None):
+def assembled(model: ChainDrive, begin: Start | None = None) -> State:
     """The `State` of a `Start`, by itself that of the assembly: seated plates, straight strands, all moving as if rigid."""
     begin, offset = assembly.start(model) if begin is None else begin, model.chain.centre_offset
     x, y, angle = begin.poses.T

@@ -5,8 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import inner, outer
+from drivewright._typing import Floats
 from drivewright.chains.implicit.energy import assemble
-from drivewright.chains.implicit.parts import State
+from drivewright.chains.implicit.parts import Parts, State
 from drivewright.chains.implicit.ring import factor, solve
 from drivewright.chains.implicit.touch import find_candidates
 
@@ -20,13 +21,13 @@ class Work(NamedTuple):
     """Trial state, step of the plates and of the border, scales (a length per unit) of both."""
 
     trial: State
-    plates: np.ndarray
-    border: np.ndarray
-    plate_scale: np.ndarray
-    border_scale: np.ndarray
+    plates: Floats
+    border: Floats
+    plate_scale: Floats
+    border_scale: Floats
 
 
-def work_for(parts):
+def work_for(parts: Parts) -> Work:
     """An empty `Work`; a turn counts by half the hole pitch of a plate, by the reach of a sprocket."""
     count, bodies, size = len(parts.half), len(parts.bodies), len(parts.field.ring.corner)
     trial = State(np.zeros((count, 3)), np.zeros((bodies, 2)), np.zeros((count, 3)), np.zeros((bodies, 2)))
@@ -38,7 +39,7 @@ def work_for(parts):
 
 
 @outer
-def relax(parts, state, work, tolerance, most):
+def relax(parts: Parts, state: State, work: Work, tolerance: float, most: int) -> tuple[float, int]:
     """Bring the state to rest; (residual force [N], steps taken): not at rest where the residual is above tolerance.
 
     A shift lambda stands for springs lambda k_j that hold every plate where it was: what the drive itself leaves free stays near there.
@@ -101,7 +102,7 @@ def _direction(parts, state, work, shift):
 
 
 @outer
-def downhill(parts, work):
+def downhill(parts: Parts, work: Work) -> None:
     """Minus the gradient, and from it the step, with the factors of the tangent."""
     field = parts.field
     for i in range(len(field.plates)):
@@ -152,8 +153,8 @@ def _step(parts, state, work, share):
 
 
 @inner
-def copy(source, target):
-    """target = source, for tables; the slice assignment would allocate."""
+def copy(source: Floats, target: Floats) -> None:
+    """target (n, a) = source (n, a); the slice assignment would allocate."""
     for i in range(source.shape[0]):
         for a in range(source.shape[1]):
             target[i, a] = source[i, a]

@@ -14,21 +14,22 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import inner, outer
+from drivewright._typing import Floats
 
 
 class Ring(NamedTuple):
     """The matrix, overwritten by its factors; `tail` (N, 3, 3 + b), `last` (3 + b, 3 + b) and `rest` (3 + b,) are scratch."""
 
-    diagonal: np.ndarray  # (N, 3, 3)
-    side: np.ndarray  # (N, 3, 3)
-    border: np.ndarray  # (N, 3, b)
-    corner: np.ndarray  # (b, b)
-    tail: np.ndarray
-    last: np.ndarray
-    rest: np.ndarray
+    diagonal: Floats  # (N, 3, 3)
+    side: Floats  # (N, 3, 3)
+    border: Floats  # (N, 3, b)
+    corner: Floats  # (b, b)
+    tail: Floats
+    last: Floats
+    rest: Floats
 
 
-def empty_ring(count, border):
+def empty_ring(count: int, border: int) -> Ring:
     """A `Ring` of zeros for N = `count` plates, at least 3, and b = `border` further unknowns."""
     size = 3 + border
     return Ring(
@@ -43,7 +44,7 @@ def empty_ring(count, border):
 
 
 @outer
-def clear(ring):
+def clear(ring: Ring) -> None:
     """All zeros."""
     ring.diagonal[:] = 0.0
     ring.side[:] = 0.0
@@ -52,7 +53,7 @@ def clear(ring):
 
 
 @outer
-def factor(ring):
+def factor(ring: Ring) -> bool:
     """Overwrite the matrix with its factors; False where it is not positive definite.
 
     Li Li' = Di, Wi = Li^-1 Ui (over Ui), Yi = Li^-1 Fi (the tail);  Di+1 -= Wi' Wi,  Fi+1 -= Wi' Yi,  S -= Yi' Yi.
@@ -72,7 +73,7 @@ def factor(ring):
 
 
 @outer
-def solve(ring, plates, others):
+def solve(ring: Ring, plates: Floats, others: Floats) -> None:
     """Overwrite the right-hand side, plates (N, 3) and others (b,), with the solution; the matrix is factored already."""
     n, size = len(ring.diagonal) - 1, len(ring.last)
     for i in range(n):

@@ -1,9 +1,11 @@
 """Run a chain drive with implicit steps: the same model, start and `Motion` as the explicit run."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from drivewright.chains.explicit.assembly import Start
 from drivewright.chains.explicit.measure import BODY, PLATE, PRESSED, ROW
 from drivewright.chains.explicit.motion import Motion
 from drivewright.chains.explicit.simulate import stepping
@@ -34,11 +36,18 @@ class Settings:
     settle: float = 0.0
     samples_per_tooth: int = 24
     tolerance: float = 1e-2
-    joints: tuple = (0,)
+    joints: tuple[int, ...] = (0,)
     plate: int = 0
 
 
-def simulate(model, duration, settings=Settings(), *, begin=None, progress=None):
+def simulate(
+    model: ChainDrive,
+    duration: float,
+    settings: Settings = Settings(),
+    *,
+    begin: Start | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Motion:
     """The `Motion` of a model over `duration` [s], from a `Start` (None: assembled).
 
     progress(done, total) is called with samples.  SolverError, with the motion so far, where a step does not settle.
@@ -59,7 +68,7 @@ def simulate(model, duration, settings=Settings(), *, begin=None, progress=None)
     return Motion(model, settings, step, every, rows, bodies, tension, plate)
 
 
-def begun(model, begin_with=None):
+def begun(model: ChainDrive, begin_with: Start | None = None) -> Run:
     """The `Run` of a model at its start, with the accelerations a = -f/M there."""
     parts, state = compile_model(model), assembled(model, begin_with)
     parts.bodies["psi0"] = state.bodies[:, 1]
@@ -182,7 +191,7 @@ def _refuse(model, duration, settings):
             raise InputError(f"simulate: {name} must be above 0, got {getattr(settings, name):g}.")
     if settings.samples_per_tooth < 20:
         raise InputError(f"simulate: {settings.samples_per_tooth} samples per tooth alias its harmonics; take 20 or more.")
-    drive = model.sprockets[model.driver].drive
+    drive = model.drive
     if max(abs(drive.speed), abs(drive.start)) == 0:
         raise InputError("simulate: the driver stands still, so a tooth takes no time; take `equilibrium`, or give it a speed.")
     for name, numbers in (("joint", settings.joints), ("plate", (settings.plate,))):

@@ -6,10 +6,12 @@ A flank and a guide are both a straight line of the plate, with the outward norm
     against its seat; s = 1 for the right flank, -1 for the left one, and rb = 0 for a guide, whose H is -(R + distance).
 """
 
+from typing import Any
+
 import numpy as np
 
 from drivewright._jit import inner, outer
-from drivewright.chains.implicit.parts import ARC, FRICTION, GAP
+from drivewright.chains.implicit.parts import ARC, FRICTION, GAP, Parts, State
 from drivewright.chains.touching.flank import flank_contact, is_active
 from drivewright.chains.touching.guide import is_on_arc, nearest_on_plate
 from drivewright.chains.touching.roller import roller_contact
@@ -17,7 +19,7 @@ from drivewright.chains.touching.seats import nearest_gap, nearest_tooth
 
 
 @outer
-def depth_of(parts, state, pair, body, place):
+def depth_of(parts: Parts, state: State, pair: Any, body: Any, place: int) -> float:
     """Depth of one contact of a pair, -1 where there is none; its derivatives in the field.
 
     Place 0, 1: right and left flank of a plate, seat and flank of a roller's gap; a guide has place 0 alone.
@@ -82,7 +84,7 @@ def _guide(parts, body, c, s, along, up):
 
 
 @inner
-def nearest(parts, body, along, up):
+def nearest(parts: Parts, body: Any, along: float, up: float) -> tuple[float, float, float]:
     """The nearest point of a plate's back or belly from a guide's centre, in the plate's frame, and its distance."""
     y = up - body.side * body.distance - parts.chain.offset
     _, x, far = nearest_on_plate(along, y, parts.chain.half_plate)
@@ -128,7 +130,7 @@ def _point(field, body, wx, wy, curve, rx, ry, gx, gy):
 
 
 @outer
-def drag_guide(parts, state, pair, body, gain):
+def drag_guide(parts: Parts, state: State, pair: Any, body: Any, gain: float) -> None:
     """Friction -mu fn v/sqrt(v^2 + slip^2) along the plate where it touches the guide."""
     field, c, s = parts.field, parts.field.directions[pair.plate, 0], parts.field.directions[pair.plate, 1]
     v = state.plate_rates[pair.plate]
@@ -164,7 +166,7 @@ def drag_guide(parts, state, pair, body, gain):
 
 
 @outer
-def find_candidates(parts, state):
+def find_candidates(parts: Parts, state: State) -> bool:
     """Pairs of a body and a plate near it, with the tooth that the plate may sit on; of the sprockets only the nearest counts.
 
     Returns whether anything of it is new.
@@ -185,6 +187,7 @@ def find_candidates(parts, state):
 
 @inner
 def _near(parts, state, n, plate):
+    """Whether a plate may touch body n: a guide within its arc's reach, of the sprockets the nearest."""
     body = parts.bodies[n]
     far = _distance(parts, state, n, plate)
     if body.kind == ARC:
@@ -199,6 +202,7 @@ def _near(parts, state, n, plate):
 
 @inner
 def _distance(parts, state, n, plate):
+    """Distance of a plate's mass centre from the centre of body n [m]."""
     body, q = parts.bodies[n], state.bodies[n, 0]
     return np.hypot(state.plates[plate, 0] - body.x0 - q * body.ux, state.plates[plate, 1] - body.y0 - q * body.uy)
 

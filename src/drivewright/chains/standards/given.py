@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from drivewright._typing import ArrayLike
 from drivewright.errors import InputError
 
 
-def above_zero(where, **values):
+def above_zero(where: str, **values: ArrayLike) -> None:
     """Refuse numbers or arrays that are not finite and above 0, by their argument's name."""
     for name, value in values.items():
         value = np.asarray(value, dtype=float)
@@ -13,7 +14,7 @@ def above_zero(where, **values):
             raise InputError(f"{where}: {name.replace('_', ' ')} must be finite and above 0, got {_worst(value):g} (SI units).")
 
 
-def from_zero(where, **values):
+def from_zero(where: str, **values: ArrayLike) -> None:
     """Refuse numbers or arrays that are not finite or below 0."""
     for name, value in values.items():
         value = np.asarray(value, dtype=float)
@@ -21,7 +22,7 @@ def from_zero(where, **values):
             raise InputError(f"{where}: {name.replace('_', ' ')} must be finite and 0 or more, got {_worst(value):g} (SI units).")
 
 
-def whole_teeth(where, *teeth):
+def whole_teeth(where: str, *teeth: ArrayLike) -> None:
     """Refuse tooth numbers that are not whole or below 5."""
     for each in teeth:
         each = np.asarray(each, dtype=float)
@@ -30,9 +31,10 @@ def whole_teeth(where, *teeth):
             raise InputError(f"{where}: tooth numbers must be whole and 5 or more, got {each[~good].flat[0]:g}.")
 
 
-def whole(where, **values):
+def whole(where: str, **values: ArrayLike) -> None:
     """Refuse what is not a whole number from 1 up."""
-    for name, value in values.items():
+    for name, given in values.items():
+        value = float(np.asarray(given))
         if not (np.isfinite(value) and value >= 1 and value == np.floor(value)):
             raise InputError(f"{where}: {name.replace('_', ' ')} must be a whole number from 1 up, got {value:g}.")
 

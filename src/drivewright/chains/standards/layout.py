@@ -7,19 +7,20 @@ where a joint stands at each of the four tangent points; in between, the polygon
 
 import numpy as np
 
+from drivewright._typing import Numbers
 from drivewright.chains.standards.given import above_zero, from_zero, whole_teeth
 from drivewright.errors import InputError
 from drivewright.numerics.roots import bracketed_roots
 
 
-def pitch_diameter(pitch, teeth):
+def pitch_diameter(pitch: Numbers, teeth: Numbers) -> Numbers:
     """Diameter of the circle through the joints of a seated chain, p/sin(pi/z)  [m]."""
     above_zero("sprocket", pitch=pitch)
     whole_teeth("sprocket", teeth)
     return pitch / np.sin(np.pi / np.asarray(teeth))
 
 
-def strand_angle(pitch, teeth1, teeth2, distance):
+def strand_angle(pitch: float, teeth1: int, teeth2: int, distance: Numbers) -> Numbers:
     """g [rad]: from the line of centres to a strand, asin((R2 - R1)/C); above 0 where the second sprocket is the larger."""
     radius1, radius2 = 0.5 * pitch_diameter(pitch, teeth1), 0.5 * pitch_diameter(pitch, teeth2)
     above_zero("chain drive", distance=distance)
@@ -31,24 +32,24 @@ def strand_angle(pitch, teeth1, teeth2, distance):
     return np.arcsin((radius2 - radius1) / distance)
 
 
-def wrap_angles(pitch, teeth1, teeth2, distance):
+def wrap_angles(pitch: float, teeth1: int, teeth2: int, distance: Numbers) -> tuple[Numbers, Numbers]:
     """Angles [rad] over which the chain lies on each sprocket: pi - 2 g, pi + 2 g."""
     angle = strand_angle(pitch, teeth1, teeth2, distance)
     return np.pi - 2 * angle, np.pi + 2 * angle
 
 
-def strand_length(pitch, teeth1, teeth2, distance):
+def strand_length(pitch: float, teeth1: int, teeth2: int, distance: Numbers) -> Numbers:
     """Length of a taut strand between its tangent points, C cos g  [m]."""
     return distance * np.cos(strand_angle(pitch, teeth1, teeth2, distance))
 
 
-def chain_links(pitch, teeth1, teeth2, distance):
+def chain_links(pitch: float, teeth1: int, teeth2: int, distance: Numbers) -> Numbers:
     """Number of links of the taut chain, no whole number: 2 C cos g/p + (z1 + z2)/2 + (z2 - z1) g/pi."""
     angle = strand_angle(pitch, teeth1, teeth2, distance)
     return 2 * distance * np.cos(angle) / pitch + (teeth1 + teeth2) / 2 + (teeth2 - teeth1) * angle / np.pi
 
 
-def even_links(links):
+def even_links(links: Numbers) -> Numbers:
     """The least even number of links that is no shorter: what spares a chain the cranked link.
 
     A number that misses an even one by less than 1e-9 of itself counts as that one.
@@ -57,7 +58,7 @@ def even_links(links):
     return 2 * np.ceil(0.5 * np.asarray(links) * (1 - 1e-9)).astype(int)
 
 
-def centre_distance(pitch, teeth1, teeth2, links):
+def centre_distance(pitch: float, teeth1: int, teeth2: int, links: float) -> float:
     """C [m] at which the chain of this number of links is taut: the inverse of `chain_links`, for single numbers.
 
     Once the pitch circles are apart the number grows with C, and 2 C/p is below it: the root lies between R1 + R2 and p N/2.
@@ -70,11 +71,12 @@ def centre_distance(pitch, teeth1, teeth2, links):
             f"chain drive: {links:g} links of {pitch:g} m do not reach around {teeth1:g} and {teeth2:g} teeth; "
             f"with touching pitch circles it takes {least:.4g}. Take at least {even_links(least)} links."
         )
-    root = bracketed_roots(lambda distance: chain_links(pitch, teeth1, teeth2, distance) - links, [touching, 0.5 * pitch * links])
+    ends = np.array([touching, 0.5 * pitch * links], dtype=float)
+    root = bracketed_roots(lambda distance: chain_links(pitch, teeth1, teeth2, distance) - links, ends)
     return float(root[0])
 
 
-def approximate_links(pitch, teeth1, teeth2, distance):
+def approximate_links(pitch: float, teeth1: float, teeth2: int, distance: float) -> float:
     """2 C/p + (z1 + z2)/2 + ((z2 - z1)/(2 pi))^2 p/C, the usual formula (ISO 10823, makers' catalogues; recalled).
 
     Less than the exact number by (C/p) s^4/12 + ..., s = (z2 - z1) p/(2 pi C), nothing at equal tooth numbers.
@@ -84,7 +86,7 @@ def approximate_links(pitch, teeth1, teeth2, distance):
     return 2 * distance / pitch + (teeth1 + teeth2) / 2 + ((teeth2 - teeth1) / (2 * np.pi)) ** 2 * pitch / distance
 
 
-def approximate_centre_distance(pitch, teeth1, teeth2, links):
+def approximate_centre_distance(pitch: float, teeth1: int, teeth2: int, links: float) -> float:
     """The C [m] whose `approximate_links` is N: (p/4) (u + sqrt(u^2 - 8 ((z2 - z1)/(2 pi))^2)), u = N - (z1 + z2)/2."""
     above_zero("chain drive", pitch=pitch, number_of_links=links)
     whole_teeth("chain drive", teeth1, teeth2)
@@ -95,7 +97,7 @@ def approximate_centre_distance(pitch, teeth1, teeth2, links):
     return 0.25 * pitch * (free + np.sqrt(square))
 
 
-def distance_factor(teeth1, teeth2, links):
+def distance_factor(teeth1: int, teeth2: int, links: float) -> float:
     """f4 [-] of C = f4 p (2 N - z1 - z2), which ISO 10823 tabulates over q = (N - z)/(z' - z), z < z' the tooth numbers (recalled).
 
     It is the exact drive with pitch circles of the circumference z p: with t the tangent of the half wrap on the smaller sprocket,
@@ -114,7 +116,9 @@ def distance_factor(teeth1, teeth2, links):
     return float(np.sqrt(1 + t * t) / (2 * np.pi * (2 * q - 1)))
 
 
-def least_centre_distance(pitch, teeth1, teeth2, tip_diameters=(0.0, 0.0), least_wrap=2 * np.pi / 3):
+def least_centre_distance(
+    pitch: float, teeth1: int, teeth2: int, tip_diameters: tuple[float, float] = (0.0, 0.0), least_wrap: float = 2 * np.pi / 3
+) -> float:
     """Least C [m] that keeps tips and pitch circles apart and wraps the smaller sprocket by `least_wrap`.
 
     The wrap pi - 2 g asks C >= |R2 - R1|/cos(wrap/2): for 120 deg the difference of the pitch diameters.
@@ -126,7 +130,7 @@ def least_centre_distance(pitch, teeth1, teeth2, tip_diameters=(0.0, 0.0), least
     return float(max(0.5 * sum(tip_diameters), first + second, abs(second - first) / np.cos(0.5 * least_wrap)))
 
 
-def usual_centre_distances(pitch, teeth1, teeth2, tip_diameters=(0.0, 0.0)):
+def usual_centre_distances(pitch: float, teeth1: int, teeth2: int, tip_diameters: tuple[float, float] = (0.0, 0.0)) -> tuple[float, float]:
     """The range of 30 to 50 pitches that makers recommend, raised to `least_centre_distance` where that is more  [m].
 
     A rule of thumb: HKK Chain and others name these numbers on their pages (read); no law stands behind them.

@@ -5,10 +5,12 @@ it counter-clockwise), one with -1 to the right.  In a loop that runs counter-cl
 on its back -1.
 """
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.chains.standards.given import above_zero
 from drivewright.errors import InputError
 
@@ -24,42 +26,45 @@ class Circle(NamedTuple):
     turn: int = 1
 
 
+Given: TypeAlias = Circle | tuple[float, float, float] | tuple[float, float, float, int]
+
+
 class Loop(NamedTuple):
     """The taut loop around n circles, strand i from circle i to the next.
 
     starts, ends (n, 2): ends of the strands [m]; lengths (n,) of the strands [m]; wraps (n,): angle [rad] over which circle i is wrapped.
     """
 
-    circles: tuple
-    starts: np.ndarray
-    ends: np.ndarray
-    lengths: np.ndarray
-    wraps: np.ndarray
+    circles: tuple[Circle, ...]
+    starts: Floats
+    ends: Floats
+    lengths: Floats
+    wraps: Floats
 
     @property
-    def length(self):
+    def length(self) -> float:
         """Strands and arcs together [m]."""
         radii = np.array([circle.radius for circle in self.circles])
         return float(np.sum(self.lengths) + np.sum(radii * self.wraps))
 
-    def links(self, pitch, teeth):
+    def links(self, pitch: float, teeth: Sequence[int]) -> float:
         """Number of links of a chain: strands in pitches, arcs at z to the turn; teeth = 0 for a smooth idler, its arc in pitches."""
         above_zero("chain loop", pitch=pitch)
-        teeth = np.asarray(teeth, dtype=float)
-        if teeth.shape != self.wraps.shape:
-            raise InputError(f"chain loop: {teeth.size} tooth numbers for {self.wraps.size} circles; give one each, 0 for a smooth one.")
+        numbers = np.asarray(teeth, dtype=float)
+        if numbers.shape != self.wraps.shape:
+            raise InputError(f"chain loop: {numbers.size} tooth numbers for {self.wraps.size} circles; give one each, 0 for a smooth one.")
         radii = np.array([circle.radius for circle in self.circles])
-        arcs = np.where(teeth > 0, teeth * self.wraps / (2 * np.pi), radii * self.wraps / pitch)
+        arcs = np.where(numbers > 0, numbers * self.wraps / (2 * np.pi), radii * self.wraps / pitch)
         return float(np.sum(self.lengths) / pitch + np.sum(arcs))
 
 
-def taut_loop(circles):
+def taut_loop(circles: Sequence[Given]) -> Loop:
     """The `Loop` around circles (`Circle` or x, y, radius[, turn]), in the order in which it meets them.
 
     With s = turn x radius a strand of direction u and left normal n joins the tangent points c - s n: c2 - c1 = l u + (s2 - s1) n.
     Hence l^2 = |c2 - c1|^2 - (s2 - s1)^2, and u lies atan2(s2 - s1, l) clockwise of the line of centres.
     """
-    circles = tuple(Circle(*circle) for circle in circles)
+    circles = tuple(Circle(*circle) for circle in circles)  # pyright: ignore[reportArgumentType]  the fourth is the turn
     _check(circles)
     centres = np.array([(circle.x, circle.y) for circle in circles], dtype=float)
     signed = np.array([circle.turn * circle.radius for circle in circles], dtype=float)
@@ -74,7 +79,7 @@ def taut_loop(circles):
     return Loop(circles, starts, ends, lengths, wraps)
 
 
-def loop_length(circles):
+def loop_length(circles: Sequence[Given]) -> float:
     """Length [m] of the taut loop around the circles, see `taut_loop`."""
     return taut_loop(circles).length
 

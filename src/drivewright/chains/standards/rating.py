@@ -3,10 +3,12 @@
 No table comes along: ratings and service factors belong to standards and makers, and are entered by the user.
 """
 
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.chains.standards.given import above_zero
 from drivewright.errors import InputError
 
@@ -14,15 +16,15 @@ from drivewright.errors import InputError
 class RatingTable(NamedTuple):
     """Rated power [W] over tooth numbers (rows) and angular speeds of the small sprocket [rad/s] (columns), both increasing."""
 
-    teeth: np.ndarray
-    speeds: np.ndarray
-    powers: np.ndarray
+    teeth: Floats
+    speeds: Floats
+    powers: Floats
 
 
-def rating_table(teeth, speeds, powers, name="rating table"):
+def rating_table(teeth: Sequence[int], speeds: Sequence[float], powers: ArrayLike, name: str = "rating table") -> RatingTable:
     """A checked `RatingTable`; one row or more, two speeds or more."""
-    teeth, speeds, powers = (np.asarray(values, dtype=float) for values in (teeth, speeds, powers))
-    table = RatingTable(np.atleast_1d(teeth), np.atleast_1d(speeds), np.atleast_2d(powers))
+    rows, columns = np.atleast_1d(np.asarray(teeth, dtype=float)), np.atleast_1d(np.asarray(speeds, dtype=float))
+    table = RatingTable(rows, columns, np.atleast_2d(np.asarray(powers, dtype=float)))
     if table.powers.shape != (table.teeth.size, table.speeds.size):
         raise InputError(
             f"{name}: powers of shape {table.powers.shape} for {table.teeth.size} tooth numbers and {table.speeds.size} "
@@ -34,7 +36,7 @@ def rating_table(teeth, speeds, powers, name="rating table"):
     return table
 
 
-def rated_power(table, teeth, speed, name="rating table"):
+def rated_power(table: RatingTable, teeth: int, speed: float, name: str = "rating table") -> float:
     """Rated power [W] between the entries: linear in the logarithms of teeth, speed and power, hence exact for any law P = C z^a w^b.
 
     Nothing is read off outside of the table.
@@ -49,13 +51,13 @@ def rated_power(table, teeth, speed, name="rating table"):
     return float(np.exp(np.interp(np.log(teeth), np.log(table.teeth), along_speed)))
 
 
-def design_power(power, service_factor, strand_factor=1.0):
+def design_power(power: float, service_factor: float, strand_factor: float = 1.0) -> float:
     """Power [W] that the rating of a single chain must reach: P f/k, both factors the user's, k of a multiple chain."""
     above_zero("chain selection", power=power, service_factor=service_factor, strand_factor=strand_factor)
     return power * service_factor / strand_factor
 
 
-def suitable_chains(tables, needed_power, teeth, speed):
+def suitable_chains(tables: Mapping[str, RatingTable], needed_power: float, teeth: int, speed: float) -> list[tuple[str, float]]:
     """(name, needed over rated power) of the chains that suffice, the best used first; `tables` maps names to `RatingTable`.
 
     A chain whose table does not cover teeth and speed is not rated there and left out.
@@ -69,7 +71,7 @@ def suitable_chains(tables, needed_power, teeth, speed):
         raise InputError(
             f"chain selection: no table covers {teeth:g} teeth at {speed:g} rad/s; enter one that does, or change the sprocket."
         )
-    best = min(uses, key=uses.get)
+    best = min(uses, key=lambda name: uses[name])
     raise InputError(
         f"chain selection: no chain is rated for {needed_power:g} W with {teeth:g} teeth at {speed:g} rad/s; the strongest, "
         f"{best}, reaches {needed_power / uses[best]:.4g} W. Take more strands, more teeth, or enter larger chains."

@@ -6,6 +6,7 @@ q the chain's mass per length [kg/m].
 
 import numpy as np
 
+from drivewright._typing import Numbers
 from drivewright.chains.standards.given import above_zero, from_zero, whole, whole_teeth
 from drivewright.chains.standards.layout import pitch_diameter
 from drivewright.errors import InputError
@@ -14,39 +15,39 @@ from drivewright.errors import InputError
 MEETING_SHARE = 1 / 3 + 1 / np.sqrt(12)
 
 
-def chain_speed(pitch, teeth, angular_speed):
+def chain_speed(pitch: float, teeth: int, angular_speed: float) -> float:
     """Mean speed p z w/(2 pi)  [m/s]: z pitches to a turn."""
     above_zero("chain", pitch=pitch)
     whole_teeth("chain", teeth)
     return pitch * teeth * angular_speed / (2 * np.pi)
 
 
-def mesh_frequency(teeth, angular_speed):
+def mesh_frequency(teeth: Numbers, angular_speed: Numbers) -> Numbers:
     """Joints that meet the sprocket in a second, z w/(2 pi)  [Hz]."""
     whole_teeth("chain", teeth)
     return teeth * angular_speed / (2 * np.pi)
 
 
-def speed_range(pitch, teeth, angular_speed):
+def speed_range(pitch: Numbers, teeth: Numbers, angular_speed: Numbers) -> tuple[Numbers, Numbers]:
     """Least and greatest speed of a long straight strand along itself [m/s]: R w cos t and R w."""
     greatest = 0.5 * pitch_diameter(pitch, teeth) * angular_speed
     return greatest * np.cos(np.pi / np.asarray(teeth)), greatest
 
 
-def speed_fluctuation(teeth):
+def speed_fluctuation(teeth: Numbers) -> Numbers:
     """Range of the strand's speed over its mean, t tan(t/2)  [-]; pi^2/(2 z^2) for many teeth."""
     whole_teeth("chain", teeth)
     t = np.pi / np.asarray(teeth)
     return t * np.tan(t / 2)
 
 
-def centrifugal_tension(mass_per_length, speed):
+def centrifugal_tension(mass_per_length: Numbers, speed: Numbers) -> Numbers:
     """q v^2  [N]: the tension with which a chain runs around any curve without pressing on it."""
     from_zero("chain", mass_per_length=mass_per_length)
     return mass_per_length * np.square(speed)
 
 
-def strand_tension(power, speed, mass_per_length, slack_tension=0.0):
+def strand_tension(power: Numbers, speed: Numbers, mass_per_length: Numbers, slack_tension: Numbers = 0.0) -> Numbers:
     """Tension of the tight strand, P/v + q v^2 + F0  [N].
 
     slack_tension F0 [N]: what the resting chain carries, from its sag or a tensioner.
@@ -56,13 +57,13 @@ def strand_tension(power, speed, mass_per_length, slack_tension=0.0):
     return power / speed + centrifugal_tension(mass_per_length, speed) + slack_tension
 
 
-def tensile_safety(tensile_strength, tension):
+def tensile_safety(tensile_strength: float, tension: float) -> float:
     """Minimum tensile strength, the user's, over the tension of the tight strand  [-]."""
     above_zero("chain", tensile_strength=tensile_strength, tension=tension)
     return tensile_strength / tension
 
 
-def greatest_power(allowable_tension, mass_per_length, slack_tension=0.0):
+def greatest_power(allowable_tension: float, mass_per_length: float, slack_tension: float = 0.0) -> tuple[float, float]:
     """Speed [m/s] at which a chain of given tension carries the greatest power, and that power [W].
 
     P = v (F - F0 - q v^2) is greatest at v = sqrt((F - F0)/(3 q)), where it is 2/3 v (F - F0).  At sqrt(3) of that speed nothing is left.
@@ -73,14 +74,14 @@ def greatest_power(allowable_tension, mass_per_length, slack_tension=0.0):
     return speed, 2 / 3 * speed * free
 
 
-def articulation_pressure(tension, pin_diameter, bush_length, strands=1):
+def articulation_pressure(tension: float, pin_diameter: float, bush_length: float, strands: int = 1) -> float:
     """Pressure in the joints, F/(n d b), on the projected bearing area  [Pa]; strands n of a multiple chain carry alike."""
     from_zero("chain joint", tension=tension)
     above_zero("chain joint", pin_diameter=pin_diameter, bush_length=bush_length, strands=strands)
     return tension / (strands * pin_diameter * bush_length)
 
 
-def meeting_velocity(pitch, angular_speed, normal_angle=0.5 * np.pi):
+def meeting_velocity(pitch: Numbers, angular_speed: Numbers, normal_angle: float = 0.5 * np.pi) -> Numbers:
     """Velocity [m/s] at which a joint of a long straight strand meets its seat, along the normal of the contact: p w sin b.
 
     The strand translates with its last seated joint, so the next one is ahead of its seat by w x the link: p w across the link.
@@ -90,7 +91,7 @@ def meeting_velocity(pitch, angular_speed, normal_angle=0.5 * np.pi):
     return pitch * np.abs(angular_speed) * np.sin(normal_angle)
 
 
-def meeting_energy(pitch, mass_per_length, angular_speed):
+def meeting_energy(pitch: float, mass_per_length: float, angular_speed: float) -> float:
     """Energy [J] lost where a joint of a long straight strand of uniform links comes to rest in its seat: m (1/3 + 1/sqrt(12)) (p w)^2/2.
 
     m = q p.  Behind the joint the hinged links take a velocity that falls by -(2 - sqrt 3) from joint to joint, which adds m/sqrt(12);
@@ -102,7 +103,7 @@ def meeting_energy(pitch, mass_per_length, angular_speed):
     return 0.5 * MEETING_SHARE * mass_per_length * pitch * velocity**2
 
 
-def strand_frequency(tension, mass_per_length, length, speed=0.0, mode=1):
+def strand_frequency(tension: Numbers, mass_per_length: float, length: float, speed: Numbers = 0.0, mode: int = 1) -> Numbers:
     """Natural frequency of a strand that runs through two fixed places, n (c^2 - v^2)/(2 L c), c = sqrt(T/q)  [Hz].
 
     tension T: the whole of it, the centrifugal one included; so T > q v^2, or there is none.
@@ -118,7 +119,7 @@ def strand_frequency(tension, mass_per_length, length, speed=0.0, mode=1):
     return mode * (wave - speed) * (wave + speed) / (2 * length * wave)
 
 
-def resonance_speed(pull, mass_per_length, length, pitch, mode=1, harmonic=1):
+def resonance_speed(pull: Numbers, mass_per_length: float, length: float, pitch: float, mode: int = 1, harmonic: float = 1) -> Numbers:
     """Chain speed [m/s] at which a harmonic k of the meshing meets the mode n of a strand: k v/p = n (c^2 - v^2)/(2 L c).
 
     pull F [N]: what the strand carries besides the centrifugal tension; c^2 - v^2 = F/q = s.  With b = n p s/(2 k L):

@@ -7,6 +7,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Floats, Numbers
 from drivewright.chains.standards.given import above_zero, whole_teeth
 from drivewright.chains.standards.layout import pitch_diameter
 from drivewright.errors import InputError
@@ -35,19 +36,19 @@ SOURCES = {
 }
 
 
-def root_diameter(pitch, teeth, roller_diameter):
+def root_diameter(pitch: Numbers, teeth: Numbers, roller_diameter: Numbers) -> Numbers:
     """df = d - d1 [m]: the circle that the seated rollers touch from outside."""
     _check_roller(pitch, roller_diameter)
     return pitch_diameter(pitch, teeth) - roller_diameter
 
 
-def tip_range(pitch, teeth, roller_diameter):
+def tip_range(pitch: float, teeth: Numbers, roller_diameter: float) -> tuple[Numbers, ...]:
     """Least and greatest tip diameter [m]: d + p (1 - 1.6/z) - d1 and d + 1.25 p - d1."""
     root = root_diameter(pitch, teeth, roller_diameter)
     return root + pitch * (1 - 1.6 / np.asarray(teeth)), root + 1.25 * pitch
 
 
-def over_pins(pitch, teeth, roller_diameter, pin_diameter=None):
+def over_pins(pitch: Numbers, teeth: Numbers, roller_diameter: Numbers, pin_diameter: Numbers | None = None) -> Numbers:
     """Dimension over two pins in (nearly) opposite gaps  [m]: (df + dR) c + dR, c = 1 for even z, cos(pi/(2 z)) for odd z.
 
     pin_diameter dR: that of the roller where none is given, which makes it d c + d1.  Pins rest on the root circle.
@@ -71,7 +72,7 @@ class ToothGap(NamedTuple):
     flank_radius: float
 
 
-def tooth_gap(teeth, roller_diameter, form: Form):
+def tooth_gap(teeth: int, roller_diameter: float, form: Form) -> ToothGap:
     """The "least" or "greatest" gap that the standard allows; a real one lies between the two.
 
     least:    ri = 0.505 d1,                      a = 140 deg - 90 deg/z,  re = 0.12 d1 (z + 2)
@@ -87,7 +88,7 @@ def tooth_gap(teeth, roller_diameter, form: Form):
     raise InputError(f"sprocket: the form of a gap is 'least' or 'greatest', got {form!r}.")
 
 
-def gap_outline(pitch, teeth, roller_diameter, gap, tip_diameter, points=41):
+def gap_outline(pitch: float, teeth: int, roller_diameter: float, gap: ToothGap, tip_diameter: float, points: int = 41) -> Floats:
     """Outline (3 points - 2, 2) [m] of a gap on the y axis, from tip circle to tip circle, x rising; the sprocket's centre is the origin.
 
     The seat, an arc of ri with its lowest point on the root circle, goes over into the convex flanks, arcs of re with their centres in
@@ -136,7 +137,7 @@ def _check_roller(pitch, roller_diameter):
         )
 
 
-def silent_chain(number):
+def silent_chain(number: int | str | None) -> tuple[float, float]:
     """Pitch and nominal width [m] of an inverted-tooth chain from its number: "SC302" is 3/8 in by 2/4 in.
 
     From 3/8 in up: one or two digits of pitch in 1/8 in, two or three of width in 1/4 in.  Four digits are two and two, as no chain of
@@ -155,7 +156,7 @@ def silent_chain(number):
     return (pitch * INCH / 16, width * INCH / 32) if small else (pitch * INCH / 8, width * INCH / 4)
 
 
-def silent_number(pitch, width):
+def silent_number(pitch: float, width: float) -> str:
     """The number of an inverted-tooth chain from pitch and nominal width [m]; the inverse of `silent_chain`."""
     above_zero("silent chain", pitch=pitch, width=width)
     small = pitch < 3 / 8 * INCH * (1 - 1e-9)
@@ -172,6 +173,6 @@ def silent_number(pitch, width):
     return f"SC{'0' if small else ''}{count[0]}{count[1]:02d}"
 
 
-def greatest_radius_over_chain(pitch, teeth):
+def greatest_radius_over_chain(pitch: Numbers, teeth: Numbers) -> Numbers:
     """Radius [m] that a new silent chain on its sprocket does not exceed: pitch radius + 0.75 p."""
     return 0.5 * pitch_diameter(pitch, teeth) + 0.75 * pitch

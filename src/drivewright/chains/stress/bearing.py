@@ -10,8 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats, Ints
+from drivewright.chains.plate import Plate
 from drivewright.errors import InputError, SolverError
 from drivewright.scene import Arc
+from drivewright.solids.plane import PlaneBody
 
 STEP = np.radians(10.0)  # between neighbouring directions
 MARGIN = np.radians(30.0)  # of a direction from the end of an open seat
@@ -21,14 +24,14 @@ class Seat(NamedTuple):
     """Points of a plate's rim on which the pin of one side bears: `rows` (n,) of the rim, unit vectors q (n, 2) out of the pin, areas
     (n,) [m^2] of the bearing surface, `turn` (n,) [rad] of q from the plate's end outwards, counter-clockwise, and the radius [m]."""
 
-    rows: np.ndarray
-    outward: np.ndarray
-    area: np.ndarray
-    turn: np.ndarray
+    rows: Ints
+    outward: Floats
+    area: Floats
+    turn: Floats
     radius: float
 
 
-def seat_of(body, plate, side):
+def seat_of(body: PlaneBody, plate: Plate, side: str) -> Seat:
     """The `Seat` at the "left" or "right" end: all arcs of the hole that lie on the seat's circle."""
     circle, number = plate.seat(side), ("left", "right").index(side)
     same = [
@@ -43,7 +46,7 @@ def seat_of(body, plate, side):
     return Seat(rows, outward, body.thickness * body.rim.lengths[rows], turn, circle.radius)
 
 
-def directions(seat):
+def directions(seat: Seat) -> Floats:
     """Turns (k,) [rad] from the outward direction for which a force on the seat is prepared, not more than 10 deg apart."""
     low, high = seat.turn.min() + MARGIN, seat.turn.max() - MARGIN
     if np.diff(np.sort(seat.turn)).max() < MARGIN and high - low > 2 * np.pi - 3 * MARGIN:  # all around
@@ -56,7 +59,7 @@ def directions(seat):
     return np.linspace(low, high, int(np.ceil((high - low) / STEP)) + 1)
 
 
-def cosine_pressure(seat, force):
+def cosine_pressure(seat: Seat, force: ArrayLike) -> Floats:
     """Pressure (n,) [Pa] at the seat's points, max(c.q, 0), whose resultant is the force (2,) [N]; Newton's method for c."""
     force = np.asarray(force, float)
     half = seat.area.sum() / np.sum(np.abs(np.diff(np.sort(seat.turn)))) * np.pi / 2  # r t pi/2: int of cos^2 over half a circle
@@ -74,7 +77,7 @@ def cosine_pressure(seat, force):
     )
 
 
-def shares(turns, seat_directions, size):
+def shares(turns: Floats, seat_directions: Floats, size: Floats) -> Floats:
     """Amounts (n, k) of the pressures of prepared directions (k,) that give forces (n,) of a size [N] and turn [rad].
 
     f sin(t1 - t)/sin(t1 - t0) and f sin(t - t0)/sin(t1 - t0) of the neighbours t0, t1.  Raises InputError for a force that points
@@ -100,7 +103,7 @@ def shares(turns, seat_directions, size):
     return amounts
 
 
-def turn_of(forces, side):
+def turn_of(forces: Floats, side: str) -> tuple[Floats, Floats]:
     """Turns (n,) [rad] of forces (n, 2) from the outward direction of a side, and their sizes (n,) [N]."""
     forces = np.asarray(forces, float)
     along = forces[..., 0] + 1j * forces[..., 1]

@@ -8,8 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright import fatigue
-from drivewright.chains.stress.plate import amounts
+from drivewright._typing import Floats, Ints
+from drivewright.chains.stress.plate import Basis, Loads, amounts
 from drivewright.errors import InputError
+from drivewright.fatigue.material import StrainLife
 from drivewright.result import Column, Table
 from drivewright.solids.plane import plane_von_mises
 
@@ -18,13 +20,13 @@ class PlateLife(NamedTuple):
     """rows (m,) of the rim that were looked at, life (m,) in repeats of the history (inf without damage), damage (m,) a repeat, and the
     greatest von Mises stress (m,) [Pa] of the elastic history."""
 
-    rows: np.ndarray
-    life: np.ndarray
-    damage: np.ndarray
-    stress: np.ndarray
+    rows: Ints
+    life: Floats
+    damage: Floats
+    stress: Floats
 
 
-def plate_life(basis, loads, material, plane="max-shear", least=0.0):
+def plate_life(basis: Basis, loads: Loads, material: StrainLife, plane: str = "max-shear", least: float = 0.0) -> PlateLife:
     """`PlateLife` under a history of loads that repeats, with a `fatigue.StrainLife`.
 
     Flanks that touch the sprocket are left out, as from the search for the worst stress; so are points whose greatest stress stays below
@@ -44,7 +46,7 @@ def plate_life(basis, loads, material, plane="max-shear", least=0.0):
     return PlateLife(rows, found.life, found.damage, size)
 
 
-def life_table(basis, found):
+def life_table(basis: Basis, found: PlateLife) -> Table:
     """Table "plate_life" for a plot of points: x, y [m], life in repeats, damage a repeat, greatest von Mises stress [Pa]."""
     x, y = basis.body.rim.points[found.rows].T
     return Table(

@@ -9,8 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Bools, Floats
 from drivewright.curves import outline_area
 from drivewright.errors import InputError
+from drivewright.scene import Outline
 
 FIBRES = 201  # places across a section where shear and bending are put together
 
@@ -18,11 +20,11 @@ FIBRES = 201  # places across a section where shear and bending are put together
 class Pack(NamedTuple):
     """Plates across the width: edges (n, 2) [m] of each along the pin, and own (n,): those of the link that the pin belongs to."""
 
-    edges: np.ndarray
-    own: np.ndarray
+    edges: Floats
+    own: Bools
 
     @property
-    def width(self):
+    def width(self) -> float:
         """From the first face to the last  [m]."""
         return self.edges[-1, 1] - self.edges[0, 0]
 
@@ -30,9 +32,9 @@ class Pack(NamedTuple):
 class Beam(NamedTuple):
     """position (n,) [m] along the pin; shear force V [N] and bending moment M [N m] there: dV/dz = -q, dM/dz = V."""
 
-    position: np.ndarray
-    shear: np.ndarray
-    moment: np.ndarray
+    position: Floats
+    shear: Floats
+    moment: Floats
 
 
 class Section(NamedTuple):
@@ -41,9 +43,9 @@ class Section(NamedTuple):
 
     area: float
     second_moment: float
-    offset: np.ndarray
-    width: np.ndarray
-    first_moment: np.ndarray
+    offset: Floats
+    width: Floats
+    first_moment: Floats
 
 
 class PinStress(NamedTuple):
@@ -54,7 +56,7 @@ class PinStress(NamedTuple):
     mises: float
 
 
-def lacing(own, other, thickness, gap=0.0):
+def lacing(own: int, other: int, thickness: float, gap: float = 0.0) -> Pack:
     """The `Pack` of `own` x `other` plates that alternate, e.g. 1 x 2, of one thickness [m], with a gap [m] between neighbours."""
     if not (min(own, other) >= 1 and abs(own - other) == 1 and int(own) == own and int(other) == other):
         raise InputError(
@@ -65,23 +67,23 @@ def lacing(own, other, thickness, gap=0.0):
         raise InputError(
             f"lacing: plates {1e3 * thickness:g} mm thick with gaps of {1e3 * gap:g} mm; the first must be above 0, the second not below"
         )
-    start = (thickness + gap) * np.arange(own + other)
+    start = (thickness + gap) * np.arange(float(own + other))
     return Pack(np.column_stack([start, start + thickness]), np.arange(own + other) % 2 == int(own < other))
 
 
-def rolling_pin_load(pack, force):
+def rolling_pin_load(pack: Pack, force: float) -> tuple[Floats, Floats]:
     """Line load on a pin of a rolling joint under a chain force [N]: breaks (m + 1,) [m] along the pin and q (m,) [N/m] between."""
     breaks, load = _own_load(pack, force)
     return breaks, load - force / pack.width
 
 
-def hinge_pin_load(pack, force):
+def hinge_pin_load(pack: Pack, force: float) -> tuple[Floats, Floats]:
     """Line load on the one pin of a hinge: the plates of the other link pull with the same force [N] the other way."""
     breaks, load = _own_load(pack, force)
     return breaks, load - _own_load(pack._replace(own=~pack.own), force)[1]
 
 
-def beam(breaks, load):
+def beam(breaks: Floats, load: Floats) -> Beam:
     """Shear force and bending moment of a free beam under an even q (m,) [N/m] between breaks (m + 1,) [m], at the breaks and wherever
     the shear force is 0.  V = -int q, M = int V; both are 0 at either end."""
     shear = -np.concatenate([[0.0], np.cumsum(load * np.diff(breaks))])
@@ -99,7 +101,7 @@ def beam(breaks, load):
     return Beam(position, force, moment)
 
 
-def round_section(radius):
+def round_section(radius: float) -> Section:
     """`Section` of a round pin: I = pi r^4/4, b = 2 sqrt(r^2 - x^2), Q = b^3/12; the greatest shear is 4/3 V/area."""
     if not radius > 0:
         raise InputError(f"pins: a pin of radius {1e3 * radius:g} mm; it must be above 0")
@@ -108,7 +110,7 @@ def round_section(radius):
     return Section(np.pi * radius**2, np.pi * radius**4 / 4, offset, width, width**3 / 12)
 
 
-def outline_section(outline):
+def outline_section(outline: Outline) -> Section:
     """`Section` of a pin with any closed Outline, e.g. a rocker's segment, bent along the outline's x axis.
 
     Shear is taken as even across the width b; the outline is to be cut once only by every line across.
@@ -124,7 +126,7 @@ def outline_section(outline):
     return Section(abs(area), second, x - centre, width, beyond)
 
 
-def pin_stress(found, section):
+def pin_stress(found: Beam, section: Section) -> PinStress:
     """`PinStress` of a `Beam` with a `Section`."""
     inside = section.width > 0
     across = np.zeros_like(section.width)

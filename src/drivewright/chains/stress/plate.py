@@ -6,13 +6,16 @@ motion are in the answer (`solids.plane`).  Flanks are loaded by hat-shaped pres
 contact is Hertz's (`contact.hertz`) and not in here, so the loaded flanks take no part in the search for the worst place.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Bools, Floats
+from drivewright.chains.plate import Plate
 from drivewright.chains.stress import bearing
 from drivewright.errors import InputError
-from drivewright.result import Column
+from drivewright.result import Column, Table
 from drivewright.scene import Arc
 from drivewright.solids.plane import PlaneBody, StressSurface, field_table, plane_von_mises
 from drivewright.solids.plane_meshing import plane_mesh
@@ -28,9 +31,9 @@ class Loads(NamedTuple):
     right outer flank, above 0 pressing.  heights (n, 2) [m]: where, as y of the pin frame; not read where the force is 0.
     """
 
-    pins: np.ndarray
-    flanks: np.ndarray
-    heights: np.ndarray
+    pins: ArrayLike
+    flanks: ArrayLike
+    heights: ArrayLike
 
 
 class Basis(NamedTuple):
@@ -42,12 +45,12 @@ class Basis(NamedTuple):
     """
 
     body: PlaneBody
-    directions: tuple
-    heights: tuple
-    tractions: np.ndarray
-    stress: np.ndarray
+    directions: tuple[Floats, Floats]
+    heights: tuple[Floats, Floats]
+    tractions: Floats
+    stress: Floats
     surface: StressSurface
-    bare: np.ndarray
+    bare: Bools
 
 
 class Peak(NamedTuple):
@@ -56,10 +59,10 @@ class Peak(NamedTuple):
     stress: float
     instant: int
     row: int
-    place: tuple
+    place: tuple[float, float]
 
 
-def plate_body(plate, modulus, poisson, *, fineness=1.0, order=4):
+def plate_body(plate: Plate, modulus: float, poisson: float, *, fineness: float = 1.0, order: int = 4) -> PlaneBody:
     """`PlaneBody` of a `chains.plate.Plate`; a fineness of 2 halves all elements."""
     size, small = 0.08 * plate.link.pitch / fineness, 0.03 * plate.link.pitch / fineness
     fine = {"hole*": small} | {_flank(plate, side): small for side in SIDES}
@@ -73,11 +76,12 @@ def plate_body(plate, modulus, poisson, *, fineness=1.0, order=4):
     return PlaneBody(mesh, thickness=plate.thickness, modulus=modulus, poisson=poisson, order=order)
 
 
-def plate_basis(plate, body):
+def plate_basis(plate: Plate, body: PlaneBody) -> Basis:
     """The `Basis` of a plate with a body made by `plate_body`."""
     seats = [bearing.seat_of(body, plate, side) for side in SIDES]
-    turns = tuple(bearing.directions(seat) for seat in seats)
-    heights = tuple(_places(plate, side) for side in SIDES)
+    left, right = seats
+    turns = bearing.directions(left), bearing.directions(right)
+    heights = _places(plate, "left"), _places(plate, "right")
     tractions = np.concatenate(
         [
             *(_pin_tractions(body, *each) for each in zip(seats, turns, SIDES, strict=True)),
@@ -89,7 +93,7 @@ def plate_basis(plate, body):
     return Basis(body, turns, heights, tractions, body.stress(fields), body.surface(fields), bare)
 
 
-def amounts(basis, loads):
+def amounts(basis: Basis, loads: Loads) -> Floats:
     """Linear combinations (n, L) [N] of the basis that make up the loads."""
     pins, flanks, places = (np.asarray(part, float) for part in loads)
     if not (pins.ndim == 3 and pins.shape[1:] == (2, 2) and flanks.shape == places.shape == pins.shape[:2]):
@@ -107,30 +111,31 @@ def amounts(basis, loads):
     return np.hstack([*on_pins, *(_hat_shares(flanks[:, k], places[:, k], basis.heights[k], side) for k, side in enumerate(SIDES))])
 
 
-def stress_history(basis, loads, rows=slice(None)):
+def stress_history(basis: Basis, loads: Loads, rows: Sequence[int] | slice = slice(None)) -> Floats:
     """Stress (n, points, 3) [Pa] at points of the rim (all, or some `rows`) through the history."""
     return np.tensordot(amounts(basis, loads), basis.stress[:, rows], axes=1)
 
 
-def unbalanced(basis, loads):
+def unbalanced(basis: Basis, loads: Loads) -> tuple[Floats, Floats]:
     """Forces (n, 2) [N] and moments about the pin frame's origin (n,) [N m] that accelerate the plate."""
     forces, moments = basis.body.resultant(basis.tractions)
     share = amounts(basis, loads)
     return share @ forces, share @ moments
 
 
-def worst(basis, loads):
+def worst(basis: Basis, loads: Loads) -> Peak:
     """The `Peak` over all instants and all points of the rim but those on the flanks that touch the sprocket."""
-    share, top = amounts(basis, loads), Peak(-1.0, 0, 0, ())
+    share, top = amounts(basis, loads), Peak(-1.0, 0, 0, (np.nan, np.nan))
     for instant, one in enumerate(share):  # one at a time: a long history would fill the memory
         size = np.where(basis.bare, plane_von_mises(np.tensordot(one, basis.stress, axes=1)), 0.0)
         row = int(size.argmax())
         if size[row] > top.stress:
-            top = Peak(float(size[row]), instant, row, tuple(map(float, basis.body.rim.points[row])))
+            x, y = map(float, basis.body.rim.points[row])
+            top = Peak(float(size[row]), instant, row, (x, y))
     return top
 
 
-def stress_picture(basis, loads, instant):
+def stress_picture(basis: Basis, loads: Loads, instant: int) -> Table:
     """Table "plate_stress" for a plot of style "mesh": x, y, depth, von Mises stress [Pa] at one instant."""
     one = Loads(*(np.asarray(part, float)[instant : instant + 1] for part in loads))
     size = plane_von_mises(np.tensordot(amounts(basis, one)[0], basis.surface.stress, axes=1))

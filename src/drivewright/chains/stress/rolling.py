@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Complexes, Numbers
 from drivewright.contact import hertz
 from drivewright.errors import InputError, UnknownName
 from drivewright.numerics.roots import extremes
@@ -20,10 +21,10 @@ REVERSAL = 0.25  # greatest |sxz|/p0, at x = sqrt(3)/2, z = 1/2: the shear that 
 class RollingContact(NamedTuple):
     """pressure p0 [Pa], half_width b [m], shear [Pa]: the greatest below the surface, and the depth [m] where it is."""
 
-    pressure: np.ndarray
-    half_width: np.ndarray
-    shear: np.ndarray
-    depth: np.ndarray
+    pressure: Numbers
+    half_width: Numbers
+    shear: Numbers
+    depth: Numbers
 
 
 class PressureLimits(NamedTuple):
@@ -37,7 +38,7 @@ class PressureLimits(NamedTuple):
     shakedown: float
 
 
-def rolling_contact(force, width, radii, modulus, poisson):
+def rolling_contact(force: float, width: float, radii: tuple[float, float], modulus: float, poisson: float) -> RollingContact:
     """Hertz line contact of two like pins: force [N] over the width [m], radii (R1, R2) [m], both with the same modulus [Pa].
 
     1/R = 1/R1 + 1/R2,  E* = E/(2(1 - nu^2)),  p0 = sqrt(F E*/(pi L R)),  greatest shear 0.300 p0 at the depth 0.786 b.
@@ -48,7 +49,7 @@ def rolling_contact(force, width, radii, modulus, poisson):
     return RollingContact(found.pressure, found.half_width, shear * found.pressure, depth * found.half_width)
 
 
-def line_stresses(x, z):
+def line_stresses(x: Numbers, z: Numbers) -> tuple[Numbers, ...]:
     """(sx, sz, sxz)/p0 at x, z >= 0 over b, below a Hertz pressure p0 sqrt(1 - x^2).
 
     With m, n >= 0 the parts of sqrt((z + i x)^2 + 1) = m + i n (n with the sign of x):
@@ -56,14 +57,14 @@ def line_stresses(x, z):
     Source: McEwen's solution in Johnson, Contact Mechanics (1985), chapter 4, recalled; the tests sum Flamant's line loads.
     """
     x, z = np.broadcast_arrays(np.asarray(x, float), np.asarray(z, float))
-    root = np.sqrt((z + 1j * x) ** 2 + 1)
-    m, n = root.real, np.copysign(root.imag, x)
+    root: Complexes = np.sqrt((z + 1j * x) ** 2 + 1)
+    m, n = np.real(root), np.copysign(np.imag(root), x)
     size = np.maximum(m**2 + n**2, np.finfo(float).tiny)
     share = (z**2 + n**2) / size
     return 2 * z - m * (1 + share), -m * (1 - share), -n * (m**2 - z**2) / size
 
 
-def pressure_limits(yield_stress, poisson, criterion="mises"):
+def pressure_limits(yield_stress: float, poisson: float, criterion: str = "mises") -> PressureLimits:
     """`PressureLimits` for a yield stress [Pa] in tension.
 
     First yield, on the axis below the contact: 1.67 Y by Tresca, 1.79 Y by von Mises with nu = 0.3 (the stress along the pin is
@@ -77,7 +78,7 @@ def pressure_limits(yield_stress, poisson, criterion="mises"):
     return PressureLimits(yield_stress / _greatest_equivalent(poisson, criterion), YIELD[criterion] * yield_stress / REVERSAL)
 
 
-def equivalent(stresses, poisson, criterion):
+def equivalent(stresses: tuple[Numbers, ...], poisson: float, criterion: str) -> Numbers:
     """Stress over p0 to be compared with the yield stress in tension, of (sx, sz, sxz) in plane strain."""
     x, z, xz = stresses
     middle, radius = (x + z) / 2, np.hypot((x - z) / 2, xz)

@@ -15,10 +15,12 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import block_diag
 
+from drivewright._typing import ArrayLike, Floats
+from drivewright.chains.plate import Plate
 from drivewright.chains.stress import bearing
 from drivewright.chains.stress.plate import SIDES
 from drivewright.errors import InputError, SolverError
-from drivewright.solids.plane import ALONG_EDGE
+from drivewright.solids.plane import ALONG_EDGE, PlaneBody
 
 REACH = np.radians(120.0)  # hats to either side of the force, as far as the seat goes
 LEAST = 5  # hats that must bear for a pressure to be believed
@@ -29,13 +31,13 @@ class Seating(NamedTuple):
     """turns and pressures, of the left and the right pin: (h,) [rad] of hats from the force's direction and (h,) [Pa] there; shift (2, 2)
     [m] of the pins' centres; stress (n, 3) [Pa] along the rim."""
 
-    turns: tuple
-    pressures: tuple
-    shift: np.ndarray
-    stress: np.ndarray
+    turns: tuple[Floats, Floats]
+    pressures: tuple[Floats, Floats]
+    shift: Floats
+    stress: Floats
 
 
-def seated(plate, body, pins, clearance, tractions=None):
+def seated(plate: Plate, body: PlaneBody, pins: Floats, clearance: float, tractions: ArrayLike | None = None) -> Seating:
     """`Seating` of pins with forces (2, 2) [N] (left, right; x, y) and a radial clearance [m] in the holes of a plate with a `plate_body`.
 
     tractions (n, 2) [Pa]: other loads along the rim, e.g. those of a flank.  SolverError where the pressure is too narrow for the body.
@@ -51,7 +53,8 @@ def seated(plate, body, pins, clearance, tractions=None):
     fields = body.solve(np.concatenate([*(_tractions(body, *each) for each in zip(seats, hats, strict=True)), other]))
     opened, areas, shift = _gaps(seats, hats, body.displacement(fields))
     pressure, moved = _bearing_hats(opened[:, :-1], clearance * areas + opened[:, -1], shift, pins.ravel())
-    pressures = tuple(np.split(pressure, [len(turns[0])]))
+    left, right = np.split(pressure, [len(turns[0])])
+    pressures = left, right
     _refuse_narrow(pressures, clearance)
     together = np.append(pressure, 1.0) @ fields
     return Seating(turns, pressures, moved.reshape(2, 2), body.stress(together[None])[0])
