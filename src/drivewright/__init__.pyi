@@ -28,7 +28,7 @@ from drivewright.mechanisms.indexer.build import IndexerModel
 from drivewright.mechanisms.indexer.spec import IndexerSpec
 from drivewright.mechanisms.linkage.build import LinkageModel
 from drivewright.mechanisms.linkage.spec import LinkageSpec
-from drivewright.mechanisms.seedling_pusher.build import Pusher as PusherModel
+from drivewright.mechanisms.seedling_pusher.build import PusherModel
 from drivewright.mechanisms.seedling_pusher.spec import SeedlingPusherSpec
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.spec import ShaftSpec

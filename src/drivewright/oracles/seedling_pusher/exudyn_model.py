@@ -7,14 +7,17 @@ Only `verify` imports this: Exudyn is an optional dependency.
 from collections.abc import Callable
 from typing import Any
 
-import exudyn
+import exudyn as exudyn_module
 import numpy as np
-from exudyn import itemInterface as item
+from exudyn import itemInterface as item_interface
 
 from drivewright.errors import SolverError
 from drivewright.mechanisms.seedling_pusher.build import TURN, PusherModel
 from drivewright.oracles.seedling_pusher.multibody_run import MultibodyRun
 from drivewright.oracles.seedling_pusher.rolled_motion import roller_at_rest
+
+exudyn: Any = exudyn_module  # its stubs take the numbers of items for modules
+item: Any = item_interface
 
 FACETS = 720  # per cam; rod error of the published design without push force: 180 give 0.09 mm, 360 0.026 mm, 720 and 1440 0.012 mm
 STEPS = 5000  # per turn

@@ -3,20 +3,25 @@
 Rows are tuples (name, ours, other, unit, allowed difference, route) in SI.
 """
 
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.chains.closure import States
 from drivewright.chains.explicit.assembly import start
 from drivewright.chains.explicit.simulate import Settings, simulate, tooth_time
 from drivewright.chains.explicit.stability import largest_step
 from drivewright.chains.implicit import simulate as implicit
 from drivewright.chains.implicit.equilibrium import compliance_of, stiffened
-from drivewright.chains.link import seat_support
+from drivewright.chains.link import Link, seat_support
 from drivewright.chains.model import Slide, with_sprocket
-from drivewright.mechanisms.silent_chain.build import SIDES
+from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.moving import moving
+from drivewright.registry import Row
+from drivewright.result import Result
 
 DIGITS = 40
 PRINTED = "equations as printed, {}"
@@ -31,7 +36,7 @@ STEP = 2e-7  # [s], or less, of both integrators
 SHARE = 0.5  # of a tooth, over which they run side by side: contacts make neighbouring motions part
 
 
-def verify(model, result):
+def verify(model: ChainModel, result: Result[Any]) -> Iterator[Row]:
     """All rows.  Exudyn is no route here: its chains have neither rolling joints nor flanks; the benchmarks run one with rollers."""
     if model.sides:
         yield from _meshing(model, result)
@@ -49,7 +54,7 @@ def verify(model, result):
 # -- the published method ------------------------------------------------------------------------------------------------------
 
 
-def _numbers():
+def _numbers() -> tuple[Callable[[Any], Any], Callable[[Any], Any], Callable[[Any], Any], Any, str]:
     """(number from a float, sin, cos, pi, how exact): 40 digits where mpmath is installed, else those of long doubles."""
     try:
         import mpmath
@@ -152,28 +157,29 @@ class Loop:
     """Both strands between plates seated as in one of the `States`; unknown are the driven angle, the centre distance in pitches, and the
     direction of every free plate, or of the whole strand where strands are straight."""
 
-    def __init__(self, link, teeth, state, bent):
+    def __init__(self, link: Link, teeth: tuple[int, int], state: States, bent: bool) -> None:
         self.link, self.pitch, self.teeth, self.state, self.bent = link, link.pitch, teeth, state, bent
         self.counts = (1, 1)
 
-    def first(self):
+    def first(self) -> Floats:
         """A belt around the pitch circles, strands straight."""
         radii = [0.5 / np.sin(np.pi / z) for z in self.teeth]
         distance = float(self.state.centre_distance) / self.pitch
         rise = np.arcsin((radii[1] - radii[0]) / distance)
         x = np.array([float(self.state.driven_angle), distance])
         up, down = (meet - leave for leave, meet in self.ends(x))
-        self.counts = tuple(int(round(abs(strand) + 2 * self.link.radius / self.pitch)) for strand in (up, down))
+        upper, lower = (int(round(abs(strand) + 2 * self.link.radius / self.pitch)) for strand in (up, down))
+        self.counts = upper, lower
         copies = self.counts if self.bent else (1, 1)
         return np.concatenate([x, np.full(copies[0], rise), np.full(copies[1], -np.pi - rise)])
 
-    def seats(self, driven):
+    def seats(self, driven: float) -> tuple[float, float, float, float]:
         """Polar angles of the four seated plates next to the strands."""
         phi, (off_1, on_2, off_2, on_1) = 2 * np.pi / np.array(self.teeth), self.state.seats
         own = self.state.driver_angle
         return own + off_1 * phi[0], driven + on_2 * phi[1], driven + off_2 * phi[1], own + on_1 * phi[0] - 2 * np.pi
 
-    def ends(self, x):
+    def ends(self, x: Floats) -> tuple[tuple[complex, complex], tuple[complex, complex]]:
         """((start, end), (start, end)) of the upper and of the lower strand [pitches]: last pin seated, first pin seated again."""
         places = []
         for number, (seat, side) in enumerate(zip(self.seats(x[0]), (-0.5, 0.5, -0.5, 0.5), strict=True)):
@@ -183,7 +189,7 @@ class Loop:
             places.append((height + 1j * side * self.link.hole_pitch) / self.pitch * np.exp(1j * seat) + (x[1] if driven else 0.0))
         return (places[0], places[1]), (places[2], places[3])
 
-    def misses(self, x):
+    def misses(self, x: Floats) -> Floats:
         """By how much both strands miss their ends (4,)."""
         upper, lower = self.counts if self.bent else (1, 1)
         free = np.split(x[2:], [upper])
