@@ -7,9 +7,9 @@ import pytest
 
 from drivewright._jit import plain
 from drivewright.contact.impact import cylinder_force, delivered_restitution, impact_law, impact_law_names, lasting_factor
-from drivewright.multibody import loads
 from drivewright.multibody.analyses.wear import with_wear
 from drivewright.multibody.assembly import assemble
+from drivewright.multibody.forces import pin_contact
 from drivewright.multibody.linearise import linearise, modes
 from drivewright.multibody.model import GROUND, Body, Dry, Friction, JointDrive, Marker, MultibodyModel, Prismatic, Revolute, line
 from drivewright.multibody.observe import observe
@@ -22,7 +22,7 @@ pytestmark = pytest.mark.property
 G = 9.81
 CRANK, ROD, SPEED = 0.05, 0.12, 5000 * 2 * np.pi / 60
 TURN = 2 * np.pi / SPEED
-LASTING = loads.LASTING
+LASTING = pin_contact.LASTING
 
 
 def ball(dry, velocity=(0.0, 0.0), gravity=0.0, mass=0.5):
@@ -176,7 +176,7 @@ def test_a_slow_touch_under_a_growing_load_is_not_glued():
     contact = assemble(
         MultibodyModel((Body("body", 0.5, 1e-3),), (Revolute("pin", Marker(GROUND), Marker("body"), Dry(5e-4, 0.01, 1e8, 1.5, 0.8)),))
     ).system.contacts[0]
-    normal, elastic = plain(loads.normal_of), 1e8 * 1e-5**1.5
+    normal, elastic = plain(pin_contact.normal_of), 1e8 * 1e-5**1.5
     rates = 1e-4 * np.array([0.5, 1 - 1e-7, 1 + 1e-7, 1.01, 100.0, 1e6])
     factor = [normal(contact, 1e-5, rate, 1e-4, 0.0) / elastic - 1 for rate in rates]
     assert factor[:2] == pytest.approx(0.8 * rates[:2] / 1e-4, rel=1e-9)
@@ -186,7 +186,7 @@ def test_a_slow_touch_under_a_growing_load_is_not_glued():
 
 def test_a_gap_that_no_force_moves_is_elastic():
     contact = ball(Dry(5e-4, 0.01, 1e8, 1.5, 0.8)).system.contacts[0]
-    assert plain(loads.normal_of)(contact, 1e-5, 0.3, LASTING, 0.0) == pytest.approx(1e8 * 1e-5**1.5, rel=1e-12)
+    assert plain(pin_contact.normal_of)(contact, 1e-5, 0.3, LASTING, 0.0) == pytest.approx(1e8 * 1e-5**1.5, rel=1e-12)
 
 
 def test_the_mass_of_a_lasting_contact_is_that_which_its_force_moves():
@@ -246,12 +246,12 @@ def test_rate_and_mass_of_a_gap_are_those_of_its_depth(model, aside, worn):
     def depth(shift):
         place = displaced(here, 0.0, shift)
         reduced_equations(place)
-        return plain(loads.penetration)(place.system, place.work, 0)
+        return plain(pin_contact.penetration)(place.system, place.work, 0)
 
     free = len(assembly.system.independent)
     slope = np.array([(8 * (depth(h) - depth(-h)) - depth(2 * h) + depth(-2 * h)) / 1.2e-5 for h in 1e-6 * np.eye(free)])
     now = reduced_equations(here)
-    found, rate, mobility, *_ = plain(loads.gap_motion)(here.system, 0, here.work, LASTING)
+    found, rate, mobility, *_ = plain(pin_contact.gap_motion)(here.system, 0, here.work, LASTING)
     assert found > 1e-5 and np.min(np.abs(slope)) > 1e-4
     assert rate == pytest.approx(slope @ y[len(assembly.system.stored) :][:free], rel=2e-5)
     assert mobility == pytest.approx(slope @ np.linalg.solve(now.mass, slope), rel=2e-5)
@@ -267,12 +267,12 @@ def test_a_lasting_contact_of_a_cylinder_is_damped_by_the_work_to_its_depth(dept
     speed = np.sqrt(2 / mass * np.sum(0.5 * (forces[1:] + forces[:-1]) * np.diff(path)))
     for rate in (0.3 * speed, -0.4 * speed):
         exact = forces[-1] * (1 + lasting_factor(0.5) * rate / speed)
-        assert plain(loads.normal_of)(contact, depth, rate, LASTING, 1 / mass) == pytest.approx(exact, rel=2e-6)
+        assert plain(pin_contact.normal_of)(contact, depth, rate, LASTING, 1 / mass) == pytest.approx(exact, rel=2e-6)
 
 
 def test_an_impact_takes_as_much_when_it_parts_faster_than_it_touched():
     """What the rate adds is odd in the rate, beyond the approach speed too."""
-    contact, normal, elastic = ball(Dry(5e-4, 0.01, 1e8, 1.5, 0.2)).system.contacts[0], plain(loads.normal_of), 1e8 * 1e-5**1.5
+    contact, normal, elastic = ball(Dry(5e-4, 0.01, 1e8, 1.5, 0.2)).system.contacts[0], plain(pin_contact.normal_of), 1e8 * 1e-5**1.5
     for rate in (0.5, 1.5, 10.0):
         one, other = (normal(contact, 1e-5, way * rate, 1.0, 0.0) / elastic - 1 for way in (1, -1))
         assert one == pytest.approx(-other, rel=1e-12) and 0.09 < one < 0.4

@@ -1,13 +1,13 @@
 """Wear of a journal bearing by Archard's law, on angular bins of the bearing's wall.
 
-The wear depth is a periodic, piecewise linear function of the angle on the bearing: node k of n stands at 2 pi k/n.  `deposit` shares what
-is worn off between the two nodes next to the contact, by the weights with which `wear_at` reads them, so that no volume is lost.
+Node k of n bins is at the angle 2 pi k/n on the bearing.  `deposit` shares what is worn off linearly between the two nodes next to the
+contact; the depth over the angle, `wear_at`, is a quadratic B-spline over the bins, whose integral is their sum: no volume is lost.
 The journal keeps its shape.
 """
 
 import numpy as np
 
-from drivewright._jit import kernel
+from drivewright._jit import outer
 from drivewright._typing import Floats, Numbers
 from drivewright.errors import InputError
 
@@ -60,11 +60,17 @@ def worn(depths: Floats, depth_per_cycle: Floats, cycles: float) -> Numbers:
     return np.asarray(depths) + cycles * np.asarray(depth_per_cycle)
 
 
-@kernel
-def wear_at(depths: Floats, angle: float) -> float:
-    """Wear depth [m] at the angle [rad] on the bearing; periodic, linear between the nodes."""
-    n = depths.shape[0]
-    place = angle / (2.0 * np.pi) * n
-    below = np.floor(place)
-    part, node = place - below, int(below) % n
-    return (1.0 - part) * depths[node] + part * depths[(node + 1) % n]
+@outer
+def wear_at(depths: Floats, angle: float) -> tuple[float, float]:
+    """(wear depth [m], its slope by the angle [m/rad]) at the angle [rad] on the bearing; depths (bins,) [m], one or more.
+
+    A quadratic B-spline over the bins: its slope has no jumps in which a journal would rattle.
+    """
+    bins = depths.size
+    place = angle * bins / (2 * np.pi)
+    node = np.floor(place + 0.5)
+    u, k = place - node, int(node) % bins
+    before, here, after = depths[k - 1], depths[k], depths[(k + 1) % bins]  # k - 1 may be -1: the last one
+    depth = 0.5 * (0.5 - u) ** 2 * before + (0.75 - u * u) * here + 0.5 * (0.5 + u) ** 2 * after
+    slope = (u - 0.5) * before - 2 * u * here + (u + 0.5) * after
+    return depth, slope * bins / (2 * np.pi)

@@ -11,8 +11,9 @@ from drivewright._typing import Floats
 from drivewright.multibody.chart import chart_offset, update_interpolated, update_kinematics, update_positions
 from drivewright.multibody.curves import curve_at
 from drivewright.multibody.forces.contact import LUGRE
+from drivewright.multibody.forces.pin_contact import LASTING, SLOWEST, contact_signs, gap_motion
 from drivewright.multibody.kinematics import jacobian_determinant, update_velocities
-from drivewright.multibody.loads import LASTING, SLOWEST, apply_forces, contact_signs, gap_motion
+from drivewright.multibody.loads import apply_forces
 from drivewright.multibody.system import BIAS, Motion, System, Work
 from drivewright.numerics.ode import events, rate, switch
 from drivewright.numerics.small import cholesky_factor, cholesky_substitute

@@ -9,7 +9,7 @@ from drivewright._jit import plain
 from drivewright._typing import Complexes, Floats
 from drivewright.errors import InputError
 from drivewright.multibody.assembly import Assembly
-from drivewright.multibody.loads import LASTING, elastic_of, gap_motion, loading_speed, penetration
+from drivewright.multibody.forces.pin_contact import LASTING, elastic_of, gap_motion, loading_speed, penetration
 from drivewright.multibody.simulate import repartition
 from drivewright.multibody.statics import (
     Place,

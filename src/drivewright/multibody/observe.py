@@ -9,7 +9,8 @@ from drivewright._typing import ArrayLike, Floats
 from drivewright.multibody.chart import dependency_on_drive, update_kinematics
 from drivewright.multibody.dynamics import solve_accelerations, update_mass_matrix
 from drivewright.multibody.forces.contact import NO_FILM
-from drivewright.multibody.loads import apply_loads, apply_springs, clear_forces, contact_state, film_force, pin_forces
+from drivewright.multibody.forces.pin_contact import contact_state, film_force
+from drivewright.multibody.loads import apply_loads, apply_springs, clear_forces, pin_forces
 from drivewright.multibody.observed import FIELDS, PIN_FIELDS, POWER_FIELDS, Observed
 from drivewright.multibody.system import BIAS, SCRATCH, Motion, System, Work, motion
 

@@ -13,7 +13,7 @@ from drivewright.multibody.assembly import Assembly
 from drivewright.multibody.chart import outside_fold, solve_kinematics
 from drivewright.multibody.continuation import Stretch, continue_motion
 from drivewright.multibody.dynamics import FIRST_PIN
-from drivewright.multibody.loads import LASTING, penetration
+from drivewright.multibody.forces.pin_contact import LASTING, penetration
 from drivewright.multibody.observe import FIELDS, observe
 from drivewright.multibody.partition import evaluate_at, partition_coordinates
 from drivewright.multibody.passages import Passage, passage, smallest_singular_values
