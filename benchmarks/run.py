@@ -100,7 +100,7 @@ def ours_per_position():
     spec = load(EXAMPLE)
     model = build(spec)
     t = np.linspace(0, 2 * np.pi, 4 * 91)
-    general = best(lambda: [model.pitch(cam, t) for cam in model.cams])
+    general = best(lambda: [model.pair.pitch(cam, t) for cam in model.pair.cams])
     yield f"ours, general path, both cams with three derivatives ({len(t) / general[0]:,.0f} positions per second)", general, ""
     evaluate = d.batch(spec, ("train.axis_ratio",), d.NAMES)
     x = np.linspace(0.98, 0.99, 2000)[:, None]

@@ -54,7 +54,7 @@ def ends(piece):
 @pytest.mark.parametrize("name", presets("seedling_pusher", ["default", "paper-interior"]))
 def test_pusher_cams_and_gear(name):
     model = model_of("seedling_pusher", name)
-    for cam in model.cams:
+    for cam in model.pair.cams:
         check(model.drawn_profiles[cam.name], model.profiles[cam.name], model.drawn_tolerance)
     check(model.drawn_gear, model.gear_outline, model.drawn_tolerance)
 

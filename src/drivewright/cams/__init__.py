@@ -9,13 +9,15 @@
 `closure`            yoke, groove, conjugate cam
 `loads`, `pressure`  forces, torque, spring; Hertz pressure
 `vibration`          the follower train as one mass on a damped spring
-`clearance`          a lever between conjugate cams with clearance: contact, flight, impact
+`conjugate`          a lever between conjugate cams whose pivot is carried around them: profiles, pressure angles, forces
+`clearance`          the same with clearance: contact, flight, impact
 `oscillating_batch`  kernels for many designs at once
 `follower_shapes`    the follower as shapes, for scene and solids
 """
 
 from drivewright.cams import oscillating, translating
 from drivewright.cams.closure import Breadth, breadth, crossovers, opposite_contact, play
+from drivewright.cams.conjugate import ConjugateCam, ConjugatePair
 from drivewright.cams.cycle import Cycle, Extreme
 from drivewright.cams.finished import (
     FinishedProfile,
@@ -24,6 +26,7 @@ from drivewright.cams.finished import (
     inspection_table,
     min_hollow_radius,
     pitch_outline,
+    polar_radii,
     profile_radii,
 )
 from drivewright.cams.follower_shapes import FollowerShapes
@@ -54,6 +57,8 @@ from drivewright.cams.vibration import STIFFEST, Response, acceleration, amplitu
 __all__ = [
     "Breadth",
     "CamContact",
+    "ConjugateCam",
+    "ConjugatePair",
     "ContactAt",
     "Cycle",
     "Extreme",
@@ -100,6 +105,7 @@ __all__ = [
     "peak_contact_pressure",
     "periodic",
     "pitch_outline",
+    "polar_radii",
     "play",
     "profile_radii",
     "propagator",

@@ -4,6 +4,7 @@ from typing import NamedTuple, TypeGuard
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.cams.cycle import Cycle
 from drivewright.cams.followers import ContactAt
 from drivewright.cams.profile import FlatFollower, Follower, RoundFollower, family, path, spans
@@ -63,6 +64,17 @@ def min_hollow_radius(cycle: Cycle, contact_at: ContactAt, radius: float) -> flo
     """Least radius of curvature [m] of the hollow stretches of the profile under a face of that radius [m]; None where none is hollow."""
     sharpest = cycle.minimum(lambda angle, lift: contact_at(angle, lift).pitch_curvature).value
     return radius - 1 / sharpest if sharpest < 0 else None
+
+
+def polar_radii(trimmed: Trimmed, angle: Floats, points: int = 20_001) -> Floats:
+    """Radii [m] of a profile at polar angles [rad], for one that every ray from the cam's centre meets once.
+
+    `points` on each stretch: chords so short that the radius between two of them is exact to 1 nm.
+    """
+    stretches = (span.piece.at(np.linspace(span.start, span.stop, points)).d0 for span in trimmed.spans)
+    z = np.concatenate([np.broadcast_to(stretch, points) for stretch in stretches])
+    order = np.argsort(np.angle(z))
+    return np.interp(np.angle(np.exp(1j * angle)), np.angle(z)[order], np.abs(z)[order], period=2 * np.pi)
 
 
 def inspection_table(cycle: Cycle, contact_at: ContactAt, trimmed: Trimmed | None, tolerance: float, name: str, title: str) -> Table:

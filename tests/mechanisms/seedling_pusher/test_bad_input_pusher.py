@@ -197,9 +197,9 @@ def test_circular_gears_are_legal_and_give_pure_translation():
     """k = 1: phi3 = t, so the arm does not rotate and every point of it moves as the planet axis does."""
     model = dw.build(load(EXAMPLE, ["train.axis_ratio=1"]))
     t = np.linspace(0.3, 6.1, 37)
-    np.testing.assert_allclose(model.planet(t).d0, t, atol=1e-13)
-    np.testing.assert_allclose(model.arm_rotation(t).d0, 0, atol=1e-13)
-    offset = (model.tip(t) - model.planet_axis(t)).d0
+    np.testing.assert_allclose(model.arm.planet(t).d0, t, atol=1e-13)
+    np.testing.assert_allclose(model.arm.rotation(t).d0, 0, atol=1e-13)
+    offset = (model.arm.point(t) - model.arm.axis(t)).d0
     np.testing.assert_allclose(offset, offset[0], atol=1e-15)
     result = computed("train.axis_ratio=1", only=("train",))
     assert result["tip.track_height"] == pytest.approx(result["tip.track_width"], rel=1e-9)  # a circle

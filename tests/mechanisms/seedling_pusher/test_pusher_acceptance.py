@@ -158,14 +158,14 @@ def test_repaired_designs(preset, difference, pressure, ratio, reach):
 def test_circular_gears_translate_the_arm():
     model = build(dw.load(EXAMPLE, ["train.axis_ratio=1.0"]))
     t = np.linspace(0, 2 * np.pi, 13)
-    assert model.planet(t).d0 == pytest.approx(t, abs=1e-14)
-    assert model.arm_rotation(t).d0 == pytest.approx(0 * t, abs=1e-14)
+    assert model.arm.planet(t).d0 == pytest.approx(t, abs=1e-14)
+    assert model.arm.rotation(t).d0 == pytest.approx(0 * t, abs=1e-14)
 
 
 @pytest.mark.parametrize(("t", "height"), [(50, 21.86), (60, 12.52), (70, 5.42), (75, 2.87), (86, 0.06), (100, 3.02), (123, 26.1)])
 def test_tip_above_its_lowest_point(t, height):
     model = build(dw.load(EXAMPLE))
-    assert 1e3 * (model.tip(np.radians(t)).d0.imag - model.tip(model.lowest).d0.imag) == pytest.approx(height, abs=0.05)
+    assert 1e3 * (model.arm.point(np.radians(t)).d0.imag - model.arm.point(model.arm.lowest).d0.imag) == pytest.approx(height, abs=0.05)
 
 
 @pytest.mark.parametrize(("axis_ratio", "difference"), [(0.980, 57.60), (0.982, 54.01), (0.990, 36.82), (0.98145, 55.0)])
@@ -183,21 +183,21 @@ def test_difference_of_needle_angles_does_not_know_the_needle_offset():
 
 def test_the_push_can_end_at_the_lowest_point_by_construction():
     model = build(dw.load(EXAMPLE, ["push.end_event=lowest"]))
-    assert model.push_start + model.spec.push.rise == pytest.approx(model.lowest, abs=1e-15)
-    assert model.rod(model.lowest).d0 == pytest.approx(18e-3, abs=1e-15)
+    assert model.pair.start + model.spec.push.rise == pytest.approx(model.arm.lowest, abs=1e-15)
+    assert model.pair.travel(model.arm.lowest).d0 == pytest.approx(18e-3, abs=1e-15)
 
 
 def test_gate_line_event():
     """A vertical gate through the top of the track is crossed at the top."""
     model = build(dw.load(EXAMPLE))
-    top = model.tip(model.highest).d0
+    top = model.arm.point(model.arm.highest).d0
     change = [
         f'events.gate_point=["{1e3 * top.real:.9f} mm", "{1e3 * top.imag:.9f} mm"]',
         "events.take=gate",
         "events.gate_direction=90 deg",
     ]
     found = dw.run(dw.load(EXAMPLE, change), only=("planting",))
-    assert found["needle.take_event"] == pytest.approx(model.highest, abs=1e-6)
+    assert found["needle.take_event"] == pytest.approx(model.arm.highest, abs=1e-6)
 
 
 @pytest.mark.parametrize(("law", "loss"), [("polynomial-345", 0.0796), ("polynomial-4567", 0.2976)])
@@ -215,9 +215,9 @@ def test_walls_and_clearances_by_hand():
     assert 1e3 * found.check("hub_wall.main").value == pytest.approx(29.0 - 6.0 - 15.0, abs=1e-6)
     assert 1e3 * found.check("hub_wall.return").value == pytest.approx(28.136 - 6.0 - 15.0, abs=1e-3)
     t = np.linspace(0, 2 * np.pi, 20001)
-    axis = model.planet_axis(t).d0 + 0.140 * t / (2 * np.pi)
-    low = model.tip(model.lowest).d0
-    feet = low.real + 0.140 * (model.lowest / (2 * np.pi) - np.arange(4))
+    axis = model.arm.axis(t).d0 + 0.140 * t / (2 * np.pi)
+    low = model.arm.point(model.arm.lowest).d0
+    feet = low.real + 0.140 * (model.arm.lowest / (2 * np.pi) - np.arange(4))
     above = axis.imag - (low.imag + 0.030 + 0.060)
     distance = min(np.hypot(axis.real - foot, np.maximum(above, 0)).min() for foot in feet)
     assert found["planting.axis_clearance"] == pytest.approx(distance, abs=2e-6)

@@ -41,61 +41,61 @@ def differences(f, t, h=1e-4):
     return first, second
 
 
-@pytest.mark.parametrize("what", ["tip", "planet_axis", "planet", "arm_rotation"])
+@pytest.mark.parametrize("what", ["point", "axis", "planet", "rotation"])
 def test_derivatives_of_the_train(model, what):
     t = np.array([0.3, 1.234, 2.9, 5.1])
-    jet = getattr(model, what)(t)
-    first, second = differences(lambda x: getattr(model, what)(x).d0, t)
+    jet = getattr(model.arm, what)(t)
+    first, second = differences(lambda x: getattr(model.arm, what)(x).d0, t)
     assert np.abs(first - jet.d1).max() < 1e-9 * max(1, np.abs(jet.d1).max())
     assert np.abs(second - jet.d2).max() < 1e-6 * max(1, np.abs(jet.d2).max())
 
 
 def test_derivatives_of_the_pitch_curves(model):
-    low, high, _, k = next(p for p in model.pieces() if p[2] == "rise")
+    low, high, _, k = next(p for p in model.pair.pieces if p[2] == "rise")
     t = low + (high - low) * np.array([0.2, 0.45, 0.8])
-    for cam in model.cams:
-        jet = model.pitch(cam, t, k)
-        first, second = differences(lambda x, cam=cam: model.pitch(cam, x, k).d0, t)
+    for cam in model.pair.cams:
+        jet = model.pair.pitch(cam, t, k)
+        first, second = differences(lambda x, cam=cam: model.pair.pitch(cam, x, k).d0, t)
         assert np.abs(first - jet.d1).max() < 1e-8 * np.abs(jet.d1).max()
         assert np.abs(second - jet.d2).max() < 1e-5 * np.abs(jet.d2).max()
 
 
 def test_both_rollers_keep_their_distance(model):
     t = np.linspace(0, 2 * np.pi, 500)
-    main, back = (model.pitch(cam, t).d0 for cam in model.cams)
+    main, back = (model.pair.pitch(cam, t).d0 for cam in model.pair.cams)
     distance = np.abs(main - back)
-    arms = [cam.arm for cam in model.cams]
-    between = sum(cam.rest_angle for cam in model.cams)
+    arms = [cam.arm for cam in model.pair.cams]
+    between = sum(cam.rest_angle for cam in model.pair.cams)
     assert np.ptp(distance) < 1e-15
     assert distance[0] == pytest.approx(np.sqrt(arms[0] ** 2 + arms[1] ** 2 - 2 * arms[0] * arms[1] * np.cos(between)), rel=1e-14)
 
 
 def test_pressure_angle_is_the_angle_between_normal_and_roller_path(model):
     """From the pitch curve's own tangent and the arm's direction, both in the frame of the cams."""
-    for low, high, phase, k in model.pieces():
+    for low, high, phase, k in model.pair.pieces:
         if phase == "dwell":
             continue
         t = np.linspace(low, high, 41)[1:-1]
-        for cam in model.cams:
-            pitch = model.pitch(cam, t, k)
-            pivot = cam.pivot_distance * np.exp(1j * model.pivot_angle(t).d0)
+        for cam in model.pair.cams:
+            pitch = model.pair.pitch(cam, t, k)
+            pivot = cam.pivot_distance * np.exp(1j * model.pair.pivot_angle(t).d0)
             arm = pitch.d0 - pivot
             angle = np.arccos(np.abs((pitch.d1 / np.abs(pitch.d1) * np.conj(arm / np.abs(arm))).real))
-            assert angle == pytest.approx(np.abs(model.pressure_angle(cam, t, k).d0), abs=1e-7)
+            assert angle == pytest.approx(np.abs(model.pair.pressure_angle(cam, t, k).d0), abs=1e-7)
 
 
 def test_power_of_the_rod_comes_from_the_cams(model):
     """Torque on the planet times its rate equals rod force times rod velocity."""
     table = dw.run(model.spec, only=("load",)).tables["load"]
     t = table["carrier_angle"].data
-    assert table["torque"].data * model.planet(t).d1 * model.spec.drive.speed == pytest.approx(
+    assert table["torque"].data * model.arm.planet(t).d1 * model.spec.drive.speed == pytest.approx(
         table["rod_force"].data * table["velocity"].data, abs=1e-9 * np.abs(table["rod_force"].data).max()
     )
 
 
 def test_needle_angle_is_the_direction_of_the_tip_line_and_the_offset(model):
     t = np.linspace(0, 2 * np.pi, 50)
-    line = model.tip(t).d0 - model.planet_axis(t).d0
+    line = model.arm.point(t).d0 - model.arm.axis(t).d0
     assert np.exp(-1j * (model.needle_angle(t) - model.spec.arm.needle_angle)) == pytest.approx(
         line / model.spec.arm.tip_distance, abs=1e-12
     )

@@ -38,7 +38,7 @@ def centres(body, layer, frame):
 @pytest.mark.parametrize("frame", FRAMES)
 def test_each_roller_touches_its_cam(drawn, frame):
     model, _, bodies = drawn
-    for cam, centre in zip(model.cams, centres(bodies["lever"], "roller", frame), strict=True):
+    for cam, centre in zip(model.pair.cams, centres(bodies["lever"], "roller", frame), strict=True):
         profile = polygon(bodies[f"cam.{cam.name}"], "profile", frame)
         assert profile.exterior.distance(shapely.Point(centre)) == pytest.approx(cam.roller_radius, abs=6e-6)
         assert not profile.contains(shapely.Point(centre))
@@ -56,7 +56,7 @@ def test_the_gears_mesh_without_overlap(drawn, frame):
 
 def test_the_tip_and_the_axis_are_those_of_the_model(drawn):
     model, made, bodies = drawn
-    for trace, jet in (("tip", model.tip(made.cycle)), ("axis", model.planet_axis(made.cycle))):
+    for trace, jet in (("tip", model.arm.point(made.cycle)), ("axis", model.arm.axis(made.cycle))):
         point = next(t.point for t in made.traces if t.name == trace)
         path = np.array([place(np.array([point]), pose)[0] for pose in bodies["arm"].poses])
         assert path[:, 0] + 1j * path[:, 1] == pytest.approx(jet.d0, abs=1e-15)
@@ -67,7 +67,7 @@ def test_the_rod_moves_along_the_needle_by_its_travel(drawn):
     for frame in FRAMES:
         arm, rod = bodies["arm"].poses[frame], bodies["rod"].poses[frame]
         moved = complex(*(rod - arm)[:2]) * np.exp(-1j * arm[2])
-        assert moved == pytest.approx(model.rod(made.cycle[frame]).d0 * pusher_scene.needle(model), abs=1e-15)
+        assert moved == pytest.approx(model.pair.travel(made.cycle[frame]).d0 * pusher_scene.needle(model), abs=1e-15)
 
 
 def test_the_lever_reaches_the_rod(drawn):
@@ -79,7 +79,7 @@ def test_the_lever_reaches_the_rod(drawn):
         arm = pusher_scene._outwards(model) * np.exp(1j * lever[2])
         ends = place(np.array([[z.real, z.imag] for z in (back, front)]), rod)
         line = shapely.LineString(ends + (ends - ends.mean(axis=0)) * 5)
-        far = complex(*lever[:2]) + arm * model.spec.lever.output_arm / np.cos(model.swing(made.cycle[frame]).d0)
+        far = complex(*lever[:2]) + arm * model.spec.lever.output_arm / np.cos(model.pair.swing(made.cycle[frame]).d0)
         assert line.distance(shapely.Point(far.real, far.imag)) < 1e-12
 
 
@@ -105,7 +105,7 @@ def test_the_solids_stand_where_the_scene_starts(drawn):
         "gear_intermediate",
         "gear_planet",
     } <= set(parts)
-    for cam in model.cams:
+    for cam in model.pair.cams:
         prism = parts[f"cam_{cam.name}"].solids[0]
         solid = shapely.Polygon(place(prism.outline.points(2e-6), parts[f"cam_{cam.name}"].pose))
         shown = polygon(bodies[f"cam.{cam.name}"], "profile", 0)

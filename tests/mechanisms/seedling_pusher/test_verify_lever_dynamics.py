@@ -117,7 +117,7 @@ def test_without_play_the_rod_follows_and_the_rollers_stay():
 def test_rod_error_is_the_travel_beyond_the_programme():
     model = PUSHER.build(load(PUSHER.presets()["design-b"], ["contact.clearance=0.1 mm"]))
     angle, _, _, error, run = dynamics.simulate(model)
-    rod, arm = model.rod(model.push_start + angle).d0, model.spec.lever.output_arm
+    rod, arm = model.pair.travel(model.pair.start + angle).d0, model.spec.lever.output_arm
     assert error == pytest.approx(arm * np.tan(np.arctan2(rod, arm) + run.y[:, 0]) - rod, abs=1e-12)
 
 
@@ -132,11 +132,11 @@ def test_a_stiff_contact_needs_the_force_of_the_rigid_drive():
     """Slowly and without resistance the peak force is that of kinematics: rod acceleration times mass over the leverage."""
     model = PUSHER.build(load(PUSHER.presets()["default"], ["drive.speed=50 rpm", "load.push_force=0 N", "contact.stiffness=1e8 N/m"]))
     angle, main, back, *_ = dynamics.simulate(model)
-    t = model.push_start + angle
-    rod, swing = model.rod(t), model.swing(t)
+    t = model.pair.start + angle
+    rod, swing = model.pair.travel(t), model.pair.swing(t)
     lever = model.spec.load.mass * rod.d2 * model.spec.drive.speed**2 * model.spec.lever.output_arm / np.cos(swing.d0) ** 2
-    for cam, force in zip(model.cams, (main, back), strict=True):
-        rigid = np.maximum(cam.side * lever, 0.0) / (cam.arm * np.cos(model.pressure_angle(cam, t).d0))
+    for cam, force in zip(model.pair.cams, (main, back), strict=True):
+        rigid = np.maximum(cam.side * lever, 0.0) / (cam.arm * np.cos(model.pair.pressure_angle(cam, t).d0))
         assert force == pytest.approx(rigid, abs=0.12 * rigid.max())
 
 

@@ -22,7 +22,7 @@ def rod_error(model):
     from drivewright.oracles.seedling_pusher import exudyn_model as prototype
 
     run = prototype.simulate(model, RolledMotion(model).planet)
-    return run.angle, run.travel - model.rod(model.push_start + run.angle).d0, run
+    return run.angle, run.travel - model.pair.travel(model.pair.start + run.angle).d0, run
 
 
 @pytest.mark.parametrize(
@@ -41,7 +41,7 @@ def test_the_rod_follows_its_programme(preset, changes):
 
 def test_a_cam_for_another_stroke_is_seen():
     model = model_of("default")
-    model.__dict__["trimmed"] = model_of("default", "push.stroke=17.5 mm").trimmed
+    model.pair.__dict__["trimmed"] = model_of("default", "push.stroke=17.5 mm").pair.trimmed
     error = rod_error(model)[1]
     assert -0.6e-3 < error.min() < -0.4e-3
 
@@ -49,10 +49,10 @@ def test_a_cam_for_another_stroke_is_seen():
 def test_an_undercut_cam_lets_the_rod_fall_behind_by_what_it_has_lost():
     """Main cam undercut: lost motion over leverage is a swing, times l / cos^2(swing) a travel of the rod."""
     model = model_of("default", "train.start=far")
-    main, error = model.cams[0], rod_error(model)[1]
-    t = np.linspace(model.push_start, model.push_start + 2 * np.pi, 4001)
-    swing = curves.profile_gap(model.trimmed["main"], t) / (main.arm * np.cos(model.pressure_angle(main, t).d0))
-    behind = np.max(swing * model.spec.lever.output_arm / np.cos(model.swing(t).d0) ** 2)
+    main, error = model.pair.cams[0], rod_error(model)[1]
+    t = np.linspace(model.pair.start, model.pair.start + 2 * np.pi, 4001)
+    swing = curves.profile_gap(model.pair.trimmed["main"], t) / (main.arm * np.cos(model.pair.pressure_angle(main, t).d0))
+    behind = np.max(swing * model.spec.lever.output_arm / np.cos(model.pair.swing(t).d0) ** 2)
     assert behind > 1e-3
     assert -error.min() == pytest.approx(behind, abs=0.1e-3)
 

@@ -86,7 +86,7 @@ def test_a_train_that_meshes_otherwise_is_noticed():
     assert routes._free_foci(model, t) == pytest.approx(right, abs=1e-15)
     near, far = EllipticGearPair(0.17, right / 2), EllipticGearPair(0.17, right / 2, "far")
     for pairs in ((near, far), (far, near), (near, near)):
-        object.__setattr__(model.train, "pairs", pairs)
+        object.__setattr__(model.arm.train, "pairs", pairs)
         assert abs(routes._free_foci(model, t) - right) > 1e-5
 
 
@@ -119,7 +119,7 @@ def test_rolled_ellipses_touch_on_the_line_of_centres():
 
 def test_roller_at_rest_has_the_sides_of_its_triangle(case):
     model, _ = case
-    for cam in model.cams:
+    for cam in model.pair.cams:
         z = roller_at_rest(cam)
         sides = abs(z), abs(z + 1j * cam.pivot_distance)
         assert sides == pytest.approx((cam.prime_radius, cam.arm), rel=1e-14)
@@ -129,7 +129,7 @@ def test_roller_at_rest_has_the_sides_of_its_triangle(case):
 def test_rows_of_a_motion(case):
     model, result = case
     angle = np.linspace(0, 2 * np.pi, 721)
-    programme = model.rod(model.push_start + angle).d0
+    programme = model.pair.travel(model.pair.start + angle).d0
     wrong = np.where(programme > 0.017, 0.11e-3, np.where(programme > 0.001, 0.0, -0.07e-3))
     made = SimpleNamespace(angle=angle, travel=programme + wrong, swing=np.arctan(programme / model.spec.lever.output_arm))
     found = {row.name: row for row in (Comparison(*row) for row in routes.motion(model, result, made))}

@@ -1,22 +1,19 @@
-"""Spec -> model: train, tip, rod programme and the two cams, each a function of the carrier angle t (clockwise, 0 at the start).
+"""Spec -> model: the arm on the planet of the elliptic train, and the conjugate cams, both over the carrier angle t.
 
-All functions take the carrier angle as an array [rad] and give jets in it.  World frame: sun axis at the origin, y up.
+The carrier turns clockwise, t = 0 at the start.  World frame: sun axis at the origin, y up.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache, partial
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from drivewright import curves, motion
-from drivewright._typing import ArrayLike, Complexes, Floats, Ints
-from drivewright.cams import oscillating
+from drivewright._typing import ArrayLike, Floats
+from drivewright.cams.conjugate import ConjugateCam, ConjugatePair
 from drivewright.errors import InputError, SpecError
-from drivewright.gears import EllipticGearPair, Gear, GearTrain, Rack, RackFamily, cut_gear
+from drivewright.gears import EllipticGearPair, Gear, GearTrain, PlanetArm, Rack, RackFamily, cut_gear
 from drivewright.mechanisms.seedling_pusher.spec import SeedlingPusherSpec
-from drivewright.numerics.jets import Jet, atan, exp, variable
-from drivewright.numerics.roots import bracketed_roots
 from drivewright.scene import Outline
 
 TURN = 2 * np.pi
@@ -25,51 +22,13 @@ DRAWN = 1e-4
 
 
 @dataclass(frozen=True)
-class ConjugateCam:
-    """One of the two cams with its roller arm; `side` +1: the swing drives the roller outwards (main), -1: inwards (return)."""
-
-    name: str
-    arm: float
-    prime_radius: float
-    side: int
-    pivot_distance: float
-    roller_radius: float
-
-    @cached_property
-    def rest_angle(self) -> float:
-        """Angle between arm and line pivot - cam axis with the rod in [rad]."""
-        return oscillating.rest_angle(self.prime_radius, self.pivot_distance, self.arm)
-
-    def psi(self, swing: Jet) -> Jet:
-        """Angle between arm and line pivot - cam axis, from the lever's swing."""
-        return self.rest_angle + self.side * swing
-
-    def pitch(self, pivot_angle: Jet, swing: Jet) -> Jet:
-        """Roller centre in the frame of the cams, a complex jet [m]."""
-        return oscillating.pitch_curve(pivot_angle, self.psi(swing), self.pivot_distance, self.arm, self.side)
-
-    def pressure_angle(self, pivot_angle: Jet, swing: Jet) -> Jet:
-        """Angle between contact normal and roller path, a jet [rad]; positive where it opposes an opening arm."""
-        return oscillating.pressure_angle(pivot_angle, self.psi(swing), self.pivot_distance, self.arm, self.side)
-
-
-@dataclass(frozen=True)
 class PusherModel:
-    """The model: common types only, frozen."""
+    """The model: common types only, frozen.  The point of `arm` is the needle's tip, the mass of `pair` the pusher rod."""
 
     spec: SeedlingPusherSpec
-    train: GearTrain
-    bend: float  # signed turn from the first to the second arm of the carrier
-    tip_start: float  # direction of the line planet axis - tip at t = 0
-    programme: motion.Programme  # rod travel over the angle since the push started
-    push_start: float
-    cams: tuple[ConjugateCam, ...]
+    arm: PlanetArm
+    pair: ConjugatePair
     findings: tuple[str, ...] = field(default=())
-
-    @property
-    def orbit(self) -> int:
-        """+1 where the lever pivot orbits the cams counter-clockwise, -1 clockwise."""
-        return 1 if self.spec.cams.orbit == "counter-clockwise" else -1
 
     @property
     def rod_distance(self) -> float:
@@ -79,37 +38,21 @@ class PusherModel:
         clockwise, and a rod that runs out along the needle put the rod on the needle's side of the planet axis; the other sense mirrors it.
         """
         arm, lever = self.spec.arm, self.spec.lever
-        return self.orbit * (lever.pivot_distance + lever.output_arm) - arm.tip_distance * np.sin(arm.needle_angle)
+        return self.pair.orbit * (lever.pivot_distance + lever.output_arm) - arm.tip_distance * np.sin(arm.needle_angle)
 
-    # -- train and tip ---------------------------------------------------------------------------------------------------
-
-    def planet(self, t: ArrayLike) -> Jet:
-        """Planet relative to the carrier phi3(t) [rad], 0 at the start, counter-clockwise."""
-        return self.train.planet(t)
-
-    def arm_rotation(self, t: ArrayLike) -> Jet:
-        """Rotation of the planting arm in the world [rad]: -t + phi3."""
-        return self.planet(t) - variable(t)
-
-    def planet_axis(self, t: ArrayLike) -> Jet:
-        """Axis of the planet in the world, complex jet [m]."""
-        arm = 2 * self.spec.train.semi_major
-        first = exp(1j * (self.spec.train.carrier_angle - variable(t)))
-        return arm * (1 + np.exp(1j * self.bend)) * first
-
-    def tip(self, t: ArrayLike) -> Jet:
-        """Needle tip in the world (machine frame), complex jet [m]."""
-        return self.planet_axis(t) + self.spec.arm.tip_distance * exp(1j * (self.tip_start + self.arm_rotation(t)))
+    @property
+    def advance(self) -> float:
+        """How far the machine drives per carrier turn, signed [m]."""
+        return self.spec.field.spacing * (1 if self.spec.field.travel == "+x" else -1)
 
     def needle_angle(self, t: ArrayLike) -> Floats:
         """Needle below the horizontal [rad], pointing away from the planet axis."""
-        direction = self.tip_start + self.arm_rotation(t).d0
-        return -np.angle(np.exp(1j * direction)) + self.spec.arm.needle_angle
+        return -np.angle(np.exp(1j * self.arm.direction(t).d0)) + self.spec.arm.needle_angle
 
     @property
     def eccentricity(self) -> float:
         """Of the pitch ellipses, which are alike [-]."""
-        (first, *_) = self.train.pairs
+        (first, *_) = self.arm.train.pairs
         assert isinstance(first, EllipticGearPair)
         return first.eccentricity
 
@@ -132,86 +75,19 @@ class PusherModel:
         return _drawn_gear(self.eccentricity, self.spec.train.semi_major, self.spec.train.teeth, self.drawn_tolerance)
 
     @cached_property
+    def profiles(self) -> dict[str, Outline]:
+        """Outline of the real profile of each cam by name, in the frame of its formulas."""
+        return {name: trimmed.outline(self.spec.manufacture.chord_tolerance) for name, trimmed in self.pair.trimmed.items()}
+
+    @cached_property
     def drawn_profiles(self) -> dict[str, Outline]:
         """Outline of the real profile of each cam by name, as fine as a picture needs."""
-        return {cam.name: curves.drawn_outline(self.family(cam), self.drawn_tolerance, fewest=65) for cam in self.cams}
+        return {cam.name: curves.drawn_outline(self.pair.family(cam), self.drawn_tolerance, fewest=65) for cam in self.pair.cams}
 
     @property
     def drawn_tolerance(self) -> float:
         """How far a drawn curve may leave the exact one [m]: some millionths of the picture's size."""
         return DRAWN * self.spec.train.semi_major
-
-    @cached_property
-    def lowest(self) -> float:
-        """Carrier angle in [0, 2 pi) where the tip is lowest."""
-        return _extreme(lambda t: self.tip(t).imag, -1)
-
-    @cached_property
-    def highest(self) -> float:
-        """Carrier angle in [0, 2 pi) where the tip is highest."""
-        return _extreme(lambda t: self.tip(t).imag, +1)
-
-    # -- rod, lever and cams -----------------------------------------------------------------------------------------------
-
-    def pieces(self) -> list[tuple[float, float, str, int]]:
-        """(carrier angle from, to, phase, index) of the smooth intervals; one turn from the start of the push on."""
-        return [(self.push_start + p.theta0, self.push_start + p.theta1, p.phase, k) for k, p in enumerate(self.programme.pieces)]
-
-    def rod(self, t: ArrayLike, piece: int | Ints | None = None) -> Jet:
-        """Travel of the rod g(t), a jet [m]; by the formula of one piece where given."""
-        angle = np.asarray(t) - self.push_start
-        return Jet(*(self.programme(angle) if piece is None else self.programme.on_piece(piece, angle)))
-
-    def swing(self, t: ArrayLike, piece: int | Ints | None = None) -> Jet:
-        """Swing of the lever, atan(g / l), a jet [rad]."""
-        return atan(self.rod(t, piece) / self.spec.lever.output_arm)
-
-    def pivot_angle(self, t: ArrayLike) -> Jet:
-        """Direction of the lever pivot seen from the cams: q - pi/2 with q = orbit * phi3, a jet [rad]."""
-        return self.orbit * self.planet(t) - np.pi / 2
-
-    def pitch(self, cam: ConjugateCam, t: ArrayLike, piece: int | Ints | None = None) -> Jet:
-        """Pitch curve of a cam, complex jet [m]."""
-        return cam.pitch(self.pivot_angle(t), self.swing(t, piece))
-
-    def pressure_angle(self, cam: ConjugateCam, t: ArrayLike, piece: int | Ints | None = None) -> Jet:
-        """Pressure angle of a cam, jet [rad]."""
-        return cam.pressure_angle(self.pivot_angle(t), self.swing(t, piece))
-
-    def curvature(self, cam: ConjugateCam, t: ArrayLike, piece: int | Ints | None = None) -> Floats:
-        """Curvature of the pitch curve [1/m], positive where convex seen from outside."""
-        return self.orbit * curves.curvature(self.pitch(cam, t, piece))
-
-    @cached_property
-    def trimmed(self) -> dict[str, curves.Trimmed]:
-        """Real profile of each cam by name."""
-        return {cam.name: curves.trim(self.family(cam)) for cam in self.cams}
-
-    @cached_property
-    def profiles(self) -> dict[str, Outline]:
-        """Outline of the real profile of each cam by name, in the frame of its formulas."""
-        return {name: trimmed.outline(self.spec.manufacture.chord_tolerance) for name, trimmed in self.trimmed.items()}
-
-    def overtravel(self, cam: ConjugateCam) -> tuple[Callable[[Floats, Floats], Complexes], float]:
-        """How a roller sinks along its path into its cam, for `curves.lost_motion`."""
-
-        def place(t, depth):
-            return cam.pitch(self.pivot_angle(t), self.swing(t) - cam.side * depth / cam.arm).d0
-
-        return place, 1.0
-
-    def family(self, cam: ConjugateCam) -> curves.CircleFamily:
-        """The roller's motion around its cam, for enveloping."""
-        at = partial(self._pitch_on, cam)
-        pieces = [
-            curves.Piece(low, high, curves.Member(at, (k,)), phase, "arc" if phase == "dwell" else "smooth")
-            for low, high, phase, k in self.pieces()
-        ]
-        return curves.CircleFamily(tuple(pieces), cam.roller_radius)
-
-    def _pitch_on(self, cam, piece, t):
-        """`pitch` by the formula of a piece, or of a piece of its own at each t."""
-        return self.pitch(cam, t, np.asarray(piece).astype(int))
 
 
 @lru_cache(maxsize=64)
@@ -224,11 +100,11 @@ def _drawn_gear(eccentricity, semi_major, teeth, tolerance):
 def build(spec: SeedlingPusherSpec) -> PusherModel:
     """The model of a spec.  SpecError names the key where the numbers have no solution."""
     _refuse_even_teeth(spec)
-    bend = _signed_bend(spec)
-    train = _train(spec, bend)
-    model = PusherModel(spec, train, bend, _tip_start(spec, bend), _programme(spec), 0.0, _cams(spec))
-    end = model.lowest if spec.push.end_event == "lowest" else spec.push.end
-    return replace(model, push_start=end - spec.push.rise)
+    bend, size = _signed_bend(spec), spec.train
+    arm = PlanetArm(_train(spec, bend), 2 * size.semi_major, size.carrier_angle, bend, spec.arm.tip_distance, _tip_start(spec, bend))
+    programme, cams, orbit = _programme(spec), _cams(spec), 1 if spec.cams.orbit == "counter-clockwise" else -1
+    end = arm.lowest if spec.push.end_event == "lowest" else spec.push.end
+    return PusherModel(spec, arm, ConjugatePair(cams, programme, end - spec.push.rise, spec.lever.output_arm, orbit, arm.planet))
 
 
 def _train(spec, bend):
@@ -311,12 +187,3 @@ def _refuse_out_of_reach(cam, swing):
             f"{1e3 * nearest:.6g} mm to the axis. Take smaller rollers or a larger cams.prime_radius_{cam.name}",
             "cams.roller_radius",
         )
-
-
-def _extreme(height, sign):
-    """Carrier angle of the greatest sign * height, from the roots of its exact derivative."""
-    turning = bracketed_roots(lambda t: height(t).d1, GRID)
-    if not len(turning):
-        raise InputError("the height of the needle tip is constant over the turn; arm.tip_distance and the train give no track")
-    candidates = np.unique(np.mod(turning, TURN))
-    return float(candidates[np.argmax(sign * height(candidates).d0)])

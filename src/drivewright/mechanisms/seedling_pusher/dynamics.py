@@ -27,12 +27,12 @@ STILL = 1e-3  # of the rod's range: the damper's force jumps at a touch, which c
 def lever_system(model: PusherModel, clearance: float | None = None, speed: float | None = None) -> LeverBetweenCams:
     """The lever of a model between its cams, for another clearance or speed where given; driving angle 0 is the start of the push."""
     spec = model.spec
-    t = model.push_start + np.linspace(0, TURN, GRID + 1)
-    leverages = [cam.arm * cos(model.pressure_angle(cam, t)) for cam in model.cams]
-    gaps = [curves.profile_gap(model.trimmed[cam.name], t) for cam in model.cams]
+    t = model.pair.start + np.linspace(0, TURN, GRID + 1)
+    leverages = [cam.arm * cos(model.pair.pressure_angle(cam, t)) for cam in model.pair.cams]
+    gaps = [curves.profile_gap(model.pair.trimmed[cam.name], t) for cam in model.pair.cams]
     return LeverBetweenCams(
         KelvinVoigt(spec.contact.stiffness, spec.contact.damping),
-        sample_tables(model.swing(t), leverages, gaps),
+        sample_tables(model.pair.swing(t), leverages, gaps),
         float(speed or spec.drive.speed),
         spec.lever.output_arm,
         spec.load.mass,
@@ -45,7 +45,7 @@ def lever_system(model: PusherModel, clearance: float | None = None, speed: floa
 def simulate(model: PusherModel, clearance: float | None = None, speed: float | None = None) -> LeverRun:
     """The last carrier turn of the contact run; angles count from the start of the push."""
     system = lever_system(model, clearance, speed)
-    return simulate_last_turn(system, model.spec.contact.turns, lambda angle: model.swing(model.push_start + angle).d0)
+    return simulate_last_turn(system, model.spec.contact.turns, lambda angle: model.pair.swing(model.pair.start + angle).d0)
 
 
 def contact(model: PusherModel, done: Answers) -> Answer:
@@ -55,7 +55,7 @@ def contact(model: PusherModel, done: Answers) -> Answer:
         "contact",
         "Contact over the last simulated turn",
         (
-            Column("carrier_angle", "rad", "turn of the carrier", model.push_start + run.angle),
+            Column("carrier_angle", "rad", "turn of the carrier", model.pair.start + run.angle),
             Column("main.force", "N", "normal force on the main cam", run.main),
             Column("return.force", "N", "normal force on the return cam", run.back),
             Column("rod_error", "m", "rod ahead of its programme", run.deviation),
@@ -97,7 +97,7 @@ def poincare(model: PusherModel, done: Answers) -> Answer:
     )
     if len(run.t) <= DISCARD:
         raise SolverError(f"the contact simulation ends before turn {DISCARD}, at t = {run.t_end:.6g} s: {run.advice}")
-    start, turn = (model.swing(model.push_start + angle) for angle in (np.array([0.0]), np.linspace(0.0, TURN, 721)))
+    start, turn = (model.pair.swing(model.pair.start + angle) for angle in (np.array([0.0]), np.linspace(0.0, TURN, 721)))
     ahead, ahead_rate = run.y.T
     error = mass_deviation(system.arm, start.d0, ahead)
     rate = mass_deviation_rate(system.arm, start.d0, start.d1 * system.speed, ahead, ahead_rate)

@@ -2,34 +2,24 @@
 
 import numpy as np
 
+from drivewright.cams import polar_radii
 from drivewright.mechanisms.seedling_pusher.build import PusherModel
 from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 
 def inspection(model: PusherModel, done: Answers) -> Answer:
     """Polar coordinates of both finished profiles at whole degrees, with the tolerance."""
-    return Answer(tables=tuple(_polar(model, name, trimmed) for name, trimmed in model.trimmed.items()))
-
-
-DENSE = 20_001  # points on each stretch of the profile: chords so short that the radius between two of them is exact to 1 nm
+    return Answer(tables=tuple(_polar(model, name, trimmed) for name, trimmed in model.pair.trimmed.items()))
 
 
 def _polar(model, name, trimmed):
-    stretches = (span.piece.at(np.linspace(span.start, span.stop, DENSE)).d0 for span in trimmed.spans)
-    z = np.concatenate([np.broadcast_to(stretch, DENSE) for stretch in stretches])
-    order = np.argsort(np.angle(z))
-    angle, radius = np.angle(z)[order], np.abs(z)[order]
-    at = np.radians(np.arange(0, 360))
-    measured = np.interp(np.angle(np.exp(1j * at)), angle, radius, period=2 * np.pi)
-    return Table(
-        f"inspection_{name}",
-        f"Inspection of the {name} cam, in the frame of its formulas (lever pivot on -y at the start)",
-        (
-            Column("angle", "rad", "polar angle, counter-clockwise from +x", at),
-            Column("radius", "m", "profile radius", measured),
-            Column("tolerance", "m", "allowed deviation, either side", np.full(360, model.spec.manufacture.profile_tolerance)),
-        ),
+    columns = (
+        Column("angle", "rad", "polar angle, counter-clockwise from +x", np.radians(np.arange(0, 360))),
+        Column("radius", "m", "profile radius", polar_radii(trimmed, np.radians(np.arange(0, 360)))),
+        Column("tolerance", "m", "allowed deviation, either side", np.full(360, model.spec.manufacture.profile_tolerance)),
     )
+    title = f"Inspection of the {name} cam, in the frame of its formulas (lever pivot on -y at the start)"
+    return Table(f"inspection_{name}", title, columns)
 
 
 def teeth(model: PusherModel, done: Answers) -> Answer:

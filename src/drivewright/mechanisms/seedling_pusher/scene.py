@@ -11,27 +11,9 @@ from functools import partial
 import numpy as np
 
 from drivewright._typing import Floats, Numbers
-from drivewright.mechanisms.seedling_pusher.build import TURN, ConjugateCam, PusherModel
-from drivewright.mechanisms.seedling_pusher.planting import advance
-from drivewright.scene import (
-    Arc,
-    Bar,
-    Body,
-    Drawing,
-    Frame,
-    Line,
-    Outline,
-    Part,
-    Prism,
-    Scene,
-    Shape,
-    Spline,
-    Trace,
-    capsule,
-    circle,
-    polygon,
-    xy,
-)
+from drivewright.cams import ConjugateCam
+from drivewright.mechanisms.seedling_pusher.build import TURN, PusherModel
+from drivewright.scene import Bar, Body, Drawing, Frame, Line, Outline, Part, Prism, Scene, Shape, Trace, capsule, circle, polygon, xy
 
 FRAMES = 361
 GEAR_THICKNESS, LEVER_THICKNESS, PIN, GAP = 10e-3, 4e-3, 2.5e-3, 0.5e-3
@@ -41,7 +23,7 @@ def scene(model: PusherModel) -> Scene:
     """One carrier turn: train, arm with lever and rod, cams; machine, field, carrier and arm frames."""
     t = np.linspace(0, TURN, FRAMES)
     spec = model.spec
-    axis, rotation, swing = model.planet_axis(t).d0, model.arm_rotation(t).d0, model.swing(t).d0
+    axis, rotation, swing = model.arm.axis(t).d0, model.arm.rotation(t).d0, model.pair.swing(t).d0
     carrier = 2 * spec.train.semi_major * np.exp(1j * (spec.train.carrier_angle - t))
     wheel = model.drawn_gear
     arm_pose, lever_pivot = _poses(axis, rotation), axis + np.exp(1j * rotation) * pivot(model)
@@ -52,21 +34,21 @@ def scene(model: PusherModel) -> Scene:
         Body("carrier", "carrier", (Shape("body", _carrier_shape(model)),), _poses(0 * axis, -t), "blue"),
         *(
             Body(f"cam.{cam.name}", f"{cam.name} cam", tuple(cam_shapes(model, cam, model.drawn_profiles)), _poses(axis, -t), colour)
-            for cam, colour in zip(model.cams, ("orange", "violet"), strict=True)
+            for cam, colour in zip(model.pair.cams, ("orange", "violet"), strict=True)
         ),
         Body("arm", "planting arm with needle", tuple(_arm_shapes(model)), arm_pose, "green"),
-        Body("lever", "lever with rollers", tuple(_lever_shapes(model)), _poses(lever_pivot, rotation - side(model) * swing), "blue"),
+        Body("lever", "lever with rollers", tuple(_lever_shapes(model)), _poses(lever_pivot, rotation - model.pair.orbit * swing), "blue"),
         Body(
             "rod",
             "pusher rod",
             (Shape("body", _rod_shape(model)),),
-            _poses(axis + np.exp(1j * rotation) * model.rod(t).d0 * needle(model), rotation),
+            _poses(axis + np.exp(1j * rotation) * model.pair.travel(t).d0 * needle(model), rotation),
             "orange",
         ),
     )
-    tip_in_arm = spec.arm.tip_distance * np.exp(1j * model.tip_start)
+    tip_in_arm = spec.arm.tip_distance * np.exp(1j * model.arm.start)
     traces = (Trace("tip", "needle tip", "arm", xy(tip_in_arm)), Trace("axis", "planet axis", "arm", (0.0, 0.0)))
-    marks = ((model.highest, "top"), (model.lowest, "lowest"), (model.push_start % TURN, "push"))
+    marks = ((model.arm.highest, "top"), (model.arm.lowest, "lowest"), (model.pair.start % TURN, "push"))
     return Scene(t, "carrier angle", "rad", TURN / spec.drive.speed, bodies, _frames(model, t, axis, rotation), traces, "cycle", marks)
 
 
@@ -82,10 +64,10 @@ def _gear(name, label, outline, poses, colour):
 def _frames(model, t, axis, rotation):
     """Observers: the machine, the field that it drives over, the carrier, the arm."""
     still = np.zeros((len(t), 3))
-    field = np.stack([-advance(model) * t / TURN, 0 * t, 0 * t], axis=1)
+    field = np.stack([-model.advance * t / TURN, 0 * t, 0 * t], axis=1)
     return (
         Frame("machine", "machine", still),
-        Frame("field", "field", field, (-advance(model), 0.0), tuple(_field_shapes(model))),
+        Frame("field", "field", field, (-model.advance, 0.0), tuple(_field_shapes(model))),
         Frame("cams", "cams (carrier)", _poses(axis, -t)),
         Frame("arm", "planting arm", _poses(axis, rotation)),
     )
@@ -93,9 +75,9 @@ def _frames(model, t, axis, rotation):
 
 def _field_shapes(model):
     """Soil line and the plants of neighbouring turns, where the tip was lowest."""
-    field, lowest = model.spec.field, model.tip(model.lowest).d0
-    ground, step = float(lowest.imag) + field.mouth_height, advance(model)
-    foot = float(lowest.real) + step * model.lowest / TURN
+    field, lowest = model.spec.field, model.arm.point(model.arm.lowest).d0
+    ground, step = float(lowest.imag) + field.mouth_height, model.advance
+    foot = float(lowest.real) + step * model.arm.lowest / TURN
     yield Shape("ground", Outline((Line((foot - 4 * field.spacing, ground), (foot + 4 * field.spacing, ground)),), closed=False))
     for turn in range(-3, 1):
         x = foot + turn * step
@@ -112,32 +94,27 @@ def sun_angle(model: PusherModel) -> float:
 
 def intermediate_angle(model: PusherModel, t: Numbers) -> Floats:
     """Direction of the intermediate gear's short focal radius, in the world: clockwise by theta in the carrier, which turns by -t."""
-    return sun_angle(model) - t - model.train.angles(t)[1].d0
+    return sun_angle(model) - t - model.arm.train.angles(t)[1].d0
 
 
 def planet_angle(model: PusherModel, t: Numbers) -> Floats:
     """Direction of the planet's short focal radius: at phase p = 0 its long radius points at the intermediate gear (near start)."""
-    return sun_angle(model) + model.bend - t + model.train.phase + model.planet(t).d0
+    return sun_angle(model) + model.arm.bend - t + model.arm.train.phase + model.arm.planet(t).d0
 
 
 def _carrier_shape(model):
     arm, start = 2 * model.spec.train.semi_major, model.spec.train.carrier_angle
     middle = arm * np.exp(1j * start)
-    end = middle + arm * np.exp(1j * (start + model.bend))
+    end = middle + arm * np.exp(1j * (start + model.arm.bend))
     return polygon([(0.0, 0.0), xy(middle), xy(end)], closed=False)
 
 
 # -- arm, lever, rod: all in the frame of the arm at t = 0, origin on the planet axis ------------------------------------------------
 
 
-def side(model: PusherModel) -> int:
-    """+1 where the lever stands on the needle's side of the planet axis, -1 where mirrored."""
-    return model.orbit
-
-
 def needle(model: PusherModel) -> complex:
     """Direction of needle and rod."""
-    return np.exp(1j * (model.tip_start - model.spec.arm.needle_angle))
+    return np.exp(1j * (model.arm.start - model.spec.arm.needle_angle))
 
 
 def pivot(model: PusherModel) -> complex:
@@ -146,18 +123,18 @@ def pivot(model: PusherModel) -> complex:
 
 
 def _outwards(model):
-    return side(model) * 1j * needle(model)
+    return model.pair.orbit * 1j * needle(model)
 
 
 def rollers(model: PusherModel) -> dict[str, complex]:
     """Roller centres with the rod in, relative to the lever pivot, by cam name."""
-    return {cam.name: -cam.arm * np.exp(-1j * side(model) * cam.side * cam.rest_angle) * _outwards(model) for cam in model.cams}
+    return {cam.name: -cam.arm * np.exp(-1j * model.pair.orbit * cam.side * cam.rest_angle) * _outwards(model) for cam in model.pair.cams}
 
 
 def _arm_shapes(model):
-    spec, tip = model.spec, model.spec.arm.tip_distance * np.exp(1j * model.tip_start)
+    spec, tip = model.spec, model.spec.arm.tip_distance * np.exp(1j * model.arm.start)
     back = tip - 60e-3 * needle(model)
-    reach = max(cam.prime_radius for cam in model.cams) + spec.cams.roller_radius + 4e-3
+    reach = max(cam.prime_radius for cam in model.pair.cams) + spec.cams.roller_radius + 4e-3
     yield Shape("body", circle((0, 0), reach))
     yield Shape("axis", polygon([(0.0, 0.0), xy(back), xy(tip)], closed=False))
     yield Shape("body", capsule(xy(back), xy(tip), 1.2e-3))
@@ -175,7 +152,7 @@ def _rod_ends(model):
     """Ends of the rod with the rod in: its front is one stroke behind the needle's tip."""
     spec = model.spec
     line = (spec.lever.pivot_distance + spec.lever.output_arm) * _outwards(model)
-    tip = spec.arm.tip_distance * np.exp(1j * model.tip_start)
+    tip = spec.arm.tip_distance * np.exp(1j * model.arm.start)
     front = line + ((tip * np.conj(needle(model))).real - spec.push.stroke) * needle(model)
     return front - spec.lever.rod_length * needle(model), front
 
@@ -191,28 +168,16 @@ def _rod_shape(model):
 def in_carrier(model: PusherModel) -> tuple[tuple[float, float, float], bool]:
     """(pose, mirror) that carry a cam from the frame of its formulas to the carrier's frame at t = 0, origin on the planet axis."""
     angle = float(np.angle(_outwards(model)))
-    return (0.0, 0.0, angle + side(model) * np.pi / 2), side(model) < 0
+    return (0.0, 0.0, angle + model.pair.orbit * np.pi / 2), model.pair.orbit < 0
 
 
 def cam_shapes(model: PusherModel, cam: ConjugateCam, profiles: Mapping[str, Outline]) -> Iterator[Shape]:
     """Profile, pitch curve, largest and least pitch circle, bore of a cam, in the carrier's frame."""
     pose, mirror = in_carrier(model)
     yield Shape("profile", profiles[cam.name].moved(pose, mirror))
-    yield Shape("pitch", Outline(tuple(_pitch_pieces(model, cam))).moved(pose, mirror))
+    yield Shape("pitch", model.pair.pitch_outline(cam).moved(pose, mirror))
     yield Shape("base", circle((0.0, 0.0), cam.prime_radius))
     yield Shape("hole", circle((0.0, 0.0), model.spec.cams.bore / 2))
-
-
-def _pitch_pieces(model, cam):
-    """The pitch curve once round: true arcs while the lever rests, splines with exact end tangents while it swings."""
-    for low, high, phase, k in model.pieces():
-        jet = model.pitch(cam, np.linspace(low, high, 181), k)
-        if phase == "dwell":
-            sweep = model.orbit * float(np.diff(model.planet(np.array([low, high])).d0)[0])
-            yield Arc((0.0, 0.0), float(abs(jet.d0[0])), float(np.angle(jet.d0[0])), sweep)
-        else:
-            tangents = jet.d1 / np.abs(jet.d1)
-            yield Spline(np.stack([jet.d0.real, jet.d0.imag], axis=1), xy(tangents[0]), xy(tangents[-1]))
 
 
 def drawings(model: PusherModel) -> tuple[Drawing, ...]:
@@ -225,7 +190,7 @@ def drawings(model: PusherModel) -> tuple[Drawing, ...]:
             tuple(cam_shapes(model, cam, model.profiles)),
             width,
         )
-        for cam in model.cams
+        for cam in model.pair.cams
     )
     gear = Drawing(
         "elliptic_gear",
@@ -242,7 +207,7 @@ def drawings(model: PusherModel) -> tuple[Drawing, ...]:
 
 def parts(model: PusherModel) -> tuple[Part, ...]:
     """Both cams on their hub, lever with rollers, rod, and the three gears, in their start position."""
-    axis = complex(model.planet_axis(np.array(0.0)).d0)
+    axis = complex(model.arm.axis(np.array(0.0)).d0)
     width = model.spec.cams.face_width
     level = {"main": 0.0, "return": width + 2 * GAP + LEVER_THICKNESS}
     here = (*xy(axis), 0.0)
@@ -253,7 +218,7 @@ def _cam_parts(model, level, here):
     spec, (pose, mirror) = model.spec, in_carrier(model)
     bore = (circle((0, 0), spec.cams.bore / 2),)
     top = level["return"] + spec.cams.face_width
-    for cam, colour in zip(model.cams, ("orange", "violet"), strict=True):
+    for cam, colour in zip(model.pair.cams, ("orange", "violet"), strict=True):
         profile = model.profiles[cam.name].moved(pose, mirror)
         yield Part(f"cam_{cam.name}", (Prism(profile, bore, level[cam.name], spec.cams.face_width),), here, colour)
     hub = Prism(circle((0, 0), spec.cams.hub_diameter / 2), bore, spec.cams.face_width, level["return"] - spec.cams.face_width)
@@ -292,7 +257,7 @@ def _gear_parts(model, level):
     places = {
         "gear_sun": (0j, sun_angle(model)),
         "gear_intermediate": (carrier, intermediate_angle(model, zero)),
-        "gear_planet": (complex(model.planet_axis(zero).d0), planet_angle(model, zero)),
+        "gear_planet": (complex(model.arm.axis(zero).d0), planet_angle(model, zero)),
     }
     for name, (centre, angle) in places.items():
         yield Part(name, (Prism(outline, bore, -GEAR_THICKNESS - 3e-3, GEAR_THICKNESS),), (*xy(centre), float(angle)), "steel")

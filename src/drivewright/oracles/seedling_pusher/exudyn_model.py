@@ -77,10 +77,10 @@ def _rod(system, model, lever):
 
 def _cams(system, model, planet, lever):
     """Both cams on one turning ground, each in contact with its roller."""
-    ground = system.AddObject(item.ObjectGround(referenceRotation=_rotation(-model.orbit * planet(model.push_start))))
+    ground = system.AddObject(item.ObjectGround(referenceRotation=_rotation(-model.pair.orbit * planet(model.pair.start))))
     cams, centre = _marker(system, ground), -1j * model.spec.lever.pivot_distance
-    for cam in model.cams:
-        facets = _facets(model.trimmed[cam.name])
+    for cam in model.pair.cams:
+        facets = _facets(model.pair.trimmed[cam.name])
         memory = system.AddNode(item.NodeGenericData(initialCoordinates=[-1, 0, 0] * FACETS, numberOfDataCoordinates=3 * FACETS))
         at_rest = roller_at_rest(cam) - centre
         roller = _marker(system, lever, [at_rest.real, at_rest.imag, 0])
@@ -96,7 +96,7 @@ def _cams(system, model, planet, lever):
         )
 
     def turn(system, t):
-        angle = model.orbit * planet(model.push_start + model.spec.drive.speed * t)
+        angle = model.pair.orbit * planet(model.pair.start + model.spec.drive.speed * t)
         system.SetObjectParameter(ground, "referenceRotation", _rotation(-angle))
         return True
 

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from drivewright._typing import Complexes, Floats
-from drivewright.mechanisms.seedling_pusher.build import TURN, ConjugateCam, PusherModel
+from drivewright.cams.conjugate import ConjugateCam
+from drivewright.mechanisms.seedling_pusher.build import TURN, PusherModel
 from drivewright.numerics.quadrature import cumulative_integral
 
 SAMPLES = 36001  # over one turn
@@ -56,7 +57,7 @@ class RolledMotion:
 
     def __init__(self, model: PusherModel) -> None:
         train = model.spec.train
-        self.model, self.bend = model, model.bend
+        self.model, self.bend = model, model.arm.bend
         self.driven = rolled_pair(np.sqrt(1 - train.axis_ratio**2), train.start)
         self.turn = np.linspace(0, TURN, SAMPLES)
 
@@ -68,22 +69,22 @@ class RolledMotion:
         """Needle tip in the world: carrier turned back by t, arm by what the planet adds."""
         spec = self.model.spec
         first = 2 * spec.train.semi_major * np.exp(1j * (spec.train.carrier_angle - t))
-        needle = np.exp(1j * (self.model.tip_start - t + self.planet(t)))
+        needle = np.exp(1j * (self.model.arm.start - t + self.planet(t)))
         return first + first * np.exp(1j * self.bend) + spec.arm.tip_distance * needle
 
     def pivot(self, t: Floats) -> Complexes:
         """Lever pivot in the frame of the cams, carried round with the planet."""
-        return -1j * self.model.spec.lever.pivot_distance * np.exp(1j * self.model.orbit * self.planet(t))
+        return -1j * self.model.spec.lever.pivot_distance * np.exp(1j * self.model.pair.orbit * self.planet(t))
 
     def roller(self, cam: ConjugateCam, t: Floats) -> Complexes:
         """Roller centre in the frame of the cams: lever turned clockwise about its pivot by the swing, then carried round."""
         home, pivot = -1j * cam.pivot_distance, self.pivot(t)
-        swing = np.arctan2(self.model.rod(t).d0, self.model.spec.lever.output_arm)
+        swing = np.arctan2(self.model.pair.travel(t).d0, self.model.spec.lever.output_arm)
         return pivot * (1 + (roller_at_rest(cam) - home) / home * np.exp(-1j * swing))
 
     def pieces(self, *phases: str) -> list[Floats]:
         """Dense carrier angles over each smooth piece of the phases, ends included."""
-        return [np.linspace(low, high, PHASE_SAMPLES) for low, high, phase, _ in self.model.pieces() if phase in phases]
+        return [np.linspace(low, high, PHASE_SAMPLES) for low, high, phase, _ in self.model.pair.pieces if phase in phases]
 
     @cached_property
     def cycle(self) -> Floats:

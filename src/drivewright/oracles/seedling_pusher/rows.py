@@ -35,7 +35,7 @@ def verify(model: PusherModel, result: Result[Any]) -> tuple[Row, ...]:
 
 def geometry(model: PusherModel, result: Result[Any], rolled: RolledMotion) -> tuple[Row, ...]:
     """Rows of train, track and cams, which need no extra."""
-    cams = (row for cam in model.cams for row in (*_profile(model, result, rolled, cam), *_pitch_curve(result, rolled, cam)))
+    cams = (row for cam in model.pair.cams for row in (*_profile(model, result, rolled, cam), *_pitch_curve(result, rolled, cam)))
     return (*_train(model, result, rolled), *_track(result, rolled), *cams, _roller_distance(model, result, rolled))
 
 
@@ -43,7 +43,7 @@ def geometry(model: PusherModel, result: Result[Any], rolled: RolledMotion) -> t
 
 
 def _train(model, result, rolled):
-    apart = np.abs(rolled.planet(rolled.turn) - model.planet(rolled.turn).d0)
+    apart = np.abs(rolled.planet(rolled.turn) - model.arm.planet(rolled.turn).d0)
     size = 2 * model.spec.train.semi_major
     yield "train, planet angle: largest difference", 0.0, float(apart.max()), "rad", 1e-9, ROLLED
     yield "train.collinear_angle", result["train.collinear_angle"], _collinear(rolled), "rad", 1e-9, ROLLED
@@ -62,10 +62,10 @@ def _collinear(rolled):
 
 def _free_foci(model, t):
     """Of both meshes the spacing, farthest from 2a, of the foci that are no axes: they move like the coupler of a crossed four-bar."""
-    train, (sun, middle, planet) = model.spec.train, (angle.d0 for angle in model.train.angles(t))
+    train, (sun, middle, planet) = model.spec.train, (angle.d0 for angle in model.arm.train.angles(t))
     size, e = 2 * train.semi_major, np.sqrt(1 - train.axis_ratio**2) * (1 if train.start == "near" else -1)
     on_sun, on_middle = -size * e * np.exp(1j * sun), size - size * e * np.exp(-1j * middle)
-    on_planet = size + size * np.exp(1j * model.bend) * (1 - e * np.exp(1j * planet))
+    on_planet = size + size * np.exp(1j * model.arm.bend) * (1 - e * np.exp(1j * planet))
     return _farthest(np.abs(np.concatenate([on_sun - on_middle, on_middle - on_planet])), size)
 
 
@@ -97,7 +97,7 @@ def _profile(model, result, rolled, cam):
 
     prefix, centres = f"cam.{cam.name}", _pairs(rolled.roller(cam, rolled.cycle))
     shape = Polygon(LinearRing(centres).buffer(cam.roller_radius, quad_segs=256).interiors[0])
-    ours = LinearRing(model.trimmed[cam.name].outline(1e-8).points(1e-8))
+    ours = LinearRing(model.pair.trimmed[cam.name].outline(1e-8).points(1e-8))
     area, perimeter, gap = (result[f"{prefix}.{name}"] for name in ("profile_area", "profile_perimeter", "profile_gap"))
     eroded, left = (distance(curve, points(centres[::3])) - cam.roller_radius for curve in (shape.exterior, ours))
     yield f"{prefix}.profile_area", area, shape.area, "m^2", 2e-5 * area, ERODED
@@ -152,11 +152,11 @@ def _sharpness(rolled, cam, t):
     """Greatest curvature [1/m] of the circles through three roller centres, where they bend around the cam."""
     z = rolled.roller(cam, t[::4])
     a, b = z[1:-1] - z[:-2], z[2:] - z[1:-1]
-    return float(np.max(2 * rolled.model.orbit * np.imag(np.conj(a) * b) / (np.abs(a) * np.abs(b) * np.abs(a + b))))
+    return float(np.max(2 * rolled.model.pair.orbit * np.imag(np.conj(a) * b) / (np.abs(a) * np.abs(b) * np.abs(a + b))))
 
 
 def _roller_distance(model, result, rolled):
-    main, back = (rolled.roller(cam, rolled.turn) for cam in model.cams)
+    main, back = (rolled.roller(cam, rolled.turn) for cam in model.pair.cams)
     ours = result["cam.roller_distance"]
     return "cam.roller_distance", ours, _farthest(np.abs(main - back), ours), "m", 1e-12, f"{CONSTRUCTED}; the one farthest from ours"
 
@@ -167,8 +167,8 @@ def _roller_distance(model, result, rolled):
 def motion(model: PusherModel, result: Result[Any], run: MultibodyRun) -> Iterator[Row]:
     """Rows of the multibody run: stroke, swing, and how far the rod leaves its programme."""
     route = "Exudyn: polyline cams in contact with rollers, rod in the lever's slot, no play"
-    error = run.travel - model.rod(model.push_start + run.angle).d0
-    behind, ahead = (ROD_ERROR + _freed(model, result, cam) for cam in model.cams)
+    error = run.travel - model.pair.travel(model.pair.start + run.angle).d0
+    behind, ahead = (ROD_ERROR + _freed(model, result, cam) for cam in model.pair.cams)
     swing, allowed = result["lever.swing"], max(ahead, behind) / model.spec.lever.output_arm
     yield "rod, stroke", model.spec.push.stroke, float(np.ptp(run.travel)), "m", max(ahead, behind), route
     yield "rod, furthest ahead of its programme", 0.0, float(error.max()), "m", ahead, route
