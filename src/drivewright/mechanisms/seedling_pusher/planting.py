@@ -74,9 +74,7 @@ def planting(model: PusherModel, done: Answers) -> Answer:
         "needle.push_angle": Value(push_angle, "rad", "needle below the horizontal where it pushes"),
         "needle.angle_difference": Value(difference, "rad", "push angle minus take angle"),
         "tip.height_at_push_start": Value(start_depth, "m", "tip above its lowest point when the push starts"),
-        "tip.height_at_push_end": Value(
-            float(model.arm.height(model.pair.start + model.spec.push.rise)), "m", "the same when the push ends"
-        ),
+        "tip.height_at_push_end": Value(end_depth, "m", "the same when the push ends"),
         "rod.needle_distance": Value(abs(model.rod_distance), "m", "distance of the rod's line from the needle's"),
         "planting.mouth_width": Value(mouth, "m", "width of the hole at the soil surface"),
         "planting.axis_clearance": Value(clear, "m", "planet axis to the lower half of planted seedlings"),

@@ -14,7 +14,7 @@ from drivewright.execution.case_table import CASE, CHECK, STATUS
 from drivewright.execution.evaluation import case_task
 from drivewright.execution.outputs import MARGIN_OF
 from drivewright.report.content import Views, pictures
-from drivewright.report.study import said
+from drivewright.report.study import study_content
 from drivewright.spec.serialisation import toml_value
 from drivewright.studies.answers import analyse_study
 from drivewright.studies.plan import make_plan
@@ -212,7 +212,7 @@ def _fronts(study, result):
 
 def _statements(study, found):
     """What the study's report says in words and small tables, all of it text."""
-    page = said(study, found)
+    page = study_content(study, found)
     tables = [
         {"name": table["name"], "title": table["title"], "columns": table["columns"], "rows": [list(row) for row in table["printed"]]}
         for table in page["tables"]
