@@ -116,6 +116,7 @@ def test_articulation_damping_stills_the_rocking_of_the_plates_and_is_counted():
     assert max(damped.momentum_residual) < 1e-11
 
 
+@pytest.mark.slow
 def test_articulation_is_damped_alike_by_implicit_steps():
     model = drive(articulation_damping=2e-4)
     one, other = simulate(model, 1e-3, Settings(step=2e-7, run_in=0.0)), implicit(model, 1e-3, Implicit(step=5e-7, rho=1.0))

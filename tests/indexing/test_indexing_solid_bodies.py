@@ -121,6 +121,7 @@ def test_a_slender_shaft_twists_as_the_rod():
 
 
 @needs_fe
+@pytest.mark.slow
 def test_bodies_ten_thousand_times_as_stiff_are_rigid():
     stiff = Solids(CAM._replace(modulus=1e4 * E), SHAFT, usual_wheel(wheel(), drive(), WIDTH)._replace(modulus=1e4 * E))
     train = drive(shaft=split_shaft(modulus=1e4 * E), pins=pin_contact(WIDTH))
@@ -129,6 +130,7 @@ def test_bodies_ten_thousand_times_as_stiff_are_rigid():
 
 
 @needs_fe
+@pytest.mark.slow
 def test_the_mirrored_drive_is_as_stiff():
     """K(theta, T) = K(180 deg - theta, -T); meshes are not symmetric, so that this is their error too."""
     theta = np.radians([38.0, 77.0])
@@ -176,6 +178,7 @@ def pins_on_a_held_flange(ends):
 
 
 @needs_fe
+@pytest.mark.slow
 def test_all_pins_of_a_wheel_are_alike():
     own = pins_on_a_held_flange(1)[(0, 1, 2), :, :, (0, 1, 2)]  # (pin, cam, axis, cam, axis)
     for pin, angle in zip(own, 2 * np.pi * np.array([0, 3, 7]) / 12, strict=True):
@@ -185,6 +188,7 @@ def test_all_pins_of_a_wheel_are_alike():
 
 
 @needs_fe
+@pytest.mark.slow
 def test_a_pin_is_a_cantilever_on_its_ring():
     """Unit-load integral of a clamped pin under a load spread over the cam's width; its ring, which yields too, adds as to a beam on a
     half-space, the more the shorter the pin."""

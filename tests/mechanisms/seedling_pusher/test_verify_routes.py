@@ -21,15 +21,17 @@ pytestmark = pytest.mark.property
 routes = importlib.import_module("drivewright.oracles.seedling_pusher.rows")
 PUSHER = registry.mechanism("seedling-pusher")
 ONLY = ("train", "planting", "cams")
-CASES = {
-    "interior": ("paper-interior", []),
-    "other sense": ("design-b", ["cams.orbit=counter-clockwise"]),
-    "far": ("default", ["train.start=far"]),
-    "asymmetric": ("design-a", ["lever.arm_main=14.7 mm", "push.hold=0 deg", "push.law=modified-sine", "arm.tip_reference=planet"]),
-}
+CASES = [
+    pytest.param(("paper-interior", []), id="interior"),
+    pytest.param(("design-b", ["cams.orbit=counter-clockwise"]), id="other sense", marks=pytest.mark.slow),
+    pytest.param(("default", ["train.start=far"]), id="far", marks=pytest.mark.slow),
+    pytest.param(
+        ("design-a", ["lever.arm_main=14.7 mm", "push.hold=0 deg", "push.law=modified-sine", "arm.tip_reference=planet"]), id="asymmetric"
+    ),
+]
 
 
-@pytest.fixture(scope="module", params=CASES.values(), ids=CASES.keys())
+@pytest.fixture(scope="module", params=CASES)
 def case(request):
     preset, changes = request.param
     spec = load(PUSHER.presets()[preset], changes)
