@@ -156,8 +156,8 @@ def coupled():
     supports = (shafts.Support("A", 0.0565, law=law), shafts.Support("B", 0.1365, law=law))
     shaft = shafts.Shaft((shafts.Section(0.34, 0.02, 0.02),), MODULUS, POISSON, 7850.0, supports, (shafts.Station("m2", 0.245),))
     loads = shafts.ShaftLoads((shafts.ShaftLoad(0.245, (0.0, -500.0, 0.0)),))
-    found = shafts.load(shaft, loads).equilibrium
-    yield "shaft and two ball bearings, coupled", best(lambda: shafts.load(shaft, loads)), f"{found.steps} steps of Newton's method"
+    found = shafts.apply_loads(shaft, loads).equilibrium
+    yield "shaft and two ball bearings, coupled", best(lambda: shafts.apply_loads(shaft, loads)), f"{found.steps} steps of Newton's method"
 
 
 def ball_bearing():

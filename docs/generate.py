@@ -20,7 +20,7 @@ PAGES = (
     "bearings.solving",
     "bearings.life",
     "bearings.stiffness_curve",
-    "bearings.quick",
+    "bearings.approximate_stiffness",
     "bearings.catalogue",
     "shafts.model",
     "shafts.equilibrium",

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from drivewright.bearings import BallBearing, law_of, respond, solve
+from drivewright.bearings import BallBearing, evaluate_response, law_of, solve
 from drivewright.contact import effective_modulus, point_contact, relative_radii
 
 pytestmark = pytest.mark.analytical
@@ -219,7 +219,7 @@ def test_reversed_elements_are_counted():
 def test_response_is_that_of_solve():
     displacement = [1e-5, 2e-6, 3e-5, 1e-4, -2e-4]
     state = solve(LOOSE, displacement=displacement)
-    total, force, stiffness = respond(law_of(LOOSE), displacement)
+    total, force, stiffness = evaluate_response(law_of(LOOSE), displacement)
     assert total == state.energy
     assert np.array_equal(force, state.force) and np.array_equal(stiffness, state.stiffness)
 

@@ -2,9 +2,9 @@
 
 import pytest
 
+from drivewright.bearings.approximate_stiffness import liu_ball, liu_roller
 from drivewright.bearings.ball import BallBearing
 from drivewright.bearings.catalogue import ENVELOPE, bearing, entry, names
-from drivewright.bearings.quick import liu_ball, liu_roller
 from drivewright.bearings.roller import RollerBearing, roller_static_rating
 from drivewright.bearings.solving import solve
 from drivewright.errors import InputError, SpecError, UnknownName

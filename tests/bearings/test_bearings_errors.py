@@ -192,7 +192,7 @@ CALLS = {
     "roller_static_rating": bearings.roller_static_rating,
     "roller_reference_life": lambda b: bearings.roller_reference_life(b, np.ones((b.rollers if hasattr(b, "rollers") else 3, 41))),
     "measures": lambda b: bearings.measures(law_of(b)),
-    "respond": lambda b: bearings.respond(law_of(b), np.zeros(5)),
+    "respond": lambda b: bearings.evaluate_response(law_of(b), np.zeros(5)),
     "equilibria": lambda b: bearings.equilibria(law_of(b), np.array([[100.0, 0, 0, 0, 0]]), np.array([False, False, True, False, False])),
 }
 REFUSED = {

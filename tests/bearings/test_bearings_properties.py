@@ -5,8 +5,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from drivewright._jit import plain
-from drivewright.bearings import BallBearing, equilibria, equilibrium, law_of, respond, solve
-from drivewright.bearings.newton import MOST_STEPS, begin
+from drivewright.bearings import BallBearing, equilibria, equilibrium, evaluate_response, law_of, solve
+from drivewright.bearings.newton import MAX_STEPS, centre_ring
 from drivewright.units import SI
 
 pytestmark = pytest.mark.property
@@ -74,9 +74,9 @@ def test_every_load_finds_its_equilibrium():
         preload = 1e-14 * len(law.cosines) * law.constant * (law.squeeze / law.groove) ** 1.5  # what rounding makes of it
         for force, place in zip(forces, places, strict=True):
             weights = [1, 1, 1, 1 / law.arm, 1 / law.arm]
-            miss = np.linalg.norm((respond(law, place)[1] - force) * weights)
+            miss = np.linalg.norm((evaluate_response(law, place)[1] - force) * weights)
             assert miss <= 1e-8 * np.linalg.norm(force * weights) + preload
-    assert most > MOST_STEPS  # some loads were slight enough to be approached from above
+    assert most > MAX_STEPS  # some loads were slight enough to be approached from above
 
 
 @BEARINGS
@@ -106,12 +106,12 @@ def test_stiffness_is_the_slope_of_the_force_and_symmetric(seed):
     rng = np.random.default_rng(seed)
     law = law_of(random_bearing(rng))
     place = (rng.normal(size=5) * 0.08 + [0, 0, 0.06, 0, 0]) * law.groove / np.array([1, 1, 1, law.arm, law.arm])
-    energy, force, stiffness = respond(law, place)
+    energy, force, stiffness = evaluate_response(law, place)
     sizes = law.groove / np.array([1, 1, 1, law.arm, law.arm])
     assert energy > 0
     for i in range(5):
         step = np.eye(5)[i] * sizes * 1e-6
-        above, below = respond(law, place + step), respond(law, place - step)
+        above, below = evaluate_response(law, place + step), evaluate_response(law, place - step)
         assert_allclose((above[0] - below[0]) / (2 * step[i]), force[i], rtol=1e-6, atol=1e-6 * energy / sizes[i])
         slope = (above[1] - below[1]) / (2 * step[i])
         assert_allclose(slope * sizes, stiffness[i] * sizes, atol=1e-5 * np.abs(stiffness[i] * sizes).max())
@@ -233,7 +233,7 @@ def test_uncompiled_is_compiled():
     uncompiled, count = plain(equilibrium)(law, force, FREE, np.zeros(5))
     assert count == steps
     assert_allclose(uncompiled, compiled, rtol=1e-12)
-    for each in (begin, plain(begin)):
+    for each in (centre_ring, plain(centre_ring)):
         start = np.zeros(5)
         each(law_of(DEEP), np.array([1.0, 0, 0, 0, 0]), FREE, start)
         assert start[2] == -law_of(DEEP).axial

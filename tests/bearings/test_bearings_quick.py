@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from drivewright.bearings import quick
+from drivewright.bearings import approximate_stiffness as quick
 from drivewright.bearings.ball import BallBearing
 from drivewright.bearings.roller import RollerBearing
 from drivewright.bearings.solving import solve

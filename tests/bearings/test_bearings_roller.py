@@ -6,7 +6,7 @@ from scipy.integrate import quad
 
 from drivewright._jit import formula_of, plain
 from drivewright.bearings.newton import measures
-from drivewright.bearings.response import respond, response
+from drivewright.bearings.response import evaluate_response, response
 from drivewright.bearings.roller import (
     RollerBearing,
     RollerLaw,
@@ -50,9 +50,9 @@ def carried(bearing, displacement):
 @pytest.mark.parametrize("bearing", [ODD, CYLINDRICAL.replace(radial_clearance="-4 um"), PLAIN])
 def test_force_and_stiffness_are_the_derivatives_of_the_energy(bearing):
     law, steps = law_of(bearing), np.diag([1e-9, 1e-9, 1e-9, 1e-7, 1e-7])
-    _, force, stiffness = respond(law, SOMEWHERE)
+    _, force, stiffness = evaluate_response(law, SOMEWHERE)
     for i, step in enumerate(steps):
-        (more, after, _), (less, before, _) = respond(law, SOMEWHERE + step), respond(law, SOMEWHERE - step)
+        (more, after, _), (less, before, _) = evaluate_response(law, SOMEWHERE + step), evaluate_response(law, SOMEWHERE - step)
         assert (more - less) / (2 * step[i]) == pytest.approx(force[i], abs=1e-6 * np.abs(force).max())
         assert (after - before) / (2 * step[i]) == pytest.approx(stiffness[i], rel=2e-4, abs=2e-4 * stiffness[i, i])
     assert np.array_equal(stiffness, stiffness.T) and np.linalg.eigvalsh(stiffness)[0] > -1e-9 * np.linalg.norm(stiffness)
@@ -60,9 +60,9 @@ def test_force_and_stiffness_are_the_derivatives_of_the_energy(bearing):
 
 def test_without_contact_there_is_no_force():
     loose = CYLINDRICAL.replace(radial_clearance="10 um")
-    energy, force, stiffness = respond(law_of(loose), [4.9e-6, 0, 1e-3, 0, 0])
+    energy, force, stiffness = evaluate_response(law_of(loose), [4.9e-6, 0, 1e-3, 0, 0])
     assert energy == 0 and not force.any() and not stiffness.any()
-    assert respond(law_of(loose), [5.3e-6, 0, 0, 0, 0])[1][0] > 0  # 5 um, and twice the drop of the middle lamina
+    assert evaluate_response(law_of(loose), [5.3e-6, 0, 0, 0, 0])[1][0] > 0  # 5 um, and twice the drop of the middle lamina
 
 
 def test_turning_bearing_and_displacement_turns_the_answer():
@@ -72,9 +72,9 @@ def test_turning_bearing_and_displacement_turns_the_answer():
         turn[:2, :2] = turn[3:, 3:] = [[c, -s], [s, c]]
         return turn
 
-    energy, force, stiffness = respond(law_of(ODD), SOMEWHERE)
+    energy, force, stiffness = evaluate_response(law_of(ODD), SOMEWHERE)
     for angle, other in ((2 * np.pi / ODD.rollers, ODD), (0.4, ODD.replace(first_element=SI(ODD.first_element + 0.4)))):
-        again = respond(law_of(other), turned(angle) @ SOMEWHERE)
+        again = evaluate_response(law_of(other), turned(angle) @ SOMEWHERE)
         assert again[0] == pytest.approx(energy, rel=1e-12)
         assert again[1] == pytest.approx(turned(angle) @ force, rel=1e-11)
         assert again[2] == pytest.approx(turned(angle) @ stiffness @ turned(angle).T, rel=1e-9, abs=1e-12 * np.abs(stiffness).max())
@@ -82,15 +82,15 @@ def test_turning_bearing_and_displacement_turns_the_answer():
 
 def test_mirror_image_gives_the_mirrored_answer():
     mirror = np.array([1, -1, 1, -1, 1])  # y -> -y: a turn about y stays, one about x changes its sense
-    _, force, stiffness = respond(law_of(ODD), SOMEWHERE)
-    _, other, matrix = respond(law_of(ODD.replace(first_element=SI(-ODD.first_element))), mirror * SOMEWHERE)
+    _, force, stiffness = evaluate_response(law_of(ODD), SOMEWHERE)
+    _, other, matrix = evaluate_response(law_of(ODD.replace(first_element=SI(-ODD.first_element))), mirror * SOMEWHERE)
     assert other == pytest.approx(mirror * force, rel=1e-11)
     assert matrix == pytest.approx(np.outer(mirror, mirror) * stiffness, rel=1e-9, abs=1e-12 * np.abs(stiffness).max())
 
 
 def test_loads_balance_the_force_and_moment_on_a_rigid_ring():
     """Second route: a point of the ring at each lamina moves by u + w x r, is pressed along its normal and pushes back there."""
-    _, force, _ = respond(law_of(ODD), SOMEWHERE)
+    _, force, _ = evaluate_response(law_of(ODD), SOMEWHERE)
     _, _, _, laminae = carried(ODD, SOMEWHERE)
     angle, total, moment = ODD.contact_angle, np.zeros(3), np.zeros(3)
     constant = 35948e6 * ODD.roller_length ** (8 / 9) / ODD.laminae
@@ -112,8 +112,8 @@ def test_loads_balance_the_force_and_moment_on_a_rigid_ring():
 
 def test_without_play_and_profile_the_load_goes_with_the_10_9_power():
     bearing = TAPERED.replace(profile="none")
-    _, force, stiffness = respond(law_of(bearing), SOMEWHERE)
-    _, larger, stiffer = respond(law_of(bearing), 7 * SOMEWHERE)
+    _, force, stiffness = evaluate_response(law_of(bearing), SOMEWHERE)
+    _, larger, stiffer = evaluate_response(law_of(bearing), 7 * SOMEWHERE)
     assert larger == pytest.approx(7 ** (10 / 9) * force, rel=1e-11)
     assert stiffer == pytest.approx(7 ** (1 / 9) * stiffness, rel=1e-9, abs=1e-12 * np.abs(stiffness).max())
 
@@ -121,7 +121,7 @@ def test_without_play_and_profile_the_load_goes_with_the_10_9_power():
 def test_compiled_and_plain_python_agree():
     force, stiffness = np.full(5, 9.0), np.full((5, 5), 9.0)  # to be written whole
     energy = plain(formula_of(response, RollerLaw))(law_of(ODD), SOMEWHERE, force, stiffness)
-    compiled = respond(law_of(ODD), SOMEWHERE)
+    compiled = evaluate_response(law_of(ODD), SOMEWHERE)
     assert energy == pytest.approx(compiled[0], rel=1e-13)
     assert force == pytest.approx(compiled[1], rel=1e-13) and stiffness == pytest.approx(compiled[2], rel=1e-12)
     state = solve(ODD, displacement=SOMEWHERE)
@@ -137,7 +137,7 @@ def test_size_of_the_world_does_not_matter():
     large = ODD.replace(
         roller_diameter="10.5 mm", roller_length="12 mm", pitch_diameter="78 mm", radial_clearance="9 um", youngs_modulus="1050 GPa"
     )
-    force, larger = respond(law_of(ODD), SOMEWHERE)[1], respond(law_of(large), SOMEWHERE * [3, 3, 3, 1, 1])[1]
+    force, larger = evaluate_response(law_of(ODD), SOMEWHERE)[1], evaluate_response(law_of(large), SOMEWHERE * [3, 3, 3, 1, 1])[1]
     assert larger == pytest.approx(force * [45, 45, 45, 135, 135], rel=1e-11)
     pressures = [solve(each, displacement=SOMEWHERE * [by, by, by, 1, 1]).pressures for each, by in ((large, 3), (ODD, 1))]
     assert pressures[0] == pytest.approx(5 * pressures[1], rel=1e-11)
@@ -165,13 +165,13 @@ def test_axial_load_of_a_tapered_bearing():
     sine, cosine = np.sin(np.radians(14)), np.cos(np.radians(14))
     depth = z * sine - 1e-6 * cosine
     force = 17 * sine * 35948e6 * 0.004 ** (8 / 9) * depth ** (10 / 9)
-    assert respond(law_of(bearing), [0, 0, z, 0, 0])[1] == pytest.approx([0, 0, force, 0, 0], abs=1e-9 * force)
+    assert evaluate_response(law_of(bearing), [0, 0, z, 0, 0])[1] == pytest.approx([0, 0, force, 0, 0], abs=1e-9 * force)
 
 
 def test_cylindrical_bearing_carries_nothing_along_its_axis():
-    _, force, stiffness = respond(law_of(CYLINDRICAL), [5e-6, 3e-6, 1.0, 2e-4, 1e-4])
+    _, force, stiffness = evaluate_response(law_of(CYLINDRICAL), [5e-6, 3e-6, 1.0, 2e-4, 1e-4])
     assert force[2] == 0 and not stiffness[2].any() and not stiffness[:, 2].any()
-    assert np.array_equal(respond(law_of(CYLINDRICAL), [5e-6, 3e-6, 0, 2e-4, 1e-4])[1], force)
+    assert np.array_equal(evaluate_response(law_of(CYLINDRICAL), [5e-6, 3e-6, 0, 2e-4, 1e-4])[1], force)
 
 
 def test_tilting_stiffness_of_preloaded_plain_rollers():
@@ -179,13 +179,13 @@ def test_tilting_stiffness_of_preloaded_plain_rollers():
     bearing = PLAIN.replace(radial_clearance="-8 um", laminae=9)
     slope = 10 / 9 * 35948e6 * 0.0032 ** (8 / 9) * 4e-6 ** (1 / 9)
     expected = 16 / 2 * slope * 0.0032**2 / 12 * (1 - 1 / 81)
-    stiffness = respond(law_of(bearing), np.zeros(5))[2]
+    stiffness = evaluate_response(law_of(bearing), np.zeros(5))[2]
     assert stiffness[3, 3] == pytest.approx(expected, rel=1e-12) and stiffness[4, 4] == pytest.approx(expected, rel=1e-12)
     assert stiffness[0, 0] == pytest.approx(8 * slope, rel=1e-12)
 
 
 def test_one_lamina_is_enough_for_plain_rollers_that_do_not_tilt():
-    one, many = (respond(law_of(PLAIN.replace(laminae=count)), [5e-6, 2e-6, 0, 0, 0]) for count in (1, 41))
+    one, many = (evaluate_response(law_of(PLAIN.replace(laminae=count)), [5e-6, 2e-6, 0, 0, 0]) for count in (1, 41))
     assert one[1] == pytest.approx(many[1], rel=1e-12) and one[0] == pytest.approx(many[0], rel=1e-12)
     assert one[2][:3, :3] == pytest.approx(many[2][:3, :3], rel=1e-12)
     assert one[2][3, 3] == 0  # a point in the middle does not resist tilting

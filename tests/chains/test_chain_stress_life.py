@@ -61,7 +61,7 @@ def test_yielding_is_neuber_s():
     assert worst(basis(), loads).stress > steel().cyclic_yield
     found = plate_life(basis(), loads, steel(), least=0.95)
     row = [int(found.rows[found.life.argmin()])]
-    stress = fatigue.superposed(amounts(basis(), loads), basis().stress[:, row])
+    stress = fatigue.superpose(amounts(basis(), loads), basis().stress[:, row])
     local = fatigue.neuber_history(stress[0], steel())
     assert fatigue.brown_miller(local.strain, local.stress, steel()).life == pytest.approx(found.life.min(), rel=1e-9)
     assert local.stress.max() < stress.max()

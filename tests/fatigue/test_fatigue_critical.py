@@ -198,7 +198,7 @@ def test_damage_on_a_plane_by_the_second_route(seed):
     strain, stress = turning(seed, harmonics=4)
     counts = set()
     for normal, direction in frames(seed, 12):
-        table = planes.cycle_table(planes.block_of(strain, stress), critical.brown_miller_curve(CARD), normal, direction)
+        table = planes.cycle_table(planes.pack_block(strain, stress), critical.brown_miller_curve(CARD), normal, direction)
         counts.add(len(table))
         assert table[:, 3].sum() == pytest.approx(second_route(strain, stress, normal, direction), rel=1e-9)
     assert max(counts) > 2
@@ -238,7 +238,7 @@ def test_no_plane_is_sheared_or_damaged_more(seed):
     assert second_route(strain, stress, most_damage.plane, most_damage.direction) == pytest.approx(most_damage.damage, rel=1e-9)
     assert most_damage.damage >= most_shear.damage
     for normal, direction in frames(seed, 200):
-        table = planes.cycle_table(planes.block_of(strain, stress), critical.brown_miller_curve(CARD), normal, direction)
+        table = planes.cycle_table(planes.pack_block(strain, stress), critical.brown_miller_curve(CARD), normal, direction)
         assert table[:, 3].sum() < most_damage.damage and np.max(table[:, 0]) < np.max(most_shear.cycles.shear_amplitude)
 
 
@@ -249,7 +249,7 @@ def test_out_of_phase_by_hand():
     strain[:, 0, 1] = strain[:, 1, 0] = 2e-3 * np.sin(t)
     strain[:, 1, 1] = 1e-3 * np.cos(t)
     table = planes.cycle_table(
-        planes.block_of(strain, 0 * strain), critical.brown_miller_curve(CARD), np.array([0.0, 1, 0]), np.array([1.0, 0, 0])
+        planes.pack_block(strain, 0 * strain), critical.brown_miller_curve(CARD), np.array([0.0, 1, 0]), np.array([1.0, 0, 0])
     )
     assert table[:, :3] == pytest.approx(np.array([[4e-3, 1e-3, 0.0]]), rel=1e-12)
 
@@ -257,7 +257,7 @@ def test_out_of_phase_by_hand():
 def test_kernels_run_uncompiled():
     strain, stress = turning(6, samples=9)
     curve, grid = critical.brown_miller_curve(CARD), critical._grid()[::150]
-    for kernel, more in ((critical._most_sheared, ()), (critical._most_damaged, (grid,))):
+    for kernel, more in ((critical._max_shear_planes, ()), (critical._max_damage_planes, (grid,))):
         with np.errstate(divide="ignore", invalid="ignore"):
             damage, _ = plain(kernel)(strain[None], stress[None], curve, *more)
         assert damage == pytest.approx(kernel(strain[None], stress[None], curve, *more)[0], rel=1e-9)

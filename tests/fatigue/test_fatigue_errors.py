@@ -108,7 +108,7 @@ def test_an_unknown_plane():
         (lambda: fatigue.elastic_strain(np.full((2, 3, 3), np.inf), CARD), r"elastic_strain: stress\[0, 0, 0\] is inf, 18 in all"),
         (lambda: fatigue.elastic_strain(3.0, CARD), r"elastic_strain: stress must have the shape \(samples, 3, 3\), got \(\)"),
         (lambda: fatigue.plane_tensors([1.0, 2.0]), r"the last axis xx, yy, xy; got the shape \(2,\)"),
-        (lambda: fatigue.superposed(np.ones((4, 2)), np.ones((3, 9, 3))), r"got the shapes \(4, 2\) and \(3, 9, 3\)"),
+        (lambda: fatigue.superpose(np.ones((4, 2)), np.ones((3, 9, 3))), r"got the shapes \(4, 2\) and \(3, 9, 3\)"),
         (lambda: fatigue.life_text(float("nan"), CARD), "a life is a number from 0 on, got nan"),
     ],
 )

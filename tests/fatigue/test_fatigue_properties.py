@@ -147,7 +147,7 @@ def test_mean_stress_at_the_fatigue_strength_leaves_no_life(plane):
 def test_superposition_is_linear():
     rng = np.random.default_rng(4)
     factors, unit = rng.normal(size=(5, 3)), rng.normal(size=(3, 7, 3))
-    found = fatigue.superposed(factors, unit)
+    found = fatigue.superpose(factors, unit)
     assert found.shape == (7, 5, 3, 3) and np.array_equal(found, np.swapaxes(found, 2, 3)) and not found[..., 2].any()
     assert [found[2, 4, 0, 0], found[2, 4, 1, 1], found[2, 4, 0, 1]] == pytest.approx(sum(factors[4, k] * unit[k, 2] for k in range(3)))
 

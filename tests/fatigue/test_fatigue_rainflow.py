@@ -80,5 +80,5 @@ def test_against_the_second_route(repeating):
 def test_kernels_run_uncompiled():
     x = np.random.default_rng(2).normal(size=40)
     for repeating, row in ((False, x), (True, np.concatenate([x, x]))):
-        for ours, other in zip(rainflow._counted(row, repeating), plain(rainflow._counted)(row, repeating), strict=True):
+        for ours, other in zip(rainflow._count_cycles(row, repeating), plain(rainflow._count_cycles)(row, repeating), strict=True):
             assert np.array_equal(ours, other)

@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from drivewright.bearings import bearing, quick
+from drivewright.bearings import approximate_stiffness, bearing
 from drivewright.indexing.drivetrain import Drivetrain, GearMesh, PowerLawBearing, SplitShaft, pin_contact, power_law_bearing
 from drivewright.indexing.motion import index_motion
 from drivewright.indexing.pin_wheel import PinWheel
@@ -23,8 +23,8 @@ ARCMIN = 3437.7468
 E, G = 206e9, 79.3e9
 WHEEL = PinWheel(12, 0.12, 0.008, 0.01, index_motion("modified-sine", 12, 1.0))
 SHAFT = SplitShaft(tuple(Section(0.025, d, d) for d in (0.02, 0.025, 0.03, 0.025)), 0.0, (0.025, 0.1), (0.05, 0.075), E, E / (2 * G) - 1)
-ROLLER = power_law_bearing(lambda f: quick.liu_roller(f, 14, 8.5e-3))
-BALL = power_law_bearing(lambda f: quick.liu_ball(f, 11, 4.762e-3))
+ROLLER = power_law_bearing(lambda f: approximate_stiffness.liu_roller(f, 14, 8.5e-3))
+BALL = power_law_bearing(lambda f: approximate_stiffness.liu_ball(f, 11, 4.762e-3))
 SET_A = Drivetrain(0.11, pin_contact(0.018, 5e8), ROLLER, BALL, None, SHAFT, GearMesh(0.0275, 2.8e8, np.radians(20)))
 ANGLES = np.radians(np.arange(41) * 4.5)
 APPENDIX = (

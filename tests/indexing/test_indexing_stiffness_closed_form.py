@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from drivewright.bearings import quick
+from drivewright.bearings import approximate_stiffness
 from drivewright.indexing.contacts import CamContacts
 from drivewright.indexing.drivetrain import Drivetrain, GearMesh, PinContact, PowerLawBearing, SplitShaft, pin_contact, power_law_bearing
 from drivewright.indexing.motion import index_motion
@@ -142,7 +142,10 @@ SECANTS = {"roller": (339366, 363724, 389830, 427237, 457901), "ball": (51956, 6
 def test_secant_stiffness_of_the_bearings_in_the_sheet(kind):
     """Sheet, section 5, N/mm: from F = K d^n and its displacement."""
     bearing = power_law_bearing(
-        {"roller": lambda f: quick.liu_roller(f, 14, 8.5e-3), "ball": lambda f: quick.liu_ball(f, 11, 4.762e-3)}[kind]
+        {
+            "roller": lambda f: approximate_stiffness.liu_roller(f, 14, 8.5e-3),
+            "ball": lambda f: approximate_stiffness.liu_ball(f, 11, 4.762e-3),
+        }[kind]
     )
     force = np.array([500.0, 1000.0, 2000.0, 5000.0, 10000.0])
     away = (force / bearing.constant) ** (1 / bearing.exponent)

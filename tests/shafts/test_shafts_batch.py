@@ -11,7 +11,7 @@ import pytest
 from drivewright.shafts.batch import flexibilities
 from drivewright.shafts.closed_form import flexibility
 from drivewright.shafts.model import COWPER, EULER_BERNOULLI
-from drivewright.shafts.sections import area, cowper, second_moment
+from drivewright.shafts.sections import area, cowper_coefficient, second_moment
 
 pytestmark = pytest.mark.analytical
 
@@ -37,7 +37,7 @@ def swept(supports, stations, stiffness=NOMINAL, shear=EULER_BERNOULLI, modulus=
 
 def arrays(supports, stations, stiffness=NOMINAL, shear=EULER_BERNOULLI, modulus=MODULUS):
     """The closed form in numpy."""
-    slide = modulus / 2.6 * area(DIAMETER, 0.0) * cowper(DIAMETER, 0.0, POISSON) if shear == COWPER else np.inf
+    slide = modulus / 2.6 * area(DIAMETER, 0.0) * cowper_coefficient(DIAMETER, 0.0, POISSON) if shear == COWPER else np.inf
     stiffness = np.broadcast_to(stiffness, np.shape(stiffness)[:-1] + (2,))
     delta = flexibility(stations, supports, stiffness, modulus * second_moment(DIAMETER, 0.0), slide)
     return delta if delta.ndim == 3 else delta[None]

@@ -314,13 +314,13 @@ def test_shared_arguments_are_the_repeated_ones():
     assert np.array_equal(flexibilities(**view), flexibilities(**many | {"lengths": many["lengths"][:1]}))
 
 
-@pytest.mark.skipif(not hasattr(batch.fill, "signatures"), reason="numba is switched off")
+@pytest.mark.skipif(not hasattr(batch.fill_flexibilities, "signatures"), reason="numba is switched off")
 def test_one_compiled_version_serves_every_shape():
     batch.warm_batch()
     many = shafts(13, 4, 2, 3, 2)
     frozen = {name: np.broadcast_to(value, value.shape) if np.ndim(value) else value for name, value in many.items()}
     flexibilities(**frozen | {"stations": [[0, 0]], "poisson": np.float32(0.3)}, reactions=True)
-    assert len(batch.fill.signatures) == 1
+    assert len(batch.fill_flexibilities.signatures) == 1
 
 
 def test_nothing_to_do():
@@ -352,7 +352,7 @@ def test_interrupted_it_returns_nothing(monkeypatch):
 def test_uncompiled_the_same(kind, monkeypatch):
     many = shafts(17, 5, *kind, 2, cones=0.5 * (kind[0] > 1))
     compiled = flexibilities(**many, reactions=True)
-    monkeypatch.setattr(batch, "fill", plain(batch.fill))
+    monkeypatch.setattr(batch, "fill_flexibilities", plain(batch.fill_flexibilities))
     for a, b in zip(compiled, flexibilities(**many, reactions=True), strict=True):
         assert np.allclose(a, b, rtol=1e-13, atol=1e-14 * np.abs(a).max())
 

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from drivewright import bearings, shafts
-from drivewright.bearings.response import respond
+from drivewright.bearings.response import evaluate_response
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.beam import FREEDOMS
-from drivewright.shafts.sections import area, cowper, second_moment
-from drivewright.shafts.vibration import is_round, shapes
+from drivewright.shafts.sections import area, cowper_coefficient, second_moment
+from drivewright.shafts.vibration import element_shapes, is_isotropic
 
 pytestmark = pytest.mark.analytical
 
@@ -36,7 +36,7 @@ def full_tangent(seed=1):
 
 
 def loaded(one, *points, **more):
-    return shafts.load(one, shafts.ShaftLoads(tuple(points), **more))
+    return shafts.apply_loads(one, shafts.ShaftLoads(tuple(points), **more))
 
 
 def moved(found, position, freedom=1):
@@ -45,7 +45,7 @@ def moved(found, position, freedom=1):
 
 def at_rest(one, elements=24):
     system = shafts.assemble(one, np.linspace(0.0, one.length, elements + 1))
-    return shafts.solve(system, 0 * shafts.work(system, ()))
+    return shafts.solve(system, 0 * shafts.nodal_forces(system, ()))
 
 
 # -- mirrored and coupled supports ---------------------------------------------------------------------------------------------
@@ -101,8 +101,10 @@ def test_springs_of_a_mirrored_support_beside_its_law():
     assert turned.relative == pytest.approx(plain.relative, rel=1e-8, abs=1e-14)
     assert -plain.reactions[1] == pytest.approx((k + np.diag(springs)) @ plain.relative[1], rel=1e-8)
     one, two = (shafts.flexibility(each, [0.22], (0.6, -0.8)) for each in found)
-    assert two.delta == pytest.approx(one.delta, rel=1e-9, abs=0) and two.pressed == pytest.approx(one.pressed, rel=1e-8, abs=1e-12)
-    assert np.abs(one.pressed[1, 3:]).min() > 1e-3
+    assert two.delta == pytest.approx(one.delta, rel=1e-9, abs=0) and two.support_forces == pytest.approx(
+        one.support_forces, rel=1e-8, abs=1e-12
+    )
+    assert np.abs(one.support_forces[1, 3:]).min() > 1e-3
 
 
 def test_a_coupled_support_on_a_seat_balances_and_its_shares_add_up():
@@ -288,7 +290,7 @@ def test_a_hollow_cone_bends_and_shears_by_its_integrals():
     found = loaded(one, shafts.ShaftLoad(0.0, (0.0, -1000.0, 0.0)))
     z = L * GAUSS[0]
     bend = along_cone(lambda d: z**2 * 64 / (np.pi * (d**4 - 0.015**4)))
-    kappa = np.array([float(cowper(d, 0.015, NU)) for d in 0.03 + 0.03 * GAUSS[0]])
+    kappa = np.array([float(cowper_coefficient(d, 0.015, NU)) for d in 0.03 + 0.03 * GAUSS[0]])
     slip = along_cone(lambda d: 4 / (kappa * np.pi * (d**2 - 0.015**2)))
     assert -moved(found, 0.0) / 1000 == pytest.approx(bend / E + slip / G, rel=1e-9)
     drawn = shafts.diagram(found)
@@ -298,8 +300,8 @@ def test_a_hollow_cone_bends_and_shears_by_its_integrals():
 
 def test_cowpers_coefficient_at_its_ends():
     """Solid: 6 (1 + nu)/(7 + 6 nu); thin tube: 2 (1 + nu)/(4 + 3 nu)  (both recalled with the paper)."""
-    assert float(cowper(0.02, 0.0, 0.3)) == pytest.approx(7.8 / 8.8, rel=1e-14)
-    assert float(cowper(0.02, 0.02 * (1 - 1e-9), 0.3)) == pytest.approx(2.6 / 4.9, rel=1e-7)
+    assert float(cowper_coefficient(0.02, 0.0, 0.3)) == pytest.approx(7.8 / 8.8, rel=1e-14)
+    assert float(cowper_coefficient(0.02, 0.02 * (1 - 1e-9), 0.3)) == pytest.approx(2.6 / 4.9, rel=1e-7)
 
 
 def test_a_hanging_cone_pulls_at_the_ends_of_its_pieces_by_its_moment():
@@ -322,7 +324,7 @@ def test_bending_of_a_cone_under_its_weight_is_exact_between_the_nodes():
     """E I(z) dt/dz = M and dM/dz = -V, at places inside of one element under a parabolic load."""
     found = loaded(shaft([support("A", 0.0), support("B", L)], sections=CONE), gravity=(0.0, -9.81, 0.0))
     z = np.linspace(0.05, 0.35, 3001)
-    curve = beams.line(found.equilibrium.model.beam, 1, found.equilibrium.unknowns, z, found.spread[1])
+    curve = beams.elastic_line(found.equilibrium.model.beam, 1, found.equilibrium.unknowns, z, found.spread[1])
     diameter = 0.03 + 0.03 * z / L
     load = -9.81 * RHO * np.pi / 4 * (diameter**2 - 0.015**2)
     assert np.gradient(curve.shear, z)[2:-2] == pytest.approx(-load[2:-2], rel=1e-5)
@@ -345,8 +347,8 @@ LAWS = {
 @pytest.mark.parametrize("size", [4e-6, 1.3e-5, 3.7e-5, 6e-5])
 def test_force_and_stiffness_are_derivatives_of_the_energy(law, size):
     place, step = np.array([0.8, -0.6, 0.3, 2.0, -1.0]) * size, 1e-9
-    _, force, stiffness = respond(LAWS[law], place)
-    around = [[respond(LAWS[law], place + way * step * np.eye(5)[i]) for way in (1, -1)] for i in range(5)]
+    _, force, stiffness = evaluate_response(LAWS[law], place)
+    around = [[evaluate_response(LAWS[law], place + way * step * np.eye(5)[i]) for way in (1, -1)] for i in range(5)]
     slope = np.array([(up[0] - down[0]) / (2 * step) for up, down in around])
     bend = np.array([(up[1] - down[1]) / (2 * step) for up, down in around])
     assert slope == pytest.approx(force, rel=1e-6, abs=1e-5)
@@ -355,10 +357,10 @@ def test_force_and_stiffness_are_derivatives_of_the_energy(law, size):
 
 def test_a_table_runs_on_straight_from_its_end():
     law, way = LAWS["table"], np.array([1.0, 0.0, 0.0, 0.0, 0.0])
-    last, beyond, far = (respond(law, r * way) for r in (4e-5 - 1e-12, 6e-5, 8e-5))
+    last, beyond, far = (evaluate_response(law, r * way) for r in (4e-5 - 1e-12, 6e-5, 8e-5))
     assert beyond[2][0, 0] == pytest.approx(last[2][0, 0], rel=1e-5) and far[2][0, 0] == beyond[2][0, 0]
     assert far[1][0] - beyond[1][0] == pytest.approx(2e-5 * last[2][0, 0], rel=1e-5)
-    assert respond(law, 1e-5 * way)[0] < respond(law, 2e-5 * way)[0] < respond(law, 4e-5 * way)[0]
+    assert evaluate_response(law, 1e-5 * way)[0] < evaluate_response(law, 2e-5 * way)[0] < evaluate_response(law, 4e-5 * way)[0]
 
 
 # -- vibration -----------------------------------------------------------------------------------------------------------------
@@ -368,7 +370,7 @@ def test_critical_speeds_of_a_stocky_shaft_have_its_own_gyroscopic_moments():
     """Simply supported, wave number k: det[[kGA k^2 - rho A s^2, -kGA k], [-kGA k, EI k^2 + kGA - c rho I s^2]] = 0 with c = 1 - 2 for a
     whirl with the shaft and 1 + 2 for one against it."""
     d = 0.1
-    a, i, kappa = float(area(d, 0.0)), float(second_moment(d, 0.0)), float(cowper(d, 0.0, NU))
+    a, i, kappa = float(area(d, 0.0)), float(second_moment(d, 0.0)), float(cowper_coefficient(d, 0.0, NU))
     one = shaft([support("A", 0.0), support("B", L)], shear=shafts.COWPER, sections=(shafts.Section(L, d, d),))
     found, k, stiff = shafts.critical_speeds(at_rest(one, 40), 1), np.pi / L, kappa * G * a
     for speeds, c in ((found.forward, -1.0), (found.backward, 3.0)):
@@ -380,10 +382,10 @@ def test_critical_speeds_of_a_stocky_shaft_have_its_own_gyroscopic_moments():
 def test_shapes_inside_an_element_are_the_lines_of_its_nodes():
     """On a cone with shear, by the route that draws the deflection."""
     found = beams.beam(shaft([support("A", 0.0), support("B", L)], shear=shafts.COWPER, sections=CONE))
-    deflection, slope = shapes(found)
+    deflection, slope = element_shapes(found)
     z = L * 0.5 * (np.polynomial.legendre.leggauss(8)[0] + 1)
     for number, freedom in enumerate((0, 4, 6, 10)):
-        curve = beams.line(found, 0, np.linalg.solve(beams.basis(found), np.eye(1, found.size, freedom)[0]), z)
+        curve = beams.elastic_line(found, 0, np.linalg.solve(beams.displacement_basis(found), np.eye(1, found.size, freedom)[0]), z)
         assert deflection[0, :, number] == pytest.approx(curve.deflection, rel=1e-8, abs=1e-12)
         assert slope[0, :, number] == pytest.approx(curve.slope, rel=1e-8, abs=1e-9)
 
@@ -406,7 +408,7 @@ def test_turning_the_supports_turns_the_modes(matrix):
     speeds = shafts.critical_speeds(at_rest(on_matrix(0.0, matrix)), 2)
     for turn in (0.0, 0.4, np.pi / 4):
         rest = at_rest(on_matrix(turn, matrix))
-        assert not is_round(rest)
+        assert not is_isotropic(rest)
         assert shafts.modes(rest, 4)[0].frequencies == pytest.approx(wanted, rel=1e-7)
         turned = shafts.critical_speeds(rest, 2)
         assert turned.forward == pytest.approx(speeds.forward, rel=1e-7) and turned.backward == pytest.approx(speeds.backward, rel=1e-7)
@@ -433,7 +435,7 @@ def test_a_seat_that_yields_softens_the_modes_like_a_spring_in_series():
 
 def test_shapes_of_torsion_are_waves_with_free_ends():
     rest = at_rest(shaft([support("A", 0.0), support("B", L)]), 40)
-    found = shafts.torsional(rest, 2)
+    found = shafts.torsional_modes(rest, 2)
     z, turned = rest.model.beam.z, found.shapes[5 : rest.model.beam.size : FREEDOMS]
     for number, shape in enumerate(turned.T, 1):
         assert shape / shape[0] == pytest.approx(np.cos(number * np.pi * z / L), abs=2e-3)

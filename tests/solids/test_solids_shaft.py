@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from drivewright.errors import InputError
-from drivewright.shafts.sections import area, cowper, second_moment
+from drivewright.shafts.sections import area, cowper_coefficient, second_moment
 from drivewright.shafts.solid_check import solid_flexibility, surface_table
 from drivewright.solids.elastic import Response, spring_supported
 from drivewright.solids.turning import Band, split_rings
@@ -46,7 +46,7 @@ def beam(sections, seats, places, shear=True):
             moment = left * max(x - a, 0) + right * max(x - b, 0) - np.maximum(x - s, 0)
             force = left * (x > a) + right * (x > b) - (x > s)
             found += part * np.outer(moment, moment) / (E * second_moment(d, bore))
-            found += shear * part * np.outer(force, force) * 2 * (1 + NU) / (E * cowper(d, bore, NU) * area(d, bore))
+            found += shear * part * np.outer(force, force) * 2 * (1 + NU) / (E * cowper_coefficient(d, bore, NU) * area(d, bore))
     return found
 
 
@@ -158,7 +158,7 @@ def test_cowpers_coefficient_is_the_solids(bore):
     w, phi = 1e3 * found.flexibility[0, 1:4], 1e3 * found.flexibility[0, 4:]  # mm/N, 1/N
     slip = (w[2] - w[0]) / diameter + (phi[0] + 4 * phi[1] + phi[2]) / 6  # phi is a parabola: Simpson's rule is exact
     kappa = 2 * (1 + NU) / (modulus * area(diameter, bore) * slip)
-    assert kappa == pytest.approx(cowper(diameter, bore, NU), rel=0.01)
+    assert kappa == pytest.approx(cowper_coefficient(diameter, bore, NU), rel=0.01)
     assert abs(kappa / (6 * (1 + NU) ** 2 / (7 + 12 * NU + 4 * NU**2)) - 1) > 0.03  # another round-section coefficient, 0.925
 
 

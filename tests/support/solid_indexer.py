@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 
-from drivewright.bearings import quick
+from drivewright.bearings import approximate_stiffness
 from drivewright.indexing.drivetrain import Drivetrain, GearMesh, SplitShaft, pin_contact, power_law_bearing
 from drivewright.indexing.motion import index_motion
 from drivewright.indexing.pin_wheel import PinWheel
@@ -14,8 +14,8 @@ from drivewright.shafts import Section
 
 WIDTH, E, NU = 0.018, 206e9, 0.3
 CAM, SHAFT = CamBody(WIDTH, 0.072), ShaftBody(0.035, WIDTH, 0.009, 0.014)
-CRANK = power_law_bearing(lambda force: quick.liu_roller(force, 14, 8.5e-3))
-SUPPORT = power_law_bearing(lambda force: quick.liu_ball(force, 11, 4.762e-3))
+CRANK = power_law_bearing(lambda force: approximate_stiffness.liu_roller(force, 14, 8.5e-3))
+SUPPORT = power_law_bearing(lambda force: approximate_stiffness.liu_ball(force, 11, 4.762e-3))
 ANGLES = np.radians([20.0, 45.0, 83.0])
 
 

@@ -5,7 +5,7 @@ from typing import Any
 
 # Their modules hold kernels, and the first kernel imports numba: loaded when first used.
 _WHERE = {
-    "response": ("FREEDOMS", "respond"),  # the formula itself has the name of its module
+    "response": ("FREEDOMS", "evaluate_response"),  # the formula itself has the name of its module
     "newton": ("BearingMeasures", "equilibria", "equilibrium", "measures"),
     "solving": (
         "PERMISSIBLE",
@@ -24,7 +24,7 @@ _WHERE = {
     "life": ("basic_dynamic_rating", "basic_life", "equivalent_radial_load", "life_exponent", "static_rating"),
     "roller": ("RollerBearing", "RollerLaw", "roller_reference_life", "roller_static_rating"),
     "catalogue": ("Entry", "bearing", "entry", "load_catalogue", "names"),
-    "quick": (
+    "approximate_stiffness": (
         "gargiulo_ball",
         "gargiulo_roller",
         "kraemer_ball",

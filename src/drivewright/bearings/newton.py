@@ -8,8 +8,8 @@ from drivewright._jit import generic, kernel, outer
 from drivewright.bearings.response import response
 from drivewright.numerics.small import cholesky_solve
 
-MOST_STEPS = 30  # at one load
-MOST_LOADS = 60  # on the way from an easy load to the wanted one
+MAX_STEPS = 30  # at one load
+MAX_LOADS = 60  # on the way from an easy load to the wanted one
 UNRESISTED, NOT_CONVERGED = -1, -2  # instead of the number of steps
 
 
@@ -52,7 +52,7 @@ def equilibrium(law, force, held, start):
     stays where it started.
     """
     displacement = start.copy()
-    return displacement, _settle(law, force, held, displacement, _workspace())
+    return displacement, _find_equilibrium(law, force, held, displacement, _workspace())
 
 
 @kernel
@@ -60,15 +60,15 @@ def equilibria(law, forces, held):
     """(displacements (n, 5), steps (n,)) for many forces (n, 5) from the unloaded position; rows that failed are nan."""
     displacements, steps, work = np.zeros(forces.shape), np.zeros(len(forces), dtype=np.int64), _workspace()
     for i in range(len(forces)):
-        begin(law, forces[i], held, displacements[i])
-        steps[i] = _settle(law, forces[i], held, displacements[i], work)
+        centre_ring(law, forces[i], held, displacements[i])
+        steps[i] = _find_equilibrium(law, forces[i], held, displacements[i], work)
         if steps[i] < 0:
             displacements[i] = np.nan
     return displacements, steps
 
 
 @outer
-def begin(law, force, held, displacement):
+def centre_ring(law, force, held, displacement):
     """Put z where the ring centres itself when the load does not push it along the axis.
 
     The potential is symmetric about this z, so the answer lies there; on the way from anywhere else balls would change sides.
@@ -84,29 +84,29 @@ def _workspace():
 
 
 @outer
-def _settle(law, force, held, displacement, work):
+def _find_equilibrium(law, force, held, displacement, work):
     """Newton's method from `displacement`, in place; the number of steps."""
     sizes = measures(law)
     for i in range(5):
         work.scale[i] = 0.0 if held[i] else sizes.length if i < 3 else sizes.length / sizes.arm
     steps = _newton(law, force, 1.0, displacement, work)
-    return _release(law, force, displacement, work) if steps == NOT_CONVERGED else steps
+    return _reduce_load(law, force, displacement, work) if steps == NOT_CONVERGED else steps
 
 
 @outer
-def _release(law, force, displacement, work):
+def _reduce_load(law, force, displacement, work):
     """A load that presses the ring in, reduced to the wanted one; the number of steps.
 
     Under a slight load the elements are as good as rigid, and the ring finds its place among them in too many small steps.
     """
-    factor, reached, ratio, total = 100.0, np.inf, 0.1, MOST_STEPS
-    for _ in range(MOST_LOADS):
+    factor, reached, ratio, total = 100.0, np.inf, 0.1, MAX_STEPS
+    for _ in range(MAX_LOADS):
         for i in range(5):
             work.start[i] = displacement[i]
         steps = _newton(law, force, factor, displacement, work)
         if steps == UNRESISTED:
             return UNRESISTED
-        total += steps if steps >= 0 else MOST_STEPS
+        total += steps if steps >= 0 else MAX_STEPS
         if steps >= 0 and factor == 1.0:
             return total
         if steps < 0 and reached == np.inf:
@@ -131,7 +131,7 @@ def _newton(law, force, factor, displacement, work):
         weight = np.hypot(weight, work.scale[i] * work.load[i])
     response(law, displacement, work.force, work.stiffness)
     miss = np.inf
-    for number in range(MOST_STEPS):
+    for number in range(MAX_STEPS):
         before, miss = miss, 0.0
         for i in range(5):
             miss = np.hypot(miss, work.scale[i] * (work.force[i] - work.load[i]))
@@ -140,7 +140,7 @@ def _newton(law, force, factor, displacement, work):
         size, here = _newton_step(displacement, miss, work)
         if size <= 1e-15 * here + 1e-16:  # rounding is all that is left, as where a preload outweighs the force
             return number
-        if not _search(law, displacement, size, work):
+        if not _line_search(law, displacement, size, work):
             return UNRESISTED
     return NOT_CONVERGED
 
@@ -177,7 +177,7 @@ def _newton_step(displacement, miss, work):
 
 
 @outer
-def _search(law, displacement, size, work):
+def _line_search(law, displacement, size, work):
     """Go along the step until the slope has dropped to a part of its first value; False where it never does."""
     first = _slope(work)
     low, low_slope, high, high_slope, t = 0.0, first, np.inf, 0.0, 1.0

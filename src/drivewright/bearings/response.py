@@ -20,13 +20,13 @@ def response(law, displacement, force, stiffness):
     """
 
 
-def respond(law, displacement):
+def evaluate_response(law, displacement):
     """(energy [J], force (5,), stiffness (5, 5)) of a law at a displacement (5,)."""
     force, stiffness = np.zeros(5), np.zeros((5, 5))
-    energy = _respond(law, np.asarray(displacement, dtype=float), force, stiffness)
+    energy = _evaluate_response(law, np.asarray(displacement, dtype=float), force, stiffness)
     return energy, force, stiffness
 
 
 @kernel
-def _respond(law, displacement, force, stiffness):
+def _evaluate_response(law, displacement, force, stiffness):
     return response(law, displacement, force, stiffness)

@@ -26,7 +26,7 @@ EXPONENT = 10 / 9
 # Palmgren's constant of the two contacts of a steel roller, 35948 N/mm^2, over E* of steel (210 GPa, 0.3).  The dimensions leave
 # nothing but proportionality to E* once exponents of length and approach are 8/9 and 10/9.
 LINE_CONSTANT = 35948e6 / (210e9 / (2 * (1 - 0.3**2)))
-GREATEST_SHARE = 5.0  # load of the fullest roller over the mean F/(Z cos a); with the usual clearance
+PEAK_SHARE = 5.0  # load of the fullest roller over the mean F/(Z cos a); with the usual clearance
 
 
 class RollerBearing(Spec):
@@ -284,7 +284,7 @@ def roller_static_rating(bearing):
     """
     refuse_other(bearing, RollerBearing, "this static rating")
     fullest = PERMISSIBLE["line"][0] ** 2 * np.pi * bearing.roller_length * contact_radii(bearing)[0] / _modulus(bearing)
-    return float(fullest * bearing.rollers * np.cos(bearing.contact_angle) / GREATEST_SHARE)
+    return float(fullest * bearing.rollers * np.cos(bearing.contact_angle) / PEAK_SHARE)
 
 
 basic_static_rating.register(RollerBearing)(roller_static_rating)

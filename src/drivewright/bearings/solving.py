@@ -11,8 +11,17 @@ from typing import Any, Protocol
 import numpy as np
 
 from drivewright._jit import generic, kernel
-from drivewright.bearings.newton import MOST_STEPS, NOT_CONVERGED, UNRESISTED, BearingMeasures, begin, equilibria, equilibrium, measures
-from drivewright.bearings.response import FREEDOMS, respond, response
+from drivewright.bearings.newton import (
+    MAX_STEPS,
+    NOT_CONVERGED,
+    UNRESISTED,
+    BearingMeasures,
+    centre_ring,
+    equilibria,
+    equilibrium,
+    measures,
+)
+from drivewright.bearings.response import FREEDOMS, evaluate_response, response
 from drivewright.errors import InputError, SolverError, UnknownName, brief
 
 __all__ = [
@@ -148,22 +157,22 @@ def solve(bearing, *, force=None, displacement=None, held=(), start=None):
     if displacement is not None:
         if len(held) or start is not None:
             raise InputError("bearing: held and start belong to a given force; at a given displacement nothing is left to find.")
-        return _state_of(bearing, law, _five(displacement, "displacement", "m, m, m, rad, rad"), 0)
-    return _state_of(bearing, law, *_found(law, _five(force, "force", "N, N, N, N m, N m"), held, start))
+        return _state_of(bearing, law, _checked_vector(displacement, "displacement", "m, m, m, rad, rad"), 0)
+    return _state_of(bearing, law, *_solve_force(law, _checked_vector(force, "force", "N, N, N, N m, N m"), held, start))
 
 
-def _found(law, force, held, start):
+def _solve_force(law, force, held, start):
     """(displacement, steps) at a force, or our error."""
-    kept = _kept(held, force)
-    place = np.zeros(5) if start is None else _five(start, "start", "m, m, m, rad, rad")
+    kept = _held_freedoms(held, force)
+    place = np.zeros(5) if start is None else _checked_vector(start, "start", "m, m, m, rad, rad")
     if start is None:
-        begin(law, force, kept, place)
+        centre_ring(law, force, kept, place)
     place, steps = equilibrium(law, force, kept, place)
     if steps == UNRESISTED:
         _refuse(law, force, place)
     if steps == NOT_CONVERGED:
         raise SolverError(
-            f"bearing: no equilibrium with the force {_listed(force)} after {MOST_STEPS} Newton steps. "
+            f"bearing: no equilibrium with the force {_number_list(force)} after {MAX_STEPS} Newton steps. "
             "Begin nearer with start=, or with less load.",
             partial={"displacement": place},
         )
@@ -176,12 +185,12 @@ def _refuse(law, force, place):
     way = int(np.argmax(np.abs(place) * ([1.0] * 3 + [sizes.arm] * 2)))
     name, unit, sign = FREEDOMS[way], "N" if way < 3 else "N m", "-" if place[way] < 0 else "+"
     raise InputError(
-        f"bearing: nothing resists {sign}{name}, where {force[way]:.6g} {unit} of the force {_listed(force)} pushes: the inner ring moves "
-        f"without end. Push it the other way, hold it with held=({name!r},), or take a bearing that carries such a load."
+        f"bearing: nothing resists {sign}{name}, where {force[way]:.6g} {unit} of the force {_number_list(force)} pushes: the inner ring "
+        f"moves without end. Push it the other way, hold it with held=({name!r},), or take a bearing that carries such a load."
     )
 
 
-def _kept(held, force):
+def _held_freedoms(held, force):
     """Which freedoms are held, (5,) of bool."""
     names = (held,) if isinstance(held, str) else tuple(held)
     for name in names:
@@ -202,7 +211,7 @@ def _state_of(bearing, law, displacement, steps):
     pressures, laminae = np.empty((sizes.elements, 2)), np.empty((sizes.elements, sizes.laminae))
     energy = _state(law, displacement, force, stiffness, loads, angles, pressures, laminae)
     if not np.isfinite(energy + loads.sum()):
-        raise InputError(f"bearing: the displacement {_listed(displacement)} is beyond all numbers; it counts in m and rad.")
+        raise InputError(f"bearing: the displacement {_number_list(displacement)} is beyond all numbers; it counts in m and rad.")
     return BearingEquilibrium(bearing, displacement, force, stiffness, loads, angles, pressures, laminae, energy, int(steps))
 
 
@@ -210,10 +219,10 @@ def warm(bearing, held=()):
     """Compile everything for a bearing's law."""
     solve(bearing, force=[1.0, 0.0, 0.0, 0.0, 0.0])
     equilibria(law_of(bearing), np.ones((1, 5)), np.array([name in held for name in FREEDOMS]))
-    respond(law_of(bearing), np.zeros(5))
+    evaluate_response(law_of(bearing), np.zeros(5))
 
 
-def _five(values, name, units):
+def _checked_vector(values, name, units):
     """Five finite floats, a copy."""
     try:
         array = np.array(values, dtype=float)
@@ -224,5 +233,5 @@ def _five(values, name, units):
     return array
 
 
-def _listed(values):
+def _number_list(values):
     return f"[{', '.join(f'{value:.6g}' for value in values)}]"

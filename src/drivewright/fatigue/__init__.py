@@ -9,7 +9,7 @@ _WHERE = {
     "curves": ("NotchStress", "life_at_strain", "neuber", "ramberg_osgood", "strain_at_life"),
     "material": ("StrainLife", "life_text", "uniform_material_law"),
     "rainflow": ("Cycles", "cycles"),
-    "tensors": ("elastic_strain", "plane_tensors", "superposed", "von_mises"),
+    "tensors": ("elastic_strain", "plane_tensors", "superpose", "von_mises"),
     "yielding": ("neuber_history",),
 }
 _MODULE = {name: module for module, names in _WHERE.items() for name in names}

@@ -27,9 +27,9 @@ from drivewright import cases
 from drivewright._jit import inner, kernel, warmer
 from drivewright.errors import InputError, UnknownName
 from drivewright.fatigue.curves import Curve
-from drivewright.fatigue.planes import block_of, cycle_table, room_for, worst_plane
+from drivewright.fatigue.planes import cycle_table, pack_block, plane_workspace, worst_plane
 from drivewright.fatigue.shear import max_shear_plane
-from drivewright.fatigue.tensors import symmetric
+from drivewright.fatigue.tensors import checked_tensors
 
 PLANES = ("max-shear", "max-damage")
 _NORMALS, _DIRECTIONS = 96, 8  # of the grid that the search begins with: no plane is farther than about 10 deg
@@ -86,7 +86,7 @@ def brown_miller(strain_history, stress_history, material, plane="max-shear"):
     strain, stress = _checked("brown_miller", strain_history, stress_history, plane, 1)
     curve = brown_miller_curve(material)
     damage, frame = (part[0] for part in _critical(strain[None], stress[None], curve, plane))
-    table = cycle_table(block_of(strain, stress), curve, *frame) if damage > 0 else np.empty((0, 6))
+    table = cycle_table(pack_block(strain, stress), curve, *frame) if damage > 0 else np.empty((0, 6))
     start, end = table[:, 4:].T.astype(int) % len(strain)
     return CriticalPlane(_life(damage)[()], damage, *frame, PlaneCycles(*table[:, :4].T, start, end))
 
@@ -94,7 +94,7 @@ def brown_miller(strain_history, stress_history, material, plane="max-shear"):
 def life_map(strain, stress, material, plane="max-shear", progress=None):
     """`LifeMap` of many nodes: `brown_miller` of each, for total strain and stress [Pa], both (nodes, n, 3, 3).
 
-    `superposed` and `elastic_strain` make them from a few load cases.  progress(done, total, what) is called after each chunk of nodes.
+    `superpose` and `elastic_strain` make them from a few load cases.  progress(done, total, what) is called after each chunk of nodes.
     """
     strain, stress = _checked("life_map", strain, stress, plane, 2)
     curve = brown_miller_curve(material)
@@ -116,7 +116,7 @@ def _checked(function, strain, stress, plane, axes):
     """Both histories as contiguous arrays."""
     if plane not in PLANES:
         raise UnknownName("choice of plane", plane, PLANES)
-    strain, stress = symmetric(function, "strain", strain, axes), symmetric(function, "stress", stress, axes)
+    strain, stress = checked_tensors(function, "strain", strain, axes), checked_tensors(function, "stress", stress, axes)
     if strain.shape != stress.shape:
         raise InputError(
             f"{function}: strain and stress must belong together sample by sample, got the shapes {strain.shape} and "
@@ -146,29 +146,29 @@ def _grid():
 
 def _critical(strain, stress, curve, plane):
     """Damage (nodes,) and frames (nodes, 2, 3) of normals and directions."""
-    return _most_sheared(strain, stress, curve) if plane == "max-shear" else _most_damaged(strain, stress, curve, _grid())
+    return _max_shear_planes(strain, stress, curve) if plane == "max-shear" else _max_damage_planes(strain, stress, curve, _grid())
 
 
 @kernel
-def _most_sheared(strain, stress, curve):
+def _max_shear_planes(strain, stress, curve):
     damage, frames = np.zeros(len(strain)), np.full((len(strain), 2, 3), np.nan)
-    room = room_for(strain.shape[1])
+    work = plane_workspace(strain.shape[1])
     for node in range(len(strain)):
-        _file(damage, frames, node, max_shear_plane(block_of(strain[node], stress[node]), curve, room))
+        _store_frame(damage, frames, node, max_shear_plane(pack_block(strain[node], stress[node]), curve, work))
     return damage, frames
 
 
 @kernel
-def _most_damaged(strain, stress, curve, grid):
+def _max_damage_planes(strain, stress, curve, grid):
     damage, frames = np.zeros(len(strain)), np.full((len(strain), 2, 3), np.nan)
-    room, score = room_for(strain.shape[1]), np.empty(len(grid))
+    work, score = plane_workspace(strain.shape[1]), np.empty(len(grid))
     for node in range(len(strain)):
-        _file(damage, frames, node, worst_plane(block_of(strain[node], stress[node]), curve, grid, room, score))
+        _store_frame(damage, frames, node, worst_plane(pack_block(strain[node], stress[node]), curve, grid, work, score))
     return damage, frames
 
 
 @inner
-def _file(damage, frames, node, found):
+def _store_frame(damage, frames, node, found):
     damage[node], normal, direction = found
     if damage[node] > 0.0:
         for i in range(3):
@@ -183,4 +183,4 @@ def warm_brown_miller():
     curve = Curve(1e-11, 1e9, -0.1, 0.5, -0.6)
     for plane in PLANES:
         _, frames = _critical(strain[None], strain[None], curve, plane)
-    cycle_table(block_of(strain, strain), curve, *frames[0])
+    cycle_table(pack_block(strain, strain), curve, *frames[0])

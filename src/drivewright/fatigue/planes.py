@@ -16,10 +16,10 @@ from drivewright.fatigue.curves import cycle_damage
 from drivewright.fatigue.rainflow import block_cycles
 
 NOISE = 1e-12  # of the largest change of the strain tensor: smaller reversals of the shear are rounding
-_HILLS, _APART = 24, 0.95  # starts of climbs at most; cosine from which on frames are neighbours
+_MAX_STARTS, _SAME_COSINE = 24, 0.95  # starts of climbs at most; cosine from which on frames are neighbours
 _WIDE, _COARSE, _FINE = 0.12, 0.02, 1e-6  # sizes of the simplex [rad]
-_FINISHED, _AGAIN = 4, 4  # hills climbed to the top at most, and how often
-_HOPELESS = 0.03  # part of the parameter that a climb in haste can leave, at most
+_MAX_REFINED, _RESTARTS = 4, 4  # hills climbed to the top at most, and how often
+_COARSE_LOSS = 0.03  # part of the parameter that a climb in haste can leave, at most
 
 
 class Block(NamedTuple):
@@ -30,7 +30,7 @@ class Block(NamedTuple):
     gate: float
 
 
-class Room(NamedTuple):
+class PlaneWorkspace(NamedTuple):
     """Working arrays: three signals over the block twice, cycles found on them (2 n + 2,); corners of a simplex and hills of the search."""
 
     shear: np.ndarray
@@ -46,7 +46,7 @@ class Room(NamedTuple):
     hills: np.ndarray
 
 
-class Parts(NamedTuple):
+class CycleMeasures(NamedTuple):
     """What one cycle has on the plane: shear and normal strain amplitude [-], mean normal stress [Pa]."""
 
     shear: float
@@ -55,12 +55,12 @@ class Parts(NamedTuple):
 
 
 @kernel
-def room_for(size):
-    """`Room` for blocks of `size` samples."""
+def plane_workspace(size):
+    """`PlaneWorkspace` for blocks of `size` samples."""
     turning, stack = np.empty(2 * size + 2, np.int64), np.empty(2 * size + 2, np.int64)
     start, end = np.empty(2 * size + 2, np.int64), np.empty(2 * size + 2, np.int64)
     signals = np.empty(2 * size), np.empty(2 * size), np.empty(2 * size)
-    return Room(
+    return PlaneWorkspace(
         signals[0],
         signals[1],
         signals[2],
@@ -70,13 +70,13 @@ def room_for(size):
         start,
         end,
         np.empty((5, 4)),
-        np.empty(_HILLS),
-        np.empty((_HILLS, 6)),
+        np.empty(_MAX_STARTS),
+        np.empty((_MAX_STARTS, 6)),
     )
 
 
 @kernel
-def block_of(strain, stress):
+def pack_block(strain, stress):
     """The `Block` of tensors (n, 3, 3)."""
     size = len(strain)
     packed, loads, largest = np.empty((size, 6)), np.empty((size, 6)), 0.0
@@ -96,36 +96,36 @@ def cross(a, b):
 
 
 @inner
-def weights(a, b):
+def tensor_weights(a, b):
     """a.t.b of a symmetric tensor is the sum of these times its six numbers."""
     return (a[0] * b[0], a[1] * b[1], a[2] * b[2], a[1] * b[2] + a[2] * b[1], a[0] * b[2] + a[2] * b[0], a[0] * b[1] + a[1] * b[0])
 
 
 @inner
-def times(w, t, k):
+def contract(w, t, k):
     return w[0] * t[k, 0] + w[1] * t[k, 1] + w[2] * t[k, 2] + w[3] * t[k, 3] + w[4] * t[k, 4] + w[5] * t[k, 5]
 
 
 @outer
-def resolve(block, normal, direction, room):
-    """Fills the signals of `room`; the number of cycles on the shear."""
+def resolve(block, normal, direction, work):
+    """Fills the signals of `work`; the number of cycles on the shear."""
     size = len(block.strain)
-    sliding, opening = weights(direction, normal), weights(normal, normal)
+    sliding, opening = tensor_weights(direction, normal), tensor_weights(normal, normal)
     for k in range(size):
-        room.shear[k] = room.shear[size + k] = 2.0 * times(sliding, block.strain, k)
-    found = block_cycles(room.shear, size, block.gate, room.turning, room.count, room.start, room.end, room.stack)
+        work.shear[k] = work.shear[size + k] = 2.0 * contract(sliding, block.strain, k)
+    found = block_cycles(work.shear, size, block.gate, work.turning, work.count, work.start, work.end, work.stack)
     if found:
         for k in range(size):
-            room.normal[k] = room.normal[size + k] = times(opening, block.strain, k)
-            room.stress[k] = room.stress[size + k] = times(opening, block.stress, k)
+            work.normal[k] = work.normal[size + k] = contract(opening, block.strain, k)
+            work.stress[k] = work.stress[size + k] = contract(opening, block.stress, k)
     return found
 
 
 @outer
-def cycle_parts(room, cycle, gate):
-    """The `Parts` of one cycle; where it closes between two samples, both signals are taken as straight there."""
-    shear, normal, stress = room.shear, room.normal, room.stress
-    first, turn = room.start[cycle], room.end[cycle]
+def cycle_measures(work, cycle, gate):
+    """The `CycleMeasures` of one cycle; where it closes between two samples, both signals are taken as straight there."""
+    shear, normal, stress = work.shear, work.normal, work.stress
+    first, turn = work.start[cycle], work.end[cycle]
     reach = abs(shear[first] - shear[turn])
     low = high = normal[first]
     least = most = stress[first]
@@ -139,15 +139,15 @@ def cycle_parts(room, cycle, gate):
         low, high, least, most = min(low, strain), max(high, strain), min(least, load), max(most, load)
         if k > turn and back >= reach - gate:
             break
-    return Parts(0.5 * reach, 0.5 * (high - low), 0.5 * (most + least))
+    return CycleMeasures(0.5 * reach, 0.5 * (high - low), 0.5 * (most + least))
 
 
 @outer
-def plane_damage(block, curve, normal, direction, room):
+def plane_damage(block, curve, normal, direction, work):
     """Damage of one repeat, the sum of its cycles' after Miner."""
     damage = 0.0
-    for cycle in range(resolve(block, normal, direction, room)):
-        parts = cycle_parts(room, cycle, block.gate)
+    for cycle in range(resolve(block, normal, direction, work)):
+        parts = cycle_measures(work, cycle, block.gate)
         damage += cycle_damage(curve, parts.shear + parts.normal, parts.mean)
     return damage
 
@@ -155,15 +155,15 @@ def plane_damage(block, curve, normal, direction, room):
 @kernel
 def cycle_table(block, curve, normal, direction):
     """Rows (shear amplitude, normal strain amplitude, mean normal stress, damage, start, turn) of the cycles on a plane."""
-    room = room_for(len(block.strain))
+    work = plane_workspace(len(block.strain))
     n, d = (normal[0], normal[1], normal[2]), (direction[0], direction[1], direction[2])
-    found = resolve(block, n, d, room)
+    found = resolve(block, n, d, work)
     table = np.empty((found, 6))
     for cycle in range(found):
-        parts = cycle_parts(room, cycle, block.gate)
+        parts = cycle_measures(work, cycle, block.gate)
         damage = cycle_damage(curve, parts.shear + parts.normal, parts.mean)
         table[cycle, 0], table[cycle, 1], table[cycle, 2], table[cycle, 3] = parts.shear, parts.normal, parts.mean, damage
-        table[cycle, 4], table[cycle, 5] = room.start[cycle], room.end[cycle]
+        table[cycle, 4], table[cycle, 5] = work.start[cycle], work.end[cycle]
     return table
 
 
@@ -171,39 +171,39 @@ def cycle_table(block, curve, normal, direction):
 
 
 @inner
-def mixed(a, b, angle):
+def turn_towards(a, b, angle):
     """a turned towards b."""
     c, s = np.cos(angle), np.sin(angle)
     return c * a[0] + s * b[0], c * a[1] + s * b[1], c * a[2] + s * b[2]
 
 
 @inner
-def turned(normal, direction, first, second, third):
+def turn_frame(normal, direction, first, second, third):
     """(normal, direction) turned in their plane, then the direction about the normal, then the normal about the direction."""
-    normal, direction = mixed(normal, direction, first), mixed(direction, normal, -first)
-    direction = mixed(direction, cross(normal, direction), second)
-    return mixed(normal, cross(normal, direction), third), direction
+    normal, direction = turn_towards(normal, direction, first), turn_towards(direction, normal, -first)
+    direction = turn_towards(direction, cross(normal, direction), second)
+    return turn_towards(normal, cross(normal, direction), third), direction
 
 
 @outer
-def _place(block, curve, normal, direction, room, row, x, y, z):
+def _evaluate_corner(block, curve, normal, direction, work, row, x, y, z):
     """Writes three angles and log damage there into a row of the simplex."""
-    there, along = turned(normal, direction, x, y, z)
-    s = room.simplex
+    there, along = turn_frame(normal, direction, x, y, z)
+    s = work.simplex
     s[row, 0], s[row, 1], s[row, 2] = x, y, z
-    s[row, 3] = np.log(plane_damage(block, curve, there, along, room))
+    s[row, 3] = np.log(plane_damage(block, curve, there, along, work))
 
 
 @outer
-def _mirror(block, curve, normal, direction, room, low, factor):
+def _reflect(block, curve, normal, direction, work, low, factor):
     """Mirrors the lowest corner at the middle of the other three, its distance times factor, in the spare row 4; kept if it is higher."""
-    s = room.simplex
+    s = work.simplex
     share = (1.0 + factor) / 3.0
     x, y, z = -factor * s[low, 0], -factor * s[low, 1], -factor * s[low, 2]
     for i in range(4):
         if i != low:
             x, y, z = x + share * s[i, 0], y + share * s[i, 1], z + share * s[i, 2]
-    _place(block, curve, normal, direction, room, 4, x, y, z)
+    _evaluate_corner(block, curve, normal, direction, work, 4, x, y, z)
     kept = s[4, 3] > s[low, 3]
     if kept:
         for c in range(4):
@@ -212,16 +212,16 @@ def _mirror(block, curve, normal, direction, room, low, factor):
 
 
 @outer
-def _shrink(block, curve, normal, direction, room, top):
-    s = room.simplex
+def _shrink(block, curve, normal, direction, work, top):
+    s = work.simplex
     for i in range(4):
         if i != top:
             x, y, z = 0.5 * (s[i, 0] + s[top, 0]), 0.5 * (s[i, 1] + s[top, 1]), 0.5 * (s[i, 2] + s[top, 2])
-            _place(block, curve, normal, direction, room, i, x, y, z)
+            _evaluate_corner(block, curve, normal, direction, work, i, x, y, z)
 
 
 @inner
-def _ranked(s):
+def _rank_corners(s):
     """Highest corner, lowest corner, height of the next to the lowest, and size of the simplex."""
     top, low = 0, 0
     for i in range(1, 4):
@@ -235,75 +235,75 @@ def _ranked(s):
 
 
 @outer
-def climb(block, curve, normal, direction, size, finest, room):
+def nelder_mead(block, curve, normal, direction, size, finest, work):
     """(log damage, normal, direction) on the hill that starts here: the simplex of Nelder and Mead from `size` to `finest` [rad].
 
     The hills have edges, where one cycle or one extreme takes over from another; methods with slopes or fixed axes get stuck on them.
     """
-    s = room.simplex
+    s = work.simplex
     for i in range(4):
-        _place(block, curve, normal, direction, room, i, size * (i == 1), size * (i == 2), size * (i == 3))
+        _evaluate_corner(block, curve, normal, direction, work, i, size * (i == 1), size * (i == 2), size * (i == 3))
     for _ in range(400):
-        top, low, second, width = _ranked(s)
+        top, low, second, width = _rank_corners(s)
         if width < finest or s[top, 3] == np.inf:
             break
         highest = s[top, 3]
-        kept = _mirror(block, curve, normal, direction, room, low, 1.0)
+        kept = _reflect(block, curve, normal, direction, work, low, 1.0)
         if kept and s[4, 3] > highest:
-            _mirror(block, curve, normal, direction, room, low, -2.0)
-        elif not (kept and s[4, 3] > second) and not _mirror(block, curve, normal, direction, room, low, -0.5):
-            _shrink(block, curve, normal, direction, room, top)
-    top = _ranked(s)[0]
-    normal, direction = turned(normal, direction, s[top, 0], s[top, 1], s[top, 2])
+            _reflect(block, curve, normal, direction, work, low, -2.0)
+        elif not (kept and s[4, 3] > second) and not _reflect(block, curve, normal, direction, work, low, -0.5):
+            _shrink(block, curve, normal, direction, work, top)
+    top = _rank_corners(s)[0]
+    normal, direction = turn_frame(normal, direction, s[top, 0], s[top, 1], s[top, 2])
     return s[top, 3], normal, direction
 
 
 @kernel
-def worst_plane(block, curve, grid, room, score):
+def worst_plane(block, curve, grid, work, score):
     """(damage, normal, direction) where the damage is greatest of all planes and directions in them.
 
     grid (frames, 6): normals and directions to start from; `score` (frames,) is overwritten.  The best of the hills that the grid shows are
     climbed in haste, then the highest of these to the top.
     """
     for g in range(len(grid)):
-        score[g] = np.log(plane_damage(block, curve, (grid[g, 0], grid[g, 1], grid[g, 2]), (grid[g, 3], grid[g, 4], grid[g, 5]), room))
+        score[g] = np.log(plane_damage(block, curve, (grid[g, 0], grid[g, 1], grid[g, 2]), (grid[g, 3], grid[g, 4], grid[g, 5]), work))
     found = 0
-    for _ in range(_HILLS):
+    for _ in range(_MAX_STARTS):
         g = np.argmax(score)
         if score[g] == -np.inf:
             break
         n, d = (grid[g, 0], grid[g, 1], grid[g, 2]), (grid[g, 3], grid[g, 4], grid[g, 5])
-        room.height[found], normal, direction = climb(block, curve, n, d, _WIDE, _COARSE, room)
+        work.height[found], normal, direction = nelder_mead(block, curve, n, d, _WIDE, _COARSE, work)
         for i in range(3):
-            room.hills[found, i], room.hills[found, 3 + i] = normal[i], direction[i]
-        _strike_out(grid, score, n, d)
+            work.hills[found, i], work.hills[found, 3 + i] = normal[i], direction[i]
+        _exclude_neighbours(grid, score, n, d)
         found += 1
-    return _highest(block, curve, room.hills[:found], room.height[:found], room)
+    return _refine_best(block, curve, work.hills[:found], work.height[:found], work)
 
 
 @kernel
-def _highest(block, curve, hills, heights, room):
+def _refine_best(block, curve, hills, heights, work):
     best, normal, direction = -np.inf, (np.nan, np.nan, np.nan), (np.nan, np.nan, np.nan)
-    for _ in range(_FINISHED):
+    for _ in range(_MAX_REFINED):
         h = np.argmax(heights) if len(hills) else -1
-        if h < 0 or heights[h] == -np.inf or heights[h] < best + _HOPELESS / curve.b:
+        if h < 0 or heights[h] == -np.inf or heights[h] < best + _COARSE_LOSS / curve.b:
             break
         n, d = (hills[h, 0], hills[h, 1], hills[h, 2]), (hills[h, 3], hills[h, 4], hills[h, 5])
         height = -np.inf
-        for k in range(_AGAIN):  # a simplex can collapse on an edge, one that is turned round then goes on
-            height, n, d = climb(block, curve, n, d, _COARSE * (-0.5) ** k, _FINE, room)
+        for k in range(_RESTARTS):  # a simplex can collapse on an edge, one that is turned round then goes on
+            height, n, d = nelder_mead(block, curve, n, d, _COARSE * (-0.5) ** k, _FINE, work)
         if height > best:
             best, normal, direction = height, n, d
-        _strike_out(hills, heights, n, d)
+        _exclude_neighbours(hills, heights, n, d)
         heights[h] = -np.inf
     return np.exp(best), normal, direction
 
 
 @inner
-def _strike_out(grid, score, n, d):
+def _exclude_neighbours(grid, score, n, d):
     """A frame once climbed from stands for those around it."""
     for g in range(len(grid)):
         along = abs(grid[g, 0] * n[0] + grid[g, 1] * n[1] + grid[g, 2] * n[2])
         beside = abs(grid[g, 3] * d[0] + grid[g, 4] * d[1] + grid[g, 5] * d[2])
-        if along > _APART and beside > _APART:
+        if along > _SAME_COSINE and beside > _SAME_COSINE:
             score[g] = -np.inf

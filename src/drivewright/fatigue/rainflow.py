@@ -48,7 +48,7 @@ def turning_points(x, first, last, gate, turning):
 
 
 @outer
-def paired(x, turning, points, gate, closed, count, start, end, stack):
+def pair_cycles(x, turning, points, gate, closed, count, start, end, stack):
     """Writes count, start and end of the cycles between the turning points; returns their number.
 
     closed: the points are one round of a block that begins and ends at its largest range, so that every cycle closes.
@@ -85,20 +85,25 @@ def block_cycles(x, size, gate, turning, count, start, end, stack):
         if abs(x[k]) > abs(x[first]) + gate:
             first = k
     points = turning_points(x, first, first + size, gate, turning)
-    return paired(x, turning, points, gate, True, count, start, end, stack)
+    return pair_cycles(x, turning, points, gate, True, count, start, end, stack)
 
 
 @kernel
-def _counted(x, repeating):
+def _count_cycles(x, repeating):
     """count, start, end of all cycles; of a repeating block x holds it twice."""
-    room = len(x) + 2
-    turning, stack, start, end = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.int64)
-    count = np.empty(room)
+    capacity = len(x) + 2
+    turning, stack, start, end = (
+        np.empty(capacity, np.int64),
+        np.empty(capacity, np.int64),
+        np.empty(capacity, np.int64),
+        np.empty(capacity, np.int64),
+    )
+    count = np.empty(capacity)
     if repeating:
         found = block_cycles(x, len(x) // 2, 0.0, turning, count, start, end, stack)
     else:
         points = turning_points(x, 0, len(x) - 1, 0.0, turning)
-        found = paired(x, turning, points, 0.0, False, count, start, end, stack)
+        found = pair_cycles(x, turning, points, 0.0, False, count, start, end, stack)
     return count[:found], start[:found], end[:found]
 
 
@@ -109,7 +114,7 @@ def cycles(history, repeating=False):
     last sample followed by its first; it is begun at its largest absolute peak and all its cycles close.  A constant has none.
     """
     x = _row(history)
-    count, start, end = _counted(np.concatenate([x, x]) if repeating else x, repeating)
+    count, start, end = _count_cycles(np.concatenate([x, x]) if repeating else x, repeating)
     start, end = start % x.size, end % x.size
     return Cycles(np.abs(x[end] - x[start]), x[start] / 2 + x[end] / 2, count, start, end)
 

@@ -8,7 +8,7 @@ pairs is the longest chord of the path of the shear vector, over all planes.
 import numpy as np
 
 from drivewright._jit import inner, kernel, outer
-from drivewright.fatigue.planes import mixed, plane_damage
+from drivewright.fatigue.planes import plane_damage, turn_towards
 
 _NEAR = 1e-6  # the closed form of the principal values is good to about 1e-8 where two of them are equal
 _TIE = 1e-9  # relative difference up to which shears, or principal values, count as equal
@@ -44,7 +44,7 @@ def _outer_difference(t, j2):
 
 
 @outer
-def _largest(strain):
+def _largest_shear(strain):
     """The largest shear between any two instants; pairs that cannot reach it, for it is at most 2 sqrt(J2), are passed over."""
     best = 0.0
     for i in range(len(strain)):
@@ -57,9 +57,9 @@ def _largest(strain):
 
 
 @kernel
-def most_sheared(strain, gate):
+def largest_differences(strain, gate):
     """Differences (count, 6), each once, between instants whose shear is the largest; none where no plane is sheared beyond `gate`."""
-    best, found = _largest(strain), np.empty((4, 6))
+    best, found = _largest_shear(strain), np.empty((4, 6))
     count = 0
     if best <= gate:
         return found[:0]
@@ -67,7 +67,11 @@ def most_sheared(strain, gate):
         for j in range(i):
             t = _difference(strain, i, j)
             j2 = _second_invariant(t)
-            if 4.0 * j2 < ((1.0 - _NEAR) * best) ** 2 or _outer_difference(t, j2) < (1.0 - _NEAR) * best or _known(t, found, count, best):
+            if (
+                4.0 * j2 < ((1.0 - _NEAR) * best) ** 2
+                or _outer_difference(t, j2) < (1.0 - _NEAR) * best
+                or _is_known(t, found, count, best)
+            ):
                 continue
             if count == len(found):
                 found = np.concatenate((found, np.empty_like(found)))
@@ -78,7 +82,7 @@ def most_sheared(strain, gate):
 
 
 @inner
-def _known(t, found, count, size):
+def _is_known(t, found, count, size):
     """Whether the difference, or its negative, is there already: a block that repeats itself has few different ones."""
     for k in range(count):
         same, opposite = 0.0, 0.0
@@ -90,7 +94,7 @@ def _known(t, found, count, size):
 
 
 @kernel
-def principal(t):
+def principal_axes(t):
     """Principal values, ascending, and axes (rows) of a tensor of six numbers."""
     full = np.array([[t[0], t[5], t[4]], [t[5], t[1], t[3]], [t[4], t[3], t[2]]])
     values, columns = np.linalg.eigh(full)
@@ -98,19 +102,19 @@ def principal(t):
 
 
 @kernel
-def max_shear_plane(block, curve, room):
+def max_shear_plane(block, curve, work):
     """(damage, normal, direction) on the plane of the largest shear amplitude, of tied planes on the one with the greatest damage.
 
     Two planes at right angles always tie, and where two principal values are equal a whole cone of them.
     """
     best, normal, direction = -1.0, (np.nan, np.nan, np.nan), (np.nan, np.nan, np.nan)
-    tensors = most_sheared(block.strain, block.gate)
+    tensors = largest_differences(block.strain, block.gate)
     largest = 0.0
     for k in range(len(tensors)):
-        values, _ = principal(tensors[k])
+        values, _ = principal_axes(tensors[k])
         largest = max(largest, values[2] - values[0])
     for k in range(len(tensors)):
-        values, axes = principal(tensors[k])
+        values, axes = principal_axes(tensors[k])
         if values[2] - values[0] < (1.0 - _TIE) * largest:
             continue
         low, mid, high = (axes[0, 0], axes[0, 1], axes[0, 2]), (axes[1, 0], axes[1, 1], axes[1, 2]), (axes[2, 0], axes[2, 1], axes[2, 2])
@@ -118,42 +122,45 @@ def max_shear_plane(block, curve, room):
             fixed, start, sense, cone = high, low, mid, True
         else:
             fixed, start, sense, cone = low, high, mid, values[2] - values[1] <= _TIE * largest
-        damage, angle = _around(block, curve, fixed, start, sense, cone, room)
+        damage, angle = _worst_angle(block, curve, fixed, start, sense, cone, work)
         if damage > best:
             best = damage
-            normal, direction = _frame(fixed, mixed(start, sense, angle))
+            normal, direction = _frame(fixed, turn_towards(start, sense, angle))
     return max(best, 0.0), normal, direction
 
 
 @inner
 def _frame(a, b):
     """The plane that halves the angle of two principal axes, and the direction it slides in."""
-    return mixed(a, b, np.pi / 4.0), mixed(b, a, -np.pi / 4.0)
+    return turn_towards(a, b, np.pi / 4.0), turn_towards(b, a, -np.pi / 4.0)
 
 
 @outer
-def _at(block, curve, fixed, start, sense, angle, room):
-    normal, direction = _frame(fixed, mixed(start, sense, angle))
-    return plane_damage(block, curve, normal, direction, room)
+def _damage_at(block, curve, fixed, start, sense, angle, work):
+    normal, direction = _frame(fixed, turn_towards(start, sense, angle))
+    return plane_damage(block, curve, normal, direction, work)
 
 
 @outer
-def _around(block, curve, fixed, start, sense, cone, room):
+def _worst_angle(block, curve, fixed, start, sense, cone, work):
     """(greatest damage, its angle): of the two planes at right angles, at 0 and pi, or of the cone between them."""
     places = _AROUND if cone else 2
     width = 2.0 * np.pi / places
     best, angle = -1.0, 0.0
     for k in range(places):
-        damage = _at(block, curve, fixed, start, sense, k * width, room)
+        damage = _damage_at(block, curve, fixed, start, sense, k * width, work)
         if damage > best:
             best, angle = damage, k * width
     step = 0.5 * width
     while cone and step > 1e-6:
-        left, right = _at(block, curve, fixed, start, sense, angle - step, room), _at(block, curve, fixed, start, sense, angle + step, room)
+        left, right = (
+            _damage_at(block, curve, fixed, start, sense, angle - step, work),
+            _damage_at(block, curve, fixed, start, sense, angle + step, work),
+        )
         if left <= best and right <= best:
             bend = left - 2.0 * best + right
             vertex = angle + (0.5 * step * (left - right) / bend if bend < 0.0 else 0.0)
-            there = _at(block, curve, fixed, start, sense, vertex, room)
+            there = _damage_at(block, curve, fixed, start, sense, vertex, work)
             if there > best:
                 best, angle = there, vertex
             step *= 0.25

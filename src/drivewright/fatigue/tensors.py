@@ -9,7 +9,7 @@ ROWS, COLUMNS = np.array([0, 1, 2, 1, 0, 0]), np.array([0, 1, 2, 2, 2, 1])
 _ASYMMETRY = 1e-9  # of the largest entry of the whole array
 
 
-def symmetric(function, name, tensors, axes):
+def checked_tensors(function, name, tensors, axes):
     """The tensors as an array with `axes` axes before the last two; InputError where they are not finite, symmetric, 3 x 3."""
     try:
         array = np.asarray(tensors, dtype=float)
@@ -34,7 +34,7 @@ def symmetric(function, name, tensors, axes):
 
 def elastic_strain(stress, material):
     """Hooke's law, e = ((1 + nu) s - nu tr(s) I)/E, for stress tensors [Pa] (n, 3, 3) or (nodes, n, 3, 3); `material` a `StrainLife`."""
-    stress = symmetric("elastic_strain", "stress", stress, max(np.ndim(stress) - 2, 1))
+    stress = checked_tensors("elastic_strain", "stress", stress, max(np.ndim(stress) - 2, 1))
     trace = np.trace(stress, axis1=-2, axis2=-1)[..., None, None] * np.eye(3)
     return ((1 + material.poisson_ratio) * stress - material.poisson_ratio * trace) / material.youngs_modulus
 
@@ -50,7 +50,7 @@ def plane_tensors(components):
     return tensors
 
 
-def superposed(factors, unit_stress):
+def superpose(factors, unit_stress):
     """Plane-stress histories (nodes, n, 3, 3) of a linear body: factors (n, loads) times unit_stress (loads, nodes, 3), xx, yy, xy."""
     factors, unit_stress = np.asarray(factors, dtype=float), np.asarray(unit_stress, dtype=float)
     if factors.ndim != 2 or unit_stress.ndim != 3 or factors.shape[1] != len(unit_stress):
@@ -63,7 +63,7 @@ def superposed(factors, unit_stress):
 
 def von_mises(stress):
     """sqrt(3/2 s:s) of the deviators s of stress tensors (n, 3, 3) or (nodes, n, 3, 3)."""
-    s = deviator(symmetric("von_mises", "stress", stress, max(np.ndim(stress) - 2, 1)))
+    s = deviator(checked_tensors("von_mises", "stress", stress, max(np.ndim(stress) - 2, 1)))
     return np.sqrt(1.5 * np.sum(s * s, axis=(-2, -1)))
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from drivewright.fatigue.curves import NotchStress, neuber
-from drivewright.fatigue.tensors import deviator, elastic_strain, symmetric, von_mises
+from drivewright.fatigue.tensors import checked_tensors, deviator, elastic_strain, von_mises
 
 
 def neuber_history(elastic_stress, material):
@@ -19,19 +19,19 @@ def neuber_history(elastic_stress, material):
     for other proportional histories the von Mises equivalents stand in the rule, with the hydrostatic part scaled alike; where the axes
     turn, only the part along T is corrected.  No redistribution of load, no hardening beyond the settled curve.
     """
-    stress = symmetric("neuber_history", "elastic_stress", elastic_stress, 1)
+    stress = checked_tensors("neuber_history", "elastic_stress", elastic_stress, 1)
     size = von_mises(stress)
     if not np.max(size) > material.cyclic_yield:
         return NotchStress(stress, elastic_strain(stress, material))
     unit = stress[np.argmax(size)] / np.max(size)
     along = 1.5 * np.sum(deviator(stress) * deviator(unit), axis=(1, 2))
-    local = _followed(along, material)
+    local = _follow_branches(along, material)
     relaxed = stress + (local.stress - along)[:, None, None] * unit
     plastic = local.strain - local.stress / material.youngs_modulus
     return NotchStress(relaxed, elastic_strain(relaxed, material) + 1.5 * plastic[:, None, None] * deviator(unit))
 
 
-def _followed(elastic, material):
+def _follow_branches(elastic, material):
     """`NotchStress` stress and strain of a signed scalar block, from its largest absolute value on."""
     size, first = len(elastic), int(np.argmax(np.abs(elastic)))
     points = [(elastic[first], *neuber(elastic[first], material))]  # where the branches that are still open began

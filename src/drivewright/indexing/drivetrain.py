@@ -11,17 +11,17 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from drivewright.bearings import BallBearing, RollerBearing, contact_of, quick
-from drivewright.bearings.quick import RadialStiffness
+from drivewright.bearings import BallBearing, RollerBearing, approximate_stiffness, contact_of
+from drivewright.bearings.approximate_stiffness import RadialStiffness
 from drivewright.errors import InputError
 from drivewright.shafts import Section
 
 PALMGREN_LINE = 8.06e10  # N/m^2: F = 8.06e4 b^(8/9) s^(10/9) of one steel line contact in N and mm; Palmgren, recalled
 FORMULAS = {  # of the radial stiffness, by name and kind of contact
-    ("liu", "point"): quick.liu_ball,
-    ("liu", "line"): quick.liu_roller,
-    ("palmgren", "point"): quick.palmgren_ball,
-    ("palmgren", "line"): quick.palmgren_roller,
+    ("liu", "point"): approximate_stiffness.liu_ball,
+    ("liu", "line"): approximate_stiffness.liu_roller,
+    ("palmgren", "point"): approximate_stiffness.palmgren_ball,
+    ("palmgren", "line"): approximate_stiffness.palmgren_roller,
 }
 SIDES = (-1.0, 1.0)  # of the two split shafts
 
@@ -91,7 +91,7 @@ def pin_contact(width: float, series: float | None = None) -> PinContact:
 
 
 def power_law_bearing(stiffness_of: Callable[[float], RadialStiffness], clearance: float = 0.0) -> PowerLawBearing:
-    """The PowerLawBearing of a formula of `drivewright.bearings.quick`: stiffness_of(force) gives its RadialStiffness.
+    """The PowerLawBearing of a formula of `drivewright.bearings.approximate_stiffness`: stiffness_of(force) gives its RadialStiffness.
 
     F = K d^n has the secant K^(1/n) F^(1 - 1/n), and n is tangent over secant.
     """

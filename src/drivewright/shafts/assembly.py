@@ -7,7 +7,7 @@ import numpy as np
 
 from drivewright._typing import Floats, Ints
 from drivewright.bearings.newton import measures
-from drivewright.bearings.response import respond
+from drivewright.bearings.response import evaluate_response
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.beam import FREEDOMS
@@ -16,7 +16,7 @@ from drivewright.shafts.model import Shaft, ShaftLoad, Support
 MIRROR = np.array([1.0, 1.0, -1.0, -1.0, -1.0])
 AXIAL, TWIST = 2, 5
 FAR, TURNED = 1e-3, 0.05  # m, rad
-FLOOR = np.diag([1.0, 1.0, 1.0, 1e-4, 1e-4])  # N/m, N m/rad
+REGULARISATION = np.diag([1.0, 1.0, 1.0, 1e-4, 1e-4])  # N/m, N m/rad
 
 
 class Mount(NamedTuple):
@@ -85,9 +85,9 @@ def assemble(shaft: Shaft, places: Iterable[float] = ()) -> ShaftSystem:
     """The `ShaftSystem` of a shaft with nodes also at `places`; InputError where the supports leave it free to move sideways."""
     found = beams.beam(shaft, places)
     refuse_mechanism(shaft)
-    size = found.size + sum(len(_yielding(support)) for support in shaft.supports)
+    size = found.size + sum(len(_ring_freedoms(support)) for support in shaft.supports)
     linear, basis = np.zeros((size, size)), np.eye(size)
-    basis[: found.size, : found.size] = beams.basis(found)
+    basis[: found.size, : found.size] = beams.displacement_basis(found)
     linear[: found.size, : found.size] = beams.stiffness(found)
     mounts, rows, start = [], [], found.size
     for support in shaft.supports:
@@ -109,7 +109,7 @@ def _constraints(mount):
     return springs + seat
 
 
-def _yielding(support):
+def _ring_freedoms(support):
     """The freedoms of its ring: where the seat yields, unless it slides freely under a bearing that does not resist either."""
     return tuple(i for i in range(5) if np.isfinite(support.seat[i]) and (support.seat[i] > 0 or _holds(support, i)))
 
@@ -120,14 +120,14 @@ def _holds(support, freedom):
 
 def _mount(found, support, basis, start, first):
     """x, y averaged over the support's width, z and the tilts at its middle; less the ring's where the seat yields."""
-    rows, node, freedoms = np.zeros((5, len(basis))), found.node(support.position), _yielding(support)
+    rows, node, freedoms = np.zeros((5, len(basis))), found.node(support.position), _ring_freedoms(support)
     rows[range(5), FREEDOMS * node + np.arange(5)] = 1.0  # of six: nothing here feels the turning
     if support.width > beams.POINT * found.shaft.length:
         ends = support.position - support.width / 2, support.position + support.width / 2
-        even = beams.uniform(found, *ends)
+        even = beams.uniform_load(found, *ends)
         even /= even[:, 0] @ found.pieces[:, 0]
         for plane in (0, 1):
-            rows[plane, : found.size] = beams.nodal(found, plane, even)
+            rows[plane, : found.size] = beams.nodal_loads(found, plane, even)
     rows *= (MIRROR if support.mirrored else np.ones(5))[:, None]
     ring = start + np.arange(len(freedoms))
     rows[list(freedoms), ring] -= 1.0
@@ -168,13 +168,13 @@ def _resists(support, freedom, way):
         sizes = measures(support.law)
         play = 2 * abs(sizes.centre) + sizes.length
         displacement[freedom] += way * (play if freedom <= AXIAL else play / sizes.arm)
-    return bool(abs(respond(support.law, displacement)[1][freedom]) > 0)
+    return bool(abs(evaluate_response(support.law, displacement)[1][freedom]) > 0)
 
 
 # -- loads ---------------------------------------------------------------------------------------------------------------------
 
 
-def work(model: ShaftSystem, loads: Iterable[ShaftLoad]) -> Floats:
+def nodal_forces(model: ShaftSystem, loads: Iterable[ShaftLoad]) -> Floats:
     """(size,) the forces on nodes and rings by point loads, and by the pushes on the rings."""
     total = np.zeros(model.size)
     for load in loads:
@@ -199,14 +199,14 @@ def refuse_unbalanced(model: ShaftSystem, force: Floats) -> None:
         raise InputError(f"shaft: the torques do not balance: their sum is {torque:.6g} N m; add the torque of the driven or driving end")
 
 
-# -- a trifle -----------------------------------------------------------------------------------------------------------------
+# -- regularisation --------------------------------------------------------------------------------------------------------------
 
 
-def floor(model: ShaftSystem) -> Floats:
-    """(size, size): the trifle `FLOOR` under every law and every ring."""
+def regularisation(model: ShaftSystem) -> Floats:
+    """(size, size): `REGULARISATION` under every law and every ring, next to no stiffness."""
     total = np.zeros((model.size, model.size))
     for mount in model.mounts:
         if mount.support.law is not None:
-            total += mount.rows.T @ FLOOR @ mount.rows
-        total[mount.ring, mount.ring] += [FLOOR[i, i] for i in mount.ring_freedoms]
+            total += mount.rows.T @ REGULARISATION @ mount.rows
+        total[mount.ring, mount.ring] += [REGULARISATION[i, i] for i in mount.ring_freedoms]
     return total

@@ -40,7 +40,7 @@ def unit_imbalance(found: Flexibility, shaft: Shaft, positions: Sequence[float],
         rows = [_row(position, (*direction, 0.0), (0.0, 0.0, 0.0))]
         rows += [
             _row(support.position, -force[:3, column], -force[3:, column])
-            for support, force in zip(shaft.supports, found.pressed, strict=True)
+            for support, force in zip(shaft.supports, found.support_forces, strict=True)
         ]
         worst = max(worst, residual(np.array(rows), shaft.length))
     return worst

@@ -8,7 +8,7 @@ from drivewright import cases
 from drivewright._jit import warmer
 from drivewright._typing import Floats
 from drivewright.errors import InputError
-from drivewright.shafts.batch_kernels import DesignColumn, DesignColumns, fill, workspace
+from drivewright.shafts.batch_kernels import DesignColumn, DesignColumns, fill_flexibilities, workspace
 from drivewright.shafts.model import COWPER, Shaft
 
 CHUNK = 1_000_000  # sections and pairs of points per chunk: a few hundredths of a second
@@ -59,7 +59,7 @@ def flexibilities(
     per_chunk = max(1, CHUNK // (points * points + sections))
 
     def chunk(begin):
-        fill(designs, sections, begin, min(begin + per_chunk, count), workspace(points), delta, carried)
+        fill_flexibilities(designs, sections, begin, min(begin + per_chunk, count), workspace(points), delta, carried)
 
     if workers is None and count <= per_chunk:
         workers = 1  # starting a thread costs more than a few designs

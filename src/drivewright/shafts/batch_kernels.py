@@ -19,8 +19,8 @@ import numpy as np
 
 from drivewright._jit import inner, outer
 from drivewright._typing import Floats, Ints
-from drivewright.shafts.closed_form import flexibility_entry, shares
-from drivewright.shafts.sections import softness
+from drivewright.shafts.closed_form import flexibility_entry, reaction_shares
+from drivewright.shafts.sections import compliance_integrals
 
 OFF = 1e-9  # part of the shaft's length by which a place may lie beyond its end: sums of lengths are rounded
 
@@ -63,24 +63,26 @@ def workspace(points: int) -> BatchWorkspace:
 
 
 @inner
-def at(column: DesignColumn, design: int, entry: int) -> float:
+def entry_of(column: DesignColumn, design: int, entry: int) -> float:
     """The number of one design and entry."""
     return column.values[design * column.row + entry * column.entry]
 
 
 @outer
-def fill(designs: DesignColumns, sections: int, begin: int, end: int, work: BatchWorkspace, delta: Floats, carried: Floats) -> None:
+def fill_flexibilities(
+    designs: DesignColumns, sections: int, begin: int, end: int, work: BatchWorkspace, delta: Floats, carried: Floats
+) -> None:
     """Writes the rows begin ... end of delta (N, M, M) [m/N] and, where it has rows, carried (N, B, M) [-]."""
     bearings, stations = carried.shape[1], carried.shape[2]
     wanted = carried.shape[0] > 0
     for n in range(begin, end):
         total = np.nan
         row = n if wanted else 0
-        if _possible(designs, sections, bearings, stations, n):
-            if bearings == 2 and _uniform(designs, sections, n):
-                _closed_form(designs, n, delta, carried, wanted)
+        if _is_possible(designs, sections, bearings, stations, n):
+            if bearings == 2 and _is_uniform(designs, sections, n):
+                _fill_closed_form(designs, n, delta, carried, wanted)
             else:
-                _swept(designs, sections, n, work, delta, carried, wanted)
+                _fill_two_sided(designs, sections, n, work, delta, carried, wanted)
             total = 0.0
             for i in range(stations):
                 for j in range(stations):
@@ -96,79 +98,89 @@ def fill(designs: DesignColumns, sections: int, begin: int, end: int, work: Batc
 
 
 @inner
-def _possible(designs, sections, bearings, stations, n):
+def _is_possible(designs, sections, bearings, stations, n):
     """Whether sizes, material and places make a shaft; comparisons are turned so that nan fails."""
-    good = at(designs.youngs_modulus, n, 0) > 0.0 and -1.0 < at(designs.poisson, n, 0) < 0.5 and np.isfinite(at(designs.shear, n, 0))
+    good = (
+        entry_of(designs.youngs_modulus, n, 0) > 0.0
+        and -1.0 < entry_of(designs.poisson, n, 0) < 0.5
+        and np.isfinite(entry_of(designs.shear, n, 0))
+    )
     length = 0.0
     for s in range(sections):
-        part, bore = at(designs.lengths, n, s), at(designs.bores, n, s)
-        good = good and part > 0.0 and bore >= 0.0 and at(designs.diameters, n, s) > bore and at(designs.end_diameters, n, s) > bore
+        part, bore = entry_of(designs.lengths, n, s), entry_of(designs.bores, n, s)
+        good = (
+            good
+            and part > 0.0
+            and bore >= 0.0
+            and entry_of(designs.diameters, n, s) > bore
+            and entry_of(designs.end_diameters, n, s) > bore
+        )
         length += part
     low, high = -OFF * length, (1.0 + OFF) * length
     for b in range(bearings):
-        good = good and low <= at(designs.supports, n, b) <= high and at(designs.radial_stiffness, n, b) >= 0.0
+        good = good and low <= entry_of(designs.supports, n, b) <= high and entry_of(designs.radial_stiffness, n, b) >= 0.0
     for i in range(stations):
-        good = good and low <= at(designs.stations, n, i) <= high
+        good = good and low <= entry_of(designs.stations, n, i) <= high
     return good
 
 
 @inner
-def _uniform(designs, sections, n):
-    diameter, bore = at(designs.diameters, n, 0), at(designs.bores, n, 0)
+def _is_uniform(designs, sections, n):
+    diameter, bore = entry_of(designs.diameters, n, 0), entry_of(designs.bores, n, 0)
     same = True
     for s in range(sections):
-        same = same and at(designs.diameters, n, s) == diameter and at(designs.end_diameters, n, s) == diameter
-        same = same and at(designs.bores, n, s) == bore
+        same = same and entry_of(designs.diameters, n, s) == diameter and entry_of(designs.end_diameters, n, s) == diameter
+        same = same and entry_of(designs.bores, n, s) == bore
     return same
 
 
 @inner
-def _closed_form(designs, n, delta, carried, wanted):
-    diameter, bore = at(designs.diameters, n, 0), at(designs.bores, n, 0)
-    modulus, poisson, shear = at(designs.youngs_modulus, n, 0), at(designs.poisson, n, 0), at(designs.shear, n, 0)
-    bend, _, _, slip = softness(1.0, diameter, diameter, bore, modulus, poisson, shear)
-    first = 0 if at(designs.supports, n, 0) <= at(designs.supports, n, 1) else 1
-    start, end = at(designs.supports, n, first), at(designs.supports, n, 1 - first)
+def _fill_closed_form(designs, n, delta, carried, wanted):
+    diameter, bore = entry_of(designs.diameters, n, 0), entry_of(designs.bores, n, 0)
+    modulus, poisson, shear = entry_of(designs.youngs_modulus, n, 0), entry_of(designs.poisson, n, 0), entry_of(designs.shear, n, 0)
+    bend, _, _, slip = compliance_integrals(1.0, diameter, diameter, bore, modulus, poisson, shear)
+    first = 0 if entry_of(designs.supports, n, 0) <= entry_of(designs.supports, n, 1) else 1
+    start, end = entry_of(designs.supports, n, first), entry_of(designs.supports, n, 1 - first)
     span = end - start
-    gives = 1.0 / at(designs.radial_stiffness, n, first), 1.0 / at(designs.radial_stiffness, n, 1 - first)
+    gives = 1.0 / entry_of(designs.radial_stiffness, n, first), 1.0 / entry_of(designs.radial_stiffness, n, 1 - first)
     for i in range(delta.shape[1]):
-        x = at(designs.stations, n, i) - start
+        x = entry_of(designs.stations, n, i) - start
         for j in range(i + 1):
-            entry = flexibility_entry(x, at(designs.stations, n, j) - start, span, bend, slip, *gives)
+            entry = flexibility_entry(x, entry_of(designs.stations, n, j) - start, span, bend, slip, *gives)
             delta[n, i, j], delta[n, j, i] = entry, entry
         if wanted:
-            carried[n, first, i], carried[n, 1 - first, i] = shares(x, span)
+            carried[n, first, i], carried[n, 1 - first, i] = reaction_shares(x, span)
 
 
 @inner
-def _swept(designs, sections, n, work, delta, carried, wanted):
+def _fill_two_sided(designs, sections, n, work, delta, carried, wanted):
     bearings, points = carried.shape[1], work.order.size
-    _sort(designs, n, bearings, work)
-    _cut(designs, sections, n, work)
-    _sweep(designs, n, bearings, work, 1)
-    _sweep(designs, n, bearings, work, -1)
+    _sort_points(designs, n, bearings, work)
+    _divide_shaft(designs, sections, n, work)
+    _condense_side(designs, n, bearings, work, 1)
+    _condense_side(designs, n, bearings, work, -1)
     for p in range(points):
         i = work.order[p] - bearings
         if i < 0:
             continue
         u1, c1, q1 = work.sides[0, p]
         u2, c2, q2 = work.sides[1, p]
-        u, c, q = _beside(u1, c1, q1, u2, -c2, q2)
+        u, c, q = _in_parallel(u1, c1, q1, u2, -c2, q2)
         turn = c / q if q > 0.0 else np.nan
         w = u + c * turn
         delta[n, i, i] = w
         # The unit force parts between the sides; a side next to rigid has its share from the other's, for w of its own is nearly 0.
         right = (w + c2 * turn) / u2 if u2 > u1 else 1.0 - (w - c1 * turn) / u1
-        _walk(designs, n, bearings, work, p, 1, w, turn, right, delta, carried, wanted)
+        _carry_outwards(designs, n, bearings, work, p, 1, w, turn, right, delta, carried, wanted)
         if wanted:
-            _walk(designs, n, bearings, work, p, -1, w, -turn, 1.0 - right, delta, carried, wanted)
+            _carry_outwards(designs, n, bearings, work, p, -1, w, -turn, 1.0 - right, delta, carried, wanted)
 
 
 @inner
-def _sort(designs, n, bearings, work):
+def _sort_points(designs, n, bearings, work):
     """Points from left to right, supports before stations at the same place."""
     for k in range(work.order.size):
-        x = at(designs.supports, n, k) if k < bearings else at(designs.stations, n, k - bearings)
+        x = entry_of(designs.supports, n, k) if k < bearings else entry_of(designs.stations, n, k - bearings)
         p = k
         while p > 0 and work.place[p - 1] > x:
             work.place[p], work.order[p] = work.place[p - 1], work.order[p - 1]
@@ -177,10 +189,10 @@ def _sort(designs, n, bearings, work):
 
 
 @inner
-def _cut(designs, sections, n, work):
+def _divide_shaft(designs, sections, n, work):
     """f, g, r of the shaft between neighbouring points, joined from the parts that the sections make of it."""
-    modulus, poisson, shear = at(designs.youngs_modulus, n, 0), at(designs.poisson, n, 0), at(designs.shear, n, 0)
-    s, begin, length, fresh = 0, 0.0, at(designs.lengths, n, 0), True
+    modulus, poisson, shear = entry_of(designs.youngs_modulus, n, 0), entry_of(designs.poisson, n, 0), entry_of(designs.shear, n, 0)
+    s, begin, length, fresh = 0, 0.0, entry_of(designs.lengths, n, 0), True
     start, end, bore, bend, slip = 0.0, 0.0, 0.0, 0.0, 0.0
     for p in range(work.order.size - 1):
         x, stop = work.place[p], work.place[p + 1]
@@ -188,18 +200,23 @@ def _cut(designs, sections, n, work):
         while x < stop:
             while s < sections - 1 and begin + length <= x:
                 s, begin, fresh = s + 1, begin + length, True
-                length = at(designs.lengths, n, s)
+                length = entry_of(designs.lengths, n, s)
             if fresh:
-                start, end, bore, fresh = at(designs.diameters, n, s), at(designs.end_diameters, n, s), at(designs.bores, n, s), False
+                start, end, bore, fresh = (
+                    entry_of(designs.diameters, n, s),
+                    entry_of(designs.end_diameters, n, s),
+                    entry_of(designs.bores, n, s),
+                    False,
+                )
                 if start == end:
-                    bend, _, _, slip = softness(1.0, start, end, bore, modulus, poisson, shear)
+                    bend, _, _, slip = compliance_integrals(1.0, start, end, bore, modulus, poisson, shear)
             to = min(stop, begin + length) if s < sections - 1 else stop
             part = to - x
             if start == end:
                 f2, g2, r2 = bend * part, 0.5 * part, part * (bend * part * part / 12.0 + slip)
             else:
                 slope = (end - start) / length
-                f2, first, second, slide = softness(
+                f2, first, second, slide = compliance_integrals(
                     part, start + slope * (x - begin), start + slope * (to - begin), bore, modulus, poisson, shear
                 )
                 g2 = first / f2
@@ -215,7 +232,7 @@ def _cut(designs, sections, n, work):
 
 
 @inner
-def _sweep(designs, n, bearings, work, step):
+def _condense_side(designs, n, bearings, work, step):
     """u, c, q of all that lies behind each point, walking right (step 1) or left (-1); c is the distance back."""
     points, side = work.order.size, (1 - step) // 2
     u, c, q = np.inf, 0.0, 0.0
@@ -223,7 +240,7 @@ def _sweep(designs, n, bearings, work, step):
     for _ in range(points):
         work.sides[side, p, 0], work.sides[side, p, 1], work.sides[side, p, 2] = u, c, q
         if work.order[p] < bearings:
-            u, c, q = _beside(u, c, q, _give(designs, n, work.order[p]), 0.0, 0.0)
+            u, c, q = _in_parallel(u, c, q, _support_compliance(designs, n, work.order[p]), 0.0, 0.0)
         k = p if step > 0 else p - 1
         if 0 <= k < points - 1:
             length, f, r = work.pieces[k, 0], work.pieces[k, 1], work.pieces[k, 3]
@@ -235,7 +252,7 @@ def _sweep(designs, n, bearings, work, step):
 
 
 @inner
-def _walk(designs, n, bearings, work, p, step, w, turn, force, delta, carried, wanted):
+def _carry_outwards(designs, n, bearings, work, p, step, w, turn, force, delta, carried, wanted):
     """Carry deflection, turn (positive: rising ahead) and the force into what lies ahead from the loaded station p outwards."""
     loaded, points, side = work.order[p] - bearings, work.order.size, (1 + step) // 2
     while 0 <= p + step < points:
@@ -251,7 +268,7 @@ def _walk(designs, n, bearings, work, p, step, w, turn, force, delta, carried, w
             if step > 0:
                 delta[n, loaded, point - bearings], delta[n, point - bearings, loaded] = w, w
             continue
-        give, ahead = _give(designs, n, point), work.sides[side, p, 0]
+        give, ahead = _support_compliance(designs, n, point), work.sides[side, p, 0]
         if give == 0.0:
             w = 0.0  # but for rounding it is
         # The stiffer of the two has what the softer leaves, as above.
@@ -262,13 +279,13 @@ def _walk(designs, n, bearings, work, p, step, w, turn, force, delta, carried, w
 
 
 @inner
-def _give(designs, n, bearing):
-    stiffness = at(designs.radial_stiffness, n, bearing)
+def _support_compliance(designs, n, bearing):
+    stiffness = entry_of(designs.radial_stiffness, n, bearing)
     return 1.0 / stiffness if stiffness > 0.0 else np.inf
 
 
 @inner
-def _beside(u1, c1, q1, u2, c2, q2):
+def _in_parallel(u1, c1, q1, u2, c2, q2):
     """Two sets of springs on one cross-section, both levers measured the same way; a free one (u = inf) has no tilt spring either."""
     if u1 == np.inf:
         return u2, c2, q2

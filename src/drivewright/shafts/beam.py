@@ -16,7 +16,7 @@ import numpy as np
 from drivewright._typing import Floats, Ints
 from drivewright.errors import InputError
 from drivewright.shafts.model import Shaft
-from drivewright.shafts.sections import NODES, WEIGHTS, area, second_moment, softness_of
+from drivewright.shafts.sections import NODES, WEIGHTS, area, compliance_integrals_of, second_moment
 
 FREEDOMS = 6  # a node: x, y, z, rotations about x, y, z
 PLANES = ((0, 4, 1.0), (1, 3, -1.0))  # (deflection, rotation, its sign as a slope)
@@ -49,7 +49,7 @@ def beam(shaft: Shaft, places: Iterable[float] = ()) -> Beam:
     z = _nodes(shaft, places)
     pieces = _pieces(shaft, z[:-1], z[1:])
     with np.errstate(all="ignore"):
-        flexibility, slip = clamped(pieces, shaft)
+        flexibility, slip = clamped_flexibility(pieces, shaft)
         wrong = ~np.all((flexibility < ALL_NUMBERS) & (flexibility > 1 / ALL_NUMBERS), axis=(1, 2))
     if wrong.any():
         first = int(np.argmax(wrong))
@@ -87,21 +87,21 @@ def _pieces(shaft, left, right):
     return np.stack([right - left, first, last, bore], axis=1)
 
 
-def clamped(pieces: Floats, shaft: Shaft) -> tuple[Floats, Floats]:
+def clamped_flexibility(pieces: Floats, shaft: Shaft) -> tuple[Floats, Floats]:
     """(flexibility (n, 2, 2) of clamped pieces for force and moment at the end, its part of shear (n,))."""
-    zero, first, second, slip = softness_of(pieces, shaft.modulus, shaft.poisson, shaft.shear).T
+    zero, first, second, slip = compliance_integrals_of(pieces, shaft.modulus, shaft.poisson, shaft.shear).T
     length = pieces[:, 0]
     force, mixed = length**2 * zero - 2 * length * first + second + slip, length * zero - first
     return np.moveaxis(np.array([[force, mixed], [mixed, zero]]), -1, 0), slip
 
 
-def strain(length: Floats) -> Floats:
+def strain_matrix(length: Floats) -> Floats:
     """T (n, 2, 4): (w2 - w1 - L t1, t2 - t1) of the ends (w1, t1, w2, t2)."""
     one, none = np.ones_like(length), np.zeros_like(length)
     return np.moveaxis(np.array([[-one, -length, one, none], [none, -one, none, one]]), -1, 0)
 
 
-def places_of(element: int, plane: int) -> tuple[Ints, Floats]:
+def element_freedoms(element: int, plane: int) -> tuple[Ints, Floats]:
     """Numbers of the four freedoms of an element in a plane, and their signs."""
     w, t, sign = PLANES[plane]
     at = FREEDOMS * element
@@ -113,7 +113,7 @@ def places_of(element: int, plane: int) -> tuple[Ints, Floats]:
 # from these strains without the difference of two nearly equal displacements, however short a piece is.
 
 
-def basis(found: Beam) -> Floats:
+def displacement_basis(found: Beam) -> Floats:
     """S (6n, 6n): displacements of all nodes = S v, of the unknowns v."""
     whole = np.zeros((found.size, found.size))
     whole[:FREEDOMS, :FREEDOMS] = np.eye(FREEDOMS)
@@ -131,7 +131,7 @@ def stiffness(found: Beam) -> Floats:
     """K (6n, 6n) of the shaft without its supports, in the unknowns: a block for every piece, none for the first node."""
     whole = np.zeros((found.size, found.size))
     bending = np.linalg.inv(found.flexibility)
-    stretch, twist = _rods(found)
+    stretch, twist = _rod_stiffnesses(found)
     for element in range(len(found.pieces)):
         at = FREEDOMS * (element + 1)
         for w, t, sign in PLANES:
@@ -141,7 +141,7 @@ def stiffness(found: Beam) -> Floats:
     return whole
 
 
-def _rods(found):
+def _rod_stiffnesses(found):
     """(EA, GI_p) over the length of every piece: 1 / int dx/EA."""
     length, start, end, bore = found.pieces.T[:, :, None]
     diameter = start + (end - start) * NODES
@@ -158,12 +158,12 @@ def strains(found: Beam, unknowns: Floats) -> Floats:
 def stretch_energy(found: Beam, unknowns: Floats) -> Floats:
     """(s, s): int N_i N_j/EA over the shaft, for the unknowns (>= 6n, s) of several loads."""
     pulled = unknowns[FREEDOMS + 2 : found.size : FREEDOMS]
-    return pulled.T @ (_rods(found)[0][:, None] * pulled)
+    return pulled.T @ (_rod_stiffnesses(found)[0][:, None] * pulled)
 
 
 def tension_and_torque(found: Beam, unknowns: Floats) -> Floats:
     """(n-1, 2): axial force, positive in tension, and torque in every piece."""
-    stretch, twist = _rods(found)
+    stretch, twist = _rod_stiffnesses(found)
     return strains(found, unknowns)[:, [2, 5]] * np.stack([stretch, twist], axis=1)
 
 
@@ -171,7 +171,7 @@ def tension_and_torque(found: Beam, unknowns: Floats) -> Floats:
 # A load per length over a piece is a + b x + c x^2, its coefficients (..., 3): exact for linear loads and for the weight of a cone.
 
 
-def beyond(coefficients: Floats, length: Floats, x: Floats) -> tuple[Floats, Floats]:
+def load_resultants(coefficients: Floats, length: Floats, x: Floats) -> tuple[Floats, Floats]:
     """(shear force, moment) that the load between x and the end of the piece exerts at x."""
     a, b, c = np.moveaxis(coefficients, -1, 0)
     shear = a * (length - x) + b * (length**2 - x**2) / 2 + c * (length**3 - x**3) / 3
@@ -181,45 +181,47 @@ def beyond(coefficients: Floats, length: Floats, x: Floats) -> tuple[Floats, Flo
     return shear, moment
 
 
-def sagging(pieces: Floats, coefficients: Floats, shaft: Shaft) -> Floats:
+def clamped_load_displacement(pieces: Floats, coefficients: Floats, shaft: Shaft) -> Floats:
     """(n, 2): deflection and slope at the free end of clamped pieces under a load per length (n, 3)."""
     length, start, end, bore = pieces.T[:, :, None]
     x, weight = length * NODES, length * WEIGHTS
-    shear, moment = beyond(coefficients[:, None, :], length, x)
+    shear, moment = load_resultants(coefficients[:, None, :], length, x)
     table = np.stack(np.broadcast_arrays(weight, start + (end - start) * NODES, start + (end - start) * NODES, bore), axis=-1)
-    zero, _, _, slip = np.moveaxis(softness_of(table.reshape(-1, 4), shaft.modulus, shaft.poisson, shaft.shear).reshape(*x.shape, 4), -1, 0)
+    zero, _, _, slip = np.moveaxis(
+        compliance_integrals_of(table.reshape(-1, 4), shaft.modulus, shaft.poisson, shaft.shear).reshape(*x.shape, 4), -1, 0
+    )
     return np.stack([np.sum((length - x) * moment * zero + shear * slip, axis=1), np.sum(moment * zero, axis=1)], axis=1)
 
 
-def nodal(found: Beam, plane: int, coefficients: Floats) -> Floats:
+def nodal_loads(found: Beam, plane: int, coefficients: Floats) -> Floats:
     """(6n,) forces and moments on the nodes that do the same as a load per length (n-1, 3) in a plane."""
     length, total = found.pieces[:, 0], np.zeros(found.size)
-    sag = sagging(found.pieces, coefficients, found.shaft)
-    shear, moment = beyond(coefficients, length, np.zeros_like(length))
-    held = np.einsum("nij,ni->nj", strain(length), np.linalg.solve(found.flexibility, sag[:, :, None])[:, :, 0])
+    sag = clamped_load_displacement(found.pieces, coefficients, found.shaft)
+    shear, moment = load_resultants(coefficients, length, np.zeros_like(length))
+    held = np.einsum("nij,ni->nj", strain_matrix(length), np.linalg.solve(found.flexibility, sag[:, :, None])[:, :, 0])
     held[:, 0] += shear
     held[:, 1] += moment
     for element, four in enumerate(held):
-        at, sign = places_of(element, plane)
+        at, sign = element_freedoms(element, plane)
         total[at] += sign * four
     return total
 
 
-def uniform(found: Beam, start: float, end: float, value: float = 1.0) -> Floats:
+def uniform_load(found: Beam, start: float, end: float, value: float = 1.0) -> Floats:
     """Coefficients (n-1, 3) of a constant load per length between two nodes."""
     middle = 0.5 * (found.z[1:] + found.z[:-1])
     found_at = (middle > start) & (middle < end)
     return np.stack([np.where(found_at, value, 0.0), np.zeros(len(middle)), np.zeros(len(middle))], axis=1)
 
 
-def linear(found: Beam, start: float, end: float, first: float, last: float) -> Floats:
+def linear_load(found: Beam, start: float, end: float, first: float, last: float) -> Floats:
     """The same of a load from `first` at `start` to `last` at `end`, both nodes."""
-    inside = uniform(found, start, end)[:, 0]
+    inside = uniform_load(found, start, end)[:, 0]
     slope = (last - first) / (end - start)
     return np.stack([inside * (first + slope * (found.z[:-1] - start)), inside * slope, 0 * inside], axis=1)
 
 
-def weight(found: Beam) -> Floats:
+def mass_per_length(found: Beam) -> Floats:
     """Mass per length (n-1, 3): rho A(x), a parabola over a cone."""
     length, start, end, bore = found.pieces.T
     grow = (end - start) / length
@@ -230,7 +232,7 @@ def weight(found: Beam) -> Floats:
 # -- between the nodes ---------------------------------------------------------------------------------------------------------
 
 
-class Line(NamedTuple):
+class ElasticLine(NamedTuple):
     """Along z (m,), in a plane: deflection, slope of the section, shear force V and bending moment M = EI dt/dz."""
 
     deflection: Floats
@@ -244,26 +246,26 @@ def end_forces(found: Beam, plane: int, unknowns: Floats, coefficients: Floats |
     w, t, sign = PLANES[plane]
     bent = strains(found, unknowns)[:, [w, t]] * (1.0, sign)
     if coefficients is not None:
-        bent = bent - sagging(found.pieces, coefficients, found.shaft)
+        bent = bent - clamped_load_displacement(found.pieces, coefficients, found.shaft)
     return np.linalg.solve(found.flexibility, bent[:, :, None])[:, :, 0]
 
 
-def line(found: Beam, plane: int, unknowns: Floats, z: Floats, coefficients: Floats | None = None) -> Line:
-    """The `Line` at places z: the piece from the node before to z is a clamped piece itself, so this is exact anywhere."""
+def elastic_line(found: Beam, plane: int, unknowns: Floats, z: Floats, coefficients: Floats | None = None) -> ElasticLine:
+    """The `ElasticLine` at places z: the piece from the node before to z is a clamped piece itself, so this is exact anywhere."""
     w, t, sign = PLANES[plane]
     element = np.clip(np.searchsorted(found.z, z, side="right") - 1, 0, len(found.pieces) - 1)
     length, x = found.pieces[element, 0], z - found.z[element]
     force, moment = end_forces(found, plane, unknowns, coefficients)[element].T
-    displacement = basis(found) @ unknowns[: found.size]
+    displacement = displacement_basis(found) @ unknowns[: found.size]
     load = np.zeros((len(z), 3)) if coefficients is None else coefficients[element]
-    carried = beyond(load, length, x)
+    carried = load_resultants(load, length, x)
     shear, moment = force + carried[0], moment + force * (length - x) + carried[1]
     part = _pieces(found.shaft, found.z[element], np.maximum(z, found.z[element] + 1e-12 * found.shaft.length))
     part[:, 0] = x
-    flexibility, _ = clamped(part, found.shaft)
-    sag = sagging(part, load, found.shaft)
+    flexibility, _ = clamped_flexibility(part, found.shaft)
+    sag = clamped_load_displacement(part, load, found.shaft)
     first, slope = displacement[FREEDOMS * element + w], sign * displacement[FREEDOMS * element + t]
-    return Line(
+    return ElasticLine(
         first + slope * x + flexibility[:, 0, 0] * shear + flexibility[:, 0, 1] * moment + sag[:, 0],
         slope + flexibility[:, 1, 0] * shear + flexibility[:, 1, 1] * moment + sag[:, 1],
         shear,

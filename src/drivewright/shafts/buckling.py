@@ -5,10 +5,10 @@ from scipy.linalg import eigh
 
 from drivewright.errors import SolverError
 from drivewright.shafts import beam as beams
-from drivewright.shafts.assembly import floor
-from drivewright.shafts.influence import FLOOR
+from drivewright.shafts.assembly import regularisation
+from drivewright.shafts.influence import REGULARISATION_FACTOR
 from drivewright.shafts.loaded import LoadedShaft
-from drivewright.shafts.vibration import WEIGHT, condensed, shapes
+from drivewright.shafts.vibration import WEIGHT, condense_supports, element_shapes
 
 
 def buckling_factor(loaded: LoadedShaft) -> float | None:
@@ -22,7 +22,9 @@ def buckling_factor(loaded: LoadedShaft) -> float | None:
     tension = beams.tension_and_torque(found, equilibrium.unknowns)[:, 0]
     if not np.any(tension < 0):
         return None
-    held, stiff = condensed(equilibrium.hessian + FLOOR * floor(model), model.constraints, model.compliance)
+    held, stiff = condense_supports(
+        equilibrium.hessian + REGULARISATION_FACTOR * regularisation(model), model.constraints, model.compliance
+    )
     basis = model.basis @ held
     geometric = basis[: found.size].T @ _geometric(found, tension) @ basis[: found.size]
     try:
@@ -37,11 +39,11 @@ def buckling_factor(loaded: LoadedShaft) -> float | None:
 
 def _geometric(found, tension):
     """K_N (6n, 6n) on the displacements of the nodes."""
-    _, slope = shapes(found)
+    _, slope = element_shapes(found)
     each = np.einsum("n,np,npi,npj->nij", tension, WEIGHT * found.pieces[:, :1], slope, slope)
     whole = np.zeros((found.size, found.size))
     for element, part in enumerate(each):
         for plane in (0, 1):
-            at, sign = beams.places_of(element, plane)
+            at, sign = beams.element_freedoms(element, plane)
             whole[np.ix_(at, at)] += sign[:, None] * part * sign
     return whole

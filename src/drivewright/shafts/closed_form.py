@@ -12,8 +12,8 @@ where t, a', b' belong to s, low and high are the lesser and the greater of y an
     p = y (L - y)(2L - y) / 6L,   q = y (L - y)(L + y) / 6L           the slope at the left, right support under it
     c = m^2 (3 m' - m) / 6,  m <= m'                                  the cantilever.
 
-Nothing is subtracted that could cancel, so short overhangs keep all their digits.  `influence` is this formula, for a kernel's scalars
-and, through `plain`, for arrays.
+Nothing is subtracted that could cancel, so short overhangs keep all their digits.  `influence_coefficient` is this formula, for a kernel's
+scalars and, through `plain`, for arrays.
 """
 
 import numpy as np
@@ -24,7 +24,7 @@ from drivewright.errors import InputError
 
 
 @inner
-def influence(x: float, s: float, span: float, bend: float, slip: float) -> float:
+def influence_coefficient(x: float, s: float, span: float, bend: float, slip: float) -> float:
     """Deflection at x under a unit force at s on rigid supports  [m/N]; x, s from the left support, bend = 1/EI, slip = 1/(kappa G A)."""
     part = 1.0 / span
     y, t = np.minimum(np.maximum(x, 0.0), span), np.minimum(np.maximum(s, 0.0), span)
@@ -42,7 +42,7 @@ def influence(x: float, s: float, span: float, bend: float, slip: float) -> floa
 
 
 @inner
-def shares(x: float, span: float) -> tuple[float, float]:
+def reaction_shares(x: float, span: float) -> tuple[float, float]:
     """What the left and the right support carry of a unit force at x, measured from the left one."""
     part = 1.0 / span
     return (span - x) * part, x * part
@@ -50,10 +50,10 @@ def shares(x: float, span: float) -> tuple[float, float]:
 
 @inner
 def flexibility_entry(x: float, s: float, span: float, bend: float, slip: float, left_give: float, right_give: float) -> float:
-    """`influence` and what the supports give way [m/N]: rA rA'/kA + rB rB'/kB, a Gram matrix: a softer bearing never stiffens."""
-    left, right = shares(x, span)
-    left2, right2 = shares(s, span)
-    return influence(x, s, span, bend, slip) + left * left2 * left_give + right * right2 * right_give
+    """`influence_coefficient` and what the supports yield [m/N], rA rA'/kA + rB rB'/kB: a Gram matrix; a softer bearing never stiffens."""
+    left, right = reaction_shares(x, span)
+    left2, right2 = reaction_shares(s, span)
+    return influence_coefficient(x, s, span, bend, slip) + left * left2 * left_give + right * right2 * right_give
 
 
 def flexibility(

@@ -6,7 +6,7 @@ import numpy as np
 
 from drivewright._jit import implements, warmer
 from drivewright._typing import ArrayLike, Floats
-from drivewright.bearings.response import respond, response
+from drivewright.bearings.response import evaluate_response, response
 from drivewright.errors import InputError
 
 
@@ -89,5 +89,5 @@ def _(law, displacement, force, stiffness):
 @warmer
 def warm_supports() -> None:
     """Compile for `doctor --warm`."""
-    respond(with_play(1.0, 1.0), np.zeros(5))
-    respond(TangentSupport(np.eye(5)), np.zeros(5))
+    evaluate_response(with_play(1.0, 1.0), np.zeros(5))
+    evaluate_response(TangentSupport(np.eye(5)), np.zeros(5))

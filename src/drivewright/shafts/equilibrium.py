@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.bearings.response import respond
+from drivewright.bearings.response import evaluate_response
 from drivewright.errors import InputError, SolverError
-from drivewright.shafts.assembly import AXIAL, ShaftSystem, floor, refuse_unbalanced
+from drivewright.shafts.assembly import AXIAL, ShaftSystem, refuse_unbalanced, regularisation
 from drivewright.shafts.beam import FREEDOMS
 
 TOLERANCE = 1e-11  # of the residual over the forces at work
@@ -68,14 +68,14 @@ def solve(model: ShaftSystem, force: Floats) -> ShaftEquilibrium:
     v, held = _first_guess(model, load)
     for step in range(1, MAX_STEPS + 1):
         change, more = _newton_step(model, v, held, load)
-        share = _length(model, (v, held), (change, more), load)
+        share = _step_length(model, (v, held), (change, more), load)
         v, held = v + share * change, held + share * more
         if not np.all(np.isfinite(v)):
             raise InputError(
                 "shaft: it, or its bearings, are so soft that the displacements are beyond all numbers; check the units of "
                 "stiffnesses, diameters and Young's modulus"
             )
-        if _at_rest(model, v, held, load):
+        if _is_balanced(model, v, held, load):
             _refuse_pinned(model, load, held)
             return _equilibrium(model, v, held, step)
         _refuse_runaway(model, v)
@@ -109,12 +109,12 @@ def _refuse_runaway(model, v):
         )
 
 
-def _pull(model, v):
+def _energy_derivatives(model, v):
     """(gradient, Hessian) of the energy of shaft and laws."""
     gradient, hessian = model.linear @ v, model.linear.copy()
     for mount in model.mounts:
         if mount.support.law is not None:
-            _, force, stiffness = respond(mount.support.law, mount.rows @ v - mount.support.offset)
+            _, force, stiffness = evaluate_response(mount.support.law, mount.rows @ v - mount.support.offset)
             gradient += mount.rows.T @ force
             hessian += mount.rows.T @ stiffness @ mount.rows
     return gradient, hessian
@@ -123,19 +123,19 @@ def _pull(model, v):
 def _newton_step(model, v, held, load):
     """Changes of v and of the forces m to the minimum of the quadratic that touches the energy at v.
 
-    What a law does not resist at the moment is held to where it is by a trifle that leaves the equilibrium alone.
+    What a law does not resist at the moment is held to where it is by a regularisation that leaves the equilibrium alone.
     """
-    gradient, hessian = _pull(model, v)
+    gradient, hessian = _energy_derivatives(model, v)
     off = gradient - load + model.constraints.T @ held
     apart = model.constraints @ v - model.compliance * held - model.given
-    found = saddle(hessian + floor(model), model.constraints, model.compliance, -np.concatenate([off, apart]))
+    found = solve_saddle_point(hessian + regularisation(model), model.constraints, model.compliance, -np.concatenate([off, apart]))
     return found[: model.size], found[model.size :]
 
 
-def saddle(hessian: Floats, constraints: Floats, compliance: Floats, right: Floats) -> Floats:
+def solve_saddle_point(hessian: Floats, constraints: Floats, compliance: Floats, right: Floats) -> Floats:
     """(size + c, ...): v and m of  H v + R' m = right,  R v - C m = right below; SolverError where rounding makes that singular."""
     whole = np.block([[hessian, constraints.T], [constraints, -np.diag(compliance)]])
-    scale = scales(whole, len(hessian))
+    scale = equilibration(whole, len(hessian))
     right = (right.T * scale).T
     try:
         return (np.linalg.solve(scale[:, None] * whole * scale, right).T * scale).T
@@ -147,7 +147,7 @@ def saddle(hessian: Floats, constraints: Floats, compliance: Floats, right: Floa
         ) from None
 
 
-def scales(matrix: Floats, size: int) -> Floats:
+def equilibration(matrix: Floats, size: int) -> Floats:
     """s (n,) with the largest entry of every row of the symmetric s_i A_ij s_j next to 1: rotations are no lengths, stiff is not soft.
 
     The first `size` by their diagonal, the constraints below by their rows: a small compliance says nothing of theirs.  Then what is
@@ -174,11 +174,11 @@ def _first_guess(model, load):
         if mount.support.law is not None:
             hessian += mount.rows.T @ usual @ mount.rows
             pull += mount.rows.T @ usual @ mount.support.offset
-    found = saddle(hessian, model.constraints, model.compliance, np.concatenate([pull, model.given]))
+    found = solve_saddle_point(hessian, model.constraints, model.compliance, np.concatenate([pull, model.given]))
     return found[: model.size], found[model.size :]
 
 
-def _length(model, state, change, load):
+def _step_length(model, state, change, load):
     """Share of a step, 1 or less: where the energy along it, a convex function, has lost half of its steepness.
 
     The springs' part of the slope is m . C dm, which no stiffness magnifies.
@@ -188,7 +188,7 @@ def _length(model, state, change, load):
     (v, held), (dv, dm) = state, change
 
     def slope(share):
-        return (_pull(model, v + share * dv)[0] - load) @ dv + (held + share * dm) @ (model.compliance * dm)
+        return (_energy_derivatives(model, v + share * dv)[0] - load) @ dv + (held + share * dm) @ (model.compliance * dm)
 
     steepness = slope(0.0)
     if steepness >= 0:
@@ -207,11 +207,11 @@ def _length(model, state, change, load):
     return share
 
 
-def _at_rest(model, v, held, load):
+def _is_balanced(model, v, held, load):
     """Whether the forces balance, to rounding of the largest of them; moments are weighed by the length of the shaft."""
     weigh = np.ones(model.size)
     weigh[: model.beam.size].reshape(-1, FREEDOMS)[:, 3:] = 1 / model.beam.shaft.length
-    pull, hessian = _pull(model, v)
+    pull, hessian = _energy_derivatives(model, v)
     springs = model.constraints.T @ held
     left = np.abs(weigh * (pull - load + springs)).max()
     size = np.abs(weigh * load).max(initial=0) + np.abs(weigh * springs).max(initial=0)
@@ -225,7 +225,7 @@ def _equilibrium(model, v, held, steps):
         support, sprung = mount.support, mount.sprung
         own, force, law = mount.rows @ v - support.offset, np.zeros(5), np.zeros((5, 5))
         if support.law is not None:
-            _, force, law = respond(support.law, own)
+            _, force, law = evaluate_response(support.law, own)
         force[sprung] += held[mount.springs]
         own[sprung] = model.compliance[mount.springs] * held[mount.springs]
         law = mount.turn[:, None] * law * mount.turn
@@ -234,4 +234,4 @@ def _equilibrium(model, v, held, steps):
         tangent.append(np.diag(support.stiffness) + law)
         contact.append(law)
     arrays = (np.array(each) for each in (reactions, relative, tangent, contact))
-    return ShaftEquilibrium(model, v, *arrays, _pull(model, v)[1], held, steps)
+    return ShaftEquilibrium(model, v, *arrays, _energy_derivatives(model, v)[1], held, steps)

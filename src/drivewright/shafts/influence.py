@@ -13,26 +13,28 @@ import numpy as np
 from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError, SolverError
 from drivewright.shafts import beam as beams
-from drivewright.shafts.assembly import floor
+from drivewright.shafts.assembly import regularisation
 from drivewright.shafts.beam import FREEDOMS
-from drivewright.shafts.equilibrium import ShaftEquilibrium, saddle
+from drivewright.shafts.equilibrium import ShaftEquilibrium, solve_saddle_point
 
-FLOOR = 1e-2  # of the solver's trifle under what a law does not resist: it makes the matrix regular and carries nothing
+REGULARISATION_FACTOR = (
+    1e-2  # of the solver's regularisation under what a law does not resist: it makes the matrix regular and carries nothing
+)
 ROUNDING = 1e-12
-HELD = 1e-3  # part of a flexibility that this trifle may carry: beyond it the shaft is not held
+MAX_REGULARISED_SHARE = 1e-3  # part of a flexibility that this regularisation may carry: beyond it the shaft is not held
 
 
 class Flexibility(NamedTuple):
     """All per unit force [1/N]: delta (s, s) [m/N]; its parts (p, s, s) by `names`; reactions (supports, s) against the load [-].
 
-    pressed (supports, 5, s): what the shaft exerts on the supports [N/N, N m/N].
+    support_forces (supports, 5, s): what the shaft exerts on the supports [N/N, N m/N].
     """
 
     delta: Floats
     names: tuple[str, ...]
     shares: Floats
     reactions: Floats
-    pressed: Floats
+    support_forces: Floats
     unknowns: Floats  # (size, s): under each unit force
 
     @property
@@ -52,26 +54,26 @@ def flexibility(found: ShaftEquilibrium, positions: Sequence[float], direction: 
         at = FREEDOMS * model.beam.node(position)
         unit[at : at + 2, column] = direction
     unit = model.basis.T @ unit
-    trifle = FLOOR * floor(model)
-    answer = _solved(found, trifle, unit)
+    small = REGULARISATION_FACTOR * regularisation(model)
+    answer = _solve_unit_loads(found, small, unit)
     v = answer[: model.size]
     delta = unit.T @ v
     delta = 0.5 * (delta + delta.T)
     size = np.abs(delta).max(initial=0)
     with np.errstate(invalid="ignore"):
-        carried = np.sum(v * (trifle @ v), axis=0)
-    if not np.all(np.isfinite(delta)) or np.any(carried > HELD * (np.abs(np.diag(delta)) + ROUNDING * size)):
+        carried = np.sum(v * (small @ v), axis=0)
+    if not np.all(np.isfinite(delta)) or np.any(carried > MAX_REGULARISED_SHARE * (np.abs(np.diag(delta)) + ROUNDING * size)):
         raise InputError("shaft: at rest its bearings do not resist a small force; give a load, a preload or no clearance")
     names, shares = _shares(found, v, answer[model.size :])
-    pressed = _pressed(found, v, answer[model.size :])
+    pressed = _support_forces(found, v, answer[model.size :])
     return Flexibility(delta, names, shares, np.einsum("f,pfs->ps", direction, pressed[:, :2]), pressed, v)
 
 
-def _solved(found, trifle, unit):
+def _solve_unit_loads(found, small, unit):
     try:
         with np.errstate(all="ignore"):
             below = np.zeros((len(found.model.given), unit.shape[1]))
-            return saddle(found.hessian + trifle, found.model.constraints, found.model.compliance, np.vstack([unit, below]))
+            return solve_saddle_point(found.hessian + small, found.model.constraints, found.model.compliance, np.vstack([unit, below]))
     except SolverError:
         return np.full((found.model.size + len(found.model.given), unit.shape[1]), np.inf)
 
@@ -95,7 +97,7 @@ def _shares(found, v, held):
     return tuple(names), np.array(parts)
 
 
-def _pressed(found, v, held):
+def _support_forces(found, v, held):
     """(supports, 5, s): what the shaft exerts on each support, in the shaft's axes."""
     rows = []
     for mount, contact in zip(found.model.mounts, found.contact, strict=True):

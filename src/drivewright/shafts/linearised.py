@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from drivewright.shafts.assembly import assemble, work
+from drivewright.shafts.assembly import assemble, nodal_forces
 from drivewright.shafts.curves import TangentSupport
 from drivewright.shafts.equilibrium import ShaftEquilibrium, solve
 from drivewright.shafts.model import Shaft
@@ -23,4 +23,4 @@ def refined_equilibrium(equilibrium: ShaftEquilibrium, step: float) -> ShaftEqui
     z = equilibrium.model.beam.z
     places = np.concatenate([np.linspace(a, b, int(np.ceil((b - a) / step - 1e-9)) + 1) for a, b in zip(z[:-1], z[1:], strict=True)])
     fine = assemble(tangent_shaft(equilibrium), places)
-    return solve(fine, 0 * work(fine, ()))
+    return solve(fine, 0 * nodal_forces(fine, ()))

@@ -7,7 +7,7 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.shafts import beam as beams
-from drivewright.shafts.assembly import assemble, work
+from drivewright.shafts.assembly import assemble, nodal_forces
 from drivewright.shafts.beam import FREEDOMS
 from drivewright.shafts.equilibrium import ShaftEquilibrium, solve
 from drivewright.shafts.model import LineLoad, Shaft, ShaftLoad
@@ -55,13 +55,13 @@ class Diagram(NamedTuple):
     von_mises: Floats
 
 
-def load(shaft: Shaft, loads: ShaftLoads, places: Iterable[float] = ()) -> LoadedShaft:
+def apply_loads(shaft: Shaft, loads: ShaftLoads, places: Iterable[float] = ()) -> LoadedShaft:
     """The `LoadedShaft`, with nodes also at `places`."""
     model = assemble(shaft, [*loads.places, *places])
-    spread, force = _spread(model, loads), work(model, [*loads.points, *_weights(shaft, loads)])
+    spread, force = _spread(model, loads), nodal_forces(model, [*loads.points, *_weights(shaft, loads)])
     points = force[: model.beam.size].copy()
     for plane in (0, 1):
-        force[: model.beam.size] += beams.nodal(model.beam, plane, spread[plane])
+        force[: model.beam.size] += beams.nodal_loads(model.beam, plane, spread[plane])
     force[: model.beam.size] += _axial_weight(model.beam, loads.gravity[2])
     return LoadedShaft(solve(model, force), spread, points, force)
 
@@ -72,18 +72,18 @@ def _weights(shaft, loads):
 
 def _spread(model, loads):
     """(2, n-1, 3): load per length in x and y."""
-    weight = beams.weight(model.beam)
+    weight = beams.mass_per_length(model.beam)
     total = np.stack([weight * loads.gravity[plane] for plane in (0, 1)])
     for each in loads.lines:
         for plane in (0, 1):
-            total[plane] += beams.linear(model.beam, each.start, each.end, each.first[plane], each.last[plane])
+            total[plane] += beams.linear_load(model.beam, each.start, each.end, each.first[plane], each.last[plane])
     return total
 
 
 def _axial_weight(found, gravity):
     """Half the weight of every piece on each of its ends, along the axis."""
     total = np.zeros(found.size)
-    mass, moment = beams.beyond(beams.weight(found), found.pieces[:, 0], np.zeros(len(found.pieces)))
+    mass, moment = beams.load_resultants(beams.mass_per_length(found), found.pieces[:, 0], np.zeros(len(found.pieces)))
     second = moment / found.pieces[:, 0]
     total[2 : found.size : FREEDOMS][:-1] += gravity * (mass - second)
     total[2 : found.size : FREEDOMS][1:] += gravity * second
@@ -94,7 +94,7 @@ def diagram(loaded: LoadedShaft, count: int = 201) -> Diagram:
     """The `Diagram` at about `count` places, twice at every node: just left and just right of it, for forces jump there."""
     found, v = loaded.equilibrium.model.beam, loaded.equilibrium.unknowns
     z = _places(found, count)
-    lines = [beams.line(found, plane, v, z, loaded.spread[plane]) for plane in (0, 1)]
+    lines = [beams.elastic_line(found, plane, v, z, loaded.spread[plane]) for plane in (0, 1)]
     deflection, slope, shear, moment = (np.stack(each, axis=1) for each in zip(*lines, strict=True))
     element = np.clip(np.searchsorted(found.z, z, side="right") - 1, 0, len(found.pieces) - 1)
     axial, torque = beams.tension_and_torque(found, v)[element].T

@@ -25,7 +25,7 @@ def second_moment(diameter: Numbers, bore: Numbers) -> Numbers:
 
 
 @kernel
-def cowper(diameter: Numbers, bore: Numbers, poisson: float) -> Numbers:
+def cowper_coefficient(diameter: Numbers, bore: Numbers, poisson: float) -> Numbers:
     """Shear coefficient kappa of a round section, m = d/D  (Cowper 1966, recalled; checked against the solid):
 
     kappa = 6 (1 + nu) (1 + m^2)^2 / [(7 + 6 nu) (1 + m^2)^2 + (20 + 12 nu) m^2].
@@ -36,7 +36,7 @@ def cowper(diameter: Numbers, bore: Numbers, poisson: float) -> Numbers:
 
 
 @kernel
-def softness(
+def compliance_integrals(
     length: float, start: float, end: float, bore: float, modulus: float, poisson: float, shear: float
 ) -> tuple[float, float, float, float]:
     """(int dx/EI, int x dx/EI, int x^2 dx/EI, int dx/(kappa G A)) over a piece of `length`, x from its start.
@@ -47,7 +47,7 @@ def softness(
     g = 0.5 * modulus / (1.0 + poisson)
     if start == end:
         e = 1.0 / (modulus * second_moment(start, bore))
-        kappa = shear if shear > 0.0 else cowper(start, bore, poisson)
+        kappa = shear if shear > 0.0 else cowper_coefficient(start, bore, poisson)
         slip = 0.0 if shear < 0.0 else length / (kappa * g * area(start, bore))
         return e * length, 0.5 * e * length**2, e * length**3 / 3.0, slip
     zero, first, second, slip = 0.0, 0.0, 0.0, 0.0
@@ -56,23 +56,23 @@ def softness(
         x, weight = length * NODES[i], length * WEIGHTS[i]
         e = weight / (modulus * second_moment(diameter, bore))
         zero, first, second = zero + e, first + e * x, second + e * x**2
-        kappa = shear if shear > 0.0 else cowper(diameter, bore, poisson)
+        kappa = shear if shear > 0.0 else cowper_coefficient(diameter, bore, poisson)
         slip += 0.0 if shear < 0.0 else weight / (kappa * g * area(diameter, bore))
     return zero, first, second, slip
 
 
 @kernel
-def softness_of(pieces: Floats, modulus: float, poisson: float, shear: float) -> Floats:
-    """`softness` of many pieces (n, 4) of (length, start, end, bore): (n, 4)."""
+def compliance_integrals_of(pieces: Floats, modulus: float, poisson: float, shear: float) -> Floats:
+    """`compliance_integrals` of many pieces (n, 4) of (length, start, end, bore): (n, 4)."""
     found = np.zeros((len(pieces), 4))
     for i in range(len(pieces)):
         length, start, end, bore = pieces[i]
         if length > 0.0:
-            found[i, 0], found[i, 1], found[i, 2], found[i, 3] = softness(length, start, end, bore, modulus, poisson, shear)
+            found[i, 0], found[i, 1], found[i, 2], found[i, 3] = compliance_integrals(length, start, end, bore, modulus, poisson, shear)
     return found
 
 
 @warmer
 def warm_sections() -> None:
     """Compile for `doctor --warm`."""
-    softness_of(np.array([[1.0, 1.0, 1.0, 0.0]]), 1.0, 0.3, 0.0)
+    compliance_integrals_of(np.array([[1.0, 1.0, 1.0, 0.0]]), 1.0, 0.3, 0.0)

@@ -13,7 +13,7 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
-from drivewright.shafts.assembly import assemble, work
+from drivewright.shafts.assembly import assemble, nodal_forces
 from drivewright.shafts.equilibrium import ShaftEquilibrium, solve
 from drivewright.shafts.influence import Flexibility, flexibility
 from drivewright.shafts.linearised import tangent_shaft
@@ -76,7 +76,8 @@ def _of_sections(at_rest: ShaftEquilibrium, found: Flexibility) -> Iterator[Flex
     at = np.clip(np.searchsorted(shaft.ends, middles) - 1, 0, len(shaft.sections) - 1)
     factors = [np.exp(k * STEP) for k, _ in WEIGHTS]
     flexibilities = [
-        weight * beams.clamped(beam.pieces * (1.0, f, f, 1.0), shaft)[0] for f, (_, weight) in zip(factors, WEIGHTS, strict=True)
+        weight * beams.clamped_flexibility(beam.pieces * (1.0, f, f, 1.0), shaft)[0]
+        for f, (_, weight) in zip(factors, WEIGHTS, strict=True)
     ]
     change = np.sum(flexibilities, axis=0) / STEP
     forces = np.array([[beams.end_forces(beam, plane, column) for column in found.unknowns.T] for plane in (0, 1)])
@@ -116,7 +117,7 @@ def _slope(base: Shaft, direction: Floats, change: Callable[[float], Shaft]) -> 
 
 def _delta(direction: Floats, shaft: Shaft) -> Floats:
     system = assemble(shaft)
-    at_rest = solve(system, 0 * work(system, ()))
+    at_rest = solve(system, 0 * nodal_forces(system, ()))
     return flexibility(at_rest, [station.position for station in shaft.stations], direction).delta
 
 

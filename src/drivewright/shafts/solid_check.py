@@ -17,7 +17,7 @@ import numpy as np
 from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError, SolverError
 from drivewright.result import Table
-from drivewright.shafts.assembly import assemble, work
+from drivewright.shafts.assembly import assemble, nodal_forces
 from drivewright.shafts.beam import POINT
 from drivewright.shafts.equilibrium import ShaftEquilibrium, solve
 from drivewright.shafts.influence import flexibility
@@ -136,7 +136,7 @@ def beam_on_bands(shaft: Shaft, bands: Sequence[Band], stations: Sequence[float]
         Support(f"band {n}", band.position, (band.stiffness,) * 2 + (0.0,) * 3, width=band.width) for n, band in enumerate(bands)
     )
     system = assemble(shaft._replace(supports=supports))
-    return flexibility(solve(system, work(system, ())), stations, direction).delta
+    return flexibility(solve(system, nodal_forces(system, ())), stations, direction).delta
 
 
 def solid_and_beam(

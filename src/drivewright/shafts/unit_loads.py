@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.shafts.assembly import assemble, work
-from drivewright.shafts.beam import line
+from drivewright.shafts.assembly import assemble, nodal_forces
+from drivewright.shafts.beam import elastic_line
 from drivewright.shafts.equilibrium import ShaftEquilibrium, solve
 from drivewright.shafts.influence import Flexibility, flexibility
 from drivewright.shafts.model import Shaft, Support
@@ -23,7 +23,7 @@ def flexibility_on_rigid_bearings(shaft: Shaft, positions: Sequence[float], dire
     alone = sum(_is_radial(support) for support in shaft.supports) == 1
     supports = tuple(Support(s.name, s.position, _rigid(s, alone), width=s.width) for s in shaft.supports)
     system = assemble(shaft._replace(supports=supports))
-    at_rest = solve(system, work(system, ()))
+    at_rest = solve(system, nodal_forces(system, ()))
     return at_rest, flexibility(at_rest, positions, direction)
 
 
@@ -39,7 +39,7 @@ def _rigid(support: Support, alone: bool) -> tuple[float, ...]:
 
 def unit_deflection(equilibrium: ShaftEquilibrium, unknowns: Floats, z: Floats, direction: Floats) -> Floats:
     """Deflection (m,) [m/N] along `direction` (x, y) at places z (m,) [m] under a unit force with the unknowns (size,)."""
-    return sum(way * line(equilibrium.model.beam, plane, unknowns, z).deflection for plane, way in enumerate(direction))
+    return sum(way * elastic_line(equilibrium.model.beam, plane, unknowns, z).deflection for plane, way in enumerate(direction))
 
 
 def peak_unit_stress(equilibrium: ShaftEquilibrium, unknowns: Floats, direction: Floats) -> float:
@@ -48,7 +48,7 @@ def peak_unit_stress(equilibrium: ShaftEquilibrium, unknowns: Floats, direction:
     length_of_shaft = beam.shaft.length
     tiny = 1e-9 * length_of_shaft
     z = np.sort(np.concatenate([np.linspace(0, length_of_shaft, SAMPLES), beam.z[:-1], beam.z[1:] - tiny]))
-    moment = sum(way * line(beam, plane, unknowns, z).moment for plane, way in enumerate(direction))
+    moment = sum(way * elastic_line(beam, plane, unknowns, z).moment for plane, way in enumerate(direction))
     element = np.clip(np.searchsorted(beam.z, z, side="right") - 1, 0, len(beam.pieces) - 1)
     length, start, end, bore = beam.pieces[element].T
     diameter = start + (end - start) * (z - beam.z[element]) / length

@@ -8,18 +8,17 @@ from scipy.linalg import block_diag, eigh
 from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
-from drivewright.shafts.assembly import AXIAL, TWIST, floor
-from drivewright.shafts.assembly import FLOOR as TRIFLE
+from drivewright.shafts.assembly import AXIAL, REGULARISATION, TWIST, regularisation
 from drivewright.shafts.beam import FREEDOMS, PLANES, Beam
-from drivewright.shafts.equilibrium import ShaftEquilibrium, saddle, scales
-from drivewright.shafts.influence import FLOOR, HELD
+from drivewright.shafts.equilibrium import ShaftEquilibrium, equilibration, solve_saddle_point
+from drivewright.shafts.influence import MAX_REGULARISED_SHARE, REGULARISATION_FACTOR
 from drivewright.shafts.model import EULER_BERNOULLI
 from drivewright.shafts.sections import area, second_moment
 
 UNHELD = (
     "shaft: at rest its bearings do not resist a small motion, so it has no natural frequencies; give a load, a preload or no clearance"
 )
-LEAST = 1e-12  # of the greatest 1/w^2: below it is rounding
+NEGLIGIBLE = 1e-12  # of the greatest 1/w^2: below it is rounding
 ROUND = 1e-9  # of a stiffness: what two planes may differ by
 POINTS = 8  # over an element: its shapes are cubic on a cylinder
 SHARE, WEIGHT = (0.5 * (part + shift) for part, shift in zip(np.polynomial.legendre.leggauss(POINTS), (1.0, 0.0), strict=True))
@@ -43,14 +42,14 @@ class CriticalSpeeds(NamedTuple):
     backward: Floats
 
 
-def shapes(found: Beam) -> tuple[Floats, Floats]:
+def element_shapes(found: Beam) -> tuple[Floats, Floats]:
     """Deflection (n, p, 4) and slope (n, p, 4) at p places in every piece by unit displacements (w1, t1, w2, t2) of its ends."""
     length = found.pieces[:, 0]
-    forces = np.linalg.solve(found.flexibility, beams.strain(length))  # (n, 2, 4) at the end
+    forces = np.linalg.solve(found.flexibility, beams.strain_matrix(length))  # (n, 2, 4) at the end
     x = length[:, None] * SHARE
     part = found.pieces[:, None, :].repeat(POINTS, axis=1)
     part[:, :, 0], part[:, :, 2] = x, part[:, :, 1] + (part[:, :, 2] - part[:, :, 1]) * SHARE
-    flexibility, _ = beams.clamped(part.reshape(-1, 4), found.shaft)
+    flexibility, _ = beams.clamped_flexibility(part.reshape(-1, 4), found.shaft)
     flexibility = flexibility.reshape(*x.shape, 2, 2)
     force = forces[:, None, 0, :].repeat(POINTS, axis=1)
     moment = force * (length[:, None] - x)[:, :, None] + forces[:, None, 1, :]
@@ -59,13 +58,13 @@ def shapes(found: Beam) -> tuple[Floats, Floats]:
     return bent[0] + start[0] + x[:, :, None] * start[1], bent[1] + start[1]
 
 
-def mass(found: Beam, rotary: bool = True) -> tuple[Floats, Floats]:
+def mass_matrices(found: Beam, rotary: bool = True) -> tuple[Floats, Floats]:
     """(M (6n, 6n), G (6n, 6n)): consistent mass of the shaft with its stations, and polar moments of inertia that couple the tilts.
 
     At the speed s of the shaft the gyroscopic moments are  s G q',  G skew.
     """
     whole, gyroscopic = np.zeros((found.size,) * 2), np.zeros((found.size,) * 2)
-    deflection, slope = shapes(found)
+    deflection, slope = element_shapes(found)
     length, start, end, bore = found.pieces.T[:, :, None]
     diameter, density = start + (end - start) * SHARE, found.shaft.density
     per_length = density * area(diameter, bore) * WEIGHT * length
@@ -74,7 +73,7 @@ def mass(found: Beam, rotary: bool = True) -> tuple[Floats, Floats]:
     turning = np.einsum("np,npi,npj->nij", diametral, slope, slope)
     rods = np.array([[1 - SHARE, SHARE]])[0]
     for e in range(len(found.pieces)):
-        places = [beams.places_of(e, plane) for plane in (0, 1)]
+        places = [beams.element_freedoms(e, plane) for plane in (0, 1)]
         for at, sign in places:
             whole[np.ix_(at, at)] += sign[:, None] * (lateral[e] + rotary * turning[e]) * sign
         _couple(gyroscopic, places, 2 * turning[e] * rotary)
@@ -102,13 +101,13 @@ def _add_stations(found, whole, gyroscopic):
         gyroscopic[at + 3, at + 4] += station.polar
 
 
-def is_round(equilibrium: ShaftEquilibrium) -> bool:
+def is_isotropic(equilibrium: ShaftEquilibrium) -> bool:
     """Whether the supports are the same in both planes, which then do not feel each other.
 
     Each stiffness is held against its own kind: one that is stiff along the axis, or against tilting, hides no other.
     """
     for mount, tangent in zip(equilibrium.model.mounts, equilibrium.tangent, strict=True):
-        size = np.sqrt(np.maximum(np.diag(tangent), np.diag(TRIFLE)))
+        size = np.sqrt(np.maximum(np.diag(tangent), np.diag(REGULARISATION)))
         cross = np.abs(np.where(np.eye(5, dtype=bool), 0.0, tangent))
         if mount.ring_freedoms or np.any(cross > ROUND * np.outer(size, size)):
             return False
@@ -117,13 +116,13 @@ def is_round(equilibrium: ShaftEquilibrium) -> bool:
     return True
 
 
-def in_plane(found: Beam, plane: int = 1) -> Ints:
+def plane_freedoms(found: Beam, plane: int = 1) -> Ints:
     """Numbers of the freedoms of a plane: deflection and slope of every node."""
     w, t, _ = PLANES[plane]
     return np.sort(np.concatenate([FREEDOMS * np.arange(len(found.z)) + w, FREEDOMS * np.arange(len(found.z)) + t]))
 
 
-def condensed(stiff: Floats, constraints: Floats, compliance: Floats) -> tuple[Floats, Floats]:
+def condense_supports(stiff: Floats, constraints: Floats, compliance: Floats) -> tuple[Floats, Floats]:
     """(basis (n, r), K (r, r)): shapes that the rigid supports allow, and the stiffness of the supported shaft on them.
 
     Shapes with all supports held, and for every spring the shape P that the shaft takes when it alone gives way: between the two
@@ -131,11 +130,11 @@ def condensed(stiff: Floats, constraints: Floats, compliance: Floats) -> tuple[F
     """
     rows = np.abs(constraints).max(axis=1, initial=0) > 0
     constraints, compliance = constraints[rows], compliance[rows]
-    scale = scales(np.block([[stiff, constraints.T], [constraints, np.zeros((len(constraints),) * 2)]]), len(stiff))[: len(stiff)]
+    scale = equilibration(np.block([[stiff, constraints.T], [constraints, np.zeros((len(constraints),) * 2)]]), len(stiff))[: len(stiff)]
     held = scale[:, None] * _null_space(constraints * scale)
     yields = np.flatnonzero(compliance)
     unit = np.eye(len(stiff) + len(constraints))[:, len(stiff) + yields]
-    shapes = saddle(stiff, constraints, 0 * compliance, unit)[: len(stiff)]
+    shapes = solve_saddle_point(stiff, constraints, 0 * compliance, unit)[: len(stiff)]
     own = shapes.T @ stiff @ shapes
     least = np.sqrt(compliance[yields] / (1 + compliance[yields] * np.diag(own)))
     return np.hstack([held, shapes * least]), block_diag(
@@ -157,7 +156,7 @@ def modes(equilibrium: ShaftEquilibrium, count: int) -> tuple[Modes, Modes]:
     """
     stiff, inertia, _, chosen = _lateral(equilibrium)
     found = _modes(equilibrium, stiff, inertia, chosen, 2 * count + 2)
-    if is_round(equilibrium):
+    if is_isotropic(equilibrium):
         along = FREEDOMS * np.arange(len(equilibrium.model.beam.z)) + AXIAL
         free = AXIAL in equilibrium.model.pinned
         axial = found.where(slice(0, 0)) if free else _modes(equilibrium, stiff, inertia, along, count)
@@ -186,34 +185,34 @@ def _lateral(equilibrium):
     """(K, M, G, numbers of the freedoms) of the vibration across the shaft; rings have no mass of their own."""
     model = equilibrium.model
     found = model.beam
-    small, gyro = mass(found, found.shaft.shear != EULER_BERNOULLI)
+    small, gyro = mass_matrices(found, found.shaft.shear != EULER_BERNOULLI)
     inertia, gyroscopic = np.zeros((model.size,) * 2), np.zeros((model.size,) * 2)
     inertia[: found.size, : found.size], gyroscopic[: found.size, : found.size] = small, gyro
     inertia, gyroscopic = (model.basis.T @ whole @ model.basis for whole in (inertia, gyroscopic))
     twist = FREEDOMS * np.arange(len(found.z)) + TWIST
     left_out = np.concatenate([twist, FREEDOMS * np.arange(len(found.z)) + AXIAL]) if AXIAL in model.pinned else twist
-    chosen = in_plane(found) if is_round(equilibrium) else np.setdiff1d(np.arange(model.size), left_out)
+    chosen = plane_freedoms(found) if is_isotropic(equilibrium) else np.setdiff1d(np.arange(model.size), left_out)
     return equilibrium.hessian, inertia, gyroscopic, chosen
 
 
 def _lowest(stiff, inertia, equilibrium, chosen, count):
     """Lowest eigenvalues w^2 of K q = w^2 M q among the chosen freedoms, and vectors; rigid supports hold.
 
-    A trifle keeps K regular.  What it alone holds has no frequency: along the axis it is left out, across it is an error.
+    The regularisation keeps K regular.  What it alone holds has no frequency: along the axis it is left out, across it is an error.
     """
     model = equilibrium.model
-    trifle = (FLOOR * floor(model))[np.ix_(chosen, chosen)]
-    basis, k = condensed(stiff[np.ix_(chosen, chosen)] + trifle, model.constraints[:, chosen], model.compliance)
+    small = (REGULARISATION_FACTOR * regularisation(model))[np.ix_(chosen, chosen)]
+    basis, k = condense_supports(stiff[np.ix_(chosen, chosen)] + small, model.constraints[:, chosen], model.compliance)
     # M may be singular (massless rings, no rotary inertia) or indefinite, K is positive
     inverse, vectors = _eigen(basis.T @ inertia[np.ix_(chosen, chosen)] @ basis, k)
     vectors = basis @ vectors  # q'Kq = 1 for each
-    held = np.sum(np.conj(vectors) * (trifle @ vectors), axis=0).real < HELD
+    held = np.sum(np.conj(vectors) * (small @ vectors), axis=0).real < MAX_REGULARISED_SHARE
     moving = inverse > 1e-9 * inverse[held].max(initial=0)
     nodes = (equilibrium.model.basis[:, chosen] @ vectors)[: equilibrium.model.beam.size].reshape(-1, FREEDOMS, len(inverse))
     sideways = np.sum(np.abs(nodes[:, :2]) ** 2, axis=(0, 1)) > np.sum(np.abs(nodes[:, AXIAL]) ** 2, axis=0)
     if not held.any() or np.any(~held & moving & sideways):
         raise InputError(UNHELD)
-    least = LEAST * max(inverse[held].max(), 0.1 * _rounded(basis, inertia[np.ix_(chosen, chosen)], k))
+    least = NEGLIGIBLE * max(inverse[held].max(), 0.1 * _rounded(basis, inertia[np.ix_(chosen, chosen)], k))
     order = np.argsort(inverse)[::-1]
     order = order[(held & (inverse > least))[order]][:count]
     return 1 / inverse[order], vectors[:, order]
@@ -239,7 +238,7 @@ def critical_speeds(equilibrium: ShaftEquilibrium, count: int) -> CriticalSpeeds
     Round supports: K z = s^2 (M -+ P) z for z = x + iy, P the polar moments of inertia.  Others: q = phi e^(i s t) in space,
     K phi = s^2 (M - i G) phi; a whirl that is a line counts as one with the shaft.
     """
-    if is_round(equilibrium):
+    if is_isotropic(equilibrium):
         return CriticalSpeeds(*(_whirl(equilibrium, way, count) for way in (1, -1)))
     stiff, inertia, gyroscopic, chosen = _lateral(equilibrium)
     squares, vectors = _lowest(stiff, inertia - 1j * gyroscopic, equilibrium, chosen, 4 * count)
@@ -257,20 +256,20 @@ def lowest_excited(equilibrium: ShaftEquilibrium, critical: CriticalSpeeds) -> f
 
     The unbalance turns with the shaft: on round supports it does no work on a whirl against it, on others it does.
     """
-    speeds = critical.forward if is_round(equilibrium) else np.concatenate([critical.forward, critical.backward])
+    speeds = critical.forward if is_isotropic(equilibrium) else np.concatenate([critical.forward, critical.backward])
     return float(speeds.min()) if len(speeds) else None
 
 
 def _whirl(equilibrium, way, count):
     """Critical speeds of a shaft on round supports, whirling with it (way 1) or against it (-1)."""
     stiff, inertia, gyroscopic, _ = _lateral(equilibrium)
-    x, y = (in_plane(equilibrium.model.beam, plane) for plane in (0, 1))
+    x, y = (plane_freedoms(equilibrium.model.beam, plane) for plane in (0, 1))
     polar = np.zeros_like(inertia)
     polar[np.ix_(x, x)] = gyroscopic[np.ix_(x, y)] * np.where(np.isin(y % FREEDOMS, 3), -1.0, 1.0)  # tilt_x is the slope in y turned round
     return np.sqrt(_lowest(stiff, inertia - way * polar, equilibrium, x, count)[0])
 
 
-def torsional(equilibrium: ShaftEquilibrium, count: int) -> Modes:
+def torsional_modes(equilibrium: ShaftEquilibrium, count: int) -> Modes:
     """The lowest torsional `Modes` of the free shaft, with the moments of inertia of its stations.
 
     The turning of the whole shaft is taken out, M - m m'/I with I = sum of all inertia, so a massless shaft with inertias on it is
@@ -278,15 +277,15 @@ def torsional(equilibrium: ShaftEquilibrium, count: int) -> Modes:
     """
     found = equilibrium.model.beam
     chosen = FREEDOMS * np.arange(len(found.z)) + TWIST
-    carried = beams.basis(found)[np.ix_(chosen, chosen)]
-    inertia = carried.T @ mass(found)[0][np.ix_(chosen, chosen)] @ carried
+    carried = beams.displacement_basis(found)[np.ix_(chosen, chosen)]
+    inertia = carried.T @ mass_matrices(found)[0][np.ix_(chosen, chosen)] @ carried
     stiff, whole = beams.stiffness(found)[np.ix_(chosen, chosen)][1:, 1:], np.zeros((equilibrium.model.size, 0))
     if not inertia[0, 0] > 0:
         return Modes(np.zeros(0), whole)
     mixed = inertia[0, 1:] / inertia[0, 0]
     inverse, vectors = eigh(inertia[1:, 1:] - np.outer(mixed, inertia[0, 1:]), stiff)
     lowest = np.argsort(inverse)[::-1][:count]
-    lowest = lowest[inverse[lowest] > LEAST * (np.diag(inertia)[1:] / np.diag(stiff)).sum()]
+    lowest = lowest[inverse[lowest] > NEGLIGIBLE * (np.diag(inertia)[1:] / np.diag(stiff)).sum()]
     whole = np.zeros((equilibrium.model.size, len(lowest)))
     whole[chosen] = carried @ np.vstack([-mixed @ vectors[:, lowest], vectors[:, lowest]])
     return Modes(1 / np.sqrt(inverse[lowest]) / (2 * np.pi), whole)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from drivewright import registry
-from drivewright.bearings import quick
+from drivewright.bearings import approximate_stiffness
 from drivewright.indexing.stiffness import statics
 from drivewright.result import Result
 from drivewright.runner import build, run
@@ -164,10 +164,10 @@ def _constant() -> Iterator[Row]:
 def _formulas() -> Iterator[Row]:
     note = "It is the tangent of a power law; as a linear spring, as in the paper, it is too stiff by {} %."
     common: dict[str, Any] = {"pinned": AGREES, "kind": "closed form", "inputs": BEARINGS, "assumed": "1000 N"}
-    roller, ball = quick.palmgren_roller(1000.0, 14, 8.5e-3), quick.palmgren_ball(1000.0, 11, 4.762e-3)
+    roller, ball = approximate_stiffness.palmgren_roller(1000.0, 14, 8.5e-3), approximate_stiffness.palmgren_ball(1000.0, 11, 4.762e-3)
     for name, place, printed, ours, over in (
-        ("NU207E", "eq. (5)", quick.liu_roller(1000.0, 14, 8.5e-3), roller, 11),
-        ("61904", "eq. (6)", quick.liu_ball(1000.0, 11, 4.762e-3), ball, 50),
+        ("NU207E", "eq. (5)", approximate_stiffness.liu_roller(1000.0, 14, 8.5e-3), roller, 11),
+        ("61904", "eq. (6)", approximate_stiffness.liu_ball(1000.0, 11, 4.762e-3), ball, 50),
     ):
         value = float(printed.value)
         yield Row(

@@ -178,7 +178,7 @@ def clamped_flexibility(preset: str) -> Floats:
     held = (np.inf, np.inf, 0.0, np.inf, np.inf)
     shaft = model.shaft._replace(supports=tuple(shafts.Support(s.name, s.position, held) for s in model.shaft.supports))
     system = shafts.assemble(shaft)
-    return shafts.flexibility(shafts.solve(system, shafts.work(system, ())), model.places, model.direction).delta
+    return shafts.flexibility(shafts.solve(system, shafts.nodal_forces(system, ())), model.places, model.direction).delta
 
 
 CLAMPED = {

@@ -118,7 +118,7 @@ def test_a_play_larger_than_a_millimetre_still_holds_both_ways():
 
 def test_light_loads_in_a_play_take_few_steps():
     one = dw.build(shaft(bearings=[b | {"radial_clearance": "40 um"} for b in SPRINGS], loads=[{"station": "m2", "force": "1 mN"}]))
-    assert shafts.load(one.shaft, one.loads).equilibrium.steps <= 12
+    assert shafts.apply_loads(one.shaft, one.loads).equilibrium.steps <= 12
 
 
 def test_an_idle_bearing_is_told_and_has_no_life():
@@ -341,7 +341,7 @@ def test_the_solid_stands_on_a_band_where_a_seat_is_a_point():
 
     for width, band in (("0 mm", 2e-3), ("1e-9 mm", 2e-3), ("5 mm", 5e-3)):
         model = dw.build(shaft(bearings=[SPRINGS[0] | {"width": width}, SPRINGS[1]]))
-        at_rest = shafts.load(model.shaft, model.loads).equilibrium
+        at_rest = shafts.apply_loads(model.shaft, model.loads).equilibrium
         seats = bearing_bands(at_rest, model.direction, model.spec.analysis.solid_band)
         assert [seat.width for seat in seats] == pytest.approx([band, 2e-3], rel=1e-12)
 

@@ -79,7 +79,7 @@ def test_a_stiff_tilt_spring_is_a_clamp(power):
     """F L^3/3EI + F L^2/k at the end, and the frequency of the mass there; k to infinity is the cantilever."""
     tilt, stiff = 10.0**power, 206e9 * np.pi / 64 * 0.02**4
     one = cantilever(tilt)._replace(density=0.0)
-    loaded = shafts.load(one, shafts.ShaftLoads((shafts.ShaftLoad(0.3, (0.0, -100.0, 0.0)),)))
+    loaded = shafts.apply_loads(one, shafts.ShaftLoads((shafts.ShaftLoad(0.3, (0.0, -100.0, 0.0)),)))
     soft = 0.3**3 / 3 / stiff + 0.3**2 / tilt
     assert -loaded.equilibrium.u[-5] == pytest.approx(100 * soft, rel=1e-10)
     assert loaded.equilibrium.reactions[0, 3] == pytest.approx(-100 * 0.3, rel=1e-12)
@@ -106,7 +106,7 @@ def test_the_compiled_batch_meets_the_single_shaft_at_every_stiffness():
         supports = [shafts.Support(str(z), z, (stiffness[number],) * 2 + (0.0,) * 3) for z in (0.0565, 0.1365, 0.3)]
         one = shafts.Shaft((shafts.Section(0.1, 0.02, 0.02), shafts.Section(0.24, 0.025, 0.025)), 206e9, 0.3, 7850.0, tuple(supports))
         system = shafts.assemble(one, (0.0, 0.245))
-        found = shafts.flexibility(shafts.solve(system, shafts.work(system, ())), (0.0, 0.245), (0.0, -1.0))
+        found = shafts.flexibility(shafts.solve(system, shafts.nodal_forces(system, ())), (0.0, 0.245), (0.0, -1.0))
         assert found.delta == pytest.approx(many[number], rel=1e-10, abs=0)
         assert found.reactions == pytest.approx(carried[number], abs=1e-10)
 
@@ -150,7 +150,7 @@ def test_a_bearing_that_tilts_more_easily_one_way_is_not_round():
     def lowest(*tilts):
         support = shafts.Support("A", 0.0, (1e20, 1e20, 1e20, *tilts))
         one = cantilever(1.0)._replace(supports=(support,))
-        return shafts.modes(shafts.load(one, shafts.ShaftLoads()).equilibrium, 2)[0].frequencies
+        return shafts.modes(shafts.apply_loads(one, shafts.ShaftLoads()).equilibrium, 2)[0].frequencies
 
     soft, stiff, both = lowest(3e3, 3e3)[0], lowest(6e3, 6e3)[0], lowest(6e3, 3e3)
     assert both == pytest.approx([soft, stiff], rel=1e-9) and stiff > 1.1 * soft
@@ -227,7 +227,7 @@ def test_forces_and_moments_balance_under_loads_of_every_kind(bearing):
 def test_the_audit_sees_a_reaction_that_is_off(freedom, size):
     spec = shaft(springs("3e7 N/m") | {"tilt_stiffness": "3e3 N m/rad"}, **LOADED)
     model = build(spec)
-    loaded = shafts.load(model.shaft, model.loads)
+    loaded = shafts.apply_loads(model.shaft, model.loads)
     wrong = loaded.equilibrium.reactions.copy()
     wrong[1, freedom] += size
     off = shafts.imbalance(loaded._replace(equilibrium=loaded.equilibrium._replace(reactions=wrong)), model.loads)

@@ -137,7 +137,7 @@ def test_a_housing_is_in_series_with_every_kind_of_bearing(tmp_path):
         result = run(bearings=held)
         wanted = 500 * SPAN**3 / (48 * E * I) + 250 / 4e7 + 250 / 1e7 + (1e-8 if "radial_clearance" in kind else 0)
         assert result["stations.p.deflection"] == pytest.approx(wanted, rel=1e-7)
-        loaded = dw.shafts.load((model := dw.build(spec(bearings=held))).shaft, model.loads)
+        loaded = dw.shafts.apply_loads((model := dw.build(spec(bearings=held))).shaft, model.loads)
         node = 6 * loaded.equilibrium.model.beam.node(0.35)
         assert loaded.equilibrium.u[node + 2] == pytest.approx(200 * (1 / 1e7 + 1 / 5e6), rel=1e-8)
 
@@ -151,7 +151,7 @@ def test_a_rolling_bearing_in_a_soft_housing():
     }
     found = []
     for changes in (firm, soft):
-        loaded = dw.shafts.load((model := dw.build(spec(**changes))).shaft, model.loads)
+        loaded = dw.shafts.apply_loads((model := dw.build(spec(**changes))).shaft, model.loads)
         node = 6 * loaded.equilibrium.model.beam.node(0.05)
         found.append((loaded.equilibrium.u[node + 1], loaded.equilibrium.u[node + 2], loaded.equilibrium.reactions[0]))
     assert found[1][2][:3] == pytest.approx(found[0][2][:3], rel=1e-2)
@@ -486,7 +486,7 @@ def test_shoulders_and_steps_of_the_bore_are_allowed_more():
 def test_bands_of_the_solid_are_the_bearings():
     held = [UNIFORM["bearings"][0] | {"width": "12 mm"}, UNIFORM["bearings"][1] | {"radial_stiffness": "rigid"}]
     model = dw.build(spec(bearings=held, analysis={"solid_band": "3 mm", "direction": "-90 deg"}))
-    at_rest = dw.shafts.load(model.shaft, model.loads).equilibrium
+    at_rest = dw.shafts.apply_loads(model.shaft, model.loads).equilibrium
     seats = solid_check.bearing_bands(at_rest, model.direction, model.spec.analysis.solid_band)
     assert seats == ((0.05, 0.012, pytest.approx(4e7)), (0.35, 0.003, np.inf))
     wide = [b | {"width": w} for b, w in zip(held, ("12 mm", "3 mm"), strict=True)]

@@ -38,7 +38,7 @@ def plate_life(basis: Basis, loads: Loads, material: StrainLife, plane: str = "m
     size = _greatest(share, basis.stress[:, rows])
     kept = size >= least * size.max()
     rows, size = rows[kept], size[kept]
-    stress = fatigue.superposed(share, basis.stress[:, rows])
+    stress = fatigue.superpose(share, basis.stress[:, rows])
     strain = fatigue.elastic_strain(stress, material)
     for node in np.flatnonzero(size > material.cyclic_yield):
         stress[node], strain[node] = fatigue.neuber_history(stress[node], material)

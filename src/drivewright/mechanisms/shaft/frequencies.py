@@ -30,7 +30,7 @@ def frequencies(model: ShaftModel, done: Answers) -> Answer:
         return Answer(
             findings=("modes are absent: nothing that can move has a mass; give a density, or a station a mass",), outcome="left out"
         )
-    torsional = shafts.torsional(fine, min(count, 3)).frequencies
+    torsional = shafts.torsional_modes(fine, min(count, 3)).frequencies
     rows = (
         ("modes", "frequency", "Hz", "natural frequency {n} of bending, at rest", bending.frequencies),
         ("axial_modes", "frequency", "Hz", "natural frequency {n} along the axis, at rest", axial.frequencies),

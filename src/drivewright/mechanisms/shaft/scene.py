@@ -16,7 +16,7 @@ from drivewright.mechanisms.shaft.influence import flexibility
 from drivewright.result import Answer
 from drivewright.scene import Body, Drawing, Frame, Part, Scene, Shape
 from drivewright.shafts import drawing
-from drivewright.shafts.beam import line
+from drivewright.shafts.beam import elastic_line
 from drivewright.solids.deformation import round_factor
 
 FRAMES, SLICES, ARROWS = 61, 90, 5  # of the cycle, of the shaft, of a line load
@@ -81,7 +81,7 @@ def _poses(x: float, y: Floats, angle: float | Floats) -> Floats:
 def _deflection(model: ShaftModel, z: Floats) -> tuple[Floats, Floats, str]:
     """(deflection against the unit loads, its slope, words) at places z."""
     try:
-        loaded = shafts.load(model.shaft, model.loads)
+        loaded = shafts.apply_loads(model.shaft, model.loads)
     except SolverError:  # the run says so; the picture shows the shaft as it is
         return 0 * z, 0 * z, "not found"
     beam, unknowns, spread, words = loaded.equilibrium.model.beam, loaded.equilibrium.unknowns, loaded.spread, "deflection"
@@ -90,7 +90,7 @@ def _deflection(model: ShaftModel, z: Floats) -> tuple[Floats, Floats, str]:
         if found is None:
             return 0 * z, 0 * z, "unloaded"
         unknowns, spread, words = found.unknowns[:, -1], (None, None), f"force at {model.names[-1]}, deflection"
-    lines = [line(beam, plane, unknowns, z, spread[plane]) for plane in (0, 1)]
+    lines = [elastic_line(beam, plane, unknowns, z, spread[plane]) for plane in (0, 1)]
     up, slope = (-np.stack(each, axis=1) @ model.direction for each in zip(*(each[:2] for each in lines), strict=True))
     return up, slope, words
 

@@ -20,7 +20,7 @@ SAMPLES = 241  # along the shaft, besides the nodes
 
 def statics(model: ShaftModel, done: Answers) -> Answer:
     """Equilibrium under all loads; `data` is the `LoadedShaft` for the analyses that start from it."""
-    loaded = shafts.load(model.shaft, model.loads)
+    loaded = shafts.apply_loads(model.shaft, model.loads)
     values, checks = _linear_stiffness(model), tuple(_slenderness(model))
     if not model.loaded:
         findings = ("there are no loads: deflections and stresses are absent, flexibility is that of the unloaded shaft",)
@@ -138,7 +138,7 @@ def _buckling_factor(model: ShaftModel, loaded: shafts.LoadedShaft, along: shaft
     """The factor on the axial forces at which the shaft buckles; None where nothing presses it."""
     if not along.axial.min() < -NO_FORCE * np.abs(loaded.force).max(initial=0):
         return None
-    return shafts.buckling_factor(shafts.load(model.shaft, model.loads, np.linspace(0.0, model.shaft.length, FINE)))
+    return shafts.buckling_factor(shafts.apply_loads(model.shaft, model.loads, np.linspace(0.0, model.shaft.length, FINE)))
 
 
 def _bearing_checks(model: ShaftModel, at_rest: shafts.ShaftEquilibrium, bearing: Bearing, force: float, under: str) -> Iterator[Check]:

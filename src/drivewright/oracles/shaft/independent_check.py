@@ -24,7 +24,7 @@ SOLID = "solid of second-order finite elements"
 
 def verify(model: ShaftModel, result: Result[ShaftSpec]) -> Iterator[Row]:
     """All rows."""
-    loaded = shafts.load(model.shaft, model.loads)
+    loaded = shafts.apply_loads(model.shaft, model.loads)
     yield from _flexibility(model, result)
     yield from _balance(loaded)
     yield from _deflections(model, loaded)

@@ -13,7 +13,7 @@ from drivewright._jit import plain
 from drivewright._typing import ArrayLike, Floats
 from drivewright.shafts.loaded import LoadedShaft
 from drivewright.shafts.model import Shaft
-from drivewright.shafts.sections import area, cowper, second_moment
+from drivewright.shafts.sections import area, cowper_coefficient, second_moment
 
 PlacedForces: TypeAlias = list[tuple[float, float]]  # (place [m], force [N] or couple [N m])
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(32)
@@ -26,7 +26,7 @@ def compliance(shaft: Shaft, z: Floats) -> tuple[Floats, Floats]:
     length, start, end, bore = np.array([section[:4] for section in shaft.sections], float)[at].T
     diameter = start + (end - start) * (z - ends[at]) / length
     g = shaft.modulus / 2 / (1 + shaft.poisson)
-    kappa = shaft.shear if shaft.shear > 0 else plain(cowper)(diameter, bore, shaft.poisson)
+    kappa = shaft.shear if shaft.shear > 0 else plain(cowper_coefficient)(diameter, bore, shaft.poisson)
     bend = 1 / (shaft.modulus * plain(second_moment)(diameter, bore))
     return bend, 0 * bend if shaft.shear < 0 else 1 / (kappa * g * plain(area)(diameter, bore))
 
