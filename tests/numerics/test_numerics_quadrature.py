@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
+from integrals import integrate_periodic, integrate_pieces
 
 from drivewright.errors import InputError
-from drivewright.numerics.quadrature import cumulative_integral, integrate_periodic, integrate_pieces
+from drivewright.numerics.quadrature import cumulative_integral
 
 pytestmark = pytest.mark.analytical
 

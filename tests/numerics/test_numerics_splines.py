@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from drivewright.errors import InputError
-from drivewright.numerics.splines import interpolating_spline, smoothing_spline
+from drivewright.numerics.splines import interpolating_spline
 
 pytestmark = pytest.mark.analytical
 
@@ -72,24 +72,6 @@ def test_rounding_does_not_open_a_period_but_a_micrometre_does():
         interpolating_spline(X, np.append(y[:-1], y[0] + 1e-7), 3, "periodic")
 
 
-def test_smoothing_removes_ripple_and_keeps_the_shape():
-    x = np.linspace(0, 2 * np.pi, 361)
-    shape, ripple = 1e-3 * np.sin(x), 1e-6 * np.cos(45 * x)
-    smooth = smoothing_spline(x, shape + ripple, tolerance=1e-6 / np.sqrt(2), periodic=True)
-    assert np.abs(smooth(x) - shape).max() < 0.3e-6
-    assert len(smooth.x) < 40
-    rms = np.sqrt(np.mean((smooth(x) - shape - ripple) ** 2))
-    assert 0.9e-6 / np.sqrt(2) < rms <= 1.01e-6 / np.sqrt(2)
-    assert smooth(0.0) == pytest.approx(smooth(2 * np.pi - 1e-12), abs=1e-12)
-
-
-def test_smoothing_does_not_see_units():
-    x = np.linspace(0, 1, 60)
-    y = np.exp(x) + 1e-3 * np.sin(50 * x)
-    ours = smoothing_spline(x, 1e-6 * y, 5e-10)
-    np.testing.assert_allclose(1e6 * ours(x), smoothing_spline(x, y, 5e-4)(x), rtol=1e-9)
-
-
 @pytest.mark.parametrize(
     "call, word",
     [
@@ -99,7 +81,6 @@ def test_smoothing_does_not_see_units():
         (lambda: interpolating_spline(np.where(X == 1.2, 0.5, X), Y), r"x\[3\] = 0.5 follows 0.9"),
         (lambda: interpolating_spline(X[:5], Y[:5], 5), "at least 6 points, got 5"),
         (lambda: interpolating_spline(X, Y[:-1]), r"shapes \(9,\) and \(8,\)"),
-        (lambda: smoothing_spline(X, Y, 0.0), "tolerance must be above 0"),
     ],
 )
 def test_messages(call, word):

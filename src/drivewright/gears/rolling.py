@@ -43,10 +43,6 @@ class RollingPair(ABC):
         """d driven / d angle."""
         return self.jet(angle).d1
 
-    def ratio_rate(self, angle: ArrayLike) -> Floats:
-        """d^2 driven / d angle^2  [1/rad]."""
-        return self.jet(angle).d2
-
     def radii(self, angle: ArrayLike) -> tuple[Jet, Jet]:
         """Radii of driver and driven pitch curve at the contact [m], jets of the driver angle (third derivative nan)."""
         driven = self.centre_distance / (1 + self.ratio_jet(np.asarray(angle, dtype=float)))

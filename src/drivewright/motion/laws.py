@@ -64,12 +64,6 @@ class MotionLaw:
         return self.function.continuity
 
     @cached_property
-    def monotone(self) -> bool:
-        """True where the motion never turns back."""
-        least, greatest = self.function.extremes(lambda k, u: self.function.on_piece(k, u)[1:3])
-        return least >= -CLOSURE * greatest
-
-    @cached_property
     def symmetric(self) -> bool:
         """True where the second half is the first turned about its end: s(1 - u) = s(0) + s(1) - s(u)."""
         u = np.linspace(0, 1, 1001)

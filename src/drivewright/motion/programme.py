@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -158,18 +158,10 @@ class Programme:
         """Order of the highest derivative that nowhere jumps, inside the laws included."""
         return self.function.continuity
 
-    def driven_by(self, angle_of: Callable[[Any], Jet]) -> Callable[[Any], Motion]:
-        """The lift as a function of another variable t: angle_of(t) is the jet of theta(t), monotone or not."""
-        return partial(_driven, self, angle_of)
-
 
 def through(motion: Callable[[Any], Motion], theta: Jet) -> Motion:
     """Motion(s, ds/dt, ...) of motion(theta(t)) by the chain rule; `theta` is a jet, `motion` a programme, a law or one piece of it."""
     return Motion(*compose(motion(theta.d0), theta))
-
-
-def _driven(motion, angle_of, t):
-    return through(motion, angle_of(t))
 
 
 def _refuse_angles(segments, cycle):

@@ -168,19 +168,6 @@ def _amplitudes(integral, start, end, bins, samples):
     return np.where(bins == 0, transform, 2 * transform)
 
 
-def intervals(t: ArrayLike, mask: ArrayLike) -> tuple[Floats, Floats]:
-    """(starts, ends) of the stretches in which the boolean mask (m,) of the samples holds.
-
-    A change is set half way between the two samples that show it, so each inner end is known to half a step; the stretches of
-    mask and ~mask share out the whole time.  What holds at an end of t begins or ends there.
-    """
-    t, mask = _signal(t, mask)
-    mask = mask.astype(bool)
-    edge = np.concatenate([t[:1], 0.5 * (t[1:] + t[:-1]), t[-1:]])  # edge[i] lies before sample i
-    change = np.diff(np.concatenate([[0], mask, [0]]).astype(int))
-    return edge[change == 1], edge[change == -1]
-
-
 def _signal(t, x):
     """t and x as floats, of each time its two sides at most; InputError unless they are finite, of one length, and t ascends over some
     time."""

@@ -1,9 +1,9 @@
-"""Splines through and near points, as piecewise polynomials (scipy's PPoly: coefficients .c, breaks .x, .derivative())."""
+"""Splines through points, as piecewise polynomials (scipy's PPoly: coefficients .c, breaks .x, .derivative())."""
 
 from math import factorial
 
 import numpy as np
-from scipy.interpolate import BSpline, PPoly, make_interp_spline, splrep
+from scipy.interpolate import PPoly, make_interp_spline
 
 from drivewright._typing import ArrayLike
 from drivewright.errors import InputError
@@ -27,23 +27,6 @@ def interpolating_spline(x: ArrayLike, y: ArrayLike, degree: int = 3, ends: str 
         raise InputError(f"spline: ends must be 'periodic', 'clamped' or 'natural', got {ends!r}.")
     conditions = [(order, np.zeros(y.shape[1:])) for order in _VANISHING[ends, degree]]
     return _pieces(make_interp_spline(x, y, degree, bc_type=(conditions, conditions)), x, True)
-
-
-def smoothing_spline(x: ArrayLike, y: ArrayLike, tolerance: float, degree: int = 3, periodic: bool = False) -> PPoly:
-    """A spline with as few jumps of its highest derivative as keep the points (m,) within `tolerance` in the root mean square.
-
-    The ripple of measured or rounded points is what remains: y - smoothing_spline(x, y, tolerance)(x).
-    After Dierckx (FITPACK, scipy's splrep).
-    """
-    x, y = _points(x, y, degree)
-    if not tolerance > 0:
-        raise InputError(f"spline: the tolerance must be above 0, got {tolerance:g}; through the points goes interpolating_spline.")
-    if periodic:
-        _check_period(y)
-    # Both are scaled to about 1: FITPACK compares with absolute numbers inside.
-    size = max(np.max(np.abs(y)), tolerance)
-    t, c, k = splrep(x, y / size, k=degree, s=x.size * (tolerance / size) ** 2, per=periodic)  # pyright: ignore[reportAssignmentType]  scipy's stub: full_output
-    return _pieces(BSpline(t, c * size, k), np.unique(t[k : len(t) - k]), "periodic" if periodic else True)
 
 
 def _points(x, y, degree):
