@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from drivewright.errors import InputError
 from drivewright.numerics.signals import (
     _amplitudes,
     local_maxima,
@@ -259,3 +260,35 @@ def test_rounding_does_not_cost_the_last_window():
     t = np.linspace(0, 0.3, 301)
     assert 0.3 / 0.1 < 3
     assert spectrogram(t, np.sin(20 * np.pi * t), 0.1, [1])[1].shape == (3, 1)
+
+
+T = np.linspace(0, 2, 41)
+
+
+@pytest.mark.parametrize(
+    "call, words",
+    [
+        (lambda: local_maxima(T, T[:-1]), r"shapes \(41,\) and \(40,\)"),
+        (lambda: time_mean(T[:2], T[:2]), "3 samples or more"),
+        (lambda: root_mean_square(T, np.where(T[7] == T, np.nan, T)), r"sample 7 is not finite \(t = 0.35, x = nan\)"),
+        (lambda: time_mean(np.where(T[7] == T, 0.0, T), T), r"t\[7\] = 0 follows 0.3; sort"),
+        (lambda: local_maxima([0.0, 1.0, 0.5, 2.0], [0.0, 1.0, 2.0, 0.0]), r"t\[2\] = 0.5 follows 1"),
+        (lambda: time_mean([1.0, 1.0, 1.0], [0.0, 1.0, 2.0]), "t must increase"),
+        (lambda: mean_of_largest([1.0, 2.0], 5), "the 5 largest of 2 values do not exist; lengthen the run"),
+        (lambda: mean_of_largest([1.0, 2.0], 0), "the 0 largest"),
+        (lambda: percentile(T, T, 101), "0 .. 100, got 101"),
+        (lambda: order_spectrum(T, T, 0.7, [1]), "covers 2.857143 periods, but must cover a whole number"),
+        (lambda: order_spectrum(T, T, 0.9999, [1]), "covers 2.0002 periods"),
+        (lambda: order_spectrum(T, T, 100.0, [0]), "covers 0.02 periods"),
+        (lambda: order_spectrum(T, T, 1e9, [0]), "covers 2e-09 periods"),
+        (lambda: order_spectrum(T, T, 0.0, [1]), "period must be above 0, got 0"),
+        (lambda: order_spectrum(T, T, 1.0, [1, 1.3]), r"order 1.3 is no multiple of 1/2, the resolution of 2 periods"),
+        (lambda: order_spectrum(T, T, 1.0, [-1, 1]), "order -1 is no multiple"),
+        (lambda: order_spectrum(T, T, 1.0, [10]), "order 10 oscillates 20 times among 40 samples; it takes more than 2"),
+        (lambda: spectrogram(T, T, 1.0, [1], turns=3), "no window of 3 periods fits into a signal of 2"),
+        (lambda: spectrogram(T, T, 1.0, [1], turns=0), "no window of 0 periods"),
+    ],
+)
+def test_messages(call, words):
+    with pytest.raises(InputError, match=words):
+        call()

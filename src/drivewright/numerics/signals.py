@@ -1,4 +1,4 @@
-"""Sampled signals x(t) with uneven steps: maxima, averages over time, spectra in orders of a period, stretches of a condition.
+"""Sampled signals x(t) with uneven steps: maxima, averages over time, spectra in orders of a period.
 
 Averages are those of the polygon, the straight lines between the samples: exact for it, and for a smooth signal with steps h in
 error by at most h^2 max|x''|/8.  Times ascend and may repeat: the first and the last sample of a time are the values on its two sides,
