@@ -349,6 +349,7 @@ class Result(Generic[SpecT]):
     provenance: Mapping[str, Any]
     arrays: Mapping[str, Array] = field(default_factory=dict)
     outcome: str = "complete"
+    failures: Mapping[str, str] = field(default_factory=dict)  # {analysis that failed: the finding that says why}
 
     def __getitem__(self, name: str) -> float:
         """A value by its dotted name, as an SI float."""

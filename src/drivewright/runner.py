@@ -73,17 +73,26 @@ def run_analyses(
 
 def _findings(answers: Answers) -> Iterator[str]:
     """The findings of all analyses; those that failed for one and the same reason say it once."""
+    failures = _failures(answers)
+    stated = set()
+    for name, answer in answers.items():
+        yield from answer.findings[:-1] if answer.failure else answer.findings
+        if answer.failure and failures[name] not in stated:
+            stated.add(failures[name])
+            yield failures[name]
+
+
+def _failures(answers: Answers) -> dict[str, str]:
+    """{analysis that failed: the finding that says why}, one and the same for those that failed for one reason."""
     by_failure: dict[str, list[str]] = {}
     for name, answer in answers.items():
-        by_failure.setdefault(answer.failure, []).append(name)
-    for name, answer in answers.items():
-        names = by_failure[answer.failure] if answer.failure else [name]
-        if len(names) == 1:
-            yield from answer.findings
-            continue
-        yield from answer.findings[:-1]
-        if name == names[0]:
-            yield f"analyses {', '.join(map(repr, names))} fail alike; each {answer.failure}"
+        if answer.failure:
+            by_failure.setdefault(answer.failure, []).append(name)
+    return {
+        name: f"analyses {', '.join(map(repr, names))} fail alike; each {failure}" if len(names) > 1 else answers[name].findings[-1]
+        for failure, names in by_failure.items()
+        for name in names
+    }
 
 
 def stop_findings(answers: Answers) -> list[str]:
@@ -232,6 +241,7 @@ def _result(spec: SpecT, mechanism: Mechanism[Any, Any], answers: Answers, findi
         checks=tuple(c for a in answers.values() for c in a.checks),
         findings=tuple(findings),
         outcome="partial" if any(a.outcome == "partial" for a in answers.values()) else "complete",
+        failures=_failures(answers),
         provenance={
             "seed": spec.optimise.seed if spec.optimise else 0,
             "seconds": round(seconds, 4),

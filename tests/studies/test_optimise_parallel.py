@@ -146,7 +146,7 @@ def test_the_folder_holds_every_evaluation_with_units_and_reasons(tmp_path, undi
         "max_pressure_angle": "rad",
         "violation": "-",
     }
-    assert all(field.metadata[b"meaning"] for field in table.schema)
+    assert all(field.metadata[b"meaning"] and field.metadata[b"label"] for field in table.schema)
     small = found.history["follower.prime_radius"] <= 8e-3
     failed = np.array(found.table["status"].to_pylist()) == "failed"
     assert small.any() and np.array_equal(small, failed), "a roller as large as the prime circle leaves no cam"

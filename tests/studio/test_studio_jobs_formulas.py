@@ -13,8 +13,9 @@ from places import EXAMPLES
 
 from drivewright import runner
 from drivewright.errors import SpecError
-from drivewright.execution.case_table import CASE, CHECK, STATUS
+from drivewright.execution.case_table import CASE, STATUS
 from drivewright.execution.keys import KeyKind, key_kind
+from drivewright.execution.outputs import CHECK, OutputInfo
 from drivewright.studies.plan import Block, Plan
 from drivewright.studies.variables import Variable
 from drivewright.studio.design import Design
@@ -90,7 +91,7 @@ def test_a_label_has_the_names_of_elements_and_no_underscores():
 
 def problem(sign=-1.0, violation=(0.0,)):
     return SimpleNamespace(
-        objectives=[("gap", sign)], about={"gap": ("m", "smallest gap")}, total_violation=lambda values: np.array(violation)
+        objectives=[("gap", sign)], about={"gap": OutputInfo("m", "smallest gap")}, total_violation=lambda values: np.array(violation)
     )
 
 

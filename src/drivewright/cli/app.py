@@ -168,13 +168,14 @@ def sweep(
             values=_names(values) or None,
         )
     with show.progress(spec.name) as step, show.located(spec):
-        study = compute(loaded, out=out or Path("out") / f"{spec.stem}-study", workers=workers, on=on, confirmed=yes, progress=step)
+        folder = out or Path("out") / f"{spec.stem}-study"
+        study = compute(loaded, out=folder, workers=workers, on=on, confirmed=yes, progress=step)
         show.note(f"{study.folder}: {len(study)} of {len(study.plan)} cases")
         if study.interrupted:
             raise KeyboardInterrupt
         summary = analyse_study(study) if figures else None
         if summary:
-            show.note(f"wrote {write_answers(study, summary, study.folder)}")
+            show.note(f"wrote {write_answers(study, summary, study.folder or folder)}")
     show.study(study, summary)
     if not study.answered:
         raise typer.Exit(4)
@@ -212,8 +213,9 @@ def optimise(
 
     loaded = _load(spec, set_)
     with show.progress(spec.name) as step, show.located(spec):
-        outcome = search(loaded, out=out or Path("out") / f"{spec.stem}-optimised", workers=workers, on=on, progress=step)
-        folder = write_optimised(outcome, outcome.folder)
+        folder = out or Path("out") / f"{spec.stem}-optimised"
+        outcome = search(loaded, out=folder, workers=workers, on=on, progress=step)
+        folder = write_optimised(outcome, outcome.folder or folder)
     show.note(f"wrote {folder}/ (best.toml, history.parquet, best/)")
     show.optimised(outcome)
     if outcome.interrupted:

@@ -63,7 +63,7 @@ def run_study(path: Path, out: Path) -> None:
     if study.interrupted:
         raise KeyboardInterrupt
     summary = analyse_study(study)
-    show.note(f"wrote {write_answers(study, summary, study.folder)}")
+    show.note(f"wrote {write_answers(study, summary, study.folder or out)}")
     show.study(study, summary)
 
 

@@ -38,7 +38,7 @@ def curvature_rate(jet: Jet) -> Floats:
     """d kappa/ds = (Im(conj(z') z''') |z'|^2 - 3 Im(conj(z') z'') Re(conj(z') z'')) / |z'|^6  [1/m^2]."""
     _refuse_standstill(jet, "curvature_rate")
     along, second, third = np.abs(jet.d1) ** 2, np.conj(jet.d1) * jet.d2, np.conj(jet.d1) * jet.d3
-    return (third.imag * along - 3 * second.imag * second.real) / along**3
+    return (np.imag(third) * along - 3 * np.imag(second) * np.real(second)) / along**3
 
 
 def offset(jet: Jet, distance: Numbers) -> Jet:

@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache
 from threading import Lock
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from drivewright._typing import Floats
 from drivewright.errors import DrivewrightError, InputError, SpecError, UnknownName
 from drivewright.execution.case_table import Columns, case_table
 from drivewright.execution.keys import KeyKind, key_kind
-from drivewright.execution.outputs import INTERVAL_PARTS, Output, case_outputs
+from drivewright.execution.outputs import INTERVAL_PARTS, Output, OutputInfo, case_outputs
 from drivewright.spec import MechanismSpec, document, from_document, set_key
 
 if TYPE_CHECKING:
@@ -30,7 +30,6 @@ LONGEST = 2000  # characters of a message
 FEW = 4  # cases that are not worth a second route
 ROUNDING = 1e-9  # of a value: no difference between two routes
 PLACE_ERRORS = (ImportError, MemoryError)  # faults of the place where a case is computed, not of the case
-About: TypeAlias = tuple[str, str, str]  # unit, meaning, and the name of the output whose interval it bounds
 
 
 class CaseTask(NamedTuple):
@@ -45,7 +44,7 @@ class CaseTask(NamedTuple):
     analyses: tuple[str, ...] = ()
     everything: bool = False
     names: tuple[str, ...] = ()
-    compiled: tuple[tuple[str, str, str, str], ...] = ()
+    compiled: tuple[tuple[str, OutputInfo], ...] = ()
     version: str = ""
 
 
@@ -123,7 +122,7 @@ def with_batch(task: CaseTask, plan: Cases) -> tuple[CaseTask, tuple[str, ...]]:
     whole = all(run.status == "failed" or (run.status == "complete" and not run.message) for run in runs)
     if not about or not whole or offer(direct.spec, task.keys, tuple(about)) is None:
         return task, ()
-    compiled = task._replace(compiled=tuple((name, *about[name]) for name in about))
+    compiled = task._replace(compiled=tuple(about.items()))
     batch = _prepared(compiled).batch_values(columns)
     if batch.faults:
         return task, (f"the compiled route was not taken: {_fault(next(iter(batch.faults.values())))}",)
@@ -199,7 +198,7 @@ class PreparedTask:
         self.mechanism = registry.mechanism(self.spec.mechanism)
         self.analyses = runner.select_analyses(self.mechanism.analyses, task.analyses, task.everything)
         self.kinds: dict[str, KeyKind] = {key: key_kind(self.spec, key) for key in task.keys}
-        self.about: dict[str, About] = {name: (unit, meaning, bounds) for name, unit, meaning, bounds in task.compiled}
+        self.about = dict(task.compiled)
         offer = self.mechanism.batch if task.compiled else None
         self.batch: Callable[[Floats], Mapping[str, Floats]] | None = offer(self.spec, task.keys, tuple(self.about)) if offer else None
 
@@ -290,9 +289,9 @@ def _short(text: str) -> str:
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 4]} ..."
 
 
-def _gathered(rows: Sequence[CaseResult]) -> tuple[dict[str, Floats], dict[str, About], list[str], list[str]]:
-    """(values {name: (n,)}, about {name: (unit, meaning, bounds)}, statuses, messages) of rows by the runner."""
-    about: dict[str, About] = {}
+def _gathered(rows: Sequence[CaseResult]) -> tuple[dict[str, Floats], dict[str, OutputInfo], list[str], list[str]]:
+    """(values {name: (n,)}, about {name: OutputInfo}, statuses, messages) of rows by the runner."""
+    about: dict[str, OutputInfo] = {}
     for row in rows:
         for name, output in row.values.items():
             about.setdefault(name, output.about)

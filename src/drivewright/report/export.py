@@ -56,7 +56,7 @@ def _refuse_bad_geometry(result: Result[Any]) -> None:
         raise GeometryCheckFailed(
             f"this design fails a geometry check and is not exported: {'; '.join(failed)}. Mend the design, or export it with --anyway"
         )
-    if missing := [finding for finding in result.findings if any(f"'{name}'" in finding for name in result.provenance.get("failed", ()))]:
+    if missing := dict.fromkeys(result.failures.values()):
         raise GeometryCheckFailed(
             f"this design is not checked in full and not exported: {'; '.join(missing)}. Mend the design, or export it with --anyway"
         )

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
+from drivewright.execution.case_table import key_info
 from drivewright.report import atomic
 from drivewright.report.content import views
 from drivewright.report.folder import refuse_foreign, write_run_folder
@@ -38,10 +39,10 @@ def _front(found):
     import pyarrow as pa
 
     unknowns = dict(zip(found.problem.keys, found.front.T, strict=True))
-    units = {key: kind.unit for key, kind in zip(found.problem.keys, found.problem.kinds, strict=True)}
-    columns = {name: (data, found.problem.about[name][0]) for name, data in found.front_values.items()}
-    columns = {key: (data, units[key]) for key, data in unknowns.items()} | columns
-    fields = [pa.field(name, pa.float64(), metadata={"unit": unit}) for name, (_, unit) in columns.items()]
+    infos = {key: key_info(key, kind.unit, "unknown") for key, kind in zip(found.problem.keys, found.problem.kinds, strict=True)}
+    columns = {name: (data, found.problem.about[name]) for name, data in found.front_values.items()}
+    columns = {key: (data, infos[key]) for key, data in unknowns.items()} | columns
+    fields = [pa.field(name, pa.float64(), metadata=about.metadata()) for name, (_, about) in columns.items()]
     return pa.Table.from_arrays([pa.array(data, pa.float64()) for data, _ in columns.values()], schema=pa.schema(fields))
 
 

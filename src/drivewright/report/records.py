@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from drivewright._typing import Floats
 from drivewright.execution.keys import KeyKind
+from drivewright.execution.outputs import OutputInfo
 from drivewright.result import Plot, Result, Table
 from drivewright.spec import MechanismSpec
 
@@ -188,8 +189,8 @@ class ProblemRecord(Protocol):
         ...
 
     @property
-    def about(self) -> Mapping[str, tuple[str, str]]:
-        """{value: (unit, meaning)}."""
+    def about(self) -> Mapping[str, OutputInfo]:
+        """What is known of each value that is looked at."""
         ...
 
 

@@ -4,12 +4,13 @@ import re
 import tomllib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, overload
 
 from drivewright import registry
 from drivewright.errors import SpecError, UnknownName, brief, nearest
-from drivewright.spec.base import Spec, validate_tables
+from drivewright.spec.base import Spec, SpecT, validate_tables
 from drivewright.spec.keys import remove_key, set_key
+from drivewright.spec.mechanism_spec import MechanismSpec
 
 MAX_CHARACTERS = 10_000_000  # characters of a spec file
 
@@ -25,7 +26,11 @@ def load(path: str | Path, changes: Iterable[str] = ()) -> Any:
         raise error.located(file=str(path)) from None
 
 
-def from_document(tables: Mapping[str, Any], model: type[Spec] | None = None, folder: str | Path = ".") -> Any:
+@overload
+def from_document(tables: Mapping[str, Any], model: None = None, folder: str | Path = ".") -> MechanismSpec: ...
+@overload
+def from_document(tables: Mapping[str, Any], model: type[SpecT], folder: str | Path = ".") -> SpecT: ...
+def from_document(tables: Mapping[str, Any], model: type[Spec] | None = None, folder: str | Path = ".") -> Spec:
     """Spec from raw tables; the kind comes from `mechanism` unless `model` is given.  Paths are relative to `folder`."""
     return validate_tables(model or _model_of(tables), tables, folder)
 
@@ -81,7 +86,7 @@ def _text_of(path: Path) -> str:
     return text
 
 
-def _model_of(tables: Mapping[str, Any]) -> type[Spec]:
+def _model_of(tables: Mapping[str, Any]) -> type[MechanismSpec]:
     kind = tables.get("mechanism")
     if not isinstance(kind, str):
         complaint = f"is missing{nearest('mechanism', tables)}" if kind is None else f"must be a text, got {brief(kind)}"

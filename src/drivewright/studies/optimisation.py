@@ -82,11 +82,16 @@ class Optimised:
         shown = np.flatnonzero((np.arange(len(sets)) % -(-len(sets) // DRAWN) == 0) | (sets == SETS[0]))
         order = shown[np.argsort([SETS.index(each) for each in sets[shown]], kind="stable")]  # what matters lies on top
         columns = [Column("evaluation", "-", "number of the evaluation", np.arange(self.evaluations)[order])]
-        columns += [Column(name, *self.problem.about[name], self.history[history.column_of(self.problem, name)][order]) for name in names]
+        columns += [self._column(name, order) for name in names]
         table = Table("search", "The search", (*columns, Column("set", "", "what became of the design", sets[order])))
         x, y = (names[0], tuple(names[1:])) if len(names) > 1 else ("evaluation", (names[0],))
         title = "Trade-off of the objectives" if len(names) > 1 else "The objective in the course of the search"
         return table, Plot("search", title, "search", x, y, style="points", by="set")
+
+    def _column(self, name, rows):
+        """Some rows of a value of the history."""
+        about = self.problem.about[name]
+        return Column(name, about.unit, about.meaning, self.history[history.column_of(self.problem, name)][rows], about.label)
 
     def _sets(self, names):
         """What became of each evaluation, as one of `SETS`."""
@@ -195,7 +200,7 @@ def _outcome(problem, table):
             reached[name].value if name in reached else float("nan"),
             limit,
             sense,
-            problem.about[name][0],
+            problem.about[name].unit,
             "requirement",
             low=bounds[name].get("low"),
             high=bounds[name].get("high"),
@@ -258,7 +263,7 @@ def _blame(problem, reached, values):
         absent = ", ".join(name for name, _ in problem.objectives if not np.isfinite(reached[name][0]))
         return f"no feasible design after {count} evaluations: {absent} does not exist in any of them. Move the bounds of the unknowns"
     name, sense, limit = problem.limits[worst]
-    unit = problem.about[name][0]
+    unit = problem.about[name].unit
     alone = int(np.sum(problem.violations(values)[worst] <= 0))
     end = at_worst(reached, name, sense)[0]
     uncertain = f" with an interval to {_shown(end, unit)}, all of which has to meet it" if end != reached[name][0] else ""

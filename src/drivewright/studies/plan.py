@@ -87,9 +87,13 @@ class Plan:
         """The `Block` of a name, or None."""
         return next((block for block in self.blocks if block.name == name), None)
 
-    @cached_property
+    @property
     def digest(self) -> str:
         """SHA-256 of all cases: the same plan has the same points, also another day with other libraries."""
+        return self._digest
+
+    @cached_property
+    def _digest(self) -> str:
         digest = hashlib.sha256(repr((self.keys, self.shape, self.blocks)).encode())
         for column in (*self.listed.values(), *(each.grid_levels for each in self.grid), self.points):
             digest.update(repr(column.tolist()).encode() if column.dtype == object else np.ascontiguousarray(column).tobytes())

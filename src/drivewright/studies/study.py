@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 
 from drivewright._typing import Floats
 from drivewright.errors import UnknownName
-from drivewright.execution.case_table import CASE, CHECK, MESSAGE, STATUS
+from drivewright.execution.case_table import CASE, MESSAGE, STATUS
+from drivewright.execution.outputs import CHECK
+from drivewright.labels import label_of
 from drivewright.result import ERROR, HIGH, LOW
 from drivewright.spec import MechanismSpec
 from drivewright.studies.plan import Plan
@@ -26,7 +28,7 @@ BOUNDS = b"bounds"  # in the metadata of a column that is an end of an interval,
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """The rows of a study, sorted by case; `table` is a pyarrow.Table with unit and meaning in the metadata of every field."""
+    """The rows of a study, sorted by case; `table` is a pyarrow.Table with unit, label and meaning in the metadata of every field."""
 
     spec: MechanismSpec
     plan: Plan
@@ -130,6 +132,10 @@ class Study:
     def meaning(self, name: str) -> str:
         """What a column is."""
         return self._about(name, b"meaning")
+
+    def label(self, name: str) -> str:
+        """The label of a column, the first phrase of its meaning where it has none of its own."""
+        return label_of(self.meaning(name), self._about(name, b"label"))
 
     def _about(self, name: str, what: bytes) -> str:
         if name not in self.table.column_names:

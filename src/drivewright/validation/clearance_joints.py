@@ -136,7 +136,7 @@ def _link_loads(case: tuple[str, ...]) -> tuple[float, float, float]:
     inertia, play, damping, *_ = case
     tables = document(folding_spec(CALIBRATION_SPEED, play, float(damping), relative_tolerance=1e-9))
     tables["bodies"]["knife"]["inertia_about"] = inertia
-    model = build(from_document(tables))
+    model = build(from_document(tables, LinkageSpec))
     loads = _loads(model)
     return round_digits(loads["coefficient"], 5), round_digits(loads["rms"], 5), _coarse_peak_mean(model) / loads["ideal_peak"]
 
@@ -218,7 +218,7 @@ def _steps_and_impacts(play: float) -> tuple[float, float]:
 def _exponent(case: tuple[float, float]) -> float:
     tables = document(slider_crank(case[0]))
     tables["simulate"]["relative_tolerance"] = 1e-7
-    return lyapunov(build(from_document(tables)), 40, 20).values["lyapunov_exponent.per_turn"].value
+    return lyapunov(build(from_document(tables, LinkageSpec)), 40, 20).values["lyapunov_exponent.per_turn"].value
 
 
 source = Source(

@@ -115,7 +115,8 @@ def folding_spec(speed: float, play: str, damping: float, **simulate: object) ->
             "drive": {"joint": "O2", "speed": f"{speed} rev/h"},
             "simulate": {"turns": 16, "discard": 5, "relative_tolerance": 1e-7} | simulate,
             "outputs": [{"name": "knife", "body": "knife"}, {"name": "edge", "body": "knife", "point": "edge"}],
-        }
+        },
+        LinkageSpec,
     )
 
 

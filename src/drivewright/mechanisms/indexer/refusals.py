@@ -108,12 +108,13 @@ def _drive(spec: IndexerSpec) -> None:
     if spec.kind not in TRANSLATING:
         raise SpecError(f"kind {spec.kind!r} has no split shafts; [{given[0]}] is for pin-wheel and cycloid", given[0])
     on_shafts = [key for key in given if key != "housing"]
-    if on_shafts and spec.shaft_spacing is None:
+    spacing = spec.shaft_spacing
+    if on_shafts and spacing is None:
         raise SpecError(f"is missing: [{on_shafts[0]}] needs the distance of the two split shafts", "shaft_spacing")
-    if spec.gear and spec.gear.module * spec.gear.teeth >= spec.shaft_spacing:
+    if spec.gear and spacing is not None and spec.gear.module * spec.gear.teeth >= spacing:
         raise SpecError(
             f"pitch circles of {1e3 * spec.gear.module * spec.gear.teeth:.4g} mm leave no input gear between shafts "
-            f"{1e3 * spec.shaft_spacing:.4g} mm apart; module times teeth is half of that",
+            f"{1e3 * spacing:.4g} mm apart; module times teeth is half of that",
             "gear.teeth",
         )
 

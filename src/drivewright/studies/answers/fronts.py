@@ -6,7 +6,7 @@ import numpy as np
 
 from drivewright import units
 from drivewright.errors import InputError
-from drivewright.execution.case_table import CHECK
+from drivewright.execution.outputs import CHECK
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies.answers.parts import Part, listed, passing, plain
 from drivewright.studies.pareto import ABSENT, DOMINATED, FAILS, FRONT, sorted_out
@@ -98,12 +98,12 @@ def _columns(study, goals, rows, sets):
     """Objectives, keys, case and set of some rows, and the ends of the objectives' intervals."""
     about = {name: study.meaning(name) or name for name in (*goals, "case")} | {key: key for key in study.plan.keys}
     return (
-        *(Column(name, study.unit(name), meaning, plain(study[name])[rows]) for name, meaning in about.items()),
+        *(Column(name, study.unit(name), meaning, plain(study[name])[rows], study.label(name)) for name, meaning in about.items()),
         Column("set", "", "front, dominated, or fails a check or requirement", sets[rows].astype(str)),
         *(
             end
             for name in goals
             if (bounds := study.bounds(name)) is not None
-            for end in Column(name, study.unit(name), about[name], rows).bounds(*(each[rows] for each in bounds))
+            for end in Column(name, study.unit(name), about[name], rows, study.label(name)).bounds(*(each[rows] for each in bounds))
         ),
     )

@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright.execution.case_table import CASE, CHECK
+from drivewright.execution.case_table import CASE
+from drivewright.execution.outputs import CHECK
 from drivewright.result import HIGH, LOW, Column, Plot, Table, Value
 from drivewright.studies.answers.parts import STATUSES, Arranged, Part, level_text, status_codes, table_of_rows, together
 from drivewright.studies.statistics import finite

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivewright._typing import Bools, Floats, Ints
-from drivewright.execution.case_table import CASE, CHECK, STATUS
+from drivewright.execution.case_table import CASE, STATUS
+from drivewright.execution.outputs import CHECK
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies.answers.factorial import crossed
 from drivewright.studies.plan import Plan

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from drivewright.execution.case_table import CHECK
+from drivewright.execution.outputs import CHECK
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies.answers.maps import Response
 from drivewright.studies.answers.parts import BOUNDS, Arranged, Part, estimate_values, table_of_rows, together

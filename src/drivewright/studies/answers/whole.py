@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from drivewright import registry
-from drivewright.execution.case_table import CHECK, MESSAGE
+from drivewright.execution.case_table import MESSAGE
+from drivewright.execution.outputs import CHECK
 from drivewright.result import Plot, Result, Value
 from drivewright.runner import versions
 from drivewright.studies.answers import causes, maps, spread

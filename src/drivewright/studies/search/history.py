@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drivewright._typing import Floats, Ints
-from drivewright.execution.case_table import CASE, MESSAGE, STATUS, VALUE_PREFIX
+from drivewright.execution.case_table import CASE, MESSAGE, STATUS, VALUE_PREFIX, key_info
+from drivewright.execution.outputs import OutputInfo
 from drivewright.studies.search.problem import Problem
 from drivewright.studies.store import Store, joined
 
@@ -39,23 +40,20 @@ def rows(
 
     count = len(designs)
     columns = [
-        (CASE, np.arange(first, first + count), "-", "number of the evaluation"),
-        (STATUS, pa.array(statuses, pa.string()), "", "complete, partial or failed"),
-        (MESSAGE, pa.array(messages, pa.string()), "", "why it is not complete"),
-        (GENERATION, np.full(count, generation), "-", "generation that asked for it first"),
+        (CASE, np.arange(first, first + count), OutputInfo("-", "number of the evaluation")),
+        (STATUS, pa.array(statuses, pa.string()), OutputInfo("", "complete, partial or failed", label="Status")),
+        (MESSAGE, pa.array(messages, pa.string()), OutputInfo("", "why it is not complete", label="Message")),
+        (GENERATION, np.full(count, generation), OutputInfo("-", "generation that asked for it first", label="Generation")),
     ]
     for key, kind, x in zip(problem.keys, problem.kinds, designs.T, strict=True):
-        columns.append((key, x.astype(np.int64) if kind.name == "integer" else x, kind.unit, "unknown"))
+        columns.append((key, x.astype(np.int64) if kind.name == "integer" else x, key_info(key, kind.unit, "unknown")))
     for name, about in problem.about.items():
         value = np.asarray(values[name], float)
-        columns.append((column_of(problem, name), pa.array(value, pa.float64(), mask=~np.isfinite(value)), *about))
+        columns.append((column_of(problem, name), pa.array(value, pa.float64(), mask=~np.isfinite(value)), about))
     violation = problem.total_violation(usable(values, statuses))
-    columns.append((VIOLATION, violation, "-", "sum of what is beyond the limits, each over its size"))
-    arrays = [pa.array(data) for _, data, _, _ in columns]
-    fields = [
-        pa.field(name, array.type, metadata={"unit": unit, "meaning": meaning})
-        for array, (name, _, unit, meaning) in zip(arrays, columns, strict=True)
-    ]
+    columns.append((VIOLATION, violation, OutputInfo("-", "sum of what is beyond the limits, each over its size", label="Violation")))
+    arrays = [pa.array(data) for _, data, _ in columns]
+    fields = [pa.field(name, array.type, metadata=about.metadata()) for array, (name, _, about) in zip(arrays, columns, strict=True)]
     return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
 
 

@@ -15,9 +15,8 @@ import numpy as np
 from drivewright import registry, runner, units
 from drivewright._typing import Bools, Floats
 from drivewright.errors import SpecError, UnknownName
-from drivewright.execution.case_table import CHECK
 from drivewright.execution.keys import READABLE, KeyKind, key_kind
-from drivewright.execution.outputs import case_outputs
+from drivewright.execution.outputs import CHECK, OutputInfo, case_outputs
 from drivewright.result import HIGH, LOW
 from drivewright.spec import MechanismSpec, Optimise, document, from_document, set_key
 from drivewright.spec.fields import field_at, type_of
@@ -28,7 +27,7 @@ HOPELESS = 1e3  # violation of a design that has no solution at all, in units of
 @dataclass(frozen=True, eq=False)
 class Problem:
     """Keys with their `KeyKind` and bounds (n, 2) SI, objectives (name, sign), limits (name, sense, limit) with the scale of each, what is
-    known `about` every value that is looked at, {name: (unit, meaning)}, and the analyses that give them."""
+    known `about` every value that is looked at, {name: OutputInfo}, and the analyses that give them."""
 
     spec: MechanismSpec
     keys: tuple[str, ...]
@@ -37,7 +36,7 @@ class Problem:
     objectives: tuple[tuple[str, float], ...]
     limits: tuple[tuple[str, str, float], ...]
     scales: Floats
-    about: dict[str, tuple[str, str]]
+    about: dict[str, OutputInfo]
     analyses: tuple[str, ...]
 
     @property
@@ -127,7 +126,7 @@ def prepare(spec: MechanismSpec) -> Problem:
         objectives,
         limits,
         scales=np.array([abs(limit) or sizes[name] or 1.0 for name, _, limit in limits]),
-        about={name: (known[name].unit, known[name].meaning) for name in names},
+        about={name: known[name].about for name in names},
         analyses=tuple(analysis for analysis in dict.fromkeys(givers.values()) if any(givers[name] == analysis for name in names)),
     )
 

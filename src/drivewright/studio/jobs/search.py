@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from drivewright.errors import SpecError
-from drivewright.execution.case_table import CHECK
+from drivewright.execution.outputs import CHECK
 from drivewright.report.content import SIGNS, Views, pictures, summary
 from drivewright.studies.optimisation import searched
 from drivewright.studies.search import history
@@ -80,15 +80,19 @@ def _course(problem, values):
     wanted = np.where((violation <= 0) & np.isfinite(values[name]), sign * values[name], np.inf)
     least, lowest = np.minimum.accumulate(violation), np.minimum.accumulate(wanted)
     turns = np.flatnonzero(np.concatenate([[True], (np.diff(least) < 0) | (lowest[1:] < lowest[:-1])]))
-    unit = problem.about[name][0]
+    unit = problem.about[name].unit
     points = [[int(n) + 1, plain(sign * lowest[n], unit), plain(least[n])] for n in sorted({*turns.tolist(), len(least) - 1})]
     return points, int(np.argmin(wanted) if np.isfinite(lowest[-1]) else np.argmin(violation))
 
 
 def _objective(problem):
     name, sign = problem.objectives[0]
-    unit, meaning = problem.about[name]
-    return {"name": name, "label": sentence(meaning or name), "unit": shown(unit)[1], "goal": "minimise" if sign > 0 else "maximise"}
+    return {
+        "name": name,
+        "label": _label(problem, name),
+        "unit": shown(problem.about[name].unit)[1],
+        "goal": "minimise" if sign > 0 else "maximise",
+    }
 
 
 def _settings(problem, x):
@@ -129,7 +133,7 @@ def _told(design, found, left_out, theme):
 
 
 def _label(problem, name):
-    return sentence(problem.about[name][1] or name)
+    return sentence(problem.about[name].meaning or name)
 
 
 def _unknowns(design, found):
@@ -174,10 +178,10 @@ def _front(design, found):
         for key, kind in zip(problem.keys, problem.kinds, strict=True)
     ]
     columns += [
-        {"name": name, "label": _label(problem, name), "unit": shown(unit)[1], "role": _role(name)}
-        for name, (unit, _) in problem.about.items()
+        {"name": name, "label": _label(problem, name), "unit": shown(about.unit)[1], "role": _role(name)}
+        for name, about in problem.about.items()
     ]
-    units = [kind.unit for kind in problem.kinds] + [unit for unit, _ in problem.about.values()]
+    units = [kind.unit for kind in problem.kinds] + [about.unit for about in problem.about.values()]
     data = [*found.front.T, *(found.front_values[name] for name in problem.about)]
     rows = [[plain(column[n], unit) for column, unit in zip(data, units, strict=True)] for n in chosen]
     return {"columns": columns, "rows": rows, "load": [_settings(problem, found.front[n]) for n in chosen]}

@@ -10,8 +10,9 @@ from annotated_types import Ge, Gt, Le, Lt
 
 from drivewright import registry, runner
 from drivewright.errors import SpecError, UnknownName
-from drivewright.execution.case_table import CHECK, MESSAGE
+from drivewright.execution.case_table import MESSAGE
 from drivewright.execution.evaluation import case_task
+from drivewright.execution.outputs import CHECK
 from drivewright.report.content import headline
 from drivewright.spec import Study
 from drivewright.spec.fields import field_at, marker_of

@@ -10,9 +10,9 @@ import numpy as np
 from drivewright import registry
 from drivewright._typing import Ints
 from drivewright.errors import SpecError
-from drivewright.execution.case_table import CASE, CHECK, STATUS
+from drivewright.execution.case_table import CASE, STATUS
 from drivewright.execution.evaluation import case_task
-from drivewright.execution.outputs import MARGIN_OF
+from drivewright.execution.outputs import CHECK, MARGIN_OF
 from drivewright.report.content import Views, pictures
 from drivewright.report.study import study_content
 from drivewright.spec.serialisation import toml_value
