@@ -15,12 +15,11 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drivewright._typing import ArrayLike
 from drivewright.errors import InputError
 
-JetPart: TypeAlias = NDArray[Any]  # of real or of complex numbers
+JetPart: TypeAlias = np.ndarray[Any, Any]  # (...) of real or of complex numbers
 
 
 @dataclass(frozen=True, eq=False)
