@@ -68,7 +68,7 @@ def test_turning_the_bearing_by_whole_bins_turns_the_wear():
 
 
 def test_the_jump_over_cycles_is_linear():
-    assert wear.worn([1e-6, 2e-6], np.array([1e-9, 0.0]), 2000) == pytest.approx([3e-6, 2e-6], rel=1e-14)
+    assert wear.extrapolate_wear([1e-6, 2e-6], np.array([1e-9, 0.0]), 2000) == pytest.approx([3e-6, 2e-6], rel=1e-14)
 
 
 def test_the_wear_over_the_angle_is_periodic_and_smooth():

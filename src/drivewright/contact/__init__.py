@@ -1,4 +1,15 @@
-"""Laws of touching: Hertz contact, impact and its losses, friction, oil film, wear."""
+"""Contact: normal forces, Hertz contact, impact and its losses, friction, oil film, wear.
+
+`normal`     the family of normal laws, a NamedTuple and its formulas each, for Python and kernels.
+`power_law`  F = k d^n with its energy, stiffness and inverse for arrays.
+`laws`       contact laws by name, of other packages.
+`time_step`  the mean of a force over a step of an explicit integrator.
+`hertz`      line and point contact of elastic bodies.
+`impact`     impact laws, restitution and damping; a cylinder in a hollow.
+`friction`   Coulomb, Ambrosio, Stribeck and LuGre friction.
+`film`       closed forms of a journal bearing's oil film; `reynolds` solves its equation.
+`wear`       Archard wear of a bearing over its angle.
+"""
 
 from importlib import import_module
 from typing import Any
@@ -39,7 +50,7 @@ _WHERE = {
     "reynolds": ("Film", "FilmMap", "closed_form_map", "film_deviation", "film_map", "solve_film"),
     "laws": ("ContactParameters", "contact_law", "contact_law_names"),
     "time_step": ("mean_force",),
-    "wear": ("deposit", "wear_at", "wear_volume", "worn"),
+    "wear": ("deposit", "wear_at", "wear_volume", "extrapolate_wear"),
 }
 _MODULE = {name: module for module, names in _WHERE.items() for name in names}
 

@@ -55,7 +55,7 @@ def _check_history(time, angle, force, slip, bins):
         raise InputError(f"wear: {bins} bins do not tell one side of the bearing from the other; take at least 3, better 72 or more.")
 
 
-def worn(depths: Floats, depth_per_cycle: Floats, cycles: float) -> Numbers:
+def extrapolate_wear(depths: Floats, depth_per_cycle: Floats, cycles: float) -> Numbers:
     """The depths after `cycles` more cycles that each take off `depth_per_cycle` [m]: the jump over cycles that are all alike."""
     return np.asarray(depths) + cycles * np.asarray(depth_per_cycle)
 

@@ -1,9 +1,29 @@
 """Planar multibody systems: bodies, joints with and without play, forces and drives; kinematics, statics, dynamics.
 
-slider = Model(bodies, joints, forces, drives, gravity)     # frozen descriptions: see `multibody.model`
-ready = assemble(slider)                                    # loops closed, coordinates chosen, start rates
+slider = MultibodyModel(bodies, joints, forces, drives, gravity)    # frozen descriptions
+ready = assemble(slider)                                            # loops closed, coordinates chosen, start rates
 run = simulate(ready, 0.1)                                  # kinematics where the drives leave no freedom, else dynamics
 seen = record(run, {"pin": Marker("rod", 0.12, 0.0)})       # motion of points, pins, powers, energy
+
+Description
+`model`         all frozen descriptions; `bodies`, `joints` and `forces` hold them, a file each; `curves`, `curve_files` motions and loads.
+`tree`          which joint carries which body, which close loops.
+`compile_model` description -> `system`: arrays of `records` for the kernels; `index` numbers bodies, markers and curves.
+`assembly`      a start pose in which every loop is closed, the split of the coordinates (`partition`), start rates.
+
+Motion
+`kinematics`    poses, rates and the dependent coordinates; `chart` also across singular positions, `frames` vectors and points of bodies.
+`loads`         forces on the bodies, element by element.
+`dynamics`      equations of motion in the independent coordinates.
+`simulate`      motion over time; `continuation` where the drives leave no freedom; `singular`, `passages` singular positions.
+`statics`       positions of rest; `linearise` small motions about them; `tolerance` small deviations of points and journals.
+
+Results
+`observe`       poses, rates, forces and powers at given states (`observed`); `record` those of a run; `measures` peaks and impact load.
+`reactions`     forces in the joints; `wrenches` what joints can transmit.
+`analyses`      what is asked of a simulated mechanism, as answers with values and tables.
+`drawing`, `link_plates`  outlines of bodies and plates for their manufacture.
+`warm`          compiles the kernels ahead of time.
 """
 
 from drivewright.multibody.analyses.energy_audit import audit

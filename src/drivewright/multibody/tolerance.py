@@ -78,15 +78,17 @@ def posture(assembly: Assembly, markers: Mapping[str, Marker], sources: Sequence
             f"tolerances: the drives leave the mechanism {assembly.freedom} degrees of freedom, so that its place is not a "
             "matter of its dimensions alone; drive them, or hold them by joints"
         )
-    system, work = _brought(assembly, angle)
-    return Posture(system, work, work.coordinates.q.copy(), _watched(assembly, markers), _shifts(assembly, system, list(markers), sources))
+    system, work = _at_drive_angle(assembly, angle)
+    return Posture(
+        system, work, work.coordinates.q.copy(), _observed_points(assembly, markers), _moved_arms(assembly, system, list(markers), sources)
+    )
 
 
-def _brought(assembly, angle):
-    """(system, work) with the drive brought from its start to an angle, always on the same assembly."""
+def _at_drive_angle(assembly, angle):
+    """(system, work) with the drive moved from its start to an angle, always on the same assembly."""
     system, y = assembly.system, assembly.state.copy()
     if angle is not None:
-        found = continue_motion(_led(system, angle), np.empty(0), 1.0, y)
+        found = continue_motion(_with_drive_to(system, angle), np.empty(0), 1.0, y)
         system, y = found.stretches[-1].system, found.stretches[-1].y_end
         if found.outcome == "stuck":
             start = system.driven[0].start
@@ -98,8 +100,8 @@ def _brought(assembly, angle):
     return system, work_at_state(system, 0.0 if angle is None else 1.0, y)
 
 
-def _led(system, angle):
-    """The system with its first drive led evenly from its start, at time 0, to an angle at time 1."""
+def _with_drive_to(system, angle):
+    """The system with its first drive moved evenly from its start, at time 0, to an angle at time 1."""
     driven = system.driven.copy()
     driven.curve[0] = len(system.curves)
     curve = np.array([(len(system.pieces), 1, 0.0)], CURVE)
@@ -109,7 +111,7 @@ def _led(system, angle):
     return system._replace(driven=driven, **{name: array.view(np.recarray) for name, array in joined.items()})
 
 
-def _watched(assembly, markers):
+def _observed_points(assembly, markers):
     centroids = {body.name: body.centroid for body in assembly.expanded.bodies}
     rows = []
     for marker in markers.values():
@@ -118,7 +120,7 @@ def _watched(assembly, markers):
     return np.array(rows, WATCHED).view(np.recarray)
 
 
-def _shifts(assembly, system, marks, sources):
+def _moved_arms(assembly, system, marks, sources):
     """Which arms each source moves."""
     rows = []
     for number, source in enumerate(sources):
@@ -279,7 +281,7 @@ def gradient(held: Posture, count: int) -> Floats:
     total = np.zeros((len(held.marks), len(READINGS), count, 2))
     normals, dependent = _normals(system, work), system.dependent
     for shift in held.shifts:
-        carried, rows, points = _moved(held, shift)
+        carried, rows, points = _moved_by(held, shift)
         misses = np.einsum("rx,rxd->rd", normals, carried[system.rows.i] - carried[system.rows.j] + rows)
         steps = -np.linalg.solve(work.constraint_jacobian[:, dependent], misses)
         for k, mark in enumerate(held.marks):
@@ -291,15 +293,15 @@ def gradient(held: Posture, count: int) -> Floats:
     return total
 
 
-def _moved(held, shift):
+def _moved_by(held, shift):
     """What a displacement moves while the coordinates stand still, d(place)/d(displacement): bodies (n, 2, 2), rows' points of the first
     body less those of the second (rows, 2, 2), and watched points (marks, 2, 2)."""
     system, poses, number = held.system, held.work.poses, shift.number
     bodies, rows, marks = (np.zeros((size, 2, 2)) for size in (len(system.bodies), len(system.rows), len(held.marks)))
     if shift.what == PARENT:
-        bodies[_followers(system, number)] = _rotation(poses[system.bodies[number].parent])
+        bodies[_bodies_carried_by(system, number)] = _rotation(poses[system.bodies[number].parent])
     elif shift.what == OWN:
-        bodies[_followers(system, number)] = -_rotation(poses[number])
+        bodies[_bodies_carried_by(system, number)] = -_rotation(poses[number])
     elif shift.what == FIRST:
         rows[number] = _rotation(poses[system.rows[number].i])
     elif shift.what == SECOND:
@@ -309,7 +311,7 @@ def _moved(held, shift):
     return bodies, rows, marks
 
 
-def _followers(system, number):
+def _bodies_carried_by(system, number):
     """A body and all that hang on it in the tree."""
     found = [number]
     for k in range(number + 1, len(system.bodies)):

@@ -1,0 +1,17 @@
+"""Numerics without mechanics.
+
+`quadrature`     Gauss-Legendre on pieces, the trapezoidal rule over a period.
+`roots`          bracketed roots of one variable, damped Newton steps for several, extremes.
+`small`          factors of small matrices in kernels.
+`least_squares`  fits with the covariance of their parameters.
+`splines`        interpolating and smoothing splines.
+`jets`           a value with its first three derivatives.
+`signals`        maxima, means, percentiles and spectra of sampled signals.
+`ensemble`       means of correlated samples with their intervals.
+`chaos`          the largest Lyapunov exponent, the period of an orbit.
+`ode`            initial value problems.
+"""
+
+from drivewright.numerics.quadrature import cumulative_integral, integrate_periodic, integrate_pieces
+
+__all__ = ["cumulative_integral", "integrate_periodic", "integrate_pieces"]

@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from drivewright.errors import SolverError, UnknownName
+from drivewright._typing import Floats
 from drivewright.mechanisms.linkage.advice import advice
 from drivewright.mechanisms.linkage.build import LinkageModel, build
 from drivewright.mechanisms.linkage.describe import driven_joint
 from drivewright.mechanisms.linkage.joints import Joint
 from drivewright.mechanisms.linkage.spec import LinkageSpec
-from drivewright.mechanisms.linkage.tables import Bifurcation, Deviation, place
+from drivewright.mechanisms.linkage.tables import Deviation, place
 from drivewright.multibody.analyses.bifurcation import bifurcation
 from drivewright.multibody.analyses.energy import energy
 from drivewright.multibody.analyses.impact_load import ideal_acceleration_peak, load_table
@@ -21,9 +21,9 @@ from drivewright.multibody.analyses.lyapunov import lyapunov
 from drivewright.multibody.analyses.oil_films import oil_films
 from drivewright.multibody.analyses.outputs import end, impact, motion
 from drivewright.multibody.analyses.pins import pins
-from drivewright.multibody.analyses.poincare import poincare, simulate_section, units_of
+from drivewright.multibody.analyses.poincare import poincare, units_of, visited_points
 from drivewright.multibody.analyses.rest import rest
-from drivewright.multibody.analyses.simulation_model import Output, run_of
+from drivewright.multibody.analyses.simulation_model import run_of
 from drivewright.multibody.analyses.singular_positions import singular_positions
 from drivewright.multibody.analyses.spectrum import spectrum
 from drivewright.multibody.analyses.tolerances import tolerances
@@ -81,7 +81,7 @@ def _no_tolerances(spec: LinkageSpec) -> str | None:
 def _no_wear(spec: LinkageSpec) -> str | None:
     if spec.wear is None:
         return "the spec has no [wear] table"
-    joint = _worn_joint(spec)
+    joint = _wearing_joint(spec)
     if joint.pin != "dry":
         return f'joint {joint.name!r} is {joint.pin or joint.kind}; wear wants model = "dry" and a clearance'
     return no_run(spec) or (f"joint {joint.name!r} states no wear_coefficient" if joint.wear_coefficient is None else None)
@@ -106,17 +106,9 @@ def _motion(model: LinkageModel, done: Answers) -> Answer:
     return replace(answer, checks=advice(model.spec, run_of(model).end[1]))
 
 
-def output_named(model: LinkageModel, name: str) -> Output:
-    """The output of this name; UnknownName otherwise."""
-    for output in model.outputs:
-        if output.name == name:
-            return output
-    raise UnknownName("output", name, [output.name for output in model.outputs])
-
-
 def _poincare(model: LinkageModel, done: Answers) -> Answer:
     assert model.spec.poincare is not None
-    return poincare(model, output_named(model, model.spec.poincare.output))
+    return poincare(model, model.output(model.spec.poincare.output))
 
 
 def _lyapunov(model: LinkageModel, done: Answers) -> Answer:
@@ -125,36 +117,29 @@ def _lyapunov(model: LinkageModel, done: Answers) -> Answer:
 
 
 def _bifurcation(model: LinkageModel, done: Answers) -> Answer:
-    asked = model.spec.bifurcation
-    assert asked is not None
-    output, dimension = output_named(model, asked.output), dimension_at(type(model.spec), asked.over)[1]
-    start, stop = (dimension.parse(bound) if dimension else float(bound) for bound in (asked.start, asked.stop))
-    values, unit = np.linspace(start, stop, asked.steps), dimension.unit if dimension else "-"
-    return bifurcation(output.name, asked.over, unit, units_of(output), values, lambda value: _visits(model.spec, asked, value))
+    table, spec = model.spec.bifurcation, model.spec
+    assert table is not None
+    output, dimension = model.output(table.output), dimension_at(type(spec), table.over)[1]
+    start, stop = (dimension.parse(bound) if dimension else float(bound) for bound in (table.start, table.stop))
+    values, unit = np.linspace(start, stop, table.steps), dimension.unit if dimension else "-"
 
+    def visits(value: float) -> tuple[Floats, Floats]:
+        return visited_points(build(spec.replace({table.over: SI(value)})), table.output, table.turns, table.discard)
 
-def _visits(spec: LinkageSpec, asked: Bifurcation, value: float):
-    """(positions, velocities) of the Poincare section of one run, the first turns discarded."""
-    model = build(spec.replace({asked.over: SI(value)}))
-    settings = replace(model.settings, per_step=1)
-    section, run = simulate_section(model, output_named(model, asked.output), asked.turns * model.turn_length, settings)
-    if run.advice:
-        raise SolverError(run.advice)
-    kept = section.t >= asked.discard * model.turn_length * (1 - 1e-9)
-    return section.position[kept], section.velocity[kept]
+    return bifurcation(output.name, table.over, unit, units_of(output), values, visits)
 
 
 def _load_table(model: LinkageModel, done: Answers) -> Answer:
-    asked, spec = model.spec.table, model.spec
-    assert asked is not None
-    output = output_named(model, asked.output)
+    table, spec = model.spec.table, model.spec
+    assert table is not None
+    output = model.output(table.output)
     with_play = [joint.name for joint in spec.joints if joint.pin not in (None, "ideal", "bushing")]
-    points = [(speed, clearance) for speed in asked.speeds for clearance in asked.clearances]
+    points = [(speed, clearance) for speed in table.speeds for clearance in table.clearances]
 
     def model_at(point: tuple[float, float]) -> LinkageModel:
         return build(spec.replace({"drive.speed": SI(point[0])} | {f"joints.{name}.clearance": SI(point[1]) for name in with_play}))
 
-    ideal = {speed: ideal_acceleration_peak(build(spec.replace({"drive.speed": SI(speed)})), output) for speed in asked.speeds}
+    ideal = {speed: ideal_acceleration_peak(build(spec.replace({"drive.speed": SI(speed)})), output) for speed in table.speeds}
     return load_table(output, points, model_at, ideal)
 
 
@@ -196,8 +181,8 @@ def _wear(model: LinkageModel, done: Answers) -> Answer:
 
 def wearing_bearing(spec: LinkageSpec) -> WearingBearing:
     """The bearing that wears, of a spec that asks for wear."""
-    asked, joint = spec.wear, _worn_joint(spec)
-    assert asked is not None and joint.clearance is not None and joint.wear_coefficient is not None
+    table, joint = spec.wear, _wearing_joint(spec)
+    assert table is not None and joint.clearance is not None and joint.wear_coefficient is not None
     return WearingBearing(
         joint.name,
         place(joint.connects[0])[0],
@@ -205,13 +190,13 @@ def wearing_bearing(spec: LinkageSpec) -> WearingBearing:
         joint.length,
         joint.clearance,
         joint.wear_coefficient,
-        asked.cycles,
-        asked.jumps,
-        asked.bins,
+        table.cycles,
+        table.jumps,
+        table.bins,
     )
 
 
-def _worn_joint(spec: LinkageSpec) -> Joint:
+def _wearing_joint(spec: LinkageSpec) -> Joint:
     return next(joint for joint in spec.joints if spec.wear and joint.name == spec.wear.joint)
 
 

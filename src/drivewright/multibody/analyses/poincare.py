@@ -1,10 +1,12 @@
 """Poincare section: position and velocity of a motion once a turn of the drive."""
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from drivewright._typing import Bools, Floats
+from drivewright.errors import SolverError
 from drivewright.multibody.analyses.simulation_model import Output, SimulationModel, ideal_record
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import Run, Settings, simulate
@@ -94,6 +96,18 @@ def simulate_section(model: SimulationModel, output: Output, duration: float, se
     along = axis[0] * seen.point(output.name, "x") + axis[1] * seen.point(output.name, "y")
     rate = axis[0] * seen.point(output.name, "vx") + axis[1] * seen.point(output.name, "vy")
     return Section(seen.t, along, rate, units_of(output)), run
+
+
+def visited_points(model: SimulationModel, name: str, turns: float, discard: float) -> tuple[Floats, Floats]:
+    """(positions (m,), velocities (m,)) of an output once a turn, in `units_of` it, over so many turns less the first ones discarded.
+
+    SolverError where the run stops before its end.
+    """
+    section, run = simulate_section(model, model.output(name), turns * model.turn_length, replace(model.settings, per_step=1))
+    if run.advice:
+        raise SolverError(run.advice)
+    kept = section.t >= discard * model.turn_length * (1 - 1e-9)
+    return section.position[kept], section.velocity[kept]
 
 
 def units_of(output: Output) -> tuple[str, str]:

@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from drivewright._typing import ArrayLike, Floats
-from drivewright.errors import SolverError
+from drivewright.errors import SolverError, UnknownName
 from drivewright.multibody.assembly import Assembly
 from drivewright.multibody.bodies import Marker
 from drivewright.multibody.record import Record, record
@@ -102,6 +102,13 @@ class SimulationModel:
         if self.duration is None:
             raise SolverError("the mechanism has neither a run nor a drive at constant speed whose turn could stand for it")
         return self.duration
+
+    def output(self, name: str) -> Output:
+        """The output of this name; UnknownName otherwise."""
+        for output in self.outputs:
+            if output.name == name:
+                return output
+        raise UnknownName("output", name, [output.name for output in self.outputs])
 
     @property
     def turn_length(self) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 
 from drivewright import cases
 from drivewright._typing import Floats
-from drivewright.contact.wear import deposit, worn
+from drivewright.contact.wear import deposit, extrapolate_wear
 from drivewright.multibody.analyses.ensemble import Statistics, orbit_turns, perturbed_start
 from drivewright.multibody.analyses.simulation_model import TURN, SimulationModel
 from drivewright.multibody.analyses.turns import RunNumbers, acceleration, ideal_peak, mean_per_turn, start_of_window, turn_ends
@@ -87,88 +87,95 @@ def with_wear(assembly: Assembly, pin: int, depth: Floats) -> Assembly:
     return replace(assembly, system=assembly.system._replace(wear=wear))
 
 
-def wear(model: SimulationModel, asked: WearingBearing) -> Answer:
+def wear(model: SimulationModel, bearing: WearingBearing) -> Answer:
     """Depth over the angle of the bearing, force and impact load over the turns: of a bearing, or the mean of an ensemble of bearings."""
-    first, *_ = histories = _histories(model, asked)
+    first, *_ = histories = _histories(model, bearing)
     count = len(first.stages)
-    found = Statistics(tuple(each.numbers(asked) for each in histories), int(first.periodic))
-    tables = (_profiles(asked, histories), _development(model, asked, histories)) if count else ()
-    jump = asked.cycles / asked.jumps
-    findings = _findings(asked, first.depth, max((jump * np.max(stage.per_turn) for stage in first.stages), default=0.0))
+    found = Statistics(tuple(each.numbers(bearing) for each in histories), int(first.periodic))
+    tables = (_profiles(bearing, histories), _development(model, bearing, histories)) if count else ()
+    jump = bearing.cycles / bearing.jumps
+    findings = _findings(bearing, first.depth, max((jump * np.max(stage.per_turn) for stage in first.stages), default=0.0))
     if first.advice:
-        findings = (*findings, f"wear ends after {count} of {asked.jumps} jumps: {first.advice}")
-    return Answer(_values(asked, found, count * jump), tables, findings=findings, outcome="partial" if first.advice else "complete")
+        findings = (*findings, f"wear ends after {count} of {bearing.jumps} jumps: {first.advice}")
+    return Answer(_values(bearing, found, count * jump), tables, findings=findings, outcome="partial" if first.advice else "complete")
 
 
-def _histories(model, asked):
+def _histories(model, bearing):
     """The `History` of a bearing, and where its motion does not repeat itself, of the others of the ensemble."""
-    first = history(model, asked, 0)
+    first = history(model, bearing, 0)
     if first.periodic or first.advice:
         return [first]
-    rows = cases.run(lambda number: history(model, asked, number), range(1, model.ensemble), workers=None).rows
+    rows = cases.run(lambda number: history(model, bearing, number), range(1, model.ensemble), workers=None).rows
     return [first, *(row.value for row in rows if row.ok and not row.value.advice)]
 
 
-def history(model: SimulationModel, asked: WearingBearing, number: int) -> History:
+def history(model: SimulationModel, bearing: WearingBearing, number: int) -> History:
     """The `History` of one bearing, whose runs start like those of this member of the ensemble."""
-    stages, depth, advice, periodic = [], np.zeros(asked.bins), "", True
-    for jump in range(asked.jumps):
-        seen, advice = worn_run(model, asked, depth, number)
+    stages, depth, advice, periodic = [], np.zeros(bearing.bins), "", True
+    for jump in range(bearing.jumps):
+        seen, advice = run_with_wear(model, bearing, depth, number)
         if advice:
             break
-        cycles = asked.cycles / asked.jumps
+        cycles = bearing.cycles / bearing.jumps
         stages.append(
             Stage(
                 jump * cycles,
                 depth,
-                depth_per_turn(seen, model, asked),
-                _largest_force(seen, model, asked),
+                depth_per_turn(seen, model, bearing),
+                _largest_force(seen, model, bearing),
                 _loads(seen, model),
-                _rubbing(seen, model, asked),
+                _rubbing(seen, model, bearing),
             )
         )
-        depth, periodic = np.asarray(worn(depth, stages[-1].per_turn, cycles)), periodic and orbit_turns(model, seen) > 0
+        depth, periodic = np.asarray(extrapolate_wear(depth, stages[-1].per_turn, cycles)), periodic and orbit_turns(model, seen) > 0
     return History(tuple(stages), depth, advice, periodic)
 
 
 # -- one run -------------------------------------------------------------------------------------------------------------------
 
 
-def worn_run(model: SimulationModel, asked: WearingBearing, depth: Floats, number: int = 0) -> tuple[Record, str]:
+def run_with_wear(model: SimulationModel, bearing: WearingBearing, depth: Floats, number: int = 0) -> tuple[Record, str]:
     """(record of the window of a run with a worn bearing, advice where the run ended early)."""
-    pin = model.pins.index(asked.joint)
+    pin = model.pins.index(bearing.joint)
     run = simulate(with_wear(model.assembly, pin, depth), model.run_length, model.settings, state=perturbed_start(model, number))
-    markers = {**model.markers, BEARING + asked.joint: Marker(asked.body)}
+    markers = {**model.markers, BEARING + bearing.joint: Marker(bearing.body)}
     return record(run, markers, start_of_window(model, run.end[1])), run.advice
 
 
-def _rubbing(seen, model, asked):
+def _rubbing(seen, model, bearing):
     """Means over the turns of force times slip [W]."""
-    pin = _pin(seen, model, asked)
+    pin = _pin(seen, model, bearing)
     return mean_per_turn(seen.t, pin["normal"] * np.abs(pin["slip"]), turn_ends(model, seen.t[0], seen.t[-1]))
 
 
-def _pin(seen, model, asked):
-    return dict(zip(PIN_FIELDS, np.moveaxis(seen.pins[:, model.pins.index(asked.joint)], 1, 0), strict=True))
+def _pin(seen, model, bearing):
+    return dict(zip(PIN_FIELDS, np.moveaxis(seen.pins[:, model.pins.index(bearing.joint)], 1, 0), strict=True))
 
 
-def contact_angle(seen: Record, model: SimulationModel, asked: WearingBearing) -> Floats:
+def contact_angle(seen: Record, model: SimulationModel, bearing: WearingBearing) -> Floats:
     """Where the journal touches the bearing, in the frame of the bearing's body (m,) [rad]."""
-    pin = _pin(seen, model, asked)
-    return np.arctan2(-pin["ny"], -pin["nx"]) - seen.point(BEARING + asked.joint, "angle")
+    pin = _pin(seen, model, bearing)
+    return np.arctan2(-pin["ny"], -pin["nx"]) - seen.point(BEARING + bearing.joint, "angle")
 
 
-def depth_per_turn(seen: Record, model: SimulationModel, asked: WearingBearing) -> Floats:
+def depth_per_turn(seen: Record, model: SimulationModel, bearing: WearingBearing) -> Floats:
     """Depth (bins,) [m] that a turn takes off the bearing, the mean over the window."""
-    pin = _pin(seen, model, asked)
+    pin = _pin(seen, model, bearing)
     taken = deposit(
-        seen.t, contact_angle(seen, model, asked), pin["normal"], pin["slip"], asked.coefficient, asked.radius, asked.length, asked.bins
+        seen.t,
+        contact_angle(seen, model, bearing),
+        pin["normal"],
+        pin["slip"],
+        bearing.coefficient,
+        bearing.radius,
+        bearing.length,
+        bearing.bins,
     )
     return taken * model.turn_length / (seen.t[-1] - seen.t[0])
 
 
-def _largest_force(seen, model, asked):
-    pin = _pin(seen, model, asked)
+def _largest_force(seen, model, bearing):
+    pin = _pin(seen, model, bearing)
     return float(np.max(np.hypot(pin["fx"], pin["fy"])))
 
 
