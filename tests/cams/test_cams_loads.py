@@ -151,10 +151,10 @@ def test_residual_of_a_cycloidal_rise_from_rest(ratio):
     w, time = ratio * speed, width / speed
     p = 2 * np.pi / time
     a = 2 * np.pi * H / time**2
-    found = cams.transient(cycloidal(width), 1.0, speed, w)
+    found = cams.transient_response(cycloidal(width), 1.0, speed, w)
     t = found.angle[found.piece == 0] / speed
     assert np.allclose(found.error.d0[found.piece == 0], -a / (w**2 - p**2) * (np.sin(p * t) - p / w * np.sin(w * t)), atol=1e-12 * H)
-    residual = cams.amplitude(found, w)[found.piece == 1]
+    residual = cams.free_amplitude(found, w)[found.piece == 1]
     assert np.allclose(residual, 2 * a * p / (w * abs(w**2 - p**2)) * abs(np.sin(w * time / 2)), rtol=1e-9)
 
 
@@ -163,7 +163,7 @@ def test_steady_vibration_of_a_harmonic_lift(ratio, damping):
     """z = Re(-(h/2) W^2 e^{iWt}/(w^2 - W^2 + 2 i zeta w W))."""
     speed = 12.0
     w = ratio * speed
-    found = cams.periodic(HARMONIC, 1.0, speed, w, damping)
+    found = cams.periodic_response(HARMONIC, 1.0, speed, w, damping)
     expected = -H / 2 * speed**2 * np.exp(1j * found.angle) / (w**2 - speed**2 + 2j * damping * w * speed)
     assert np.allclose(found.error.d0, expected.real, atol=1e-12 * H)
     assert np.allclose(found.error.d1, (1j * speed * expected).real, atol=1e-12 * H * w)
@@ -173,29 +173,29 @@ def test_steady_vibration_of_a_harmonic_lift(ratio, damping):
 def test_peaks_between_the_steps(ratio):
     speed, damping = 12.0, 0.05
     w = ratio * speed
-    found = cams.periodic(HARMONIC, 1.0, speed, w, damping)
+    found = cams.periodic_response(HARMONIC, 1.0, speed, w, damping)
     size = H / 2 * speed**2 / abs(w**2 - speed**2 + 2j * damping * w * speed)
-    assert cams.peak(found, speed, found.error) == pytest.approx(size, rel=1e-9)
+    assert cams.response_peak(found, speed, found.error) == pytest.approx(size, rel=1e-9)
     assert np.max(np.abs(found.error.d0)) < size * (1 - 1e-9)
     shock = size * abs(w**2 + 2j * damping * w * speed)
-    assert cams.peak(found, speed, cams.acceleration(found, w, damping)) == pytest.approx(shock, rel=1e-9)
+    assert cams.response_peak(found, speed, cams.mass_acceleration(found, w, damping)) == pytest.approx(shock, rel=1e-9)
 
 
 def test_a_dwell_leaves_a_decaying_swing():
     speed, damping = 12.0, 0.1
     w = 9.0 * speed
-    found = cams.transient(cycloidal(1.4), 1.0, speed, w, damping)
+    found = cams.transient_response(cycloidal(1.4), 1.0, speed, w, damping)
     rest = found.piece == 1
-    left = cams.amplitude(found, w, damping)[rest] * np.exp(damping * w * found.angle[rest] / speed)
+    left = cams.free_amplitude(found, w, damping)[rest] * np.exp(damping * w * found.angle[rest] / speed)
     assert np.ptp(left) < 1e-9 * left[0]
 
 
 def test_acceleration_of_the_mass_is_that_of_its_path():
     speed, damping = 12.0, 0.1
     cycle = cycloidal(1.4)
-    found = cams.periodic(cycle, 0.5, speed, 4.0 * speed, damping)
+    found = cams.periodic_response(cycle, 0.5, speed, 4.0 * speed, damping)
     planned = 0.5 * speed**2 * cycle.at(found.piece, found.angle)[1].d2
-    assert np.allclose(cams.acceleration(found, 4.0 * speed, damping).d0, found.error.d2 + planned, atol=1e-12)
+    assert np.allclose(cams.mass_acceleration(found, 4.0 * speed, damping).d0, found.error.d2 + planned, atol=1e-12)
 
 
 def test_strong_damping_jumps_on_the_way_down():
@@ -209,17 +209,17 @@ def test_strong_damping_jumps_on_the_way_down():
 def test_quick_swings_are_peaked_between_coarse_steps():
     """A free swing behind a rise: its envelope is reached although a step is half a radian of it."""
     speed, w = 12.0, 19.7 * 12.0
-    found = cams.transient(cycloidal(1.4), 1.0, speed, w)
+    found = cams.transient_response(cycloidal(1.4), 1.0, speed, w)
     rest = found.piece == 1
     swing = cams.Response(found.angle[rest], found.piece[rest], found.error[rest])
-    assert cams.peak(swing, speed, swing.error) == pytest.approx(cams.amplitude(found, w)[rest][0], rel=1e-6)
+    assert cams.response_peak(swing, speed, swing.error) == pytest.approx(cams.free_amplitude(found, w)[rest][0], rel=1e-6)
 
 
 def test_a_jump_of_velocity_is_an_impulse():
     """Up and down at constant speed v: from rest z = -(2 v/w) sin(w t), then +2v more at the top."""
     tent = cams.Cycle(Programme((Segment(np.pi, "constant-velocity", H), Segment(np.pi, "constant-velocity", -H))).function)
     speed, w = 5.0, 31.0
-    found = cams.transient(tent, 1.0, speed, w)
+    found = cams.transient_response(tent, 1.0, speed, w)
     rising = found.piece == 0
     kick = 2 * H / np.pi * speed
     assert np.allclose(found.error.d0[rising], -kick / w * np.sin(w * found.angle[rising] / speed), atol=1e-13)
@@ -241,7 +241,7 @@ def test_steady_state_against_an_adaptive_integrator():
                 return np.array([y[1], -2 * damping * w * y[1] - w**2 * y[0] + forcing])
 
             state = integrate(Functions(slope), start / speed, stop / speed, state, rtol=1e-8, atol=1e-12).y[-1]
-    found = cams.periodic(cycle, 1.0, speed, w, damping)
+    found = cams.periodic_response(cycle, 1.0, speed, w, damping)
     error = found.error
     assert state == pytest.approx([error.d0[-1], error.d1[-1]], rel=1e-5)
     assert (error.d0[0], error.d1[0]) == pytest.approx((error.d0[-1], error.d1[-1]), rel=1e-9)
@@ -259,4 +259,4 @@ def test_propagator_is_a_group():
 )
 def test_vibration_refuses(speed, frequency, damping, word):
     with pytest.raises(InputError, match=word):
-        cams.periodic(HARMONIC, 1.0, speed, frequency, damping)
+        cams.periodic_response(HARMONIC, 1.0, speed, frequency, damping)

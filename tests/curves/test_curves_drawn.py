@@ -8,7 +8,7 @@ import shapely
 
 import drivewright as dw
 from drivewright import cams, curves
-from drivewright.curves.drawn import chords
+from drivewright.curves.display import chords
 from drivewright.errors import InputError
 from drivewright.gears import EllipticGearPair, Rack, RackFamily, cut_gear
 from drivewright.mechanisms.cam.build import profile
@@ -55,8 +55,8 @@ def ends(piece):
 def test_pusher_cams_and_gear(name):
     model = model_of("seedling_pusher", name)
     for cam in model.pair.cams:
-        check(model.drawn_profiles[cam.name], model.profiles[cam.name], model.drawn_tolerance)
-    check(model.drawn_gear, model.gear_outline, model.drawn_tolerance)
+        check(model.display_profiles[cam.name], model.profiles[cam.name], model.display_tolerance)
+    check(model.display_gear, model.gear_outline, model.display_tolerance)
 
 
 @pytest.mark.parametrize("name", presets("cam", ["conjugate", "flat", "groove", "oscillating"]))
@@ -66,7 +66,7 @@ def test_cams(name):
         if track.cut and track.radius:
             family = cams.family(track.follower, model.programme, track.flank)
             exact = profile(model, number)
-            check(curves.drawn_outline(family, FINE), exact.outline, FINE)
+            check(curves.display_outline(family, FINE), exact.outline, FINE)
             simple = curves.simple_outline(family, FINE)
             assert (simple is None) == bool(exact.trimmed.removed)
             if simple:
@@ -76,7 +76,7 @@ def test_cams(name):
 @pytest.mark.parametrize("name", ["default", "cycloid", "parallel"])
 def test_indexing_cams_of_both_sides(name):
     for level in model_of("indexer", name).drive.levels:
-        check(curves.drawn_outline(level.family, 10 * FINE), level.profile.outline(FINE), 10 * FINE)
+        check(curves.display_outline(level.family, 10 * FINE), level.profile.outline(FINE), 10 * FINE)
 
 
 @pytest.mark.parametrize(
@@ -87,7 +87,7 @@ def test_undercut_and_pointed_gears_are_trimmed_alike(teeth, rack):
     exact = cut_gear(pair, 1, teeth, rack)
     assert bool(exact.undercut) == (teeth < 20)
     family = RackFamily(pair, 1, teeth, rack)
-    check(curves.drawn_outline(family, FINE, fewest=6), exact.outline(1e-7), FINE)
+    check(curves.display_outline(family, FINE, fewest=6), exact.outline(1e-7), FINE)
 
 
 def round_path(radius):
@@ -97,7 +97,7 @@ def round_path(radius):
 
 @pytest.mark.parametrize("material, left", [("inside", 20e-3), ("outside", 30e-3)])
 def test_a_roller_on_a_circle_leaves_a_circle(material, left):
-    outline = curves.drawn_outline(curves.CircleFamily(round_path(25e-3), 5e-3, material), FINE)
+    outline = curves.display_outline(curves.CircleFamily(round_path(25e-3), 5e-3, material), FINE)
     radii = np.hypot(*outline.points().T)
     assert radii == pytest.approx(left, rel=1e-12) and len(radii) < 400
     assert len(outline.pieces) == 1 and isinstance(outline.pieces[0], Spline)  # smooth all the way round
@@ -129,7 +129,7 @@ def test_a_corner_parts_the_splines():
         return arc(a)(t - 2 * half + np.pi)
 
     path = (curves.Piece(-half, half, arc(-a), "right", "arc"), curves.Piece(half, 3 * half, left, "left", "arc"))
-    outline = curves.drawn_outline(curves.CircleFamily(path, 4e-3), FINE)
+    outline = curves.display_outline(curves.CircleFamily(path, 4e-3), FINE)
     corner = np.sqrt(radius**2 - a**2)
     tops = [ends(piece)[0] for piece in outline.pieces]
     assert len(tops) == 2 and [x for x, _ in tops] == pytest.approx([0, 0], abs=3 * FINE)
@@ -138,7 +138,7 @@ def test_a_corner_parts_the_splines():
 
 def test_a_roller_over_the_axis_is_refused_as_by_the_exact_route():
     with pytest.raises(InputError, match="passes .* mm over the interior point"):
-        curves.drawn_outline(curves.CircleFamily(round_path(4e-3), 5e-3), FINE)
+        curves.display_outline(curves.CircleFamily(round_path(4e-3), 5e-3), FINE)
 
 
 def test_pieces_of_one_formula_are_gathered_with_their_own_numbers():

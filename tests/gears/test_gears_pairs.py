@@ -70,7 +70,7 @@ def test_lengths_and_curvature_of_the_ellipse():
     assert pair.centre_distance == 0.04
     for gear in (1, 2):
         assert pair.perimeter(gear) == pytest.approx(4 * a * ellipe(e**2), rel=1e-13)
-        place, least = pair.least_curvature(gear)
+        place, least = pair.min_curvature(gear)
         assert least == pytest.approx(b / a**2, rel=1e-4)
         assert pair.curvature(gear, np.array([0.0]))[0] == pytest.approx(a / b**2, rel=1e-12)
     assert np.cos(place) == pytest.approx(-e, abs=0.02) or np.cos(place) == pytest.approx(e, abs=0.6)
@@ -123,9 +123,9 @@ def test_the_pitch_curves_roll_without_sliding_and_close():
 def test_convexity_is_measured_on_each_curve():
     """A single gear r1 with swing: the 3-lobed driven gear goes hollow first; the sign is positive for a convex curve."""
     mild = two_to_three()
-    assert mild.least_curvature(1)[1] > 0
+    assert mild.min_curvature(1)[1] > 0
     strong = gears.NonCircularPair(lambda x: 1 + 0.5 * jets.cos(3 * x), 0.1)
-    place, least = strong.least_curvature(1)
+    place, least = strong.min_curvature(1)
     z = strong.pitch_curve(1, place + np.array([-1e-3, 0.0, 1e-3])).d0
     turn = -np.angle((z[2] - z[1]) / (z[1] - z[0])) / np.abs(z[1] - z[0])
     assert least < 0 and turn == pytest.approx(least, rel=1e-3)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from drivewright.motion import Programme, Segment, law, through
+from drivewright.motion import Programme, Segment, compose_motion, law
 from drivewright.numerics import jets
 
 pytestmark = pytest.mark.analytical
@@ -191,7 +191,7 @@ def test_chain_rule_in_closed_form():
     """theta = t^2 on s = (1 - cos theta)/2."""
     programme = Programme([Segment(math.pi, "simple-harmonic", 1), Segment(math.pi, "simple-harmonic", -1)])
     t = np.array([0.2, 0.9, 1.7, 2.4])
-    s, v, a, j = through(programme, jets.variable(t) ** 2)
+    s, v, a, j = compose_motion(programme, jets.variable(t) ** 2)
     sine, cosine = np.sin(t**2), np.cos(t**2)
     assert_allclose(s, (1 - cosine) / 2, atol=1e-14)
     assert_allclose(v, t * sine, atol=1e-13)
@@ -209,7 +209,7 @@ def test_driven_by_a_non_uniform_angle_against_differences():
     programme, h = pusher("modified-sine"), 1e-4
 
     def driven(t):
-        return through(programme, elliptic(t))
+        return compose_motion(programme, elliptic(t))
 
     t = np.array([1.02, 1.09, 1.17, 1.33, 1.52])
     here, stencil = driven(t), np.array([1, -8, 8, -1]) / (12 * h)
@@ -223,7 +223,7 @@ def test_one_piece_driven_keeps_its_side_of_a_jump():
     programme = pusher("parabolic")
     edge = programme.pieces[1].theta1
     jet = jets.Jet(edge, 2.0, 0.5, 0.0)
-    left, right = (through(lambda x, k=k: programme.on_piece(k, x), jet) for k in (1, 2))
+    left, right = (compose_motion(lambda x, k=k: programme.on_piece(k, x), jet) for k in (1, 2))
     v, a = programme.on_piece(1, edge)[1:3]
     assert_allclose((left.a, right.a), (a * 4 + v * 0.5, -a * 4 + v * 0.5), rtol=1e-12)
 
@@ -234,7 +234,7 @@ def test_a_programme_survives_pickling():
     assert dataclasses.replace(copy.segments[0], angle=1.0).angle == 1.0  # still known to be a dwell
     assert copy(1.3) == programme(1.3) and copy.pieces == programme.pieces
     assert Programme([*copy.segments])(1.3) == programme(1.3)
-    assert through(copy, elliptic(1.3)) == through(programme, elliptic(1.3))
+    assert compose_motion(copy, elliptic(1.3)) == compose_motion(programme, elliptic(1.3))
 
 
 @pytest.mark.parametrize("name", ["polynomial-56789", "modified-trapezoid", "double-harmonic"])

@@ -76,7 +76,7 @@ def rise_and_return(u):
 @pytest.mark.parametrize("motion", [lambda u: 0.5 - 0.5 * np.cos(2 * np.pi * u), rise_and_return])
 def test_no_ripple_in_a_smooth_table(motion, rows):
     ripple = table(motion, rows).ripple
-    assert not ripple.noticed and ripple.message == ""
+    assert not ripple.significant and ripple.message == ""
 
 
 @pytest.mark.parametrize(("rows", "digits"), [(72, 2), (180, 3), (360, 3), (360, 4)])
@@ -84,14 +84,14 @@ def test_ripple_in_a_table_rounded_to_few_digits(rows, digits):
     """Rounding to r scatters the rows by r/sqrt(12); most of it must be seen, and the sentence must say so."""
     ripple = table(rise_and_return, rows, digits).ripple
     scatter = 0.02 * 10.0**-digits / np.sqrt(12)
-    assert ripple.noticed and 0.3 * scatter < ripple.scatter < 1.2 * scatter
+    assert ripple.significant and 0.3 * scatter < ripple.scatter < 1.2 * scatter
     assert "more digits" in ripple.message and f"{ripple.acceleration:.0%}" in ripple.message
 
 
 def test_ripple_of_a_table_over_part_of_a_turn():
     rise = law("polynomial-4567")
-    assert not table(lambda u: rise(u).s, 60, span=2.0).ripple.noticed
-    assert table(lambda u: rise(u).s, 120, digits=2, span=2.0).ripple.noticed
+    assert not table(lambda u: rise(u).s, 60, span=2.0).ripple.significant
+    assert table(lambda u: rise(u).s, 120, digits=2, span=2.0).ripple.significant
 
 
 def test_a_table_that_never_moves_has_no_ripple():

@@ -38,7 +38,7 @@ def finished_profile(follower: Follower, programme: Programme, flank: int = 1) -
     return FinishedProfile(trimmed.outline(), trimmed)
 
 
-def drawn_profile(follower: Follower, programme: Programme, tolerance: float, flank: int = 1) -> Outline | None:
+def display_profile(follower: Follower, programme: Programme, tolerance: float, flank: int = 1) -> Outline | None:
     """The outline of a cam within a tolerance [m] where nothing of it is trimmed away, for pictures; else None."""
     return None if _is_knife(follower) else simple_outline(family(follower, programme, flank), tolerance)
 

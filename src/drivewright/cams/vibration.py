@@ -39,7 +39,7 @@ def propagator(time: Numbers, frequency: float, damping: float) -> Floats:
     return np.moveaxis(decay * np.array(rows), (0, 1), (-2, -1))
 
 
-def transient(cycle: Cycle, reach: float, speed: float, frequency: float, damping: float = 0.0) -> Response:
+def transient_response(cycle: Cycle, reach: float, speed: float, frequency: float, damping: float = 0.0) -> Response:
     """`Response` over one turn from rest at angle 0; frequency in rad/s, speed of the cam in rad/s."""
     _refuse(speed, frequency, damping)
     piece, angle = cycle.samples(min(np.radians(1.0), PHASE * speed / frequency))
@@ -55,9 +55,9 @@ def transient(cycle: Cycle, reach: float, speed: float, frequency: float, dampin
     return _response(cycle, piece, angle, states.T, reach, speed, frequency, damping)
 
 
-def periodic(cycle: Cycle, reach: float, speed: float, frequency: float, damping: float = 0.0) -> Response:
+def periodic_response(cycle: Cycle, reach: float, speed: float, frequency: float, damping: float = 0.0) -> Response:
     """`Response` of the steady state, which repeats itself every turn.  Raises InputError at an undamped resonance."""
-    angle, piece, rest = transient(cycle, reach, speed, frequency, damping)
+    angle, piece, rest = transient_response(cycle, reach, speed, frequency, damping)
     turn = np.eye(2) - propagator(2 * np.pi / speed, frequency, damping)
     if np.linalg.norm(turn * [[1.0, frequency], [1 / frequency, 1.0]], -2) < 1e-9:
         raise InputError(
@@ -70,19 +70,19 @@ def periodic(cycle: Cycle, reach: float, speed: float, frequency: float, damping
     return _response(cycle, piece, angle, free.T + (rest.d0, rest.d1), reach, speed, frequency, damping)
 
 
-def acceleration(response: Response, frequency: float, damping: float = 0.0) -> Jet:
+def mass_acceleration(response: Response, frequency: float, damping: float = 0.0) -> Jet:
     """x'' = -2 zeta w z' - w^2 z [m/s^2] of the mass, a jet of time without its third derivative."""
     return -2 * damping * frequency * derivative(response.error) - frequency**2 * response.error
 
 
-def amplitude(response: Response, frequency: float, damping: float = 0.0) -> Floats:
+def free_amplitude(response: Response, frequency: float, damping: float = 0.0) -> Floats:
     """Envelope sqrt(z^2 + ((z' + zeta w z)/w_d)^2) [m]: what remains swinging where the planned travel rests."""
     wd = frequency * np.sqrt(1 - damping**2)
     error, rate, _, _ = response.error
     return np.hypot(error, (rate + damping * frequency * error) / wd)
 
 
-def peak(response: Response, speed: float, quantity: Jet) -> float:
+def response_peak(response: Response, speed: float, quantity: Jet) -> float:
     """Largest magnitude over the turn of a jet of time at the response's steps; between them by quintic Hermite interpolation."""
     slope = quantity.d1
     turns = np.flatnonzero((response.piece[1:] == response.piece[:-1]) & (slope[1:] * slope[:-1] < 0))

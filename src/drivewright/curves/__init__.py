@@ -1,7 +1,17 @@
-"""Plane curves as complex jets, envelopes of moving circles and lines, and the profile that is really left of them."""
+"""Plane curves as complex jets, envelopes of moving circles and lines, and the profile that is really left of them.
+
+`plane`      tangent, curvature, offset, envelopes of one jet
+`pieces`     pieces of a curve and dense samples of them
+`families`   circles and lines that move: their envelopes
+`crossings`, `trim`  self-crossings of an envelope; what remains of it
+`undercut`   gap and lost motion on a trimmed profile
+`touching`   places where a circle touches a profile
+`outlines`, `toolpath`  outlines of arcs, lines and splines; their parallels for a cutter
+`display`    outlines for pictures, from chords
+"""
 
 from drivewright.curves.crossings import Crossing
-from drivewright.curves.drawn import drawn_outline, simple_outline
+from drivewright.curves.display import display_outline, simple_outline
 from drivewright.curves.families import CircleFamily, LineFamily
 from drivewright.curves.outlines import outline_area, outline_of_spans, perimeter
 from drivewright.curves.pieces import Member, Piece
@@ -22,7 +32,7 @@ __all__ = [
     "curvature",
     "curvature_rate",
     "derivative",
-    "drawn_outline",
+    "display_outline",
     "envelope_of_circle",
     "envelope_of_line",
     "largest_lost_motion",

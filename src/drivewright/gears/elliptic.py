@@ -50,7 +50,7 @@ class EllipticGearPair(RollingPair):
         return 2 * self.semi_major
 
     @property
-    def least_ratio(self) -> float:
+    def start_ratio(self) -> float:
         """r: the ratio at angle 0, (1 - e)/(1 + e) for a near start, its inverse for a far one; the ratio's other extreme is 1/r."""
         r = (1 - self.eccentricity) / (1 + self.eccentricity)
         return r if self.start == "near" else 1 / r
@@ -58,7 +58,7 @@ class EllipticGearPair(RollingPair):
     def jet(self, angle: ArrayLike | Jet) -> Jet:
         """Driven angle [rad] as a jet; `angle` is an array or a jet."""
         x = np.asarray(angle.d0 if isinstance(angle, Jet) else angle, dtype=float)
-        r = self.least_ratio
+        r = self.start_ratio
         turns = np.round(x / (2 * np.pi))
         half = 0.5 * (x - 2 * np.pi * turns)
         value = 2 * np.arctan2(r * np.sin(half), np.cos(half)) + 2 * np.pi * turns

@@ -84,7 +84,7 @@ class RollingPair(ABC):
         """Curvature of a pitch curve [1/m], positive where convex."""
         return (-1.0 if gear == 1 else 1.0) * curvature(self.pitch_curve(gear, angle))
 
-    def least_curvature(self, gear: int = 1, samples: int = 1440) -> tuple[float, float]:
+    def min_curvature(self, gear: int = 1, samples: int = 1440) -> tuple[float, float]:
         """(driver angle, curvature [1/m]) where the pitch curve is least convex; negative: it is hollow there."""
         turns = 1.0 if gear == 1 else self.lobes[1] / self.lobes[0]
         angle = np.linspace(0, 2 * np.pi * turns, samples, endpoint=False)

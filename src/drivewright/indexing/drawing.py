@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import ArrayLike, Bools, Complexes, Floats
-from drivewright.curves import drawn_outline
+from drivewright.curves import display_outline
 from drivewright.indexing.motion import TURN
 from drivewright.indexing.plane import PROFILE_TOLERANCE, PlaneDrive, envelope_points, pitch_point
 from drivewright.scene import Body, Outline, Shape, circle, polygon
@@ -40,7 +40,7 @@ def poses(place: ArrayLike, angle: ArrayLike) -> Floats:
 def screen_outline(drive: PlaneDrive) -> Outline:
     """Outline of the trimmed profile, as fine as a picture needs."""
     drive.refuse()
-    return drawn_outline(drive.family, SCREEN_TOLERANCE * drive.circle_radius)
+    return display_outline(drive.family, SCREEN_TOLERANCE * drive.circle_radius)
 
 
 def profile_outline(drive: PlaneDrive) -> Outline:

@@ -1,9 +1,16 @@
-"""Motion laws s(u) with v, a, j, and programmes of segments on any driving angle."""
+"""Motion laws s(u) with v, a, j, and programmes of segments on any driving angle.
+
+`laws`          the named laws and their registry
+`acceleration`  laws stated by pieces of acceleration
+`piecewise`     piecewise polynomials and waves: derivatives, peaks, jumps
+`splines`, `tables`, `ripple`  laws through points and from measured lifts; ripple that their digits leave
+`programme`     segments of one turn
+"""
 
 from drivewright.motion.acceleration import Acceleration, hold, integrate, wave
 from drivewright.motion.laws import MotionLaw, law, names, register
 from drivewright.motion.piecewise import Motion, Peaks, Piecewise
-from drivewright.motion.programme import Joint, Piece, Programme, Segment, through
+from drivewright.motion.programme import Joint, Piece, Programme, Segment, compose_motion
 from drivewright.motion.ripple import Ripple
 from drivewright.motion.tables import TableLaw
 
@@ -19,11 +26,11 @@ __all__ = [
     "Ripple",
     "Segment",
     "TableLaw",
+    "compose_motion",
     "hold",
     "integrate",
     "law",
     "names",
     "register",
-    "through",
     "wave",
 ]

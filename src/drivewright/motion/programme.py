@@ -159,7 +159,7 @@ class Programme:
         return self.function.continuity
 
 
-def through(motion: Callable[[Any], Motion], theta: Jet) -> Motion:
+def compose_motion(motion: Callable[[Any], Motion], theta: Jet) -> Motion:
     """Motion(s, ds/dt, ...) of motion(theta(t)) by the chain rule; `theta` is a jet, `motion` a programme, a law or one piece of it."""
     return Motion(*compose(motion(theta.d0), theta))
 

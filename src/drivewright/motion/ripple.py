@@ -22,14 +22,14 @@ class Ripple(NamedTuple):
     acceleration: float
 
     @property
-    def noticed(self) -> bool:
+    def significant(self) -> bool:
         """True where the ripple is too large to build from."""
         return self.acceleration > LIMIT
 
     @property
     def message(self) -> str:
         """The finding in a sentence; empty where there is nothing to say."""
-        if not self.noticed:
+        if not self.significant:
             return ""
         return (
             f"the table's rows scatter by {self.scatter:.2g} (rms, SI) about a smooth curve, as rounded data do; the acceleration of "

@@ -109,7 +109,7 @@ def test_the_solids_stand_where_the_scene_starts(drawn):
         prism = parts[f"cam_{cam.name}"].solids[0]
         solid = shapely.Polygon(place(prism.outline.points(2e-6), parts[f"cam_{cam.name}"].pose))
         shown = polygon(bodies[f"cam.{cam.name}"], "profile", 0)
-        assert solid.symmetric_difference(shown).area < model.drawn_tolerance * solid.length
+        assert solid.symmetric_difference(shown).area < model.display_tolerance * solid.length
         exact = replace(bodies[f"cam.{cam.name}"], shapes=tuple(pusher_scene.cam_shapes(model, cam, model.profiles)))
         assert solid.symmetric_difference(polygon(exact, "profile", 0)).area < 1e-9
         roller = parts[f"roller_{cam.name}"]
@@ -119,7 +119,7 @@ def test_the_solids_stand_where_the_scene_starts(drawn):
     for name in ("sun", "intermediate", "planet"):
         part = parts[f"gear_{name}"]
         solid = shapely.Polygon(place(part.solids[0].outline.points(2e-6), part.pose))
-        assert solid.symmetric_difference(polygon(bodies[name], "body", 0)).area < model.drawn_tolerance * solid.length
+        assert solid.symmetric_difference(polygon(bodies[name], "body", 0)).area < model.display_tolerance * solid.length
         exact = replace(bodies[name], shapes=(Shape("body", model.gear_outline),))
         assert solid.symmetric_difference(polygon(exact, "body", 0)).area < 1e-9
 

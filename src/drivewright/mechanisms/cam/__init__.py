@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from drivewright.mechanisms.cam import analyse, finish, loads
+from drivewright.mechanisms.cam import geometry, loads, profiles
 from drivewright.mechanisms.cam.build import build
 from drivewright.mechanisms.cam.claims import claims
 from drivewright.mechanisms.cam.energy import energy
@@ -11,9 +11,9 @@ from drivewright.mechanisms.cam.spec import CamSpec
 from drivewright.registry import Analysis, Mechanism, oracle
 
 ANALYSES = (
-    Analysis("motion", analyse.motion, "the programme and its derivatives"),
-    Analysis("geometry", analyse.geometry, "pressure angle, curvature, closure"),
-    Analysis("profile", finish.finished, "the finished profile: undercut, walls, inspection"),
+    Analysis("motion", geometry.motion, "the programme and its derivatives"),
+    Analysis("geometry", geometry.geometry, "pressure angle, curvature, closure"),
+    Analysis("profile", profiles.finished_profiles, "the finished profile: undercut, walls, inspection"),
     Analysis("forces", loads.forces, "contact force and pressure, torque, sliding", missing=loads.no_forces),
     Analysis("spring", loads.spring, "what the spring must do, and the jump speed", missing=loads.no_spring),
     Analysis("vibration", loads.vibration, "steady vibration of the follower", missing=loads.no_vibration),

@@ -160,10 +160,13 @@ def vibration(model: CamModel, done: Answers) -> Answer:
     given, reach, speed = model.spec.vibration, model.follower.reach, model.speed
     assert given is not None
     frequency = 2 * np.pi * given.natural_frequency
-    found = cams.periodic(model.cycle, reach, speed, frequency, given.damping_ratio)
+    found = cams.periodic_response(model.cycle, reach, speed, frequency, given.damping_ratio)
     lift = reach * model.cycle.at(found.piece, found.angle)[1].d0
-    swing, actual = cams.amplitude(found, frequency, given.damping_ratio), cams.acceleration(found, frequency, given.damping_ratio)
-    error, shock = (cams.peak(found, speed, quantity) for quantity in (found.error, actual))
+    swing, actual = (
+        cams.free_amplitude(found, frequency, given.damping_ratio),
+        cams.mass_acceleration(found, frequency, given.damping_ratio),
+    )
+    error, shock = (cams.response_peak(found, speed, quantity) for quantity in (found.error, actual))
     values = {
         "vibration.max_error": Value(error, "m", "largest deviation of the follower from its programme"),
         "vibration.max_acceleration": Value(shock, "m/s^2", "largest acceleration of the follower, vibration included"),

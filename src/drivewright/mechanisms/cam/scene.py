@@ -53,7 +53,7 @@ def scene(model: CamModel) -> Scene:
     moving = _poses(model.shapes.origin.real, 0.0, -lift) if model.oscillating else _poses(0.0, lift, 0.0)
     colours = {"cam": "blue", "outer wall": "blue", "conjugate": "green"}
     bodies = [
-        Body(track.name, track.name, tuple(_cam_shapes(model, number, _drawn_profile)), turning, colours[track.name])
+        Body(track.name, track.name, tuple(_cam_shapes(model, number, _display_profile)), turning, colours[track.name])
         for number, track in enumerate(model.tracks)
         if track.cut
     ]
@@ -74,10 +74,10 @@ def _poses(x, y, angle):
 
 
 @lru_cache(maxsize=16)
-def _drawn_profile(model, number):
+def _display_profile(model, number):
     """The profile of a track for the screen: as fine as that needs where nothing is trimmed away, else the exact one."""
     track = model.tracks[number]
-    outline = cams.drawn_profile(track.follower, model.programme, DRAWN * model.shapes.size, track.flank)
+    outline = cams.display_profile(track.follower, model.programme, DRAWN * model.shapes.size, track.flank)
     return cams.FinishedProfile(outline, None) if outline else profile(model, number)
 
 

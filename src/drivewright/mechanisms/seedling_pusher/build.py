@@ -70,9 +70,9 @@ class PusherModel:
         return self.gear.outline(self.spec.manufacture.chord_tolerance)
 
     @cached_property
-    def drawn_gear(self) -> Outline:
+    def display_gear(self) -> Outline:
         """Toothed outline of the gear, as fine as a picture needs."""
-        return _drawn_gear(self.eccentricity, self.spec.train.semi_major, self.spec.train.teeth, self.drawn_tolerance)
+        return _display_gear(self.eccentricity, self.spec.train.semi_major, self.spec.train.teeth, self.display_tolerance)
 
     @cached_property
     def profiles(self) -> dict[str, Outline]:
@@ -80,21 +80,21 @@ class PusherModel:
         return {name: trimmed.outline(self.spec.manufacture.chord_tolerance) for name, trimmed in self.pair.trimmed.items()}
 
     @cached_property
-    def drawn_profiles(self) -> dict[str, Outline]:
+    def display_profiles(self) -> dict[str, Outline]:
         """Outline of the real profile of each cam by name, as fine as a picture needs."""
-        return {cam.name: curves.drawn_outline(self.pair.family(cam), self.drawn_tolerance, fewest=65) for cam in self.pair.cams}
+        return {cam.name: curves.display_outline(self.pair.family(cam), self.display_tolerance, fewest=65) for cam in self.pair.cams}
 
     @property
-    def drawn_tolerance(self) -> float:
+    def display_tolerance(self) -> float:
         """How far a drawn curve may leave the exact one [m]: some millionths of the picture's size."""
         return DRAWN * self.spec.train.semi_major
 
 
 @lru_cache(maxsize=64)
-def _drawn_gear(eccentricity, semi_major, teeth, tolerance):
+def _display_gear(eccentricity, semi_major, teeth, tolerance):
     """The gear of `PusherModel.gear` for the picture; it stays while other numbers of the design change."""
     family = RackFamily(EllipticGearPair(eccentricity, semi_major), 1, teeth, Rack())
-    return curves.drawn_outline(family, tolerance, fewest=4)
+    return curves.display_outline(family, tolerance, fewest=4)
 
 
 def build(spec: SeedlingPusherSpec) -> PusherModel:

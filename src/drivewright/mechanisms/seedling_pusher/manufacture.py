@@ -30,7 +30,7 @@ def teeth(model: PusherModel, done: Answers) -> Answer:
     values = {
         "gear.perimeter": Value(float(pair.perimeter()), "m", "perimeter of the pitch ellipse"),
         "gear.module": Value(float(gear.module), "m", "module: perimeter / (pi * teeth)"),
-        "gear.max_curvature_radius": Value(1 / pair.least_curvature()[1], "m", "largest radius of curvature of the pitch ellipse"),
+        "gear.max_curvature_radius": Value(1 / pair.min_curvature()[1], "m", "largest radius of curvature of the pitch ellipse"),
         "gear.lost_flank": Value(float(lost), "m", "straight cutter depth that leaves no flank because of undercut"),
     }
     parts = ("sun", "intermediate", "planet")

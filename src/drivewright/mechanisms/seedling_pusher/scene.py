@@ -25,7 +25,7 @@ def scene(model: PusherModel) -> Scene:
     spec = model.spec
     axis, rotation, swing = model.arm.axis(t).d0, model.arm.rotation(t).d0, model.pair.swing(t).d0
     carrier = 2 * spec.train.semi_major * np.exp(1j * (spec.train.carrier_angle - t))
-    wheel = model.drawn_gear
+    wheel = model.display_gear
     arm_pose, lever_pivot = _poses(axis, rotation), axis + np.exp(1j * rotation) * pivot(model)
     bodies = (
         _gear("sun", "sun gear (fixed)", wheel, _poses(0 * axis, 0 * t + sun_angle(model)), "ground"),
@@ -33,7 +33,7 @@ def scene(model: PusherModel) -> Scene:
         _gear("planet", "planet gear", wheel, _poses(axis, planet_angle(model, t)), "steel"),
         Body("carrier", "carrier", (Shape("body", _carrier_shape(model)),), _poses(0 * axis, -t), "blue"),
         *(
-            Body(f"cam.{cam.name}", f"{cam.name} cam", tuple(cam_shapes(model, cam, model.drawn_profiles)), _poses(axis, -t), colour)
+            Body(f"cam.{cam.name}", f"{cam.name} cam", tuple(cam_shapes(model, cam, model.display_profiles)), _poses(axis, -t), colour)
             for cam, colour in zip(model.pair.cams, ("orange", "violet"), strict=True)
         ),
         Body("arm", "planting arm with needle", tuple(_arm_shapes(model)), arm_pose, "green"),

@@ -23,7 +23,7 @@ _PROBES = 200  # members among which one that sweeps over the interior point is 
 _DEEP = 20  # tolerances by which a point of the picture may lie in a cutter, at a sharp crossing of two chords
 
 
-def drawn_outline(family: EnvelopeFamily, tolerance: float, interior: complex = 0j, fewest: int = 17) -> Outline:
+def display_outline(family: EnvelopeFamily, tolerance: float, interior: complex = 0j, fewest: int = 17) -> Outline:
     """Outline within a few `tolerance` [m] of the exact profile of a family, knots on it; the exact one where chords do not tell it.
 
     fewest: chords on each piece of the envelope before those that turn are divided.  Errors are those of `trim`.

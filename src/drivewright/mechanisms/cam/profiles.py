@@ -9,7 +9,7 @@ from drivewright.mechanisms.cam.spec import TURN
 from drivewright.result import Answer, Answers, Check, Value, merge_answers
 
 
-def finished(model: CamModel, done: Answers) -> Answer:
+def finished_profiles(model: CamModel, done: Answers) -> Answer:
     """The profiles after global trimming: lost motion, size, walls, cutter; one inspection table each."""
     answers = [_one_profile(model, number) for number, track in enumerate(model.tracks) if track.cut]
     return merge_answers((*answers, Answer(checks=_cutter_checks(model))))
