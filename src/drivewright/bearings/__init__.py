@@ -1,4 +1,10 @@
-"""Rolling bearings as force elements: inner geometry, load distribution, stiffness matrix, contact pressure, life."""
+"""Rolling bearings as force elements: inner geometry, load distribution, stiffness matrix, contact pressure, life.
+
+`response` energy, force and stiffness of any elastic support; `newton` the compiled equilibrium of one bearing; `solving` the same with
+names, checks and what each element carries; `ball` and `roller` the two kinds, each with its law; `life` ratings and lives of ISO 281 and
+ISO/TS 16281; `stiffness_curve` displacement and stiffness over load; `approximate_stiffness` formulas from catalogue numbers alone;
+`catalogue` bearings by name; `drawing` a bearing in section, `tables` answers as tables of a result.
+"""
 
 from importlib import import_module
 from typing import Any

@@ -1,6 +1,6 @@
 """Newton's method for the equilibrium of one bearing under a force, compiled, whatever its law."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -28,8 +28,9 @@ class BearingMeasures(NamedTuple):
 
 
 @generic
-def measures(law):
+def measures(law: Any) -> BearingMeasures:
     """The `BearingMeasures` of a law."""
+    raise NotImplementedError
 
 
 class _Work(NamedTuple):

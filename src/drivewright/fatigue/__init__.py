@@ -1,4 +1,9 @@
-"""Multiaxial strain-life fatigue: material cards, rainflow counting, Neuber's rule, critical planes after Brown and Miller, life maps."""
+"""Multiaxial strain-life fatigue: material cards, rainflow counting, Neuber's rule, critical planes after Brown and Miller, life maps.
+
+`material` cards and the uniform material law; `curves` strain over life and stress at a notch; `rainflow` counting cycles; `tensors`
+stress and strain tensors; `yielding` Neuber's rule along a history; `critical` life of a block on its critical plane, and of many nodes;
+`planes` damage on one plane and the search for the worst; `shear` the plane of the largest shear amplitude.
+"""
 
 from importlib import import_module
 from typing import Any

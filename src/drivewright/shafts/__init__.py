@@ -1,4 +1,16 @@
-"""Shafts on elastic, rolling and rigid bearings: deflection, flexibility at stations, modes; one by one and by the million."""
+"""Shafts on elastic, rolling and rigid bearings: deflection, flexibility at stations, modes; one by one and by the million.
+
+Description: `model` sections, supports, stations, loads; `loads` directions and tooth forces; `supports` springs and rolling bearings as
+supports, and their stiffness at rest; `curves` radial curves: play, tables, tangents.
+Kernels and elements: `sections` round cross-sections; `beam` exact two-node elements; `closed_form` two bearings and a uniform shaft.
+Statics: `assembly` beam and supports as one system; `equilibrium` Newton's method; `loaded` all loads, and the diagrams along the shaft;
+`audit` whether forces balance; `buckling` under axial forces; `linearised` the shaft about its equilibrium.
+Flexibility: `influence` flexibility, stiffness and their parts; `unit_loads` rigid bearings and stress under unit forces; `strength` what
+fails first; `sensitivity` how the flexibility follows every parameter.
+Vibration: `vibration` modes and critical speeds; `mode_shapes` what they are compared with.
+Many at once: `batch` checks the arguments, `batch_kernels` computes.
+To look at: `drawing` shapes of a shaft, `tables` answers as tables of a result; `solid_check` the shaft as a solid beside the beam.
+"""
 
 from importlib import import_module
 from typing import Any

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._jit import formulas_of
 from drivewright._typing import Floats, Ints
 from drivewright.bearings.newton import measures
 from drivewright.bearings.response import evaluate_response
@@ -164,7 +165,7 @@ def _resists(support, freedom, way):
         return False
     displacement = np.zeros(5)
     displacement[freedom] = way * (FAR if freedom <= AXIAL else TURNED)
-    if type(support.law) in measures.formulas:
+    if type(support.law) in formulas_of(measures):
         sizes = measures(support.law)
         play = 2 * abs(sizes.centre) + sizes.length
         displacement[freedom] += way * (play if freedom <= AXIAL else play / sizes.arm)

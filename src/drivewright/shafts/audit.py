@@ -65,7 +65,7 @@ def _weight(shaft, gravity):
         return
     for section, start in zip(shaft.sections, shaft.ends, strict=False):
         diameter = section.start + (section.end - section.start) * NODES
-        for part, weight, place in zip(area(diameter, section.bore), WEIGHTS, NODES, strict=True):
+        for part, weight, place in zip(np.asarray(area(diameter, section.bore)), WEIGHTS, NODES, strict=True):
             mass = shaft.density * part * weight * section.length
             yield _row(start + place * section.length, mass * np.asarray(gravity), (0.0, 0.0))
     for station in shaft.stations:

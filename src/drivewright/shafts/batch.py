@@ -1,36 +1,72 @@
 """Many shafts at once: flexibility at the stations, and reactions, of a million stepped shafts in one call."""
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
 
 from drivewright import cases
 from drivewright._jit import warmer
-from drivewright._typing import Floats
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
 from drivewright.shafts.batch_kernels import DesignColumn, DesignColumns, fill_flexibilities, workspace
 from drivewright.shafts.model import COWPER, Shaft
 
 CHUNK = 1_000_000  # sections and pairs of points per chunk: a few hundredths of a second
+Progress: TypeAlias = Callable[[int, int, str], object]  # (done, total, what comes next)
 PER_DESIGN = ("youngs_modulus", "poisson", "shear")
 
 
+@overload
 def flexibilities(
-    lengths,
-    diameters,
-    supports,
-    radial_stiffness,
-    stations,
-    youngs_modulus,
-    poisson,
-    shear=COWPER,
+    lengths: ArrayLike,
+    diameters: ArrayLike,
+    supports: ArrayLike,
+    radial_stiffness: ArrayLike,
+    stations: ArrayLike,
+    youngs_modulus: ArrayLike,
+    poisson: ArrayLike,
+    shear: ArrayLike = ...,
     *,
-    bores=0.0,
-    end_diameters=None,
-    reactions=False,
-    workers=None,
-    progress=None,
-):
+    bores: ArrayLike = ...,
+    end_diameters: ArrayLike | None = ...,
+    reactions: Literal[False] = ...,
+    workers: int | None = ...,
+    progress: Progress | None = ...,
+) -> Floats: ...
+@overload
+def flexibilities(
+    lengths: ArrayLike,
+    diameters: ArrayLike,
+    supports: ArrayLike,
+    radial_stiffness: ArrayLike,
+    stations: ArrayLike,
+    youngs_modulus: ArrayLike,
+    poisson: ArrayLike,
+    shear: ArrayLike = ...,
+    *,
+    bores: ArrayLike = ...,
+    end_diameters: ArrayLike | None = ...,
+    reactions: Literal[True],
+    workers: int | None = ...,
+    progress: Progress | None = ...,
+) -> tuple[Floats, Floats]: ...
+def flexibilities(
+    lengths: ArrayLike,
+    diameters: ArrayLike,
+    supports: ArrayLike,
+    radial_stiffness: ArrayLike,
+    stations: ArrayLike,
+    youngs_modulus: ArrayLike,
+    poisson: ArrayLike,
+    shear: ArrayLike = COWPER,
+    *,
+    bores: ArrayLike = 0.0,
+    end_diameters: ArrayLike | None = None,
+    reactions: bool = False,
+    workers: int | None = None,
+    progress: Progress | None = None,
+) -> Floats | tuple[Floats, Floats]:
     """(N, M, M) flexibility [m/N] of N shafts at M stations each; with `reactions` also (N, B, M): what each support carries of a
     unit force at each station [N/N].
 
@@ -147,7 +183,7 @@ def _table(name, value, one_a_design):
 
 
 @warmer
-def warm_batch():
+def warm_batch() -> None:
     """A uniform and a stepped shaft."""
     for diameters in ((0.02,), (0.02, 0.03)):
         flexibilities((0.1, 0.1), diameters, (0.02, 0.18), 1e8, (0.0, 0.1), 206e9, 0.3)

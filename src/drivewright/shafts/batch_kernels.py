@@ -126,6 +126,7 @@ def _is_possible(designs, sections, bearings, stations, n):
 
 @inner
 def _is_uniform(designs, sections, n):
+    """Whether all sections of design n have one diameter and one bore."""
     diameter, bore = entry_of(designs.diameters, n, 0), entry_of(designs.bores, n, 0)
     same = True
     for s in range(sections):
@@ -136,6 +137,7 @@ def _is_uniform(designs, sections, n):
 
 @inner
 def _fill_closed_form(designs, n, delta, carried, wanted):
+    """Row n of delta (N, M, M) [m/N] and, where wanted, of carried (N, B, M) [-], of a uniform shaft on two supports: `closed_form`."""
     diameter, bore = entry_of(designs.diameters, n, 0), entry_of(designs.bores, n, 0)
     modulus, poisson, shear = entry_of(designs.youngs_modulus, n, 0), entry_of(designs.poisson, n, 0), entry_of(designs.shear, n, 0)
     bend, _, _, slip = compliance_integrals(1.0, diameter, diameter, bore, modulus, poisson, shear)
@@ -154,6 +156,7 @@ def _fill_closed_form(designs, n, delta, carried, wanted):
 
 @inner
 def _fill_two_sided(designs, sections, n, work, delta, carried, wanted):
+    """The same of any shaft: both sides of every station as springs, then the force carried outwards from it."""
     bearings, points = carried.shape[1], work.order.size
     _sort_points(designs, n, bearings, work)
     _divide_shaft(designs, sections, n, work)
@@ -280,6 +283,7 @@ def _carry_outwards(designs, n, bearings, work, p, step, w, turn, force, delta, 
 
 @inner
 def _support_compliance(designs, n, bearing):
+    """1/k [m/N] of a support; inf where it is absent."""
     stiffness = entry_of(designs.radial_stiffness, n, bearing)
     return 1.0 / stiffness if stiffness > 0.0 else np.inf
 

@@ -247,7 +247,7 @@ def end_forces(found: Beam, plane: int, unknowns: Floats, coefficients: Floats |
     bent = strains(found, unknowns)[:, [w, t]] * (1.0, sign)
     if coefficients is not None:
         bent = bent - clamped_load_displacement(found.pieces, coefficients, found.shaft)
-    return np.linalg.solve(found.flexibility, bent[:, :, None])[:, :, 0]
+    return np.asarray(np.linalg.solve(found.flexibility, bent[:, :, None])[:, :, 0], dtype=float)
 
 
 def elastic_line(found: Beam, plane: int, unknowns: Floats, z: Floats, coefficients: Floats | None = None) -> ElasticLine:

@@ -66,6 +66,7 @@ def solve(model: ShaftSystem, force: Floats) -> ShaftEquilibrium:
     refuse_unbalanced(model, force)
     load = model.basis.T @ force
     v, held = _first_guess(model, load)
+    change = v
     for step in range(1, MAX_STEPS + 1):
         change, more = _newton_step(model, v, held, load)
         share = _step_length(model, (v, held), (change, more), load)
@@ -233,5 +234,5 @@ def _equilibrium(model, v, held, steps):
         relative.append(mount.turn * own)
         tangent.append(np.diag(support.stiffness) + law)
         contact.append(law)
-    arrays = (np.array(each) for each in (reactions, relative, tangent, contact))
-    return ShaftEquilibrium(model, v, *arrays, _energy_derivatives(model, v)[1], held, steps)
+    hessian = _energy_derivatives(model, v)[1]
+    return ShaftEquilibrium(model, v, np.array(reactions), np.array(relative), np.array(tangent), np.array(contact), hessian, held, steps)

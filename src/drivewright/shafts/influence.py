@@ -66,7 +66,7 @@ def flexibility(found: ShaftEquilibrium, positions: Sequence[float], direction: 
         raise InputError("shaft: at rest its bearings do not resist a small force; give a load, a preload or no clearance")
     names, shares = _shares(found, v, answer[model.size :])
     pressed = _support_forces(found, v, answer[model.size :])
-    return Flexibility(delta, names, shares, np.einsum("f,pfs->ps", direction, pressed[:, :2]), pressed, v)
+    return Flexibility(delta, names, shares, np.einsum("f,pfs->ps", np.asarray(direction, float), pressed[:, :2]), pressed, v)
 
 
 def _solve_unit_loads(found, small, unit):
@@ -118,4 +118,4 @@ def stiffness(delta: Floats, names: Sequence[str], limit: float = 1e12) -> Float
             f"the flexibility at {', '.join(map(repr, names))} is singular: two stations move together "
             "(stand at one place?), so the stiffness matrix does not exist"
         )
-    return np.linalg.inv(delta)
+    return np.asarray(np.linalg.inv(delta), dtype=float)

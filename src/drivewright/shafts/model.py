@@ -4,7 +4,7 @@ z runs along the axis from the left end, y is up, x completes the right-handed f
 rotations about x, y, z; all lengths in metres.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -35,7 +35,7 @@ class Support(NamedTuple):
     name: str
     position: float
     stiffness: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0, 0.0)
-    law: Any = None
+    law: object = None
     mirrored: bool = False
     offset: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0, 0.0)
     seat: tuple[float, ...] = RIGID

@@ -3,29 +3,33 @@
 Kernels of plain numbers; a solid section has the bore 0.
 """
 
+from typing import TypeVar
+
 import numpy as np
 
 from drivewright._jit import kernel, warmer
-from drivewright._typing import Floats, Numbers
+from drivewright._typing import Floats
+
+NumberT = TypeVar("NumberT", float, Floats)  # one number, or an array of them
 
 # Gauss-Legendre on 0 ... 1: exact to rounding for every taper that turns into a shaft (diameters up to 1 : 4 within one piece).
 NODES, WEIGHTS = (0.5 * (part + shift) for part, shift in zip(np.polynomial.legendre.leggauss(24), (1.0, 0.0), strict=True))
 
 
 @kernel
-def area(diameter: Numbers, bore: Numbers) -> Numbers:
+def area(diameter: NumberT, bore: float | NumberT) -> NumberT:
     """A = pi/4 (D^2 - d^2)  [m^2]."""
     return 0.25 * np.pi * (diameter**2 - bore**2)
 
 
 @kernel
-def second_moment(diameter: Numbers, bore: Numbers) -> Numbers:
+def second_moment(diameter: NumberT, bore: float | NumberT) -> NumberT:
     """I = pi/64 (D^4 - d^4)  [m^4] about a diameter; twice that about the axis."""
     return np.pi / 64.0 * (diameter**4 - bore**4)
 
 
 @kernel
-def cowper_coefficient(diameter: Numbers, bore: Numbers, poisson: float) -> Numbers:
+def cowper_coefficient(diameter: NumberT, bore: float | NumberT, poisson: float) -> NumberT:
     """Shear coefficient kappa of a round section, m = d/D  (Cowper 1966, recalled; checked against the solid):
 
     kappa = 6 (1 + nu) (1 + m^2)^2 / [(7 + 6 nu) (1 + m^2)^2 + (20 + 12 nu) m^2].

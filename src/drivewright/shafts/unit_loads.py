@@ -39,7 +39,9 @@ def _rigid(support: Support, alone: bool) -> tuple[float, ...]:
 
 def unit_deflection(equilibrium: ShaftEquilibrium, unknowns: Floats, z: Floats, direction: Floats) -> Floats:
     """Deflection (m,) [m/N] along `direction` (x, y) at places z (m,) [m] under a unit force with the unknowns (size,)."""
-    return sum(way * elastic_line(equilibrium.model.beam, plane, unknowns, z).deflection for plane, way in enumerate(direction))
+    return np.sum(
+        [way * elastic_line(equilibrium.model.beam, plane, unknowns, z).deflection for plane, way in enumerate(direction)], axis=0
+    )
 
 
 def peak_unit_stress(equilibrium: ShaftEquilibrium, unknowns: Floats, direction: Floats) -> float:

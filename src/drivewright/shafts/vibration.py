@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.linalg import block_diag, eigh
 
-from drivewright._typing import ArrayLike, Floats, Ints
+from drivewright._typing import Floats, Ints
 from drivewright.errors import InputError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.assembly import AXIAL, REGULARISATION, TWIST, regularisation
@@ -30,7 +30,7 @@ class Modes(NamedTuple):
     frequencies: Floats
     shapes: Floats
 
-    def where(self, chosen: ArrayLike) -> "Modes":
+    def select(self, chosen: slice | Ints) -> "Modes":
         """Some of them."""
         return Modes(self.frequencies[chosen], self.shapes[:, chosen])
 
@@ -137,9 +137,8 @@ def condense_supports(stiff: Floats, constraints: Floats, compliance: Floats) ->
     shapes = solve_saddle_point(stiff, constraints, 0 * compliance, unit)[: len(stiff)]
     own = shapes.T @ stiff @ shapes
     least = np.sqrt(compliance[yields] / (1 + compliance[yields] * np.diag(own)))
-    return np.hstack([held, shapes * least]), block_diag(
-        held.T @ stiff @ held, least[:, None] * own * least + np.diag(1 / (1 + compliance[yields] * np.diag(own)))
-    )
+    yielding = least[:, None] * own * least + np.diag(1 / (1 + compliance[yields] * np.diag(own)))
+    return np.hstack([held, shapes * least]), np.asarray(block_diag(held.T @ stiff @ held, yielding))
 
 
 def _null_space(rows):
@@ -159,12 +158,13 @@ def modes(equilibrium: ShaftEquilibrium, count: int) -> tuple[Modes, Modes]:
     if is_isotropic(equilibrium):
         along = FREEDOMS * np.arange(len(equilibrium.model.beam.z)) + AXIAL
         free = AXIAL in equilibrium.model.pinned
-        axial = found.where(slice(0, 0)) if free else _modes(equilibrium, stiff, inertia, along, count)
-        bending = found.where(slice(0, count))
+        axial = found.select(slice(0, 0)) if free else _modes(equilibrium, stiff, inertia, along, count)
+        bending = found.select(slice(0, count))
     else:
         along = _axial_share(found.shapes, inertia) > 0.5
-        bending, axial = found.where(np.flatnonzero(~along)[:count]), found.where(np.flatnonzero(along)[:count])
-    return tuple(Modes(each.frequencies, equilibrium.model.basis @ each.shapes) for each in (bending, axial))
+        bending, axial = found.select(np.flatnonzero(~along)[:count]), found.select(np.flatnonzero(along)[:count])
+    basis = equilibrium.model.basis
+    return Modes(bending.frequencies, basis @ bending.shapes), Modes(axial.frequencies, basis @ axial.shapes)
 
 
 def _modes(equilibrium, stiff, inertia, chosen, count):

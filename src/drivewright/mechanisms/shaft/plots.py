@@ -1,14 +1,17 @@
 """The plots of a shaft; they depend on its stations and bearings."""
 
-from drivewright.result import Plot
+from collections.abc import Iterator
+
+from drivewright.mechanisms.shaft.spec import ShaftSpec
+from drivewright.result import Plot, Result
 
 
-def plots(result):
+def plots(result: Result[ShaftSpec]) -> tuple[Plot, ...]:
     """All plots whose table the result has."""
     return tuple(plot for plot in _all(result) if plot.table in result.tables)
 
 
-def _all(result):
+def _all(result: Result[ShaftSpec]) -> Iterator[Plot]:
     stations = result.arrays["flexibility"].labels[0] if "flexibility" in result.arrays else ()
     across = "_across" if "diagram" in result.tables and any(result.tables["diagram"]["moment_across"].data) else ""
     columns = [name for each in ("deflection", "slope", "shear", "moment") for name in dict.fromkeys((each, each + across))]

@@ -259,6 +259,6 @@ class ShaftSpec(MechanismSpec):
         return self
 
     @property
-    def length(self):
+    def length(self) -> float:
         """Length of the shaft [m]."""
         return sum(segment.length for segment in self.segments)
