@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from integrals import integrate_pieces
 
 from drivewright._jit import plain
 from drivewright.contact import film, reynolds
 from drivewright.errors import InputError
+from drivewright.numerics.quadrature import integrate_pieces
 
 pytestmark = pytest.mark.analytical
 

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from integrals import integrate_periodic, integrate_pieces
 from scipy.special import ellipe, ellipk
 
 from drivewright import contact
 from drivewright.contact.hertz import axis_ratio
+from drivewright.numerics.quadrature import integrate_periodic, integrate_pieces
 
 pytestmark = pytest.mark.analytical
 

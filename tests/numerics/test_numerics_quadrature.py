@@ -1,9 +1,8 @@
 import numpy as np
 import pytest
-from integrals import integrate_periodic, integrate_pieces
 
 from drivewright.errors import InputError
-from drivewright.numerics.quadrature import cumulative_integral
+from drivewright.numerics.quadrature import cumulative_integral, integrate_periodic, integrate_pieces
 
 pytestmark = pytest.mark.analytical
 

@@ -1,4 +1,4 @@
-"""Running integrals of piecewise smooth functions by Gauss-Legendre.
+"""Integrals of smooth functions: Gauss-Legendre on pieces, the trapezoidal rule over a period.
 
 A function takes an array of abscissas (m,) and returns values (..., m); integrals have the leading shape.
 """
@@ -12,13 +12,24 @@ from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
 
 
-def cumulative_integral(f: Callable[[Floats], Floats], breaks: ArrayLike, points: int = 16) -> Floats:
-    """Integrals of f from breaks[0] to every break: (..., len(breaks)), the first one 0; f is smooth between neighbouring breaks.
+def integrate_pieces(f: Callable[[Floats], Floats], breaks: ArrayLike, points: int = 16) -> Floats:
+    """Integral of f from breaks[0] to breaks[-1], where f is smooth between neighbouring breaks.
 
     `points` Gauss nodes per piece are exact for polynomials of degree 2 points - 1 there.
     """
+    return _piece_integrals(f, breaks, points).sum(axis=-1)
+
+
+def cumulative_integral(f: Callable[[Floats], Floats], breaks: ArrayLike, points: int = 16) -> Floats:
+    """Integrals of f from breaks[0] to every break: (..., len(breaks)), the first one 0."""
     pieces = _piece_integrals(f, breaks, points)
     return np.concatenate([np.zeros_like(pieces[..., :1]), np.cumsum(pieces, axis=-1)], axis=-1)
+
+
+def integrate_periodic(f: Callable[[Floats], Floats], period: float, samples: int = 256, start: float = 0.0) -> Floats:
+    """Integral of f over one period by the trapezoidal rule, which for a smooth periodic f converges faster than any power."""
+    x = start + period * np.arange(samples) / samples
+    return period * np.mean(_values(f, x), axis=-1)
 
 
 def _piece_integrals(f, breaks, points):
