@@ -1,6 +1,6 @@
 """Numerics without mechanics.
 
-`quadrature`     Gauss-Legendre on pieces, the trapezoidal rule over a period.
+`quadrature`     Gauss-Legendre on pieces.
 `roots`          bracketed roots of one variable, damped Newton steps for several, extremes.
 `small`          factors of small matrices in kernels.
 `least_squares`  fits with the covariance of their parameters.
@@ -11,7 +11,3 @@
 `chaos`          the largest Lyapunov exponent, the period of an orbit.
 `ode`            initial value problems.
 """
-
-from drivewright.numerics.quadrature import cumulative_integral, integrate_periodic, integrate_pieces
-
-__all__ = ["cumulative_integral", "integrate_periodic", "integrate_pieces"]
