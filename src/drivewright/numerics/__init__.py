@@ -4,9 +4,9 @@
 `roots`          bracketed roots of one variable, damped Newton steps for several, extremes.
 `small`          factors of small matrices in kernels.
 `least_squares`  fits with the covariance of their parameters.
-`splines`        interpolating and smoothing splines.
+`splines`        splines through points, as piecewise polynomials.
 `jets`           a value with its first three derivatives.
-`signals`        maxima, means, percentiles and spectra of sampled signals.
+`signals`        maxima, means and spectra of sampled signals.
 `ensemble`       means of correlated samples with their intervals.
 `chaos`          the largest Lyapunov exponent, the period of an orbit.
 `ode`            initial value problems.
