@@ -87,11 +87,16 @@ def test_compared(tab):
     keep(page, "studio-compared")
 
 
-@pytest.mark.parametrize("view", ["solid", "figures", "study"])
+SHOWN = {"solid": ".so-canvas", "figures": ".vw-tile img", "study": "text=No study has been run yet"}
+
+
+@pytest.mark.parametrize("view", list(SHOWN))
 def test_the_other_views(tab, view):
     page = tab("disc_cam")
     page.get_by_test_id(f"view-{view}").click()
     if view != "study":
         until(page, f"['done', 'failed'].includes(window.drivewright.state.jobs.{view}?.state)", 120)
+        assert page.evaluate(f"window.drivewright.state.jobs.{view}.state") == "done"
+    page.locator(SHOWN[view]).first.wait_for(state="visible", timeout=20_000)
     page.wait_for_timeout(1500)
     page.screenshot(path=FOLDER / f"studio-view-{view}.png")

@@ -1,4 +1,22 @@
-"""Indexing drives: profiles cut by the pins of a wheel, contacts, play, torsional stiffness; roller gears; torsion tests."""
+"""Indexing drives: profiles cut by the pins of a wheel, contacts, play, torsional stiffness; roller gears; torsion tests.
+
+motion          the wheel's angle over the input's: step and dwell
+plane           plate cams and pins: paths, trimmed profiles, contacts, pitch point
+pin_wheel       cams on cranks inside or around the pins
+parallel        two plate cams on the input shaft
+contacts        contacts of one cam with the pins at one position
+play            free rotation of the wheel
+pin_pressure    Hertz pressure of a pin, the contact that resists a torque best
+cam_tables      profile, contacts and pressure angles as tables
+drawing         outlines, poses and common normals of plate cams
+plate_views     scene, drawings and solids of drives with plate cams
+drivetrain      what yields: pins, bearings, split shafts, gears, wheel
+stiffness/      torsional stiffness, forces of pins and bearings, statics
+solid/          the same with finite elements (extra `fe`)
+batch/          many pin wheels at once in compiled code
+roller_gear/    barrel and globoidal cams: flanks, trimming, play, stress, tables, scene, solids
+torsion_test/   evaluation of measured loops of torque and angle
+"""
 
 from importlib import import_module
 
