@@ -6,6 +6,7 @@
 `profile`            family of the face in the cam frame, overtravel
 `finished`           the trimmed profile, its size, inspection table
 `sizing`             least radii of curvature and base radius, length of a flat face
+`track`              a surface of a cam and what runs on it, with the tables of its geometry
 `closure`            yoke, groove, conjugate cam
 `loads`, `pressure`  forces, torque, spring; Hertz pressure
 `vibration`          the follower train as one mass on a damped spring
@@ -52,6 +53,7 @@ from drivewright.cams.loads import (
 from drivewright.cams.pressure import contact_pressure, pair_modulus, peak_contact_pressure, relative_curvature, roller_pressure
 from drivewright.cams.profile import FlatFollower, Follower, Overtravel, RoundFollower, family, overtravel, path, spans
 from drivewright.cams.sizing import face_ends, min_base_radius, min_flat_radius, min_pitch_radius
+from drivewright.cams.track import CamTrack
 from drivewright.cams.vibration import (
     STIFFEST,
     Response,
@@ -66,6 +68,7 @@ from drivewright.cams.vibration import (
 __all__ = [
     "Breadth",
     "CamContact",
+    "CamTrack",
     "ConjugateCam",
     "ConjugatePair",
     "ContactAt",

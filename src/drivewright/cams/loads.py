@@ -62,7 +62,7 @@ def needed_stiffness(cycle: Cycle, reach: float, load: FollowerLoad, speed: floa
     for _ in range(STEPS):
         tried = load._replace(stiffness=stiffness)
         lowest = cycle.minimum(lambda _, lift, tried=tried: follower_force(reach * lift, tried, speed))
-        x = reach * cycle.at(lowest.piece, lowest.angle)[1].d0
+        x = float(reach * cycle.at(lowest.piece, lowest.angle)[1].d0)
         if lowest.value >= -1e-13 * stiffness * abs(x):
             return stiffness
         if x <= 0:

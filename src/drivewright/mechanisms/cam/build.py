@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 
 from drivewright import cams, materials, motion
-from drivewright.cams.follower_shapes import FollowerShapes
-from drivewright.cams.profile import Follower
+from drivewright.cams import CamTrack, FollowerShapes
 from drivewright.errors import DoesNotAssemble, InputError, SpecError
 from drivewright.mechanisms.cam.spec import CamSpec, Groove, Swing
 from drivewright.numerics.jets import Jet
@@ -24,65 +23,13 @@ USED = {  # keys of the follower that each motion and face reads
 }
 
 
-@dataclass(frozen=True)
-class Track:
-    """A surface of a cam and what runs on it: `contact(angle, lift)` gives the `cams.CamContact`.
-
-    `prefix` stands before the names of its values; flank -1 is the outer wall of a groove; `cut`: it needs a profile of its own.
-    """
-
-    name: str
-    prefix: str
-    follower: Follower
-    contact: cams.ContactAt
-    flank: int = 1
-    cut: bool = True
-
-    @property
-    def flat(self) -> bool:
-        """Whether the face is flat."""
-        return isinstance(self.follower, cams.FlatFollower)
-
-    @property
-    def suffix(self) -> str:
-        """What stands behind the names of its tables and checks."""
-        return f".{self.prefix[:-1]}" if self.prefix else ""
-
-    @property
-    def of(self) -> str:
-        """What stands behind the meaning of its values, to tell it from the cam."""
-        return f" ({self.name})" if self.prefix else ""
-
-    @property
-    def curve(self) -> str:
-        """The curve whose curvature counts."""
-        return "profile" if self.flat else "pitch curve"
-
-    @property
-    def round_face(self) -> cams.RoundFollower:
-        """The follower of a track whose face is round."""
-        assert not isinstance(self.follower, cams.FlatFollower)
-        return self.follower
-
-    @property
-    def flat_face(self) -> cams.FlatFollower:
-        """The follower of a track whose face is flat."""
-        assert isinstance(self.follower, cams.FlatFollower)
-        return self.follower
-
-    @property
-    def radius(self) -> float:
-        """Radius of the face [m]; 0 for a knife edge, inf for a flat face."""
-        return np.inf if self.flat else self.round_face.radius
-
-
 @dataclass(frozen=True, eq=False)
 class CamModel:
     """The model: the motion over one turn and the tracks, the first of which is the cam's own."""
 
     spec: CamSpec
     programme: motion.Programme
-    tracks: tuple[Track, ...]
+    tracks: tuple[CamTrack, ...]
     material: materials.Material
     findings: tuple[str, ...] = field(default=())
 
@@ -145,7 +92,7 @@ class CamModel:
         """Force that the cam must exert along the travel [N]; a jet."""
         return cams.follower_force(self.follower.reach * lift, self.load, self.speed)
 
-    def normal_force(self, track: Track, angle: Jet, lift: Jet) -> Jet:
+    def normal_force(self, track: CamTrack, angle: Jet, lift: Jet) -> Jet:
         """Normal force between the surfaces of a track [N], negative where it falls to another one; a jet."""
         return cams.cam_normal_force(self.required(angle, lift), track.contact(angle, lift))
 
@@ -160,7 +107,7 @@ def build(spec: CamSpec) -> CamModel:
     """The `CamModel` of a spec."""
     programme = motion.Programme(tuple(_segment(spec, number) for number in range(len(spec.programme))))
     follower = _follower(spec)
-    tracks = (Track("cam", "", follower, follower.contact), *_closing_tracks(spec, follower, programme))
+    tracks = (CamTrack("cam", "", follower, follower.contact), *_closing_tracks(spec, follower, programme))
     model = CamModel(spec, programme, tracks, _material(spec), tuple(_findings(spec, programme)))
     for track in tracks:  # lever past its dead point, lift through the cam's centre: said here, not in the middle of an analysis
         track.contact(*model.cycle.at(*model.cycle.samples()))
@@ -269,15 +216,15 @@ def _closing_tracks(spec, follower, programme):
         return ()
     if spec.closure == "conjugate":
         second = _conjugate(spec, follower)
-        return (Track("conjugate", "conjugate.", second, second.contact),)
+        return (CamTrack("conjugate", "conjugate.", second, second.contact),)
     if spec.closure == "groove":
         if spec.follower.face != "roller":
             raise SpecError(f'"groove" wants a roller, not a {spec.follower.face} face', key="closure")
-        return (Track("outer wall", "outer.", follower, partial(follower.contact, flank=-1), flank=-1),)
+        return (CamTrack("outer wall", "outer.", follower, partial(follower.contact, flank=-1), flank=-1),)
     if spec.follower.motion != "translating" or spec.follower.face not in ("flat", "roller") or spec.follower.offset:
         raise SpecError('"yoke" wants a translating follower without offset, with flat faces or rollers', key="closure")
     opposite = partial(cams.opposite_contact, cams.Cycle(programme.function), follower)
-    return (Track("second face", "opposite.", follower, opposite, cut=False),)
+    return (CamTrack("second face", "opposite.", follower, opposite, cut=False),)
 
 
 def _conjugate(spec, follower):

@@ -69,9 +69,9 @@ def geometry(model: CamModel, done: Answers) -> Answer:
 
 
 def _tables(model, track):
-    yield _geometry_table(model, track)
+    yield track.geometry_table(model.cycle)
     if track.radius and not track.flat:
-        yield _undercut_table(model, track)
+        yield track.undercut_table(model.cycle)
 
 
 def _extreme_values(name, place, unit, meaning):
@@ -194,37 +194,3 @@ def _closure(model):
         check = Check("groove.play", travel, limits.play, "<=", "m", meaning, ("follower",))
         return Answer({"groove.play": Value(travel, "m", meaning)}, (), (check,))
     return Answer()
-
-
-def _geometry_table(model, track):
-    """Pressure angle, curvature and profile of one surface over the turn, one-sided at the joints."""
-    piece, angle = model.cycle.samples()
-    contact = track.contact(*model.cycle.at(piece, angle))
-    return Table(
-        f"geometry{track.suffix}",
-        f"Pressure angle and curvature{track.of}",
-        (
-            Column("angle", "rad", "cam angle", angle),
-            Column("pressure_angle", "rad", f"pressure angle{track.of}", contact.pressure_angle.d0 + 0 * angle),
-            Column(
-                "curvature", "1/m", f"curvature of the {track.curve}{track.of}, convex positive", contact.pitch_curvature.d0 + 0 * angle
-            ),
-            Column("pitch_radius", "m", f"distance of the {track.curve}{track.of} from the cam's centre", np.abs(contact.pitch.d0)),
-            Column("profile_x", "m", f"profile{track.of}, x at cam angle 0", contact.point.d0.real),
-            Column("profile_y", "m", f"profile{track.of}, y at cam angle 0", contact.point.d0.imag),
-        ),
-    )
-
-
-def _undercut_table(model, track):
-    """Curvature of the pitch curve against that of the face: above 1 the profile cuts itself away."""
-    piece, angle = model.cycle.samples()
-    ratio = track.flank * track.radius * track.contact(*model.cycle.at(piece, angle)).pitch_curvature.d0
-    return Table(
-        f"undercut{track.suffix}",
-        f"Undercut{track.of}",
-        (
-            Column("angle", "rad", "cam angle", angle),
-            Column("ratio", "-", f"face radius times curvature of the pitch curve{track.of}", ratio + 0 * angle),
-        ),
-    )
