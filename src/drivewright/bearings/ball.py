@@ -14,6 +14,7 @@ import numpy as np
 from pydantic import model_validator
 
 from drivewright._jit import implements, warmer
+from drivewright._typing import Floats
 from drivewright.bearings.life import ball_reference_life, ball_static_rating
 from drivewright.bearings.newton import BearingMeasures, measures
 from drivewright.bearings.response import response
@@ -68,12 +69,12 @@ class BallBearing(Spec):
         return self
 
     @property
-    def groove_distance(self):
+    def groove_distance(self) -> float:
         """A = ri + re - Dw [m], between the centres of the grooves when a ball just touches both."""
         return (self.inner_conformity + self.outer_conformity - 1) * self.ball_diameter
 
     @property
-    def curvature_ratio(self):
+    def curvature_ratio(self) -> float:
         """gamma = Dw cos(contact_angle)/Dpw."""
         return self.ball_diameter * np.cos(self.contact_angle) / self.pitch_diameter
 
@@ -92,8 +93,8 @@ class BallLaw(NamedTuple):
     arm: float
     inner_pressure: float
     outer_pressure: float
-    cosines: np.ndarray
-    sines: np.ndarray
+    cosines: Floats
+    sines: Floats
 
 
 @law_of.register(BallBearing)
@@ -188,6 +189,6 @@ def _(bearing, state):
 
 
 @warmer
-def warm_ball_bearing():
+def warm_ball_bearing() -> None:
     """Compile for `doctor --warm`."""
     warm(BallBearing(balls=3, ball_diameter=SI(1.0), pitch_diameter=SI(5.0)))

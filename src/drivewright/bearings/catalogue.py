@@ -6,7 +6,7 @@ own in the same form is read with `catalogue=path`; its bearings come first, and
 
 from functools import cache
 from pathlib import Path
-from typing import Literal
+from typing import Literal, cast
 
 from pydantic import model_validator
 
@@ -41,11 +41,11 @@ class Entry(Spec):
     sources: tuple[Source, ...] = Field((), description="where the numbers come from: none at all, or one for each number")
 
     @property
-    def bearing(self):
+    def bearing(self) -> BallBearing | RollerBearing:
         """The `BallBearing` or `RollerBearing`."""
-        return self.ball or self.roller
+        return self.ball or cast(RollerBearing, self.roller)  # the validators leave one of the two
 
-    def source(self, key):
+    def source(self, key: str) -> Source:
         """The `Source` of one number, e.g. source("balls"); raises UnknownName where the entry does not give it."""
         known = {each: source for source in self.sources for each in source.keys}
         if key not in known:
@@ -91,12 +91,12 @@ class Catalogue(Spec):
     bearings: Named[Entry] = Field(description="bearings by name")
 
 
-def bearing(name, catalogue=None):
+def bearing(name: str, catalogue: str | Path | None = None) -> BallBearing | RollerBearing:
     """The `BallBearing` or `RollerBearing` of this name; `catalogue` is the path of a file of your own."""
     return entry(name, catalogue).bearing
 
 
-def entry(name, catalogue=None):
+def entry(name: str, catalogue: str | Path | None = None) -> Entry:
     """The `Entry` of this name; raises UnknownName, with the nearest name, where there is none."""
     known = _known(catalogue)
     if name not in known:
@@ -104,12 +104,12 @@ def entry(name, catalogue=None):
     return known[name]
 
 
-def names(catalogue=None):
+def names(catalogue: str | Path | None = None) -> list[str]:
     """Names of all bearings: of the file, and of the catalogue that comes along."""
     return sorted(_known(catalogue))
 
 
-def load_catalogue(path):
+def load_catalogue(path: str | Path) -> Catalogue:
     """The `Catalogue` of a TOML file; raises InputError naming file and key."""
     if not Path(path).is_file():
         raise InputError(f"catalogue: there is no file {str(path)!r}; a catalogue is a TOML file with tables [bearings.NAME].")

@@ -5,12 +5,16 @@ compare the reference life with another program and the two lives with each othe
 """
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.bearings.solving import PERMISSIBLE, RollingBearing, basic_static_rating, contact_of, law_of
 from drivewright.errors import InputError
+
+if TYPE_CHECKING:
+    from drivewright.bearings.ball import BallBearing
 
 AXIAL_SHARE = 0.19  # least e of ISO 281: axial over radial force up to which P = Fr in every deep-groove bearing
 REVOLUTIONS = 1e6  # to which ratings refer
@@ -23,7 +27,7 @@ def _capacity_ratio(bearing):
     return 1.044 * ((1 - g) / (1 + g)) ** 1.72 * (inner * (2 * outer - 1) / (outer * (2 * inner - 1))) ** 0.41
 
 
-def ball_reference_life(bearing, loads):
+def ball_reference_life(bearing: "BallBearing", loads: Floats) -> float | None:
     """L10r [revolutions] for the loads of the balls [N]; inf where all are 0, None without a dynamic rating.
 
     L = ((Qci/Qi)^(-10/3) + (Qce/Qe)^(-10/3))^(-9/10) 1e6,  Qi = (mean Q^3)^(1/3) on the turning inner ring,
@@ -41,7 +45,7 @@ def ball_reference_life(bearing, loads):
     return float(REVOLUTIONS * (inner ** (-10 / 3) + outer ** (-10 / 3)) ** -0.9)
 
 
-def basic_dynamic_rating(bearing):
+def basic_dynamic_rating(bearing: "BallBearing") -> float:
     """C [N] of ISO 281: b_m f_c (cos a)^0.7 Z^(2/3) Dw^1.8 in mm, above 25.4 mm with 3.647 Dw^1.4 instead, b_m = 1.3.
 
     f_c = 38.2 (1 + h^(10/3))^(-3/10) g^0.3 (1 - g)^1.39/(1 + g)^(1/3) (2 f/(2 f - 1))^0.41 with f = 0.52 at both races and
@@ -68,7 +72,7 @@ def static_rating(bearing: RollingBearing) -> float:
     return basic_static_rating(bearing) if bearing.static_rating is None else bearing.static_rating
 
 
-def ball_static_rating(bearing):
+def ball_static_rating(bearing: "BallBearing") -> float:
     """C0 [N]: the radial load F whose most loaded ball, Q = 5 F/(Z cos a), reaches 4200 MPa at one of its races."""
     law = law_of(bearing)
     ball = (PERMISSIBLE["point"][0] / max(law.inner_pressure, law.outer_pressure)) ** 3
@@ -80,7 +84,7 @@ def life_exponent(bearing: RollingBearing) -> float:
     return 10 / 3 if contact_of(bearing) == "line" else 3
 
 
-def basic_life(bearing, load):
+def basic_life(bearing: RollingBearing, load: float) -> float | None:
     """L10 [revolutions] of ISO 281: 1e6 (C/P)^p, p = 3 of balls and 10/3 of rollers; None without a dynamic rating.
 
     P [N] is the load itself where it is radial.  The factors X and Y for a combined load are not stated here: those recalled differ

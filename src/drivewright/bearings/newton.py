@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from drivewright._jit import generic, kernel, outer
+from drivewright._typing import Bools, Floats, Ints
 from drivewright.bearings.response import response
 from drivewright.numerics.small import cholesky_solve
 
@@ -34,18 +35,18 @@ def measures(law: Any) -> BearingMeasures:
 
 
 class _Work(NamedTuple):
-    start: np.ndarray
-    load: np.ndarray
-    force: np.ndarray
-    stiffness: np.ndarray
-    matrix: np.ndarray
-    step: np.ndarray
-    origin: np.ndarray
-    scale: np.ndarray
+    start: Floats
+    load: Floats
+    force: Floats
+    stiffness: Floats
+    matrix: Floats
+    step: Floats
+    origin: Floats
+    scale: Floats
 
 
 @kernel
-def equilibrium(law, force, held, start):
+def equilibrium(law: Any, force: Floats, held: Bools, start: Floats) -> tuple[Floats, int]:
     """(displacement (5,), steps) at which the bearing carries `force` (5,); steps < 0 is UNRESISTED or NOT_CONVERGED.
 
     held (5,) of bool: freedoms that stay at their `start`, where they find whatever force it takes.
@@ -57,7 +58,7 @@ def equilibrium(law, force, held, start):
 
 
 @kernel
-def equilibria(law, forces, held):
+def equilibria(law: Any, forces: Floats, held: Bools) -> tuple[Floats, Ints]:
     """(displacements (n, 5), steps (n,)) for many forces (n, 5) from the unloaded position; rows that failed are nan."""
     displacements, steps, work = np.zeros(forces.shape), np.zeros(len(forces), dtype=np.int64), _workspace()
     for i in range(len(forces)):
@@ -69,7 +70,7 @@ def equilibria(law, forces, held):
 
 
 @outer
-def centre_ring(law, force, held, displacement):
+def centre_ring(law: Any, force: Floats, held: Bools, displacement: Floats) -> None:
     """Put z where the ring centres itself when the load does not push it along the axis.
 
     The potential is symmetric about this z, so the answer lies there; on the way from anywhere else balls would change sides.
@@ -81,6 +82,7 @@ def centre_ring(law, force, held, displacement):
 
 @kernel
 def _workspace():
+    """Working arrays of one search, (5,) and (5, 5)."""
     return _Work(np.empty(5), np.empty(5), np.empty(5), np.empty((5, 5)), np.empty((5, 5)), np.empty(5), np.empty(5), np.empty(5))
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import model_validator
 
 from drivewright._jit import implements, inner, warmer
+from drivewright._typing import ArrayLike, Floats
 from drivewright.bearings.newton import BearingMeasures, measures
 from drivewright.bearings.response import response
 from drivewright.bearings.solving import PERMISSIBLE, basic_static_rating, elements, law_of, life_of, refuse_other, warm
@@ -72,7 +73,7 @@ class RollerBearing(Spec):
         return self
 
     @property
-    def curvature_ratio(self):
+    def curvature_ratio(self) -> float:
         """g = Dw cos(contact_angle)/Dpw."""
         return self.roller_diameter * np.cos(self.contact_angle) / self.pitch_diameter
 
@@ -88,10 +89,10 @@ class RollerLaw(NamedTuple):
     constant: float
     cosine: float
     sine: float
-    cosines: np.ndarray
-    sines: np.ndarray
-    arms: np.ndarray
-    gaps: np.ndarray
+    cosines: Floats
+    sines: Floats
+    arms: Floats
+    gaps: Floats
     inner_pressure: float
     outer_pressure: float
     diameter: float
@@ -129,13 +130,13 @@ def _modulus(bearing):
     return float(effective_modulus(bearing.youngs_modulus, bearing.poisson_ratio, bearing.youngs_modulus, bearing.poisson_ratio))
 
 
-def lamina_places(bearing):
+def lamina_places(bearing: RollerBearing) -> Floats:
     """Middles x (ns,) [m] of the laminae along the roller, 0 at mid-length."""
     count = bearing.laminae
     return (np.arange(count) - (count - 1) / 2) * bearing.roller_length / count
 
 
-def profile_drop(bearing, x):
+def profile_drop(bearing: RollerBearing, x: Floats) -> Floats:
     """How far the roller's surface lies back at x [m] from its middle, per contact.
 
     log: 0.00035 Dw ln(1/(1 - (2x/L)^2)) for rollers up to L = 2.5 Dw; longer ones are straight but for 1.25 Dw at either end, where it
@@ -150,7 +151,7 @@ def profile_drop(bearing, x):
     return -0.0005 * diameter * np.log1p(-np.square(into_end))
 
 
-def contact_radii(bearing):
+def contact_radii(bearing: RollerBearing) -> tuple[float, float]:
     """Effective radii (inner, outer) [m] of roller and raceway: Dw (1 -+ g)/2."""
     g = bearing.curvature_ratio
     return bearing.roller_diameter * (1 - g) / 2, bearing.roller_diameter * (1 + g) / 2
@@ -236,7 +237,7 @@ def _(law, displacement, loads, angles, pressures, laminae):
 # ------------------------------------------------------------------------------------------------------------ ratings
 
 
-def roller_reference_life(bearing, lamina_loads):
+def roller_reference_life(bearing: RollerBearing, lamina_loads: ArrayLike) -> float | None:
     """L10r [revolutions] for the loads (n, ns) [N] of the laminae, the inner ring turning; None without a dynamic rating.
 
     L = 10^6 [sum over laminae (f qi/qci)^4.5 + (f qe/qce)^4.5]^(-8/9), qi = (mean q^4)^(1/4) and qe = (mean q^4.5)^(1/4.5) over the
@@ -258,7 +259,7 @@ def roller_reference_life(bearing, lamina_loads):
     return 1e6 * float(np.sum(damage)) ** (-8 / 9) if damage.any() else np.inf
 
 
-def roller_capacities(bearing):
+def roller_capacities(bearing: RollerBearing) -> tuple[float, float]:
     """(Qci, Qce) [N]: loads of one roller that inner and outer ring bear for a million turns, by the dynamic rating C.
 
     Qci = C/(0.378 Z cos a) (1 + h^4.5)^(2/9),  Qce = C/(0.364 Z cos a) (1 + h^-4.5)^(2/9),  h = 1.038 ((1 - g)/(1 + g))^(143/108).
@@ -270,14 +271,14 @@ def roller_capacities(bearing):
     return float(share / 0.378 * (1 + h**4.5) ** (2 / 9)), float(share / 0.364 * (1 + h**-4.5) ** (2 / 9))
 
 
-def edge_factor(count):
+def edge_factor(count: int) -> Floats:
     """f(k) of the laminae k = 1..ns: 1 - 0.01/ln(1.985 |2k - ns - 1|/(2 ns - 2)), 2.33 at an edge, 1 in the middle."""
     off_middle = np.abs(2 * np.arange(1, count + 1) - count - 1) / max(2 * count - 2, 1)
     with np.errstate(divide="ignore"):  # ln 0 in the middle
         return 1 - 0.01 / np.log(1.985 * off_middle)
 
 
-def roller_static_rating(bearing):
+def roller_static_rating(bearing: RollerBearing) -> float:
     """C0 [N] by the inner geometry: the fullest roller, loaded by 5 F/(Z cos a), at 4000 MPa against the inner ring.
 
     With E = 206 GPa it is 44 (1 - g) Z L Dw cos a (N, mm), the formula of ISO 76, recalled.
@@ -296,6 +297,6 @@ def _(bearing, state):
 
 
 @warmer
-def warm_roller_bearing():
+def warm_roller_bearing() -> None:
     """Compile for `doctor --warm`."""
     warm(RollerBearing(rollers=3, roller_diameter=SI(1.0), roller_length=SI(1.0), pitch_diameter=SI(5.0)), held=("z",))

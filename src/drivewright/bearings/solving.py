@@ -4,13 +4,15 @@ A kind of bearing is a spec class with an entry in `law_of` and `life_of`, and a
 under each of `response`, `measures` and `elements`.  Nothing here knows their names.
 """
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property, singledispatch
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol
 
 import numpy as np
 
 from drivewright._jit import generic, kernel
+from drivewright._typing import ArrayLike, Floats
 from drivewright.bearings.newton import (
     MAX_STEPS,
     NOT_CONVERGED,
@@ -46,31 +48,39 @@ class RollingBearing(Protocol):
     """What every spec of a rolling bearing gives: nominal contact angle and place of the first element [rad], ratings C and C0 [N]."""
 
     @property
-    def contact_angle(self) -> float: ...
+    def contact_angle(self) -> float:
+        """Nominal contact angle [rad]."""
+        ...
 
     @property
-    def first_element(self) -> float: ...
+    def first_element(self) -> float:
+        """Angle of the first element from +x towards +y [rad]."""
+        ...
 
     @property
-    def dynamic_rating(self) -> float | None: ...
+    def dynamic_rating(self) -> float | None:
+        """C [N]."""
+        ...
 
     @property
-    def static_rating(self) -> float | None: ...
+    def static_rating(self) -> float | None:
+        """C0 [N]."""
+        ...
 
 
 @singledispatch
-def law_of(bearing):
+def law_of(bearing: object) -> Any:
     """The law of a bearing: the NamedTuple of numbers that its formulas take."""
     raise InputError(f'bearing: {brief(bearing)} is no bearing; build one, e.g. BallBearing(balls=9, ball_diameter="8 mm", ...).')
 
 
 @singledispatch
-def life_of(bearing, state):
+def life_of(bearing: object, state: "BearingEquilibrium") -> float | None:
     """Reference life [revolutions] of a bearing in an `BearingEquilibrium`; None without a dynamic rating."""
     raise InputError(f"bearing: no reference life is known for a {type(bearing).__name__}.")
 
 
-def refuse_other(bearing, kind, what):
+def refuse_other(bearing: object, kind: type[object], what: str) -> None:
     """InputError where `what` is known of another kind of bearing alone."""
     if not isinstance(bearing, kind):
         law_of(bearing)  # its own message where this is no bearing at all
@@ -82,20 +92,20 @@ def refuse_other(bearing, kind, what):
 PERMISSIBLE = {"point": (4.2e9, 3.0), "line": (4.0e9, 2.0)}
 
 
-def contact_of(bearing):
+def contact_of(bearing: object) -> Literal["point", "line"]:
     """ "point" or "line": how its elements touch."""
     return "line" if measures(law_of(bearing)).laminae else "point"
 
 
 @singledispatch
-def basic_static_rating(bearing):
+def basic_static_rating(bearing: object) -> float:
     """C0 [N] of ISO 76: the radial load at which the fullest element, 5 F/(Z cos a), has the permissible pressure."""
     law_of(bearing)
     raise InputError(f"bearing: no static rating is known for a {type(bearing).__name__}.")
 
 
 @generic
-def elements(law, displacement, loads, angles, pressures, laminae):
+def elements(law: Any, displacement: Floats, loads: Floats, angles: Floats, pressures: Floats, laminae: Floats) -> None:
     """Writes what each rolling element carries at a displacement (5,): load [N] and contact angle [rad] (n,), peak pressure [Pa] at
     the inner and outer race (n, 2), load of each lamina [N] (n, laminae).  The load and pressure of an unloaded element are 0."""
 
@@ -117,19 +127,19 @@ class BearingEquilibrium:
     energy [J]; steps: of Newton's method, 0 where the displacement was given.
     """
 
-    bearing: Any
-    displacement: np.ndarray
-    force: np.ndarray
-    stiffness: np.ndarray
-    element_loads: np.ndarray
-    contact_angles: np.ndarray
-    pressures: np.ndarray
-    lamina_loads: np.ndarray
+    bearing: RollingBearing
+    displacement: Floats
+    force: Floats
+    stiffness: Floats
+    element_loads: Floats
+    contact_angles: Floats
+    pressures: Floats
+    lamina_loads: Floats
     energy: float
     steps: int
 
     @cached_property
-    def reference_life(self):
+    def reference_life(self) -> float | None:
         """L10r [revolutions]; inf where nothing is loaded, None where the bearing has no dynamic rating."""
         return life_of(self.bearing, self)
 
@@ -140,12 +150,19 @@ class BearingEquilibrium:
         return float((pressure / self.pressures.max()) ** power) if self.pressures.max() > 0 else np.inf
 
     @property
-    def reversed_elements(self):
+    def reversed_elements(self) -> int:
         """How many loaded elements bear on the side that an angular-contact bearing does not have."""
         return int(np.sum((self.element_loads > 0) & (self.contact_angles < 0)))
 
 
-def solve(bearing, *, force=None, displacement=None, held=(), start=None):
+def solve(
+    bearing: RollingBearing,
+    *,
+    force: ArrayLike | None = None,
+    displacement: ArrayLike | None = None,
+    held: Collection[str] = (),
+    start: ArrayLike | None = None,
+) -> BearingEquilibrium:
     """The `BearingEquilibrium` at one of: `force` (Fx, Fy, Fz, Mx, My) in N and N m, or `displacement` of its five freedoms [m, rad].
 
     held: names from FREEDOMS that a given force does not move; they stay at their `start` (0 unless given), and the force found
@@ -215,7 +232,7 @@ def _state_of(bearing, law, displacement, steps):
     return BearingEquilibrium(bearing, displacement, force, stiffness, loads, angles, pressures, laminae, energy, int(steps))
 
 
-def warm(bearing, held=()):
+def warm(bearing: RollingBearing, held: Collection[str] = ()) -> None:
     """Compile everything for a bearing's law."""
     solve(bearing, force=[1.0, 0.0, 0.0, 0.0, 0.0])
     equilibria(law_of(bearing), np.ones((1, 5)), np.array([name in held for name in FREEDOMS]))
