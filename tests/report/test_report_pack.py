@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from sample_designs import FRAMES, PLOTS, four_bar_result, four_bar_scene
 
-from drivewright.report.pack import MOST_ROWS, pack_plot_groups, pack_plots, pack_scene, telling_rows
+from drivewright.report.pack import MOST_ROWS, envelope_rows, pack_plot_groups, pack_plots, pack_scene
 from drivewright.result import Column, Table
 from drivewright.scene import Outline, Shape, circle
 
@@ -117,9 +117,9 @@ def test_a_table_over_several_turns_is_not_linked():
 def test_a_long_table_is_thinned_and_keeps_its_peaks():
     line = np.sin(np.linspace(0, 3, 50_000))
     line[31_417], line[777], line[9] = 5.0, -4.0, np.nan
-    rows = telling_rows([line, np.arange(50_000.0)])
+    rows = envelope_rows([line, np.arange(50_000.0)])
     assert len(rows) <= MOST_ROWS + 2 and {0, 777, 31_417, 49_999} <= set(rows) and np.all(np.diff(rows) > 0)
-    assert list(telling_rows([line[:50]])) == list(range(50))
+    assert list(envelope_rows([line[:50]])) == list(range(50))
 
 
 def test_shapes_of_any_outline_pack():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from drivewright.studies.pareto import nondominated, sorted_out
+from drivewright.studies.pareto import classify_designs, nondominated
 
 pytestmark = pytest.mark.analytical
 
@@ -53,8 +53,8 @@ def test_goals_limits_and_missing_numbers():
     mass = np.array([1.0, 2.0, 3.0, 2.5, 0.5, np.nan])
     life = np.array([10.0, 20.0, 30.0, 15.0, 90.0, 90.0])
     passes = np.array([True, True, True, True, False, True])
-    found = sorted_out((mass, life), ("minimise", "maximise"), passes)
+    found = classify_designs((mass, life), ("minimise", "maximise"), passes)
     assert found.tolist() == ["front", "front", "front", "dominated", "fails", "absent"]
-    found = sorted_out((mass, life), ("minimise", "minimise"), passes)
+    found = classify_designs((mass, life), ("minimise", "minimise"), passes)
     assert found.tolist() == ["front", "dominated", "dominated", "dominated", "fails", "absent"]
-    assert sorted_out((mass, life), ("minimise", "maximise"), np.zeros(6, bool)).tolist() == ["fails"] * 5 + ["absent"]
+    assert classify_designs((mass, life), ("minimise", "maximise"), np.zeros(6, bool)).tolist() == ["fails"] * 5 + ["absent"]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from drivewright.studies import sensitivity
-from drivewright.studies.answers.within import told_apart
+from drivewright.studies.answers.within import separate_variances
 from drivewright.studies.statistics import share, share_between
 
 pytestmark = pytest.mark.analytical
@@ -22,7 +22,7 @@ def sample(n, rng, noise=NOISE):
 
 def test_standard_deviations_add_in_squares():
     rng = np.random.default_rng(1)
-    found = told_apart(*sample(200_000, rng)[1:])
+    found = separate_variances(*sample(200_000, rng)[1:])
     assert found.within.value == pytest.approx(NOISE, rel=0.01)
     assert found.keys.value == pytest.approx(SIGMA, rel=0.01)
     assert found.sigma.value == pytest.approx(np.hypot(SIGMA, NOISE), rel=0.01)
@@ -34,7 +34,7 @@ def test_interval_of_the_spread_by_the_keys_covers(n, noise):
     rng = np.random.default_rng(2)
     covers = []
     for _ in range(2000):
-        found = told_apart(*sample(n, rng, noise)[1:])
+        found = separate_variances(*sample(n, rng, noise)[1:])
         true = noise**2 / (SIGMA**2 + noise**2)
         pairs = ((found.keys, SIGMA), (found.within, noise), (found.share, true))
         covers.append([each.low <= number <= each.high for each, number in pairs])
@@ -44,13 +44,13 @@ def test_interval_of_the_spread_by_the_keys_covers(n, noise):
 
 def test_cases_that_differ_no_more_than_one_by_itself():
     rng = np.random.default_rng(3)
-    found = told_apart(rng.normal(size=5000), np.full(5000, 1.5))
+    found = separate_variances(rng.normal(size=5000), np.full(5000, 1.5))
     assert found.keys.value == 0 and found.keys.low == 0 and found.share.value == 1
 
 
 def test_without_intervals_nothing_is_taken_off():
     y = np.random.default_rng(4).normal(size=50)
-    found = told_apart(y, np.zeros(50))
+    found = separate_variances(y, np.zeros(50))
     assert found.keys.value == pytest.approx(np.std(y, ddof=1)) and found.within.value == 0 and found.share.value == 0
     assert sensitivity.share_by_keys(y, np.zeros(50)) == 1
 

@@ -26,7 +26,7 @@ from drivewright.studio.jobs.design_keys import is_locked, label, leaves, number
 from drivewright.studio.jobs.figures import themed
 from drivewright.studio.jobs.sensitivity import _effect
 from drivewright.studio.jobs.solid import shaded
-from drivewright.studio.jobs.study import Live, thinned
+from drivewright.studio.jobs.study import Live, evenly_spaced_rows
 
 pytestmark = pytest.mark.interface
 
@@ -207,8 +207,8 @@ def test_the_front_of_a_study_is_of_rows_that_no_other_beats():
 
 
 def test_many_rows_are_thinned_and_the_chosen_ones_stay():
-    assert thinned(5, 10).tolist() == [0, 1, 2, 3, 4]
-    found = thinned(1000, 11, [123, 999])
+    assert evenly_spaced_rows(5, 10).tolist() == [0, 1, 2, 3, 4]
+    found = evenly_spaced_rows(1000, 11, [123, 999])
     assert set(found) >= {0, 100, 123, 999} and len(found) == 12 and np.all(np.diff(found) > 0)
 
 

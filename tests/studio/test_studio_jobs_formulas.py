@@ -21,7 +21,7 @@ from drivewright.studies.variables import Variable
 from drivewright.studio.design import Design
 from drivewright.studio.jobs import figures, files, search, solid
 from drivewright.studio.jobs import study as studying
-from drivewright.studio.jobs.design_keys import label, numeric, plain, written
+from drivewright.studio.jobs.design_keys import input_text, label, numeric, plain
 from drivewright.units import SI
 
 pytestmark = pytest.mark.interface
@@ -52,15 +52,15 @@ class Columns(dict):
 def test_a_value_is_written_as_it_is_read_to_the_last_digit():
     spec = design("disc_cam").spec()
     radius, ratio = key_kind(spec, "follower.prime_radius"), key_kind(spec, "vibration.damping_ratio")
-    assert written(radius, SI(0.04)) == written(radius, 0.04) == "40 mm" and written(ratio, 0.05) == "0.05"
+    assert input_text(radius, SI(0.04)) == input_text(radius, 0.04) == "40 mm" and input_text(ratio, 0.05) == "0.05"
     exact = 0.1 + 0.2
-    assert float(written(ratio, exact)) == exact and radius.read(written(radius, exact), "here") == exact
-    assert [written(KeyKind("integer"), 12.0), written(KeyKind("flag"), True), written(KeyKind("text"), "cycloidal")] == [
+    assert float(input_text(ratio, exact)) == exact and radius.read(input_text(radius, exact), "here") == exact
+    assert [input_text(KeyKind("integer"), 12.0), input_text(KeyKind("flag"), True), input_text(KeyKind("text"), "cycloidal")] == [
         "12",
         "true",
         "cycloidal",
     ]
-    assert written(key_kind(design("hyvo_chain").spec(), "joint.offset"), "match-drive") == "match-drive"
+    assert input_text(key_kind(design("hyvo_chain").spec(), "joint.offset"), "match-drive") == "match-drive"
 
 
 def test_numbers_are_told_in_the_unit_people_read_or_not_at_all():
@@ -98,16 +98,16 @@ def problem(sign=-1.0, violation=(0.0,)):
 def test_the_course_of_a_search_has_every_improvement_and_the_end():
     values = {"gap": np.array([9.0, 1.0, 2.0, math.nan, 1.5, 3.0, 2.5]) * 1e-3}
     violation = (0.5, 0.2, 0.0, 0.0, 0.0, 0.0, 0.0)
-    course, best = search._course(problem(violation=violation), values)
+    course, best = search._best_so_far(problem(violation=violation), values)
     assert course == [[1, None, 0.5], [2, None, 0.2], [3, pytest.approx(2), 0], [6, pytest.approx(3), 0], [7, pytest.approx(3), 0]]
     assert best == 5
-    course, best = search._course(problem(1.0, violation), values)
+    course, best = search._best_so_far(problem(1.0, violation), values)
     assert course == [[1, None, 0.5], [2, None, 0.2], [3, pytest.approx(2), 0], [5, pytest.approx(1.5), 0], [7, pytest.approx(1.5), 0]]
     assert best == 4
 
 
 def test_while_no_design_is_allowed_the_nearest_is_the_best():
-    course, best = search._course(problem(1.0, (0.5, 0.2, 0.3)), {"gap": np.array([1.0, 2.0, 3.0])})
+    course, best = search._best_so_far(problem(1.0, (0.5, 0.2, 0.3)), {"gap": np.array([1.0, 2.0, 3.0])})
     assert course == [[1, None, 0.5], [2, None, 0.2], [3, None, 0.2]] and best == 1
     assert search._so_far(problem(), SimpleNamespace(tables=list)) is None
 
@@ -224,8 +224,8 @@ def test_rows_are_thinned_with_all_that_belongs_to_them():
 
 
 def test_the_even_part_has_both_ends_and_no_row_twice():
-    found = studying.thinned(10, 4, [3])
-    assert found.tolist() == [0, 3, 6, 9] and studying.thinned(7, 7, [2]).tolist() == list(range(7))
+    found = studying.evenly_spaced_rows(10, 4, [3])
+    assert found.tolist() == [0, 3, 6, 9] and studying.evenly_spaced_rows(7, 7, [2]).tolist() == list(range(7))
 
 
 # -- figures -------------------------------------------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ from drivewright.report.pack import pack_plots
 from drivewright.result import Check, Column, Plot, Table
 from drivewright.view import draw_panels, svg
 from drivewright.view.histograms import bin_edges, figures
-from drivewright.view.maps import edges, grid, is_geometric, is_smooth, written
+from drivewright.view.maps import cell_texts, edges, grid, is_geometric, is_smooth
 from drivewright.view.palette import MARKERS, SERIES
 from drivewright.view.panels import MOST_GROUPS, panels
 from drivewright.view.ranked import MOST_ROWS
@@ -122,8 +122,8 @@ def test_a_logarithmic_map_hatches_what_has_no_logarithm():
 
 
 def test_numbers_in_cells_have_the_decimals_of_the_largest():
-    assert list(written(np.ma.masked_invalid([[0.0332, -2.4e-5, NAN]])).values()) == ["0.0332", "−0.0000"]
-    assert list(written(np.ma.masked_invalid([[3e8, 2.0]])).values()) == ["3×10⁸", "2"]
+    assert list(cell_texts(np.ma.masked_invalid([[0.0332, -2.4e-5, NAN]])).values()) == ["0.0332", "−0.0000"]
+    assert list(cell_texts(np.ma.masked_invalid([[3e8, 2.0]])).values()) == ["3×10⁸", "2"]
 
 
 # -- histograms ----------------------------------------------------------------------------------------------------------------

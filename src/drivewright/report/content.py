@@ -76,7 +76,7 @@ def pictures(result: Result[Any], seen: Views) -> tuple[Picture, ...]:
 
     frames = (
         [
-            drawn(f"scene-{frame.name}", sentence(frame.label), partial(draw_scene, scene, frame.name, [_telling_phase(scene)], GHOSTS))
+            drawn(f"scene-{frame.name}", sentence(frame.label), partial(draw_scene, scene, frame.name, [_thumbnail_phase(scene)], GHOSTS))
             for frame in scene.frames
         ]
         if scene
@@ -100,10 +100,10 @@ def _instead(text: str) -> str:
 
 def thumbnail(scene: Scene) -> Picture:
     """The picture of a scene for a gallery."""
-    return Picture("thumbnail", "thumbnail", svg(draw_thumbnail(scene, _telling_phase(scene))))
+    return Picture("thumbnail", "thumbnail", svg(draw_thumbnail(scene, _thumbnail_phase(scene))))
 
 
-def _telling_phase(scene: Scene) -> float:
+def _thumbnail_phase(scene: Scene) -> float:
     """The first mark behind the start of the cycle, else 0.3: a machine at its start often shows nothing."""
     marked = np.interp([value for value, _ in scene.marks], *_rising(scene.cycle)) if scene.marks else np.array([])
     return float(next((phase for phase in sorted(marked) if phase > 0), 0.3))

@@ -10,7 +10,7 @@ from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.result import Plot, Result
 from drivewright.scene import Body, Scene
 from drivewright.view.motion import fractions
-from drivewright.view.outlines import overall_size, thinned
+from drivewright.view.outlines import overall_size, simplified_points
 from drivewright.view.panels import STANDING, decimals, drawable, panels
 from drivewright.view.text import shown
 
@@ -36,7 +36,7 @@ def pack_scene(scene: Scene) -> dict[str, Any]:
             "label": b.label,
             "colour": b.colour,
             "motion": _pooled(b.poses, motions),
-            "shapes": _drawn(b.shapes, pool, tolerance),
+            "shapes": _pooled_shapes(b.shapes, pool, tolerance),
             **_magnified(b, motions),
         }
         for b in scene.bodies
@@ -47,7 +47,7 @@ def pack_scene(scene: Scene) -> dict[str, Any]:
             "label": f.label,
             "motion": _pooled(f.poses, motions),
             "advance": [float(a) for a in f.advance],
-            "shapes": _drawn(f.shapes, pool, tolerance),
+            "shapes": _pooled_shapes(f.shapes, pool, tolerance),
         }
         for f in scene.frames
     ]
@@ -96,11 +96,11 @@ def _pooled(poses: ArrayLike, motions: dict[str, int]) -> int:
     return motions.setdefault(text, len(motions))
 
 
-def _drawn(shapes, pool, tolerance):
+def _pooled_shapes(shapes, pool, tolerance):
     """Numbers of these shapes in the pool {id: (number, packed)}, as chords within `tolerance` [m]; the links of a chain share theirs."""
     for shape in shapes:
         if id(shape) not in pool:
-            points = floats(thinned(shape.outline, tolerance))
+            points = floats(simplified_points(shape.outline, tolerance))
             pool[id(shape)] = len(pool), {"layer": shape.layer, "closed": bool(shape.outline.closed), "points": points}
     return [pool[id(shape)][0] for shape in shapes]
 
@@ -142,7 +142,7 @@ def _panels(found, u, scene):
     """The panels of one plot; where there are several, one with a single line is named after it."""
     order = np.argsort(u, kind="stable")
     for panel in found:
-        rows = order[telling_rows([each[order] for s in panel.series for each in (s.data, *s.ends)])]
+        rows = order[envelope_rows([each[order] for s in panel.series for each in (s.data, *s.ends)])]
         title = panel.title if len(found) == 1 or len(panel.series) > 1 else panel.series[0].label
         yield {
             "title": title,
@@ -175,7 +175,7 @@ def _shade(panel, scene):
     return [[(edge / factor - start) / span for edge in stretch] for stretch in panel.shade]
 
 
-def telling_rows(lines: Sequence[Floats], most: int = MOST_ROWS) -> Ints:
+def envelope_rows(lines: Sequence[Floats], most: int = MOST_ROWS) -> Ints:
     """Rows that draw the same picture: all of a short table; of a long one the lowest and highest of each line in equal stretches."""
     count = len(lines[0])
     if count <= most:

@@ -142,10 +142,10 @@ def optimise(
     """
     problem = prepare(spec)
     with closing(_place(out, spec, method_of(problem.search))) as kept:
-        return searched(problem, kept, workers, on, progress)
+        return run_search(problem, kept, workers, on, progress)
 
 
-def searched(
+def run_search(
     problem: Problem, kept: Store, workers: int | None = None, on: str | None = None, progress: Progress | None = None
 ) -> Optimised:
     """`Optimised` of a problem; every evaluation goes to the store `kept` within a second.  The rest as of `optimise`."""
@@ -208,7 +208,7 @@ def _outcome(problem, table):
         for name, sense, limit in problem.limits
     )
     findings = [] if feasible else [_blame(problem, front_values, values)]
-    findings += _differing(front_values, reached)
+    findings += _route_differences(front_values, reached)
     findings += _on_bounds(problem, front[0]) if len(problem.objectives) == 1 else []
     return {
         "best": best,
@@ -274,7 +274,7 @@ def _blame(problem, reached, values):
     )
 
 
-def _differing(evaluated, reached):
+def _route_differences(evaluated, reached):
     """Where the evaluation during the search and the run of the best design part."""
     for name, column in evaluated.items():
         value = reached[name].value if name in reached else np.nan

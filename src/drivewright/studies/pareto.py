@@ -11,7 +11,7 @@ from drivewright._typing import Bools, Floats
 FRONT, DOMINATED, FAILS, ABSENT = "front", "dominated", "fails", "absent"
 
 
-def sorted_out(columns: Sequence[Floats], goals: Iterable[str], passes: Bools) -> NDArray[np.object_]:
+def classify_designs(columns: Sequence[Floats], goals: Iterable[str], passes: Bools) -> NDArray[np.object_]:
     """(n,) texts: front, dominated, fails (a limit; such a design beats nobody), or absent where an objective has no number.
 
     `columns`: an array (n,) for each objective; `goals`: minimise or maximise for each; `passes` (n,) whether every limit is kept.

@@ -158,7 +158,7 @@ def indices(a: Floats, b: Floats, mixed: Floats, noise: Sequence[Numbers] = (0.0
         return Indices(one, ends, one, ends, rows, dropped)
     terms = _terms(a, b, mixed, *noise)
     first, total = _ratios(terms.sum(axis=0), d)
-    drawn = _drawn(min(rows, GROUPS)) @ _grouped(terms)
+    drawn = _bootstrap_counts(min(rows, GROUPS)) @ _grouped(terms)
     intervals = np.quantile(_ratios(drawn, d), [(1 - LEVEL) / 2, (1 + LEVEL) / 2], axis=1)
     return Indices(first, intervals[:, 0].T, total, intervals[:, 1].T, rows, dropped)
 
@@ -189,7 +189,7 @@ def _grouped(terms):
 
 
 @lru_cache(maxsize=4)
-def _drawn(n):
+def _bootstrap_counts(n):
     """How often each of n rows is drawn in each round (ROUNDS, n); always the same."""
     rng = np.random.default_rng(n)
     return np.stack([np.bincount(rng.integers(n, size=n), minlength=n) for _ in range(ROUNDS)]).astype(float)

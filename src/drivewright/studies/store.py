@@ -17,7 +17,7 @@ from typing import IO, TYPE_CHECKING, Any, Protocol
 from drivewright.errors import InputError
 from drivewright.execution.case_table import case_fields
 from drivewright.spec import MechanismSpec, load
-from drivewright.studies.differing import differing
+from drivewright.studies.spec_differences import describe_differences
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -127,10 +127,8 @@ class Folder:
         """Write down what the study is, or refuse another one."""
         known = dict(self._ledger.execute("select key, value from identity"))
         if known and known != identity:
-            raise InputError(
-                f"{self.folder}: holds another study; {differing(self.folder / SPEC, spec, known, identity)}. Give another --out, "
-                "or remove the folder"
-            )
+            differences = describe_differences(self.folder / SPEC, spec, known, identity)
+            raise InputError(f"{self.folder}: holds another study; {differences}. Give another --out, or remove the folder")
         if not known or not (self.folder / SPEC).is_file() or load(self.folder / SPEC).title != spec.title:
             _write_spec(spec, self.folder)
         if not known:

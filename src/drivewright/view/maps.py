@@ -183,9 +183,9 @@ def _hatched(cells):
 
 def _write(axis, painted, x, y, cells):
     """The number of each cell, dark on light and light on dark, where the smallest cell has room for it."""
-    words = written(cells)
+    words = cell_texts(cells)
     wide, high = axis.figure.get_size_inches() * (0.78, 0.72)  # about what the cells take of the figure
-    room = [least_part(levels, edge.get_scale() == "log") for levels, edge in ((x, axis.xaxis), (y, axis.yaxis))]
+    room = [narrowest_part(levels, edge.get_scale() == "log") for levels, edge in ((x, axis.xaxis), (y, axis.yaxis))]
     if room[0] * wide < LETTER * max(map(len, words.values())) or room[1] * high < LINE:
         return
     for (row, column), text in words.items():
@@ -194,7 +194,7 @@ def _write(axis, painted, x, y, cells):
         axis.text(x[column], y[row], text, ha="center", va="center", fontsize=7.5, color=ink)
 
 
-def written(cells: Cells) -> dict[tuple[int, int], str]:
+def cell_texts(cells: Cells) -> dict[tuple[int, int], str]:
     """{(row, column): text} of the cells that have a value, to the same decimals: three figures of the largest, none of whole numbers."""
     largest = float(np.abs(cells).max())
     places = 0 if are_whole(cells) else decimals(float(cells.min()), float(cells.max()), 3)
@@ -210,7 +210,7 @@ def are_whole(cells: Cells) -> bool:
     return bool(np.all(cells.compressed() % 1 == 0))
 
 
-def least_part(levels: ArrayLike, logarithmic: bool) -> float:
+def narrowest_part(levels: ArrayLike, logarithmic: bool) -> float:
     """Width of the narrowest cell over that of them all."""
     borders = edges(levels, logarithmic)
     borders = np.log(borders) if logarithmic else borders

@@ -35,13 +35,15 @@ def _key(outline: Outline) -> "Outline | _Itself":
     return outline
 
 
-def thinned(outline: Outline, tolerance: float) -> Floats:
+def simplified_points(outline: Outline, tolerance: float) -> Floats:
     """Points (n, 2) of an outline, read-only, each dropped that lies within `tolerance` [m] of the line through its neighbours."""
-    return _thinned(_key(outline), 2.0 ** (np.floor(8 * np.log2(tolerance)) / 8))  # in steps, which a picture that grows a little keeps
+    return _simplified_points(
+        _key(outline), 2.0 ** (np.floor(8 * np.log2(tolerance)) / 8)
+    )  # in steps, which a picture that grows a little keeps
 
 
 @lru_cache(maxsize=_KEPT)
-def _thinned(outline: "Outline | _Itself", tolerance: float) -> Floats:
+def _simplified_points(outline: "Outline | _Itself", tolerance: float) -> Floats:
     import shapely
 
     points = outline.points(tolerance)

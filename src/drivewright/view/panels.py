@@ -161,7 +161,7 @@ def _coloured(chunk: Sequence[Line], roles: Iterator[str]) -> list[Series]:
     for line in chunk:
         role = next(roles)
         found += [_series(line.column, role, ends=line.ends), *(_series(column, "ink", dashed=True) for column in line.references)]
-    return _told_apart(found)
+    return _with_distinct_labels(found)
 
 
 def _shaded(x: Column, column: Column) -> tuple[tuple[float, float], ...]:
@@ -253,7 +253,7 @@ def limit_text(value: float, label: str, unit: str) -> str:
     return label if text.lstrip("−") in label else f"{label} {with_unit(text, unit)}".strip()
 
 
-def _told_apart(series: list[Series]) -> list[Series]:
+def _with_distinct_labels(series: list[Series]) -> list[Series]:
     """Lines of one panel with the same meaning get the part of their names in which they differ: 'normal force · main'."""
     labels = [s.label for s in series]
     if len(set(labels)) == len(labels):

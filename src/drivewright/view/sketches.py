@@ -8,7 +8,7 @@ import numpy as np
 from drivewright.errors import UnknownName
 from drivewright.scene import Drawing, Scene, place
 from drivewright.view.motion import path, pose_at, seen_from, step_back
-from drivewright.view.outlines import overall_size, thinned
+from drivewright.view.outlines import overall_size, simplified_points
 from drivewright.view.palette import TRACES, colour
 from drivewright.view.style import MUTED, arrange, figure_to_scale, legend_columns, nice_length, styled
 from drivewright.view.text import number, quantity, sentence, shown, with_unit
@@ -129,7 +129,7 @@ def _extent(axes):
 def _draw_shape(axis, shape, pose, role, tolerance, near=None):
     """One outline: filled where it is material, dashed where it is a construction line.  What lies beyond `near` counts for no extent."""
     width, dashes, filled = LAYERS.get(shape.layer, LAYERS["body"])
-    points = place(thinned(shape.outline, tolerance), pose) * _length()[0]
+    points = place(simplified_points(shape.outline, tolerance), pose) * _length()[0]
     edge = {"defect": colour("bad"), "hole": colour("ink"), "axis": MUTED}.get(shape.layer, colour(role))
     face = (edge, 0.22) if filled and shape.outline.closed else "white" if shape.layer == "hole" else "none"
     _add(axis, points, shape.outline.closed, near, ec=edge, fc=face, lw=width, ls=dashes)
@@ -144,7 +144,7 @@ def _draw_ghosts(axis, scene, observer, phases, tolerance):
         for body, pose in _seen_bodies(scene, observer, phase):
             for shape in body.shapes:
                 if LAYERS.get(shape.layer, LAYERS["body"])[2]:
-                    points = place(thinned(shape.outline, tolerance), pose) * _length()[0]
+                    points = place(simplified_points(shape.outline, tolerance), pose) * _length()[0]
                     lines.setdefault(body.colour, []).append(points[[*range(len(points)), 0]] if shape.outline.closed else points)
     for role, found in lines.items():
         axis.add_artist(LineCollection(found, colors=colour(role), linewidths=0.6, alpha=0.25))
@@ -198,7 +198,7 @@ def draw_drawing(drawing: Drawing) -> "Figure":
                 face = (colour(role), 0.14) if filled and outline.closed else "white" if layer == "hole" else "none"
                 _add(
                     axis,
-                    thinned(outline, tolerance) * factor,
+                    simplified_points(outline, tolerance) * factor,
                     outline.closed,
                     ec=colour(role),
                     fc=face,

@@ -8,8 +8,8 @@ from drivewright import units
 from drivewright.errors import InputError
 from drivewright.execution.outputs import CHECK
 from drivewright.result import Column, Plot, Table, Value
-from drivewright.studies.answers.parts import Part, listed, passing, plain
-from drivewright.studies.pareto import ABSENT, DOMINATED, FAILS, FRONT, sorted_out
+from drivewright.studies.answers.parts import Part, join_names, passing, plain
+from drivewright.studies.pareto import ABSENT, DOMINATED, FAILS, FRONT, classify_designs
 from drivewright.studies.study import Study
 
 DRAWN = (FRONT, DOMINATED, FAILS)  # from the top down
@@ -25,8 +25,8 @@ def fronts(study: Study, values: Sequence[str] = ()) -> Part:
         return Part(findings=remarks)
     met, ignored = _requirements(study)
     columns = [np.asarray(study[name], dtype=float) for name in goals]
-    sets = sorted_out(columns, goals.values(), passing(study) & met)
-    return _told(study, goals, columns, sets, (*remarks, *ignored))
+    sets = classify_designs(columns, goals.values(), passing(study) & met)
+    return _front_part(study, goals, columns, sets, (*remarks, *ignored))
 
 
 def _goals(study, values):
@@ -35,7 +35,7 @@ def _goals(study, values):
     if search and len(search.objectives) > 1:
         found = {each.value: each.goal for each in search.objectives}
         missing = [name for name in found if name not in study.value_names]
-        return ({}, (f"no Pareto front: no case has the objective {listed(missing)}",)) if missing else (found, ())
+        return ({}, (f"no Pareto front: no case has the objective {join_names(missing)}",)) if missing else (found, ())
     named = [name for name in values if not name.startswith(CHECK)]
     if len(named) != 2 or not set(named) <= set(study.value_names):
         return {}, ()
@@ -64,7 +64,7 @@ def _limits(study, requirement):
     return [(sign, dimension.parse(limit) if dimension else float(limit)) for sign, limit in sides if limit is not None]
 
 
-def _told(study, goals, columns, sets, remarks):
+def _front_part(study, goals, columns, sets, remarks):
     """The `Part` of sorted out cases; those that lack an objective are left out."""
     there = np.flatnonzero(sets != ABSENT)
     if not len(there):

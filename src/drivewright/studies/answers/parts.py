@@ -173,7 +173,7 @@ def table_of_rows(
     return Table(name, title, (*filled, *(arranged.level_columns([row[0] for row in rows]) if arranged else ())))
 
 
-def listed(names: Sequence[str], most: int = 12) -> str:
+def join_names(names: Sequence[str], most: int = 12) -> str:
     """Some names in one line."""
     more = len(names) - most
     return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")

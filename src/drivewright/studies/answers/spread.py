@@ -61,7 +61,7 @@ def spread(arranged: Arranged) -> Part:
     ]
     parts = [_yields(arranged), within_cases(arranged)]
     if rows:
-        short = table_of_rows("tolerance", "Spread of the values", TOLERANCE, [_told(*row) for row in rows], arranged)
+        short = table_of_rows("tolerance", "Spread of the values", TOLERANCE, [_tolerance_row(*row) for row in rows], arranged)
         full = table_of_rows("confidence", "Spread of the values with confidence", CONFIDENCE, [_sure(*row) for row in rows], arranged)
         parts.append(Part(tables=(short, full)))
     if arranged.combinations == 1:
@@ -69,7 +69,7 @@ def spread(arranged: Arranged) -> Part:
     return together(parts)
 
 
-def _told(number, name, unit, found):
+def _tolerance_row(number, name, unit, found):
     """Row of the table `tolerance`."""
     middle = (found.percentiles[PERCENTS.index(percent)].value for percent in SHORT)
     return (number, name, unit, found.mean.value, found.sigma.value, *middle, found.least, found.greatest, found.absent)

@@ -14,7 +14,7 @@ from drivewright.result import Plot, Result, Value
 from drivewright.runner import versions
 from drivewright.studies.answers import causes, maps, spread
 from drivewright.studies.answers.fronts import fronts
-from drivewright.studies.answers.parts import STATUSES, Arranged, Part, listed, status_codes, together
+from drivewright.studies.answers.parts import STATUSES, Arranged, Part, join_names, status_codes, together
 from drivewright.studies.statistics import LEVEL, finite, varies
 from drivewright.studies.study import Study
 
@@ -72,8 +72,8 @@ def _read_as_levels(arranged):
         axes = [variable.key for variable in arranged.plan.grid if variable.key in listed_keys]
         others = [key for key in listed_keys if key not in axes]
         yield (
-            f"the points of the file are all combinations of the levels of {listed(axes)}"
-            + (f"; these decide {listed(others)}" if others else "")
+            f"the points of the file are all combinations of the levels of {join_names(axes)}"
+            + (f"; these decide {join_names(others)}" if others else "")
             + ", so they are answered as a grid"
         )
 
@@ -101,14 +101,14 @@ def _shown(study, values):
     still = [name for name in study.value_names if name not in varying and np.any(np.isfinite(_numbers(study, name)))]
     absent = [name for name in study.value_names if not np.any(np.isfinite(_numbers(study, name)))]
     told = [
-        f"{what} ({len(names)}): {listed(names)}"
+        f"{what} ({len(names)}): {join_names(names)}"
         for names, what in ((still, "values that do not vary over the study"), (absent, "values that no case has"))
         if names
     ]
     chosen = [name for name in _wanted(study, values, varying) if name in varying]
     shown = chosen if values else chosen[:MOST]
     if len(chosen) > len(shown):
-        told.append(f"the plots show {MOST} of {len(chosen)} values: {listed(shown)}; the tables hold all")
+        told.append(f"the plots show {MOST} of {len(chosen)} values: {join_names(shown)}; the tables hold all")
     return tuple(dict.fromkeys(shown)), tuple(told)
 
 

@@ -58,7 +58,7 @@ def variances(arranged: Arranged, name: str) -> Floats | None:
     return None if error is None else np.where(np.isfinite(error), error, 0.0) ** 2
 
 
-def told_apart(sample: Floats, noise: Floats) -> Apart:
+def separate_variances(sample: Floats, noise: Floats) -> Apart:
     """`Apart` of the values of a sample (n,) and the variance (n,) of each within its case.
 
     sigma_keys^2 = sigma^2 - mean(noise), and so for the ends of the interval of sigma, which is much the wider one; not below 0.
@@ -76,7 +76,7 @@ def within_cases(arranged: Arranged) -> Part:
     """`Part` of a sample: table `within_cases` of the values with intervals, with values and a finding."""
     noises = {name: noise for name in arranged.study.value_names if (noise := variances(arranged, name)) is not None}
     rows = [
-        (number, name, arranged.study.unit(name), told_apart(*row))
+        (number, name, arranged.study.unit(name), separate_variances(*row))
         for name, noise in noises.items()
         for number, row in enumerate(zip(arranged.of(name)[:, arranged.sample], noise[:, arranged.sample], strict=True))
     ]

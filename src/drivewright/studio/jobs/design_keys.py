@@ -55,7 +55,7 @@ def is_locked(tables: Tables, key: str, locks: Iterable[str]) -> bool:
     return any(key == lock or key.startswith(f"{lock}.") for lock in (numbered(tables, lock) for lock in locks))
 
 
-def written(kind: KeyKind, value: Any) -> str:
+def input_text(kind: KeyKind, value: Any) -> str:
     """A value of a column as a person writes it into the spec, to the last digit."""
     given = kind.given(value)
     if kind.dimension and not isinstance(given, str):

@@ -10,15 +10,15 @@ import numpy as np
 from drivewright.errors import SpecError
 from drivewright.execution.outputs import CHECK
 from drivewright.report.content import SIGNS, Views, pictures, summary
-from drivewright.studies.optimisation import searched
+from drivewright.studies.optimisation import run_search
 from drivewright.studies.search import history
 from drivewright.studies.search.problem import prepare
 from drivewright.studies.store import Memory, joined
 from drivewright.studio.design import Design
-from drivewright.studio.jobs.design_keys import is_locked, label, plain, written
+from drivewright.studio.jobs.design_keys import input_text, is_locked, label, plain
 from drivewright.studio.jobs.figures import drawn
 from drivewright.studio.jobs.progress import Progress
-from drivewright.studio.jobs.study import Live, thinned
+from drivewright.studio.jobs.study import Live, evenly_spaced_rows
 from drivewright.view.text import quantity, sentence, shown, uncertain
 
 MOST_FRONT = 500  # designs of a front that a page is sent
@@ -36,8 +36,8 @@ def optimise(
     free, left_out = _freed(design, locks)
     problem = prepare(free.spec())
     kept = Memory()
-    found = searched(problem, kept, workers, on, Live(progress, lambda: _so_far(problem, kept)))
-    return _told(design, found, left_out, theme)
+    found = run_search(problem, kept, workers, on, Live(progress, lambda: _so_far(problem, kept)))
+    return _search_summary(design, found, left_out, theme)
 
 
 def _freed(design, locks):
@@ -69,11 +69,11 @@ def _so_far(problem, kept):
         return None
     table = joined(tables)
     _, designs, values = history.read(problem, table)
-    course, best = _course(problem, values)
+    course, best = _best_so_far(problem, values)
     return {"cases": table.num_rows, "history": course, "best": _settings(problem, designs[best]), "objective": _objective(problem)}
 
 
-def _course(problem, values):
+def _best_so_far(problem, values):
     """([[number, best, violation]] at every improvement and at the end, row of the best design): by the first objective."""
     name, sign = problem.objectives[0]
     violation = problem.total_violation(values)
@@ -98,7 +98,7 @@ def _objective(problem):
 def _settings(problem, x):
     """{key: text} of a design of the search, with what the search sets besides."""
     texts = {setting.key: _plain_text(setting.value) for setting in problem.spec.optimise.settings}
-    return texts | {key: written(kind, value) for key, kind, value in zip(problem.keys, problem.kinds, x, strict=True)}
+    return texts | {key: input_text(kind, value) for key, kind, value in zip(problem.keys, problem.kinds, x, strict=True)}
 
 
 def _plain_text(value):
@@ -108,7 +108,7 @@ def _plain_text(value):
 # -- the outcome ---------------------------------------------------------------------------------------------------------------
 
 
-def _told(design, found, left_out, theme):
+def _search_summary(design, found, left_out, theme):
     problem = found.problem
     _, _, values = history.read(problem, found.table)
     return {
@@ -126,7 +126,7 @@ def _told(design, found, left_out, theme):
         "evaluations": found.evaluations,
         "seed": found.seed,
         "method": found.method,
-        "history": _course(problem, values)[0],
+        "history": _best_so_far(problem, values)[0],
         "front": _front(design, found),
         "figures": _figures(found, theme),
     }
@@ -172,7 +172,7 @@ def _message(found, left_out):
 
 def _front(design, found):
     """The designs that no other beats as a table like that of a study."""
-    problem, chosen = found.problem, thinned(len(found.front), MOST_FRONT)
+    problem, chosen = found.problem, evenly_spaced_rows(len(found.front), MOST_FRONT)
     columns = [
         {"name": key, "label": label(design.tables, key), "unit": shown(kind.unit)[1], "role": "key"}
         for key, kind in zip(problem.keys, problem.kinds, strict=True)

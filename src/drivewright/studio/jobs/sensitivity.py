@@ -51,7 +51,7 @@ def sensitivity(
     keys = {key: found for key, found in numeric(design, spec).items() if not is_locked(design.tables, key, locks)}
     if not keys:
         raise SpecError("no number of this design is free to change; unlock some")
-    wanted, analyses = _asked(spec, progress, targets)
+    wanted, analyses = _requested_targets(spec, progress, targets)
     steps = _steps(spec, keys, share)
     plan = _plan(keys, steps)
     asking = spec.model_copy(update={"study": Study(analyses=analyses, values=tuple(wanted))})
@@ -64,14 +64,14 @@ def sensitivity(
         on,
         lambda done, total, what: progress(done, total, f"design {done} of {total}"),
     )
-    told = [_target(design, study, name, about, keys, steps) for name, about in wanted.items()]
-    return {"targets": told, "failed": _failed(study, keys), "remarks": list(study.remarks)}
+    rows = [_target(design, study, name, about, keys, steps) for name, about in wanted.items()]
+    return {"targets": rows, "failed": _failed(study, keys), "remarks": list(study.remarks)}
 
 
 # -- what is asked -------------------------------------------------------------------------------------------------------------
 
 
-def _asked(spec, progress, names):
+def _requested_targets(spec, progress, names):
     """(what `_targets` says of the numbers to follow, the analyses that give them)."""
     mechanism, model = registry.mechanism(spec.mechanism), runner.build(spec)
     result = runner.run(spec, model=model, progress=progress)

@@ -24,7 +24,7 @@ from drivewright.studies.study import Study
 from drivewright.studies.sweeps import compute_study, study_identity
 from drivewright.studies.variation import with_options
 from drivewright.studio.design import Design
-from drivewright.studio.jobs.design_keys import label, numeric, plain, written
+from drivewright.studio.jobs.design_keys import input_text, label, numeric, plain
 from drivewright.studio.jobs.figures import drawn
 from drivewright.studio.jobs.progress import Progress
 from drivewright.view.text import quantity, sentence, shown
@@ -64,7 +64,7 @@ def study(
     finally:
         kept.close()
     progress(len(plan), len(plan), "what the cases say")
-    return _told(design, found, theme)
+    return _study_summary(design, found, theme)
 
 
 class Live:
@@ -86,7 +86,7 @@ def _remedy(design):
     known = numeric(design, design.spec()).items()
     key, low, high = next(
         (
-            (key, *(toml_value(written(kind, float(f"{part * value:.2g}"))) for part in (0.9, 1.1)))
+            (key, *(toml_value(input_text(kind, float(f"{part * value:.2g}"))) for part in (0.9, 1.1)))
             for key, (kind, value) in known
             if value > 0 and kind.name == "quantity"
         ),
@@ -108,7 +108,7 @@ def _so_far(spec, plan, kept):
 def _rows(design, study, most, always=()):
     """Columns and rows of a study, and the design behind each row; rows thinned to `most`, `always` (rows) among them."""
     names = _names(study)
-    chosen = thinned(len(study), most, always)
+    chosen = evenly_spaced_rows(len(study), most, always)
     columns = [
         {"name": name, "label": _label(design, study, name), "unit": shown(study.unit(name))[1], "role": _role(study, name)}
         for name in names
@@ -126,7 +126,7 @@ def _rows(design, study, most, always=()):
     }
 
 
-def thinned(count: int, most: int, always: Sequence[int] = ()) -> Ints:
+def evenly_spaced_rows(count: int, most: int, always: Sequence[int] = ()) -> Ints:
     """Numbers of up to about `most` of `count` rows, evenly spaced, and of those that must be there."""
     even = np.arange(count) if count <= most else np.linspace(0, count - 1, most).round().astype(int)
     return np.union1d(even, np.asarray(always, int)).astype(int)
@@ -173,7 +173,7 @@ def _loads(study, chosen):
     """{key: text} that makes the design of each row."""
     texts = {}
     for variable in study.plan.variables:
-        cells = [written(variable.kind, cell) for cell in study[variable.key][chosen].tolist()]
+        cells = [input_text(variable.kind, cell) for cell in study[variable.key][chosen].tolist()]
         texts |= dict.fromkeys(variable.keys, cells)
     return [dict(zip(texts, row, strict=True)) for row in zip(*texts.values(), strict=True)]
 
@@ -181,7 +181,7 @@ def _loads(study, chosen):
 # -- what the cases say --------------------------------------------------------------------------------------------------------
 
 
-def _told(design, study, theme):
+def _study_summary(design, study, theme):
     found = analyse_study(study)
     fronts = _fronts(study, found.result)
     rows = _rows(design, study, MOST_ROWS, [row for front in fronts for row in front["rows"]])

@@ -12,7 +12,7 @@ UNSEEN = ("spec", "plan", "study")  # parts of an identity that the keys tell be
 PROGRAM = "drivewright"  # the part of an identity that is the program's version
 
 
-def differing(spec_file: str | Path, spec: MechanismSpec, known: Mapping[str, str], identity: Mapping[str, str]) -> str:
+def describe_differences(spec_file: str | Path, spec: MechanismSpec, known: Mapping[str, str], identity: Mapping[str, str]) -> str:
     """One line of what is not the same there and here: other parts of the identity first, then key by key."""
     names = [name for name in dict.fromkeys([*known, *identity]) if known.get(name) != identity.get(name) and name not in UNSEEN]
     rows = [_row(name, known, identity) for name in names]
