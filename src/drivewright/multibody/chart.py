@@ -27,7 +27,10 @@ FOLD = 0.2  # part of a chart's reach about its middle
 
 @inner
 def update_kinematics(system: System, work: Work, t: float, y: Floats) -> bool:
-    """Coordinates and rates of a state, dependent ones included, poses, velocities and drift; False where the loops cannot be closed."""
+    """Coordinates and rates of a state, dependent ones included, poses, velocities and drift; False where the loops cannot be closed.
+
+    y (states,) as in `loads.apply_forces`.
+    """
     if system.chart.offsets.size > 0:
         return update_interpolated(system, work, t, y)
     return update_regular(system, work, t, y)
@@ -35,7 +38,10 @@ def update_kinematics(system: System, work: Work, t: float, y: Floats) -> bool:
 
 @outer
 def update_regular(system: System, work: Work, t: float, y: Floats) -> bool:
-    """`update_kinematics` where the loops determine the dependent coordinates; called, not inlined: it is half of every right-hand side."""
+    """`update_kinematics` where the loops determine the dependent coordinates; called, not inlined: it is half of every right-hand side.
+
+    y (states,) as in `loads.apply_forces`.
+    """
     closed = update_positions(system, work, t, y)
     update_velocities(system, work)
     update_velocity_products(system, work)
@@ -44,14 +50,20 @@ def update_regular(system: System, work: Work, t: float, y: Floats) -> bool:
 
 @outer
 def update_positions(system: System, work: Work, t: float, y: Floats) -> bool:
-    """Coordinates of the state, loops closed, bodies placed; False where the loops cannot be closed."""
+    """Coordinates of the state, loops closed, bodies placed; False where the loops cannot be closed.
+
+    y (states,) as in `loads.apply_forces`.
+    """
     assign_state(system, work, t, y)
     return close_loops(system, work)
 
 
 @inner
 def assign_state(system: System, work: Work, t: float, y: Floats) -> None:
-    """Coordinates and independent rates of a state into `work`, drives set."""
+    """Coordinates and independent rates of a state into `work`, drives set.
+
+    y (states,) as in `loads.apply_forces`.
+    """
     for k in range(system.stored.size):
         work.coordinates[system.stored[k]].q = y[k]
     for m in range(system.independent.size):
@@ -61,7 +73,10 @@ def assign_state(system: System, work: Work, t: float, y: Floats) -> None:
 
 @inner
 def chart_offset(system: System, t: float, y: Floats) -> float:
-    """x: how far a state stands from the singular position of the chart."""
+    """x: how far a state stands from the singular position of the chart.
+
+    y (states,) as in `loads.apply_forces`.
+    """
     chart = system.chart
     x, m = chart.normal_time * (t - chart.origin_time), 0
     for k in range(system.stored.size):
@@ -73,7 +88,10 @@ def chart_offset(system: System, t: float, y: Floats) -> float:
 
 @inner
 def lagrange_weight(offsets: Floats, k: int, x: float) -> float:
-    """Lagrange's polynomial of the node k at x."""
+    """Lagrange's polynomial of the node k at x.
+
+    offsets (nodes,): places of the nodes on the chart.
+    """
     product = 1.0
     for j in range(offsets.size):
         if j != k:
@@ -83,7 +101,10 @@ def lagrange_weight(offsets: Floats, k: int, x: float) -> float:
 
 @outer
 def update_interpolated(system: System, work: Work, t: float, y: Floats) -> bool:
-    """`update_kinematics` between the nodes of the chart."""
+    """`update_kinematics` between the nodes of the chart.
+
+    y (states,) as in `loads.apply_forces`.
+    """
     x, closed = chart_offset(system, t, y), True
     work.node_sums[:] = 0.0
     for k in range(system.chart.offsets.size):
@@ -154,13 +175,19 @@ def dependency_on_drive(system: System, work: Work, d: int) -> None:
 
 @outer
 def solve_kinematics(system: System, work: Work, t: float, y: Floats) -> bool:
-    """`update_kinematics`, to be called from Python."""
+    """`update_kinematics`, to be called from Python.
+
+    y (states,) as in `loads.apply_forces`.
+    """
     return update_kinematics(system, work, t, y)
 
 
 @outer
 def solve_kinematics_all(system: System, work: Work, t: Floats, y: Floats, q: Floats, v: Floats) -> None:
-    """Coordinates and rates (m, coordinates) of states y (m, n) at the times t (m,)."""
+    """Coordinates and rates (m, coordinates) of states y (m, n) at the times t (m,).
+
+    q, v (m, coordinates) [m, rad; per s].
+    """
     for n in range(t.size):
         update_kinematics(system, work, t[n], y[n])
         for k in range(work.coordinates.size):

@@ -39,7 +39,10 @@ def _(motion, index, t, y):
 
 @inner
 def accelerations(system: System, work: Work, t: float, y: Floats, dy: Floats) -> None:
-    """dy of the state y: rates of the stored coordinates, accelerations of the independent ones, rates of what elements remember."""
+    """dy of the state y: rates of the stored coordinates, accelerations of the independent ones, rates of what elements remember.
+
+    y, dy (states,) as in `loads.apply_forces`.
+    """
     closed = update_kinematics(system, work, t, y)
     update_mass_matrix(system, work)
     apply_forces(system, work, t, y, dy)
@@ -54,7 +57,10 @@ def accelerations(system: System, work: Work, t: float, y: Floats, dy: Floats) -
 def event_values(system: System, work: Work, t: float, y: Floats, values: Floats) -> None:
     """Whether the split of the coordinates, or the chart, still serves (below 0 it does not); how far the state stands from the singular
     position of the chart; then the depth of every pin with play: it touches where this rises through 0 and lets go where it falls; then
-    the other `contact_signs` of all pins, one kind after the other."""
+    the other `contact_signs` of all pins, one kind after the other.
+
+    y (states,) as in `loads.apply_forces`.
+    """
     pins = system.contacts.size
     if system.chart.offsets.size > 0:
         update_interpolated(system, work, t, y)
@@ -75,7 +81,10 @@ def event_values(system: System, work: Work, t: float, y: Floats, values: Floats
 
 @inner
 def has_contact(system: System, y: Floats) -> bool:
-    """Whether a pin with play touches."""
+    """Whether a pin with play touches.
+
+    y (states,) as in `loads.apply_forces`.
+    """
     found = False
     for n in range(system.contacts.size):
         found |= y[system.contacts[n].memory] != 0.0
@@ -84,7 +93,10 @@ def has_contact(system: System, y: Floats) -> bool:
 
 @inner
 def is_current(system: System, work: Work, t: float, y: Floats) -> bool:
-    """Whether the bodies are placed for this state already: driven and independent coordinates are the same, and these have their rates."""
+    """Whether the bodies are placed for this state already: driven and independent coordinates are the same, and these have their rates.
+
+    y (states,) as in `loads.apply_forces`.
+    """
     for d in range(system.driven.size):
         driven = system.driven[d]
         value, _, _ = curve_at(system.curves, system.pieces, driven.curve, t)
@@ -114,7 +126,10 @@ def validity_of_split(system: System, work: Work) -> float:
 
 @inner
 def contact_event(system: System, work: Work, index: int, t: float, y: Floats) -> None:
-    """A pin touches: remember the speed of approach.  It lets go, or is compressed anew without having let go: forget it."""
+    """A pin touches: remember the speed of approach.  It lets go, or is compressed anew without having let go: forget it.
+
+    y (states,) as in `loads.apply_forces`.
+    """
     pins, pin = system.contacts.size, index - FIRST_PIN
     if pin >= pins:
         if pin < 2 * pins:

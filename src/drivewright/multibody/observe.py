@@ -47,7 +47,10 @@ def observe_all(motion: Motion, t: Floats, y: Floats, dy: Floats, bodies: Floats
 
 @inner
 def update_dynamics(system: System, work: Work, t: float, y: Floats, dy: Floats, powers: Floats) -> None:
-    """Everything about the system at a state: poses, rates, loads with their powers, and the accelerations of all coordinates."""
+    """Everything about the system at a state: poses, rates, loads with their powers, and the accelerations of all coordinates.
+
+    y, dy (states,) as in `loads.apply_forces`.
+    """
     update_kinematics(system, work, t, y)
     update_mass_matrix(system, work)
     clear_forces(work)

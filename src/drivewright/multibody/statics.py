@@ -144,7 +144,10 @@ def _driven_by(system, start, slope):
 
 @outer
 def evaluate_loads(system: System, work: Work, t: float, y: Floats, dy: Floats) -> bool:
-    """Everything but the accelerations of a state in `work`; False where the loops cannot be closed."""
+    """Everything but the accelerations of a state in `work`; False where the loops cannot be closed.
+
+    y, dy (states,) as in `loads.apply_forces`.
+    """
     closed = update_kinematics(system, work, t, y)
     update_mass_matrix(system, work)
     apply_forces(system, work, t, y, dy)

@@ -115,6 +115,8 @@ def contact_signs(system: System, n: int, work: Work, y: Floats) -> tuple[float,
 
     Where the second rises through 0 another compression begins; where the third changes sign the force has a kink.  They are 1 where
     there is nothing to watch for.
+
+    y (states,) as in `loads.apply_forces`.
     """
     contact, memory = system.contacts[n], y[system.contacts[n].memory]
     if memory == 0.0 or (contact.hysteresis == 0.0 and contact.damping == 0.0):
