@@ -135,6 +135,20 @@ def plate_gaps(
     return tuple(_plate_gap(sprocket, names, points, in_sprocket(points, pose, sprocket_angle), tolerance) for pose in np.atleast_2d(poses))
 
 
+def least_chain_gap(
+    plate: Plate, sprocket: Sprocket, poses: Floats, sprocket_angle: float, spacing: float = 2e-5, tolerance: float = 1e-8
+) -> float:
+    """Least gap [m] of all plates of a chain at poses (n, 3) about a sprocket: those whose toes can reach it, and of plates that meet
+    their teeth alike one."""
+    p = plate.link.pitch
+    distance, polar = np.hypot(poses[:, 0], poses[:, 1]), np.arctan2(poses[:, 1], poses[:, 0])
+    tooth = np.mod(polar - sprocket_angle + 1e-6, 2 * np.pi / sprocket.tooth.teeth)
+    alike = np.round(np.stack([distance / p, tooth, np.mod(poses[:, 2] - polar, 2 * np.pi)], axis=1), 7)
+    different = np.unique(alike, axis=0, return_index=True)[1]
+    near = poses[[row for row in different if distance[row] < sprocket.tip_radius + 1.5 * p]]
+    return min(gap.gap for gap in plate_gaps(plate, sprocket, near, sprocket_angle, spacing, tolerance))
+
+
 def _plate_gap(sprocket, names, points, here, tolerance):
     far = np.hypot(*here.T)
     lowest = profile_gap(sprocket, here[[np.argmin(far)]], tolerance)[0]

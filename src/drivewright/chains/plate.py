@@ -213,6 +213,9 @@ def _toe_end(link, inner_gap):
     return (0.5 * (1.1 * link.pitch * np.cos(a) + inner_gap) - link.flank_support) / np.sin(a)
 
 
+BAR = (1.86, 0.95)  # length and height of a link's bar over the pitch; its area is a pitch squared
+
+
 class LinkMass(NamedTuple):
     """mass [kg] of a link's plates and own pins, height of the mass centre above the pin line [m], inertia about it [kg m^2]."""
 
@@ -235,3 +238,15 @@ def link_mass(plate: Plate, plates: int, density: float, pin_length: float) -> L
 def mass_per_pitch(plate: Plate, lacing: tuple[int, int], density: float, pin_length: float) -> float:
     """Mass of a chain per link [kg] for a lacing (a, b): links of a and of b plates in turn."""
     return 0.5 * sum(link_mass(plate, plates, density, pin_length).mass for plates in lacing)
+
+
+def mean_link_mass(plate: Plate, lacing: tuple[int, int], density: float, pin_length: float) -> LinkMass:
+    """Mean `LinkMass` of the two kinds of links, of a and of b plates in turn."""
+    one, other = (link_mass(plate, plates, density, pin_length) for plates in lacing)
+    return LinkMass(0.5 * (one.mass + other.mass), 0.5 * (one.height + other.height), 0.5 * (one.inertia + other.inertia))
+
+
+def bar_link_mass(pitch: float, density: float, width: float) -> LinkMass:
+    """`LinkMass` of a link without a drawing: bars of the outer measures of a plate over half the chain's width [m], a plate's area."""
+    mass = density * 0.5 * width * pitch * pitch
+    return LinkMass(mass, 0.0, mass * (BAR[0] ** 2 + BAR[1] ** 2) * pitch * pitch / 12)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.chains.standards.sprocket import tip_range, tooth_gap
 from drivewright.errors import InputError
 from drivewright.scene import Arc, Drawing, Outline, Part, Prism, Shape, circle
@@ -66,6 +67,11 @@ class RollerSprocket:
     def root_radius(self) -> float:
         """Pitch radius less the roller's radius  [m]."""
         return self.pitch_radius - 0.5 * self.roller_diameter
+
+    @property
+    def tooth(self) -> RollerTooth:
+        """What the rollers touch."""
+        return RollerTooth(self.teeth, self.pitch_radius, self.seat_radius, self.seat_angle, self.flank_radius, 0.5 * self.roller_diameter)
 
     @property
     def _seat_center(self):

@@ -114,6 +114,13 @@ def order_spectrum(t: ArrayLike, x: ArrayLike, period: float, orders: ArrayLike)
     return _amplitudes(_spline(t, x).antiderivative(), t[0], t[-1], bins, t.size)
 
 
+def highest_peaks(frequency: Floats, amplitude: Floats, count: int) -> Floats:
+    """Frequencies (count,) of the highest local maxima of amplitudes (n,), highest first; nan where there are fewer."""
+    tops = np.flatnonzero((amplitude[1:-1] > amplitude[:-2]) & (amplitude[1:-1] >= amplitude[2:])) + 1
+    best = tops[np.argsort(-amplitude[tops])][:count]
+    return np.pad(frequency[best], (0, count - len(best)), constant_values=np.nan)
+
+
 def spectrogram(t: ArrayLike, x: ArrayLike, period: float, orders: ArrayLike, turns: int = 1) -> tuple[Floats, Floats]:
     """(times, amplitudes): `order_spectrum` of windows of `turns` whole periods, each one period later; times of their middles.
 

@@ -15,6 +15,8 @@ from drivewright.chains.explicit.measure import BODY, PLATE, ROW
 from drivewright.chains.explicit.motion import LOSSES, Motion
 from drivewright.chains.explicit.simulate import Settings, tooth_time
 from drivewright.chains.link import design_link, seat_height, seat_support
+from drivewright.chains.stress.plate import Loads
+from drivewright.chains.stress.revolution import fewer_instants, open_seats
 from drivewright.mechanisms.silent_chain import dynamics, many, stress
 from drivewright.mechanisms.silent_chain.geometry import geometry
 from drivewright.mechanisms.silent_chain.moving import link_of, moving
@@ -649,7 +651,8 @@ def test_the_life_of_a_plate_in_revolutions_and_seconds(monkeypatch):
         rows=np.array([2, 0, 1]), life=np.array([1e7, np.inf, 1e5]), damage=np.array([1e-7, 0, 1e-5]), stress=np.ones(3)
     )
     rim = SimpleNamespace(points=np.array([[0.0, 0.0], [1.0, 2.0], [3.0, 5.0]]))
-    found = SimpleNamespace(basis=SimpleNamespace(body=SimpleNamespace(rim=rim)), thinned=None, whole=True, time=np.array([0.5, 0.6, 0.75]))
+    turn = SimpleNamespace(loads=Loads(np.ones((3, 2, 2)), np.ones((3, 2)), np.ones((3, 2))), whole=True, time=np.array([0.5, 0.6, 0.75]))
+    found = (SimpleNamespace(body=SimpleNamespace(rim=rim)), turn)
     monkeypatch.setattr(stress, "plate_life", lambda *given: lives)
     answer = stress.life(model, {"stress": SimpleNamespace(data=found)})
     assert (answer.values["plate.life"].value, answer.values["plate.life.time"].value) == pytest.approx((1e5, 0.25e5))
@@ -662,8 +665,14 @@ def test_safety_of_a_plate_is_its_yield_strength_over_its_stress(monkeypatch):
     model = build("limits.yield_safety=1.2")
     peak = SimpleNamespace(stress=400e6, row=0, instant=1, place=(1e-3, -2e-3))
     loads = SimpleNamespace(pins=np.array([[[3.0, 4.0], [6.0, 8.0]]] * 2), flanks=np.array([[1.0, 2.0]] * 2))
-    revolution = SimpleNamespace(basis=None, loads=loads, time=np.array([0.0, 1.0]))
-    for name, result in (("Revolution", revolution), ("worst", peak), ("stress_history", np.ones((2, 1, 3))), ("stress_picture", None)):
+    revolution = SimpleNamespace(loads=loads, time=np.array([0.0, 1.0]))
+    for name, result in (
+        ("_basis", None),
+        ("_revolution", revolution),
+        ("worst", peak),
+        ("stress_history", np.ones((2, 1, 3))),
+        ("stress_picture", None),
+    ):
         monkeypatch.setattr(stress, name, lambda *given, result=result: result)
     answer = stress.stress(model, {"dynamics": SimpleNamespace(data=None)})
     assert answer.checks[0].value == pytest.approx(835 / 400) and answer.checks[0].limit == 1.2
@@ -673,16 +682,22 @@ def test_safety_of_a_plate_is_its_yield_strength_over_its_stress(monkeypatch):
 
 def test_an_open_joint_loads_no_plate():
     pins = np.array([[[-5.0, 0.0], [5.0, 0.0]], [[5.0, 1.0], [-5.0, 1.0]], [[-0.1, 5.0], [0.1, 5.0]], [[0.5, 5.0], [-0.5, 5.0]]])
-    assert stress.away(pins).tolist() == [[False, False], [True, True], [False, False], [False, False]]
+    assert open_seats(pins).tolist() == [[False, False], [True, True], [False, False], [False, False]]
 
 
 def revolution(count, model):
-    """A `Revolution` over a made-up run of so many samples, a ramp in every column."""
+    """A `PlateRevolution` over a made-up run of so many samples, a ramp in every column."""
     names = ("left x", "left y", "right x", "right y", "left flank", "right flank")
     ramps = {name: (np.arange(count) + 1.0) * (k + 1) * (-1 if name == "left x" else 1) for k, name in enumerate(names)}
     ramps["x"] = np.linspace(-0.01, 1.2 * model.closure.mean, count)
-    motion = SimpleNamespace(column=ramps.__getitem__, t=0.5 * np.arange(count), per_tooth=2, steady=slice(5, count - 3))
-    return stress.Revolution(model, motion), ramps
+    motion = SimpleNamespace(
+        column=ramps.__getitem__,
+        t=0.5 * np.arange(count),
+        per_tooth=2,
+        steady=slice(5, count - 3),
+        model=SimpleNamespace(chain=SimpleNamespace(count=model.spec.links)),
+    )
+    return stress._revolution(model, motion), ramps
 
 
 def test_one_plate_bears_its_share_of_a_revolution():
@@ -703,7 +718,7 @@ def test_one_plate_bears_its_share_of_a_revolution():
 def test_fewer_instants_keep_the_greatest_and_the_least():
     found, _ = revolution(3000, build("links=1400", "teeth=[11, 13]"))
     assert len(found.loads.flanks) == 2801
-    thin = found.thinned
+    thin = fewer_instants(found.loads, 500)
     assert 250 < len(thin.flanks) <= 500
     size = found.loads.flanks.sum(axis=1)
     kept = thin.flanks.sum(axis=1)

@@ -82,3 +82,8 @@ class Closure:
     def centre_distance(self) -> Floats:
         """(S,)  [m]."""
         return self.states.centre_distance
+
+    def mean_wrap(self, number: int) -> float:
+        """Wrap of the driver (0) or the driven sprocket (1), mean over the tooth  [rad]."""
+        wraps, angle = self.states.wrap[:, number], self.driver_angle
+        return float(np.sum(0.5 * (wraps[1:] + wraps[:-1]) * np.diff(angle)) / np.ptp(angle))

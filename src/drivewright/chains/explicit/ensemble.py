@@ -30,7 +30,7 @@ ROUNDING = 1e-6  # windows that agree to this part of a statistic repeat each ot
 
 @dataclass(frozen=True)
 class Ensemble:
-    """ContactCandidates of one drive, the first undisturbed; the first alone where they stay together, and are not chaotic.
+    """Runs of one drive, the first undisturbed; the first alone where they stay together, and are not chaotic.
 
     A signal is a function of a run that returns its samples (m,).
     """

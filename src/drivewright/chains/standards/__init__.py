@@ -41,6 +41,7 @@ from drivewright.chains.standards.running import (
     speed_fluctuation,
     speed_range,
     strand_frequency,
+    strand_pulls,
     strand_tension,
     tensile_safety,
 )
@@ -94,6 +95,7 @@ __all__ = [
     "strand_angle",
     "strand_frequency",
     "strand_length",
+    "strand_pulls",
     "strand_tension",
     "suitable_chains",
     "taut_loop",

@@ -57,6 +57,16 @@ def strand_tension(power: Numbers, speed: Numbers, mass_per_length: Numbers, sla
     return power / speed + centrifugal_tension(mass_per_length, speed) + slack_tension
 
 
+def strand_pulls(preload: float, torque: float, pitch: float, teeth: int, slope: float) -> tuple[float, float]:
+    """Forces of the tight and of the slack strand without the centrifugal one, F/(2 cos g) +- pi T/(z p)  [N].
+
+    preload F [N]: between the sprockets; torque T [N m]: on the one with z teeth; slope: cosine of the strands' angle g to the centres.
+    """
+    pull = torque * 2 * np.pi / (teeth * pitch)
+    along = preload / slope
+    return 0.5 * (along + pull), 0.5 * (along - pull)
+
+
 def tensile_safety(tensile_strength: float, tension: float) -> float:
     """Minimum tensile strength, the user's, over the tension of the tight strand  [-]."""
     above_zero("chain", tensile_strength=tensile_strength, tension=tension)

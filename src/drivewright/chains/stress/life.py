@@ -68,3 +68,22 @@ def _greatest(share, unit_stress):
     for one in share:
         np.maximum(size, plane_von_mises(np.tensordot(one, unit_stress, axes=1)), out=size)
     return size
+
+
+def life_map(basis: Basis, lives: PlateLife, side: float) -> Table:
+    """Table "life_map" for a plot of style "mesh": squares with a side [m] around the rim, two triangles each, with the logarithm of
+    their life; lives without damage are left out."""
+    kept = np.isfinite(lives.life)
+    centre, half = basis.body.rim.points[lives.rows[kept]], 0.5 * side
+    corners = np.array([(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)]) * half
+    x, y = (centre[:, None, :] + corners).reshape(-1, 2).T
+    return Table(
+        "life_map",
+        "Life around a plate",
+        (
+            Column("x", "m", "along the plate", x),
+            Column("y", "m", "across the plate", y),
+            Column("depth", "m", "flat", 0 * x),
+            Column("life", "-", "power of ten of the revolutions", np.repeat(np.log10(lives.life[kept]), 6)),
+        ),
+    )

@@ -1,10 +1,11 @@
 """The kind `silent-chain`: silent chains with rolling joints, and chains with round pins."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.silent_chain import closure, compare, contact, dynamics, layout, many, stress
-from drivewright.mechanisms.silent_chain.build import build
+from drivewright.mechanisms.silent_chain.build import ChainModel, build
 from drivewright.mechanisms.silent_chain.claims import claims
 from drivewright.mechanisms.silent_chain.designs import batch
 from drivewright.mechanisms.silent_chain.geometry import geometry
@@ -13,13 +14,13 @@ from drivewright.mechanisms.silent_chain.plots import plots
 from drivewright.mechanisms.silent_chain.scene import drawings, parts, scene
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 from drivewright.registry import Analysis, Mechanism, oracle
-from drivewright.result import Answer
+from drivewright.result import Answer, Answers
 
 
-def unless_impossible(answer):
+def unless_impossible(answer: Callable[[ChainModel, Answers], Answer]) -> Callable[[ChainModel, Answers], Answer]:
     """The analysis, left out with the reason where the bodies, the card or the place that it asks for cannot be."""
 
-    def guarded(model, done):
+    def guarded(model: ChainModel, done: Answers) -> Answer:
         """Its answer, or why there is none."""
         try:
             return answer(model, done)

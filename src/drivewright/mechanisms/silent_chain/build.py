@@ -2,21 +2,23 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from drivewright.chains import meshing
 from drivewright.chains.closure import Drive, close
+from drivewright.chains.closure.model import Closure
 from drivewright.chains.link import Link, design_link, seat_height
-from drivewright.chains.plate import design_plate
-from drivewright.chains.plate_holes import HingePin, RockerPins, RoundPins
-from drivewright.chains.roller_sprocket import design_roller_sprocket
-from drivewright.chains.sprocket import design_sprocket
+from drivewright.chains.plate import Plate, design_plate
+from drivewright.chains.plate_holes import HingePin, Pins, RockerPins, RoundPins
+from drivewright.chains.roller_sprocket import RollerSprocket, design_roller_sprocket
+from drivewright.chains.sprocket import Sprocket, design_sprocket
 from drivewright.chains.standards import pitch_diameter
 from drivewright.chains.tooth import Cutter, Tooth, cut_tooth, matching_cutter
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.refusals import refuse_contradictions, unused
+from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 
 BUSH = 0.9  # length of a roller chain's bushes over the pitch
 BORE = 0.4  # of the smaller pitch circle
@@ -44,42 +46,42 @@ class Side(NamedTuple):
 class ChainModel:
     """The drive: `link` holds what moves; offset, apothem and `sides` are the published method's measures, None for a roller chain."""
 
-    spec: Any
+    spec: SilentChainSpec
     link: Link
     offset: float = 0.0
     standard_apothem: float | None = None
     cutter: Cutter | None = None
-    sides: tuple | None = None
-    findings: tuple = ()
+    sides: tuple[Side, ...] = ()
+    findings: tuple[str, ...] = ()
 
     @property
-    def teeth(self):
+    def teeth(self) -> tuple[int, int]:
         """Teeth of the driving and of the driven sprocket."""
         return self.spec.teeth
 
     @property
-    def worn(self):
+    def worn(self) -> Link:
         """The link as long as wear has made it."""
         return self.lengthened(self.link)
 
-    def lengthened(self, link):
+    def lengthened(self, link: Link) -> Link:
         """A link with the wear of this chain."""
         return link._replace(hole_pitch=link.hole_pitch + self.spec.closure.elongation * link.pitch)
 
     @cached_property
-    def closure(self):
+    def closure(self) -> Closure:
         """The closed loop over one tooth of the driver."""
         return close(Drive(self.worn, *self.teeth, self.spec.links, self.spec.closure.strands))
 
     @cached_property
-    def plate(self):
+    def plate(self) -> Plate:
         """The plate of a silent chain; InputError where the lengths given leave none."""
         given = self.spec.plate
         lengths = {name: value for name in ("back", "toe", "crotch", "crotch_radius") if (value := getattr(given, name)) is not None}
         return design_plate(self.link, self.pins, thickness=given.thickness, **lengths)
 
     @cached_property
-    def undrawn(self):
+    def undrawn(self) -> str:
         """Why the plate cannot be drawn; empty where it can."""
         try:
             _ = self.plate
@@ -88,7 +90,7 @@ class ChainModel:
         return ""
 
     @property
-    def pins(self):
+    def pins(self) -> Pins:
         """Pins of the joints and the holes they need."""
         given, p = self.spec.joint, self.spec.pitch
         if given.kind == "revolute":
@@ -99,7 +101,7 @@ class ChainModel:
         return RockerPins(*(share * p for share in ROCKER), turn)
 
     @cached_property
-    def sprockets(self):
+    def sprockets(self) -> tuple[Sprocket | RollerSprocket, ...]:
         """Both sprockets with all their teeth; InputError where the lengths given leave no teeth."""
         if self.spec.roller:
             return tuple(
@@ -107,7 +109,7 @@ class ChainModel:
             )
         return tuple(self.sprocket(side.teeth, side.tooth) for side in self.sides)
 
-    def sprocket(self, teeth, tooth):
+    def sprocket(self, teeth: int, tooth: Tooth) -> Sprocket:
         """A sprocket for this chain with a given tooth."""
         given, height = self.spec.cutter, seat_height(self.link, teeth)
         depths = {"tip_radius": given.tip_depth, "root_radius": given.root_depth}
@@ -118,13 +120,13 @@ class ChainModel:
         return replace(design_sprocket(self.link, teeth, self.cutter, **lengths), tooth=tooth)
 
     @property
-    def bore(self):
+    def bore(self) -> float:
         """Diameter of the sprockets' holes [m]."""
         given = self.spec.cutter.bore
         return BORE * pitch_diameter(self.spec.pitch, min(self.teeth)) if given is None else given
 
     @property
-    def contact_length(self):
+    def contact_length(self) -> float:
         """Length along which the pins touch, or of a roller chain's bushes [m]."""
         given, plate = self.spec.joint.contact_length, self.spec.plate
         if given is not None:
@@ -132,13 +134,13 @@ class ChainModel:
         return BUSH * self.spec.pitch if self.spec.roller else sum(plate.lacing) * plate.thickness
 
     @property
-    def chain_width(self):
+    def chain_width(self) -> float:
         """Width of the pack of plates [m]; of a roller chain over its four rows of plates."""
         plate = self.spec.plate
         return self.contact_length + 4 * plate.thickness if self.spec.roller else sum(plate.lacing) * plate.thickness
 
 
-def build(spec):
+def build(spec: SilentChainSpec) -> ChainModel:
     """The `ChainModel` of a spec."""
     refuse_contradictions(spec)
     radius = 0.0 if spec.joint.kind == "revolute" else spec.joint.rolling_radius
@@ -156,7 +158,7 @@ def build(spec):
     return ChainModel(spec, design_link(spec.pitch, radius, angle, apothem), offset, standard, cutter, sides, tuple(unused(spec)))
 
 
-def offset_of(spec, radius):
+def offset_of(spec: SilentChainSpec, radius: float) -> float:
     """Offset of the pins [m], as given or by its rule."""
     given, (z1, z2), ideal = spec.joint.offset, spec.teeth, spec.meshing.ideal
     if not isinstance(given, str):

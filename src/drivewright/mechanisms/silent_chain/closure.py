@@ -1,18 +1,17 @@
 """Centre distance, transmission error and rise of the strands over one tooth, without dynamics."""
 
-import numpy as np
-
 from drivewright.chains.closure import departure
 from drivewright.chains.link import seat_height
-from drivewright.mechanisms.silent_chain.build import SIDES
+from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
-from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 SLACK = 0.01  # of it that a fixed one may be shorter
 FREE = 1e-3  # of the taut centre distance: a fixed one that is longer would stretch the chain
 
 
-def closure(model, done):
+def closure(model: ChainModel, done: Answers) -> Answer:
     """The closed loop over one tooth of the driving sprocket."""
     found = model.closure
     values = {
@@ -36,7 +35,7 @@ def closure(model, done):
     return Answer(values, (_table(found),), (*checks, _apart(model), *_fixed(model)), tuple(_remarks(model)), data=found)
 
 
-def no_closure(spec):
+def no_closure(spec: SilentChainSpec) -> str | None:
     """Why there is none."""
     return "it closes a chain around two sprockets; with more of them use the dynamics" if spec.sprockets else None
 
@@ -46,12 +45,12 @@ def _sides(model):
     for number, side in enumerate(SIDES):
         leaving = departure(model.worn, model.teeth[number], model.spec.closure.strands)
         words = SIDE_WORDS[side]
-        wraps, angle = model.closure.states.wrap[:, number], model.closure.driver_angle
-        wrap = float(np.sum(0.5 * (wraps[1:] + wraps[:-1]) * np.diff(angle)) / np.ptp(angle))
         found[f"chordal_rise.{side}"] = Value(leaving.rise, "m", f"rise and fall of the strand's force over a tooth of the {words}")
         found[f"seating_angle.{side}"] = Value(leaving.seating, "rad", f"angle in which a plate comes to its seat on the {words}")
         found[f"strand_slip.{side}"] = Value(leaving.slip, "m", f"of the strand off a pitch per tooth of the {words}, greatest less least")
-        found[f"wrap.{side}"] = Value(wrap, "rad", f"angle of the {words} that the chain takes in, mean over a tooth")
+        found[f"wrap.{side}"] = Value(
+            model.closure.mean_wrap(number), "rad", f"angle of the {words} that the chain takes in, mean over a tooth"
+        )
     return found
 
 

@@ -6,29 +6,30 @@ from drivewright.chains import meshing as published
 from drivewright.chains.closure import Drive, phase_map
 from drivewright.chains.link import design_link
 from drivewright.chains.stress.rolling import rolling_contact
-from drivewright.mechanisms.silent_chain.build import offset_of
+from drivewright.mechanisms.silent_chain.build import ChainModel, offset_of
 from drivewright.mechanisms.silent_chain.contact import no_contact
+from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 from drivewright.mechanisms.silent_chain.strands import strand_force
-from drivewright.result import Answer, Column, Table, Value
+from drivewright.result import Answer, Answers, Column, Table, Value
 
 OVER_PITCH = (0.02, 0.04, 0.07, 0.1, 0.126, 0.17, 0.25, 0.35, 0.5, 0.78)  # rolling radii looked at, unless told otherwise
 AROUND = 4  # links on either side of the design's
 POSITIONS = 24  # of a closure in a tooth
 
 
-def no_comparison(spec):
+def no_comparison(spec: SilentChainSpec) -> str | None:
     """Why there is none."""
     if spec.joint.kind == "revolute":
         return "a revolute joint has no rolling radius to compare"
     return "it is for two sprockets" if spec.sprockets else no_contact(spec)
 
 
-def no_phase_map(spec):
+def no_phase_map(spec: SilentChainSpec) -> str | None:
     """Why there is none."""
     return "it is for two sprockets" if spec.sprockets else None
 
 
-def trade_off(model, done):
+def trade_off(model: ChainModel, done: Answers) -> Answer:
     """Fluctuation, deviation of the published measure and contact pressure over the rolling radius."""
     radii = _radii(model)
     closures = _closed(model, [(r, model.spec.links, model.teeth[1]) for r in radii])
@@ -51,7 +52,7 @@ def trade_off(model, done):
     return Answer({}, (Table("trade_off", "What the rolling radius trades", tuple(columns)),))
 
 
-def phases(model, done):
+def phases(model: ChainModel, done: Answers) -> Answer:
     """Fluctuation over the number of links, for rolling radii and tooth numbers."""
     given, spec = model.spec.compare, model.spec
     links = given.links or range(max(spec.links - AROUND, max(model.teeth) + 2), spec.links + AROUND + 1)

@@ -4,16 +4,18 @@ import numpy as np
 
 from drivewright.chains.stress import pins, rolling
 from drivewright.errors import InputError
+from drivewright.mechanisms.silent_chain.build import ChainModel
+from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 from drivewright.mechanisms.silent_chain.strands import centrifugal, chain_speed, pulls, strand_force
-from drivewright.result import Answer, Check, Value
+from drivewright.result import Answer, Answers, Check, Value
 
 
-def no_contact(spec):
+def no_contact(spec: SilentChainSpec) -> str | None:
     """Why there is none."""
     return None if spec.drive or spec.contact.force else "no force is known: write [drive], or [contact] force"
 
 
-def contact(model, done):
+def contact(model: ChainModel, done: Answers) -> Answer:
     """Forces of the strands and what they do to the pins."""
     force = model.spec.contact.force or strand_force(model)
     given = model.spec.plate

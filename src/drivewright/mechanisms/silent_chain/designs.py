@@ -1,15 +1,18 @@
 """Many chains at once: the published method, and the layout's closed forms, with arrays in the place of the spec's numbers."""
 
 import operator
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.chains import standards
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, build
 from drivewright.mechanisms.silent_chain.layout import side_measures
 from drivewright.mechanisms.silent_chain.meshing import measures, seated_measures
 from drivewright.mechanisms.silent_chain.refusals import LEAST_TEETH
+from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 from drivewright.result import Check
 from drivewright.spec import value_at
 from drivewright.spec.fields import field_at, type_of
@@ -34,7 +37,7 @@ LIMITS = {"gt": operator.gt, "ge": operator.ge, "lt": operator.lt, "le": operato
 BLOCK = 8192  # designs at a time: their arrays stay in the processor's cache
 
 
-def batch(spec, keys, names):
+def batch(spec: SilentChainSpec, keys: Sequence[str], names: Sequence[str]) -> Callable[[Floats], dict[str, Floats]] | None:
     """designs (n, d) -> {name: (n,)}; None where a key or a value is beyond it, which then runs one by one.
 
     A design that the spec refuses, or for which one of the values asked for does not exist, is nan in every name.

@@ -1,15 +1,20 @@
 """The running chain: centre distance, forces, orders and balances, over revolutions of the chain after it has settled, in an ensemble."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from drivewright.chains.explicit.ensemble import amplitude_of, centre_distance, ensemble, greatest_of, mean_of, range_of
 from drivewright.chains.explicit.simulate import Settings, simulate, tooth_time
 from drivewright.chains.explicit.stability import largest_step, refuse_step
 from drivewright.chains.implicit import simulate as implicit
+from drivewright.chains.model import ChainDrive
 from drivewright.errors import InputError, SolverError, SpecError
+from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.moving import moving
+from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 from drivewright.numerics.ensemble import of_members
-from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 IMPLICIT_STEP = 1e-5  # [s]
 STEP, SAFE = 1e-6, 0.5  # [s], and part of the largest stable step, that an explicit run takes unless told otherwise
@@ -26,12 +31,12 @@ ORDERS = 8  # of the mesh frequency, up to which the spectrum is told
 WATCHED = 0
 
 
-def no_dynamics(spec):
+def no_dynamics(spec: SilentChainSpec) -> str | None:
     """Why there are none."""
     return None if spec.drive else "speed and preload are not given: write [drive]"
 
 
-def dynamics(model, done):
+def dynamics(model: ChainModel, done: Answers) -> Answer:
     """The runs, their statistics, spectrum and balances; of a run that failed the balance and the signals alone."""
     runs = _runs(model, moving(model))
     if not all(np.all(np.isfinite(run.rows)) for run in runs.members):
@@ -88,7 +93,7 @@ def _seated(model, runs):
         )
 
 
-def settled(values):
+def settled(values: Mapping[str, Value]) -> Check:
     """Whether mean and fluctuation of the centre distance have stopped drifting: the check `settled` counts those that have not."""
     names = [f"dynamics.centre_distance.{name}" for name in ("mean", "fluctuation")]
     drifting = [name for name in names if not values[name].settled]
@@ -153,7 +158,7 @@ def _refuse_endless(model, duration, step):
         )
 
 
-def explicit_step(model, system):
+def explicit_step(model: ChainModel, system: ChainDrive) -> float:
     """Step of an explicit run [s]: as said, else a microsecond, or less where that is not safe."""
     given = model.spec.dynamics.step
     try:

@@ -1,16 +1,17 @@
 """Plates and sprockets as bodies: measures, walls, teeth, and whether plates meet anything but their seats."""
 
+from collections.abc import Iterator
 from contextlib import suppress
 
 import numpy as np
 
 from drivewright.chains.closure import plates, states_at
-from drivewright.chains.interference import plate_gaps, seating_speeds
+from drivewright.chains.interference import least_chain_gap, seating_speeds
 from drivewright.chains.plate import mass_per_pitch
 from drivewright.errors import InputError
-from drivewright.mechanisms.silent_chain.build import SIDES
+from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
-from drivewright.result import Answer, Check, Value
+from drivewright.result import Answer, Answers, Check, Value
 
 KEYS = {  # that decide on a body
     "plate": "Keys: joint.rolling_radius, plate.apothem (or standard_apothem), back, toe, crotch.",
@@ -21,7 +22,7 @@ POSITIONS = 6  # of the chain in a tooth, at which gaps are looked at
 SPACING, TOLERANCE = 1e-2, 5e-5  # of the points of a plate and of the teeth whose gaps are looked at, over the pitch
 
 
-def geometry(model, done):
+def geometry(model: ChainModel, done: Answers) -> Answer:
     """Measures of plate and teeth, walls, least gaps of the plates; a body that cannot be is a failed check."""
     values, checks = {}, []
     for part, measured in (("plate", _plate), ("sprockets", _sprockets), ("meeting", _meeting)):
@@ -85,7 +86,7 @@ def _sprockets(model):
     return values, [*checks, *bores(model)]
 
 
-def bores(model):
+def bores(model: ChainModel) -> Iterator[Check]:
     """The holes against the roots of the teeth."""
     for side, sprocket in zip(SIDES, model.sprockets, strict=True):
         yield Check(
@@ -194,13 +195,7 @@ def _meeting(model):
 
 
 def _least_gap(model, sprocket, states, poses, k, number):
-    """Least gap at one position: plates whose teeth can reach the sprocket, in its frame, those that stand alike once."""
+    """Least gap at one position of the chain, the sprocket seen from its centre."""
     p, centre = model.link.pitch, (0.0, 0.0) if number == 0 else (states.centre_distance[k], 0.0)
     angle = (states.driver_angle, states.driven_angle)[number][k] - 0.5 * np.pi
-    about = poses[k] - (*centre, 0.0)
-    distance, polar = np.hypot(about[:, 0], about[:, 1]), np.arctan2(about[:, 1], about[:, 0])
-    tooth = np.mod(polar - angle + 1e-6, 2 * np.pi / sprocket.tooth.teeth)
-    alike = np.round(np.stack([distance / p, tooth, np.mod(about[:, 2] - polar, 2 * np.pi)], axis=1), 7)
-    different = np.unique(alike, axis=0, return_index=True)[1]
-    near = about[[row for row in different if distance[row] < sprocket.tip_radius + 1.5 * p]]
-    return min(gap.gap for gap in plate_gaps(model.plate, sprocket, near, angle, SPACING * p, TOLERANCE * p))
+    return least_chain_gap(model.plate, sprocket, poses[k] - (*centre, 0.0), angle, SPACING * p, TOLERANCE * p)

@@ -1,16 +1,18 @@
 """The drive by formula: length of the chain, pitch circles, wraps, unevenness, strands as moving strings."""
 
+from collections.abc import Iterator
+
 from drivewright.chains import standards
 from drivewright.errors import InputError
-from drivewright.mechanisms.silent_chain.build import SIDES
+from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.mechanisms.silent_chain.strands import chain_speed, link_of, strand_force
-from drivewright.result import Answer, Check, Value
+from drivewright.result import Answer, Answers, Check, Value
 
 MODES = 2  # of a strand that are told
 
 
-def layout(model, done):
+def layout(model: ChainModel, done: Answers) -> Answer:
     """Formulas of the field, for two sprockets; of each sprocket alone for more."""
     values = {name: value for k, side in enumerate(SIDES) for name, value in side_measures(model, side, k)}
     findings = []
@@ -37,7 +39,7 @@ def _remarks(spec):
         )
 
 
-def side_measures(model, side, number):
+def side_measures(model: ChainModel, side: str, number: int) -> Iterator[tuple[str, Value]]:
     """(name, Value) of the closed forms of one sprocket."""
     teeth, pitch, words = model.teeth[number], model.spec.pitch, SIDE_WORDS[side]
     yield f"layout.pitch_diameter.{side}", Value(standards.pitch_diameter(pitch, teeth), "m", f"pitch circle of the {words}")

@@ -1,13 +1,18 @@
 """Many runs of the moving chain: over speed, and over the scatter of manufacture; and the chain at rest at many angles."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from drivewright.chains.explicit.batch import Scatter, campbell, monte_carlo, revolution_time
 from drivewright.chains.explicit.simulate import Settings
 from drivewright.chains.implicit.equilibrium import compliance_of, equilibrium
+from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.dynamics import explicit_step
 from drivewright.mechanisms.silent_chain.moving import moving
-from drivewright.result import Answer, Column, Table, Value
+from drivewright.numerics.ensemble import Estimate
+from drivewright.numerics.signals import highest_peaks
+from drivewright.result import Answer, Answers, Column, Table, Value
 
 SPEEDS = 12  # of the Campbell diagram, unless told otherwise, up to
 BEYOND = 1.5  # times the design's speed
@@ -17,7 +22,7 @@ POSITIONS = 24  # in a tooth, at rest
 PERCENTILES = (5, 50, 95)
 
 
-def speeds(model, done):
+def speeds(model: ChainModel, done: Answers) -> Answer:
     """Fluctuation and mesh order over the speed, and the spectra: a Campbell diagram."""
     drive, given = model.spec.drive, model.spec.compare.speeds
     chosen = np.array(given) if given else drive.speed * BEYOND * np.arange(1, SPEEDS + 1) / SPEEDS
@@ -55,14 +60,22 @@ def speeds(model, done):
         "Campbell diagram: highest peaks of the spectra of the centre distance",
         (
             Column("speed", "rad/s", "speed of the driving sprocket", np.array([speed for speed, _ in rows])),
-            *(Column(f"peak_{k + 1}", "Hz", f"peak {k + 1}", np.array([_peaks(level)[k] for _, level in rows])) for k in range(PEAKS)),
+            *(
+                Column(
+                    f"peak_{k + 1}",
+                    "Hz",
+                    f"peak {k + 1}",
+                    np.array([highest_peaks(level.frequency, level.spectrum, PEAKS)[k] for _, level in rows]),
+                )
+                for k in range(PEAKS)
+            ),
             Column("mesh_frequency", "Hz", "mesh frequency", np.array([speed for speed, _ in rows]) * model.teeth[0] / (2 * np.pi)),
         ),
     )
     return Answer({}, (table, diagram), (), findings)
 
 
-def bounded(name, unit, meaning, estimates):
+def bounded(name: str, unit: str, meaning: str, estimates: Sequence[Estimate]) -> tuple[Column, ...]:
     """A column of the values of estimates, and those of the ends of their intervals."""
     value, low, high = np.array([(each.value, each.low, each.high) for each in estimates]).T
     column = Column(name, unit, meaning, value)
@@ -76,15 +89,7 @@ def _drifting(levels):
         yield f"not settled, and of no meaning beyond these runs: the fluctuation at {', '.join(names)}; give dynamics.settling more"
 
 
-def _peaks(level):
-    """Frequencies (PEAKS,) of the highest local maxima of the spectrum, highest first; nan where there are fewer."""
-    a, f = level.spectrum, level.frequency
-    tops = np.flatnonzero((a[1:-1] > a[:-2]) & (a[1:-1] >= a[2:])) + 1
-    best = tops[np.argsort(-a[tops])][:PEAKS]
-    return np.pad(f[best], (0, PEAKS - len(best)), constant_values=np.nan)
-
-
-def scatter(model, done):
+def scatter(model: ChainModel, done: Answers) -> Answer:
     """Percentiles of mean and fluctuation of the centre distance over drives as they come from manufacture; each drive runs once."""
     system, given = moving(model), model.spec.scatter
     settings = _settings(model, system)
@@ -113,7 +118,7 @@ def scatter(model, done):
     return Answer(values, (table,), (), findings)
 
 
-def quasi_static(model, done):
+def quasi_static(model: ChainModel, done: Answers) -> Answer:
     """The loaded chain at rest, teeth and joints elastic, flanks that press only: also with thick teeth and a worn chain."""
     system = moving(model)
     found, rigid = equilibrium(system, POSITIONS), compliance_of(system, POSITIONS)

@@ -3,25 +3,26 @@
 import numpy as np
 
 from drivewright.chains import meshing as published
-from drivewright.mechanisms.silent_chain.build import SIDES
-from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
+from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
+from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 SIDE_WORDS = {"drive": "driving sprocket", "driven": "driven sprocket"}
 TURNS = 121  # points of the curve of the equivalent pitch
 
 
-def meshing(model, done):
+def meshing(model: ChainModel, done: Answers) -> Answer:
     """All measures of the published method, and its curve of the equivalent pitch."""
     values = {**measures(model), **{name: value for k, side in enumerate(SIDES) for name, value in seated_measures(model, side, k).items()}}
     return Answer(values, (_turning(model),), tuple(_checks(model)), tuple(_remarks(model)))
 
 
-def no_meshing(spec):
+def no_meshing(spec: SilentChainSpec) -> str | None:
     """Why there is none."""
     return "the published method is for chains whose plates mesh, not for rollers" if spec.roller else None
 
 
-def measures(model):
+def measures(model: ChainModel) -> dict[str, Value]:
     """{name: Value} of the chain itself."""
     pitch, (z1, z2) = model.spec.pitch, model.teeth
     return {
@@ -45,7 +46,7 @@ def measures(model):
     }
 
 
-def seated_measures(model, side, number):
+def seated_measures(model: ChainModel, side: str, number: int) -> dict[str, Value]:
     """{name: Value} of the seated chain and the tooth of one sprocket."""
     found, words = model.sides[number], SIDE_WORDS[side]
     seated = f"of the seated chain on the {words}"

@@ -5,16 +5,16 @@ import numpy as np
 from drivewright.chains.link import seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket
 from drivewright.chains.roller_sprocket import design_roller_sprocket
-from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.chains.standards import pitch_diameter
 from drivewright.chains.tooth import Tooth
+from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.strands import link_of, strand_force
 
 ROLLING, HINGED = 0.003, 0.02  # articulation damping over critical: little more than steel itself has, and with a pin that slides
 IN_LINE = 3  # plate on pin, pin on pin, pin on plate: contacts that make a joint
 
 
-def moving(model):
+def moving(model: ChainModel) -> ChainDrive:
     """The `ChainDrive` for any solver of its motion."""
     spec = model.spec
     damping = spec.contact.joint_damping * spec.contact.stiffness if spec.contact.damping is None else spec.contact.damping
@@ -93,20 +93,9 @@ def _strands(model):
 def _tooth(model, number):
     """The driver's or driven tooth, thicker by what is said."""
     if model.spec.roller:
-        return _roller_tooth(model.sprockets[number])
+        return model.sprockets[number].tooth
     tooth = model.sides[number].tooth
     return tooth._replace(support=tooth.support - model.spec.dynamics.thickness_deviation)
-
-
-def _roller_tooth(sprocket):
-    return RollerTooth(
-        sprocket.teeth,
-        sprocket.pitch_radius,
-        sprocket.seat_radius,
-        sprocket.seat_angle,
-        sprocket.flank_radius,
-        0.5 * sprocket.roller_diameter,
-    )
 
 
 def _active(model, number):
@@ -123,7 +112,7 @@ def _further(model, given, touch):
     inertia = given.inertia or _inertia(model, mass, given.teeth)
     if model.spec.roller:
         wheel = design_roller_sprocket(given.teeth, model.spec.pitch, model.spec.roller.diameter, model.spec.roller.tooth_space)
-        active, tooth = {"tip_radius": wheel.tip_radius}, _roller_tooth(wheel)
+        active, tooth = {"tip_radius": wheel.tip_radius}, wheel.tooth
     else:
         base = 0.5 * model.cutter.module * given.teeth * np.cos(model.cutter.half_angle)
         wheel = model.sprocket(given.teeth, Tooth(given.teeth, base, seat_support(model.link, given.teeth)))

@@ -1,10 +1,10 @@
 """The plots of a chain drive; they depend on what was computed."""
 
 from drivewright.mechanisms.silent_chain.many import PEAKS
-from drivewright.result import Plot
+from drivewright.result import Plot, Result
 
 
-def plots(result):
+def plots(result: Result) -> tuple[Plot, ...]:
     """All plots whose table the result has."""
     return tuple(plot for plot in _all(result) if plot.table in result.tables)
 

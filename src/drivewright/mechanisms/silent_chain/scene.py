@@ -1,12 +1,15 @@
 """The chain drive on screen and for manufacture: scene over two teeth, drawings, parts."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
+from drivewright._typing import Floats, Numbers
 from drivewright.chains.closure import plates, states_at
 from drivewright.chains.plate_stack import strand_parts
 from drivewright.chains.roller_sprocket import roller_plate
 from drivewright.errors import InputError
-from drivewright.mechanisms.silent_chain.build import SIDES
+from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.scene import Body, Drawing, Frame, Part, Prism, Scene, Shape, circle
 
@@ -18,7 +21,7 @@ OVERHANG = 0.5e-3  # of the pins beyond the plates, in solids
 COLOURS = {"drive": "orange", "driven": "green"}
 
 
-def scene(model):
+def scene(model: ChainModel) -> Scene:
     """The chain running over two teeth of the driving sprocket; then every plate stands where the next one but one stood."""
     if model.spec.sprockets:
         raise InputError("a chain around more than two sprockets is shown by its dynamics, not by its closure")
@@ -40,7 +43,8 @@ def scene(model):
     return Scene(-angle, "angle of the driving sprocket", "rad", SLOWLY, tuple(bodies), frames)
 
 
-def poses(x, angle):
+def poses(x: Numbers, angle: Numbers) -> Floats:
+    """Poses (n, 3) of places along x at angles  [m, m, rad]."""
     return np.stack(np.broadcast_arrays(x, 0.0, angle), axis=1)
 
 
@@ -56,7 +60,7 @@ def _wheel(model, sprocket):
     yield Shape("axis", circle((reach, 0.0), 0.02 * reach).moved(quarter))
 
 
-def link_shapes(model, number=0):
+def link_shapes(model: ChainModel, number: int = 0) -> Iterator[Shape]:
     """One link: plate and its own pins, or the figure of eight and its rollers."""
     if model.spec.roller:
         radius = 0.5 * model.spec.roller.diameter
@@ -69,7 +73,7 @@ def link_shapes(model, number=0):
     yield from (Shape("roller", pin) for pin in model.plate.own_pins)
 
 
-def drawings(model):
+def drawings(model: ChainModel) -> tuple[Drawing, ...]:
     """Plate and both sprockets; what cannot be drawn raises InputError."""
     bore, width = model.bore, model.chain_width
     found = [sprocket.drawing(bore, width, f"sprocket_{side}") for side, sprocket in zip(SIDES, model.sprockets, strict=True)]
@@ -88,7 +92,7 @@ def drawings(model):
     return (model.plate.drawing(), *found)
 
 
-def parts(model):
+def parts(model: ChainModel) -> tuple[Part, ...]:
     """Both sprockets and the first links, of each kind two: as solids the whole chain would fill tens of megabytes."""
     states = states_at(model.closure, [0.0])
     where = {"drive": (0.0, 0.0, 0.0), "driven": (float(states.centre_distance[0]), 0.0, float(states.driven_angle[0]))}
