@@ -1,8 +1,21 @@
 """Chains: links and joints, teeth, meshing, closure around sprockets, motion, stress.
 
-A chain drive is a `ChainDrive`; `simulate` runs it explicitly, `equilibrium` finds it at rest.  Steps of an implicit run are in
-`chains.implicit`, formulas of standards in `chains.standards`, the published method of silent chains in `chains.meshing`, plates under
-stress in `chains.stress`.
+A chain drive is a `ChainDrive`; `simulate` runs it explicitly, `equilibrium` finds it at rest.
+
+link             a link and its joint: pitch, rolling radius, flanks; seat on a sprocket
+tooth            the involute tooth that a plate sits on, and the cutter that makes it
+roller_tooth     the tooth of arcs that a roller sits on
+model            the description of a drive: chain, sprockets, guides, contacts
+meshing          the published method of silent chains: equivalent pitch, offset, modification
+standards        formulas of roller and silent chains: lengths, speeds, forces, ratings, sprockets
+plate, plate_outline, plate_holes, plate_stack  the plate: outline, holes and pins, mass; a strand of plates as solids
+sprocket, sprocket_root, roller_sprocket        sprockets with all their teeth, root trochoids, measuring pins
+interference     gaps between plates and teeth
+touching         where flank, roller and guide touch: the geometry that explicit and implicit runs share
+closure          the rigid chain around two sprockets: centre distance and transmission error over a tooth
+explicit         simulation with short explicit steps, ensembles, batches over speed and scatter
+implicit         equilibrium and simulation with implicit steps
+stress           pins under pressure and bending, plates by finite elements, life
 """
 
 from importlib import import_module
@@ -23,7 +36,7 @@ _WHERE = {
     "roller_sprocket": ("RollerSprocket", "design_roller_sprocket"),
     "roller_tooth": ("RollerTooth",),
     "sprocket": ("design_sprocket",),
-    "tooth": ("Cutter", "Tooth", "cut_tooth", "matching_cutter"),
+    "tooth": ("Cutter", "Tooth", "cut_tooth", "matching_cutter", "modification_for"),
 }
 _MODULE = {name: module for module, names in _WHERE.items() for name in names}
 
