@@ -18,6 +18,7 @@ Conventions, since codes differ:
 - damages add up after Miner.  What shears no plane (a hydrostatic history) does no damage here: cracking under it is another matter.
 """
 
+from collections.abc import Callable
 from functools import cache
 from typing import NamedTuple
 
@@ -25,8 +26,10 @@ import numpy as np
 
 from drivewright import cases
 from drivewright._jit import inner, kernel, warmer
+from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.errors import InputError, UnknownName
 from drivewright.fatigue.curves import Curve
+from drivewright.fatigue.material import StrainLife
 from drivewright.fatigue.planes import cycle_table, pack_block, plane_workspace, worst_plane
 from drivewright.fatigue.shear import max_shear_plane
 from drivewright.fatigue.tensors import checked_tensors
@@ -40,12 +43,12 @@ class PlaneCycles(NamedTuple):
     """Cycles on a plane, arrays of one length: amplitudes of shear g and normal strain [-], mean normal stress [Pa], damage in a repeat,
     and the samples at which they start and turn."""
 
-    shear_amplitude: np.ndarray
-    normal_strain_amplitude: np.ndarray
-    mean_normal_stress: np.ndarray
-    damage: np.ndarray
-    start: np.ndarray
-    end: np.ndarray
+    shear_amplitude: Floats
+    normal_strain_amplitude: Floats
+    mean_normal_stress: Floats
+    damage: Floats
+    start: Ints
+    end: Ints
 
 
 class CriticalPlane(NamedTuple):
@@ -53,20 +56,20 @@ class CriticalPlane(NamedTuple):
 
     life: float
     damage: float
-    plane: np.ndarray
-    direction: np.ndarray
+    plane: Floats
+    direction: Floats
     cycles: PlaneCycles
 
 
 class LifeMap(NamedTuple):
     """By node: life in repeats (nodes,), damage per repeat (nodes,), unit normals (nodes, 3), nan where nothing is damaged."""
 
-    life: np.ndarray
-    damage: np.ndarray
-    plane: np.ndarray
+    life: Floats
+    damage: Floats
+    plane: Floats
 
 
-def brown_miller_curve(material):
+def brown_miller_curve(material: StrainLife) -> Curve:
     """The right-hand side for a `StrainLife`, a `Curve`."""
     elastic, plastic = (1 + nu + (1 - nu) / 2 for nu in (material.poisson_ratio, material.plastic_poisson_ratio))
     return Curve(
@@ -78,20 +81,28 @@ def brown_miller_curve(material):
     )
 
 
-def brown_miller(strain_history, stress_history, material, plane="max-shear"):
+def brown_miller(strain_history: ArrayLike, stress_history: ArrayLike, material: StrainLife, plane: str = "max-shear") -> CriticalPlane:
     """`CriticalPlane` of one repeat of a block: total strain and stress [Pa], both (n, 3, 3), and a `StrainLife`.
 
     The conventions stand at the top of this module.  Raises InputError for tensors that are not finite, symmetric and alike in shape.
     """
     strain, stress = _checked("brown_miller", strain_history, stress_history, plane, 1)
     curve = brown_miller_curve(material)
-    damage, frame = (part[0] for part in _critical(strain[None], stress[None], curve, plane))
-    table = cycle_table(pack_block(strain, stress), curve, *frame) if damage > 0 else np.empty((0, 6))
+    (damage,), ((normal, direction),) = _critical(strain[None], stress[None], curve, plane)
+    table = cycle_table(pack_block(strain, stress), curve, normal, direction) if damage > 0 else np.empty((0, 6))
     start, end = table[:, 4:].T.astype(int) % len(strain)
-    return CriticalPlane(_life(damage)[()], damage, *frame, PlaneCycles(*table[:, :4].T, start, end))
+    shear, opening, mean, each = table[:, :4].T
+    cycles = PlaneCycles(shear, opening, mean, each, start, end)
+    return CriticalPlane(_life(damage)[()], damage, normal, direction, cycles)
 
 
-def life_map(strain, stress, material, plane="max-shear", progress=None):
+def life_map(
+    strain: ArrayLike,
+    stress: ArrayLike,
+    material: StrainLife,
+    plane: str = "max-shear",
+    progress: Callable[[int, int, str], object] | None = None,
+) -> LifeMap:
     """`LifeMap` of many nodes: `brown_miller` of each, for total strain and stress [Pa], both (nodes, n, 3, 3).
 
     `superpose` and `elastic_strain` make them from a few load cases.  progress(done, total, what) is called after each chunk of nodes.
@@ -151,6 +162,7 @@ def _critical(strain, stress, curve, plane):
 
 @kernel
 def _max_shear_planes(strain, stress, curve):
+    """(damage (nodes,), frames (nodes, 2, 3)) by "max-shear" of strain [-] and stress [Pa] (nodes, n, 3, 3)."""
     damage, frames = np.zeros(len(strain)), np.full((len(strain), 2, 3), np.nan)
     work = plane_workspace(strain.shape[1])
     for node in range(len(strain)):
@@ -160,6 +172,7 @@ def _max_shear_planes(strain, stress, curve):
 
 @kernel
 def _max_damage_planes(strain, stress, curve, grid):
+    """The same by "max-damage", from the frames grid (frames, 6)."""
     damage, frames = np.zeros(len(strain)), np.full((len(strain), 2, 3), np.nan)
     work, score = plane_workspace(strain.shape[1]), np.empty(len(grid))
     for node in range(len(strain)):
@@ -169,6 +182,7 @@ def _max_damage_planes(strain, stress, curve, grid):
 
 @inner
 def _store_frame(damage, frames, node, found):
+    """Writes (damage, normal, direction) into damage (nodes,) and frames (nodes, 2, 3) where there is any damage."""
     damage[node], normal, direction = found
     if damage[node] > 0.0:
         for i in range(3):
@@ -176,11 +190,11 @@ def _store_frame(damage, frames, node, found):
 
 
 @warmer
-def warm_brown_miller():
+def warm_brown_miller() -> None:
     """Compile for `doctor --warm`."""
     strain = np.zeros((2, 3, 3))
     strain[0, 0, 0] = 1e-3
     curve = Curve(1e-11, 1e9, -0.1, 0.5, -0.6)
     for plane in PLANES:
-        _, frames = _critical(strain[None], strain[None], curve, plane)
-    cycle_table(pack_block(strain, strain), curve, *frames[0])
+        _, ((normal, direction),) = _critical(strain[None], strain[None], curve, plane)
+        cycle_table(pack_block(strain, strain), curve, normal, direction)

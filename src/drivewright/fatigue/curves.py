@@ -5,7 +5,9 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import inner, kernel, outer, warmer
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
+from drivewright.fatigue.material import StrainLife
 
 
 class Curve(NamedTuple):
@@ -18,7 +20,7 @@ class Curve(NamedTuple):
     c: float
 
 
-def uniaxial_curve(material):
+def uniaxial_curve(material: StrainLife) -> Curve:
     """C1 = C2 = 1: p is the strain amplitude."""
     return Curve(
         1 / material.youngs_modulus,
@@ -30,7 +32,7 @@ def uniaxial_curve(material):
 
 
 @inner
-def log_root(log_a, p, log_b, q, log_total):
+def log_root(log_a: float, p: float, log_b: float, q: float, log_total: float) -> float:
     """ln x where a x^p + b x^q = total, with a, b, total > 0 and p, q of one sign.
 
     In y = ln x the logarithm of the left side is convex.  Either term alone would give a root on one side of the true one, by ln 2
@@ -50,7 +52,7 @@ def log_root(log_a, p, log_b, q, log_total):
 
 
 @outer
-def cycle_damage(curve, parameter, mean):
+def cycle_damage(curve: Curve, parameter: float, mean: float) -> float:
     """1/N of a closed cycle; 0 for none, inf where the mean stress reaches sf' and nothing is left to endure a cycle."""
     if not parameter > 0.0:
         return 0.0
@@ -62,6 +64,7 @@ def cycle_damage(curve, parameter, mean):
 
 @kernel
 def _damages(curve, parameter, mean):
+    """`cycle_damage` of many: parameter (n,) [-], mean (n,) [Pa]."""
     damage = np.empty_like(parameter)
     for i in range(len(parameter)):
         damage[i] = cycle_damage(curve, parameter[i], mean[i])
@@ -70,6 +73,7 @@ def _damages(curve, parameter, mean):
 
 @kernel
 def _neuber_stresses(elastic_stress, modulus, strength, exponent):
+    """s (n,) [Pa] of s^2/E + s (s/K')^(1/n') = s_el^2/E for elastic stresses s_el (n,) [Pa]: Neuber's rule."""
     stress = np.zeros_like(elastic_stress)
     for i in range(len(stress)):
         if elastic_stress[i] != 0.0:
@@ -79,7 +83,7 @@ def _neuber_stresses(elastic_stress, modulus, strength, exponent):
     return stress
 
 
-def strain_at_life(life, material, mean_stress=0.0):
+def strain_at_life(life: ArrayLike, material: StrainLife, mean_stress: ArrayLike = 0.0) -> Floats:
     """Strain amplitude e_a = (sf' - s_m)/E (2N)^b + ef' (2N)^c that is endured for `life` N > 0 cycles.  Arrays broadcast.
 
     mean_stress s_m [Pa] after Morrow: tension shortens, compression lengthens the elastic part, in full.  It must lie below sf'.
@@ -96,7 +100,7 @@ def strain_at_life(life, material, mean_stress=0.0):
     return elastic + material.fatigue_ductility * (2 * life) ** material.fatigue_ductility_exponent
 
 
-def life_at_strain(amplitude, material, mean_stress=0.0):
+def life_at_strain(amplitude: ArrayLike, material: StrainLife, mean_stress: ArrayLike = 0.0) -> Floats:
     """Life N in cycles at a strain amplitude >= 0, the inverse of `strain_at_life`: inf at 0, 0 where mean_stress reaches sf'."""
     amplitude, mean = _numbers("life_at_strain", "amplitude", amplitude), _numbers("life_at_strain", "mean_stress", mean_stress)
     if np.any(amplitude < 0):
@@ -107,7 +111,7 @@ def life_at_strain(amplitude, material, mean_stress=0.0):
         return np.divide(1.0, damage)
 
 
-def ramberg_osgood(stress, material):
+def ramberg_osgood(stress: ArrayLike, material: StrainLife) -> Floats:
     """Strain on the cyclic curve, e = s/E + sign(s) (|s|/K')^(1/n'), of stress amplitudes [Pa]; odd in s.  Ramberg and Osgood."""
     stress = _numbers("ramberg_osgood", "stress", stress)
     plastic = (np.abs(stress) / material.strength_coefficient) ** (1 / material.hardening_exponent)
@@ -117,11 +121,11 @@ def ramberg_osgood(stress, material):
 class NotchStress(NamedTuple):
     """Stress [Pa] and strain where the material yields."""
 
-    stress: np.ndarray
-    strain: np.ndarray
+    stress: Floats
+    strain: Floats
 
 
-def neuber(elastic_stress, material):
+def neuber(elastic_stress: ArrayLike, material: StrainLife) -> NotchStress:
     """`NotchStress`: stress and strain amplitude at a notch whose elastic stress amplitude [Pa] is known; any shape, odd.
 
     Neuber's rule s e = s_el^2/E on the cyclic curve of `ramberg_osgood`.
@@ -144,7 +148,7 @@ def _numbers(function, name, values):
 
 
 @warmer
-def warm_curves():
+def warm_curves() -> None:
     """Compile for `doctor --warm`."""
     one = np.ones(1)
     _damages(Curve(1.0, 1.0, -0.1, 1.0, -0.5), one, 0 * one)

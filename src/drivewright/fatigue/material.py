@@ -45,19 +45,19 @@ class StrainLife(Spec):
         return self
 
     @property
-    def hardening_exponent(self):
+    def hardening_exponent(self) -> float:
         """n' as given, else b/c, which makes the cyclic curve agree with the strain-life curve."""
         given = self.cyclic_hardening_exponent
         return self.fatigue_strength_exponent / self.fatigue_ductility_exponent if given is None else given
 
     @property
-    def strength_coefficient(self):
+    def strength_coefficient(self) -> float:
         """K' [Pa] as given, else sf'/ef'^n'."""
         given = self.cyclic_strength
         return self.fatigue_strength / self.fatigue_ductility**self.hardening_exponent if given is None else given
 
     @property
-    def cyclic_yield(self):
+    def cyclic_yield(self) -> float:
         """Stress [Pa] from which on yielding is reckoned with: as given, else that of 0.2 % plastic strain on the cyclic curve."""
         return self.strength_coefficient * 0.002**self.hardening_exponent if self.yield_strength is None else self.yield_strength
 
@@ -76,7 +76,13 @@ class _Rule(NamedTuple):
 _RULES = {"steel": _Rule(1.5, -0.087, 0.59, -0.58, 1.65, 0.15), "aluminium-titanium": _Rule(1.67, -0.095, 0.35, -0.69, 1.61, 0.11)}
 
 
-def uniform_material_law(tensile_strength, youngs_modulus, poisson_ratio=0.3, family="steel", yield_strength=None):
+def uniform_material_law(
+    tensile_strength: str | float,
+    youngs_modulus: str | float,
+    poisson_ratio: float = 0.3,
+    family: str = "steel",
+    yield_strength: str | float | None = None,
+) -> StrainLife:
     """A `StrainLife` estimated from the tensile strength Rm alone, `family` "steel" or "aluminium-titanium".
 
     Unalloyed and low-alloy steel: sf' = 1.5 Rm, b = -0.087, ef' = 0.59 psi, c = -0.58, K' = 1.65 Rm, n' = 0.15, with
@@ -116,7 +122,7 @@ def _positive(name, value):
     return stress
 
 
-def life_text(life, material):
+def life_text(life: float, material: StrainLife) -> str:
     """A life as people may read it: "3.2e5", ">1e9 (extrapolated)" beyond the card's `longest_life`, "unlimited" without damage."""
     if math.isnan(life) or life < 0:
         raise InputError(f"life_text: a life is a number from 0 on, got {life}.")

@@ -7,12 +7,13 @@ Cycles are counted on g.  A cycle lasts from the turning point it starts at unti
     normal strain amplitude (greatest - least)/2, mean normal stress (greatest + least)/2.
 """
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from drivewright._jit import inner, kernel, outer
-from drivewright.fatigue.curves import cycle_damage
+from drivewright._typing import Floats, Ints
+from drivewright.fatigue.curves import Curve, cycle_damage
 from drivewright.fatigue.rainflow import block_cycles
 
 NOISE = 1e-12  # of the largest change of the strain tensor: smaller reversals of the shear are rounding
@@ -22,28 +23,31 @@ _MAX_REFINED, _RESTARTS = 4, 4  # hills climbed to the top at most, and how ofte
 _COARSE_LOSS = 0.03  # part of the parameter that a climb in haste can leave, at most
 
 
+Vector: TypeAlias = tuple[float, float, float]
+
+
 class Block(NamedTuple):
     """Strain less its first sample, and stress [Pa]: (n, 6) as xx, yy, zz, yz, xz, xy; changes of shear up to `gate` are none."""
 
-    strain: np.ndarray
-    stress: np.ndarray
+    strain: Floats
+    stress: Floats
     gate: float
 
 
 class PlaneWorkspace(NamedTuple):
     """Working arrays: three signals over the block twice, cycles found on them (2 n + 2,); corners of a simplex and hills of the search."""
 
-    shear: np.ndarray
-    normal: np.ndarray
-    stress: np.ndarray
-    turning: np.ndarray
-    stack: np.ndarray
-    count: np.ndarray
-    start: np.ndarray
-    end: np.ndarray
-    simplex: np.ndarray
-    height: np.ndarray
-    hills: np.ndarray
+    shear: Floats
+    normal: Floats
+    stress: Floats
+    turning: Ints
+    stack: Ints
+    weight: Floats
+    start: Ints
+    end: Ints
+    simplex: Floats
+    height: Floats
+    hills: Floats
 
 
 class CycleMeasures(NamedTuple):
@@ -55,7 +59,7 @@ class CycleMeasures(NamedTuple):
 
 
 @kernel
-def plane_workspace(size):
+def plane_workspace(size: int) -> PlaneWorkspace:
     """`PlaneWorkspace` for blocks of `size` samples."""
     turning, stack = np.empty(2 * size + 2, np.int64), np.empty(2 * size + 2, np.int64)
     start, end = np.empty(2 * size + 2, np.int64), np.empty(2 * size + 2, np.int64)
@@ -76,7 +80,7 @@ def plane_workspace(size):
 
 
 @kernel
-def pack_block(strain, stress):
+def pack_block(strain: Floats, stress: Floats) -> Block:
     """The `Block` of tensors (n, 3, 3)."""
     size = len(strain)
     packed, loads, largest = np.empty((size, 6)), np.empty((size, 6)), 0.0
@@ -91,29 +95,31 @@ def pack_block(strain, stress):
 
 
 @inner
-def cross(a, b):
+def cross(a: Vector, b: Vector) -> Vector:
+    """a x b."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
 @inner
-def tensor_weights(a, b):
+def tensor_weights(a: Vector, b: Vector) -> tuple[float, float, float, float, float, float]:
     """a.t.b of a symmetric tensor is the sum of these times its six numbers."""
     return (a[0] * b[0], a[1] * b[1], a[2] * b[2], a[1] * b[2] + a[2] * b[1], a[0] * b[2] + a[2] * b[0], a[0] * b[1] + a[1] * b[0])
 
 
 @inner
-def contract(w, t, k):
+def contract(w: tuple[float, ...], t: Floats, k: int) -> float:
+    """Sum of six weights times sample k of t (n, 6): a component of a symmetric tensor."""
     return w[0] * t[k, 0] + w[1] * t[k, 1] + w[2] * t[k, 2] + w[3] * t[k, 3] + w[4] * t[k, 4] + w[5] * t[k, 5]
 
 
 @outer
-def resolve(block, normal, direction, work):
+def resolve(block: Block, normal: Vector, direction: Vector, work: PlaneWorkspace) -> int:
     """Fills the signals of `work`; the number of cycles on the shear."""
     size = len(block.strain)
     sliding, opening = tensor_weights(direction, normal), tensor_weights(normal, normal)
     for k in range(size):
         work.shear[k] = work.shear[size + k] = 2.0 * contract(sliding, block.strain, k)
-    found = block_cycles(work.shear, size, block.gate, work.turning, work.count, work.start, work.end, work.stack)
+    found = block_cycles(work.shear, size, block.gate, work.turning, work.weight, work.start, work.end, work.stack)
     if found:
         for k in range(size):
             work.normal[k] = work.normal[size + k] = contract(opening, block.strain, k)
@@ -122,10 +128,10 @@ def resolve(block, normal, direction, work):
 
 
 @outer
-def cycle_measures(work, cycle, gate):
+def cycle_measures(work: PlaneWorkspace, cycle: int, gate: float) -> CycleMeasures:
     """The `CycleMeasures` of one cycle; where it closes between two samples, both signals are taken as straight there."""
     shear, normal, stress = work.shear, work.normal, work.stress
-    first, turn = work.start[cycle], work.end[cycle]
+    first, turn = int(work.start[cycle]), int(work.end[cycle])
     reach = abs(shear[first] - shear[turn])
     low = high = normal[first]
     least = most = stress[first]
@@ -143,7 +149,7 @@ def cycle_measures(work, cycle, gate):
 
 
 @outer
-def plane_damage(block, curve, normal, direction, work):
+def plane_damage(block: Block, curve: Curve, normal: Vector, direction: Vector, work: PlaneWorkspace) -> float:
     """Damage of one repeat, the sum of its cycles' after Miner."""
     damage = 0.0
     for cycle in range(resolve(block, normal, direction, work)):
@@ -153,7 +159,7 @@ def plane_damage(block, curve, normal, direction, work):
 
 
 @kernel
-def cycle_table(block, curve, normal, direction):
+def cycle_table(block: Block, curve: Curve, normal: Vector, direction: Vector) -> Floats:
     """Rows (shear amplitude, normal strain amplitude, mean normal stress, damage, start, turn) of the cycles on a plane."""
     work = plane_workspace(len(block.strain))
     n, d = (normal[0], normal[1], normal[2]), (direction[0], direction[1], direction[2])
@@ -171,14 +177,14 @@ def cycle_table(block, curve, normal, direction):
 
 
 @inner
-def turn_towards(a, b, angle):
+def turn_towards(a: Vector, b: Vector, angle: float) -> Vector:
     """a turned towards b."""
     c, s = np.cos(angle), np.sin(angle)
     return c * a[0] + s * b[0], c * a[1] + s * b[1], c * a[2] + s * b[2]
 
 
 @inner
-def turn_frame(normal, direction, first, second, third):
+def turn_frame(normal: Vector, direction: Vector, first: float, second: float, third: float) -> tuple[Vector, Vector]:
     """(normal, direction) turned in their plane, then the direction about the normal, then the normal about the direction."""
     normal, direction = turn_towards(normal, direction, first), turn_towards(direction, normal, -first)
     direction = turn_towards(direction, cross(normal, direction), second)
@@ -213,6 +219,7 @@ def _reflect(block, curve, normal, direction, work, low, factor):
 
 @outer
 def _shrink(block, curve, normal, direction, work, top):
+    """Halves the distances [rad] of all corners of the simplex (5, 4) from its highest."""
     s = work.simplex
     for i in range(4):
         if i != top:
@@ -235,7 +242,9 @@ def _rank_corners(s):
 
 
 @outer
-def nelder_mead(block, curve, normal, direction, size, finest, work):
+def nelder_mead(
+    block: Block, curve: Curve, normal: Vector, direction: Vector, size: float, finest: float, work: PlaneWorkspace
+) -> tuple[float, Vector, Vector]:
     """(log damage, normal, direction) on the hill that starts here: the simplex of Nelder and Mead from `size` to `finest` [rad].
 
     The hills have edges, where one cycle or one extreme takes over from another; methods with slopes or fixed axes get stuck on them.
@@ -259,7 +268,7 @@ def nelder_mead(block, curve, normal, direction, size, finest, work):
 
 
 @kernel
-def worst_plane(block, curve, grid, work, score):
+def worst_plane(block: Block, curve: Curve, grid: Floats, work: PlaneWorkspace, score: Floats) -> tuple[float, Vector, Vector]:
     """(damage, normal, direction) where the damage is greatest of all planes and directions in them.
 
     grid (frames, 6): normals and directions to start from; `score` (frames,) is overwritten.  The best of the hills that the grid shows are
@@ -283,6 +292,7 @@ def worst_plane(block, curve, grid, work, score):
 
 @kernel
 def _refine_best(block, curve, hills, heights, work):
+    """(damage, normal, direction) of the highest of the frames hills (h, 6) with the log damages heights (h,), climbed to the top."""
     best, normal, direction = -np.inf, (np.nan, np.nan, np.nan), (np.nan, np.nan, np.nan)
     for _ in range(_MAX_REFINED):
         h = np.argmax(heights) if len(hills) else -1

@@ -10,21 +10,22 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._jit import kernel, outer, warmer
+from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.errors import InputError
 
 
 class Cycles(NamedTuple):
     """Rainflow cycles in the order in which they close: range, mean, count (0.5 or 1), samples at which they start and turn."""
 
-    range: np.ndarray
-    mean: np.ndarray
-    count: np.ndarray
-    start: np.ndarray
-    end: np.ndarray
+    range: Floats
+    mean: Floats
+    count: Floats  # pyright: ignore[reportIncompatibleMethodOverride]  # the name of the column, not tuple.count
+    start: Ints
+    end: Ints
 
 
 @outer
-def turning_points(x, first, last, gate, turning):
+def turning_points(x: Floats, first: int, last: int, gate: float, turning: Ints) -> int:
     """Writes the indices of the reversals of x[first..last] larger than `gate`, both ends included; returns their number.
 
     Of samples that are equal within the gate the first is taken.
@@ -48,7 +49,9 @@ def turning_points(x, first, last, gate, turning):
 
 
 @outer
-def pair_cycles(x, turning, points, gate, closed, count, start, end, stack):
+def pair_cycles(
+    x: Floats, turning: Ints, points: int, gate: float, closed: bool, count: Floats, start: Ints, end: Ints, stack: Ints
+) -> int:
     """Writes count, start and end of the cycles between the turning points; returns their number.
 
     closed: the points are one round of a block that begins and ends at its largest range, so that every cycle closes.
@@ -78,7 +81,7 @@ def pair_cycles(x, turning, points, gate, closed, count, start, end, stack):
 
 
 @outer
-def block_cycles(x, size, gate, turning, count, start, end, stack):
+def block_cycles(x: Floats, size: int, gate: float, turning: Ints, count: Floats, start: Ints, end: Ints, stack: Ints) -> int:
     """The closed cycles of a block that is repeated, x holding it twice (2 size samples); start < end < 2 size."""
     first = 0
     for k in range(1, size):
@@ -107,7 +110,7 @@ def _count_cycles(x, repeating):
     return count[:found], start[:found], end[:found]
 
 
-def cycles(history, repeating=False):
+def cycles(history: ArrayLike, repeating: bool = False) -> Cycles:
     """The rainflow `Cycles` of a row of numbers, of any unit.
 
     Once through: cycles that close count 1, what is left open 0.5.  repeating: the history is one round of a block without end, its
@@ -133,7 +136,7 @@ def _row(history):
 
 
 @warmer
-def warm_rainflow():
+def warm_rainflow() -> None:
     """Compile for `doctor --warm`."""
     for repeating in (False, True):
         cycles([0.0, 1.0, 0.0], repeating)

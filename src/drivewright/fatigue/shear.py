@@ -8,7 +8,9 @@ pairs is the longest chord of the path of the shear vector, over all planes.
 import numpy as np
 
 from drivewright._jit import inner, kernel, outer
-from drivewright.fatigue.planes import plane_damage, turn_towards
+from drivewright._typing import Floats
+from drivewright.fatigue.curves import Curve
+from drivewright.fatigue.planes import Block, PlaneWorkspace, Vector, plane_damage, turn_towards
 
 _NEAR = 1e-6  # the closed form of the principal values is good to about 1e-8 where two of them are equal
 _TIE = 1e-9  # relative difference up to which shears, or principal values, count as equal
@@ -17,6 +19,7 @@ _AROUND = 32  # planes of a cone to begin with
 
 @inner
 def _difference(strain, i, j):
+    """Six numbers of the strain at sample i less that at j, of strain (n, 6) [-]."""
     return (
         strain[i, 0] - strain[j, 0],
         strain[i, 1] - strain[j, 1],
@@ -57,7 +60,7 @@ def _largest_shear(strain):
 
 
 @kernel
-def largest_differences(strain, gate):
+def largest_differences(strain: Floats, gate: float) -> Floats:
     """Differences (count, 6), each once, between instants whose shear is the largest; none where no plane is sheared beyond `gate`."""
     best, found = _largest_shear(strain), np.empty((4, 6))
     count = 0
@@ -94,7 +97,7 @@ def _is_known(t, found, count, size):
 
 
 @kernel
-def principal_axes(t):
+def principal_axes(t: Floats) -> tuple[Floats, Floats]:
     """Principal values, ascending, and axes (rows) of a tensor of six numbers."""
     full = np.array([[t[0], t[5], t[4]], [t[5], t[1], t[3]], [t[4], t[3], t[2]]])
     values, columns = np.linalg.eigh(full)
@@ -102,7 +105,7 @@ def principal_axes(t):
 
 
 @kernel
-def max_shear_plane(block, curve, work):
+def max_shear_plane(block: Block, curve: Curve, work: PlaneWorkspace) -> tuple[float, Vector, Vector]:
     """(damage, normal, direction) on the plane of the largest shear amplitude, of tied planes on the one with the greatest damage.
 
     Two planes at right angles always tie, and where two principal values are equal a whole cone of them.
@@ -137,6 +140,7 @@ def _frame(a, b):
 
 @outer
 def _damage_at(block, curve, fixed, start, sense, angle, work):
+    """Damage of a repeat on the plane between the axis `fixed` and `start` turned towards `sense` by an angle [rad]."""
     normal, direction = _frame(fixed, turn_towards(start, sense, angle))
     return plane_damage(block, curve, normal, direction, work)
 

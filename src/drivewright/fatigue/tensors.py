@@ -2,14 +2,16 @@
 
 import numpy as np
 
+from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
+from drivewright.fatigue.material import StrainLife
 
 # Where the six stored numbers of a symmetric tensor stand: xx, yy, zz, yz, xz, xy.
 ROWS, COLUMNS = np.array([0, 1, 2, 1, 0, 0]), np.array([0, 1, 2, 2, 2, 1])
 _ASYMMETRY = 1e-9  # of the largest entry of the whole array
 
 
-def checked_tensors(function, name, tensors, axes):
+def checked_tensors(function: str, name: str, tensors: ArrayLike, axes: int) -> Floats:
     """The tensors as an array with `axes` axes before the last two; InputError where they are not finite, symmetric, 3 x 3."""
     try:
         array = np.asarray(tensors, dtype=float)
@@ -32,14 +34,14 @@ def checked_tensors(function, name, tensors, axes):
     return array
 
 
-def elastic_strain(stress, material):
+def elastic_strain(stress: ArrayLike, material: StrainLife) -> Floats:
     """Hooke's law, e = ((1 + nu) s - nu tr(s) I)/E, for stress tensors [Pa] (n, 3, 3) or (nodes, n, 3, 3); `material` a `StrainLife`."""
     stress = checked_tensors("elastic_strain", "stress", stress, max(np.ndim(stress) - 2, 1))
     trace = np.trace(stress, axis1=-2, axis2=-1)[..., None, None] * np.eye(3)
     return ((1 + material.poisson_ratio) * stress - material.poisson_ratio * trace) / material.youngs_modulus
 
 
-def plane_tensors(components):
+def plane_tensors(components: ArrayLike) -> Floats:
     """Tensors (..., 3, 3) of plane stress from (..., 3): xx, yy, xy; everything across the plane is 0."""
     components = np.asarray(components, dtype=float)
     if components.ndim < 1 or components.shape[-1] != 3:
@@ -50,7 +52,7 @@ def plane_tensors(components):
     return tensors
 
 
-def superpose(factors, unit_stress):
+def superpose(factors: ArrayLike, unit_stress: ArrayLike) -> Floats:
     """Plane-stress histories (nodes, n, 3, 3) of a linear body: factors (n, loads) times unit_stress (loads, nodes, 3), xx, yy, xy."""
     factors, unit_stress = np.asarray(factors, dtype=float), np.asarray(unit_stress, dtype=float)
     if factors.ndim != 2 or unit_stress.ndim != 3 or factors.shape[1] != len(unit_stress):
@@ -61,12 +63,12 @@ def superpose(factors, unit_stress):
     return plane_tensors(np.einsum("tl,lnc->ntc", factors, unit_stress))
 
 
-def von_mises(stress):
+def von_mises(stress: ArrayLike) -> Floats:
     """sqrt(3/2 s:s) of the deviators s of stress tensors (n, 3, 3) or (nodes, n, 3, 3)."""
     s = deviator(checked_tensors("von_mises", "stress", stress, max(np.ndim(stress) - 2, 1)))
     return np.sqrt(1.5 * np.sum(s * s, axis=(-2, -1)))
 
 
-def deviator(stress):
+def deviator(stress: ArrayLike) -> Floats:
     """s - tr(s)/3 I of tensors (..., 3, 3)."""
     return stress - np.trace(stress, axis1=-2, axis2=-1)[..., None, None] / 3 * np.eye(3)

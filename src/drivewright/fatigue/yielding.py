@@ -2,11 +2,13 @@
 
 import numpy as np
 
+from drivewright._typing import ArrayLike
 from drivewright.fatigue.curves import NotchStress, neuber
+from drivewright.fatigue.material import StrainLife
 from drivewright.fatigue.tensors import checked_tensors, deviator, elastic_strain, von_mises
 
 
-def neuber_history(elastic_stress, material):
+def neuber_history(elastic_stress: ArrayLike, material: StrainLife) -> NotchStress:
     """`NotchStress` tensors (n, 3, 3) of one repeat of a block whose elastic stresses [Pa] are (n, 3, 3).
 
     Where no sample's von Mises stress exceeds the card's `cyclic_yield` the elastic stress and Hooke's strain come back as they are.
