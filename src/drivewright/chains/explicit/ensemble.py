@@ -13,7 +13,7 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.cases import run as run_cases
 from drivewright.chains.explicit.assembly import Start
-from drivewright.chains.explicit.motion import Motion
+from drivewright.chains.explicit.motion import Motion, RunSettings
 from drivewright.chains.explicit.simulate import Settings, first_start, simulate
 from drivewright.chains.model import ChainDrive
 from drivewright.errors import InputError, SolverError
@@ -137,7 +137,7 @@ def centre_distance(run: Motion) -> Floats:
 def ensemble(
     model: ChainDrive,
     duration: float,
-    settings: Settings = Settings(),
+    settings: RunSettings = Settings(),
     members: int = 4,
     *,
     seed: int = 0,

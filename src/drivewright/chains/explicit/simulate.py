@@ -63,7 +63,7 @@ def simulate(
     return Motion(model, settings, step, every, log.rows, log.bodies, log.tension, log.plate)
 
 
-def first_start(model: ChainDrive, settings: Settings) -> Start:
+def first_start(model: ChainDrive, settings: RunSettings) -> Start:
     """The `Start` from which `simulate` runs a drive in, so that the clock starts with sprocket 1 at its angle."""
     _, step, _ = stepping(model, tooth_time(model), settings)
     return start(model, PARTS * _run_in_steps(model, settings, step) * step)

@@ -11,6 +11,8 @@ from drivewright.chains.model import ChainDrive
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import InputError
 
+STEP, SAFE = 1e-6, 0.5  # [s], and part of the largest stable step, that a run takes unless told otherwise
+
 
 def fastest(model: ChainDrive) -> tuple[float, float]:
     """(omega^2 [1/s^2], gamma [1/s]) of the stiffest plate, bounds from above.
@@ -55,6 +57,12 @@ def refuse_step(model: ChainDrive, step: float) -> None:
         else f"the fastest mode has {np.sqrt(square) / (2 * np.pi * 1e3):.3g} kHz"
     )
     raise InputError(f"chain drive: a step of {step:.3g} s is not between 0 and the largest stable one, {largest:.3g} s: {reason}.")
+
+
+def safe_step(model: ChainDrive, step: float | None = None) -> float:
+    """The step [s] itself, refused where it is not stable; where none is given `STEP`, or less where that is not safe."""
+    refuse_step(model, step or 0.1 * largest_step(model))
+    return step or min(STEP, SAFE * largest_step(model))
 
 
 def refuse_seats(model: ChainDrive) -> None:

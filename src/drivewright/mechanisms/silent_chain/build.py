@@ -17,6 +17,7 @@ from drivewright.chains.sprocket import Sprocket, design_sprocket
 from drivewright.chains.standards import pitch_diameter
 from drivewright.chains.tooth import Cutter, Tooth, cut_tooth, matching_cutter
 from drivewright.errors import InputError
+from drivewright.mechanisms.silent_chain import spec as tables
 from drivewright.mechanisms.silent_chain.refusals import refuse_contradictions, unused
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 
@@ -60,6 +61,12 @@ class ChainModel:
         return self.spec.teeth
 
     @property
+    def drive(self) -> tables.Drive:
+        """Speed and loads, which the spec has to state."""
+        assert self.spec.drive is not None
+        return self.spec.drive
+
+    @property
     def worn(self) -> Link:
         """The link as long as wear has made it."""
         return self.lengthened(self.link)
@@ -71,7 +78,8 @@ class ChainModel:
     @cached_property
     def closure(self) -> Closure:
         """The closed loop over one tooth of the driver."""
-        return close(Drive(self.worn, *self.teeth, self.spec.links, self.spec.closure.strands))
+        driver, driven = self.teeth
+        return close(Drive(self.worn, driver, driven, self.spec.links, self.spec.closure.strands))
 
     @cached_property
     def plate(self) -> Plate:
@@ -98,7 +106,8 @@ class ChainModel:
         turn = max(2 * np.pi / LEAST_TURNED, 2.2 * np.pi / min(self.teeth))
         if given.kind == "round-pin":
             return RoundPins(turn=turn)
-        return RockerPins(*(share * p for share in ROCKER), turn)
+        back, thickness, clearance = (share * p for share in ROCKER)
+        return RockerPins(back, thickness, clearance, turn)
 
     @cached_property
     def sprockets(self) -> tuple[Sprocket | RollerSprocket, ...]:
@@ -123,7 +132,7 @@ class ChainModel:
     def bore(self) -> float:
         """Diameter of the sprockets' holes [m]."""
         given = self.spec.cutter.bore
-        return BORE * pitch_diameter(self.spec.pitch, min(self.teeth)) if given is None else given
+        return float(BORE * pitch_diameter(self.spec.pitch, min(self.teeth)) if given is None else given)
 
     @property
     def contact_length(self) -> float:
@@ -143,15 +152,16 @@ class ChainModel:
 def build(spec: SilentChainSpec) -> ChainModel:
     """The `ChainModel` of a spec."""
     refuse_contradictions(spec)
-    radius = 0.0 if spec.joint.kind == "revolute" else spec.joint.rolling_radius
+    radius = 0.0 if spec.joint.kind == "revolute" or spec.joint.rolling_radius is None else spec.joint.rolling_radius
     if spec.roller:
         return ChainModel(spec, design_link(spec.pitch, 0.0, spec.plate.flank_angle, 0.0), findings=tuple(unused(spec)))
     offset = offset_of(spec, radius)
     angle = spec.plate.flank_angle
     apothem = spec.plate.apothem
     if apothem is None:
-        apothem = spec.plate.standard_apothem - meshing.standard_apothem(0.0, radius, offset, angle)
-    standard = meshing.standard_apothem(apothem, radius, offset, angle, spec.meshing.apothem_reference)
+        assert spec.plate.standard_apothem is not None  # one of the two is given
+        apothem = spec.plate.standard_apothem - float(meshing.standard_apothem(0.0, radius, offset, angle))
+    standard = float(meshing.standard_apothem(apothem, radius, offset, angle, spec.meshing.apothem_reference))
     cutter = matching_cutter(spec.pitch, angle, spec.cutter.half_angle)
     cutter = cutter if spec.cutter.pitch is None else cutter._replace(pitch=spec.cutter.pitch)
     sides = tuple(_side(spec, radius, offset, standard, cutter, z) for z in spec.teeth)
@@ -164,22 +174,22 @@ def offset_of(spec: SilentChainSpec, radius: float) -> float:
     if not isinstance(given, str):
         return given
     if given == "match-drive":
-        return meshing.matching_offset(spec.pitch, radius, z1, ideal)
-    return meshing.minimax_offset(spec.pitch, radius, z1, z2, ideal)
+        return float(meshing.matching_offset(spec.pitch, radius, z1, ideal))
+    return float(meshing.minimax_offset(spec.pitch, radius, z1, z2, ideal))
 
 
 def _side(spec, radius, offset, standard, cutter, teeth):
     pitch, angle = spec.pitch, spec.plate.flank_angle
     seated = meshing.seated_pitch(meshing.hole_pitch(pitch, radius), radius, offset, teeth)
-    apothem = meshing.seated_apothem(standard, pitch, seated, angle)
-    shift = meshing.modification(apothem, seated, teeth, angle, *cutter)
+    apothem = meshing.seated_apothem(standard, pitch, float(seated), angle)
+    shift = meshing.modification(apothem, float(seated), teeth, angle, *cutter)
     return Side(
         teeth,
-        seated,
-        meshing.ideal_pitch(pitch, teeth, spec.meshing.ideal),
-        meshing.pitch_deviation(pitch, radius, offset, teeth, spec.meshing.ideal),
+        float(seated),
+        float(meshing.ideal_pitch(pitch, teeth, spec.meshing.ideal)),
+        float(meshing.pitch_deviation(pitch, radius, offset, teeth, spec.meshing.ideal)),
         apothem,
         shift,
-        meshing.positioning_diameter(seated, teeth),
+        float(meshing.positioning_diameter(seated, teeth)),
         cut_tooth(teeth, cutter, shift, angle),
     )

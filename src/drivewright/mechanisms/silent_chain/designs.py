@@ -11,8 +11,7 @@ from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, build
 from drivewright.mechanisms.silent_chain.layout import side_measures
 from drivewright.mechanisms.silent_chain.meshing import measures, seated_measures
-from drivewright.mechanisms.silent_chain.refusals import LEAST_TEETH
-from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
+from drivewright.mechanisms.silent_chain.spec import LEAST_TEETH, SilentChainSpec
 from drivewright.result import Check
 from drivewright.spec import value_at
 from drivewright.spec.fields import field_at, type_of
@@ -93,7 +92,7 @@ def _placed(table, steps, column):
 
 
 def _possible(spec, columns, count):
-    """Which designs the spec accepts: the limits of each field, whole numbers, and what `refuse_nonsense` asks of teeth and links."""
+    """Which designs the spec accepts: the limits of each field, whole numbers, and what it asks of teeth and links."""
     good = np.ones(count, bool)
     for key, column in columns.items():
         field = field_at(type(spec), key.split("."))

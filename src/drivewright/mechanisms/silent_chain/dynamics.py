@@ -1,23 +1,23 @@
 """The running chain: centre distance, forces, orders and balances, over revolutions of the chain after it has settled, in an ensemble."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from drivewright.chains.explicit.ensemble import amplitude_of, centre_distance, ensemble, greatest_of, mean_of, range_of
+from drivewright.chains.explicit.ensemble import Ensemble, centre_distance, ensemble, mean_of
 from drivewright.chains.explicit.simulate import Settings, simulate, tooth_time
-from drivewright.chains.explicit.stability import largest_step, refuse_step
+from drivewright.chains.explicit.stability import safe_step
+from drivewright.chains.explicit.statistics import centre_distance_values, force_values, touching_flanks
+from drivewright.chains.explicit.tables import signal_table, spectrum_table
 from drivewright.chains.implicit import simulate as implicit
 from drivewright.chains.model import ChainDrive
 from drivewright.errors import InputError, SolverError, SpecError
 from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.moving import moving
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
-from drivewright.numerics.ensemble import of_members
-from drivewright.result import Answer, Answers, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Value
 
 IMPLICIT_STEP = 1e-5  # [s]
-STEP, SAFE = 1e-6, 0.5  # [s], and part of the largest stable step, that an explicit run takes unless told otherwise
 OFF = 0.25  # of the pitch: a mean centre distance so far from the rigid one is that of a chain off its teeth
 REVOLUTIONS = 2  # of the chain, that are evaluated unless told otherwise
 MOST_STEPS = 2e10  # of a link, in all runs: about ten minutes
@@ -46,34 +46,23 @@ def dynamics(model: ChainModel, done: Answers) -> Answer:
         Check("energy_drift", drift.value, model.spec.dynamics.largest_drift, "<=", "1/s", drift.meaning, ("chain",)),
         *_seated(model, runs),
     )
-    tables = (_signals(runs.first), _spectrum(runs))
+    tables = (signal_table(runs.first), spectrum_table(runs, ORDERS))
     reason = runs.advice or next((check.message for check in checks if not check.ok), "")
     if reason:
         findings = (f"the run has failed, its statistics are left out: {reason}; {HINT}",)
         return Answer({"dynamics.energy_drift": drift}, tables, checks, findings, outcome="partial")
-    values = {**_distances(runs), **_more(model, runs)}
+    values = {f"dynamics.centre_distance.{name}": value for name, value in centre_distance_values(runs).items()}
+    values |= {f"dynamics.{name}": value for name, value in force_values(runs).items()}
     checks = (*checks, settled(values))
     values["dynamics.energy_drift"] = drift
     return Answer(values, tables, checks, tuple(_remarks(runs, values)), data=runs.first)
 
 
-def _distances(runs):
-    """Mean, fluctuation and mesh order in a revolution of the chain, range of the whole run."""
-    found = {
-        "mean": (runs.estimate(mean_of(centre_distance), range_of(centre_distance)), "mean of the centre distance"),
-        "fluctuation": (runs.estimate(range_of(centre_distance)), "peak-to-peak of the centre distance in a revolution of the chain"),
-        "range": (runs.extreme(range_of(centre_distance)), "peak-to-peak of the centre distance in the whole run"),
-        "mesh_order_amplitude": (runs.estimate(amplitude_of(centre_distance)), "amplitude of the centre distance at the mesh frequency"),
-    }
-    return {f"dynamics.centre_distance.{name}": Value.of(estimate, "m", meaning) for name, (estimate, meaning) in found.items()}
-
-
-def _seated(model, runs):
+def _seated(model: ChainModel, runs: Ensemble) -> Iterator[Check]:
     """Whether the chain is still on its teeth."""
     first = runs.first
-    touching = Value.of(runs.estimate(mean_of(lambda run: run.column("contacts"))), "-", "flanks that touch, on average")
     yield Check.of(
-        touching,
+        touching_flanks(runs),
         "running.contacts",
         float(len(first.model.sprockets)),
         ">=",
@@ -162,83 +151,6 @@ def explicit_step(model: ChainModel, system: ChainDrive) -> float:
     """Step of an explicit run [s]: as said, else a microsecond, or less where that is not safe."""
     given = model.spec.dynamics.step
     try:
-        refuse_step(system, given or 0.1 * largest_step(system))
+        return safe_step(system, given)
     except InputError as reason:
         raise SpecError(str(reason), "dynamics.step") from None
-    return given or min(STEP, SAFE * largest_step(system))
-
-
-def _more(model, runs):
-    """Transmission error, tensions, flank forces; of rolling pins the friction they need."""
-    found = _forces(runs)
-    if model.link.radius:
-        found["dynamics.friction_utilisation"] = Value.of(
-            runs.estimate(greatest_of(lambda run: run.column("utilisation"))),
-            "-",
-            "coefficient of friction that pins need to roll, in joints with a twentieth of the greatest force or more, greatest in a "
-            "revolution",
-        )
-    return found
-
-
-def _forces(runs):
-    """Of the driven sprocket, a joint and a plate: means over revolutions of the chain."""
-
-    def flanks(run):
-        return np.maximum(run.column("left flank"), run.column("right flank"))
-
-    def tension(run):
-        return run.tension[:, 0]
-
-    found = {
-        "transmission_error": (
-            range_of(lambda run: run.transmission_error(1)),
-            "rad",
-            "driven angle off the ratio of teeth, peak-to-peak in a revolution of the chain",
-        ),
-        "tension.mean": (mean_of(tension), "N", "tension in a joint as it goes round, mean"),
-        "tension.maximum": (greatest_of(tension), "N", "tension in a joint as it goes round, greatest in a revolution"),
-        "flank_force.maximum": (greatest_of(flanks), "N", "on a flank of a plate as it goes round, greatest in a revolution"),
-    }
-    values = {f"dynamics.{name}": Value.of(runs.estimate(statistic), unit, meaning) for name, (statistic, unit, meaning) in found.items()}
-    return values | {"dynamics.mesh_frequency": Value(1 / tooth_time(runs.first.model), "Hz", "teeth that mesh in a second")}
-
-
-def _signals(motion):
-    steady = motion.steady
-    time, names = motion.t[steady], ("left x", "left y", "right x", "right y", "left flank", "right flank")
-    forces = [
-        Column(f"plate.{name.replace(' ', '_')}", "N", f"on a plate as it goes round: {name}", motion.column(name)[steady])
-        for name in names
-    ]
-    return Table(
-        "running",
-        "The running chain",
-        (
-            Column("time", "s", "time", time),
-            Column("centre_distance", "m", "centre distance", motion.centre_distance[steady]),
-            Column("transmission_error", "rad", "driven angle off the ratio of teeth", motion.transmission_error(1)[steady]),
-            Column("tension", "N", "tension in a joint as it goes round", motion.tension[steady, 0]),
-            Column("contacts", "-", "flanks that touch", motion.column("contacts")[steady]),
-            *forces,
-            Column("energy_gap", "J", "energy less all work since the start", motion.energy_gap[steady]),
-        ),
-    )
-
-
-def _spectrum(runs):
-    """Amplitudes in a revolution of the chain, means over all revolutions."""
-    orders, found = runs.mesh_orders
-    near = orders <= ORDERS
-    mean, reach = of_members(found[:, near])
-    amplitude = Column("centre_distance", "m", "amplitude of the centre distance", mean)
-    return Table(
-        "spectrum",
-        "Spectrum of the centre distance",
-        (
-            Column("order", "-", "multiple of the mesh frequency", orders[near]),
-            Column("frequency", "Hz", "frequency", orders[near] / tooth_time(runs.first.model)),
-            amplitude,
-            *(amplitude.bounds(mean - reach, mean + reach) if len(found) > 1 else ()),
-        ),
-    )

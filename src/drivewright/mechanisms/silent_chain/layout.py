@@ -42,14 +42,16 @@ def _remarks(spec):
 def side_measures(model: ChainModel, side: str, number: int) -> Iterator[tuple[str, Value]]:
     """(name, Value) of the closed forms of one sprocket."""
     teeth, pitch, words = model.teeth[number], model.spec.pitch, SIDE_WORDS[side]
-    yield f"layout.pitch_diameter.{side}", Value(standards.pitch_diameter(pitch, teeth), "m", f"pitch circle of the {words}")
+    yield f"layout.pitch_diameter.{side}", Value(float(standards.pitch_diameter(pitch, teeth)), "m", f"pitch circle of the {words}")
     yield (
         f"layout.speed_fluctuation.{side}",
-        Value(standards.speed_fluctuation(teeth), "-", f"of a hinged chain on the {words}: greatest less least speed, over the mean"),
+        Value(
+            float(standards.speed_fluctuation(teeth)), "-", f"of a hinged chain on the {words}: greatest less least speed, over the mean"
+        ),
     )
     if model.spec.roller:
         over = standards.over_pins(pitch, teeth, model.spec.roller.diameter)
-        yield f"over_pins.{side}", Value(over, "m", f"distance over two measuring pins as thick as the rollers, {words}")
+        yield f"over_pins.{side}", Value(float(over), "m", f"distance over two measuring pins as thick as the rollers, {words}")
 
 
 def _pair(model):
@@ -58,16 +60,16 @@ def _pair(model):
     values = {
         "layout.chain_length": Value(spec.links * pitch, "m", "pitch times links"),
         "layout.centre_distance": Value(distance, "m", "by pitch circles"),
-        "layout.strand_length": Value(standards.strand_length(pitch, z1, z2, distance), "m", "of a free strand"),
+        "layout.strand_length": Value(float(standards.strand_length(pitch, z1, z2, distance)), "m", "of a free strand"),
     }
     if spec.drive:
         force, density = strand_force(model), link_of(model).mass / pitch
         speed = chain_speed(model)
         for mode in range(1, MODES + 1):
             frequency = standards.strand_frequency(force, density, values["layout.strand_length"].value, speed, mode)
-            values[f"layout.strand_frequency.{mode}"] = Value(frequency, "Hz", f"mode {mode} of a strand across, as a moving string")
-        values["layout.mesh_frequency"] = Value(standards.mesh_frequency(z1, spec.drive.speed), "Hz", "teeth that mesh in a second")
+            values[f"layout.strand_frequency.{mode}"] = Value(float(frequency), "Hz", f"mode {mode} of a strand across, as a moving string")
+        values["layout.mesh_frequency"] = Value(float(standards.mesh_frequency(z1, spec.drive.speed)), "Hz", "teeth that mesh in a second")
         values["layout.meeting_velocity"] = Value(
-            standards.meeting_velocity(pitch, spec.drive.speed), "m/s", "with which a hinged link meets the driving sprocket"
+            float(standards.meeting_velocity(pitch, spec.drive.speed)), "m/s", "with which a hinged link meets the driving sprocket"
         )
     return values

@@ -1,31 +1,12 @@
-"""What has no meaning, refused by name; what can be computed is left to the checks."""
+"""Keys that contradict each other, refused by name, and keys without effect; what can be computed is left to the checks."""
+
+from collections.abc import Iterator
 
 from drivewright.errors import SpecError
-
-LEAST_TEETH = 6  # below, a polygon is no sprocket
-
-
-def refuse_nonsense(spec):
-    """SpecError for the first thing that has no meaning."""
-    for number, teeth in enumerate(spec.teeth):
-        if teeth < LEAST_TEETH:
-            raise SpecError(f"{teeth} teeth are too few for a sprocket; take {LEAST_TEETH} or more", f"teeth.{number}")
-    if spec.links <= max(spec.teeth):
-        raise SpecError(
-            f"{spec.links} links are no more than the {max(spec.teeth)} teeth of a sprocket: the chain does not reach around two; "
-            f"take {max(spec.teeth) + 4} or more",
-            "links",
-        )
-    for table in ("guides", "sprockets"):
-        names = [entry.name for entry in getattr(spec, table)]
-        for name in names:
-            if names.count(name) > 1:
-                raise SpecError(f"the name {name!r} comes twice; names in {table} must differ", f"{table}.{name}.name")
-    if min(spec.plate.lacing) < 1:
-        raise SpecError(f"lacing {list(spec.plate.lacing)} has a pitch without a plate; count one or more in each", "plate.lacing")
+from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 
 
-def refuse_contradictions(spec):
+def refuse_contradictions(spec: SilentChainSpec) -> None:
     """SpecError for the first two keys that contradict each other, or one that lacks another."""
     joint, plate = spec.joint, spec.plate
     if joint.kind != "revolute" and joint.rolling_radius is None:
@@ -48,7 +29,7 @@ def refuse_contradictions(spec):
         raise SpecError(f"give one of apothem (from the hole) and standard_apothem (from the pitch line); {how} given", "plate.apothem")
 
 
-def unused(spec):
+def unused(spec: SilentChainSpec) -> Iterator[str]:
     """Findings for keys that have no effect here."""
     for guide in spec.guides:
         if guide.force is None and {"stiffness", "damping"} & guide.model_fields_set:

@@ -7,7 +7,7 @@ import numpy as np
 from drivewright._typing import Floats, Numbers
 from drivewright.chains.closure import plates, states_at
 from drivewright.chains.plate_stack import strand_parts
-from drivewright.chains.roller_sprocket import roller_plate
+from drivewright.chains.roller_sprocket import RollerSprocket, roller_plate
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
@@ -52,12 +52,17 @@ def _wheel(model, sprocket):
     """A sprocket in the frame in which tooth 0 lies on x."""
     quarter = (0.0, 0.0, -np.pi / 2)
     outline = sprocket.outline() if model.spec.roller else sprocket.outline(FINE)
-    gap = np.pi / sprocket.teeth if model.spec.roller else 0.0
+    gap = _gap_angle(sprocket)
     yield Shape("body", outline.moved((0.0, 0.0, -np.pi / 2 - gap)))
     if model.bore:
         yield Shape("hole", circle((0, 0), 0.5 * model.bore))
     reach = 0.9 * sprocket.root_radius
     yield Shape("axis", circle((reach, 0.0), 0.02 * reach).moved(quarter))
+
+
+def _gap_angle(sprocket):
+    """Angle [rad] from the frame of a sprocket to its tooth 0: half a tooth where gaps count, as for rollers."""
+    return np.pi / sprocket.teeth if isinstance(sprocket, RollerSprocket) else 0.0
 
 
 def link_shapes(model: ChainModel, number: int = 0) -> Iterator[Shape]:
@@ -99,7 +104,7 @@ def parts(model: ChainModel) -> tuple[Part, ...]:
     found = []
     for side, sprocket in zip(SIDES, model.sprockets, strict=True):
         x, y, angle = where[side]
-        gap = np.pi / sprocket.teeth if model.spec.roller else 0.0
+        gap = _gap_angle(sprocket)
         found.append(sprocket.part(model.bore, model.chain_width, side, (x, y, float(angle - np.pi / 2 - gap))))
     chain = plates(model.closure, states)[0, :SOLID_LINKS]
     return (*found, *(_links(model, chain) if not model.spec.roller else _roller_links(model, chain)))
@@ -118,4 +123,5 @@ def _roller_links(model, chain):
     for number, pose in enumerate(chain):
         out = 0.5 * width + (number % 2) * sheet
         solids = (Prism(outline, (), out, sheet), Prism(outline, (), -out - sheet, sheet), Prism(roller, (), -0.5 * width, width))
-        yield Part(f"link {number}", solids, tuple(map(float, pose)), ("steel", "blue")[number % 2])
+        x, y, turn = map(float, pose)
+        yield Part(f"link {number}", solids, (x, y, turn), ("steel", "blue")[number % 2])

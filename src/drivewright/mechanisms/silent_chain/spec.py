@@ -5,9 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 from pydantic import model_validator
 
 from drivewright.chains.meshing import Ideal
-from drivewright.errors import UnitError, brief
+from drivewright.errors import SpecError, UnitError, brief
 from drivewright.fatigue.material import StrainLife
-from drivewright.mechanisms.silent_chain.refusals import refuse_nonsense
 from drivewright.plugins import installed
 from drivewright.spec import Integer, MechanismSpec, Name, Number, Spec
 from drivewright.spec.fields import Field
@@ -35,6 +34,7 @@ if TYPE_CHECKING:
 else:
     ContactLaw = Literal[("kelvin-voigt", *sorted(installed("drivewright.contact_laws")))]
 TURN = 6.283185307179586
+LEAST_TEETH = 6  # below, a polygon is no sprocket
 
 
 class _LengthOrRule(Dimension):
@@ -354,5 +354,25 @@ class SilentChainSpec(MechanismSpec):
 
     @model_validator(mode="after")
     def _has_a_meaning(self):
-        refuse_nonsense(self)
+        _refuse_nonsense(self)
         return self
+
+
+def _refuse_nonsense(spec: SilentChainSpec) -> None:
+    """SpecError for the first thing that has no meaning."""
+    for number, teeth in enumerate(spec.teeth):
+        if teeth < LEAST_TEETH:
+            raise SpecError(f"{teeth} teeth are too few for a sprocket; take {LEAST_TEETH} or more", f"teeth.{number}")
+    if spec.links <= max(spec.teeth):
+        raise SpecError(
+            f"{spec.links} links are no more than the {max(spec.teeth)} teeth of a sprocket: the chain does not reach around two; "
+            f"take {max(spec.teeth) + 4} or more",
+            "links",
+        )
+    for table in ("guides", "sprockets"):
+        names = [entry.name for entry in getattr(spec, table)]
+        for name in names:
+            if names.count(name) > 1:
+                raise SpecError(f"the name {name!r} comes twice; names in {table} must differ", f"{table}.{name}.name")
+    if min(spec.plate.lacing) < 1:
+        raise SpecError(f"lacing {list(spec.plate.lacing)} has a pitch without a plate; count one or more in each", "plate.lacing")

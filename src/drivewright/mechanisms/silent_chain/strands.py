@@ -16,27 +16,28 @@ def strand_force(model: ChainModel) -> float:
 
 def centrifugal(model: ChainModel) -> float:
     """Mass per length times speed squared [N]."""
-    return standards.centrifugal_tension(link_of(model).mass / model.link.pitch, chain_speed(model))
+    return float(standards.centrifugal_tension(link_of(model).mass / model.link.pitch, chain_speed(model)))
 
 
 def chain_speed(model: ChainModel) -> float:
     """Mean speed of the chain [m/s]."""
-    return standards.chain_speed(model.link.pitch, model.teeth[0], model.spec.drive.speed)
+    return standards.chain_speed(model.link.pitch, model.teeth[0], model.drive.speed)
 
 
 def pulls(model: ChainModel) -> tuple[float, float]:
     """Of the tight and of the slack strand [N], without the centrifugal force."""
-    drive = model.spec.drive
+    drive = model.drive
     return standards.strand_pulls(drive.preload, drive.load_torque, model.link.pitch, model.teeth[1], slope(model))
 
 
 def slope(model: ChainModel) -> float:
     """Cosine of the angle of the strands to the line of centres, by pitch circles; 1 where there are none."""
+    z1, z2 = model.teeth
     try:
-        distance = standards.centre_distance(model.link.pitch, *model.teeth, model.spec.links)
+        distance = standards.centre_distance(model.link.pitch, z1, z2, model.spec.links)
     except InputError:
         return 1.0
-    return float(np.cos(standards.strand_angle(model.link.pitch, *model.teeth, distance)))
+    return float(np.cos(standards.strand_angle(model.link.pitch, z1, z2, distance)))
 
 
 def link_of(model: ChainModel) -> LinkMass:
