@@ -67,6 +67,7 @@ def advance(
                 return EVENT, accepted, rejected, hits
             restart(work, system, control, clock, y)
             events_at(event_system, clock[TIME], y, values)
-        if clock[TIME] >= control.t1:
+            last = clock[TIME] >= control.t1
+        if last:
             return FINISHED, accepted, rejected, hits
     return GOES_ON, accepted, rejected, hits
