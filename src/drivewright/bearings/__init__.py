@@ -3,7 +3,7 @@
 `response` energy, force and stiffness of any elastic support; `newton` the compiled equilibrium of one bearing; `solving` the same with
 names, checks and what each element carries; `ball` and `roller` the two kinds, each with its law; `life` ratings and lives of ISO 281 and
 ISO/TS 16281; `stiffness_curve` displacement and stiffness over load; `approximate_stiffness` formulas from catalogue numbers alone;
-`catalogue` bearings by name; `drawing` a bearing in section, `tables` answers as tables of a result.
+`catalogue` bearings by name; `drawing` a bearing in section, `tables` and `values` answers as tables and values of a result.
 """
 
 from importlib import import_module
@@ -27,7 +27,7 @@ _WHERE = {
     "stiffness_curve": ("LoadCurve", "load_curve"),
     "drawing": ("bearing_section",),
     "ball": ("BallBearing", "BallLaw"),
-    "life": ("basic_dynamic_rating", "basic_life", "equivalent_radial_load", "life_exponent", "static_rating"),
+    "life": ("basic_dynamic_rating", "basic_life", "equivalent_radial_load", "life_duration", "life_exponent", "static_rating"),
     "roller": ("RollerBearing", "RollerLaw", "roller_reference_life", "roller_static_rating"),
     "catalogue": ("Entry", "bearing", "entry", "load_catalogue", "names"),
     "approximate_stiffness": (

@@ -105,3 +105,8 @@ def equivalent_radial_load(force: Sequence[float] | Floats, contact_angle: float
     """
     radial, axial = float(np.hypot(force[0], force[1])), abs(force[2])
     return None if contact_angle or not radial > 0 or axial > AXIAL_SHARE * radial else radial
+
+
+def life_duration(revolutions: float, speed: float) -> float:
+    """Time [s] of so many revolutions at a speed [rad/s]."""
+    return float(revolutions) * 2 * np.pi / speed

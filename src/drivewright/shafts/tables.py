@@ -89,6 +89,19 @@ def sensitivity_table(slopes: Iterable[FlexibilitySlope], names: Sequence[str]) 
     return Table("sensitivities", "Sensitivities of the flexibility, relative change over relative change", tuple(columns))
 
 
+def limit_table(rows: Iterable[tuple[str, str, float, float, bool]]) -> Table:
+    """A row (station, part, force [N], force over the shock factor [N], first) for all that a force at a station loads to its limit."""
+    names, parts, loads, steady, first = zip(*rows, strict=True)
+    columns = (
+        Column("station", "-", "station of the force", np.array(names)),
+        Column("part", "-", "what reaches its limit", np.array(parts)),
+        Column("load", "N", "force at which it does", np.array(loads)),
+        Column("steady_load", "N", "the same over the shock factor", np.array(steady)),
+        Column("first", "-", "1 where it is the first", np.array(first, float)),
+    )
+    return Table("failure", "What fails first", columns)
+
+
 def mode_table(equilibrium: ShaftEquilibrium, modes: Modes) -> Table:
     """The shape of every mode over the nodes, each scaled to 1."""
     beam = equilibrium.model.beam

@@ -10,6 +10,7 @@ from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.spec import ShaftSpec
 from drivewright.result import Answer, Answers, Check, Value
 from drivewright.shafts.tables import mode_table
+from drivewright.shafts.values import frequency_values
 
 ELEMENTS, MAX_ELEMENTS = 40, 1000  # along the shaft: unless a length is given, and at most
 
@@ -31,18 +32,7 @@ def frequencies(model: ShaftModel, done: Answers) -> Answer:
             findings=("modes are absent: nothing that can move has a mass; give a density, or a station a mass",), outcome="left out"
         )
     torsional = shafts.torsional_modes(fine, min(count, 3)).frequencies
-    rows = (
-        ("modes", "frequency", "Hz", "natural frequency {n} of bending, at rest", bending.frequencies),
-        ("axial_modes", "frequency", "Hz", "natural frequency {n} along the axis, at rest", axial.frequencies),
-        ("critical_speeds.forward", "", "rad/s", "critical speed {n}, whirling with the shaft", critical.forward),
-        ("critical_speeds.backward", "", "rad/s", "critical speed {n}, whirling against the shaft", critical.backward),
-        ("torsional_modes", "frequency", "Hz", "natural frequency {n} of torsion of the free shaft", torsional),
-    )
-    values = {
-        ".".join(filter(None, (key, str(n), suffix))): Value(float(number), unit, meaning.format(n=n))
-        for key, suffix, unit, meaning, numbers in rows
-        for n, number in enumerate(numbers, 1)
-    }
+    values = frequency_values(bending.frequencies, axial.frequencies, torsional, critical)
     lowest = shafts.lowest_excited(fine, critical)
     if lowest:
         excited = (

@@ -2,17 +2,15 @@
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from drivewright import bearings, shafts
 from drivewright.errors import InputError
 from drivewright.mechanisms.shaft.build import ShaftModel
-from drivewright.mechanisms.shaft.matrices import pair_values, station_array
 from drivewright.mechanisms.shaft.refusals import is_rolling
 from drivewright.mechanisms.shaft.spec import Bearing, ShaftSpec
 from drivewright.mechanisms.shaft.statics import BALANCED
-from drivewright.result import Answer, Answers, Array, Check, Column, Table, Value
-from drivewright.shafts.tables import share_table, unit_load_table
+from drivewright.result import Answer, Answers, Array, Check, Value
+from drivewright.shafts.tables import limit_table, share_table, unit_load_table
+from drivewright.shafts.values import pair_values, station_array
 
 
 def no_stations(spec: ShaftSpec) -> str | None:
@@ -79,15 +77,7 @@ def failure(model: ShaftModel, done: Answers) -> Answer:
         rows += [(name, part, load, load / shock, load == lowest) for part, load in limits]
     if not rows:
         return Answer(findings=("what fails first is absent: no bearing has a static rating, and no yield strength is given",))
-    names, parts, loads, steady, first = zip(*rows, strict=True)
-    columns = (
-        Column("station", "-", "station of the force", np.array(names)),
-        Column("part", "-", "what reaches its limit", np.array(parts)),
-        Column("load", "N", "force at which it does", np.array(loads)),
-        Column("steady_load", "N", "the same over the shock factor", np.array(steady)),
-        Column("first", "-", "1 where it is the first", np.array(first, float)),
-    )
-    return Answer(values, (Table("failure", "What fails first", columns),))
+    return Answer(values, (limit_table(rows),))
 
 
 def static_rating(model: ShaftModel, bearing: Bearing) -> float | None:

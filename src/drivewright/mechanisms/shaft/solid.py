@@ -4,9 +4,9 @@ import numpy as np
 
 from drivewright.errors import InputError
 from drivewright.mechanisms.shaft.build import ShaftModel
-from drivewright.mechanisms.shaft.matrices import pair_values, station_array
 from drivewright.result import Answer, Answers, Check, Value
 from drivewright.shafts import solid_check
+from drivewright.shafts.values import pair_values, station_array
 
 
 def solid(model: ShaftModel, done: Answers) -> Answer:

@@ -5,12 +5,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from drivewright import shafts
-from drivewright._typing import Floats
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.refusals import is_rolling
 from drivewright.mechanisms.shaft.spec import Bearing
 from drivewright.result import Answer, Answers, Check, Value
 from drivewright.shafts.tables import diagram_table, reaction_table
+from drivewright.shafts.values import extreme_values, station_values, support_values
 
 FINE = 21  # places along the shaft for its buckling
 BALANCED = 1e-9  # of all forces; Newton's method stops at 1e-11
@@ -26,7 +26,8 @@ def statics(model: ShaftModel, done: Answers) -> Answer:
         findings = ("there are no loads: deflections and stresses are absent, flexibility is that of the unloaded shaft",)
         return Answer(values, (), checks, findings, data=loaded)
     along = shafts.diagram(loaded, SAMPLES)
-    values |= _stations(model, loaded.equilibrium) | _bearings(model, loaded.equilibrium) | _extremes(along)
+    values |= station_values(loaded.equilibrium, model.direction) | support_values(loaded.equilibrium, model.direction)
+    values |= extreme_values(along)
     tables = (diagram_table(along, model.direction), reaction_table(loaded.equilibrium))
     return Answer(values, tables, (*checks, *_checks(model, loaded, along)), data=loaded)
 
@@ -39,59 +40,6 @@ def _linear_stiffness(model: ShaftModel) -> dict[str, Value]:
             stiffness, name = support.stiffness[0], f"bearings.{support.name}.stiffness"
             words = f"radial force over displacement of bearing {support.name!r}, at any load"
             values |= {f"{name}.tangent": Value(stiffness, "N/m", f"change of {words}"), f"{name}.secant": Value(stiffness, "N/m", words)}
-    return values
-
-
-def _along(model: ShaftModel, vector: Floats) -> float:
-    """Component of a vector (x, y) along the unit loads."""
-    return float(np.dot(model.direction, vector))
-
-
-def _stations(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> dict[str, Value]:
-    values = {}
-    for station in model.shaft.stations:
-        move, slope = at_rest.displacement_at(station.position), at_rest.slope_at(station.position)
-        name, at = f"stations.{station.name}", f"of station {station.name!r}"
-        values |= {
-            f"{name}.deflection": Value(_along(model, move), "m", f"deflection {at} along the unit loads: positive with the load"),
-            f"{name}.displacement": Value(float(np.hypot(*move)), "m", f"deflection {at}, magnitude"),
-            f"{name}.deflection_x": Value(float(move[0]), "m", f"deflection {at} along x"),
-            f"{name}.deflection_y": Value(float(move[1]), "m", f"deflection {at} along y (up)"),
-            f"{name}.slope": Value(_along(model, slope), "rad", f"slope {at}, positive where the deflection grows with z"),
-        }
-    return values
-
-
-def _bearings(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> dict[str, Value]:
-    values = {}
-    for support, reaction, moved in zip(model.shaft.supports, at_rest.reactions, at_rest.relative, strict=True):
-        name, at, inside = f"bearings.{support.name}", f"of bearing {support.name!r}", f"of the shaft in bearing {support.name!r}"
-        slope, against = float(np.hypot(*at_rest.slope_at(support.position))), "along the unit loads, positive against the load"
-        values |= {
-            f"{name}.reaction": Value(-_along(model, reaction[:2]), "N", f"radial reaction {at} on the shaft {against}"),
-            f"{name}.reaction_x": Value(reaction[0], "N", f"reaction {at} on the shaft along x"),
-            f"{name}.reaction_y": Value(reaction[1], "N", f"reaction {at} on the shaft along y"),
-            f"{name}.radial_force": Value(float(np.hypot(*reaction[:2])), "N", f"radial force {at}, magnitude"),
-            f"{name}.displacement": Value(_along(model, moved[:2]), "m", f"displacement {inside}, positive with the load"),
-            f"{name}.slope": Value(slope, "rad", f"slope {inside}, magnitude"),
-        }
-        if abs(reaction[2]) > 0:
-            values[f"{name}.axial_force"] = Value(reaction[2], "N", f"axial reaction {at} on the shaft, positive to the right")
-        if np.any(np.abs(reaction[3:]) > 1e-12 * (1 + np.abs(reaction[:2]).max())):
-            values[f"{name}.moment"] = Value(float(np.hypot(*reaction[3:])), "N m", f"moment {at} on the shaft, magnitude")
-    return values
-
-
-def _extremes(along: shafts.Diagram) -> dict[str, Value]:
-    values = {}
-    for name, data, unit, meaning in (
-        ("max_deflection", np.hypot(*along.deflection.T), "m", "largest deflection along the shaft"),
-        ("max_moment", np.hypot(*along.moment.T), "N m", "largest bending moment"),
-        ("max_stress", along.von_mises, "Pa", "largest von Mises stress, nominal: without notches"),
-    ):
-        at = int(np.argmax(data))
-        values[f"shaft.{name}"] = Value(float(data[at]), unit, meaning)
-        values[f"shaft.{name}.at"] = Value(float(along.z[at]), "m", f"where {name} is")
     return values
 
 

@@ -1,0 +1,125 @@
+"""Answers about a shaft as values and arrays of a result; `direction` is the unit vector (x, y) of the unit loads."""
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.result import Array, Value
+from drivewright.shafts.equilibrium import ShaftEquilibrium
+from drivewright.shafts.loaded import Diagram
+from drivewright.shafts.sensitivity import FlexibilitySlope
+from drivewright.shafts.supports import SupportStiffness
+from drivewright.shafts.tables import station_pairs
+from drivewright.shafts.vibration import CriticalSpeeds
+
+NO_MOMENT = 1e-12  # [N m] over the radial reaction [N] + 1 N: what rounding leaves
+
+
+def station_values(equilibrium: ShaftEquilibrium, direction: Floats) -> dict[str, Value]:
+    """Deflection [m] and slope [rad] of every station."""
+    values = {}
+    for station in equilibrium.model.beam.shaft.stations:
+        move, slope = equilibrium.displacement_at(station.position), equilibrium.slope_at(station.position)
+        name, at = f"stations.{station.name}", f"of station {station.name!r}"
+        along = "along the unit loads: positive with the load"
+        values |= {
+            f"{name}.deflection": Value(float(np.dot(direction, move)), "m", f"deflection {at} {along}"),
+            f"{name}.displacement": Value(float(np.hypot(*move)), "m", f"deflection {at}, magnitude"),
+            f"{name}.deflection_x": Value(float(move[0]), "m", f"deflection {at} along x"),
+            f"{name}.deflection_y": Value(float(move[1]), "m", f"deflection {at} along y (up)"),
+            f"{name}.slope": Value(float(np.dot(direction, slope)), "rad", f"slope {at}, positive where the deflection grows with z"),
+        }
+    return values
+
+
+def support_values(equilibrium: ShaftEquilibrium, direction: Floats) -> dict[str, Value]:
+    """Reaction [N, N m] of every support on the shaft, displacement [m] and slope [rad] of the shaft in it."""
+    values = {}
+    supports = equilibrium.model.beam.shaft.supports
+    for support, reaction, moved in zip(supports, equilibrium.reactions, equilibrium.relative, strict=True):
+        name, at, inside = f"bearings.{support.name}", f"of bearing {support.name!r}", f"of the shaft in bearing {support.name!r}"
+        slope, against = float(np.hypot(*equilibrium.slope_at(support.position))), "along the unit loads, positive against the load"
+        radial, displacement = -float(np.dot(direction, reaction[:2])), float(np.dot(direction, moved[:2]))
+        values |= {
+            f"{name}.reaction": Value(radial, "N", f"radial reaction {at} on the shaft {against}"),
+            f"{name}.reaction_x": Value(reaction[0], "N", f"reaction {at} on the shaft along x"),
+            f"{name}.reaction_y": Value(reaction[1], "N", f"reaction {at} on the shaft along y"),
+            f"{name}.radial_force": Value(float(np.hypot(*reaction[:2])), "N", f"radial force {at}, magnitude"),
+            f"{name}.displacement": Value(displacement, "m", f"displacement {inside}, positive with the load"),
+            f"{name}.slope": Value(slope, "rad", f"slope {inside}, magnitude"),
+        }
+        if abs(reaction[2]) > 0:
+            values[f"{name}.axial_force"] = Value(reaction[2], "N", f"axial reaction {at} on the shaft, positive to the right")
+        if np.any(np.abs(reaction[3:]) > NO_MOMENT * (1 + np.abs(reaction[:2]).max())):
+            values[f"{name}.moment"] = Value(float(np.hypot(*reaction[3:])), "N m", f"moment {at} on the shaft, magnitude")
+    return values
+
+
+def extreme_values(along: Diagram) -> dict[str, Value]:
+    """The largest deflection [m], bending moment [N m] and stress [Pa] along the shaft, and where [m] they are."""
+    values = {}
+    for name, data, unit, meaning in (
+        ("max_deflection", np.hypot(*along.deflection.T), "m", "largest deflection along the shaft"),
+        ("max_moment", np.hypot(*along.moment.T), "N m", "largest bending moment"),
+        ("max_stress", along.von_mises, "Pa", "largest von Mises stress, nominal: without notches"),
+    ):
+        at = int(np.argmax(data))
+        values[f"shaft.{name}"] = Value(float(data[at]), unit, meaning)
+        values[f"shaft.{name}.at"] = Value(float(along.z[at]), "m", f"where {name} is")
+    return values
+
+
+def stiffness_values(name: str, stiffness: SupportStiffness) -> dict[str, Value]:
+    """The `SupportStiffness` of the support of this name, with the load behind it; nothing where there is no load."""
+    rows = (
+        ("load", stiffness.load, "N", f"radial force of bearing {name!r} behind its stiffness"),
+        ("tangent", stiffness.tangent, "N/m", f"change of radial force over displacement of bearing {name!r}, all else held"),
+        ("secant", stiffness.secant, "N/m", f"radial force over displacement of bearing {name!r}, from the seat's axis"),
+        ("axial", stiffness.axial, "N/m", f"tangent stiffness of bearing {name!r}, axial"),
+        ("tilt_x", stiffness.tilt_x, "N m/rad", f"tangent stiffness of bearing {name!r}, tilt about x"),
+        ("tilt_y", stiffness.tilt_y, "N m/rad", f"tangent stiffness of bearing {name!r}, tilt about y"),
+    )
+    values = {f"bearings.{name}.stiffness.{key}": Value(value, unit, meaning) for key, value, unit, meaning in rows if np.isfinite(value)}
+    return values if stiffness.tangent > 0 else {}
+
+
+def pair_values(key: str, names: Sequence[str], matrix: Floats, unit: str, meaning: str) -> dict[str, Value]:
+    """`key.A.B` of a symmetric matrix (stations, stations) for every pair; the meaning says {a!r} and {b!r} where it names them."""
+    return {
+        f"{key}.{names[i]}.{names[j]}": Value(float(matrix[i, j]), unit, meaning.format(a=names[i], b=names[j]))
+        for i, j in station_pairs(names)
+    }
+
+
+def station_array(names: tuple[str, ...], matrix: Floats, unit: str) -> Array:
+    """A matrix (stations, stations) as an array of the result."""
+    return Array(unit, ("station", "station"), (names, names), matrix)
+
+
+def sensitivity_values(slopes: Iterable[FlexibilitySlope], names: Sequence[str]) -> dict[str, Value]:
+    """Every finite entry of `relative_flexibility_slopes` [-], by pair of stations and parameter."""
+    return {
+        f"sensitivity.{names[i]}.{names[j]}.{parameter}": Value(
+            float(slope[i, j]), "-", f"relative change of the flexibility over that of {parameter}; {held}"
+        )
+        for parameter, held, slope in slopes
+        for i, j in station_pairs(names)
+        if np.isfinite(slope[i, j])
+    }
+
+
+def frequency_values(bending: Floats, axial: Floats, torsional: Floats, critical: CriticalSpeeds) -> dict[str, Value]:
+    """Natural frequencies [Hz] of bending, along the axis and of torsion, and critical speeds [rad/s], each numbered from 1."""
+    rows = (
+        ("modes", ".frequency", "Hz", "natural frequency {n} of bending, at rest", bending),
+        ("axial_modes", ".frequency", "Hz", "natural frequency {n} along the axis, at rest", axial),
+        ("critical_speeds.forward", "", "rad/s", "critical speed {n}, whirling with the shaft", critical.forward),
+        ("critical_speeds.backward", "", "rad/s", "critical speed {n}, whirling against the shaft", critical.backward),
+        ("torsional_modes", ".frequency", "Hz", "natural frequency {n} of torsion of the free shaft", torsional),
+    )
+    return {
+        f"{key}.{n}{suffix}": Value(float(number), unit, meaning.format(n=n))
+        for key, suffix, unit, meaning, numbers in rows
+        for n, number in enumerate(numbers, 1)
+    }
