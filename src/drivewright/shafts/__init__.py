@@ -24,19 +24,19 @@ _WHERE = {
     "assembly": ("ShaftSystem", "assemble", "refuse_mechanism", "nodal_forces"),
     "equilibrium": ("ShaftEquilibrium", "solve"),
     "influence": ("Flexibility", "flexibility", "stiffness"),
-    "loaded": ("Diagram", "LoadedShaft", "ShaftLoads", "diagram", "largest_displacement", "apply_loads"),
+    "loaded": ("Diagram", "LoadedShaft", "ShaftLoads", "diagram", "largest_displacement", "apply_loads", "forces_along"),
     "loads": ("are_coplanar", "tooth_load", "transverse_direction"),
     "mode_shapes": ("PlanarShape", "first_mode_along", "massless_frequencies", "planar_shape"),
     "strength": ("LimitLoad", "limit_loads"),
     "supports": ("SupportStiffness", "bearing_displacement", "is_idle", "rolling_support", "spring_support", "support_stiffness"),
     "vibration": ("CriticalSpeeds", "Modes", "critical_speeds", "lowest_excited", "modes", "torsional_modes"),
-    "buckling": ("buckling_factor",),
+    "buckling": ("buckling_factor", "buckling_factor_under"),
     "linearised": ("refined_equilibrium", "tangent_shaft"),
     "sensitivity": ("flexibility_slopes", "relative_flexibility_slopes"),
     "unit_loads": ("flexibility_on_rigid_bearings", "peak_unit_stress", "unit_deflection"),
     "solid_check": ("SolidFlexibility", "bearing_bands", "beam_on_bands", "solid_and_beam", "solid_flexibility"),
     "curves": ("TangentSupport", "tabulated", "with_play"),
-    "batch": ("DesignTables", "design_tables", "flexibilities", "is_batchable"),
+    "batch": ("DesignTables", "design_tables", "flexibilities", "flexibility_function", "is_batchable"),
 }
 _MODULE = {name: module for module, names in _WHERE.items() for name in names}
 

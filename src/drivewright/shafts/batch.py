@@ -1,6 +1,6 @@
 """Many shafts at once: flexibility at the stations, and reactions, of a million stepped shafts in one call."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
@@ -136,6 +136,27 @@ def design_tables(shaft: Shaft, count: int) -> DesignTables:
         [s.position for s in shaft.stations],
     )
     return DesignTables(*(np.tile(np.array(row, float), (count, 1)) for row in rows))
+
+
+def flexibility_function(
+    shaft: Shaft, columns: Sequence[tuple[str, int]], pairs: Mapping[str, tuple[int, int]], cylinders: Sequence[int] = ()
+) -> Callable[[Floats], dict[str, Floats]]:
+    """A function of designs (n, d) that gives flexibilities {name: (n,)} [m/N], NaN for an impossible design; all else as in `shaft`.
+
+    columns: (field of `DesignTables`, entry) that each of the d columns of a design replaces, in SI; pairs: the stations (i, j) of
+    each name; cylinders: numbers of the sections whose right end has the diameter of the left one in every design.
+    """
+    cylinders = list(cylinders)
+
+    def evaluate(x: Floats) -> dict[str, Floats]:
+        tables = design_tables(shaft, len(x))
+        for column, (table, number) in zip(np.asarray(x, float).T, columns, strict=True):
+            getattr(tables, table)[:, number] = column
+        tables.end_diameters[:, cylinders] = tables.diameters[:, cylinders]
+        delta = flexibilities(**tables._asdict(), youngs_modulus=shaft.modulus, poisson=shaft.poisson, shear=shaft.shear)
+        return {name: delta[:, i, j] for name, (i, j) in pairs.items()}
+
+    return evaluate
 
 
 # -- arguments -----------------------------------------------------------------------------------------------------------------

@@ -7,8 +7,11 @@ from drivewright.errors import SolverError
 from drivewright.shafts import beam as beams
 from drivewright.shafts.assembly import regularisation
 from drivewright.shafts.influence import REGULARISATION_FACTOR
-from drivewright.shafts.loaded import LoadedShaft
+from drivewright.shafts.loaded import LoadedShaft, ShaftLoads, apply_loads
+from drivewright.shafts.model import Shaft
 from drivewright.shafts.vibration import WEIGHT, condense_supports, element_shapes
+
+PLACES = 21  # along the shaft: enough for the shape in which it buckles
 
 
 def buckling_factor(loaded: LoadedShaft) -> float | None:
@@ -35,6 +38,11 @@ def buckling_factor(loaded: LoadedShaft) -> float | None:
             "diameters, bores and Young's modulus"
         ) from None
     return float(1 / factors[-1]) if factors[-1] > 0 else None
+
+
+def buckling_factor_under(shaft: Shaft, loads: ShaftLoads) -> float | None:
+    """`buckling_factor` of a shaft under loads, on nodes at PLACES even places besides its own."""
+    return buckling_factor(apply_loads(shaft, loads, np.linspace(0.0, shaft.length, PLACES)))
 
 
 def _geometric(found, tension):

@@ -1,6 +1,6 @@
 """A shaft under all its loads: points, lines, weight - at rest, and what it carries along its length."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +25,16 @@ class ShaftLoads(NamedTuple):
     def places(self) -> list[float]:
         """Places [m] that need a node."""
         return [load.position for load in self.points] + [end for load in self.lines for end in (load.start, load.end)]
+
+
+def forces_along(loads: ShaftLoads, direction: Floats, count: int) -> Iterator[tuple[float, float]]:
+    """(place [m], force along a unit vector (x, y)): of points [N], and of every line load at `count` places [N/m]."""
+    for load in loads.points:
+        yield load.position, float(np.dot(direction, load.force[:2]))
+    for load in loads.lines:
+        for share in np.linspace(0.0, 1.0, count):
+            force = (1 - share) * np.asarray(load.first) + share * np.asarray(load.last)
+            yield load.start + share * (load.end - load.start), float(np.dot(direction, force))
 
 
 class LoadedShaft(NamedTuple):

@@ -148,6 +148,12 @@ def solid_and_beam(
     return solid, beam_on_bands(shaft, bands, stations, direction)
 
 
+def relative_difference(beam: Floats, solid: Floats) -> float:
+    """Largest |a_ij - b_ij|/sqrt(b_ii b_jj) of the flexibilities a of the beam and b of the solid, both (stations, stations) [m/N]."""
+    scale = np.sqrt(np.outer(np.diag(solid), np.diag(solid)))
+    return float(np.abs((beam - solid) / scale).max())
+
+
 def allowed_difference(shaft: Shaft) -> float:
     """Largest difference of beam and solid that needs no explanation, over the diagonals."""
     ends = [(section.start, section.end, section.bore) for section in shaft.sections]

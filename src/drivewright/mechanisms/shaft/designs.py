@@ -13,13 +13,7 @@ from drivewright.mechanisms.shaft.spec import ShaftSpec
 
 KEYS = re.compile(r"(segments|bearings|stations)\.([\w-]+)\.(length|diameter|end_diameter|bore|radial_stiffness|position)")
 VALUES = re.compile(r"flexibility\.([\w-]+)\.([\w-]+)")
-TABLE = {  # of the batch, by the key
-    "length": "lengths",
-    "diameter": "diameters",
-    "end_diameter": "end_diameters",
-    "bore": "bores",
-    "radial_stiffness": "radial_stiffness",
-}
+TABLE = {"length": "lengths", "diameter": "diameters", "end_diameter": "end_diameters", "bore": "bores"}  # of the batch, by the key
 
 
 def batch(spec: ShaftSpec, keys: Sequence[str], names: Sequence[str]) -> Callable[[Floats], dict[str, Floats]] | None:
@@ -32,17 +26,7 @@ def batch(spec: ShaftSpec, keys: Sequence[str], names: Sequence[str]) -> Callabl
     pairs = {m.string: tuple(_number(spec, "stations", each) for each in m.groups()) for m in parsed_names if m}
     places = [_place(spec, *m.groups()) for m in parsed_keys if m]
     cylinders = [n for n, segment in enumerate(spec.segments) if segment.end_diameter is None and ("end_diameters", n) not in places]
-
-    def evaluate(x: Floats) -> dict[str, Floats]:
-        """{name: (n,)} of designs (n, d), NaN for an impossible one."""
-        tables = shafts.design_tables(shaft, len(x))
-        for column, (table, number) in zip(np.asarray(x, float).T, places, strict=True):
-            getattr(tables, table)[:, number] = column
-        tables.end_diameters[:, cylinders] = tables.diameters[:, cylinders]
-        delta = shafts.flexibilities(**tables._asdict(), youngs_modulus=shaft.modulus, poisson=shaft.poisson, shear=shaft.shear)
-        return {name: delta[:, i, j] for name, (i, j) in pairs.items()}
-
-    return evaluate
+    return shafts.flexibility_function(shaft, places, pairs, cylinders)
 
 
 def _place(spec: ShaftSpec, table: str, entry: str, key: str) -> tuple[str, int]:
@@ -50,7 +34,7 @@ def _place(spec: ShaftSpec, table: str, entry: str, key: str) -> tuple[str, int]
     number = _number(spec, table, entry)
     if key == "position":
         return ("supports" if table == "bearings" else "stations"), number
-    return TABLE[key], number
+    return TABLE.get(key, key), number
 
 
 def _number(spec: ShaftSpec, table: str, entry: str) -> int:

@@ -51,7 +51,7 @@ def scene(model: ShaftModel) -> Scene:
     label = f"shaft, {words} × {factor:g}" if factor else "shaft"
     for n, (middle, shapes, u, t) in enumerate(zip(middles, drawing.slices(shaft, z), up, turn, strict=True)):
         bodies.append(bent(f"shaft.{n}", label, shapes, _poses(middle, factor * part * u, np.arctan(factor * part * t)), "blue"))
-    for n, (place, force) in enumerate(_visible_loads(model)):
+    for n, (place, force) in enumerate(shafts.forces_along(model.loads, model.direction, ARROWS)):
         if abs(force) > 1e-9:
             bodies.append(riding(f"load.{n}", "load", drawing.load_arrow(shaft, place, force), place, "orange"))
     return Scene(phase, "load grows and fades", "rad", 2.0, tuple(bodies), (Frame("side", "seen from the side, exaggerated", still),))
@@ -62,16 +62,6 @@ def _support_shapes(model: ShaftModel, support: shafts.Support) -> Iterator[Shap
     if rolling is None:
         return drawing.spring_symbol(model.shaft, support.position)
     return bearing_section(rolling, support.position, 2 * drawing.radius_at(model.shaft, support.position), support.mirrored)
-
-
-def _visible_loads(model: ShaftModel) -> Iterator[tuple[float, float]]:
-    """(place, force along the unit loads) of what can be seen from the side: points, and a line load by some of its forces."""
-    for load in model.loads.points:
-        yield load.position, float(np.dot(model.direction, load.force[:2]))
-    for load in model.loads.lines:
-        for share in np.linspace(0.0, 1.0, ARROWS):
-            force = (1 - share) * np.asarray(load.first) + share * np.asarray(load.last)
-            yield load.start + share * (load.end - load.start), float(np.dot(model.direction, force))
 
 
 def _poses(x: float, y: Floats, angle: float | Floats) -> Floats:

@@ -1,7 +1,5 @@
 """The shaft as a solid of finite elements beside the beam, on the same springs over the same bands."""
 
-import numpy as np
-
 from drivewright.errors import InputError
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.result import Answer, Answers, Check, Value
@@ -16,8 +14,7 @@ def solid(model: ShaftModel, done: Answers) -> Answer:
         found, beam = solid_check.solid_and_beam(at_rest, model.places, model.direction, model.spec.analysis.solid_band)
     except InputError as error:
         return Answer(findings=(f"the solid check is absent: {error}",), outcome="left out")
-    scale = np.sqrt(np.outer(np.diag(found.flexibility), np.diag(found.flexibility)))
-    deviation = float(np.abs((beam - found.flexibility) / scale).max())
+    deviation = solid_check.relative_difference(beam, found.flexibility)
     meaning = "largest difference of beam and solid, over the geometric mean of the two diagonals"
     values = {
         "solid.deviation": Value(deviation, "-", meaning),

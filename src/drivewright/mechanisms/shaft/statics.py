@@ -12,7 +12,6 @@ from drivewright.result import Answer, Answers, Check, Value
 from drivewright.shafts.tables import diagram_table, reaction_table
 from drivewright.shafts.values import extreme_values, station_values, support_values
 
-FINE = 21  # places along the shaft for its buckling
 BALANCED = 1e-9  # of all forces; Newton's method stops at 1e-11
 NO_FORCE = 1e-9  # of the largest load
 SAMPLES = 241  # along the shaft, besides the nodes
@@ -56,6 +55,7 @@ def _slenderness(model: ShaftModel) -> Iterator[Check]:
 
 def _checks(model: ShaftModel, loaded: shafts.LoadedShaft, along: shafts.Diagram) -> Iterator[Check]:
     limits, shock, own = model.spec.limits, model.spec.limits.shock_factor, ("shaft",)
+    at_rest = loaded.equilibrium
     under, beyond = f", at {shock:g} times the load" if shock > 1 else "", "beyond it the linear theory does not hold"
     stress = float(along.von_mises.max())
     if model.yield_strength and stress > 0:
@@ -67,26 +67,17 @@ def _checks(model: ShaftModel, loaded: shafts.LoadedShaft, along: shafts.Diagram
     yield Check("small_deflections", farthest / model.shaft.length, limits.largest_deflection, "<=", "-", message, own)
     slope = float(np.hypot(*along.slope.T).max())
     yield Check("small_slopes", slope, limits.largest_slope, "<=", "rad", f"largest slope: {beyond}", own)
-    factor = _buckling_factor(model, loaded, along)
+    pressed = along.axial.min() < -NO_FORCE * np.abs(loaded.force).max(initial=0)
+    factor = shafts.buckling_factor_under(model.shaft, model.loads) if pressed else None
     if factor is not None:
         message = f"axial force at which the shaft buckles over the axial force{under}"
         yield Check("buckling", factor / shock, limits.buckling, ">=", "-", message, own)
     if limits.deflection:
         for station in model.shaft.stations:
-            size, message = (
-                float(np.hypot(*loaded.equilibrium.displacement_at(station.position))),
-                f"deflection of station {station.name!r}",
-            )
+            size, message = float(np.hypot(*at_rest.displacement_at(station.position))), f"deflection of station {station.name!r}"
             yield Check(f"deflection.{station.name}", size, limits.deflection, "<=", "m", message, own)
-    for bearing, reaction in zip(model.spec.bearings, loaded.equilibrium.reactions, strict=True):
-        yield from _bearing_checks(model, loaded.equilibrium, bearing, float(np.hypot(*reaction[:2])), under)
-
-
-def _buckling_factor(model: ShaftModel, loaded: shafts.LoadedShaft, along: shafts.Diagram) -> float | None:
-    """The factor on the axial forces at which the shaft buckles; None where nothing presses it."""
-    if not along.axial.min() < -NO_FORCE * np.abs(loaded.force).max(initial=0):
-        return None
-    return shafts.buckling_factor(shafts.apply_loads(model.shaft, model.loads, np.linspace(0.0, model.shaft.length, FINE)))
+    for bearing, reaction in zip(model.spec.bearings, at_rest.reactions, strict=True):
+        yield from _bearing_checks(model, at_rest, bearing, float(np.hypot(*reaction[:2])), under)
 
 
 def _bearing_checks(model: ShaftModel, at_rest: shafts.ShaftEquilibrium, bearing: Bearing, force: float, under: str) -> Iterator[Check]:
@@ -96,8 +87,6 @@ def _bearing_checks(model: ShaftModel, at_rest: shafts.ShaftEquilibrium, bearing
         yield Check(f"slope.{bearing.name}", slope, limits.slope, "<=", "rad", message, own)
     if bearing.static_rating and force > 0:  # of a rolling bearing beside the check of its pressure
         name = "static_rating" if bearing.name in model.rolling else "static_safety"
-        safety, message = (
-            bearing.static_rating / (limits.shock_factor * force),
-            f"static rating of bearing {bearing.name!r} over its radial force",
-        )
-        yield Check(f"{name}.{bearing.name}", safety, limits.static_safety, ">=", "-", message + under, own)
+        message = f"static rating of bearing {bearing.name!r} over its radial force{under}"
+        safety = bearing.static_rating / (limits.shock_factor * force)
+        yield Check(f"{name}.{bearing.name}", safety, limits.static_safety, ">=", "-", message, own)
