@@ -35,7 +35,12 @@ class Block(NamedTuple):
 
 
 class PlaneWorkspace(NamedTuple):
-    """Working arrays: three signals over the block twice, cycles found on them (2 n + 2,); corners of a simplex and hills of the search."""
+    """Working arrays for blocks of n samples.
+
+    shear, normal (2n,) [-] and stress (2n,) [Pa]: the signals on a plane, over the block twice; turning, stack, start, end (2n + 2,):
+    sample numbers, weight (2n + 2,) [-]: count of each cycle; simplex (5, 4): a corner a row, three angles [rad] and log damage [-];
+    height (h,) [-] and hills (h, 6) [-]: log damage, normal and direction on each of at most h hills.
+    """
 
     shear: Floats
     normal: Floats
@@ -81,7 +86,7 @@ def plane_workspace(size: int) -> PlaneWorkspace:
 
 @kernel
 def pack_block(strain: Floats, stress: Floats) -> Block:
-    """The `Block` of tensors (n, 3, 3)."""
+    """The `Block` of a strain (n, 3, 3) [-] and a stress (n, 3, 3) [Pa], the symmetric part of each."""
     size = len(strain)
     packed, loads, largest = np.empty((size, 6)), np.empty((size, 6)), 0.0
     for k in range(size):
@@ -108,13 +113,13 @@ def tensor_weights(a: Vector, b: Vector) -> tuple[float, float, float, float, fl
 
 @inner
 def contract(w: tuple[float, ...], t: Floats, k: int) -> float:
-    """Sum of six weights times sample k of t (n, 6): a component of a symmetric tensor."""
+    """Sum of six weights times sample k of t (n, 6) [- or Pa, as the answer]: a component of a symmetric tensor."""
     return w[0] * t[k, 0] + w[1] * t[k, 1] + w[2] * t[k, 2] + w[3] * t[k, 3] + w[4] * t[k, 4] + w[5] * t[k, 5]
 
 
 @outer
 def resolve(block: Block, normal: Vector, direction: Vector, work: PlaneWorkspace) -> int:
-    """Fills the signals of `work`; the number of cycles on the shear."""
+    """Fills the signals (2n,) of `work`, shear and normal strain [-] and normal stress [Pa]; the number of cycles on the shear."""
     size = len(block.strain)
     sliding, opening = tensor_weights(direction, normal), tensor_weights(normal, normal)
     for k in range(size):
@@ -160,7 +165,7 @@ def plane_damage(block: Block, curve: Curve, normal: Vector, direction: Vector, 
 
 @kernel
 def cycle_table(block: Block, curve: Curve, normal: Vector, direction: Vector) -> Floats:
-    """Rows (shear amplitude, normal strain amplitude, mean normal stress, damage, start, turn) of the cycles on a plane."""
+    """(cycles, 6): shear amplitude [-], normal strain amplitude [-], mean normal stress [Pa], damage [-], sample of start and turn."""
     work = plane_workspace(len(block.strain))
     n, d = (normal[0], normal[1], normal[2]), (direction[0], direction[1], direction[2])
     found = resolve(block, n, d, work)
@@ -193,7 +198,7 @@ def turn_frame(normal: Vector, direction: Vector, first: float, second: float, t
 
 @outer
 def _evaluate_corner(block, curve, normal, direction, work, row, x, y, z):
-    """Writes three angles and log damage there into a row of the simplex."""
+    """Writes three angles [rad] and the log damage there into a row of the simplex (5, 4)."""
     there, along = turn_frame(normal, direction, x, y, z)
     s = work.simplex
     s[row, 0], s[row, 1], s[row, 2] = x, y, z
@@ -229,7 +234,7 @@ def _shrink(block, curve, normal, direction, work, top):
 
 @inner
 def _rank_corners(s):
-    """Highest corner, lowest corner, height of the next to the lowest, and size of the simplex."""
+    """(highest, lowest corner, log damage of the next to the lowest, size [rad]) of a simplex (5, 4): three angles [rad], log damage."""
     top, low = 0, 0
     for i in range(1, 4):
         top, low = i if s[i, 3] > s[top, 3] else top, i if s[i, 3] < s[low, 3] else low
@@ -271,8 +276,8 @@ def nelder_mead(
 def worst_plane(block: Block, curve: Curve, grid: Floats, work: PlaneWorkspace, score: Floats) -> tuple[float, Vector, Vector]:
     """(damage, normal, direction) where the damage is greatest of all planes and directions in them.
 
-    grid (frames, 6): normals and directions to start from; `score` (frames,) is overwritten.  The best of the hills that the grid shows are
-    climbed in haste, then the highest of these to the top.
+    grid (frames, 6) [-]: normals and directions to start from; score (frames,) [-], log damages, is overwritten.
+    The best of the hills that the grid shows are climbed in haste, then the highest of these to the top.
     """
     for g in range(len(grid)):
         score[g] = np.log(plane_damage(block, curve, (grid[g, 0], grid[g, 1], grid[g, 2]), (grid[g, 3], grid[g, 4], grid[g, 5]), work))
@@ -292,7 +297,7 @@ def worst_plane(block: Block, curve: Curve, grid: Floats, work: PlaneWorkspace, 
 
 @kernel
 def _refine_best(block, curve, hills, heights, work):
-    """(damage, normal, direction) of the highest of the frames hills (h, 6) with the log damages heights (h,), climbed to the top."""
+    """(damage, normal, direction) of the highest of the frames hills (h, 6) [-], log damages heights (h,) [-], climbed to the top."""
     best, normal, direction = -np.inf, (np.nan, np.nan, np.nan), (np.nan, np.nan, np.nan)
     for _ in range(_MAX_REFINED):
         h = np.argmax(heights) if len(hills) else -1
@@ -311,7 +316,7 @@ def _refine_best(block, curve, hills, heights, work):
 
 @inner
 def _exclude_neighbours(grid, score, n, d):
-    """A frame once climbed from stands for those around it."""
+    """Sets score (frames,) to -inf for the frames of grid (frames, 6) [-] near one that was climbed from."""
     for g in range(len(grid)):
         along = abs(grid[g, 0] * n[0] + grid[g, 1] * n[1] + grid[g, 2] * n[2])
         beside = abs(grid[g, 3] * d[0] + grid[g, 4] * d[1] + grid[g, 5] * d[2])

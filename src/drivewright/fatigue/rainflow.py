@@ -28,7 +28,7 @@ class Cycles(NamedTuple):
 def turning_points(x: Floats, first: int, last: int, gate: float, turning: Ints) -> int:
     """Writes the indices of the reversals of x[first..last] larger than `gate`, both ends included; returns their number.
 
-    Of samples that are equal within the gate the first is taken.
+    x (n,) and gate: the signal, both in its unit; turning (>= n,): sample numbers.  Of samples equal within the gate the first is taken.
     """
     turning[0] = first
     count, heading, extreme = 1, 0, first
@@ -54,6 +54,7 @@ def pair_cycles(
 ) -> int:
     """Writes count, start and end of the cycles between the turning points; returns their number.
 
+    x (n,) and gate: the signal, both in its unit; turning, start, end, stack (>= points,): sample numbers; count (>= points,) [-].
     closed: the points are one round of a block that begins and ends at its largest range, so that every cycle closes.
     """
     depth, found = 0, 0
@@ -82,7 +83,7 @@ def pair_cycles(
 
 @outer
 def block_cycles(x: Floats, size: int, gate: float, turning: Ints, count: Floats, start: Ints, end: Ints, stack: Ints) -> int:
-    """The closed cycles of a block that is repeated, x holding it twice (2 size samples); start < end < 2 size."""
+    """Number of the closed cycles of a block that is repeated, x (2 size,) holding it twice; start < end < 2 size."""
     first = 0
     for k in range(1, size):
         if abs(x[k]) > abs(x[first]) + gate:

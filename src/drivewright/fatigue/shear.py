@@ -61,7 +61,9 @@ def _largest_shear(strain):
 
 @kernel
 def largest_differences(strain: Floats, gate: float) -> Floats:
-    """Differences (count, 6), each once, between instants whose shear is the largest; none where no plane is sheared beyond `gate`."""
+    """Differences (count, 6) [-] of a strain (n, 6) [-], each once, between instants whose shear is the largest;
+    none where no plane is sheared beyond `gate`.
+    """
     best, found = _largest_shear(strain), np.empty((4, 6))
     count = 0
     if best <= gate:
@@ -98,7 +100,7 @@ def _is_known(t, found, count, size):
 
 @kernel
 def principal_axes(t: Floats) -> tuple[Floats, Floats]:
-    """Principal values, ascending, and axes (rows) of a tensor of six numbers."""
+    """Principal values (3,), ascending, in the unit of t, and axes (3, 3) [-] as rows, of a tensor t (6,): xx, yy, zz, yz, xz, xy."""
     full = np.array([[t[0], t[5], t[4]], [t[5], t[1], t[3]], [t[4], t[3], t[2]]])
     values, columns = np.linalg.eigh(full)
     return values, np.ascontiguousarray(columns.T)

@@ -34,7 +34,7 @@ class DesignColumn(NamedTuple):
 
 
 class DesignColumns(NamedTuple):
-    """The shafts of a batch."""
+    """Shafts of a batch: lengths, diameters, bores, supports, stations [m], radial stiffness [N/m], modulus [Pa]; poisson, shear [-]."""
 
     lengths: DesignColumn
     diameters: DesignColumn
@@ -49,12 +49,16 @@ class DesignColumns(NamedTuple):
 
 
 class BatchWorkspace(NamedTuple):
-    """What a design needs on its way, by point: a support or a station; supports are numbered first."""
+    """What a design needs on its way, by point: a support or a station; supports are numbered first.
 
-    order: Ints  # (P,) number of each point, from left to right
-    place: Floats  # (P,)
-    pieces: Floats  # (P, 4): length, f, g from its left end, r of the shaft to the next point
-    sides: Floats  # (2, P, 3): u, c, q of all that lies left and right of a point
+    order (P,): number of each point, from left to right; place (P,) [m]; pieces (P, 4): of the shaft to the next point its length [m],
+    f [1/(N m)], g [m] from its left end, r [m/N]; sides (2, P, 3): u [m/N], c [m], q [N m] of all left and right of a point.
+    """
+
+    order: Ints
+    place: Floats
+    pieces: Floats
+    sides: Floats
 
 
 def workspace(points: int) -> BatchWorkspace:

@@ -43,19 +43,19 @@ class Flexibility(NamedTuple):
         return float(np.linalg.cond(self.delta))
 
 
-def flexibility(found: ShaftEquilibrium, positions: Sequence[float], direction: ArrayLike) -> Flexibility:
-    """The `Flexibility` of a shaft at rest (`found`, a `ShaftEquilibrium`) for unit forces along `direction` (x, y) at positions.
+def flexibility(equilibrium: ShaftEquilibrium, positions: Sequence[float], direction: ArrayLike) -> Flexibility:
+    """The `Flexibility` of a shaft at rest for unit forces along `direction` (x, y) at positions.
 
     InputError where a station is held by nothing: the bearings are unloaded and have no stiffness.
     """
-    model, n = found.model, len(positions)
+    model, n = equilibrium.model, len(positions)
     unit = np.zeros((model.size, n))
     for column, position in enumerate(positions):
         at = FREEDOMS * model.beam.node(position)
         unit[at : at + 2, column] = direction
     unit = model.basis.T @ unit
     small = REGULARISATION_FACTOR * regularisation(model)
-    answer = _solve_unit_loads(found, small, unit)
+    answer = _solve_unit_loads(equilibrium, small, unit)
     v = answer[: model.size]
     delta = unit.T @ v
     delta = 0.5 * (delta + delta.T)
@@ -64,23 +64,25 @@ def flexibility(found: ShaftEquilibrium, positions: Sequence[float], direction: 
         carried = np.sum(v * (small @ v), axis=0)
     if not np.all(np.isfinite(delta)) or np.any(carried > MAX_REGULARISED_SHARE * (np.abs(np.diag(delta)) + ROUNDING * size)):
         raise InputError("shaft: at rest its bearings do not resist a small force; give a load, a preload or no clearance")
-    names, shares = _shares(found, v, answer[model.size :])
-    pressed = _support_forces(found, v, answer[model.size :])
+    names, shares = _shares(equilibrium, v, answer[model.size :])
+    pressed = _support_forces(equilibrium, v, answer[model.size :])
     return Flexibility(delta, names, shares, np.einsum("f,pfs->ps", np.asarray(direction, float), pressed[:, :2]), pressed, v)
 
 
-def _solve_unit_loads(found, small, unit):
+def _solve_unit_loads(equilibrium, small, unit):
     try:
         with np.errstate(all="ignore"):
-            below = np.zeros((len(found.model.given), unit.shape[1]))
-            return solve_saddle_point(found.hessian + small, found.model.constraints, found.model.compliance, np.vstack([unit, below]))
+            below = np.zeros((len(equilibrium.model.given), unit.shape[1]))
+            return solve_saddle_point(
+                equilibrium.hessian + small, equilibrium.model.constraints, equilibrium.model.compliance, np.vstack([unit, below])
+            )
     except SolverError:
-        return np.full((found.model.size + len(found.model.given), unit.shape[1]), np.inf)
+        return np.full((equilibrium.model.size + len(equilibrium.model.given), unit.shape[1]), np.inf)
 
 
-def _shares(found, v, held):
+def _shares(equilibrium, v, held):
     """(names, parts (p, s, s)): bending, shear, tension where there is any, then one for every support."""
-    model = found.model
+    model = equilibrium.model
     bending, shear = np.zeros((2, v.shape[1], v.shape[1]))
     for plane in (0, 1):
         forces = np.array([beams.end_forces(model.beam, plane, column) for column in v.T])  # (s, pieces, 2)
@@ -90,17 +92,17 @@ def _shares(found, v, held):
     stretched = beams.stretch_energy(model.beam, v)
     if np.abs(stretched).max(initial=0) > ROUNDING * np.abs(bending).max(initial=0):
         names, parts = [*names, "tension"], [*parts, stretched]
-    for mount, contact in zip(model.mounts, found.contact, strict=True):
+    for mount, contact in zip(model.mounts, equilibrium.contact, strict=True):
         felt, own = mount.turn[:, None] * (mount.rows @ v), slice(mount.first, mount.seat.stop)
         names.append(mount.support.name)
         parts.append(felt.T @ contact @ felt + held[own].T @ (model.compliance[own, None] * held[own]))
     return tuple(names), np.array(parts)
 
 
-def _support_forces(found, v, held):
+def _support_forces(equilibrium, v, held):
     """(supports, 5, s): what the shaft exerts on each support, in the shaft's axes."""
     rows = []
-    for mount, contact in zip(found.model.mounts, found.contact, strict=True):
+    for mount, contact in zip(equilibrium.model.mounts, equilibrium.contact, strict=True):
         force = contact @ (mount.turn[:, None] * (mount.rows @ v))
         force[mount.sprung] += mount.turn[mount.sprung, None] * held[mount.springs]
         rows.append(force)

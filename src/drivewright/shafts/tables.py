@@ -51,13 +51,13 @@ def reaction_table(equilibrium: ShaftEquilibrium) -> Table:
     return Table("reactions", "Bearings under load", tuple(columns))
 
 
-def unit_load_table(equilibrium: ShaftEquilibrium, found: Flexibility, names: Sequence[str], direction: Floats) -> Table:
+def unit_load_table(equilibrium: ShaftEquilibrium, flexibility: Flexibility, names: Sequence[str], direction: Floats) -> Table:
     """Deflection along the shaft under a unit force at each of its stations, with the bearings as they are and rigid."""
     shaft = equilibrium.model.beam.shaft
     z = np.linspace(0.0, shaft.length, SAMPLES)
     rigid = flexibility_on_rigid_bearings(shaft, [station.position for station in shaft.stations], direction)
     columns = [Column("z", "m", "distance from the left end", z)]
-    for words, suffix, at_rest, each in (("", "", equilibrium, found), (", bearings rigid", ".rigid", *rigid)):
+    for words, suffix, at_rest, each in (("", "", equilibrium, flexibility), (", bearings rigid", ".rigid", *rigid)):
         for name, unknowns in zip(names, each.unknowns.T, strict=True):
             deflection = unit_deflection(at_rest, unknowns, z, direction)
             columns.append(Column(f"{name}{suffix}", "m/N", f"force at {name!r}{words}", deflection))
@@ -69,12 +69,15 @@ def station_pairs(names: Sequence[str]) -> list[tuple[int, int]]:
     return [(i, j) for i in range(len(names)) for j in range(i, len(names))]
 
 
-def share_table(found: Flexibility, names: Sequence[str]) -> Table:
+def share_table(flexibility: Flexibility, names: Sequence[str]) -> Table:
     """A row for every entry of the flexibility, a column for every part of it."""
     pairs = station_pairs(names)
     entries = np.array([f"{names[i]}, {names[j]}" for i, j in pairs])
-    columns = [Column("entry", "-", "stations", entries), Column("total", "m/N", "flexibility", np.array([found.delta[p] for p in pairs]))]
-    for name, share in zip(found.names, found.shares, strict=True):
+    columns = [
+        Column("entry", "-", "stations", entries),
+        Column("total", "m/N", "flexibility", np.array([flexibility.delta[p] for p in pairs])),
+    ]
+    for name, share in zip(flexibility.names, flexibility.shares, strict=True):
         columns.append(Column(name, "m/N", name if name in PARTS else f"bearing {name}", np.array([share[p] for p in pairs])))
     return Table("shares", "Who contributes what to the flexibility", tuple(columns))
 

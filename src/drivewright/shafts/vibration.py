@@ -42,14 +42,14 @@ class CriticalSpeeds(NamedTuple):
     backward: Floats
 
 
-def element_shapes(found: Beam) -> tuple[Floats, Floats]:
+def element_shapes(beam: Beam) -> tuple[Floats, Floats]:
     """Deflection (n, p, 4) and slope (n, p, 4) at p places in every piece by unit displacements (w1, t1, w2, t2) of its ends."""
-    length = found.pieces[:, 0]
-    forces = np.linalg.solve(found.flexibility, beams.strain_matrix(length))  # (n, 2, 4) at the end
+    length = beam.pieces[:, 0]
+    forces = np.linalg.solve(beam.flexibility, beams.strain_matrix(length))  # (n, 2, 4) at the end
     x = length[:, None] * SHARE
-    part = found.pieces[:, None, :].repeat(POINTS, axis=1)
+    part = beam.pieces[:, None, :].repeat(POINTS, axis=1)
     part[:, :, 0], part[:, :, 2] = x, part[:, :, 1] + (part[:, :, 2] - part[:, :, 1]) * SHARE
-    flexibility, _ = beams.clamped_flexibility(part.reshape(-1, 4), found.shaft)
+    flexibility, _ = beams.clamped_flexibility(part.reshape(-1, 4), beam.shaft)
     flexibility = flexibility.reshape(*x.shape, 2, 2)
     force = forces[:, None, 0, :].repeat(POINTS, axis=1)
     moment = force * (length[:, None] - x)[:, :, None] + forces[:, None, 1, :]
@@ -58,21 +58,21 @@ def element_shapes(found: Beam) -> tuple[Floats, Floats]:
     return bent[0] + start[0] + x[:, :, None] * start[1], bent[1] + start[1]
 
 
-def mass_matrices(found: Beam, rotary: bool = True) -> tuple[Floats, Floats]:
+def mass_matrices(beam: Beam, rotary: bool = True) -> tuple[Floats, Floats]:
     """(M (6n, 6n), G (6n, 6n)): consistent mass of the shaft with its stations, and polar moments of inertia that couple the tilts.
 
     At the speed s of the shaft the gyroscopic moments are  s G q',  G skew.
     """
-    whole, gyroscopic = np.zeros((found.size,) * 2), np.zeros((found.size,) * 2)
-    deflection, slope = element_shapes(found)
-    length, start, end, bore = found.pieces.T[:, :, None]
-    diameter, density = start + (end - start) * SHARE, found.shaft.density
+    whole, gyroscopic = np.zeros((beam.size,) * 2), np.zeros((beam.size,) * 2)
+    deflection, slope = element_shapes(beam)
+    length, start, end, bore = beam.pieces.T[:, :, None]
+    diameter, density = start + (end - start) * SHARE, beam.shaft.density
     per_length = density * area(diameter, bore) * WEIGHT * length
     diametral = density * second_moment(diameter, bore) * WEIGHT * length
     lateral = np.einsum("np,npi,npj->nij", per_length, deflection, deflection)
     turning = np.einsum("np,npi,npj->nij", diametral, slope, slope)
     rods = np.array([[1 - SHARE, SHARE]])[0]
-    for e in range(len(found.pieces)):
+    for e in range(len(beam.pieces)):
         places = [beams.element_freedoms(e, plane) for plane in (0, 1)]
         for at, sign in places:
             whole[np.ix_(at, at)] += sign[:, None] * (lateral[e] + rotary * turning[e]) * sign
@@ -80,7 +80,7 @@ def mass_matrices(found: Beam, rotary: bool = True) -> tuple[Floats, Floats]:
         for freedom, spread in ((2, per_length[e]), (5, 2 * diametral[e])):
             at = FREEDOMS * e + freedom + np.array([0, FREEDOMS])
             whole[np.ix_(at, at)] += np.einsum("p,ip,jp->ij", spread, rods, rods)
-    _add_stations(found, whole, gyroscopic)
+    _add_stations(beam, whole, gyroscopic)
     return whole, gyroscopic
 
 
@@ -92,9 +92,9 @@ def _couple(gyroscopic, places, polar):
     gyroscopic[np.ix_(at_y, at_x)] -= block.T
 
 
-def _add_stations(found, whole, gyroscopic):
-    for station in found.shaft.stations:
-        at = FREEDOMS * found.node(station.position)
+def _add_stations(beam, whole, gyroscopic):
+    for station in beam.shaft.stations:
+        at = FREEDOMS * beam.node(station.position)
         whole[range(at, at + 3), range(at, at + 3)] += station.mass
         whole[range(at + 3, at + 6), range(at + 3, at + 6)] += (station.diametral, station.diametral, station.polar)
         gyroscopic[at + 4, at + 3] -= station.polar
@@ -116,10 +116,10 @@ def is_isotropic(equilibrium: ShaftEquilibrium) -> bool:
     return True
 
 
-def plane_freedoms(found: Beam, plane: int = 1) -> Ints:
+def plane_freedoms(beam: Beam, plane: int = 1) -> Ints:
     """Numbers of the freedoms of a plane: deflection and slope of every node."""
     w, t, _ = PLANES[plane]
-    return np.sort(np.concatenate([FREEDOMS * np.arange(len(found.z)) + w, FREEDOMS * np.arange(len(found.z)) + t]))
+    return np.sort(np.concatenate([FREEDOMS * np.arange(len(beam.z)) + w, FREEDOMS * np.arange(len(beam.z)) + t]))
 
 
 def condense_supports(stiff: Floats, constraints: Floats, compliance: Floats) -> tuple[Floats, Floats]:
@@ -154,15 +154,15 @@ def modes(equilibrium: ShaftEquilibrium, count: int) -> tuple[Modes, Modes]:
     axial modes.
     """
     stiff, inertia, _, chosen = _lateral(equilibrium)
-    found = _modes(equilibrium, stiff, inertia, chosen, 2 * count + 2)
+    candidates = _modes(equilibrium, stiff, inertia, chosen, 2 * count + 2)
     if is_isotropic(equilibrium):
         along = FREEDOMS * np.arange(len(equilibrium.model.beam.z)) + AXIAL
         free = AXIAL in equilibrium.model.pinned
-        axial = found.select(slice(0, 0)) if free else _modes(equilibrium, stiff, inertia, along, count)
-        bending = found.select(slice(0, count))
+        axial = candidates.select(slice(0, 0)) if free else _modes(equilibrium, stiff, inertia, along, count)
+        bending = candidates.select(slice(0, count))
     else:
-        along = _axial_share(found.shapes, inertia) > 0.5
-        bending, axial = found.select(np.flatnonzero(~along)[:count]), found.select(np.flatnonzero(along)[:count])
+        along = _axial_share(candidates.shapes, inertia) > 0.5
+        bending, axial = candidates.select(np.flatnonzero(~along)[:count]), candidates.select(np.flatnonzero(along)[:count])
     basis = equilibrium.model.basis
     return Modes(bending.frequencies, basis @ bending.shapes), Modes(axial.frequencies, basis @ axial.shapes)
 
@@ -184,14 +184,14 @@ def _axial_share(shapes, inertia):
 def _lateral(equilibrium):
     """(K, M, G, numbers of the freedoms) of the vibration across the shaft; rings have no mass of their own."""
     model = equilibrium.model
-    found = model.beam
-    small, gyro = mass_matrices(found, found.shaft.shear != EULER_BERNOULLI)
+    beam = model.beam
+    small, gyro = mass_matrices(beam, beam.shaft.shear != EULER_BERNOULLI)
     inertia, gyroscopic = np.zeros((model.size,) * 2), np.zeros((model.size,) * 2)
-    inertia[: found.size, : found.size], gyroscopic[: found.size, : found.size] = small, gyro
+    inertia[: beam.size, : beam.size], gyroscopic[: beam.size, : beam.size] = small, gyro
     inertia, gyroscopic = (model.basis.T @ whole @ model.basis for whole in (inertia, gyroscopic))
-    twist = FREEDOMS * np.arange(len(found.z)) + TWIST
-    left_out = np.concatenate([twist, FREEDOMS * np.arange(len(found.z)) + AXIAL]) if AXIAL in model.pinned else twist
-    chosen = plane_freedoms(found) if is_isotropic(equilibrium) else np.setdiff1d(np.arange(model.size), left_out)
+    twist = FREEDOMS * np.arange(len(beam.z)) + TWIST
+    left_out = np.concatenate([twist, FREEDOMS * np.arange(len(beam.z)) + AXIAL]) if AXIAL in model.pinned else twist
+    chosen = plane_freedoms(beam) if is_isotropic(equilibrium) else np.setdiff1d(np.arange(model.size), left_out)
     return equilibrium.hessian, inertia, gyroscopic, chosen
 
 
@@ -275,11 +275,11 @@ def torsional_modes(equilibrium: ShaftEquilibrium, count: int) -> Modes:
     The turning of the whole shaft is taken out, M - m m'/I with I = sum of all inertia, so a massless shaft with inertias on it is
     no special case: as many modes as inertias, less one.
     """
-    found = equilibrium.model.beam
-    chosen = FREEDOMS * np.arange(len(found.z)) + TWIST
-    carried = beams.displacement_basis(found)[np.ix_(chosen, chosen)]
-    inertia = carried.T @ mass_matrices(found)[0][np.ix_(chosen, chosen)] @ carried
-    stiff, whole = beams.stiffness(found)[np.ix_(chosen, chosen)][1:, 1:], np.zeros((equilibrium.model.size, 0))
+    beam = equilibrium.model.beam
+    chosen = FREEDOMS * np.arange(len(beam.z)) + TWIST
+    carried = beams.displacement_basis(beam)[np.ix_(chosen, chosen)]
+    inertia = carried.T @ mass_matrices(beam)[0][np.ix_(chosen, chosen)] @ carried
+    stiff, whole = beams.stiffness(beam)[np.ix_(chosen, chosen)][1:, 1:], np.zeros((equilibrium.model.size, 0))
     if not inertia[0, 0] > 0:
         return Modes(np.zeros(0), whole)
     mixed = inertia[0, 1:] / inertia[0, 0]
