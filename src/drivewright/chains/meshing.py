@@ -92,7 +92,7 @@ def standard_apothem(f0: Numbers, r: Numbers, e: Numbers, a: Numbers, reference:
     return f0 + r * np.cos(a) + (e * np.sin(a) if reference == "pitch_line" else 0.0)
 
 
-def seated_apothem(f: float, p: float, seated: float, a: float) -> float:
+def seated_apothem(f: Numbers, p: Numbers, seated: Numbers, a: Numbers) -> Numbers:
     """fp'' = f + (p - pp'') cos a / 2  (6)  [m]."""
     return f + 0.5 * (p - seated) * np.cos(a)
 
@@ -107,7 +107,7 @@ def seat_of(f_seated: float, seated: float, z: int, a: float) -> float:
     return 0.5 * seated * (np.cos(a) - np.sin(a) / np.tan(np.pi / z)) + f_seated
 
 
-def modification(f_seated: float, seated: float, z: int, a: float, p2: float, a2: float) -> float:
+def modification(f_seated: Numbers, seated: Numbers, z: Numbers, a: Numbers, p2: Numbers, a2: Numbers) -> Numbers:
     """Modification coefficient x of the sprocket for a cutter of pitch p2 and half angle a2  (9)-(11)  [-]."""
     cot = 1 / np.tan(np.pi / z)
     base = p2 * z * np.cos(a2) / np.pi

@@ -50,7 +50,7 @@ def matching_cutter(pitch: Numbers, flank_angle: Numbers, half_angle: float) -> 
     return Cutter(pitch * np.cos(flank_angle) / np.cos(half_angle), half_angle)
 
 
-def cut_tooth(teeth: int, cutter: Cutter, modification: float, flank_angle: float) -> Tooth:
+def cut_tooth(teeth: int, cutter: Cutter, modification: Numbers, flank_angle: float) -> Tooth:
     """The `Tooth` that a cutter shifted by `modification` x (in its modules) generates, its support at the flank angle a.
 
     The cutter's flank through (3/4 p2, z m2/2 + x m2) has the support (3/4) p2 cos a2 - (z/2 + x) m2 sin a2 at a2, and

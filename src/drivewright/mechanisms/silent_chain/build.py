@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._typing import Numbers
 from drivewright.chains import meshing
 from drivewright.chains.closure import Drive, close
 from drivewright.chains.closure.model import Closure
@@ -31,15 +32,15 @@ ROCKER = (0.17, 0.21, 0.02)  # radius of a rocker's back, its thickness, its cle
 
 class Side(NamedTuple):
     """One sprocket as the published method sees it, lengths in m: seated and ideal pitch, their difference, seated apothem fp'',
-    modification x, positioning diameter dp, and the tooth that is cut."""
+    modification x, positioning diameter dp, and the tooth that is cut.  Arrays where the spec's numbers are those of many designs."""
 
     teeth: int
-    seated_pitch: float
-    ideal_pitch: float
-    deviation: float
-    seated_apothem: float
-    modification: float
-    positioning_diameter: float
+    seated_pitch: Numbers
+    ideal_pitch: Numbers
+    deviation: Numbers
+    seated_apothem: Numbers
+    modification: Numbers
+    positioning_diameter: Numbers
     tooth: Tooth
 
 
@@ -49,8 +50,8 @@ class ChainModel:
 
     spec: SilentChainSpec
     link: Link
-    offset: float = 0.0
-    standard_apothem: float | None = None
+    offset: Numbers = 0.0
+    standard_apothem: Numbers | None = None
     cutter: Cutter | None = None
     sides: tuple[Side, ...] = ()
     findings: tuple[str, ...] = ()
@@ -157,39 +158,40 @@ def build(spec: SilentChainSpec) -> ChainModel:
         return ChainModel(spec, design_link(spec.pitch, 0.0, spec.plate.flank_angle, 0.0), findings=tuple(unused(spec)))
     offset = offset_of(spec, radius)
     angle = spec.plate.flank_angle
-    apothem = spec.plate.apothem
+    apothem: Numbers | None = spec.plate.apothem
     if apothem is None:
         assert spec.plate.standard_apothem is not None  # one of the two is given
-        apothem = spec.plate.standard_apothem - float(meshing.standard_apothem(0.0, radius, offset, angle))
-    standard = float(meshing.standard_apothem(apothem, radius, offset, angle, spec.meshing.apothem_reference))
+        apothem = spec.plate.standard_apothem - meshing.standard_apothem(0.0, radius, offset, angle)
+    standard = meshing.standard_apothem(apothem, radius, offset, angle, spec.meshing.apothem_reference)
     cutter = matching_cutter(spec.pitch, angle, spec.cutter.half_angle)
     cutter = cutter if spec.cutter.pitch is None else cutter._replace(pitch=spec.cutter.pitch)
     sides = tuple(_side(spec, radius, offset, standard, cutter, z) for z in spec.teeth)
-    return ChainModel(spec, design_link(spec.pitch, radius, angle, apothem), offset, standard, cutter, sides, tuple(unused(spec)))
+    link = design_link(spec.pitch, radius, angle, apothem)  # pyright: ignore[reportArgumentType]  arrays, of many designs
+    return ChainModel(spec, link, offset, standard, cutter, sides, tuple(unused(spec)))
 
 
-def offset_of(spec: SilentChainSpec, radius: float) -> float:
+def offset_of(spec: SilentChainSpec, radius: float) -> Numbers:
     """Offset of the pins [m], as given or by its rule."""
     given, (z1, z2), ideal = spec.joint.offset, spec.teeth, spec.meshing.ideal
     if not isinstance(given, str):
         return given
     if given == "match-drive":
-        return float(meshing.matching_offset(spec.pitch, radius, z1, ideal))
-    return float(meshing.minimax_offset(spec.pitch, radius, z1, z2, ideal))
+        return meshing.matching_offset(spec.pitch, radius, z1, ideal)
+    return meshing.minimax_offset(spec.pitch, radius, z1, z2, ideal)
 
 
 def _side(spec, radius, offset, standard, cutter, teeth):
     pitch, angle = spec.pitch, spec.plate.flank_angle
     seated = meshing.seated_pitch(meshing.hole_pitch(pitch, radius), radius, offset, teeth)
-    apothem = meshing.seated_apothem(standard, pitch, float(seated), angle)
-    shift = meshing.modification(apothem, float(seated), teeth, angle, *cutter)
+    apothem = meshing.seated_apothem(standard, pitch, seated, angle)
+    shift = meshing.modification(apothem, seated, teeth, angle, *cutter)
     return Side(
         teeth,
-        float(seated),
-        float(meshing.ideal_pitch(pitch, teeth, spec.meshing.ideal)),
-        float(meshing.pitch_deviation(pitch, radius, offset, teeth, spec.meshing.ideal)),
+        seated,
+        meshing.ideal_pitch(pitch, teeth, spec.meshing.ideal),
+        meshing.pitch_deviation(pitch, radius, offset, teeth, spec.meshing.ideal),
         apothem,
         shift,
-        float(meshing.positioning_diameter(seated, teeth)),
+        meshing.positioning_diameter(seated, teeth),
         cut_tooth(teeth, cutter, shift, angle),
     )

@@ -64,16 +64,16 @@ def _rolling(model, force):
     found = rolling.rolling_contact(force, model.contact_length, 2 * (model.link.radius,), material.youngs_modulus, material.poisson_ratio)
     limits = rolling.pressure_limits(material.yield_strength, material.poisson_ratio)
     return {
-        "pin.contact_pressure": Value(found.pressure, "Pa", "greatest pressure of the pins on each other, Hertz"),
-        "pin.half_width": Value(found.half_width, "m", "half the width of their contact"),
-        "pin.max_shear": Value(found.shear, "Pa", "greatest shear stress below their surface"),
-        "pin.shear_depth": Value(found.depth, "m", "where it is, below the surface"),
+        "pin.contact_pressure": Value(float(found.pressure), "Pa", "greatest pressure of the pins on each other, Hertz"),
+        "pin.half_width": Value(float(found.half_width), "m", "half the width of their contact"),
+        "pin.max_shear": Value(float(found.shear), "Pa", "greatest shear stress below their surface"),
+        "pin.shear_depth": Value(float(found.depth), "m", "where it is, below the surface"),
         "pin.first_yield": Value(limits.first_yield, "Pa", "pressure below which nothing yields, von Mises"),
         "pin.shakedown_limit": Value(limits.shakedown, "Pa", "pressure below which nothing yields again after the first passes"),
     }, (
         Check(
             "pin.shakedown",
-            limits.shakedown / found.pressure,
+            float(limits.shakedown / found.pressure),
             model.spec.limits.shakedown_safety,
             ">=",
             "-",
@@ -119,7 +119,8 @@ def _pin_load(model, force):
         return sheet * np.array([0, 1, 2, 2, 3, 4]) + bush * np.array([0, 0, 0, 1, 1, 1]), force * np.array(
             [0.5 / sheet, 0, -1 / bush, 0, 0.5 / sheet]
         )
-    pack = pins.lacing(*sorted(model.spec.plate.lacing), sheet)
+    low, high = sorted(model.spec.plate.lacing)
+    pack = pins.lacing(low, high, sheet)
     return (pins.rolling_pin_load if model.link.radius else pins.hinge_pin_load)(pack, force)
 
 

@@ -96,6 +96,7 @@ def _possible(spec, columns, count):
     good = np.ones(count, bool)
     for key, column in columns.items():
         field = field_at(type(spec), key.split("."))
+        assert field is not None
         good &= np.isfinite(column)
         if type_of(field.annotation) is int:
             good &= column == np.floor(column)
@@ -117,7 +118,7 @@ def _quantities(spec):
         values = measures(model)
         for number, side in enumerate(SIDES):
             values |= seated_measures(model, side, number) | dict(side_measures(model, side, number))
-        return {name: np.asarray(value.value) for name, value in values.items()} | _pair(spec) | dict(_margins(model))
+        return {name: np.asarray(measure.number) for name, measure in values.items()} | _pair(spec) | dict(_margins(model))
 
 
 def _pair(spec):

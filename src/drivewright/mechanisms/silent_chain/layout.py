@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from drivewright.chains import standards
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
-from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
+from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS, Measure
 from drivewright.mechanisms.silent_chain.strands import chain_speed, link_of, strand_force
 from drivewright.result import Answer, Answers, Check, Value
 
@@ -14,7 +14,7 @@ MODES = 2  # of a strand that are told
 
 def layout(model: ChainModel, done: Answers) -> Answer:
     """Formulas of the field, for two sprockets; of each sprocket alone for more."""
-    values = {name: value for k, side in enumerate(SIDES) for name, value in side_measures(model, side, k)}
+    values = {name: measure.value() for k, side in enumerate(SIDES) for name, measure in side_measures(model, side, k)}
     findings = []
     if not model.spec.sprockets:
         try:
@@ -39,19 +39,17 @@ def _remarks(spec):
         )
 
 
-def side_measures(model: ChainModel, side: str, number: int) -> Iterator[tuple[str, Value]]:
-    """(name, Value) of the closed forms of one sprocket."""
+def side_measures(model: ChainModel, side: str, number: int) -> Iterator[tuple[str, Measure]]:
+    """(name, `Measure`) of the closed forms of one sprocket."""
     teeth, pitch, words = model.teeth[number], model.spec.pitch, SIDE_WORDS[side]
-    yield f"layout.pitch_diameter.{side}", Value(float(standards.pitch_diameter(pitch, teeth)), "m", f"pitch circle of the {words}")
+    yield f"layout.pitch_diameter.{side}", Measure(standards.pitch_diameter(pitch, teeth), "m", f"pitch circle of the {words}")
     yield (
         f"layout.speed_fluctuation.{side}",
-        Value(
-            float(standards.speed_fluctuation(teeth)), "-", f"of a hinged chain on the {words}: greatest less least speed, over the mean"
-        ),
+        Measure(standards.speed_fluctuation(teeth), "-", f"of a hinged chain on the {words}: greatest less least speed, over the mean"),
     )
     if model.spec.roller:
         over = standards.over_pins(pitch, teeth, model.spec.roller.diameter)
-        yield f"over_pins.{side}", Value(float(over), "m", f"distance over two measuring pins as thick as the rollers, {words}")
+        yield f"over_pins.{side}", Measure(over, "m", f"distance over two measuring pins as thick as the rollers, {words}")
 
 
 def _pair(model):

@@ -24,7 +24,7 @@ PERCENTILES = (5, 50, 95)
 
 def speeds(model: ChainModel, done: Answers) -> Answer:
     """Fluctuation and mesh order over the speed, and the spectra: a Campbell diagram."""
-    drive, given = model.spec.drive, model.spec.compare.speeds
+    drive, given = model.drive, model.spec.compare.speeds
     chosen = np.array(given) if given else drive.speed * BEYOND * np.arange(1, SPEEDS + 1) / SPEEDS
     system = moving(model)
     found = campbell(system, -chosen, REVOLUTIONS, _settings(model, system), model.spec.dynamics.ensemble)

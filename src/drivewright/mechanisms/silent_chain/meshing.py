@@ -1,7 +1,10 @@
 """Chain, sprocket and cutter as published: pitches, deviations, offset, modification."""
 
+from typing import NamedTuple
+
 import numpy as np
 
+from drivewright._typing import Numbers
 from drivewright.chains import meshing as published
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
@@ -13,7 +16,10 @@ TURNS = 121  # points of the curve of the equivalent pitch
 
 def meshing(model: ChainModel, done: Answers) -> Answer:
     """All measures of the published method, and its curve of the equivalent pitch."""
-    values = {**measures(model), **{name: value for k, side in enumerate(SIDES) for name, value in seated_measures(model, side, k).items()}}
+    found = measures(model)
+    for number, side in enumerate(SIDES):
+        found |= seated_measures(model, side, number)
+    values = {name: measure.value() for name, measure in found.items()}
     return Answer(values, (_turning(model),), tuple(_checks(model)), tuple(_remarks(model)))
 
 
@@ -22,23 +28,36 @@ def no_meshing(spec: SilentChainSpec) -> str | None:
     return "the published method is for chains whose plates mesh, not for rollers" if spec.roller else None
 
 
-def measures(model: ChainModel) -> dict[str, Value]:
-    """{name: Value} of the chain itself."""
-    pitch, (z1, z2) = model.spec.pitch, model.teeth
+class Measure(NamedTuple):
+    """A number by formula, or those of many designs at once, with its unit and meaning."""
+
+    number: Numbers
+    unit: str
+    meaning: str
+
+    def value(self) -> Value:
+        """The `Value` of one design."""
+        return Value(float(self.number), self.unit, self.meaning)
+
+
+def measures(model: ChainModel) -> dict[str, Measure]:
+    """{name: Measure} of the chain itself."""
+    pitch, (z1, z2), apothem = model.spec.pitch, model.teeth, model.standard_apothem
+    assert apothem is not None  # the plates mesh
     return {
-        "hole_pitch": Value(model.link.hole_pitch, "m", "distance of the centres of a plate's own pins"),
-        "pin_offset": Value(model.offset, "m", "centres of the pins below the pitch line"),
-        "standard_apothem": Value(model.standard_apothem, "m", "rotation centre on the pitch line to the flank on the same side"),
-        "pitch_deviation.reference": Value(
+        "hole_pitch": Measure(model.link.hole_pitch, "m", "distance of the centres of a plate's own pins"),
+        "pin_offset": Measure(model.offset, "m", "centres of the pins below the pitch line"),
+        "standard_apothem": Measure(apothem, "m", "rotation centre on the pitch line to the flank on the same side"),
+        "pitch_deviation.reference": Measure(
             published.reference_deviation(pitch, z1, z2), "m", "delta12: difference of the two ideal pitches p/cos(pi/z), drive less driven"
         ),
-        "k": Value(published.pitch_constant(z1, z2), "-", "constant k of the boundary radius"),
-        "rolling_radius.boundary": Value(
+        "k": Measure(published.pitch_constant(z1, z2), "-", "constant k of the boundary radius"),
+        "rolling_radius.boundary": Measure(
             published.boundary_radius(pitch, z1, z2),
             "m",
             "r10: radius at which a chain matched to the drive deviates by delta12 on the other sprocket",
         ),
-        "rolling_radius.monotone_limit": Value(
+        "rolling_radius.monotone_limit": Measure(
             published.monotone_radius(pitch, z1),
             "m",
             "radius below which the equivalent pitch of a matched chain grows up to the drive's seat",
@@ -46,20 +65,20 @@ def measures(model: ChainModel) -> dict[str, Value]:
     }
 
 
-def seated_measures(model: ChainModel, side: str, number: int) -> dict[str, Value]:
-    """{name: Value} of the seated chain and the tooth of one sprocket."""
+def seated_measures(model: ChainModel, side: str, number: int) -> dict[str, Measure]:
+    """{name: Measure} of the seated chain and the tooth of one sprocket."""
     found, words = model.sides[number], SIDE_WORDS[side]
     seated = f"of the seated chain on the {words}"
     return {
-        f"seated_pitch.{side}": Value(found.seated_pitch, "m", f"equivalent pitch {seated}"),
-        f"ideal_pitch.{side}": Value(found.ideal_pitch, "m", f"pitch without polygonal action in the published measure, {words}"),
-        f"pitch_deviation.{side}": Value(found.deviation, "m", f"seated less ideal pitch, {words}"),
-        f"seated_apothem.{side}": Value(found.seated_apothem, "m", f"apothem {seated}"),
-        f"modification.{side}": Value(found.modification, "-", f"modification coefficient x of the {words}"),
-        f"positioning_diameter.{side}": Value(found.positioning_diameter, "m", f"circle through the rotation centres {seated}"),
-        f"contact_radius.{side}": Value(found.tooth.contact_radius, "m", f"where a seated plate touches the tooth, {words}"),
-        f"curvature_radius.{side}": Value(found.tooth.curvature_radius, "m", f"of the tooth where a seated plate touches it, {words}"),
-        f"base_radius.{side}": Value(found.tooth.base_radius, "m", f"base circle of the {words}"),
+        f"seated_pitch.{side}": Measure(found.seated_pitch, "m", f"equivalent pitch {seated}"),
+        f"ideal_pitch.{side}": Measure(found.ideal_pitch, "m", f"pitch without polygonal action in the published measure, {words}"),
+        f"pitch_deviation.{side}": Measure(found.deviation, "m", f"seated less ideal pitch, {words}"),
+        f"seated_apothem.{side}": Measure(found.seated_apothem, "m", f"apothem {seated}"),
+        f"modification.{side}": Measure(found.modification, "-", f"modification coefficient x of the {words}"),
+        f"positioning_diameter.{side}": Measure(found.positioning_diameter, "m", f"circle through the rotation centres {seated}"),
+        f"contact_radius.{side}": Measure(found.tooth.contact_radius, "m", f"where a seated plate touches the tooth, {words}"),
+        f"curvature_radius.{side}": Measure(found.tooth.curvature_radius, "m", f"of the tooth where a seated plate touches it, {words}"),
+        f"base_radius.{side}": Measure(found.tooth.base_radius, "m", f"base circle of the {words}"),
     }
 
 
@@ -67,7 +86,7 @@ def _turning(model):
     """p'' over the angle between two plates, beside the ideal one."""
     largest = np.pi / min(model.teeth)
     half = np.linspace(0, 1.25 * largest, TURNS)
-    pitch = published.equivalent_pitch(model.link.hole_pitch, model.link.radius, model.offset, half, half)
+    pitch = np.asarray(published.equivalent_pitch(model.link.hole_pitch, model.link.radius, model.offset, half, half))
     return Table(
         "equivalent_pitch",
         "Equivalent pitch as published",
