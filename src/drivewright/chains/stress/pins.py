@@ -12,7 +12,7 @@ import numpy as np
 from drivewright._typing import Bools, Floats
 from drivewright.curves import outline_area
 from drivewright.errors import InputError
-from drivewright.scene import Outline
+from drivewright.scene import Arc, Outline
 
 FIBRES = 201  # places across a section where shear and bending are put together
 
@@ -81,6 +81,22 @@ def hinge_pin_load(pack: Pack, force: float) -> tuple[Floats, Floats]:
     """Line load on the one pin of a hinge: the plates of the other link pull with the same force [N] the other way."""
     breaks, load = _own_load(pack, force)
     return breaks, load - _own_load(pack._replace(own=~pack.own), force)[1]
+
+
+def roller_pin_load(sheet: float, bush: float, force: float) -> tuple[Floats, Floats]:
+    """Line load on the pin of a roller chain, plates and bush of these lengths [m]: outer plates pull at both ends, the bush presses
+    between, inner plates lie in the gaps."""
+    breaks = sheet * np.array([0, 1, 2, 2, 3, 4]) + bush * np.array([0, 0, 0, 1, 1, 1])
+    return breaks, force * np.array([0.5 / sheet, 0, -1 / bush, 0, 0.5 / sheet])
+
+
+def pin_section(shape: Outline, rolls: bool) -> Section:
+    """Cross-section of a pin by its outline; a hinge's, or one of arcs of the same radius, is round."""
+    radii = {getattr(piece, "radius", None) for piece in shape.pieces}
+    (first, *_) = shape.pieces
+    if isinstance(first, Arc) and (not rolls or len(radii) == 1):
+        return round_section(first.radius)
+    return outline_section(shape)
 
 
 def beam(breaks: Floats, load: Floats) -> Beam:

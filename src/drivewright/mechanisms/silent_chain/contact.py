@@ -1,7 +1,5 @@
 """Pins on each other under the force of a strand: pressure, shear below the surface, shakedown, bending; and the strand's forces."""
 
-import numpy as np
-
 from drivewright.chains.stress import pins, rolling
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import ChainModel
@@ -94,7 +92,9 @@ def _hinge(model, force):
 
 def _bending(model, force):
     """The pin as a beam across the pack of plates."""
-    found = pins.pin_stress(pins.beam(*_pin_load(model, force)), _section(model))
+    model.pins.check(model.link)
+    section = pins.pin_section(model.pins.pin(model.link), rolls=bool(model.link.radius))
+    found = pins.pin_stress(pins.beam(*_pin_load(model, force)), section)
     values = {
         "pin.bending_stress": Value(found.bending, "Pa", "of a pin across the pack of plates"),
         "pin.shear_stress": Value(found.shear, "Pa", "of a pin across the pack of plates"),
@@ -114,19 +114,9 @@ def _bending(model, force):
 
 def _pin_load(model, force):
     """Line load along a pin: breaks and values."""
-    sheet, bush = model.spec.plate.thickness, model.contact_length
-    if model.spec.roller:  # outer plates pull at both ends, the bush presses between, inner plates lie in the gaps
-        return sheet * np.array([0, 1, 2, 2, 3, 4]) + bush * np.array([0, 0, 0, 1, 1, 1]), force * np.array(
-            [0.5 / sheet, 0, -1 / bush, 0, 0.5 / sheet]
-        )
+    sheet, rolls = model.spec.plate.thickness, bool(model.link.radius)
+    if model.spec.roller:
+        return pins.roller_pin_load(sheet, model.contact_length, force)
     low, high = sorted(model.spec.plate.lacing)
     pack = pins.lacing(low, high, sheet)
-    return (pins.rolling_pin_load if model.link.radius else pins.hinge_pin_load)(pack, force)
-
-
-def _section(model):
-    """Cross-section of a pin."""
-    model.pins.check(model.link)
-    shape = model.pins.pin(model.link)
-    round_ones = not model.link.radius or len({piece.radius for piece in shape.pieces}) == 1
-    return pins.round_section(shape.pieces[0].radius) if round_ones else pins.outline_section(shape)
+    return pins.rolling_pin_load(pack, force) if rolls else pins.hinge_pin_load(pack, force)

@@ -1,6 +1,5 @@
 """Many chains at once: the published method, and the layout's closed forms, with arrays in the place of the spec's numbers."""
 
-import operator
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -14,7 +13,7 @@ from drivewright.mechanisms.silent_chain.meshing import measures, seated_measure
 from drivewright.mechanisms.silent_chain.spec import LEAST_TEETH, SilentChainSpec
 from drivewright.result import Check
 from drivewright.spec import value_at
-from drivewright.spec.fields import field_at, type_of
+from drivewright.spec.designs import sample_of, with_columns, within_limits
 
 KEYS = (
     "pitch",
@@ -32,7 +31,6 @@ KEYS = (
     "drive.preload",
     "drive.load_torque",
 )
-LIMITS = {"gt": operator.gt, "ge": operator.ge, "lt": operator.lt, "le": operator.le}
 BLOCK = 8192  # designs at a time: their arrays stay in the processor's cache
 
 
@@ -44,7 +42,7 @@ def batch(spec: SilentChainSpec, keys: Sequence[str], names: Sequence[str]) -> C
     if spec.roller or not set(keys) <= set(KEYS) or (spec.drive is None and any(key.startswith("drive.") for key in keys)):
         return None
     try:
-        known = _quantities(_changed(spec, {key: np.array([_sample(spec, key)]) for key in keys}))
+        known = _quantities(with_columns(spec, {key: np.array([sample_of(spec, key)]) for key in keys}))
     except InputError:  # no design can be built; the run of one says why
         return None
     if not set(names) <= set(known):
@@ -57,7 +55,7 @@ def batch(spec: SilentChainSpec, keys: Sequence[str], names: Sequence[str]) -> C
         possible = np.flatnonzero(_possible(spec, columns, len(designs)))
         for start in range(0, len(possible), BLOCK):
             rows = possible[start : start + BLOCK]
-            everything = _quantities(_changed(spec, {key: column[rows] for key, column in columns.items()}))
+            everything = _quantities(with_columns(spec, {key: column[rows] for key, column in columns.items()}))
             wanted = [np.broadcast_to(everything[name], rows.shape) for name in names]
             exist = np.all(np.isfinite(wanted), axis=0)
             for name, column in zip(names, wanted, strict=True):
@@ -67,48 +65,11 @@ def batch(spec: SilentChainSpec, keys: Sequence[str], names: Sequence[str]) -> C
     return evaluate
 
 
-# -- designs in the spec -------------------------------------------------------------------------------------------------------
-
-
-def _sample(spec, key):
-    """A number that the key can have: the spec's own where it has one."""
-    own = value_at(spec, key)
-    return float(own) if isinstance(own, (int, float)) else 1.0
-
-
-def _changed(spec, columns):
-    """The spec with arrays in the place of numbers, not validated again."""
-    for key, column in columns.items():
-        spec = _placed(spec, key.split("."), column)
-    return spec
-
-
-def _placed(table, steps, column):
-    """A table, or a list, with the column at the end of the steps."""
-    first, *rest = steps
-    if isinstance(table, tuple):
-        return tuple(column if number == int(first) else entry for number, entry in enumerate(table))
-    return table.model_copy(update={first: _placed(getattr(table, first), rest, column) if rest else column})
-
-
 def _possible(spec, columns, count):
-    """Which designs the spec accepts: the limits of each field, whole numbers, and what it asks of teeth and links."""
-    good = np.ones(count, bool)
-    for key, column in columns.items():
-        field = field_at(type(spec), key.split("."))
-        assert field is not None
-        good &= np.isfinite(column)
-        if type_of(field.annotation) is int:
-            good &= column == np.floor(column)
-        for mark in field.metadata:
-            for name, holds in LIMITS.items():
-                if (limit := getattr(mark, name, None)) is not None:
-                    good &= holds(column, limit)
+    """Which designs the spec accepts: the limits of each field, and what it asks of teeth and links."""
+    good = within_limits(type(spec), columns, count)
     links, first, second = (columns.get(key, value_at(spec, key)) for key in ("links", "teeth.0", "teeth.1"))
     return good & (np.minimum(first, second) >= LEAST_TEETH) & (links > np.maximum(first, second))
-
-
-# -- what is known of them -----------------------------------------------------------------------------------------------------
 
 
 def _quantities(spec):
