@@ -11,6 +11,7 @@ standards        formulas of roller and silent chains: lengths, speeds, forces, 
 plate, plate_outline, plate_holes, plate_stack  the plate: outline, holes and pins, mass; a strand of plates as solids
 sprocket, sprocket_root, roller_sprocket        sprockets with all their teeth, root trochoids, measuring pins
 interference     gaps between plates and teeth
+masses           masses, stiffness and damping that nobody has measured: discs for sprockets, joints in line
 touching         where flank, roller and guide touch: the geometry that explicit and implicit runs share
 closure          the rigid chain around two sprockets: centre distance and transmission error over a tooth
 explicit         simulation with short explicit steps, ensembles, batches over speed and scatter

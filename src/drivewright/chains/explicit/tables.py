@@ -1,9 +1,15 @@
-"""Tables of the running chain: signals over time, spectrum by mesh orders."""
+"""Tables of the running chain: signals over time, spectrum by mesh orders; many runs over speed and over the scatter of manufacture."""
 
+from collections.abc import Sequence
+
+import numpy as np
+
+from drivewright.chains.explicit.batch import Level
 from drivewright.chains.explicit.ensemble import Ensemble
 from drivewright.chains.explicit.motion import Motion
 from drivewright.chains.explicit.simulate import tooth_time
-from drivewright.numerics.ensemble import of_members
+from drivewright.numerics.ensemble import Estimate, of_members
+from drivewright.numerics.signals import highest_peaks
 from drivewright.result import Column, Table
 
 PLATE_FORCES = ("left x", "left y", "right x", "right y", "left flank", "right flank")
@@ -47,3 +53,66 @@ def spectrum_table(runs: Ensemble, highest: float) -> Table:
             *(amplitude.bounds(mean - reach, mean + reach) if len(amplitudes) > 1 else ()),
         ),
     )
+
+
+def speed_table(rows: Sequence[tuple[float, Level]]) -> Table:
+    """Table "speeds" of (speed [rad/s], `Level`): mean, fluctuation and mesh orders of the centre distance, greatest tension."""
+    levels = [level for _, level in rows]
+    orders = [
+        column
+        for k in range(len(levels[0].amplitudes))
+        for column in bounded(
+            f"mesh_order_{k + 1}", "m", f"amplitude at {k + 1} times the mesh frequency", [level.amplitudes[k] for level in levels]
+        )
+    ]
+    return Table(
+        "speeds",
+        "Centre distance over the speed",
+        (
+            Column("speed", "rad/s", "speed of the driving sprocket", np.array([speed for speed, _ in rows])),
+            *bounded("mean", "m", "mean centre distance", [level.mean for level in levels]),
+            *bounded(
+                "fluctuation",
+                "m",
+                "peak-to-peak of the centre distance in a revolution of the chain",
+                [level.fluctuation for level in levels],
+            ),
+            *orders,
+            *bounded("tension", "N", "greatest tension in a joint in a revolution", [level.tension for level in levels]),
+        ),
+    )
+
+
+def campbell_table(rows: Sequence[tuple[float, Level]], teeth: int, peaks: int) -> Table:
+    """Table "campbell": the highest peaks of the spectra over the speed, beside the mesh frequency of so many teeth."""
+    speed = np.array([speed for speed, _ in rows])
+    highest = [highest_peaks(level.frequency, level.spectrum, peaks) for _, level in rows]
+    return Table(
+        "campbell",
+        "Campbell diagram: highest peaks of the spectra of the centre distance",
+        (
+            Column("speed", "rad/s", "speed of the driving sprocket", speed),
+            *(Column(f"peak_{k + 1}", "Hz", f"peak {k + 1}", np.array([each[k] for each in highest])) for k in range(peaks)),
+            Column("mesh_frequency", "Hz", "mesh frequency", speed * teeth / (2 * np.pi)),
+        ),
+    )
+
+
+def scatter_table(levels: Sequence[Level]) -> Table:
+    """Table "scatter": mean and fluctuation of the centre distance of every drive."""
+    return Table(
+        "scatter",
+        "Drives as they come from manufacture",
+        (
+            Column("drive", "-", "drive", np.arange(float(len(levels)))),
+            *bounded("mean", "m", "mean centre distance", [each.mean for each in levels]),
+            *bounded("fluctuation", "m", "peak-to-peak of the centre distance in a revolution", [each.fluctuation for each in levels]),
+        ),
+    )
+
+
+def bounded(name: str, unit: str, meaning: str, estimates: Sequence[Estimate]) -> tuple[Column, ...]:
+    """A column of the values of estimates, and those of the ends of their intervals."""
+    value, low, high = np.array([(each.value, each.low, each.high) for each in estimates]).T
+    column = Column(name, unit, meaning, value)
+    return column, *column.bounds(low, high)

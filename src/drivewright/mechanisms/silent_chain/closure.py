@@ -1,11 +1,12 @@
 """Centre distance, transmission error and rise of the strands over one tooth, without dynamics."""
 
 from drivewright.chains.closure import departure
+from drivewright.chains.closure.tables import closure_table
 from drivewright.chains.link import seat_height
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
-from drivewright.result import Answer, Answers, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Value
 
 SLACK = 0.01  # of it that a fixed one may be shorter
 FREE = 1e-3  # of the taut centre distance: a fixed one that is longer would stretch the chain
@@ -32,7 +33,7 @@ def closure(model: ChainModel, done: Answers) -> Answer:
         )
         for side in SIDES
     ]
-    return Answer(values, (_table(found),), (*checks, _apart(model), *_fixed(model)), tuple(_remarks(model)), data=found)
+    return Answer(values, (closure_table(found),), (*checks, _apart(model), *_fixed(model)), tuple(_remarks(model)), data=found)
 
 
 def no_closure(spec: SilentChainSpec) -> str | None:
@@ -52,21 +53,6 @@ def _sides(model):
             model.closure.mean_wrap(number), "rad", f"angle of the {words} that the chain takes in, mean over a tooth"
         )
     return found
-
-
-def _table(found):
-    seated = found.states.seated
-    return Table(
-        "centre_distance",
-        "Centre distance over one tooth of the driving sprocket",
-        (
-            Column("angle", "rad", "angle of the driving sprocket", found.driver_angle),
-            Column("centre_distance", "m", "centre distance", found.centre_distance),
-            Column("transmission_error", "rad", "driven angle off the ratio of teeth", found.transmission_error),
-            Column("seated_drive", "-", "plates seated on the driving sprocket", seated[:, 0].astype(float)),
-            Column("seated_driven", "-", "plates seated on the driven sprocket", seated[:, 1].astype(float)),
-        ),
-    )
 
 
 def _apart(model):

@@ -114,4 +114,4 @@ def _published(model, radii):
 
 def _pressure(model, radius, force):
     material = model.spec.material
-    return rolling_contact(force, model.contact_length, (radius, radius), material.youngs_modulus, material.poisson_ratio).pressure
+    return float(rolling_contact(force, model.contact_length, (radius, radius), material.youngs_modulus, material.poisson_ratio).pressure)

@@ -1,18 +1,16 @@
 """Many runs of the moving chain: over speed, and over the scatter of manufacture; and the chain at rest at many angles."""
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from drivewright.chains.explicit.batch import Scatter, campbell, monte_carlo, revolution_time
 from drivewright.chains.explicit.simulate import Settings
+from drivewright.chains.explicit.tables import campbell_table, scatter_table, speed_table
 from drivewright.chains.implicit.equilibrium import compliance_of, equilibrium
+from drivewright.chains.implicit.tables import plate_force_table, rest_table
 from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.dynamics import explicit_step
 from drivewright.mechanisms.silent_chain.moving import moving
-from drivewright.numerics.ensemble import Estimate
-from drivewright.numerics.signals import highest_peaks
-from drivewright.result import Answer, Answers, Column, Table, Value
+from drivewright.result import Answer, Answers, Value
 
 SPEEDS = 12  # of the Campbell diagram, unless told otherwise, up to
 BEYOND = 1.5  # times the design's speed
@@ -33,53 +31,9 @@ def speeds(model: ChainModel, done: Answers) -> Answer:
     findings += tuple(_drifting([(f"{speed * 30 / np.pi:.4g} rpm", level) for speed, level in rows]))
     if not rows:
         return Answer(findings=findings, outcome="partial")
-    table = Table(
-        "speeds",
-        "Centre distance over the speed",
-        (
-            Column("speed", "rad/s", "speed of the driving sprocket", np.array([speed for speed, _ in rows])),
-            *bounded("mean", "m", "mean centre distance", [level.mean for _, level in rows]),
-            *bounded(
-                "fluctuation",
-                "m",
-                "peak-to-peak of the centre distance in a revolution of the chain",
-                [level.fluctuation for _, level in rows],
-            ),
-            *(
-                column
-                for k in range(3)
-                for column in bounded(
-                    f"mesh_order_{k + 1}", "m", f"amplitude at {k + 1} times the mesh frequency", [level.amplitudes[k] for _, level in rows]
-                )
-            ),
-            *bounded("tension", "N", "greatest tension in a joint in a revolution", [level.tension for _, level in rows]),
-        ),
-    )
-    diagram = Table(
-        "campbell",
-        "Campbell diagram: highest peaks of the spectra of the centre distance",
-        (
-            Column("speed", "rad/s", "speed of the driving sprocket", np.array([speed for speed, _ in rows])),
-            *(
-                Column(
-                    f"peak_{k + 1}",
-                    "Hz",
-                    f"peak {k + 1}",
-                    np.array([highest_peaks(level.frequency, level.spectrum, PEAKS)[k] for _, level in rows]),
-                )
-                for k in range(PEAKS)
-            ),
-            Column("mesh_frequency", "Hz", "mesh frequency", np.array([speed for speed, _ in rows]) * model.teeth[0] / (2 * np.pi)),
-        ),
-    )
+    table = speed_table(rows)
+    diagram = campbell_table(rows, model.teeth[0], PEAKS)
     return Answer({}, (table, diagram), (), findings)
-
-
-def bounded(name: str, unit: str, meaning: str, estimates: Sequence[Estimate]) -> tuple[Column, ...]:
-    """A column of the values of estimates, and those of the ends of their intervals."""
-    value, low, high = np.array([(each.value, each.low, each.high) for each in estimates]).T
-    column = Column(name, unit, meaning, value)
-    return column, *column.bounds(low, high)
 
 
 def _drifting(levels):
@@ -104,16 +58,7 @@ def scatter(model: ChainModel, done: Answers) -> Answer:
             value, low, high = np.asarray(numbers)[:, k]
             meaning = f"{what}, {percent} % of the drives are below"
             values[f"scatter.{name}.p{percent:02d}"] = Value(value, "m", meaning, low, high, "sample").plain()
-    rows = [row.value for row in found.outcomes.rows if row.ok]
-    table = Table(
-        "scatter",
-        "Drives as they come from manufacture",
-        (
-            Column("drive", "-", "drive", np.arange(float(len(rows)))),
-            *bounded("mean", "m", "mean centre distance", [r.mean for r in rows]),
-            *bounded("fluctuation", "m", "peak-to-peak of the centre distance in a revolution", [r.fluctuation for r in rows]),
-        ),
-    )
+    table = scatter_table([row.value for row in found.outcomes.rows if row.ok])
     findings = tuple(f"drive {row.case}: {row.reason}" for row in found.outcomes.failed)
     return Answer(values, (table,), (), findings)
 
@@ -122,35 +67,16 @@ def quasi_static(model: ChainModel, done: Answers) -> Answer:
     """The loaded chain at rest, teeth and joints elastic, flanks that press only: also with thick teeth and a worn chain."""
     system = moving(model)
     found, rigid = equilibrium(system, POSITIONS), compliance_of(system, POSITIONS)
-    error = found.transmission_error(1)
     values = {
         "quasi_static.centre_distance.mean": Value(found.mean, "m", "mean centre distance under load, at rest"),
         "quasi_static.centre_distance.fluctuation": Value(found.fluctuation, "m", "greatest less least over a tooth"),
         "quasi_static.centre_distance.rigid": Value(rigid.rigid_mean, "m", "the mean with the compliance taken off"),
-        "quasi_static.transmission_error": Value(np.ptp(error), "rad", "driven angle off the ratio of teeth, greatest less least"),
+        "quasi_static.transmission_error": Value(
+            np.ptp(found.transmission_error(1)), "rad", "driven angle off the ratio of teeth, greatest less least"
+        ),
         "quasi_static.flank_force.maximum": Value(np.max(found.flank_force), "N", "greatest force on a flank of a plate"),
     }
-    table = Table(
-        "quasi_static",
-        "The loaded chain at rest over a tooth",
-        (
-            Column("angle", "rad", "angle of the driving sprocket", np.abs(found.driver_angle - found.driver_angle[0])),
-            Column("centre_distance", "m", "centre distance", found.centre_distance),
-            Column("transmission_error", "rad", "driven angle off the ratio of teeth", error),
-            Column("contacts", "-", "flanks that touch", found.contacts.astype(float)),
-        ),
-    )
-    plates = Table(
-        "plate_forces",
-        "Forces in the chain at rest, plate by plate",
-        (
-            Column("plate", "-", "plate, clockwise from the driving sprocket", np.arange(float(found.tension.shape[1]))),
-            Column("tension", "N", "of the joint behind the plate", found.tension[0]),
-            Column("right_flank", "N", "force on the right flank", found.flank_force[0, :, 0]),
-            Column("left_flank", "N", "force on the left flank", found.flank_force[0, :, 1]),
-        ),
-    )
-    return Answer(values, (table, plates))
+    return Answer(values, (rest_table(found), plate_force_table(found)))
 
 
 def _settings(model, system):
