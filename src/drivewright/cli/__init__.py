@@ -1,4 +1,11 @@
-"""The command line.  `main` is the only way out: one message and one exit code for every error a user can cause."""
+"""The command line.  `main` is the only way out: one message and one exit code for every error a user can cause.
+
+app              the commands; they know no kind of drive by name
+doctor           what is installed, what each extra adds, the kernel cache, a self-test
+gallery          the worked examples: listed, copied, run
+plugin_commands  commands of mechanisms, from plug-ins too
+show             what the command line prints: results to stdout, everything else to stderr
+"""
 
 import sys
 from typing import NoReturn

@@ -1,6 +1,19 @@
 """CAD solids and finite elements of bodies: outlines, turned and grooved solids, elastic bodies in space and in plane stress.
 
 Knows shapes, loads and springs, and no machine.  Volumes and surfaces of simple parts need no CAD kernel; all else needs the extra `fe`.
+
+cad            CAD solids of parts with Netgen's OpenCASCADE kernel
+coupling       the equilibrium of substructures on linear springs
+deformation    the displaced surface of a solid
+engine         the door to Netgen and NGSolve
+facets         closed triangle surfaces of parts
+grooving       grooves milled into turned bodies
+meshing        curved meshes of CAD shapes with named boundaries whose lengths or areas are checked
+pieces         the pieces of an outline (`scene.Line`, `Arc`, `Spline`)
+plane_meshing  curved triangle meshes of flat parts for plane stress
+substructures  elastic bodies condensed to the loads on their interfaces (substructures)
+turning        turned bodies
+volume         volume of a part from its horizontal sections, without a CAD kernel
 """
 
 from importlib import import_module

@@ -2,6 +2,21 @@
 
 A mechanism's spec is a tree of `Spec` classes under one `MechanismSpec`.  The tree is its own documentation: the commented
 template, the JSON schema and every error message are read off the fields.
+
+base                the base class of all tables of a spec
+commented_template  the commented template of a spec
+csv_columns         two columns of a CSV file by name, each with its unit in brackets in the header
+designs             many designs in one spec
+error_messages      validation errors of pydantic as `SpecError`: the dotted key, the value, what would be right
+json_schema         the JSON schema of a kind's spec files, read off the fields
+keys                dotted keys of raw tables: set, or taken out, in place
+machining           how flat parts are milled and measured: shared by every kind whose drawings go to a workshop
+mechanism_spec      the whole spec of one drive: what all kinds have in common
+optimise_table      the [optimise] table: unknowns, requirements and objectives
+parsing             from TOML files and "key=value" texts to raw tables, and from raw tables to a spec
+sample_values       values that the keys of a spec could have: for the commented template and for forms
+serialisation       a spec as raw tables, as TOML text, and as the canonical text under its digest
+study_table         the [study] table: what varies from case to case, how it is sampled, what is kept
 """
 
 from drivewright.spec.commented_template import preset_path, template

@@ -3,6 +3,22 @@
 `sweep` computes the cases, `open_study` reads those of a folder, `analyse_study` says what came out; `optimise` searches the best design;
 `verify` computes a case once more on an independent route.  What varies is said with `linspace`, `geomspace`, `uniform`, `normal`,
 `triangular` and `tolerance`.
+
+answers           what a study says: `analyse_study(study)` gives a `Result` and its plots
+optimisation      optimisation of any drive
+pareto            designs that no other design beats in every objective
+plan              the plan of a study: every case, known before the first one runs
+points            cases from a file
+search            a search for the best design
+sensitivity       which of the varying keys causes how much of a number's spread
+spec_differences  what makes a study another one than that in a folder, key by key
+statistics        what a random sample says about a number
+store             where a study lives
+study             a study that has been run, whole or in part
+sweeps            a study from its plan to its rows: `sweep(spec)` computes what is not there yet and keeps it
+variables         what varies: a key of the spec with its levels or its distribution, in SI
+variation         how to say what varies: from Python, and as on the command line
+verification      a case computed again on an independent route, row by row beside our own numbers
 """
 
 from drivewright.studies.answers import Answers, analyse_study

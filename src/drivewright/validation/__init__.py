@@ -1,6 +1,18 @@
 """Published sources, one file each: the world's numbers beside ours.
 
 A plug-in adds a `Source` of its own under the entry point group `drivewright.validation`.
+
+clearance_joints    joints with play against other computations
+elliptic_gears      elliptic gears pivoted at a focus, and the planetary train made of them
+folding_linkage     the knife-folding four-bar with play of Yuan, Liu and Wang 2011
+hyvo_paper          the Hy-Vo chain with a small rolling radius of An, Cheng, Li and Xu
+indexer_paper       the inner-translation indexing cam of Liu, Zhai, Li and Guo
+modified_sine_help  help page of a commercial cam program: factors of the modified sine
+motion_factors      factors of the classical motion laws as handbooks print them, and in closed form
+page                the sources as one page of Markdown, for the documentation
+pusher_paper        the conjugate-cam seedling pusher of Chen et al
+shaft_paper         the shafts of a pipe-lining machine of Li, Zhang and Chen
+source              a published source: the world's numbers beside ours, each with a verdict that is computed
 """
 
 from drivewright import plugins

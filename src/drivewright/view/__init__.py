@@ -1,4 +1,19 @@
-"""Results, scenes and drawings as figures.  matplotlib is imported only when something is drawn."""
+"""Results, scenes and drawings as figures.  matplotlib is imported only when something is drawn.
+
+histograms  how often a sample takes which values, with its mean, its tails and its limits
+lines       which columns of a table are lines of a plot, with what each is compared with and the intervals of its values
+maps        a quantity over two others as coloured cells, each about its own point of the grid
+meshes      a closed triangle surface seen from the side
+motion      poses (x, y, angle) seen by an observer, and between two frames of a cycle
+outlines    outlines as polylines with no more points than a picture needs
+palette     colours by role, once, for the figures, the report's style sheet and the player
+panels      a plot as plain data: which columns share a panel, in which unit, over which range
+ranked      what matters most: lying bars, the longest on top
+rounds      a quantity round a circle: what each place around a bearing carries
+sketches    scenes and drawings as figures, to scale
+style       the look of every figure: fonts, lines, spacing
+text        numbers and units as people read them: '48.183°', '26.469 mm', '2.4670×10⁻⁶ m'
+"""
 
 from drivewright.view.figures import draw_panels, plot_table
 from drivewright.view.sketches import draw_drawing, draw_scene, draw_thumbnail

@@ -11,6 +11,13 @@ verify it:
   `drivewright.chains` and not from a table
 
 The chordal rise of a strand is `drivewright.chains.link.chordal_rise`.
+
+given     what the formulas of chain drives refuse to work with
+layout    two sprockets and the taut chain around them
+loop      a taut loop around any number of circles, inside and outside of it
+rating    selection by the maker's power ratings
+running   a chain at speed
+sprocket  sprockets of roller chains (ISO 606 family)
 """
 
 from drivewright.chains.standards.layout import (

@@ -1,4 +1,11 @@
-"""Roller-gear indexers, barrel and globoidal: flanks of the cam, trimming, curvature, contact stress, play, views and solids."""
+"""Roller-gear indexers, barrel and globoidal: flanks of the cam, trimming, curvature, contact stress, play, views and solids.
+
+design    the numbers of a roller-gear indexer and what follows from them
+envelope  the flanks of a roller-gear cam
+scenes    a roller gear on screen, unrolled on the pitch surface of its cam
+solid     solids of a roller-gear drive for CAD: the cam with its grooves, the turret with its rollers
+tables    flanks, contacts and loads of a roller gear as tables
+"""
 
 from drivewright.indexing.roller_gear.design import RollerGear, barrel, globoidal
 from drivewright.indexing.roller_gear.envelope import FlankContact, flank_contact

@@ -4,6 +4,13 @@
 
 The order of work: samples -> passes between the turning points of the torque -> conditioning dropped -> drift and zero removed ->
 regressions with uncertainties that stand autocorrelated errors -> shape of the loop -> series correction.
+
+answers     values, tables and plots of a torsion test, for every kind that brings one
+evaluation  one torsion test from its readings to stiffness, play and hysteresis, and a test at several positions of the crank
+findings    what a reader of a torsion test's numbers has to know, in words
+reading     a torsion test as a CSV file: `torque [N m],angle [arcmin]`, in the order of measuring
+regression  a straight line through autocorrelated readings: slope, and how sure it is
+result      settings of the evaluation of a torsion test, and its result
 """
 
 from drivewright.indexing.torsion_test.evaluation import evaluate_loop, evaluate_positions

@@ -1,4 +1,14 @@
-"""Forces between bodies, and on them: a file each, with its description, its record and its kernel."""
+"""Forces between bodies, and on them: a file each, with its description, its record and its kernel.
+
+bushing            the pin in rubber: springs and dampers along both directions and about the pin
+contact            the contact of a pin with play: dry, or with a film of oil between journal and bearing
+dry_contact        the dry contact of a pin with play from radii, material and restitution, by the name of its normal law
+element            what any force tells of itself
+load               loads from outside
+pin_contact        kernels of the contact of a pin with play
+rotational_spring  the spring with a damper about the angle between two bodies
+spring             the spring with a damper between two points
+"""
 
 from drivewright.multibody.forces.bushing import Bushing
 from drivewright.multibody.forces.contact import Dry, Friction, Lubricated

@@ -1,4 +1,14 @@
-"""Joints: one frozen class a file, with its rows, its role in the spanning tree, its reaction and its drawing."""
+"""Joints: one frozen class a file, with its rows, its role in the spanning tree, its reaction and its drawing.
+
+cam_pair    the cam and its follower
+gear        the pair of gears, or the belt
+joint       what any joint tells of itself
+pin_models  what the play of a pin is taken for
+pin_slot    the pin in a slot
+prismatic   the prismatic joint
+revolute    the pin, without play or with one of the models of its play
+rolling     the wheel that rolls without slip
+"""
 
 from drivewright.multibody.joints.cam_pair import CamPair
 from drivewright.multibody.joints.gear import Gear

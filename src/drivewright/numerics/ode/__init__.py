@@ -5,6 +5,8 @@
 `advancing` the compiled loop over the steps of a batch.
 `locating`  events within a step.
 `method`    what a method states; `methods` holds one file each.
+
+dense_output  the polynomial over a step, from its five coefficients r0 .
 """
 
 from drivewright.numerics.ode.loop import Event, EventCrossing, Trajectory, integrate

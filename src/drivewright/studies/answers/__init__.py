@@ -1,6 +1,10 @@
 """What a study says: `analyse_study(study)` gives a `Result` and its plots.
 
 `spread` of a sample and corners, `causes` of the spread, `maps` over levels, `fronts` of objectives; `parts` is what they are made of.
+
+factorial  the levels behind a file of points, where its points are all combinations of some
+whole      what a study says: a `Result` with values, tables and findings, and how to look at it
+within     spread within a case, told apart from the spread that the varied keys cause
 """
 
 from drivewright.studies.answers.whole import Answers, analyse_study

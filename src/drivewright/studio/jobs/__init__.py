@@ -3,6 +3,13 @@
 `progress(done, total, text, partial=None)` says how far it is; `partial` is a preview of the answer.  An answer is plain data for JSON
 without nan, or {"files": [{"name", "data": bytes}]}.  Our own errors go up to whoever asked, who shows their words.  A job
 may start processes of its own, so the process that it runs in must be no daemon.
+
+design_keys  the keys of a design as jobs see them
+figures      figures for the page
+search       the [optimise] of a design: a search for its best, told while it goes on
+sensitivity  which key moves which number: every key of a design a little down and up, one at a time
+solid        the assembly as triangles for a viewer
+study        the [study] of a design: its cases as rows of a table, and what they say
 """
 
 from drivewright.studio.jobs import figures, files, search, sensitivity, solid, study
