@@ -16,7 +16,7 @@ PITCH = 9.525e-3
 def system(radius):
     """The paper's drive [mm], masses assumed, the outer flank where the paper has it."""
     from drivewright import load, registry
-    from drivewright.mechanisms.silent_chain.moving import moving
+    from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
     from drivewright.runner import build
 
     flank = float(2.6 + (1.2 - radius) * np.cos(np.pi / 6))
@@ -29,7 +29,7 @@ def system(radius):
         'plate.link_inertia="6.4e-8 kg m^2"',
         'driven.mass="0.6 kg"',
     )
-    return moving(build(load(registry.mechanism("silent-chain").presets()["default"], changes)))
+    return chain_drive(build(load(registry.mechanism("silent-chain").presets()["default"], changes)))
 
 
 def running():

@@ -113,13 +113,13 @@ def test_even_links():
 
 def test_least_distance_wraps_as_asked():
     for wrap in (2.0, 2.6):
-        distance = s.least_centre_distance(P, 13, 90, least_wrap=wrap)
+        distance = s.min_centre_distance(P, 13, 90, least_wrap=wrap)
         assert s.wrap_angles(P, 13, 90, distance)[0] == pytest.approx(wrap, rel=1e-12)
     radii = 0.5 * (s.pitch_diameter(P, 20) + s.pitch_diameter(P, 58))  # up to about 3 : 1 every distance wraps 120 deg
-    assert s.least_centre_distance(P, 20, 58) == pytest.approx(radii, rel=1e-14)
-    assert s.least_centre_distance(P, 20, 30, (0.3, 0.2)) == pytest.approx(0.25, rel=1e-14)
+    assert s.min_centre_distance(P, 20, 58) == pytest.approx(radii, rel=1e-14)
+    assert s.min_centre_distance(P, 20, 30, (0.3, 0.2)) == pytest.approx(0.25, rel=1e-14)
     assert s.usual_centre_distances(P, 20, 30) == pytest.approx((30 * P, 50 * P))
-    assert s.usual_centre_distances(P, 13, 130) == pytest.approx((s.least_centre_distance(P, 13, 130), 50 * P))
+    assert s.usual_centre_distances(P, 13, 130) == pytest.approx((s.min_centre_distance(P, 13, 130), 50 * P))
 
 
 INSIDE = [(0.0, 0.0, 0.9), (5.0, -1.0, 0.4), (7.0, 2.5, 1.3), (3.0, 5.0, 0.0), (-1.0, 4.0, 0.6)]

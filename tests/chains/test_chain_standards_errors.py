@@ -51,8 +51,8 @@ def test_too_few_links():
 
 def test_least_wrap():
     for wrap in (0.0, np.pi, 4.0, NAN):
-        refused(r"least wrap must lie between 0 and 180 deg, got (0|180|229|nan)", s.least_centre_distance, P, 20, 60, least_wrap=wrap)
-    refused("tip diameters must be finite and 0 or more, got -1", s.least_centre_distance, P, 20, 60, (0.1, -1.0))
+        refused(r"least wrap must lie between 0 and 180 deg, got (0|180|229|nan)", s.min_centre_distance, P, 20, 60, least_wrap=wrap)
+    refused("tip diameters must be finite and 0 or more, got -1", s.min_centre_distance, P, 20, 60, (0.1, -1.0))
 
 
 def test_loops():
@@ -120,7 +120,7 @@ def test_forces():
     refused("power must be finite and 0 or more, got -100", s.strand_tension, -100.0, 3.0, 0.5)
     refused("mass per length must be finite and 0 or more", s.centrifugal_tension, -0.5, 3.0)
     refused("tension must be finite and above 0, got 0", s.tensile_safety, 2e4, 0.0)
-    refused("tension above that at rest must be finite and above 0, got -50", s.greatest_power, 100.0, 0.5, 150.0)
+    refused("tension above that at rest must be finite and above 0, got -50", s.max_power, 100.0, 0.5, 150.0)
     refused("bush length must be finite and above 0, got 0", s.articulation_pressure, 100.0, 3e-3, 0.0)
     refused("mass per length must be finite and 0 or more, got -1", s.meeting_energy, P, -1.0, 50.0)
 

@@ -43,7 +43,7 @@ def test_tension_carries_the_power():
 def test_greatest_power():
     allowed, slack = 2000.0, 150.0
     found = minimize_scalar(lambda v: -v * (allowed - slack - Q * v**2), bounds=(1.0, 50.0), method="bounded", options={"xatol": 1e-9})
-    speed, power = s.greatest_power(allowed, Q, slack)
+    speed, power = s.max_power(allowed, Q, slack)
     assert speed == pytest.approx(found.x, rel=1e-6)
     assert power == pytest.approx(-found.fun, rel=1e-12)
     assert s.strand_tension(power, speed, Q, slack) == pytest.approx(allowed, rel=1e-13)

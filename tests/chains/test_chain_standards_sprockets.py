@@ -115,7 +115,7 @@ def test_each_number_of_a_silent_chain_comes_back():
 
 
 def test_radius_over_a_silent_chain():
-    assert s.greatest_radius_over_chain(1.0, 6) == pytest.approx(1.75, rel=1e-14)  # a hexagon's radius is its side
+    assert s.max_radius_over_chain(1.0, 6) == pytest.approx(1.75, rel=1e-14)  # a hexagon's radius is its side
 
 
 def test_each_source_says_whether_it_was_read():

@@ -226,14 +226,14 @@ SCRIPT = """
 from drivewright import build, load
 from drivewright.chains.explicit.simulate import Settings, simulate
 from drivewright.errors import SpecError
-from drivewright.mechanisms.silent_chain.moving import moving
+from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.observe import observe
 from drivewright.multibody.simulate import simulate as move
 from drivewright.mechanisms.linkage.describe import describe
 import contact_law_plugin as theirs
 
-model = moving(build(load("chain.toml")))
+model = chain_drive(build(load("chain.toml")))
 assert model.sprockets[0].contact.law == "progressive"
 motion = simulate(model, 2e-6, Settings(step=1e-6, run_in=0.0, samples_per_tooth=1250))
 assert motion.tension.min() > 0

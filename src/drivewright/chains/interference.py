@@ -135,7 +135,7 @@ def plate_gaps(
     return tuple(_plate_gap(sprocket, names, points, in_sprocket(points, pose, sprocket_angle), tolerance) for pose in np.atleast_2d(poses))
 
 
-def least_chain_gap(
+def min_chain_gap(
     plate: Plate, sprocket: Sprocket, poses: Floats, sprocket_angle: float, spacing: float = 2e-5, tolerance: float = 1e-8
 ) -> float:
     """Least gap [m] of all plates of a chain at poses (n, 3) about a sprocket: those whose toes can reach it, and of plates that meet

@@ -17,7 +17,7 @@ from drivewright.chains.explicit.ensemble import (
     centre_distance,
     disturbed,
     ensemble,
-    greatest_of,
+    maximum_of,
     mean_of,
     range_of,
 )
@@ -27,7 +27,7 @@ from drivewright.chains.explicit.simulate import Settings, first_start, tooth_ti
 from drivewright.chains.explicit.state import SUMS
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import build
-from drivewright.mechanisms.silent_chain.moving import moving
+from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.spec import from_document
 from drivewright.spec.parsing import change_key
 
@@ -133,7 +133,7 @@ def test_a_run_that_is_not_chaotic_stands_alone():
 
 @pytest.fixture(scope="module")
 def system():
-    return moving(build(hyvo()))
+    return chain_drive(build(hyvo()))
 
 
 def test_the_same_seed_gives_the_same_runs_in_any_number_of_threads(system):
@@ -195,7 +195,7 @@ def test_statistics_are_those_of_their_windows(system):
     np.testing.assert_allclose(runs.windows(mean_of(centre_distance)), 0.2 + 1e-6 * np.array([[0.5, 1.5]] * 2), rtol=1e-12)
     np.testing.assert_allclose(runs.windows(amplitude_of(centre_distance)), 1e-6 * np.array([[3, 3], [4, 4]]), rtol=4e-3)
     np.testing.assert_allclose(runs.windows(amplitude_of(centre_distance, 2.0)), 1e-6, rtol=1e-2)
-    greatest = runs.windows(greatest_of(centre_distance))
+    greatest = runs.windows(maximum_of(centre_distance))
     assert np.all(greatest[:, 1] - greatest[:, 0] == pytest.approx(1e-6, rel=1e-6))
     assert runs.extreme(range_of(centre_distance)).value > runs.estimate(range_of(centre_distance)).value
 

@@ -18,8 +18,8 @@ from drivewright.chains.link import design_link, seat_height, seat_support
 from drivewright.chains.stress.plate import Loads
 from drivewright.chains.stress.revolution import fewer_instants, open_seats
 from drivewright.mechanisms.silent_chain import dynamics, many, stress
+from drivewright.mechanisms.silent_chain.chain_drive import chain_drive, link_of
 from drivewright.mechanisms.silent_chain.geometry import geometry
-from drivewright.mechanisms.silent_chain.moving import link_of, moving
 from drivewright.mechanisms.silent_chain.scene import link_shapes
 from drivewright.numerics.ensemble import Estimate
 from drivewright.spec import from_document
@@ -377,20 +377,22 @@ def test_links_weigh_what_their_steel_weighs():
 
 def test_the_chain_and_its_contacts_as_they_are_told():
     model = build('contact.stiffness="6e4 N/mm"', 'contact.joint_damping="3 us"', "closure.elongation=0.002")
-    system, drawn = moving(model), link_of(model)
+    system, drawn = chain_drive(model), link_of(model)
     chain, touch = system.chain, system.sprockets[0].contact
     assert (touch.stiffness, touch.damping) == pytest.approx((6e7, 180.0))
     assert (chain.joint_stiffness, chain.joint_damping) == pytest.approx((2e7, 3e-6))
-    assert moving(build('contact.damping="50 N s/m"')).sprockets[1].contact.damping == 50.0
+    assert chain_drive(build('contact.damping="50 N s/m"')).sprockets[1].contact.damping == 50.0
     force = run("contact", 'contact.stiffness="6e4 N/mm"')["pin.force"]  # rocking on two joints: stiffness T A, dampers 2 c
     critical = np.sqrt(force * (P + 2.4 * MM) * drawn.inertia)
     assert chain.articulation_damping == pytest.approx(0.003 * critical, rel=1e-9)
     for ratio in (0.0, 0.1):
-        damping = moving(build(f"contact.articulation_damping_ratio={ratio}", 'contact.stiffness="6e4 N/mm"')).chain.articulation_damping
+        damping = chain_drive(
+            build(f"contact.articulation_damping_ratio={ratio}", 'contact.stiffness="6e4 N/mm"')
+        ).chain.articulation_damping
         assert damping == pytest.approx(ratio * critical, rel=1e-9)
     hinge = build('joint.kind="revolute"', 'plate.link_mass="2 g"', 'plate.link_inertia="5e-8 kg m^2"')
     force = run("contact", 'joint.kind="revolute"', 'plate.link_mass="2 g"')["pin.force"]
-    assert moving(hinge).chain.articulation_damping == pytest.approx(0.02 * np.sqrt(force * P * 5e-8), rel=1e-9)
+    assert chain_drive(hinge).chain.articulation_damping == pytest.approx(0.02 * np.sqrt(force * P * 5e-8), rel=1e-9)
     assert (chain.count, chain.mass, chain.inertia, chain.centre_offset) == (66, drawn.mass, drawn.inertia, drawn.height)
     assert np.mean(chain.hole_pitches) == pytest.approx(P * 1.002 + 2.4 * MM, rel=1e-12)
     ends = sorted(-point[1] for point in (model.plate.flank("left").start, model.plate.flank("left").end))
@@ -399,7 +401,7 @@ def test_the_chain_and_its_contacts_as_they_are_told():
 
 def test_the_driven_sprocket_feels_its_load_alone_at_the_nominal_speed():
     model = build("driven.damping_ratio=0.2")
-    driver, driven = moving(model).sprockets
+    driver, driven = chain_drive(model).sprockets
     assert (driver.drive.speed, driver.drive.start, driver.drive.ramp) == (-150.0, -150.0, 0.0)
     assert (driven.torque, driven.reference_speed) == pytest.approx((2.0, -150 * 23 / 31), rel=1e-12)
     width, radius, bore = 2.5 * MM, pitch_radius(31), 9 * MM
@@ -413,20 +415,20 @@ def test_the_driven_sprocket_feels_its_load_alone_at_the_nominal_speed():
     assert driven.damping == pytest.approx(2 * 0.2 * np.sqrt(stiffness * radius**2 * driven.inertia), rel=1e-12)
     assert (driven.slide.direction, driven.slide.force) == (0.0, 160.0)
     assert driven.centre == (model.closure.mean, 0.0)
-    assert moving(build('drive.gravity=["1 m/s^2", "-9.81 m/s^2"]')).gravity == (1.0, -9.81)
-    ramped = moving(build('drive.ramp="10 ms"')).sprockets
+    assert chain_drive(build('drive.gravity=["1 m/s^2", "-9.81 m/s^2"]')).gravity == (1.0, -9.81)
+    ramped = chain_drive(build('drive.ramp="10 ms"')).sprockets
     assert (ramped[0].drive.start, ramped[0].drive.ramp, ramped[1].damping, ramped[1].torque) == (0.0, 0.01, 0.0, 2.0)
-    fixed = moving(build('driven.centre_distance="180 mm"')).sprockets[1]
+    fixed = chain_drive(build('driven.centre_distance="180 mm"')).sprockets[1]
     assert fixed.slide is None and fixed.centre == pytest.approx((0.18, 0.0))
 
 
 def test_teeth_of_the_moving_system():
     model = build('dynamics.thickness_deviation="5 um"')
-    for number, each in enumerate(moving(model).sprockets):
+    for number, each in enumerate(chain_drive(model).sprockets):
         wheel = model.sprockets[number]
         assert each.tooth.support == pytest.approx(model.sides[number].tooth.support - 5e-6, rel=1e-12)
         assert (each.tip_radius, each.form_radius) == pytest.approx((wheel.tip_radius - wheel.tip_chamfer, wheel.form_radius))
-    for each, teeth in zip(moving(build(*ROLLER)).sprockets, (23, 31), strict=True):
+    for each, teeth in zip(chain_drive(build(*ROLLER)).sprockets, (23, 31), strict=True):
         assert each.tooth.roller_radius == pytest.approx(3.175 * MM)
         assert each.tooth.pitch_radius == pytest.approx(pitch_radius(teeth))
 
@@ -439,7 +441,7 @@ def test_further_sprockets_and_guides():
         'direction="-80 deg", stiffness="2 N/mm", damping="7 N s/m", mass="40 g"}]',
     )
     model = build(*changes)
-    system, radius = moving(model), pitch_radius(19)
+    system, radius = chain_drive(model), pitch_radius(19)
     idler = system.sprockets[2]
     assert idler.mass == pytest.approx(7850 * 2.5 * MM * np.pi * (radius**2 - (9 * MM) ** 2), rel=1e-12)
     assert idler.inertia == pytest.approx(0.5 * idler.mass * (radius**2 + (9 * MM) ** 2), rel=1e-12)  # a ring
@@ -591,7 +593,7 @@ def test_percentiles_and_rest_are_told_as_they_were_found(monkeypatch):
 
 def made_up(model, member):
     """A run of two settling samples and two revolutions of made-up signals; the numbers of the members differ."""
-    system, per_tooth = moving(model), 24
+    system, per_tooth = chain_drive(model), 24
     n = 2 + 2 * 66 * per_tooth + 1
     t = np.arange(n) * tooth_time(system) / per_tooth
     rows, bodies = np.ones((n, len(ROW))), np.zeros((n, 2, len(BODY)))

@@ -8,7 +8,7 @@ from scipy.stats import binom
 
 from drivewright._typing import ArrayLike, Floats
 from drivewright.cases import Outcomes, run
-from drivewright.chains.explicit.ensemble import Ensemble, amplitude_of, centre_distance, ensemble, greatest_of, mean_of, range_of
+from drivewright.chains.explicit.ensemble import Ensemble, amplitude_of, centre_distance, ensemble, maximum_of, mean_of, range_of
 from drivewright.chains.explicit.simulate import Settings, tooth_time
 from drivewright.chains.model import ChainDrive, at_speed, with_sprocket
 from drivewright.chains.tooth import Tooth
@@ -50,8 +50,8 @@ def level(runs: Ensemble, orders: Sequence[float] = ORDERS) -> Level:
         mesh / first.tooth_time,
         spectrum,
         reach,
-        runs.estimate(greatest_of(lambda each: np.max(each.tension, axis=1))),
-        runs.estimate(greatest_of(lambda each: each.column("utilisation"))),
+        runs.estimate(maximum_of(lambda each: np.max(each.tension, axis=1))),
+        runs.estimate(maximum_of(lambda each: each.column("utilisation"))),
         runs.energy_drift,
     )
     if runs.advice:

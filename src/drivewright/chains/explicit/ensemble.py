@@ -112,7 +112,7 @@ def range_of(signal: Callable) -> Callable:
     return lambda run, rows: float(np.ptp(signal(run)[rows]))
 
 
-def greatest_of(signal: Callable) -> Callable:
+def maximum_of(signal: Callable) -> Callable:
     """Statistic: the greatest value."""
     return lambda run, rows: float(np.max(signal(run)[rows]))
 

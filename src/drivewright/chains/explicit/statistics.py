@@ -3,7 +3,7 @@
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.chains.explicit.ensemble import Ensemble, amplitude_of, centre_distance, greatest_of, mean_of, range_of
+from drivewright.chains.explicit.ensemble import Ensemble, amplitude_of, centre_distance, maximum_of, mean_of, range_of
 from drivewright.chains.explicit.motion import Motion
 from drivewright.chains.explicit.simulate import tooth_time
 from drivewright.result import Value
@@ -29,15 +29,15 @@ def force_values(runs: Ensemble) -> dict[str, Value]:
             "driven angle off the ratio of teeth, peak-to-peak in a revolution of the chain",
         ),
         "tension.mean": (mean_of(_tension), "N", "tension in a joint as it goes round, mean"),
-        "tension.maximum": (greatest_of(_tension), "N", "tension in a joint as it goes round, greatest in a revolution"),
-        "flank_force.maximum": (greatest_of(_flank_force), "N", "on a flank of a plate as it goes round, greatest in a revolution"),
+        "tension.maximum": (maximum_of(_tension), "N", "tension in a joint as it goes round, greatest in a revolution"),
+        "flank_force.maximum": (maximum_of(_flank_force), "N", "on a flank of a plate as it goes round, greatest in a revolution"),
     }
     values = {name: Value.of(runs.estimate(statistic), unit, meaning) for name, (statistic, unit, meaning) in statistics.items()}
     model = runs.first.model
     values["mesh_frequency"] = Value(1 / tooth_time(model), "Hz", "teeth that mesh in a second")
     if model.chain.link.radius:
         values["friction_utilisation"] = Value.of(
-            runs.estimate(greatest_of(lambda run: run.column("utilisation"))),
+            runs.estimate(maximum_of(lambda run: run.column("utilisation"))),
             "-",
             "coefficient of friction that pins need to roll, in joints with a twentieth of the greatest force or more, greatest in a "
             "revolution",

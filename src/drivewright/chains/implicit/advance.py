@@ -187,8 +187,8 @@ def drive_bodies(run: Run) -> None:
         if body.turn_column < 0:
             change, ramp = body.speed - body.start, body.ramp
             x = min(time / ramp, 1.0) if ramp > 0.0 else 1.0
-            begun = ramp * (0.5 * x * x - (1.0 - np.cos(2 * np.pi * x)) / (4 * np.pi**2))
-            run.state.bodies[n, 1] = body.psi0 + body.start * time + change * (begun + max(time - ramp, 0.0))
+            turned = ramp * (0.5 * x * x - (1.0 - np.cos(2 * np.pi * x)) / (4 * np.pi**2))
+            run.state.bodies[n, 1] = body.psi0 + body.start * time + change * (turned + max(time - ramp, 0.0))
             run.state.body_rates[n, 1] = body.start + change * (x - np.sin(2 * np.pi * x) / (2 * np.pi))
 
 

@@ -55,7 +55,7 @@ def simulate(
     _refuse(model, duration, settings)
     refuse_seats(model)
     every, step, samples = stepping(model, duration, settings)
-    run, way = begun(model, begin), scheme(step, settings.rho, settings.solved)
+    run, way = initial_run(model, begin), scheme(step, settings.rho, settings.solved)
     rows, bodies = np.zeros((samples, len(ROW))), np.zeros((samples, len(run.parts.bodies), len(BODY)))
     tension, plate = np.zeros((samples, len(settings.joints))), np.zeros((samples, len(PLATE)))
     for k in range(samples):
@@ -68,7 +68,7 @@ def simulate(
     return Motion(model, settings, step, every, rows, bodies, tension, plate)
 
 
-def begun(model: ChainDrive, begin_with: Start | None = None) -> Run:
+def initial_run(model: ChainDrive, begin_with: Start | None = None) -> Run:
     """The `Run` of a model at its start, with the accelerations a = -f/M there."""
     parts, state = compile_model(model), assembled(model, begin_with)
     parts.bodies["psi0"] = state.bodies[:, 1]

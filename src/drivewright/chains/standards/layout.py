@@ -116,7 +116,7 @@ def distance_factor(teeth1: int, teeth2: int, links: float) -> float:
     return float(np.sqrt(1 + t * t) / (2 * np.pi * (2 * q - 1)))
 
 
-def least_centre_distance(
+def min_centre_distance(
     pitch: float, teeth1: int, teeth2: int, tip_diameters: tuple[float, float] = (0.0, 0.0), least_wrap: float = 2 * np.pi / 3
 ) -> float:
     """Least C [m] that keeps tips and pitch circles apart and wraps the smaller sprocket by `least_wrap`.
@@ -131,9 +131,9 @@ def least_centre_distance(
 
 
 def usual_centre_distances(pitch: float, teeth1: int, teeth2: int, tip_diameters: tuple[float, float] = (0.0, 0.0)) -> tuple[float, float]:
-    """The range of 30 to 50 pitches that makers recommend, raised to `least_centre_distance` where that is more  [m].
+    """The range of 30 to 50 pitches that makers recommend, raised to `min_centre_distance` where that is more  [m].
 
     A rule of thumb: HKK Chain and others name these numbers on their pages (read); no law stands behind them.
     """
-    least = least_centre_distance(pitch, teeth1, teeth2, tip_diameters)
+    least = min_centre_distance(pitch, teeth1, teeth2, tip_diameters)
     return max(30 * pitch, least), max(50 * pitch, least)

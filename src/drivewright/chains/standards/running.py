@@ -73,7 +73,7 @@ def tensile_safety(tensile_strength: float, tension: float) -> float:
     return tensile_strength / tension
 
 
-def greatest_power(allowable_tension: float, mass_per_length: float, slack_tension: float = 0.0) -> tuple[float, float]:
+def max_power(allowable_tension: float, mass_per_length: float, slack_tension: float = 0.0) -> tuple[float, float]:
     """Speed [m/s] at which a chain of given tension carries the greatest power, and that power [W].
 
     P = v (F - F0 - q v^2) is greatest at v = sqrt((F - F0)/(3 q)), where it is 2/3 v (F - F0).  At sqrt(3) of that speed nothing is left.

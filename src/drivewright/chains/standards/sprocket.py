@@ -29,7 +29,7 @@ SOURCES = {
         recalled=True,
     ),
     "silent_chain": Source("excerpt of ASME B29.2M on numbering, read, with its examples SC302, SC1012 and SC0309", recalled=False),
-    "greatest_radius_over_chain": Source(
+    "max_radius_over_chain": Source(
         "Machinery's Handbook, 27th edition, note on ANSI B29.2M, read in an excerpt; a limit that makers keep, not a computed size",
         recalled=False,
     ),
@@ -173,6 +173,6 @@ def silent_number(pitch: float, width: float) -> str:
     return f"SC{'0' if small else ''}{count[0]}{count[1]:02d}"
 
 
-def greatest_radius_over_chain(pitch: Numbers, teeth: Numbers) -> Numbers:
+def max_radius_over_chain(pitch: Numbers, teeth: Numbers) -> Numbers:
     """Radius [m] that a new silent chain on its sprocket does not exceed: pitch radius + 0.75 p."""
     return 0.5 * pitch_diameter(pitch, teeth) + 0.75 * pitch

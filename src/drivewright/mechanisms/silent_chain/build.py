@@ -90,7 +90,7 @@ class ChainModel:
         return design_plate(self.link, self.pins, thickness=given.thickness, **lengths)
 
     @cached_property
-    def undrawn(self) -> str:
+    def plate_refusal(self) -> str:
         """Why the plate cannot be drawn; empty where it can."""
         try:
             _ = self.plate

@@ -17,8 +17,8 @@ def contact(model: ChainModel, done: Answers) -> Answer:
     """Forces of the strands and what they do to the pins."""
     force = model.spec.contact.force or strand_force(model)
     given = model.spec.plate
-    rough = model.undrawn and not model.spec.roller and not (given.link_mass and given.link_inertia)
-    findings = [f"the mass of a link is estimated from the pitch: {model.undrawn}"] if rough else []
+    rough = model.plate_refusal and not model.spec.roller and not (given.link_mass and given.link_inertia)
+    findings = [f"the mass of a link is estimated from the pitch: {model.plate_refusal}"] if rough else []
     values, checks = {**_strands(model), "pin.force": Value(force, "N", "of the strand, on the pins of a joint")}, []
     pressed, found = (_rolling if model.link.radius else _hinge)(model, force)
     values |= pressed

@@ -13,7 +13,7 @@ from drivewright.chains.implicit import simulate as implicit
 from drivewright.chains.model import ChainDrive
 from drivewright.errors import InputError, SolverError, SpecError
 from drivewright.mechanisms.silent_chain.build import ChainModel
-from drivewright.mechanisms.silent_chain.moving import moving
+from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 from drivewright.result import Answer, Answers, Check, Value
 
@@ -38,7 +38,7 @@ def no_dynamics(spec: SilentChainSpec) -> str | None:
 
 def dynamics(model: ChainModel, done: Answers) -> Answer:
     """The runs, their statistics, spectrum and balances; of a run that failed the balance and the signals alone."""
-    runs = _runs(model, moving(model))
+    runs = _runs(model, chain_drive(model))
     if not all(np.all(np.isfinite(run.rows)) for run in runs.members):
         raise SolverError(f"{runs.advice}; {HINT}")
     drift = Value(runs.energy_drift, "1/s", "energy that computing added or lost in a second, over the energy stored")

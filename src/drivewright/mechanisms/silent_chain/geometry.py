@@ -6,7 +6,7 @@ from contextlib import suppress
 import numpy as np
 
 from drivewright.chains.closure import plates, states_at
-from drivewright.chains.interference import least_chain_gap, seating_speeds
+from drivewright.chains.interference import min_chain_gap, seating_speeds
 from drivewright.chains.plate import mass_per_pitch
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
@@ -198,4 +198,4 @@ def _least_gap(model, sprocket, states, poses, k, number):
     """Least gap at one position of the chain, the sprocket seen from its centre."""
     p, centre = model.link.pitch, (0.0, 0.0) if number == 0 else (states.centre_distance[k], 0.0)
     angle = (states.driver_angle, states.driven_angle)[number][k] - 0.5 * np.pi
-    return least_chain_gap(model.plate, sprocket, poses[k] - (*centre, 0.0), angle, SPACING * p, TOLERANCE * p)
+    return min_chain_gap(model.plate, sprocket, poses[k] - (*centre, 0.0), angle, SPACING * p, TOLERANCE * p)

@@ -8,8 +8,8 @@ from drivewright.chains.explicit.tables import campbell_table, scatter_table, sp
 from drivewright.chains.implicit.equilibrium import compliance_of, equilibrium
 from drivewright.chains.implicit.tables import plate_force_table, rest_table
 from drivewright.mechanisms.silent_chain.build import ChainModel
+from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.mechanisms.silent_chain.dynamics import explicit_step
-from drivewright.mechanisms.silent_chain.moving import moving
 from drivewright.result import Answer, Answers, Value
 
 SPEEDS = 12  # of the Campbell diagram, unless told otherwise, up to
@@ -24,7 +24,7 @@ def speeds(model: ChainModel, done: Answers) -> Answer:
     """Fluctuation and mesh order over the speed, and the spectra: a Campbell diagram."""
     drive, given = model.drive, model.spec.compare.speeds
     chosen = np.array(given) if given else drive.speed * BEYOND * np.arange(1, SPEEDS + 1) / SPEEDS
-    system = moving(model)
+    system = chain_drive(model)
     found = campbell(system, -chosen, REVOLUTIONS, _settings(model, system), model.spec.dynamics.ensemble)
     rows = [(-row.case, row.value) for row in found.rows if row.ok]
     findings = tuple(f"at {-row.case * 30 / np.pi:.4g} rpm: {row.reason}" for row in found.failed)
@@ -45,7 +45,7 @@ def _drifting(levels):
 
 def scatter(model: ChainModel, done: Answers) -> Answer:
     """Percentiles of mean and fluctuation of the centre distance over drives as they come from manufacture; each drive runs once."""
-    system, given = moving(model), model.spec.scatter
+    system, given = chain_drive(model), model.spec.scatter
     settings = _settings(model, system)
     duration = settings.settle + REVOLUTIONS * revolution_time(system)
     found = monte_carlo(system, Scatter(given.tooth_thickness, given.pitch), given.samples, duration, settings, PERCENTILES, given.seed)
@@ -65,7 +65,7 @@ def scatter(model: ChainModel, done: Answers) -> Answer:
 
 def quasi_static(model: ChainModel, done: Answers) -> Answer:
     """The loaded chain at rest, teeth and joints elastic, flanks that press only: also with thick teeth and a worn chain."""
-    system = moving(model)
+    system = chain_drive(model)
     found, rigid = equilibrium(system, POSITIONS), compliance_of(system, POSITIONS)
     values = {
         "quasi_static.centre_distance.mean": Value(found.mean, "m", "mean centre distance under load, at rest"),

@@ -44,7 +44,7 @@ def link_of(model: ChainModel) -> LinkMass:
     """`LinkMass` of a pitch of chain: mass [kg], height of its centre [m], inertia [kg m^2]."""
     given = model.spec.plate
     density, width = model.spec.material.density, model.chain_width
-    if model.spec.roller or model.undrawn:
+    if model.spec.roller or model.plate_refusal:
         drawn = bar_link_mass(model.spec.pitch, density, width)
     else:
         drawn = mean_link_mass(model.plate, given.lacing, density, width)

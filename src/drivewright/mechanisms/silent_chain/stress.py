@@ -30,7 +30,7 @@ def no_stress(spec: SilentChainSpec) -> str | None:
 
 def stress(model: ChainModel, done: Answers) -> Answer:
     """Stress of a plate over a revolution of the chain."""
-    reason = model.undrawn
+    reason = model.plate_refusal
     if reason:
         return Answer(findings=(f"stress is left out: no plate can be drawn: {reason}",), outcome="left out")
     basis, revolution = _basis(model), _revolution(model, done["dynamics"].data)

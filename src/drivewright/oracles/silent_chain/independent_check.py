@@ -19,7 +19,7 @@ from drivewright.chains.implicit.equilibrium import compliance_of, stiffened
 from drivewright.chains.link import Link, seat_support
 from drivewright.chains.model import Slide, with_sprocket
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
-from drivewright.mechanisms.silent_chain.moving import moving
+from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.registry import Row
 from drivewright.result import Result
 
@@ -210,7 +210,7 @@ def _rest(model, result):
     odd = spec.closure.elongation or spec.dynamics.thickness_deviation or spec.guides or spec.sprockets or spec.roller
     if not spec.drive or odd or spec.closure.strands != "equilibrium" or spec.meshing.apothem_reference == "pin":
         return
-    system = replace(moving(model), gravity=(0.0, 0.0))
+    system = replace(chain_drive(model), gravity=(0.0, 0.0))
     system = with_sprocket(system, 1, torque=0.0, centre=(model.closure.mean, 0.0), mass=1.0, slide=Slide(0.0, spec.drive.preload))
     found = compliance_of(stiffened(system, STIFFER), POSITIONS)
     yield "centre_distance.mean", result["centre_distance.mean"], found.rigid_mean, "m", 1e-6, REST
@@ -241,7 +241,7 @@ def _pressure(model, result):
 
 def _running(model):
     """The same start by both integrators: where the driven sprocket is after a part of a tooth."""
-    system = moving(model)
+    system = chain_drive(model)
     step, time = min(STEP, 0.5 * largest_step(system)), SHARE * tooth_time(system)
     begin = start(system)
     ours = simulate(system, time, Settings(step, run_in=0.0), begin=begin)

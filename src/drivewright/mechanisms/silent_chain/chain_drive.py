@@ -18,7 +18,7 @@ ROLLING, HINGED = 0.003, 0.02  # articulation damping over critical: little more
 ROLLER_BACK = 0.45  # of the pitch: from the pins to the edge of a roller chain's plate
 
 
-def moving(model: ChainModel) -> ChainDrive:
+def chain_drive(model: ChainModel) -> ChainDrive:
     """The `ChainDrive` for any solver of its motion."""
     spec = model.spec
     damping = spec.contact.joint_damping * spec.contact.stiffness if spec.contact.damping is None else spec.contact.damping
@@ -31,7 +31,7 @@ def moving(model: ChainModel) -> ChainDrive:
 def _chain(model: ChainModel) -> Chain:
     spec, found = model.spec, link_of(model)
     toe, crotch = np.inf, -np.inf
-    if not spec.roller and not model.undrawn:
+    if not spec.roller and not model.plate_refusal:
         heights = np.sort([model.plate.flank("right").start[1], model.plate.flank("right").end[1]])
         toe, crotch = -float(heights[0]), -float(heights[1])
     given = spec.contact.articulation_damping_ratio
