@@ -121,7 +121,7 @@ def peers():
     if told.returncode:
         yield "ROSS", None, f"not available: {told.stderr.splitlines()[-1]}"
         return
-    found = json.loads(told.stdout.splitlines()[-1])[0]
+    found = json.loads(next(line for line in told.stdout.splitlines() if line.startswith("[")))[0]
     yield (
         f"ROSS, one by one: {1 / found['seconds']:,.0f} designs per second",
         (found["seconds"],) * 2,

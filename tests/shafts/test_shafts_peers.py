@@ -52,7 +52,7 @@ def ross():
         check=True,
         timeout=120,
     )
-    return json.loads(told.stdout.splitlines()[-1])
+    return json.loads(next(line for line in told.stdout.splitlines() if line.startswith("[")))  # libraries print too
 
 
 def near(a, b, tolerance):

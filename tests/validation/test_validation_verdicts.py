@@ -125,14 +125,14 @@ def test_the_return_cam_is_undercut_and_only_a_parabolic_rod_would_just_fit(pape
     assert [name for name in smooth if sharpest_return_radius(name) > 6e-3] == ["parabolic"]
 
 
-def over_pieces(model, f, *phases):
+def over_pieces(pair, f, *phases):
     """Values of f(t, piece), one-sided at the joints."""
-    return np.concatenate([f(np.linspace(low, high, 361), k) for low, high, phase, k in model.pieces() if phase in phases])
+    return np.concatenate([f(np.linspace(low, high, 361), k) for low, high, phase, k in pair.pieces if phase in phases])
 
 
 def sharpest_return_radius(law):
-    model = build(load(PRESETS["default"], [f"push.law={law}"]))
-    return 1 / np.max(over_pieces(model, lambda t, k: model.curvature(model.cams[1], t, k), "rise", "dwell", "return"))
+    pair = build(load(PRESETS["default"], [f"push.law={law}"])).pair
+    return 1 / np.max(over_pieces(pair, lambda t, k: pair.curvature(pair.cams[1], t, k), "rise", "dwell", "return"))
 
 
 @pytest.mark.parametrize("change", ["train.axis_ratio=0.9874", "train.bend=87.28 deg"])
@@ -148,10 +148,10 @@ def pressure_angles():
     cases = itertools.product(LAWS, ("clockwise", "counter-clockwise"), ("default", "paper-interior"))
     found = []
     for law, orbit, preset in cases:
-        model = build(load(PRESETS[preset], [f"push.law={law}", f"cams.orbit={orbit}"]))
+        pair = build(load(PRESETS[preset], [f"push.law={law}", f"cams.orbit={orbit}"])).pair
         found += [
-            np.max(np.abs(over_pieces(model, lambda t, k, m=model, cam=cam: m.pressure_angle(cam, t, k).d0, phase)))
-            for cam in model.cams
+            np.max(np.abs(over_pieces(pair, lambda t, k, m=pair, cam=cam: m.pressure_angle(cam, t, k).d0, phase)))
+            for cam in pair.cams
             for phase in ("rise", "return")
         ]
     return np.degrees(found).reshape(len(LAWS), 2, 2, 2, 2)
