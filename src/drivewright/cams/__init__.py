@@ -14,6 +14,7 @@
 `clearance`          the same with clearance: contact, flight, impact
 `oscillating_batch`  kernels for many designs at once
 `follower_shapes`    the follower as shapes, for scene and solids
+`cam_shapes`         the cam itself as shapes and solids
 """
 
 from drivewright.cams import oscillating, translating
@@ -63,6 +64,7 @@ from drivewright.cams.vibration import (
     propagator,
     response_peak,
     transient_response,
+    vibration_table,
 )
 
 __all__ = [
@@ -127,4 +129,5 @@ __all__ = [
     "spans",
     "transient_response",
     "translating",
+    "vibration_table",
 ]

@@ -4,9 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.cams.cycle import Cycle
 from drivewright.cams.followers import ContactAt
+from drivewright.cams.pressure import contact_pressure
 from drivewright.cams.profile import FlatFollower, Follower, RoundFollower
+from drivewright.cams.sizing import min_flat_radius
 from drivewright.result import Column, Table
 
 
@@ -92,3 +95,38 @@ class CamTrack:
                 Column("ratio", "-", f"face radius times curvature of the pitch curve{self.of}", ratio + 0 * angle),
             ),
         )
+
+    def contact_table(self, cycle: Cycle, normal_force: Floats, speed: float, rolls: bool) -> Table:
+        """Normal force [N] at the cycle's samples, and the speeds of the contact at a speed of the cam [rad/s]."""
+        piece, angle = cycle.samples()
+        contact = self.contact(*cycle.at(piece, angle))
+        surface = f"{'circumferential speed of the roller' if rolls else 'sliding speed'}{self.of}"
+        return Table(
+            f"contact{self.suffix}",
+            f"Contact of cam and follower{self.of}",
+            (
+                Column("angle", "rad", "cam angle", angle),
+                Column("contact_force", "N", f"normal force{self.of}", normal_force),
+                Column("surface_speed", "m/s", surface, np.abs(contact.sliding.d0) * speed + 0 * angle),
+                Column("rolling_speed", "m/s", f"speed of the contact along the profile{self.of}", contact.rolling.d0 * speed + 0 * angle),
+            ),
+        )
+
+    def pressure_table(self, cycle: Cycle, normal_force: Floats, width: float, modulus: float) -> Table:
+        """Hertz pressure at the cycle's samples under a normal force [N]; width [m] of the contact, effective modulus [Pa]."""
+        piece, angle = cycle.samples()
+        pressure = contact_pressure(normal_force, self.contact(*cycle.at(piece, angle)), self.radius, width, modulus)
+        return Table(
+            f"pressure{self.suffix}",
+            f"Contact pressure{self.of}",
+            (Column("angle", "rad", "cam angle", angle), Column("contact_pressure", "Pa", f"peak Hertz pressure{self.of}", pressure)),
+        )
+
+    def without_pressure(self, cycle: Cycle) -> str:
+        """Why a Hertz pressure has no meaning on this surface, or "": a knife edge, or a profile that cuts itself away."""
+        if self.radius == 0:
+            return "a knife edge has no contact pressure"
+        if self.flat:
+            return "the profile is undercut" if min_flat_radius(cycle, self.flat_face).value <= 0 else ""
+        sharpest = cycle.maximum(lambda angle, lift: self.flank * self.contact(angle, lift).pitch_curvature).value
+        return "the profile is undercut" if sharpest * self.radius >= 1 else ""

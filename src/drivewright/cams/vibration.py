@@ -16,6 +16,7 @@ from drivewright.cams.cycle import Cycle
 from drivewright.curves import derivative
 from drivewright.errors import InputError
 from drivewright.numerics.jets import Jet
+from drivewright.result import Column, Table
 
 ORDER = 8
 STIFFEST = 2e4  # natural frequency over speed
@@ -95,6 +96,19 @@ def response_peak(response: Response, speed: float, quantity: Jet) -> float:
         before = np.sign(_value(rate, middle)) == np.sign(slope[turns])
         low, high = np.where(before, middle, low), np.where(before, high, middle)
     return float(np.max(np.abs(np.append(quantity.d0, _value(between, low)))))
+
+
+def vibration_table(cycle: Cycle, response: Response, reach: float, acceleration: Jet) -> Table:
+    """Planned travel reach * lift, travel with vibration, error, and acceleration of the mass [m/s^2] at the response's steps."""
+    lift = reach * cycle.at(response.piece, response.angle)[1].d0
+    columns = (
+        Column("angle", "rad", "cam angle", response.angle),
+        Column("travel", "m", "planned travel", lift),
+        Column("actual", "m", "travel with vibration", lift + response.error.d0),
+        Column("error", "m", "deviation from the programme", response.error.d0),
+        Column("acceleration", "m/s^2", "acceleration of the follower, vibration included", acceleration.d0),
+    )
+    return Table("vibration", "Vibration of the follower", columns)
 
 
 def _hermite(left, right, step):

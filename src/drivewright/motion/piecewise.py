@@ -132,6 +132,12 @@ class Piecewise:
         jump = np.append(left, outer[1]) - np.insert(right, 0, outer[0])
         return np.where(np.abs(jump) <= self._rounding(function, order), 0.0, jump)
 
+    def relative_jump(self, order: int) -> float:
+        """Largest jump of the derivative of an order over the largest magnitude of that derivative; 0 where it vanishes."""
+        slope = self.derivative(order)
+        peak = max(map(abs, slope.extremes(lambda k, x: slope.on_piece(k, x)[:2])))
+        return float(np.max(np.abs(self.jumps(order)))) / peak if peak else 0.0
+
     def _rounding(self, function, order):
         """The jump at each break that rounding alone can make in the derivative of an order."""
         width = np.diff(self.breaks)

@@ -9,8 +9,9 @@ import numpy as np
 from drivewright import cams, materials, motion
 from drivewright.cams import CamTrack, FollowerShapes
 from drivewright.errors import DoesNotAssemble, InputError, SpecError
-from drivewright.mechanisms.cam.spec import CamSpec, Groove, Swing
+from drivewright.mechanisms.cam.spec import CamSpec, Groove
 from drivewright.numerics.jets import Jet
+from drivewright.spec.length_or_angle import AngleGiven
 
 LAW_KEYS = ("file", "b", "c", "d", "start", "end", "interior", "points", "degree", "ends")
 USED = {  # keys of the follower that each motion and face reads
@@ -85,8 +86,8 @@ class CamModel:
     def load(self) -> cams.FollowerLoad:
         """What acts along the follower's travel."""
         load, spring = self.spec.load, self.spec.spring
-        held = (spring.stiffness, spring.preload) if spring else (0.0, 0.0)
-        return cams.FollowerLoad(load.mass, load.damping, *held, load.force)
+        stiffness, preload = (spring.stiffness, spring.preload) if spring else (0.0, 0.0)
+        return cams.FollowerLoad(load.mass, load.damping, stiffness, preload, load.force)
 
     def required(self, angle: Jet, lift: Jet) -> Jet:
         """Force that the cam must exert along the travel [N]; a jet."""
@@ -99,8 +100,8 @@ class CamModel:
     def torque(self, angle: Jet, lift: Jet) -> Jet:
         """Torque of the contact force on the cam shaft [N m], a jet; where a follower closed by force has left the cam there is none."""
         required = self.required(angle, lift)
-        held = required * (required.d0 > 0) if self.spec.closure == "force" else required
-        return cams.drive_torque(self.follower.reach * lift, held)
+        transmitted = required * (required.d0 > 0) if self.spec.closure == "force" else required
+        return cams.drive_torque(self.follower.reach * lift, transmitted)
 
 
 def build(spec: CamSpec) -> CamModel:
@@ -139,7 +140,7 @@ def _refuse_rise(spec, segment, law, key):
     """The rise, or the lift of a table, must be a length for a translating follower and an angle for an oscillating one."""
     swings = spec.follower.motion == "oscillating"
     wanted = "an angle, as the follower oscillates" if swings else "a length, as the follower translates"
-    if segment.rise is not None and segment.rise != 0 and isinstance(segment.rise, Swing) != swings:
+    if segment.rise is not None and segment.rise != 0 and isinstance(segment.rise, AngleGiven) != swings:
         raise SpecError(f"must be {wanted}", key=f"{key}.rise")
     if (getattr(law, "lift_unit", None) or "") == ("m" if swings else "rad"):
         raise SpecError(f"the lift in its table must be {wanted}", key=f"{key}.file")

@@ -22,5 +22,5 @@ def energy(model: CamModel, done: Answers) -> Answer:
     torque, travel, velocity = model.torque(place, lift).d0, reach * lift.d0, reach * lift.d1 * speed
     powers = [torque * speed, -(load.stiffness * travel + load.preload) * velocity, -load.force * velocity, -load.damping * velocity**2]
     kinetic = 0.5 * load.mass * velocity**2
-    found = audit_of_powers(angle / speed, np.stack(np.broadcast_arrays(*powers), axis=1), kinetic, kinetic, drives=0)
-    return audit_answer(found, MEANING, LIMIT, ROWS)
+    audit = audit_of_powers(angle / speed, np.stack(np.broadcast_arrays(*powers), axis=1), kinetic, kinetic, drives=0)
+    return audit_answer(audit, MEANING, LIMIT, ROWS)

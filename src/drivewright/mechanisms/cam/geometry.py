@@ -24,7 +24,7 @@ def motion(model: CamModel, done: Answers) -> Answer:
     }
     timed = _kinematics(model, angle, lift, peaks, unit) if model.turns else Answer()
     tables = (Table("motion", "Motion of the follower", columns), *timed.tables)
-    return Answer({**values, **timed.values}, tables, _continuity_checks(model, function), _infinite(peaks))
+    return Answer({**values, **timed.values}, tables, _continuity_checks(model.spec.limits, function), _infinite(peaks))
 
 
 def _kinematics(model, angle, lift, peaks, unit):
@@ -39,15 +39,20 @@ def _kinematics(model, angle, lift, peaks, unit):
     return Answer(values, (Table("kinematics", "Velocity, acceleration and jerk", tuple(columns)),))
 
 
-def _continuity_checks(model, function):
+def _continuity_checks(limits, function):
     """Jumps of velocity and acceleration over their own peaks, laws and joints alike."""
-    limits, found = model.spec.limits, []
-    for order, name, limit in ((1, "velocity", limits.velocity_jump), (2, "acceleration", limits.acceleration_jump)):
-        slope = function.derivative(order)
-        peak = max(map(abs, slope.extremes(lambda k, x, f=slope: f.on_piece(k, x)[:2])))
-        jump = float(np.max(np.abs(function.jumps(order)))) / peak if peak else 0.0
-        found.append(Check(f"continuity.{name}", jump, limit, "<=", "-", f"largest jump of the {name} over its peak", ("follower",)))
-    return tuple(found)
+    return tuple(
+        Check(
+            f"continuity.{name}",
+            function.relative_jump(order),
+            limit,
+            "<=",
+            "-",
+            f"largest jump of the {name} over its peak",
+            ("follower",),
+        )
+        for order, name, limit in ((1, "velocity", limits.velocity_jump), (2, "acceleration", limits.acceleration_jump))
+    )
 
 
 def _infinite(peaks):
@@ -108,7 +113,8 @@ def _curvature(model, track):
     if track.flat:
         least = cams.min_flat_radius(model.cycle, track.flat_face)
         places = {"convex": least if least.value > 0 else None}
-        checks = _flat_undercut(least)
+        message = "least radius of curvature of the profile: below 0 the face cuts it away"
+        checks = (Check("undercut", least.value, 0.0, ">=", "m", message, ("cam",), True),)
     else:
         places = {
             "convex": cams.min_pitch_radius(model.cycle, track.contact, 1),
@@ -132,11 +138,6 @@ def _profile_radius(track, name, place):
         return {}
     meaning = f"least radius of curvature of the profile where it is {name} seen from outside"
     return {f"{track.prefix}profile.min_{name}_radius": Value(radius, "m", meaning)}
-
-
-def _flat_undercut(least):
-    message = "least radius of curvature of the profile: below 0 the face cuts it away"
-    return (Check("undercut", least.value, 0.0, ">=", "m", message, ("cam",), True),)
 
 
 def _undercut(model, track, place):

@@ -49,7 +49,10 @@ def forces(model: CamModel, done: Answers) -> Answer:
         "min_torque": Value(model.cycle.minimum(model.torque).value, "N m", least),
     }
     drive = Answer(values, (Table("load", "Force and torque over the turn", columns),), findings=_flight(model, required))
-    answers = [part for track in model.tracks for part in (_contact(model, track, state), _pressure(model, track, state))]
+    answers = []
+    for track in model.tracks:
+        normal_force = np.maximum(model.normal_force(track, *state).d0 + 0 * angle, 0.0)
+        answers += [_contact(model, track, normal_force), _pressure(model, track, normal_force)]
     if len(model.tracks) > 1:
         changes = Value(float(cams.crossovers(model.cycle, model.required)), "-", "changes of the surface that drives, per turn")
         answers.append(Answer({"crossovers": changes}))
@@ -67,63 +70,36 @@ def _flight(model, required):
     )
 
 
-def _contact(model, track, state):
+def _contact(model, track, normal_force):
     """Normal force of one surface, which pushes only and carries what falls to it, and the speeds there."""
-    contact, angle = track.contact(*state), state[0].d0
     greatest = model.cycle.maximum(partial(model.normal_force, track))
     values = {f"{track.prefix}max_contact_force": Value(max(greatest.value, 0.0), "N", f"largest normal force{track.of}")}
     rolls = model.spec.follower.face == "roller"
     ends = [extreme(lambda a, lift: track.contact(a, lift).sliding).value for extreme in (model.cycle.maximum, model.cycle.minimum)]
-    body = max(map(abs, ends)) * model.speed
+    fastest = max(map(abs, ends)) * model.speed
     if rolls and track.cut:
-        spin = body / track.radius
+        spin = fastest / track.radius
         values[f"{track.prefix}max_roller_speed"] = Value(spin, "rad/s", f"largest speed of the roller on its pin{track.of}")
     if not rolls and track.cut:
-        values[f"{track.prefix}max_sliding_speed"] = Value(body, "m/s", f"largest sliding speed{track.of}")
-    surface = f"{'circumferential speed of the roller' if rolls else 'sliding speed'}{track.of}"
-    rolling = contact.rolling.d0 * model.speed + 0 * angle
-    columns = (
-        Column("angle", "rad", "cam angle", angle),
-        Column("contact_force", "N", f"normal force{track.of}", _pushing_force(model, track, state)),
-        Column("surface_speed", "m/s", surface, np.abs(contact.sliding.d0) * model.speed + 0 * angle),
-        Column("rolling_speed", "m/s", f"speed of the contact along the profile{track.of}", rolling),
-    )
-    return Answer(values, (Table(f"contact{track.suffix}", f"Contact of cam and follower{track.of}", columns),))
+        values[f"{track.prefix}max_sliding_speed"] = Value(fastest, "m/s", f"largest sliding speed{track.of}")
+    return Answer(values, (track.contact_table(model.cycle, normal_force, model.speed, rolls),))
 
 
-def _pushing_force(model, track, state):
-    return np.maximum(model.normal_force(track, *state).d0 + 0 * state[0].d0, 0.0)
-
-
-def _pressure(model, track, state):
+def _pressure(model, track, normal_force):
     """Hertz pressure of one surface, where it has a meaning."""
-    if reason := _no_pressure(model, track):
+    if reason := track.without_pressure(model.cycle):
         return Answer(findings=(f"{track.prefix}max_contact_pressure is absent: {reason}",))
-    across = (track.radius, model.spec.face.width, cams.pair_modulus(model.material))
-    pressure = cams.contact_pressure(_pushing_force(model, track, state), track.contact(*state), *across)
-    columns = (
-        Column("angle", "rad", "cam angle", state[0].d0),
-        Column("contact_pressure", "Pa", f"peak Hertz pressure{track.of}", pressure),
-    )
-    table = Table(f"pressure{track.suffix}", f"Contact pressure{track.of}", columns)
-    peak = cams.peak_contact_pressure(model.cycle, partial(model.normal_force, track), track.contact, *across)
+    width, modulus = model.spec.face.width, cams.pair_modulus(model.material)
+    force_at = partial(model.normal_force, track)
+    peak = cams.peak_contact_pressure(model.cycle, force_at, track.contact, track.radius, width, modulus)
     values = {f"{track.prefix}max_contact_pressure": Value(peak, "Pa", f"largest Hertz pressure{track.of}, steady contact")}
+    tables = (track.pressure_table(model.cycle, normal_force, width, modulus),)
     name, allowed = f"contact_pressure{track.suffix}", model.spec.limits.contact_pressure or model.material.hertz_limit
     if allowed is None:
         unknown = f"no allowable pressure is known for {model.material.name}; give limits.contact_pressure"
-        return Answer(values, (table,), findings=(f"check {name} is left out: {unknown}",))
+        return Answer(values, tables, findings=(f"check {name} is left out: {unknown}",))
     check = Check(name, peak, allowed, "<=", "Pa", "Hertz line contact of follower and cam", (track.name, "follower"))
-    return Answer(values, (table,), (check,))
-
-
-def _no_pressure(model, track):
-    """Why a Hertz pressure has no meaning, or None."""
-    if track.radius == 0:
-        return "a knife edge has no contact pressure"
-    if track.flat:
-        return "the profile is undercut" if cams.min_flat_radius(model.cycle, track.flat_face).value <= 0 else None
-    sharpest = model.cycle.maximum(lambda angle, lift: track.flank * track.contact(angle, lift).pitch_curvature).value
-    return "the profile is undercut" if sharpest * track.radius >= 1 else None
+    return Answer(values, tables, (check,))
 
 
 def spring(model: CamModel, done: Answers) -> Answer:
@@ -135,21 +111,16 @@ def spring(model: CamModel, done: Answers) -> Answer:
         "min_required_force.at": Value(least.angle % (2 * np.pi), "rad", "cam angle of it, from the start of the programme"),
         "spring.needed_preload": Value(needed, "N", "least preload at this speed and stiffness"),
     }
-    stiffness, jump = cams.needed_stiffness(cycle, reach, load, speed), cams.jump_speed(cycle, reach, load)
-    for name, value, unit, meaning, absent in (
-        (
-            "spring.needed_stiffness",
-            stiffness,
-            "N/m",
-            "least stiffness at this speed and preload",
-            "none holds the follower at zero lift; give preload",
-        ),
-        ("spring.jump_speed", jump, "rad/s", "cam speed at which the follower leaves the cam", "the follower leaves the cam at no speed"),
-    ):
-        if np.isfinite(value):
-            values[name] = Value(float(value), unit, meaning)
-        else:
-            findings.append(f"{name} is absent: {absent}")
+    stiffness = cams.needed_stiffness(cycle, reach, load, speed)
+    if np.isfinite(stiffness):
+        values["spring.needed_stiffness"] = Value(float(stiffness), "N/m", "least stiffness at this speed and preload")
+    else:
+        findings.append("spring.needed_stiffness is absent: none holds the follower at zero lift; give preload")
+    jump = cams.jump_speed(cycle, reach, load)
+    if np.isfinite(jump):
+        values["spring.jump_speed"] = Value(float(jump), "rad/s", "cam speed at which the follower leaves the cam")
+    else:
+        findings.append("spring.jump_speed is absent: the follower leaves the cam at no speed")
     message = "the follower stays on the cam: least force along the travel"
     check = Check("separation", least.value, model.spec.limits.contact_force, ">=", "N", message, ("follower",))
     return Answer(values, (), (check,), tuple(findings))
@@ -159,32 +130,19 @@ def vibration(model: CamModel, done: Answers) -> Answer:
     """Steady vibration of the follower as one mass on a damped spring."""
     given, reach, speed = model.spec.vibration, model.follower.reach, model.speed
     assert given is not None
-    frequency = 2 * np.pi * given.natural_frequency
-    found = cams.periodic_response(model.cycle, reach, speed, frequency, given.damping_ratio)
-    lift = reach * model.cycle.at(found.piece, found.angle)[1].d0
-    swing, actual = (
-        cams.free_amplitude(found, frequency, given.damping_ratio),
-        cams.mass_acceleration(found, frequency, given.damping_ratio),
-    )
-    error, shock = (cams.response_peak(found, speed, quantity) for quantity in (found.error, actual))
+    frequency, damping_ratio = 2 * np.pi * given.natural_frequency, given.damping_ratio
+    response = cams.periodic_response(model.cycle, reach, speed, frequency, damping_ratio)
+    acceleration = cams.mass_acceleration(response, frequency, damping_ratio)
+    error, shock = (cams.response_peak(response, speed, quantity) for quantity in (response.error, acceleration))
     values = {
         "vibration.max_error": Value(error, "m", "largest deviation of the follower from its programme"),
         "vibration.max_acceleration": Value(shock, "m/s^2", "largest acceleration of the follower, vibration included"),
     }
-    rests = [k for k, piece in enumerate(model.programme.pieces) if piece.phase == "dwell"]
-    if rests:
-        residual = max(float(swing[found.piece == k][0]) for k in rests)
+    dwells = [k for k, piece in enumerate(model.programme.pieces) if piece.phase == "dwell"]
+    if dwells:
+        swing = cams.free_amplitude(response, frequency, damping_ratio)
+        residual = max(float(swing[response.piece == k][0]) for k in dwells)
         values["vibration.residual"] = Value(residual, "m", "amplitude that is left at the start of a dwell, the largest")
-    table = Table(
-        "vibration",
-        "Vibration of the follower",
-        (
-            Column("angle", "rad", "cam angle", found.angle),
-            Column("travel", "m", "planned travel", lift),
-            Column("actual", "m", "travel with vibration", lift + found.error.d0),
-            Column("error", "m", "deviation from the programme", found.error.d0),
-            Column("acceleration", "m/s^2", "acceleration of the follower, vibration included", actual.d0),
-        ),
-    )
     limit, message = model.spec.limits.vibration, "deviation of the follower from its programme"
-    return Answer(values, (table,), (Check("vibration", error, limit, "<=", "m", message, ("follower",)),) if limit else ())
+    checks = (Check("vibration", error, limit, "<=", "m", message, ("follower",)),) if limit else ()
+    return Answer(values, (cams.vibration_table(model.cycle, response, reach, acceleration),), checks)

@@ -5,6 +5,7 @@ from functools import lru_cache
 import numpy as np
 
 from drivewright import cams
+from drivewright.cams import cam_shapes
 from drivewright.cams.follower_shapes import SLIM
 from drivewright.mechanisms.cam.build import CamModel, profile
 from drivewright.mechanisms.cam.spec import TURN
@@ -82,26 +83,15 @@ def _display_profile(model, number):
 
 
 def _cam_shapes(model, number, profile_of=profile):
-    """Profile, pitch curve, base circle, bore and what was trimmed away of a track's cam, at cam angle 0."""
-    track, found = model.tracks[number], profile_of(model, number)
-    yield Shape("profile", found.outline)
+    """The cam of a track, or the outer wall of its groove, at cam angle 0."""
+    track, finished = model.tracks[number], profile_of(model, number)
     if track.flank > 0:
-        yield Shape("base", circle((0, 0), float(np.min(np.hypot(*found.outline.points(1e-6).T)))))
-        if not track.flat and track.radius:
-            yield Shape("pitch", cams.pitch_outline(track.round_face, model.programme))
-        if model.spec.manufacture.bore:
-            yield Shape("hole", circle((0, 0), model.spec.manufacture.bore / 2))
-    else:
-        yield Shape("body", circle((0, 0), _disc_radius(model, profile_of)))
-    for start, stop in found.trimmed.removed if found.trimmed else ():
-        angle = np.linspace(start, stop, 33)
-        point = track.contact(*model.cycle.at_angle(angle)).point.d0
-        yield Shape("defect", polygon(np.stack([point.real, point.imag], axis=1), closed=False))
+        return cam_shapes.cam_shapes(track, finished, model.programme, model.spec.manufacture.bore)
+    return cam_shapes.groove_wall_shapes(track, finished, model.cycle, _disc_radius(model, profile_of))
 
 
 def _disc_radius(model, profile_of=profile):
-    """Edge of the disc that a groove is cut into."""
-    return float(np.max(np.hypot(*profile_of(model, 1).outline.points(1e-6).T))) + model.spec.limits.wall
+    return cam_shapes.groove_disc_radius(profile_of(model, 1), model.spec.limits.wall)
 
 
 def _ground(model):
@@ -122,7 +112,7 @@ def _ground(model):
 
 def drawings(model: CamModel) -> tuple[Drawing, ...]:
     """One drawing for each cam; the two walls of a groove share one."""
-    found = []
+    sheets = []
     for number, track in enumerate(model.tracks):
         if track.cut and track.flank > 0:
             shapes = [shape for shape in _cam_shapes(model, number) if shape.layer != "defect"]
@@ -131,8 +121,8 @@ def drawings(model: CamModel) -> tuple[Drawing, ...]:
             reach = 1.1 * model.shapes.size
             ends = (((-reach, 0), (reach, 0)), ((0, -reach), (0, reach)))
             shapes += [Shape("axis", polygon(pair, closed=False)) for pair in ends]
-            found.append(Drawing(track.name, _title(model, track), tuple(shapes), model.spec.face.width, model.spec.closure != "groove"))
-    return tuple(found)
+            sheets.append(Drawing(track.name, _title(model, track), tuple(shapes), model.spec.face.width, model.spec.closure != "groove"))
+    return tuple(sheets)
 
 
 def _title(model, track):
@@ -141,27 +131,23 @@ def _title(model, track):
 
 def parts(model: CamModel) -> tuple[Part, ...]:
     """The cams with bore and hub, and what runs on them, at the start position."""
-    width, found = model.spec.face.width, []
+    width, cam_parts = model.spec.face.width, []
     for number, track in enumerate(model.tracks):
         if track.cut and track.flank > 0:
             z = -1.5 * width if track.name == "conjugate" else 0.0
-            found.append(Part(track.name, tuple(_cam_solids(model, number, z)), (0.0, 0.0, 0.0), "green" if number else "blue"))
-    return (*found, *_follower_parts(model, width))
+            cam_parts.append(Part(track.name, tuple(_cam_solids(model, number, z)), (0.0, 0.0, 0.0), "green" if number else "blue"))
+    return (*cam_parts, *_follower_parts(model, width))
 
 
 def _cam_solids(model, number, z):
     """The disc with its bore, and the hub on the side away from the other cam."""
-    make, width = model.spec.manufacture, model.spec.face.width
-    bore = (circle((0, 0), make.bore / 2),) if make.bore else ()
-    if model.spec.closure == "groove":
-        disc = circle((0, 0), _disc_radius(model))
-        yield Prism(disc, bore, z - width, width)
-        yield Prism(disc, (profile(model, 1).outline,), z, width)
-    yield Prism(profile(model, number).outline, bore, z, width)
-    if make.hub_diameter:
-        below = z < 0 or model.spec.closure == "groove"
-        start = z - make.hub_length - (width if model.spec.closure == "groove" else 0.0) if below else z + width
-        yield Prism(circle((0, 0), make.hub_diameter / 2), bore, start, make.hub_length)
+    make, width, grooved = model.spec.manufacture, model.spec.face.width, model.spec.closure == "groove"
+    if grooved:
+        yield from cam_shapes.groove_solids(profile(model, 1), _disc_radius(model), width, z, make.bore)
+    below = z - make.hub_length - (width if grooved else 0.0)
+    start = below if z < 0 or grooved else z + width
+    hub = (make.hub_diameter, start, make.hub_length) if make.hub_diameter else None
+    yield from cam_shapes.cam_solids(profile(model, number), width, z, make.bore, hub)
 
 
 def _follower_parts(model, width):

@@ -1,44 +1,16 @@
 """What the user says of a disc cam: follower, programme, closure, drive, loads, manufacture, limits."""
 
-from typing import Annotated, Literal
+from typing import Literal
 
 from pydantic import model_validator
 
 from drivewright import materials, motion
-from drivewright.errors import UnitError
 from drivewright.spec import DataFile, Integer, Machining, MechanismSpec, Number, Spec, Text
 from drivewright.spec.fields import Field
-from drivewright.units import BY_NAME, Angle, Damping, Dimension, Force, Frequency, Length, Mass, Pressure, Speed, Stiffness
+from drivewright.spec.length_or_angle import LengthOrAngle
+from drivewright.units import Angle, Damping, Force, Frequency, Length, Mass, Pressure, Speed, Stiffness
 
 TURN = 6.283185307179586
-
-
-class Swing(float):
-    """A rise that was given as an angle [rad]."""
-
-
-class _LengthOrAngle(Dimension):
-    """A quantity that is a length [m], or an angle (then a `Swing`)."""
-
-    plain = True
-
-    def parse(self, value):
-        """As `Dimension.parse`, of the wider kind."""
-        if isinstance(value, Swing):
-            return value
-        try:
-            return BY_NAME["length"].parse(value)
-        except UnitError as complaint:
-            try:
-                return Swing(BY_NAME["angle"].parse(value))
-            except UnitError:
-                raise complaint from None
-
-    def text(self, value):
-        return BY_NAME["angle" if isinstance(value, Swing) else "length"].text(float(value))
-
-
-Rise = Annotated[float, _LengthOrAngle("length, or an angle for an oscillating follower", "m", "mm")]
 Sense = Literal["counter-clockwise", "clockwise"]
 
 
@@ -72,7 +44,9 @@ class Segment(Spec):
 
     angle: Angle = Field(gt=0, description="cam angle of the segment", examples=["90 deg"])
     law: Text = Field(description=f"motion law, or dwell: {', '.join(motion.names())}", examples=["cycloidal"])
-    rise: Rise | None = Field(None, description="rise, negative for a return; an angle for an oscillating follower", examples=["20 mm"])
+    rise: LengthOrAngle | None = Field(
+        None, description="rise, negative for a return; an angle for an oscillating follower", examples=["20 mm"]
+    )
     file: DataFile | None = Field(None, description='CSV of law = "table": angle [deg],lift [mm] from the start of the segment')
     b: Number | None = Field(None, description='part of the sine ramps, for law = "scca"')
     c: Number | None = Field(None, description="part of constant acceleration (scca) or velocity (mcv)")
