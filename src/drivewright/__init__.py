@@ -54,8 +54,8 @@ def __getattr__(name):
     if name not in _WHERE:
         raise AttributeError(f"module 'drivewright' has no attribute {name!r}")
     module, colon, attribute = _WHERE[name].partition(":")
-    found = import_module(f"drivewright.{module}")
-    return found if colon and not attribute else getattr(found, attribute or name)
+    imported = import_module(f"drivewright.{module}")
+    return imported if colon and not attribute else getattr(imported, attribute or name)
 
 
 def __dir__():

@@ -47,14 +47,14 @@ def label_of_key(key: str, title: str | None = None) -> str:
 def faults(label: str) -> tuple[str, ...]:
     """What is wrong with a label: empty, too long, no noun phrase that stands alone, units as typed."""
     first = label.lower()
-    found = {
+    conditions = {
         "is empty": not label.strip(),
         f"has {len(label)} characters, more than {LONGEST}": len(label) > LONGEST,
         "begins with a word that leans on another": any(first.startswith(f"{word} ") for word in LEADING),
         "leans on another label": "of the same" in first or "the others" in first,
         "has a unit as typed": bool(PLAIN_UNITS.search(label)),
     }
-    return tuple(fault for fault, is_so in found.items() if is_so)
+    return tuple(fault for fault, is_so in conditions.items() if is_so)
 
 
 def duplicates(labels: Iterable[str]) -> tuple[str, ...]:

@@ -12,12 +12,12 @@ OURS = "drivewright"
 @cache
 def installed(group: str) -> dict[str, EntryPoint]:
     """Name -> entry point of everything installed under `group`; InputError where two packages claim one name."""
-    found = {}
+    points = {}
     for point in entry_points(group=group):
-        other = found.setdefault(point.name, point)
+        other = points.setdefault(point.name, point)
         if other.value != point.value:
             raise InputError(f"{group}: {point.name!r} is claimed by {other.value} and by {point.value}; uninstall one of the packages")
-    return found
+    return points
 
 
 @cache

@@ -144,10 +144,10 @@ def commands() -> dict[str, str]:
 def command(name: str) -> Command:
     """The `Command` of a name; InputError where the mechanism that is said to bring it does not."""
     bringing = plugins.load("drivewright.commands", name, "command")
-    found = next((each for each in bringing.commands if each.name == name), None)
-    if found is None:
+    named = next((each for each in bringing.commands if each.name == name), None)
+    if named is None:
         raise InputError(f"command {name!r} is not among the commands of {bringing.kind!r}; repair the package that declares it")
-    return found
+    return named
 
 
 def headlines(mechanism: Mechanism[Any, Any], values: Iterable[str] | Mapping[str, Any]) -> list[str]:

@@ -156,11 +156,11 @@ def _fits(dimension: Dimension, unit: str) -> bool:
 def _difference(one: Any, other: Any, path: str = "") -> str:
     """Where two raw documents differ first."""
     if isinstance(one, dict) and isinstance(other, dict):
-        found = (_difference(one.get(key), other.get(key), f"{path}.{key}") for key in {*one, *other})
-        return next((text for text in found if text), "")
+        differences = (_difference(one.get(key), other.get(key), f"{path}.{key}") for key in {*one, *other})
+        return next((text for text in differences if text), "")
     if isinstance(one, list) and isinstance(other, list) and len(one) == len(other):
-        found = (_difference(a, b, f"{path}.{number}") for number, (a, b) in enumerate(zip(one, other, strict=True)))
-        return next((text for text in found if text), "")
+        differences = (_difference(a, b, f"{path}.{number}") for number, (a, b) in enumerate(zip(one, other, strict=True)))
+        return next((text for text in differences if text), "")
     return "" if one == other else f"{path[1:]}: {one!r} and {other!r}"
 
 
@@ -196,12 +196,12 @@ def label_faults(kind: str, preset: str) -> tuple[str, ...]:
         "plot": [plot.title for plot in _plots(kind, result)],
         "table": [table.title for table in result.tables.values()],
     }
-    found = [line for what, labels in groups.items() for line in _faulty(what, labels)]
+    faults = [line for what, labels in groups.items() for line in _faulty(what, labels)]
     for table in result.tables.values():
-        found += _faulty(f"column of {table.title!r}", [label_of(column.meaning, column.label) for column in table.columns])
+        faults += _faulty(f"column of {table.title!r}", [label_of(column.meaning, column.label) for column in table.columns])
     for place, fields in _tables_of(type(spec)):
-        found += _faulty(f"field of {place}", [label_of_key(name, field.title) for name, field in fields.items()])
-    return tuple(dict.fromkeys(found))
+        faults += _faulty(f"field of {place}", [label_of_key(name, field.title) for name, field in fields.items()])
+    return tuple(dict.fromkeys(faults))
 
 
 def _faulty(what: str, labels: list[str]) -> Iterator[str]:

@@ -25,11 +25,13 @@ def load_curve(bearing: RollingBearing, force: Sequence[float] | Floats, factors
     """
     radial = float(np.hypot(force[0], force[1]))
     way = np.array([force[0], force[1]]) / radial
-    held = ("tilt_x", "tilt_y") + (() if contact_of(bearing) == "point" or bearing.contact_angle else ("z",))
-    load = np.array([*force[:2], 0.0 if "z" in held else force[2], 0.0, 0.0])
+    constraints = ("tilt_x", "tilt_y") + (() if contact_of(bearing) == "point" or bearing.contact_angle else ("z",))
+    load = np.array([*force[:2], 0.0 if "z" in constraints else force[2], 0.0, 0.0])
     rows = []
     for factor in factors:
-        found = solve(bearing, force=factor * load, held=held)
-        displacement, size = float(way @ found.displacement[:2]), factor * radial
-        rows.append((size, displacement, float(way @ found.stiffness[:2, :2] @ way), size / displacement if displacement > 0 else np.nan))
+        equilibrium = solve(bearing, force=factor * load, held=constraints)
+        displacement, size = float(way @ equilibrium.displacement[:2]), factor * radial
+        rows.append(
+            (size, displacement, float(way @ equilibrium.stiffness[:2, :2] @ way), size / displacement if displacement > 0 else np.nan)
+        )
     return LoadCurve(*np.array(rows).T)

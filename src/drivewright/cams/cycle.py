@@ -77,8 +77,8 @@ class Cycle:
     def maximum(self, quantity: Quantity, step: float = STEP) -> Extreme:
         """`Extreme` of a quantity; of equal ones the first.  The angle is exact to rounding."""
         piece, angle = self.samples(step)
-        found = quantity(*self.at(piece, angle))
-        values, slope = np.broadcast_to(found.d0, angle.shape), np.broadcast_to(found.d1, angle.shape)
+        sampled = quantity(*self.at(piece, angle))
+        values, slope = np.broadcast_to(sampled.d0, angle.shape), np.broadcast_to(sampled.d1, angle.shape)
         piece, angle, values = np.concatenate([[piece, angle, values], self._tops(quantity, piece, angle, values, slope)], axis=1)
         close = np.flatnonzero(values >= values.max() - EQUAL * np.max(np.abs(values)))
         first = close[np.argmin(angle[close])]
@@ -86,8 +86,8 @@ class Cycle:
 
     def minimum(self, quantity: Quantity, step: float = STEP) -> Extreme:
         """`Extreme` of the least value of a quantity; of equal ones the first."""
-        found = self.maximum(lambda angle, lift: -quantity(angle, lift), step)
-        return found._replace(value=-found.value)
+        opposite = self.maximum(lambda angle, lift: -quantity(angle, lift), step)
+        return opposite._replace(value=-opposite.value)
 
     def _tops(self, quantity, piece, angle, value, slope):
         """(piece, angle, value) where the slope passes through zero between two samples that may be as high as the highest."""

@@ -55,10 +55,10 @@ class FollowerShapes:
     def centers(self) -> list[complex]:
         """Centres of the round faces in the follower's frame [m]: on the first cam, on a second cam or of a yoke's second roller."""
         zero = variable(np.array([0.0]))
-        found = [complex(each.pitch(zero, constant(zero.d0)).d0[0]) for each in self.followers if not isinstance(each, FlatFollower)]
+        centers = [complex(each.pitch(zero, constant(zero.d0)).d0[0]) for each in self.followers if not isinstance(each, FlatFollower)]
         if self.yoke_breadth:
-            found.append(found[0] - 1j * self.yoke_breadth)
-        return [center - self.origin for center in found]
+            centers.append(centers[0] - 1j * self.yoke_breadth)
+        return [center - self.origin for center in centers]
 
     @property
     def radii(self) -> list[float]:

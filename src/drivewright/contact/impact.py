@@ -43,10 +43,10 @@ def impact_law(name: str) -> ImpactLaw:
     """The impact law of a name; UnknownName with the nearest one otherwise."""
     if name not in impact_law_names():
         raise UnknownName("impact law", name, impact_law_names())
-    found = _BUILT_IN.get(name) or plugins.load(PLUGINS, name, "impact law")
-    if not isinstance(found, ImpactLaw):
-        raise InputError(f"impact law {name!r}: its entry point gives a {type(found).__name__}; it must name an ImpactLaw.")
-    return found
+    law = _BUILT_IN.get(name) or plugins.load(PLUGINS, name, "impact law")
+    if not isinstance(law, ImpactLaw):
+        raise InputError(f"impact law {name!r}: its entry point gives a {type(law).__name__}; it must name an ImpactLaw.")
+    return law
 
 
 def _law(name, reliable, source):

@@ -92,7 +92,7 @@ class CircleFamily:
             return {1.0: (), -1.0: ()}
         centre = gather(self.path, arcs, np.array([0.5 * (self.path[k].start + self.path[k].stop) for k in arcs]))
         slow = {side: np.abs(envelope_of_circle(centre, self.radius, side).d1) < _CORNER * np.abs(centre.d1) for side in (1.0, -1.0)}
-        return {side: arcs[found] for side, found in slow.items()}
+        return {side: arcs[shortest] for side, shortest in slow.items()}
 
     def _corner(self, piece, before, after, side):
         turn = float(np.angle(after.d1 / before.d1))

@@ -90,26 +90,26 @@ def touches(nodes: Nodes, centres: ArrayLike, radius: float, reach: float) -> To
     room = 8
     while True:
         number = np.zeros(len(centres), dtype=np.int64)
-        found = np.zeros((len(centres), room), dtype=np.complex128)
+        points = np.zeros((len(centres), room), dtype=np.complex128)
         curvature = np.zeros((len(centres), room))
-        _search(nodes, centres, radius + reach, number, found, curvature)
+        _search(nodes, centres, radius + reach, number, points, curvature)
         if np.all(number <= room):
             break
         room = int(np.max(number))
     index, slot = np.nonzero(np.arange(room) < number[:, None])
-    point = found[index, slot]
+    point = points[index, slot]
     return Touches(index, point, np.abs(centres[index] - point) - radius, curvature[index, slot])
 
 
 @kernel
-def _search(nodes, centres, limit, number, found, curvature):
+def _search(nodes, centres, limit, number, points, curvature):
     """`nearest` of every centre (m,), into rows of `number` (m,), `found` and `curvature` (m, places)."""
     for k in range(len(centres)):
-        number[k] = nearest(nodes, centres[k], limit, found[k], curvature[k])
+        number[k] = nearest(nodes, centres[k], limit, points[k], curvature[k])
 
 
 @outer
-def nearest(nodes: Nodes, centre: complex, limit: float, found: Complexes, curvature: Floats) -> int:
+def nearest(nodes: Nodes, centre: complex, limit: float, points: Complexes, curvature: Floats) -> int:
     """Writes points and curvatures of the places nearer to `centre` than `limit`; returns their number, which may exceed the room."""
     count = 0
     chords = len(nodes.a)
@@ -126,9 +126,9 @@ def nearest(nodes: Nodes, centre: complex, limit: float, found: Complexes, curva
                 continue
             u = 1.0 if at_end else _foot(nodes, k, centre)
             point, first, second = _cubic(nodes, k, u)
-            if abs(point - centre) <= limit and not _known(found, min(count, len(found)), point):
-                if count < len(found):
-                    found[count] = point
+            if abs(point - centre) <= limit and not _known(points, min(count, len(points)), point):
+                if count < len(points):
+                    points[count] = point
                     corner = at_end and _turn(nodes.arrive[k], nodes.leave[(k + 1) % chords]) > CORNER
                     curvature[count] = np.inf if corner else _cross(first, second) / abs(first) ** 3
                 count += 1
@@ -136,9 +136,9 @@ def nearest(nodes: Nodes, centre: complex, limit: float, found: Complexes, curva
 
 
 @outer
-def _known(found: Complexes, count: int, point: complex) -> bool:
+def _known(points: Complexes, count: int, point: complex) -> bool:
     """Whether a foot on the node between two chords, or between the last chord and the first, has been found already."""
-    return count > 0 and min(abs(point - found[count - 1]), abs(point - found[0])) < SAME
+    return count > 0 and min(abs(point - points[count - 1]), abs(point - points[0])) < SAME
 
 
 @inner

@@ -49,7 +49,7 @@ def largest_lost_motion(trimmed: Trimmed, place: Callable[[Floats, Floats], Any]
     return _largest(trimmed, lambda t: lost_motion(trimmed, t, place, fastest))
 
 
-def _where_missing(trimmed, t, found):
+def _where_missing(trimmed, t, quantity):
     """found(t) at the parameters whose contact point was cut away, 0 at the others."""
     t = np.asarray(t, dtype=float)
     flat = t.ravel()
@@ -57,7 +57,7 @@ def _where_missing(trimmed, t, found):
     for start, stop in trimmed.removed:
         missing |= (flat >= start) & (flat <= stop)
     if missing.any():
-        lost[missing] = found(flat[missing])
+        lost[missing] = quantity(flat[missing])
     return lost.reshape(t.shape)
 
 
@@ -71,7 +71,7 @@ def _largest(trimmed, lost_at):
             k = int(np.argmax(lost))
             start, stop = t[max(k - 1, 0)], t[min(k + 1, 64)]
             deepest = float(t[k]), float(lost[k])
-        best = max(best, deepest, key=lambda found: found[1])
+        best = max(best, deepest, key=lambda place_and_value: place_and_value[1])
     return best
 
 

@@ -181,9 +181,9 @@ def _max_damage_planes(strain, stress, curve, grid):
 
 
 @inner
-def _store_frame(damage, frames, node, found):
+def _store_frame(damage, frames, node, worst):
     """Writes (damage, normal, direction) into damage (nodes,) and frames (nodes, 2, 3) where there is any damage."""
-    damage[node], normal, direction = found
+    damage[node], normal, direction = worst
     if damage[node] > 0.0:
         for i in range(3):
             frames[node, 0, i], frames[node, 1, i] = normal[i], direction[i]

@@ -124,12 +124,12 @@ def resolve(block: Block, normal: Vector, direction: Vector, work: PlaneWorkspac
     sliding, opening = tensor_weights(direction, normal), tensor_weights(normal, normal)
     for k in range(size):
         work.shear[k] = work.shear[size + k] = 2.0 * contract(sliding, block.strain, k)
-    found = block_cycles(work.shear, size, block.gate, work.turning, work.weight, work.start, work.end, work.stack)
-    if found:
+    cycles = block_cycles(work.shear, size, block.gate, work.turning, work.weight, work.start, work.end, work.stack)
+    if cycles:
         for k in range(size):
             work.normal[k] = work.normal[size + k] = contract(opening, block.strain, k)
             work.stress[k] = work.stress[size + k] = contract(opening, block.stress, k)
-    return found
+    return cycles
 
 
 @outer
@@ -168,9 +168,9 @@ def cycle_table(block: Block, curve: Curve, normal: Vector, direction: Vector) -
     """(cycles, 6): shear amplitude [-], normal strain amplitude [-], mean normal stress [Pa], damage [-], sample of start and turn."""
     work = plane_workspace(len(block.strain))
     n, d = (normal[0], normal[1], normal[2]), (direction[0], direction[1], direction[2])
-    found = resolve(block, n, d, work)
-    table = np.empty((found, 6))
-    for cycle in range(found):
+    cycles = resolve(block, n, d, work)
+    table = np.empty((cycles, 6))
+    for cycle in range(cycles):
         parts = cycle_measures(work, cycle, block.gate)
         damage = cycle_damage(curve, parts.shear + parts.normal, parts.mean)
         table[cycle, 0], table[cycle, 1], table[cycle, 2], table[cycle, 3] = parts.shear, parts.normal, parts.mean, damage
@@ -281,18 +281,18 @@ def worst_plane(block: Block, curve: Curve, grid: Floats, work: PlaneWorkspace, 
     """
     for g in range(len(grid)):
         score[g] = np.log(plane_damage(block, curve, (grid[g, 0], grid[g, 1], grid[g, 2]), (grid[g, 3], grid[g, 4], grid[g, 5]), work))
-    found = 0
+    hills = 0
     for _ in range(_MAX_STARTS):
         g = np.argmax(score)
         if score[g] == -np.inf:
             break
         n, d = (grid[g, 0], grid[g, 1], grid[g, 2]), (grid[g, 3], grid[g, 4], grid[g, 5])
-        work.height[found], normal, direction = nelder_mead(block, curve, n, d, _WIDE, _COARSE, work)
+        work.height[hills], normal, direction = nelder_mead(block, curve, n, d, _WIDE, _COARSE, work)
         for i in range(3):
-            work.hills[found, i], work.hills[found, 3 + i] = normal[i], direction[i]
+            work.hills[hills, i], work.hills[hills, 3 + i] = normal[i], direction[i]
         _exclude_neighbours(grid, score, n, d)
-        found += 1
-    return _refine_best(block, curve, work.hills[:found], work.height[:found], work)
+        hills += 1
+    return _refine_best(block, curve, work.hills[:hills], work.height[:hills], work)
 
 
 @kernel

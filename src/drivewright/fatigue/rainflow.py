@@ -57,7 +57,7 @@ def pair_cycles(
     x (n,) and gate: the signal, both in its unit; turning, start, end, stack (>= points,): sample numbers; count (>= points,) [-].
     closed: the points are one round of a block that begins and ends at its largest range, so that every cycle closes.
     """
-    depth, found = 0, 0
+    depth, cycles = 0, 0
     for t in range(points):
         stack[depth] = turning[t]
         depth += 1
@@ -65,20 +65,20 @@ def pair_cycles(
             newest = abs(x[stack[depth - 1]] - x[stack[depth - 2]])
             if newest < abs(x[stack[depth - 2]] - x[stack[depth - 3]]) - gate:
                 break
-            start[found], end[found] = stack[depth - 3], stack[depth - 2]
+            start[cycles], end[cycles] = stack[depth - 3], stack[depth - 2]
             if depth == 3 and not closed:  # it contains the beginning, before which nothing closed it
-                count[found] = 0.5
+                count[cycles] = 0.5
                 stack[0], stack[1] = stack[1], stack[2]
                 depth = 2
             else:
-                count[found] = 1.0
+                count[cycles] = 1.0
                 stack[depth - 3] = stack[depth - 1]
                 depth -= 2
-            found += 1
+            cycles += 1
     for k in range(depth - 1):
-        start[found], end[found], count[found] = stack[k], stack[k + 1], 0.5
-        found += 1
-    return found
+        start[cycles], end[cycles], count[cycles] = stack[k], stack[k + 1], 0.5
+        cycles += 1
+    return cycles
 
 
 @outer
@@ -104,11 +104,11 @@ def _count_cycles(x, repeating):
     )
     count = np.empty(capacity)
     if repeating:
-        found = block_cycles(x, len(x) // 2, 0.0, turning, count, start, end, stack)
+        cycles = block_cycles(x, len(x) // 2, 0.0, turning, count, start, end, stack)
     else:
         points = turning_points(x, 0, len(x) - 1, 0.0, turning)
-        found = pair_cycles(x, turning, points, 0.0, False, count, start, end, stack)
-    return count[:found], start[:found], end[:found]
+        cycles = pair_cycles(x, turning, points, 0.0, False, count, start, end, stack)
+    return count[:cycles], start[:cycles], end[:cycles]
 
 
 def cycles(history: ArrayLike, repeating: bool = False) -> Cycles:

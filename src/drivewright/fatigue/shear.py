@@ -64,10 +64,10 @@ def largest_differences(strain: Floats, gate: float) -> Floats:
     """Differences (count, 6) [-] of a strain (n, 6) [-], each once, between instants whose shear is the largest;
     none where no plane is sheared beyond `gate`.
     """
-    best, found = _largest_shear(strain), np.empty((4, 6))
+    best, differences = _largest_shear(strain), np.empty((4, 6))
     count = 0
     if best <= gate:
-        return found[:0]
+        return differences[:0]
     for i in range(len(strain)):
         for j in range(i):
             t = _difference(strain, i, j)
@@ -75,24 +75,24 @@ def largest_differences(strain: Floats, gate: float) -> Floats:
             if (
                 4.0 * j2 < ((1.0 - _NEAR) * best) ** 2
                 or _outer_difference(t, j2) < (1.0 - _NEAR) * best
-                or _is_known(t, found, count, best)
+                or _is_known(t, differences, count, best)
             ):
                 continue
-            if count == len(found):
-                found = np.concatenate((found, np.empty_like(found)))
+            if count == len(differences):
+                differences = np.concatenate((differences, np.empty_like(differences)))
             for c in range(6):
-                found[count, c] = t[c]
+                differences[count, c] = t[c]
             count += 1
-    return found[:count]
+    return differences[:count]
 
 
 @inner
-def _is_known(t, found, count, size):
+def _is_known(t, differences, count, size):
     """Whether the difference, or its negative, is there already: a block that repeats itself has few different ones."""
     for k in range(count):
         same, opposite = 0.0, 0.0
         for c in range(6):
-            same, opposite = max(same, abs(found[k, c] - t[c])), max(opposite, abs(found[k, c] + t[c]))
+            same, opposite = max(same, abs(differences[k, c] - t[c])), max(opposite, abs(differences[k, c] + t[c]))
         if min(same, opposite) <= _TIE * size:
             return True
     return False

@@ -37,8 +37,8 @@ def _follow_branches(elastic, material):
     """`NotchStress` stress and strain of a signed scalar block, from its largest absolute value on."""
     size, first = len(elastic), int(np.argmax(np.abs(elastic)))
     points = [(elastic[first], *neuber(elastic[first], material))]  # where the branches that are still open began
-    found, last = np.empty((size, 2)), points[0]
-    found[first] = last[1:]
+    states, last = np.empty((size, 2)), points[0]
+    states[first] = last[1:]
     for k in ((first + step) % size for step in range(1, size)):
         value = elastic[k]
         if (value - last[0]) * (last[0] - points[-1][0]) < 0:
@@ -47,5 +47,5 @@ def _follow_branches(elastic, material):
             del points[-2:]  # a loop has closed: the branch that it interrupted goes on
         half = neuber((value - points[-1][0]) / 2, material)
         last = value, points[-1][1] + 2 * half.stress, points[-1][2] + 2 * half.strain
-        found[k] = last[1:]
-    return NotchStress(*found.T)
+        states[k] = last[1:]
+    return NotchStress(*states.T)

@@ -66,8 +66,8 @@ class GearTrain:
         For ellipses both centres and both foci then lie on the line of the two axes.
         """
         grid = np.linspace(0, 2 * np.pi, samples)
-        found = bracketed_roots(lambda t: np.sin(self._phases(t)[0][-1].d0), grid)
-        return found[found < 2 * np.pi * (1 - 1e-12)]
+        roots = bracketed_roots(lambda t: np.sin(self._phases(t)[0][-1].d0), grid)
+        return roots[roots < 2 * np.pi * (1 - 1e-12)]
 
     def axes(self, t: ArrayLike, start: float = 0.0) -> tuple[Jet, ...]:
         """World positions of all axes, complex jets in t [m]: the sun at 0, the first arm at angle `start` for t = 0."""

@@ -36,13 +36,15 @@ def fit(
     count = np.size(residuals(start))
     if count < start.size:
         raise InputError(f"fit: {start.size} parameters need at least as many residuals, got {count}.")
-    found = least_squares(residuals, start, x_scale=scale, bounds=bounds, max_nfev=max_calls, xtol=1e-12, ftol=1e-12, gtol=1e-12)
-    if not found.success:
-        raise SolverError(f"fit: not settled after {found.nfev} calls of the residuals; start nearer or raise max_calls.", partial=found.x)
-    _, size, directions = np.linalg.svd(found.jac * scale, full_matrices=False)
+    solution = least_squares(residuals, start, x_scale=scale, bounds=bounds, max_nfev=max_calls, xtol=1e-12, ftol=1e-12, gtol=1e-12)
+    if not solution.success:
+        raise SolverError(
+            f"fit: not settled after {solution.nfev} calls of the residuals; start nearer or raise max_calls.", partial=solution.x
+        )
+    _, size, directions = np.linalg.svd(solution.jac * scale, full_matrices=False)
     if size[-1] <= 1e-7 * size[0]:  # differences of the residuals, which give J, are no better
         free = ", ".join(str(i) for i in np.flatnonzero(np.abs(directions[-1]) > 0.1))
-        raise SolverError(f"fit: the data do not determine the parameters {free} one by one; fix some of them.", partial=found.x)
+        raise SolverError(f"fit: the data do not determine the parameters {free} one by one; fix some of them.", partial=solution.x)
     root = (directions.T / size) * np.reshape(scale, (-1, 1))
-    spread = 2 * found.cost / max(count - start.size, 1)
-    return Fit(found.x, spread * root @ root.T, float(np.sqrt(2 * found.cost / count)), found.fun)
+    spread = 2 * solution.cost / max(count - start.size, 1)
+    return Fit(solution.x, spread * root @ root.T, float(np.sqrt(2 * solution.cost / count)), solution.fun)

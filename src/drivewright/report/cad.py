@@ -51,4 +51,4 @@ def _reproducible(text: str, name: str) -> str:
     header = f"FILE_NAME('{plain}','',(''),(''),'Open CASCADE','drivewright','');"
     text = re.sub(r"FILE_NAME\(.*?\);", lambda _: header, text, count=1, flags=re.S)
     text = re.sub(r"PRODUCT\('Open CASCADE[^']*',\s*'Open CASCADE[^']*'", lambda _: f"PRODUCT('{plain}','{plain}'", text)
-    return re.sub(r"[^\x00-\x7f]+", lambda found: f"\\X2\\{found.group().encode('utf-16-be').hex().upper()}\\X0\\", text)
+    return re.sub(r"[^\x00-\x7f]+", lambda match: f"\\X2\\{match.group().encode('utf-16-be').hex().upper()}\\X0\\", text)

@@ -53,15 +53,15 @@ def environment() -> "Environment":
     """The Jinja environment of the page templates, which escapes every value."""
     import jinja2
 
-    found = jinja2.Environment(
+    templates = jinja2.Environment(
         loader=jinja2.FileSystemLoader(HERE / "templates"),
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-    found.filters["breakable"] = _breakable
-    return found
+    templates.filters["breakable"] = _breakable
+    return templates
 
 
 def _breakable(name: str) -> "Markup":

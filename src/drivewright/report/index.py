@@ -46,8 +46,8 @@ def _link(target: Path, base: Path) -> str:
 
 def _thumbnail(folder, base):
     """The scene's thumbnail, else the first drawing or plot; None for a run without figures."""
-    found = sorted((folder / "figures").glob("*.svg"), key=lambda f: (f.name != "thumbnail.svg", f.name))
-    return _link(found[0], base) if found else None
+    figures = sorted((folder / "figures").glob("*.svg"), key=lambda f: (f.name != "thumbnail.svg", f.name))
+    return _link(figures[0], base) if figures else None
 
 
 def _headline(record):

@@ -12,35 +12,35 @@ from drivewright.report.records import OptimisedRecord
 MARK = "history.parquet"
 
 
-def write_optimised(found: OptimisedRecord, folder: str | Path) -> Path:
+def write_optimised(search: OptimisedRecord, folder: str | Path) -> Path:
     """Write history.parquet, front.parquet, best/ (run folder) and best.toml, each whole or not at all; returns the folder."""
     folder = Path(folder).resolve()
-    if folder != found.folder and not (folder / MARK).is_file():
+    if folder != search.folder and not (folder / MARK).is_file():
         refuse_foreign(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    _write_table(folder / MARK, found.table)
-    _write_table(folder / "front.parquet", _front(found))
-    best, seen = _with_search(found)
+    _write_table(folder / MARK, search.table)
+    _write_table(folder / "front.parquet", _front(search))
+    best, seen = _with_search(search)
     write_run_folder(best, folder / "best", seen=seen)
     with atomic.replacing(folder / "best.toml") as temporary:
-        found.best.spec.write(temporary)
+        search.best.spec.write(temporary)
     return folder
 
 
-def _with_search(found):
+def _with_search(search):
     """(Result, Views) of the best design, with the search that led to it."""
-    table, plot = found.search()
-    seen = views(found.best)
-    return replace(found.best, tables={**found.best.tables, table.name: table}), seen._replace(plots=(*seen.plots, plot))
+    table, plot = search.search()
+    seen = views(search.best)
+    return replace(search.best, tables={**search.best.tables, table.name: table}), seen._replace(plots=(*seen.plots, plot))
 
 
-def _front(found):
+def _front(search):
     """The front as a table: unknowns and values, with their units."""
     import pyarrow as pa
 
-    unknowns = dict(zip(found.problem.keys, found.front.T, strict=True))
-    infos = {key: key_info(key, kind.unit, "unknown") for key, kind in zip(found.problem.keys, found.problem.kinds, strict=True)}
-    columns = {name: (data, found.problem.about[name]) for name, data in found.front_values.items()}
+    unknowns = dict(zip(search.problem.keys, search.front.T, strict=True))
+    infos = {key: key_info(key, kind.unit, "unknown") for key, kind in zip(search.problem.keys, search.problem.kinds, strict=True)}
+    columns = {name: (data, search.problem.about[name]) for name, data in search.front_values.items()}
     columns = {key: (data, infos[key]) for key, data in unknowns.items()} | columns
     fields = [pa.field(name, pa.float64(), metadata=about.metadata()) for name, (_, about) in columns.items()]
     return pa.Table.from_arrays([pa.array(data, pa.float64()) for data, _ in columns.values()], schema=pa.schema(fields))

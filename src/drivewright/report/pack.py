@@ -138,12 +138,12 @@ def _along(x: ArrayLike, scene: Scene) -> Floats | None:
     return u if u.min() > -1e-6 and u.max() < 1 + 1e-6 else u % 1.0
 
 
-def _panels(found, u, scene):
+def _panels(panels, u, scene):
     """The panels of one plot; where there are several, one with a single line is named after it."""
     order = np.argsort(u, kind="stable")
-    for panel in found:
+    for panel in panels:
         rows = order[envelope_rows([each[order] for s in panel.series for each in (s.data, *s.ends)])]
-        title = panel.title if len(found) == 1 or len(panel.series) > 1 else panel.series[0].label
+        title = panel.title if len(panels) == 1 or len(panel.series) > 1 else panel.series[0].label
         yield {
             "title": title,
             "low": panel.low,

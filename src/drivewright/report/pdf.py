@@ -29,10 +29,10 @@ def write_pdf(result: Result[Any], path: str | Path, seen: Views | None = None, 
     return Path(path)
 
 
-def _lay_out(root, said, figures):
+def _lay_out(root, texts, figures):
     """The template, its data and its figures side by side, as Typst wants them."""
     files = [{"file": f"{n}.svg", "title": picture.title} for n, picture in enumerate(figures)]
-    data = {**said, "figures": files, "colours": {role: light for role, (light, _) in ROLES.items()}}
+    data = {**texts, "figures": files, "colours": {role: light for role, (light, _) in ROLES.items()}}
     (root / "report.typ").write_bytes(TEMPLATE.read_bytes())
     (root / "data.json").write_text(json.dumps(data, allow_nan=False), encoding="utf-8")
     for file, picture in zip(files, figures, strict=True):

@@ -24,19 +24,19 @@ COMMAND = "drivewright sweep study.toml --out again"
 VARIED = ("Key", "Over", "Nominal")
 
 
-def write_answers(study: StudyRecord, found: AnswersRecord, folder: str | Path) -> Path:
+def write_answers(study: StudyRecord, answers: AnswersRecord, folder: str | Path) -> Path:
     """Write what was found in a study (`studies.answers.answers`) into `folder` and return the path of its report.html.
 
     answers.json, figures/*.svg, tables/*.parquet, report.html; each file whole or not at all, the report last.  What an older report
     left is replaced, everything else in the folder stays.
     """
     folder = Path(folder)
-    drawn = [picture._replace(name=file_name(picture.name)) for picture in pictures(found.result, Views(plots=found.plots))]
-    _write_tables(folder / "tables", found.result.tables.values())
+    drawn = [picture._replace(name=file_name(picture.name)) for picture in pictures(answers.result, Views(plots=answers.plots))]
+    _write_tables(folder / "tables", answers.result.tables.values())
     _write_figures(folder / "figures", drawn)
-    write_text(folder / "answers.json", record_text(found.result))
+    write_text(folder / "answers.json", record_text(answers.result))
     path = folder / "report.html"
-    write_text(path, page("study.html.j2", study_content(study, found), pictures=[embedded(picture) for picture in drawn]))
+    write_text(path, page("study.html.j2", study_content(study, answers), pictures=[embedded(picture) for picture in drawn]))
     return path
 
 
@@ -67,11 +67,11 @@ def _forget(folder, pattern, kept):
 # -- what the page says --------------------------------------------------------------------------------------------------------
 
 
-def study_content(study: StudyRecord, found: AnswersRecord) -> dict[str, Any]:
+def study_content(study: StudyRecord, answers: AnswersRecord) -> dict[str, Any]:
     """What the page says, as plain text in plain dictionaries."""
-    result = found.result
+    result = answers.result
     tables = [described | _printed(table) for described, table in zip(content(result)["tables"], result.tables.values(), strict=True)]
-    return content(result, headlines=_headlines(found)) | {
+    return content(result, headlines=_headlines(answers)) | {
         "verdict": verdict(study),
         "tables": tables,
         "cases": cases(study),
@@ -107,11 +107,11 @@ def reasons(study: StudyRecord) -> list[dict[str, Any]]:
     for row in rows.group_by([STATUS, MESSAGE], use_threads=False).aggregate([([], "count_all")]).to_pylist():
         kind = (row[STATUS], re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "#", row[MESSAGE] or ""))
         kinds.setdefault(kind, []).append((row["count_all"], row[MESSAGE] or "no reason given"))
-    found = sorted(
+    counted = sorted(
         ({"status": status, "count": sum(count for count, _ in rows), "text": _example(rows)} for (status, _), rows in kinds.items()),
         key=lambda each: (-each["count"], each["status"], each["text"]),
     )
-    return found[:MOST_REASONS]
+    return counted[:MOST_REASONS]
 
 
 def _example(messages):
@@ -119,10 +119,10 @@ def _example(messages):
     return messages[0][1] + (" (and the like with other numbers)" if len(messages) > 1 else "")
 
 
-def _headlines(found):
+def _headlines(answers):
     """The yield, then of each value that has a plot what the answers say about it."""
-    plotted = {name for plot in found.plots for name in plot.y}
-    return [name for name in found.result.values if name == "yield" or name.partition(".")[2] in plotted][:MOST_TILES]
+    plotted = {name for plot in answers.plots for name in plot.y}
+    return [name for name in answers.result.values if name == "yield" or name.partition(".")[2] in plotted][:MOST_TILES]
 
 
 def _printed(table):
@@ -175,9 +175,9 @@ def _levels(variable):
     """Each of some levels; of many numbers the ends, and how they follow each other."""
     levels = variable.levels
     if len(levels) <= MOST_LEVELS or levels.dtype.kind not in "iuf":
-        told = [_text(variable, level) for level in levels.tolist()]
-        more = len(told) - 3 * MOST_LEVELS
-        return ", ".join(told[: 3 * MOST_LEVELS]) + (f" and {more} more" if more > 0 else "")
+        texts = [_text(variable, level) for level in levels.tolist()]
+        more = len(texts) - 3 * MOST_LEVELS
+        return ", ".join(texts[: 3 * MOST_LEVELS]) + (f" and {more} more" if more > 0 else "")
     steps = np.diff(levels)
     even = np.ptp(steps) <= 1e-9 * np.abs(steps).max()
     how = "equal steps" if even else "equal ratios" if _is_geometric(levels) else "uneven steps"

@@ -170,9 +170,9 @@ def rounded(data: Floats) -> Floats:
     exact = np.abs(exponent) <= 22
     power = 10.0 ** np.where(exact, np.abs(exponent), 0)
     whole = np.rint(np.where(exponent >= 0, data * power, data / power))
-    found = np.where(exponent >= 0, whole / power, whole * power) + 0.0
-    found[~exact] = [float(f"{value:.{DIGITS}g}") for value in data[~exact].tolist()]
-    return found
+    numbers = np.where(exponent >= 0, whole / power, whole * power) + 0.0
+    numbers[~exact] = [float(f"{value:.{DIGITS}g}") for value in data[~exact].tolist()]
+    return numbers
 
 
 WRITERS = {".csv": _study_csv, ".xlsx": _study_sheet, ".parquet": _study_parquet}

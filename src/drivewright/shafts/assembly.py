@@ -84,22 +84,22 @@ class ShaftSystem(NamedTuple):
 
 def assemble(shaft: Shaft, places: Iterable[float] = ()) -> ShaftSystem:
     """The `ShaftSystem` of a shaft with nodes also at `places`; InputError where the supports leave it free to move sideways."""
-    found = beams.beam(shaft, places)
+    beam = beams.beam(shaft, places)
     refuse_mechanism(shaft)
-    size = found.size + sum(len(_ring_freedoms(support)) for support in shaft.supports)
+    size = beam.size + sum(len(_ring_freedoms(support)) for support in shaft.supports)
     linear, basis = np.zeros((size, size)), np.eye(size)
-    basis[: found.size, : found.size] = beams.displacement_basis(found)
-    linear[: found.size, : found.size] = beams.stiffness(found)
-    mounts, rows, start = [], [], found.size
+    basis[: beam.size, : beam.size] = beams.displacement_basis(beam)
+    linear[: beam.size, : beam.size] = beams.stiffness(beam)
+    mounts, rows, start = [], [], beam.size
     for support in shaft.supports:
-        mounts.append(_mount(found, support, basis, start, len(rows)))
+        mounts.append(_mount(beam, support, basis, start, len(rows)))
         start += len(mounts[-1].ring)
         rows += _constraints(mounts[-1])
     free = not any(carries_axially(support, way) for support in shaft.supports for way in (1, -1))
     pinned = (AXIAL, TWIST) if free else (TWIST,)
     rows += [(np.eye(1, size, freedom)[0], 0.0, 0.0) for freedom in pinned]
     constraints, compliance, given = map(np.array, zip(*rows, strict=True))
-    return ShaftSystem(found, tuple(mounts), basis, linear, constraints, compliance, given, pinned)
+    return ShaftSystem(beam, tuple(mounts), basis, linear, constraints, compliance, given, pinned)
 
 
 def _constraints(mount):
@@ -119,16 +119,16 @@ def _holds(support, freedom):
     return support.stiffness[freedom] > 0 or any(_resists(support, freedom, way) for way in (1, -1))
 
 
-def _mount(found, support, basis, start, first):
+def _mount(beam, support, basis, start, first):
     """x, y averaged over the support's width, z and the tilts at its middle; less the ring's where the seat yields."""
-    rows, node, freedoms = np.zeros((5, len(basis))), found.node(support.position), _ring_freedoms(support)
+    rows, node, freedoms = np.zeros((5, len(basis))), beam.node(support.position), _ring_freedoms(support)
     rows[range(5), FREEDOMS * node + np.arange(5)] = 1.0  # of six: nothing here feels the turning
-    if support.width > beams.POINT * found.shaft.length:
+    if support.width > beams.POINT * beam.shaft.length:
         ends = support.position - support.width / 2, support.position + support.width / 2
-        even = beams.uniform_load(found, *ends)
-        even /= even[:, 0] @ found.pieces[:, 0]
+        even = beams.uniform_load(beam, *ends)
+        even /= even[:, 0] @ beam.pieces[:, 0]
         for plane in (0, 1):
-            rows[plane, : found.size] = beams.nodal_loads(found, plane, even)
+            rows[plane, : beam.size] = beams.nodal_loads(beam, plane, even)
     rows *= (MIRROR if support.mirrored else np.ones(5))[:, None]
     ring = start + np.arange(len(freedoms))
     rows[list(freedoms), ring] -= 1.0

@@ -33,14 +33,14 @@ def residual(rows: Floats, length: float) -> float:
     return float(np.abs(rows.sum(axis=0) / (1.0, 1.0, 1.0, length, length)).max() / total)
 
 
-def unit_imbalance(found: Flexibility, shaft: Shaft, positions: Sequence[float], direction: Sequence[float] | Floats) -> float:
+def unit_imbalance(flexibility: Flexibility, shaft: Shaft, positions: Sequence[float], direction: Sequence[float] | Floats) -> float:
     """The largest `imbalance` of the unit loads of a `Flexibility`."""
     worst = 0.0
     for column, position in enumerate(positions):
         rows = [_row(position, (*direction, 0.0), (0.0, 0.0, 0.0))]
         rows += [
             _row(support.position, -force[:3, column], -force[3:, column])
-            for support, force in zip(shaft.supports, found.support_forces, strict=True)
+            for support, force in zip(shaft.supports, flexibility.support_forces, strict=True)
         ]
         worst = max(worst, residual(np.array(rows), shaft.length))
     return worst

@@ -177,8 +177,10 @@ def _designs(*arguments):
                 "give one for each, or a single number."
             )
     if len(rows) > 1:
-        told = ", ".join(f"{name} {len(table)}" for name, table in named.items() if len(table) > 1)
-        raise InputError(f"flexibilities: the arguments disagree in the number of designs ({told}); each must have that many rows, or one.")
+        lengths = ", ".join(f"{name} {len(table)}" for name, table in named.items() if len(table) > 1)
+        raise InputError(
+            f"flexibilities: the arguments disagree in the number of designs ({lengths}); each must have that many rows, or one."
+        )
     columns = [
         DesignColumn(table.reshape(-1), *(step if size > 1 else 0 for step, size in zip((table.shape[1], 1), table.shape, strict=True)))
         for table in tables

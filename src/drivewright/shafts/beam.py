@@ -113,11 +113,11 @@ def element_freedoms(element: int, plane: int) -> tuple[Ints, Floats]:
 # from these strains without the difference of two nearly equal displacements, however short a piece is.
 
 
-def displacement_basis(found: Beam) -> Floats:
+def displacement_basis(beam: Beam) -> Floats:
     """S (6n, 6n): displacements of all nodes = S v, of the unknowns v."""
-    whole = np.zeros((found.size, found.size))
+    whole = np.zeros((beam.size, beam.size))
     whole[:FREEDOMS, :FREEDOMS] = np.eye(FREEDOMS)
-    for element, length in enumerate(found.pieces[:, 0]):
+    for element, length in enumerate(beam.pieces[:, 0]):
         at = FREEDOMS * element
         carried = np.eye(FREEDOMS)
         for w, t, sign in PLANES:
@@ -127,12 +127,12 @@ def displacement_basis(found: Beam) -> Floats:
     return whole
 
 
-def stiffness(found: Beam) -> Floats:
+def stiffness(beam: Beam) -> Floats:
     """K (6n, 6n) of the shaft without its supports, in the unknowns: a block for every piece, none for the first node."""
-    whole = np.zeros((found.size, found.size))
-    bending = np.linalg.inv(found.flexibility)
-    stretch, twist = _rod_stiffnesses(found)
-    for element in range(len(found.pieces)):
+    whole = np.zeros((beam.size, beam.size))
+    bending = np.linalg.inv(beam.flexibility)
+    stretch, twist = _rod_stiffnesses(beam)
+    for element in range(len(beam.pieces)):
         at = FREEDOMS * (element + 1)
         for w, t, sign in PLANES:
             signs = np.array([1.0, sign])
@@ -141,30 +141,30 @@ def stiffness(found: Beam) -> Floats:
     return whole
 
 
-def _rod_stiffnesses(found):
+def _rod_stiffnesses(beam):
     """(EA, GI_p) over the length of every piece: 1 / int dx/EA."""
-    length, start, end, bore = found.pieces.T[:, :, None]
+    length, start, end, bore = beam.pieces.T[:, :, None]
     diameter = start + (end - start) * NODES
-    e, g = found.shaft.modulus, 0.5 * found.shaft.modulus / (1 + found.shaft.poisson)
+    e, g = beam.shaft.modulus, 0.5 * beam.shaft.modulus / (1 + beam.shaft.poisson)
     soft = [np.sum(WEIGHTS * length / stiff, axis=1) for stiff in (e * area(diameter, bore), 2 * g * second_moment(diameter, bore))]
     return 1 / soft[0], 1 / soft[1]
 
 
-def strains(found: Beam, unknowns: Floats) -> Floats:
+def strains(beam: Beam, unknowns: Floats) -> Floats:
     """(n-1, 6): the strains of the pieces among the unknowns."""
-    return unknowns[FREEDOMS : found.size].reshape(-1, FREEDOMS)
+    return unknowns[FREEDOMS : beam.size].reshape(-1, FREEDOMS)
 
 
-def stretch_energy(found: Beam, unknowns: Floats) -> Floats:
+def stretch_energy(beam: Beam, unknowns: Floats) -> Floats:
     """(s, s): int N_i N_j/EA over the shaft, for the unknowns (>= 6n, s) of several loads."""
-    pulled = unknowns[FREEDOMS + 2 : found.size : FREEDOMS]
-    return pulled.T @ (_rod_stiffnesses(found)[0][:, None] * pulled)
+    pulled = unknowns[FREEDOMS + 2 : beam.size : FREEDOMS]
+    return pulled.T @ (_rod_stiffnesses(beam)[0][:, None] * pulled)
 
 
-def tension_and_torque(found: Beam, unknowns: Floats) -> Floats:
+def tension_and_torque(beam: Beam, unknowns: Floats) -> Floats:
     """(n-1, 2): axial force, positive in tension, and torque in every piece."""
-    stretch, twist = _rod_stiffnesses(found)
-    return strains(found, unknowns)[:, [2, 5]] * np.stack([stretch, twist], axis=1)
+    stretch, twist = _rod_stiffnesses(beam)
+    return strains(beam, unknowns)[:, [2, 5]] * np.stack([stretch, twist], axis=1)
 
 
 # -- distributed loads ---------------------------------------------------------------------------------------------------------
@@ -193,12 +193,12 @@ def clamped_load_displacement(pieces: Floats, coefficients: Floats, shaft: Shaft
     return np.stack([np.sum((length - x) * moment * zero + shear * slip, axis=1), np.sum(moment * zero, axis=1)], axis=1)
 
 
-def nodal_loads(found: Beam, plane: int, coefficients: Floats) -> Floats:
+def nodal_loads(beam: Beam, plane: int, coefficients: Floats) -> Floats:
     """(6n,) forces and moments on the nodes that do the same as a load per length (n-1, 3) in a plane."""
-    length, total = found.pieces[:, 0], np.zeros(found.size)
-    sag = clamped_load_displacement(found.pieces, coefficients, found.shaft)
+    length, total = beam.pieces[:, 0], np.zeros(beam.size)
+    sag = clamped_load_displacement(beam.pieces, coefficients, beam.shaft)
     shear, moment = load_resultants(coefficients, length, np.zeros_like(length))
-    held = np.einsum("nij,ni->nj", strain_matrix(length), np.linalg.solve(found.flexibility, sag[:, :, None])[:, :, 0])
+    held = np.einsum("nij,ni->nj", strain_matrix(length), np.linalg.solve(beam.flexibility, sag[:, :, None])[:, :, 0])
     held[:, 0] += shear
     held[:, 1] += moment
     for element, four in enumerate(held):
@@ -207,25 +207,25 @@ def nodal_loads(found: Beam, plane: int, coefficients: Floats) -> Floats:
     return total
 
 
-def uniform_load(found: Beam, start: float, end: float, value: float = 1.0) -> Floats:
+def uniform_load(beam: Beam, start: float, end: float, value: float = 1.0) -> Floats:
     """Coefficients (n-1, 3) of a constant load per length between two nodes."""
-    middle = 0.5 * (found.z[1:] + found.z[:-1])
+    middle = 0.5 * (beam.z[1:] + beam.z[:-1])
     found_at = (middle > start) & (middle < end)
     return np.stack([np.where(found_at, value, 0.0), np.zeros(len(middle)), np.zeros(len(middle))], axis=1)
 
 
-def linear_load(found: Beam, start: float, end: float, first: float, last: float) -> Floats:
+def linear_load(beam: Beam, start: float, end: float, first: float, last: float) -> Floats:
     """The same of a load from `first` at `start` to `last` at `end`, both nodes."""
-    inside = uniform_load(found, start, end)[:, 0]
+    inside = uniform_load(beam, start, end)[:, 0]
     slope = (last - first) / (end - start)
-    return np.stack([inside * (first + slope * (found.z[:-1] - start)), inside * slope, 0 * inside], axis=1)
+    return np.stack([inside * (first + slope * (beam.z[:-1] - start)), inside * slope, 0 * inside], axis=1)
 
 
-def mass_per_length(found: Beam) -> Floats:
+def mass_per_length(beam: Beam) -> Floats:
     """Mass per length (n-1, 3): rho A(x), a parabola over a cone."""
-    length, start, end, bore = found.pieces.T
+    length, start, end, bore = beam.pieces.T
     grow = (end - start) / length
-    scale = 0.25 * np.pi * found.shaft.density
+    scale = 0.25 * np.pi * beam.shaft.density
     return scale * np.stack([start**2 - bore**2, 2 * start * grow, grow**2], axis=1)
 
 
@@ -241,29 +241,29 @@ class ElasticLine(NamedTuple):
     moment: Floats
 
 
-def end_forces(found: Beam, plane: int, unknowns: Floats, coefficients: Floats | None = None) -> Floats:
+def end_forces(beam: Beam, plane: int, unknowns: Floats, coefficients: Floats | None = None) -> Floats:
     """(n-1, 2): force and moment at the end of every piece."""
     w, t, sign = PLANES[plane]
-    bent = strains(found, unknowns)[:, [w, t]] * (1.0, sign)
+    bent = strains(beam, unknowns)[:, [w, t]] * (1.0, sign)
     if coefficients is not None:
-        bent = bent - clamped_load_displacement(found.pieces, coefficients, found.shaft)
-    return np.asarray(np.linalg.solve(found.flexibility, bent[:, :, None])[:, :, 0], dtype=float)
+        bent = bent - clamped_load_displacement(beam.pieces, coefficients, beam.shaft)
+    return np.asarray(np.linalg.solve(beam.flexibility, bent[:, :, None])[:, :, 0], dtype=float)
 
 
-def elastic_line(found: Beam, plane: int, unknowns: Floats, z: Floats, coefficients: Floats | None = None) -> ElasticLine:
+def elastic_line(beam: Beam, plane: int, unknowns: Floats, z: Floats, coefficients: Floats | None = None) -> ElasticLine:
     """The `ElasticLine` at places z: the piece from the node before to z is a clamped piece itself, so this is exact anywhere."""
     w, t, sign = PLANES[plane]
-    element = np.clip(np.searchsorted(found.z, z, side="right") - 1, 0, len(found.pieces) - 1)
-    length, x = found.pieces[element, 0], z - found.z[element]
-    force, moment = end_forces(found, plane, unknowns, coefficients)[element].T
-    displacement = displacement_basis(found) @ unknowns[: found.size]
+    element = np.clip(np.searchsorted(beam.z, z, side="right") - 1, 0, len(beam.pieces) - 1)
+    length, x = beam.pieces[element, 0], z - beam.z[element]
+    force, moment = end_forces(beam, plane, unknowns, coefficients)[element].T
+    displacement = displacement_basis(beam) @ unknowns[: beam.size]
     load = np.zeros((len(z), 3)) if coefficients is None else coefficients[element]
     carried = load_resultants(load, length, x)
     shear, moment = force + carried[0], moment + force * (length - x) + carried[1]
-    part = _pieces(found.shaft, found.z[element], np.maximum(z, found.z[element] + 1e-12 * found.shaft.length))
+    part = _pieces(beam.shaft, beam.z[element], np.maximum(z, beam.z[element] + 1e-12 * beam.shaft.length))
     part[:, 0] = x
-    flexibility, _ = clamped_flexibility(part, found.shaft)
-    sag = clamped_load_displacement(part, load, found.shaft)
+    flexibility, _ = clamped_flexibility(part, beam.shaft)
+    sag = clamped_load_displacement(part, load, beam.shaft)
     first, slope = displacement[FREEDOMS * element + w], sign * displacement[FREEDOMS * element + t]
     return ElasticLine(
         first + slope * x + flexibility[:, 0, 0] * shear + flexibility[:, 0, 1] * moment + sag[:, 0],

@@ -21,15 +21,15 @@ def buckling_factor(loaded: LoadedShaft) -> float | None:
     the section; pi^2 EI/L^2 for a slender shaft on two supports.
     """
     equilibrium = loaded.equilibrium
-    model, found = equilibrium.model, equilibrium.model.beam
-    tension = beams.tension_and_torque(found, equilibrium.unknowns)[:, 0]
+    model, beam = equilibrium.model, equilibrium.model.beam
+    tension = beams.tension_and_torque(beam, equilibrium.unknowns)[:, 0]
     if not np.any(tension < 0):
         return None
     held, stiff = condense_supports(
         equilibrium.hessian + REGULARISATION_FACTOR * regularisation(model), model.constraints, model.compliance
     )
     basis = model.basis @ held
-    geometric = basis[: found.size].T @ _geometric(found, tension) @ basis[: found.size]
+    geometric = basis[: beam.size].T @ _geometric(beam, tension) @ basis[: beam.size]
     try:
         factors = eigh(-geometric, stiff, eigvals_only=True)
     except np.linalg.LinAlgError:
@@ -45,11 +45,11 @@ def buckling_factor_under(shaft: Shaft, loads: ShaftLoads) -> float | None:
     return buckling_factor(apply_loads(shaft, loads, np.linspace(0.0, shaft.length, PLACES)))
 
 
-def _geometric(found, tension):
+def _geometric(beam, tension):
     """K_N (6n, 6n) on the displacements of the nodes."""
-    _, slope = element_shapes(found)
-    each = np.einsum("n,np,npi,npj->nij", tension, WEIGHT * found.pieces[:, :1], slope, slope)
-    whole = np.zeros((found.size, found.size))
+    _, slope = element_shapes(beam)
+    each = np.einsum("n,np,npi,npj->nij", tension, WEIGHT * beam.pieces[:, :1], slope, slope)
+    whole = np.zeros((beam.size, beam.size))
     for element, part in enumerate(each):
         for plane in (0, 1):
             at, sign = beams.element_freedoms(element, plane)

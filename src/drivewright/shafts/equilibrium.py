@@ -129,8 +129,8 @@ def _newton_step(model, v, held, load):
     gradient, hessian = _energy_derivatives(model, v)
     off = gradient - load + model.constraints.T @ held
     apart = model.constraints @ v - model.compliance * held - model.given
-    found = solve_saddle_point(hessian + regularisation(model), model.constraints, model.compliance, -np.concatenate([off, apart]))
-    return found[: model.size], found[model.size :]
+    solution = solve_saddle_point(hessian + regularisation(model), model.constraints, model.compliance, -np.concatenate([off, apart]))
+    return solution[: model.size], solution[model.size :]
 
 
 def solve_saddle_point(hessian: Floats, constraints: Floats, compliance: Floats, right: Floats) -> Floats:
@@ -175,8 +175,8 @@ def _first_guess(model, load):
         if mount.support.law is not None:
             hessian += mount.rows.T @ usual @ mount.rows
             pull += mount.rows.T @ usual @ mount.support.offset
-    found = solve_saddle_point(hessian, model.constraints, model.compliance, np.concatenate([pull, model.given]))
-    return found[: model.size], found[model.size :]
+    solution = solve_saddle_point(hessian, model.constraints, model.compliance, np.concatenate([pull, model.given]))
+    return solution[: model.size], solution[model.size :]
 
 
 def _step_length(model, state, change, load):

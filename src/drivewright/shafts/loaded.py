@@ -90,25 +90,25 @@ def _spread(model, loads):
     return total
 
 
-def _axial_weight(found, gravity):
+def _axial_weight(beam, gravity):
     """Half the weight of every piece on each of its ends, along the axis."""
-    total = np.zeros(found.size)
-    mass, moment = beams.load_resultants(beams.mass_per_length(found), found.pieces[:, 0], np.zeros(len(found.pieces)))
-    second = moment / found.pieces[:, 0]
-    total[2 : found.size : FREEDOMS][:-1] += gravity * (mass - second)
-    total[2 : found.size : FREEDOMS][1:] += gravity * second
+    total = np.zeros(beam.size)
+    mass, moment = beams.load_resultants(beams.mass_per_length(beam), beam.pieces[:, 0], np.zeros(len(beam.pieces)))
+    second = moment / beam.pieces[:, 0]
+    total[2 : beam.size : FREEDOMS][:-1] += gravity * (mass - second)
+    total[2 : beam.size : FREEDOMS][1:] += gravity * second
     return total
 
 
 def diagram(loaded: LoadedShaft, count: int = 201) -> Diagram:
     """The `Diagram` at about `count` places, twice at every node: just left and just right of it, for forces jump there."""
-    found, v = loaded.equilibrium.model.beam, loaded.equilibrium.unknowns
-    z = _places(found, count)
-    lines = [beams.elastic_line(found, plane, v, z, loaded.spread[plane]) for plane in (0, 1)]
+    beam, v = loaded.equilibrium.model.beam, loaded.equilibrium.unknowns
+    z = _places(beam, count)
+    lines = [beams.elastic_line(beam, plane, v, z, loaded.spread[plane]) for plane in (0, 1)]
     deflection, slope, shear, moment = (np.stack(each, axis=1) for each in zip(*lines, strict=True))
-    element = np.clip(np.searchsorted(found.z, z, side="right") - 1, 0, len(found.pieces) - 1)
-    axial, torque = beams.tension_and_torque(found, v)[element].T
-    return Diagram(z, deflection, slope, shear, moment, axial, torque, *_stresses(found, element, z, moment, axial, torque))
+    element = np.clip(np.searchsorted(beam.z, z, side="right") - 1, 0, len(beam.pieces) - 1)
+    axial, torque = beams.tension_and_torque(beam, v)[element].T
+    return Diagram(z, deflection, slope, shear, moment, axial, torque, *_stresses(beam, element, z, moment, axial, torque))
 
 
 def largest_displacement(loaded: LoadedShaft, along: Diagram) -> float:
@@ -116,18 +116,18 @@ def largest_displacement(loaded: LoadedShaft, along: Diagram) -> float:
     return float(max(np.hypot(*along.deflection.T).max(), np.abs(loaded.equilibrium.axial_displacements).max()))
 
 
-def _places(found, count):
+def _places(beam, count):
     """Even places and both sides of every node, rising."""
-    tiny = 1e-9 * found.shaft.length
-    even = np.linspace(0.0, found.shaft.length, count)
-    even = even[np.abs(even[:, None] - found.z).min(axis=1) > 10 * tiny]
-    return np.sort(np.concatenate([even, found.z[1:] - tiny, found.z[:-1]]))
+    tiny = 1e-9 * beam.shaft.length
+    even = np.linspace(0.0, beam.shaft.length, count)
+    even = even[np.abs(even[:, None] - beam.z).min(axis=1) > 10 * tiny]
+    return np.sort(np.concatenate([even, beam.z[1:] - tiny, beam.z[:-1]]))
 
 
-def _stresses(found, element, z, moment, axial, torque):
+def _stresses(beam, element, z, moment, axial, torque):
     """(bending and tension, torsion, von Mises) [Pa] at the surface."""
-    length, start, end, bore = found.pieces[element].T
-    diameter = start + (end - start) * (z - found.z[element]) / length
+    length, start, end, bore = beam.pieces[element].T
+    diameter = start + (end - start) * (z - beam.z[element]) / length
     second = second_moment(diameter, bore)
     bending = np.hypot(*moment.T) * diameter / 2 / second + np.abs(axial) / area(diameter, bore)
     torsion = np.abs(torque) * diameter / 4 / second

@@ -68,12 +68,14 @@ def compliance_integrals(
 @kernel
 def compliance_integrals_of(pieces: Floats, modulus: float, poisson: float, shear: float) -> Floats:
     """`compliance_integrals` of many pieces (n, 4) of (length, start, end, bore): (n, 4)."""
-    found = np.zeros((len(pieces), 4))
+    integrals = np.zeros((len(pieces), 4))
     for i in range(len(pieces)):
         length, start, end, bore = pieces[i]
         if length > 0.0:
-            found[i, 0], found[i, 1], found[i, 2], found[i, 3] = compliance_integrals(length, start, end, bore, modulus, poisson, shear)
-    return found
+            integrals[i, 0], integrals[i, 1], integrals[i, 2], integrals[i, 3] = compliance_integrals(
+                length, start, end, bore, modulus, poisson, shear
+            )
+    return integrals
 
 
 @warmer

@@ -32,28 +32,28 @@ class FlexibilitySlope(NamedTuple):
     slope: Floats
 
 
-def flexibility_slopes(equilibrium: ShaftEquilibrium, found: Flexibility, direction: Floats) -> Iterator[FlexibilitySlope]:
+def flexibility_slopes(equilibrium: ShaftEquilibrium, flexibility: Flexibility, direction: Floats) -> Iterator[FlexibilitySlope]:
     """(parameter, what is held, d delta/d ln(parameter) (s, s) [m/N]) of the flexibility between the shaft's stations along `direction`.
 
     Bearings that are not linear keep their tangents at the equilibrium.
     """
-    yield from _of_parts(equilibrium.model.beam.shaft, found)
-    yield from _of_sections(equilibrium, found)
+    yield from _of_parts(equilibrium.model.beam.shaft, flexibility)
+    yield from _of_sections(equilibrium, flexibility)
     yield from _of_places(equilibrium, direction)
 
 
-def relative_flexibility_slopes(equilibrium: ShaftEquilibrium, found: Flexibility, direction: Floats) -> Iterator[FlexibilitySlope]:
+def relative_flexibility_slopes(equilibrium: ShaftEquilibrium, flexibility: Flexibility, direction: Floats) -> Iterator[FlexibilitySlope]:
     """`flexibility_slopes` as relative changes over relative changes, d ln(delta)/d ln(p) [-]; nan where delta is 0."""
-    known = np.abs(found.delta) > NO_FLEXIBILITY * np.abs(found.delta).max()
-    for name, held, slope in flexibility_slopes(equilibrium, found, direction):
+    known = np.abs(flexibility.delta) > NO_FLEXIBILITY * np.abs(flexibility.delta).max()
+    for name, held, slope in flexibility_slopes(equilibrium, flexibility, direction):
         with np.errstate(divide="ignore", invalid="ignore"):
-            relative = np.where(known, slope / found.delta, np.nan)
+            relative = np.where(known, slope / flexibility.delta, np.nan)
         yield FlexibilitySlope(name, held, relative)
 
 
-def _of_parts(shaft: Shaft, found: Flexibility) -> Iterator[FlexibilitySlope]:
+def _of_parts(shaft: Shaft, flexibility: Flexibility) -> Iterator[FlexibilitySlope]:
     """Modulus and bearings: delta is the sum of its shares, each inversely proportional to a stiffness."""
-    shares = dict(zip(found.names, found.shares, strict=True))
+    shares = dict(zip(flexibility.names, flexibility.shares, strict=True))
     elastic = [support.name for support in shaft.supports if is_elastic(support)]
     inside = [share for name, share in shares.items() if name in ("bending", "shear", "tension")]
     yield FlexibilitySlope("youngs_modulus", "shear modulus in proportion; bearings held", -np.sum(inside, axis=0))
@@ -69,7 +69,7 @@ def is_elastic(support: Support) -> bool:
     return support.law is not None or any(0 < k < np.inf for k in (*support.stiffness, *support.seat))
 
 
-def _of_sections(at_rest: ShaftEquilibrium, found: Flexibility) -> Iterator[FlexibilitySlope]:
+def _of_sections(at_rest: ShaftEquilibrium, flexibility: Flexibility) -> Iterator[FlexibilitySlope]:
     """Diameters: d delta_ij = sum over the pieces of f_i' dF f_j, F their flexibility and f the forces at their ends."""
     beam, shaft = at_rest.model.beam, at_rest.model.beam.shaft
     middles = beam.z[:-1] + 0.5 * beam.pieces[:, 0]
@@ -80,7 +80,7 @@ def _of_sections(at_rest: ShaftEquilibrium, found: Flexibility) -> Iterator[Flex
         for f, (_, weight) in zip(factors, WEIGHTS, strict=True)
     ]
     change = np.sum(flexibilities, axis=0) / STEP
-    forces = np.array([[beams.end_forces(beam, plane, column) for column in found.unknowns.T] for plane in (0, 1)])
+    forces = np.array([[beams.end_forces(beam, plane, column) for column in flexibility.unknowns.T] for plane in (0, 1)])
     for number in range(len(shaft.sections)):
         own = at == number
         slope = np.einsum("pina,nab,pjnb->ij", forces[:, :, own], change[own], forces[:, :, own])

@@ -22,7 +22,7 @@ class LimitLoad(NamedTuple):
 
 
 def limit_loads(
-    found: Flexibility,
+    flexibility: Flexibility,
     equilibrium: ShaftEquilibrium,
     station: int,
     direction: Floats,
@@ -35,9 +35,9 @@ def limit_loads(
     station: its number in the `Flexibility` of the `equilibrium` along `direction` (x, y); ratings: one for every support.
     """
     shaft = equilibrium.model.beam.shaft
-    for support, rating, share in zip(shaft.supports, ratings, np.abs(found.reactions[:, station]), strict=True):
+    for support, rating, share in zip(shaft.supports, ratings, np.abs(flexibility.reactions[:, station]), strict=True):
         if rating and share > NO_SHARE:
             yield LimitLoad(support.name, rating / share)
-    stress = peak_unit_stress(equilibrium, found.unknowns[:, station], direction)
+    stress = peak_unit_stress(equilibrium, flexibility.unknowns[:, station], direction)
     if yield_strength and stress > NO_STRESS / shaft.length**2:
         yield LimitLoad(None, yield_strength / stress)

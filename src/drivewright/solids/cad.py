@@ -225,9 +225,9 @@ def _distance(edge: EngineObject, at: Floats, points: Floats, curve: PPoly) -> f
     low, high = edge.parameter_interval
     s = np.union1d(pieces.between(curve.x), pieces.between(at))
     parameter = low + (high - low) * np.interp(s, at, chord) / chord[-1]
-    found = np.array([[p.x, p.y] for p in map(edge.Value, parameter.tolist())]) / MM
+    on_edge = np.array([[p.x, p.y] for p in map(edge.Value, parameter.tolist())]) / MM
     tangent = curve(s, 1)
-    offset = found - curve(s)
+    offset = on_edge - curve(s)
     return float(np.abs(tangent[:, 0] * offset[:, 1] - tangent[:, 1] * offset[:, 0]).max() / np.hypot(*tangent.T).min())
 
 

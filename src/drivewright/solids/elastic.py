@@ -146,11 +146,11 @@ class FreeBody:
         at, triangles = sampled_triangles(ng, self.mesh, self.mesh.Boundaries(region), parts)
         points = ng.CF((ng.x, ng.y, ng.z))(at)
         shape = ng.GridFunction(self.space)
-        found = []
+        displacements = []
         for field, motion in zip(fields, (self.basis @ motions).T, strict=True):
             shape.vec.data = field
-            found.append(MM * np.asarray(shape(at)) + _carried(points, motion, self.middle, self.size))
-        return DisplacedSurface(MM * points, triangles, np.array(found))
+            displacements.append(MM * np.asarray(shape(at)) + _carried(points, motion, self.middle, self.size))
+        return DisplacedSurface(MM * points, triangles, np.array(displacements))
 
     def _interpolated(self, function: EngineObject) -> EngineObject:
         shape = self.ng.GridFunction(self.space)

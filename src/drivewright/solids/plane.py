@@ -85,10 +85,10 @@ class PlaneBody:
     def on(self, pattern: str) -> Bools:
         """Which points of the rim (n,) lie on boundaries whose names match a pattern as in "hole0:*"; InputError where none does."""
         names = np.unique(self.rim.name)
-        found = [name for name in names if matches(pattern, name)]
-        if not found:
+        matching = [name for name in names if matches(pattern, name)]
+        if not matching:
             raise InputError(f"no boundary of the plate matches {pattern!r}; there are {', '.join(names)}")
-        return np.isin(self.rim.name, found)
+        return np.isin(self.rim.name, matching)
 
     def resultant(self, tractions: ArrayLike) -> tuple[Floats, Floats]:
         """Forces (L, 2) [N] and moments about the origin (L,) [N m] of tractions (L, n, 2) [Pa] on the rim."""
@@ -125,17 +125,17 @@ class PlaneBody:
         return self.thickness * self.rim.lengths[:, None] * np.asarray(tractions, float)
 
     def _solved(self, right: Floats) -> Floats:
-        given, found = self._shape.vec.CreateVector(), self._shape.vec.CreateVector()
+        given, solution = self._shape.vec.CreateVector(), self._shape.vec.CreateVector()
         given.FV().NumPy()[:] = right
-        found.data = self._inverse * given
-        return MM * found.FV().NumPy()
+        solution.data = self._inverse * given
+        return MM * solution.FV().NumPy()
 
     def _stresses(self, fields: Floats, gradient: EngineObject, at: EngineObject) -> Floats:
-        vector, found = self._shape.vec.FV().NumPy(), []
+        vector, gradients = self._shape.vec.FV().NumPy(), []
         for field in fields:
             vector[:] = field / MM
-            found.append(np.asarray(gradient(at)))
-        return self._hooke(np.array(found))
+            gradients.append(np.asarray(gradient(at)))
+        return self._hooke(np.array(gradients))
 
     def _hooke(self, gradient: Floats) -> Floats:
         """Plane stress: E/(1 - nu^2) (exx + nu eyy), likewise y, and E/(1 + nu) exy; gradient (..., 4) row by row."""

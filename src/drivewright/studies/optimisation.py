@@ -154,8 +154,8 @@ def run_search(
     tables = kept.tables()
     if not tables:
         raise KeyboardInterrupt
-    found = _outcome(problem, store.joined(tables))
-    return Optimised(problem, **found, seconds=time.perf_counter() - started, method=method, folder=kept.folder, interrupted=interrupted)
+    outcome = _outcome(problem, store.joined(tables))
+    return Optimised(problem, **outcome, seconds=time.perf_counter() - started, method=method, folder=kept.folder, interrupted=interrupted)
 
 
 def _search(problem, method, evaluator):
@@ -303,8 +303,8 @@ def _with_interval(reached, name):
     place = last_place(*(factor * each for each in (reached[name].value, *bounds.values()))) if bounds else None
     if place is None:
         return _shown(reached[name].value, reached[name].unit)
-    told, low, high = (to_place(factor * each, place) for each in (reached[name].value, *bounds.values()))
-    return f"{told} ({low} to {high}) {unit}".removesuffix(" -")
+    value, low, high = (to_place(factor * each, place) for each in (reached[name].value, *bounds.values()))
+    return f"{value} ({low} to {high}) {unit}".removesuffix(" -")
 
 
 def _shown(value, unit, digits=6):

@@ -19,10 +19,10 @@ def classify_designs(columns: Sequence[Floats], goals: Iterable[str], passes: Bo
     signs = [{"minimise": 1.0, "maximise": -1.0}[goal] for goal in goals]
     points = np.stack([sign * np.asarray(column, dtype=float) for column, sign in zip(columns, signs, strict=True)], axis=1)
     present = np.all(np.isfinite(points), axis=1)
-    found = np.where(present, FAILS, ABSENT).astype(object)
+    classes = np.where(present, FAILS, ABSENT).astype(object)
     rows = np.flatnonzero(present & passes)
-    found[rows] = np.where(nondominated(points[rows]), FRONT, DOMINATED)
-    return found
+    classes[rows] = np.where(nondominated(points[rows]), FRONT, DOMINATED)
+    return classes
 
 
 def nondominated(points: Floats) -> Bools:

@@ -59,10 +59,10 @@ def _factor(kind, unit, key):
 def _is_word(kind, cell):
     """Whether a quantity takes this word in place of a number: "rigid"."""
     try:
-        found = kind.dimension.parse(str(cell).strip())
+        parsed = kind.dimension.parse(str(cell).strip())
     except UnitError:
         return False
-    return isinstance(found, str) or not np.isfinite(found)
+    return isinstance(parsed, str) or not np.isfinite(parsed)
 
 
 def _cell(kind, cell, place, file):
@@ -121,5 +121,5 @@ def _from_parquet(file):
 
 
 def _unit_of(field):
-    found = (field.metadata or {}).get(b"unit")
-    return found.decode() if found else None
+    unit = (field.metadata or {}).get(b"unit")
+    return unit.decode() if unit else None

@@ -41,11 +41,11 @@ def _keys(spec_file, spec, idle):
 def _flat(tables, path=""):
     """{dotted key: value} of raw tables."""
     entries = tables.items() if isinstance(tables, dict) else enumerate(tables)
-    found = {}
+    flat = {}
     for key, value in entries:
         place = f"{path}.{key}" if path else str(key)
-        found |= _flat(value, place) if isinstance(value, (dict, list)) else {place: value}
-    return found
+        flat |= _flat(value, place) if isinstance(value, (dict, list)) else {place: value}
+    return flat
 
 
 def _same(there, here):

@@ -223,11 +223,11 @@ def read_study(folder: str | Path) -> tuple[Any, list[pa.Table], float, tuple[st
         ledger = _readable(folder / LEDGER)
         seconds = ledger.execute("select coalesce(sum(seconds), 0) from parts").fetchone()[0]
         known = dict(ledger.execute("select key, value from identity"))
-        found = load(folder / SPEC), read_parts(folder, ledger), seconds, _remarks(ledger), known
+        study = load(folder / SPEC), read_parts(folder, ledger), seconds, _remarks(ledger), known
         ledger.close()
     except (OSError, sqlite3.Error) as error:
         raise InputError(f"{folder}: cannot be read: {error}") from None
-    return found
+    return study
 
 
 def _readable(file: Path) -> sqlite3.Connection:

@@ -112,18 +112,18 @@ def _levels(kind: KeyKind, vary: Vary, place: str) -> NDArray[Any]:
     if vary.spacing == "logarithmic":
         if not low * high > 0:
             raise SpecError(f"logarithmic levels need bounds of one sign beside 0, got {brief(vary.lower)} and {brief(vary.upper)}", place)
-        found = np.geomspace(low, high, steps)
+        levels = np.geomspace(low, high, steps)
     else:
-        found = np.linspace(low, high, steps)
+        levels = np.linspace(low, high, steps)
     if kind.name == "integer":
-        found = np.where(np.abs(found - np.round(found)) <= 1e-12 * np.abs(found), np.round(found), found)  # equal ratios round
-    if kind.name == "integer" and np.any(found != np.round(found)):
+        levels = np.where(np.abs(levels - np.round(levels)) <= 1e-12 * np.abs(levels), np.round(levels), levels)  # equal ratios round
+    if kind.name == "integer" and np.any(levels != np.round(levels)):
         raise SpecError(
             f"{vary.key} takes whole numbers, but {vary.steps} steps from {low} to {high} give "
-            f"{', '.join(f'{x:g}' for x in found[:4])} ...; choose steps = {abs(high - low) + 1}, or give values",
+            f"{', '.join(f'{x:g}' for x in levels[:4])} ...; choose steps = {abs(high - low) + 1}, or give values",
             place,
         )
-    return found.astype(np.int64) if kind.name == "integer" else found
+    return levels.astype(np.int64) if kind.name == "integer" else levels
 
 
 def column(levels: Sequence[Any], kind: KeyKind) -> NDArray[Any]:
@@ -137,10 +137,10 @@ def _bound(kind: KeyKind, vary: Vary, name: str, place: str, needed: bool = Fals
     value = getattr(vary, name)
     if value is None and needed:
         raise SpecError(f"a range of steps needs lower and upper; {name} is missing", f"{place}.{name}")
-    found = None if value is None else kind.read(value, f"{place}.{name}")
-    if kind.name == "quantity" and found is not None and (isinstance(found, str) or not np.isfinite(found)):
+    number = None if value is None else kind.read(value, f"{place}.{name}")
+    if kind.name == "quantity" and number is not None and (isinstance(number, str) or not np.isfinite(number)):
         raise SpecError(f"wants a number with a unit here, got {brief(value)}; list a word among values", f"{place}.{name}")
-    return found
+    return number
 
 
 def _distribution(kind: KeyKind, vary: Vary, nominal: float | None, place: str) -> tuple[Any, tuple[float, float]]:
@@ -159,10 +159,10 @@ def _distribution(kind: KeyKind, vary: Vary, nominal: float | None, place: str) 
 
 
 def _middle(given: _Given, nominal: float | None, key: str, place: str) -> float:
-    found = given["mean"] if given["mean"] is not None else given["mode"] if given["mode"] is not None else nominal
-    if found is None:
+    middle = given["mean"] if given["mean"] is not None else given["mode"] if given["mode"] is not None else nominal
+    if middle is None:
         raise SpecError(f"{key} has no value in this spec to vary about; give mean, or lower and upper", place)
-    return found
+    return middle
 
 
 def _normal(given: _Given, nominal: float | None, key: str, place: str) -> Any:

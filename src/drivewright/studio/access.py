@@ -67,10 +67,10 @@ class AccessControl:
 
     def _has_cookie(self, headers):
         try:
-            found = SimpleCookie(headers.get("cookie", "")).get(self.cookie)
+            cookie = SimpleCookie(headers.get("cookie", "")).get(self.cookie)
         except CookieError:
             return False
-        return bool(self.token) and found is not None and hmac.compare_digest(found.value.encode(), self.token.encode())
+        return bool(self.token) and cookie is not None and hmac.compare_digest(cookie.value.encode(), self.token.encode())
 
     async def _welcome(self, scope, send):
         """To the same page without the token in its address, which stays in the browser's history."""

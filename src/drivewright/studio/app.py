@@ -74,14 +74,14 @@ def _listening(host: str, port: int | None) -> socket.socket:
     for number in [port] if port is not None else range(PORT, PORT + 20):
         with suppress(OSError, OverflowError):
             family = socket.AF_INET6 if ":" in host else socket.AF_INET
-            found = socket.socket(family)
-            found.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            listener = socket.socket(family)
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             try:
-                found.bind((host, number))
-                found.listen()
-                return found
+                listener.bind((host, number))
+                listener.listen()
+                return listener
             except BaseException:
-                found.close()
+                listener.close()
                 raise
     at = f"port {port}" if port is not None else f"ports {PORT} to {PORT + 19}"
     raise InputError(f"studio: {host}, {at}: cannot listen there (taken, or not allowed); choose another --port, or --host of this machine")
@@ -118,16 +118,16 @@ def application(start: Design, name: str = "", ready: Callable[[], object] = lam
 
     @app.get("/web/{file}")
     def web(file: str):
-        found = _files().get(file)
-        return Response(found[0], media_type=found[1], headers=SAFE) if found else Response(status_code=404)
+        served = _files().get(file)
+        return Response(served[0], media_type=served[1], headers=SAFE) if served else Response(status_code=404)
 
     @app.get("/download/{token}")
     def download(token: str):
-        found = started[-1].fetch(token)
-        if found is None:
+        download_file = started[-1].fetch(token)
+        if download_file is None:
             return Response("this file has been fetched already, or is too old: ask for it again\n", 404, media_type="text/plain")
-        headers = SAFE | {"Content-Disposition": _attachment(found[0])}
-        return Response(found[1], media_type="application/octet-stream", headers=headers)
+        headers = SAFE | {"Content-Disposition": _attachment(download_file[0])}
+        return Response(download_file[1], media_type="application/octet-stream", headers=headers)
 
     @ui.page("/", title="Drivewright studio", reconnect_timeout=AWAY)
     def page():

@@ -62,9 +62,9 @@ class FieldInfo:
 @cache
 def field_infos(model: type[Spec]) -> dict[str, FieldInfo]:
     """The FieldInfo of each key of a table class, values first, then sub-tables, those that all kinds share last."""
-    found = {name: field_info_of(name, field) for name, field in model.model_fields.items()}
+    infos = {name: field_info_of(name, field) for name, field in model.model_fields.items()}
     shared = MechanismSpec.model_fields
-    order = sorted(found.values(), key=lambda info: (bool(info.table) or info.kind == "names", bool(info.table) and info.name in shared))
+    order = sorted(infos.values(), key=lambda info: (bool(info.table) or info.kind == "names", bool(info.table) and info.name in shared))
     return {info.name: info for info in order}
 
 
@@ -184,8 +184,8 @@ def _marks(annotation):
 
 def _limits(marks):
     """Limits, in SI."""
-    found = {side: limit for mark in marks for side in ("gt", "ge", "lt", "le") if (limit := getattr(mark, side, None)) is not None}
-    return Limits(found.get("gt", found.get("ge")), found.get("lt", found.get("le")), "gt" in found, "lt" in found)
+    limits = {side: limit for mark in marks for side in ("gt", "ge", "lt", "le") if (limit := getattr(mark, side, None)) is not None}
+    return Limits(limits.get("gt", limits.get("ge")), limits.get("lt", limits.get("le")), "gt" in limits, "lt" in limits)
 
 
 # -- text ----------------------------------------------------------------------------------------------------------------------

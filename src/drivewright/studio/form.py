@@ -72,9 +72,9 @@ class _Maker:
 
     def inside(self, info, given, path, pattern):
         """The groups of a sub-table, of a list of them, or of those that the user names."""
-        said = info.hint not in ("", info.name.replace("_", " "))
+        has_hint = info.hint not in ("", info.name.replace("_", " "))
         about = {
-            "hint": info.hint if said or not info.table else info.table.__doc__,
+            "hint": info.hint if has_hint or not info.table else info.table.__doc__,
             "optional": not info.required and not info.levels and info.default is None,
         }
         value = info.initial_value if given is ABSENT else given

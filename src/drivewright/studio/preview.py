@@ -90,7 +90,7 @@ def _fraction(check):
     return part if abs(part) < 1e6 else None
 
 
-def merge_results(shown: Mapping[str, Any], found: Mapping[str, Any]) -> dict[str, Any]:
+def merge_results(shown: Mapping[str, Any], update: Mapping[str, Any]) -> dict[str, Any]:
     """What is shown, with the answers of some analyses renewed; checks and plots of the others are marked stale."""
 
     def renewed(old, new, name):
@@ -98,24 +98,24 @@ def merge_results(shown: Mapping[str, Any], found: Mapping[str, Any]) -> dict[st
         known = {item[name] for item in old}
         return [fresh.get(item[name], {**item, "stale": True}) for item in old] + [item for item in new if item[name] not in known]
 
-    checks, values, headline = (renewed(shown[what], found[what], "name") for what in ("checks", "values", "headline"))
+    checks, values, headline = (renewed(shown[what], update[what], "name") for what in ("checks", "values", "headline"))
     return {
         **shown,
         "checks": checks,
         "values": values,
         "headline": headline,
-        "plots": _merged_plots(shown["plots"], found["plots"]),
-        "fractions": {**shown["fractions"], **found["fractions"]},
+        "plots": _merged_plots(shown["plots"], update["plots"]),
+        "fractions": {**shown["fractions"], **update["fractions"]},
         "verdict": {**shown["verdict"], "stale": True},
     }
 
 
-def _merged_plots(shown, found):
+def _merged_plots(shown, update):
     """Plots of the same name renewed, where the cycle is still the same kind of cycle."""
-    if not shown or not found or shown["cycle"]["unit"] != found["cycle"]["unit"]:
+    if not shown or not update or shown["cycle"]["unit"] != update["cycle"]["unit"]:
         return shown
-    fresh = {plot["name"]: plot for plot in found["plots"]}
-    return {"cycle": found["cycle"], "plots": [fresh.get(plot["name"], {**plot, "stale": True}) for plot in shown["plots"]]}
+    fresh = {plot["name"]: plot for plot in update["plots"]}
+    return {"cycle": update["cycle"], "plots": [fresh.get(plot["name"], {**plot, "stale": True}) for plot in shown["plots"]]}
 
 
 def affordable_analyses(analyses: Iterable[Analysis[Any, Any]], seconds: Mapping[str, float], budget: float) -> list[str]:

@@ -59,10 +59,10 @@ def unused_name(name: Any, taken: Collection[Any]) -> str:
     match = re.fullmatch(r"(.*?)_?(\d*)", name) if isinstance(name, str) else None
     stem, number = match.groups() if match else ("a", "")
     gap = "_" if isinstance(name, str) and re.search(r"_\d+$", name) else ""
-    found = int(number or 1)
-    while f"{stem}{gap}{found}" in taken or f"{stem}{gap}{found}" == name or found == 1:
-        found += 1
-    return f"{stem}{gap}{found}"
+    count = int(number or 1)
+    while f"{stem}{gap}{count}" in taken or f"{stem}{gap}{count}" == name or count == 1:
+        count += 1
+    return f"{stem}{gap}{count}"
 
 
 def with_unused_name(element: Any, others: Iterable[Any]) -> Any:

@@ -311,7 +311,7 @@ def opened(path: str | Path) -> Design:
     """The design of a spec file on this machine; it may read what it names, and the tables beside it."""
     tables, folder = read_document(path), Path(path).resolve().parent
     named = Design(tables, folder).spec().data_files()
-    beside = [found for pattern in ("*.csv", "*.parquet") for found in folder.glob(pattern)]
+    beside = [beside_path for pattern in ("*.csv", "*.parquet") for beside_path in folder.glob(pattern)]
     return Design(tables, folder, frozenset([*named, *beside]))
 
 

@@ -34,8 +34,8 @@ def texts(kind: str | None = None) -> dict[str, str]:
 def _introduction(kind):
     """What the page says of a kind before a design of it is open: its name, its summary, its presets."""
     known = registry.mechanism(kind)
-    said = _brought(kind).get("texts", {})
-    return _presets(kind) | {english: said[english] for english in (_spoken(kind), known.summary) if english in said}
+    texts = _brought(kind).get("texts", {})
+    return _presets(kind) | {english: texts[english] for english in (_spoken(kind), known.summary) if english in texts}
 
 
 def _keys(kind):

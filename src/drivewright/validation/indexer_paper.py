@@ -60,11 +60,11 @@ def indexer_result(*changes: str) -> Result[Any]:
 
 def _contacts() -> Iterator[Row]:
     common: dict[str, Any] = {"pinned": AGREES, "kind": "other code", "where": "section 3.2", "inputs": DATA, "assumed": "pins of 8 mm"}
-    found = indexer_result()
-    count = dict(zip(np.round(np.degrees(found.tables["contacts"]["angle"].data), 6), found.tables["contacts"]["pins"].data, strict=True))
+    result = indexer_result()
+    count = dict(zip(np.round(np.degrees(result.tables["contacts"]["angle"].data), 6), result.tables["contacts"]["pins"].data, strict=True))
     note = "Pins from 7.5 to 8.5 mm give both numbers; 18.635 mm, 0.6 of the chord, leaves 3 contacts at 45 deg, none at 22.5."
     yield Row("pins in contact at 45 deg, the fewest", rounded("7", "-"), count[45.0], "-", note=note, **common)
-    yield Row("fewest pins in contact", rounded("7", "-"), found["contacts.minimum"], "-", **common)
+    yield Row("fewest pins in contact", rounded("7", "-"), result["contacts.minimum"], "-", **common)
     yield Row("pins in contact at 90 deg", rounded("12", "-"), count[90.0], "-", **common)
 
 
@@ -187,9 +187,9 @@ def _crank_loads() -> Iterator[Row]:
     spec = load(registry.mechanism("indexer").presets()["default"], changes)
     answer = registry.mechanism("indexer")
     model = build(spec)
-    found, near = next(a for a in answer.analyses if a.name == "stiffness").answer(model, {}).data
-    force, moment = statics.pin_resultants(found, near)
-    centre = statics.cam_centre(spec.eccentricity, found.theta)
+    equilibrium, near = next(a for a in answer.analyses if a.name == "stiffness").answer(model, {}).data
+    force, moment = statics.pin_resultants(equilibrium, near)
+    centre = statics.cam_centre(spec.eccentricity, equilibrium.theta)
     printed = statics.crank_loads_printed(force[:, 0], centre, spec.shaft_spacing)
     corrected = statics.crank_loads(force[:, 0], moment[:, 0], centre, spec.shaft_spacing)
     common: dict[str, Any] = {"pinned": EXPLAINED, "kind": "closed form", "where": "eq. (8)", "inputs": DATA, "assumed": ASSUMED}
@@ -200,7 +200,7 @@ def _crank_loads() -> Iterator[Row]:
         yield Row(
             f"{name} of cam 1 at 22.5 deg",
             Printed(f"eq. (8): {size:.0f} N", 0.995 * size, 1.005 * size),
-            float(abs(found.crank_forces[0, side, 0].imag)),
+            float(abs(equilibrium.crank_forces[0, side, 0].imag)),
             "N",
             explanation=Explanation(f"{why} Corrected: {other:.0f} N."),
             **common,

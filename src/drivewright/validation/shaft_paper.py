@@ -78,14 +78,14 @@ def own_flexibility(mass: str, stiffness: float | None = None) -> float:
 
 def flexibility_of_formula(value: float, formula: str) -> Printed:
     """A formula's flexibility [m/N] for the printed data, to six digits."""
-    found = rounded(f"{1e9 * value:.6g} um/kN", "m/N")
-    return found._replace(text=f"{formula}: {found.text}")
+    printed = rounded(f"{1e9 * value:.6g} um/kN", "m/N")
+    return printed._replace(text=f"{formula}: {printed.text}")
 
 
 def slope_of_formula(value: float, formula: str) -> Printed:
     """A formula's slope [rad/N], in urad/N, to six digits."""
-    found = rounded(f"{1e6 * value:.6g}", "-")
-    return found._replace(text=f"{formula}: {found.text}")
+    printed = rounded(f"{1e6 * value:.6g}", "-")
+    return printed._replace(text=f"{formula}: {printed.text}")
 
 
 # -- section and closed forms --------------------------------------------------------------------------------------------------
@@ -308,8 +308,8 @@ def stiffness_ratio(axial: float, taper: BallBearing | RollerBearing) -> float:
 
 def secant_stiffness_of_61804(force: float) -> float:
     """Radial force over displacement [N/m]."""
-    found = bearings.solve(bearings.bearing("61804"), force=[force, 0.0, 0.0, 0.0, 0.0])
-    return float(force / found.displacement[0])
+    equilibrium = bearings.solve(bearings.bearing("61804"), force=[force, 0.0, 0.0, 0.0, 0.0])
+    return float(force / equilibrium.displacement[0])
 
 
 def _bearings() -> Iterator[Row]:

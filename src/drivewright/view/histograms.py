@@ -28,12 +28,12 @@ def draw_histogram(shown: Sequence[Panel]) -> "Figure":
     """Figure of a panel of style "histogram": counts, mean, 5 % and 95 %, limits as dashed lines."""
     panel = shown[0]
     samples = panel.series[0].data
-    found = samples[np.isfinite(samples)]
+    finite = samples[np.isfinite(samples)]
     with styled():
         figure = new_figure(3.3, panel.title)
         axis = figure.subplots()
-        handles = _bars(axis, found, len(samples) - len(found)) + _marks(axis, found, panel.x.unit)
-        near, far = _reachable(panel.limits, found)
+        handles = _bars(axis, finite, len(samples) - len(finite)) + _marks(axis, finite, panel.x.unit)
+        near, far = _reachable(panel.limits, finite)
         legend_above(axis, handles + far)
         axis.set(xlabel=literal(axis_label(panel.x.label, panel.x.unit)), ylabel="Cases")
         whole_ticks(axis.yaxis)
@@ -62,34 +62,34 @@ def bin_edges(samples: NDArray[Any]) -> Floats:
     return np.linspace(low, high, int(np.ceil(bins)) + 1)
 
 
-def _bars(axis: "Axes", found: Floats, absent: int) -> "list[Artist]":
+def _bars(axis: "Axes", finite: Floats, absent: int) -> "list[Artist]":
     """The bars; their entry in the legend tells how many samples there are."""
     from matplotlib.patches import Patch
 
-    label = f"{len(found)} {'case' if len(found) == 1 else 'cases'}" + (f", {absent} without a value" if absent else "")
+    label = f"{len(finite)} {'case' if len(finite) == 1 else 'cases'}" + (f", {absent} without a value" if absent else "")
     look = {"facecolor": (colour("blue"), 0.35), "edgecolor": colour("blue"), "lw": 0.7}
-    if len(found):
-        borders = bin_edges(found)
-        counts = np.histogram(found, borders)[0]
+    if len(finite):
+        borders = bin_edges(finite)
+        counts = np.histogram(finite, borders)[0]
         axis.bar(borders[:-1], counts, np.diff(borders), align="edge", **look)
         axis.set_ylim(0, 1.06 * counts.max())
         axis.grid(False, axis="x")
     return [Patch(label=label, **look)]
 
 
-def _marks(axis: "Axes", found: Floats, unit: str) -> "list[Artist]":
+def _marks(axis: "Axes", finite: Floats, unit: str) -> "list[Artist]":
     """Lines at the mean and at the tails, told in the legend."""
-    if not len(found):
+    if not len(finite):
         return []
-    mean, spread = found.mean(), found.std(ddof=1) if len(found) > 1 else 0.0
-    digits = figures(found, spread)
+    mean, spread = finite.mean(), finite.std(ddof=1) if len(finite) > 1 else 0.0
+    digits = figures(finite, spread)
     text = f"Mean {with_unit(number(mean, digits), unit)}"
     text += f", standard deviation {with_unit(number(spread, 3), unit)}" if spread else ""
     handles: list[Artist] = [axis.axvline(mean, color=colour("ink"), lw=1.3, label=text)]
-    if len(found) >= ENOUGH and spread:
-        ends = np.percentile(found, TAILS)
-        told = " … ".join(number(end, digits) for end in ends)
-        text = f"5 % … 95 %: {with_unit(told, unit)}"
+    if len(finite) >= ENOUGH and spread:
+        ends = np.percentile(finite, TAILS)
+        bounds = " … ".join(number(end, digits) for end in ends)
+        text = f"5 % … 95 %: {with_unit(bounds, unit)}"
         handles += [axis.axvline(end, color=colour("ink"), lw=1.1, ls=(0, (1, 1.5)), label=text) for end in ends]
     return handles[:2]
 
@@ -100,13 +100,13 @@ def figures(samples: Floats, spread: float) -> int:
     return int(np.clip(np.ceil(np.log10(size / spread)) + 3, 4, 12)) if spread and size else 4
 
 
-def _reachable(limits: Sequence[tuple[float, str]], found: Floats) -> "tuple[Sequence[tuple[float, str]], list[Artist]]":
+def _reachable(limits: Sequence[tuple[float, str]], finite: Floats) -> "tuple[Sequence[tuple[float, str]], list[Artist]]":
     """(limits near enough to be drawn, legend entries of the others)."""
     from matplotlib.lines import Line2D
 
-    if not len(found):
+    if not len(finite):
         return limits, []
-    low, high = float(found.min()), float(found.max())
+    low, high = float(finite.min()), float(finite.max())
     reach = APART * (high - low) or max(abs(low), 1.0)
     near = [limit for limit in limits if low - reach <= limit[0] <= high + reach]
     return near, [

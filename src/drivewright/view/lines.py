@@ -37,14 +37,14 @@ def _grouped(table: Table, plot: Plot) -> tuple[Column, list[Line]]:
     by, x = table[plot.by], table[plot.x]
     values, group = np.unique(by.data, return_inverse=True)
     places, place = np.unique(x.data, return_inverse=True)
-    told = [str(v) if values.dtype.kind not in "fiub" else quantity(v, by.unit, 4) for v in values]
+    levels = [str(v) if values.dtype.kind not in "fiub" else quantity(v, by.unit, 4) for v in values]
 
     def split(column):
         data = np.full((len(values), len(places)), np.nan)
         data[group, place] = column.data
         return [
             column._replace(name=f"{column.name}.{text}", meaning=f"{plot.by} {text}", data=row)
-            for text, row in zip(told, data, strict=True)
+            for text, row in zip(levels, data, strict=True)
         ]
 
     lines = []

@@ -161,15 +161,15 @@ def _limits(axis, panel, x, y, cells):
     """Legend entries of the limits; a contour for each one that the cells reach on both sides."""
     from matplotlib.lines import Line2D
 
-    found = []
+    handles = []
     for n, (value, text) in enumerate(panel.limits):
         look = {"color": colour("bad"), "lw": 2.0, "ls": ("--", ":", "-.")[n % 3]}
         if min(cells.shape) > 1 and panel.low < value < panel.high:
             axis.contour(x, y, cells, levels=[value], colors=look["color"], linewidths=look["lw"], linestyles=look["ls"])
-            found.append(Line2D([], [], label=literal(text), **look))
+            handles.append(Line2D([], [], label=literal(text), **look))
         elif cells.count():
-            found.append(Line2D([], [], ls="none", label=f"{literal(text)}: all {'above' if value <= panel.low else 'below'}"))
-    return found
+            handles.append(Line2D([], [], ls="none", label=f"{literal(text)}: all {'above' if value <= panel.low else 'below'}"))
+    return handles
 
 
 def _hatched(cells):

@@ -157,11 +157,11 @@ def _groups(by: Column) -> tuple[list[str], NDArray[np.int64]]:
 
 def _coloured(chunk: Sequence[Line], roles: Iterator[str]) -> list[Series]:
     """Series of some lines, each line in its colour."""
-    found = []
+    series = []
     for line in chunk:
         role = next(roles)
-        found += [_series(line.column, role, ends=line.ends), *(_series(column, "ink", dashed=True) for column in line.references)]
-    return _with_distinct_labels(found)
+        series += [_series(line.column, role, ends=line.ends), *(_series(column, "ink", dashed=True) for column in line.references)]
+    return _with_distinct_labels(series)
 
 
 def _shaded(x: Column, column: Column) -> tuple[tuple[float, float], ...]:

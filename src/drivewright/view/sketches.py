@@ -146,9 +146,9 @@ def _draw_ghosts(axis, scene, observer, phases, tolerance):
                 if LAYERS.get(shape.layer, LAYERS["body"])[2]:
                     points = place(simplified_points(shape.outline, tolerance), pose) * _length()[0]
                     lines.setdefault(body.colour, []).append(points[[*range(len(points)), 0]] if shape.outline.closed else points)
-    for role, found in lines.items():
-        axis.add_artist(LineCollection(found, colors=colour(role), linewidths=0.6, alpha=0.25))
-        axis.update_datalim(np.concatenate(found))
+    for role, segments in lines.items():
+        axis.add_artist(LineCollection(segments, colors=colour(role), linewidths=0.6, alpha=0.25))
+        axis.update_datalim(np.concatenate(segments))
 
 
 def _add(axis, points, closed, near=None, **look):

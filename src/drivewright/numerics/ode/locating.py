@@ -44,7 +44,7 @@ def record_events(
     """
     if after.size == 0:
         return hits, -1
-    found, first = hits, 2.0
+    total, first = hits, 2.0
     if rules.search_inside:
         values_at(event_system, 0.5, batch, row, y, batch.values_middle)
     for index in range(after.size):
@@ -56,12 +56,12 @@ def record_events(
             crosses = high > low and (high < 1.0 or start < 0.0 <= after[index] or start > 0.0 >= after[index])
             if crosses and ((start < 0.0 and rules.directions[index] >= 0) or (start > 0.0 and rules.directions[index] <= 0)):
                 theta = _locate(event_system, index, start, low, high, batch, row, y)
-                batch.hits[found, 0], batch.hits[found, 1], batch.hits[found, 2] = row, index, theta
+                batch.hits[total, 0], batch.hits[total, 1], batch.hits[total, 2] = row, index, theta
                 if rules.effects[index] != NOTE and theta < first:
                     first = theta
-                found += 1
+                total += 1
             low, start = high, -start
-    return _keep_until(rules, first, found, y, row, batch, hits)
+    return _keep_until(rules, first, total, y, row, batch, hits)
 
 
 @inner
@@ -95,10 +95,10 @@ def values_at(event_system: object, theta: float, batch: StepBatch, row: int, y:
 
 
 @inner
-def _keep_until(rules, first, found, y, row, batch, hits):
+def _keep_until(rules, first, total, y, row, batch, hits):
     """Keep of the new hits those up to the fraction `first`: (number of hits, which of them ends the step or -1)."""
     ender = -1
-    for n in range(hits, found):
+    for n in range(hits, total):
         if batch.hits[n, 2] <= first:
             for column in range(3):
                 batch.hits[hits, column] = batch.hits[n, column]

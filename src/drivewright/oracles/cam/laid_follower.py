@@ -118,8 +118,8 @@ def _at_the_extremes(model, result, body, sunk):
     """Pressure angle and curvature from touching points and differences, at the places that the analyses name."""
     for name in ("max_pressure_angle", "min_pressure_angle"):
         if model.follower.radius and not sunk:
-            found = _pressure_angle(model, body, result[f"{name}.at"])
-            yield name, result[name], found, "rad", 5e-4, "touching point of the polygon, path by difference"
+            other = _pressure_angle(model, body, result[f"{name}.at"])
+            yield name, result[name], other, "rad", 5e-4, "touching point of the polygon, path by difference"
     if "min_convex_radius" in result.values:
         at = result["min_convex_radius.at"] + np.array([-1e-3, 0.0, 1e-3])
         radius, ours = _through(_centers(model, at, model.programme(at).s)), result["min_convex_radius"]

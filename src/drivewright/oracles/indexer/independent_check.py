@@ -67,16 +67,16 @@ def _normals(drive: PlaneDrive, angles: Floats) -> Iterator[Row]:
     for angle in angles:
         pitch = complex(pitch_point(drive, angle))
         if np.isfinite(pitch) and abs(pitch) < 10 * drive.circle_radius:
-            found = find_contacts(drive, angle)
-            live = found.intended
-            far = max(far, float(np.max(np.abs(np.imag(np.conj(found.normal[live]) * (pitch - found.centre[live]))), initial=0.0)))
+            contacts = find_contacts(drive, angle)
+            live = contacts.intended
+            far = max(far, float(np.max(np.abs(np.imag(np.conj(contacts.normal[live]) * (pitch - contacts.centre[live]))), initial=0.0)))
     yield "distance of the normals from the pitch point", far, 0.0, "m", 1e-7, TANGENT
 
 
 def _flanks(cam: RollerGear, count: int = 200) -> Iterator[Row]:
     """Points of the finished flanks that some roller touches and none enters: least distance from any roller's skin."""
-    found = roller_gear.compute_flanks(cam)
-    points = found.contact.point[found.on_cam]
+    flanks = roller_gear.compute_flanks(cam)
+    points = flanks.contact.point[flanks.on_cam]
     points = points[np.linspace(0, len(points) - 1, count).astype(int)]
     theta = np.linspace(0, TURN, 2880, endpoint=False)
     angle = cam.hand_sign * theta[:, None]
@@ -101,10 +101,10 @@ def _solids(model: IndexerModel) -> Iterator[Row]:
     angles = model.angles if len(model.angles) == 1 else model.wheel.motion.motion_angle * np.array(ANGLES)
     reduced, near = solve_loaded(model.loaded_wheel, angles, model.torque)
     train = train._replace(shaft=seated(train.shaft, parts.shaft))
-    found = solid.solid_stiffness(
+    elastic = solid.solid_stiffness(
         model.wheel, train, parts, angles, near, model.torque, cams=model.spec.cams, model=model.spec.contact.model
     )
-    for angle, ours, other in zip(angles, reduced.secant, found.secant, strict=True):
+    for angle, ours, other in zip(angles, reduced.secant, elastic.secant, strict=True):
         if np.isfinite(other) and np.isfinite(ours):
             yield f"stiffness at {np.degrees(angle):.4g} deg", float(ours), float(other), "N m/rad", ALLOWED * ours, SOLID
 

@@ -86,9 +86,9 @@ def _deflections(model, loaded):
         forces, couples = moment_integrals.acting(loaded, axis)
         ends = sorted(mount.support.position for mount in equilibrium.model.mounts)
         first, last = (equilibrium.u[6 * beam.node(place) + axis] for place in (ends[0], ends[-1]))
-        found = moment_integrals.deflections_through(model.shaft, (ends[0], first), (ends[-1], last), forces, couples, model.places)
+        deflections = moment_integrals.deflections_through(model.shaft, (ends[0], first), (ends[-1], last), forces, couples, model.places)
         size = np.abs(equilibrium.u[: beam.size].reshape(-1, 6)[:, :2]).max()
-        for station, other in zip(model.shaft.stations, found, strict=True):
+        for station, other in zip(model.shaft.stations, deflections, strict=True):
             ours = equilibrium.u[6 * beam.node(station.position) + axis]
             if size > 0 and max(abs(ours), abs(other)) > 1e-9 * size:
                 yield f"stations.{station.name}.deflection_{name}", ours, other, "m", 1e-6 * size, GIVEN
@@ -104,7 +104,7 @@ def _bearings(model, loaded):
         force = bearings.solve(inner, displacement=own).force
         if np.hypot(*force[:2]) > 0:
             free = np.abs(force) > 1e-9 * np.abs(force[:2]).max() * np.array([1, 1, 1, inner.pitch_diameter, inner.pitch_diameter])
-            found = bearings.solve(
+            equilibrium = bearings.solve(
                 inner,
                 force=np.where(free, force, 0.0),
                 start=np.where(free, 0.0, own),
@@ -112,14 +112,21 @@ def _bearings(model, loaded):
             )
             size = float(np.hypot(*own[:2]))
             for axis, name in enumerate("xy"):
-                yield f"bearings.{mount.support.name}, displacement {name}", own[axis], found.displacement[axis], "m", 1e-6 * size, ALONE
+                yield (
+                    f"bearings.{mount.support.name}, displacement {name}",
+                    own[axis],
+                    equilibrium.displacement[axis],
+                    "m",
+                    1e-6 * size,
+                    ALONE,
+                )
 
 
 def _solid(model, at_rest):
     try:
-        found, beam = solid_and_beam(at_rest, model.places, model.direction, model.spec.analysis.solid_band)
+        solid, beam = solid_and_beam(at_rest, model.places, model.direction, model.spec.analysis.solid_band)
     except InputError:  # one bearing alone, or bands that meet: no case for the solid
         return
     for name, i, j in _pairs(model):
-        allowed = allowed_difference(model.shaft) * np.sqrt(found.flexibility[i, i] * found.flexibility[j, j])
-        yield f"flexibility {name}, on bands", beam[i, j], found.flexibility[i, j], "m/N", float(allowed), SOLID
+        allowed = allowed_difference(model.shaft) * np.sqrt(solid.flexibility[i, i] * solid.flexibility[j, j])
+        yield f"flexibility {name}, on bands", beam[i, j], solid.flexibility[i, j], "m/N", float(allowed), SOLID

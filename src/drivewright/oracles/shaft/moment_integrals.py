@@ -64,13 +64,13 @@ def deflections(shaft: Shaft, springs: ArrayLike, forces: PlacedForces, wanted: 
     matrix[n, 2:], right[n] = 1.0, sum(force for _, force in forces)
     matrix[n + 1, 2:], right[n + 1] = places, sum(s * force for s, force in forces)
     scale = np.abs(matrix).max(axis=0)
-    found = np.linalg.solve(matrix / scale, right) / scale
+    constants = np.linalg.solve(matrix / scale, right) / scale
     return np.array(
         [
-            found[0] * x
-            + found[1]
+            constants[0] * x
+            + constants[1]
             + sum(f * influence(shaft, x, s) for s, f in forces)
-            - sum(r * influence(shaft, x, s) for s, r in zip(places, found[2:], strict=True))
+            - sum(r * influence(shaft, x, s) for s, r in zip(places, constants[2:], strict=True))
             for x in wanted
         ]
     )
@@ -86,15 +86,15 @@ def acting(loaded: LoadedShaft, axis: int) -> tuple[PlacedForces, PlacedForces]:
 
     A couple counts as it turns the slope; spread loads and weight come as many forces.
     """
-    found, reactions = loaded.equilibrium.model.beam, loaded.equilibrium.reactions
+    beam, reactions = loaded.equilibrium.model.beam, loaded.equilibrium.reactions
     across, sign = 4 - axis, 1 - 2 * axis
     nodes = loaded.points.reshape(-1, 6)
-    forces = [(z, f) for z, f in zip(found.z, nodes[:, axis], strict=True) if f]
-    couples = [(z, sign * m) for z, m in zip(found.z, nodes[:, across], strict=True) if m]
+    forces = [(z, f) for z, f in zip(beam.z, nodes[:, axis], strict=True) if f]
+    couples = [(z, sign * m) for z, m in zip(beam.z, nodes[:, across], strict=True) if m]
     for mount, reaction in zip(loaded.equilibrium.model.mounts, reactions, strict=True):
         forces.append((mount.support.position, reaction[axis]))
         couples.append((mount.support.position, sign * reaction[across]))
-    for left, piece, (a, b, c) in zip(found.z, found.pieces, loaded.spread[axis], strict=False):
+    for left, piece, (a, b, c) in zip(beam.z, beam.pieces, loaded.spread[axis], strict=False):
         t = 0.5 * piece[0] * (NODES + 1)
         if a or b or c:
             forces += list(zip(left + t, 0.5 * piece[0] * WEIGHTS * (a + b * t + c * t**2), strict=True))

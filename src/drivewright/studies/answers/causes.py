@@ -60,9 +60,9 @@ def causes(arranged: Arranged) -> Part:
 def _each(arranged):
     """(value, it and its variance within a case, both (combinations, points)) of the values that vary."""
     for name in arranged.study.value_names:
-        found = arranged.of(name)
-        if varies(found):
-            yield name, found, _noise(arranged, name)
+        samples = arranged.of(name)
+        if varies(samples):
+            yield name, samples, _noise(arranged, name)
 
 
 def _noise(arranged, name):
@@ -78,7 +78,7 @@ def _keys(arranged):
 # -- linear theory -------------------------------------------------------------------------------------------------------------
 
 
-def _theories(arranged, found, noise):
+def _theories(arranged, samples, noise):
     """`sensitivity.Linear` of each combination; none without steps."""
     nominal, steps = arranged.block("nominal"), arranged.block("steps")
     if steps is None:
@@ -87,17 +87,18 @@ def _theories(arranged, found, noise):
     sigmas, means = (np.array([getattr(each, what)() for each in distributions]) for what in ("std", "mean"))
     deviations = np.array([variable.ends for variable in arranged.plan.random]) - means[:, None]
     return [
-        sensitivity.linear(row[nominal][0], row[steps], sigmas, deviations, within[steps]) for row, within in zip(found, noise, strict=True)
+        sensitivity.linear(row[nominal][0], row[steps], sigmas, deviations, within[steps])
+        for row, within in zip(samples, noise, strict=True)
     ]
 
 
 def _linear(arranged):
     """Tables `linear` (each key) and `linear_totals`."""
     rows, totals = [], []
-    for name, found, noise in _each(arranged):
+    for name, samples, noise in _each(arranged):
         unit = arranged.study.unit(name)
-        for number, theory in enumerate(_theories(arranged, found, noise)):
-            nominal = found[number, arranged.block("nominal")][0]
+        for number, theory in enumerate(_theories(arranged, samples, noise)):
+            nominal = samples[number, arranged.block("nominal")][0]
             columns = (theory.slope, np.sqrt(theory.contribution), theory.share, theory.curvature)
             rows += [(number, name, unit, key, *row) for key, *row in zip(_keys(arranged), *columns, strict=True)]
             totals.append((number, name, unit, nominal, theory.sigma, theory.least, theory.greatest))
@@ -141,10 +142,10 @@ class _Sample:
         y = y[self.rows]
         more = 1 / sensitivity.share_by_keys(y, noise[self.rows])
         coefficients, determination = sensitivity.regression(self.x, y)
-        found = {REGRESSION: more * coefficients**2}
+        by_method = {REGRESSION: more * coefficients**2}
         if self.order is not None:
-            found[RANKS] = more * sensitivity.by_ranks(self.order, y)
-        return {method: shares for method, shares in found.items() if np.any(np.isfinite(shares))}, more * determination
+            by_method[RANKS] = more * sensitivity.by_ranks(self.order, y)
+        return {method: shares for method, shares in by_method.items() if np.any(np.isfinite(shares))}, more * determination
 
 
 def _numbers(listed):
@@ -155,9 +156,9 @@ def _numbers(listed):
 def _contributions(arranged):
     """Table `contributions`: value, key, method, share; a wide table and a plot of each shown value."""
     sample, rows, wide, fits = _Sample(arranged), [], {}, {}
-    for name, found, noise in _each(arranged):
-        theories = _theories(arranged, found, noise)
-        for number, y in enumerate(found):
+    for name, samples, noise in _each(arranged):
+        theories = _theories(arranged, samples, noise)
+        for number, y in enumerate(samples):
             shares, determination = sample.shares(y, noise[number])
             if theories and np.any(np.isfinite(theories[number].share)):
                 shares = {LINEAR: theories[number].share} | shares
@@ -211,11 +212,11 @@ def responses(arranged: Arranged) -> Iterator[Response]:
     """`Response`s over the grid: the share of each key in the variance of the shown values, by the first method that there is."""
     sample = _Sample(arranged)
     for name in arranged.shown:
-        found, noise = arranged.of(name), _noise(arranged, name)
-        theories = _theories(arranged, found, noise)
+        samples, noise = arranged.of(name), _noise(arranged, name)
+        theories = _theories(arranged, samples, noise)
         keys = _keys(arranged) if theories else sample.keys
         shares = [theory.share for theory in theories] or [
-            sample.shares(*row)[0].get(REGRESSION, np.full(len(keys), np.nan)) for row in zip(found, noise, strict=True)
+            sample.shares(*row)[0].get(REGRESSION, np.full(len(keys), np.nan)) for row in zip(samples, noise, strict=True)
         ]
         columns = tuple(
             Column(f"share.{name}.{key}", "-", f"share of {key}", part)
@@ -235,8 +236,8 @@ def _indices(arranged):
         return Part()
     rows = [
         (number, name, key, *row)
-        for name, found, noise in _each(arranged)
-        for number, y in enumerate(found)
+        for name, samples, noise in _each(arranged)
+        for number, y in enumerate(samples)
         for key, row in zip(_keys(arranged), _index_rows(arranged, y, noise[number]), strict=True)
     ]
     if not rows:
@@ -259,10 +260,10 @@ def _index_rows(arranged, y, noise):
     """Row of each key."""
     blocks = [arranged.block(name) for name in ("a", "b", "mixed")]
     (a, b, mixed), within = ([column[block] for block in blocks] for column in (y, noise))
-    found = sensitivity.indices(a, b, mixed.reshape(-1, len(a)), (within[0], within[1], within[2].reshape(-1, len(a))))
+    indices = sensitivity.indices(a, b, mixed.reshape(-1, len(a)), (within[0], within[1], within[2].reshape(-1, len(a))))
     return [
-        (s, *s_ends, t, *t_ends, found.rows, found.dropped)
-        for s, s_ends, t, t_ends in zip(found.first, found.first_interval, found.total, found.total_interval, strict=True)
+        (s, *s_ends, t, *t_ends, indices.rows, indices.dropped)
+        for s, s_ends, t, t_ends in zip(indices.first, indices.first_interval, indices.total, indices.total_interval, strict=True)
     ]
 
 

@@ -33,9 +33,9 @@ def _goals(study, values):
     """({value: minimise or maximise}, findings)."""
     search = study.spec.optimise
     if search and len(search.objectives) > 1:
-        found = {each.value: each.goal for each in search.objectives}
-        missing = [name for name in found if name not in study.value_names]
-        return ({}, (f"no Pareto front: no case has the objective {join_names(missing)}",)) if missing else (found, ())
+        goals = {each.value: each.goal for each in search.objectives}
+        missing = [name for name in goals if name not in study.value_names]
+        return ({}, (f"no Pareto front: no case has the objective {join_names(missing)}",)) if missing else (goals, ())
     named = [name for name in values if not name.startswith(CHECK)]
     if len(named) != 2 or not set(named) <= set(study.value_names):
         return {}, ()

@@ -71,20 +71,20 @@ def _panels(plan, axes):
     others = axes[2:]
     combined = list(product(*(range(plan.shape[n]) for n in others)))
     chosen = combined if len(combined) <= MOST_PANELS else combined[:1]
-    found = []
+    panels = []
     for number, places in enumerate(chosen, 1):
         fixed = dict(zip(others, places, strict=True))
-        told = "".join(f", {plan.grid[n].key} = {level_text(plan.grid[n], place)}" for n, place in fixed.items())
-        found.append((f".{number}" if len(chosen) > 1 else "", told, _combinations(plan, axes[:2], fixed)))
+        suffix = "".join(f", {plan.grid[n].key} = {level_text(plan.grid[n], place)}" for n, place in fixed.items())
+        panels.append((f".{number}" if len(chosen) > 1 else "", suffix, _combinations(plan, axes[:2], fixed)))
     remark = (
         (
-            f"the plots show one of {len(combined)} combinations of {', '.join(plan.grid[n].key for n in others)}:{found[0][1][1:]}; "
+            f"the plots show one of {len(combined)} combinations of {', '.join(plan.grid[n].key for n in others)}:{panels[0][1][1:]}; "
             "the study's table holds all",
         )
         if len(chosen) < len(combined)
         else ()
     )
-    return found, remark
+    return panels, remark
 
 
 def _combinations(plan, axes, fixed):
@@ -94,7 +94,7 @@ def _combinations(plan, axes, fixed):
     return np.ravel_multi_index([places.get(n, np.full(levels[0].size, fixed.get(n, 0))) for n in range(len(plan.grid))], plan.shape)
 
 
-def _panel(arranged, responses, axes, suffix, told, combinations):
+def _panel(arranged, responses, axes, suffix, fixed_text, combinations):
     """Table and plots of one combination of the further keys."""
     keys = arranged.level_columns(combinations)
     data = [
@@ -103,15 +103,15 @@ def _panel(arranged, responses, axes, suffix, told, combinations):
         for column in (*response.columns, *response.ends)
     ]
     name = f"response{suffix}"
-    table = Table(name, f"Response over {' and '.join(keys[n].name for n in axes)}{told}", (*(keys[n] for n in axes), *data))
-    plots = [plot for response in responses for plot in _plots(arranged.plan, response, axes, table.name, suffix, told)]
+    table = Table(name, f"Response over {' and '.join(keys[n].name for n in axes)}{fixed_text}", (*(keys[n] for n in axes), *data))
+    plots = [plot for response in responses for plot in _plots(arranged.plan, response, axes, table.name, suffix, fixed_text)]
     return Part(tables=(table,), plots=tuple(plots))
 
 
-def _plots(plan, response, axes, table, suffix, told):
+def _plots(plan, response, axes, table, suffix, fixed_text):
     x, *more = (plan.grid[n] for n in axes)
     columns = tuple(column.name for column in response.columns)
-    title = f"{response.title}{told}"
+    title = f"{response.title}{fixed_text}"
     if not more:
         yield Plot(f"curve.{response.name}{suffix}", title, table, x.key, columns, response.limits)
         return
@@ -166,8 +166,8 @@ def responses(arranged: Arranged) -> Iterator[Response]:
         yield Response(name, name, (column,), ends=column.bounds(*(end[:, 0] for end in bounds)) if bounds else ())
     yield from _of_checks(arranged)
     if np.any(status_codes(arranged.study)):
-        told = "status: " + ", ".join(f"{code} {name}" for code, name in enumerate(STATUSES))
-        yield Response("status", "What became of the cases", (Column("status.code", "-", told, arranged.status[:, 0]),), True)
+        meaning = "status: " + ", ".join(f"{code} {name}" for code, name in enumerate(STATUSES))
+        yield Response("status", "What became of the cases", (Column("status.code", "-", meaning, arranged.status[:, 0]),), True)
 
 
 def _of_checks(arranged):

@@ -71,8 +71,8 @@ class Arranged:
 
     def block(self, name: str) -> slice | None:
         """Slice of the points of a block, or None."""
-        found = self.plan.block(name)
-        return slice(found.start, found.stop) if found else None
+        block = self.plan.block(name)
+        return slice(block.start, block.stop) if block else None
 
     def of(self, name: str) -> Floats:
         """A column by combination and point."""
@@ -85,8 +85,8 @@ class Arranged:
 
     def errors(self, name: str) -> Floats | None:
         """Standard errors of a column by combination and point, nan where it has none; None where no case has one."""
-        found = self.study.errors(name)
-        return None if found is None else self.arrange(found)
+        errors = self.study.errors(name)
+        return None if errors is None else self.arrange(errors)
 
     def at_worst(self, name: str, sign: float) -> Floats:
         """A column by combination and point, at the lower (sign -1) or upper (+1) end of each interval."""
@@ -94,9 +94,9 @@ class Arranged:
 
     def arrange(self, column: Floats) -> Floats:
         """Numbers of the rows of the table by combination and point."""
-        found = np.full(len(self.plan), np.nan)
-        found[self._crossed[1][np.asarray(self.study[CASE], dtype=int)]] = column
-        return found.reshape(self.combinations, self.plan.inner)
+        arranged = np.full(len(self.plan), np.nan)
+        arranged[self._crossed[1][np.asarray(self.study[CASE], dtype=int)]] = column
+        return arranged.reshape(self.combinations, self.plan.inner)
 
     @cached_property
     def status(self) -> Floats:

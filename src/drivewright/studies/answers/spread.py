@@ -69,16 +69,26 @@ def spread(arranged: Arranged) -> Part:
     return together(parts)
 
 
-def _tolerance_row(number, name, unit, found):
+def _tolerance_row(number, name, unit, statistics):
     """Row of the table `tolerance`."""
-    middle = (found.percentiles[PERCENTS.index(percent)].value for percent in SHORT)
-    return (number, name, unit, found.mean.value, found.sigma.value, *middle, found.least, found.greatest, found.absent)
+    middle = (statistics.percentiles[PERCENTS.index(percent)].value for percent in SHORT)
+    return (
+        number,
+        name,
+        unit,
+        statistics.mean.value,
+        statistics.sigma.value,
+        *middle,
+        statistics.least,
+        statistics.greatest,
+        statistics.absent,
+    )
 
 
-def _sure(number, name, unit, found):
+def _sure(number, name, unit, statistics):
     """Row of the table `confidence`."""
-    spread_ = (each for percent in found.percentiles for each in percent)
-    return (number, name, unit, found.cases, *found.mean, *found.sigma, found.skewness, *spread_)
+    spread_ = (each for percent in statistics.percentiles for each in percent)
+    return (number, name, unit, statistics.cases, *statistics.mean, *statistics.sigma, statistics.skewness, *spread_)
 
 
 def _histograms(arranged):
@@ -149,24 +159,24 @@ def _together(number, *cases):
 
 def _yield_values(row):
     what = "share of the cases that are complete and pass every design check"
-    found = Sampled(*row[4:7])
-    yield "yield", found.named("-", what)
-    for value, (end, told) in list(zip(found, BOUNDS, strict=True))[1:]:
-        yield f"yield{end}", Value(value, "-", what + told)
+    estimate = Sampled(*row[4:7])
+    yield "yield", estimate.named("-", what)
+    for value, (end, words) in list(zip(estimate, BOUNDS, strict=True))[1:]:
+        yield f"yield{end}", Value(value, "-", what + words)
 
 
 def responses(arranged: Arranged) -> Iterator[Response]:
     """`Response`s over the grid: mean and mean -+ sigma of each shown value, its sigma, and the yield, with their intervals."""
     for name in arranged.shown:
         unit, what = arranged.study.unit(name), arranged.study.meaning(name) or name
-        found = [summary(sample) for sample in arranged.of(name)[:, arranged.sample]]
-        (mean, *mean_ends), (sigma, *sigma_ends) = (np.array([getattr(each, part) for each in found]).T for part in ("mean", "sigma"))
+        summaries = [summary(sample) for sample in arranged.of(name)[:, arranged.sample]]
+        (mean, *mean_ends), (sigma, *sigma_ends) = (np.array([getattr(each, part) for each in summaries]).T for part in ("mean", "sigma"))
         lines = (
             (f"mean.{name}", "mean", mean),
             (f"lower.{name}", "mean less one standard deviation", mean - sigma),
             (f"upper.{name}", "mean and one standard deviation", mean + sigma),
         )
-        columns = tuple(Column(c, unit, f"{what}, {told}", y) for c, told, y in lines)
+        columns = tuple(Column(c, unit, f"{what}, {words}", y) for c, words, y in lines)
         yield Response(name, f"{name}: mean and standard deviation", columns, ends=columns[0].bounds(*mean_ends))
         alone = Column(f"sigma.{name}", unit, f"{what}, standard deviation", sigma)
         yield Response(alone.name, f"{name}: standard deviation", (alone,), ends=alone.bounds(*sigma_ends))

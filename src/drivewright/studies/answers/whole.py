@@ -43,8 +43,8 @@ def analyse_study(study: Study, values: Sequence[str] = ()) -> Answers:
     arranged = Arranged(study, shown)
     named = values or (study.spec.study.values if study.spec.study else ())
     parts = [_cases(study), Part(findings=remarks), *_parts(arranged), fronts(study, named)]
-    found = together(parts)
-    return Answers(_result(study, found), found.plots)
+    parts_joined = together(parts)
+    return Answers(_result(study, parts_joined), parts_joined.plots)
 
 
 def _parts(arranged):
@@ -100,7 +100,7 @@ def _shown(study, values):
     varying = [name for name in known if varies(study[name], ROUNDING * sizes[study.unit(name)])]
     still = [name for name in study.value_names if name not in varying and np.any(np.isfinite(_numbers(study, name)))]
     absent = [name for name in study.value_names if not np.any(np.isfinite(_numbers(study, name)))]
-    told = [
+    findings = [
         f"{what} ({len(names)}): {join_names(names)}"
         for names, what in ((still, "values that do not vary over the study"), (absent, "values that no case has"))
         if names
@@ -108,8 +108,8 @@ def _shown(study, values):
     chosen = [name for name in _wanted(study, values, varying) if name in varying]
     shown = chosen if values else chosen[:MOST]
     if len(chosen) > len(shown):
-        told.append(f"the plots show {MOST} of {len(chosen)} values: {join_names(shown)}; the tables hold all")
-    return tuple(dict.fromkeys(shown)), tuple(told)
+        findings.append(f"the plots show {MOST} of {len(chosen)} values: {join_names(shown)}; the tables hold all")
+    return tuple(dict.fromkeys(shown)), tuple(findings)
 
 
 def _sizes(study, names):
@@ -181,7 +181,7 @@ def _quoted(reason):
 # -- result --------------------------------------------------------------------------------------------------------------------
 
 
-def _result(study, found):
+def _result(study, joined):
     """The `Result`; a value that does not exist is absent."""
     spec, mechanism = study.spec, registry.mechanism(study.spec.mechanism)
     return Result(
@@ -189,10 +189,10 @@ def _result(study, found):
         mechanism=mechanism.kind,
         title=f"Study: {spec.title or mechanism.summary}",
         digest=spec.digest(),
-        values={name: value for name, value in found.values.items() if np.isfinite(value.value)},
-        tables={table.name: table for table in found.tables},
+        values={name: value for name, value in joined.values.items() if np.isfinite(value.value)},
+        tables={table.name: table for table in joined.tables},
         checks=(),
-        findings=(*study.plan.remarks, *study.remarks, *found.findings),
+        findings=(*study.plan.remarks, *study.remarks, *joined.findings),
         outcome="complete" if study.complete else "partial",
         provenance={
             "seed": study.plan.seed,

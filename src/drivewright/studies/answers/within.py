@@ -63,9 +63,9 @@ def separate_variances(sample: Floats, noise: Floats) -> Apart:
 
     sigma_keys^2 = sigma^2 - mean(noise), and so for the ends of the interval of sigma, which is much the wider one; not below 0.
     """
-    found, within = summary(sample), summary(noise[np.isfinite(sample)]).mean
-    keys = Sampled(*(_root(end**2 - within.value) for end in found.sigma))
-    return Apart(found.sigma, Sampled(*map(_root, within)), keys)
+    statistics, within = summary(sample), summary(noise[np.isfinite(sample)]).mean
+    keys = Sampled(*(_root(end**2 - within.value) for end in statistics.sigma))
+    return Apart(statistics.sigma, Sampled(*map(_root, within)), keys)
 
 
 def _root(square):
@@ -92,14 +92,14 @@ def within_cases(arranged: Arranged) -> Part:
 
 
 def _findings(rows):
-    for _, name, _, found in rows:
-        if found.keys.value == 0:
+    for _, name, _, variances in rows:
+        if variances.keys.value == 0:
             yield (
                 f"{name}: the cases differ no more than one case by itself, so nothing can be said of what its keys cause; more windows "
                 "or members narrow the intervals of the cases"
             )
-        elif found.share.value > 0.01:
+        elif variances.share.value > 0.01:
             yield (
-                f"{name}: {found.share.value:.0%} of the variance over the cases is spread within a case; it is taken off the shares of "
-                "the keys"
+                f"{name}: {variances.share.value:.0%} of the variance over the cases is spread within a case; it is taken off the shares "
+                "of the keys"
             )

@@ -74,19 +74,19 @@ class Evaluator:
         done, ahead = first + len(have), (self.generations - generation) * population_of(self.problem.search)
         if len(have) < len(designs):
             with closing(self._compute(first, designs, have, ahead)) as each:
-                for found in each:
-                    self._keep(found, generation, designs[found.first - first :][: len(found.statuses)])
-                    done += len(found.statuses)
+                for batch in each:
+                    self._keep(batch, generation, designs[batch.first - first :][: len(batch.statuses)])
+                    done += len(batch.statuses)
                     self.progress(min(generation, self.generations), self.generations, f"{done} designs")
         self.designs.append(designs)
         self.progress(min(generation + 1, self.generations), self.generations, f"{done} designs")
 
-    def _keep(self, found, generation, designs):
-        values = history.usable(found.values, found.statuses)
-        for number, (design, *row) in enumerate(zip(designs, *(values[name] for name in self.problem.names), strict=True), found.first):
+    def _keep(self, batch, generation, designs):
+        values = history.usable(batch.values, batch.statuses)
+        for number, (design, *row) in enumerate(zip(designs, *(values[name] for name in self.problem.names), strict=True), batch.first):
             self._found[number] = design, np.array(row)
-        table = history.rows(self.problem, found.first, generation, designs, found.values, found.statuses, found.messages)
-        self._journal.add(found.first, table, found.seconds)
+        table = history.rows(self.problem, batch.first, generation, designs, batch.values, batch.statuses, batch.messages)
+        self._journal.add(batch.first, table, batch.seconds)
 
     def close(self) -> None:
         """What is evaluated goes to the store, whatever ends the search."""
@@ -129,8 +129,8 @@ class Compiled:
 
     def __call__(self, first: int, designs: Floats, have: Sequence[int], ahead: int) -> Generator[Rows, None, None]:
         for start, stop in _missing(first, designs, have):
-            found = self._many(designs[start - first : stop - first])
-            values = {name: np.asarray(found[name], float) for name in self._problem.names}
+            columns = self._many(designs[start - first : stop - first])
+            values = {name: np.asarray(columns[name], float) for name in self._problem.names}
             silent = np.all([~np.isfinite(column) for column in values.values()], axis=0).tolist()
             statuses, messages = ["failed" if no else "complete" for no in silent], [SILENT if no else "" for no in silent]
             yield Rows(start, values, statuses, messages, 0.0)

@@ -95,11 +95,11 @@ class Journal:
 
 def _runs(waiting):
     """Lists of the first numbers of tables that follow one another without a gap."""
-    found, end = [], None
+    runs, end = [], None
     for first in sorted(waiting):
         if first == end:
-            found[-1].append(first)
+            runs[-1].append(first)
         else:
-            found.append([first])
+            runs.append([first])
         end = first + waiting[first][0].num_rows
-    return found
+    return runs

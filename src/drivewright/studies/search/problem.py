@@ -146,10 +146,10 @@ def _known(spec):
     answers = runner.run_analyses(spec, mechanism.build(spec), runner.select_analyses(mechanism.analyses))
     givers, known, sizes = {}, {}, {}
     for analysis, answer in answers.items():
-        found = case_outputs(answer.values, answer.checks)
-        known |= found
-        givers |= dict.fromkeys(found, analysis)
-        sizes |= {name: abs(value.value) for name, value in found.items()} | {f"{CHECK}{c.name}": abs(c.limit) for c in answer.checks}
+        outputs = case_outputs(answer.values, answer.checks)
+        known |= outputs
+        givers |= dict.fromkeys(outputs, analysis)
+        sizes |= {name: abs(value.value) for name, value in outputs.items()} | {f"{CHECK}{c.name}": abs(c.limit) for c in answer.checks}
     return givers, known, {name: size if np.isfinite(size) else 0.0 for name, size in sizes.items()}
 
 

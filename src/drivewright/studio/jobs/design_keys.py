@@ -23,7 +23,7 @@ def leaves(tables: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, Any]]
 
 def numeric(design: Design, spec: MechanismSpec) -> dict[str, tuple[KeyKind, float]]:
     """{dotted key: (KeyKind, value in SI)} of the quantities and numbers that a design gives; whole numbers do not vary by per cent."""
-    found = {}
+    numbers = {}
     for key, _ in leaves(design.tables):
         try:
             kind = key_kind(spec, key) if key.split(".")[0] not in FIXED else None
@@ -31,8 +31,8 @@ def numeric(design: Design, spec: MechanismSpec) -> dict[str, tuple[KeyKind, flo
             continue
         value = value_at(spec, key)
         if kind and kind.name in ("quantity", "number") and isinstance(value, float):
-            found[key] = kind, value
-    return found
+            numbers[key] = kind, value
+    return numbers
 
 
 def numbered(tables: Tables, key: str) -> str:

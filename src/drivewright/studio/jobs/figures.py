@@ -41,9 +41,9 @@ def _is_linked(result, scene, plot):
     return scene is not None and pack_plots(result, scene, (plot,)) is not None
 
 
-def drawn(found: Iterable[Picture], theme: str) -> list[dict[str, str]]:
+def drawn(figures: Iterable[Picture], theme: str) -> list[dict[str, str]]:
     """Pictures as plain dictionaries in the colours of a theme."""
-    return [{"name": picture.name, "title": picture.title, "svg": themed(picture.svg, theme)} for picture in found]
+    return [{"name": picture.name, "title": picture.title, "svg": themed(picture.svg, theme)} for picture in figures]
 
 
 def themed(svg: str, theme: str) -> str:
@@ -52,4 +52,4 @@ def themed(svg: str, theme: str) -> str:
         return svg
     place = THEMES.index(theme)
     other = {colours[0]: colours[place] for colours in ROLES.values()}
-    return re.sub(r"#[0-9a-f]{6}\b", lambda found: other.get(found[0], found[0]), svg)
+    return re.sub(r"#[0-9a-f]{6}\b", lambda match: other.get(match[0], match[0]), svg)

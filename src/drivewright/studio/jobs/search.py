@@ -36,8 +36,8 @@ def optimise(
     free, left_out = _freed(design, locks)
     problem = prepare(free.spec())
     kept = Memory()
-    found = run_search(problem, kept, workers, on, Live(progress, lambda: _so_far(problem, kept)))
-    return _search_summary(design, found, left_out, theme)
+    outcome = run_search(problem, kept, workers, on, Live(progress, lambda: _so_far(problem, kept)))
+    return _search_summary(design, outcome, left_out, theme)
 
 
 def _freed(design, locks):
@@ -108,27 +108,27 @@ def _plain_text(value):
 # -- the outcome ---------------------------------------------------------------------------------------------------------------
 
 
-def _search_summary(design, found, left_out, theme):
-    problem = found.problem
-    _, _, values = history.read(problem, found.table)
+def _search_summary(design, outcome, left_out, theme):
+    problem = outcome.problem
+    _, _, values = history.read(problem, outcome.table)
     return {
-        "changes": _settings(problem, found.front[0]),
-        "unknowns": _unknowns(design, found),
+        "changes": _settings(problem, outcome.front[0]),
+        "unknowns": _unknowns(design, outcome),
         "objective": _objective(problem),
         "objectives": [
-            {"name": name, "label": _label(problem, name), "text": text, "goal": goal} for name, text, goal in found.objective_rows()
+            {"name": name, "label": _label(problem, name), "text": text, "goal": goal} for name, text, goal in outcome.objective_rows()
         ],
-        "requirements": [_requirement(check) for check in found.requirements],
-        "feasible": found.feasible,
-        "message": _message(found, left_out),
-        "findings": list(found.findings),
-        "verdict": summary(found.best)["verdict"],
-        "evaluations": found.evaluations,
-        "seed": found.seed,
-        "method": found.method,
+        "requirements": [_requirement(check) for check in outcome.requirements],
+        "feasible": outcome.feasible,
+        "message": _message(outcome, left_out),
+        "findings": list(outcome.findings),
+        "verdict": summary(outcome.best)["verdict"],
+        "evaluations": outcome.evaluations,
+        "seed": outcome.seed,
+        "method": outcome.method,
         "history": _best_so_far(problem, values)[0],
-        "front": _front(design, found),
-        "figures": _figures(found, theme),
+        "front": _front(design, outcome),
+        "figures": _figures(outcome, theme),
     }
 
 
@@ -136,11 +136,11 @@ def _label(problem, name):
     return sentence(problem.about[name].meaning or name)
 
 
-def _unknowns(design, found):
+def _unknowns(design, outcome):
     """Each unknown with its best value and its bounds as text."""
     return [
         {"key": key, "label": label(design.tables, key), "best": best, "lower": lower, "upper": upper}
-        for key, best, lower, upper in found.unknown_rows()
+        for key, best, lower, upper in outcome.unknown_rows()
     ]
 
 
@@ -155,24 +155,24 @@ def _requirement(check):
     }
 
 
-def _message(found, left_out):
+def _message(outcome, left_out):
     """One or two sentences."""
-    several = len(found.front) > 1
-    said = (
+    several = len(outcome.front) > 1
+    message = (
         (
-            f"{len(found.front)} designs that no other beats, of {found.evaluations}"
+            f"{len(outcome.front)} designs that no other beats, of {outcome.evaluations}"
             if several
-            else f"the best of {found.evaluations} designs"
+            else f"the best of {outcome.evaluations} designs"
         )
-        if found.feasible
-        else f"no design of {found.evaluations} meets every requirement; this one comes nearest"
+        if outcome.feasible
+        else f"no design of {outcome.evaluations} meets every requirement; this one comes nearest"
     )
-    return said + (f". Locked and left as they are: {', '.join(left_out)}" if left_out else "")
+    return message + (f". Locked and left as they are: {', '.join(left_out)}" if left_out else "")
 
 
-def _front(design, found):
+def _front(design, outcome):
     """The designs that no other beats as a table like that of a study."""
-    problem, chosen = found.problem, evenly_spaced_rows(len(found.front), MOST_FRONT)
+    problem, chosen = outcome.problem, evenly_spaced_rows(len(outcome.front), MOST_FRONT)
     columns = [
         {"name": key, "label": label(design.tables, key), "unit": shown(kind.unit)[1], "role": "key"}
         for key, kind in zip(problem.keys, problem.kinds, strict=True)
@@ -182,16 +182,16 @@ def _front(design, found):
         for name, about in problem.about.items()
     ]
     units = [kind.unit for kind in problem.kinds] + [about.unit for about in problem.about.values()]
-    data = [*found.front.T, *(found.front_values[name] for name in problem.about)]
+    data = [*outcome.front.T, *(outcome.front_values[name] for name in problem.about)]
     rows = [[plain(column[n], unit) for column, unit in zip(data, units, strict=True)] for n in chosen]
-    return {"columns": columns, "rows": rows, "load": [_settings(problem, found.front[n]) for n in chosen]}
+    return {"columns": columns, "rows": rows, "load": [_settings(problem, outcome.front[n]) for n in chosen]}
 
 
 def _role(name):
     return "check" if name.startswith(CHECK) else "value"
 
 
-def _figures(found, theme):
+def _figures(outcome, theme):
     """The search itself as a figure."""
-    table, plot = found.search()
-    return drawn(pictures(replace(found.best, tables={table.name: table}), Views(plots=(plot,))), theme)
+    table, plot = outcome.search()
+    return drawn(pictures(replace(outcome.best, tables={table.name: table}), Views(plots=(plot,))), theme)

@@ -89,17 +89,19 @@ def _requested_targets(spec, progress, names):
 
 def _targets(result, names):
     """{column: (kind, label, SI unit, value)} of the checks' margins and the headline values; of those named, if any are."""
-    found = {f"{CHECK}{c.name}": ("check", sentence(c.name.replace("_", " ").replace(".", " · ")), c.unit, c.margin) for c in result.checks}
+    targets = {
+        f"{CHECK}{c.name}": ("check", sentence(c.name.replace("_", " ").replace(".", " · ")), c.unit, c.margin) for c in result.checks
+    }
     for value in headline(result):
         about = result.values[value["name"]]
-        found[value["name"]] = ("value", value["meaning"], about.unit, about.value)
+        targets[value["name"]] = ("value", value["meaning"], about.unit, about.value)
     for name in names or ():
-        if name not in found and name in result.values:
+        if name not in targets and name in result.values:
             about = result.values[name]
-            found[name] = ("value", sentence(about.meaning or name), about.unit, about.value)
-        elif name not in found:
-            raise UnknownName("value or check", name, {*found, *result.values})
-    return {name: found[name] for name in names} if names else found
+            targets[name] = ("value", sentence(about.meaning or name), about.unit, about.value)
+        elif name not in targets:
+            raise UnknownName("value or check", name, {*targets, *result.values})
+    return {name: targets[name] for name in names} if names else targets
 
 
 # -- steps ---------------------------------------------------------------------------------------------------------------------
@@ -124,11 +126,11 @@ def _room(spec, key, value, step):
     field = field_at(type(spec), key.split("."))
     down = up = step
     for mark, name, part in ((Ge, "ge", 1.0), (Gt, "gt", 0.5)):
-        if found := marker_of(field, mark):
-            down = min(down, part * (value - getattr(found, name)))
+        if limit := marker_of(field, mark):
+            down = min(down, part * (value - getattr(limit, name)))
     for mark, name, part in ((Le, "le", 1.0), (Lt, "lt", 0.5)):
-        if found := marker_of(field, mark):
-            up = min(up, part * (getattr(found, name) - value))
+        if limit := marker_of(field, mark):
+            up = min(up, part * (getattr(limit, name) - value))
     return down, up
 
 

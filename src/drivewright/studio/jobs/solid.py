@@ -84,9 +84,9 @@ def _normals(points, corners, faces):
     total = np.zeros((len(order), 3))
     weights = _angles(points, corners).ravel()[order][theirs]
     np.add.at(total, mine[near], (weights[:, None] * unit[other])[near])
-    found = np.empty_like(total)
-    found[order] = _unit(total)
-    return found.reshape(-1, 3, 3)
+    normals = np.empty_like(total)
+    normals[order] = _unit(total)
+    return normals.reshape(-1, 3, 3)
 
 
 def _sharp(sides, owners, faces):

@@ -60,11 +60,11 @@ def study(
     kept = Folder(Path(folder), spec, study_identity(spec, plan)) if folder is not None else Memory()
     live = Live(progress, lambda: _rows(design, _so_far(spec, plan, kept), MOST_LIVE))
     try:
-        found = compute_study(kept, spec, plan, case_task(spec, plan.keys), workers, on, live)
+        computed = compute_study(kept, spec, plan, case_task(spec, plan.keys), workers, on, live)
     finally:
         kept.close()
     progress(len(plan), len(plan), "what the cases say")
-    return _study_summary(design, found, theme)
+    return _study_summary(design, computed, theme)
 
 
 class Live:
@@ -163,10 +163,10 @@ def _intervals(bounds, chosen, unit):
 
 
 def _passes(study):
-    found = np.asarray(study[STATUS], dtype=str) == "complete"
+    passes = np.asarray(study[STATUS], dtype=str) == "complete"
     for name in study.check_names:
-        found &= ~(np.asarray(study[CHECK + name], float) < 0)
-    return found
+        passes &= ~(np.asarray(study[CHECK + name], float) < 0)
+    return passes
 
 
 def _loads(study, chosen):
@@ -182,8 +182,8 @@ def _loads(study, chosen):
 
 
 def _study_summary(design, study, theme):
-    found = analyse_study(study)
-    fronts = _fronts(study, found.result)
+    answers = analyse_study(study)
+    fronts = _fronts(study, answers.result)
     rows = _rows(design, study, MOST_ROWS, [row for front in fronts for row in front["rows"]])
     place = {case: row for row, case in enumerate(rows["cases"])}
     cases = study[CASE]
@@ -192,8 +192,8 @@ def _study_summary(design, study, theme):
     failed = int(np.sum(np.asarray(study[STATUS], dtype=str) == "failed"))
     return rows | {
         "fronts": fronts,
-        "figures": drawn(pictures(found.result, Views(plots=found.plots)), theme),
-        "statements": _statements(study, found),
+        "figures": drawn(pictures(answers.result, Views(plots=answers.plots)), theme),
+        "statements": _statements(study, answers),
         "failed": failed,
     }
 
@@ -210,9 +210,9 @@ def _fronts(study, result):
     return [{"name": "front", "objectives": objectives, "rows": rows}]
 
 
-def _statements(study, found):
+def _statements(study, answers):
     """What the study's report says in words and small tables, all of it text."""
-    page = study_content(study, found)
+    page = study_content(study, answers)
     tables = [
         {"name": table["name"], "title": table["title"], "columns": table["columns"], "rows": [list(row) for row in table["printed"]]}
         for table in page["tables"]
