@@ -221,7 +221,7 @@ class Check(NamedTuple):
         return cls(name, plain.value, limit, sense, plain.unit, message, parts, low=plain.low, high=plain.high, label=label)
 
     @property
-    def shown(self) -> str:
+    def display_label(self) -> str:
         """The label, from the message where none is given."""
         return label_of(self.message, self.label)
 
@@ -259,7 +259,7 @@ class Check(NamedTuple):
         numbers = {"value": _finite(self.value), "limit": _finite(self.limit), "sense": self.sense, "margin": _finite(self.margin)}
         bounds = {"low": self.bounds[0], "high": self.bounds[1], "undecided": self.undecided} if self.bounds else {}
         about = {"unit": self.unit, "ok": self.ok, "message": self.message, "parts": list(self.parts)}
-        return {"name": self.name, "label": self.shown, **numbers, **bounds, **about}
+        return {"name": self.name, "label": self.display_label, **numbers, **bounds, **about}
 
 
 class Plot(NamedTuple):
@@ -387,7 +387,7 @@ class Result(Generic[SpecT]):
     def _repr_html_(self) -> str:
         """The same for notebooks: checks and findings, then the values with unit and label."""
         checks = "".join(
-            f"<tr><td>{'✓' if check.ok else '✗'}</td><td>{escape(check.shown)}</td>"
+            f"<tr><td>{'✓' if check.ok else '✗'}</td><td>{escape(check.display_label)}</td>"
             f"<td>{check.value:.5g} {check.sense} {check.limit:.5g} {escape(check.unit)}</td></tr>"
             for check in self.checks
         )

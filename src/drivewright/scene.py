@@ -43,7 +43,7 @@ class Line(NamedTuple):
         """The two ends (2, 2) [m]."""
         return np.array([self.start, self.end], float)
 
-    def moved(self, pose: Pose, mirror: bool) -> "Line":
+    def transformed(self, pose: Pose, mirror: bool) -> "Line":
         """The same reflected about the x axis where asked, then carried by a pose."""
         return Line(_point(self.start, pose, mirror), _point(self.end, pose, mirror))
 
@@ -62,7 +62,7 @@ class Arc(NamedTuple):
         angles = self.start + self.sweep * np.linspace(0, 1, max(3, int(np.ceil(abs(self.sweep) / step)) + 1))
         return np.asarray(self.center) + self.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
-    def moved(self, pose: Pose, mirror: bool) -> "Arc":
+    def transformed(self, pose: Pose, mirror: bool) -> "Arc":
         """The same reflected about the x axis where asked, then carried by a pose."""
         sign = -1.0 if mirror else 1.0
         return Arc(_point(self.center, pose, mirror), self.radius, sign * self.start + pose[2], sign * self.sweep)
@@ -79,7 +79,7 @@ class Spline(NamedTuple):
         """The knots (n, 2) [m]."""
         return np.asarray(self.knots, float)
 
-    def moved(self, pose: Pose, mirror: bool) -> "Spline":
+    def transformed(self, pose: Pose, mirror: bool) -> "Spline":
         """The same reflected about the x axis where asked, then carried by a pose."""
         turn = (0.0, 0.0, pose[2])
         return Spline(place(self.knots, pose, mirror), _point(self.start_tangent, turn, mirror), _point(self.end_tangent, turn, mirror))
@@ -100,9 +100,9 @@ class Outline(NamedTuple):
         joined = np.concatenate([chains[0], *(chain[1:] for chain in chains[1:])])
         return joined[:-1] if self.closed and len(joined) > 2 and np.allclose(joined[0], joined[-1], atol=1e-12) else joined
 
-    def moved(self, pose: Pose, mirror: bool = False) -> "Outline":
+    def transformed(self, pose: Pose, mirror: bool = False) -> "Outline":
         """The same outline reflected about the x axis where asked, then carried by a pose (x, y, angle)."""
-        return Outline(tuple(piece.moved(pose, mirror) for piece in self.pieces), self.closed)
+        return Outline(tuple(piece.transformed(pose, mirror) for piece in self.pieces), self.closed)
 
 
 def xy(z: complex) -> Point:

@@ -192,7 +192,7 @@ def label_faults(kind: str, preset: str) -> tuple[str, ...]:
     result = _result(spec)
     groups = {
         "value": [label_of(value.meaning, value.label) for value in result.values.values()],
-        "check": [check.shown for check in result.checks],
+        "check": [check.display_label for check in result.checks],
         "plot": [plot.title for plot in _plots(kind, result)],
         "table": [table.title for table in result.tables.values()],
     }

@@ -175,7 +175,7 @@ class Dimension:
 
     name: str
     unit: str
-    shown: str
+    display_unit: str
     also: tuple[str, ...] = ()
     plain: ClassVar[bool] = False  # of a kind whose values are more than a float: what `parse` gives is final
 
@@ -188,7 +188,7 @@ class Dimension:
         if not isinstance(value, str) and (value != value or abs(value) == math.inf):
             raise UnitError(f"{brief(value)} is not finite")
         if not isinstance(value, str):
-            raise UnitError(f'a bare number; {self.described} wants its unit, e.g. "{brief(value)} {self.shown}"')
+            raise UnitError(f'a bare number; {self.described} wants its unit, e.g. "{brief(value)} {self.display_unit}"')
         return _read(self, value)
 
     def factor(self, unit: str) -> float:
@@ -204,12 +204,17 @@ class Dimension:
     def text(self, value: float) -> str:
         """A text that parses back to exactly `value`, in the unit people read or another that makes it shorter."""
         exact = Fraction(float(value))
-        for digits, units in ((6, [self.shown]), (12, [self.shown, *self.also]), (15, [self.shown]), (16, [self.shown])):
+        for digits, units in (
+            (6, [self.display_unit]),
+            (12, [self.display_unit, *self.also]),
+            (15, [self.display_unit]),
+            (16, [self.display_unit]),
+        ):
             for unit in units:
                 text = f"{decimal_text(exact / _unit(unit)[0], digits)} {unit}"
                 if _reads_as(text, value, self):
                     return text
-        return f"{decimal_text(exact / _unit(self.shown)[0], 17)} {self.shown}"  # 17 digits always do
+        return f"{decimal_text(exact / _unit(self.display_unit)[0], 17)} {self.display_unit}"  # 17 digits always do
 
     @property
     def described(self) -> str:
@@ -242,8 +247,8 @@ class Dimension:
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         # Limits are given in SI beside the unit; JSON schema itself cannot compare quantities.
         limits = {f"x-{name}": schema["schema"][name] for name in ("gt", "ge", "lt", "le") if name in schema.get("schema", {})}
-        about = {"x-dimension": self.name, "x-unit": self.shown, "x-si-unit": self.unit}
-        return {"type": "string", "pattern": PATTERN, "examples": [f"1 {self.shown}"], **about, **limits}
+        about = {"x-dimension": self.name, "x-unit": self.display_unit, "x-si-unit": self.unit}
+        return {"type": "string", "pattern": PATTERN, "examples": [f"1 {self.display_unit}"], **about, **limits}
 
 
 @lru_cache(maxsize=4096)
@@ -251,7 +256,7 @@ def _read(dimension: Dimension, text: str) -> float:
     """SI float of a text: the cases of a study say the same again and again."""
     number, unit = split(text)
     if not unit:
-        raise UnitError(f'a bare number; {dimension.described} wants its unit, e.g. "{text.strip()} {dimension.shown}"')
+        raise UnitError(f'a bare number; {dimension.described} wants its unit, e.g. "{text.strip()} {dimension.display_unit}"')
     return _rounded(number * dimension._exact(unit, text), text)
 
 
@@ -395,11 +400,11 @@ def display(si_unit: str) -> tuple[float, str]:
         return 1e3, f"m{si_unit}"
     if dimension is None:
         return 1.0, si_unit
-    return 1 / _SHOWN_FACTOR.get(dimension.shown, 1.0), dimension.shown
+    return 1 / _DISPLAY_FACTOR.get(dimension.display_unit, 1.0), dimension.display_unit
 
 
 # Typed apart from the registry so that drawing a figure does not import pint; a test holds the two together.
-_SHOWN_FACTOR = {
+_DISPLAY_FACTOR = {
     "mm": 1e-3,
     "deg": math.pi / 180,
     "rpm": math.pi / 30,

@@ -42,8 +42,8 @@ def test_strand_has_sheets_and_pins_of_every_link():
 
 def test_sheets_in_one_layer_stay_apart_on_the_sprocket():
     poses = seated_poses(CHAIN, 19, [0, 2])
-    one, two = (shapely.Polygon(PLATE.outline.moved(tuple(pose)).points(1e-7)) for pose in poses)
-    straight = shapely.Polygon(PLATE.outline.moved((2 * P, 0.0, 0.0)).points(1e-7))
+    one, two = (shapely.Polygon(PLATE.outline.transformed(tuple(pose)).points(1e-7)) for pose in poses)
+    straight = shapely.Polygon(PLATE.outline.transformed((2 * P, 0.0, 0.0)).points(1e-7))
     assert one.distance(two) > 1e-3 and shapely.Polygon(PLATE.outline.points(1e-7)).distance(straight) > 0.8e-3
 
 

@@ -8,7 +8,15 @@ from scipy.signal import lfilter
 from scipy.special import stdtrit
 
 from drivewright.errors import InputError
-from drivewright.numerics.ensemble import ENOUGH, FALSE_ALARM, _autocorrelation_time, draw, estimate, estimate_statistic, of_members
+from drivewright.numerics.ensemble import (
+    ENOUGH,
+    FALSE_ALARM,
+    _autocorrelation_time,
+    estimate,
+    estimate_statistic,
+    mean_of_members,
+    predict_member,
+)
 from drivewright.result import Value
 
 pytestmark = pytest.mark.analytical
@@ -236,7 +244,7 @@ def test_a_statistic_of_one_member_has_no_interval_and_of_a_constant_no_width():
 
 def test_numbers_of_members_have_students_interval():
     """Means 2 and 5; t(2) = 4.3027 times the standard deviations 1 and 2 of three, over sqrt(3)."""
-    mean, reach = of_members(np.array([[1.0, 3.0], [2.0, 5.0], [3.0, 7.0]]))
+    mean, reach = mean_of_members(np.array([[1.0, 3.0], [2.0, 5.0], [3.0, 7.0]]))
     np.testing.assert_allclose(mean, [2.0, 5.0])
     np.testing.assert_allclose(reach, 4.3027 * np.array([1.0, 2.0]) / np.sqrt(3), rtol=1e-4)
 
@@ -270,15 +278,15 @@ def test_one_more_draw_lies_in_the_interval_of_a_draw_as_often_as_it_says():
     rng, hits = np.random.default_rng(5), 0
     for _ in range(4000):
         numbers = rng.normal(3.0, 2.0, 5)
-        found = draw(numbers[:4])
+        found = predict_member(numbers[:4])
         assert found.value == numbers[0] and found.low < found.value < found.high
         hits += found.low < numbers[4] < found.high
     assert 0.94 < hits / 4000 < 0.96
-    assert not np.isfinite(draw(np.array([1.5])).low)
+    assert not np.isfinite(predict_member(np.array([1.5])).low)
 
 
 def test_means_of_members_cover_as_often_as_they_say():
     numbers = np.random.default_rng(6).normal(1.0, 0.3, (4, 20_000))
-    mean, reach = of_members(numbers)
+    mean, reach = mean_of_members(numbers)
     assert 0.945 < np.mean(np.abs(mean - 1.0) < reach) < 0.955
-    assert np.all(np.isnan(of_members(numbers[:1])[1]))
+    assert np.all(np.isnan(mean_of_members(numbers[:1])[1]))

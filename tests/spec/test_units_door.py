@@ -101,14 +101,14 @@ def test_the_same_angle_is_the_same_float_in_every_unit(quarters):
 def test_no_dimension_takes_the_unit_of_another(dimension):
     for other in units.DIMENSIONS:
         if other is not dimension:
-            message = complaint(f"3 {other.shown}", dimension.name)
-            assert message.startswith(f"wants {dimension.described}, got '3 {other.shown}' ({other.name})")
+            message = complaint(f"3 {other.display_unit}", dimension.name)
+            assert message.startswith(f"wants {dimension.described}, got '3 {other.display_unit}' ({other.name})")
 
 
 @DIMENSIONS
 def test_the_unit_people_read_is_the_registry_s(dimension):
     factor, shown = units.display(dimension.unit)
-    assert shown == dimension.shown and factor == pytest.approx(1 / units.unit_factor(shown, dimension.name), rel=2e-16, abs=0)
+    assert shown == dimension.display_unit and factor == pytest.approx(1 / units.unit_factor(shown, dimension.name), rel=2e-16, abs=0)
     assert units.unit_factor(dimension.unit, dimension.name) == 1.0
 
 
@@ -210,7 +210,7 @@ def test_the_text_of_a_quantity_reads_back_to_exactly_it(value, dimension):
 @given(st.integers(-(10**6), 10**6), st.integers(-4, 4), st.sampled_from(units.DIMENSIONS))
 def test_what_was_said_in_the_common_unit_is_written_so(digits, power, dimension):
     number = Decimal(digits).scaleb(power).normalize()
-    text = f"{number:f} {dimension.shown}" if number else f"0 {dimension.shown}"
+    text = f"{number:f} {dimension.display_unit}" if number else f"0 {dimension.display_unit}"
     assert Decimal(dimension.text(dimension.parse(text)).split(" ", 1)[0]) == number
 
 

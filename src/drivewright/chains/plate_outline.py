@@ -60,7 +60,7 @@ def _pair(z):
 
 def mirrored(pieces: Pieces) -> Pieces:
     """The mirror image of named pieces about the y axis, in the same sense."""
-    return {name: _backwards(piece.moved((0.0, 0.0, np.pi), True)) for name, piece in reversed(pieces.items())}
+    return {name: _backwards(piece.transformed((0.0, 0.0, np.pi), True)) for name, piece in reversed(pieces.items())}
 
 
 def _backwards(piece):

@@ -116,7 +116,7 @@ class RollerSprocket:
             Arc((0.0, 0.0), self.tip_radius, 0.5 * np.pi + np.pi / self.teeth - tip, 2 * tip),
         )
         turns = 2 * np.pi / self.teeth * np.arange(self.teeth)
-        return Outline(tuple(piece.moved((0.0, 0.0, float(turn)), False) for turn in turns for piece in pieces))
+        return Outline(tuple(piece.transformed((0.0, 0.0, float(turn)), False) for turn in turns for piece in pieces))
 
     def roller(self, number: int = 0) -> Outline:
         """Outline of the roller seated in a space, counted counter-clockwise from the y axis."""

@@ -174,7 +174,7 @@ class Sprocket:
         """Counter-clockwise Outline of all teeth: arcs for root and tip, splines with knots on the exact trochoids and involutes."""
         tooth = self._tooth_pieces(tolerance)
         turns = -2 * np.pi / self.tooth.teeth * np.arange(self.tooth.teeth)[::-1]
-        return Outline(tuple(piece.moved((0.0, 0.0, float(turn)), False) for turn in turns for piece in tooth))
+        return Outline(tuple(piece.transformed((0.0, 0.0, float(turn)), False) for turn in turns for piece in tooth))
 
     def _tooth_pieces(self, tolerance):
         """Pieces of the tooth on the y axis and the root before it, counter-clockwise."""
@@ -188,7 +188,7 @@ class Sprocket:
         if self.tip_chamfer:
             tip = Arc((0.0, 0.0), self.tip_radius, 0.5 * np.pi - self._tip_polar, 0.0).points(1.0)[0]
             up.append(Line(_point(flank[-1]), _point(tip)))
-        down = [_backwards(piece.moved((0.0, 0.0, np.pi), True)) for piece in reversed(up)]
+        down = [_backwards(piece.transformed((0.0, 0.0, np.pi), True)) for piece in reversed(up)]
         space = 2 * (np.pi / self.tooth.teeth - self._root.polar)
         low = Arc((0.0, 0.0), self.root_radius, 0.5 * np.pi - self._root.polar - space, space)
         top = Arc((0.0, 0.0), self.tip_radius, 0.5 * np.pi - self._tip_polar, 2 * self._tip_polar)

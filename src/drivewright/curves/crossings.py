@@ -32,13 +32,13 @@ def self_crossings(chain: Chain) -> tuple[Crossing, ...]:
     places, steps, points = _refined(chain, seeds)
     kept, at = [], []
     for k in np.lexsort((places[:, 1], places[:, 0])):
-        if not any(np.all(_apart(chain, steps[k], other) < _SAME) for other in at):
+        if not any(np.all(_separation(chain, steps[k], other) < _SAME) for other in at):
             kept.append(Crossing(float(places[k, 0]), float(places[k, 1]), complex(points[k])))
             at.append(steps[k])
     return tuple(kept)
 
 
-def _apart(chain, a, b):
+def _separation(chain, a, b):
     """Distance along the loop in samples, where the end of a piece and the start of the next are one place; inf between two loops."""
     ends = chain.first[chain.loops] - chain.loops  # steps at which the loops begin
     home, other = (np.clip(np.searchsorted(ends, place, side="right") - 1, 0, len(ends) - 2) for place in (a, b))
@@ -55,7 +55,7 @@ def _from_chords(chain):
     middle = 0.5 * (a + b)
     pairs = KDTree(np.stack([middle.real, middle.imag], axis=1)).query_pairs(1.0001 * np.max(np.abs(b - a)), output_type="ndarray")
     i, j = np.sort(pairs, axis=1).T
-    apart = _apart(chain, i, j) > 1  # chord number k runs from step k to k + 1
+    apart = _separation(chain, i, j) > 1  # chord number k runs from step k to k + 1
     i, j = i[apart], j[apart]
     along_i, along_j, between = b[i] - a[i], b[j] - a[j], a[j] - a[i]
     with np.errstate(divide="ignore", invalid="ignore"):  # parallel chords: nan or inf, and no crossing
@@ -128,7 +128,7 @@ def _refined(chain, seeds, steps=15):
     u, index = np.take_along_axis(u, order := np.argsort(u, axis=1), 1), np.take_along_axis(index.reshape(-1, 2), order, 1)
     steps = u - index
     least = np.where(index[:, 0] == index[:, 1], _TAIL, _JOINT_TAIL)
-    good = (np.abs(q[1::2] - q[::2]) <= _TOLERANCE * chain.size) & (_apart(chain, *steps.T) > least)
+    good = (np.abs(q[1::2] - q[::2]) <= _TOLERANCE * chain.size) & (_separation(chain, *steps.T) > least)
     if len(chain.loops) > 2:
         good &= ~_grazing(chain, u, ends)
     return u[good], steps[good], q[::2][good]

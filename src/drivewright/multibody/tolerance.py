@@ -157,13 +157,13 @@ def sample(held: Posture, sources: Sequence[Source], samples: int, seed: int) ->
 
     def task(chunk):
         number, size = chunk
-        return deviations(held, draw(sources, size, np.random.default_rng([seed, number])))
+        return deviations(held, draw_deviations(sources, size, np.random.default_rng([seed, number])))
 
     rows = cases.run(task, list(enumerate(sizes)), workers=None if len(sizes) > 1 else 1)
     return Sampled(np.concatenate([row.value for row in rows.rows]), rows.interrupted)
 
 
-def draw(sources: Sequence[Source], samples: int, rng: np.random.Generator) -> Floats:
+def draw_deviations(sources: Sequence[Source], samples: int, rng: np.random.Generator) -> Floats:
     """Random displacements (samples, sources, 2) [m], each in the frame of its body."""
     moves = np.empty((samples, len(sources), 2))
     for number, source in enumerate(sources):

@@ -92,14 +92,14 @@ def estimate_statistic(samples: Floats, statistic: Callable[..., Floats], *, rou
     return _of_members(numbers, bool(abs(np.mean(change)) <= paired and drift <= limit and whole.effective >= ENOUGH))
 
 
-def of_members(numbers: Floats) -> tuple[Floats, Floats]:
+def mean_of_members(numbers: Floats) -> tuple[Floats, Floats]:
     """(mean, half the width of its 95 % interval) of the members' numbers (members, ...), which share nothing: Student's; nan of one."""
     count = len(numbers)
     spread = np.std(numbers, axis=0, ddof=1) if count > 1 else np.full(numbers.shape[1:], np.nan)
     return np.mean(numbers, axis=0), _student(count - 1, (1 + LEVEL) / 2) * spread / np.sqrt(count)
 
 
-def draw(numbers: Floats) -> Estimate:
+def predict_member(numbers: Floats) -> Estimate:
     """The first of the numbers (members,), with the interval in which one more lies: mean -+ t s sqrt(1 + 1/members), if they differ."""
     count, value = len(numbers), float(numbers[0])
     if np.ptp(numbers) == 0.0:

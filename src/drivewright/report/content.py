@@ -17,7 +17,7 @@ from drivewright.scene import Drawing, Scene
 from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_thumbnail, svg
 from drivewright.view.motion import fractions
 from drivewright.view.panels import drawable, known_plots, panels
-from drivewright.view.text import interval_hint, number, numbers, sentence, shown, uncertain, unit_text, with_unit
+from drivewright.view.text import display_unit, interval_hint, number, numbers, sentence, uncertain, unit_text, with_unit
 
 GHOSTS = tuple(n / 5 for n in range(5))
 SIGNS = {"<=": "≤", ">=": "≥"}
@@ -118,7 +118,7 @@ def _marks(result: Result[Any], plot: Plot, scene: Scene | None) -> tuple[tuple[
     """The scene's marks in the unit of the x axis, for a plot over the scene's cycle."""
     if scene is None or plot.table != scene.table or plot.x != result.tables[plot.table].columns[0].name:
         return ()
-    factor = shown(scene.cycle_unit)[0]
+    factor = display_unit(scene.cycle_unit)[0]
     return tuple((value * factor, label) for value, label in scene.marks)
 
 
@@ -182,7 +182,7 @@ def headline(result: Result[Any], names: Sequence[str] | None = None) -> list[Co
 
 def _value(name: str, value: Value) -> Content:
     """`shown` in full; `number`, `unit` and the interval `low` .. `high` apart, "" where it says nothing, with its `hint`."""
-    factor, unit = shown(value.unit)
+    factor, unit = display_unit(value.unit)
     low, high = (None if end is None else end * factor for end in (value.low, value.high))
     text, low, high = numbers(value.value * factor, low, high)
     return {
@@ -201,7 +201,7 @@ def _value(name: str, value: Value) -> Content:
 
 def _check(check: Check) -> Content:
     """The interval of the value is `low` .. `high`, the unit behind the latter; "" where it says nothing."""
-    factor, unit = shown(check.unit)
+    factor, unit = display_unit(check.unit)
     limit = with_unit(number(check.limit * factor), unit)
     text, low, high = numbers(check.value * factor, *_scaled(check.bounds, factor))
     margin = _margin(check, factor) if math.isfinite(check.margin) else ""

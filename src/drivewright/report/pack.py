@@ -12,7 +12,7 @@ from drivewright.scene import Body, Scene
 from drivewright.view.motion import fractions
 from drivewright.view.outlines import overall_size, simplified_points
 from drivewright.view.panels import STANDING, decimals, drawable, panels
-from drivewright.view.text import shown
+from drivewright.view.text import display_unit
 
 FINENESS = 3e-5  # curves become chords within this part of the scene's size: under a pixel at twenty-fold zoom
 MOST_ROWS = 2000  # a longer table is thinned: more points than a plot is wide
@@ -82,7 +82,7 @@ def _magnified(body: Body, motions: dict[str, int]) -> dict[str, float]:
 
 def _cycle(scene: Scene) -> dict[str, Any]:
     """The driving quantity in the unit people read, with its marks as (0 ... 1, label)."""
-    factor, unit = shown(scene.cycle_unit)
+    factor, unit = display_unit(scene.cycle_unit)
     start, span = float(scene.cycle[0]), float(scene.cycle[-1] - scene.cycle[0])
     marks = sorted([(value - start) / span, label] for value, label in scene.marks)
     return {"label": scene.cycle_label, "unit": unit, "start": start * factor, "span": span * factor, "marks": marks}
@@ -171,7 +171,7 @@ def _panels(panels, u, scene):
 def _shade(panel, scene):
     """Shaded stretches as [from, to] in 0 ... 1 along the scene's cycle."""
     start, span = scene.cycle[0], scene.cycle[-1] - scene.cycle[0]
-    factor = shown(scene.cycle_unit)[0]
+    factor = display_unit(scene.cycle_unit)[0]
     return [[(edge / factor - start) / span for edge in stretch] for stretch in panel.shade]
 
 

@@ -11,7 +11,7 @@ from drivewright.report.content import Views, content, pictures
 from drivewright.report.folder import file_name, record_text
 from drivewright.report.html import embedded, page
 from drivewright.report.records import AnswersRecord, StudyRecord, VariableRecord
-from drivewright.view.text import SOLID, number, quantity, sentence, shown, uncertain, unit_text, with_unit
+from drivewright.view.text import SOLID, display_unit, number, quantity, sentence, uncertain, unit_text, with_unit
 
 STATUS, MESSAGE = "status", "message"  # columns of a study's table
 STATES = {"complete": "good", "partial": "warn", "failed": "bad"}
@@ -132,7 +132,7 @@ def _printed(table):
         return {}
     named = next((column.data for column in columns if column.name == "unit"), [""] * rows)
     kept = [column for column in columns if column.name != "unit" and not table.bounded(column.name)]
-    heads = [{"name": c.name, "unit": shown(c.unit)[1], "meaning": sentence(c.meaning), "number": _is_number(c)} for c in kept]
+    heads = [{"name": c.name, "unit": display_unit(c.unit)[1], "meaning": sentence(c.meaning), "number": _is_number(c)} for c in kept]
     return {"columns": heads, "printed": list(zip(*(_cells(column, named, table.bounds_of(column.name)) for column in kept), strict=True))}
 
 
@@ -148,7 +148,7 @@ def _cells(column, named, bounds):
     units = [str(unit) for unit in named] if column.unit == "" else [column.unit] * len(data)
     lows, highs = (np.asarray(end.data).tolist() for end in bounds) if bounds else ([None] * len(data),) * 2
     texts = [uncertain(*row) for row in zip(data, units, lows, highs, strict=True)]
-    tail = shown(column.unit)[1] if column.unit else ""
+    tail = display_unit(column.unit)[1] if column.unit else ""
     return [text.removesuffix(tail).rstrip(SOLID) for text in texts] if tail else texts
 
 

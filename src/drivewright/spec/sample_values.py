@@ -42,7 +42,7 @@ def sample_value(field: FieldInfo) -> Any:
     if field.examples:
         return field.examples[0]
     dimension = dimension_of(field)
-    one = f"1 {dimension.shown}" if dimension else 1.0 if marker_of(field, AnyUnit) else None
+    one = f"1 {dimension.display_unit}" if dimension else 1.0 if marker_of(field, AnyUnit) else None
     return _nested_sample(field.annotation, one)
 
 

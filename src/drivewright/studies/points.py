@@ -46,7 +46,7 @@ def _factor(kind, unit, key):
         return 1.0
     if kind.name == "quantity":
         if not unit:
-            raise SpecError(f"wants its unit in brackets: '{key} [{kind.dimension.shown}]'", f"column '{key}'")
+            raise SpecError(f"wants its unit in brackets: '{key} [{kind.dimension.display_unit}]'", f"column '{key}'")
         try:
             return kind.dimension.factor(unit)
         except UnitError as error:

@@ -43,7 +43,7 @@ class FieldInfo:
     @property
     def sample(self) -> Any:
         """A raw value that an entry of a list could have."""
-        usual = {"quantity": f"1 {self.dimension.shown}" if self.dimension else "", "number": 1.0, "integer": 1, "flag": False}
+        usual = {"quantity": f"1 {self.dimension.display_unit}" if self.dimension else "", "number": 1.0, "integer": 1, "flag": False}
         return usual.get(self.kind, "...") if self.example is None else self.example
 
     @property
@@ -201,7 +201,7 @@ def parse_text(info: FieldInfo, text: str, shown: str = "") -> Any:
     if info.kind == "list":
         return _read_list(info, text, shown)
     if info.kind in ("quantity", "any") and has_no_unit(text):
-        unit = _unit(shown) or (_unit(plain_text(info.default)) or info.dimension.shown if info.dimension else "")
+        unit = _unit(shown) or (_unit(plain_text(info.default)) or info.dimension.display_unit if info.dimension else "")
         return f"{text} {unit}" if unit else read_value(text)
     return text if info.kind == "quantity" else read_value(text)
 

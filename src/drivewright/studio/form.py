@@ -194,7 +194,7 @@ def _slider(info, number, unit, limits, slid):
 
 def _number(info, value):
     """(unit, value) that a box shows: a quantity as its number; anything else as it is."""
-    shown = info.dimension.shown if info.dimension else ""
+    shown = info.dimension.display_unit if info.dimension else ""
     if value is None or value is ABSENT:
         return shown, None
     if info.kind in ("quantity", "any") and isinstance(value, str):

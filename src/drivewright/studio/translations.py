@@ -35,7 +35,7 @@ def _introduction(kind):
     """What the page says of a kind before a design of it is open: its name, its summary, its presets."""
     known = registry.mechanism(kind)
     texts = _brought(kind).get("texts", {})
-    return _presets(kind) | {english: texts[english] for english in (_spoken(kind), known.summary) if english in texts}
+    return _presets(kind) | {english: texts[english] for english in (_words_of_name(kind), known.summary) if english in texts}
 
 
 def _keys(kind):
@@ -45,16 +45,16 @@ def _keys(kind):
     for key, text in fields(kind).items():
         *places, last = key.split(".")
         titled = [step if step == "*" else titles.get(".".join(places[: n + 1]), step) for n, step in enumerate(places)]
-        named[" · ".join(map(_spoken, (*places, last)))] = " · ".join((*titled, text))
+        named[" · ".join(map(_words_of_name, (*places, last)))] = " · ".join((*titled, text))
     return named
 
 
 def _presets(kind):
     """Presets by their names as the page shows them."""
-    return {_spoken(name): text for name, text in _brought(kind).get("presets", {}).items()}
+    return {_words_of_name(name): text for name, text in _brought(kind).get("presets", {}).items()}
 
 
-def _spoken(name):
+def _words_of_name(name):
     return name.replace("-", " ").replace("_", " ")
 
 

@@ -16,7 +16,7 @@ from drivewright.errors import UnknownName
 from drivewright.result import Column, Plot, Result, Table
 from drivewright.view.lines import Line, lines_of
 from drivewright.view.palette import MARKERS, SERIES
-from drivewright.view.text import axis_label, dimension, number, quantity, sentence, shown, with_unit
+from drivewright.view.text import axis_label, dimension, display_unit, number, quantity, sentence, with_unit
 
 REACH = 8.0  # a panel with a limit shows at most so many times the limit: beyond it (a pole of a radius) the line leaves the panel
 DECADES = 6  # powers of ten that a logarithmic axis shows at most
@@ -166,7 +166,7 @@ def _coloured(chunk: Sequence[Line], roles: Iterator[str]) -> list[Series]:
 
 def _shaded(x: Column, column: Column) -> tuple[tuple[float, float], ...]:
     """Stretches (from, to) of x, as shown, in which a column is above 0; each sample stands for half the way to its neighbours."""
-    place = np.asarray(x.data) * shown(x.unit)[0]
+    place = np.asarray(x.data) * display_unit(x.unit)[0]
     edges = np.concatenate([place[:1], (place[1:] + place[:-1]) / 2, place[-1:]])
     on = np.concatenate([[0], np.asarray(column.data) > 0, [0]])
     starts, ends = np.flatnonzero(np.diff(on) == 1), np.flatnonzero(np.diff(on) == -1)
@@ -184,7 +184,7 @@ def _limits(result: Result[Any], plot: Plot) -> Iterator[tuple[float, str]]:
 
 
 def _panel(plot, x, series, label, limits, shade):
-    factor, text = shown(label[1])
+    factor, text = display_unit(label[1])
     limits = tuple((value * factor, limit_text(value * factor, label, text)) for value, label in limits)
     rings = tuple((radius * factor, limit_text(radius * factor, label, text)) for radius, label in plot.rings)
     lines, values = [each for s in series for each in (s.data, *s.ends)], [value for value, _ in limits]
@@ -221,7 +221,7 @@ def _mesh_panel(plot: Plot, table: Table) -> Panel:
 def _map_panel(result: Result[Any], plot: Plot, table: Table) -> Panel:
     """The panel of cells over two axes; its range and its limits are those of the colour."""
     up, tint = (_series(table[name]) for name in plot.y)
-    factor, text = shown(table[plot.y[1]].unit)
+    factor, text = display_unit(table[plot.y[1]].unit)
     limits = tuple((value * factor, limit_text(value * factor, label, text)) for value, label in _limits(result, plot))
     finite = np.asarray(tint.data, float)
     finite = finite[np.isfinite(finite) & (finite > 0)] if plot.log else finite[np.isfinite(finite)]
@@ -231,7 +231,7 @@ def _map_panel(result: Result[Any], plot: Plot, table: Table) -> Panel:
 
 
 def _series(column: Column, role: str = "ink", dashed: bool = False, ends: Sequence[Column] = ()) -> Series:
-    factor, text = shown(column.unit)
+    factor, text = display_unit(column.unit)
     data = np.asarray(column.data)
     # Whole numbers stay whole, so that their axis has whole ticks.
     if data.dtype.kind in "fb" or (data.dtype.kind in "iu" and factor != 1):

@@ -11,7 +11,7 @@ from drivewright.view.motion import path, pose_at, seen_from, step_back
 from drivewright.view.outlines import overall_size, simplified_points
 from drivewright.view.palette import TRACES, colour
 from drivewright.view.style import MUTED, arrange, figure_to_scale, legend_columns, nice_length, styled
-from drivewright.view.text import number, quantity, sentence, shown, with_unit
+from drivewright.view.text import display_unit, number, quantity, sentence, with_unit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -89,7 +89,7 @@ def _observer(scene, name):
 
 
 def _length():
-    return shown("m")
+    return display_unit("m")
 
 
 def _draw_state(axis, scene, observer, phase, ghosts):

@@ -72,7 +72,7 @@ def unit_text(unit: str) -> str:
     return re.sub(r"\bdeg\b", "°", raised).replace(" ", SOLID)
 
 
-def shown(unit: str) -> tuple[float, str]:
+def display_unit(unit: str) -> tuple[float, str]:
     """(factor, printed unit) that turn an SI number into the one people read."""
     factor, text = display(unit)
     return factor, unit_text(text)
@@ -87,13 +87,13 @@ def with_unit(text: str, unit: str) -> str:
 
 def quantity(value: float, unit: str, digits: int = EXACT) -> str:
     """An SI number in the unit people read."""
-    factor, text = shown(unit)
+    factor, text = display_unit(unit)
     return with_unit(number(value * factor, digits), text)
 
 
 def uncertain(value: float, unit: str, low: float | None, high: float | None, digits: int = EXACT) -> str:
     """The same with its interval, '10.2 (8.1 to 12.4) mm'; as `quantity` where the interval says nothing."""
-    factor, text = shown(unit)
+    factor, text = display_unit(unit)
     below, above = (None if end is None else end * factor for end in (low, high))
     middle, *ends = numbers(value * factor, below, above, digits)
     return with_unit(f"{middle} ({ends[0]} to {ends[1]})" if ends[0] else middle, text)

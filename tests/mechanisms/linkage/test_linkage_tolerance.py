@@ -12,7 +12,7 @@ from drivewright.mechanisms.linkage import analyses
 from drivewright.multibody.analyses import tolerances
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.model import GROUND, Body, JointDrive, Marker, MultibodyModel, PinSlot, Prismatic, Revolute, Rolling, line
-from drivewright.multibody.tolerance import CHUNK, Source, deviations, draw, gradient, play, posture, sample, shares
+from drivewright.multibody.tolerance import CHUNK, Source, deviations, draw_deviations, gradient, play, posture, sample, shares
 
 pytestmark = pytest.mark.analytical
 
@@ -112,7 +112,7 @@ def test_a_displacement_along_the_ground_shifts_a_mechanism_as_a_whole():
 @pytest.mark.parametrize(("law", "sigma", "most"), [("uniform", 3**-0.5, 1.0), ("normal", 1 / 3, 2.0), ("circle", 2**-0.5, 1.0)])
 def test_displacements_have_the_moments_of_their_law(law, sigma, most):
     source = Source("p", 2e-4, law, (), (0.6, -0.8))
-    moves = draw([source], 100_000, np.random.default_rng(5))[:, 0] / 2e-4
+    moves = draw_deviations([source], 100_000, np.random.default_rng(5))[:, 0] / 2e-4
     if law == "circle":
         np.testing.assert_allclose(np.hypot(*moves.T), 1.0, atol=1e-12)
         along = moves[:, 0]

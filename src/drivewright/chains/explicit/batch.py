@@ -13,7 +13,7 @@ from drivewright.chains.explicit.simulate import Settings, tooth_time
 from drivewright.chains.model import ChainDrive, at_speed, with_sprocket
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import InputError, SolverError
-from drivewright.numerics.ensemble import Estimate, of_members
+from drivewright.numerics.ensemble import Estimate, mean_of_members
 
 ORDERS = (1.0, 2.0, 3.0)  # of the mesh frequency
 
@@ -41,7 +41,7 @@ def level(runs: Ensemble, orders: Sequence[float] = ORDERS) -> Level:
     if not all(np.all(np.isfinite(each.rows)) for each in runs.members):
         raise SolverError(runs.advice)
     first, (mesh, amplitudes) = runs.first, runs.mesh_orders
-    spectrum, reach = of_members(amplitudes)
+    spectrum, reach = mean_of_members(amplitudes)
     found = Level(
         first.model.drive.speed,
         runs.estimate(mean_of(centre_distance), range_of(centre_distance)),

@@ -58,8 +58,8 @@ class Ensemble:
 
     def extreme(self, statistic: Callable) -> Estimate:
         """The mean of statistic(run, rows) over the whole steady part of each member; it grows with the duration."""
-        of_members = np.array([statistic(run, run.steady) for run in self.members])
-        return replace(estimate(of_members[:, None]), settled=self.is_settled(statistic, float(np.max(of_members))))
+        mean_of_members = np.array([statistic(run, run.steady) for run in self.members])
+        return replace(estimate(mean_of_members[:, None]), settled=self.is_settled(statistic, float(np.max(mean_of_members))))
 
     def is_settled(self, statistic: Callable, scale: float) -> bool:
         """Whether the two halves agree, to `LITTLE` or as far as chance lets them, with memory so short that this means something.

@@ -8,7 +8,7 @@ from drivewright.chains.explicit.batch import Level
 from drivewright.chains.explicit.ensemble import Ensemble
 from drivewright.chains.explicit.motion import Motion
 from drivewright.chains.explicit.simulate import tooth_time
-from drivewright.numerics.ensemble import Estimate, of_members
+from drivewright.numerics.ensemble import Estimate, mean_of_members
 from drivewright.numerics.signals import highest_peaks
 from drivewright.result import Column, Table
 
@@ -41,7 +41,7 @@ def spectrum_table(runs: Ensemble, highest: float) -> Table:
     """Table "spectrum": amplitudes of the centre distance up to the `highest` mesh order, means over all revolutions of the chain."""
     orders, amplitudes = runs.mesh_orders
     near = orders <= highest
-    mean, reach = of_members(amplitudes[:, near])
+    mean, reach = mean_of_members(amplitudes[:, near])
     amplitude = Column("centre_distance", "m", "amplitude of the centre distance", mean)
     return Table(
         "spectrum",

@@ -174,8 +174,8 @@ def in_carrier(model: PusherModel) -> tuple[tuple[float, float, float], bool]:
 def cam_shapes(model: PusherModel, cam: ConjugateCam, profiles: Mapping[str, Outline]) -> Iterator[Shape]:
     """Profile, pitch curve, largest and least pitch circle, bore of a cam, in the carrier's frame."""
     pose, mirror = in_carrier(model)
-    yield Shape("profile", profiles[cam.name].moved(pose, mirror))
-    yield Shape("pitch", model.pair.pitch_outline(cam).moved(pose, mirror))
+    yield Shape("profile", profiles[cam.name].transformed(pose, mirror))
+    yield Shape("pitch", model.pair.pitch_outline(cam).transformed(pose, mirror))
     yield Shape("base", circle((0.0, 0.0), cam.prime_radius))
     yield Shape("hole", circle((0.0, 0.0), model.spec.cams.bore / 2))
 
@@ -219,7 +219,7 @@ def _cam_parts(model, level, here):
     bore = (circle((0, 0), spec.cams.bore / 2),)
     top = level["return"] + spec.cams.face_width
     for cam, colour in zip(model.pair.cams, ("orange", "violet"), strict=True):
-        profile = model.profiles[cam.name].moved(pose, mirror)
+        profile = model.profiles[cam.name].transformed(pose, mirror)
         yield Part(f"cam_{cam.name}", (Prism(profile, bore, level[cam.name], spec.cams.face_width),), here, colour)
     hub = Prism(circle((0, 0), spec.cams.hub_diameter / 2), bore, spec.cams.face_width, level["return"] - spec.cams.face_width)
     collar = Prism(circle((0, 0), spec.cams.hub_diameter / 2), bore, top, 4e-3)

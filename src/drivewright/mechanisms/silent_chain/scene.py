@@ -53,11 +53,11 @@ def _wheel(model, sprocket):
     quarter = (0.0, 0.0, -np.pi / 2)
     outline = sprocket.outline() if model.spec.roller else sprocket.outline(FINE)
     gap = _gap_angle(sprocket)
-    yield Shape("body", outline.moved((0.0, 0.0, -np.pi / 2 - gap)))
+    yield Shape("body", outline.transformed((0.0, 0.0, -np.pi / 2 - gap)))
     if model.bore:
         yield Shape("hole", circle((0, 0), 0.5 * model.bore))
     reach = 0.9 * sprocket.root_radius
-    yield Shape("axis", circle((reach, 0.0), 0.02 * reach).moved(quarter))
+    yield Shape("axis", circle((reach, 0.0), 0.02 * reach).transformed(quarter))
 
 
 def _gap_angle(sprocket):

@@ -17,7 +17,7 @@ from drivewright.multibody.analyses.turns import acceleration, window_record
 from drivewright.multibody.measures import largest
 from drivewright.multibody.observe import FIELDS
 from drivewright.multibody.record import POINT_FIELDS, Record, final_state
-from drivewright.numerics.ensemble import draw
+from drivewright.numerics.ensemble import predict_member
 from drivewright.result import Answer, Check, Column, Table, Value
 
 
@@ -64,7 +64,7 @@ def end(model: SimulationModel) -> Answer:
     for number, name in enumerate(model.assembly.names):
         if name in model.bodies:
             for key, field, unit, meaning in fields:
-                drawn = draw(last[:, number, FIELDS.index(field)])
+                drawn = predict_member(last[:, number, FIELDS.index(field)])
                 values[f"bodies.{name}.{key}"] = Value.of(drawn, unit, f"{meaning}, at the end of the run")
     return Answer(values)
 

@@ -20,7 +20,7 @@ from drivewright.multibody.model import Marker
 from drivewright.multibody.observe import PIN_FIELDS
 from drivewright.multibody.record import Record, record
 from drivewright.multibody.simulate import simulate
-from drivewright.numerics.ensemble import of_members
+from drivewright.numerics.ensemble import mean_of_members
 from drivewright.result import Answer, Column, Table, Value
 
 BEARING = "bearing of "  # before a joint's name: the marker that tells the bearing's angle; outputs have no blanks in their names
@@ -256,7 +256,7 @@ def _development(model, joint, histories):
 
 def _columns(name, unit, meaning, numbers):
     """The mean of numbers (bearings, rows), with its interval where there are several."""
-    mean, reach = of_members(numbers)
+    mean, reach = mean_of_members(numbers)
     column = Column(name, unit, meaning, mean)
     return (column, *column.bounds(mean - reach, mean + reach)) if len(numbers) > 1 else (column,)
 

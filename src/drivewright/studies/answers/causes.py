@@ -193,7 +193,7 @@ def _remarks(rows, cases):
 def _ranked(arranged, keys, wide):
     """A table and a plot of ranked bars for each shown value."""
     tables, plots = [], []
-    for name in arranged.shown:
+    for name in arranged.plotted:
         if shares := wide.get((name, 0)):
             table = Table(
                 f"contributions.{name}",
@@ -211,7 +211,7 @@ def _ranked(arranged, keys, wide):
 def responses(arranged: Arranged) -> Iterator[Response]:
     """`Response`s over the grid: the share of each key in the variance of the shown values, by the first method that there is."""
     sample = _Sample(arranged)
-    for name in arranged.shown:
+    for name in arranged.plotted:
         samples, noise = arranged.of(name), _noise(arranged, name)
         theories = _theories(arranged, samples, noise)
         keys = _keys(arranged) if theories else sample.keys
@@ -243,7 +243,7 @@ def _indices(arranged):
     if not rows:
         return Part()
     table = table_of_rows("indices", "Sobol indices", INDICES, rows, arranged)
-    shown = [_index_plot(arranged, name, rows) for name in arranged.shown] if arranged.combinations == 1 else []
+    shown = [_index_plot(arranged, name, rows) for name in arranged.plotted] if arranged.combinations == 1 else []
     dropped = max(row[-1] for row in rows)
     remark = (
         (

@@ -160,7 +160,7 @@ def _range_values(arranged, rows):
 
 def responses(arranged: Arranged) -> Iterator[Response]:
     """`Response`s of a grid without random keys: the shown values, the worst margin, the number of failing checks, the status."""
-    for name in arranged.shown:
+    for name in arranged.plotted:
         column = Column(name, arranged.study.unit(name), arranged.study.meaning(name) or name, arranged.of(name)[:, 0])
         bounds = arranged.bounds(name)
         yield Response(name, name, (column,), ends=column.bounds(*(end[:, 0] for end in bounds)) if bounds else ())

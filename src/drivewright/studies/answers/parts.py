@@ -45,7 +45,7 @@ class Arranged:
     """A study as arrays (combinations of levels, points that come with each), nan where a case is not there; `shown` get plots."""
 
     study: Study
-    shown: tuple[str, ...]
+    plotted: tuple[str, ...]
 
     @cached_property
     def _crossed(self) -> tuple[Plan, Ints]:

@@ -95,7 +95,7 @@ def _histograms(arranged):
     """The raw samples of the shown values; the margin of a check with its limit, 0."""
     columns = [
         Column(name, arranged.study.unit(name), arranged.study.meaning(name) or name, arranged.of(name)[0, arranged.sample])
-        for name in arranged.shown
+        for name in arranged.plotted
     ]
     columns = [column for column in columns if len(finite(column.data)) > 1]
     if not columns:
@@ -167,7 +167,7 @@ def _yield_values(row):
 
 def responses(arranged: Arranged) -> Iterator[Response]:
     """`Response`s over the grid: mean and mean -+ sigma of each shown value, its sigma, and the yield, with their intervals."""
-    for name in arranged.shown:
+    for name in arranged.plotted:
         unit, what = arranged.study.unit(name), arranged.study.meaning(name) or name
         summaries = [summary(sample) for sample in arranged.of(name)[:, arranged.sample]]
         (mean, *mean_ends), (sigma, *sigma_ends) = (np.array([getattr(each, part) for each in summaries]).T for part in ("mean", "sigma"))

@@ -8,7 +8,7 @@ from drivewright.errors import SpecError
 from drivewright.execution.keys import FIXED, KeyKind, key_kind
 from drivewright.spec import MechanismSpec, value_at
 from drivewright.studio.design import Design, Tables
-from drivewright.view.text import shown
+from drivewright.view.text import display_unit
 
 
 def leaves(tables: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, Any]]:
@@ -82,5 +82,5 @@ def label(tables: Tables, key: str) -> str:
 
 def plain(value: float, unit: str = "-") -> float | None:
     """A number in the unit people read, for JSON: None where there is none."""
-    number = float(value) * shown(unit)[0]
+    number = float(value) * display_unit(unit)[0]
     return number if math.isfinite(number) else None

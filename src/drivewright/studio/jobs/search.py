@@ -19,7 +19,7 @@ from drivewright.studio.jobs.design_keys import input_text, is_locked, label, pl
 from drivewright.studio.jobs.figures import drawn
 from drivewright.studio.jobs.progress import Progress
 from drivewright.studio.jobs.study import Live, evenly_spaced_rows
-from drivewright.view.text import quantity, sentence, shown, uncertain
+from drivewright.view.text import display_unit, quantity, sentence, uncertain
 
 MOST_FRONT = 500  # designs of a front that a page is sent
 
@@ -90,7 +90,7 @@ def _objective(problem):
     return {
         "name": name,
         "label": _label(problem, name),
-        "unit": shown(problem.about[name].unit)[1],
+        "unit": display_unit(problem.about[name].unit)[1],
         "goal": "minimise" if sign > 0 else "maximise",
     }
 
@@ -174,11 +174,11 @@ def _front(design, outcome):
     """The designs that no other beats as a table like that of a study."""
     problem, chosen = outcome.problem, evenly_spaced_rows(len(outcome.front), MOST_FRONT)
     columns = [
-        {"name": key, "label": label(design.tables, key), "unit": shown(kind.unit)[1], "role": "key"}
+        {"name": key, "label": label(design.tables, key), "unit": display_unit(kind.unit)[1], "role": "key"}
         for key, kind in zip(problem.keys, problem.kinds, strict=True)
     ]
     columns += [
-        {"name": name, "label": _label(problem, name), "unit": shown(about.unit)[1], "role": _role(name)}
+        {"name": name, "label": _label(problem, name), "unit": display_unit(about.unit)[1], "role": _role(name)}
         for name, about in problem.about.items()
     ]
     units = [kind.unit for kind in problem.kinds] + [about.unit for about in problem.about.values()]

@@ -24,7 +24,7 @@ from drivewright.studies.variables import Variable
 from drivewright.studio.design import Design
 from drivewright.studio.jobs.design_keys import is_locked, label, numeric, plain
 from drivewright.studio.jobs.progress import Progress
-from drivewright.view.text import quantity, sentence, shown
+from drivewright.view.text import display_unit, quantity, sentence
 
 ROUNDING = 1e-12  # of a number: no change
 PATIENCE = 2.0  # seconds of a run, beyond which only the analyses that check something are asked
@@ -118,7 +118,7 @@ def _scale(key, kind, keys):
         return 1.0
     alike = {other: abs(value) for other, (its, value) in keys.items() if its == kind and value}
     near = [size for other, size in alike.items() if other.split(".")[0] == key.split(".")[0]]
-    return max(near or alike.values(), default=1.0 / shown(kind.unit)[0])
+    return max(near or alike.values(), default=1.0 / display_unit(kind.unit)[0])
 
 
 def _room(spec, key, value, step):
@@ -178,7 +178,7 @@ def _target(design, study, name, about, keys, steps):
     return {
         "name": name,
         "label": text,
-        "unit": shown(unit)[1],
+        "unit": display_unit(unit)[1],
         "kind": kind,
         "base": plain(value, unit),
         "relative": relative,

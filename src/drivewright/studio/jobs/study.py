@@ -27,7 +27,7 @@ from drivewright.studio.design import Design
 from drivewright.studio.jobs.design_keys import input_text, label, numeric, plain
 from drivewright.studio.jobs.figures import drawn
 from drivewright.studio.jobs.progress import Progress
-from drivewright.view.text import quantity, sentence, shown
+from drivewright.view.text import display_unit, quantity, sentence
 
 MOST_ROWS, MOST_LIVE = 4000, 1000  # that a page is sent: at the end, and on the way
 PAUSE = 0.5  # seconds between two looks at what is done so far
@@ -110,7 +110,7 @@ def _rows(design, study, most, always=()):
     names = _names(study)
     chosen = evenly_spaced_rows(len(study), most, always)
     columns = [
-        {"name": name, "label": _label(design, study, name), "unit": shown(study.unit(name))[1], "role": _role(study, name)}
+        {"name": name, "label": _label(design, study, name), "unit": display_unit(study.unit(name))[1], "role": _role(study, name)}
         for name in names
     ]
     data = [_cells(study[name][chosen], study.unit(name)) for name in names]
