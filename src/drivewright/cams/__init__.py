@@ -11,6 +11,7 @@
 `loads`, `pressure`  forces, torque, spring; Hertz pressure
 `vibration`          the follower train as one mass on a damped spring
 `conjugate`          a lever between conjugate cams whose pivot is carried around them: profiles, pressure angles, forces
+`conjugate_tables`   the same over the driving angle as tables, with the quasi-static loads
 `clearance`          the same with clearance: contact, flight, impact
 `oscillating_batch`  kernels for many designs at once
 `follower_shapes`    the follower as shapes, for scene and solids
@@ -51,7 +52,14 @@ from drivewright.cams.loads import (
     needed_preload,
     needed_stiffness,
 )
-from drivewright.cams.pressure import contact_pressure, pair_modulus, peak_contact_pressure, relative_curvature, roller_pressure
+from drivewright.cams.pressure import (
+    contact_pressure,
+    pair_modulus,
+    peak_contact_pressure,
+    pressure_check,
+    relative_curvature,
+    roller_pressure,
+)
 from drivewright.cams.profile import FlatFollower, Follower, Overtravel, RoundFollower, family, overtravel, path, spans
 from drivewright.cams.sizing import face_ends, min_base_radius, min_flat_radius, min_pitch_radius
 from drivewright.cams.track import CamTrack
@@ -121,6 +129,7 @@ __all__ = [
     "pitch_outline",
     "play",
     "polar_radii",
+    "pressure_check",
     "profile_radii",
     "propagator",
     "relative_curvature",

@@ -50,6 +50,31 @@ class ConjugateLever(NamedTuple):
 
 
 @kernel
+def conjugate_lever(
+    pivot_distance: float, main_arm: float, return_arm: float, output_arm: float, main_prime: float, return_prime: float
+) -> ConjugateLever:
+    """The lever by the prime radii of its cams, all [m]; an arm that does not reach its cam has a cosine beyond 1."""
+    cos_main, cos_return = rest_cosine(main_prime, pivot_distance, main_arm), rest_cosine(return_prime, pivot_distance, return_arm)
+    main = complex(cos_main, np.sqrt(max(1 - cos_main**2, 0.0)))
+    back = complex(cos_return, np.sqrt(max(1 - cos_return**2, 0.0)))
+    return ConjugateLever(pivot_distance, main_arm, return_arm, output_arm, main, back)
+
+
+@kernel
+def can_swing(lever: ConjugateLever, swing: float) -> bool:
+    """Whether both arms reach their cams and a swing [rad] takes neither onto its dead point."""
+    cos_main, cos_return = lever.main.real, lever.back.real
+    return abs(cos_main) < 1 and abs(cos_return) < 1 and np.arccos(cos_main) + swing < np.pi and np.arccos(cos_return) > swing
+
+
+@kernel
+def main_pitch_radius(lever: ConjugateLever, swing: float) -> float:
+    """Radius of the main cam's pitch curve [m] at a swing [rad] of the lever."""
+    pivot, arm = lever.pivot_distance, lever.main_arm
+    return np.sqrt(pivot**2 + arm**2 - 2 * pivot * arm * (lever.main * np.exp(1j * swing)).real)
+
+
+@kernel
 def conjugate_extremes(
     lever: ConjugateLever, stroke: float, width: float, way: int, orbit: float, p1: Floats, p2: Floats, s: Floats, v: Floats, a: Floats
 ) -> tuple[float, float]:

@@ -8,6 +8,7 @@ from drivewright.cams.followers import CamContact, ContactAt
 from drivewright.contact import hertz
 from drivewright.materials import Material
 from drivewright.numerics.jets import Jet
+from drivewright.result import Answer, Check
 
 LEAST_SLACK = 1e-9  # of 1 - r kappa, and [1/m] of the relative curvature: nearer to a cusp the pressure is meaningless anyhow
 
@@ -50,3 +51,12 @@ def roller_pressure(force: Floats, pitch_curvature: Floats, radius: float, width
     slack = np.maximum(1 - radius * pitch_curvature, LEAST_SLACK)
     relative = 1 / radius + pitch_curvature / slack
     return np.asarray(hertz.line_contact(force, width, 1 / np.maximum(relative, LEAST_SLACK), modulus).pressure)
+
+
+def pressure_check(name: str, pressure: float, limit: float | None, material: Material, message: str, parts: tuple[str, ...]) -> Answer:
+    """The check of a Hertz pressure [Pa] against a limit [Pa], the material's unless given; without either a finding says so."""
+    allowed = limit or material.hertz_limit
+    if allowed is None:
+        unknown = f"no allowable pressure is known for {material.name}; give limits.contact_pressure"
+        return Answer(findings=(f"check {name} is left out: {unknown}",))
+    return Answer(checks=(Check(name, pressure, allowed, "<=", "Pa", message, parts),))

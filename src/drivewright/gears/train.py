@@ -60,6 +60,18 @@ class GearTrain:
         sense = 1 if len(self.pairs) % 2 == 0 else -1
         return sense * self.planet(t) - variable(t)
 
+    def directions(self, t: ArrayLike, start: float = 0.0) -> tuple[Floats, ...]:
+        """World directions of the gears' reference radii [rad], shape of t; `start`: that of the sun's, towards the first arm at t = 0.
+
+        A gear's reference radius points along the extension of its incoming arm at phase 0; the sun stands still.
+        """
+        carrier = start - np.asarray(t, dtype=float)
+        arms = carrier[..., None] + np.concatenate([[0.0, 0.0], np.cumsum(self.bends)])
+        senses = (-1) ** np.arange(len(self.pairs) + 1)
+        phases = self.angles(t)
+        driven = (arms[..., k] + senses[k] * phases[k].d0 for k in range(1, len(phases)))
+        return (np.full(carrier.shape, start), *driven)
+
     def collinear_angles(self, samples: int = 721) -> Floats:
         """Carrier angles in [0, 2 pi) where the last two gears stand symmetrically: the angle of their mesh is 0 or pi.
 

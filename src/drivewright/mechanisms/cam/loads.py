@@ -94,12 +94,9 @@ def _pressure(model, track, normal_force):
     peak = cams.peak_contact_pressure(model.cycle, force_at, track.contact, track.radius, width, modulus)
     values = {f"{track.prefix}max_contact_pressure": Value(peak, "Pa", f"largest Hertz pressure{track.of}, steady contact")}
     tables = (track.pressure_table(model.cycle, normal_force, width, modulus),)
-    name, allowed = f"contact_pressure{track.suffix}", model.spec.limits.contact_pressure or model.material.hertz_limit
-    if allowed is None:
-        unknown = f"no allowable pressure is known for {model.material.name}; give limits.contact_pressure"
-        return Answer(values, tables, findings=(f"check {name} is left out: {unknown}",))
-    check = Check(name, peak, allowed, "<=", "Pa", "Hertz line contact of follower and cam", (track.name, "follower"))
-    return Answer(values, tables, (check,))
+    name, message = f"contact_pressure{track.suffix}", "Hertz line contact of follower and cam"
+    check = cams.pressure_check(name, peak, model.spec.limits.contact_pressure, model.material, message, (track.name, "follower"))
+    return merge_answers((Answer(values, tables), check))
 
 
 def spring(model: CamModel, done: Answers) -> Answer:

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from drivewright.mechanisms.seedling_pusher import analyse, dynamics, manufacture, planting, scene
+from drivewright.mechanisms.seedling_pusher import analyses, dynamics, manufacture, planting, scene
 from drivewright.mechanisms.seedling_pusher.build import build
 from drivewright.mechanisms.seedling_pusher.claims import claims
 from drivewright.mechanisms.seedling_pusher.designs import batch
@@ -13,8 +13,8 @@ from drivewright.result import Plot
 ANALYSES = (
     Analysis("train", planting.train, "elliptic train, tip track, arm rotation"),
     Analysis("planting", planting.planting, "needle angles and the requirements of planting"),
-    Analysis("cams", analyse.cams, "pressure angles, curvature, real profiles and lost motion of both cams"),
-    Analysis("load", analyse.load, "rod dynamics, normal forces, Hertz pressure, torque"),
+    Analysis("cams", analyses.cams, "pressure angles, curvature, real profiles and lost motion of both cams"),
+    Analysis("load", analyses.load, "rod dynamics, normal forces, Hertz pressure, torque"),
     Analysis("contact", dynamics.contact, "lever between the cams with play: forces, separation, rod error"),
     Analysis("teeth", manufacture.teeth, "teeth of the elliptic gears", default=False),
     Analysis("inspection", manufacture.inspection, "radius and angle of both profiles with tolerance", default=False),

@@ -13,7 +13,7 @@ import numpy as np
 from drivewright import motion
 from drivewright._jit import kernel, warmer
 from drivewright._typing import Floats
-from drivewright.cams.oscillating_batch import ConjugateLever, conjugate_extremes, rest_cosine
+from drivewright.cams.oscillating_batch import can_swing, conjugate_extremes, conjugate_lever, main_pitch_radius
 from drivewright.gears.elliptic_batch import planet_rates
 from drivewright.gears.elliptic_track import (
     PlanetPoint,
@@ -213,25 +213,21 @@ def evaluate_cams(row: Floats, choices: Choices, end: float, s: Floats, v: Float
 
     row (KEYS,), out (NAMES,) in SI; end: carrier angle at which the push ends [rad]; s, v, a (k,) [-] of the push law.
     """
-    pivot, arm = row[PIVOT_DISTANCE], row[ARM_MAIN]
-    cos_main, cos_return = rest_cosine(row[PRIME_RADIUS_MAIN], pivot, arm), rest_cosine(row[PRIME_RADIUS_RETURN], pivot, row[ARM_RETURN])
+    main_prime, return_prime = row[PRIME_RADIUS_MAIN], row[PRIME_RADIUS_RETURN]
+    lever = conjugate_lever(row[PIVOT_DISTANCE], row[ARM_MAIN], row[ARM_RETURN], row[OUTPUT_ARM], main_prime, return_prime)
     swing = np.arctan(row[STROKE] / row[OUTPUT_ARM])
-    possible = abs(cos_main) < 1 and abs(cos_return) < 1 and row[RISE] + row[HOLD] + row[RETRACTION] < 2 * np.pi
-    if not possible or np.arccos(cos_main) + swing >= np.pi or np.arccos(cos_return) <= swing:
+    if not can_swing(lever, swing) or row[RISE] + row[HOLD] + row[RETRACTION] >= 2 * np.pi:
         out[8], out[9], out[10] = np.nan, np.nan, np.nan
         return
-    main, back = complex(cos_main, np.sqrt(1 - cos_main**2)), complex(cos_return, np.sqrt(1 - cos_return**2))
-    lever, tip = ConjugateLever(pivot, arm, row[ARM_RETURN], row[OUTPUT_ARM], main, back), needle_tip(row, choices)
-    orbit, first, second = 1.0 if choices.counter_clockwise else -1.0, np.empty(s.shape[0]), np.empty(s.shape[0])
+    tip, orbit = needle_tip(row, choices), 1.0 if choices.counter_clockwise else -1.0
+    first, second = np.empty(s.shape[0]), np.empty(s.shape[0])
     planet_rates(end - row[RISE], row[RISE], tip.half_bend, tip.slope, first, second)
     rise = conjugate_extremes(lever, row[STROKE], row[RISE], 1, orbit, first, second, s, v, a)
     planet_rates(end + row[HOLD], row[RETRACTION], tip.half_bend, tip.slope, first, second)
     retraction = conjugate_extremes(lever, row[STROKE], row[RETRACTION], -1, orbit, first, second, s, v, a)
+    sharpest = max(max(rise[1], retraction[1]), max(1 / main_prime, 1 / return_prime))
     out[8] = np.arctan(max(rise[0], retraction[0]))
-    sharpest = max(max(rise[1], retraction[1]), max(1 / row[PRIME_RADIUS_MAIN], 1 / row[PRIME_RADIUS_RETURN]))
-    outermost = main * np.exp(1j * swing)
-    reach = np.sqrt(pivot**2 + arm**2 - 2 * pivot * arm * outermost.real)
-    out[9], out[10] = 1 / (sharpest * row[ROLLER_RADIUS]), max(reach, row[PRIME_RADIUS_RETURN])
+    out[9], out[10] = 1 / (sharpest * row[ROLLER_RADIUS]), max(main_pitch_radius(lever, swing), return_prime)
 
 
 @warmer

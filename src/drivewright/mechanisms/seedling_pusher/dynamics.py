@@ -12,6 +12,7 @@ from drivewright.cams.clearance import (
     simulate_last_turn,
     simulate_turns,
 )
+from drivewright.cams.conjugate_tables import contact_table
 from drivewright.contact import KelvinVoigt
 from drivewright.errors import SolverError
 from drivewright.mechanisms.seedling_pusher.build import TURN, PusherModel
@@ -51,16 +52,6 @@ def simulate(model: PusherModel, clearance: float | None = None, speed: float | 
 def contact(model: PusherModel, done: Answers) -> Answer:
     """Contact forces, separation and rod error in the last simulated turn."""
     run = simulate(model)
-    table = Table(
-        "contact",
-        "Contact over the last simulated turn",
-        (
-            Column("carrier_angle", "rad", "turn of the carrier", model.pair.start + run.angle),
-            Column("main.force", "N", "normal force on the main cam", run.main),
-            Column("return.force", "N", "normal force on the return cam", run.back),
-            Column("rod_error", "m", "rod ahead of its programme", run.deviation),
-        ),
-    )
     worst = run.max_deviation
     values = {
         "contact.peak_force": Value(run.peak_force, "N", "largest normal force in the last turn"),
@@ -70,7 +61,7 @@ def contact(model: PusherModel, done: Answers) -> Answer:
         "contact.rod_error.max": Value(worst, "m", "largest deviation of the rod from its programme"),
     }
     checks = (Check("rod_error", worst, model.spec.limits.rod_error, "<=", "m", "the rod follows its programme", ("rod",)),)
-    return Answer(values, (table,), checks)
+    return Answer(values, (contact_table(run, model.pair.start),), checks)
 
 
 def clearance_study(model: PusherModel, done: Answers) -> Answer:

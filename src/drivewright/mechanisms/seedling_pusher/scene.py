@@ -10,7 +10,6 @@ from functools import partial
 
 import numpy as np
 
-from drivewright._typing import Floats, Numbers
 from drivewright.cams import ConjugateCam
 from drivewright.mechanisms.seedling_pusher.build import TURN, PusherModel
 from drivewright.scene import Bar, Body, Drawing, Frame, Line, Outline, Part, Prism, Scene, Shape, Trace, capsule, circle, polygon, xy
@@ -25,12 +24,12 @@ def scene(model: PusherModel) -> Scene:
     spec = model.spec
     axis, rotation, swing = model.arm.axis(t).d0, model.arm.rotation(t).d0, model.pair.swing(t).d0
     carrier = 2 * spec.train.semi_major * np.exp(1j * (spec.train.carrier_angle - t))
-    wheel = model.display_gear
+    wheel, (sun, intermediate, planet) = model.display_gear, _gear_directions(model, t)
     arm_pose, lever_pivot = _poses(axis, rotation), axis + np.exp(1j * rotation) * pivot(model)
     bodies = (
-        _gear("sun", "sun gear (fixed)", wheel, _poses(0 * axis, 0 * t + sun_angle(model)), "ground"),
-        _gear("intermediate", "intermediate gear", wheel, _poses(carrier, intermediate_angle(model, t)), "steel"),
-        _gear("planet", "planet gear", wheel, _poses(axis, planet_angle(model, t)), "steel"),
+        _gear("sun", "sun gear (fixed)", wheel, _poses(0 * axis, sun), "ground"),
+        _gear("intermediate", "intermediate gear", wheel, _poses(carrier, intermediate), "steel"),
+        _gear("planet", "planet gear", wheel, _poses(axis, planet), "steel"),
         Body("carrier", "carrier", (Shape("body", _carrier_shape(model)),), _poses(0 * axis, -t), "blue"),
         *(
             Body(f"cam.{cam.name}", f"{cam.name} cam", tuple(cam_shapes(model, cam, model.display_profiles)), _poses(axis, -t), colour)
@@ -87,19 +86,10 @@ def _field_shapes(model):
 # -- train -----------------------------------------------------------------------------------------------------------------------
 
 
-def sun_angle(model: PusherModel) -> float:
-    """Direction of the sun's short focal radius: towards the intermediate gear in a near start, away from it in a far start."""
-    return model.spec.train.carrier_angle + (0.0 if model.spec.train.start == "near" else np.pi)
-
-
-def intermediate_angle(model: PusherModel, t: Numbers) -> Floats:
-    """Direction of the intermediate gear's short focal radius, in the world: clockwise by theta in the carrier, which turns by -t."""
-    return sun_angle(model) - t - model.arm.train.angles(t)[1].d0
-
-
-def planet_angle(model: PusherModel, t: Numbers) -> Floats:
-    """Direction of the planet's short focal radius: at phase p = 0 its long radius points at the intermediate gear (near start)."""
-    return sun_angle(model) + model.arm.bend - t + model.arm.train.phase + model.arm.planet(t).d0
+def _gear_directions(model, t):
+    """World directions of the short focal radii of sun, intermediate and planet gear; in a far start they point the other way."""
+    train = model.spec.train
+    return model.arm.train.directions(t, train.carrier_angle + (0.0 if train.start == "near" else np.pi))
 
 
 def _carrier_shape(model):
@@ -254,10 +244,8 @@ def _gear_parts(model, level):
     outline, bore = model.gear_outline, (circle((0, 0), 4e-3),)
     zero = np.array(0.0)
     carrier = 2 * model.spec.train.semi_major * np.exp(1j * model.spec.train.carrier_angle)
-    places = {
-        "gear_sun": (0j, sun_angle(model)),
-        "gear_intermediate": (carrier, intermediate_angle(model, zero)),
-        "gear_planet": (complex(model.arm.axis(zero).d0), planet_angle(model, zero)),
-    }
-    for name, (centre, angle) in places.items():
-        yield Part(name, (Prism(outline, bore, -GEAR_THICKNESS - 3e-3, GEAR_THICKNESS),), (*xy(centre), float(angle)), "steel")
+    centres = (0j, carrier, complex(model.arm.axis(zero).d0))
+    for name, centre, direction in zip(("sun", "intermediate", "planet"), centres, _gear_directions(model, zero), strict=True):
+        yield Part(
+            f"gear_{name}", (Prism(outline, bore, -GEAR_THICKNESS - 3e-3, GEAR_THICKNESS),), (*xy(centre), float(direction)), "steel"
+        )
