@@ -74,6 +74,8 @@ def centre_ring(law: Any, force: Floats, held: Bools, displacement: Floats) -> N
     """Put z where the ring centres itself when the load does not push it along the axis.
 
     The potential is symmetric about this z, so the answer lies there; on the way from anywhere else balls would change sides.
+
+    force (5,) [N, N m], held (5,), displacement (5,) [m, rad], written.
     """
     loaded = force[0] != 0.0 or force[1] != 0.0 or force[3] != 0.0 or force[4] != 0.0
     if loaded and force[2] == 0.0 and not held[2]:
@@ -88,7 +90,7 @@ def _workspace():
 
 @outer
 def _find_equilibrium(law, force, held, displacement, work):
-    """Newton's method from `displacement`, in place; the number of steps."""
+    """Newton's method from `displacement`, in place; the number of steps. force (5,) [N, N m], held (5,), displacement (5,) [m, rad]."""
     sizes = measures(law)
     for i in range(5):
         work.scale[i] = 0.0 if held[i] else sizes.length if i < 3 else sizes.length / sizes.arm
@@ -101,6 +103,8 @@ def _reduce_load(law, force, displacement, work):
     """A load that presses the ring in, reduced to the wanted one; the number of steps.
 
     Under a slight load the elements are as good as rigid, and the ring finds its place among them in too many small steps.
+
+    force (5,) [N, N m], displacement (5,) [m, rad], in place.
     """
     factor, reached, ratio, total = 100.0, np.inf, 0.1, MAX_STEPS
     for _ in range(MAX_LOADS):
@@ -127,7 +131,7 @@ def _reduce_load(law, force, displacement, work):
 
 @outer
 def _newton(law, force, factor, displacement, work):
-    """Newton steps at `factor` times the force, in place; the number of steps."""
+    """Newton steps at `factor` times the force, in place; the number of steps. force (5,) [N, N m], displacement (5,) [m, rad]."""
     weight = 0.0
     for i in range(5):
         work.load[i] = factor * force[i]
@@ -154,6 +158,8 @@ def _newton_step(displacement, miss, work):
 
     H + lambda I with lambda from next to nothing, raised while the step leaves the neighbourhood in which the stiffness means
     anything: where H is singular the step then follows the force.
+
+    displacement (5,) [m, rad]; miss: of the forces in units of `scale` [N m].
     """
     peak, size, here = 0.0, np.inf, 0.0
     for i in range(5):
@@ -181,7 +187,10 @@ def _newton_step(displacement, miss, work):
 
 @outer
 def _line_search(law, displacement, size, work):
-    """Go along the step until the slope has dropped to a part of its first value; False where it never does."""
+    """Go along the step until the slope has dropped to a part of its first value; False where it never does.
+
+    displacement (5,) [m, rad], in place; size of the step in units of `scale`.
+    """
     first = _slope(work)
     low, low_slope, high, high_slope, t = 0.0, first, np.inf, 0.0, 1.0
     for i in range(5):

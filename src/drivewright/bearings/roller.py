@@ -200,7 +200,10 @@ def _(law, displacement, force, stiffness):
 
 @inner
 def _laminae(law, normal, tilt):
-    """Sums over the laminae of one roller: energy, load, load x arm, slope, slope x arm, slope x arm^2."""
+    """Sums over the laminae of one roller: energy, load, load x arm, slope, slope x arm, slope x arm^2.
+
+    normal [m] and tilt [rad] of the inner ring at the roller; sums in [J, N, N m, N/m, N, N m].
+    """
     energy = q0 = q1 = k0 = k1 = k2 = 0.0
     for i in range(law.arms.shape[0]):
         arm = law.arms[i]

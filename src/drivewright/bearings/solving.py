@@ -112,7 +112,10 @@ def elements(law: Any, displacement: Floats, loads: Floats, angles: Floats, pres
 
 @kernel
 def _state(law, displacement, force, stiffness, loads, angles, pressures, laminae):
-    """Everything at a displacement; returns the energy."""
+    """Everything at a displacement; returns the energy.
+
+    displacement, force (5,), stiffness (5, 5) in [m, rad, N, N m]; the others as for `elements`, all but the first written.
+    """
     elements(law, displacement, loads, angles, pressures, laminae)
     return response(law, displacement, force, stiffness)
 

@@ -110,7 +110,10 @@ def _search(nodes, centres, limit, number, points, curvature):
 
 @outer
 def nearest(nodes: Nodes, centre: complex, limit: float, points: Complexes, curvature: Floats) -> int:
-    """Writes points and curvatures of the places nearer to `centre` than `limit`; returns their number, which may exceed the room."""
+    """Writes points and curvatures of the places nearer to `centre` than `limit`; returns their number, which may exceed the room.
+
+    points (room,) [m] and curvature (room,) [1/m], both written.
+    """
     count = 0
     chords = len(nodes.a)
     for block in range(len(nodes.middle)):
@@ -137,7 +140,10 @@ def nearest(nodes: Nodes, centre: complex, limit: float, points: Complexes, curv
 
 @outer
 def _known(points: Complexes, count: int, point: complex) -> bool:
-    """Whether a foot on the node between two chords, or between the last chord and the first, has been found already."""
+    """Whether a foot on the node between two chords, or between the last chord and the first, has been found already.
+
+    points (room,) [m], of which `count` are known.
+    """
     return count > 0 and min(abs(point - points[count - 1]), abs(point - points[0])) < SAME
 
 

@@ -109,7 +109,7 @@ def _approach(nodes, centres, place, radius, direction, turned, foot_points, cur
 
 @outer
 def _bisected(nodes, centres, place, radius, direction, low, high, foot_points, curvatures):
-    """Rotation between a free one and one where a pin is in the profile, to 1e-12 rad."""
+    """Rotation between a free one and one where a pin is in the profile, to 1e-12 rad. Arrays as for `free_rotation`."""
     while high - low > 1e-12:
         middle = 0.5 * (low + high)
         gap, _ = _approach(nodes, centres, place, radius, direction, middle, foot_points, curvatures)

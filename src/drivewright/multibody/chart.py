@@ -118,7 +118,10 @@ def update_interpolated(system: System, work: Work, t: float, y: Floats) -> bool
 
 @inner
 def _node(system, work, k, shift, y):
-    """The state of node k: independent coordinates shifted, dependent ones where Newton's method starts, the same rates."""
+    """The state of node k: independent coordinates shifted, dependent ones where Newton's method starts, the same rates.
+
+    y (n,) as in `loads.apply_forces`.
+    """
     chart, m, r = system.chart, 0, 0
     for s in range(system.stored.size):
         if m < system.independent.size and system.stored[s] == system.independent[m]:
@@ -150,7 +153,7 @@ def _add(system, work, part):
 
 @inner
 def _assign(system, work, t, y):
-    """The sums as what follows from the state, and the bodies accordingly."""
+    """The sums as what follows from the state, and the bodies accordingly. y (n,) as in `loads.apply_forces`."""
     assign_state(system, work, t, y)
     for r in range(system.rows.size):
         dependent = work.coordinates[system.dependent[r]]

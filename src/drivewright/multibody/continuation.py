@@ -124,7 +124,10 @@ def _states(system, times, y):
 def continue_through(
     system: System, work: Work, start: float, times: Floats, y: Floats, rates: Floats, states: Floats
 ) -> tuple[float, int, int]:
-    """Carry the dependent coordinates in y from time `start` through all times, filling `states`: (time reached, samples, why it ends)."""
+    """Carry the dependent coordinates in y from time `start` through all times, filling `states`: (time reached, samples, why it ends).
+
+    times (m,) [s], states (m, n), y and rates (n,) as in `loads.apply_forces`.
+    """
     t = start
     for n in range(times.size):
         t, code = continue_to(system, work, t, times[n], y, rates)
@@ -138,7 +141,10 @@ def continue_through(
 @inner
 def continue_to(system: System, work: Work, t: float, end: float, y: Floats, rates: Floats) -> tuple[float, int]:
     """Carry the dependent coordinates in y on to the time `end`, in steps small enough to stay on the same branch: (time reached, why it
-    ends).  rates is scratch, of the size of y."""
+    ends).  rates is scratch, of the size of y.
+
+    y (n,) as in `loads.apply_forces`.
+    """
     update_kinematics(system, work, t, y)
     step, size = end - t, jacobian_determinant(system, work)
     while t != end:
@@ -164,7 +170,10 @@ def continue_to(system: System, work: Work, t: float, end: float, y: Floats, rat
 
 @inner
 def _predict(system, work, y, step, rates):
-    """Where the rates lead to in a step, in work.node_state, the rates, and the step: no longer than LONGEST."""
+    """Where the rates lead to in a step, in work.node_state, the rates, and the step: no longer than LONGEST.
+
+    y, rates (n,) as in `loads.apply_forces`; step [s].
+    """
     fastest = 0.0
     for k in range(system.stored.size):
         rates[k] = work.coordinates[system.stored[k]].v
@@ -178,7 +187,10 @@ def _predict(system, work, y, step, rates):
 
 @inner
 def _straight(system, work, rates, step):
-    """Whether the branch is nearly straight over a step from where the rates were these to what `work` holds; node_state is predicted."""
+    """Whether the branch is nearly straight over a step from where the rates were these to what `work` holds; node_state is predicted.
+
+    rates (n,) as in `loads.apply_forces`; step [s].
+    """
     way = 0.0
     for k in range(system.stored.size):
         way = max(way, abs(rates[k] * step) / system.sizes[system.stored[k]])

@@ -31,7 +31,7 @@ def concatenate(parts: Sequence[Observed]) -> Observed:
 
 @outer
 def observe_all(motion: Motion, t: Floats, y: Floats, dy: Floats, bodies: Floats, pins: Floats, powers: Floats, drives: Floats) -> None:
-    """Fill the arrays of `Observed`; dy is scratch."""
+    """Fill the arrays of `Observed`; dy is scratch. t (m,) [s], y (m, n); the arrays as in `Observed`, one row a time; dy (n,)."""
     system, work = motion.system, motion.work
     for n in range(t.size):
         update_dynamics(system, work, t[n], y[n], dy, powers[n])

@@ -160,7 +160,10 @@ def _fill_closed_form(designs, n, delta, carried, wanted):
 
 @inner
 def _fill_two_sided(designs, sections, n, work, delta, carried, wanted):
-    """The same of any shaft: both sides of every station as springs, then the force carried outwards from it."""
+    """The same of any shaft: both sides of every station as springs, then the force carried outwards from it.
+
+    Arrays as for `_fill_closed_form`.
+    """
     bearings, points = carried.shape[1], work.order.size
     _sort_points(designs, n, bearings, work)
     _divide_shaft(designs, sections, n, work)
@@ -260,7 +263,10 @@ def _condense_side(designs, n, bearings, work, step):
 
 @inner
 def _carry_outwards(designs, n, bearings, work, p, step, w, turn, force, delta, carried, wanted):
-    """Carry deflection, turn (positive: rising ahead) and the force into what lies ahead from the loaded station p outwards."""
+    """Carry deflection, turn (positive: rising ahead) and the force into what lies ahead from the loaded station p outwards.
+
+    delta (N, M, M) [m/N], carried (N, B, M) [-], of which the row of the design is written.
+    """
     loaded, points, side = work.order[p] - bearings, work.order.size, (1 + step) // 2
     while 0 <= p + step < points:
         k = p if step > 0 else p - 1

@@ -173,7 +173,10 @@ def sort_into_cells(path: PinPath, reach: float, width: float) -> CellGrid:
 
 @outer
 def is_covered(path: PinPath, cells: CellGrid, radius: float, margin: float, point: complex, own: int, last_cover: Ints) -> bool:
-    """Whether a pin at another place than about the sample `own` covers the point; writes the sample that does to hint[0]."""
+    """Whether a pin at another place than about the sample `own` covers the point; writes the sample that does to hint[0].
+
+    last_cover (1,): that hint, a sample's number.
+    """
     size, near = len(path.z), radius + margin
     if _covers_point(path, radius, near, point, own, last_cover[0], size):
         return True
@@ -242,7 +245,10 @@ def _mark_exposed(path, cells, radius, margin, exposed, last_cover):
 
 @outer
 def _exposed_end(wheel, table, path, cells, margin, last_cover, side, last, beyond):
-    """Point and unit heading of the centre at the end of an exposed segment, between its sample `last` and the covered sample `beyond`."""
+    """Point and unit heading of the centre at the end of an exposed segment, between its sample `last` and the covered sample `beyond`.
+
+    last_cover (1,): as for `is_covered`.
+    """
     count = len(path.theta)
     ahead = beyond == last + 1 or (beyond == 0 and last > 1)
     turn, j = divmod(last if ahead else beyond, count)

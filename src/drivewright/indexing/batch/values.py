@@ -61,7 +61,10 @@ def _spacing(path):
 
 @outer
 def _evaluate_contacts(wheel, path, nodes, exposed, stride, count, values, foot_points, curvatures):
-    """Least and greatest number of pins that touch; worst angle of the best pin forward, backward, and the best of all."""
+    """Least and greatest number of pins that touch; worst angle of the best pin forward, backward, and the best of all.
+
+    exposed (2, samples); values (VALUES,), of which those from 2 to 6 are written; foot_points (n,) [m], curvatures (n,) [1/m]: work arrays.
+    """
     fewest, most = wheel.pins, 0
     worst_forward, worst_backward, best = wheel.circle_radius, wheel.circle_radius, 0.0
     for step in range(count):
@@ -87,7 +90,7 @@ def _evaluate_contacts(wheel, path, nodes, exposed, stride, count, values, foot_
 
 @outer
 def _is_on_profile(wheel, path, nodes, exposed, j, turn, side, foot_points, curvatures):
-    """Whether the envelope's point lies on the profile."""
+    """Whether the envelope's point lies on the profile. exposed (2, samples); foot_points (n,) [m], curvatures (n,) [1/m]: work arrays."""
     k = turn * len(path.theta) + j
     if exposed[side, k]:
         return True
@@ -117,7 +120,10 @@ def _crank(wheel, theta):
 
 @outer
 def _evaluate_play(wheel, path, nodes, exposed, stride, values, foot_points, curvatures, centres):
-    """Greatest play forward and backward; nan where nothing stops the wheel somewhere."""
+    """Greatest play forward and backward; nan where nothing stops the wheel somewhere.
+
+    exposed (2, samples); values (VALUES,), of which the first two [rad] are written; centres (pins,) [m], foot_points (n,) [m], curvatures (n,) [1/m]: work arrays.
+    """
     for n, direction in enumerate((FORWARD, BACKWARD)):
         values[n] = 0.0
         for j in range(0, len(path.theta), stride):
@@ -133,7 +139,7 @@ def _evaluate_play(wheel, path, nodes, exposed, stride, values, foot_points, cur
 
 @outer
 def _is_stopped(wheel, path, exposed, j, direction):
-    """Whether a pin that touches stops the wheel in the direction."""
+    """Whether a pin that touches stops the wheel in the direction. exposed (2, samples)."""
     for turn in range(wheel.pins):
         for side in range(2):
             if (
@@ -146,7 +152,10 @@ def _is_stopped(wheel, path, exposed, j, direction):
 
 @outer
 def _convex_radius(path, exposed):
-    """Least radius of curvature of the centre curve where the profile is convex, its centre of curvature on the side of the cam."""
+    """Least radius of curvature of the centre curve where the profile is convex, its centre of curvature on the side of the cam.
+
+    exposed (2, samples); in [m].
+    """
     sharpest = 0.0
     for side in range(2):
         for k in range(len(path.z)):

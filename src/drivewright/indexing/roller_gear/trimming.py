@@ -64,7 +64,10 @@ def kernel_parameters(cam: RollerGear) -> Floats:
 
 @inner
 def roller_gap(x: float, y: float, z: float, theta: float, phi: float, parameters: Floats) -> float:
-    """Gap [m] of a point (x, y, z) of the cam to the nearest roller at the cam angle theta, negative inside the roller."""
+    """Gap [m] of a point (x, y, z) of the cam to the nearest roller at the cam angle theta, negative inside the roller.
+
+    parameters (10,): `kernel_parameters`.
+    """
     radius, roller, half, centre, height, cosine, sine, hand, pitch, phase = parameters
     s, c = np.sin(hand * theta), np.cos(hand * theta)
     px, pz = x * c + z * s + centre, z * c - x * s + height
@@ -84,7 +87,10 @@ def _phi(cells, cell, h):
 
 @inner
 def _gap_near(x, y, z, theta, i, j, ends, cells, parameters):
-    """Gap at a theta near knot i = end of cell i - 1 and start of cell i; j is the cell before, the last one for i = 0."""
+    """Gap at a theta near knot i = end of cell i - 1 and start of cell i; j is the cell before, the last one for i = 0.
+
+    Arrays as for `minimum_gaps`; x, y, z [m], theta [rad].
+    """
     turn = ends[-1]
     if theta >= ends[i]:
         phi = _phi(cells, i, theta - ends[i])
@@ -97,7 +103,7 @@ def _gap_near(x, y, z, theta, i, j, ends, cells, parameters):
 
 @inner
 def _dip(x, y, z, i, j, ends, cells, parameters):
-    """Least gap between the knots beside knot i, by golden section."""
+    """Least gap between the knots beside knot i, by golden section. Arrays as for `minimum_gaps`; x, y, z [m]."""
     golden = 0.6180339887498949
     a = ends[i] - (ends[j + 1] - ends[j])
     b = ends[i + 1]

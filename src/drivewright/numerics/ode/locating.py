@@ -69,6 +69,8 @@ def _excursion(event_system, index, before, middle, after, batch, row, y):
     """Fraction of the step where an event function has the other sign although both ends have the same; 1 where it has not.
 
     Looked for in the middle, and at the vertex of the parabola through both ends and the middle.
+
+    y (n,): scratch.
     """
     if not before * after > 0.0:
         return 1.0
@@ -96,7 +98,10 @@ def values_at(event_system: object, theta: float, batch: StepBatch, row: int, y:
 
 @inner
 def _keep_until(rules, first, total, y, row, batch, hits):
-    """Keep of the new hits those up to the fraction `first`: (number of hits, which of them ends the step or -1)."""
+    """Keep of the new hits those up to the fraction `first`: (number of hits, which of them ends the step or -1).
+
+    y (n,): the shape of a state.
+    """
     ender = -1
     for n in range(hits, total):
         if batch.hits[n, 2] <= first:
@@ -123,7 +128,10 @@ def return_to_event(clock: Floats, y: Floats, batch: StepBatch, hit: int) -> Non
 def apply_switches(
     switch_system: object, rules: EventRules, t: float, y: Floats, batch: StepBatch, known: int, hits: int, ender: int
 ) -> bool:
-    """Switch the system at every event at the end of the step, for several may coincide; whether one of them stops the run."""
+    """Switch the system at every event at the end of the step, for several may coincide; whether one of them stops the run.
+
+    y (n,), in place.
+    """
     stops, theta = False, batch.hits[ender, 2]
     for n in range(known, hits):
         index = int(batch.hits[n, 1])
@@ -142,6 +150,8 @@ def _locate(event_system, index, before, low, high, batch, row, y):
     """Fraction of the step just after the sign change between two fractions.
 
     Bisection, for it ends on the far side: a run that starts again from there does not meet the same event at once.
+
+    y (n,): scratch.
     """
     for _ in range(53):
         theta = 0.5 * (low + high)

@@ -118,19 +118,19 @@ def with_jacobian(system: tuple[object, ...], rtol: float, atol: Floats) -> tupl
 
 @outer
 def rate_at(system: object, t: float, y: Floats, dy: Floats) -> None:
-    """`rate`, compiled once for the places where it is not called often."""
+    """`rate`, compiled once for the places where it is not called often. y (n,), dy (n,) written."""
     rate(system, t, y, dy)
 
 
 @outer
 def events_at(event_system: object, t: float, y: Floats, values: Floats) -> None:
-    """`events`, likewise."""
+    """`events`, likewise. y (n,), values (m,) written."""
     events(event_system, t, y, values)
 
 
 @outer
 def switch_at(switch_system: object, index: int, t: float, y: Floats) -> None:
-    """`switch`, likewise."""
+    """`switch`, likewise. y (n,), in place."""
     switch(switch_system, index, t, y)
 
 

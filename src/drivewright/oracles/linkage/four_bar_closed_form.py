@@ -103,7 +103,10 @@ def velocities(bar: FourBar, e: tuple[complex, complex, complex], speed: float, 
 def coasting(
     bar: FourBar, e: tuple[complex, complex, complex], speed: float, alphas: Floats, rates: Floats, w3: float, w4: float
 ) -> Complexes:
-    """Accelerations (5,) while the crank's speed is constant and no link's rate changes."""
+    """Accelerations (5,) while the crank's speed is constant and no link's rate changes.
+
+    alphas (4,) [rad] of the links and their rates (4,) [rad/s]; in [m/s^2, rad/s^2].
+    """
     links, motion = np.empty(4, np.complex128), np.empty(5, np.complex128)
     for k in range(4):
         links[k] = -bar.clearances[k] * rates[k] ** 2 * np.exp(1j * alphas[k])
@@ -116,7 +119,7 @@ def coasting(
 
 @kernel
 def jacobian(bar: FourBar, e: tuple[complex, complex, complex], alphas: Floats) -> Complexes:
-    """Motion (4, 5) per rate of each link."""
+    """Motion (4, 5) per rate of each link. alphas (4,) [rad]; in [m/rad, rad/rad]."""
     links, columns = np.zeros(4, np.complex128), np.empty((4, 5), np.complex128)
     for k in range(4):
         links[k] = 1j * bar.clearances[k] * np.exp(1j * alphas[k])
@@ -130,13 +133,13 @@ def jacobian(bar: FourBar, e: tuple[complex, complex, complex], alphas: Floats) 
 
 @kernel
 def link_accelerations(bar: FourBar, crank: float, speed: float, alphas: Floats, rates: Floats) -> Floats:
-    """alpha'' (4,) [rad/s^2], 0 at ideal pins."""
+    """alpha'' (4,) [rad/s^2], 0 at ideal pins. alphas (4,) [rad], rates (4,) [rad/s]."""
     return _accelerations(bar, crank, speed, alphas, rates)[0]
 
 
 @kernel
 def rocker_acceleration(bar: FourBar, crank: float, speed: float, alphas: Floats, rates: Floats) -> float:
-    """Angular acceleration of the rocker [rad/s^2]."""
+    """Angular acceleration of the rocker [rad/s^2]. alphas (4,) [rad], rates (4,) [rad/s]."""
     return _accelerations(bar, crank, speed, alphas, rates)[1]
 
 
@@ -175,7 +178,10 @@ def _body(bar, body):
 
 @kernel
 def _solve(matrix, x):
-    """Gauss without pivoting, for a positive definite matrix; the right-hand side x becomes the answer."""
+    """Gauss without pivoting, for a positive definite matrix; the right-hand side x becomes the answer.
+
+    matrix (n, n), x (n,), both overwritten.
+    """
     n = x.size
     for i in range(n):
         for j in range(i + 1, n):

@@ -102,7 +102,7 @@ def _stages(system, t, h, y, k, trial):
 
 @inner
 def _error(h, y, trial, k, control):
-    """Root mean square of the estimated error over its tolerance."""
+    """Root mean square of the estimated error over its tolerance. y, trial (n,); k (7, n): the stages' rates."""
     total = 0.0
     for i in range(y.size):
         error = 0.0
@@ -128,7 +128,10 @@ def _growth(error, clock, limit):
 
 @inner
 def _interpolant(h, y, trial, k, dense):
-    """Coefficients of the polynomial through both ends of the step, with their slopes, and of order 4 between."""
+    """Coefficients of the polynomial through both ends of the step, with their slopes, and of order 4 between.
+
+    y, trial (n,); k (7, n); dense (5, n), written.
+    """
     for i in range(y.size):
         quartic = 0.0
         for j in range(7):

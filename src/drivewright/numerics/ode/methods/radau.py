@@ -127,7 +127,10 @@ def _(work, system, t, y):
 
 @outer
 def _try_step(work, system, control, clock, t, h, again, y, trial):
-    """`step`: Newton's method, once more with a new Jacobian where it fails with an old one; then the error and the next step."""
+    """`step`: Newton's method, once more with a new Jacobian where it fails with an old one; then the error and the next step.
+
+    y, trial (n,); clock as for `step`.
+    """
     iterations = _newton(work, system, control, t, h, y, trial)
     if iterations == 0 and work.history[JACOBIAN] == OLD:
         work.history[JACOBIAN] = MISSING
@@ -141,7 +144,7 @@ def _try_step(work, system, control, clock, t, h, again, y, trial):
 
 @outer
 def _prepare(work, system, control, t, h, y):
-    """The tolerance of y; the Jacobian where it is missing, and the factors where they belong to another one or another step."""
+    """The tolerance of y; the Jacobian where it is missing, and the factors where they belong to another one or another step. y (n,)."""
     n = y.size
     for i in range(n):
         work.scale[i] = control.atol[i] + control.rtol * abs(y[i])
@@ -164,7 +167,7 @@ def _prepare(work, system, control, t, h, y):
 
 @outer
 def _newton(work, system, control, t, h, y, trial):
-    """Solve for the stages; the number of iterations, 0 where they do not converge, -1 where the rate is not finite."""
+    """Solve for the stages; the number of iterations, 0 where they do not converge, -1 where the rate is not finite. y, trial (n,)."""
     target = max(10 * _EPS / control.rtol, min(0.03, np.sqrt(control.rtol)))
     remainder = max(work.history[REMAINDER], _EPS) ** 0.8  # what is still to come over the last change: first by what it was before
     contraction, before = _GOOD, 0.0
@@ -190,7 +193,7 @@ def _newton(work, system, control, t, h, y, trial):
 
 @inner
 def _predict(work, h, y):
-    """First guess of the stages: the last step's polynomial, continued."""
+    """First guess of the stages: the last step's polynomial, continued. y (n,)."""
     for i in range(y.size):
         for stage in range(3):
             work.z[stage, i] = 0.0
@@ -202,7 +205,7 @@ def _predict(work, h, y):
 
 @inner
 def _improve(work, system, t, h, y, trial):
-    """One iteration on the stages; returns the change over the tolerance, root mean square."""
+    """One iteration on the stages; returns the change over the tolerance, root mean square. y, trial (n,)."""
     for stage in range(3):
         for i in range(y.size):
             trial[i] = y[i] + work.z[stage, i]
@@ -226,7 +229,7 @@ def _improve(work, system, t, h, y, trial):
 
 @inner
 def _sum(matrix, row, stages, i):
-    """One row of the matrix times component i of the three stages."""
+    """One row of the matrix times component i of the three stages. matrix (3, 3), stages (3, n)."""
     return matrix[row, 0] * stages[0, i] + matrix[row, 1] * stages[1, i] + matrix[row, 2] * stages[2, i]
 
 
@@ -282,7 +285,7 @@ def _growth(error, iterations, h, again, clock, history):
 
 @inner
 def _interpolant(y, work, dense):
-    """Coefficients of the polynomial of degree 3 through y and the stages."""
+    """Coefficients of the polynomial of degree 3 through y and the stages. y (n,), dense (5, n), written."""
     for i in range(y.size):
         square, cube = _sum(_HIGHER, 0, work.z, i), _sum(_HIGHER, 1, work.z, i)
         dense[0, i] = y[i]
@@ -299,6 +302,8 @@ def _factor(a, pivots):
     """LU factors of `a` in its place, rows exchanged, the diagonal of U inverted; for real and complex numbers.
 
     Rows are exchanged to the right of the column alone, as `_solve` meets the exchanges one by one.
+
+    a (n, n), pivots (n,), written.
     """
     n = len(a)
     for k in range(n):
@@ -318,7 +323,7 @@ def _factor(a, pivots):
 
 @outer
 def _solve(a, pivots, b):
-    """Solve in place of b with the factors."""
+    """Solve in place of b with the factors. a (n, n), pivots (n,), b (n,)."""
     n = len(a)
     for k in range(n):
         p = pivots[k]
