@@ -63,7 +63,8 @@ def _spacing(path):
 def _evaluate_contacts(wheel, path, nodes, exposed, stride, count, values, foot_points, curvatures):
     """Least and greatest number of pins that touch; worst angle of the best pin forward, backward, and the best of all.
 
-    exposed (2, samples); values (VALUES,), of which those from 2 to 6 are written; foot_points (n,) [m], curvatures (n,) [1/m]: work arrays.
+    exposed (2, samples); values (VALUES,), of which those from 2 to 6 are written; foot_points (n,) [m], curvatures (n,) [1/m]: work
+    arrays.
     """
     fewest, most = wheel.pins, 0
     worst_forward, worst_backward, best = wheel.circle_radius, wheel.circle_radius, 0.0
@@ -122,7 +123,8 @@ def _crank(wheel, theta):
 def _evaluate_play(wheel, path, nodes, exposed, stride, values, foot_points, curvatures, centres):
     """Greatest play forward and backward; nan where nothing stops the wheel somewhere.
 
-    exposed (2, samples); values (VALUES,), of which the first two [rad] are written; centres (pins,) [m], foot_points (n,) [m], curvatures (n,) [1/m]: work arrays.
+    exposed (2, samples); values (VALUES,), of which the first two [rad] are written; centres (pins,) [m], foot_points (n,) [m],
+    curvatures (n,) [1/m]: work arrays.
     """
     for n, direction in enumerate((FORWARD, BACKWARD)):
         values[n] = 0.0
