@@ -8,6 +8,7 @@ import pytest
 from scipy.optimize import minimize
 
 from drivewright.chains.closure import Drive, close, departure, phase_map, states_at
+from drivewright.chains.closure.comparison import closure_numbers, phase_map_table
 from drivewright.chains.closure.measures import measure
 from drivewright.chains.closure.strand import decay, plate_directions
 from drivewright.chains.link import chordal_rise, design_link
@@ -209,3 +210,15 @@ def test_both_extremes_of_one_cubic_are_found(sign, tilt):
     ends = curve(np.concatenate([x, curve.deriv().roots()]))
     area = np.diff(curve.integ()(x))[0]
     assert found == pytest.approx((area / 2.3, ends.min(), ends.max()), rel=1e-13)
+
+
+def test_closures_side_by_side_in_numbers():
+    drives = [Drive(chain(1.2), 23, 31, links) for links in (66, 12, 67)]  # twelve links do not reach around
+    numbers = closure_numbers(drives, 8)
+    for row in (0, 2):
+        alone = close(drives[row], 8)
+        assert numbers[row].tolist() == [alone.mean, alone.fluctuation, alone.transmission_ripple]
+    assert np.all(np.isnan(numbers[1]))
+    table = phase_map_table(drives, numbers)
+    assert table["links"].data.tolist() == [66, 12, 67] and table["design"].data[0] == "r 1.2 mm, z 23/31"
+    assert table["fluctuation"].data[2] == numbers[2, 1] and table["transmission_error"].data[0] == numbers[0, 2]

@@ -139,3 +139,15 @@ def test_the_pure_numbers_do_not_know_the_units():
         speed * s.resonance_speed(700.0, Q, 0.43, P), rel=1e-13
     )
     assert s.meeting_energy(3 * P, Q * per_length, W / 5) == pytest.approx(energy * s.meeting_energy(P, Q, W), rel=1e-13)
+
+
+def test_forces_of_the_strands_of_a_running_drive():
+    """The preload is the sum of both pulls along the line of centres, their difference carries the torque, and q v^2 is in both."""
+    forces = s.strand_forces(0.0127, (19, 38), 100, 0.7, 150.0, 400.0, 12.0)
+    distance = s.centre_distance(0.0127, 19, 38, 100)
+    angle = np.arcsin(0.5 * (s.pitch_diameter(0.0127, 38) - s.pitch_diameter(0.0127, 19)) / distance)
+    assert (forces.tight + forces.slack) * np.cos(angle) == pytest.approx(400.0, rel=1e-12)
+    assert (forces.tight - forces.slack) * 38 * 0.0127 / (2 * np.pi) == pytest.approx(12.0, rel=1e-12)
+    assert forces.speed == pytest.approx(150.0 * 19 * 0.0127 / (2 * np.pi), rel=1e-12)
+    assert forces.tension - forces.tight == pytest.approx(0.7 * forces.speed**2, rel=1e-12)
+    assert s.strand_slope(0.0127, 19, 38, 20) == 1.0  # too short to reach around both

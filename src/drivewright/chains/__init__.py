@@ -6,7 +6,7 @@ link             a link and its joint: pitch, rolling radius, flanks; seat on a 
 tooth            the involute tooth that a plate sits on, and the cutter that makes it
 roller_tooth     the tooth of arcs that a roller sits on
 model            the description of a drive: chain, sprockets, guides, contacts
-meshing          the published method of silent chains: equivalent pitch, offset, modification
+meshing, published_design  the published method of silent chains: equivalent pitch, offset, modification; sprockets by it
 standards        formulas of roller and silent chains: lengths, speeds, forces, ratings, sprockets
 plate, plate_outline, plate_holes, plate_stack  the plate: outline, holes and pins, mass; a strand of plates as solids
 sprocket, sprocket_root, roller_sprocket        sprockets with all their teeth, root trochoids, measuring pins

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivewright._typing import ArrayLike, Floats
+from drivewright.chains.closure import Closure, plates, states_at
 from drivewright.chains.link import Link, seat_height
 from drivewright.chains.plate import Plate
 from drivewright.chains.sprocket import Sprocket
@@ -147,6 +148,25 @@ def min_chain_gap(
     different = np.unique(alike, axis=0, return_index=True)[1]
     near = poses[[row for row in different if distance[row] < sprocket.tip_radius + 1.5 * p]]
     return min(gap.gap for gap in plate_gaps(plate, sprocket, near, sprocket_angle, spacing, tolerance))
+
+
+def min_drive_gaps(
+    closure: Closure, plate: Plate, sprockets: Sequence[Sprocket], positions: int = 6, spacing: float = 1e-2, tolerance: float = 5e-5
+) -> tuple[float, ...]:
+    """Least gap [m] of all plates of a closed drive to each sprocket, at so many positions within a tooth of the driver.
+
+    spacing, tolerance: of the points of a plate and of the teeth, over the pitch.
+    """
+    states = states_at(closure, np.linspace(0, 2 * np.pi / closure.drive.driver_teeth, positions, endpoint=False))
+    poses, p = plates(closure, states), plate.link.pitch
+    shafts = (np.zeros(positions), states.driver_angle), (states.centre_distance, states.driven_angle)
+    return tuple(
+        min(
+            min_chain_gap(plate, sprocket, poses[k] - (centre[k], 0.0, 0.0), angle[k] - 0.5 * np.pi, spacing * p, tolerance * p)
+            for k in range(positions)
+        )
+        for sprocket, (centre, angle) in zip(sprockets, shafts, strict=True)
+    )
 
 
 def _plate_gap(sprocket, names, points, here, tolerance):

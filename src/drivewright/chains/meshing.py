@@ -56,6 +56,11 @@ def minimax_offset(p: Numbers, r: Numbers, z1: Numbers, z2: Numbers, ideal: str 
     return -both / (2 * (np.tan(np.pi / z1) + np.tan(np.pi / z2)))
 
 
+def offset_by_rule(rule: str, p: Numbers, r: Numbers, z1: Numbers, z2: Numbers, ideal: str = "seat") -> Numbers:
+    """Offset e [m] by its rule: "match-drive", no deviation on the sprocket with z1 teeth, or "minimax"."""
+    return matching_offset(p, r, z1, ideal) if rule == "match-drive" else minimax_offset(p, r, z1, z2, ideal)
+
+
 def reference_deviation(p: Numbers, z1: Numbers, z2: Numbers) -> Numbers:
     """delta12 = p/cos t1 - p/cos t2  (23)  [m], as p 2 sin((t1+t2)/2) sin((t1-t2)/2)/(cos t1 cos t2)."""
     u, v = np.pi / z1, np.pi / z2

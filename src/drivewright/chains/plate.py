@@ -139,6 +139,18 @@ class Plate:
         assert isinstance(flank, Line)
         return flank
 
+    @property
+    def flank_heights(self) -> tuple[float, float]:
+        """Heights of the lower and the upper end of an active outer flank above the pin line  [m]."""
+        flank = self.flank("right")
+        low, high = sorted((flank.start[1], flank.end[1]))
+        return float(low), float(high)
+
+    def flank_margin(self, tooth: Tooth) -> float:
+        """How far inside its flank a seated plate touches a tooth, along the plate's axis of symmetry  [m]; negative: beyond an end."""
+        (_, at), (low, high) = self.contact(tooth, "right"), self.flank_heights
+        return min(at - low, high - at)
+
     def seat(self, side: str) -> Arc:
         """The Arc of the hole on which the own pin presses, facing outwards."""
         seat = self.hole(side)["seat"]

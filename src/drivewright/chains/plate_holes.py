@@ -17,6 +17,8 @@ from drivewright.numerics.roots import bracketed_roots
 from drivewright.scene import Arc, Line, Outline, circle
 
 _TURN = 2 * np.pi / 17  # a sprocket with fewer teeth than 17 is rare in a silent chain
+_HINGE = 0.125  # radius of a hinge's pin over the pitch
+_ROCKER = (0.17, 0.21, 0.02)  # radius of a rocker's back, its thickness, its clearance, over the pitch
 
 
 def neighbour_center(link: Link, turn: Numbers) -> Floats:
@@ -29,9 +31,23 @@ def neighbour_center(link: Link, turn: Numbers) -> Floats:
 def default_pins(link: Link) -> "Pins":
     """Pins that suit a link: one hinge pin for r = 0, round pins while two of their holes fit into a plate, else rockers."""
     if link.radius == 0:
-        return HingePin(0.125 * link.pitch)
+        return HingePin(_HINGE * link.pitch)
     fits = link.radius < 0.18 * link.pitch
-    return RoundPins() if fits else RockerPins(0.17 * link.pitch, 0.21 * link.pitch, 0.02 * link.pitch)
+    return RoundPins() if fits else RockerPins(*(share * link.pitch for share in _ROCKER))
+
+
+def joint_pins(kind: str, pitch: float, teeth: int, diameter: float | None = None) -> "Pins":
+    """Pins of a "revolute", "round-pin" or "arc" joint (rockers) for a chain's pitch [m], which turn a tenth further than on so many teeth.
+
+    diameter [m]: of a revolute joint's pin, a quarter of the pitch unless given.
+    """
+    if kind == "revolute":
+        return HingePin(0.5 * diameter if diameter else _HINGE * pitch)
+    turn = max(_TURN, 2.2 * np.pi / teeth)
+    if kind == "round-pin":
+        return RoundPins(turn=turn)
+    back, thickness, clearance = (share * pitch for share in _ROCKER)
+    return RockerPins(back, thickness, clearance, turn)
 
 
 class HingePin(NamedTuple):

@@ -1,6 +1,5 @@
 """The chain drive's own formulas: closed forms and similarity for what it finds and hands on to geometry, closure and dynamics."""
 
-import sys
 import tomllib
 from types import SimpleNamespace
 
@@ -9,6 +8,7 @@ import pytest
 
 import drivewright as dw
 from drivewright import registry
+from drivewright.chains import interference
 from drivewright.chains.closure import Drive, departure, phase_map
 from drivewright.chains.explicit.ensemble import Ensemble
 from drivewright.chains.explicit.measure import BODY, PLATE, ROW
@@ -18,7 +18,7 @@ from drivewright.chains.link import design_link, seat_height, seat_support
 from drivewright.chains.stress.plate import Loads
 from drivewright.chains.stress.revolution import fewer_instants, open_seats
 from drivewright.mechanisms.silent_chain import dynamics, many, stress
-from drivewright.mechanisms.silent_chain.chain_drive import chain_drive, link_of
+from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.mechanisms.silent_chain.geometry import geometry
 from drivewright.mechanisms.silent_chain.scene import link_shapes
 from drivewright.numerics.ensemble import Estimate
@@ -235,8 +235,16 @@ def test_few_teeth_are_undercut():
 
 
 def test_the_least_gap_is_that_of_the_worst_position(monkeypatch):
-    monkeypatch.setattr(sys.modules[geometry.__module__], "_least_gap", lambda *given: 1e-6 * ((given[4] - 2) ** 2 + given[5]))
+    position = {}  # how often each sprocket was asked
+
+    def gap(plate, sprocket, poses, angle, spacing, tolerance):
+        teeth = sprocket.tooth.teeth
+        position[teeth] = position.get(teeth, -1) + 1
+        return 1e-6 * ((position[teeth] - 2) ** 2 + (teeth == 31))
+
+    monkeypatch.setattr(interference, "min_chain_gap", gap)
     found = geometry(build(), {}).values
+    assert position == {23: 5, 31: 5}
     assert (found["least_gap.drive"].value, found["least_gap.driven"].value) == pytest.approx((0.0, 1e-6))
 
 
@@ -363,13 +371,13 @@ def test_a_phase_map_looks_four_links_to_either_side():
 
 
 def test_links_weigh_what_their_steel_weighs():
-    light, heavy = link_of(build()), link_of(build('material.density="15700 kg/m^3"'))
+    light, heavy = build().link_mass, build('material.density="15700 kg/m^3"').link_mass
     assert heavy.mass / light.mass == pytest.approx(2, rel=1e-12) and heavy.inertia / light.inertia == pytest.approx(2, rel=1e-12)
     assert light.mass == pytest.approx(run("geometry")["plate.mass_per_pitch"], rel=1e-12)
-    said = link_of(build('plate.link_mass="5 g"'))
+    said = build('plate.link_mass="5 g"').link_mass
     assert said.mass == pytest.approx(5e-3) and said.inertia / 5e-3 == pytest.approx(light.inertia / light.mass, rel=1e-12)
-    assert link_of(build('plate.link_inertia="7e-8 kg m^2"')).inertia == pytest.approx(7e-8)
-    rough = link_of(build(*ROLLER))
+    assert build('plate.link_inertia="7e-8 kg m^2"').link_mass.inertia == pytest.approx(7e-8)
+    rough = build(*ROLLER).link_mass
     bars = 7850 * 0.5 * 9 * MM * P**2  # half of the width over four plates of 0.5 mm and the bush is full of a pitch squared
     assert rough.mass == pytest.approx(bars, rel=1e-12)
     assert rough.inertia == pytest.approx(bars * ((1.86 * P) ** 2 + (0.95 * P) ** 2) / 12, rel=1e-12)
@@ -377,7 +385,7 @@ def test_links_weigh_what_their_steel_weighs():
 
 def test_the_chain_and_its_contacts_as_they_are_told():
     model = build('contact.stiffness="6e4 N/mm"', 'contact.joint_damping="3 us"', "closure.elongation=0.002")
-    system, drawn = chain_drive(model), link_of(model)
+    system, drawn = chain_drive(model), model.link_mass
     chain, touch = system.chain, system.sprockets[0].contact
     assert (touch.stiffness, touch.damping) == pytest.approx((6e7, 180.0))
     assert (chain.joint_stiffness, chain.joint_damping) == pytest.approx((2e7, 3e-6))

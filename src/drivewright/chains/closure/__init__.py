@@ -4,6 +4,7 @@ An elongated chain rides on the polygon of its own pitch: close `link._replace(h
 `link._replace(radius=r - dp/2)` for pins worn evenly, a layer dp/2 off each.  That is the measure of rigid polygons; which flanks of the
 teeth such a chain touches at all is a question of its own.
 
+comparison closures of many drives in numbers
 departure  how a long strand leaves one sprocket
 drive      quasi-static closure of a chain around two sprockets
 loop       the loop of a chain around two sprockets at one angle of the driver, compiled

@@ -31,12 +31,14 @@ from drivewright.chains.standards.layout import (
     pitch_diameter,
     strand_angle,
     strand_length,
+    strand_slope,
     usual_centre_distances,
     wrap_angles,
 )
 from drivewright.chains.standards.loop import Circle, Loop, loop_length, taut_loop
 from drivewright.chains.standards.rating import RatingTable, design_power, rated_power, rating_table, suitable_chains
 from drivewright.chains.standards.running import (
+    StrandForces,
     articulation_pressure,
     centrifugal_tension,
     chain_speed,
@@ -47,6 +49,7 @@ from drivewright.chains.standards.running import (
     resonance_speed,
     speed_fluctuation,
     speed_range,
+    strand_forces,
     strand_frequency,
     strand_pulls,
     strand_tension,
@@ -70,6 +73,7 @@ __all__ = [
     "Loop",
     "RatingTable",
     "SOURCES",
+    "StrandForces",
     "ToothGap",
     "approximate_centre_distance",
     "approximate_links",
@@ -100,9 +104,11 @@ __all__ = [
     "speed_fluctuation",
     "speed_range",
     "strand_angle",
+    "strand_forces",
     "strand_frequency",
     "strand_length",
     "strand_pulls",
+    "strand_slope",
     "strand_tension",
     "suitable_chains",
     "taut_loop",

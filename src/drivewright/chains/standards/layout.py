@@ -32,6 +32,15 @@ def strand_angle(pitch: float, teeth1: int, teeth2: int, distance: Numbers) -> N
     return np.arcsin((radius2 - radius1) / distance)
 
 
+def strand_slope(pitch: float, teeth1: int, teeth2: int, links: float) -> float:
+    """cos g [-] of the taut chain by pitch circles; 1, strands along the line of centres, where the chain does not reach around them."""
+    try:
+        distance = centre_distance(pitch, teeth1, teeth2, links)
+    except InputError:
+        return 1.0
+    return float(np.cos(strand_angle(pitch, teeth1, teeth2, distance)))
+
+
 def wrap_angles(pitch: float, teeth1: int, teeth2: int, distance: Numbers) -> tuple[Numbers, Numbers]:
     """Angles [rad] over which the chain lies on each sprocket: pi - 2 g, pi + 2 g."""
     angle = strand_angle(pitch, teeth1, teeth2, distance)

@@ -4,11 +4,13 @@ Only what follows from mechanics; strengths and allowable pressures are the user
 q the chain's mass per length [kg/m].
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from drivewright._typing import Numbers
 from drivewright.chains.standards.given import above_zero, from_zero, whole, whole_teeth
-from drivewright.chains.standards.layout import pitch_diameter
+from drivewright.chains.standards.layout import pitch_diameter, strand_slope
 from drivewright.errors import InputError
 
 # Effective mass of the meeting joint over a link's: the seated link's own share, and that of the endless straight strand behind it.
@@ -65,6 +67,33 @@ def strand_pulls(preload: float, torque: float, pitch: float, teeth: int, slope:
     pull = torque * 2 * np.pi / (teeth * pitch)
     along = preload / slope
     return 0.5 * (along + pull), 0.5 * (along - pull)
+
+
+class StrandForces(NamedTuple):
+    """Strands of a running drive: speed of the chain [m/s]; centrifugal force [N]; tight and slack strand [N] without it."""
+
+    speed: float
+    centrifugal: float
+    tight: float
+    slack: float
+
+    @property
+    def tension(self) -> float:
+        """The whole tension of the tight strand  [N]."""
+        return self.tight + self.centrifugal
+
+
+def strand_forces(
+    pitch: float, teeth: tuple[int, int], links: int, mass_per_length: float, speed: float, preload: float, torque: float
+) -> StrandForces:
+    """`StrandForces` of a chain around two sprockets: `strand_pulls` by the pitch circles, and q v^2.
+
+    pitch [m]; mass_per_length q [kg/m]; speed [rad/s] of the driving sprocket; preload [N] between the sprockets; torque [N m] that the
+    driven one overcomes.
+    """
+    velocity = chain_speed(pitch, teeth[0], speed)
+    tight, slack = strand_pulls(preload, torque, pitch, teeth[1], strand_slope(pitch, *teeth, links))
+    return StrandForces(velocity, float(centrifugal_tension(mass_per_length, velocity)), tight, slack)
 
 
 def tensile_safety(tensile_strength: float, tension: float) -> float:

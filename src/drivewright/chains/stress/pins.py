@@ -90,6 +90,13 @@ def roller_pin_load(sheet: float, bush: float, force: float) -> tuple[Floats, Fl
     return breaks, force * np.array([0.5 / sheet, 0, -1 / bush, 0, 0.5 / sheet])
 
 
+def laced_pin_load(plates: tuple[int, int], thickness: float, force: float, rolls: bool) -> tuple[Floats, Floats]:
+    """Line load on a pin of the link with fewer plates, which alternate with those of the other link: of a rolling joint or a hinge."""
+    low, high = sorted(plates)
+    pack = lacing(low, high, thickness)
+    return rolling_pin_load(pack, force) if rolls else hinge_pin_load(pack, force)
+
+
 def pin_section(shape: Outline, rolls: bool) -> Section:
     """Cross-section of a pin by its outline; a hinge's, or one of arcs of the same radius, is round."""
     radii = {getattr(piece, "radius", None) for piece in shape.pieces}
@@ -150,6 +157,11 @@ def pin_stress(found: Beam, section: Section) -> PinStress:
     bending = np.abs(found.moment)[:, None] * np.abs(section.offset) / section.second_moment
     shear = np.abs(found.shear)[:, None] * across
     return PinStress(bending.max(), shear.max(), np.sqrt(bending**2 + 3 * shear**2).max())
+
+
+def bent_pin(shape: Outline, load: tuple[Floats, Floats], rolls: bool) -> PinStress:
+    """`PinStress` of a pin by its outline, under a line load: breaks (m + 1,) [m] along the pin and q (m,) [N/m] between."""
+    return pin_stress(beam(*load), pin_section(shape, rolls))
 
 
 def _own_load(pack, force):

@@ -38,7 +38,7 @@ class PressureLimits(NamedTuple):
     shakedown: float
 
 
-def rolling_contact(force: float, width: float, radii: tuple[float, float], modulus: float, poisson: float) -> RollingContact:
+def rolling_contact(force: Numbers, width: Numbers, radii: tuple[Numbers, Numbers], modulus: float, poisson: float) -> RollingContact:
     """Hertz line contact of two like pins: force [N] over the width [m], radii (R1, R2) [m], both with the same modulus [Pa].
 
     1/R = 1/R1 + 1/R2,  E* = E/(2(1 - nu^2)),  p0 = sqrt(F E*/(pi L R)),  greatest shear 0.300 p0 at the depth 0.786 b.

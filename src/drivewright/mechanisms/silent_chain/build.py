@@ -2,21 +2,19 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
-
-import numpy as np
 
 from drivewright._typing import Numbers
 from drivewright.chains import meshing
 from drivewright.chains.closure import Drive, close
 from drivewright.chains.closure.model import Closure
 from drivewright.chains.link import Link, design_link, seat_height
-from drivewright.chains.plate import Plate, design_plate
-from drivewright.chains.plate_holes import HingePin, Pins, RockerPins, RoundPins
+from drivewright.chains.plate import LinkMass, Plate, bar_link_mass, design_plate, mean_link_mass
+from drivewright.chains.plate_holes import Pins, joint_pins
+from drivewright.chains.published_design import PublishedSprocket, published_sprocket
 from drivewright.chains.roller_sprocket import RollerSprocket, design_roller_sprocket
 from drivewright.chains.sprocket import Sprocket, design_sprocket
-from drivewright.chains.standards import pitch_diameter
-from drivewright.chains.tooth import Cutter, Tooth, cut_tooth, matching_cutter
+from drivewright.chains.standards import StrandForces, pitch_diameter, strand_forces
+from drivewright.chains.tooth import Cutter, matching_cutter
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain import spec as tables
 from drivewright.mechanisms.silent_chain.refusals import refuse_contradictions, unused
@@ -25,23 +23,6 @@ from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 BUSH = 0.9  # length of a roller chain's bushes over the pitch
 BORE = 0.4  # of the smaller pitch circle
 SIDES = ("drive", "driven")
-LEAST_TURNED = 17  # teeth: joints turn as far as on a sprocket with so many, or with fewer where there is one
-HINGE = 0.125  # radius of a hinge's pin over the pitch
-ROCKER = (0.17, 0.21, 0.02)  # radius of a rocker's back, its thickness, its clearance, over the pitch
-
-
-class Side(NamedTuple):
-    """One sprocket as the published method sees it, lengths in m: seated and ideal pitch, their difference, seated apothem fp'',
-    modification x, positioning diameter dp, and the tooth that is cut.  Arrays where the spec's numbers are those of many designs."""
-
-    teeth: int
-    seated_pitch: Numbers
-    ideal_pitch: Numbers
-    deviation: Numbers
-    seated_apothem: Numbers
-    modification: Numbers
-    positioning_diameter: Numbers
-    tooth: Tooth
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +34,7 @@ class ChainModel:
     offset: Numbers = 0.0
     standard_apothem: Numbers | None = None
     cutter: Cutter | None = None
-    sides: tuple[Side, ...] = ()
+    sides: tuple[PublishedSprocket, ...] = ()
     findings: tuple[str, ...] = ()
 
     @property
@@ -98,36 +79,53 @@ class ChainModel:
             return str(reason)
         return ""
 
+    @cached_property
+    def link_mass(self) -> LinkMass:
+        """`LinkMass` of a pitch of chain, as given or from plates and pins."""
+        given, density = self.spec.plate, self.spec.material.density
+        if self.spec.roller or self.plate_refusal:
+            drawn = bar_link_mass(self.spec.pitch, density, self.chain_width)
+        else:
+            drawn = mean_link_mass(self.plate, given.lacing, density, self.chain_width)
+        mass = given.link_mass or drawn.mass
+        return LinkMass(mass, drawn.height, given.link_inertia or drawn.inertia * mass / drawn.mass)
+
+    @cached_property
+    def strands(self) -> StrandForces:
+        """Speed of the chain and forces of its strands, under the loads of the spec."""
+        drive, pitch = self.drive, self.link.pitch
+        density = self.link_mass.mass / pitch
+        return strand_forces(pitch, self.teeth, self.spec.links, density, drive.speed, drive.preload, drive.load_torque)
+
+    @property
+    def pin_force(self) -> float:
+        """Force of a strand on the pins of a joint [N], as given or by the loads."""
+        return self.spec.contact.force or self.strands.tension
+
     @property
     def pins(self) -> Pins:
         """Pins of the joints and the holes they need."""
-        given, p = self.spec.joint, self.spec.pitch
-        if given.kind == "revolute":
-            return HingePin(0.5 * given.pin_diameter if given.pin_diameter else HINGE * p)
-        turn = max(2 * np.pi / LEAST_TURNED, 2.2 * np.pi / min(self.teeth))
-        if given.kind == "round-pin":
-            return RoundPins(turn=turn)
-        back, thickness, clearance = (share * p for share in ROCKER)
-        return RockerPins(back, thickness, clearance, turn)
+        given = self.spec.joint
+        return joint_pins(given.kind, self.spec.pitch, min(self.teeth), given.pin_diameter)
 
     @cached_property
     def sprockets(self) -> tuple[Sprocket | RollerSprocket, ...]:
         """Both sprockets with all their teeth; InputError where the lengths given leave no teeth."""
         if self.spec.roller:
-            return tuple(
-                design_roller_sprocket(z, self.spec.pitch, self.spec.roller.diameter, self.spec.roller.tooth_space) for z in self.teeth
-            )
-        return tuple(self.sprocket(side.teeth, side.tooth) for side in self.sides)
+            return tuple(map(self.sprocket, self.teeth))
+        return tuple(replace(self.sprocket(side.teeth), tooth=side.tooth) for side in self.sides)
 
-    def sprocket(self, teeth: int, tooth: Tooth) -> Sprocket:
-        """A sprocket for this chain with a given tooth."""
+    def sprocket(self, teeth: int) -> Sprocket | RollerSprocket:
+        """A sprocket with teeth that fit this chain."""
+        if self.spec.roller:
+            return design_roller_sprocket(teeth, self.spec.pitch, self.spec.roller.diameter, self.spec.roller.tooth_space)
         given, height = self.spec.cutter, seat_height(self.link, teeth)
         depths = {"tip_radius": given.tip_depth, "root_radius": given.root_depth}
         lengths = {name: height - depth for name, depth in depths.items() if depth is not None}
         lengths |= {
             name: value for name, value in (("tip_rounding", given.tip_rounding), ("tip_chamfer", given.chamfer)) if value is not None
         }
-        return replace(design_sprocket(self.link, teeth, self.cutter, **lengths), tooth=tooth)
+        return design_sprocket(self.link, teeth, self.cutter, **lengths)
 
     @property
     def bore(self) -> float:
@@ -165,33 +163,12 @@ def build(spec: SilentChainSpec) -> ChainModel:
     standard = meshing.standard_apothem(apothem, radius, offset, angle, spec.meshing.apothem_reference)
     cutter = matching_cutter(spec.pitch, angle, spec.cutter.half_angle)
     cutter = cutter if spec.cutter.pitch is None else cutter._replace(pitch=spec.cutter.pitch)
-    sides = tuple(_side(spec, radius, offset, standard, cutter, z) for z in spec.teeth)
+    sides = tuple(published_sprocket(spec.pitch, radius, offset, standard, angle, cutter, z, spec.meshing.ideal) for z in spec.teeth)
     link = design_link(spec.pitch, radius, angle, apothem)  # pyright: ignore[reportArgumentType]  arrays, of many designs
     return ChainModel(spec, link, offset, standard, cutter, sides, tuple(unused(spec)))
 
 
-def offset_of(spec: SilentChainSpec, radius: float) -> Numbers:
+def offset_of(spec: SilentChainSpec, radius: Numbers) -> Numbers:
     """Offset of the pins [m], as given or by its rule."""
-    given, (z1, z2), ideal = spec.joint.offset, spec.teeth, spec.meshing.ideal
-    if not isinstance(given, str):
-        return given
-    if given == "match-drive":
-        return meshing.matching_offset(spec.pitch, radius, z1, ideal)
-    return meshing.minimax_offset(spec.pitch, radius, z1, z2, ideal)
-
-
-def _side(spec, radius, offset, standard, cutter, teeth):
-    pitch, angle = spec.pitch, spec.plate.flank_angle
-    seated = meshing.seated_pitch(meshing.hole_pitch(pitch, radius), radius, offset, teeth)
-    apothem = meshing.seated_apothem(standard, pitch, seated, angle)
-    shift = meshing.modification(apothem, seated, teeth, angle, *cutter)
-    return Side(
-        teeth,
-        seated,
-        meshing.ideal_pitch(pitch, teeth, spec.meshing.ideal),
-        meshing.pitch_deviation(pitch, radius, offset, teeth, spec.meshing.ideal),
-        apothem,
-        shift,
-        meshing.positioning_diameter(seated, teeth),
-        cut_tooth(teeth, cutter, shift, angle),
-    )
+    given = spec.joint.offset
+    return meshing.offset_by_rule(given, spec.pitch, radius, *spec.teeth, spec.meshing.ideal) if isinstance(given, str) else given

@@ -5,14 +5,10 @@ from typing import Any
 import numpy as np
 
 from drivewright.chains import masses
-from drivewright.chains.link import seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket
-from drivewright.chains.roller_sprocket import design_roller_sprocket
 from drivewright.chains.standards import pitch_diameter
-from drivewright.chains.tooth import Tooth
 from drivewright.mechanisms.silent_chain import spec as tables
 from drivewright.mechanisms.silent_chain.build import ChainModel
-from drivewright.mechanisms.silent_chain.strands import link_of, strand_force
 
 ROLLING, HINGED = 0.003, 0.02  # articulation damping over critical: little more than steel itself has, and with a pin that slides
 ROLLER_BACK = 0.45  # of the pitch: from the pins to the edge of a roller chain's plate
@@ -29,25 +25,24 @@ def chain_drive(model: ChainModel) -> ChainDrive:
 
 
 def _chain(model: ChainModel) -> Chain:
-    spec, found = model.spec, link_of(model)
+    spec, mass = model.spec, model.link_mass
     toe, crotch = np.inf, -np.inf
     if not spec.roller and not model.plate_refusal:
-        heights = np.sort([model.plate.flank("right").start[1], model.plate.flank("right").end[1]])
-        toe, crotch = -float(heights[0]), -float(heights[1])
+        toe, crotch = (-height for height in model.plate.flank_heights)
     given = spec.contact.articulation_damping_ratio
     ratio = (ROLLING if model.link.radius else HINGED) if given is None else given
     return Chain(
         model.link,
         spec.links,
-        found.mass,
-        found.inertia,
+        mass.mass,
+        mass.inertia,
         masses.joint_stiffness(spec.contact.stiffness),
         spec.contact.joint_damping,
-        centre_offset=found.height,
+        centre_offset=mass.height,
         toe=toe,
         crotch=crotch,
         elongation=spec.closure.elongation,
-        articulation_damping=masses.articulation_damping(ratio, strand_force(model), model.link.hole_pitch, found.inertia),
+        articulation_damping=masses.articulation_damping(ratio, model.strands.tension, model.link.hole_pitch, mass.inertia),
     )
 
 
@@ -78,12 +73,7 @@ def _driven(model: ChainModel, touch: ChainContact) -> Sprocket:
 
 def _further(model: ChainModel, given: tables.Sprocket, touch: ChainContact) -> Sprocket:
     """A sprocket that the chain passes besides, with teeth that fit."""
-    if model.spec.roller:
-        wheel = design_roller_sprocket(given.teeth, model.spec.pitch, model.spec.roller.diameter, model.spec.roller.tooth_space)
-    else:
-        assert model.cutter is not None
-        base = 0.5 * model.cutter.module * given.teeth * np.cos(model.cutter.half_angle)
-        wheel = model.sprocket(given.teeth, Tooth(given.teeth, base, seat_support(model.link, given.teeth)))
+    wheel = model.sprocket(given.teeth)
     disc = _disc(model, given, given.teeth)
     return Sprocket(contact=touch, centre=given.centre, torque=given.load_torque, **disc, **_teeth(model, wheel))
 

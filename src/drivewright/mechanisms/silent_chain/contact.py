@@ -1,10 +1,10 @@
 """Pins on each other under the force of a strand: pressure, shear below the surface, shakedown, bending; and the strand's forces."""
 
+from drivewright.chains.standards import articulation_pressure
 from drivewright.chains.stress import pins, rolling
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
-from drivewright.mechanisms.silent_chain.strands import centrifugal, chain_speed, pulls, strand_force
 from drivewright.result import Answer, Answers, Check, Value
 
 
@@ -15,8 +15,7 @@ def no_contact(spec: SilentChainSpec) -> str | None:
 
 def contact(model: ChainModel, done: Answers) -> Answer:
     """Forces of the strands and what they do to the pins."""
-    force = model.spec.contact.force or strand_force(model)
-    given = model.spec.plate
+    force, given = model.pin_force, model.spec.plate
     rough = model.plate_refusal and not model.spec.roller and not (given.link_mass and given.link_inertia)
     findings = [f"the mass of a link is estimated from the pitch: {model.plate_refusal}"] if rough else []
     values, checks = {**_strands(model), "pin.force": Value(force, "N", "of the strand, on the pins of a joint")}, []
@@ -48,12 +47,12 @@ def contact(model: ChainModel, done: Answers) -> Answer:
 def _strands(model):
     if not model.spec.drive:
         return {}
-    tight, slack = pulls(model)
+    forces = model.strands
     return {
-        "chain.speed": Value(chain_speed(model), "m/s", "mean speed of the chain"),
-        "strand.centrifugal_force": Value(centrifugal(model), "N", "mass per length times speed squared"),
-        "strand.tight_force": Value(tight, "N", "that the tight strand pulls with, without the centrifugal force"),
-        "strand.slack_force": Value(slack, "N", "that the slack strand pulls with, without the centrifugal force"),
+        "chain.speed": Value(forces.speed, "m/s", "mean speed of the chain"),
+        "strand.centrifugal_force": Value(forces.centrifugal, "N", "mass per length times speed squared"),
+        "strand.tight_force": Value(forces.tight, "N", "that the tight strand pulls with, without the centrifugal force"),
+        "strand.slack_force": Value(forces.slack, "N", "that the slack strand pulls with, without the centrifugal force"),
     }
 
 
@@ -84,7 +83,7 @@ def _rolling(model, force):
 def _hinge(model, force):
     """Mean pressure of a plate's hole, or of the bush, on the one pin."""
     length = model.contact_length if model.spec.roller else min(model.spec.plate.lacing) * model.spec.plate.thickness
-    pressure = force / (2 * model.pins.radius * length)
+    pressure = articulation_pressure(force, 2 * model.pins.radius, length)
     return {
         "pin.bearing_pressure": Value(pressure, "Pa", "force over diameter and length of the pin in the bush, or in the fewer plates")
     }, ()
@@ -92,15 +91,19 @@ def _hinge(model, force):
 
 def _bending(model, force):
     """The pin as a beam across the pack of plates."""
+    sheet, rolls = model.spec.plate.thickness, bool(model.link.radius)
     model.pins.check(model.link)
-    section = pins.pin_section(model.pins.pin(model.link), rolls=bool(model.link.radius))
-    found = pins.pin_stress(pins.beam(*_pin_load(model, force)), section)
+    if model.spec.roller:
+        load = pins.roller_pin_load(sheet, model.contact_length, force)
+    else:
+        load = pins.laced_pin_load(model.spec.plate.lacing, sheet, force, rolls)
+    stress = pins.bent_pin(model.pins.pin(model.link), load, rolls)
     values = {
-        "pin.bending_stress": Value(found.bending, "Pa", "of a pin across the pack of plates"),
-        "pin.shear_stress": Value(found.shear, "Pa", "of a pin across the pack of plates"),
-        "pin.von_mises": Value(found.mises, "Pa", "of bending and shear of a pin"),
+        "pin.bending_stress": Value(stress.bending, "Pa", "of a pin across the pack of plates"),
+        "pin.shear_stress": Value(stress.shear, "Pa", "of a pin across the pack of plates"),
+        "pin.von_mises": Value(stress.mises, "Pa", "of bending and shear of a pin"),
     }
-    safety = model.spec.material.yield_strength / found.mises
+    safety = model.spec.material.yield_strength / stress.mises
     return values, Check(
         "pin.yield",
         safety,
@@ -110,13 +113,3 @@ def _bending(model, force):
         "yield strength over von Mises stress of a pin's bending",
         ("chain",),
     )
-
-
-def _pin_load(model, force):
-    """Line load along a pin: breaks and values."""
-    sheet, rolls = model.spec.plate.thickness, bool(model.link.radius)
-    if model.spec.roller:
-        return pins.roller_pin_load(sheet, model.contact_length, force)
-    low, high = sorted(model.spec.plate.lacing)
-    pack = pins.lacing(low, high, sheet)
-    return pins.rolling_pin_load(pack, force) if rolls else pins.hinge_pin_load(pack, force)

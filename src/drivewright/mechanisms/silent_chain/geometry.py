@@ -5,8 +5,7 @@ from contextlib import suppress
 
 import numpy as np
 
-from drivewright.chains.closure import plates, states_at
-from drivewright.chains.interference import min_chain_gap, seating_speeds
+from drivewright.chains.interference import min_drive_gaps, seating_speeds
 from drivewright.chains.plate import mass_per_pitch
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
@@ -18,8 +17,6 @@ KEYS = {  # that decide on a body
     "sprockets": "Keys: teeth, plate.apothem, cutter.tip_depth, root_depth, tip_rounding, chamfer.",
     "meeting": "",
 }
-POSITIONS = 6  # of the chain in a tooth, at which gaps are looked at
-SPACING, TOLERANCE = 1e-2, 5e-5  # of the points of a plate and of the teeth whose gaps are looked at, over the pitch
 
 
 def geometry(model: ChainModel, done: Answers) -> Answer:
@@ -123,8 +120,6 @@ def _teeth(model, side, sprocket):
         over = sprocket.over_pins(pin)
         values[f"measuring_pin.{side}"] = Value(pin, "m", f"diameter of the measuring pins, {SIDE_WORDS[side]}")
         values[f"over_pins.{side}"] = Value(over, "m", f"distance over two measuring pins, {SIDE_WORDS[side]}")
-    at = model.plate.contact(sprocket.tooth, "right")
-    flank = np.sort([model.plate.flank("right").start[1], model.plate.flank("right").end[1]])
     approach, sliding = seating_speeds(model.plate, sprocket.tooth, "right")
     values[f"seating.approach.{side}"] = Value(approach, "m/rad", f"of a flank to its tooth per angle of the joint, {SIDE_WORDS[side]}")
     values[f"seating.sliding.{side}"] = Value(sliding, "m/rad", f"of a flank along its tooth per angle of the joint, {SIDE_WORDS[side]}")
@@ -134,7 +129,7 @@ def _teeth(model, side, sprocket):
         Check(f"contact.below_tip.{side}", high, 0.0, ">=", "m", f"contact of a seated plate below the tips {words}", (side,), True),
         Check(
             f"contact.on_flank.{side}",
-            min(at[1] - flank[0], flank[1] - at[1]),
+            model.plate.flank_margin(sprocket.tooth),
             0.0,
             ">=",
             "m",
@@ -173,11 +168,9 @@ def _meeting(model):
     """Least gap of all plates near each sprocket over a tooth of the driver."""
     if model.spec.roller or model.spec.sprockets:
         return {}, ()
-    states = states_at(model.closure, np.linspace(0, 2 * np.pi / model.teeth[0], POSITIONS, endpoint=False))
-    poses = plates(model.closure, states)
+    gaps = min_drive_gaps(model.closure, model.plate, model.sprockets)
     values, checks = {}, []
-    for number, (side, sprocket) in enumerate(zip(SIDES, model.sprockets, strict=True)):
-        least = min(_least_gap(model, sprocket, states, poses, k, number) for k in range(POSITIONS))
+    for side, least in zip(SIDES, gaps, strict=True):
         values[f"least_gap.{side}"] = Value(least, "m", f"of a plate, seated or coming in, to the teeth of the {SIDE_WORDS[side]}")
         checks.append(
             Check(
@@ -192,10 +185,3 @@ def _meeting(model):
             )
         )
     return values, checks
-
-
-def _least_gap(model, sprocket, states, poses, k, number):
-    """Least gap at one position of the chain, the sprocket seen from its centre."""
-    p, centre = model.link.pitch, (0.0, 0.0) if number == 0 else (states.centre_distance[k], 0.0)
-    angle = (states.driver_angle, states.driven_angle)[number][k] - 0.5 * np.pi
-    return min_chain_gap(model.plate, sprocket, poses[k] - (*centre, 0.0), angle, SPACING * p, TOLERANCE * p)

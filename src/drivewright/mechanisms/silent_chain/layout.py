@@ -6,7 +6,6 @@ from drivewright.chains import standards
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS, Measure
-from drivewright.mechanisms.silent_chain.strands import chain_speed, link_of, strand_force
 from drivewright.result import Answer, Answers, Check, Value
 
 MODES = 2  # of a strand that are told
@@ -61,8 +60,7 @@ def _pair(model):
         "layout.strand_length": Value(float(standards.strand_length(pitch, z1, z2, distance)), "m", "of a free strand"),
     }
     if spec.drive:
-        force, density = strand_force(model), link_of(model).mass / pitch
-        speed = chain_speed(model)
+        force, density, speed = model.strands.tension, model.link_mass.mass / pitch, model.strands.speed
         for mode in range(1, MODES + 1):
             frequency = standards.strand_frequency(force, density, values["layout.strand_length"].value, speed, mode)
             values[f"layout.strand_frequency.{mode}"] = Value(float(frequency), "Hz", f"mode {mode} of a strand across, as a moving string")

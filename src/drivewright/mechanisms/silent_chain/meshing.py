@@ -6,12 +6,12 @@ import numpy as np
 
 from drivewright._typing import Numbers
 from drivewright.chains import meshing as published
+from drivewright.chains.published_design import equivalent_pitch_table
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
-from drivewright.result import Answer, Answers, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Value
 
 SIDE_WORDS = {"drive": "driving sprocket", "driven": "driven sprocket"}
-TURNS = 121  # points of the curve of the equivalent pitch
 
 
 def meshing(model: ChainModel, done: Answers) -> Answer:
@@ -20,7 +20,8 @@ def meshing(model: ChainModel, done: Answers) -> Answer:
     for number, side in enumerate(SIDES):
         found |= seated_measures(model, side, number)
     values = {name: measure.value() for name, measure in found.items()}
-    return Answer(values, (_turning(model),), tuple(_checks(model)), tuple(_remarks(model)))
+    curve = equivalent_pitch_table(model.spec.pitch, model.link.radius, float(model.offset), min(model.teeth))
+    return Answer(values, (curve,), tuple(_checks(model)), tuple(_remarks(model)))
 
 
 def no_meshing(spec: SilentChainSpec) -> str | None:
@@ -80,22 +81,6 @@ def seated_measures(model: ChainModel, side: str, number: int) -> dict[str, Meas
         f"curvature_radius.{side}": Measure(found.tooth.curvature_radius, "m", f"of the tooth where a seated plate touches it, {words}"),
         f"base_radius.{side}": Measure(found.tooth.base_radius, "m", f"base circle of the {words}"),
     }
-
-
-def _turning(model):
-    """p'' over the angle between two plates, beside the ideal one."""
-    largest = np.pi / min(model.teeth)
-    half = np.linspace(0, 1.25 * largest, TURNS)
-    pitch = np.asarray(published.equivalent_pitch(model.link.hole_pitch, model.link.radius, model.offset, half, half))
-    return Table(
-        "equivalent_pitch",
-        "Equivalent pitch as published",
-        (
-            Column("turn", "rad", "angle between neighbouring plates", 2 * half),
-            Column("pitch", "m", "equivalent pitch p''", pitch),
-            Column("ideal", "m", "ideal pitch p/cos of half the angle", model.spec.pitch / np.cos(half)),
-        ),
-    )
 
 
 def _checks(model):
