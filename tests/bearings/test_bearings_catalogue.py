@@ -4,7 +4,7 @@ import pytest
 
 from drivewright.bearings.approximate_stiffness import liu_ball, liu_roller
 from drivewright.bearings.ball import BallBearing
-from drivewright.bearings.catalogue import ENVELOPE, bearing, entry, names
+from drivewright.bearings.catalogue import ENVELOPE, bearing, entry, names, replace_catalogue_values
 from drivewright.bearings.roller import RollerBearing, roller_static_rating
 from drivewright.bearings.solving import solve
 from drivewright.errors import InputError, SpecError, UnknownName
@@ -146,3 +146,11 @@ def test_a_file_of_ones_own_needs_no_sources(tmp_path):
 
 def test_ours_has_a_source_for_every_number():
     assert all(entry(name).sources for name in names())
+
+
+def test_given_values_take_the_place_of_those_of_the_catalogue():
+    own = bearing("61904")
+    assert replace_catalogue_values(own) is own
+    changed = replace_catalogue_values(own, 12e-6, static_rating=2e3)
+    assert (changed.radial_clearance, changed.dynamic_rating, changed.static_rating) == (12e-6, own.dynamic_rating, 2e3)
+    assert replace_catalogue_values(own, dynamic_rating=5e3).dynamic_rating == 5e3

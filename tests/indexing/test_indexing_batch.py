@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from drivewright._jit import plain
-from drivewright.indexing.batch import envelope, values
+from drivewright.indexing.batch import envelope, evaluate_designs, values
 from drivewright.indexing.batch.pin_wheels import PinWheelValues, crank_samples, evaluate_pin_wheels
 from drivewright.indexing.motion import TURN, IndexMotion
 from drivewright.indexing.pin_wheel import PinWheel
@@ -107,6 +107,20 @@ def test_workers_change_no_digit_and_impossible_designs_are_rows_of_nan():
     one, many = (evaluate_pin_wheels(SINE, 12, 0.12, pin, 0.01, np.pi, workers=workers) for workers in (1, 3))
     np.testing.assert_array_equal(one, many)
     assert list(np.isfinite(one.contacts_minimum)[:5]) == [True, False, True, False, True]
+
+
+def test_designs_of_several_laws_are_those_of_each_law():
+    c, pin, angle = np.array([0.25, 0.35, 0.25, 0.9]), np.array([8e-3, 7e-3, 7e-3, 7e-3]), np.array([3.0, 3.5, 4.0, 3.0])
+    found = evaluate_designs("scca", {"b": 0.25, "c": c, "d": 0.75 - c}, 12, 0.12, pin, 0.01, angle)
+    for k in range(3):
+        one = law("scca", b=0.25, c=c[k], d=0.75 - c[k])
+        alone = evaluate_pin_wheels(one, 12, 0.12, pin[k], 0.01, angle[k])
+        np.testing.assert_array_equal([column[k] for column in found.wheels], np.ravel(alone))
+        factors = TURN / 12 * np.array([one.peaks().Vm / angle[k], one.peaks().Am / angle[k] ** 2])
+        np.testing.assert_allclose([found.velocity_factor[k], found.acceleration_factor[k]], factors, rtol=1e-12)
+    assert np.all(np.isnan(np.concatenate([[column[3] for column in found.wheels], [found.motion_angle[3], found.velocity_factor[3]]])))
+    quick = evaluate_designs("modified-sine", {}, 12, 0.12, pin, 0.01, angle, factors=False)
+    assert np.all(np.isnan(quick.velocity_factor)) and np.array_equal(quick.motion_angle, angle)
 
 
 def test_the_kernels_give_the_same_uncompiled():

@@ -29,7 +29,7 @@ _WHERE = {
     "ball": ("BallBearing", "BallLaw"),
     "life": ("basic_dynamic_rating", "basic_life", "equivalent_radial_load", "life_duration", "life_exponent", "static_rating"),
     "roller": ("RollerBearing", "RollerLaw", "roller_reference_life", "roller_static_rating"),
-    "catalogue": ("Entry", "bearing", "entry", "load_catalogue", "names"),
+    "catalogue": ("Entry", "bearing", "entry", "load_catalogue", "names", "replace_catalogue_values"),
     "approximate_stiffness": (
         "gargiulo_ball",
         "gargiulo_roller",

@@ -15,7 +15,7 @@ from drivewright.bearings.roller import RollerBearing
 from drivewright.errors import InputError, SpecError, UnknownName
 from drivewright.spec import Named, Spec, Text, from_document, read_document
 from drivewright.spec.fields import Field
-from drivewright.units import Length
+from drivewright.units import SI, Length
 
 OWN = Path(__file__).with_name("catalogue.toml")
 ENVELOPE = ("bore", "outer_diameter", "width")
@@ -102,6 +102,18 @@ def entry(name: str, catalogue: str | Path | None = None) -> Entry:
     if name not in known:
         raise UnknownName("bearing", name, known)
     return known[name]
+
+
+def replace_catalogue_values(
+    bearing: BallBearing | RollerBearing,
+    radial_clearance: float | None = None,
+    dynamic_rating: float | None = None,
+    static_rating: float | None = None,
+) -> BallBearing | RollerBearing:
+    """The bearing with the values that are given in place of its own: clearance across the diameter [m], ratings C and C0 [N]."""
+    given = {"radial_clearance": radial_clearance, "dynamic_rating": dynamic_rating, "static_rating": static_rating}
+    changes = {key: SI(value) for key, value in given.items() if value is not None}
+    return bearing.replace(**changes) if changes else bearing
 
 
 def names(catalogue: str | Path | None = None) -> list[str]:

@@ -74,8 +74,15 @@ class IndexMotion:
         return Jet(parts[0], parts[1], parts[2], parts[3])
 
 
+def step_angle(name: str, motion_to_dwell: Numbers | Literal["no-dwell"]) -> Numbers:
+    """Input angle [rad] in which the wheel moves, 2 pi r/(1 + r), r = motion_to_dwell; a full turn for "no-dwell" and for "uniform"."""
+    if isinstance(motion_to_dwell, str) or name == "uniform":
+        return TURN
+    return TURN * motion_to_dwell / (1 + motion_to_dwell)
+
+
 def index_motion(name: str, divisions: int, motion_to_dwell: float | Literal["no-dwell"] = 1.0, **parameters: float) -> IndexMotion:
-    """IndexMotion of the law `name`: motion_angle = 2 pi r/(1 + r), r = motion_to_dwell; a full turn for "no-dwell" and for "uniform".
+    """IndexMotion of the law `name` with the `step_angle` of that ratio.
 
     Raises InputError for a law whose velocity jumps or that does not go from rest to rest where a dwell follows.
     """
@@ -89,7 +96,7 @@ def index_motion(name: str, divisions: int, motion_to_dwell: float | Literal["no
             f"motion law {name!r}: its velocity jumps by {found.peaks().Vm:.4g}, so the wheel would be struck at the ends of the dwell. "
             f'Take a law from rest to rest, as "modified-sine", or motion_to_dwell = "{NO_DWELL}".'
         )
-    return IndexMotion(found, divisions, TURN * motion_to_dwell / (1 + motion_to_dwell))
+    return IndexMotion(found, divisions, float(step_angle(name, motion_to_dwell)))
 
 
 def motion_table(motion: IndexMotion, points: int = 721) -> Table:

@@ -72,3 +72,8 @@ class ParallelIndexer:
     def _levels(self) -> tuple[PlateCam, PlateCam]:
         given = self.pins, self.circle_radius, self.pin_radius, self.centre_distance, self.motion
         return PlateCam(*given, 0.25), PlateCam(*given, -0.25)
+
+    def refuse(self) -> None:
+        """InputError where the measures leave one of the cams nothing."""
+        for level in self.levels:
+            level.refuse()

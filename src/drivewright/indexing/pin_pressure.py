@@ -5,7 +5,7 @@ import numpy as np
 from drivewright import contact
 from drivewright._typing import Floats
 from drivewright.indexing.plane import PinDrive, PlaneDrive, find_contacts
-from drivewright.result import Column, Table
+from drivewright.result import Column, Table, Value
 
 
 def pin_pressure(force: float, curvature: float, pin_radius: float, width: float, modulus: float) -> float:
@@ -55,3 +55,13 @@ def longest_lever_table(drive: PinDrive, angles: Floats, torque: float, width: f
             Column("pressure", "Pa", "Hertz pressure", data[4]),
         ),
     )
+
+
+def largest_pin_values(forces: Table) -> dict[str, Value]:
+    """Largest force and pressure of a table of pins."""
+    values = {}
+    if len(forces["force"].data):
+        values["pins.max_force"] = Value(float(np.max(forces["force"].data)), "N", "largest force on a pin")
+    if np.isfinite(forces["pressure"].data).any():
+        values["pins.max_pressure"] = Value(float(np.nanmax(forces["pressure"].data)), "Pa", "largest Hertz pressure on a pin")
+    return values

@@ -6,13 +6,14 @@ s = +1 it gives N - 1 lobes inside the pins, with s = -1 N + 1 around them.  In 
 profile is made of both sides of it.  Source: Liu Mingtao et al. 2017, derived anew.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from drivewright._typing import ArrayLike
 from drivewright.errors import InputError
-from drivewright.indexing.motion import IndexMotion
+from drivewright.indexing.motion import TURN, IndexMotion
 from drivewright.indexing.plane import PlaneDrive, refuse_overlap
 from drivewright.numerics.jets import Jet, constant, exp, variable
 
@@ -61,4 +62,42 @@ def refuse_impossible(wheel: PinWheel) -> None:
         raise InputError(
             f"eccentricity + pin_radius = {(wheel.eccentricity + wheel.pin_radius) * 1e3:.4g} mm reaches the middle of the pin circle of "
             f"radius {wheel.circle_radius * 1e3:.4g} mm; nothing is left of the cam. Take a larger pin circle."
+        )
+
+
+def wall_thicknesses(wheel: PinWheel, spacing: float, hole_diameter: float, profile_radius: tuple[float, float]) -> tuple[float, float]:
+    """(between the two bearing holes of a cam, between them and its profile) [m], below 0 where they overlap.
+
+    The holes of `hole_diameter` lie `spacing` apart on a line through the cam's centre; profile_radius: least and greatest distance of the
+    profile from that centre.
+    """
+    least, greatest = profile_radius
+    inside = least - 0.5 * (spacing + hole_diameter)
+    outside = 0.5 * (spacing - hole_diameter) - greatest
+    return spacing - hole_diameter, inside if wheel.side == "inside" else outside
+
+
+def profile_findings(wheel: PinWheel) -> Iterator[str]:
+    """Measures that cut parts of the profile away."""
+    if wheel.motion.motion_angle < TURN and wheel.pin_radius >= wheel.eccentricity:
+        yield (
+            f"pins of {1e3 * wheel.pin_radius:.4g} mm reach the eccentricity of {1e3 * wheel.eccentricity:.4g} mm: the tops of the lobes "
+            "that would touch in the dwell are cut away"
+        )
+    # speed of the crank's circle over that of the pins'
+    ratio = wheel.eccentricity * wheel.motion.divisions / wheel.circle_radius
+    if wheel.motion.law.name == "uniform" and ratio > 1:
+        yield (
+            f"eccentricity times pins over pin_circle_radius is {ratio:.4g}, above 1: the centre curve turns back in loops; parts of "
+            "the profile are cut away"
+        )
+
+
+def sleeve_findings(eccentricity: float, bore: float, shaft_diameter: float) -> Iterator[str]:
+    """A bearing bore that leaves no eccentric sleeve around a split shaft; all [m]."""
+    if bore / 2 - eccentricity - shaft_diameter / 2 <= 0:
+        yield (
+            f"a bore of {1e3 * bore:.4g} mm on an eccentricity of {1e3 * eccentricity:.4g} mm leaves no sleeve around a shaft of "
+            f"{1e3 * shaft_diameter:.4g} mm (at most {1e3 * max(bore - 2 * eccentricity, 0):.4g} mm): make shaft and crank pins of one "
+            "piece"
         )

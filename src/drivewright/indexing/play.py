@@ -3,14 +3,19 @@
 By symmetry every cam of a set allows the same: cam j with its pins is cam 0 with its pins turned about the wheel's axis.
 """
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from drivewright._jit import outer
 from drivewright._typing import ArrayLike, Complexes, Floats
 from drivewright.curves.touching import Nodes, nearest
+from drivewright.indexing.motion import TURN
 from drivewright.indexing.plane import PinDrive, PlaneDrive
+from drivewright.result import Column, Table
 
 FORWARD, BACKWARD = 1.0, -1.0
+DIRECTIONS = {"forward": FORWARD, "backward": BACKWARD}
 _TOUCHING = 1e-9  # a gap below this [m] is a contact
 _PENETRATION = 5e-7  # a pin that turns away counts as inside the cam from this depth [m] on
 _LEAST_STEP = 2e-6  # [rad]; in a smaller one no pin can pass a horn
@@ -39,6 +44,20 @@ def refine_about_peak(drive: PinDrive, angle: Floats, direction: float, finer: i
         angle = np.linspace(angle[max(k - 1, 0)], angle[min(k + 1, len(angle) - 1)], 2 * finer + 1)
         refined = np.union1d(refined, angle)
     return refined
+
+
+def turn_angles(drive: PinDrive, points: int = 721) -> Floats:
+    """Input angles [rad] over one turn, evenly `points` of them, and others about the largest play in either direction."""
+    angle = np.linspace(0, TURN, points)
+    for direction in DIRECTIONS.values():
+        angle = np.union1d(angle, refine_about_peak(drive, angle, direction))
+    return angle
+
+
+def play_table(angle: Floats, rotations: Mapping[str, Floats]) -> Table:
+    """Free rotations (n,) [rad] by direction over the input angle (n,) [rad]."""
+    columns = (Column(name, "rad", f"free rotation {name}", free) for name, free in rotations.items())
+    return Table("play", "Play of the wheel", (Column("angle", "rad", "input angle", angle), *columns))
 
 
 def _play_of_cam(drive: PlaneDrive, theta: Floats, direction: float) -> Floats:

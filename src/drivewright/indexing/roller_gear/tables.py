@@ -1,10 +1,10 @@
-"""Flanks, contacts and loads of a roller gear as tables."""
+"""Flanks, contacts and loads of a roller gear as tables and values."""
 
 import numpy as np
 
 from drivewright.indexing.roller_gear.flanks import FLANKS, CamFlanks
 from drivewright.indexing.roller_gear.stress import RollerLoads
-from drivewright.result import Array, Column, Table
+from drivewright.result import Array, Column, Table, Value
 
 
 def flank_table(flanks: CamFlanks) -> Table:
@@ -30,6 +30,21 @@ def flank_table(flanks: CamFlanks) -> Table:
             Column("pressure_angle", "rad", "between normal and the roller's way", pressure_angle),
         ),
     )
+
+
+def flank_values(flanks: CamFlanks) -> dict[str, Value]:
+    """Undercut, radii and largest pressure angle of the finished cam; without those of a cam of which nothing is left."""
+    values = {
+        "profile.undercut": Value(float(flanks.undercut), "-", "part of the contact lines that is cut away"),
+        "profile.pitch_radius": Value(float(flanks.cam.pitch_radius), "m", "least distance of the rollers' middles from the cam's axis"),
+    }
+    relative = flanks.mask_off_cam(flanks.contact.relative_curvature)
+    if np.isfinite(relative).any():
+        values["profile.min_relative_radius"] = Value(float(1 / np.nanmax(relative)), "m", "least relative radius of roller and cam")
+    if np.isfinite(flanks.pressure_angle_maximum).any():
+        largest = float(np.nanmax(flanks.pressure_angle_maximum))
+        values["pressure_angle.maximum"] = Value(largest, "rad", "largest pressure angle of all contact lines")
+    return values
 
 
 def contact_count_table(flanks: CamFlanks) -> Table:

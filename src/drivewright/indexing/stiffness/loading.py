@@ -8,6 +8,7 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.indexing.contacts import CamContacts
 from drivewright.indexing.drivetrain import Drivetrain
+from drivewright.indexing.motion import TURN, IndexMotion
 from drivewright.indexing.pin_wheel import PinWheel
 from drivewright.indexing.plane import find_contacts
 from drivewright.indexing.play import find_play
@@ -52,3 +53,9 @@ def solve_after_play(
         for angle, each, way in zip(angles, free, turned, strict=True)
     ]
     return take_up_play(first, solve_at_contacts(loaded, angles, touching, torque)), touching, play
+
+
+def dwell_angles(motion: IndexMotion, step: float) -> Floats:
+    """Input angles [rad] inside the dwell, in equal steps of at most `step` [rad]; empty where the dwell is shorter than that."""
+    count = int(np.ceil((TURN - motion.motion_angle) / step))
+    return np.linspace(motion.motion_angle, TURN, count + 1)[1:-1]

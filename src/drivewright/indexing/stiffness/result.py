@@ -58,6 +58,11 @@ class TorsionalStiffness:
         return self.torque / self.rotation
 
     @property
+    def carried(self) -> Bools:
+        """(p,): whether the torque is carried."""
+        return np.array([each == CARRIED for each in self.outcome], dtype=bool)
+
+    @property
     def reasons(self) -> tuple[str, ...]:
         """Why a position has no stiffness, "" where it has one."""
         return tuple(REASONS[each] for each in self.outcome)

@@ -15,7 +15,7 @@ from drivewright._typing import ArrayLike, Complexes, Floats
 from drivewright.indexing.contacts import CamContacts
 from drivewright.indexing.drivetrain import SIDES
 from drivewright.indexing.stiffness.assembly import cam_phases
-from drivewright.indexing.stiffness.result import CARRIED, TorsionalStiffness
+from drivewright.indexing.stiffness.result import TorsionalStiffness
 
 
 class ShaftLengths(NamedTuple):
@@ -110,7 +110,7 @@ def crank_load_deviations(
 
     Of cam 0 at all positions that carry; {} where none does.
     """
-    carried = np.array([outcome == CARRIED for outcome in result.outcome])
+    carried = result.carried
     if not carried.any():
         return {}
     force, moment = pin_resultants(result, contacts)

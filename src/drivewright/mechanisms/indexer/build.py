@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TypeVar
+from typing import Literal, TypeVar
 
 import numpy as np
 
@@ -19,8 +19,7 @@ from drivewright.indexing.plane import index_angles
 from drivewright.indexing.roller_gear.design import RollerGear, barrel, globoidal
 from drivewright.indexing.stiffness.loading import LoadedWheel
 from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refuse_contradictions, required, unused
-from drivewright.mechanisms.indexer.spec import IndexerBearings, IndexerGear, IndexerShafts, IndexerSpec
-from drivewright.units import SI
+from drivewright.mechanisms.indexer.spec import IndexerBearings, IndexerShafts, IndexerSpec
 
 PartT = TypeVar("PartT")
 STEP = np.deg2rad(4.5)  # of the input, from position to position
@@ -89,6 +88,11 @@ class IndexerModel:
         return _entry(self.spec, self.spec.support_bearings)
 
     @property
+    def pin_measures(self) -> tuple[float, float, float]:
+        """Radius of a pin and width of a cam [m], effective modulus [Pa]."""
+        return self.spec.pin_radius, self.spec.cam_width, self.modulus
+
+    @property
     def modulus(self) -> float:
         """Effective modulus of pin and cam [Pa]."""
         card = materials.material(self.spec.contact.material)
@@ -105,21 +109,30 @@ def _of_kind(part: object, kind: type[PartT] | tuple[type[PartT], ...]) -> PartT
 def build(spec: IndexerSpec) -> IndexerModel:
     """The `IndexerModel` of a spec; InputError where it has no cam."""
     refuse_contradictions(spec)
-    law = {key: value for key in ("b", "c", "d") if (value := getattr(spec.motion, key)) is not None}
-    ratio = spec.motion.motion_to_dwell
-    moving = index_motion(law_name(spec), spec.pins, 1.0 if ratio is None else ratio, **law)
+    moving = index_motion(law_name(spec), spec.pins, motion_to_dwell(spec), **law_parameters(spec))
     if spec.kind not in TRANSLATING:
         return IndexerModel(spec, OTHERS[spec.kind](spec, moving), findings=tuple(unused(spec)))
     wheel = PinWheel(spec.pins, spec.pin_circle_radius, spec.pin_radius, required(spec, "eccentricity"), moving, spec.side)
     wheel.refuse()
-    rolling = {key: rolling_bearing(spec, key) for key in ("crank_bearings", "support_bearings") if _named(getattr(spec, key))}
+    tables = {"crank_bearings": spec.crank_bearings, "support_bearings": spec.support_bearings}
+    rolling = {key: rolling_bearing(spec, key, given) for key, given in tables.items() if given is not None and given.bearing is not None}
     return IndexerModel(spec, wheel, drive_train(spec, rolling), rolling, tuple(unused(spec)))
+
+
+def law_parameters(spec: IndexerSpec) -> dict[str, float]:
+    """The parameters of the motion law that are given."""
+    given = {key: getattr(spec.motion, key) for key in ("b", "c", "d")}
+    return {key: value for key, value in given.items() if value is not None}
+
+
+def motion_to_dwell(spec: IndexerSpec) -> float | Literal["no-dwell"]:
+    """Angle of the step over that of the dwell; 1 unless given."""
+    return 1.0 if spec.motion.motion_to_dwell is None else spec.motion.motion_to_dwell
 
 
 def _parallel(spec: IndexerSpec, moving: IndexMotion) -> ParallelIndexer:
     drive = ParallelIndexer(spec.pins, spec.pin_circle_radius, spec.pin_radius, required(spec, "centre_distance"), moving)
-    for level in drive.levels:
-        level.refuse()
+    drive.refuse()
     return drive
 
 
@@ -140,56 +153,42 @@ def _entry(spec: IndexerSpec, given: IndexerBearings | None) -> Entry | None:
     return bearings.entry(given.bearing, spec.catalogue) if given is not None and given.bearing is not None else None
 
 
-def _named(given: IndexerBearings | None) -> bool:
-    return given is not None and given.bearing is not None
-
-
-def rolling_bearing(spec: IndexerSpec, key: str) -> BallBearing | RollerBearing:
+def rolling_bearing(spec: IndexerSpec, key: str, given: IndexerBearings) -> BallBearing | RollerBearing:
     """The rolling bearing of a table, with the clearance and the ratings that stand there in place of its own."""
-    given = getattr(spec, key)
     try:
-        found = bearings.bearing(given.bearing, spec.catalogue)
+        found = bearings.bearing(str(given.bearing), spec.catalogue)
     except InputError as error:
         raise SpecError(str(error), f"{key}.bearing") from None
-    keys = ("radial_clearance", "dynamic_rating", "static_rating")
-    changes = {name: SI(getattr(given, name)) for name in keys if getattr(given, name) is not None}
-    return found.replace(**changes) if changes else found
+    return bearings.replace_catalogue_values(found, given.radial_clearance, given.dynamic_rating, given.static_rating)
 
 
 def drive_train(spec: IndexerSpec, rolling: Mapping[str, BallBearing | RollerBearing]) -> drivetrain.Drivetrain:
     """The `Drivetrain` of a spec; what has no table is rigid."""
-    housing = spec.housing
+    housing, gear = spec.housing, spec.gear
     return drivetrain.Drivetrain(
         spec.shaft_spacing or 2 * spec.pin_circle_radius,
         drivetrain.pin_contact(spec.cam_width, spec.contact.pin_stiffness),
-        _law(spec.crank_bearings, rolling.get("crank_bearings")),
-        _law(spec.support_bearings, rolling.get("support_bearings")),
+        _bearing_model(spec.crank_bearings, rolling.get("crank_bearings")),
+        _bearing_model(spec.support_bearings, rolling.get("support_bearings")),
         housing and housing.support_stiffness,
         spec.shafts and split_shaft(spec.shafts, spec.cams),
-        _mesh(spec.gear),
+        gear and drivetrain.GearMesh(gear.module * gear.teeth / 2, gear.stiffness, gear.pressure_angle, gear.backlash),
         drivetrain.PowerLawBearing(housing.wheel_stiffness) if housing and housing.wheel_stiffness else None,
         housing and housing.wheel_torsion,
     )
 
 
-def _law(given: IndexerBearings | None, rolling: BallBearing | RollerBearing | None) -> drivetrain.BearingModel | None:
+def _bearing_model(given: IndexerBearings | None, rolling: BallBearing | RollerBearing | None) -> drivetrain.BearingModel | None:
     """How a bearing yields: None, a power law, or the rolling bearing itself."""
     if given is None:
         return None
+    clearance = (given.radial_clearance or 0.0) / 2
     if rolling is None:
-        return (
-            None if given.stiffness is None else drivetrain.PowerLawBearing(given.stiffness, clearance=(given.radial_clearance or 0.0) / 2)
-        )
-    return rolling if given.law == "elements" else drivetrain.formula_bearing(given.law, rolling, (given.radial_clearance or 0.0) / 2)
+        return None if given.stiffness is None else drivetrain.PowerLawBearing(given.stiffness, clearance=clearance)
+    return rolling if given.law == "elements" else drivetrain.formula_bearing(given.law, rolling, clearance)
 
 
 def split_shaft(given: IndexerShafts, cams: int) -> drivetrain.SplitShaft:
     """The stepped shaft from its gear to its rear support."""
     lengths = (given.overhang, given.front, given.pitch, given.rear)
     return drivetrain.split_shaft(lengths, given.diameters, cams, given.youngs_modulus, given.shear_modulus)
-
-
-def _mesh(gear: IndexerGear | None) -> drivetrain.GearMesh | None:
-    if gear is None:
-        return None
-    return drivetrain.GearMesh(gear.module * gear.teeth / 2, gear.stiffness, gear.pressure_angle, gear.backlash)

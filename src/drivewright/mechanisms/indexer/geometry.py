@@ -1,121 +1,81 @@
 """Motion, profile, contacts and play of the plane kinds."""
 
 from collections.abc import Iterator, Mapping
+from itertools import chain
 
 import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.indexing.cam_tables import (
-    angle_ranges,
     best_pressure_angles,
     contact_count_table,
     contact_map_array,
     contact_points_table,
     driving_pressure_angle,
     find_all_contacts,
-    least_convex_radius,
     profile_table,
 )
-from drivewright.indexing.motion import TURN, motion_table
-from drivewright.indexing.plane import PROFILE_TOLERANCE, PlaneDrive
-from drivewright.indexing.play import BACKWARD, FORWARD, find_play, refine_about_peak
+from drivewright.indexing.motion import motion_table
+from drivewright.indexing.pin_wheel import profile_findings, sleeve_findings, wall_thicknesses
+from drivewright.indexing.play import DIRECTIONS, find_play, play_table, turn_angles
+from drivewright.indexing.values import (
+    contact_count_values,
+    contact_findings,
+    motion_values,
+    play_findings,
+    play_values,
+    pressure_angle_values,
+    profile_values,
+)
 from drivewright.mechanisms.indexer.build import IndexerModel
-from drivewright.result import Answer, Answers, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Value
 
 SUFFIXES = ("", ".second")  # of the values of cams that differ
-POINTS = 721  # of the search of play over the whole turn
-WAYS = (("forward", FORWARD), ("backward", BACKWARD))
 
 
 def motion(model: IndexerModel, done: Answers) -> Answer:
     """The wheel over one turn of the input."""
-    table = motion_table(model.drive.motion)
-    rate, bend = (np.max(np.abs(table[name].data)) for name in ("rate", "bend"))
-    values = {
-        "motion.motion_angle": Value(model.drive.motion.motion_angle, "rad", "input angle in which the wheel moves"),
-        "motion.velocity_factor": Value(rate, "-", "largest speed of the wheel over that of the input"),
-        "motion.acceleration_factor": Value(bend, "1/rad", "largest d2 phi/d theta2"),
-    }
-    if speed := model.spec.load.speed:
-        values["motion.peak_speed"] = Value(rate * speed, "rad/s", "largest speed of the wheel")
-        values["motion.peak_acceleration"] = Value(bend * speed**2, "rad/s^2", "largest angular acceleration of the wheel")
-    return Answer(values, (table,))
+    moving = model.drive.motion
+    table = motion_table(moving)
+    return Answer(motion_values(table, moving.motion_angle, model.spec.load.speed), (table,))
 
 
 def profile(model: IndexerModel, done: Answers) -> Answer:
     """The trimmed profile of every cam that differs: measures, points, curvature, undercut."""
-    parts = [_profile(model, level, suffix) for level, suffix in zip(model.plane.levels, SUFFIXES, strict=False)]
-    values = {name: value for part in parts for name, value in part[0].items()}
-    checks = [check for part in parts for check in part[2]]
-    return Answer(values, tuple(part[1] for part in parts), (*checks, *walls(model, values)), tuple(_remarks(model)))
+    levels = model.plane.levels
+    tables = tuple(profile_table(level.profile, f"profile{suffix}") for level, suffix in zip(levels, SUFFIXES, strict=False))
+    values = {name: value for level, table in zip(levels, tables, strict=True) for name, value in profile_values(level, table).items()}
+    checks = chain(_curvature_checks(model, values), _wall_checks(model, values))
+    return Answer(values, tables, tuple(checks), tuple(_findings(model)))
 
 
-def _profile(model: IndexerModel, drive: PlaneDrive, suffix: str) -> tuple[dict[str, Value], Table, tuple[Check, ...]]:
-    """(values, table, checks) of one cam."""
-    trimmed = drive.profile
-    table = profile_table(trimmed, f"profile{suffix}")
-    radius = np.hypot(table["x"].data, table["y"].data)
-    convex = least_convex_radius(drive)
-    values = {
-        f"profile{suffix}.area": Value(trimmed.area, "m^2", "area within the profile of a cam"),
-        f"profile{suffix}.perimeter": Value(trimmed.perimeter, "m", "length of the profile"),
-        f"profile{suffix}.min_radius": Value(np.min(radius), "m", "least distance of the profile from the cam's centre"),
-        f"profile{suffix}.max_radius": Value(np.max(radius), "m", "greatest distance of the profile from the cam's centre"),
-        f"profile{suffix}.corners": Value(float(len(trimmed.corners)), "-", "sharp corners, where the envelope was trimmed"),
-    }
-    if not np.isfinite(convex):
-        return values, table, ()
-    values[f"profile{suffix}.min_convex_radius"] = Value(convex, "m", "least radius of the centre curve where the cam is convex")
-    check = Check(
-        f"curvature{suffix}",
-        convex / drive.pin_radius,
-        model.spec.limits.curvature_ratio,
-        ">=",
-        "-",
-        "least convex radius of the centre curve over the pin's radius",
-        ("cam1",),
-    )
-    return values, table, (check,)
+def _curvature_checks(model: IndexerModel, values: Mapping[str, Value]) -> Iterator[Check]:
+    message = "least convex radius of the centre curve over the pin's radius"
+    for suffix in SUFFIXES:
+        radius = values.get(f"profile{suffix}.min_convex_radius")
+        if radius is not None:
+            ratio = radius.value / model.spec.pin_radius
+            yield Check(f"curvature{suffix}", ratio, model.spec.limits.curvature_ratio, ">=", "-", message, ("cam1",))
 
 
-def walls(model: IndexerModel, values: Mapping[str, Value]) -> Iterator[Check]:
-    """Material between the two bearing holes of a cam, and between them and the profile."""
-    outer = getattr(model.crank_bearing, "outer_diameter", None)
-    spacing, least = model.spec.shaft_spacing, model.spec.limits.wall
+def _wall_checks(model: IndexerModel, values: Mapping[str, Value]) -> Iterator[Check]:
+    outer, spacing = getattr(model.crank_bearing, "outer_diameter", None), model.spec.shaft_spacing
     if not outer or spacing is None:
         return
-    inside = values["profile.min_radius"].value - 0.5 * (spacing + outer)
-    outside = 0.5 * (spacing - outer) - values["profile.max_radius"].value
-    between = {
-        "holes": (spacing - outer, "between the bearing holes of a cam"),
-        "profile": (inside if model.spec.side == "inside" else outside, "between a bearing hole and the profile"),
-    }
-    for name, (width, words) in between.items():
-        yield Check(f"wall.{name}", width, least, ">=", "m", f"wall {words}", ("cam1",), True)
+    holes, edge = wall_thicknesses(model.wheel, spacing, outer, (values["profile.min_radius"].value, values["profile.max_radius"].value))
+    least, message = model.spec.limits.wall, "wall between the bearing holes of a cam"
+    yield Check("wall.holes", holes, least, ">=", "m", message, ("cam1",), True)
+    yield Check("wall.profile", edge, least, ">=", "m", "wall between a bearing hole and the profile", ("cam1",), True)
 
 
-def _remarks(model: IndexerModel) -> Iterator[str]:
-    """What a designer should know and no number tells."""
-    spec, moving = model.spec, model.drive.motion
-    eccentricity = spec.eccentricity or 0.0
-    if model.translating and moving.motion_angle < TURN and spec.pin_radius >= eccentricity:
-        yield (
-            f"pins of {1e3 * spec.pin_radius:.4g} mm reach the eccentricity of {1e3 * eccentricity:.4g} mm: the tops of the lobes "
-            "that would touch in the dwell are cut away"
-        )
-    turns_back = eccentricity * moving.divisions / spec.pin_circle_radius if model.translating and moving.law.name == "uniform" else 0.0
-    if turns_back > 1:
-        yield (
-            f"eccentricity times pins over pin_circle_radius is {turns_back:.4g}, above 1: the centre curve turns back in loops; parts of "
-            "the profile are cut away"
-        )
-    bore = getattr(model.crank_bearing, "bore", None)
-    shaft = max(spec.shafts.diameters[1:]) if spec.shafts else None
-    if bore and shaft and bore / 2 - eccentricity - shaft / 2 <= 0:
-        yield (
-            f"a bore of {1e3 * bore:.4g} mm on an eccentricity of {1e3 * eccentricity:.4g} mm leaves no sleeve around a shaft of "
-            f"{1e3 * shaft:.4g} mm (at most {1e3 * max(bore - 2 * eccentricity, 0):.4g} mm): make shaft and crank pins of one piece"
-        )
+def _findings(model: IndexerModel) -> Iterator[str]:
+    """Where the measures of a pin wheel cut its profile away or leave no room for a sleeve."""
+    if not model.translating:
+        return
+    yield from profile_findings(model.wheel)
+    bore, shafts = getattr(model.crank_bearing, "bore", None), model.spec.shafts
+    if bore and shafts:
+        yield from sleeve_findings(model.wheel.eccentricity, bore, max(shafts.diameters[1:]))
 
 
 def contact_map(model: IndexerModel, done: Answers) -> Answer:
@@ -125,92 +85,44 @@ def contact_map(model: IndexerModel, done: Answers) -> Answer:
     best = best_pressure_angles(contacts, drive.circle_radius)
     driving = driving_pressure_angle(drive.motion(angles).d2, best)
     table = contact_count_table(angles, contacts, drive, driving, best)
-    one = "one cam" if len(drive.levels) == 1 else "the two cams together"
-    values = contact_counts(
-        table, f"fewest pins that touch {one} over the index period", f"most pins that touch {one} over the index period"
-    )
-    checks = []
-    if np.isfinite(driving).any():
-        worst = float(np.nanmax(driving))
-        values["pressure_angle.maximum"] = Value(worst, "rad", "largest pressure angle of the pin that accelerates the wheel best")
-        for side, (name, _) in enumerate(WAYS):
-            if np.isfinite(best[side]).any():
-                values[f"pressure_angle.{name}.maximum"] = Value(
-                    float(np.nanmax(best[side])), "rad", f"largest pressure angle of the pin that pushes best {name}"
-                )
-        words = "angle between the normal and the way of the pin that accelerates the wheel best"
-        checks.append(pressure_angle_check(model, worst, words))
-    findings = tuple(
-        f"no pin can be pushed {name} by contact at {lost.sum()} of {len(angles)} positions ({angle_ranges(angles, lost)}): "
-        f"it does not hold the wheel there against a torque that acts {'backward' if name == 'forward' else 'forward'}"
-        for (name, _), lost in zip(WAYS, np.isnan(best), strict=True)
-        if lost.any()
-    )
+    touched = f"{'one cam' if len(drive.levels) == 1 else 'the two cams together'} over the index period"
+    values = contact_count_values(table, f"fewest pins that touch {touched}", f"most pins that touch {touched}")
+    values |= pressure_angle_values(driving, best)
+    message = "angle between the normal and the way of the pin that accelerates the wheel best"
+    checks = tuple(pressure_angle_check(model, values, message))
     tables = (table, contact_points_table(angles, contacts, drive, drive.levels[0].pin_radius))
     arrays = {"contact_map": contact_map_array(angles, contacts, drive)}
-    return Answer(values, tables, tuple(checks), findings, arrays, data=contacts)
+    return Answer(values, tables, checks, tuple(contact_findings(angles, best)), arrays, data=contacts)
 
 
-def contact_counts(table: Table, fewest: str, most: str) -> dict[str, Value]:
-    """Fewest and most pins in contact of a table of contacts, in those words."""
-    count = table["pins"].data
-    return {"contacts.minimum": Value(float(count.min()), "-", fewest), "contacts.maximum": Value(float(count.max()), "-", most)}
-
-
-def pressure_angle_check(model: IndexerModel, worst: float, words: str) -> Check:
-    """The largest pressure angle [rad] against its limit."""
-    return Check("pressure_angle", worst, model.spec.limits.pressure_angle, "<=", "rad", words, ("cam", "wheel"))
+def pressure_angle_check(model: IndexerModel, values: Mapping[str, Value], message: str) -> Iterator[Check]:
+    """The largest pressure angle, where there is one, against its limit."""
+    if "pressure_angle.maximum" in values:
+        largest = values["pressure_angle.maximum"].value
+        yield Check("pressure_angle", largest, model.spec.limits.pressure_angle, "<=", "rad", message, ("cam", "wheel"))
 
 
 def free_play(model: IndexerModel, done: Answers) -> Answer:
     """Free rotation of the wheel in either direction over the whole cycle."""
-    if model.spec.load.angle is not None:
-        return play_answer(model, model.angles, {name: find_play(model.plane, model.angles, way) for name, way in WAYS})
-    angle = np.linspace(0, TURN, POINTS)
-    for _, way in WAYS:
-        angle = np.union1d(angle, refine_about_peak(model.plane, angle, way))
-    return play_answer(model, angle, {name: find_play(model.plane, angle, way) for name, way in WAYS})
+    angle = turn_angles(model.plane) if model.spec.load.angle is None else model.angles
+    return play_answer(model, angle, {name: find_play(model.plane, angle, direction) for name, direction in DIRECTIONS.items()})
 
 
 def play_answer(model: IndexerModel, angle: Floats, rotations: Mapping[str, Floats]) -> Answer:
     """Values, table and checks of the free rotations by direction; nan where nothing stops the wheel."""
-    values, checks, findings = {}, [], []
-    columns = [Column("angle", "rad", "input angle", angle)]
+    values = play_values(angle, rotations, model.spec.pin_circle_radius)
+    checks = _play_checks(model, angle, rotations) if model.spec.load.angle is None else ()  # of one angle they would speak of the cycle
+    return Answer(values, (play_table(angle, rotations),), tuple(checks), tuple(play_findings(angle, rotations)))
+
+
+def _play_checks(model: IndexerModel, angle: Floats, rotations: Mapping[str, Floats]) -> Iterator[Check]:
+    limit = model.spec.limits.play
     for name, free in rotations.items():
-        columns.append(Column(name, "rad", f"free rotation {name}", free))
-        stopped = np.isfinite(free)
-        if not stopped.all():
-            findings.append(
-                f"nothing stops the wheel {name} at {np.sum(~stopped)} of {len(angle)} input angles "
-                f"({angle_ranges(angle, ~stopped)}): play.{name}.maximum does not exist"
-            )
-            checks.append(
-                Check(
-                    f"play.{name}",
-                    max(model.drive.motion.pitch, 2 * model.spec.limits.play),
-                    model.spec.limits.play,
-                    "<=",
-                    "rad",
-                    f"free rotation {name}: nothing stops the wheel within a whole pitch",
-                    ("wheel", "cam"),
-                )
-            )
-            continue
-        worst = int(np.argmax(free))
-        where = f"largest over the cycle at {np.degrees(angle[worst]):.4g} deg" if free[worst] > 0 else "over the whole cycle"
-        values[f"play.{name}.maximum"] = Value(free[worst], "rad", f"largest free rotation of the wheel {name}")
-        if free[worst] > PROFILE_TOLERANCE / model.spec.pin_circle_radius:
-            values[f"play.{name}.maximum.at"] = Value(angle[worst], "rad", "input angle of it")
-        checks.append(
-            Check(
-                f"play.{name}",
-                free[worst],
-                model.spec.limits.play,
-                "<=",
-                "rad",
-                f"free rotation of the wheel {name}, {where}",
-                ("wheel", "cam"),
-            )
-        )
-    checks = [] if model.spec.load.angle is not None else checks  # of one angle they would speak of the cycle
-    return Answer(values, (Table("play", "Play of the wheel", tuple(columns)),), tuple(checks), tuple(findings))
+        if np.isfinite(free).all():
+            at = int(np.argmax(free))
+            where = f"largest over the cycle at {np.degrees(angle[at]):.4g} deg" if free[at] > 0 else "over the whole cycle"
+            largest, message = free[at], f"free rotation of the wheel {name}, {where}"
+        else:
+            largest = max(model.drive.motion.pitch, 2 * limit)
+            message = f"free rotation {name}: nothing stops the wheel within a whole pitch"
+        yield Check(f"play.{name}", largest, limit, "<=", "rad", message, ("wheel", "cam"))

@@ -4,9 +4,11 @@ import numpy as np
 
 from drivewright.indexing import roller_gear
 from drivewright.indexing.motion import TURN
+from drivewright.indexing.play import DIRECTIONS
+from drivewright.indexing.values import contact_count_values
 from drivewright.mechanisms.indexer.build import IndexerModel
-from drivewright.mechanisms.indexer.geometry import WAYS, contact_counts, play_answer, pressure_angle_check
-from drivewright.result import Answer, Answers, Check, Table, Value
+from drivewright.mechanisms.indexer.geometry import play_answer, pressure_angle_check
+from drivewright.result import Answer, Answers, Check, Table
 
 STEPS = 181  # input angles over the turn
 ALONG = 9  # places along a roller
@@ -16,34 +18,25 @@ def surface(model: IndexerModel, done: Answers) -> Answer:
     """Flanks of the cam over the turn, trimmed by every roller: points, curvature, pressure angle, undercut."""
     angle = np.linspace(0, TURN, STEPS) if model.spec.load.angle is None else model.angles
     flanks = roller_gear.compute_flanks(model.cam, angle, ALONG)
-    values = {
-        "profile.undercut": Value(float(flanks.undercut), "-", "part of the contact lines that is cut away"),
-        "profile.pitch_radius": Value(float(model.cam.pitch_radius), "m", "least distance of the rollers' middles from the cam's axis"),
-    }
-    relative = flanks.mask_off_cam(flanks.contact.relative_curvature)
-    checks = [Check("undercut", float(flanks.undercut), 0.0, "<=", "-", "part of the contact lines that is cut away", ("cam",), True)]
-    if np.isfinite(relative).any():
-        values["profile.min_relative_radius"] = Value(float(1 / np.nanmax(relative)), "m", "least relative radius of roller and cam")
-    if np.isfinite(flanks.pressure_angle_maximum).any():
-        worst = float(np.nanmax(flanks.pressure_angle_maximum))
-        values["pressure_angle.maximum"] = Value(worst, "rad", "largest pressure angle of all contact lines")
-        checks.append(pressure_angle_check(model, worst, "angle between the normal and the roller's way, all contact lines"))
-    return Answer(values, (roller_gear.flank_table(flanks),), tuple(checks), data=flanks)
+    values = roller_gear.flank_values(flanks)
+    undercut = Check("undercut", float(flanks.undercut), 0.0, "<=", "-", "part of the contact lines that is cut away", ("cam",), True)
+    checks = (undercut, *pressure_angle_check(model, values, "angle between the normal and the roller's way, all contact lines"))
+    return Answer(values, (roller_gear.flank_table(flanks),), checks, data=flanks)
 
 
 def contact_map(model: IndexerModel, done: Answers) -> Answer:
     """Which rollers touch which flank at every input angle."""
     flanks = done["profile"].data
     table = roller_gear.contact_count_table(flanks)
-    values = contact_counts(table, "fewest rollers that touch the cam", "most rollers that touch the cam")
+    values = contact_count_values(table, "fewest rollers that touch the cam", "most rollers that touch the cam")
     return Answer(values, (table,), arrays={"contact_map": roller_gear.contact_map_array(flanks)})
 
 
 def free_play(model: IndexerModel, done: Answers) -> Answer:
     """Free rotation of the wheel in either direction."""
     flanks = done["profile"].data
-    free = {name: np.where(np.isfinite(turn := roller_gear.find_turret_play(flanks, way)), turn, np.nan) for name, way in WAYS}
-    return play_answer(model, flanks.theta, free)
+    free = {name: roller_gear.find_turret_play(flanks, direction) for name, direction in DIRECTIONS.items()}
+    return play_answer(model, flanks.theta, {name: np.where(np.isfinite(each), each, np.nan) for name, each in free.items()})
 
 
 def stress(model: IndexerModel, done: Answers) -> tuple[Table, tuple[str, ...]]:

@@ -1,17 +1,17 @@
-"""Forces and contact pressure of the kinds without a model of stiffness: by statics of rigid parts."""
+"""Forces and contact pressure of the kinds without a model of stiffness, by statics of rigid parts; the check of the pressure."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from drivewright import materials
 from drivewright.indexing.motion import TURN
-from drivewright.indexing.pin_pressure import longest_lever_table
+from drivewright.indexing.pin_pressure import largest_pin_values, longest_lever_table
 from drivewright.mechanisms.indexer import roller
 from drivewright.mechanisms.indexer.build import IndexerModel
-from drivewright.mechanisms.indexer.pins import largest_pin_values, pressure_check
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
 from drivewright.mechanisms.indexer.spec import IndexerSpec
-from drivewright.result import Answer, Answers, Check, Table
+from drivewright.result import Answer, Answers, Check, Table, Value
 
 
 def no_stress(spec: IndexerSpec) -> str | None:
@@ -23,15 +23,23 @@ def stress(model: IndexerModel, done: Answers) -> Answer:
     """Forces on the rollers and Hertz pressure under the torque; those on the pins of translating cams come with the stiffness."""
     if model.translating:
         return Answer()
-    table, findings = (_plate if model.spec.kind == "parallel" else roller.stress)(model, done)
+    table, findings = (_plate if model.flat else roller.stress)(model, done)
     values = largest_pin_values(table)
     return Answer(values, (table,), (*pressure_check(model, values), *_held(model, table)), findings)
+
+
+def pressure_check(model: IndexerModel, values: Mapping[str, Value]) -> Iterator[Check]:
+    """The Hertz pressure against what is allowed, or what the material stands."""
+    allowed = model.spec.limits.contact_pressure or materials.material(model.spec.contact.material).hertz_limit
+    if allowed and "pins.max_pressure" in values:
+        largest = values["pins.max_pressure"].value
+        yield Check("contact_pressure", largest, allowed, "<=", "Pa", "Hertz pressure on a pin", ("cam1", "wheel"))
 
 
 def _held(model: IndexerModel, table: Table) -> Iterator[Check]:
     """Part of the input angles at which no roller takes the torque."""
     if model.spec.load.angle is None:
-        angles = model.angles if model.spec.kind == "parallel" else np.linspace(0, TURN, roller.STEPS)
+        angles = model.angles if model.flat else np.linspace(0, TURN, roller.STEPS)
         lost = 1 - len(np.unique(table["angle"].data)) / len(angles)
         yield Check("held", lost, 0.0, "<=", "-", "part of the input angles at which no roller takes the torque", ("cam1", "wheel"))
 

@@ -13,7 +13,6 @@ from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.shaft.refusals import is_rolling, refuse_contradictions
 from drivewright.mechanisms.shaft.spec import Analysis, Bearing, Gear, Material, ShaftSpec
 from drivewright.spec.csv_columns import read_columns
-from drivewright.units import SI
 
 DOWN = np.array([0.0, -1.0])
 
@@ -137,9 +136,7 @@ def rolling_bearing(spec: ShaftSpec, bearing: Bearing) -> BallBearing | RollerBe
             found = bearings.bearing(str(bearing.bearing), spec.catalogue)
         except InputError as error:
             raise SpecError(str(error), f"bearings.{bearing.name}.bearing") from None
-    keys = ("radial_clearance", "dynamic_rating", "static_rating")
-    changes = {key: SI(getattr(bearing, key)) for key in keys if getattr(bearing, key) is not None}
-    return found.replace(**changes) if changes else found
+    return bearings.replace_catalogue_values(found, bearing.radial_clearance, bearing.dynamic_rating, bearing.static_rating)
 
 
 # -- loads ---------------------------------------------------------------------------------------------------------------------

@@ -1,0 +1,87 @@
+"""Torsional stiffness, loads of bearings and the statics beside them as values and findings of a result."""
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from drivewright import bearings
+from drivewright._typing import Complexes, Floats
+from drivewright.bearings import RollingBearing
+from drivewright.indexing.contacts import CamContacts
+from drivewright.indexing.stiffness.result import TorsionalStiffness
+from drivewright.indexing.stiffness.statics import crank_load_deviations, equivalent_load
+from drivewright.result import Table, Value
+
+
+def stiffness_values(angles: Floats, found: TorsionalStiffness) -> dict[str, Value]:
+    """Part of the input angles (p,) [rad] where the torque is not carried; mean, extremes and range of the secant where it is."""
+    carried = found.carried
+    meaning = "part of the positions where no contact without a gap carries the torque"
+    values = {"stiffness.undefined_fraction": Value(float(np.mean(~carried)), "-", meaning)}
+    if not carried.any():
+        return values
+    secant, at = found.secant[carried], angles[carried]
+    least = int(np.argmin(secant))
+    return values | {
+        "stiffness.mean": Value(float(np.mean(secant)), "N m/rad", "mean secant stiffness of the positions that carry the torque"),
+        "stiffness.minimum": Value(float(secant[least]), "N m/rad", "least secant stiffness"),
+        "stiffness.minimum.at": Value(float(at[least]), "rad", "input angle of the least stiffness"),
+        "stiffness.maximum": Value(float(np.max(secant)), "N m/rad", "greatest secant stiffness"),
+        "stiffness.range": Value(float(np.ptp(secant)), "N m/rad", "greatest less least secant stiffness"),
+    }
+
+
+def dwell_values(angles: Floats, found: TorsionalStiffness, forces: Table) -> dict[str, Value]:
+    """The same in the dwell, where work is done on the table, with the largest force of a `pin_force_table`."""
+    meaning = "part of the dwell where the torque is not held without play"
+    values = {"dwell.undefined_fraction": Value(float(np.mean(~found.carried)), "-", meaning)}
+    if found.carried.any():
+        least = int(np.nanargmin(found.secant))
+        values |= {
+            "dwell.stiffness.minimum": Value(float(found.secant[least]), "N m/rad", "least secant stiffness in the dwell"),
+            "dwell.stiffness.minimum.at": Value(float(angles[least]), "rad", "input angle of the least stiffness in the dwell"),
+            "dwell.pins.max_force": Value(float(np.max(forces["force"].data)), "N", "largest force on a pin in the dwell"),
+        }
+    return values
+
+
+def stiffness_findings(angles: Floats, found: TorsionalStiffness, after_play: TorsionalStiffness) -> Iterator[str]:
+    """Why there is no stiffness at some of the input angles (p,) [rad], and at how many of them there is one after the play."""
+    lost, reasons = np.flatnonzero(~found.carried), found.reasons
+    for reason in dict.fromkeys(reasons[k] for k in lost):
+        rows = [k for k in lost if reasons[k] == reason]
+        after = int(np.sum(after_play.carried[rows]))
+        more = f" At {after} of them a contact takes it after the play: table stiffness, secant_after_play." if after else ""
+        places = ", ".join(f"{angle:.4g}" for angle in np.degrees(angles[rows[:12]])) + (" ..." if len(rows) > 12 else "")
+        yield f"no stiffness at {len(rows)} of {len(angles)} input angles ({places} deg) against {found.torque:.6g} N m: {reason}.{more}"
+
+
+def bearing_load_values(
+    group: str, forces: Mapping[str, Complexes], rolling: RollingBearing | None = None, speed: float | None = None
+) -> dict[str, Value]:
+    """Largest load of a group of bearings; of a rated rolling bearing the equivalent load and the life of the worst one.
+
+    forces: (p,) complex [N] by name, nan where nothing carries; with a rolling bearing over a whole turn of the input, first and last
+    position being one; speed of the input [rad/s].
+    """
+    largest = max(float(np.nanmax(np.abs(force))) for force in forces.values())
+    values = {f"{group}.max_load": Value(largest, "N", f"largest load of a {group} bearing")}
+    if rolling is None or rolling.dynamic_rating is None:
+        return values
+    mean = max(equivalent_load(np.abs(force), bearings.life_exponent(rolling)) for force in forces.values())
+    life = bearings.basic_life(rolling, mean) if mean > 0 else None
+    if life is not None:
+        words = f"basic life L10 (ISO 281) of the worst {group} bearing, turns of the input"
+        values[f"{group}.equivalent_load"] = Value(mean, "N", f"load of constant size with the same life, worst {group} bearing")
+        values[f"{group}.basic_life"] = Value(float(life), "-", words)
+        if speed:
+            values[f"{group}.basic_life.time"] = Value(bearings.life_duration(life, speed), "s", "the same at the input's speed")
+    return values
+
+
+def statics_values(found: TorsionalStiffness, contacts: Sequence[CamContacts], eccentricity: float, spacing: float) -> dict[str, Value]:
+    """Largest differences of the loads by statics alone from those in equilibrium; eccentricity, spacing of the split shafts [m]."""
+    return {
+        f"statics.{name}.deviation": Value(deviation, "-", f"equations (8) as {name} against the equilibrium, over the largest load")
+        for name, deviation in crank_load_deviations(found, contacts, eccentricity, spacing).items()
+    }

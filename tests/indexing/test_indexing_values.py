@@ -1,0 +1,97 @@
+"""Values and findings about plate cams: walls, profiles that are cut away, directions without contact, positions without stiffness."""
+
+import numpy as np
+import pytest
+
+from drivewright.indexing.motion import TURN, IndexMotion, index_motion, motion_table
+from drivewright.indexing.pin_wheel import PinWheel, profile_findings, sleeve_findings, wall_thicknesses
+from drivewright.indexing.stiffness.result import CARRIED, FREE, TorsionalStiffness
+from drivewright.indexing.stiffness.values import bearing_load_values, stiffness_findings, stiffness_values
+from drivewright.indexing.values import contact_findings, motion_values, play_findings, play_values, pressure_angle_values
+from drivewright.motion import law
+
+pytestmark = pytest.mark.analytical
+
+
+def pin_wheel(eccentricity, name="modified-sine", side="inside"):
+    return PinWheel(12, 0.12, 8e-3, eccentricity, index_motion(name, 12), side)
+
+
+def test_motion_values_are_the_peaks_of_the_law():
+    motion = IndexMotion(law("cycloidal"), 8, 3.0)
+    values = {name: value.value for name, value in motion_values(motion_table(motion, 3001), 3.0, speed=5.0).items()}
+    rate, second = TURN / 8 * 2 / 3.0, TURN / 8 * TURN / 9.0  # Vm = 2, Am = 2 pi
+    assert values["motion.velocity_factor"] == pytest.approx(rate, rel=1e-6)
+    assert values["motion.acceleration_factor"] == pytest.approx(second, rel=1e-6)
+    assert values["motion.peak_speed"] == pytest.approx(5 * rate, rel=1e-6)
+    assert values["motion.peak_acceleration"] == pytest.approx(25 * second, rel=1e-6)
+
+
+def test_walls_lie_between_holes_and_on_the_side_of_the_profile():
+    inside, outside = (wall_thicknesses(pin_wheel(0.01, side=side), 0.11, 0.07, (0.101, 0.103)) for side in ("inside", "outside"))
+    assert inside == pytest.approx((0.04, 0.011)) and outside == pytest.approx((0.04, -0.083))
+
+
+def test_what_cuts_the_profile_away_is_said():
+    assert [*profile_findings(pin_wheel(0.01))] == []
+    (cut,) = profile_findings(pin_wheel(0.008))
+    assert cut.startswith("pins of 8 mm reach the eccentricity of 8 mm")
+    assert [*profile_findings(pin_wheel(0.0099, "uniform"))] == []
+    (loops,) = profile_findings(pin_wheel(0.0105, "uniform"))
+    assert "is 1.05, above 1" in loops
+
+
+def test_a_sleeve_needs_room_around_the_shaft():
+    assert [*sleeve_findings(5e-3, 35e-3, 24.9e-3)] == []
+    (finding,) = sleeve_findings(5e-3, 35e-3, 25e-3)
+    assert "around a shaft of 25 mm (at most 25 mm)" in finding
+
+
+def test_directions_without_contact():
+    angle, best = np.radians([0.0, 10.0, 20.0]), np.array([[0.3, 0.5, 0.4], [np.nan, 0.2, np.nan]])
+    (finding,) = contact_findings(angle, best)
+    assert finding.startswith("no pin can be pushed backward by contact at 2 of 3 positions (0, 20 deg)") and finding.endswith(
+        "acts forward"
+    )
+    values = {name: value.value for name, value in pressure_angle_values(np.array([0.3, 0.5, np.nan]), best).items()}
+    assert values == {"pressure_angle.maximum": 0.5, "pressure_angle.forward.maximum": 0.5, "pressure_angle.backward.maximum": 0.2}
+    assert pressure_angle_values(np.full(2, np.nan), np.full((2, 2), np.nan)) == {}
+
+
+def test_play_has_no_maximum_where_nothing_stops_the_wheel():
+    angle, rotations = np.radians([0.0, 10.0, 20.0]), {"forward": np.array([0.0, 3e-3, 1e-3]), "backward": np.array([0.0, np.nan, 0.0])}
+    values = {name: value.value for name, value in play_values(angle, rotations, 0.12).items()}
+    assert values == {"play.forward.maximum": 3e-3, "play.forward.maximum.at": pytest.approx(np.radians(10.0))}
+    (finding,) = play_findings(angle, rotations)
+    assert finding.startswith("nothing stops the wheel backward at 1 of 3 input angles (10 deg)")
+
+
+def wheel_under_torque(outcome, rotation):
+    p = len(outcome)
+    tangent, none = np.full(p, np.nan), np.zeros(p, dtype=complex)
+    return TorsionalStiffness(
+        np.zeros(p), 100.0, "unilateral", outcome, np.array(rotation), tangent, (), none, none, none, none, none, {}, 1
+    )
+
+
+def test_stiffness_is_that_of_the_positions_that_carry():
+    angle = np.radians([0.0, 10.0, 20.0, 30.0])
+    found = wheel_under_torque((CARRIED, FREE, CARRIED, FREE), [1e-3, np.nan, 2e-3, np.nan])
+    values = {name: value.value for name, value in stiffness_values(angle, found).items()}
+    assert values == {
+        "stiffness.undefined_fraction": 0.5,
+        "stiffness.mean": pytest.approx(75e3),
+        "stiffness.minimum": pytest.approx(50e3),
+        "stiffness.minimum.at": pytest.approx(np.radians(20.0)),
+        "stiffness.maximum": pytest.approx(100e3),
+        "stiffness.range": pytest.approx(50e3),
+    }
+    after = wheel_under_torque((CARRIED, CARRIED, CARRIED, FREE), [1e-3, 1e-3, 2e-3, np.nan])
+    (finding,) = stiffness_findings(angle, found, after)
+    assert finding.startswith("no stiffness at 2 of 4 input angles (10, 30 deg) against 100 N m")
+    assert "At 1 of them a contact takes it after the play" in finding
+
+
+def test_loads_without_a_rating_have_no_life():
+    forces = {"crank.left": np.array([3 + 4j, np.nan, 1j]), "crank.right": np.array([-6.0 + 0j, np.nan, 1.0])}
+    assert {name: value.value for name, value in bearing_load_values("crank", forces).items()} == {"crank.max_load": 6.0}
