@@ -10,12 +10,15 @@ meshing, published_design  the published method of silent chains: equivalent pit
 standards        formulas of roller and silent chains: lengths, speeds, forces, ratings, sprockets
 plate, plate_outline, plate_holes, plate_stack  the plate: outline, holes and pins, mass; a strand of plates as solids
 sprocket, sprocket_root, roller_sprocket        sprockets with all their teeth, root trochoids, measuring pins
+roller_link      the link of a roller chain: plate and roller
+drive_scene      a drive on screen and as solids: sprockets, plates, the rigid chain over teeth
 interference     gaps between plates and teeth
 masses           masses, stiffness and damping that nobody has measured: discs for sprockets, joints in line
 touching         where flank, roller and guide touch: the geometry that explicit and implicit runs share
 closure          the rigid chain around two sprockets: centre distance and transmission error over a tooth
 explicit         simulation with short explicit steps, ensembles, batches over speed and scatter
 implicit         equilibrium and simulation with implicit steps
+plots            how the tables of chains are looked at
 stress           pins under pressure and bending, plates by finite elements, life
 """
 

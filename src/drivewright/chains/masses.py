@@ -10,6 +10,7 @@ from drivewright.chains.sprocket import Sprocket
 from drivewright.chains.tooth import Tooth
 
 IN_LINE = 3  # plate on pin, pin on pin, pin on plate: contacts that make a joint
+ROLLING, HINGED = 0.003, 0.02  # articulation damping over critical, estimated
 
 
 def disc_mass(radius: float, hole: float, width: float, density: float) -> float:
@@ -26,6 +27,21 @@ def _hole(radius: float, hole: float) -> float:
     return hole if hole < radius else 0.0
 
 
+class Disc(NamedTuple):
+    """A sprocket as a disc: mass [kg], moment of inertia about its axis [kg m^2]."""
+
+    mass: float
+    inertia: float
+
+
+def sprocket_disc(
+    radius: float, hole: float, width: float, density: float, mass: float | None = None, inertia: float | None = None
+) -> Disc:
+    """`Disc` of a radius, hole (radius) and width [m] and density [kg/m^3]; mass and inertia as given where they are measured."""
+    mass = mass or disc_mass(radius, hole, width, density)
+    return Disc(mass, inertia or disc_inertia(mass, radius, hole))
+
+
 def joint_stiffness(contact_stiffness: float) -> float:
     """Stiffness of a joint [N/m]: its contacts one behind the other."""
     return contact_stiffness / IN_LINE
@@ -34,6 +50,19 @@ def joint_stiffness(contact_stiffness: float) -> float:
 def strands_stiffness(stiffness: float, free: float) -> float:
     """Stiffness [N/m] of both strands side by side, each with so many free plates between joints of a stiffness [N/m]."""
     return 2 * stiffness / (free + 1)
+
+
+def strand_damping(ratio: float, stiffness: float, inertia: float, arm: float = 1.0) -> float:
+    """Damping [N s/m] of a mass m [kg] on strands of a stiffness k [N/m] at a ratio of the critical one, 2 ratio sqrt(k m).
+
+    With an arm R [m], that of the rotation of a moment of inertia J [kg m^2] on strands at R: 2 ratio R sqrt(k J)  [N m s].
+    """
+    return 2 * ratio * arm * np.sqrt(stiffness * inertia)
+
+
+def usual_articulation_ratio(rolling_radius: float) -> float:
+    """Damping of a joint's articulation over critical: little more than steel itself has where pins roll, more where one pin slides."""
+    return ROLLING if rolling_radius else HINGED
 
 
 def articulation_damping(ratio: float, tension: float, hole_pitch: float, inertia: float) -> float:

@@ -1,17 +1,55 @@
 """Many designs in one spec: arrays in the place of its numbers, for formulas that take arrays; nothing is validated again."""
 
 import operator
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
 import numpy as np
 
 from drivewright._typing import Bools, Floats
+from drivewright.errors import InputError
 from drivewright.spec.fields import field_at, type_of, value_at
 from drivewright.spec.mechanism_spec import MechanismSpec
 
 SpecT = TypeVar("SpecT", bound=MechanismSpec)
+BLOCK = 8192  # designs at a time: their arrays stay in the processor's cache
 LIMITS = {"gt": operator.gt, "ge": operator.ge, "lt": operator.lt, "le": operator.le}
+
+
+def evaluator(
+    spec: SpecT,
+    keys: Sequence[str],
+    names: Sequence[str],
+    quantities: Callable[[SpecT], Mapping[str, Floats]],
+    possible: Callable[[Mapping[str, Floats], int], Bools],
+) -> Callable[[Floats], dict[str, Floats]] | None:
+    """designs (n, keys) in SI -> {name: (n,)}, in blocks; nan in every name where a design is impossible or one of the names not finite.
+
+    quantities: everything there is of a spec with arrays in it; possible: columns and their length -> which designs the spec accepts.
+    None where no design can be built, or a name is not among the quantities.
+    """
+    try:
+        known = quantities(with_columns(spec, {key: np.array([sample_of(spec, key)]) for key in keys}))
+    except InputError:  # the run of one design says why
+        return None
+    if not set(names) <= set(known):
+        return None
+
+    def evaluate(designs: Floats) -> dict[str, Floats]:
+        """{name: (n,)} of designs (n, d)."""
+        columns = dict(zip(keys, np.asarray(designs, float).T, strict=True))
+        values = {name: np.full(len(designs), np.nan) for name in names}
+        accepted = np.flatnonzero(possible(columns, len(designs)))
+        for start in range(0, len(accepted), BLOCK):
+            rows = accepted[start : start + BLOCK]
+            everything = quantities(with_columns(spec, {key: column[rows] for key, column in columns.items()}))
+            wanted = [np.broadcast_to(everything[name], rows.shape) for name in names]
+            exist = np.all(np.isfinite(wanted), axis=0)
+            for name, column in zip(names, wanted, strict=True):
+                values[name][rows[exist]] = column[exist]
+        return values
+
+    return evaluate
 
 
 def sample_of(spec: MechanismSpec, key: str) -> float:

@@ -515,7 +515,7 @@ def test_plates_and_rollers_of_a_roller_chain_stand_side_by_side():
         heights = sorted((solid.z, solid.z + solid.thickness) for solid in part.solids)
         out = 0.5 * width + number * sheet
         assert np.array(heights) == pytest.approx(np.array([(-out - sheet, -out), (-width / 2, width / 2), (out, out + sheet)]))
-    roller = next(shape.outline for shape in link_shapes(model) if shape.layer == "roller").points(1e-7)
+    roller = next(shape.outline for shape in link_shapes(model)[0] if shape.layer == "roller").points(1e-7)
     assert (roller.min(axis=0) + roller.max(axis=0)) / 2 == pytest.approx([P / 2, 0], abs=1e-7)
 
 

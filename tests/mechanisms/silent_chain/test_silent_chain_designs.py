@@ -325,7 +325,7 @@ def test_a_row_has_the_same_bits_in_any_company(keys, monkeypatch):
     together, shuffled = evaluate(rows), evaluate(rows[order])
     sevens = [evaluate(np.asfortranarray(rows[at : at + 7])) for at in range(0, 105, 7)]
     ones = [evaluate(rows[at : at + 1]) for at in range(60)]
-    monkeypatch.setattr(designs, "BLOCK", 13)
+    monkeypatch.setattr("drivewright.spec.designs.BLOCK", 13)
     split = evaluate(rows)
     for name in names:
         np.testing.assert_array_equal(shuffled[name], together[name][order])

@@ -83,6 +83,11 @@ class Closure:
         """(S,)  [m]."""
         return self.states.centre_distance
 
+    @property
+    def free_plates(self) -> float:
+        """Number of free plates of a strand, mean over the samples and both strands."""
+        return float(0.5 * (self.drive.links - np.mean(np.sum(self.states.seated, axis=1))))
+
     def mean_wrap(self, number: int) -> float:
         """Wrap of the driver (0) or the driven sprocket (1), mean over the tooth  [rad]."""
         wraps, angle = self.states.wrap[:, number], self.driver_angle

@@ -12,6 +12,7 @@ from drivewright.numerics.ensemble import Estimate, mean_of_members
 from drivewright.numerics.signals import highest_peaks
 from drivewright.result import Column, Table
 
+PEAKS = 4  # of a spectrum, in the Campbell diagram
 PLATE_FORCES = ("left x", "left y", "right x", "right y", "left flank", "right flank")
 
 
@@ -83,7 +84,7 @@ def speed_table(rows: Sequence[tuple[float, Level]]) -> Table:
     )
 
 
-def campbell_table(rows: Sequence[tuple[float, Level]], teeth: int, peaks: int) -> Table:
+def campbell_table(rows: Sequence[tuple[float, Level]], teeth: int, peaks: int = PEAKS) -> Table:
     """Table "campbell": the highest peaks of the spectra over the speed, beside the mesh frequency of so many teeth."""
     speed = np.array([speed for speed, _ in rows])
     highest = [highest_peaks(level.frequency, level.spectrum, peaks) for _, level in rows]

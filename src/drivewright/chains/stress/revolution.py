@@ -10,6 +10,7 @@ from drivewright._typing import Bools, Floats
 from drivewright.chains.explicit.motion import Motion
 from drivewright.chains.explicit.simulate import tooth_time
 from drivewright.chains.stress.plate import Basis, Loads
+from drivewright.result import Column, Table
 
 SEAT = 0.17  # sine of how far a seat reaches around its pin beyond a right angle
 
@@ -65,6 +66,23 @@ class StressedPlate(NamedTuple):
 
     basis: Basis
     revolution: PlateRevolution
+
+
+def history_table(revolution: PlateRevolution, mises: Floats) -> Table:
+    """Table "plate_history": von Mises stress (n,) [Pa] at the worst place of a plate, and its loads over the revolution."""
+    pins, flanks = np.asarray(revolution.loads.pins), np.asarray(revolution.loads.flanks)
+    return Table(
+        "plate_history",
+        "Stress of a plate at its worst place over a revolution",
+        (
+            Column("time", "s", "time", revolution.time),
+            Column("mises", "Pa", "von Mises stress at the worst place", mises),
+            Column("left_pin", "N", "force of the left pin on one plate", np.hypot(*pins[:, 0].T)),
+            Column("right_pin", "N", "force of the right pin on one plate", np.hypot(*pins[:, 1].T)),
+            Column("left_flank", "N", "force on the left flank of one plate", flanks[:, 0]),
+            Column("right_flank", "N", "force on the right flank of one plate", flanks[:, 1]),
+        ),
+    )
 
 
 def open_seats(pins: Floats) -> Bools:

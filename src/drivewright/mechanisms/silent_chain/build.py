@@ -11,6 +11,7 @@ from drivewright.chains.link import Link, design_link, seat_height
 from drivewright.chains.plate import LinkMass, Plate, bar_link_mass, design_plate, mean_link_mass
 from drivewright.chains.plate_holes import Pins, joint_pins
 from drivewright.chains.published_design import PublishedSprocket, published_sprocket
+from drivewright.chains.roller_link import RollerLink
 from drivewright.chains.roller_sprocket import RollerSprocket, design_roller_sprocket
 from drivewright.chains.sprocket import Sprocket, design_sprocket
 from drivewright.chains.standards import StrandForces, pitch_diameter, strand_forces
@@ -128,6 +129,12 @@ class ChainModel:
         return design_sprocket(self.link, teeth, self.cutter, **lengths)
 
     @property
+    def roller_link(self) -> RollerLink | None:
+        """The link of a roller chain."""
+        roller = self.spec.roller
+        return RollerLink(self.spec.pitch, roller.diameter, self.contact_length, self.spec.plate.thickness) if roller else None
+
+    @property
     def bore(self) -> float:
         """Diameter of the sprockets' holes [m]."""
         given = self.spec.cutter.bore
@@ -145,7 +152,7 @@ class ChainModel:
     def chain_width(self) -> float:
         """Width of the pack of plates [m]; of a roller chain over its four rows of plates."""
         plate = self.spec.plate
-        return self.contact_length + 4 * plate.thickness if self.spec.roller else sum(plate.lacing) * plate.thickness
+        return self.roller_link.width if self.roller_link else sum(plate.lacing) * plate.thickness
 
 
 def build(spec: SilentChainSpec) -> ChainModel:

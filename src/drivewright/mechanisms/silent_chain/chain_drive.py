@@ -10,9 +10,6 @@ from drivewright.chains.standards import pitch_diameter
 from drivewright.mechanisms.silent_chain import spec as tables
 from drivewright.mechanisms.silent_chain.build import ChainModel
 
-ROLLING, HINGED = 0.003, 0.02  # articulation damping over critical: little more than steel itself has, and with a pin that slides
-ROLLER_BACK = 0.45  # of the pitch: from the pins to the edge of a roller chain's plate
-
 
 def chain_drive(model: ChainModel) -> ChainDrive:
     """The `ChainDrive` for any solver of its motion."""
@@ -30,7 +27,7 @@ def _chain(model: ChainModel) -> Chain:
     if not spec.roller and not model.plate_refusal:
         toe, crotch = (-height for height in model.plate.flank_heights)
     given = spec.contact.articulation_damping_ratio
-    ratio = (ROLLING if model.link.radius else HINGED) if given is None else given
+    ratio = masses.usual_articulation_ratio(model.link.radius) if given is None else given
     return Chain(
         model.link,
         spec.links,
@@ -55,10 +52,9 @@ def _driven(model: ChainModel, touch: ChainContact) -> Sprocket:
     """On its slide or fixed; its load resists changes of speed about the nominal one."""
     given, drive, teeth = model.spec.driven, model.drive, model.teeth[1]
     disc, fixed, ratio = _disc(model, given, teeth), given.centre_distance, given.damping_ratio
-    free = 0.5 * (model.spec.links - np.mean(np.sum(model.closure.states.seated, axis=1)))
-    stiffness = masses.strands_stiffness(masses.joint_stiffness(model.spec.contact.stiffness), free)
-    slide = None if fixed else Slide(0.0, drive.preload, damping=2 * ratio * np.sqrt(stiffness * disc["mass"]))
-    turning = 0.0 if drive.ramp else 2 * ratio * _pitch_radius(model, teeth) * np.sqrt(stiffness * disc["inertia"])
+    stiffness = masses.strands_stiffness(masses.joint_stiffness(model.spec.contact.stiffness), model.closure.free_plates)
+    slide = None if fixed else Slide(0.0, drive.preload, damping=masses.strand_damping(ratio, stiffness, disc.mass))
+    turning = 0.0 if drive.ramp else masses.strand_damping(ratio, stiffness, disc.inertia, _pitch_radius(model, teeth))
     return Sprocket(
         contact=touch,
         centre=(fixed or model.closure.mean, 0.0),
@@ -66,22 +62,23 @@ def _driven(model: ChainModel, touch: ChainContact) -> Sprocket:
         damping=turning,
         reference_speed=-drive.speed * model.teeth[0] / teeth,
         slide=slide,
-        **disc,
+        **disc._asdict(),
         **_teeth(model, model.sprockets[1]),
     )
 
 
 def _further(model: ChainModel, given: tables.Sprocket, touch: ChainContact) -> Sprocket:
     """A sprocket that the chain passes besides, with teeth that fit."""
-    wheel = model.sprocket(given.teeth)
-    disc = _disc(model, given, given.teeth)
-    return Sprocket(contact=touch, centre=given.centre, torque=given.load_torque, **disc, **_teeth(model, wheel))
+    disc, teeth = _disc(model, given, given.teeth)._asdict(), _teeth(model, model.sprocket(given.teeth))
+    return Sprocket(contact=touch, centre=given.centre, torque=given.load_torque, **disc, **teeth)
 
 
 def _guide(model: ChainModel, given: tables.Guide, touch: ChainContact) -> Guide:
     """A rail, or a tensioner on a slide, against the backs or the toes."""
-    plate = None if model.spec.roller else model.plate
-    distance = ROLLER_BACK * model.spec.pitch if plate is None else plate.back if given.side == "outside" else -plate.toe
+    if model.roller_link:
+        distance = model.roller_link.end_radius
+    else:
+        distance = model.plate.back if given.side == "outside" else -model.plate.toe
     slide = None
     if given.force is not None:
         direction = given.direction if given.direction is not None else 0.0
@@ -96,11 +93,10 @@ def _teeth(model: ChainModel, wheel: Any) -> dict[str, Any]:
     return masses.meshing_tooth(wheel, model.spec.dynamics.thickness_deviation)._asdict()
 
 
-def _disc(model: ChainModel, given: tables.Driven | tables.Sprocket, teeth: int) -> dict[str, float]:
+def _disc(model: ChainModel, given: tables.Driven | tables.Sprocket, teeth: int) -> masses.Disc:
     """Mass [kg] and inertia [kg m^2], as given or of a disc as large as the pitch circle and as wide as the chain."""
-    radius, hole = _pitch_radius(model, teeth), 0.5 * model.bore
-    mass = given.mass or masses.disc_mass(radius, hole, model.chain_width, model.spec.material.density)
-    return {"mass": mass, "inertia": given.inertia or masses.disc_inertia(mass, radius, hole)}
+    radius, hole, density = _pitch_radius(model, teeth), 0.5 * model.bore, model.spec.material.density
+    return masses.sprocket_disc(radius, hole, model.chain_width, density, given.mass, given.inertia)
 
 
 def _pitch_radius(model: ChainModel, teeth: int) -> float:

@@ -1,19 +1,19 @@
 """Many chains at once: the published method, and the layout's closed forms, with arrays in the place of the spec's numbers."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.chains import standards
-from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, build
 from drivewright.mechanisms.silent_chain.layout import side_measures
 from drivewright.mechanisms.silent_chain.meshing import measures, seated_measures
 from drivewright.mechanisms.silent_chain.spec import LEAST_TEETH, SilentChainSpec
 from drivewright.result import Check
 from drivewright.spec import value_at
-from drivewright.spec.designs import sample_of, with_columns, within_limits
+from drivewright.spec.designs import evaluator, within_limits
 
 KEYS = (
     "pitch",
@@ -31,7 +31,6 @@ KEYS = (
     "drive.preload",
     "drive.load_torque",
 )
-BLOCK = 8192  # designs at a time: their arrays stay in the processor's cache
 
 
 def batch(spec: SilentChainSpec, keys: Sequence[str], names: Sequence[str]) -> Callable[[Floats], dict[str, Floats]] | None:
@@ -41,28 +40,7 @@ def batch(spec: SilentChainSpec, keys: Sequence[str], names: Sequence[str]) -> C
     """
     if spec.roller or not set(keys) <= set(KEYS) or (spec.drive is None and any(key.startswith("drive.") for key in keys)):
         return None
-    try:
-        known = _quantities(with_columns(spec, {key: np.array([sample_of(spec, key)]) for key in keys}))
-    except InputError:  # no design can be built; the run of one says why
-        return None
-    if not set(names) <= set(known):
-        return None
-
-    def evaluate(designs):
-        """{name: (n,)} of designs (n, d) in SI, nan for an impossible one."""
-        columns = dict(zip(keys, np.asarray(designs, float).T, strict=True))
-        found = {name: np.full(len(designs), np.nan) for name in names}
-        possible = np.flatnonzero(_possible(spec, columns, len(designs)))
-        for start in range(0, len(possible), BLOCK):
-            rows = possible[start : start + BLOCK]
-            everything = _quantities(with_columns(spec, {key: column[rows] for key, column in columns.items()}))
-            wanted = [np.broadcast_to(everything[name], rows.shape) for name in names]
-            exist = np.all(np.isfinite(wanted), axis=0)
-            for name, column in zip(names, wanted, strict=True):
-                found[name][rows[exist]] = column[exist]
-        return found
-
-    return evaluate
+    return evaluator(spec, keys, names, _quantities, partial(_possible, spec))
 
 
 def _possible(spec, columns, count):

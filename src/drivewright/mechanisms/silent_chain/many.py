@@ -15,7 +15,6 @@ from drivewright.result import Answer, Answers, Value
 SPEEDS = 12  # of the Campbell diagram, unless told otherwise, up to
 BEYOND = 1.5  # times the design's speed
 REVOLUTIONS = 2  # of the chain, in a run of the Campbell diagram
-PEAKS = 4  # of a spectrum, in the Campbell diagram
 POSITIONS = 24  # in a tooth, at rest
 PERCENTILES = (5, 50, 95)
 
@@ -32,7 +31,7 @@ def speeds(model: ChainModel, done: Answers) -> Answer:
     if not rows:
         return Answer(findings=findings, outcome="partial")
     table = speed_table(rows)
-    diagram = campbell_table(rows, model.teeth[0], PEAKS)
+    diagram = campbell_table(rows, model.teeth[0])
     return Answer({}, (table, diagram), (), findings)
 
 

@@ -6,12 +6,12 @@ from drivewright import fatigue
 from drivewright.chains.explicit.motion import Motion
 from drivewright.chains.stress.life import life_map, life_table, plate_life
 from drivewright.chains.stress.plate import Basis, plate_basis, plate_body, stress_history, stress_picture, worst
-from drivewright.chains.stress.revolution import PlateRevolution, StressedPlate, fewer_instants
+from drivewright.chains.stress.revolution import PlateRevolution, StressedPlate, fewer_instants, history_table
 from drivewright.fatigue.material import StrainLife
 from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.dynamics import no_dynamics
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
-from drivewright.result import Answer, Answers, Check, Column, Table, Value
+from drivewright.result import Answer, Answers, Check, Value
 from drivewright.solids.plane import plane_von_mises
 
 LEAST = 0.3  # of the greatest stress: points below it are not looked at for life
@@ -37,7 +37,6 @@ def stress(model: ChainModel, done: Answers) -> Answer:
     loads = revolution.loads
     peak = worst(basis, loads)
     history = plane_von_mises(stress_history(basis, loads, [peak.row])[:, 0])
-    pins, flanks = np.asarray(loads.pins), np.asarray(loads.flanks)
     x, y = peak.place
     values = {
         "plate.max_von_mises": Value(peak.stress, "Pa", "greatest von Mises stress of a plate as it goes round, beside its loaded flanks"),
@@ -53,20 +52,8 @@ def stress(model: ChainModel, done: Answers) -> Answer:
         "yield strength over the greatest von Mises stress of a plate",
         ("chain",),
     )
-    table = Table(
-        "plate_history",
-        "Stress of a plate at its worst place over a revolution",
-        (
-            Column("time", "s", "time", revolution.time),
-            Column("mises", "Pa", "von Mises stress at the worst place", history),
-            Column("left_pin", "N", "force of the left pin on one plate", np.hypot(*pins[:, 0].T)),
-            Column("right_pin", "N", "force of the right pin on one plate", np.hypot(*pins[:, 1].T)),
-            Column("left_flank", "N", "force on the left flank of one plate", flanks[:, 0]),
-            Column("right_flank", "N", "force on the right flank of one plate", flanks[:, 1]),
-        ),
-    )
     picture = stress_picture(basis, loads, peak.instant)
-    return Answer(values, (table, picture), (safety,), data=StressedPlate(basis, revolution))
+    return Answer(values, (history_table(revolution, history), picture), (safety,), data=StressedPlate(basis, revolution))
 
 
 def life(model: ChainModel, done: Answers) -> Answer:

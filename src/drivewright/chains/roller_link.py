@@ -1,0 +1,58 @@
+"""The link of a roller chain: plates of round ends and a waist, and its roller, as shapes, drawing and solids."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from drivewright._typing import Floats
+from drivewright.chains.roller_sprocket import roller_plate
+from drivewright.scene import Drawing, Outline, Part, Prism, Shape, circle
+
+END, WAIST = 0.45, 0.5  # radii of the plate's round ends and of the arcs of its waist, over the pitch
+
+
+class RollerLink(NamedTuple):
+    """pitch, roller_diameter, inner_width between the inner plates, thickness of a plate; all [m]."""
+
+    pitch: float
+    roller_diameter: float
+    inner_width: float
+    thickness: float
+
+    @property
+    def end_radius(self) -> float:
+        """Radius of the plate's ends about its pins  [m]."""
+        return END * self.pitch
+
+    @property
+    def width(self) -> float:
+        """Width of the chain over its four rows of plates  [m]."""
+        return self.inner_width + 4 * self.thickness
+
+    @property
+    def plate(self) -> Outline:
+        """Outline of a plate, pins at (+-p/2, 0)."""
+        return roller_plate(self.pitch, self.end_radius, WAIST * self.pitch)
+
+    @property
+    def roller(self) -> Outline:
+        """Outline of the roller on the link's right pin."""
+        return circle((0.5 * self.pitch, 0.0), 0.5 * self.roller_diameter)
+
+    @property
+    def shapes(self) -> tuple[Shape, Shape]:
+        """Plate and roller for a scene."""
+        return Shape("body", self.plate), Shape("roller", self.roller)
+
+    def drawing(self, name: str = "plate") -> Drawing:
+        """Drawing of a plate for manufacture."""
+        title = f"plate of a roller chain, pitch {1e3 * self.pitch:.5g} mm"
+        return Drawing(name, title, (Shape("profile", self.plate),), self.thickness, milled=False)
+
+    def parts(self, poses: Floats) -> Iterator[Part]:
+        """`Part` of each link at poses (n, 3) [m, m, rad]: plates on both sides of the rollers, inner and outer in turn."""
+        plate, roller, sheet = self.plate, Prism(self.roller, (), -0.5 * self.inner_width, self.inner_width), self.thickness
+        for number, pose in enumerate(poses):
+            out = 0.5 * self.inner_width + (number % 2) * sheet
+            solids = (Prism(plate, (), out, sheet), Prism(plate, (), -out - sheet, sheet), roller)
+            x, y, turn = map(float, pose)
+            yield Part(f"link {number}", solids, (x, y, turn), ("steel", "blue")[number % 2])
