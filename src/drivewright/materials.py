@@ -5,10 +5,11 @@ work that it names; check such numbers before they carry a design.  Your own mat
 """
 
 from dataclasses import dataclass, fields
+from typing import NamedTuple
 
 from drivewright.errors import UnknownName
 
-__all__ = ["Material", "Source", "material", "names"]
+__all__ = ["Material", "Properties", "Source", "material", "names", "properties"]
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,31 @@ def material(name: str) -> Material:
     if name not in _CARDS:
         raise UnknownName("material", name, _CARDS)
     return _CARDS[name]
+
+
+class Properties(NamedTuple):
+    """Numbers of a material as a calculation takes them: modulus E [Pa], poisson nu [-], density [kg/m^3], yield_strength [Pa] or None."""
+
+    modulus: float
+    poisson: float
+    density: float
+    yield_strength: float | None
+
+
+STEEL = Properties(206e9, 0.3, 7850.0, None)  # where neither a number nor a card is given
+
+
+def properties(
+    card: str | None = None,
+    modulus: float | None = None,
+    poisson: float | None = None,
+    density: float | None = None,
+    yield_strength: float | None = None,
+) -> Properties:
+    """The `Properties` that are given, the others those of a card by its name, without a card those of steel."""
+    usual: Material | Properties = material(card) if card else STEEL
+    given = {"modulus": modulus, "poisson": poisson, "density": density, "yield_strength": yield_strength}
+    return Properties(**{key: getattr(usual, key) if value is None else value for key, value in given.items()})
 
 
 def names() -> list[str]:

@@ -6,9 +6,9 @@ own in the same form is read with `catalogue=path`; its bearings come first, and
 
 from functools import cache
 from pathlib import Path
-from typing import Literal, cast
+from typing import Annotated, Literal, cast
 
-from pydantic import model_validator
+from pydantic import BeforeValidator, model_validator
 
 from drivewright.bearings.ball import BallBearing
 from drivewright.bearings.roller import RollerBearing
@@ -17,6 +17,8 @@ from drivewright.spec import Named, Spec, Text, from_document, read_document
 from drivewright.spec.fields import Field
 from drivewright.units import SI, Length
 
+# the name of a bearing in a spec: 61904 without quotes is a number in TOML
+Designation = Annotated[Text, BeforeValidator(lambda value: str(value) if type(value) is int else value)]
 OWN = Path(__file__).with_name("catalogue.toml")
 ENVELOPE = ("bore", "outer_diameter", "width")
 

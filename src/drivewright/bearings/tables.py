@@ -1,15 +1,17 @@
-"""Rolling bearings as tables of a result: the load on every element, and stiffness over load."""
+"""Rolling bearings as tables of a result, and their plots: the load on every element, and stiffness over load."""
+
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.bearings.solving import BearingEquilibrium
 from drivewright.bearings.stiffness_curve import LoadCurve
-from drivewright.result import Column, Table
+from drivewright.result import Column, Plot, Table
 
 
-def element_table(state: BearingEquilibrium, name: str, title: str) -> Table:
-    """A row for every rolling element by its place, the first again at the end."""
+def element_table(state: BearingEquilibrium, name: str) -> Table:
+    """`elements.NAME` of the bearing of this name: a row for every rolling element by its place, the first again at the end."""
     n = len(state.element_loads)
     angle = 2 * np.pi * np.arange(n + 1) / n + state.bearing.first_element
     columns = (
@@ -19,7 +21,7 @@ def element_table(state: BearingEquilibrium, name: str, title: str) -> Table:
         Column("inner_pressure", "Pa", "peak pressure at the inner race", _closed(state.pressures[:, 0])),
         Column("outer_pressure", "Pa", "peak pressure at the outer race", _closed(state.pressures[:, 1])),
     )
-    return Table(name, title, columns)
+    return Table(f"elements.{name}", f"Rolling elements of bearing {name}", columns)
 
 
 def _closed(data: Floats) -> Floats:
@@ -27,12 +29,25 @@ def _closed(data: Floats) -> Floats:
     return np.concatenate([data, data[:1]])
 
 
-def load_curve_table(curve: LoadCurve, name: str, title: str) -> Table:
-    """A row for every load of a `LoadCurve`."""
+def load_curve_table(curve: LoadCurve, name: str) -> Table:
+    """`curve.NAME` of the bearing of this name: a row for every load of its `LoadCurve`."""
     columns = (
         Column("load", "N", "radial force, axial force in proportion", curve.load),
         Column("displacement", "m", "radial displacement", curve.displacement),
         Column("tangent", "N/m", "tangent stiffness", curve.tangent),
         Column("secant", "N/m", "secant stiffness", curve.secant),
     )
-    return Table(name, title, columns)
+    return Table(f"curve.{name}", f"Bearing {name} over its load", columns)
+
+
+def bearing_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
+    """The plots of every `element_table` and `load_curve_table` among the tables of a result, by their names."""
+    for name, table in tables.items():
+        kind, _, bearing = name.partition(".")
+        if kind == "elements":
+            yield Plot(name, f"Load on the rolling elements of bearing {bearing}", name, "angle", ("load",), style="polar")
+            angled = ("contact_angle",) if any(table["contact_angle"].data) else ()
+            columns = (*angled, "inner_pressure", "outer_pressure")
+            yield Plot(f"contact.{bearing}", f"Contact angle and pressure in bearing {bearing}", name, "angle", columns)
+        if kind == "curve":
+            yield Plot(name, f"Bearing {bearing} over its load", name, "load", ("displacement", "tangent", "secant"))

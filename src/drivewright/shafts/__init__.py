@@ -9,8 +9,8 @@ Flexibility: `influence` flexibility, stiffness and their parts; `unit_loads` ri
 fails first; `sensitivity` how the flexibility follows every parameter.
 Vibration: `vibration` modes and critical speeds; `mode_shapes` what they are compared with.
 Many at once: `batch` checks the arguments, `batch_kernels` computes.
-To look at: `drawing` shapes of a shaft, `tables` and `values` answers as tables and values of a result;
-`solid_check` the shaft as a solid beside the beam.
+To look at: `drawing` shapes of a shaft, `scenes` the shaft on screen as it bends; `tables`, `plots` and `values` answers as those of a
+result; `solid_check` the shaft as a solid beside the beam.
 """
 
 from importlib import import_module

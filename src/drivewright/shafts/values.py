@@ -1,6 +1,6 @@
 """Answers about a shaft as values and arrays of a result; `direction` is the unit vector (x, y) of the unit loads."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -8,10 +8,12 @@ from drivewright._typing import Floats
 from drivewright.result import Array, Value
 from drivewright.shafts.equilibrium import ShaftEquilibrium
 from drivewright.shafts.loaded import Diagram
+from drivewright.shafts.mode_shapes import first_mode_along
+from drivewright.shafts.model import Station
 from drivewright.shafts.sensitivity import FlexibilitySlope
 from drivewright.shafts.supports import SupportStiffness
 from drivewright.shafts.tables import station_pairs
-from drivewright.shafts.vibration import CriticalSpeeds
+from drivewright.shafts.vibration import CriticalSpeeds, Modes
 
 NO_MOMENT = 1e-12  # [N m] over the radial reaction [N] + 1 N: what rounding leaves
 
@@ -123,3 +125,19 @@ def frequency_values(bending: Floats, axial: Floats, torsional: Floats, critical
         for key, suffix, unit, meaning, numbers in rows
         for n, number in enumerate(numbers, 1)
     }
+
+
+def massless_values(frequencies: Floats) -> dict[str, Value]:
+    """Natural frequencies [Hz] of `massless_frequencies`, numbered from 1."""
+    return {
+        f"massless_modes.{n}.frequency": Value(float(each), "Hz", f"natural frequency {n} of the stations' masses on a massless shaft")
+        for n, each in enumerate(frequencies, 1)
+    }
+
+
+def massless_findings(frequencies: Floats, modes: Modes, stations: Sequence[Station], direction: Floats) -> Iterator[str]:
+    """How far the lowest of `massless_frequencies` is from the first mode along `direction`; nothing where stations have inertia."""
+    along = first_mode_along(modes, direction)
+    if along is not None and not any(station.diametral for station in stations):
+        error = frequencies[0] / modes.frequencies[along] - 1
+        yield f"leaving out the shaft's own mass (K = inverse of the flexibility) puts mode {along + 1} off by {100 * error:+.1f} %"

@@ -10,8 +10,8 @@ import drivewright as dw
 from drivewright import bearings, registry, scene
 from drivewright.mechanisms.shaft.build import tooth_load
 from drivewright.mechanisms.shaft.designs import batch
-from drivewright.mechanisms.shaft.scene import exaggeration
 from drivewright.oracles.shaft import moment_integrals
+from drivewright.shafts.scenes import exaggeration
 
 pytestmark = pytest.mark.property
 

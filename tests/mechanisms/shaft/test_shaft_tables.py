@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import drivewright as dw
-from drivewright import bearings
-from drivewright.mechanisms.shaft.build import material, tooth_load
+from drivewright import bearings, materials
+from drivewright.mechanisms.shaft.build import tooth_load
 from drivewright.oracles.shaft import moment_integrals
 from drivewright.oracles.shaft.independent_check import _flexibility, verify
 from drivewright.shafts import solid_check
@@ -209,12 +209,16 @@ def test_the_mate_pushes_a_gear_away_whichever_way_it_turns(torque):
 
 
 def test_material_is_as_given_else_of_the_card_else_steel():
-    steel = material(spec().material)
-    assert steel == (206e9, 0.3, 7850.0, None)
-    card = material(spec(material={"card": "C45"}).material)
-    assert card.yield_strength is not None and card.yield_strength > 1e8
-    own = material(spec(material={"card": "C45", "density": "7000 kg/m^3", "youngs_modulus": "200 GPa"}).material)
-    assert own == card._replace(density=7000.0, youngs_modulus=200e9)
+    def numbers(**material):
+        built = dw.build(spec(material=material))
+        return built.shaft.modulus, built.shaft.poisson, built.shaft.density, built.yield_strength
+
+    card = materials.material("C45")
+    assert numbers() == (206e9, 0.3, 7850.0, None)
+    assert numbers(card="C45") == (card.modulus, card.poisson, card.density, card.yield_strength)
+    own = numbers(card="C45", density="7000 kg/m^3", youngs_modulus="200 GPa", poisson_ratio=0.25)
+    assert own == (200e9, 0.25, 7000.0, card.yield_strength)
+    assert numbers(yield_strength="300 MPa")[3] == 300e6 and numbers(density="0 kg/m^3")[2] == 0
 
 
 def test_a_shear_coefficient_of_ones_own_and_ratings_of_ones_own():

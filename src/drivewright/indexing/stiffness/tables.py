@@ -1,6 +1,6 @@
-"""Torsional stiffness, forces of pins and loads of bearings as tables."""
+"""Torsional stiffness, forces of pins and loads of bearings as tables, and their plots."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from drivewright._typing import Complexes, Floats
 from drivewright.indexing.contacts import CamContacts
 from drivewright.indexing.pin_pressure import pin_pressure
 from drivewright.indexing.stiffness.result import TorsionalStiffness
-from drivewright.result import Column, Table
+from drivewright.result import Column, Plot, Table
 
 GROUP_LABELS = {
     "pin": "contacts of the pins",
@@ -20,6 +20,7 @@ GROUP_LABELS = {
     "gear": "gears",
     "wheel": "wheel and its bearing",
 }
+NO_SHARE = 1e-9  # of the largest share of a compliance: rounding
 SHAFTS, ENDS = ("left", "right"), ("front", "rear")
 
 
@@ -87,3 +88,19 @@ def bearing_load_table(angles: Floats, forces: Mapping[str, Complexes]) -> Table
             Column(f"{name}.y", "N", f"{words}, along y", force.imag),
         ]
     return Table("bearing_loads", "Loads of the bearings", tuple(columns))
+
+
+def stiffness_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
+    """The plots of `stiffness_table`, `pin_force_table` and `bearing_load_table`, of those that are among the tables of a result."""
+    if "stiffness" in tables:
+        yield Plot("stiffness", "Torsional stiffness", "stiffness", "angle", ("secant", "tangent", "secant_reversed"))
+        largest = {name: np.nanmax(np.abs(tables["stiffness"][name].data), initial=0.0) for name in GROUP_LABELS}
+        groups = tuple(name for name, share in largest.items() if share > NO_SHARE * max(largest.values()))
+        yield Plot("budget", "Who yields: compliance by parts", "stiffness", "angle", groups, style="bars")
+    if "pin_forces" in tables:
+        yield Plot("pin_forces", "Forces on the pins", "pin_forces", "angle", ("force", "pressure"), style="points")
+    if "bearing_loads" in tables:
+        names = [column.name for column in tables["bearing_loads"].columns[1:] if column.name[-2:] not in (".x", ".y")]
+        for group in ("crank", "support"):
+            own = tuple(name for name in names if name.startswith(group))
+            yield Plot(f"{group}_loads", f"Loads of the {group} bearings", "bearing_loads", "angle", own)

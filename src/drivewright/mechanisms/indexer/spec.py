@@ -2,18 +2,15 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import BeforeValidator, model_validator
+from pydantic import model_validator
 
 from drivewright import materials, motion
+from drivewright.bearings.catalogue import Designation
 from drivewright.errors import SpecError, UnknownName
 from drivewright.indexing.motion import NO_DWELL, TURN
 from drivewright.spec import DataFile, Integer, Machining, MechanismSpec, Number, Spec, Text
 from drivewright.spec.fields import Field
 from drivewright.units import Angle, Force, Length, Pressure, RotationalStiffness, Speed, Stiffness, Time, Torque
-
-# 61904 without quotes is a number in TOML
-Designation = Annotated[Text, BeforeValidator(lambda value: str(value) if type(value) is int else value)]
-
 
 Diameter = Annotated[Length, Field(gt=0)]
 

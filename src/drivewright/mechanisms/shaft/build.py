@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -11,22 +10,10 @@ from drivewright._typing import Floats
 from drivewright.bearings import BallBearing, RollerBearing
 from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.shaft.refusals import is_rolling, refuse_contradictions
-from drivewright.mechanisms.shaft.spec import Analysis, Bearing, Gear, Material, ShaftSpec
+from drivewright.mechanisms.shaft.spec import Analysis, Bearing, Gear, ShaftSpec
 from drivewright.spec.csv_columns import read_columns
 
 DOWN = np.array([0.0, -1.0])
-
-
-class ShaftMaterial(NamedTuple):
-    """Young's modulus [Pa], Poisson's ratio, density [kg/m^3], yield strength [Pa] or None."""
-
-    youngs_modulus: float
-    poisson_ratio: float
-    density: float
-    yield_strength: float | None
-
-
-STEEL = ShaftMaterial(206e9, 0.3, 7850.0, None)
 
 
 @dataclass(frozen=True)
@@ -65,28 +52,21 @@ class ShaftModel:
 def build(spec: ShaftSpec) -> ShaftModel:
     """The `ShaftModel` of a spec; InputError where its bearings do not hold it."""
     refuse_contradictions(spec)
-    properties = material(spec.material)
+    given = spec.material
+    material = materials.properties(given.card, given.youngs_modulus, given.poisson_ratio, given.density, given.yield_strength)
     rolling = {b.name: rolling_bearing(spec, b) for b in spec.bearings if is_rolling(b)}
     shaft = shafts.Shaft(
         tuple(shafts.Section(s.length, s.diameter, s.end_diameter or s.diameter, s.bore) for s in spec.segments),
-        properties.youngs_modulus,
-        properties.poisson_ratio,
-        properties.density,
+        material.modulus,
+        material.poisson,
+        material.density,
         tuple(_support(b, rolling.get(b.name)) for b in spec.bearings),
         tuple(shafts.Station(s.name, s.position, s.mass, s.polar_inertia, s.diametral_inertia) for s in spec.stations),
         _shear_coefficient(spec.analysis),
     )
     loads = shafts.ShaftLoads(tuple(_points(spec)), tuple(_lines(spec)), tuple(spec.gravity))
     shafts.refuse_mechanism(shaft)
-    return ShaftModel(spec, shaft, loads, rolling, properties.yield_strength)
-
-
-def material(given: Material) -> ShaftMaterial:
-    """The numbers of the material: as given, else of its card, else of steel."""
-    card = materials.material(given.card) if given.card else None
-    usual = STEEL if card is None else ShaftMaterial(card.modulus, card.poisson, card.density, card.yield_strength)
-    own = {key: getattr(given, key) for key in ShaftMaterial._fields}
-    return usual._replace(**{key: value for key, value in own.items() if value is not None})
+    return ShaftModel(spec, shaft, loads, rolling, material.yield_strength)
 
 
 def _shear_coefficient(analysis: Analysis) -> float:

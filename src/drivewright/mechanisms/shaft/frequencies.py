@@ -5,12 +5,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from drivewright import shafts
+from drivewright._typing import Floats
 from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.spec import ShaftSpec
 from drivewright.result import Answer, Answers, Check, Value
 from drivewright.shafts.tables import mode_table
-from drivewright.shafts.values import frequency_values
+from drivewright.shafts.values import frequency_values, massless_findings, massless_values
 
 ELEMENTS, MAX_ELEMENTS = 40, 1000  # along the shaft: unless a length is given, and at most
 
@@ -39,8 +40,11 @@ def frequencies(model: ShaftModel, done: Answers) -> Answer:
             "lowest critical speed that an unbalance excites: with the shaft, on bearings that are not the same all round also against it"
         )
         values["critical_speeds.lowest"] = Value(lowest, "rad/s", excited)
-    massless, findings = _massless(model, done, bending)
-    return Answer(values | massless, (mode_table(fine, bending),), tuple(_speed_check(model, lowest)), findings)
+    massless, findings = _massless_frequencies(model, done), ()
+    if len(massless) and len(bending.frequencies):
+        values |= massless_values(massless)
+        findings = tuple(massless_findings(massless, bending, model.shaft.stations, model.direction))
+    return Answer(values, (mode_table(fine, bending),), tuple(_speed_check(model, lowest)), findings)
 
 
 def _refined(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> shafts.ShaftEquilibrium:
@@ -53,22 +57,13 @@ def _refined(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> shafts.Shaf
     return shafts.refined_equilibrium(at_rest, step)
 
 
-def _massless(model: ShaftModel, done: Answers, modes: shafts.Modes) -> tuple[dict[str, Value], tuple[str, ...]]:
-    """Frequencies of the stations' masses alone on the flexibility, and the error of leaving out the shaft's own mass."""
+def _massless_frequencies(model: ShaftModel, done: Answers) -> Floats:
+    """Natural frequencies [Hz] of the stations' masses alone on the flexibility; none where one of them has no mass."""
     found = done["flexibility"].data if "flexibility" in done else None
     masses = np.array([station.mass for station in model.shaft.stations])
-    if found is None or not len(masses) or np.any(masses == 0) or not len(modes.frequencies):
-        return {}, ()
-    massless = shafts.massless_frequencies(found.delta, masses)
-    values = {
-        f"massless_modes.{n}.frequency": Value(float(each), "Hz", f"natural frequency {n} of the stations' masses on a massless shaft")
-        for n, each in enumerate(massless, 1)
-    }
-    along = shafts.first_mode_along(modes, model.direction)
-    if along is None or any(station.diametral for station in model.shaft.stations):
-        return values, ()
-    error = massless[0] / modes.frequencies[along] - 1
-    return values, (f"leaving out the shaft's own mass (K = inverse of the flexibility) puts mode {along + 1} off by {100 * error:+.1f} %",)
+    if found is None or not len(masses) or np.any(masses == 0):
+        return np.zeros(0)
+    return shafts.massless_frequencies(found.delta, masses)
 
 
 def _speed_check(model: ShaftModel, lowest: float | None) -> Iterator[Check]:

@@ -41,7 +41,7 @@ def rolling(model: ShaftModel, done: Answers) -> Answer:
         elif bearing is not None:
             state = bearings.solve(bearing, displacement=shafts.bearing_displacement(at_rest, number))
             values |= load_values(name, state) | life_values(name, state, model.spec.drive.speed if model.spec.drive else None)
-            tables += [element_table(state, f"elements.{name}", f"Rolling elements of bearing {name}"), *_load_curve(name, state)]
+            tables += [element_table(state, name), *_load_curve(name, state)]
             checks += _checks(model, name, state)
             findings += bearing_findings(name, state)
     return Answer(values, tuple(tables), tuple(checks), tuple(findings))
@@ -67,4 +67,4 @@ def _load_curve(name: str, state: BearingEquilibrium) -> Iterator[Table]:
         curve = bearings.load_curve(state.bearing, state.force, FACTORS)
     except (InputError, SolverError):
         return
-    yield load_curve_table(curve, f"curve.{name}", f"Bearing {name} over its load")
+    yield load_curve_table(curve, name)

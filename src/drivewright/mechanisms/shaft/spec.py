@@ -2,9 +2,10 @@
 
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, model_validator
+from pydantic import model_validator
 
 from drivewright.bearings.ball import BallBearing
+from drivewright.bearings.catalogue import Designation
 from drivewright.bearings.roller import RollerBearing
 from drivewright.errors import UnitError
 from drivewright.mechanisms.shaft.refusals import refuse_nonsense
@@ -55,10 +56,6 @@ class _StiffnessOrRigid(Dimension):
 
 
 StiffnessOrRigid = Annotated[float, _StiffnessOrRigid('stiffness, or "rigid"', "N/m", "N/m")]
-
-
-# 61804 without quotes is a number in TOML
-Designation = Annotated[Text, BeforeValidator(lambda value: str(value) if type(value) is int else value)]
 
 
 class Material(Spec):

@@ -1,0 +1,38 @@
+"""Plots of the tables of a shaft; they depend on its stations and modes."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from drivewright.result import Plot, Result
+
+SURFACE = Plot(
+    "solid_surface",
+    "Shaft as a solid of finite elements",
+    "solid_surface",
+    "z",
+    ("y", "x", "displacement"),
+    equal=True,
+    style="mesh",
+    reference=("rest_z", "rest_y"),
+)
+
+
+def shaft_plots(result: Result[Any]) -> Iterator[Plot]:
+    """The plots of the tables of `shafts.tables` under the names that these give them, whether or not the result has them."""
+    stations = _labels(result, "flexibility")
+    across = "_across" if "diagram" in result.tables and any(result.tables["diagram"]["moment_across"].data) else ""
+    columns = [name for each in ("deflection", "slope", "shear", "moment") for name in dict.fromkeys((each, each + across))]
+    rigid = tuple(f"{name}.rigid" for name in stations)
+    yield Plot("diagram", "Deflection, slope, shear force and bending moment", "diagram", "z", tuple(columns))
+    yield Plot("stress", "Stress along the shaft", "diagram", "z", ("stress",))
+    yield Plot("unit_load", "Deflection by a unit force; dashed: bearings rigid", "unit_load", "z", stations, reference=rigid)
+    parts = _labels(result, "flexibility.shares")
+    yield Plot("shares", "Who contributes what to the flexibility", "shares", "entry", parts, style="bars")
+    if "modes" in result.tables:
+        shapes = tuple(column.name for column in result.tables["modes"].columns[1:])
+        yield Plot("modes", "Natural modes of bending", "modes", "z", shapes)
+
+
+def _labels(result: Result[Any], array: str) -> tuple[str, ...]:
+    """Labels along the first axis of an array; none where the result has no such array."""
+    return tuple(result.arrays[array].labels[0]) if array in result.arrays else ()

@@ -1,0 +1,105 @@
+"""A shaft on screen, seen from the side: the load grows and fades, the shaft bends, much exaggerated.
+
+The picture looks along the plane of the unit loads: z to the right, against the load up.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.bearings import BallBearing, RollerBearing
+from drivewright.bearings.drawing import bearing_section
+from drivewright.scene import Body, Frame, Scene, Shape
+from drivewright.shafts import drawing
+from drivewright.shafts.beam import Beam, elastic_line
+from drivewright.shafts.loaded import ShaftLoads, forces_along
+from drivewright.shafts.model import Shaft, Support
+from drivewright.solids.deformation import round_factor
+
+FRAMES, SLICES, ARROWS = 61, 90, 5  # of the cycle, of the shaft, of a line load
+DRAWN_PART = 0.06  # the largest deflection is drawn as about this part of the shaft's length
+NO_FORCE = 1e-9  # [N, N/m] along the unit loads: no arrow
+
+
+class BentShape(NamedTuple):
+    """The unknowns (size,) [m, rad] of a beam, its load per length in either plane as in `LoadedShaft`, and what the label calls them."""
+
+    beam: Beam
+    unknowns: Floats
+    spread: Sequence[Floats | None]
+    label: str
+
+    def against(self, direction: Floats, z: Floats) -> tuple[Floats, Floats]:
+        """(deflection [m], slope [rad]) against a unit vector (x, y), at places z (m,) [m]."""
+        lines = [elastic_line(self.beam, plane, self.unknowns, z, self.spread[plane]) for plane in (0, 1)]
+        up, slope = (-np.stack(each, axis=1) @ direction for each in zip(*(each[:2] for each in lines), strict=True))
+        return up, slope
+
+
+class DrawnGear(NamedTuple):
+    """A gear at a place [m] of the shaft, with its pitch diameter [m]."""
+
+    name: str
+    position: float
+    pitch_diameter: float
+
+
+def shaft_scene(
+    shaft: Shaft,
+    shape: BentShape | None,
+    direction: Floats,
+    loads: ShaftLoads,
+    gears: Iterable[DrawnGear] = (),
+    rolling: Mapping[str, BallBearing | RollerBearing] | None = None,
+) -> Scene:
+    """The shaft that bends as `shape` (None: it stays straight), its supports, gears and loads along `direction` (x, y) of the unit loads.
+
+    rolling: the rolling bearings among its supports, by name.
+    """
+    phase = np.linspace(0.0, 2 * np.pi, FRAMES)
+    part, still = 0.5 * (1 - np.cos(phase)), np.zeros((FRAMES, 3))
+    z = drawing.slice_places(shaft, SLICES)
+    middles = 0.5 * (z[1:] + z[:-1])
+    up, turn = (0 * middles, 0 * middles) if shape is None else shape.against(direction, middles)
+    factor = exaggeration(np.abs(up).max(), shaft.length)
+
+    def bent(name: str, label: str, shapes: Iterable[Shape], poses: Floats, colour: str) -> Body:
+        """A body that leaves the straight axis by the drawn deflection."""
+        return Body(name, label, tuple(shapes), poses, colour, poses * (1.0, 0.0, 0.0) if factor else None, magnified=float(factor or 1))
+
+    def riding(name: str, label: str, shapes: Iterable[Shape], position: float, colour: str) -> Body:
+        """A body that goes with the shaft at a place."""
+        return bent(name, label, shapes, _poses(position, factor * part * np.interp(position, middles, up), 0.0), colour)
+
+    bodies = [Body("rest", "shaft at rest", tuple(drawing.silhouette(shaft)), still, "ground")]
+    for support in shaft.supports:
+        raised = _poses(0.0, factor * -float(np.dot(direction, support.offset[:2])) + 0 * part, 0.0)
+        symbol = _support_symbol(shaft, support, (rolling or {}).get(support.name))
+        bodies.append(bent(f"bearing.{support.name}", "bearing", symbol, raised, "green"))
+    for gear in gears:
+        symbol = drawing.gear_symbol(shaft, gear.position, gear.pitch_diameter)
+        bodies.append(riding(f"gear.{gear.name}", "gear", symbol, gear.position, "violet"))
+    label = f"shaft, {shape.label} × {factor:g}" if shape is not None and factor else "shaft"
+    for n, (middle, shapes, u, t) in enumerate(zip(middles, drawing.slices(shaft, z), up, turn, strict=True)):
+        bodies.append(bent(f"shaft.{n}", label, shapes, _poses(middle, factor * part * u, np.arctan(factor * part * t)), "blue"))
+    for n, (place, force) in enumerate(forces_along(loads, direction, ARROWS)):
+        if abs(force) > NO_FORCE:
+            bodies.append(riding(f"load.{n}", "load", drawing.load_arrow(shaft, place, force), place, "orange"))
+    return Scene(phase, "load grows and fades", "rad", 2.0, tuple(bodies), (Frame("side", "seen from the side, exaggerated", still),))
+
+
+def _support_symbol(shaft: Shaft, support: Support, rolling: BallBearing | RollerBearing | None) -> Iterator[Shape]:
+    if rolling is None:
+        return drawing.spring_symbol(shaft, support.position)
+    return bearing_section(rolling, support.position, 2 * drawing.radius_at(shaft, support.position), support.mirrored)
+
+
+def _poses(x: float, y: Floats, angle: float | Floats) -> Floats:
+    return np.stack(np.broadcast_arrays(np.full(FRAMES, float(x)), y, angle), axis=1)
+
+
+def exaggeration(largest: float, length: float) -> float:
+    """1, 2 or 5 times a power of ten that draws the largest deflection at about DRAWN_PART of the length; 0 without deflection."""
+    return round_factor(DRAWN_PART * length / largest) if largest > 1e-15 * length else 0.0
