@@ -119,8 +119,8 @@ class ConjugatePair:
 
     def min_convex_radius(self, cam: ConjugateCam) -> tuple[float, float]:
         """(radius [m], driving angle [rad]) of the sharpest convex place of a pitch curve."""
-        found = [extremes(lambda t, k=k: self.curvature(cam, t, k), low, high, SAMPLES) for low, high, _, k in self.pieces]
-        sharpest, place = max((greatest, place) for _, _, place, greatest in found)
+        curvatures = [extremes(lambda t, k=k: self.curvature(cam, t, k), low, high, SAMPLES) for low, high, _, k in self.pieces]
+        sharpest, place = max((greatest, place) for _, _, place, greatest in curvatures)
         return 1 / sharpest, place
 
     def pitch_radii(self, cam: ConjugateCam) -> tuple[float, float]:

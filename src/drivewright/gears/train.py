@@ -92,9 +92,9 @@ class GearTrain:
     def _phases(self, t):
         """(angle seen by each mesh, phase of each gear) as jets in t."""
         phase = t if isinstance(t, Jet) else variable(t)
-        seen, phases = [], [phase]
+        mesh_angles, phases = [], [phase]
         for k, (pair, bend) in enumerate(zip(self.pairs, (0.0, *self.bends), strict=True)):
-            seen.append(phase + (bend if k % 2 else -bend))
-            phase = pair.jet(seen[-1])
+            mesh_angles.append(phase + (bend if k % 2 else -bend))
+            phase = pair.jet(mesh_angles[-1])
             phases.append(phase)
-        return tuple(seen), tuple(phases)
+        return tuple(mesh_angles), tuple(phases)

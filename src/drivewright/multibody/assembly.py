@@ -78,13 +78,13 @@ def assemble(model: MultibodyModel) -> Assembly:
     ideal = idealised(model)
     tree = build_tree(ideal)
     system = compile_model(ideal, tree)
-    found = _assemble(ideal, ideal, tree, system, _guess(tree, system))
+    assembled = _assemble(ideal, ideal, tree, system, _guess(tree, system))
     if ideal == model:
-        return found
+        return assembled
     expanded = expand(model)
     tree = build_tree(expanded)
     system = compile_model(expanded, tree)
-    return _assemble(model, expanded, tree, system, _from_poses(tree, system, found))
+    return _assemble(model, expanded, tree, system, _from_poses(tree, system, assembled))
 
 
 def _assemble(model, expanded, tree, system, q):
@@ -110,10 +110,10 @@ def _guess(tree, system):
     return evaluate_at(system, q).coordinates.q
 
 
-def _from_poses(tree, system, found):
+def _from_poses(tree, system, assembled):
     """Coordinates in which the bodies are where another assembly of the same mechanism has them."""
-    other = evaluate_at(found.system, found.start.q)
-    number = {name: k for k, name in enumerate(found.names)}
+    other = evaluate_at(assembled.system, assembled.start.q)
+    number = {name: k for k, name in enumerate(assembled.names)}
     q = np.zeros(tree.size)
     angles, records = {GROUND: 0.0}, {link.body.name: system.bodies[k] for k, link in enumerate(tree.links, start=1)}
     for link in tree.links:

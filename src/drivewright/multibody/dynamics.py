@@ -85,10 +85,10 @@ def has_contact(system: System, y: Floats) -> bool:
 
     y (states,) as in `loads.apply_forces`.
     """
-    found = False
+    touches = False
     for n in range(system.contacts.size):
-        found |= y[system.contacts[n].memory] != 0.0
-    return found
+        touches |= y[system.contacts[n].memory] != 0.0
+    return touches
 
 
 @inner

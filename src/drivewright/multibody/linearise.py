@@ -86,10 +86,10 @@ def modes(linear: Linear) -> Modes:
     both = np.outer(linear.scale, linear.scale)
     (mass, damping, stiffness), speed = _in_own_time(linear.mass * both, linear.damping * both, linear.stiffness * both)
     unit, none = np.eye(free), np.zeros((free, free))
-    found: Any = eig(
+    pairs: Any = eig(
         np.block([[none, unit], [-stiffness, -damping]]), np.block([[unit, none], [none, mass]]), homogeneous_eigvals=True
     )  # with homogeneous eigenvalues, which SciPy's types do not know
-    (top, bottom), vectors = found
+    (top, bottom), vectors = pairs
     moving = (np.abs(top) < INSTANT * np.abs(bottom)) & (np.abs(top) > STANDING * np.abs(bottom))
     roots, vectors = top[moving] / bottom[moving], vectors[:free, moving]
     once = roots.imag > -1e-9 * np.abs(roots)  # one of each conjugate pair

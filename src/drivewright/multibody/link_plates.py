@@ -53,7 +53,7 @@ def link_plate(name: str, points: Floats, holes: Mapping[Point, float], pin_radi
     for (a, r), (b, s) in itertools.combinations(holes.items(), 2):
         if math.dist(a, b) <= r + s:
             raise InputError(
-                f"linkage: the holes of link {name!r} meet: radii of {1e3 * r:.4g} and {1e3 * s:.4g} mm at a distance of "
+                f"link plate {name!r}: its holes meet: radii of {1e3 * r:.4g} and {1e3 * s:.4g} mm at a distance of "
                 f"{1e3 * math.dist(a, b):.4g} mm. Give its joints a smaller bearing_radius"
             )
     return LinkPlate(name, points, holes, EDGE * max([*holes.values(), pin_radius]), thickness)

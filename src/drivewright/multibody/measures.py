@@ -59,7 +59,7 @@ def impact_load(t: Floats, x: Floats, ideal_peak: float, period: float | None) -
     turns = np.floor((times - t[0]) / period).astype(int) if period else np.zeros(len(times), int)
     whole = max(int((t[-1] - t[0]) / period + 1e-9), 1) if period else 1
     of_turn = np.array([np.max(values[turns == turn], initial=0.0) for turn in range(whole)])
-    found = (
+    statistics = (
         signals.mean_of_largest(values, LARGEST),
         largest(t, x),
         signals.percentile(t, size, 95),
@@ -67,4 +67,4 @@ def impact_load(t: Floats, x: Floats, ideal_peak: float, period: float | None) -
         np.mean(of_turn),
         np.std(of_turn),
     )
-    return ImpactLoad(*(float(value) / ideal_peak for value in found))
+    return ImpactLoad(*(float(value) / ideal_peak for value in statistics))

@@ -19,9 +19,9 @@ def observe(system: System, t: ArrayLike, y: ArrayLike) -> Observed:
     """`Observed` of states y (m, n) at times t (m,)."""
     t, y = np.ascontiguousarray(t, float), np.ascontiguousarray(y, float)
     counts = (len(system.bodies), len(FIELDS)), (len(system.contacts), len(PIN_FIELDS)), (len(POWER_FIELDS),), (len(system.driven),)
-    seen = Observed(t, *(np.zeros((len(t), *count)) for count in counts))
-    observe_all(motion(system), t, y, np.zeros(y.shape[1]), *seen[1:])
-    return seen
+    observed = Observed(t, *(np.zeros((len(t), *count)) for count in counts))
+    observe_all(motion(system), t, y, np.zeros(y.shape[1]), *observed[1:])
+    return observed
 
 
 def concatenate(parts: Sequence[Observed]) -> Observed:

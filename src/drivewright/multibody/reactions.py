@@ -59,7 +59,7 @@ def unbounded_joints(assembly: Assembly, system: System, observed: Observed) -> 
     it is, the forces say with which they could hold one another without any load.
     """
     equations = _equations(assembly, system, observed)
-    _, residual = _balance(equations.columns, equations.wanted, FOLDED)
+    _, residual = _balance(equations.columns, equations.resultants, FOLDED)
     if residual[0] < CARRIED:
         return ()
     idle = null_space(equations.columns[0], rcond=FOLDED)
@@ -69,7 +69,7 @@ def unbounded_joints(assembly: Assembly, system: System, observed: Observed) -> 
 
 
 class _Equations(NamedTuple):
-    """M a - F - M g = W lambda of observed states: `columns` W, `wanted` the left side; what the unknowns belong to; a length."""
+    """M a - F - M g = W lambda of observed states: `columns` W, `resultants` the left side; what the unknowns belong to; a length."""
 
     places: ObservedBodies
     ideal: list[Joint]
@@ -77,7 +77,7 @@ class _Equations(NamedTuple):
     unknowns: list[Wrench]
     length: float
     columns: Floats
-    wanted: tuple[Floats, Floats]
+    resultants: tuple[Floats, Floats]
 
 
 def _equations(assembly, system, observed):
@@ -93,13 +93,13 @@ def _equations(assembly, system, observed):
     driven = [_drive_wrench(next(j for j in expanded.joints if j.name == drive.joint), places) for drive in expanded.drives]
     unknowns = [wrench for group in groups for wrench in group] + driven
     length = _length(unknowns, places)
-    return _Equations(places, ideal, groups, unknowns, length, _columns(unknowns, places, length), _wanted(system, observed, length))
+    return _Equations(places, ideal, groups, unknowns, length, _columns(unknowns, places, length), _resultants(system, observed, length))
 
 
 def _solve(assembly, system, observed):
     expanded, equations = assembly.expanded, _equations(assembly, system, observed)
     places, length = equations.places, equations.length
-    sizes, residual = _balance(equations.columns, equations.wanted)
+    sizes, residual = _balance(equations.columns, equations.resultants)
     sizes *= [length if wrench.force is None else 1.0 for wrench in equations.unknowns]
     joints, start = {}, 0
     for joint, group in zip(equations.ideal, equations.groups, strict=True):
@@ -148,28 +148,28 @@ def _columns(unknowns, places, length):
     return columns[:, 1:].reshape(len(columns), 3 * (len(places.numbers) - 1), len(unknowns))
 
 
-def _wanted(system, observed, length):
+def _resultants(system, observed, length):
     """(M a - F - M g, size of its largest part) of all bodies but the ground."""
 
-    def seen(*names):
+    def fields(*names):
         return np.stack([observed.body(slice(1, None), name) for name in names], axis=-1)
 
     mass, inertia = system.bodies.mass[1:], system.bodies.inertia[1:]
     weights = np.stack([mass, mass, inertia / length], axis=-1)
-    inertial, loads = weights * seen("ax", "ay", "alpha"), seen("fx", "fy", "torque") / [1.0, 1.0, length]
+    inertial, loads = weights * fields("ax", "ay", "alpha"), fields("fx", "fy", "torque") / [1.0, 1.0, length]
     gravity = weights * [system.gravity_x, system.gravity_y, 0.0]
     largest = np.max(np.abs(inertial) + np.abs(loads) + np.abs(gravity), axis=(1, 2), initial=0.0)
     return (inertial - loads - gravity).reshape(len(observed.t), -1), largest
 
 
-def _balance(columns, wanted, rank=RANK):
+def _balance(columns, resultants, rank=RANK):
     """(sizes of the unknowns, residual): least squares, least norm, corrected once for rounding."""
-    wanted, largest = wanted
+    resultants, largest = resultants
     inverse = np.linalg.pinv(columns, rcond=rank)
-    sizes = np.einsum("mub,mb->mu", inverse, wanted)
-    left = wanted - np.einsum("mbu,mu->mb", columns, sizes)
+    sizes = np.einsum("mub,mb->mu", inverse, resultants)
+    left = resultants - np.einsum("mbu,mu->mb", columns, sizes)
     sizes += np.einsum("mub,mb->mu", inverse, left)
-    left = wanted - np.einsum("mbu,mu->mb", columns, sizes)
+    left = resultants - np.einsum("mbu,mu->mb", columns, sizes)
     scale = np.maximum(largest, np.max(np.abs(sizes), axis=1, initial=0.0))
     return sizes, np.max(np.abs(left), axis=1, initial=0.0) / np.where(scale > 0, scale, 1.0)
 

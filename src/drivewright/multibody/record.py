@@ -86,15 +86,15 @@ def final_state(run: Run) -> Floats:
 
 def _parts(assembly, stretch, markers, start):
     for first in range(int(np.searchsorted(stretch.t, start)), len(stretch.t), CHUNK):
-        seen = observe(stretch.system, stretch.t[first : first + CHUNK], stretch.y[first : first + CHUNK])
-        points = {name: marker_motion(assembly, seen, marker) for name, marker in markers.items()}
-        yield seen.t, points, seen.pins, seen.powers, seen.drives, *energy_of(stretch.system, seen)
+        record = observe(stretch.system, stretch.t[first : first + CHUNK], stretch.y[first : first + CHUNK])
+        points = {name: marker_motion(assembly, record, marker) for name, marker in markers.items()}
+        yield record.t, points, record.pins, record.powers, record.drives, *energy_of(stretch.system, record)
 
 
-def marker_motion(assembly: Assembly, seen: Observed, marker: Marker) -> Floats:
+def marker_motion(assembly: Assembly, record: Observed, marker: Marker) -> Floats:
     """POINT_FIELDS (m, 9) of a marker's motion: angle of its body with rates, place with rates."""
     number = assembly.names.index(marker.body)
-    x, y, angle, vx, vy, w, ax, ay, alpha = np.moveaxis(seen.bodies[:, number, :9], 1, 0)
+    x, y, angle, vx, vy, w, ax, ay, alpha = np.moveaxis(record.bodies[:, number, :9], 1, 0)
     cx, cy = next((body.centroid for body in assembly.expanded.bodies if body.name == marker.body), (0.0, 0.0))
     dx, dy = marker.x - cx, marker.y - cy
     px, py = np.cos(angle) * dx - np.sin(angle) * dy, np.sin(angle) * dx + np.cos(angle) * dy
@@ -103,9 +103,9 @@ def marker_motion(assembly: Assembly, seen: Observed, marker: Marker) -> Floats:
     )
 
 
-def energy_of(system: System, seen: Observed) -> tuple[Floats, Floats]:
+def energy_of(system: System, record: Observed) -> tuple[Floats, Floats]:
     """(kinetic energy and energy of gravity, kinetic energy alone) [J]."""
-    x, y, _, vx, vy, w = np.moveaxis(seen.bodies[:, :, : FIELDS.index("ax")], 2, 0)
+    x, y, _, vx, vy, w = np.moveaxis(record.bodies[:, :, : FIELDS.index("ax")], 2, 0)
     mass, inertia = system.bodies.mass, system.bodies.inertia
     kinetic = np.sum(0.5 * mass * (vx**2 + vy**2) + 0.5 * inertia * w**2, axis=1)
     return kinetic - (system.gravity_x * x + system.gravity_y * y) @ mass, kinetic

@@ -72,22 +72,22 @@ def build_tree(model: MultibodyModel) -> Tree:
             neighbours[body].append(joint)
     bodies = {body.name: body for body in model.bodies}
     links: list[Link] = []
-    seen, count = {GROUND}, 0
+    record, count = {GROUND}, 0
     for root in [GROUND, *bodies]:
-        if root in seen and root != GROUND:
+        if root in record and root != GROUND:
             continue
         queue = [root]
         if root != GROUND:
             links.append(Link(bodies[root], GROUND, None, count, -1, count + 1, False))
-            seen, count = seen | {root}, count + 3
+            record, count = record | {root}, count + 3
         while queue:
             parent = queue.pop(0)
             for joint in neighbours[parent]:
                 child = next(end for end in joint.bodies if end != parent)
-                if child not in seen:
+                if child not in record:
                     link = _hang(bodies[child], parent, joint, count, joint.name in driven)
                     links.append(link)
-                    seen, count = seen | {child}, count + (link.turn >= 0) + (link.slide >= 0)
+                    record, count = record | {child}, count + (link.turn >= 0) + (link.slide >= 0)
                     queue.append(child)
     closing = tuple(joint for joint in model.joints if joint.is_constraint and joint not in chosen)
     return Tree(tuple(links), closing, count)

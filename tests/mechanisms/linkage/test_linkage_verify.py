@@ -71,7 +71,7 @@ def test_what_the_closed_form_has_no_place_for(changes):
 def test_a_wrong_acceleration_leaves_newton_and_euler_unsatisfied():
     """Of a mechanism with freedom: without it the reactions can make up for anything, and the drive's torque tells."""
     bar = model("knife_folder", "simulate.turns=1.5", "simulate.discard=0")
-    seen = list(independent_check._seen(bar))
+    seen = list(independent_check._observed_states(bar))
     assert differing(independent_check._newton_euler(bar, seen)) == []
     wrong = [(system, observed._replace(bodies=observed.bodies * np.where(np.arange(12) == 8, 1 + 1e-4, 1))) for system, observed in seen]
     assert "Newton and Euler for every body: largest remainder, over the largest force" in differing(
@@ -83,7 +83,7 @@ def test_a_joint_that_gapes_is_noticed():
     bar = model("four_bar", "simulate.turns=1.5", "simulate.discard=0")
     seen = [
         (system, observed._replace(bodies=observed.bodies + 1e-6 * (np.arange(12) == 2) * (np.arange(4) == 2)[:, None]))
-        for system, observed in independent_check._seen(bar)
+        for system, observed in independent_check._observed_states(bar)
     ]
     assert differing(independent_check._closed_joints(bar, seen)) == ["joints without play, revolute: largest gap"]
 

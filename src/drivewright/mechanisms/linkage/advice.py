@@ -18,11 +18,11 @@ def advice(spec: LinkageSpec, end: float = math.inf) -> tuple[Check, ...]:
 
 def shortest_link(spec: LinkageSpec) -> tuple[float, str | None]:
     """(length [m], body) of the shortest distance between two joints on one body; (inf, None) where no body has two apart."""
-    found = [(math.inf, None)]
+    links = [(math.inf, None)]
     for name in spec.bodies:
         places = {points_of(spec, name)[point] for joint, point in ends_on(spec, name) if point}
-        found += [(math.dist(a, b), name) for a, b in itertools.combinations(sorted(places), 2)]
-    return min(found, key=lambda link: link[0])
+        links += [(math.dist(a, b), name) for a, b in itertools.combinations(sorted(places), 2)]
+    return min(links, key=lambda link: link[0])
 
 
 def clearance_share(spec: LinkageSpec) -> tuple[Check, ...]:

@@ -141,11 +141,11 @@ MISSING = {
 
 
 def _missing(joint, key):
-    for said in (joint.kind, joint.model):
-        for name in MISSING.get(said, ()):
+    for choice in (joint.kind, joint.model):
+        for name in MISSING.get(choice, ()):
             if getattr(joint, name) is None:
                 meaning = type(joint).model_fields[name].description
-                raise SpecError(f"is missing: {said!r} wants it ({meaning})", key=f"{key}.{name}")
+                raise SpecError(f"is missing: {choice!r} wants it ({meaning})", key=f"{key}.{name}")
     if joint.ratio == 0:
         raise SpecError("a gear with the ratio 0 does not turn; give teeth of the first over teeth of the second", key=f"{key}.ratio")
 

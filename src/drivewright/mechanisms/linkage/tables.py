@@ -301,5 +301,5 @@ def pivot_distance(body: LinkageBody) -> float:
 
 def ends_on(spec: LinkageTables, body: str) -> list[tuple[Joint, str | None]]:
     """[(joint, point)] where joints hold a body."""
-    found = [(joint, place(text)) for joint in spec.joints for text in joint.connects]
-    return [(joint, point) for joint, (name, point) in found if name == body]
+    ends = [(joint, place(text)) for joint in spec.joints for text in joint.connects]
+    return [(joint, point) for joint, (name, point) in ends if name == body]

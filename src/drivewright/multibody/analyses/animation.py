@@ -22,11 +22,11 @@ def animate(model: SimulationModel, points: Mapping[str, Floats]) -> Scene:
 
     points {body: (n, 2)} [m]: places that the bar or plate of a body spans, in its frame; the ground may be among the bodies.
     """
-    seen, half_width = cycle_poses(model), bar_half_width(points)
+    cycle, half_width = cycle_poses(model), bar_half_width(points)
     names = (GROUND, *model.bodies)
-    drawing = JointDrawing(seen.poses, half_width, names, model.assembly.model.joints)
+    drawing = JointDrawing(cycle.poses, half_width, names, model.assembly.model.joints)
     springs = [force for force in model.assembly.model.forces if isinstance(force, PointSpring)]
-    plays = [magnify_play(joint, seen, half_width) for joint in drawing.joints if isinstance(joint, Revolute) and joint.play]
+    plays = [magnify_play(joint, cycle, half_width) for joint in drawing.joints if isinstance(joint, Revolute) and joint.play]
     shapes = {
         name: [
             *_body_shapes(points.get(name, np.zeros((0, 2))), drawing, springs, name),
@@ -37,22 +37,22 @@ def animate(model: SimulationModel, points: Mapping[str, Floats]) -> Scene:
     }
     colours = ["ground", *(COLOURS[n % len(COLOURS)] for n in range(len(model.bodies)))]
     bodies = [
-        Body(name, name.replace("_", " "), tuple(shapes[name]), seen.frames(name), colour)
+        Body(name, name.replace("_", " "), tuple(shapes[name]), cycle.frames(name), colour)
         for name, colour in zip(names, colours, strict=True)
     ]
-    bodies += [*_spring_bodies(springs, seen, half_width), *(journal_body(play) for play in plays)]
+    bodies += [*_spring_bodies(springs, cycle, half_width), *(journal_body(play) for play in plays)]
     traces = tuple(Trace(o.name, f"path of {o.name.replace('_', ' ')}", o.body, o.marker[1:]) for o in model.outputs if o.point)
-    still = np.zeros((len(seen.cycle), 3))
+    still = np.zeros((len(cycle.cycle), 3))
     table = "motion" if model.outputs else "drive" if model.assembly.model.drives else ""
     return Scene(
-        seen.cycle,
-        seen.label,
-        seen.unit,
-        seen.period,
+        cycle.cycle,
+        cycle.label,
+        cycle.unit,
+        cycle.period,
         tuple(body for body in bodies if body.shapes),
         (Frame("machine", "machine frame", still),),
         traces,
-        table if seen.period else "",
+        table if cycle.period else "",
     )
 
 
@@ -80,10 +80,10 @@ def _supports(drawing: JointDrawing, springs: Iterable[PointSpring]) -> Iterator
         yield Shape("ground", polygon([(x - w, y), (x + w, y)], closed=False))
 
 
-def _spring_bodies(springs: Iterable[PointSpring], seen: CyclePoses, half_width: float) -> Iterator[Body]:
+def _spring_bodies(springs: Iterable[PointSpring], cycle: CyclePoses, half_width: float) -> Iterator[Body]:
     """Every spring as a coil on one end and a rod on the other that slide along each other."""
     for spring in springs:
-        ends = [positions_of(marker[1:], seen.poses[marker.body]) for marker in (spring.first, spring.second)]
+        ends = [positions_of(marker[1:], cycle.poses[marker.body]) for marker in (spring.first, spring.second)]
         between = (ends[1] - ends[0])[::FINE]
         lengths = np.hypot(*between.T)
         if lengths.min() < 2 * half_width:

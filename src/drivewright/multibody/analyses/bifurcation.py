@@ -17,10 +17,10 @@ def bifurcation(
     visits(value): (positions (m,), velocities (m,)) of the section, in `units`; a value at which it raises is left out with the reason.
     """
     rows = cases.run(visits, values.tolist(), workers=None)
-    found = [(row.case, *row.value) for row in rows.rows if row.ok]
+    visited = [(row.case, *row.value) for row in rows.rows if row.ok]
     failed = tuple(f"bifurcation: {over} = {row.case:.6g} is left out: {row.reason}" for row in rows.failed)
     words = f"of {name!r} at crank angle zero"
-    columns = [np.concatenate([np.empty(0), *parts]) for parts in zip(*((np.full(len(p), v), p, r) for v, p, r in found), strict=True)]
+    columns = [np.concatenate([np.empty(0), *parts]) for parts in zip(*((np.full(len(p), v), p, r) for v, p, r in visited), strict=True)]
     columns = columns or [np.empty(0)] * 3
     table = Table(
         "bifurcation",

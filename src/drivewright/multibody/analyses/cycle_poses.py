@@ -64,10 +64,10 @@ def start_poses(model: SimulationModel) -> dict[str, Floats]:
 def origins(model: SimulationModel, bodies: Floats) -> dict[str, Floats]:
     """Poses {body: (m, 3)} of the bodies' own frames, from those of their centroids (m, bodies, FIELDS)."""
     centroids = {body.name: body.centroid for body in model.assembly.expanded.bodies}
-    found = {}
+    origins_by_name = {}
     for number, name in enumerate(model.assembly.names):
         pose = bodies[:, number, :3]
         x, y = centroids.get(name, (0.0, 0.0))
         back = positions_of((-x, -y), pose)
-        found[name] = np.column_stack([back, pose[:, 2]])
-    return found
+        origins_by_name[name] = np.column_stack([back, pose[:, 2]])
+    return origins_by_name

@@ -17,7 +17,7 @@ MEANING = {
 
 def energy(model: SimulationModel) -> Answer:
     """Work of every kind of element against the change of energy; torque of the drive."""
-    found, numbers = audit_of_run(model, run_of(model)), statistics(model, energy_numbers)
+    audit, numbers = audit_of_run(model, run_of(model)), statistics(model, energy_numbers)
     values = {f"energy.{name}": Value.of(numbers.of_run(name), "J", f"work of {MEANING[name]} over the run") for name in POWER_FIELDS}
     values["energy.gap"] = Value(numbers.worst("gap"), "J", "largest gap of the energy audit")
     values["energy.error"] = Value(numbers.worst("error"), "-", "largest gap over the energy exchanged")
@@ -27,7 +27,7 @@ def energy(model: SimulationModel) -> Answer:
         words = "largest gap between work of the drives and change of energy with losses, over the work of the drives"
         checks.append(Check("power_audit", numbers.worst("power_error"), limit, "<=", "-", words))
     torque = _torque(model)
-    return Answer({**values, **torque.values}, (audit_table(found, MEANING, ROWS), *torque.tables), (*checks, *torque.checks))
+    return Answer({**values, **torque.values}, (audit_table(audit, MEANING, ROWS), *torque.tables), (*checks, *torque.checks))
 
 
 def _torque(model):

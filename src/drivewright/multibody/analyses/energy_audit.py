@@ -40,21 +40,21 @@ class Audit:
         return float(np.max(np.abs(self.gap)) / whole) if whole > 0 else 0.0
 
 
-def audit(seen: Record) -> Audit:
+def audit(record: Record) -> Audit:
     """The `Audit` of a record taken with two points per step: Simpson's rule over each step."""
-    t, power = seen.t[::2], seen.powers
+    t, power = record.t[::2], record.powers
     steps = np.diff(t)[:, None]
     begin, middle, end = power[:-2:2], power[1:-1:2], power[2::2]
     works = np.concatenate([np.zeros((1, power.shape[1])), np.cumsum(steps / 6 * (begin + 4 * middle + end), axis=0)])
     flow = np.sum(steps / 6 * (np.abs(begin) + 4 * np.abs(middle) + np.abs(end)), axis=0)
-    return _audit(t, works, flow, seen.energy[::2], seen.kinetic[::2], DRIVES)
+    return _audit(t, works, flow, record.energy[::2], record.kinetic[::2], DRIVES)
 
 
-def audit_of_samples(seen: Record) -> Audit:
+def audit_of_samples(record: Record) -> Audit:
     """The `Audit` of a record at any times, Simpson's rule over neighbouring samples: kinematics has no steps of its own."""
-    works = cumulative_simpson(seen.powers, x=seen.t, axis=0, initial=0.0)
-    flow = trapezoid(np.abs(seen.powers), seen.t, axis=0)
-    return _audit(seen.t, works, flow, seen.energy, seen.kinetic, DRIVES)
+    works = cumulative_simpson(record.powers, x=record.t, axis=0, initial=0.0)
+    flow = trapezoid(np.abs(record.powers), record.t, axis=0)
+    return _audit(record.t, works, flow, record.energy, record.kinetic, DRIVES)
 
 
 def audit_of_powers(t: Floats, powers: Floats, energy: Floats, kinetic: Floats, drives: int) -> Audit:
@@ -78,24 +78,24 @@ def _audit(t, works, flow, energy, kinetic, drives):
     return Audit(t, works, energy - energy[0] - np.sum(works, axis=1), exchanged, float(flow[drives]))
 
 
-def audit_table(found: Audit, meanings: Mapping[str, str], most: int) -> Table:
+def audit_table(audit: Audit, meanings: Mapping[str, str], most: int) -> Table:
     """Stored energy, works and gap over time, in about so many rows; meanings {kind: what it is}, in the order of the works."""
-    rows = slice(None, None, max(1, len(found.t) // most))
+    rows = slice(None, None, max(1, len(audit.t) // most))
     columns = (
-        Column("time", "s", "time", found.t[rows]),
-        Column("stored", "J", "kinetic energy and energy of gravity, from the start", (found.gap + np.sum(found.works, axis=1))[rows]),
-        *(Column(f"work_{name}", "J", f"work of {words}", found.works[rows, k]) for k, (name, words) in enumerate(meanings.items())),
-        Column("gap", "J", "change of energy less all work: the audit's error", found.gap[rows]),
+        Column("time", "s", "time", audit.t[rows]),
+        Column("stored", "J", "kinetic energy and energy of gravity, from the start", (audit.gap + np.sum(audit.works, axis=1))[rows]),
+        *(Column(f"work_{name}", "J", f"work of {words}", audit.works[rows, k]) for k, (name, words) in enumerate(meanings.items())),
+        Column("gap", "J", "change of energy less all work: the audit's error", audit.gap[rows]),
     )
     return Table("energy", "Energy audit", columns)
 
 
-def audit_answer(found: Audit, meanings: Mapping[str, str], limit: float, most: int) -> Answer:
+def audit_answer(audit: Audit, meanings: Mapping[str, str], limit: float, most: int) -> Answer:
     """Works over the whole history, gap and error with its check, and the table of about so many rows."""
     values = {
-        f"energy.{name}": Value(float(found.works[-1, k]), "J", f"work of {words}") for k, (name, words) in enumerate(meanings.items())
+        f"energy.{name}": Value(float(audit.works[-1, k]), "J", f"work of {words}") for k, (name, words) in enumerate(meanings.items())
     }
-    values["energy.gap"] = Value(float(np.max(np.abs(found.gap))), "J", "largest gap of the energy audit")
-    values["energy.error"] = Value(found.error, "-", "largest gap over the energy exchanged")
-    check = Check("energy_audit", found.error, limit, "<=", "-", values["energy.error"].meaning)
-    return Answer(values, (audit_table(found, meanings, most),), (check,))
+    values["energy.gap"] = Value(float(np.max(np.abs(audit.gap))), "J", "largest gap of the energy audit")
+    values["energy.error"] = Value(audit.error, "-", "largest gap over the energy exchanged")
+    check = Check("energy_audit", audit.error, limit, "<=", "-", values["energy.error"].meaning)
+    return Answer(values, (audit_table(audit, meanings, most),), (check,))

@@ -76,7 +76,7 @@ def _exact(value):
 
 def settled_check(name: str, estimates: Iterable[Value], parts: tuple[str, ...] = ()) -> Check:
     """The check that the statistics of a run no longer drift."""
-    drifting = sum(not found.settled for found in estimates)
+    drifting = sum(not estimate.settled for estimate in estimates)
     return Check(
         name,
         float(drifting),
@@ -133,19 +133,21 @@ def ensemble_run(model: SimulationModel, number: int, per_step: int = 2) -> Run:
     return run
 
 
-def orbit_turns(model: SimulationModel, seen: Record) -> int:
+def orbit_turns(model: SimulationModel, record: Record) -> int:
     """After how many turns place and rate of every marker repeat themselves, in units of their range; 0 where they do not."""
     if not model.period:
         return 0
-    start = seen.t[0]
-    times = start + model.period * np.arange(int((seen.t[-1] - start) / model.period + 1e-9) + 1)
-    rows = [_scaled(seen.t, x, rate, times) for name in model.markers for x, rate, size in _places(model, seen, name) if np.ptp(x) > size]
+    start = record.t[0]
+    times = start + model.period * np.arange(int((record.t[-1] - start) / model.period + 1e-9) + 1)
+    rows = [
+        _scaled(record.t, x, rate, times) for name in model.markers for x, rate, size in _places(model, record, name) if np.ptp(x) > size
+    ]
     return orbit_period(np.stack(rows, axis=1), SAME) if rows and len(times) >= 3 else 0
 
 
-def _places(model, seen, name):
+def _places(model, record, name):
     """(samples, their rates, range below which they stand still) of place, direction and rates of a marker."""
-    angle, w, alpha, x, y, vx, vy, ax, ay = (seen.point(name, field) for field in POINT_FIELDS)
+    angle, w, alpha, x, y, vx, vy, ax, ay = (record.point(name, field) for field in POINT_FIELDS)
     length, speed = model.assembly.system.length, TURN / model.period
     yield from ((np.cos(angle), -np.sin(angle) * w, STILL), (np.sin(angle), np.cos(angle) * w, STILL), (w, alpha, STILL * speed))
     yield from ((place, rate, STILL * length) for place, rate in ((x, vx), (y, vy)))

@@ -52,9 +52,9 @@ def load_table(
     )
 
 
-def _load_columns(name: str, words: str, output: Output, found: Sequence[Statistics]) -> tuple[Column, ...]:
+def _load_columns(name: str, words: str, output: Output, cases: Sequence[Statistics]) -> tuple[Column, ...]:
     """A number of the impact load with its interval, of the `Statistics` of every case."""
-    of_cases = [each.of_run(f"{output.name}.{name}", f"{output.name}.peak") for each in found]
+    of_cases = [each.of_run(f"{output.name}.{name}", f"{output.name}.peak") for each in cases]
     value, low, high = np.array([(each.value, each.low, each.high) for each in of_cases]).reshape(-1, 3).T
     column = Column(name, "-", words, value)
     return column, *column.bounds(low, high)
@@ -67,14 +67,14 @@ def acceleration_unit(output: Output) -> str:
 
 def ideal_acceleration_peak(model: SimulationModel, output: Output) -> float:
     """Largest acceleration of an output without play."""
-    seen = simulate_ideal(model)
-    return largest(seen.t, acceleration(seen, output)[0])
+    record = simulate_ideal(model)
+    return largest(record.t, acceleration(record, output)[0])
 
 
 def impact_loads(model: SimulationModel, output: Output, peak: float) -> Statistics:
     """`Statistics` of the impact load of one output: of a run, and unless that repeats itself, of the others of the ensemble."""
-    first, seen = _load(model, 0, output, peak)
-    period = orbit_turns(model, seen)
+    first, record = _load(model, 0, output, peak)
+    period = orbit_turns(model, record)
     others = () if period or not first.turn_count else [_load(model, number, output, peak)[0] for number in range(1, model.ensemble)]
     return Statistics((first, *others), period)
 
@@ -82,14 +82,14 @@ def impact_loads(model: SimulationModel, output: Output, peak: float) -> Statist
 def impact_load_of_run(model: SimulationModel, output: Output, peak: float | None = None) -> tuple[float, ...]:
     """(*ImpactLoad, ideal peak) of one output in one run of a model, whose ideal peak may be known already."""
     peak = ideal_acceleration_peak(model, output) if peak is None else peak
-    found = _load(model, 0, output, peak)[0]
-    return (*(found.whole[f"{output.name}.{name}"] for name in LOAD_WORDS), peak)
+    load_numbers = _load(model, 0, output, peak)[0]
+    return (*(load_numbers.whole[f"{output.name}.{name}"] for name in LOAD_WORDS), peak)
 
 
 def _load(model: SimulationModel, number: int, output: Output, peak: float) -> tuple[RunNumbers, Record]:
     """(numbers of the impact load of an output alone, record of the window) of one run of the ensemble."""
-    run, found = ensemble_run(model, number, per_step=1), RunNumbers()
+    run, numbers = ensemble_run(model, number, per_step=1), RunNumbers()
     start = start_of_window(model, run.end[1])
-    seen = record(run, model.markers, start)
-    add_impact_load(seen, output, turn_ends(model, start, seen.t[-1]), found, peak)
-    return found, seen
+    run_record = record(run, model.markers, start)
+    add_impact_load(run_record, output, turn_ends(model, start, run_record.t[-1]), numbers, peak)
+    return numbers, run_record

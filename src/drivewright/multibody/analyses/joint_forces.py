@@ -21,11 +21,11 @@ def observe_last_turn(model: SimulationModel) -> Observed:
 
 def joint_forces(model: SimulationModel) -> Answer:
     """Largest force of every joint in the window, the forces over the last turn, and what Newton's and Euler's equations leave over."""
-    seen, numbers = observe_last_turn(model), statistics(model, joint_force_numbers)
-    t, found = seen.t, reactions(model.assembly, run_of(model).end[0], seen)
+    observed, numbers = observe_last_turn(model), statistics(model, joint_force_numbers)
+    t, forces = observed.t, reactions(model.assembly, run_of(model).end[0], observed)
     unbounded = _unbounded(model, start_of_window(model, run_of(model).end[1]))
     values, checks, columns = {}, [], list(cycle_columns(model, t))
-    for name, joint in found.joints.items():
+    for name, joint in forces.joints.items():
         size = np.hypot(*joint.force.T)
         if name.endswith(" (link)"):  # the other end of a link without mass: the same force
             continue
@@ -36,7 +36,7 @@ def joint_forces(model: SimulationModel) -> Answer:
             Column(f"{name}.force_x", "N", f"force of joint {name!r} on its first body, x", joint.force[:, 0]),
             Column(f"{name}.force_y", "N", f"force of joint {name!r} on its first body, y", joint.force[:, 1]),
         ]
-    for name, tension in found.tensions.items():
+    for name, tension in forces.tensions.items():
         columns.append(Column(f"{name}.tension", "N", f"tension of the massless link of joint {name!r}; below 0 contact is lost", tension))
         share, least = numbers.mean(f"{name}.pushed"), Value.of(numbers.of_run(f"{name}.tension"), "N", "")
         values[f"joints.{name}.pushed_share"] = Value.of(share, "-", f"share of the time in which the link of joint {name!r} is pushed")
@@ -51,7 +51,7 @@ def joint_forces(model: SimulationModel) -> Answer:
             )
         )
     words = "what Newton's and Euler's equations of the bodies leave over, as a part of the largest force"
-    values["forces.residual"] = Value(float(found.residual.max()), "-", words)
+    values["forces.residual"] = Value(float(forces.residual.max()), "-", words)
     return Answer(
         values,
         (Table("forces", "Forces in the joints over the last turn", tuple(columns)),),
@@ -62,12 +62,12 @@ def joint_forces(model: SimulationModel) -> Answer:
 
 def _unbounded(model, start):
     """{joint: time of the singular position towards which its force grows without bound}, from a time on."""
-    found = {}
+    times = {}
     for passed in run_of(model).passages:
         if passed.time >= start:
-            seen = observe(passed.system, np.array([passed.time]), passed.state[None])
-            found |= dict.fromkeys(unbounded_joints(model.assembly, passed.system, seen), passed.time)
-    return found
+            observed = observe(passed.system, np.array([passed.time]), passed.state[None])
+            times |= dict.fromkeys(unbounded_joints(model.assembly, passed.system, observed), passed.time)
+    return times
 
 
 def _fold_findings(model, unbounded):

@@ -48,11 +48,11 @@ def lyapunov(model: SimulationModel, turns: int, discard: int) -> Answer:
 
 def exponent_answer(pairs: Sequence[Exponent]) -> Answer:
     """Value, interval and convergence of exponents from motions that start almost alike, each with a twin."""
-    history = np.mean([found.history for found in pairs], axis=0)
+    history = np.mean([pair.history for pair in pairs], axis=0)
     turns = np.arange(1.0, len(history) + 1)
-    growth = np.diff([found.history * turns for found in pairs], axis=1, prepend=0.0)
+    growth = np.diff([pair.history * turns for pair in pairs], axis=1, prepend=0.0)
     exponent = Value.of(estimate(growth), "-", "largest Lyapunov exponent per turn; above 0: chaos")
-    error = float(np.sqrt(np.sum([found.error**2 for found in pairs])) / len(pairs))
+    error = float(np.sqrt(np.sum([pair.error**2 for pair in pairs])) / len(pairs))
     values = {"lyapunov_exponent.per_turn": exponent, "lyapunov_exponent.error": Value(error, "-", "its standard error")}
     table = Table(
         "lyapunov",

@@ -28,10 +28,10 @@ class MagnifiedPlay(NamedTuple):
     rest: Floats
 
 
-def magnify_play(joint: Revolute, seen: CyclePoses, half_width: float) -> MagnifiedPlay:
+def magnify_play(joint: Revolute, cycle: CyclePoses, half_width: float) -> MagnifiedPlay:
     """The `MagnifiedPlay` of a pin that is not ideal, in bars of a half width [m]; a bushing has as much as it gives way."""
     assert joint.play is not None
-    bearing, journal = (positions_of(m[1:], seen.poses[m.body]) for m in (joint.first, joint.second))
+    bearing, journal = (positions_of(m[1:], cycle.poses[m.body]) for m in (joint.first, joint.second))
     away = journal - bearing
     real = joint.play.clearance or float(np.hypot(*away.T).max())
     radius = max(BEARING * half_width, real / SHOWN)
@@ -39,7 +39,7 @@ def magnify_play(joint: Revolute, seen: CyclePoses, half_width: float) -> Magnif
     away = away * factor
     # Where steel gives way the journal is a little outside its play; magnified, it would lie in the wall.
     away *= np.minimum(1.0, factor * real / np.maximum(np.hypot(*away.T), 1e-300))[:, None]
-    turn, own = (seen.poses[marker.body][:, 2] for marker in (joint.first, joint.second))
+    turn, own = (cycle.poses[marker.body][:, 2] for marker in (joint.first, joint.second))
     poses, rest = (np.column_stack([place, own])[::FINE] for place in (bearing + away, bearing))
     return MagnifiedPlay(joint, radius, factor * real, factor, rotate(away, -turn), poses, rest)
 

@@ -35,16 +35,18 @@ def window(model: SimulationModel) -> Record:
 def motion(model: SimulationModel) -> Answer:
     """Swing and peaks of the outputs, and the last turn as a table."""
     window(model)  # refuses a run that holds no numbers
-    values, found = {}, statistics(model)
+    values, run_statistics = {}, statistics(model)
     for output in model.outputs:
         name = output.name
         values[f"{name}.max_angular_acceleration"] = Value.of(
-            found.of_run(f"{name}.alpha"), "rad/s^2", f"largest angular acceleration of {output.body!r}, magnitude"
+            run_statistics.of_run(f"{name}.alpha"), "rad/s^2", f"largest angular acceleration of {output.body!r}, magnitude"
         )
-        values[f"{name}.swing"] = Value.of(found.of_run(f"{name}.swing"), "rad", f"range of the angle of {output.body!r} in the window")
+        values[f"{name}.swing"] = Value.of(
+            run_statistics.of_run(f"{name}.swing"), "rad", f"range of the angle of {output.body!r} in the window"
+        )
         if output.point:
             values[f"{name}.max_acceleration"] = Value.of(
-                found.of_run(f"{name}.acceleration"), "m/s^2", f"largest acceleration of point {output.point!r}, magnitude"
+                run_statistics.of_run(f"{name}.acceleration"), "m/s^2", f"largest acceleration of point {output.point!r}, magnitude"
             )
     tables = (_motion_table(model),) if model.outputs else ()
     return Answer(values, tables)
@@ -70,11 +72,11 @@ def end(model: SimulationModel) -> Answer:
 
 
 def _motion_table(model):
-    seen = last_turn(model)
-    columns, ideal = list(cycle_columns(model, seen.t)), ideal_at(model, seen.t) if model.has_play else None
+    record = last_turn(model)
+    columns, ideal = list(cycle_columns(model, record.t)), ideal_at(model, record.t) if model.has_play else None
     for output in model.outputs:
         for field, unit, meaning in _fields(output):
-            data = seen.point(output.name, field)
+            data = record.point(output.name, field)
             columns.append(Column(f"{output.name}.{field}", unit, f"{meaning} of {output.name!r}", data))
             if ideal is not None:
                 same = ideal[output.name][:, POINT_FIELDS.index(field)]
@@ -100,7 +102,7 @@ def _fields(output):
 
 def impact(model: SimulationModel) -> Answer:
     """K_d of every output with its window and robust companions."""
-    seen, values, checks, drawn = window(model), {}, [], []
+    record, values, checks, drawn = window(model), {}, [], []
     for output in model.outputs:
         name, loads = output.name, _load_values(model, output)
         values |= {f"{name}.{key}": value for key, value in loads.items() if np.isfinite(value.value)}
@@ -108,19 +110,19 @@ def impact(model: SimulationModel) -> Answer:
         limit, load = model.limits.impact_load_coefficient, loads["impact_load_coefficient"]
         if limit and np.isfinite(load.value):
             checks.append(Check.of(load, f"impact_load.{name}", limit, "<=", "impact load coefficient", (output.body,)))
-    values["window.start"] = Value(float(seen.t[0]), "s", "start of the window of peaks and means")
-    values["window.end"] = Value(float(seen.t[-1]), "s", "its end")
+    values["window.start"] = Value(float(record.t[0]), "s", "start of the window of peaks and means")
+    values["window.end"] = Value(float(record.t[-1]), "s", "its end")
     return Answer(values, (), (*checks, settled_check("settled", drawn)), unsettled(values))
 
 
 def _load_values(model, output):
     """{key: Value} of one output."""
-    name, ideal, found = output.name, ideal_record(model), statistics(model)
+    name, ideal, run_statistics = output.name, ideal_record(model), statistics(model)
     data, unit, word = acceleration(ideal, output)
     peak = largest(ideal.t, data)
 
     def of_run(field, meaning):
-        return Value.of(found.of_run(f"{name}.{field}", f"{name}.peak"), "-", meaning)
+        return Value.of(run_statistics.of_run(f"{name}.{field}", f"{name}.peak"), "-", meaning)
 
     return {
         "ideal_peak": Value(peak, unit, f"largest {word} of {name!r} without play"),
@@ -128,6 +130,8 @@ def _load_values(model, output):
         "impact_load_coefficient": of_run("coefficient", f"mean of the five largest peaks of the {word} over the ideal peak"),
         "percentile_ratio": of_run("percentile", f"level that the {word} keeps below 95 % of the time, over the ideal peak"),
         "rms_ratio": of_run("rms", f"root mean square of the {word} over the ideal peak"),
-        "turn_peak_mean": Value.of(found.mean(f"{name}.turn_mean"), "-", f"mean over the turns of the largest {word}, over the ideal peak"),
+        "turn_peak_mean": Value.of(
+            run_statistics.mean(f"{name}.turn_mean"), "-", f"mean over the turns of the largest {word}, over the ideal peak"
+        ),
         "turn_peak_spread": of_run("turn_spread", "standard deviation of the same"),
     }

@@ -27,13 +27,13 @@ def pins(model: SimulationModel) -> Answer:
 
 def _pin_values(model, name):
     """{key: Value} of one pin with play."""
-    found = statistics(model)
+    run_statistics = statistics(model)
     numbers = {
-        "max_force": Value.of(found.of_run(f"{name}.force"), "N", f"largest force in joint {name!r}"),
-        "max_penetration": Value.of(found.of_run(f"{name}.depth"), "m", f"largest penetration in joint {name!r}"),
-        "impacts_per_turn": Value.of(found.mean(f"{name}.hits"), "-", f"impacts of joint {name!r}"),
-        "contact_share": Value.of(found.mean(f"{name}.touching"), "-", f"share of the time in which joint {name!r} touches"),
-        "friction_power": Value.of(found.mean(f"{name}.lost"), "W", f"mean power lost by friction in joint {name!r}"),
+        "max_force": Value.of(run_statistics.of_run(f"{name}.force"), "N", f"largest force in joint {name!r}"),
+        "max_penetration": Value.of(run_statistics.of_run(f"{name}.depth"), "m", f"largest penetration in joint {name!r}"),
+        "impacts_per_turn": Value.of(run_statistics.mean(f"{name}.hits"), "-", f"impacts of joint {name!r}"),
+        "contact_share": Value.of(run_statistics.mean(f"{name}.touching"), "-", f"share of the time in which joint {name!r} touches"),
+        "friction_power": Value.of(run_statistics.mean(f"{name}.lost"), "W", f"mean power lost by friction in joint {name!r}"),
     }
     return numbers if model.period else {key: value for key, value in numbers.items() if key != "impacts_per_turn"}
 
@@ -51,15 +51,15 @@ def _impact_table(model, run):
     )
 
 
-def _pin_table(model, seen, number, name):
-    pin = dict(zip(PIN_FIELDS, np.moveaxis(seen.pins[:, number], 1, 0), strict=True))
+def _pin_table(model, record, number, name):
+    pin = dict(zip(PIN_FIELDS, np.moveaxis(record.pins[:, number], 1, 0), strict=True))
     clearance = model.assembly.system.contacts[number].clearance
     away = clearance + pin["depth"]  # distance of the centres
     return Table(
         f"pin.{name}",
         f"Joint {name!r} over the last turn" if model.period else f"Joint {name!r}",
         (
-            *cycle_columns(model, seen.t),
+            *cycle_columns(model, record.t),
             Column("x", "m", "journal's centre from the bearing's, x", -away * pin["nx"]),
             Column("y", "m", "journal's centre from the bearing's, y", -away * pin["ny"]),
             Column("depth", "m", "penetration, below 0 in flight", pin["depth"]),

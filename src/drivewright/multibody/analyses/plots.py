@@ -18,10 +18,10 @@ def simulation_plots(
     outputs: {name: whether it is the motion of a point, not the angle of a body}; clearances [m] of all joints by name, None without;
     has_play: beside an output is its motion without play.
     """
-    found = [plot for name, of_point in outputs.items() for plot in _output_plots(tables, name, of_point, has_play)]
-    found += [plot for name, clearance in clearances.items() for plot in _pin_plots(tables, name, clearance)]
-    found += [*_run_plots(tables, list(clearances)), *_study_plots(tables)]
-    return tuple(_with_folds(tables, plot) for plot in found)
+    plots = [plot for name, of_point in outputs.items() for plot in _output_plots(tables, name, of_point, has_play)]
+    plots += [plot for name, clearance in clearances.items() for plot in _pin_plots(tables, name, clearance)]
+    plots += [*_run_plots(tables, list(clearances)), *_study_plots(tables)]
+    return tuple(_with_folds(tables, plot) for plot in plots)
 
 
 def _with_folds(tables: Mapping[str, Table], plot: Plot) -> Plot:

@@ -90,12 +90,12 @@ def simulate_section(model: SimulationModel, output: Output, duration: float, se
     """The `Section` of an output, and the run that gives it."""
     times = np.minimum(zero_times(model, duration), duration)
     run = simulate(model.assembly, duration, settings, samples=times)
-    seen, axis = record(run, {output.name: output.marker}), output.axis
+    run_record, axis = record(run, {output.name: output.marker}), output.axis
     if output.point is None:
-        return Section(seen.t, seen.point(output.name, "angle"), seen.point(output.name, "w"), units_of(output)), run
-    along = axis[0] * seen.point(output.name, "x") + axis[1] * seen.point(output.name, "y")
-    rate = axis[0] * seen.point(output.name, "vx") + axis[1] * seen.point(output.name, "vy")
-    return Section(seen.t, along, rate, units_of(output)), run
+        return Section(run_record.t, run_record.point(output.name, "angle"), run_record.point(output.name, "w"), units_of(output)), run
+    along = axis[0] * run_record.point(output.name, "x") + axis[1] * run_record.point(output.name, "y")
+    rate = axis[0] * run_record.point(output.name, "vx") + axis[1] * run_record.point(output.name, "vy")
+    return Section(run_record.t, along, rate, units_of(output)), run
 
 
 def visited_points(model: SimulationModel, name: str, turns: float, discard: float) -> tuple[Floats, Floats]:
@@ -117,8 +117,8 @@ def units_of(output: Output) -> tuple[str, str]:
 
 def _spans(model: SimulationModel, output: Output) -> Floats:
     """Range (2,) of position and velocity of an output over the ideal mechanism's turn."""
-    seen, axis = ideal_record(model), output.axis
+    record, axis = ideal_record(model), output.axis
     if output.point is None:
-        return np.array([np.ptp(seen.point(output.name, "angle")), np.ptp(seen.point(output.name, "w"))])
-    along = (axis[0] * seen.point(output.name, x) + axis[1] * seen.point(output.name, y) for x, y in (("x", "y"), ("vx", "vy")))
+        return np.array([np.ptp(record.point(output.name, "angle")), np.ptp(record.point(output.name, "w"))])
+    along = (axis[0] * record.point(output.name, x) + axis[1] * record.point(output.name, y) for x, y in (("x", "y"), ("vx", "vy")))
     return np.array([np.ptp(part) for part in along])

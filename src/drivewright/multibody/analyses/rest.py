@@ -12,20 +12,22 @@ from drivewright.result import Answer, Array, Value
 def rest(model: SimulationModel) -> Answer:
     """Where the mechanism rests with its drives held at their start, what holds them, and its natural frequencies there."""
     assembly = model.assembly
-    found = equilibrium(assembly)
-    seen = observe(assembly.system, [0.0], found.state[None])
+    at_rest = equilibrium(assembly)
+    observed = observe(assembly.system, [0.0], at_rest.state[None])
     values = {
-        "rest.stable": Value(float(found.stable), "-", "1 where the equilibrium is stable"),
-        "rest.residual": Value(float(found.residual), "-", "force left over, as a part of the forces at work"),
+        "rest.stable": Value(float(at_rest.stable), "-", "1 where the equilibrium is stable"),
+        "rest.residual": Value(float(at_rest.residual), "-", "force left over, as a part of the forces at work"),
     }
     for number, name in enumerate(assembly.names):
         if name in model.bodies:
-            values[f"rest.{name}.angle"] = Value(float(seen.bodies[0, number, FIELDS.index("angle")]), "rad", f"angle of {name!r} at rest")
+            values[f"rest.{name}.angle"] = Value(
+                float(observed.bodies[0, number, FIELDS.index("angle")]), "rad", f"angle of {name!r} at rest"
+            )
     for drive, load in zip(assembly.model.drives, balance(assembly) if assembly.model.drives else (), strict=True):
         values[f"rest.{drive.joint}.torque"] = Value(float(load), "N m", f"torque of the drive at joint {drive.joint!r} that holds it")
     if assembly.freedom == 0:
         return Answer(values, findings=("natural frequencies do not exist: the drives leave the mechanism no freedom",))
-    small = linearise(assembly, found.state)
+    small = linearise(assembly, at_rest.state)
     shapes = modes(small)
     for number, (frequency, ratio) in enumerate(zip(shapes.frequencies, shapes.ratios, strict=True), 1):
         values[f"modes.{number}.frequency"] = Value(float(frequency), "Hz", f"natural frequency of mode {number}")

@@ -138,10 +138,10 @@ def record_of(model: SimulationModel) -> Record:
     return _noted(_record(model))
 
 
-def _noted(found):
+def _noted(run):
     """A run or record, which whoever takes it inherits the stop of: what is kept from before has been noted for another analysis."""
-    note_stop(found.stop)
-    return found
+    note_stop(run.stop)
+    return run
 
 
 @lru_cache(maxsize=4)
@@ -160,10 +160,10 @@ def ideal_record(model: SimulationModel) -> Record:
     Its stop is told only where the run itself may have come further.
     """
     with collect_stops():
-        found = _ideal_record(model)
-    if model.has_play and found.stop:
-        note_stop(found.stop._replace(where=f"without play, {found.stop.where}"))
-    return found
+        ideal = _ideal_record(model)
+    if model.has_play and ideal.stop:
+        note_stop(ideal.stop._replace(where=f"without play, {ideal.stop.where}"))
+    return ideal
 
 
 def simulate_ideal(model: SimulationModel) -> Record:
@@ -181,21 +181,21 @@ def ideal_at(model: SimulationModel, times: ArrayLike) -> Mapping[str, Floats]:
     times = np.asarray(times)
     folded = np.mod(times, model.period) if model.period and model.ideal.freedom == 0 else times
     order = np.argsort(folded, kind="stable")
-    seen = record(simulate(model.ideal, float(folded.max()), model.settings, samples=folded[order]), model.markers)
+    run_record = record(simulate(model.ideal, float(folded.max()), model.settings, samples=folded[order]), model.markers)
     back = np.empty_like(order)
     back[order] = np.arange(len(order))
-    return {name: values[back] for name, values in seen.points.items()}
+    return {name: values[back] for name, values in run_record.points.items()}
 
 
 def last_turn(model: SimulationModel) -> Record:
     """The record of the last whole turn (of the whole run without turns), thinned to at most ROWS rows."""
-    seen = record_of(model)
-    turns = np.floor(seen.t[-1] / model.period + 1e-9) if model.period else 0
+    record = record_of(model)
+    turns = np.floor(record.t[-1] / model.period + 1e-9) if model.period else 0
     start = (turns - 1) * model.turn_length if turns >= 1 else 0.0
-    end = turns * model.turn_length if turns >= 1 else seen.t[-1]
-    rows = np.flatnonzero((seen.t >= start * (1 - 1e-12)) & (seen.t <= end * (1 + 1e-12)))
+    end = turns * model.turn_length if turns >= 1 else record.t[-1]
+    rows = np.flatnonzero((record.t >= start * (1 - 1e-12)) & (record.t <= end * (1 + 1e-12)))
     stride = max(1, -(-len(rows) // ROWS))
-    return seen.take(rows[::stride])
+    return record.take(rows[::stride])
 
 
 def cycle_columns(model: SimulationModel, t: Floats) -> tuple[Column, ...]:

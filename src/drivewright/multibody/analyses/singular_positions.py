@@ -45,11 +45,11 @@ def _table(model, passages):
 
 def _median(run):
     """Median of the smallest singular value over the states of a run."""
-    found = []
+    singular_values = []
     for part in run.stretches:
         rows = slice(None, None, max(1, len(part.t) * len(run.stretches) // SAMPLES))
-        found.append(smallest_singular_values(part.system, part.t[rows], part.y[rows]))
-    return float(np.median(np.concatenate(found)))
+        singular_values.append(smallest_singular_values(part.system, part.t[rows], part.y[rows]))
+    return float(np.median(np.concatenate(singular_values)))
 
 
 def _drive_angle(model, passages):
@@ -59,9 +59,9 @@ def _drive_angle(model, passages):
 
 def _rates(model, passed):
     """Angular velocities of the bodies there, over the largest of them."""
-    seen = observe(passed.system, np.array([passed.time]), passed.state[None]).bodies[0, :, FIELDS.index("w")]
+    observed = observe(passed.system, np.array([passed.time]), passed.state[None]).bodies[0, :, FIELDS.index("w")]
     names = [name for name in model.assembly.names if name in model.bodies][:SHOWN]
-    rates = [seen[model.assembly.names.index(name)] for name in names]
+    rates = [observed[model.assembly.names.index(name)] for name in names]
     largest = max(map(abs, rates), default=0.0) or 1.0
     return ", ".join(f"{name} {round(float(rate / largest), 3) + 0.0:g}" for name, rate in zip(names, rates, strict=True))
 

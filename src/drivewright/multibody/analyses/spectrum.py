@@ -17,9 +17,9 @@ PER_OSCILLATION = 20  # samples of the highest order, at least
 
 def spectrum(model: SimulationModel) -> Answer:
     """Amplitudes of every output's acceleration in orders of the drive, with and without play."""
-    seen, tables = record_of(model), []
+    run_record, tables = record_of(model), []
     start, period = model.window_start, model.turn_length
-    turns = int(np.floor((seen.t[-1] - start) / period + 1e-9))
+    turns = int(np.floor((run_record.t[-1] - start) / period + 1e-9))
     if turns < 1:
         return Answer(findings=("the spectrum is left out: the window has no whole turn",))
     samples = max(2 * model.samples_per_turn, PER_OSCILLATION * ORDERS)
@@ -50,6 +50,6 @@ def spectrum(model: SimulationModel) -> Answer:
 def amplitudes(turns: Floats) -> Floats:
     """(amplitude, low, high) of each order from the amplitudes (turns, orders) of single turns: the root of their mean square, so that
     what is irregular keeps its size however many turns there are, with its interval.  A motion that repeats itself has the same in all."""
-    found = [estimate(power, scale=float(np.max(turns**2))) for power in (turns**2).T]
-    power = np.array([[one.value, one.low, one.high] for one in found])
+    estimates = [estimate(power, scale=float(np.max(turns**2))) for power in (turns**2).T]
+    power = np.array([[one.value, one.low, one.high] for one in estimates])
     return np.sqrt(np.maximum(power, 0.0)).T

@@ -17,24 +17,24 @@ def tolerances(model: SimulationModel, sources: Sequence[Source], angle: float, 
 
     The driven body stands at `angle` [rad].
     """
-    held = posture(model.ideal, model.markers, sources, angle)
-    found = sample(held, sources, samples, model.seed)
-    slopes = gradient(held, len(sources))
+    nominal = posture(model.ideal, model.markers, sources, angle)
+    mechanisms = sample(nominal, sources, samples, model.seed)
+    slopes = gradient(nominal, len(sources))
     parts = shares(sources, slopes)
-    closed = np.isfinite(found.deviations).all(axis=(1, 2))
+    closed = np.isfinite(mechanisms.deviations).all(axis=(1, 2))
     values, tables = {"tolerances.unclosed": Value(float(np.mean(~closed)), "-", "share of the random mechanisms that do not close")}, []
     for number, output in enumerate(model.outputs):
         for reading in ("x", "y") if output.point else ("angle",):
             k = READINGS.index(reading)
             name = f"{output.name}.{reading}" if output.point else output.name
-            data, share = found.deviations[closed, number, k], (parts.worst[number, k], parts.sigma[number, k])
+            data, share = mechanisms.deviations[closed, number, k], (parts.worst[number, k], parts.sigma[number, k])
             values |= _values(name, _unit(output), data, share)
             tables += [_histogram(name, _unit(output), data, share), _tornado(name, _unit(output), sources, share)]
     return Answer(
         values,
         tuple(tables),
         findings=tuple(_findings(sources, closed, samples)),
-        outcome="partial" if found.interrupted or not closed.all() else "complete",
+        outcome="partial" if mechanisms.interrupted or not closed.all() else "complete",
     )
 
 

@@ -28,11 +28,11 @@ class RunNumbers:
         return next(iter(self.turns.values())).size if self.turns else 0
 
 
-def acceleration(seen: Record, output: Output) -> tuple[Floats, str, str]:
+def acceleration(record: Record, output: Output) -> tuple[Floats, str, str]:
     """(samples, unit, word) of an output's acceleration: the point's where one is given, else that of the angle."""
     if output.point is None:
-        return seen.point(output.name, "alpha"), "rad/s^2", "angular acceleration"
-    return np.hypot(seen.point(output.name, "ax"), seen.point(output.name, "ay")), "m/s^2", "acceleration"
+        return record.point(output.name, "alpha"), "rad/s^2", "angular acceleration"
+    return np.hypot(record.point(output.name, "ax"), record.point(output.name, "ay")), "m/s^2", "acceleration"
 
 
 def start_of_window(model: SimulationModel, end: float) -> float:
@@ -50,17 +50,17 @@ def turn_ends(model: SimulationModel, start: float, end: float) -> Floats:
 def output_numbers(model: SimulationModel, run: Run) -> RunNumbers:
     """Outputs, drive and pins with play of a run."""
     start = start_of_window(model, run.end[1])
-    seen, numbers = window_record(model, run), RunNumbers()
-    ends = turn_ends(model, start, seen.t[-1])
+    record, numbers = window_record(model, run), RunNumbers()
+    ends = turn_ends(model, start, record.t[-1])
     for output in model.outputs:
-        _motion(seen, output, ends, numbers)
-        add_impact_load(seen, output, ends, numbers, ideal_peak(model, output))
+        _motion(record, output, ends, numbers)
+        add_impact_load(record, output, ends, numbers, ideal_peak(model, output))
     if model.assembly.model.drives:
-        torque = np.max(np.abs(seen.drives), axis=1)
+        torque = np.max(np.abs(record.drives), axis=1)
         numbers.whole["drive.torque"] = float(np.max(torque))
-        numbers.turns.update({"drive.torque": largest_per_turn(seen.t, torque, ends)} if len(ends) > 1 else {})
+        numbers.turns.update({"drive.torque": largest_per_turn(record.t, torque, ends)} if len(ends) > 1 else {})
     for number, name in enumerate(model.pins):
-        _pin(model, run, seen, number, name, ends, numbers)
+        _pin(model, run, record, number, name, ends, numbers)
     return numbers
 
 
@@ -79,20 +79,20 @@ def ideal_peak(model: SimulationModel, output: Output) -> float:
 def joint_force_numbers(model: SimulationModel, run: Run) -> RunNumbers:
     """Force in every joint, tension of the massless links and whether they are pushed, the middles of folds left out."""
     start, limit, numbers = start_of_window(model, run.end[1]), model.limits.link_compression, RunNumbers()
-    seen = concatenate([observe(*states) for states in states_outside_folds(run, start)])
-    ends, forces = turn_ends(model, start, seen.t[-1]), reactions(model.assembly, run.end[0], seen)
+    observed = concatenate([observe(*states) for states in states_outside_folds(run, start)])
+    ends, forces = turn_ends(model, start, observed.t[-1]), reactions(model.assembly, run.end[0], observed)
     for name, joint in forces.joints.items():
         size = np.hypot(*joint.force.T)
         numbers.whole[f"{name}.force"] = float(np.max(size))
-        numbers.turns.update({f"{name}.force": largest_per_turn(seen.t, size, ends)} if len(ends) > 1 else {})
+        numbers.turns.update({f"{name}.force": largest_per_turn(observed.t, size, ends)} if len(ends) > 1 else {})
     for name, tension in forces.tensions.items():
         pushed, top = (tension < -limit).astype(float), float(np.max(tension))
-        numbers.whole.update({f"{name}.tension": float(np.min(tension)), f"{name}.pushed": time_mean(seen.t, pushed)})
+        numbers.whole.update({f"{name}.tension": float(np.min(tension)), f"{name}.pushed": time_mean(observed.t, pushed)})
         if len(ends) > 1:
             numbers.turns.update(
                 {
-                    f"{name}.tension": top - largest_per_turn(seen.t, top - tension, ends),
-                    f"{name}.pushed": mean_per_turn(seen.t, pushed, ends),
+                    f"{name}.tension": top - largest_per_turn(observed.t, top - tension, ends),
+                    f"{name}.pushed": mean_per_turn(observed.t, pushed, ends),
                 }
             )
     return numbers
@@ -111,37 +111,37 @@ def energy_numbers(model: SimulationModel, run: Run) -> RunNumbers:
 
 def audit_of_run(model: SimulationModel, run: Run) -> Audit:
     """The `Audit` of a run with two points a step."""
-    seen = record_of(model) if run is run_of(model) else record(run, {})
-    return audit_of_samples(seen) if model.assembly.freedom == 0 else audit(seen)  # kinematics has samples, not steps
+    run_record = record_of(model) if run is run_of(model) else record(run, {})
+    return audit_of_samples(run_record) if model.assembly.freedom == 0 else audit(run_record)  # kinematics has samples, not steps
 
 
-def _motion(seen, output, ends, numbers):
+def _motion(record, output, ends, numbers):
     """Largest magnitudes and the range of the angle of an output, in SI."""
-    name, angle = output.name, seen.point(output.name, "angle")
-    sizes = {"alpha": np.abs(seen.point(name, "alpha"))} | ({"acceleration": acceleration(seen, output)[0]} if output.point else {})
-    numbers.whole.update({f"{name}.{key}": largest(seen.t, x) for key, x in sizes.items()} | {f"{name}.swing": span(seen.t, angle)})
+    name, angle = output.name, record.point(output.name, "angle")
+    sizes = {"alpha": np.abs(record.point(name, "alpha"))} | ({"acceleration": acceleration(record, output)[0]} if output.point else {})
+    numbers.whole.update({f"{name}.{key}": largest(record.t, x) for key, x in sizes.items()} | {f"{name}.swing": span(record.t, angle)})
     if len(ends) > 1:
-        numbers.turns.update({f"{name}.{key}": largest_per_turn(*peaks(seen.t, x), ends) for key, x in sizes.items()})
+        numbers.turns.update({f"{name}.{key}": largest_per_turn(*peaks(record.t, x), ends) for key, x in sizes.items()})
         low, high = np.min(angle), np.max(angle)
-        above, below = largest_per_turn(seen.t, angle - low, ends), largest_per_turn(seen.t, high - angle, ends)
+        above, below = largest_per_turn(record.t, angle - low, ends), largest_per_turn(record.t, high - angle, ends)
         numbers.turns[f"{name}.swing"] = above + below - (high - low)
 
 
-def add_impact_load(seen: Record, output: Output, ends: Floats, numbers: RunNumbers, peak: float) -> None:
+def add_impact_load(record: Record, output: Output, ends: Floats, numbers: RunNumbers, peak: float) -> None:
     """Add the impact load of an output, and its largest acceleration over that without play, to a `RunNumbers`."""
-    name, data = output.name, acceleration(seen, output)[0]
+    name, data = output.name, acceleration(record, output)[0]
     period = ends[1] - ends[0] if len(ends) > 1 else None
-    load = impact_load(seen.t, data, peak, period)
-    numbers.whole[f"{name}.ratio"] = largest(seen.t, data) / peak if peak else np.nan
+    load = impact_load(record.t, data, peak, period)
+    numbers.whole[f"{name}.ratio"] = largest(record.t, data) / peak if peak else np.nan
     numbers.whole.update({f"{name}.{field}": value for field, value in zip(ImpactLoad._fields, load, strict=True)})
     if np.isfinite(load.turn_mean):
-        numbers.turns[f"{name}.peak"] = numbers.turns[f"{name}.turn_mean"] = largest_per_turn(*peaks(seen.t, np.abs(data)), ends) / peak
+        numbers.turns[f"{name}.peak"] = numbers.turns[f"{name}.turn_mean"] = largest_per_turn(*peaks(record.t, np.abs(data)), ends) / peak
 
 
-def _pin(model, run, seen, number, name, ends, numbers):
-    pin = dict(zip(PIN_FIELDS, np.moveaxis(seen.pins[:, number], 1, 0), strict=True))
-    force, span = np.hypot(pin["fx"], pin["fy"]), seen.t[-1] - seen.t[0]
-    at = run.impacts[(run.impacts[:, 1] == number) & (run.impacts[:, 0] >= seen.t[0]) & (run.impacts[:, 0] <= seen.t[-1]), 0]
+def _pin(model, run, record, number, name, ends, numbers):
+    pin = dict(zip(PIN_FIELDS, np.moveaxis(record.pins[:, number], 1, 0), strict=True))
+    force, span = np.hypot(pin["fx"], pin["fy"]), record.t[-1] - record.t[0]
+    at = run.impacts[(run.impacts[:, 1] == number) & (run.impacts[:, 0] >= record.t[0]) & (run.impacts[:, 0] <= record.t[-1]), 0]
     means = {"touching": (pin["depth"] > 0).astype(float), "lost": np.abs(pin["friction"] * pin["slip"])}
     numbers.whole.update(
         {
@@ -150,16 +150,16 @@ def _pin(model, run, seen, number, name, ends, numbers):
             f"{name}.hits": len(at) * (model.period or 0.0) / span,
         }
     )
-    numbers.whole.update({f"{name}.{key}": float(mean_per_turn(seen.t, x, seen.t[[0, -1]])[0]) for key, x in means.items()})
+    numbers.whole.update({f"{name}.{key}": float(mean_per_turn(record.t, x, record.t[[0, -1]])[0]) for key, x in means.items()})
     if len(ends) > 1:
         numbers.turns.update(
             {
-                f"{name}.force": largest_per_turn(seen.t, force, ends),
+                f"{name}.force": largest_per_turn(record.t, force, ends),
                 f"{name}.hits": np.histogram(at, ends)[0].astype(float),
-                f"{name}.depth": np.maximum(largest_per_turn(seen.t, pin["depth"], ends), 0.0),
+                f"{name}.depth": np.maximum(largest_per_turn(record.t, pin["depth"], ends), 0.0),
             }
         )
-        numbers.turns.update({f"{name}.{key}": mean_per_turn(seen.t, x, ends) for key, x in means.items()})
+        numbers.turns.update({f"{name}.{key}": mean_per_turn(record.t, x, ends) for key, x in means.items()})
 
 
 def largest_per_turn(t: Floats, x: Floats, ends: Floats) -> Floats:

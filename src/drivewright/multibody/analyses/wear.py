@@ -91,13 +91,15 @@ def wear(model: SimulationModel, bearing: WearingBearing) -> Answer:
     """Depth over the angle of the bearing, force and impact load over the turns: of a bearing, or the mean of an ensemble of bearings."""
     first, *_ = histories = _histories(model, bearing)
     count = len(first.stages)
-    found = Statistics(tuple(each.numbers(bearing) for each in histories), int(first.periodic))
+    run_statistics = Statistics(tuple(each.numbers(bearing) for each in histories), int(first.periodic))
     tables = (_profiles(bearing, histories), _development(model, bearing, histories)) if count else ()
     jump = bearing.cycles / bearing.jumps
     findings = _findings(bearing, first.depth, max((jump * np.max(stage.per_turn) for stage in first.stages), default=0.0))
     if first.advice:
         findings = (*findings, f"wear ends after {count} of {bearing.jumps} jumps: {first.advice}")
-    return Answer(_values(bearing, found, count * jump), tables, findings=findings, outcome="partial" if first.advice else "complete")
+    return Answer(
+        _values(bearing, run_statistics, count * jump), tables, findings=findings, outcome="partial" if first.advice else "complete"
+    )
 
 
 def _histories(model, bearing):
@@ -113,7 +115,7 @@ def history(model: SimulationModel, bearing: WearingBearing, number: int) -> His
     """The `History` of one bearing, whose runs start like those of this member of the ensemble."""
     stages, depth, advice, periodic = [], np.zeros(bearing.bins), "", True
     for jump in range(bearing.jumps):
-        seen, advice = run_with_wear(model, bearing, depth, number)
+        record, advice = run_with_wear(model, bearing, depth, number)
         if advice:
             break
         cycles = bearing.cycles / bearing.jumps
@@ -121,13 +123,13 @@ def history(model: SimulationModel, bearing: WearingBearing, number: int) -> His
             Stage(
                 jump * cycles,
                 depth,
-                depth_per_turn(seen, model, bearing),
-                _largest_force(seen, model, bearing),
-                _loads(seen, model),
-                _rubbing(seen, model, bearing),
+                depth_per_turn(record, model, bearing),
+                _largest_force(record, model, bearing),
+                _loads(record, model),
+                _rubbing(record, model, bearing),
             )
         )
-        depth, periodic = np.asarray(extrapolate_wear(depth, stages[-1].per_turn, cycles)), periodic and orbit_turns(model, seen) > 0
+        depth, periodic = np.asarray(extrapolate_wear(depth, stages[-1].per_turn, cycles)), periodic and orbit_turns(model, record) > 0
     return History(tuple(stages), depth, advice, periodic)
 
 
@@ -142,28 +144,28 @@ def run_with_wear(model: SimulationModel, bearing: WearingBearing, depth: Floats
     return record(run, markers, start_of_window(model, run.end[1])), run.advice
 
 
-def _rubbing(seen, model, bearing):
+def _rubbing(record, model, bearing):
     """Means over the turns of force times slip [W]."""
-    pin = _pin(seen, model, bearing)
-    return mean_per_turn(seen.t, pin["normal"] * np.abs(pin["slip"]), turn_ends(model, seen.t[0], seen.t[-1]))
+    pin = _pin(record, model, bearing)
+    return mean_per_turn(record.t, pin["normal"] * np.abs(pin["slip"]), turn_ends(model, record.t[0], record.t[-1]))
 
 
-def _pin(seen, model, bearing):
-    return dict(zip(PIN_FIELDS, np.moveaxis(seen.pins[:, model.pins.index(bearing.joint)], 1, 0), strict=True))
+def _pin(record, model, bearing):
+    return dict(zip(PIN_FIELDS, np.moveaxis(record.pins[:, model.pins.index(bearing.joint)], 1, 0), strict=True))
 
 
-def contact_angle(seen: Record, model: SimulationModel, bearing: WearingBearing) -> Floats:
+def contact_angle(record: Record, model: SimulationModel, bearing: WearingBearing) -> Floats:
     """Where the journal touches the bearing, in the frame of the bearing's body (m,) [rad]."""
-    pin = _pin(seen, model, bearing)
-    return np.arctan2(-pin["ny"], -pin["nx"]) - seen.point(BEARING + bearing.joint, "angle")
+    pin = _pin(record, model, bearing)
+    return np.arctan2(-pin["ny"], -pin["nx"]) - record.point(BEARING + bearing.joint, "angle")
 
 
-def depth_per_turn(seen: Record, model: SimulationModel, bearing: WearingBearing) -> Floats:
+def depth_per_turn(record: Record, model: SimulationModel, bearing: WearingBearing) -> Floats:
     """Depth (bins,) [m] that a turn takes off the bearing, the mean over the window."""
-    pin = _pin(seen, model, bearing)
+    pin = _pin(record, model, bearing)
     taken = deposit(
-        seen.t,
-        contact_angle(seen, model, bearing),
+        record.t,
+        contact_angle(record, model, bearing),
         pin["normal"],
         pin["slip"],
         bearing.coefficient,
@@ -171,28 +173,29 @@ def depth_per_turn(seen: Record, model: SimulationModel, bearing: WearingBearing
         bearing.length,
         bearing.bins,
     )
-    return taken * model.turn_length / (seen.t[-1] - seen.t[0])
+    return taken * model.turn_length / (record.t[-1] - record.t[0])
 
 
-def _largest_force(seen, model, bearing):
-    pin = _pin(seen, model, bearing)
+def _largest_force(record, model, bearing):
+    pin = _pin(record, model, bearing)
     return float(np.max(np.hypot(pin["fx"], pin["fy"])))
 
 
-def _loads(seen, model):
+def _loads(record, model):
     return tuple(
-        impact_load(seen.t, acceleration(seen, output)[0], ideal_peak(model, output), model.period).coefficient for output in model.outputs
+        impact_load(record.t, acceleration(record, output)[0], ideal_peak(model, output), model.period).coefficient
+        for output in model.outputs
     )
 
 
 # -- answer ------------------------------------------------------------------------------------------------------------------
 
 
-def _values(joint: WearingBearing, found: Statistics, cycles: float):
+def _values(joint: WearingBearing, run_statistics: Statistics, cycles: float):
     name = joint.joint
 
     def of(key, unit, meaning):
-        return Value.of(found.of_run(key, "rubbing"), unit, meaning)
+        return Value.of(run_statistics.of_run(key, "rubbing"), unit, meaning)
 
     return {
         f"wear.{name}.max_depth": of("max_depth", "m", f"largest depth worn off the bearing of joint {name!r}"),
@@ -262,16 +265,16 @@ def _columns(name, unit, meaning, numbers):
 
 
 def _findings(joint, depth, step):
-    found, slope = [], float(np.max(np.abs(np.diff(depth, append=depth[0])))) * len(depth) / TURN
+    findings, slope = [], float(np.max(np.abs(np.diff(depth, append=depth[0])))) * len(depth) / TURN
     if slope > FLAT * joint.clearance:
-        found.append(
+        findings.append(
             f"wear of joint {joint.joint!r}: the worn profile has slopes of {1e3 * slope:.3g} mm/rad beside a clearance of "
             f"{1e3 * joint.clearance:.3g} mm. The contact is looked for on the side where the journal's centre is; that is good up to "
             f"slopes of about {FLAT:g} times the clearance. Take fewer cycles, or fewer bins"
         )
     if step > SMALL * joint.clearance:
-        found.append(
+        findings.append(
             f"wear of joint {joint.joint!r}: a jump takes off up to {1e3 * step:.3g} mm, {step / joint.clearance:.2g} times the "
             f"clearance of {1e3 * joint.clearance:.3g} mm, as if the motion stayed the same meanwhile; take more jumps"
         )
-    return tuple(found)
+    return tuple(findings)

@@ -152,10 +152,10 @@ class PinContact(ForceElement):
 
     def reaction(self, number: int, bodies: ObservedBodies) -> Reaction:
         """The walls press at the bearing's radius, the oil at the journal's centre."""
-        seen = {name: bodies.observed.pin(number, name) for name in ("depth", "normal", "friction", "nx", "ny", "fx", "fy")}
+        observed = {name: bodies.observed.pin(number, name) for name in ("depth", "normal", "friction", "nx", "ny", "fx", "fy")}
         contact = self.model.contact if isinstance(self.model, Lubricated) else self.model
-        n, force = np.stack([seen["nx"], seen["ny"]], axis=-1), np.stack([seen["fx"], seen["fy"]], axis=-1)
-        rubbing = seen["friction"][:, None] * n @ np.array([[0.0, -1.0], [1.0, 0.0]])
-        oil = force + seen["normal"][:, None] * n - rubbing
-        moment = -contact.bearing_radius * cross(n, rubbing) - (seen["depth"] + contact.clearance) * cross(n, oil)
+        n, force = np.stack([observed["nx"], observed["ny"]], axis=-1), np.stack([observed["fx"], observed["fy"]], axis=-1)
+        rubbing = observed["friction"][:, None] * n @ np.array([[0.0, -1.0], [1.0, 0.0]])
+        oil = force + observed["normal"][:, None] * n - rubbing
+        moment = -contact.bearing_radius * cross(n, rubbing) - (observed["depth"] + contact.clearance) * cross(n, oil)
         return Reaction(force, moment)

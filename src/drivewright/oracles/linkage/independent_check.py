@@ -31,8 +31,8 @@ TIMES = 5  # a halved step shows the error of the second order and less of that 
 
 def verify(model: LinkageModel, result: object) -> tuple[Row, ...]:
     """All rows; MissingExtra without Exudyn where it has a part in this."""
-    seen = list(_seen(model))
-    rows = [*_closed_joints(model, seen), *_newton_euler(model, seen), *_differences(model), *closed_form(model)]
+    states = list(_observed_states(model))
+    rows = [*_closed_joints(model, states), *_newton_euler(model, states), *_differences(model), *closed_form(model)]
     if _known_to_exudyn(model):
         rows += _exudyn(model)
     return tuple(rows)
@@ -41,10 +41,10 @@ def verify(model: LinkageModel, result: object) -> tuple[Row, ...]:
 # -- joints and equations ------------------------------------------------------------------------------------------------------
 
 
-def _closed_joints(model, seen):
+def _closed_joints(model, states):
     """How far the two halves of every joint without play part, in place and across its line."""
     names, wide = model.assembly.names, model.assembly.expanded
-    places = _Places(wide, names, np.concatenate([observed.bodies[:, :, POSE] for _, observed in seen]))
+    places = _Places(wide, names, np.concatenate([observed.bodies[:, :, POSE] for _, observed in states]))
     misses = {Revolute: [], Prismatic: [], PinSlot: []}
     for joint in wide.joints:
         if isinstance(joint, (Prismatic, PinSlot)):
@@ -81,19 +81,19 @@ class _Places:
         return x + 1j * y + complex(marker.x - cx, marker.y - cy) * self.turned(marker.body)
 
 
-def _seen(model):
+def _observed_states(model):
     """(system, `Observed`) of states spread over each stretch of the run, folds left out: there forces in the joints are mere limits."""
     for system, t, y in states_outside_folds(run_of(model)):
         rows = slice(None, None, max(1, len(t) // SHOWN))
         yield system, observe(system, t[rows], y[rows])
 
 
-def _newton_euler(model, seen):
+def _newton_euler(model, states):
     """What no reactions of the joints could make up for in the equations of every body; the drives' torques by these equations."""
-    solved = [reactions(model.assembly, system, observed) for system, observed in seen]
+    solved = [reactions(model.assembly, system, observed) for system, observed in states]
     left = max(float(np.max(found.residual)) for found in solved)
     yield "Newton and Euler for every body: largest remainder, over the largest force", 0.0, left, "-", 1e-8, ABSOLUTE
-    ours, other = (np.concatenate(parts) for parts in ([observed.drives for _, observed in seen], [found.drives for found in solved]))
+    ours, other = (np.concatenate(parts) for parts in ([observed.drives for _, observed in states], [found.drives for found in solved]))
     for k, drive in enumerate(model.assembly.model.drives):
         worst, size = np.argmax(np.abs(ours[:, k] - other[:, k])), float(np.max(np.abs(ours[:, k])))
         unit = "N" if isinstance(next(j for j in model.assembly.model.joints if j.name == drive.joint), Prismatic) else "N m"
@@ -105,10 +105,10 @@ def _differences(model):
     """Without freedom: the outputs' accelerations by differences over a turn."""
     if model.assembly.freedom:
         return
-    seen = ideal_record(model)
-    step = seen.t[1] - seen.t[0]
+    states = ideal_record(model)
+    step = states.t[1] - states.t[0]
     for output in model.spec.outputs:
-        angle, alpha = seen.point(output.name, "angle"), seen.point(output.name, "alpha")[1:-1]
+        angle, alpha = states.point(output.name, "angle"), states.point(output.name, "alpha")[1:-1]
         bent = (angle[2:] - 2 * angle[1:-1] + angle[:-2]) / step**2
         worst, size = np.argmax(np.abs(bent - alpha)), float(np.max(np.abs(alpha)))
         yield (
@@ -154,10 +154,10 @@ def _exudyn(model):
         return
     system, t, y, start = found
     length = _until_lasting(model, system, t, y, min(PART[kind] * (model.period or LONGEST), model.run_length))
-    ours = _ours(model, system, t, y, length)
+    ours = _final_poses(model, system, t, y, length)
     step, finer = (model.period or LONGEST) / STEPS[kind], 4 if kind == "dry" else 2
     coarse, fine = (exudyn_model.run(model.assembly.model, start, length, h, samples=2) for h in (step, step / finer))
-    yield from _apart(model, ours, coarse, fine, kind, length)
+    yield from _pose_rows(model, ours, coarse, fine, kind, length)
 
 
 def _start(model):
@@ -178,8 +178,8 @@ def _start(model):
 def _in_flight(model, stretch):
     """First recorded state in which every pin lies between centre and contact; None without one."""
     plays = np.array([joint.model.clearance for joint in model.assembly.model.joints if joint.name in model.pins])
-    seen = observe(stretch.system, stretch.t[: 20 * SHOWN], stretch.y[: 20 * SHOWN])
-    off = 1 + seen.pins[:, :, PIN_FIELDS.index("depth")] / plays
+    states = observe(stretch.system, stretch.t[: 20 * SHOWN], stretch.y[: 20 * SHOWN])
+    off = 1 + states.pins[:, :, PIN_FIELDS.index("depth")] / plays
     rows = np.flatnonzero(np.all((off > FREE[0]) & (off < FREE[1]), axis=1))
     return int(rows[0]) if len(rows) else None
 
@@ -198,7 +198,7 @@ def _until_lasting(model, system, t, y, length) -> float:
     return BEFORE * (times[flight[-1]] - t)
 
 
-def _ours(model, system, t, y, length):
+def _final_poses(model, system, t, y, length):
     """{body: pose and rates} after `length` [s], from a state."""
     if model.assembly.freedom == 0:
         done = simulate(model.assembly, length, Settings(), samples=np.array([length]))
@@ -209,7 +209,7 @@ def _ours(model, system, t, y, length):
     return {body.name: bodies[model.assembly.names.index(body.name), POSE] for body in model.assembly.model.bodies}
 
 
-def _apart(model, ours, coarse, fine, kind, length):
+def _pose_rows(model, ours, coarse, fine, kind, length):
     """Rows of every moving body: place and angle."""
     size = max(float(np.max(np.abs(pose[:2]))) for pose in ours.values())
     still = 3e-7 * size if kind == "smooth" else 0.02 * min(j.model.clearance for j in model.assembly.model.joints if j.name in model.pins)
