@@ -11,6 +11,7 @@ error_messages      validation errors of pydantic as `SpecError`: the dotted key
 json_schema         the JSON schema of a kind's spec files, read off the fields
 keys                dotted keys of raw tables: set, or taken out, in place
 length_or_angle     a quantity that is a length, or an angle
+length_or_rule      a quantity that is a length, or the word for a rule that gives it
 machining           how flat parts are milled and measured: shared by every kind whose drawings go to a workshop
 mechanism_spec      the whole spec of one drive: what all kinds have in common
 optimise_table      the [optimise] table: unknowns, requirements and objectives

@@ -21,19 +21,8 @@ def closure(model: ChainModel, done: Answers) -> Answer:
         "transmission_error": Value(found.transmission_ripple, "rad", "driven angle off the ratio of teeth, greatest less least"),
         **_sides(model),
     }
-    checks = [
-        Check(
-            f"wrap.{side}",
-            values[f"wrap.{side}"].value,
-            model.spec.limits.wrap,
-            ">=",
-            "rad",
-            f"angle of the {SIDE_WORDS[side]} that the chain takes in",
-            (side,),
-        )
-        for side in SIDES
-    ]
-    return Answer(values, (closure_table(found),), (*checks, _apart(model), *_fixed(model)), tuple(_remarks(model)), data=found)
+    checks = (*_wraps(model, values), _apart(model), *_fixed(model))
+    return Answer(values, (closure_table(found),), checks, tuple(_remarks(model)), data=found)
 
 
 def no_closure(spec: SilentChainSpec) -> str | None:
@@ -55,6 +44,13 @@ def _sides(model):
     return found
 
 
+def _wraps(model, values):
+    """Angles of the sprockets that the chain takes in."""
+    for side in SIDES:
+        message = f"angle of the {SIDE_WORDS[side]} that the chain takes in"
+        yield Check(f"wrap.{side}", values[f"wrap.{side}"].value, model.spec.limits.wrap, ">=", "rad", message, (side,))
+
+
 def _apart(model):
     """Sprockets as large as their seated pin lines against the centre distance."""
     room = model.closure.mean - sum(seat_height(model.worn, z) for z in model.teeth)
@@ -63,26 +59,12 @@ def _apart(model):
 
 def _fixed(model):
     """A fixed centre distance against the taut one."""
-    wanted = model.spec.driven.centre_distance
-    if wanted is not None:
-        yield Check(
-            "centre_distance.slack",
-            wanted,
-            model.closure.mean * (1 - SLACK),
-            ">=",
-            "m",
-            "fixed centre distance against that of the taut chain: a shorter one lets the chain sag and jump",
-            ("chain",),
-        )
-        yield Check(
-            "centre_distance.taut",
-            wanted,
-            model.closure.mean * (1 + FREE),
-            "<=",
-            "m",
-            "fixed centre distance against that of the taut chain: a longer one overstretches the chain",
-            ("chain",),
-        )
+    given, taut = model.spec.driven.centre_distance, model.closure.mean
+    if given is not None:
+        against = "fixed centre distance against that of the taut chain: a"
+        sags, overstretches = f"{against} shorter one lets the chain sag and jump", f"{against} longer one overstretches the chain"
+        yield Check("centre_distance.slack", given, taut * (1 - SLACK), ">=", "m", sags, ("chain",))
+        yield Check("centre_distance.taut", given, taut * (1 + FREE), "<=", "m", overstretches, ("chain",))
 
 
 def _remarks(model):

@@ -30,17 +30,8 @@ def contact(model: ChainModel, done: Answers) -> Answer:
         values |= bent
         checks.append(safe)
     if model.spec.drive:
-        checks.append(
-            Check(
-                "strand.taut",
-                values["strand.slack_force"].value,
-                0.0,
-                ">=",
-                "N",
-                "force of the slack strand under preload and load torque, without the centrifugal force",
-                ("chain",),
-            )
-        )
+        message = "force of the slack strand under preload and load torque, without the centrifugal force"
+        checks.append(Check("strand.taut", values["strand.slack_force"].value, 0.0, ">=", "N", message, ("chain",)))
     return Answer(values, (), tuple(checks), tuple(findings))
 
 
@@ -60,6 +51,8 @@ def _rolling(model, force):
     material = model.spec.material
     found = rolling.rolling_contact(force, model.contact_length, 2 * (model.link.radius,), material.youngs_modulus, material.poisson_ratio)
     limits = rolling.pressure_limits(material.yield_strength, material.poisson_ratio)
+    safety, least = float(limits.shakedown / found.pressure), model.spec.limits.shakedown_safety
+    message = "shakedown limit of the rolling pins over their contact pressure; a larger rolling radius lowers the pressure"
     return {
         "pin.contact_pressure": Value(float(found.pressure), "Pa", "greatest pressure of the pins on each other, Hertz"),
         "pin.half_width": Value(float(found.half_width), "m", "half the width of their contact"),
@@ -67,17 +60,7 @@ def _rolling(model, force):
         "pin.shear_depth": Value(float(found.depth), "m", "where it is, below the surface"),
         "pin.first_yield": Value(limits.first_yield, "Pa", "pressure below which nothing yields, von Mises"),
         "pin.shakedown_limit": Value(limits.shakedown, "Pa", "pressure below which nothing yields again after the first passes"),
-    }, (
-        Check(
-            "pin.shakedown",
-            float(limits.shakedown / found.pressure),
-            model.spec.limits.shakedown_safety,
-            ">=",
-            "-",
-            "shakedown limit of the rolling pins over their contact pressure; a larger rolling radius lowers the pressure",
-            ("chain",),
-        ),
-    )
+    }, (Check("pin.shakedown", safety, least, ">=", "-", message, ("chain",)),)
 
 
 def _hinge(model, force):
@@ -103,13 +86,5 @@ def _bending(model, force):
         "pin.shear_stress": Value(stress.shear, "Pa", "of a pin across the pack of plates"),
         "pin.von_mises": Value(stress.mises, "Pa", "of bending and shear of a pin"),
     }
-    safety = model.spec.material.yield_strength / stress.mises
-    return values, Check(
-        "pin.yield",
-        safety,
-        model.spec.limits.yield_safety,
-        ">=",
-        "-",
-        "yield strength over von Mises stress of a pin's bending",
-        ("chain",),
-    )
+    safety, message = model.spec.material.yield_strength / stress.mises, "yield strength over von Mises stress of a pin's bending"
+    return values, Check("pin.yield", safety, model.spec.limits.yield_safety, ">=", "-", message, ("chain",))

@@ -61,41 +61,23 @@ def dynamics(model: ChainModel, done: Answers) -> Answer:
 def _seated(model: ChainModel, runs: Ensemble) -> Iterator[Check]:
     """Whether the chain is still on its teeth."""
     first = runs.first
-    yield Check.of(
-        touching_flanks(runs),
-        "running.contacts",
-        float(len(first.model.sprockets)),
-        ">=",
-        "flanks that touch, on average, against one on every sprocket: with fewer the chain has left its teeth",
-        ("chain",),
-    )
+    message = "flanks that touch, on average, against one on every sprocket: with fewer the chain has left its teeth"
+    yield Check.of(touching_flanks(runs), "running.contacts", float(len(first.model.sprockets)), ">=", message, ("chain",))
     if first.model.sprockets[first.slide].slide and len(first.model.sprockets) == 2:
         off = abs(runs.estimate(mean_of(centre_distance)).value - model.closure.mean)
-        yield Check(
-            "running.centre_distance",
-            off,
-            OFF * model.spec.pitch,
-            "<=",
-            "m",
-            "mean centre distance of the run off the rigid one: so far off, the chain has left its teeth",
-            ("chain",),
-        )
+        message = "mean centre distance of the run off the rigid one: so far off, the chain has left its teeth"
+        yield Check("running.centre_distance", off, OFF * model.spec.pitch, "<=", "m", message, ("chain",))
 
 
 def settled(values: Mapping[str, Value]) -> Check:
     """Whether mean and fluctuation of the centre distance have stopped drifting: the check `settled` counts those that have not."""
     names = [f"dynamics.centre_distance.{name}" for name in ("mean", "fluctuation")]
     drifting = [name for name in names if not values[name].settled]
-    return Check(
-        "settled",
-        float(len(drifting)),
-        0.0,
-        "<=",
-        "-",
+    message = (
         "statistics of the centre distance that still drifted, or hold less than two revolutions of the chain; "
-        "give dynamics.settling and dynamics.duration more",
-        ("chain",),
+        "give dynamics.settling and dynamics.duration more"
     )
+    return Check("settled", float(len(drifting)), 0.0, "<=", "-", message, ("chain",))
 
 
 def _remarks(runs, values):

@@ -56,50 +56,36 @@ def _plate(model):
         if name.startswith("plate.wall.")
     ]
     if np.isfinite(forward):
-        largest = 2 * np.pi / min(model.teeth)
         values["plate.turn.forward"] = Value(forward, "rad", "angle that a joint can turn around a sprocket")
         values["plate.turn.backward"] = Value(-back, "rad", "angle that a joint can bend back")
-        checks.append(
-            Check(
-                "joint.turn",
-                forward,
-                largest,
-                ">=",
-                "rad",
-                "angle that a joint can turn against that of the smaller sprocket",
-                ("chain",),
-                True,
-            )
-        )
+        message = "angle that a joint can turn against that of the smaller sprocket"
+        checks.append(Check("joint.turn", forward, 2 * np.pi / min(model.teeth), ">=", "rad", message, ("chain",), True))
     return values, checks
 
 
 def _sprockets(model):
     values, checks = {}, []
     for side, sprocket in zip(SIDES, model.sprockets, strict=True):
-        found = (_roller_teeth if model.spec.roller else _teeth)(model, side, sprocket)
-        values |= found[0]
-        checks += found[1]
+        words = f"of the teeth of the {SIDE_WORDS[side]}"
+        values |= _radii(side, sprocket, words)
+        message = f"width at the tip {words}"
+        checks.append(
+            Check(f"tip_thickness.{side}", sprocket.tip_thickness, model.spec.limits.tip_thickness, ">=", "m", message, (side,), True)
+        )
+        if not model.spec.roller:
+            values |= _flank_values(model, side, sprocket, words)
+            checks += _flank_checks(model, side, sprocket, words)
     return values, [*checks, *bores(model)]
 
 
 def bores(model: ChainModel) -> Iterator[Check]:
     """The holes against the roots of the teeth."""
     for side, sprocket in zip(SIDES, model.sprockets, strict=True):
-        yield Check(
-            f"bore.{side}",
-            0.5 * model.bore,
-            sprocket.root_radius,
-            "<=",
-            "m",
-            f"radius of the hole of the {SIDE_WORDS[side]} against the roots of its teeth",
-            (side,),
-            True,
-        )
+        message = f"radius of the hole of the {SIDE_WORDS[side]} against the roots of its teeth"
+        yield Check(f"bore.{side}", 0.5 * model.bore, sprocket.root_radius, "<=", "m", message, (side,), True)
 
 
-def _radii(side, sprocket):
-    words = f"of the teeth of the {SIDE_WORDS[side]}"
+def _radii(side, sprocket, words):
     return {
         f"tip_radius.{side}": Value(sprocket.tip_radius, "m", f"tips {words}"),
         f"root_radius.{side}": Value(sprocket.root_radius, "m", f"roots {words}"),
@@ -107,11 +93,9 @@ def _radii(side, sprocket):
     }
 
 
-def _teeth(model, side, sprocket):
-    words, limits = f"of the teeth of the {SIDE_WORDS[side]}", model.spec.limits
-    low, high = sprocket.contact_margins
+def _flank_values(model, side, sprocket, words):
+    """Involute, measuring pins and seating speeds of the teeth that plates sit on."""
     values = {
-        **_radii(side, sprocket),
         f"form_radius.{side}": Value(sprocket.form_radius, "m", f"where the involute begins, {words}"),
         f"tooth_thickness.{side}": Value(sprocket.thickness(sprocket.tooth.contact_radius), "m", f"along the circle of contact, {words}"),
     }
@@ -123,45 +107,21 @@ def _teeth(model, side, sprocket):
     approach, sliding = seating_speeds(model.plate, sprocket.tooth, "right")
     values[f"seating.approach.{side}"] = Value(approach, "m/rad", f"of a flank to its tooth per angle of the joint, {SIDE_WORDS[side]}")
     values[f"seating.sliding.{side}"] = Value(sliding, "m/rad", f"of a flank along its tooth per angle of the joint, {SIDE_WORDS[side]}")
-    return values, (
-        Check(f"tip_thickness.{side}", sprocket.tip_thickness, limits.tip_thickness, ">=", "m", f"width at the tip {words}", (side,), True),
-        Check(f"contact.above_form.{side}", low, 0.0, ">=", "m", f"contact of a seated plate above the form radius {words}", (side,), True),
-        Check(f"contact.below_tip.{side}", high, 0.0, ">=", "m", f"contact of a seated plate below the tips {words}", (side,), True),
-        Check(
-            f"contact.on_flank.{side}",
-            model.plate.flank_margin(sprocket.tooth),
-            0.0,
-            ">=",
-            "m",
-            f"contact of a plate seated on the {SIDE_WORDS[side]} within its flank",
-            (side,),
-            True,
-        ),
-        Check(
-            f"undercut.{side}",
-            float(sprocket.undercut),
-            0.0,
-            "<=",
-            "-",
-            f"1 where the hob's tip undercuts the flanks {words}",
-            (side,),
-            True,
-        ),
-    )
+    return values
 
 
-def _roller_teeth(model, side, sprocket):
-    check = Check(
-        f"tip_thickness.{side}",
-        sprocket.tip_thickness,
-        model.spec.limits.tip_thickness,
-        ">=",
-        "m",
-        f"width at the tip of the teeth of the {SIDE_WORDS[side]}",
-        (side,),
-        True,
+def _flank_checks(model, side, sprocket, words):
+    """Seated plates touch on the flanks of teeth and plate, and the hob leaves these whole."""
+    (above_form, below_tip), on_flank = sprocket.contact_margins, model.plate.flank_margin(sprocket.tooth)
+    margins = (
+        ("contact.above_form", above_form, f"contact of a seated plate above the form radius {words}"),
+        ("contact.below_tip", below_tip, f"contact of a seated plate below the tips {words}"),
+        ("contact.on_flank", on_flank, f"contact of a plate seated on the {SIDE_WORDS[side]} within its flank"),
     )
-    return _radii(side, sprocket), (check,)
+    for name, margin, message in margins:
+        yield Check(f"{name}.{side}", margin, 0.0, ">=", "m", message, (side,), True)
+    message = f"1 where the hob's tip undercuts the flanks {words}"
+    yield Check(f"undercut.{side}", float(sprocket.undercut), 0.0, "<=", "-", message, (side,), True)
 
 
 def _meeting(model):
@@ -172,16 +132,6 @@ def _meeting(model):
     values, checks = {}, []
     for side, least in zip(SIDES, gaps, strict=True):
         values[f"least_gap.{side}"] = Value(least, "m", f"of a plate, seated or coming in, to the teeth of the {SIDE_WORDS[side]}")
-        checks.append(
-            Check(
-                f"overlap.{side}",
-                -least,
-                model.spec.limits.overlap,
-                "<=",
-                "m",
-                f"of a plate, seated or coming in, with the teeth of the {SIDE_WORDS[side]}",
-                (side,),
-                True,
-            )
-        )
+        message = f"of a plate, seated or coming in, with the teeth of the {SIDE_WORDS[side]}"
+        checks.append(Check(f"overlap.{side}", -least, model.spec.limits.overlap, "<=", "m", message, (side,), True))
     return values, checks

@@ -85,15 +85,8 @@ def seated_measures(model: ChainModel, side: str, number: int) -> dict[str, Meas
 
 def _checks(model):
     if model.link.radius:
-        yield Check(
-            "offset",
-            abs(model.offset) / model.link.radius,
-            1.0,
-            "<=",
-            "-",
-            "offset over rolling radius: beyond 1 the published growth of the pitch has no end",
-            ("chain",),
-        )
+        message = "offset over rolling radius: beyond 1 the published growth of the pitch has no end"
+        yield Check("offset", abs(model.offset) / model.link.radius, 1.0, "<=", "-", message, ("chain",))
 
 
 def _remarks(model):

@@ -5,30 +5,14 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 from pydantic import model_validator
 
 from drivewright.chains.meshing import Ideal
-from drivewright.errors import SpecError, UnitError, brief
+from drivewright.errors import SpecError
 from drivewright.fatigue.material import StrainLife
 from drivewright.plugins import installed
 from drivewright.spec import Integer, MechanismSpec, Name, Number, Spec
 from drivewright.spec.fields import Field
-from drivewright.units import (
-    BY_NAME,
-    Acceleration,
-    Angle,
-    Damping,
-    Density,
-    Dimension,
-    Force,
-    Inertia,
-    Length,
-    Mass,
-    Pressure,
-    Speed,
-    Stiffness,
-    Time,
-    Torque,
-)
+from drivewright.spec.length_or_rule import length_or_rule
+from drivewright.units import Acceleration, Angle, Damping, Density, Force, Inertia, Length, Mass, Pressure, Speed, Stiffness, Time, Torque
 
-RULES = ("match-drive", "minimax")
 if TYPE_CHECKING:
     ContactLaw: TypeAlias = str
 else:
@@ -37,28 +21,8 @@ TURN = 6.283185307179586
 LEAST_TEETH = 6  # below, a polygon is no sprocket
 
 
-class _LengthOrRule(Dimension):
-    """A length [m], or the word for a rule that gives it."""
-
-    plain = True
-
-    def parse(self, value):
-        """As `Dimension.parse`, of the wider kind."""
-        if value in RULES:
-            return value
-        if isinstance(value, str) and not any(sign.isdigit() for sign in value):
-            raise UnitError(f"wants {self.described}, got {brief(value)}")
-        return BY_NAME["length"].parse(value)
-
-    def text(self, value):
-        return value if value in RULES else BY_NAME["length"].text(value)
-
-    def __get_pydantic_json_schema__(self, schema, handler):
-        return {"type": "string", "examples": ["match-drive", "0.27 mm"], "x-dimension": "length", "x-unit": "mm", "x-si-unit": "m"}
-
-
 Radius = Annotated[Length, Field(ge=0)]
-LengthOrRule = Annotated[float | str, _LengthOrRule('length, "match-drive" or "minimax"', "m", "mm")]
+Offset = Annotated[float | str, length_or_rule("match-drive", "minimax")]
 
 
 class Joint(Spec):
@@ -70,7 +34,7 @@ class Joint(Spec):
         "revolute: one pin, a hinge",
     )
     rolling_radius: Length | None = Field(None, gt=0, description="of the rolling surfaces; not for a revolute joint", examples=["1.2 mm"])
-    offset: LengthOrRule = Field(
+    offset: Offset = Field(
         "match-drive",
         description="centre of the pins below the pitch line, or its rule: match-drive, minimax; a label, nothing physical depends on it",
     )

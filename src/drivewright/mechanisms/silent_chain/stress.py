@@ -43,17 +43,10 @@ def stress(model: ChainModel, done: Answers) -> Answer:
         "plate.max_von_mises.x": Value(x, "m", "where it is, along the plate from its middle"),
         "plate.max_von_mises.y": Value(y, "m", "where it is, above the line of the pins"),
     }
-    safety = Check(
-        "plate.yield",
-        model.spec.material.yield_strength / peak.stress,
-        model.spec.limits.yield_safety,
-        ">=",
-        "-",
-        "yield strength over the greatest von Mises stress of a plate",
-        ("chain",),
-    )
+    safety, message = model.spec.material.yield_strength / peak.stress, "yield strength over the greatest von Mises stress of a plate"
+    check = Check("plate.yield", safety, model.spec.limits.yield_safety, ">=", "-", message, ("chain",))
     picture = stress_picture(basis, loads, peak.instant)
-    return Answer(values, (history_table(revolution, history), picture), (safety,), data=StressedPlate(basis, revolution))
+    return Answer(values, (history_table(revolution, history), picture), (check,), data=StressedPlate(basis, revolution))
 
 
 def life(model: ChainModel, done: Answers) -> Answer:
