@@ -18,6 +18,7 @@ PAGES = (
     "bearings.ball",
     "bearings.roller",
     "bearings.solving",
+    "bearings.dynamic_rating",
     "bearings.life",
     "bearings.stiffness_curve",
     "bearings.approximate_stiffness",

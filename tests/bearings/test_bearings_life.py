@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from drivewright.bearings import BallBearing, basic_dynamic_rating, basic_life, basic_static_rating, solve
-from drivewright.bearings.life import ball_reference_life
+from drivewright.bearings.ball import ball_reference_life
 
 pytestmark = pytest.mark.analytical
 

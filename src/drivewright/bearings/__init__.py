@@ -1,9 +1,10 @@
 """Rolling bearings as force elements: inner geometry, load distribution, stiffness matrix, contact pressure, life.
 
 `response` energy, force and stiffness of any elastic support; `newton` the compiled equilibrium of one bearing; `solving` the same with
-names, checks and what each element carries; `ball` and `roller` the two kinds, each with its law; `life` ratings and lives of ISO 281 and
-ISO/TS 16281; `stiffness_curve` displacement and stiffness over load; `approximate_stiffness` formulas from catalogue numbers alone;
-`catalogue` bearings by name; `drawing` a bearing in section, `tables` and `values` answers as tables and values of a result.
+names, checks and what each element carries; `ball` and `roller` the two kinds, each with its law, static rating and reference life
+(ISO/TS 16281); `life` basic life of ISO 281; `dynamic_rating` that of balls; `stiffness_curve` displacement and stiffness over load;
+`approximate_stiffness` formulas from catalogue numbers alone; `catalogue` bearings by name; `drawing` a bearing in section, `tables` and
+`values` answers as tables and values of a result.
 """
 
 from importlib import import_module
@@ -27,7 +28,8 @@ _WHERE = {
     "stiffness_curve": ("LoadCurve", "load_curve"),
     "drawing": ("bearing_section",),
     "ball": ("BallBearing", "BallLaw"),
-    "life": ("basic_dynamic_rating", "basic_life", "equivalent_radial_load", "life_duration", "life_exponent", "static_rating"),
+    "dynamic_rating": ("basic_dynamic_rating",),
+    "life": ("basic_life", "equivalent_radial_load", "life_duration", "life_exponent", "static_rating"),
     "roller": ("RollerBearing", "RollerLaw", "roller_reference_life", "roller_static_rating"),
     "catalogue": ("Entry", "bearing", "entry", "load_catalogue", "names", "replace_catalogue_values"),
     "approximate_stiffness": (

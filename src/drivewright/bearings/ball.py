@@ -15,10 +15,10 @@ from pydantic import model_validator
 
 from drivewright._jit import implements, warmer
 from drivewright._typing import Floats
-from drivewright.bearings.life import ball_reference_life, ball_static_rating
+from drivewright.bearings.life import REVOLUTIONS
 from drivewright.bearings.newton import BearingMeasures, measures
 from drivewright.bearings.response import response
-from drivewright.bearings.solving import basic_static_rating, elements, law_of, life_of, warm
+from drivewright.bearings.solving import PERMISSIBLE, basic_static_rating, elements, law_of, life_of, warm
 from drivewright.contact import effective_modulus, point_contact, relative_radii
 from drivewright.errors import SpecError
 from drivewright.spec import Integer, Number, Spec
@@ -180,12 +180,44 @@ def _(law, displacement, loads, angles, pressures, laminae):
         pressures[k, 1] = law.outer_pressure * np.cbrt(loads[k])
 
 
-basic_static_rating.register(BallBearing)(ball_static_rating)
+# ---------------------------------------------------------------------------------------------------------------- ratings and life
+
+
+def _capacity_ratio(bearing: BallBearing) -> float:
+    """h: capacity of the inner race over the outer, 1.044 ((1 - g)/(1 + g))^1.72 (ri (2 re - Dw)/(re (2 ri - Dw)))^0.41."""
+    g, inner, outer = bearing.curvature_ratio, bearing.inner_conformity, bearing.outer_conformity
+    return 1.044 * ((1 - g) / (1 + g)) ** 1.72 * (inner * (2 * outer - 1) / (outer * (2 * inner - 1))) ** 0.41
 
 
 @life_of.register(BallBearing)
 def _(bearing, state):
     return ball_reference_life(bearing, state.element_loads)
+
+
+def ball_reference_life(bearing: BallBearing, loads: Floats) -> float | None:
+    """L10r [revolutions] for the loads of the balls [N]; inf where all are 0, None without a dynamic rating.
+
+    L = ((Qci/Qi)^(-10/3) + (Qce/Qe)^(-10/3))^(-9/10) 1e6,  Qi = (mean Q^3)^(1/3) on the turning inner ring,
+    Qe = (mean Q^(10/3))^(3/10) on the standing outer one, Qc the capacity of each at the nominal contact angle (ISO/TS 16281, recalled).
+    """
+    if bearing.dynamic_rating is None:
+        return None
+    peak = np.max(loads)
+    if peak == 0:
+        return np.inf
+    h = _capacity_ratio(bearing)
+    share = bearing.dynamic_rating / (bearing.balls * np.cos(bearing.contact_angle) * peak)
+    inner = share / 0.407 * (1 + h ** (10 / 3)) ** 0.3 / np.cbrt(np.mean((loads / peak) ** 3))
+    outer = share / 0.389 * (1 + h ** (-10 / 3)) ** 0.3 / np.mean((loads / peak) ** (10 / 3)) ** 0.3
+    return float(REVOLUTIONS * (inner ** (-10 / 3) + outer ** (-10 / 3)) ** -0.9)
+
+
+@basic_static_rating.register(BallBearing)
+def ball_static_rating(bearing: BallBearing) -> float:
+    """C0 [N]: the radial load F whose most loaded ball, Q = 5 F/(Z cos a), reaches 4200 MPa at one of its races."""
+    law = law_of(bearing)
+    ball = (PERMISSIBLE["point"][0] / max(law.inner_pressure, law.outer_pressure)) ** 3
+    return float(ball * bearing.balls * np.cos(bearing.contact_angle) / 5)
 
 
 @warmer
