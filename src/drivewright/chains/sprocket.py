@@ -276,7 +276,8 @@ def _point(place: Floats) -> tuple[float, float]:
 def design_sprocket(link: Link, teeth: int, cutter: Cutter | None = None, **lengths: float) -> Sprocket:
     """The `Sprocket` on which a chain of this `Link` sits, with the lengths given and the others in proportion to the pitch.
 
-    Without a cutter it is cut by the one with the chain's base pitch and flank angle.  For p = 9.525 mm the tip lies 1.7 mm and the root
+    Without a cutter it is cut by the one with the chain's base pitch and flank angle.  tip_depth and root_depth count from the pin line of
+    a seated plate, instead of tip_radius and root_radius.  For p = 9.525 mm the tip lies 1.7 mm and the root
     6.5 mm below the pin line of a seated plate, the chamfer is 0.2 mm; the hob's tip is rounded with a quarter of its module, at most nine
     tenths of what it has room for.
     """
@@ -286,6 +287,7 @@ def design_sprocket(link: Link, teeth: int, cutter: Cutter | None = None, **leng
     base = 0.5 * cutter.module * teeth * np.cos(cutter.half_angle)
     tooth = Tooth(teeth, base, seat_support(link, teeth))
     height, p = seat_height(link, teeth), link.pitch / 9.525
+    lengths = {name.replace("_depth", "_radius"): height - value if name.endswith("_depth") else value for name, value in lengths.items()}
     design = {"tip_radius": height - 1.7 * p, "root_radius": height - 6.5 * p, "tip_chamfer": 0.2 * p, **lengths}
     if "tip_rounding" not in design:
         half = base_half_angle(tooth, link.flank_angle)

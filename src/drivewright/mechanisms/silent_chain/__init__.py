@@ -1,87 +1,42 @@
 """The kind `silent-chain`: silent chains with rolling joints, and chains with round pins."""
 
-from collections.abc import Callable
 from pathlib import Path
 
-from drivewright.errors import InputError, SpecError
-from drivewright.mechanisms.silent_chain import closure, compare, contact, dynamics, layout, many, stress
-from drivewright.mechanisms.silent_chain.build import ChainModel, build
+from drivewright.mechanisms.silent_chain import closure, compare, contact, dynamics, layout, many, missing, stress
+from drivewright.mechanisms.silent_chain.build import build
 from drivewright.mechanisms.silent_chain.claims import claims
 from drivewright.mechanisms.silent_chain.designs import batch
 from drivewright.mechanisms.silent_chain.geometry import geometry
-from drivewright.mechanisms.silent_chain.meshing import meshing, no_meshing
+from drivewright.mechanisms.silent_chain.meshing import meshing
 from drivewright.mechanisms.silent_chain.plots import plots
 from drivewright.mechanisms.silent_chain.scene import drawings, parts, scene
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 from drivewright.registry import Analysis, Mechanism, oracle
-from drivewright.result import Answer, Answers
-
-
-def unless_impossible(answer: Callable[[ChainModel, Answers], Answer]) -> Callable[[ChainModel, Answers], Answer]:
-    """The analysis, left out with the reason where the bodies, the card or the place that it asks for cannot be."""
-
-    def guarded(model: ChainModel, done: Answers) -> Answer:
-        """Its answer, or why there is none."""
-        try:
-            return answer(model, done)
-        except SpecError:  # it names the key to change
-            raise
-        except InputError as impossible:
-            return Answer(findings=(f"{answer.__name__.replace('_', ' ')} is left out: {impossible}",), outcome="left out")
-
-    return guarded
-
 
 ANALYSES = (
-    Analysis("meshing", meshing, "pitches, offset, modification of the teeth as published", missing=no_meshing),
+    Analysis("meshing", meshing, "pitches, offset, modification of the teeth as published", missing=missing.no_meshing),
     Analysis("layout", layout.layout, "chain length, pitch circles, speed and strand frequencies by formula"),
     Analysis("geometry", geometry, "plates and sprockets: walls, teeth, measuring pins, gaps"),
-    Analysis("closure", closure.closure, "centre distance and transmission error over a tooth", missing=closure.no_closure),
-    Analysis("contact", contact.contact, "pins under the force of a strand: pressure, shakedown, bending", missing=contact.no_contact),
-    Analysis("trade_off", compare.trade_off, "what the rolling radius trades", missing=compare.no_comparison),
-    Analysis("phase_map", compare.phases, "fluctuation over links, teeth and rolling radius", missing=compare.no_phase_map),
+    Analysis("closure", closure.closure, "centre distance and transmission error over a tooth", missing=missing.no_closure),
+    Analysis("contact", contact.contact, "pins under the force of a strand: pressure, shakedown, bending", missing=missing.no_contact),
+    Analysis("trade_off", compare.trade_off, "what the rolling radius trades", missing=missing.no_trade_off),
+    Analysis("phase_map", compare.phases, "fluctuation over links, teeth and rolling radius", missing=missing.no_phase_map),
+    Analysis("dynamics", dynamics.dynamics, "the running chain: centre distance, forces, spectrum", missing=missing.no_dynamics),
     Analysis(
-        "dynamics",
-        unless_impossible(dynamics.dynamics),
-        "the running chain: centre distance, forces, spectrum",
-        missing=dynamics.no_dynamics,
+        "quasi_static", many.quasi_static, "the loaded chain at rest, teeth and joints elastic", default=False, missing=missing.no_dynamics
     ),
-    Analysis(
-        "quasi_static",
-        unless_impossible(many.quasi_static),
-        "the loaded chain at rest, teeth and joints elastic",
-        default=False,
-        missing=dynamics.no_dynamics,
-    ),
-    Analysis(
-        "speeds",
-        unless_impossible(many.speeds),
-        "the running chain over the speed: Campbell diagram",
-        default=False,
-        missing=dynamics.no_dynamics,
-    ),
-    Analysis(
-        "scatter",
-        unless_impossible(many.scatter),
-        "the running chain as it comes from manufacture",
-        default=False,
-        missing=dynamics.no_dynamics,
-    ),
+    Analysis("speeds", many.speeds, "the running chain over the speed: Campbell diagram", default=False, missing=missing.no_dynamics),
+    Analysis("scatter", many.scatter, "the running chain as it comes from manufacture", default=False, missing=missing.no_dynamics),
     Analysis(
         "stress",
-        unless_impossible(stress.stress),
+        stress.stress,
         "stress of a plate as it goes round, finite elements",
         default=False,
         needs=("dynamics",),
-        missing=stress.no_stress,
+        missing=missing.no_stress,
     ),
     Analysis(
-        "life",
-        unless_impossible(stress.life),
-        "fatigue life of a plate on its critical planes",
-        default=False,
-        needs=("stress",),
-        missing=stress.no_stress,
+        "life", stress.life, "fatigue life of a plate on its critical planes", default=False, needs=("stress",), missing=missing.no_stress
     ),
 )
 

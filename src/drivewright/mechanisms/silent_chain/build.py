@@ -7,7 +7,7 @@ from drivewright._typing import Numbers
 from drivewright.chains import meshing
 from drivewright.chains.closure import Drive, close
 from drivewright.chains.closure.model import Closure
-from drivewright.chains.link import Link, design_link, seat_height
+from drivewright.chains.link import Link, design_link
 from drivewright.chains.plate import LinkMass, Plate, bar_link_mass, design_plate, mean_link_mass
 from drivewright.chains.plate_holes import Pins, joint_pins
 from drivewright.chains.published_design import PublishedSprocket, published_sprocket
@@ -68,7 +68,7 @@ class ChainModel:
     def plate(self) -> Plate:
         """The plate of a silent chain; InputError where the lengths given leave none."""
         given = self.spec.plate
-        lengths = {name: value for name in ("back", "toe", "crotch", "crotch_radius") if (value := getattr(given, name)) is not None}
+        lengths = _given(back=given.back, toe=given.toe, crotch=given.crotch, crotch_radius=given.crotch_radius)
         return design_plate(self.link, self.pins, thickness=given.thickness, **lengths)
 
     @cached_property
@@ -120,12 +120,8 @@ class ChainModel:
         """A sprocket with teeth that fit this chain."""
         if self.spec.roller:
             return design_roller_sprocket(teeth, self.spec.pitch, self.spec.roller.diameter, self.spec.roller.tooth_space)
-        given, height = self.spec.cutter, seat_height(self.link, teeth)
-        depths = {"tip_radius": given.tip_depth, "root_radius": given.root_depth}
-        lengths = {name: height - depth for name, depth in depths.items() if depth is not None}
-        lengths |= {
-            name: value for name, value in (("tip_rounding", given.tip_rounding), ("tip_chamfer", given.chamfer)) if value is not None
-        }
+        given = self.spec.cutter
+        lengths = _given(tip_depth=given.tip_depth, root_depth=given.root_depth, tip_rounding=given.tip_rounding, tip_chamfer=given.chamfer)
         return design_sprocket(self.link, teeth, self.cutter, **lengths)
 
     @property
@@ -179,3 +175,8 @@ def offset_of(spec: SilentChainSpec, radius: Numbers) -> Numbers:
     """Offset of the pins [m], as given or by its rule."""
     given = spec.joint.offset
     return meshing.offset_by_rule(given, spec.pitch, radius, *spec.teeth, spec.meshing.ideal) if isinstance(given, str) else given
+
+
+def _given(**lengths: float | None) -> dict[str, float]:
+    """Those lengths that are given [m]."""
+    return {name: length for name, length in lengths.items() if length is not None}

@@ -5,7 +5,6 @@ from drivewright.chains.closure.tables import closure_table
 from drivewright.chains.link import seat_height
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
-from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 from drivewright.result import Answer, Answers, Check, Value
 
 SLACK = 0.01  # of it that a fixed one may be shorter
@@ -23,11 +22,6 @@ def closure(model: ChainModel, done: Answers) -> Answer:
     }
     checks = (*_wraps(model, values), _apart(model), *_fixed(model))
     return Answer(values, (closure_table(found),), checks, tuple(_remarks(model)), data=found)
-
-
-def no_closure(spec: SilentChainSpec) -> str | None:
-    """Why there is none."""
-    return "it closes a chain around two sprockets; with more of them use the dynamics" if spec.sprockets else None
 
 
 def _sides(model):

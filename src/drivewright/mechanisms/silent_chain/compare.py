@@ -8,24 +8,10 @@ from drivewright.chains.closure.comparison import closure_numbers, phase_map_tab
 from drivewright.chains.link import design_link
 from drivewright.chains.stress.rolling import rolling_contact
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel, offset_of
-from drivewright.mechanisms.silent_chain.contact import no_contact
-from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 from drivewright.result import Answer, Answers, Column, Table, Value
 
 OVER_PITCH = (0.02, 0.04, 0.07, 0.1, 0.126, 0.17, 0.25, 0.35, 0.5, 0.78)  # rolling radii looked at, unless told otherwise
 AROUND = 4  # links on either side of the design's
-
-
-def no_comparison(spec: SilentChainSpec) -> str | None:
-    """Why there is none."""
-    if spec.joint.kind == "revolute":
-        return "a revolute joint has no rolling radius to compare"
-    return no_phase_map(spec) or no_contact(spec)
-
-
-def no_phase_map(spec: SilentChainSpec) -> str | None:
-    """Why there is none."""
-    return "it is for two sprockets" if spec.sprockets else None
 
 
 def trade_off(model: ChainModel, done: Answers) -> Answer:

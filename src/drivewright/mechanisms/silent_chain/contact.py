@@ -4,13 +4,7 @@ from drivewright.chains.standards import articulation_pressure
 from drivewright.chains.stress import pins, rolling
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import ChainModel
-from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 from drivewright.result import Answer, Answers, Check, Value
-
-
-def no_contact(spec: SilentChainSpec) -> str | None:
-    """Why there is none."""
-    return None if spec.drive or spec.contact.force else "no force is known: write [drive], or [contact] force"
 
 
 def contact(model: ChainModel, done: Answers) -> Answer:

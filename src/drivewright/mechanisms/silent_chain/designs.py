@@ -8,10 +8,9 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.chains import standards
 from drivewright.mechanisms.silent_chain.build import SIDES, build
-from drivewright.mechanisms.silent_chain.layout import side_measures
-from drivewright.mechanisms.silent_chain.meshing import measures, seated_measures
+from drivewright.mechanisms.silent_chain.layout import side_measures, teeth_checks
+from drivewright.mechanisms.silent_chain.meshing import measures, offset_checks, seated_measures
 from drivewright.mechanisms.silent_chain.spec import LEAST_TEETH, SilentChainSpec
-from drivewright.result import Check
 from drivewright.spec import value_at
 from drivewright.spec.designs import evaluator, within_limits
 
@@ -75,14 +74,8 @@ def _pair(spec):
 
 
 def _margins(model):
-    """check.NAME -> margin of each check: at least 0 exactly where it passes."""
-    for side, teeth in zip(SIDES, model.teeth, strict=True):
-        yield f"check.teeth.{side}", _margin(teeth, model.spec.limits.teeth, ">=")
-    if model.spec.joint.kind != "revolute":
-        yield "check.offset", _margin(np.abs(np.asarray(model.offset)) / model.link.radius, 1.0, "<=")
-
-
-def _margin(value, limit, sense):
-    """Margin of a check, 0 where only its tolerance (see `Check.ok`) lets it pass."""
-    margin = Check("", value, limit, sense, "", "").margin
-    return np.where((margin < 0) & (margin >= -1e-9 * np.maximum(np.abs(limit), np.abs(value))), 0.0, margin)
+    """check.NAME -> margin of each check, at least 0 exactly where it passes: 0 where only its tolerance (see `Check.ok`) lets it pass."""
+    for check in (*teeth_checks(model), *offset_checks(model)):
+        margin = check.margin
+        passes = (margin < 0) & (margin >= -1e-9 * np.maximum(np.abs(check.limit), np.abs(check.value)))
+        yield f"check.{check.name}", np.where(passes, 0.0, margin)

@@ -14,7 +14,7 @@ from drivewright.chains.model import ChainDrive
 from drivewright.errors import InputError, SolverError, SpecError
 from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
-from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
+from drivewright.mechanisms.silent_chain.missing import unless_impossible
 from drivewright.result import Answer, Answers, Check, Value
 
 IMPLICIT_STEP = 1e-5  # [s]
@@ -31,11 +31,7 @@ ORDERS = 8  # of the mesh frequency, up to which the spectrum is told
 WATCHED = 0
 
 
-def no_dynamics(spec: SilentChainSpec) -> str | None:
-    """Why there are none."""
-    return None if spec.drive else "speed and preload are not given: write [drive]"
-
-
+@unless_impossible
 def dynamics(model: ChainModel, done: Answers) -> Answer:
     """The runs, their statistics, spectrum and balances; of a run that failed the balance and the signals alone."""
     runs = _runs(model, chain_drive(model))

@@ -20,12 +20,13 @@ def layout(model: ChainModel, done: Answers) -> Answer:
             values |= _pair(model)
         except InputError as reason:
             findings.append(f"layout by pitch circles is left out: {reason}")
-    return Answer(values, (), tuple(_checks(model)), (*findings, *_remarks(model.spec)))
+    return Answer(values, (), tuple(teeth_checks(model)), (*findings, *_remarks(model.spec)))
 
 
-def _checks(model):
+def teeth_checks(model: ChainModel) -> Iterator[Check]:
+    """Teeth of each sprocket against their least number; values are arrays where the spec's numbers are."""
     for side, teeth in zip(SIDES, model.teeth, strict=True):
-        yield Check(f"teeth.{side}", float(teeth), float(model.spec.limits.teeth), ">=", "-", f"teeth of the {SIDE_WORDS[side]}", (side,))
+        yield Check(f"teeth.{side}", 1.0 * teeth, float(model.spec.limits.teeth), ">=", "-", f"teeth of the {SIDE_WORDS[side]}", (side,))
 
 
 def _remarks(spec):

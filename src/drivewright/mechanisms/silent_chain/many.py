@@ -10,6 +10,7 @@ from drivewright.chains.implicit.tables import plate_force_table, rest_table
 from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.mechanisms.silent_chain.dynamics import explicit_step
+from drivewright.mechanisms.silent_chain.missing import unless_impossible
 from drivewright.result import Answer, Answers, Value
 
 SPEEDS = 12  # of the Campbell diagram, unless told otherwise, up to
@@ -19,6 +20,7 @@ POSITIONS = 24  # in a tooth, at rest
 PERCENTILES = (5, 50, 95)
 
 
+@unless_impossible
 def speeds(model: ChainModel, done: Answers) -> Answer:
     """Fluctuation and mesh order over the speed, and the spectra: a Campbell diagram."""
     drive, given = model.drive, model.spec.compare.speeds
@@ -42,6 +44,7 @@ def _drifting(levels):
         yield f"not settled, and of no meaning beyond these runs: the fluctuation at {', '.join(names)}; give dynamics.settling more"
 
 
+@unless_impossible
 def scatter(model: ChainModel, done: Answers) -> Answer:
     """Percentiles of mean and fluctuation of the centre distance over drives as they come from manufacture; each drive runs once."""
     system, given = chain_drive(model), model.spec.scatter
@@ -62,6 +65,7 @@ def scatter(model: ChainModel, done: Answers) -> Answer:
     return Answer(values, (table,), (), findings)
 
 
+@unless_impossible
 def quasi_static(model: ChainModel, done: Answers) -> Answer:
     """The loaded chain at rest, teeth and joints elastic, flanks that press only: also with thick teeth and a worn chain."""
     system = chain_drive(model)

@@ -1,5 +1,6 @@
 """Chain, sprocket and cutter as published: pitches, deviations, offset, modification."""
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -8,7 +9,6 @@ from drivewright._typing import Numbers
 from drivewright.chains import meshing as published
 from drivewright.chains.published_design import equivalent_pitch_table
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
-from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 from drivewright.result import Answer, Answers, Check, Value
 
 SIDE_WORDS = {"drive": "driving sprocket", "driven": "driven sprocket"}
@@ -21,12 +21,7 @@ def meshing(model: ChainModel, done: Answers) -> Answer:
         found |= seated_measures(model, side, number)
     values = {name: measure.value() for name, measure in found.items()}
     curve = equivalent_pitch_table(model.spec.pitch, model.link.radius, float(model.offset), min(model.teeth))
-    return Answer(values, (curve,), tuple(_checks(model)), tuple(_remarks(model)))
-
-
-def no_meshing(spec: SilentChainSpec) -> str | None:
-    """Why there is none."""
-    return "the published method is for chains whose plates mesh, not for rollers" if spec.roller else None
+    return Answer(values, (curve,), tuple(offset_checks(model)), tuple(_remarks(model)))
 
 
 class Measure(NamedTuple):
@@ -83,10 +78,12 @@ def seated_measures(model: ChainModel, side: str, number: int) -> dict[str, Meas
     }
 
 
-def _checks(model):
-    if model.link.radius:
+def offset_checks(model: ChainModel) -> Iterator[Check]:
+    """The offset against the rolling radius; an array where the spec's numbers are."""
+    if model.spec.joint.kind != "revolute":
         message = "offset over rolling radius: beyond 1 the published growth of the pitch has no end"
-        yield Check("offset", abs(model.offset) / model.link.radius, 1.0, "<=", "-", message, ("chain",))
+        ratio = np.abs(model.offset) / model.link.radius
+        yield Check("offset", ratio, 1.0, "<=", "-", message, ("chain",))  # pyright: ignore[reportArgumentType]  arrays, of many designs
 
 
 def _remarks(model):

@@ -9,8 +9,7 @@ from drivewright.chains.stress.plate import Basis, plate_basis, plate_body, stre
 from drivewright.chains.stress.revolution import PlateRevolution, StressedPlate, fewer_instants, history_table
 from drivewright.fatigue.material import StrainLife
 from drivewright.mechanisms.silent_chain.build import ChainModel
-from drivewright.mechanisms.silent_chain.dynamics import no_dynamics
-from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
+from drivewright.mechanisms.silent_chain.missing import unless_impossible
 from drivewright.result import Answer, Answers, Check, Value
 from drivewright.solids.plane import plane_von_mises
 
@@ -19,15 +18,7 @@ MOST_INSTANTS = 500  # of a revolution, for life
 DOT = 0.015  # of the pitch: a point of the life map
 
 
-def no_stress(spec: SilentChainSpec) -> str | None:
-    """Why there is none."""
-    if spec.roller:
-        return "it is for plates of silent chains"
-    if spec.sprockets:
-        return "it is for two sprockets"
-    return no_dynamics(spec)
-
-
+@unless_impossible
 def stress(model: ChainModel, done: Answers) -> Answer:
     """Stress of a plate over a revolution of the chain."""
     reason = model.plate_refusal
@@ -49,6 +40,7 @@ def stress(model: ChainModel, done: Answers) -> Answer:
     return Answer(values, (history_table(revolution, history), picture), (check,), data=StressedPlate(basis, revolution))
 
 
+@unless_impossible
 def life(model: ChainModel, done: Answers) -> Answer:
     """Life of a plate and of a pin in revolutions of the chain."""
     found, card = done["stress"].data, card_of(model)

@@ -1,0 +1,62 @@
+"""Why an analysis is left out: what the spec lacks for it, or bodies that cannot be."""
+
+from collections.abc import Callable
+from functools import wraps
+
+from drivewright.errors import InputError, SpecError
+from drivewright.mechanisms.silent_chain.build import ChainModel
+from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
+from drivewright.result import Answer, Answers
+
+
+def no_meshing(spec: SilentChainSpec) -> str | None:
+    """Why there are no measures of the published method."""
+    return "the published method is for chains whose plates mesh, not for rollers" if spec.roller else None
+
+
+def no_closure(spec: SilentChainSpec) -> str | None:
+    """Why there is no closure."""
+    return "it closes a chain around two sprockets; with more of them use the dynamics" if spec.sprockets else None
+
+
+def no_phase_map(spec: SilentChainSpec) -> str | None:
+    """Why there is no phase map."""
+    return "it is for two sprockets" if spec.sprockets else None
+
+
+def no_contact(spec: SilentChainSpec) -> str | None:
+    """Why there are no stresses of the pins."""
+    return None if spec.drive or spec.contact.force else "no force is known: write [drive], or [contact] force"
+
+
+def no_trade_off(spec: SilentChainSpec) -> str | None:
+    """Why there is no trade-off over the rolling radius."""
+    if spec.joint.kind == "revolute":
+        return "a revolute joint has no rolling radius to compare"
+    return no_phase_map(spec) or no_contact(spec)
+
+
+def no_dynamics(spec: SilentChainSpec) -> str | None:
+    """Why there is no running chain."""
+    return None if spec.drive else "speed and preload are not given: write [drive]"
+
+
+def no_stress(spec: SilentChainSpec) -> str | None:
+    """Why there is no stress of the plates."""
+    return "it is for plates of silent chains" if spec.roller else no_phase_map(spec) or no_dynamics(spec)
+
+
+def unless_impossible(answer: Callable[[ChainModel, Answers], Answer]) -> Callable[[ChainModel, Answers], Answer]:
+    """The analysis, left out with the reason where the bodies, the card or the place that it asks for cannot be."""
+
+    @wraps(answer)
+    def guarded(model: ChainModel, done: Answers) -> Answer:
+        """Its answer, or why there is none."""
+        try:
+            return answer(model, done)
+        except SpecError:  # it names the key to change
+            raise
+        except InputError as impossible:
+            return Answer(findings=(f"{answer.__name__.replace('_', ' ')} is left out: {impossible}",), outcome="left out")
+
+    return guarded
