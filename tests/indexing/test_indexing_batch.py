@@ -119,6 +119,9 @@ def test_designs_of_several_laws_are_those_of_each_law():
         factors = TURN / 12 * np.array([one.peaks().Vm / angle[k], one.peaks().Am / angle[k] ** 2])
         np.testing.assert_allclose([found.velocity_factor[k], found.acceleration_factor[k]], factors, rtol=1e-12)
     assert np.all(np.isnan(np.concatenate([[column[3] for column in found.wheels], [found.motion_angle[3], found.velocity_factor[3]]])))
+    for pins, measures in ((12, (0.12, 40e-3, 0.01, 3.0)), (12, (0.12, 8e-3, 0.01, -3.0)), (12, (0.12, 8e-3, 0.01, 7.0))):
+        impossible = evaluate_designs("modified-sine", {}, pins, *measures)
+        assert np.all(np.isnan(np.concatenate([*impossible.wheels, *impossible[1:]])))
     quick = evaluate_designs("modified-sine", {}, 12, 0.12, pin, 0.01, angle, factors=False)
     assert np.all(np.isnan(quick.velocity_factor)) and np.array_equal(quick.motion_angle, angle)
 

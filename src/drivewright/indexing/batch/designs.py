@@ -8,7 +8,7 @@ import numpy as np
 from drivewright import motion
 from drivewright._typing import ArrayLike, Bools, Floats
 from drivewright.errors import InputError
-from drivewright.indexing.batch.pin_wheels import PinWheelValues, evaluate_pin_wheels
+from drivewright.indexing.batch.pin_wheels import PinWheelValues, evaluate_pin_wheels, feasible_designs
 from drivewright.indexing.motion import TURN
 from drivewright.motion import MotionLaw
 
@@ -39,15 +39,18 @@ def evaluate_designs(
 ) -> DesignValues:
     """`DesignValues` of N pin wheels that share number of pins, side and the name of their motion law.
 
-    The parameters of the law [-], radii and eccentricity [m] and motion_angle [rad] are arrays (N,) or numbers.  A design whose
-    parameters make no law from rest to rest is a row of nan.  factors: whether the factors of velocity and acceleration are wanted; else
-    they are nan.
+    The parameters of the law [-], radii and eccentricity [m] and motion_angle [rad] are arrays (N,) or numbers.  An impossible design, as
+    pins that overlap or parameters that make no law from rest to rest, is a row of nan.  factors: whether the factors of velocity and
+    acceleration are wanted; else they are nan.
     """
-    sizes = np.broadcast_arrays(*np.atleast_1d(circle_radius, pin_radius, eccentricity, motion_angle), *parameters.values())
-    circle, pin, throw, angle, *shapes = (np.asarray(size, float) for size in sizes)
-    count, pitch = len(angle), TURN / pins
-    values = np.full((len(PinWheelValues._fields) + 3, count), np.nan)
-    for own, made in _laws(law, dict(zip(parameters, shapes, strict=True)), count):
+    columns = np.broadcast_arrays(*np.atleast_1d(circle_radius, pin_radius, eccentricity, motion_angle), *parameters.values())
+    circle, pin, throw, angle, *shapes = (np.asarray(column, float) for column in columns)
+    sizes, pitch = np.stack([circle, pin, throw, angle], axis=1), TURN / pins
+    values = np.full((len(PinWheelValues._fields) + 3, len(angle)), np.nan)
+    for rows, made in _laws(law, dict(zip(parameters, shapes, strict=True)), len(angle)):
+        own = rows & feasible_designs(sizes, pins, made)
+        if not own.any():
+            continue
         found = evaluate_pin_wheels(made, pins, circle[own], pin[own], throw[own], angle[own], side)
         peaks = made.peaks() if factors else None
         peak_speed, peak_acceleration = (peaks.Vm, peaks.Am) if peaks else (np.nan, np.nan)

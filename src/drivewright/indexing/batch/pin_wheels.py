@@ -79,7 +79,7 @@ def evaluate_pin_wheels(
     sizes = np.stack([np.asarray(size, dtype=float).ravel() for size in sizes], axis=1)
     table, sense = tabulate_law(law), 1.0 if side == "inside" else -1.0
     values = np.full((len(sizes), VALUES), np.nan)
-    possible = _feasible(sizes, pins, law)
+    possible = feasible_designs(sizes, pins, law)
 
     def chunk(begin: int) -> None:
         for k in range(begin, min(begin + CHUNK, len(sizes))):
@@ -94,8 +94,11 @@ def evaluate_pin_wheels(
     return PinWheelValues(*values.T)
 
 
-def _feasible(sizes: Floats, pins: int, law: MotionLaw) -> Bools:
-    """Which designs have pins that do not overlap and leave a middle for the cam, and a motion that fits the law."""
+def feasible_designs(sizes: Floats, pins: int, law: MotionLaw) -> Bools:
+    """(N,): which designs have pins that do not overlap and leave a middle for the cam, and a motion that fits the law.
+
+    sizes (N, 4): radius of the pin circle, of the pins, eccentricity [m], motion angle [rad].
+    """
     circle, pin, eccentricity, motion_angle = sizes.T
     sound = np.all(np.isfinite(sizes) & (sizes > 0), axis=1) & (motion_angle <= TURN * (1 + 1e-12)) & (pins >= 3)
     if law.name == "uniform":
