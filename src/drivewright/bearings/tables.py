@@ -6,7 +6,8 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.bearings.solving import BearingEquilibrium
-from drivewright.bearings.stiffness_curve import LoadCurve
+from drivewright.bearings.stiffness_curve import LoadCurve, load_curve
+from drivewright.errors import InputError, SolverError
 from drivewright.result import Column, Plot, Table
 
 
@@ -38,6 +39,18 @@ def load_curve_table(curve: LoadCurve, name: str) -> Table:
         Column("secant", "N/m", "secant stiffness", curve.secant),
     )
     return Table(f"curve.{name}", f"Bearing {name} over its load", columns)
+
+
+def load_curve_tables(state: BearingEquilibrium, name: str, factors: Floats) -> Iterator[Table]:
+    """The `load_curve_table` under multiples (n,) of the load of a bearing, its direction kept; none where no radial force acts or one of
+    the loads cannot be borne."""
+    if not np.hypot(*state.force[:2]) > 0:
+        return
+    try:
+        curve = load_curve(state.bearing, state.force, factors)
+    except (InputError, SolverError):
+        return
+    yield load_curve_table(curve, name)
 
 
 def bearing_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:

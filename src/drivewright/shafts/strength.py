@@ -20,6 +20,11 @@ class LimitLoad(NamedTuple):
     support: str | None
     force: float
 
+    @property
+    def part(self) -> str:
+        """What reaches its limit, in words."""
+        return "shaft, yield" if self.support is None else f"bearing {self.support}"
+
 
 def limit_loads(
     flexibility: Flexibility,

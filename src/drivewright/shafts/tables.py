@@ -1,6 +1,6 @@
 """Answers about a shaft as tables of a result; `direction` is the unit vector (x, y) of the unit loads."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from drivewright.shafts.influence import Flexibility
 from drivewright.shafts.loaded import Diagram
 from drivewright.shafts.mode_shapes import planar_shape
 from drivewright.shafts.sensitivity import FlexibilitySlope
+from drivewright.shafts.strength import LimitLoad
 from drivewright.shafts.unit_loads import SAMPLES, flexibility_on_rigid_bearings, unit_deflection
 from drivewright.shafts.vibration import Modes
 
@@ -92,15 +93,16 @@ def sensitivity_table(slopes: Iterable[FlexibilitySlope], names: Sequence[str]) 
     return Table("sensitivities", "Sensitivities of the flexibility, relative change over relative change", tuple(columns))
 
 
-def limit_table(rows: Iterable[tuple[str, str, float, float, bool]]) -> Table:
-    """A row (station, part, force [N], force over the shock factor [N], first) for all that a force at a station loads to its limit."""
-    names, parts, loads, steady, first = zip(*rows, strict=True)
+def limit_table(limits: Mapping[str, Sequence[LimitLoad]], shock_factor: float) -> Table:
+    """A row for every one of the `LimitLoad`s of a force at a station, by the station's name; a station without any has no row."""
+    rows = [(name, limit, limit.force == min(each.force for each in loads)) for name, loads in limits.items() for limit in loads]
+    force = np.array([limit.force for _, limit, _ in rows])
     columns = (
-        Column("station", "-", "station of the force", np.array(names)),
-        Column("part", "-", "what reaches its limit", np.array(parts)),
-        Column("load", "N", "force at which it does", np.array(loads)),
-        Column("steady_load", "N", "the same over the shock factor", np.array(steady)),
-        Column("first", "-", "1 where it is the first", np.array(first, float)),
+        Column("station", "-", "station of the force", np.array([name for name, _, _ in rows])),
+        Column("part", "-", "what reaches its limit", np.array([limit.part for _, limit, _ in rows])),
+        Column("load", "N", "force at which it does", force),
+        Column("steady_load", "N", "the same over the shock factor", force / shock_factor),
+        Column("first", "-", "1 where it is the first", np.array([first for _, _, first in rows], float)),
     )
     return Table("failure", "What fails first", columns)
 

@@ -7,10 +7,12 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.result import Array, Value
 from drivewright.shafts.equilibrium import ShaftEquilibrium
+from drivewright.shafts.influence import Flexibility
 from drivewright.shafts.loaded import Diagram
 from drivewright.shafts.mode_shapes import first_mode_along
 from drivewright.shafts.model import Station
 from drivewright.shafts.sensitivity import FlexibilitySlope
+from drivewright.shafts.strength import LimitLoad
 from drivewright.shafts.supports import SupportStiffness
 from drivewright.shafts.tables import station_pairs
 from drivewright.shafts.vibration import CriticalSpeeds, Modes
@@ -99,6 +101,26 @@ def station_array(names: tuple[str, ...], matrix: Floats, unit: str) -> Array:
     return Array(unit, ("station", "station"), (names, names), matrix)
 
 
+def flexibility_arrays(found: Flexibility, stations: tuple[str, ...], supports: tuple[str, ...]) -> dict[str, Array]:
+    """The `Flexibility`, its parts and the reactions under unit forces as arrays, by the names of stations and supports."""
+    return {
+        "flexibility": station_array(stations, found.delta, "m/N"),
+        "flexibility.shares": Array("m/N", ("part", "station", "station"), (found.names, stations, stations), found.shares),
+        "reactions.unit_load": Array("-", ("bearing", "station"), (supports, stations), found.reactions),
+    }
+
+
+def limit_values(station: str, limits: Sequence[LimitLoad], shock_factor: float) -> dict[str, Value]:
+    """The least of the `LimitLoad`s of a force at a station of this name, and the steady force [N] that is allowed there."""
+    first = min(limits, key=lambda limit: limit.force)
+    name, at_limit = f"stations.{station}", f"force at {station!r} alone at which {first.part} is at its limit"
+    allowed = f"steady force at {station!r} alone that is allowed, with the shock factor {shock_factor:g}"
+    return {
+        f"{name}.limit_load": Value(first.force, "N", at_limit),
+        f"{name}.allowed_load": Value(first.force / shock_factor, "N", allowed),
+    }
+
+
 def sensitivity_values(slopes: Iterable[FlexibilitySlope], names: Sequence[str]) -> dict[str, Value]:
     """Every finite entry of `relative_flexibility_slopes` [-], by pair of stations and parameter."""
     return {
@@ -111,8 +133,11 @@ def sensitivity_values(slopes: Iterable[FlexibilitySlope], names: Sequence[str])
     }
 
 
-def frequency_values(bending: Floats, axial: Floats, torsional: Floats, critical: CriticalSpeeds) -> dict[str, Value]:
-    """Natural frequencies [Hz] of bending, along the axis and of torsion, and critical speeds [rad/s], each numbered from 1."""
+def frequency_values(
+    bending: Floats, axial: Floats, torsional: Floats, critical: CriticalSpeeds, lowest_excited: float | None = None
+) -> dict[str, Value]:
+    """Natural frequencies [Hz] of bending, along the axis and of torsion, and critical speeds [rad/s], each numbered from 1; beside them
+    the lowest critical speed that an unbalance excites."""
     rows = (
         ("modes", ".frequency", "Hz", "natural frequency {n} of bending, at rest", bending),
         ("axial_modes", ".frequency", "Hz", "natural frequency {n} along the axis, at rest", axial),
@@ -120,11 +145,17 @@ def frequency_values(bending: Floats, axial: Floats, torsional: Floats, critical
         ("critical_speeds.backward", "", "rad/s", "critical speed {n}, whirling against the shaft", critical.backward),
         ("torsional_modes", ".frequency", "Hz", "natural frequency {n} of torsion of the free shaft", torsional),
     )
-    return {
+    values = {
         f"{key}.{n}{suffix}": Value(float(number), unit, meaning.format(n=n))
         for key, suffix, unit, meaning, numbers in rows
         for n, number in enumerate(numbers, 1)
     }
+    if lowest_excited:
+        meaning = (
+            "lowest critical speed that an unbalance excites: with the shaft, on bearings that are not the same all round also against it"
+        )
+        values["critical_speeds.lowest"] = Value(lowest_excited, "rad/s", meaning)
+    return values
 
 
 def massless_values(frequencies: Floats) -> dict[str, Value]:

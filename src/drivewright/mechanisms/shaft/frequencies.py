@@ -9,7 +9,7 @@ from drivewright._typing import Floats
 from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.spec import ShaftSpec
-from drivewright.result import Answer, Answers, Check, Value
+from drivewright.result import Answer, Answers, Check
 from drivewright.shafts.tables import mode_table
 from drivewright.shafts.values import frequency_values, massless_findings, massless_values
 
@@ -33,13 +33,8 @@ def frequencies(model: ShaftModel, done: Answers) -> Answer:
             findings=("modes are absent: nothing that can move has a mass; give a density, or a station a mass",), outcome="left out"
         )
     torsional = shafts.torsional_modes(fine, min(count, 3)).frequencies
-    values = frequency_values(bending.frequencies, axial.frequencies, torsional, critical)
     lowest = shafts.lowest_excited(fine, critical)
-    if lowest:
-        excited = (
-            "lowest critical speed that an unbalance excites: with the shaft, on bearings that are not the same all round also against it"
-        )
-        values["critical_speeds.lowest"] = Value(lowest, "rad/s", excited)
+    values = frequency_values(bending.frequencies, axial.frequencies, torsional, critical, lowest)
     massless, findings = _massless_frequencies(model, done), ()
     if len(massless) and len(bending.frequencies):
         values |= massless_values(massless)

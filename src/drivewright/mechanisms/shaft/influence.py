@@ -1,16 +1,14 @@
 """Flexibility and stiffness at the stations, the parts of it, and what fails first."""
 
-from collections.abc import Iterator
-
 from drivewright import bearings, shafts
 from drivewright.errors import InputError
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.refusals import is_rolling
 from drivewright.mechanisms.shaft.spec import Bearing, ShaftSpec
 from drivewright.mechanisms.shaft.statics import BALANCED
-from drivewright.result import Answer, Answers, Array, Check, Value
+from drivewright.result import Answer, Answers, Check, Value
 from drivewright.shafts.tables import limit_table, share_table, unit_load_table
-from drivewright.shafts.values import pair_values, station_array
+from drivewright.shafts.values import flexibility_arrays, limit_values, pair_values, station_array
 
 
 def no_stations(spec: ShaftSpec) -> str | None:
@@ -26,11 +24,7 @@ def flexibility(model: ShaftModel, done: Answers) -> Answer:
     except InputError as error:
         return Answer(findings=(f"flexibility and stiffness are absent: {error}",), outcome="left out")
     labels, names = model.names, tuple(support.name for support in model.shaft.supports)
-    arrays = {
-        "flexibility": station_array(labels, found.delta, "m/N"),
-        "flexibility.shares": Array("m/N", ("part", "station", "station"), (found.names, labels, labels), found.shares),
-        "reactions.unit_load": Array("-", ("bearing", "station"), (names, labels), found.reactions),
-    }
+    arrays = flexibility_arrays(found, labels, names)
     values = pair_values("flexibility", labels, found.delta, "m/N", "displacement of {a!r} by a unit force at {b!r}")
     findings = []
     try:
@@ -63,29 +57,20 @@ def failure(model: ShaftModel, done: Answers) -> Answer:
     """For a force at each station alone: at which size a bearing reaches its static rating, and the shaft its yield strength."""
     found, at_rest = done["flexibility"].data, done["statics"].data.equilibrium
     ratings = [static_rating(model, bearing) for bearing in model.spec.bearings]
-    shock, rows, values = model.spec.limits.shock_factor, [], {}
-    for number, name in enumerate(model.names):
-        limits = list(_limits(shafts.limit_loads(found, at_rest, number, model.direction, ratings, model.yield_strength)))
-        if not limits:  # it stands on a bearing that has no rating
-            continue
-        what, lowest = min(limits, key=lambda row: row[1])
-        allowed = f"steady force at {name!r} alone that is allowed, with the shock factor {shock:g}"
-        values |= {
-            f"stations.{name}.limit_load": Value(lowest, "N", f"force at {name!r} alone at which {what} is at its limit"),
-            f"stations.{name}.allowed_load": Value(lowest / shock, "N", allowed),
-        }
-        rows += [(name, part, load, load / shock, load == lowest) for part, load in limits]
-    if not rows:
+    limits = {
+        name: list(shafts.limit_loads(found, at_rest, number, model.direction, ratings, model.yield_strength))
+        for number, name in enumerate(model.names)
+    }
+    if not any(limits.values()):
         return Answer(findings=("what fails first is absent: no bearing has a static rating, and no yield strength is given",))
-    return Answer(values, (limit_table(rows),))
+    shock, values = model.spec.limits.shock_factor, {}
+    for name, loads in limits.items():
+        if loads:  # none where it stands on a bearing that has no rating
+            values |= limit_values(name, loads, shock)
+    return Answer(values, (limit_table(limits, shock),))
 
 
 def static_rating(model: ShaftModel, bearing: Bearing) -> float | None:
     """C0 of a bearing [N]: as given, of a rolling bearing else by its inner geometry; None where neither is known."""
     rolling = model.rolling.get(bearing.name)
     return bearing.static_rating if rolling is None else bearings.static_rating(rolling)
-
-
-def _limits(loads: Iterator[shafts.LimitLoad]) -> Iterator[tuple[str, float]]:
-    """(what reaches its limit, in words, force)."""
-    return ((f"bearing {support}" if support is not None else "shaft, yield", force) for support, force in loads)

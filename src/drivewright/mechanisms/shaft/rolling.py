@@ -6,13 +6,12 @@ import numpy as np
 
 from drivewright import bearings, shafts
 from drivewright.bearings import BearingEquilibrium
-from drivewright.bearings.tables import element_table, load_curve_table
+from drivewright.bearings.tables import element_table, load_curve_tables
 from drivewright.bearings.values import bearing_findings, life_values, load_values
-from drivewright.errors import InputError, SolverError
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.refusals import is_rolling
 from drivewright.mechanisms.shaft.spec import ShaftSpec
-from drivewright.result import Answer, Answers, Check, Table
+from drivewright.result import Answer, Answers, Check
 from drivewright.shafts.values import stiffness_values
 
 FACTORS = np.geomspace(0.02, 4.0, 25)  # of the curve of stiffness, over the bearing's load
@@ -41,7 +40,7 @@ def rolling(model: ShaftModel, done: Answers) -> Answer:
         elif bearing is not None:
             state = bearings.solve(bearing, displacement=shafts.bearing_displacement(at_rest, number))
             values |= load_values(name, state) | life_values(name, state, model.spec.drive.speed if model.spec.drive else None)
-            tables += [element_table(state, name), *_load_curve(name, state)]
+            tables += [element_table(state, name), *load_curve_tables(state, name, FACTORS)]
             checks += _checks(model, name, state)
             findings += bearing_findings(name, state)
     return Answer(values, tuple(tables), tuple(checks), tuple(findings))
@@ -57,14 +56,3 @@ def _checks(model: ShaftModel, name: str, state: BearingEquilibrium) -> Iterator
         seconds = bearings.life_duration(life, model.spec.drive.speed)
         message = f"reference life of bearing {name!r}: {seconds / 3600:.4g} h of {limits.life / 3600:.4g} h"
         yield Check(f"life.{name}", seconds, limits.life, ">=", "s", message, (name,))
-
-
-def _load_curve(name: str, state: BearingEquilibrium) -> Iterator[Table]:
-    """Displacement and stiffness over the load, its direction kept; nothing where no radial force acts or not all loads can be borne."""
-    if not np.hypot(*state.force[:2]) > 0:
-        return
-    try:
-        curve = bearings.load_curve(state.bearing, state.force, FACTORS)
-    except (InputError, SolverError):
-        return
-    yield load_curve_table(curve, name)
