@@ -69,13 +69,16 @@ def workspace(links: int) -> Work:
 
 @outer
 def free_plates(layout: Layout, seats: Ints) -> tuple[int, int]:
-    """Numbers of free plates in the upper and the lower strand."""
+    """Numbers of free plates in the upper and the lower strand, by the teeth `seats` (ENDS,) where it leaves and meets the sprockets."""
     return layout.lead - seats[1] + seats[0] - 1, layout.links - layout.lead - seats[3] + seats[2] - 1
 
 
 @outer
 def solve(layout: Layout, seats: Ints, psi: float, x: Floats, work: Work) -> bool:
-    """Brings x to the solution for these seats and fills `work`; False where Newton's method does not settle."""
+    """Brings x to the solution for these seats and fills `work`; False where Newton's method does not settle.
+
+    seats (ENDS,): numbers of teeth; psi [rad] of the driver; x (UNKNOWNS,): psi_2 [rad], distance [pitches], both strands' angles [rad].
+    """
     for _ in range(_STEPS):
         _equations(layout, seats, psi, x, work)
         if not lu_factor(work.jacobian, work.pivots):

@@ -84,7 +84,10 @@ def _bent(A, r, count, start, end, work):
 
 @outer
 def _newton_step(A, r, count, d, diagonal, side):
-    """One step towards equilibrium; its largest part."""
+    """One Newton step towards equilibrium; its largest part [rad].
+
+    d (count + 2,) [rad]: directions of all plates, the first and the last seated; diagonal, side (count + 2,) [-]: scratch.
+    """
     bar = 0.5 * (d[0] + d[1])
     for i in range(1, count + 1):
         following = 0.5 * (d[i] + d[i + 1])
@@ -101,7 +104,10 @@ def _newton_step(A, r, count, d, diagonal, side):
 
 @outer
 def _solve(r, count, d, diagonal, side):
-    """Overwrite `side` with the solution of the tridiagonal system of the plates' directions; beside the diagonal -r/2 cos m_i."""
+    """Overwrite `side` with the solution of the tridiagonal system of the plates' directions; beside the diagonal -r/2 cos m_i.
+
+    d [rad], diagonal [-], side (count + 2,): entries 1 .. count belong to the free plates.
+    """
     for i in range(2, count + 1):
         beside = -0.5 * r * np.cos(0.5 * (d[i - 1] + d[i]))
         share = beside / diagonal[i - 1]
@@ -114,7 +120,10 @@ def _solve(r, count, d, diagonal, side):
 
 @outer
 def _reached(A, r, count, d, diagonal, side):
-    """The `Reach` in equilibrium.  Across the force the free plates move along with the seated ones: one adjoint solution for both ends."""
+    """The `Reach` in equilibrium.  Across the force the free plates move along with the seated ones: one adjoint solution for both ends.
+
+    d (count + 2,) [rad]; diagonal, side (count + 2,): scratch.
+    """
     opening = np.exp(0.5j * (d[0] + d[1]))
     vector, bar = -2 * r * opening, opening
     for i in range(1, count + 1):

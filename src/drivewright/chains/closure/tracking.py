@@ -35,7 +35,7 @@ class Track(NamedTuple):
 
 @kernel
 def follow(layout: Layout, seats: Ints, x: Floats, grid: Floats) -> Track:
-    """The `Track` over the ascending angles `grid`; `seats` and x are where to start from, and are overwritten."""
+    """The `Track` over the ascending angles `grid` (n,) [rad]; seats (ENDS,) and x (UNKNOWNS,) are where to start from, and overwritten."""
     room = len(grid) * (1 + 2 * ENDS) + _CHANGES
     track = Track(
         np.empty(room),
@@ -62,7 +62,8 @@ def follow(layout: Layout, seats: Ints, x: Floats, grid: Floats) -> Track:
 
 @kernel
 def solve_at(layout: Layout, psi: Floats, x: Floats, seats: Ints) -> float:
-    """Brings each row of x to the solution at its angle and with its seats; the largest miss, inf where one is not found."""
+    """Brings each row of x (S, UNKNOWNS) to the solution at its angle psi (S,) [rad] and with its seats (S, ENDS); the largest miss
+    [pitches], inf where one is not found."""
     work, worst = workspace(layout.links), 0.0
     for k in range(len(psi)):
         if not solve(layout, seats[k], psi[k], x[k], work):
@@ -73,7 +74,7 @@ def solve_at(layout: Layout, psi: Floats, x: Floats, seats: Ints) -> float:
 
 @outer
 def _settle(layout, seats, psi, x, work):
-    """Solves, and changes one seat at a time, the worst first, until no margin is negative."""
+    """Solves for x (UNKNOWNS,) at psi [rad], and changes one of seats (ENDS,) at a time, the worst first, till no margin is negative."""
     for _ in range(_CHANGES):
         wrong = _refused(layout, seats)
         if wrong != DONE:
@@ -89,7 +90,7 @@ def _settle(layout, seats, psi, x, work):
 
 @outer
 def _advance(layout, seats, target, x, start, work, held, track):
-    """Follows the motion to `target` and writes the samples, those at events too; `start` and `held` are scratch."""
+    """Follows the motion to `target` [rad] and writes the samples, those at events too; start (UNKNOWNS,), held (2 ENDS,) are scratch."""
     for _ in range(_CHANGES):
         last = track.length[0] - 1
         psi = track.psi[last]
@@ -115,7 +116,7 @@ def _advance(layout, seats, target, x, start, work, held, track):
 
 @outer
 def _solve_near(layout, seats, target, psi, x, start, slope, work):
-    """Solves at `target` from the solution `start` at psi, foreseen by its slope."""
+    """Solves for x (UNKNOWNS,) at `target` [rad] from the solution start (UNKNOWNS,) at psi, foreseen by its slope (UNKNOWNS,)."""
     for k in range(UNKNOWNS):
         x[k] = start[k] + slope[k] * (target - psi)
     return solve(layout, seats, target, x, work)

@@ -87,7 +87,7 @@ def _predict(run, scheme):
 
 @inner
 def _predict_table(q, v, true, auxiliary, scheme):
-    """The same of one table: places q, rates v, true and auxiliary accelerations, all (n, a)."""
+    """The same of one table: places q [m or rad], rates v [1/s of it], true and auxiliary accelerations [1/s^2 of it], all (n, a)."""
     h = scheme.h
     for i in range(q.shape[0]):
         for a in range(q.shape[1]):
@@ -100,7 +100,7 @@ def _predict_table(q, v, true, auxiliary, scheme):
 
 @inner
 def _accept(true, auxiliary, scheme):
-    """The auxiliary accelerations at the end of the step."""
+    """The auxiliary accelerations at the end of the step, by the true ones: both (n, a) [m/s^2 or rad/s^2]."""
     for i in range(true.shape[0]):
         for a in range(true.shape[1]):
             auxiliary[i, a] += (1.0 - scheme.af) / (1.0 - scheme.am) * true[i, a]
@@ -135,7 +135,7 @@ def _newton(run, scheme):
 
 @inner
 def _add_inertia(run, inertial):
-    """M a to the gradient, M times the share of the places in a to the tangent."""
+    """M a to the gradient [N, N m], `inertial` M to the tangent: da/dq [1/s^2] of the scheme."""
     parts, field, chain = run.parts, run.parts.field, run.parts.chain
     for i in range(len(field.plates)):
         for a in range(3):
@@ -154,7 +154,10 @@ def _add_inertia(run, inertial):
 
 @inner
 def _improve(run, inertial, gain, share):
-    """Take on a share of a Newton step; the longest part of it, turns by the length that they count for  [m]."""
+    """Take on a share of a Newton step; the longest part of it, turns by the length that they count for  [m].
+
+    inertial [1/s^2], gain [1/s]: by how much accelerations and rates follow the places.
+    """
     state, true, work, longest = run.state, run.true, run.work, 0.0
     for i in range(len(state.plates)):
         for a in range(3):

@@ -18,7 +18,7 @@ from drivewright.contact.normal import normal_force, stored_energy, tangent
 
 @outer
 def assemble(parts: Parts, state: State, gain: float) -> float:
-    """Fill the field of the parts at this state; returns V."""
+    """Fill the field of the parts at this state; returns V [J].  gain [1/s]: by how much rates follow places in the tangent."""
     field = parts.field
     clear(field.ring)
     field.powers[:] = 0.0
@@ -116,7 +116,7 @@ def _joint(parts, state, i, gain):
 
 @inner
 def _put(row, x, y, turn):
-    """Add a force and a moment to row (3,)."""
+    """Add a force (x, y) [N] and a moment `turn` [N m] to row (3,)."""
     row[0] += x
     row[1] += y
     row[2] += turn
@@ -124,7 +124,7 @@ def _put(row, x, y, turn):
 
 @inner
 def _put_block(block, stiff, x2, y2, x0, y0, turn):
-    """A block with `stiff` for both places, the columns x2, y2 and the rows x0, y0 of the angles."""
+    """Add to a block (3, 3): `stiff` [N/m] of both places, columns x2, y2 and rows x0, y0 of the angles [N], `turn` [N m] of the angles."""
     block[0, 0] += stiff
     block[1, 1] += stiff
     block[0, 2] += x2
@@ -136,7 +136,7 @@ def _put_block(block, stiff, x2, y2, x0, y0, turn):
 
 @inner
 def _press(parts, state, pair, body, place, gain):
-    """One contact: force of its law onto plate and body; returns its energy."""
+    """One contact: force of its law onto plate and body; returns its energy [J].  gain [1/s] as for `assemble`."""
     field, rate, force = parts.field, 0.0, 0.0
     law = law_of(parts.chain.laws, body, pair.body)
     depth = depth_of(parts, state, pair, body, place)
@@ -157,7 +157,10 @@ def _press(parts, state, pair, body, place, gain):
 
 @inner
 def _scatter(field, pair, body, force, stiffness):
-    """Gradient force J and tangent stiffness J J' + force d2(depth) of one contact into those of the drive."""
+    """Gradient force J and tangent stiffness J J' + force d2(depth) of one contact into those of the drive: force [N], stiffness [N/m].
+
+    J = field.slope (5,) and d2(depth) = field.bend (5, 5) by x, y, angle of the plate, place and angle of the body.
+    """
     slope, bend, ring, columns = field.slope, field.bend, field.ring, (body.slide_column, body.turn_column)
     loads = field.loads[pair.body]
     loads[0] += force * slope[0]

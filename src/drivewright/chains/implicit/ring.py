@@ -74,7 +74,10 @@ def factor(ring: Ring) -> bool:
 
 @outer
 def solve(ring: Ring, plates: Floats, others: Floats) -> None:
-    """Overwrite the right-hand side, plates (N, 3) and others (b,), with the solution; the matrix is factored already."""
+    """Overwrite the right-hand side, plates (N, 3) [N, N, N m] and others (b,) [N or N m], with the solution [m, m, rad], [m or rad].
+
+    The matrix is factored already.
+    """
     n, size = len(ring.diagonal) - 1, len(ring.last)
     for i in range(n):
         if i > 0:
@@ -119,7 +122,10 @@ def _open(ring, n):
 
 @inner
 def _cholesky(a):
-    """Lower factor L in the lower half of a, the diagonal inverted; False where a is not positive definite."""
+    """Cholesky factor L L' = a in the lower half of a (n, n), the diagonal inverted; False where a is not positive definite.
+
+    Units of a are those of the system's matrix: row and column of a place [N/m] with itself, [N] with an angle, of two angles [N m].
+    """
     n = len(a)
     for j in range(n):
         pivot = a[j, j]
@@ -138,7 +144,7 @@ def _cholesky(a):
 
 @inner
 def _lower(factor, columns):
-    """Overwrite the columns (3, c) with L^-1 columns."""
+    """Overwrite the columns (3, c) with L^-1 columns, L the factor (3, 3) of `_cholesky`."""
     for b in range(columns.shape[1]):
         first = columns[0, b] * factor[0, 0]
         second = (columns[1, b] - factor[1, 0] * first) * factor[1, 1]
@@ -148,7 +154,7 @@ def _lower(factor, columns):
 
 @inner
 def _take_product(left, right, target):
-    """target -= left' right, for matrices of 3 rows."""
+    """target (a, b) -= left' right, for left (3, a) and right (3, b)."""
     for a in range(target.shape[0]):
         for b in range(target.shape[1]):
             target[a, b] -= left[0, a] * right[0, b] + left[1, a] * right[1, b] + left[2, a] * right[2, b]
@@ -156,14 +162,14 @@ def _take_product(left, right, target):
 
 @inner
 def _take(matrix, vector, target):
-    """target -= matrix' vector, 3 rows."""
+    """target (a,) -= matrix' vector, for matrix (3, a) and vector (3,)."""
     for a in range(len(target)):
         target[a] -= matrix[0, a] * vector[0] + matrix[1, a] * vector[1] + matrix[2, a] * vector[2]
 
 
 @inner
 def _take_across(matrix, vector, target):
-    """target -= matrix vector, 3 rows."""
+    """target (3,) -= matrix vector, for matrix (3, b) and vector (b,)."""
     for a in range(3):
         for b in range(len(vector)):
             target[a] -= matrix[a, b] * vector[b]
@@ -171,7 +177,7 @@ def _take_across(matrix, vector, target):
 
 @inner
 def _forward(factor, b):
-    """Overwrite b with L^-1 b."""
+    """Overwrite b (n,) with L^-1 b, L the factor (n, n) of `_cholesky`."""
     for i in range(len(b)):
         for k in range(i):
             b[i] -= factor[i, k] * b[k]
@@ -180,7 +186,7 @@ def _forward(factor, b):
 
 @inner
 def _backward(factor, b):
-    """Overwrite b with L'^-1 b."""
+    """Overwrite b (n,) with L'^-1 b, L the factor (n, n) of `_cholesky`."""
     for i in range(len(b) - 1, -1, -1):
         for k in range(i + 1, len(b)):
             b[i] -= factor[k, i] * b[k]

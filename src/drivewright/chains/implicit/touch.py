@@ -20,7 +20,7 @@ from drivewright.chains.touching.seats import nearest_gap, nearest_tooth
 
 @outer
 def depth_of(parts: Parts, state: State, pair: Any, body: Any, place: int) -> float:
-    """Depth of one contact of a pair, -1 where there is none; its derivatives in the field.
+    """Depth [m] of one contact of a pair, -1 where there is none; its derivatives in the field: slope (5,), bend (5, 5).
 
     Place 0, 1: right and left flank of a plate, seat and flank of a roller's gap; a guide has place 0 alone.
     """
@@ -52,7 +52,10 @@ def _line(field, body, c, s, along, up, nx, ny, roll):
 
 @inner
 def _flank(parts, body, c, s, along, up, turned, sign):
-    """Depth of the right (sign 1) or left flank in its tooth; -1 where their contact lies off either's active flank."""
+    """Depth [m] of the right (sign 1) or left flank in its tooth; -1 where their contact lies off either's active flank.
+
+    (c, s) cosine and sine of the plate's angle; along, up [m]: its centre from the body's, in its frame; turned [rad] off the seat.
+    """
     chain = parts.chain
     rolled = body.base_radius * turned
     depth, support, place = flank_contact(
@@ -85,7 +88,7 @@ def _guide(parts, body, c, s, along, up):
 
 @inner
 def nearest(parts: Parts, body: Any, along: float, up: float) -> tuple[float, float, float]:
-    """The nearest point of a plate's back or belly from a guide's centre, in the plate's frame, and its distance."""
+    """The nearest point (x, y) [m] of a plate's back or belly from a guide's centre, in the plate's frame, and its distance [m]."""
     y = up - body.side * body.distance - parts.chain.offset
     _, x, far = nearest_on_plate(along, y, parts.chain.half_plate)
     return x, y, far
@@ -209,7 +212,7 @@ def _distance(parts, state, n, plate):
 
 @inner
 def _seat(parts, state, n, plate):
-    """Angle of the tooth (for rollers: of the gap) nearest to the plate, against psi; see `touching.seats`."""
+    """Angle [rad] of the tooth (for rollers: of the gap) nearest to the plate, against psi; see `touching.seats`."""
     body, q, psi = parts.bodies[n], state.bodies[n, 0], state.bodies[n, 1]
     phi, half, offset, angle = body.pitch_angle, parts.half[plate], parts.chain.offset, state.plates[plate, 2]
     x, y = state.plates[plate, 0] - body.x0 - q * body.ux, state.plates[plate, 1] - body.y0 - q * body.uy

@@ -13,29 +13,29 @@ FREE = 1e-3  # of the taut centre distance: a fixed one that is longer would str
 
 def closure(model: ChainModel, done: Answers) -> Answer:
     """The closed loop over one tooth of the driving sprocket."""
-    found = model.closure
+    motion = model.closure
     values = {
-        "centre_distance.mean": Value(found.mean, "m", "mean over a tooth, rigid plates, both strands taut"),
-        "centre_distance.fluctuation": Value(found.fluctuation, "m", "greatest less least over a tooth"),
-        "transmission_error": Value(found.transmission_ripple, "rad", "driven angle off the ratio of teeth, greatest less least"),
+        "centre_distance.mean": Value(motion.mean, "m", "mean over a tooth, rigid plates, both strands taut"),
+        "centre_distance.fluctuation": Value(motion.fluctuation, "m", "greatest less least over a tooth"),
+        "transmission_error": Value(motion.transmission_ripple, "rad", "driven angle off the ratio of teeth, greatest less least"),
         **_sides(model),
     }
-    checks = (*_wraps(model, values), _apart(model), *_fixed(model))
-    return Answer(values, (closure_table(found),), checks, tuple(_remarks(model)), data=found)
+    checks = (*_wraps(model, values), _clearance(model), *_fixed(model))
+    return Answer(values, (closure_table(motion),), checks, tuple(_remarks(model)), data=motion)
 
 
 def _sides(model):
-    found = {}
+    values = {}
     for number, side in enumerate(SIDES):
         leaving = departure(model.worn, model.teeth[number], model.spec.closure.strands)
         words = SIDE_WORDS[side]
-        found[f"chordal_rise.{side}"] = Value(leaving.rise, "m", f"rise and fall of the strand's force over a tooth of the {words}")
-        found[f"seating_angle.{side}"] = Value(leaving.seating, "rad", f"angle in which a plate comes to its seat on the {words}")
-        found[f"strand_slip.{side}"] = Value(leaving.slip, "m", f"of the strand off a pitch per tooth of the {words}, greatest less least")
-        found[f"wrap.{side}"] = Value(
+        values[f"chordal_rise.{side}"] = Value(leaving.rise, "m", f"rise and fall of the strand's force over a tooth of the {words}")
+        values[f"seating_angle.{side}"] = Value(leaving.seating, "rad", f"angle in which a plate comes to its seat on the {words}")
+        values[f"strand_slip.{side}"] = Value(leaving.slip, "m", f"of the strand off a pitch per tooth of the {words}, greatest less least")
+        values[f"wrap.{side}"] = Value(
             model.closure.mean_wrap(number), "rad", f"angle of the {words} that the chain takes in, mean over a tooth"
         )
-    return found
+    return values
 
 
 def _wraps(model, values):
@@ -45,10 +45,12 @@ def _wraps(model, values):
         yield Check(f"wrap.{side}", values[f"wrap.{side}"].value, model.spec.limits.wrap, ">=", "rad", message, (side,))
 
 
-def _apart(model):
+def _clearance(model):
     """Sprockets as large as their seated pin lines against the centre distance."""
-    room = model.closure.mean - sum(seat_height(model.worn, z) for z in model.teeth)
-    return Check("sprockets.apart", room, 0.0, ">=", "m", "centre distance beyond the pin lines of the two sprockets", SIDES, geometry=True)
+    clearance = model.closure.mean - sum(seat_height(model.worn, z) for z in model.teeth)
+    return Check(
+        "sprockets.apart", clearance, 0.0, ">=", "m", "centre distance beyond the pin lines of the two sprockets", SIDES, geometry=True
+    )
 
 
 def _fixed(model):

@@ -10,7 +10,7 @@ from drivewright.chains.stress.rolling import rolling_contact
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel, offset_of
 from drivewright.result import Answer, Answers, Column, Table, Value
 
-OVER_PITCH = (0.02, 0.04, 0.07, 0.1, 0.126, 0.17, 0.25, 0.35, 0.5, 0.78)  # rolling radii looked at, unless told otherwise
+OVER_PITCH = (0.02, 0.04, 0.07, 0.1, 0.126, 0.17, 0.25, 0.35, 0.5, 0.78)  # rolling radii compared by default
 AROUND = 4  # links on either side of the design's
 
 

@@ -13,9 +13,9 @@ def contact(model: ChainModel, done: Answers) -> Answer:
     rough = model.plate_refusal and not model.spec.roller and not (given.link_mass and given.link_inertia)
     findings = [f"the mass of a link is estimated from the pitch: {model.plate_refusal}"] if rough else []
     values, checks = {**_strands(model), "pin.force": Value(force, "N", "of the strand, on the pins of a joint")}, []
-    pressed, found = (_rolling if model.link.radius else _hinge)(model, force)
-    values |= pressed
-    checks += found
+    pressure_values, pressure_checks = (_rolling if model.link.radius else _hinge)(model, force)
+    values |= pressure_values
+    checks += pressure_checks
     try:
         bent, safe = _bending(model, force)
     except InputError as reason:
@@ -43,15 +43,15 @@ def _strands(model):
 
 def _rolling(model, force):
     material = model.spec.material
-    found = rolling.rolling_contact(force, model.contact_length, 2 * (model.link.radius,), material.youngs_modulus, material.poisson_ratio)
+    line = rolling.rolling_contact(force, model.contact_length, 2 * (model.link.radius,), material.youngs_modulus, material.poisson_ratio)
     limits = rolling.pressure_limits(material.yield_strength, material.poisson_ratio)
-    safety, least = float(limits.shakedown / found.pressure), model.spec.limits.shakedown_safety
+    safety, least = float(limits.shakedown / line.pressure), model.spec.limits.shakedown_safety
     message = "shakedown limit of the rolling pins over their contact pressure; a larger rolling radius lowers the pressure"
     return {
-        "pin.contact_pressure": Value(float(found.pressure), "Pa", "greatest pressure of the pins on each other, Hertz"),
-        "pin.half_width": Value(float(found.half_width), "m", "half the width of their contact"),
-        "pin.max_shear": Value(float(found.shear), "Pa", "greatest shear stress below their surface"),
-        "pin.shear_depth": Value(float(found.depth), "m", "where it is, below the surface"),
+        "pin.contact_pressure": Value(float(line.pressure), "Pa", "greatest pressure of the pins on each other, Hertz"),
+        "pin.half_width": Value(float(line.half_width), "m", "half the width of their contact"),
+        "pin.max_shear": Value(float(line.shear), "Pa", "greatest shear stress below their surface"),
+        "pin.shear_depth": Value(float(line.depth), "m", "where it is, below the surface"),
         "pin.first_yield": Value(limits.first_yield, "Pa", "pressure below which nothing yields, von Mises"),
         "pin.shakedown_limit": Value(limits.shakedown, "Pa", "pressure below which nothing yields again after the first passes"),
     }, (Check("pin.shakedown", safety, least, ">=", "-", message, ("chain",)),)

@@ -51,7 +51,7 @@ def _possible(spec, columns, count):
 
 def _quantities(spec):
     """Name -> numbers of everything there is: values of `meshing`, closed forms of `layout`, margins of the checks of both."""
-    with np.errstate(all="ignore"):  # what is beyond the floats is not finite, and told as nan
+    with np.errstate(all="ignore"):  # what is beyond the floats is not finite, and becomes nan
         model = build(spec)
         values = measures(model)
         for number, side in enumerate(SIDES):
@@ -66,11 +66,11 @@ def _pair(spec):
     pitch, (z1, z2) = spec.pitch, spec.teeth
     touching = 0.5 * (standards.pitch_diameter(1.0, z1) + standards.pitch_diameter(1.0, z2)) * (1 + 1e-12)  # as `centre_distance` asks
     reaches = np.where(spec.links >= standards.chain_links(1.0, z1, z2, touching), 1.0, np.nan)
-    found = {"layout.chain_length": spec.links * pitch}
+    forms = {"layout.chain_length": spec.links * pitch}
     if spec.drive:
-        found["layout.mesh_frequency"] = standards.mesh_frequency(z1, spec.drive.speed)
-        found["layout.meeting_velocity"] = standards.meeting_velocity(pitch, spec.drive.speed)
-    return {name: reaches * value for name, value in found.items()}
+        forms["layout.mesh_frequency"] = standards.mesh_frequency(z1, spec.drive.speed)
+        forms["layout.meeting_velocity"] = standards.meeting_velocity(pitch, spec.drive.speed)
+    return {name: reaches * value for name, value in forms.items()}
 
 
 def _margins(model):

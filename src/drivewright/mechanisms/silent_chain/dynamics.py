@@ -19,7 +19,7 @@ from drivewright.result import Answer, Answers, Check, Value
 
 IMPLICIT_STEP = 1e-5  # [s]
 OFF = 0.25  # of the pitch: a mean centre distance so far from the rigid one is that of a chain off its teeth
-REVOLUTIONS = 2  # of the chain, that are evaluated unless told otherwise
+REVOLUTIONS = 2  # of the chain, that are evaluated by default
 MOST_STEPS = 2e10  # of a link, in all runs: about ten minutes
 MOST_LISTED = 3  # statistics that have not settled, by name
 SLIPPING = 0.3  # coefficient of friction that lubricated pins do not reach
@@ -27,7 +27,7 @@ HINT = (
     "where a shorter step does not help: a slack strand (check strand.taut), a speed, wear or teeth that throw the chain off, or a "
     "tensioner that hits it; see also the analysis 'quasi_static'"
 )
-ORDERS = 8  # of the mesh frequency, up to which the spectrum is told
+ORDERS = 8  # of the mesh frequency, up to which the spectrum is shown
 WATCHED = 0
 
 

@@ -24,12 +24,12 @@ def geometry(model: ChainModel, done: Answers) -> Answer:
     values, checks = {}, []
     for part, measured in (("plate", _plate), ("sprockets", _sprockets), ("meeting", _meeting)):
         try:
-            found, passed = measured(model)
+            part_values, part_checks = measured(model)
         except InputError as impossible:
             checks.append(Check(f"geometry.{part}", 0.0, 1.0, ">=", "-", f"{impossible} {KEYS[part]}", ("chain",), geometry=True))
             break
-        values |= found
-        checks += passed
+        values |= part_values
+        checks += part_checks
     return Answer(values, (), tuple(checks))
 
 

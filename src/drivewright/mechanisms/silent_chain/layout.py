@@ -8,7 +8,7 @@ from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS, Measure
 from drivewright.result import Answer, Answers, Check, Value
 
-MODES = 2  # of a strand that are told
+MODES = 2  # of a strand
 
 
 def layout(model: ChainModel, done: Answers) -> Answer:

@@ -13,7 +13,7 @@ from drivewright.mechanisms.silent_chain.dynamics import explicit_step
 from drivewright.mechanisms.silent_chain.missing import unless_impossible
 from drivewright.result import Answer, Answers, Value
 
-SPEEDS = 12  # of the Campbell diagram, unless told otherwise, up to
+SPEEDS = 12  # of the Campbell diagram by default, up to
 BEYOND = 1.5  # times the design's speed
 REVOLUTIONS = 2  # of the chain, in a run of the Campbell diagram
 POSITIONS = 24  # in a tooth, at rest
@@ -26,9 +26,9 @@ def speeds(model: ChainModel, done: Answers) -> Answer:
     drive, given = model.drive, model.spec.compare.speeds
     chosen = np.array(given) if given else drive.speed * BEYOND * np.arange(1, SPEEDS + 1) / SPEEDS
     system = chain_drive(model)
-    found = campbell(system, -chosen, REVOLUTIONS, _settings(model, system), model.spec.dynamics.ensemble)
-    rows = [(-row.case, row.value) for row in found.rows if row.ok]
-    findings = tuple(f"at {-row.case * 30 / np.pi:.4g} rpm: {row.reason}" for row in found.failed)
+    outcomes = campbell(system, -chosen, REVOLUTIONS, _settings(model, system), model.spec.dynamics.ensemble)
+    rows = [(-row.case, row.value) for row in outcomes.rows if row.ok]
+    findings = tuple(f"at {-row.case * 30 / np.pi:.4g} rpm: {row.reason}" for row in outcomes.failed)
     findings += tuple(_drifting([(f"{speed * 30 / np.pi:.4g} rpm", level) for speed, level in rows]))
     if not rows:
         return Answer(findings=findings, outcome="partial")
@@ -50,18 +50,18 @@ def scatter(model: ChainModel, done: Answers) -> Answer:
     system, given = chain_drive(model), model.spec.scatter
     settings = _settings(model, system)
     duration = settings.settle + REVOLUTIONS * revolution_time(system)
-    found = monte_carlo(system, Scatter(given.tooth_thickness, given.pitch), given.samples, duration, settings, PERCENTILES, given.seed)
+    spread = monte_carlo(system, Scatter(given.tooth_thickness, given.pitch), given.samples, duration, settings, PERCENTILES, given.seed)
     values = {}
     for k, percent in enumerate(PERCENTILES):
         for name, numbers, what in (
-            ("mean", found.mean, "mean centre distance"),
-            ("fluctuation", found.fluctuation, "peak-to-peak of the centre distance in a revolution"),
+            ("mean", spread.mean, "mean centre distance"),
+            ("fluctuation", spread.fluctuation, "peak-to-peak of the centre distance in a revolution"),
         ):
             value, low, high = np.asarray(numbers)[:, k]
             meaning = f"{what}, {percent} % of the drives are below"
             values[f"scatter.{name}.p{percent:02d}"] = Value(value, "m", meaning, low, high, "sample").plain()
-    table = scatter_table([row.value for row in found.outcomes.rows if row.ok])
-    findings = tuple(f"drive {row.case}: {row.reason}" for row in found.outcomes.failed)
+    table = scatter_table([row.value for row in spread.outcomes.rows if row.ok])
+    findings = tuple(f"drive {row.case}: {row.reason}" for row in spread.outcomes.failed)
     return Answer(values, (table,), (), findings)
 
 
@@ -69,17 +69,17 @@ def scatter(model: ChainModel, done: Answers) -> Answer:
 def quasi_static(model: ChainModel, done: Answers) -> Answer:
     """The loaded chain at rest, teeth and joints elastic, flanks that press only: also with thick teeth and a worn chain."""
     system = chain_drive(model)
-    found, rigid = equilibrium(system, POSITIONS), compliance_of(system, POSITIONS)
+    rest, rigid = equilibrium(system, POSITIONS), compliance_of(system, POSITIONS)
     values = {
-        "quasi_static.centre_distance.mean": Value(found.mean, "m", "mean centre distance under load, at rest"),
-        "quasi_static.centre_distance.fluctuation": Value(found.fluctuation, "m", "greatest less least over a tooth"),
+        "quasi_static.centre_distance.mean": Value(rest.mean, "m", "mean centre distance under load, at rest"),
+        "quasi_static.centre_distance.fluctuation": Value(rest.fluctuation, "m", "greatest less least over a tooth"),
         "quasi_static.centre_distance.rigid": Value(rigid.rigid_mean, "m", "the mean with the compliance taken off"),
         "quasi_static.transmission_error": Value(
-            np.ptp(found.transmission_error(1)), "rad", "driven angle off the ratio of teeth, greatest less least"
+            np.ptp(rest.transmission_error(1)), "rad", "driven angle off the ratio of teeth, greatest less least"
         ),
-        "quasi_static.flank_force.maximum": Value(np.max(found.flank_force), "N", "greatest force on a flank of a plate"),
+        "quasi_static.flank_force.maximum": Value(np.max(rest.flank_force), "N", "greatest force on a flank of a plate"),
     }
-    return Answer(values, (rest_table(found), plate_force_table(found)))
+    return Answer(values, (rest_table(rest), plate_force_table(rest)))
 
 
 def _settings(model, system):

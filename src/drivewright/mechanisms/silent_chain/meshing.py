@@ -16,10 +16,10 @@ SIDE_WORDS = {"drive": "driving sprocket", "driven": "driven sprocket"}
 
 def meshing(model: ChainModel, done: Answers) -> Answer:
     """All measures of the published method, and its curve of the equivalent pitch."""
-    found = measures(model)
+    numbers = measures(model)
     for number, side in enumerate(SIDES):
-        found |= seated_measures(model, side, number)
-    values = {name: measure.value() for name, measure in found.items()}
+        numbers |= seated_measures(model, side, number)
+    values = {name: measure.value() for name, measure in numbers.items()}
     curve = equivalent_pitch_table(model.spec.pitch, model.link.radius, float(model.offset), min(model.teeth))
     return Answer(values, (curve,), tuple(offset_checks(model)), tuple(_remarks(model)))
 
@@ -63,18 +63,18 @@ def measures(model: ChainModel) -> dict[str, Measure]:
 
 def seated_measures(model: ChainModel, side: str, number: int) -> dict[str, Measure]:
     """{name: Measure} of the seated chain and the tooth of one sprocket."""
-    found, words = model.sides[number], SIDE_WORDS[side]
+    sprocket, words = model.sides[number], SIDE_WORDS[side]
     seated = f"of the seated chain on the {words}"
     return {
-        f"seated_pitch.{side}": Measure(found.seated_pitch, "m", f"equivalent pitch {seated}"),
-        f"ideal_pitch.{side}": Measure(found.ideal_pitch, "m", f"pitch without polygonal action in the published measure, {words}"),
-        f"pitch_deviation.{side}": Measure(found.deviation, "m", f"seated less ideal pitch, {words}"),
-        f"seated_apothem.{side}": Measure(found.seated_apothem, "m", f"apothem {seated}"),
-        f"modification.{side}": Measure(found.modification, "-", f"modification coefficient x of the {words}"),
-        f"positioning_diameter.{side}": Measure(found.positioning_diameter, "m", f"circle through the rotation centres {seated}"),
-        f"contact_radius.{side}": Measure(found.tooth.contact_radius, "m", f"where a seated plate touches the tooth, {words}"),
-        f"curvature_radius.{side}": Measure(found.tooth.curvature_radius, "m", f"of the tooth where a seated plate touches it, {words}"),
-        f"base_radius.{side}": Measure(found.tooth.base_radius, "m", f"base circle of the {words}"),
+        f"seated_pitch.{side}": Measure(sprocket.seated_pitch, "m", f"equivalent pitch {seated}"),
+        f"ideal_pitch.{side}": Measure(sprocket.ideal_pitch, "m", f"pitch without polygonal action in the published measure, {words}"),
+        f"pitch_deviation.{side}": Measure(sprocket.deviation, "m", f"seated less ideal pitch, {words}"),
+        f"seated_apothem.{side}": Measure(sprocket.seated_apothem, "m", f"apothem {seated}"),
+        f"modification.{side}": Measure(sprocket.modification, "-", f"modification coefficient x of the {words}"),
+        f"positioning_diameter.{side}": Measure(sprocket.positioning_diameter, "m", f"circle through the rotation centres {seated}"),
+        f"contact_radius.{side}": Measure(sprocket.tooth.contact_radius, "m", f"where a seated plate touches the tooth, {words}"),
+        f"curvature_radius.{side}": Measure(sprocket.tooth.curvature_radius, "m", f"of the tooth where a seated plate touches it, {words}"),
+        f"base_radius.{side}": Measure(sprocket.tooth.base_radius, "m", f"base circle of the {words}"),
     }
 
 

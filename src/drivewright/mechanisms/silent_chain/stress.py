@@ -43,10 +43,10 @@ def stress(model: ChainModel, done: Answers) -> Answer:
 @unless_impossible
 def life(model: ChainModel, done: Answers) -> Answer:
     """Life of a plate and of a pin in revolutions of the chain."""
-    found, card = done["stress"].data, card_of(model)
-    if found is None:
+    stressed, card = done["stress"].data, card_of(model)
+    if stressed is None:
         return Answer(findings=("life is left out: there is no stress",), outcome="left out")
-    basis, turn = found
+    basis, turn = stressed
     if not turn.whole:
         return Answer(
             findings=("life is left out: the run is shorter than a revolution of the chain; give dynamics.duration more, or none",),
