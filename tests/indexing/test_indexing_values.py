@@ -5,6 +5,7 @@ import pytest
 
 from drivewright.indexing.motion import TURN, IndexMotion, index_motion, motion_table
 from drivewright.indexing.pin_wheel import PinWheel, profile_findings, sleeve_findings, wall_thicknesses
+from drivewright.indexing.stiffness.loading import dwell_angles
 from drivewright.indexing.stiffness.result import CARRIED, FREE, TorsionalStiffness
 from drivewright.indexing.stiffness.values import bearing_load_values, stiffness_findings, stiffness_values
 from drivewright.indexing.values import contact_findings, motion_values, play_findings, play_values, pressure_angle_values
@@ -95,3 +96,11 @@ def test_stiffness_is_that_of_the_positions_that_carry():
 def test_loads_without_a_rating_have_no_life():
     forces = {"crank.left": np.array([3 + 4j, np.nan, 1j]), "crank.right": np.array([-6.0 + 0j, np.nan, 1.0])}
     assert {name: value.value for name, value in bearing_load_values("crank", forces).items()} == {"crank.max_load": 6.0}
+
+
+def test_dwell_angles_lie_inside_the_dwell_in_equal_steps():
+    angles = dwell_angles(IndexMotion(law("modified-sine"), 12, 4.0), 0.25)
+    assert (
+        len(angles) == 9 and angles[0] == pytest.approx(4.0 + (TURN - 4.0) / 10) and angles[-1] == pytest.approx(TURN - (TURN - 4.0) / 10)
+    )
+    assert all(len(dwell_angles(IndexMotion(law("modified-sine"), 12, angle), 0.25)) == 0 for angle in (TURN - 0.2, TURN))

@@ -147,3 +147,12 @@ def test_tapered_rollers_lean_against_the_force_they_take(carries):
         assert np.abs(corners.mean(axis=0)) == pytest.approx((0.04, 0.018))
         right, left = (np.abs(corners[np.argsort(way * corners[:, 0])][:2].mean(axis=0)[1]) for way in (-1, 1))
         assert left - right == pytest.approx((1 if carries == "right" else -1) * 0.008 * np.sin(np.radians(14)), rel=1e-9)
+
+
+def test_a_seat_off_the_axis_is_drawn_where_it_stands():
+    bearings = [TABLES["bearings"][0], TABLES["bearings"][1] | {"seat_offset": ["0.3 mm", "0.05 mm"]}]
+    built = model(bearings=bearings, analysis={"direction": "-90 deg"})
+    drawn = scene(built)
+    factor = float(bodies(drawn, "shaft.")[0].label.split("×")[1])
+    here, there = (body.poses for body in bodies(drawn, "bearing."))
+    assert np.all(here[:, 1] == 0) and there[:, 1] == pytest.approx(factor * 0.05e-3)  # up against the load

@@ -25,18 +25,18 @@ SHAFTS, ENDS = ("left", "right"), ("front", "rear")
 
 
 def stiffness_table(
-    angles: Floats, found: TorsionalStiffness, loaded: TorsionalStiffness, free: Floats, reverse: TorsionalStiffness
+    angles: Floats, result: TorsionalStiffness, loaded: TorsionalStiffness, free: Floats, reverse: TorsionalStiffness
 ) -> Table:
     """Secant, tangent and the share of every group in the compliance; after the play where the wheel turns freely first.
 
-    angles (p,) [rad]; found: at the contacts without a gap; loaded: after the free rotation `free` (p,) [rad]; reverse: torque reversed.
+    angles (p,) [rad]; result: at the contacts without a gap; loaded: after the free rotation `free` (p,) [rad]; reverse: torque reversed.
     """
     columns = [
         Column("angle", "rad", "input angle", angles),
-        Column("secant", "N m/rad", "torque over rotation of the wheel", found.secant),
-        Column("tangent", "N m/rad", "change of torque over change of rotation", found.tangent),
+        Column("secant", "N m/rad", "torque over rotation of the wheel", result.secant),
+        Column("tangent", "N m/rad", "change of torque over change of rotation", result.tangent),
     ]
-    columns += [Column(name, "rad/(N m)", words, found.shares[name]) for name, words in GROUP_LABELS.items()]
+    columns += [Column(name, "rad/(N m)", words, result.shares[name]) for name, words in GROUP_LABELS.items()]
     columns += [
         Column("free_rotation", "rad", "rotation before a contact takes the torque", free),
         Column("secant_after_play", "N m/rad", "torque over the rotation beyond that", loaded.secant),
@@ -46,11 +46,11 @@ def stiffness_table(
 
 
 def pin_force_table(
-    angles: Floats, contacts: Sequence[CamContacts], found: TorsionalStiffness, pin_radius: float, width: float, modulus: float
+    angles: Floats, contacts: Sequence[CamContacts], result: TorsionalStiffness, pin_radius: float, width: float, modulus: float
 ) -> Table:
     """Force and Hertz pressure of every loaded contact, one row each; lengths [m], effective modulus E* [Pa]."""
     rows = []
-    for angle, each, forces in zip(angles, contacts, found.pin_forces, strict=True):
+    for angle, each, forces in zip(angles, contacts, result.pin_forces, strict=True):
         for cam, row in enumerate(forces):
             for k in np.flatnonzero(np.nan_to_num(row) != 0):
                 pressure = pin_pressure(row[k], each.curvature[k], pin_radius, width, modulus)
@@ -70,11 +70,11 @@ def pin_force_table(
     )
 
 
-def bearing_forces(found: TorsionalStiffness) -> dict[str, Complexes]:
+def bearing_forces(result: TorsionalStiffness) -> dict[str, Complexes]:
     """{name: force (p,) [N], complex} of every bearing: "crank.left.cam1", ..., "support.right.rear"."""
-    cams = found.crank_forces.shape[2]
-    cranks = {f"crank.{side}.cam{cam + 1}": found.crank_forces[:, s, cam] for s, side in enumerate(SHAFTS) for cam in range(cams)}
-    return cranks | {f"support.{side}.{end}": found.support_forces[:, s, k] for s, side in enumerate(SHAFTS) for k, end in enumerate(ENDS)}
+    cams = result.crank_forces.shape[2]
+    cranks = {f"crank.{side}.cam{cam + 1}": result.crank_forces[:, s, cam] for s, side in enumerate(SHAFTS) for cam in range(cams)}
+    return cranks | {f"support.{side}.{end}": result.support_forces[:, s, k] for s, side in enumerate(SHAFTS) for k, end in enumerate(ENDS)}
 
 
 def bearing_load_table(angles: Floats, forces: Mapping[str, Complexes]) -> Table:

@@ -13,14 +13,14 @@ from drivewright.indexing.stiffness.statics import crank_load_deviations, equiva
 from drivewright.result import Table, Value
 
 
-def stiffness_values(angles: Floats, found: TorsionalStiffness) -> dict[str, Value]:
+def stiffness_values(angles: Floats, result: TorsionalStiffness) -> dict[str, Value]:
     """Part of the input angles (p,) [rad] where the torque is not carried; mean, extremes and range of the secant where it is."""
-    carried = found.carried
+    carried = result.carried
     meaning = "part of the positions where no contact without a gap carries the torque"
     values = {"stiffness.undefined_fraction": Value(float(np.mean(~carried)), "-", meaning)}
     if not carried.any():
         return values
-    secant, at = found.secant[carried], angles[carried]
+    secant, at = result.secant[carried], angles[carried]
     least = int(np.argmin(secant))
     return values | {
         "stiffness.mean": Value(float(np.mean(secant)), "N m/rad", "mean secant stiffness of the positions that carry the torque"),
@@ -31,29 +31,29 @@ def stiffness_values(angles: Floats, found: TorsionalStiffness) -> dict[str, Val
     }
 
 
-def dwell_values(angles: Floats, found: TorsionalStiffness, forces: Table) -> dict[str, Value]:
+def dwell_values(angles: Floats, result: TorsionalStiffness, forces: Table) -> dict[str, Value]:
     """The same in the dwell, where work is done on the table, with the largest force of a `pin_force_table`."""
     meaning = "part of the dwell where the torque is not held without play"
-    values = {"dwell.undefined_fraction": Value(float(np.mean(~found.carried)), "-", meaning)}
-    if found.carried.any():
-        least = int(np.nanargmin(found.secant))
+    values = {"dwell.undefined_fraction": Value(float(np.mean(~result.carried)), "-", meaning)}
+    if result.carried.any():
+        least = int(np.nanargmin(result.secant))
         values |= {
-            "dwell.stiffness.minimum": Value(float(found.secant[least]), "N m/rad", "least secant stiffness in the dwell"),
+            "dwell.stiffness.minimum": Value(float(result.secant[least]), "N m/rad", "least secant stiffness in the dwell"),
             "dwell.stiffness.minimum.at": Value(float(angles[least]), "rad", "input angle of the least stiffness in the dwell"),
             "dwell.pins.max_force": Value(float(np.max(forces["force"].data)), "N", "largest force on a pin in the dwell"),
         }
     return values
 
 
-def stiffness_findings(angles: Floats, found: TorsionalStiffness, after_play: TorsionalStiffness) -> Iterator[str]:
+def stiffness_findings(angles: Floats, result: TorsionalStiffness, after_play: TorsionalStiffness) -> Iterator[str]:
     """Why there is no stiffness at some of the input angles (p,) [rad], and at how many of them there is one after the play."""
-    lost, reasons = np.flatnonzero(~found.carried), found.reasons
+    lost, reasons = np.flatnonzero(~result.carried), result.reasons
     for reason in dict.fromkeys(reasons[k] for k in lost):
         rows = [k for k in lost if reasons[k] == reason]
         after = int(np.sum(after_play.carried[rows]))
         more = f" At {after} of them a contact takes it after the play: table stiffness, secant_after_play." if after else ""
         places = ", ".join(f"{angle:.4g}" for angle in np.degrees(angles[rows[:12]])) + (" ..." if len(rows) > 12 else "")
-        yield f"no stiffness at {len(rows)} of {len(angles)} input angles ({places} deg) against {found.torque:.6g} N m: {reason}.{more}"
+        yield f"no stiffness at {len(rows)} of {len(angles)} input angles ({places} deg) against {result.torque:.6g} N m: {reason}.{more}"
 
 
 def bearing_load_values(
@@ -79,9 +79,9 @@ def bearing_load_values(
     return values
 
 
-def statics_values(found: TorsionalStiffness, contacts: Sequence[CamContacts], eccentricity: float, spacing: float) -> dict[str, Value]:
+def statics_values(result: TorsionalStiffness, contacts: Sequence[CamContacts], eccentricity: float, spacing: float) -> dict[str, Value]:
     """Largest differences of the loads by statics alone from those in equilibrium; eccentricity, spacing of the split shafts [m]."""
     return {
         f"statics.{name}.deviation": Value(deviation, "-", f"equations (8) as {name} against the equilibrium, over the largest load")
-        for name, deviation in crank_load_deviations(found, contacts, eccentricity, spacing).items()
+        for name, deviation in crank_load_deviations(result, contacts, eccentricity, spacing).items()
     }

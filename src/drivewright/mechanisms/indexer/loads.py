@@ -30,8 +30,8 @@ def bearing_loads(model: IndexerModel, done: Answers) -> Answer:
     """Forces on every bearing over the turn, largest and mean loads, lives, and the corrected statics beside them."""
     torque, whole_turn = model.torque, model.spec.load.angle is None
     angles = np.linspace(0, TURN, int(round(TURN / STEP)) + 1) if whole_turn else model.angles
-    found, near = solve_loaded(model.loaded_wheel, angles, torque)
-    loaded, _, _ = solve_after_play(model.loaded_wheel, angles, torque, found, near)
+    result, contacts = solve_loaded(model.loaded_wheel, angles, torque)
+    loaded, _, _ = solve_after_play(model.loaded_wheel, angles, torque, result, contacts)
     forces = bearing_forces(loaded)
     values, checks = {}, []
     for group, table in RATED.items():
@@ -43,7 +43,7 @@ def bearing_loads(model: IndexerModel, done: Answers) -> Answer:
     absent = f"bearing loads are absent at {lost} of {len(angles)} input angles, where nothing carries the torque; lives leave them out"
     train = model.train
     if model.spec.cams == 2 and model.wheel.side == "inside" and train is not None and train.crank is not None:
-        values |= statics_values(found, near, model.wheel.eccentricity, train.spacing)
+        values |= statics_values(result, contacts, model.wheel.eccentricity, train.spacing)
     return Answer(values, (bearing_load_table(angles, forces),), tuple(checks), (absent,) if lost else ())
 
 

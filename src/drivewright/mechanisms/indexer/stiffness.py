@@ -23,13 +23,13 @@ def no_stiffness(spec: IndexerSpec) -> str | None:
 def torsional(model: IndexerModel, done: Answers) -> Answer:
     """Secant and tangent stiffness, compliance budget, forces of pins and bearings at every position."""
     wheel, torque, angles = model.loaded_wheel, model.torque, model.angles
-    found, near = solve_loaded(wheel, angles, torque)
-    loaded, touching, free = solve_after_play(wheel, angles, torque, found, near)
-    reverse = solve_at_contacts(wheel, angles, near, -torque)
+    result, contacts = solve_loaded(wheel, angles, torque)
+    loaded, touching, free = solve_after_play(wheel, angles, torque, result, contacts)
+    reverse = solve_at_contacts(wheel, angles, contacts, -torque)
     forces = pin_force_table(angles, touching, loaded, *model.pin_measures)
-    values = stiffness_values(angles, found) | _dwell(model) | largest_pin_values(forces)
-    tables = (stiffness_table(angles, found, loaded, free, reverse), forces)
-    return Answer(values, tables, tuple(_checks(model, values)), tuple(stiffness_findings(angles, found, loaded)), data=(found, near))
+    values = stiffness_values(angles, result) | _dwell(model) | largest_pin_values(forces)
+    tables = (stiffness_table(angles, result, loaded, free, reverse), forces)
+    return Answer(values, tables, tuple(_checks(model, values)), tuple(stiffness_findings(angles, result, loaded)), data=(result, contacts))
 
 
 def _dwell(model: IndexerModel) -> dict[str, Value]:
@@ -37,8 +37,8 @@ def _dwell(model: IndexerModel) -> dict[str, Value]:
     angles = dwell_angles(model.wheel.motion, STEP)
     if model.spec.load.angle is not None or not len(angles):
         return {}
-    found, near = solve_loaded(model.loaded_wheel, angles, model.torque)
-    return dwell_values(angles, found, pin_force_table(angles, near, found, *model.pin_measures))
+    result, contacts = solve_loaded(model.loaded_wheel, angles, model.torque)
+    return dwell_values(angles, result, pin_force_table(angles, contacts, result, *model.pin_measures))
 
 
 def _checks(model: IndexerModel, values: Mapping[str, Value]) -> Iterator[Check]:
