@@ -34,7 +34,7 @@ CASES = {
         "silent-chain",
         "default",
         ["dynamics"],
-        ['dynamics.duration="0.0004 s"', 'dynamics.settling="0 s"', "dynamics.ensemble=1"],
+        ['dynamics.duration="0.002 s"', 'dynamics.settling="0 s"', "dynamics.ensemble=1"],
     ),
 }
 

@@ -10,7 +10,8 @@ from drivewright._typing import Floats
 from drivewright.bearings import BallBearing, RollerBearing
 from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.shaft.refusals import is_rolling, refuse_contradictions
-from drivewright.mechanisms.shaft.spec import Analysis, Bearing, Gear, ShaftSpec
+from drivewright.mechanisms.shaft.spec import ShaftSpec
+from drivewright.mechanisms.shaft.tables import Analysis, Bearing, Gear
 from drivewright.spec.csv_columns import read_columns
 
 DOWN = np.array([0.0, -1.0])

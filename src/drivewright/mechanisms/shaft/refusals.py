@@ -1,11 +1,7 @@
 """What has no meaning, refused by name; what can be computed is left to the checks."""
 
-from typing import TYPE_CHECKING
-
 from drivewright.errors import SpecError, nearest
-
-if TYPE_CHECKING:
-    from drivewright.mechanisms.shaft.spec import Bearing, ShaftSpec
+from drivewright.mechanisms.shaft.tables import Bearing, ShaftTables
 
 NEAR = 1e-9  # of the shaft's length: the same place
 TAKEN = {"bearings": ("bending", "shear", "tension", "total", "entry"), "stations": ("z",)}  # columns of our own
@@ -13,19 +9,19 @@ SPRINGS = ("radial_stiffness", "table", "bearing", "geometry", "roller_geometry"
 ROLLING = ("bearing", "geometry", "roller_geometry")
 
 
-def refuse_nonsense(spec: "ShaftSpec") -> None:
+def refuse_nonsense(spec: ShaftTables) -> None:
     """SpecError for the first thing that has no meaning."""
     for check in (_names, _places, _stations_of_loads, _analysis):
         check(spec)
 
 
-def refuse_contradictions(spec: "ShaftSpec") -> None:
+def refuse_contradictions(spec: ShaftTables) -> None:
     """SpecError for the first two keys that contradict each other, or one that lacks another."""
     for check in (_segments, _bearings, _places_of_loads):
         check(spec)
 
 
-def is_rolling(bearing: "Bearing") -> bool:
+def is_rolling(bearing: Bearing) -> bool:
     """Whether a bearing is a rolling bearing with an inner geometry."""
     return any(getattr(bearing, key) is not None for key in ROLLING)
 

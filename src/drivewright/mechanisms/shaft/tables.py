@@ -1,0 +1,253 @@
+"""What the user says of a shaft: material, segments, bearings, stations, loads, limits."""
+
+from typing import Annotated, Literal
+
+from drivewright.bearings.ball import BallBearing
+from drivewright.bearings.catalogue import Designation
+from drivewright.bearings.roller import RollerBearing
+from drivewright.errors import UnitError
+from drivewright.spec import DataFile, Integer, MechanismSpec, Name, Number, Spec, Text
+from drivewright.spec.fields import Field
+from drivewright.units import (
+    BY_NAME,
+    Acceleration,
+    Angle,
+    Density,
+    Dimension,
+    Force,
+    Inertia,
+    Length,
+    LineForce,
+    Mass,
+    Pressure,
+    RotationalStiffness,
+    Speed,
+    Time,
+    Torque,
+)
+
+RIGID = "rigid"
+
+
+class _StiffnessOrRigid(Dimension):
+    """A stiffness [N/m] above 0, or "rigid": infinity."""
+
+    plain = True
+
+    def parse(self, value):
+        """As `Dimension.parse`, of the wider kind."""
+        if value == RIGID:
+            return float("inf")
+        found = BY_NAME["stiffness"].parse(value)
+        if not found > 0:
+            raise UnitError(
+                f'must be above 0, got {value}; a bearing that does not hold here is left out, one that does not yield is "{RIGID}"'
+            )
+        return found
+
+    def text(self, value):
+        return RIGID if value == float("inf") else BY_NAME["stiffness"].text(value)
+
+    def __get_pydantic_json_schema__(self, schema, handler):
+        return {"type": "string", "examples": ["3e7 N/m", RIGID], "x-dimension": "stiffness", "x-unit": "N/m", "x-si-unit": "N/m"}
+
+
+StiffnessOrRigid = Annotated[float, _StiffnessOrRigid('stiffness, or "rigid"', "N/m", "N/m")]
+
+
+class Material(Spec):
+    """The shaft's material."""
+
+    card: Text | None = Field(
+        None, description="a material card that fills in what is not given here: C45, 42CrMo4, 16MnCr5 ...", examples=["C45"]
+    )
+    youngs_modulus: Pressure | None = Field(None, gt=0, description="Young's modulus; of the card, else 206 GPa", examples=["206 GPa"])
+    poisson_ratio: Number | None = Field(None, gt=-1, lt=0.5, description="Poisson's ratio; of the card, else 0.3", examples=[0.3])
+    density: Density | None = Field(
+        None, ge=0, description="density, 0 of a massless shaft; of the card, else 7850 kg/m^3", examples=["7850 kg/m^3"]
+    )
+    yield_strength: Pressure | None = Field(
+        None, gt=0, description="yield strength, for stress checks; of the card, else none", examples=["355 MPa"]
+    )
+
+
+class Segment(Spec):
+    """A piece of the shaft, from left to right."""
+
+    length: Length = Field(gt=0, description="length along the shaft", examples=["340 mm"])
+    diameter: Length = Field(gt=0, description="outer diameter, at the left end where it is a cone", examples=["20 mm"])
+    end_diameter: Length | None = Field(None, gt=0, description="outer diameter at the right end of a cone", examples=["24 mm"])
+    bore: Length = Field("0 mm", ge=0, description="diameter of the hole through it")
+
+
+class Bearing(Spec):
+    """What carries the shaft at a place: springs, a table, or a rolling bearing with its inner geometry."""
+
+    name: Name = Field(description="name", examples=["A"])
+    position: Length = Field(description="distance from the left end of the shaft", examples=["56.5 mm"])
+    radial_stiffness: StiffnessOrRigid | None = Field(
+        None, description='across the shaft, all round; "rigid" does not yield', examples=["3e7 N/m"]
+    )
+    axial_stiffness: StiffnessOrRigid | None = Field(
+        None, description="along the shaft, beside radial_stiffness or a table", examples=["1e7 N/m"]
+    )
+    tilt_stiffness: RotationalStiffness | None = Field(
+        None, gt=0, description="against tilting, beside radial_stiffness or a table", examples=["2e4 N m/rad"]
+    )
+    table: DataFile | None = Field(
+        None, description="CSV of the radial force over the radial displacement instead: displacement [um],force [N] from 0, 0"
+    )
+    bearing: Designation | None = Field(None, description="designation in the catalogue instead, e.g. 61804", examples=["61804"])
+    geometry: BallBearing | None = Field(None, description="inner geometry of a ball bearing instead")
+    roller_geometry: RollerBearing | None = Field(None, description="inner geometry of a roller bearing instead")
+    radial_clearance: Length | None = Field(
+        None,
+        description="play across the diameter, counted as for rolling bearings: of a rolling "
+        "bearing instead of its own, of a spring twice the gap",
+        examples=["10 um"],
+    )
+    preload: Force = Field(
+        "0 N",
+        ge=0,
+        description="axial force that a rolling bearing is mounted with, on a shaft that does not yield; "
+        "where it is free to slide, that of the spring behind it",
+    )
+    carries: Literal["right", "left"] = Field(
+        "right", description="which axial force on the shaft an angular-contact or tapered bearing takes"
+    )
+    free: tuple[Literal["axial", "tilt"], ...] = Field(
+        (), description="freedoms that the seat of a rolling bearing leaves to its outer ring"
+    )
+    seat_offset: tuple[Length, Length] = Field(("0 mm", "0 mm"), description="the seat off the common axis, x and y")
+    seat_tilt: tuple[Angle, Angle] = Field(("0 deg", "0 deg"), description="the seat out of the common axis: turned about x and y")
+    housing_stiffness: StiffnessOrRigid = Field(RIGID, description="of the housing across the shaft, in series with the bearing")
+    housing_axial_stiffness: StiffnessOrRigid = Field(RIGID, description="of the housing along the shaft")
+    width: Length = Field("0 mm", ge=0, description="the reaction is spread evenly over it; 0: it acts at a point")
+    dynamic_rating: Force | None = Field(
+        None, gt=0, description="basic dynamic load rating C, instead of the rolling bearing's own", examples=["4.03 kN"]
+    )
+    static_rating: Force | None = Field(
+        None, gt=0, description="basic static load rating C0, instead of the rolling bearing's own", examples=["2.32 kN"]
+    )
+
+
+class Station(Spec):
+    """A place of interest, and what sits there."""
+
+    name: Name = Field(description="name", examples=["m1"])
+    position: Length = Field(description="distance from the left end of the shaft", examples=["0 mm"])
+    mass: Mass = Field("0 kg", ge=0, description="mass on the shaft")
+    polar_inertia: Inertia = Field("0 kg m^2", ge=0, description="its moment of inertia about the shaft's axis")
+    diametral_inertia: Inertia = Field("0 kg m^2", ge=0, description="its moment of inertia about a diameter")
+
+
+DOWN = "-90 deg"
+
+
+class PointLoad(Spec):
+    """A load at a place."""
+
+    name: Name | None = Field(None, description="name", examples=["belt"])
+    station: Text | None = Field(None, description="name of a station ...", examples=["m1"])
+    position: Length | None = Field(None, description="... or distance from the left end", examples=["100 mm"])
+    force: Force = Field("0 N", description="force across the shaft", examples=["500 N"])
+    angle: Angle = Field(DOWN, description="direction of the force, from x towards y; -90 deg is down, along -y")
+    axial_force: Force = Field("0 N", description="force along the shaft, to the right")
+    torque: Torque = Field("0 N m", description="about the axis, x towards y")
+    moment: Torque = Field("0 N m", description="that bends the shaft", examples=["10 N m"])
+    moment_angle: Angle = Field("0 deg", description="direction of the axis of the moment, from x towards y, right-handed")
+
+
+class LineLoad(Spec):
+    """A load spread along the shaft."""
+
+    name: Name | None = Field(None, description="name", examples=["felt"])
+    start: Length = Field(description="its left end", examples=["100 mm"])
+    end: Length = Field(description="its right end", examples=["200 mm"])
+    force: LineForce = Field(description="force per length at the left end, and all along unless end_force is given", examples=["5 N/mm"])
+    end_force: LineForce | None = Field(None, description="force per length at the right end", examples=["8 N/mm"])
+    angle: Angle = Field(DOWN, description="direction, from x towards y")
+
+
+class Gear(Spec):
+    """A gear on the shaft: its tooth forces follow from the torque."""
+
+    name: Name = Field(description="name", examples=["gear"])
+    position: Length = Field(description="distance from the left end", examples=["100 mm"])
+    pitch_diameter: Length = Field(gt=0, description="diameter of the (working) pitch circle", examples=["60 mm"])
+    torque: Torque = Field(description="that the teeth exert on the shaft about its axis, x towards y", examples=["30 N m"])
+    mesh_angle: Angle = Field("0 deg", description="where the mate touches, from x towards y")
+    pressure_angle: Angle = Field("20 deg", ge=0, lt=1.0, description="normal pressure angle")
+    helix_angle: Angle = Field("0 deg", gt=-1.2, lt=1.2, description="positive: with a positive torque the axial force points to the right")
+
+
+class Drive(Spec):
+    """The turning of the shaft."""
+
+    speed: Speed = Field(gt=0, description="speed of the shaft, for the critical speeds and the life in hours", examples=["1500 rpm"])
+
+
+class Analysis(Spec):
+    """How it is computed."""
+
+    theory: Literal["timoshenko", "euler-bernoulli"] = Field("timoshenko", description="beam with or without shear and rotary inertia")
+    shear_coefficient: Literal["cowper"] | Number = Field("cowper", description='"cowper", or a number for a section of your own')
+    direction: Angle | None = Field(
+        None,
+        description="of the unit loads behind flexibility and stiffness, from x towards y; that of the "
+        "loads where they share a plane, else down",
+        examples=["-90 deg"],
+    )
+    modes: Integer = Field(3, ge=0, le=50, description="natural frequencies to find")
+    element_length: Length | None = Field(
+        None, gt=0, description="longest element for the modes; a fortieth of the shaft unless given", examples=["10 mm"]
+    )
+    solid_band: Length = Field("2 mm", gt=0, description="width of the bearing bands of the solid check; a bearing's own width goes first")
+
+
+class Limits(Spec):
+    """Requirements; each becomes a check."""
+
+    deflection: Length | None = Field(None, gt=0, description="of every station", examples=["0.1 mm"])
+    slope: Angle | None = Field(None, gt=0, description="of the shaft at every bearing", examples=["4 arcmin"])
+    yield_safety: Number = Field(1.0, gt=0, description="yield strength over the largest von Mises stress")
+    static_safety: Number = Field(
+        1.0, gt=0, description="static rating of a bearing over its load; of a rolling bearing by its contact pressure"
+    )
+    life: Time | None = Field(None, gt=0, description="reference life of every rolling bearing", examples=["20000 h"])
+    shock_factor: Number = Field(1.0, ge=1, description="shock over steady load, for yield, static safety and what fails first")
+    buckling: Number = Field(3.0, gt=0, description="axial force at which the shaft buckles over the axial force")
+    largest_slope: Angle = Field(
+        "0.1 rad", gt=0, description="anywhere along the shaft: beyond it the linear theory of beams does not hold"
+    )
+    largest_deflection: Number = Field(
+        0.1, gt=0, description="anywhere along the shaft, over its length: beyond it the linear theory does not hold"
+    )
+    critical_speed: Number = Field(1.25, gt=0, description="first critical speed over the speed of the shaft")
+    slenderness: Number = Field(1000.0, gt=0, description="length of the shaft over its least diameter; beyond it a unit may have slipped")
+    stockiness: Number = Field(0.1, gt=0, description="the same, at least")
+
+
+class ShaftTables(MechanismSpec):
+    """All tables of a shaft."""
+
+    mechanism: Literal["shaft"] = Field("shaft", description="kind of drive")
+    catalogue: DataFile | None = Field(None, description="a catalogue of rolling bearings of your own (TOML), beside ours")
+    gravity: tuple[Acceleration, Acceleration, Acceleration] = Field(
+        ("0 m/s^2", "0 m/s^2", "0 m/s^2"), description="acceleration of free fall along x, y, z; down is [0, -9.81, 0]"
+    )
+    material: Material = Field(Material(), description="material")
+    segments: tuple[Segment, ...] = Field(min_length=1, description="segments, left to right")
+    bearings: tuple[Bearing, ...] = Field(min_length=1, description="bearings")
+    stations: tuple[Station, ...] = Field((), description="places of interest")
+    loads: tuple[PointLoad, ...] = Field((), description="loads at places")
+    line_loads: tuple[LineLoad, ...] = Field((), description="loads along the shaft")
+    gears: tuple[Gear, ...] = Field((), description="gears")
+    drive: Drive | None = Field(None, description="turning of the shaft")
+    analysis: Analysis = Field(Analysis(), description="analysis")
+    limits: Limits = Field(Limits(), description="requirements")
+
+    @property
+    def length(self) -> float:
+        """Length of the shaft [m]."""
+        return sum(segment.length for segment in self.segments)
