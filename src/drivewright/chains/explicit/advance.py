@@ -76,7 +76,7 @@ def load(
     power: Floats,
     dt: float,
 ) -> None:
-    """All loads at the present places and predicted rates."""
+    """All loads at the present places and predicted rates. gravity (2,) [m/s^2]; power (SUMS,) [W, N, N m], written."""
     sprockets = teeth.base.size
     for n in range(b.q.size):
         b.fx[n], b.fy[n], b.torque[n] = 0.0, 0.0, 0.0
@@ -109,7 +109,7 @@ def kick(
     power: Floats,
     dt: float,
 ) -> None:
-    """Rates one step on under the loads, and what damping takes meanwhile."""
+    """Rates one step on under the loads, and what damping takes meanwhile. gravity (2,) [m/s^2]; power (SUMS,) [W, N, N m]."""
     kick_plates(chain, p, j, dt)
     close_rates(chain, p)
     kick_bodies(b, gravity, power, dt)
@@ -123,7 +123,7 @@ def kick(
 
 @inner
 def drift(chain: ChainConstants, p: Plates, b: Records, clock: Floats, power: Floats, sums: Floats, dt: float) -> None:
-    """Places one step on."""
+    """Places one step on. clock (2,) [s, -]; power (SUMS,) [W, N, N m] and its integral sums (SUMS,) over time."""
     drift_plates(chain, p, dt)
     close_ring(chain, p)
     drift_bodies(b, clock, dt)

@@ -69,6 +69,8 @@ def load_guide(
 
     r leads from the arc's centre to the nearest point of that line, which may be its end: where two plates make a corner towards the
     guide, the corner touches.  Depth R - |r|, normal r/|r|; friction -mu fn v/sqrt(v^2 + slip^2).
+
+    power (SUMS,) [W, N, N m].
     """
     body = n + b.q.size - arcs.side.size
     law, side, half = law_of(chain.laws, b[body], body), arcs.side[n], chain.half_plate
@@ -99,7 +101,10 @@ def load_guide(
 
 @inner
 def kick_bodies(b: Records, gravity: Floats, power: Floats, dt: float) -> None:
-    """Accelerations of slides and free sprockets, half-step rates by them, their mean with those before; powers with these means."""
+    """Accelerations of slides and free sprockets, half-step rates by them, their mean with those before; powers with these means.
+
+    gravity (2,) [m/s^2]; power (SUMS,) [W, N, N m].
+    """
     for n in range(b.q.size):
         if b.slides[n]:
             damped = b.slide_damping[n] * b.vq[n]
@@ -120,7 +125,7 @@ def kick_bodies(b: Records, gravity: Floats, power: Floats, dt: float) -> None:
 
 @inner
 def drift_bodies(b: Records, clock: Floats, dt: float) -> None:
-    """Places and predicted rates of sprockets and guides one step on; driven angles by their law."""
+    """Places and predicted rates of sprockets and guides one step on; driven angles by their law. clock (2,) [s, -]."""
     later = (clock[1] + 1.0) * dt  # not summed up: a sum of so many steps loses digits
     for n in range(b.q.size):
         if b.slides[n]:
@@ -144,7 +149,7 @@ def set_rate(b: Records, n: int, rate: float) -> None:
 
 @inner
 def slide_acceleration(b: Records, gravity: Floats, n: int) -> float:
-    """Acceleration of body n along its slide."""
+    """Acceleration of body n along its slide. gravity (2,) [m/s^2]; in [m/s^2]."""
     along = (b.fx[n] + b.mass[n] * gravity[0]) * b.ux[n] + (b.fy[n] + b.mass[n] * gravity[1]) * b.uy[n]
     return (along + b.force[n] - b.spring[n] * b.q[n] - b.slide_damping[n] * b.vq[n]) / b.mass[n]
 
@@ -170,7 +175,10 @@ def follow(b: Records, n: int, time: float) -> None:
 
 @inner
 def impulse(chain: ChainConstants, p: Plates, b: Records, gravity: Floats, power: Floats) -> None:
-    """Force and moment about the origin with which bodies and weight act on all plates, to check the momenta by."""
+    """Force and moment about the origin with which bodies and weight act on all plates, to check the momenta by.
+
+    gravity (2,) [m/s^2]; power (SUMS,) [W, N, N m].
+    """
     for n in range(b.q.size):
         power[IMPULSE_X] -= b.fx[n]
         power[IMPULSE_Y] -= b.fy[n]

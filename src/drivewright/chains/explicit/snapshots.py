@@ -41,7 +41,10 @@ def take_snapshot(
     number: int,
     dt: float,
 ) -> None:
-    """One snapshot, at a whole step under its loads: rates are the means of the half steps on both sides, h those of the later one."""
+    """One snapshot, at a whole step under its loads: rates are the means of the half steps on both sides, h those of the later one.
+
+    clock (2,) [s, -]; power (SUMS,) and its integral sums (SUMS,).
+    """
     out, n = snapshots.plates[number], chain.count
     for row, values in enumerate(
         (p.x, p.y, p.angle, p.c, p.s, p.vx, p.vy, p.w, p.hx, p.hy, p.hw, j.fx, j.fy, j.rx, j.ry, t.stored, t.left, t.right)
@@ -57,7 +60,10 @@ def take_snapshot(
 
 @inner
 def record_works(n: int, j: Joints, t: Touches, clock: Floats, power: Floats, sums: Floats, out: Floats, dt: float) -> None:
-    """Time and works up to now; this step, already in the sums of the damping, counts with half its weight: the trapezoidal rule."""
+    """Time and works up to now; this step, already in the sums of the damping, counts with half its weight: the trapezoidal rule.
+
+    clock (2,) [s, -]; power (SUMS,), sums (SUMS,); out (SCALARS,), a row of `Snapshots.scalars`.
+    """
     out[0] = clock[0]
     out[1] = 0.5 * dt * total(j.power, 0, n) - total(j.lost, 0, n)
     out[2] = 0.5 * dt * total(t.power, 0, n) - total(t.lost, 0, n)
