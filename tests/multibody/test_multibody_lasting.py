@@ -68,7 +68,7 @@ def test_a_single_impact_delivers_what_its_law_says_to_five_digits(law, asked):
     assert np.hypot(*y[4:6]) / 1.5 == pytest.approx(delivered_restitution(factor), rel=1e-5)
 
 
-@pytest.mark.parametrize("method", ["dopri5", "radau"])
+@pytest.mark.parametrize("method", ["dopri5", pytest.param("radau", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("changes", [{}, {"exponent": 1.0, "stiffness": 1e8}, {"cylinder": True, "stiffness": 1e11, "length": 0.02}])
 @pytest.mark.parametrize("factor", [0.15, 1.6, 14.4])
 def test_a_lasting_contact_that_is_left_free_bounces_with_the_same_restitution(changes, factor, method):

@@ -432,6 +432,7 @@ def test_a_system_beside_its_copy_takes_the_same_steps():
 # ------------------------------------------------------------------------------------------ Jacobians, linear systems
 
 
+@pytest.mark.slow
 def test_a_stated_jacobian_serves_and_a_wrong_one_costs_work_but_no_accuracy():
     theirs = relax(VanDerPol(1e4, 0.3, 1.8), 0, 0.6, START, 1e-6, 1e-8)
     right = integrate_radau(Stated(1e4, 1.0), 0, 0.6, START, 1e-6, 1e-8, watch=[Event()])

@@ -78,6 +78,7 @@ def test_a_scheduler_by_its_address_gives_the_same_bytes_and_lives_on(serial, sc
         assert sweep(chain(), LEVELS, on=scheduler.scheduler_address).table.equals(serial.table)
 
 
+@pytest.mark.slow
 @pytest.mark.needs_cluster
 def test_a_scheduler_that_goes_away_is_told_and_what_was_done_is_kept(tmp_path):
     import distributed

@@ -73,6 +73,7 @@ def test_runs_keep_their_balance_and_tension():
     assert 0.6 < found["dynamics.tension.mean"] / found["pin.force"] < 1.0  # seated plates leave a part of it to the teeth
 
 
+@pytest.mark.slow
 @pytest.mark.needs_fe
 def test_stress_and_life_of_a_plate():
     short = ('dynamics.settling="5 ms"', "fatigue.fineness=0.6")
