@@ -3,7 +3,7 @@
 slider = MultibodyModel(bodies, joints, forces, drives, gravity)    # frozen descriptions
 ready = assemble(slider)                                            # loops closed, coordinates chosen, start rates
 run = simulate(ready, 0.1)                                  # kinematics where the drives leave no freedom, else dynamics
-seen = record(run, {"pin": Marker("rod", 0.12, 0.0)})       # motion of points, pins, powers, energy
+recorded = record(run, {"pin": Marker("rod", 0.12, 0.0)})       # motion of points, pins, powers, energy
 
 Description
 `model`         all frozen descriptions; `bodies`, `joints` and `forces` hold them, a file each; `curves`, `curve_files` motions and loads.

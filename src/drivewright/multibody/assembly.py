@@ -135,8 +135,8 @@ def _slide(body, work, i, p):
         return np.array([poses.c[k] * x - poses.s[k] * y, poses.s[k] * x + poses.c[k] * y])
 
     poses = work.poses
-    apart = np.array([poses.x[i] - poses.x[p], poses.y[i] - poses.y[p]]) + world(i, body.bx, body.by) - world(p, body.ax, body.ay)
-    return float(apart @ (world(p, body.ex, body.ey) - world(i, body.fx, body.fy)))
+    between = np.array([poses.x[i] - poses.x[p], poses.y[i] - poses.y[p]]) + world(i, body.bx, body.by) - world(p, body.ax, body.ay)
+    return float(between @ (world(p, body.ex, body.ey) - world(i, body.fx, body.fy)))
 
 
 def _close(expanded, tree, system, q):

@@ -196,10 +196,10 @@ def reduce_partial_velocities(system: System, work: Work, i: int) -> None:
         partial = work.partial_velocities[i, system.independent[m]]
         x, y, t = partial.x, partial.y, partial.t
         for r in range(system.rows.size):
-            held = work.partial_velocities[i, system.dependent[r]]
-            x += held.x * work.dependency_matrix[r, m]
-            y += held.y * work.dependency_matrix[r, m]
-            t += held.t * work.dependency_matrix[r, m]
+            dependent = work.partial_velocities[i, system.dependent[r]]
+            x += dependent.x * work.dependency_matrix[r, m]
+            y += dependent.y * work.dependency_matrix[r, m]
+            t += dependent.t * work.dependency_matrix[r, m]
         reduced = work.reduced_partial_velocities[i, m]
         reduced.x, reduced.y, reduced.t = x, y, t
 

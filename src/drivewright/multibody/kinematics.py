@@ -45,9 +45,9 @@ def update_poses(system: System, work: Work) -> None:
         bx, by = rotated(here, body.bx + slide * body.fx, body.by + slide * body.fy)
         here.x, here.y = base.x + ax - bx, base.y + ay - by
         for k in range(work.coordinates.size):
-            partial, held = work.partial_velocities[i, k], work.partial_velocities[body.parent, k]
-            partial.x = held.x - ay * held.t + by * partial.t
-            partial.y = held.y + ax * held.t - bx * partial.t
+            partial, parent = work.partial_velocities[i, k], work.partial_velocities[body.parent, k]
+            partial.x = parent.x - ay * parent.t + by * partial.t
+            partial.y = parent.y + ax * parent.t - bx * partial.t
         if body.slide >= 0:
             ex, ey = rotated(base, body.ex, body.ey)
             fx, fy = rotated(here, body.fx, body.fy)

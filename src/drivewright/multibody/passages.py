@@ -55,23 +55,23 @@ def _smallest(system, q, t):
 
 def _tangents(system, q, t):
     """(number of directions in which a motion can go through, whether two of them coincide)."""
-    moved = np.concatenate([system.stored, system.driven.coordinate])
-    columns = scaled_jacobian(system, evaluate_at(system, q, t), moved)
+    coordinates = np.concatenate([system.stored, system.driven.coordinate])
+    columns = scaled_jacobian(system, evaluate_at(system, q, t), coordinates)
     folded = int(np.sum(np.linalg.svd(columns, compute_uv=False) < FOLDED * np.linalg.norm(columns, 2)))
-    if folded != 1 or len(moved) - len(columns) != 1:
+    if folded != 1 or len(coordinates) - len(columns) != 1:
         return 2**folded, False
     plane, across = null_space(columns, rcond=FOLDED), null_space(columns.T, rcond=FOLDED)[:, 0]
-    form = _second_order(system, q, t, moved, plane, across)
+    form = _second_order(system, q, t, coordinates, plane, across)
     return 2, bool(form[0, 1] ** 2 - form[0, 0] * form[1, 1] < TWICE * np.sum(form**2))  # neither side depends on the base of the plane
 
 
-def _second_order(system, q, t, moved, plane, across):
+def _second_order(system, q, t, coordinates, plane, across):
     """(2, 2) quadratic form whose zeros are the tangents: second derivative of the row that folds, in the plane of all that is free."""
     step = 1e-2
 
     def residual(way):
         there = q.copy()
-        there[moved] += step * system.sizes[moved] * way
+        there[coordinates] += step * system.sizes[coordinates] * way
         return across @ (_free_misses(system, there) / system.rows.extent)
 
     def second(way):

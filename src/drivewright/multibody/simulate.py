@@ -293,29 +293,29 @@ def work_at_state(system: System, t: float, y: Floats) -> Work:
 
 def _driven(assembly, times, end, settings, refine):
     """Kinematics: the dependent coordinates at the times, each from the one before."""
-    found = continue_motion(assembly.system, times, end, assembly.state, settings.singular == "stop", refine)
-    if found.outcome == "stuck":
-        raise DoesNotAssemble(_stuck(assembly, found.reached, end))
-    advice = stop_advice(found.reached) if found.outcome == "stopped" else ""
-    return Run(assembly, found.stretches, np.zeros((0, 3)), advice, len(times), end, found.passages)
+    continuation = continue_motion(assembly.system, times, end, assembly.state, settings.singular == "stop", refine)
+    if continuation.outcome == "stuck":
+        raise DoesNotAssemble(_stuck(assembly, continuation.reached, end))
+    advice = stop_advice(continuation.reached) if continuation.outcome == "stopped" else ""
+    return Run(assembly, continuation.stretches, np.zeros((0, 3)), advice, len(times), end, continuation.passages)
 
 
 def _stuck(assembly, t, end):
     """Message on a drive that cannot go on."""
     work = evaluate_at(assembly.system, np.zeros(len(assembly.start.q)), t)
-    told = []
+    positions = []
     for drive, driven in zip(assembly.model.drives, assembly.system.driven, strict=True):
         value = driven.sign * work.coordinates.q[driven.coordinate]
         turning = any(link.turn == driven.coordinate for link in assembly.tree.links)
-        told.append(f"{drive.joint!r} at {np.degrees(value) % 360:.2f} deg" if turning else f"{drive.joint!r} at {1e3 * value:.4g} mm")
+        positions.append(f"{drive.joint!r} at {np.degrees(value) % 360:.2f} deg" if turning else f"{drive.joint!r} at {1e3 * value:.4g} mm")
     joints = sorted({assembly.expanded.joints[row.joint].name for row in assembly.system.rows})
     if t <= 0.0:
         return (
-            f"the mechanism starts in a singular position, drive {' and '.join(told)}: links of the loop through joint"
+            f"the mechanism starts in a singular position, drive {' and '.join(positions)}: links of the loop through joint"
             f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} stand in line there, and nothing says to which side they "
             "bend. Start a few degrees away"
         )
     return (
-        f"the mechanism cannot go on beyond t = {t:.6g} s of {end:.6g} s, drive {' and '.join(told)}: the loop through joint"
+        f"the mechanism cannot go on beyond t = {t:.6g} s of {end:.6g} s, drive {' and '.join(positions)}: the loop through joint"
         f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} does not close there. Change a length, or drive over less"
     )

@@ -41,20 +41,20 @@ class Line(NamedTuple):
     pace: float
 
     @property
-    def free(self) -> Ints:
+    def independent(self) -> Ints:
         """Where the independent coordinates are in the state."""
         return np.searchsorted(self.system.stored, self.system.independent)
 
     @property
-    def held(self) -> Ints:
+    def dependent(self) -> Ints:
         """Where the dependent coordinates are in the state."""
         return np.searchsorted(self.system.stored, self.system.dependent)
 
     def close(self, x: float, guess: Floats, shift: float | Floats = 0.0, delay: float = 0.0) -> "Place":
         """`Place` at x, the loops closed from a guess of the dependent coordinates; z shifted, time delayed."""
         y = self.y.copy()
-        y[self.free] += x * self.direction + shift
-        y[self.held] = guess
+        y[self.independent] += x * self.direction + shift
+        y[self.dependent] = guess
         closed = solve_kinematics(self.system, self.work, self.t + x * self.pace + delay, y)
         dependent = self.work.coordinates.q[self.system.dependent]
         miss = np.max(np.abs(dependent - guess) / self.system.sizes[self.system.dependent], initial=0.0)
@@ -98,17 +98,17 @@ def look_ahead(system: System, t: float, y: Floats) -> Outlook:
 def distance_to_singularity(system: System, t: float, y: Floats) -> float:
     """How far a state is from a singular position [rad], [lengths of the mechanism], whichever independent coordinate moves and whichever
     way, estimated from how the smallest singular value changes; infinite where it does not."""
-    first, found = len(system.stored), np.inf
+    first, nearest = len(system.stored), np.inf
     for m, k in enumerate(system.independent):
-        moved = y.copy()
-        moved[first : first + len(system.independent)] = 0.0
-        moved[first + m] = system.sizes[k]
-        line = _line(system, t, moved)
+        changed = y.copy()
+        changed[first : first + len(system.independent)] = 0.0
+        changed[first + m] = system.sizes[k]
+        line = _line(system, t, changed)
         if line is not None:
             here, before = _behind(line, 1, NEAR)
             change = abs(before.smallest - here.smallest) if np.isfinite(before.correction) else here.smallest
-            found = min(found, NEAR * here.smallest / change if change > 0 else np.inf)
-    return found
+            nearest = min(nearest, NEAR * here.smallest / change if change > 0 else np.inf)
+    return nearest
 
 
 def _line(system, t, y):
@@ -154,7 +154,7 @@ def _dependent(system, work):
 
 def _behind(line, count=2, step=BACK):
     """Places of the line at the state itself and so many on the way to it."""
-    here = line.close(0.0, line.y[line.held])
+    here = line.close(0.0, line.y[line.dependent])
     rates = line.work.coordinates.v[line.system.dependent] * line.pace
     places = [here]
     for k in range(1, count + 1):
@@ -177,9 +177,9 @@ def _carried(places, x, most=5):
 
 def _weights(nodes, x):
     """Lagrange's polynomials of the nodes at x."""
-    apart = nodes[:, None] - nodes + np.eye(len(nodes))
+    differences = nodes[:, None] - nodes + np.eye(len(nodes))
     away = np.where(np.eye(len(nodes), dtype=bool), 1.0, x - nodes)
-    return np.prod(away / apart, axis=1)
+    return np.prod(away / differences, axis=1)
 
 
 def chart_through(system: System, q: Floats, v: Floats) -> System | None:
@@ -215,21 +215,21 @@ def _slope(nodes, width):
 def _outward(line, known, offsets, width):
     """Places of the line at offsets, closed one after another, the nearest first, from those already known; None where the branch is
     lost."""
-    found = []
+    places = []
     for x in sorted(offsets, key=abs):
-        place = line.close(x, _carried([*known, *found], x))
+        place = line.close(x, _carried([*known, *places], x))
         if not place.correction < ASTRAY * width:
             return None
-        found.append(place)
-    return found
+        places.append(place)
+    return places
 
 
 def _nodes(line, behind, ahead, width):
     """Places of the nodes about x = ahead, closed one after another from this side to the other; None where the branch is lost."""
-    found = _outward(line, behind, ahead + width * NODES, width)
-    if found is None:
+    outward = _outward(line, behind, ahead + width * NODES, width)
+    if outward is None:
         return None
-    nodes = sorted(found)
+    nodes = sorted(outward)
     centre = _centre(line, nodes)
     if abs(centre - ahead) <= 0.02 * width:
         return nodes
@@ -240,8 +240,8 @@ def _nodes(line, behind, ahead, width):
 def _centre(line, nodes):
     """x of the singular position, where the smallest singular value is zero: branches that cross, it falls evenly; where they touch, as a
     square."""
-    found = [_crossing(nodes, power) for power in (1.0, 0.5)]
-    return min(found, key=lambda x: _fold(line, nodes, x))
+    candidates = [_crossing(nodes, power) for power in (1.0, 0.5)]
+    return min(candidates, key=lambda x: _fold(line, nodes, x))
 
 
 def _crossing(nodes, power):
@@ -265,7 +265,7 @@ def _closes_between(line, nodes):
 def _coordinates(line, x, dependent):
     """All coordinates at x of the line."""
     q = np.zeros(len(line.system.sizes))
-    q[line.system.independent] = line.y[line.free] + x * line.direction
+    q[line.system.independent] = line.y[line.independent] + x * line.direction
     q[line.system.dependent] = dependent
     return q
 
@@ -290,7 +290,7 @@ def _charted(line, nodes, centre, width):
         guesses=np.array([place.dependent for place in nodes]),
         direction=line.direction,
         normal=normal,
-        origin=line.y[line.free] + centre * line.direction,
+        origin=line.y[line.independent] + centre * line.direction,
         pace=line.pace,
         normal_time=normal_time,
         origin_time=line.t + centre * line.pace,

@@ -88,11 +88,11 @@ def _at_drive_angle(assembly, angle):
     """(system, work) with the drive moved from its start to an angle, always on the same assembly."""
     system, y = assembly.system, assembly.state.copy()
     if angle is not None:
-        found = continue_motion(_with_drive_to(system, angle), np.empty(0), 1.0, y)
-        system, y = found.stretches[-1].system, found.stretches[-1].y_end
-        if found.outcome == "stuck":
+        continuation = continue_motion(_with_drive_to(system, angle), np.empty(0), 1.0, y)
+        system, y = continuation.stretches[-1].system, continuation.stretches[-1].y_end
+        if continuation.outcome == "stuck":
             start = system.driven[0].start
-            stop = np.degrees(start + found.reached * (angle - start))
+            stop = np.degrees(start + continuation.reached * (angle - start))
             raise DoesNotAssemble(
                 f"tolerances: the mechanism does not close beyond {stop:.2f} deg of the drive, on the way from "
                 f"{np.degrees(start):.2f} to {np.degrees(angle):.2f} deg. Give an angle that it reaches"
@@ -151,13 +151,13 @@ class Sampled(NamedTuple):
     interrupted: bool
 
 
-def sample(held: Posture, sources: Sequence[Source], samples: int, seed: int) -> Sampled:
+def sample(posture: Posture, sources: Sequence[Source], samples: int, seed: int) -> Sampled:
     """`Sampled` of so many random mechanisms; the same seed gives the same ones on any number of cores."""
     sizes = [min(CHUNK, samples - first) for first in range(0, samples, CHUNK)]
 
     def task(chunk):
         number, size = chunk
-        return deviations(held, draw_deviations(sources, size, np.random.default_rng([seed, number])))
+        return deviations(posture, draw_deviations(sources, size, np.random.default_rng([seed, number])))
 
     rows = cases.run(task, list(enumerate(sizes)), workers=None if len(sizes) > 1 else 1)
     return Sampled(np.concatenate([row.value for row in rows.rows]), rows.interrupted)
@@ -177,12 +177,13 @@ def draw_deviations(sources: Sequence[Source], samples: int, rng: np.random.Gene
     return moves
 
 
-def deviations(held: Posture, moves: Floats) -> Floats:
+def deviations(posture: Posture, moves: Floats) -> Floats:
     """What the displacements moves (m, sources, 2) do to the watched markers: (m, marks, READINGS), nan where a loop does not close."""
-    own = held.system._replace(bodies=held.system.bodies.copy(), rows=held.system.rows.copy())  # each caller overwrites its own arms
+    system = posture.system
+    own = system._replace(bodies=system.bodies.copy(), rows=system.rows.copy())  # each caller overwrites its own arms
     everything = np.concatenate([np.zeros((1, *moves.shape[1:])), moves])
-    out = np.empty((len(everything), len(held.marks), len(READINGS)))
-    scatter(own, held.system, scratch(own), held.q, held.shifts, everything, held.marks.copy(), held.marks, out)
+    out = np.empty((len(everything), len(posture.marks), len(READINGS)))
+    scatter(own, posture.system, scratch(own), posture.q, posture.shifts, everything, posture.marks.copy(), posture.marks, out)
     return out[1:] - out[0]
 
 
@@ -272,19 +273,19 @@ def shares(sources: Sequence[Source], slopes: Floats) -> Shares:
     return Shares(worst, worst * np.array([SIGMAS[source.law] for source in sources]))
 
 
-def gradient(held: Posture, count: int) -> Floats:
+def gradient(posture: Posture, count: int) -> Floats:
     """d(reading)/d(displacement) (marks, READINGS, count, 2) for `count` sources, in the frames of the bodies whose points they move.
 
     From the closed loops r(q, p) = 0:  dq/dp = -(dr/dq)^-1 dr/dp  for the dependent coordinates q, the driven ones held.
     """
-    system, work = held.system, held.work
-    total = np.zeros((len(held.marks), len(READINGS), count, 2))
+    system, work = posture.system, posture.work
+    total = np.zeros((len(posture.marks), len(READINGS), count, 2))
     normals, dependent = _normals(system, work), system.dependent
-    for shift in held.shifts:
-        carried, rows, points = _moved_by(held, shift)
+    for shift in posture.shifts:
+        carried, rows, points = _moved_by(posture, shift)
         misses = np.einsum("rx,rxd->rd", normals, carried[system.rows.i] - carried[system.rows.j] + rows)
         steps = -np.linalg.solve(work.constraint_jacobian[:, dependent], misses)
-        for k, mark in enumerate(held.marks):
+        for k, mark in enumerate(posture.marks):
             partial = work.partial_velocities[mark.body, dependent]
             arm = _rotation(work.poses[mark.body]) @ (mark.x, mark.y)
             partials = np.stack([partial.t, partial.x - arm[1] * partial.t, partial.y + arm[0] * partial.t])
@@ -293,11 +294,11 @@ def gradient(held: Posture, count: int) -> Floats:
     return total
 
 
-def _moved_by(held, shift):
+def _moved_by(posture, shift):
     """What a displacement moves while the coordinates stand still, d(place)/d(displacement): bodies (n, 2, 2), rows' points of the first
     body less those of the second (rows, 2, 2), and watched points (marks, 2, 2)."""
-    system, poses, number = held.system, held.work.poses, shift.number
-    bodies, rows, marks = (np.zeros((size, 2, 2)) for size in (len(system.bodies), len(system.rows), len(held.marks)))
+    system, poses, number = posture.system, posture.work.poses, shift.number
+    bodies, rows, marks = (np.zeros((size, 2, 2)) for size in (len(system.bodies), len(system.rows), len(posture.marks)))
     if shift.what == PARENT:
         bodies[_bodies_carried_by(system, number)] = _rotation(poses[system.bodies[number].parent])
     elif shift.what == OWN:
@@ -307,17 +308,17 @@ def _moved_by(held, shift):
     elif shift.what == SECOND:
         rows[number] = -_rotation(poses[system.rows[number].j])
     else:
-        marks[number] = _rotation(poses[held.marks[number].body])
+        marks[number] = _rotation(poses[posture.marks[number].body])
     return bodies, rows, marks
 
 
 def _bodies_carried_by(system, number):
     """A body and all that hang on it in the tree."""
-    found = [number]
+    carried = [number]
     for k in range(number + 1, len(system.bodies)):
-        if system.bodies[k].parent in found:
-            found.append(k)
-    return found
+        if system.bodies[k].parent in carried:
+            carried.append(k)
+    return carried
 
 
 def _rotation(pose):

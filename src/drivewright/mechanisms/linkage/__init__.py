@@ -41,7 +41,7 @@ def plots(result: Result[LinkageSpec]) -> tuple[Plot, ...]:
     """The plots of a result: its tables are named after the outputs and joints of the spec."""
     outputs = {output.name: output.point is not None for output in result.spec.outputs}
     clearances = {joint.name: joint.clearance for joint in result.spec.joints}
-    return simulation_plots(result.tables, outputs, clearances, any(joint.pin not in (None, "ideal") for joint in result.spec.joints))
+    return simulation_plots(result.tables, outputs, clearances, any(joint.has_play for joint in result.spec.joints))
 
 
 mechanism = Mechanism(

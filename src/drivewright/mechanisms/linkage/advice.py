@@ -51,7 +51,7 @@ def restitution(spec: LinkageSpec) -> tuple[Check, ...]:
             (joint.name,),
         )
         for joint in spec.joints
-        if joint.pin in ("dry", "lubricated") and joint.normal in BOUNCY
+        if joint.has_contact and joint.normal in BOUNCY
     )
 
 

@@ -51,11 +51,11 @@ def _no_outputs(spec: LinkageSpec) -> str | None:
 def _no_play(spec: LinkageSpec) -> str | None:
     if _no_outputs(spec):
         return _no_outputs(spec)
-    return None if any(joint.pin not in (None, "ideal") for joint in spec.joints) else "no joint has play"
+    return None if any(joint.has_play for joint in spec.joints) else "no joint has play"
 
 
 def _no_pins(spec: LinkageSpec) -> str | None:
-    return no_run(spec) or (None if any(j.pin in ("dry", "lubricated") for j in spec.joints) else "no joint is dry or lubricated")
+    return no_run(spec) or (None if any(j.has_contact for j in spec.joints) else "no joint is dry or lubricated")
 
 
 def _no_turns(spec: LinkageSpec) -> str | None:

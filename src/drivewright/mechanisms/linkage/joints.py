@@ -123,6 +123,16 @@ class Joint(Spec):
         return "ideal" if self.model in ("massless-link", "dry", "lubricated") and self.clearance == 0 else self.model
 
     @property
+    def has_play(self) -> bool:
+        """Whether it is a pin whose journal may move in its bearing."""
+        return self.pin not in (None, "ideal")
+
+    @property
+    def has_contact(self) -> bool:
+        """Whether journal and bearing touch by a contact law, dry or through the oil."""
+        return self.pin in ("dry", "lubricated")
+
+    @property
     def length(self) -> float:
         """Of the bearing [m]."""
         return self.bearing_length or 2 * self.bearing_radius

@@ -62,12 +62,12 @@ def holes(spec: LinkageSpec, name: str) -> dict[tuple[float, float], float]:
 
 def pin_radius(spec: LinkageSpec, joint: Joint, bearing: bool = False) -> float:
     """Radius of a pin, or of the bearing around it [m]."""
-    if joint.pin in ("dry", "lubricated") or "bearing_radius" in joint.model_fields_set:
+    if joint.has_contact or "bearing_radius" in joint.model_fields_set:
         return joint.bearing_radius - (0.0 if bearing else joint.clearance or 0.0)
     return default_radius(spec)
 
 
 def thickness(spec: LinkageSpec, name: str) -> float:
     """Thickness of a plate [m]: the longest bearing in it, else a default pin's diameter."""
-    lengths = [joint.length for joint in spec.joints if joint.pin in ("dry", "lubricated") and place(joint.connects[0])[0] == name]
+    lengths = [joint.length for joint in spec.joints if joint.has_contact and place(joint.connects[0])[0] == name]
     return max(lengths, default=2 * default_radius(spec))

@@ -151,7 +151,7 @@ def _missing(joint, key):
 
 
 def _play(joint, key):
-    if joint.pin not in ("dry", "lubricated"):
+    if not joint.has_contact:
         return
     if joint.clearance >= joint.bearing_radius:
         raise SpecError(
@@ -213,7 +213,7 @@ def _drive(spec):
     joint, ways = names[spec.drive.joint], [way for way in ("speed", "profile", "motor") if getattr(spec.drive, way) is not None]
     if joint.kind not in ("revolute", "prismatic"):
         raise SpecError(f"{joint.name!r} is a {joint.kind} joint; a drive turns a revolute or pushes a prismatic one", key="drive.joint")
-    if joint.pin not in (None, "ideal"):
+    if joint.has_play:
         raise SpecError(f"{joint.name!r} has play (model = {joint.model!r}); drive an ideal joint", key="drive.joint")
     if len(ways) != 1:
         raise SpecError(f"give one of speed, profile and motor, got {' and '.join(ways) or 'none'}", key="drive.speed")

@@ -95,7 +95,7 @@ def _rod_findings(model):
 
 def _planting_checks(model, take, push, difference, start_depth, mouth, clear):
     limits, parts = model.spec.limits, ("arm",)
-    off, depth, apart = abs(difference - limits.angle_difference), model.spec.field.mouth_height, abs(model.rod_distance)
+    deviation, depth, distance = abs(difference - limits.angle_difference), model.spec.field.mouth_height, abs(model.rod_distance)
     slope = "difference of the two from the slope of the seedling box"
     clearance = "track of the planet axis in the field stays off the lower half of planted seedlings"
     return (
@@ -103,9 +103,9 @@ def _planting_checks(model, take, push, difference, start_depth, mouth, clear):
         Check("take_angle.upper", take, limits.take_angle[1], "<=", "rad", "needle at taking: flat enough to spare the seedlings", parts),
         Check("push_angle.lower", push, limits.push_angle[0], ">=", "rad", "needle at pushing: steep enough to plant upright", parts),
         Check("push_angle.upper", push, limits.push_angle[1], "<=", "rad", "needle at pushing: not steeper than upright", parts),
-        Check("angle_difference", off, limits.angle_difference_tolerance, "<=", "rad", slope, parts),
+        Check("angle_difference", deviation, limits.angle_difference_tolerance, "<=", "rad", slope, parts),
         Check("push_start_in_soil", start_depth, depth, "<=", "m", "the tip is in the soil when the push starts", parts),
-        Check("rod_at_needle", apart, limits.rod_distance, "<=", "m", "the rod runs along the needle", ("rod", "arm")),
+        Check("rod_at_needle", distance, limits.rod_distance, "<=", "m", "the rod runs along the needle", ("rod", "arm")),
         Check("mouth_width", mouth, limits.mouth_width, "<=", "m", "hole that the needle leaves in the soil surface", parts),
         Check("axis_clearance", clear, limits.axis_clearance, ">=", "m", clearance, parts),
     )

@@ -91,8 +91,8 @@ def settled_check(name: str, estimates: Iterable[Value], parts: tuple[str, ...] 
 def unsettled(values: Mapping[str, Value]) -> tuple[str, ...]:
     """A finding that names the values which still drifted; none where all have settled."""
     names = [name for name, value in values.items() if not value.settled]
-    shown = ", ".join(names[:MOST_NAMED]) + (f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else "")
-    return (f"not settled, and so no headline values: {shown}; give simulate.turns more, or discard more of them",) if names else ()
+    listed = ", ".join(names[:MOST_NAMED]) + (f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else "")
+    return (f"not settled, and so no headline values: {listed}; give simulate.turns more, or discard more of them",) if names else ()
 
 
 @lru_cache(maxsize=12)

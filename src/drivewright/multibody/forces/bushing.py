@@ -53,11 +53,11 @@ class BushingForce(ForceElement):
         """From the displacement and the rotation of its halves; `rest` is their angle at the start."""
         model, one, two = self.bushing, self.first, self.second
         rest = bodies.start_angles[one.body] - bodies.start_angles[two.body]
-        apart, rate = bodies.point(one) - bodies.point(two), bodies.velocity(one) - bodies.velocity(two)
-        force = -model.stiffness * apart - model.damping * rate
+        displacement, rate = bodies.point(one) - bodies.point(two), bodies.velocity(one) - bodies.velocity(two)
+        force = -model.stiffness * displacement - model.damping * rate
         turned, spin = (bodies.field(one.body, name) - bodies.field(two.body, name) for name in ("angle", "w"))
         twist = -model.rotational_stiffness * (turned - rest) - model.rotational_damping * spin
-        return Reaction(force, twist - cross(apart, force))
+        return Reaction(force, twist - cross(displacement, force))
 
 
 @outer

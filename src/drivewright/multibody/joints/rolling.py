@@ -52,8 +52,8 @@ class Rolling(PointJoint):
         if not self.track_radius:
             return centre - self.radius * line_direction(self.second.body, self.axis, bodies) @ NORMAL_OF
         hub = bodies.point(self.second)
-        apart = centre - hub
-        return hub + abs(self.track_radius) * apart / np.hypot(*apart.T)[:, None]
+        offset = centre - hub
+        return hub + abs(self.track_radius) * offset / np.hypot(*offset.T)[:, None]
 
     def own_shapes(self, body: str, drawing: JointDrawing) -> Iterable[Shape]:
         """The wheel, with a radius that shows its rotation."""

@@ -84,9 +84,9 @@ def closed_form(model: LinkageModel) -> Iterable[Row]:
     return _turn(model, chain) if not model.massless_links else _links(model, chain)
 
 
-def _directions(model, chain, seen):
+def _directions(model, chain, observed):
     """Unit vectors (3, m) of crank O2-A, coupler A-B and rocker B-O4 from the observed bodies, the frame on the real axis."""
-    angles = np.array([seen.bodies[:, model.assembly.names.index(body), 2] for body in chain.bodies])
+    angles = np.array([observed.bodies[:, model.assembly.names.index(body), 2] for body in chain.bodies])
     turned = np.exp(1j * (angles + np.angle(chain.bars[1:])[:, None] - np.angle(chain.bars[0])))
     return turned * np.array([[1], [1], [-1]])
 
@@ -106,17 +106,17 @@ def _branch(bar, crank, alphas, e):
 
 def _turn(model, chain):
     run = simulate(model.assembly, model.period, samples=np.linspace(0, model.period, SAMPLES))
-    seen = concatenate([observe(*states) for states in states_outside_folds(run)])
-    e = _directions(model, chain, seen)
+    observed = concatenate([observe(*states) for states in states_outside_folds(run)])
+    e = _directions(model, chain, observed)
     crank, speed = np.angle(e[0]), model.spec.drive.speed
     both = [ideal_motion(_bar(chain)._replace(branch=sign), crank) for sign in (1.0, -1.0)]  # in a fold one goes over into the other
-    mine = np.argmin([np.abs(found[0][2] - e[2]) for found in both], axis=0)
+    mine = np.argmin([np.abs(solution[0][2] - e[2]) for solution in both], axis=0)
     other, bent = (np.where(mine == 0, both[0][k], both[1][k]) for k in (0, 2))
     for k, row in ((1, COUPLER_TURN), (2, ROCKER_TURN)):
         name = chain.bodies[k]
         apart = np.angle(e[k] / other[k])
         yield f"{name}, angle: largest difference over a turn", 0.0, float(np.max(np.abs(apart))), "rad", 1e-9, ROUTE
-        alpha, closed = seen.body(model.assembly.names.index(name), "alpha"), bent[row].real * speed**2
+        alpha, closed = observed.body(model.assembly.names.index(name), "alpha"), bent[row].real * speed**2
         worst, size = np.argmax(np.abs(alpha - closed)), float(np.max(np.abs(closed)))
         yield f"{name}, angular acceleration where it is farthest", float(alpha[worst]), float(closed[worst]), "rad/s^2", 1e-9 * size, ROUTE
 
@@ -161,12 +161,12 @@ def _links(model, chain):
         yield f"{name}, angular velocity after {PART:g} turns", rate, float(turning[row].real), "rad/s", 1e-8 * abs(speed), ROUTE
 
 
-def _link_angles(model, chain, seen):
+def _link_angles(model, chain, observed):
     """(alphas, rates) of the links O2, A, B, O4 in the sense of the loop, the frame on the real axis; 0 at ideal pins."""
     alphas, rates = np.zeros(4), np.zeros(4)
     for k, step in enumerate(chain.steps):
         if step.joint.massless_link:
-            link = seen.bodies[0, model.assembly.names.index(f"link:{step.joint.name}")]
+            link = observed.bodies[0, model.assembly.names.index(f"link:{step.joint.name}")]
             alphas[k] = link[2] - np.angle(chain.bars[0]) + (0.0 if step.joint.first == step.near else np.pi)
             rates[k] = link[5]
     return alphas, rates
@@ -182,9 +182,9 @@ def _loaded(model, chain):
     weight = complex(*stated.gravity) * np.conj(chain.bars[0]) / abs(chain.bars[0])
     drag = {name: sum(force.damping for force in stated.forces if getattr(force, "first", None) == name) for name in chain.bodies[1:]}
     plain = all(isinstance(f, RotationalSpring) and f.stiffness == 0 and f.second == GROUND for f in stated.forces)
-    held = {joint.massless_link.damping for joint in stated.joints if joint.massless_link}
+    dampings = {joint.massless_link.damping for joint in stated.joints if joint.massless_link}
     level = abs(weight.real) < 1e-12 * (1 + abs(weight)) and np.max(np.abs(arms.imag)) < 1e-12
-    if not (plain and level and len(held) == 1 and len(set(drag.values())) == 1):
+    if not (plain and level and len(dampings) == 1 and len(set(drag.values())) == 1):
         return None
     plays = np.array([getattr(step.joint.model, "clearance", 0.0) for step in chain.steps])
     masses, inertias = np.array([body.mass for body in bodies]), np.array([body.inertia for body in bodies[1:]])
@@ -195,6 +195,6 @@ def _loaded(model, chain):
         arms.real.copy(),
         plays,
         body_damping=drag[chain.bodies[1]],
-        link_damping=held.pop(),
+        link_damping=dampings.pop(),
         gravity=float(-weight.imag),
     )

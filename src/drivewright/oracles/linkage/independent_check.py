@@ -52,12 +52,12 @@ def _closed_joints(model, states):
             misses[type(joint)].append(np.abs((across * np.conj(complex(*joint.axis) * places.turned(joint.second.body))).imag))
         elif isinstance(joint, Revolute) and isinstance(joint.model, Ideal):
             misses[Revolute].append(np.abs(places.of(joint.first) - places.of(joint.second)))
-    for kind, found in misses.items():
-        if found:
+    for kind, miss in misses.items():
+        if miss:
             yield (
                 f"joints without play, {kind.__name__.lower()}: largest gap",
                 0.0,
-                float(np.max(found)),
+                float(np.max(miss)),
                 "m",
                 1e-9 * places.size,
                 "places of both halves from the bodies' poses",
@@ -91,9 +91,11 @@ def _observed_states(model):
 def _newton_euler(model, states):
     """What no reactions of the joints could make up for in the equations of every body; the drives' torques by these equations."""
     solved = [reactions(model.assembly, system, observed) for system, observed in states]
-    left = max(float(np.max(found.residual)) for found in solved)
+    left = max(float(np.max(solution.residual)) for solution in solved)
     yield "Newton and Euler for every body: largest remainder, over the largest force", 0.0, left, "-", 1e-8, ABSOLUTE
-    ours, other = (np.concatenate(parts) for parts in ([observed.drives for _, observed in states], [found.drives for found in solved]))
+    ours, other = (
+        np.concatenate(parts) for parts in ([observed.drives for _, observed in states], [solution.drives for solution in solved])
+    )
     for k, drive in enumerate(model.assembly.model.drives):
         worst, size = np.argmax(np.abs(ours[:, k] - other[:, k])), float(np.max(np.abs(ours[:, k])))
         unit = "N" if isinstance(next(j for j in model.assembly.model.joints if j.name == drive.joint), Prismatic) else "N m"
@@ -149,10 +151,10 @@ def _exudyn(model):
     except ImportError as error:
         raise MissingExtra("verify, which runs the linkage in Exudyn,", "peers", error) from None
     kind = "dry" if model.pins else "smooth"
-    found = _start(model)
-    if found is None:
+    state = _start(model)
+    if state is None:
         return
-    system, t, y, start = found
+    system, t, y, start = state
     length = _until_lasting(model, system, t, y, min(PART[kind] * (model.period or LONGEST), model.run_length))
     ours = _final_poses(model, system, t, y, length)
     step, finer = (model.period or LONGEST) / STEPS[kind], 4 if kind == "dry" else 2
@@ -188,9 +190,9 @@ def _until_lasting(model, system, t, y, length) -> float:
     """The length, or less: to the end of the flight before the first contact that lasts, for which Exudyn keeps the approach speed."""
     if not model.pins:
         return length
-    found = simulate(model.assembly, length, Settings(1e-10), state=y, start=t)
-    times = np.concatenate([part.t for part in found.stretches])
-    memories = np.concatenate([part.y[:, part.system.contacts.memory] for part in found.stretches])
+    run = simulate(model.assembly, length, Settings(1e-10), state=y, start=t)
+    times = np.concatenate([part.t for part in run.stretches])
+    memories = np.concatenate([part.y[:, part.system.contacts.memory] for part in run.stretches])
     lasting = np.flatnonzero(np.any(memories < 0, axis=1))
     if not len(lasting):
         return length

@@ -133,11 +133,11 @@ def _loop(model, result):
     """The farthest that the seated plates let the driven sprocket go, every free plate with a direction of its own."""
     from scipy.optimize import minimize
 
-    found = model.closure
-    sample = len(found.driver_angle) // 3
-    state = States(*(column[sample] for column in found.states))
+    closure = model.closure
+    sample = len(closure.driver_angle) // 3
+    state = States(*(column[sample] for column in closure.states))
     ours = float(result.tables["centre_distance"]["centre_distance"].data[sample])
-    loop = Loop(model.worn, model.teeth, state, found.drive.strands == "equilibrium")
+    loop = Loop(model.worn, model.teeth, state, closure.drive.strands == "equilibrium")
     first = loop.first()
     downhill = np.where(np.arange(len(first)) == 1, -1.0, 0.0)
     best = minimize(
@@ -193,15 +193,15 @@ class Loop:
         """By how much both strands miss their ends (4,)."""
         upper, lower = self.counts if self.bent else (1, 1)
         free = np.split(x[2:], [upper])
-        quarter, found = 0.5 * np.pi, []
+        quarter, components = 0.5 * np.pi, []
         seats = self.seats(x[0])
         for strand, (leave, meet), count, first, last in zip(free, self.ends(x), self.counts, seats[::2], seats[1::2], strict=True):
             directions = np.concatenate([[first - quarter], np.broadcast_to(strand, count), [last - quarter]])
             plates = self.link.hole_pitch * np.exp(1j * directions[1:-1]).sum()
             joints = 2 * self.link.radius * np.exp(0.5j * (directions[1:] + directions[:-1])).sum()
             miss = leave + (plates - joints) / self.pitch - meet
-            found += [miss.real, miss.imag]
-        return np.array(found)
+            components += [miss.real, miss.imag]
+        return np.array(components)
 
 
 def _rest(model, result):
@@ -212,8 +212,8 @@ def _rest(model, result):
         return
     system = replace(chain_drive(model), gravity=(0.0, 0.0))
     system = with_sprocket(system, 1, torque=0.0, centre=(model.closure.mean, 0.0), mass=1.0, slide=Slide(0.0, spec.drive.preload))
-    found = compliance_of(stiffened(system, STIFFER), POSITIONS)
-    yield "centre_distance.mean", result["centre_distance.mean"], found.rigid_mean, "m", 1e-6, REST
+    equilibrium = compliance_of(stiffened(system, STIFFER), POSITIONS)
+    yield "centre_distance.mean", result["centre_distance.mean"], equilibrium.rigid_mean, "m", 1e-6, REST
 
 
 # -- pins ----------------------------------------------------------------------------------------------------------------------
