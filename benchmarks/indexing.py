@@ -38,7 +38,7 @@ def profile():
     for steps in (480, 5760):
 
         def theirs(steps=steps):
-            points = found.path(np.linspace(0, TURN, steps, endpoint=False)).d0.T.ravel()
+            points = found.pin_paths(np.linspace(0, TURN, steps, endpoint=False)).d0.T.ravel()
             line = LineString(np.stack([np.append(points, points[0]).real, np.append(points, points[0]).imag], axis=1))
             return max(line.buffer(found.pin_radius, quad_segs=max(steps // 30, 8)).interiors, key=lambda ring: ring.length)
 
