@@ -22,6 +22,8 @@ _WHERE = {
     "Result": "result",
     "Scene": "scene",
     "build": "runner",
+    "implements": "_jit",
+    "kernel": "_jit",
     "load": "spec",
     "run": "runner",
     "Study": "studies.study",

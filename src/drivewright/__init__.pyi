@@ -17,6 +17,8 @@ from drivewright import shafts as shafts
 from drivewright import solids as solids
 from drivewright import studies as studies
 from drivewright import units as units
+from drivewright._jit import implements as implements
+from drivewright._jit import kernel as kernel
 from drivewright.errors import DrivewrightError as DrivewrightError
 from drivewright.errors import InputError as InputError
 from drivewright.errors import MissingExtra as MissingExtra

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from drivewright._jit import implements
+from drivewright import implements
 from drivewright.contact import ContactParameters, normal_force
 
 
