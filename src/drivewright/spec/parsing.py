@@ -72,7 +72,7 @@ def _text_of(path: Path) -> str:
             text = stream.read(MAX_CHARACTERS + 1)
     except FileNotFoundError:
         kinds = ", ".join(registry.kinds())
-        hint = f"`drivewright new KIND {path.name}` writes a spec (kinds: {kinds}), `drivewright examples` lists the worked ones"
+        hint = f"`drivewright examples` lists worked ones to copy, `drivewright new KIND {path.name}` writes a spec (kinds: {kinds})"
         raise SpecError(f"there is no such file; {hint}", file=str(path)) from None
     except IsADirectoryError:
         raise SpecError("is a folder; a spec is a TOML file", file=str(path)) from None
