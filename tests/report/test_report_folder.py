@@ -10,6 +10,7 @@ from sample_designs import PLOTS, SPEC_TEXT, all_views, four_bar_result, four_ba
 
 from drivewright.errors import InputError
 from drivewright.report import folder as module
+from drivewright.report import renames
 from drivewright.report.content import Views
 from drivewright.report.folder import file_name, is_run_folder, record_text, write_run_folder
 from drivewright.report.index import write_index
@@ -98,6 +99,8 @@ def test_failure_while_writing_leaves_the_old_folder_and_no_litter(tmp_path, mon
 
 @pytest.mark.parametrize("error", [OSError, KeyboardInterrupt])
 def test_failure_while_moving_in_puts_the_old_folder_back(tmp_path, monkeypatch, error):
+    """On a system that cannot exchange two names."""
+    monkeypatch.setattr(renames, "_renameat2", lambda: None)
     out = write_run_folder(four_bar_result("first"), tmp_path / "run", figures=False, seen=BARE)
     rename = Path.rename
 

@@ -1,9 +1,27 @@
-"""Files that appear whole or not at all."""
+"""Files that appear whole or not at all: written under another name beside their place, forced to the disk, renamed.
+
+The other name is random, and its writer holds a lock on it: a name of this kind that nobody holds was left by a process that died, and
+the next writer of the same file removes it.
+"""
 
 import os
+import re
+import secrets
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
+
+try:
+    import fcntl
+except ImportError:  # no such locks on this system
+    fcntl = None
+
+TOKEN = r"[0-9a-f]{16}"
+
+
+def token() -> str:
+    """Part of a name that no other process takes."""
+    return secrets.token_hex(8)
 
 
 @contextmanager
@@ -11,10 +29,14 @@ def replacing(path: str | Path) -> Iterator[Path]:
     """A temporary name beside `path` to write to; it takes the place of `path` when the block ends well, else it is removed."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp{path.suffix}")
+    _remove_remnants(path)
+    temporary = path.with_name(f".{path.name}.{token()}.tmp{path.suffix}")
     try:
-        yield temporary
-        temporary.replace(path)
+        with _made(temporary):
+            yield temporary
+            force(temporary)
+            temporary.replace(path)
+            force(path.parent)
     finally:
         temporary.unlink(missing_ok=True)
 
@@ -23,3 +45,66 @@ def write_text(path: str | Path, text: str) -> None:
     """`text` as UTF-8 with plain newlines, the same bytes on every system."""
     with replacing(path) as temporary:
         temporary.write_bytes(text.encode())
+
+
+def force(path: Path) -> None:
+    """Force a file, or the names in a folder, to the disk."""
+    if os.name == "nt":  # folders cannot be opened there, and files only for writing
+        return
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+def is_held(path: Path) -> bool:
+    """Whether a living process holds a file or folder; True where the system cannot say."""
+    if fcntl is None:
+        return True
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return True
+    finally:
+        os.close(handle)
+    return False
+
+
+@contextmanager
+def hold(path: Path) -> Iterator[None]:
+    """Hold a file or folder: `is_held` says so to every other process, until this one lets go or dies."""
+    if fcntl is None:
+        yield
+        return
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        with suppress(OSError):  # a file system without locks
+            fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(handle)
+
+
+@contextmanager
+def _made(file: Path) -> Iterator[None]:
+    """A new empty file, held; made again where another process took it for a remnant in between."""
+    while True:
+        file.open("xb").close()
+        with ExitStack() as held:
+            with suppress(FileNotFoundError):
+                held.enter_context(hold(file))
+            if file.exists():
+                yield
+                return
+
+
+def _remove_remnants(path: Path) -> None:
+    """Remove what writers of `path` left that died."""
+    left = re.compile(rf"\.{re.escape(path.name)}\.{TOKEN}\.tmp{re.escape(path.suffix)}")
+    for file in list(path.parent.iterdir()):
+        if left.fullmatch(file.name) and file.is_file() and not file.is_symlink():
+            with suppress(OSError):  # gone by now, or not ours to remove
+                if not is_held(file):
+                    file.unlink()

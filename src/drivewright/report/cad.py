@@ -24,7 +24,7 @@ def write_step(parts: Iterable[Part], path: str | Path, tolerance: float = cad.T
     shape = cad.cad_assembly(list(parts), tolerance)
     with replacing(path) as temporary:
         shape.WriteStep(str(temporary))
-        if not temporary.is_file():
+        if not temporary.stat().st_size:
             raise InputError(f"the CAD kernel could not write {path}; is the folder writable and the name plain?")
         text = temporary.read_text(encoding="utf-8", errors="replace")
     write_text(path, _reproducible(text, Path(path).name))

@@ -133,7 +133,10 @@ def _pdf(mechanism, model, result, folder):
 
 
 def _written(write, what, path):
-    write(what, path)
+    try:
+        write(what, path)
+    except FileNotFoundError:  # a run has just replaced the folder
+        write(what, path)
     return path
 
 

@@ -1,9 +1,7 @@
 """The run folder: written beside its place, then moved in whole, so that there is always a complete one or none."""
 
 import json
-import os
 import re
-import shutil
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -11,6 +9,7 @@ from typing import Any
 from drivewright.errors import InputError
 from drivewright.report.content import Picture, Views, pictures, thumbnail, views
 from drivewright.report.html import write_report
+from drivewright.report.moving import Place, recover, replacing_folder
 from drivewright.result import Result, Table
 
 OURS = {"result.json", "report.html", "spec.toml", "figures", "tables", "data"}  # what a run writes, and the next one replaces
@@ -23,16 +22,17 @@ def write_run_folder(result: Result[Any], out: str | Path, figures: bool = True,
     mechanism shows.  What an earlier run wrote is replaced, everything else in the folder stays; InputError for a folder that is
     not empty and no run folder.
     """
-    out = Path(out).resolve()
+    out = recover_run_folder(out)
     refuse_foreign(out)
-    fresh = _sibling(out, "tmp")
-    _remove(fresh)
-    try:
-        fresh.mkdir(parents=True)
+    with replacing_folder(Place(out, OURS, refuse_foreign)) as fresh:
         _fill(fresh, result, views(result) if seen is None else seen, figures)
-        _move_in(fresh, out)
-    finally:
-        _remove(fresh)
+    return out
+
+
+def recover_run_folder(out: str | Path) -> Path:
+    """The absolute path of a run folder, after whatever runs that died have left beside it was brought back, or removed."""
+    out = Path(out).resolve()
+    recover(Place(out, OURS, refuse_foreign))
     return out
 
 
@@ -89,34 +89,3 @@ def _write_tables(folder: Path, tables: Iterable[Table]) -> None:
     for table in tables:
         (folder / "tables").mkdir(exist_ok=True)
         parquet.write_table(table.arrow(), folder / "tables" / f"{file_name(table.name)}.parquet")
-
-
-def _move_in(fresh: Path, out: Path) -> None:
-    """Put the finished folder in its place; the old one goes back where that fails."""
-    old = _sibling(out, "old")
-    _remove(old)
-    if out.exists():
-        out.rename(old)
-    try:
-        fresh.rename(out)
-    except BaseException:
-        if old.exists() and not out.exists():
-            old.rename(out)
-        raise
-    _keep_what_is_not_ours(old, out)
-    _remove(old)
-
-
-def _keep_what_is_not_ours(old: Path, out: Path) -> None:
-    """Exports and whatever a person put into the run folder go over into the new one."""
-    for entry in sorted(old.iterdir()) if old.is_dir() else ():
-        if entry.name not in OURS and not (out / entry.name).exists():
-            entry.rename(out / entry.name)
-
-
-def _sibling(out: Path, role: str) -> Path:
-    return out.with_name(f"{out.name}.{role}-{os.getpid()}")
-
-
-def _remove(path: Path) -> None:
-    shutil.rmtree(path, ignore_errors=True)
