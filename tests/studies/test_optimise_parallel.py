@@ -15,8 +15,10 @@ from drivewright.cli import main
 from drivewright.errors import InputError
 from drivewright.execution.executors import InProcessExecutor, make_executors
 from drivewright.spec import from_document
-from drivewright.studies import store
 from drivewright.studies.search import evaluator, history
+from drivewright.studies.store import Memory, joined
+from drivewright.studies.study_folder import Folder
+from drivewright.studies.study_reading import is_study, read_study
 from drivewright.studies.sweeps import sweep
 
 pytestmark = pytest.mark.property
@@ -132,8 +134,7 @@ def test_several_objectives_too(counted):
 def test_the_folder_holds_every_evaluation_with_units_and_reasons(tmp_path, undisturbed):
     found = dw.optimise(cam(), out=tmp_path / "o", on="serial")
     assert same(found, undisturbed) and found.folder == (tmp_path / "o").resolve()
-    _, tables, *_ = store.read_study(found.folder)
-    table = store.joined(tables)
+    table = joined(read_study(found.folder).tables)
     assert table.equals(found.table) and table.num_rows == found.evaluations
     units = {field.name: field.metadata[b"unit"].decode() for field in table.schema}
     assert units == {
@@ -179,7 +180,7 @@ def test_ctrl_c_loses_nothing_finished_and_the_search_goes_on(tmp_path, undistur
 def test_gaps_inside_a_generation_are_filled(tmp_path, undisturbed, counted):
     """Several processes end in any order: evaluations 0 to 9, 12 and 13 are there."""
     spec = cam()
-    with_gap = store.Folder(tmp_path, spec, {"spec": spec.digest(), "search": "differential-evolution", "drivewright": dw.__version__})
+    with_gap = Folder(tmp_path, spec, {"spec": spec.digest(), "search": "differential-evolution", "drivewright": dw.__version__})
     for first, count in ((12, 2), (0, 10)):
         with_gap.add(first, undisturbed.table.slice(first, count), 0.0)
     with_gap.close()
@@ -208,13 +209,13 @@ def test_kill_9_costs_no_evaluation_that_was_acknowledged(tmp_path, undisturbed,
     spec = cam()
     process = subprocess.Popen([sys.executable, "-c", textwrap.dedent(KILLED), spec.to_toml(), str(tmp_path / "o")])
     try:
-        while not (store.is_study(tmp_path / "o") and len(list((tmp_path / "o" / "parts").glob("[0-9]*.parquet"))) > 2):
+        while not (is_study(tmp_path / "o") and len(list((tmp_path / "o" / "parts").glob("[0-9]*.parquet"))) > 2):
             assert process.poll() is None, "it ended before it could be killed"
             time.sleep(0.02)
     finally:
         process.kill()
         process.wait()
-    acknowledged = sum(table.num_rows for table in store.read_study(tmp_path / "o")[1])
+    acknowledged = sum(table.num_rows for table in read_study(tmp_path / "o").tables)
     assert 0 < acknowledged < undisturbed.evaluations
     assert same(dw.optimise(spec, out=tmp_path / "o", on="serial"), undisturbed)
     assert counted == list(range(acknowledged, undisturbed.evaluations))
@@ -244,11 +245,10 @@ def test_the_outcome_of_an_older_version_is_left_alone(tmp_path):
 
 def test_a_folder_whose_search_went_another_way_is_refused(tmp_path, undisturbed):
     spec = cam()
-    kept = store.Folder(tmp_path, spec, {"spec": spec.digest(), "search": "differential-evolution", "drivewright": dw.__version__})
-    kept.add(0, undisturbed.table.slice(1, 8), 0.0)  # rows moved up by one
-    moved = kept.tables()[0].set_column(0, undisturbed.table.schema.field(0), [np.arange(8)])
+    kept = Folder(tmp_path, spec, {"spec": spec.digest(), "search": "differential-evolution", "drivewright": dw.__version__})
+    moved = undisturbed.table.slice(1, 8)  # rows moved up by one
+    kept.add(0, moved.set_column(0, undisturbed.table.schema.field(0), [np.arange(8)]), 0.0)
     kept.close()
-    parquet.write_table(moved, tmp_path / "parts" / "000000000000-000000000007.parquet")
     with pytest.raises(InputError, match="asks for other designs than those that were kept, from evaluation 0 on"):
         dw.optimise(spec, out=tmp_path)
 
@@ -291,7 +291,7 @@ def test_a_design_whose_solver_gave_up_has_no_value_for_the_search():
 
 
 def test_a_journal_writes_each_row_once_whatever_happens_in_between(undisturbed):
-    class Failing(store.Memory):
+    class Failing(Memory):
         trouble = 1
 
         def add(self, first, table, seconds):
@@ -308,7 +308,7 @@ def test_a_journal_writes_each_row_once_whatever_happens_in_between(undisturbed)
         journal.flush()
     journal.flush()
     assert kept.ranges() == [(0, 8), (9, 3)] and kept.seconds == 4.0
-    assert store.joined(kept.tables())["case"].to_pylist() == [*range(8), *range(9, 12)]
+    assert joined(kept.tables())["case"].to_pylist() == [*range(8), *range(9, 12)]
 
 
 # -- how a search is shown -----------------------------------------------------------------------------------------------------

@@ -20,7 +20,8 @@ import drivewright as dw
 from drivewright.cli import main
 from drivewright.errors import InputError, SpecError, UnknownName
 from drivewright.execution import batches, evaluation
-from drivewright.studies import plan, store
+from drivewright.report import atomic
+from drivewright.studies import plan, study_folder
 from drivewright.studies import sweeps as sweeping
 from drivewright.studies.plan import make_plan
 from drivewright.studies.variation import (
@@ -568,26 +569,26 @@ def test_what_the_ledger_does_not_name_is_removed(study):
 
 def test_a_ledger_that_cannot_be_read(study):
     (study / "ledger.sqlite").write_bytes(b"no data base at all " * 100)
-    with pytest.raises(InputError, match="S: cannot be read: file is not a database"):
+    with pytest.raises(InputError, match=r"its ledger.sqlite is damaged \(file is not a database\); the parts are there: `driv"):
         dw.open_study(study)
-    with pytest.raises(InputError, match="file is not a database"):
-        run(study)
+    with pytest.raises(InputError, match="holds another study"):
+        run(study, SPEC.replace(force="3 N"))
     assert len(list((study / "parts").iterdir())) > 1
 
 
 def full(after, monkeypatch, what):
     """From the part number `after` on the disk is full: at `what`."""
-    calls, here = [], {"part": parquet.write_table, "force": store._forced}
+    calls, here = [], {"part": Path.write_bytes, "force": atomic.force}
 
-    def failing(*arguments):
-        calls.append(arguments)
+    def failing(path, *content):
+        calls.append(path)
         if len(calls) > after:
             if what == "part":
-                Path(arguments[1]).write_bytes(b"half")
+                here[what](path, b"half")
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-        return here[what](*arguments)
+        return here[what](path, *content)
 
-    monkeypatch.setattr(*{"part": (parquet, "write_table"), "force": (store, "_forced")}[what], failing)
+    monkeypatch.setattr(*{"part": (Path, "write_bytes"), "force": (atomic, "force")}[what], failing)
 
 
 SAFE = r"finished before is safe\. Make room or mend the disk, and give the same"
@@ -603,45 +604,45 @@ def test_a_disk_that_fills(tmp_path, monkeypatch, what, after):
             run(tmp_path / "S")
     acknowledged = names(tmp_path / "S") if after else []
     assert len(acknowledged) == (after if what == "part" else max(0, (after - 2) // 2))
-    assert [name for name in os.listdir(tmp_path / "S" / "parts") if name.endswith(".tmp")] == []
+    assert [name for name in os.listdir(tmp_path / "S" / "parts") if ".tmp" in name] == []
     stamps = {name: (tmp_path / "S" / "parts" / name).stat().st_mtime_ns for name in acknowledged}
     assert run(tmp_path / "S").table.equals(whole)
     assert {name: (tmp_path / "S" / "parts" / name).stat().st_mtime_ns for name in acknowledged} == stamps
 
 
 def test_a_ledger_that_finds_the_disk_full(tmp_path, monkeypatch):
-    make, whole = store._ledger, run(tmp_path / "whole").table
+    make, whole = study_folder.open_ledger, run(tmp_path / "whole").table
 
     def narrow(folder):
         ledger = make(folder)
         ledger.execute(f"pragma max_page_count = {ledger.execute('pragma page_count').fetchone()[0]}")
         return ledger
 
-    monkeypatch.setattr(store, "_ledger", narrow)
+    monkeypatch.setattr(study_folder, "open_ledger", narrow)
     with monkeypatch.context() as patch:
         patch.setattr(sweeping, "study_identity", lambda spec, plan: {"spec": "x" * 5000})  # more than the page that is free
         with pytest.raises(InputError, match=FULL):
             run(tmp_path / "S")
-    monkeypatch.setattr(store, "_ledger", make)
+    monkeypatch.setattr(study_folder, "open_ledger", make)
     assert run(tmp_path / "S").table.equals(whole)
 
 
 def test_a_ledger_that_finds_the_disk_full_on_the_way(tmp_path, monkeypatch):
     """The part is on the disk already, but the ledger cannot name it any more: it never happened."""
     monkeypatch.setattr(batches, "TARGET", 1e-9)  # one case in a part
-    make, vary = store._ledger, {"size": linspace("8 mm", "12 mm", 120)}
+    make, vary = study_folder.open_ledger, {"size": linspace("8 mm", "12 mm", 120)}
 
     def narrow(folder):
         ledger = make(folder)
         ledger.execute(f"pragma max_page_count = {ledger.execute('pragma page_count').fetchone()[0]}")
         return ledger
 
-    monkeypatch.setattr(store, "_ledger", narrow)
+    monkeypatch.setattr(study_folder, "open_ledger", narrow)
     with pytest.raises(InputError, match=FULL):
         run(tmp_path / "S", SPEC, vary)
     acknowledged, there = names(tmp_path / "S"), os.listdir(tmp_path / "S" / "parts")
     assert 5 < len(acknowledged) == len(there) - 1
-    monkeypatch.setattr(store, "_ledger", make)
+    monkeypatch.setattr(study_folder, "open_ledger", make)
     assert run(tmp_path / "S", SPEC, vary).complete and names(tmp_path / "S")[: len(acknowledged)] == acknowledged
 
 

@@ -122,10 +122,13 @@ def export(
 ) -> None:
     """Write manufacturing files and the PDF report."""
     from drivewright.report.export import export as write
+    from drivewright.report.folder import recover_run_folder
 
     loaded = _load(spec, set_)
     with show.progress(spec.name) as step, show.located(spec):
-        files = write(loaded, _names(to), _folder(spec, out) / "cad", anyway, step)
+        folder = _folder(spec, out)
+        recover_run_folder(folder)
+        files = write(loaded, _names(to), folder / "cad", anyway, step)
     for file in files:
         print(file)
 
@@ -170,6 +173,8 @@ def sweep(
     with show.progress(spec.name) as step, show.located(spec):
         folder = out or Path("out") / f"{spec.stem}-study"
         study = compute(loaded, out=folder, workers=workers, on=on, confirmed=yes, progress=step)
+        for notice in study.notices:
+            show.note(f"note: {notice}")
         show.note(f"{study.folder}: {len(study)} of {len(study.plan)} cases")
         if study.interrupted:
             raise KeyboardInterrupt
@@ -191,12 +196,16 @@ def table(
     from drivewright.report.tabular import write_study_table
     from drivewright.studies.sweeps import open_study
 
-    opened = open_study(study)
+    opened = open_study(study, skip_damaged=True)
+    for notice in opened.notices:
+        show.note(f"note: {notice}")
     if not opened.complete:
         show.note(f"note: {len(opened)} of {len(opened.plan)} cases are there; the same sweep again goes on")
     with show.located(study):
         for form in _names(to):
             print(write_study_table(opened, (out or study) / f"table.{form}"))
+    if opened.damaged:
+        raise typer.Exit(4)
 
 
 @app.command()

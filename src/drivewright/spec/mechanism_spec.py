@@ -1,6 +1,8 @@
 """The whole spec of one drive: what all kinds have in common."""
 
+import filecmp
 import hashlib
+import secrets
 import shutil
 from collections.abc import Mapping
 from pathlib import Path
@@ -37,8 +39,8 @@ class MechanismSpec(Spec):
         for source, place in places.items():
             target = path.parent / place
             target.parent.mkdir(exist_ok=True)
-            if not (target.exists() and target.samefile(source)):  # the spec of a run folder, run again into it
-                shutil.copyfile(source, target)
+            if not (target.exists() and filecmp.cmp(source, target, shallow=False)):  # it may be the same file
+                _copy(source, target)
         path.write_text(self.to_toml(moved=True), encoding="utf-8", newline="\n")
 
     def _tables(self, places: Mapping[Path, str] | None = None) -> dict[str, Any]:
@@ -54,3 +56,13 @@ class MechanismSpec(Spec):
     def data_files(self) -> list[Path]:
         """Absolute paths of all data files the spec names."""
         return sorted(set(data_files_in(self)))
+
+
+def _copy(source: Path, target: Path) -> None:
+    """A copy of a file that appears whole or not at all."""
+    temporary = target.with_name(f".{target.name}.{secrets.token_hex(8)}.tmp")
+    try:
+        shutil.copyfile(source, temporary)
+        temporary.replace(target)
+    finally:
+        temporary.unlink(missing_ok=True)

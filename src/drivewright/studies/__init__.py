@@ -5,7 +5,9 @@
 `triangular` and `tolerance`.
 
 answers           what a study says: `analyse_study(study)` gives a `Result` and its plots
+ledger            the ledger of a study: which parts there are, each with size and checksum
 optimisation      optimisation of any drive
+parts             the parts of a study: Parquet files that prove what they are
 pareto            designs that no other design beats in every objective
 plan              the plan of a study: every case, known before the first one runs
 points            cases from a file
@@ -13,8 +15,10 @@ search            a search for the best design
 sensitivity       which of the varying keys causes how much of a number's spread
 spec_differences  what makes a study another one than that in a folder, key by key
 statistics        what a random sample says about a number
-store             where a study lives
+store             what keeps the parts of a study, or of a search, as they are done
 study             a study that has been run, whole or in part
+study_folder      the folder in which a study lives, for who writes it
+study_reading     the same as a reader finds it
 sweeps            a study from its plan to its rows: `sweep(spec)` computes what is not there yet and keeps it
 variables         what varies: a key of the spec with its levels or its distribution, in SI
 variation         how to say what varies: from Python, and as on the command line

@@ -24,13 +24,14 @@ from drivewright.execution.outputs import case_outputs
 from drivewright.result import Check, Column, Plot, Result, Table
 from drivewright.runner import build, incomplete_reasons, run, run_analyses, select_analyses, versions
 from drivewright.spec import MechanismSpec
-from drivewright.studies import store
 from drivewright.studies.pareto import nondominated
 from drivewright.studies.search import history
 from drivewright.studies.search.evaluator import SILENT, Evaluator, Progress
 from drivewright.studies.search.problem import Problem, at_worst, prepare
 from drivewright.studies.search.searching import METHODS, method_of
-from drivewright.studies.store import Store
+from drivewright.studies.store import Memory, Store, joined
+from drivewright.studies.study_folder import Folder
+from drivewright.studies.study_reading import is_study
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -154,7 +155,8 @@ def run_search(
     tables = kept.tables()
     if not tables:
         raise KeyboardInterrupt
-    outcome = _outcome(problem, store.joined(tables))
+    outcome = _outcome(problem, joined(tables))
+    outcome["findings"] = (*kept.notices, *outcome["findings"])
     return Optimised(problem, **outcome, seconds=time.perf_counter() - started, method=method, folder=kept.folder, interrupted=interrupted)
 
 
@@ -171,13 +173,13 @@ def _search(problem, method, evaluator):
 def _place(out, spec, method):
     """The store of a search; InputError for a folder with something else in it."""
     if out is None:
-        return store.Memory()
-    if (Path(out) / HISTORY).is_file() and not store.is_study(out):
+        return Memory()
+    if (Path(out) / HISTORY).is_file() and not is_study(out):
         raise InputError(
             f"{out}: holds the outcome of a search ({HISTORY}) by an older version, which cannot be gone on with; nothing was "
             "written. Remove the folder, or give another --out"
         )
-    return store.Folder(out, spec, {"spec": spec.digest(), "search": method, "drivewright": versions()["drivewright"]})
+    return Folder(out, spec, {"spec": spec.digest(), "search": method, "drivewright": versions()["drivewright"]})
 
 
 # -- outcome -------------------------------------------------------------------------------------------------------------------

@@ -17,7 +17,7 @@ def describe_differences(spec_file: str | Path, spec: MechanismSpec, known: Mapp
     names = [name for name in dict.fromkeys([*known, *identity]) if known.get(name) != identity.get(name) and name not in UNSEEN]
     rows = [_row(name, known, identity) for name in names]
     if PROGRAM not in names:  # another version may have other keys
-        rows += _keys(spec_file, spec, "optimise." if "plan" in known else "study.")
+        rows += differing_keys(spec_file, spec, "plan" in known)
     more = f" and {len(rows) - TOLD} more" if len(rows) > TOLD else ""
     return "; ".join(rows[:TOLD]) + more if rows else "the content of a data file, or the points of the plan, are not the same"
 
@@ -28,9 +28,13 @@ def _row(name, there, here):
     return f"{name}: {there.get(name, 'not given')} there, {here.get(name, 'not given')} here"
 
 
-def _keys(spec_file, spec, idle):
-    """The keys that differ; the title, and those that begin with `idle`, change nothing here."""
+def differing_keys(spec_file: str | Path, spec: MechanismSpec, is_sweep: bool) -> list[str]:
+    """A row for each key that is not the same in a spec file, if there is one, and here; the title, and the keys of a search in a sweep
+    or of a sweep in a search, change nothing."""
+    idle = "optimise." if is_sweep else "study."
     try:
+        if not Path(spec_file).is_file():
+            return []
         there, here = _flat(document(load(spec_file))), _flat(document(spec))
     except SpecError as error:
         return [f"its spec cannot be read ({error})"]

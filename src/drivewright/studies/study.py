@@ -37,6 +37,8 @@ class Study:
     seconds: float = 0.0  # that the workers spent on it
     remarks: tuple[str, ...] = ()  # on how the cases were computed
     interrupted: bool = False
+    notices: tuple[str, ...] = ()  # what was damaged in its folder, and what became of it
+    damaged: int = 0  # parts that are left out
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         """A column as an array: numbers as floats with nan where a case has none, texts as objects."""

@@ -13,10 +13,12 @@ from drivewright.execution.executors import Executor, InProcessExecutor, check_l
 from drivewright.runner import versions
 from drivewright.spec import MechanismSpec
 from drivewright.spec.serialisation import canonical_text
-from drivewright.studies import store
+from drivewright.studies.parts import damage_text
 from drivewright.studies.plan import Plan, make_plan
-from drivewright.studies.store import Store
+from drivewright.studies.store import Memory, Store, joined
 from drivewright.studies.study import Study
+from drivewright.studies.study_folder import Folder
+from drivewright.studies.study_reading import read_study
 from drivewright.studies.variation import with_variation
 
 Progress: TypeAlias = Callable[[int, int, str], object]  # (done, total, what became of them)
@@ -46,7 +48,7 @@ def sweep(
     if len(plan) > MANY and not confirmed:
         raise InputError(f"{len(plan)} cases are more than {MANY}; say --yes if you mean it, or take fewer levels or samples")
     task = case_task(spec, plan.keys)
-    kept = store.Folder(out, spec, study_identity(spec, plan)) if out is not None else store.Memory()
+    kept = Folder(out, spec, study_identity(spec, plan)) if out is not None else Memory()
     with closing(kept):
         return compute_study(kept, spec, plan, task, workers, on, progress)
 
@@ -62,20 +64,27 @@ def compute_study(
 ) -> Study:
     """`Study` of the cases of a plan, whoever made it; they go to the store `kept` as they are done.  The rest as of `sweep`."""
     interrupted = _fill(kept, task, plan, workers, on, progress or (lambda done, total, what: None))
-    return Study(spec, plan, store.joined(kept.tables()), kept.folder, kept.seconds, kept.remarks(), interrupted)
+    return Study(spec, plan, joined(kept.tables()), kept.folder, kept.seconds, kept.remarks(), interrupted, tuple(kept.notices))
 
 
-def open_study(folder: str | Path) -> Study:
-    """`Study` of a folder as far as it has come; another process may be at work on it."""
-    spec, tables, seconds, remarks, known = store.read_study(folder)
-    if "plan" not in known:
+def open_study(folder: str | Path, *, skip_damaged: bool = False) -> Study:
+    """`Study` of a folder as far as it has come; another process may be at work on it.
+
+    InputError where a part is not what was written; with `skip_damaged` its rows are left out, and `notices` says which.
+    """
+    kept = read_study(folder)
+    if "plan" not in kept.identity:
         raise InputError(f"{folder}: holds a search, not a study; its table is history.parquet")
-    plan = make_plan(spec)
-    if plan.digest != known["plan"]:
+    plan = make_plan(kept.spec)
+    if plan.digest != kept.identity["plan"]:
         raise InputError(
             f"{folder}: its points cannot be made again here: another version of SciPy or NumPy. Its rows are in {folder}/parts"
         )
-    return Study(spec, plan, store.joined(tables), Path(folder).resolve(), seconds, remarks)
+    if kept.damaged and not skip_damaged:
+        raise InputError(damage_text(Path(folder), kept.damaged))
+    notices = (damage_text(Path(folder), kept.damaged),) if kept.damaged else ()
+    rows = joined(kept.tables)
+    return Study(kept.spec, plan, rows, Path(folder).resolve(), kept.seconds, kept.remarks, notices=notices, damaged=len(kept.damaged))
 
 
 def study_identity(spec: MechanismSpec, plan: Plan) -> dict[str, str]:
@@ -87,7 +96,7 @@ def study_identity(spec: MechanismSpec, plan: Plan) -> dict[str, str]:
 def _fill(kept: Store, task: CaseTask, plan: Plan, workers: int | None, on: str | None, progress: Progress) -> bool:
     """Compute what is missing; whether it was interrupted."""
     total, done, trouble = len(plan), sum(count for _, count in kept.ranges()), 0
-    if done == total:
+    if done == total and not kept.notices:  # a new ledger has no remarks any more
         return False
     refuse_unknown(task, plan)
     scheduler = BatchScheduler(kept.ranges(), total, 1)

@@ -19,8 +19,9 @@ from drivewright.spec.serialisation import toml_value
 from drivewright.studies.answers import analyse_study
 from drivewright.studies.plan import make_plan
 from drivewright.studies.statistics import varies
-from drivewright.studies.store import Folder, Memory, joined
+from drivewright.studies.store import Memory, joined
 from drivewright.studies.study import Study
+from drivewright.studies.study_folder import Folder
 from drivewright.studies.sweeps import compute_study, study_identity
 from drivewright.studies.variation import with_options
 from drivewright.studio.design import Design
