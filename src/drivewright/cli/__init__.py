@@ -3,6 +3,7 @@
 app              the commands; they know no kind of drive by name
 doctor           what is installed, what each extra adds, the kernel cache, a self-test
 gallery          the worked examples: listed, copied, run
+interruption     how the command line ends early
 plugin_commands  commands of mechanisms, from plug-ins too
 show             what the command line prints: results to stdout, everything else to stderr
 """
@@ -10,13 +11,20 @@ show             what the command line prints: results to stdout, everything els
 import sys
 from typing import NoReturn
 
-from drivewright.errors import DrivewrightError
+from drivewright.cli.interruption import ending_signals, exit_code
+from drivewright.errors import DrivewrightError, InputError
 
 INTERRUPTED = 130
 
 
 def main(arguments: list[str] | None = None) -> NoReturn:
-    """Run the command line; exits with 0 done, 1 failed check, 2 bad input, 3 strict, 4 solver gave up, 130 interrupted."""
+    """Run the command line; exits with 0 done, 1 failed check, 2 bad input, 3 strict, 4 solver gave up, 130 interrupted, 128 and its number
+    after another signal that ends a process."""
+    with ending_signals() as received:
+        _run(arguments, received)
+
+
+def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
     try:
         from drivewright.cli.app import app, usage_errors
 
@@ -32,7 +40,10 @@ def main(arguments: list[str] | None = None) -> NoReturn:
         sys.exit(_complain(error))
     except (KeyboardInterrupt, *_aborts()):
         print("interrupted; what was finished before is kept, and the same command goes on", file=sys.stderr)
-        sys.exit(INTERRUPTED)
+        sys.exit(exit_code(received))
+    except MemoryError:
+        print("drivewright: there is no memory left for this; take fewer points, cases or workers, or allow more memory", file=sys.stderr)
+        sys.exit(InputError.exit_code)
     except BrokenPipeError:
         sys.stderr.close()
         sys.exit(0)

@@ -8,7 +8,7 @@ from contextlib import ExitStack
 from typing import Any
 
 from drivewright.errors import InputError, MissingExtra
-from drivewright.execution.processes import worker_environment
+from drivewright.execution.processes import most_processes, worker_environment
 
 ANSWER_TIMEOUT = "20s"  # for a scheduler to answer
 WORKERLESS_LIMIT = 60.0  # seconds without a worker after which a scheduler is given up
@@ -65,7 +65,7 @@ def start_local(on: str) -> DaskExecutor:
         stack.enter_context(worker_environment())  # to the end: the cluster starts a worker again when it dies
         stack.enter_context(dask.config.set({"distributed.scheduler.allowed-failures": 2}))
         cluster = distributed.LocalCluster(
-            n_workers=int(on.removeprefix("local:")),
+            n_workers=min(int(on.removeprefix("local:")), most_processes()),
             threads_per_worker=1,
             processes=True,
             dashboard_address=":0",

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 from drivewright.cases import worker_count
 from drivewright.errors import InputError, brief
-from drivewright.execution.processes import exit_with_parent, worker_environment
+from drivewright.execution.processes import endings_blocked, exit_with_parent, most_processes, worker_environment
 
 SCHEMES = ("tcp://", "tls://", "ucx://", "ws://", "wss://")
 
@@ -51,10 +51,12 @@ class Executor(Protocol):
 
 def make_executors(workers: int | None = None, on: str | None = None, limit: int | None = None) -> tuple[Executor, ...]:
     """The executors for `on`: None for `workers` processes (None: one per core), but no more than `limit`, "serial" for this process,
-    "local:N" for a Dask cluster on this machine, "tcp://HOST:PORT" for the scheduler there.  InputError for anything else."""
+    "local:N" for a Dask cluster on this machine, "tcp://HOST:PORT" for the scheduler there.  InputError for anything else.
+
+    On this machine there are never more than `processes.most_processes`, whatever is requested."""
     check_location(workers, on)
     if on is None:
-        return _processes(min(worker_count(workers), limit or sys.maxsize))
+        return _processes(min(worker_count(workers), most_processes(), limit or sys.maxsize))
     if on == "serial":
         return (InProcessExecutor(),)
     from drivewright.execution import dask_cluster
@@ -133,8 +135,10 @@ class ProcessExecutor:
         context = get_context("spawn")
         theirs, self._hold = context.Pipe(duplex=False)
         with worker_environment():
-            self._executor = ProcessPoolExecutor(1, context, exit_with_parent, (os.getpid(), theirs))
-            self._warmed = self._executor.submit(_warm)
+            with endings_blocked():  # it starts the process that clears up after all others
+                self._executor = ProcessPoolExecutor(1, context, exit_with_parent, (os.getpid(), theirs))
+            with endings_blocked():  # that start has let them through again
+                self._warmed = self._executor.submit(_warm)
         theirs.close()
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:

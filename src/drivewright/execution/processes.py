@@ -8,8 +8,16 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Protocol
 
+from drivewright.cases import worker_count
+
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+PER_CORE = 4  # processes beyond which more of them gain nothing, and cost memory
 PARENT_POLL = 0.25  # seconds between two looks at the parent
+
+
+def most_processes() -> int:
+    """How many processes this machine gets at most, whatever is requested."""
+    return PER_CORE * worker_count(None)
 
 
 class Pipe(Protocol):
@@ -36,6 +44,19 @@ def worker_environment() -> Iterator[None]:
             main.__file__ = file
         for name, value in kept.items():
             os.environ.pop(name) if value is None else os.environ.__setitem__(name, value)
+
+
+@contextmanager
+def endings_blocked() -> Iterator[None]:
+    """A process that starts meanwhile never gets the signals that end one: they are the parent's business, with which it leaves."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def exit_with_parent(parent: int, pipe: Pipe) -> None:

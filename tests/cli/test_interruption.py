@@ -1,0 +1,138 @@
+"""Signals that end a command: finished work is kept, workers leave, nothing is said but one line, and the exit code tells the signal."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from places import EXAMPLES
+
+import drivewright as dw
+from drivewright.cli.interruption import ending_signals, exit_code
+
+pytestmark = [pytest.mark.interface, pytest.mark.skipif(sys.platform == "win32", reason="has no such signals")]
+
+CASES = 4000
+SIGNALS = {"INT": 130, "TERM": 143, "HUP": 129}
+
+
+def sweep(folder, workers=2):
+    chain = [str(EXAMPLES / "hyvo_chain.toml"), "--only", "closure", "--set", "closure.strands=straight"]
+    vary = ["--vary", f"joint.rolling_radius=1.0 mm:1.6 mm:{CASES}", "--workers", str(workers), "--no-figures"]
+    return [sys.executable, "-m", "drivewright", "sweep", *chain, *vary, "--out", str(folder)]
+
+
+def descendants(pid):
+    """Processes below a process."""
+    found = []
+    for task in Path(f"/proc/{pid}/task").glob("*/children"):
+        for child in map(int, task.read_text().split()):
+            found += [child, *descendants(child)]
+    return found
+
+
+def alive(pid):
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def until(what, seconds=120):
+    end = time.monotonic() + seconds
+    while not what():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+def interrupted(command, ready, *signals, whole_group=False):
+    """(exit code, what it said, processes that it left) of a command that gets signals when it is ready."""
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    until(lambda: process.poll() is not None or ready(process))
+    below = descendants(process.pid)
+    for each in signals:
+        (os.killpg if whole_group else os.kill)(process.pid, each)
+        time.sleep(0.02)
+    said = process.communicate(timeout=60)[1]
+    until(lambda: not any(map(alive, below)), 20)
+    return process.returncode, said
+
+
+def parts(folder, count):
+    return lambda process: len(list(folder.glob("parts/[0-9]*.parquet"))) >= count
+
+
+def quiet(said):
+    """One line, and nothing from the interpreter or its helpers."""
+    lines = [line for line in said.splitlines() if line]
+    assert len(lines) <= 2 and not re.search("leaked|Traceback|Error|resource_tracker", said), said
+    assert "interrupted; what was finished before is kept, and the same command goes on" in said
+
+
+@pytest.mark.parametrize("name", SIGNALS)
+def test_a_sweep_that_is_ended_keeps_what_is_done_and_leaves_nothing_behind(tmp_path, name):
+    code, said = interrupted(sweep(tmp_path / "S"), parts(tmp_path / "S", 3), getattr(signal, f"SIG{name}"))
+    assert code == SIGNALS[name]
+    quiet(said)
+    study = dw.open_study(tmp_path / "S")
+    assert 0 < len(study) < CASES and study.counts == {"complete": len(study)}
+
+
+def test_a_terminal_that_closes_sends_its_signal_to_all_of_them(tmp_path):
+    code, said = interrupted(sweep(tmp_path / "S"), parts(tmp_path / "S", 3), signal.SIGHUP, whole_group=True)
+    assert code == 129
+    quiet(said)
+
+
+def test_an_impatient_system_sends_more_than_one(tmp_path):
+    many = [signal.SIGTERM, signal.SIGHUP, signal.SIGTERM, signal.SIGTERM]
+    code, said = interrupted(sweep(tmp_path / "S"), parts(tmp_path / "S", 3), *many)
+    assert code == 143
+    quiet(said)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SIGNALS)
+def test_a_signal_in_any_phase(tmp_path, name):
+    """At forty moments of a sweep, from the first import to the last part; the same command goes on each time."""
+    for moment in range(40):
+        folder, delay = tmp_path / "S", 0.1 * moment
+        start = time.monotonic()
+        code, said = interrupted(
+            sweep(folder), lambda process, start=start, delay=delay: time.monotonic() - start > delay, getattr(signal, f"SIG{name}")
+        )
+        assert code in (0, SIGNALS[name], -getattr(signal, f"SIG{name}")), said
+        assert "leaked" not in said and (code < 0 or "Traceback" not in said), (delay, said)
+    assert subprocess.run(sweep(folder), capture_output=True).returncode == 0
+    assert len(dw.open_study(folder)) == CASES
+
+
+# -- in this process -----------------------------------------------------------------------------------------------------------
+
+
+def test_the_first_signal_interrupts_and_the_next_ones_change_nothing():
+    before = signal.getsignal(signal.SIGTERM)
+    try:
+        with pytest.raises(KeyboardInterrupt), ending_signals() as received:
+            signal.raise_signal(signal.SIGTERM)
+        signal.raise_signal(signal.SIGTERM)
+        signal.raise_signal(signal.SIGHUP)
+        assert received[0] == signal.SIGTERM and exit_code(received) == 143 and exit_code([]) == 130
+    finally:
+        signal.signal(signal.SIGTERM, before)
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
+def test_handlers_are_given_back_and_what_is_ignored_stays_so():
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with ending_signals() as received:
+            signal.raise_signal(signal.SIGHUP)
+        assert received == [] and signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
+        assert signal.getsignal(signal.SIGTERM) == signal.SIG_DFL
+    finally:
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)
