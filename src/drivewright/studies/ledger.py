@@ -68,7 +68,7 @@ def read_ledger(folder: Path) -> sqlite3.Connection:
         ledger = sqlite3.connect(f"{(folder / LEDGER).resolve().as_uri()}?mode={mode}", uri=True)
         ledger.text_factory = _text
         try:
-            with _damage_told(ledger, folder / LEDGER):
+            with _damage_told(ledger):
                 _check(ledger)
             return ledger
         except sqlite3.OperationalError:
@@ -116,21 +116,23 @@ def _text(content: bytes) -> str:
 
 
 @contextmanager
-def _damage_told(ledger: sqlite3.Connection, file: Path) -> Iterator[None]:
+def _damage_told(ledger: sqlite3.Connection, written: Path | None = None) -> Iterator[None]:
     """Close the ledger where something is wrong, and tell damage from a disk that is full or away."""
     try:
         yield
     except BaseException as error:
         ledger.close()
-        if isinstance(error, UnicodeDecodeError) or (isinstance(error, sqlite3.DatabaseError) and _is_damage(error, file)):
+        if isinstance(error, UnicodeDecodeError) or (isinstance(error, sqlite3.DatabaseError) and _is_damage(error, written)):
             raise LedgerDamaged(f"is damaged ({error})") from None
         raise
 
 
-def _is_damage(error: sqlite3.DatabaseError, file: Path) -> bool:
-    """Whether an error comes from what is in the file.  A bit of its head forbids writing, too."""
-    code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_CORRUPT) & 0xFF
-    return code not in ELSEWHERE or (code == sqlite3.SQLITE_READONLY and os.access(file, os.W_OK) and os.access(file.parent, os.W_OK))
+def _is_damage(error: sqlite3.DatabaseError, written: Path | None) -> bool:
+    """Whether an error comes from what is in the file.  A bit of the head of a file to be written says that it may only be read."""
+    code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_CORRUPT)
+    if code == sqlite3.SQLITE_READONLY and written is not None:
+        return os.access(written, os.W_OK) and os.access(written.parent, os.W_OK)
+    return code & 0xFF not in ELSEWHERE
 
 
 def _make(ledger):
