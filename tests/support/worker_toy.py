@@ -37,3 +37,15 @@ def wait_politely(send, seconds):
 def wait_deaf(send, seconds):
     send("deaf")
     time.sleep(seconds)
+
+
+def length(send, text):
+    return len(text)
+
+
+def niceness(send):
+    return os.getpriority(os.PRIO_PROCESS, 0)
+
+
+def fill(send, size):
+    return len(bytearray(size))
