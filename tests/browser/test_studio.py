@@ -250,3 +250,44 @@ def test_a_worker_killed_at_work_is_reported(studio, tab):
     enter(page, "drive.speed", "2999 rpm")
     drawn(page)
     analysed(page)
+
+
+def test_a_script_that_gets_into_the_page_is_not_run(studio, browser):
+    """The policy itself, in a browser: no inline script or handler, no style attribute, nothing from outside, no frame."""
+    context = browser.new_context()
+    try:
+        page = context.new_page()
+        refused = []
+        page.on("console", lambda said: refused.append(said.text) if said.type == "error" else None)
+        page.goto(studio[0])
+        until(page, "window.drivewright !== undefined", 30)
+        page.evaluate("""() => {
+          const script = document.createElement('script'); script.textContent = 'window.got = 1'; document.body.append(script);
+          const other = document.createElement('script'); other.src = 'https://evil.example/x.js'; document.body.append(other);
+          const box = document.createElement('div');
+          box.innerHTML = '<img src="/none" onerror="window.got = 2"><b style="color: red">x</b>';
+          document.body.append(box);
+          fetch('https://evil.example/').catch(() => { window.kept = true; }); }""")
+        until(page, "window.kept === true", 10)
+        page.wait_for_timeout(300)
+        assert page.evaluate("window.got") is None
+        assert len([text for text in refused if "Content Security Policy" in text]) >= 4
+        frame = context.new_page()
+        frame.goto("about:blank")
+        frame.set_content(f'<iframe src="{studio[0]}"></iframe>')
+        frame.wait_for_timeout(500)
+        assert all("drivewright" not in (each.title() or "").lower() for each in frame.frames)
+    finally:
+        context.close()
+
+
+def test_analyses_that_take_too_long_can_run_longer(studio, tab):
+    page = tab(studio[0])
+    analysed(page)
+    page.evaluate("window.drivewright.set({work: {state: 'over', text: 'motion', seconds: 120, done: 0, total: 0}})")
+    button = page.get_by_test_id("analyse-longer")
+    assert button.inner_text() == "Run it longer" and "motion took more than 120 s and was ended" in page.locator(".sd-line").inner_text()
+    page.get_by_test_id("analyse-longer").click()
+    until(page, f"{STATE}.work.state === 'analysing' || {STATE}.work.state === 'idle'", 10)
+    analysed(page)
+    assert page.get_by_test_id("analyse-longer").is_hidden()

@@ -1,13 +1,20 @@
 """Who may talk to the studio: hosts, origins, the token, counted bytes - for pages and websockets."""
 
+import asyncio
+import time
+
 import loops
 import pytest
 
-from drivewright.studio.access import COOKIE, LARGEST, AccessControl
+from drivewright.studio import access, guesses
+from drivewright.studio.access import COOKIE, FRAMES, LARGEST, AccessControl
+from drivewright.studio.guesses import LONGEST, Guesses
 
 pytestmark = pytest.mark.interface
 
 OWN = (b"host", b"127.0.0.1:8123")
+TOKEN = "a token of enough letters"
+GIVEN = b"token=a%20token+of%20enough%20letters"
 
 
 async def _inner(scope, receive, send):
@@ -23,7 +30,7 @@ async def _inner(scope, receive, send):
     await send({"type": "http.response.body", "body": str(length).encode()})
 
 
-def ask(*headers, token="", path="/", query=b"", kind="http", chunks=(b"",)):
+def ask(*headers, token="", gate=None, path="/", query=b"", kind="http", chunks=(b"",), client=("192.0.2.1", 1), scheme="http"):
     """(first message, body) of the gate's answer."""
     said, waiting = [], [{"type": "http.request", "body": c, "more_body": n + 1 < len(chunks)} for n, c in enumerate(chunks)]
 
@@ -33,8 +40,8 @@ def ask(*headers, token="", path="/", query=b"", kind="http", chunks=(b"",)):
     async def send(message):
         said.append(message)
 
-    scope = {"type": kind, "path": path, "query_string": query, "headers": list(headers)}
-    loops.run(AccessControl(_inner, token)(scope, receive, send))
+    scope = {"type": kind, "path": path, "query_string": query, "headers": list(headers), "client": client, "scheme": scheme}
+    loops.run((gate or AccessControl(_inner, token))(scope, receive, send))
     return said
 
 
@@ -43,18 +50,59 @@ def status(*headers, **more):
     return first.get("status", first["type"])
 
 
-@pytest.mark.parametrize("host", [b"127.0.0.1:8123", b"localhost:8123", b"[::1]:8123", b"LOCALHOST"])
+# -- hosts and origins ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("host", [b"127.0.0.1:8123", b"localhost:8123", b"[::1]:8123", b"LOCALHOST", b"localhost:9000"])
 def test_this_machines_own_names_pass(host):
     assert status((b"host", host)) == 200
 
 
-@pytest.mark.parametrize("host", [b"evil.example:8123", b"127.0.0.1.evil.example", b"", b"192.168.1.7:8123", b"[::1", b"[x]"])
+STRANGE = [
+    b"a@127.0.0.1:8123",
+    b"evil.example@127.0.0.1:8123",
+    b"a:b@localhost",
+    b"127.0.0.1:8123@evil.example",
+    b"127.0.0.1:8123/",
+    b"127.0.0.1:8123#x",
+    b"127.0.0.1:",
+    b"127.0.0.1:x",
+    b"127.0.0.1:70000",
+    b"127.0.0.1:8123, evil.example",
+    b" 127.0.0.1",
+    b"127.0.0.1\t",
+    b"127.0.0.1%00",
+    b"::1",
+    b"[::1",
+    b"[x]",
+    b"loc\xc3\xa4lhost",
+]
+
+
+@pytest.mark.parametrize(
+    "host", [b"evil.example:8123", b"127.0.0.1.evil.example", b"", b"192.168.1.7:8123", b"localhost.", b"2130706433", b"0.0.0.0", *STRANGE]
+)
 def test_another_name_for_this_machine_is_refused(host):
     assert status((b"host", host)) == 421
 
 
+@pytest.mark.parametrize("host", STRANGE)
+def test_what_is_no_host_is_none_with_a_token_either(host):
+    assert status((b"host", host), token=TOKEN, query=GIVEN) == 421
+
+
 def test_no_host_at_all_is_refused():
     assert status() == 421
+
+
+@pytest.mark.parametrize("name", [b"host", b"origin", b"content-length"])
+@pytest.mark.parametrize("kind", ["http", "websocket"])
+def test_what_is_there_twice_is_refused_even_where_both_say_the_same(name, kind):
+    values = {b"host": b"127.0.0.1:8123", b"origin": b"http://127.0.0.1:8123", b"content-length": b"0"}
+    twice = [(name, values[name]), (name.title(), values[name])]
+    others = [OWN] if name != b"host" else []
+    assert status(*others, *twice, kind=kind) == {"http": 400, "websocket": "websocket.close"}[kind]
+    assert status(*others, twice[0], kind=kind) == {"http": 200, "websocket": "websocket.accept"}[kind]
 
 
 @pytest.mark.parametrize("kind", ["http", "websocket"])
@@ -62,40 +110,174 @@ def test_a_page_of_another_site_is_refused(kind):
     good = {"http": 200, "websocket": "websocket.accept"}[kind]
     assert status(OWN, (b"origin", b"http://127.0.0.1:8123"), kind=kind) == good
     assert status((b"host", b"LocalHost:8123"), (b"origin", b"http://localhost:8123"), kind=kind) == good
+    assert status(OWN, (b"origin", b"https://127.0.0.1:8123"), kind=kind) == good  # behind a proxy with TLS
     assert status(OWN, kind=kind) == good  # programs send no origin
-    for origin in (b"http://evil.example", b"http://127.0.0.1:9999", b"null", b"http://127.0.0.1:8123.evil.example", b"http://["):
+    for origin in (
+        b"http://evil.example",
+        b"http://127.0.0.1:9999",
+        b"http://127.0.0.1",
+        b"null",
+        b"",
+        b"http://127.0.0.1:8123.evil.example",
+        b"http://evil.example@127.0.0.1:8123",
+        b"http://127.0.0.1:8123/",
+        b"http://127.0.0.1:8123 http://evil.example",
+        b"file://127.0.0.1:8123",
+        b"http://[",
+    ):
         assert status(OWN, (b"origin", origin), kind=kind) == {"http": 403, "websocket": "websocket.close"}[kind]
 
 
+def test_a_page_of_another_site_can_neither_frame_the_studio_nor_take_parts_of_it():
+    for place in (b"script", b"image", b"iframe", b"frame", b"object", b"empty", b"websocket"):
+        assert status(OWN, (b"sec-fetch-site", b"cross-site"), (b"sec-fetch-dest", place)) == 403
+    assert status(OWN, (b"sec-fetch-site", b"cross-site"), (b"sec-fetch-dest", b"document")) == 200  # a link in a letter
+    assert status(OWN, (b"sec-fetch-site", b"same-origin"), (b"sec-fetch-dest", b"script")) == 200
+
+
+def test_a_websocket_learns_why():
+    assert ask(OWN, (b"origin", b"http://evil.example"), kind="websocket") == [{"type": "websocket.close", "code": 4403}]
+
+
+def test_nothing_is_served_beside_what_the_page_fetches():
+    for path in ("/", "/healthz", "/favicon.ico", "/web/x.js", "/download/x", "/_nicegui/3/x", "/_nicegui_ws/socket.io/"):
+        assert status(OWN, path=path) == 200
+    for path in ("/docs", "/_nicegui", "/healthz/", "//", "/web", ""):
+        assert status(OWN, path=path) == 404
+
+
+# -- the token -----------------------------------------------------------------------------------------------------------------
+
+OTHER = (b"host", b"workstation:8123")
+
+
+def cookie_of(welcome):
+    return dict(welcome["headers"])[b"set-cookie"].decode()
+
+
 def test_a_token_opens_once_by_address_and_then_by_cookie():
-    other = (b"host", b"workstation:8123")
-    assert status(other, token="abc") == 401
-    assert status(other, token="abc", query=b"token=abd") == 401
-    welcome = ask(other, token="abc", query=b"token=abc")[0]
+    gate = AccessControl(_inner, TOKEN)
+    assert status(OTHER, gate=gate) == 401
+    assert status(OTHER, gate=gate, query=b"token=abd") == 401
+    welcome = ask(OTHER, gate=gate, query=GIVEN, client=("192.0.2.2", 1))[0]
     assert welcome["status"] == 303 and dict(welcome["headers"])[b"location"] == b"/"
-    cookie = dict(welcome["headers"])[b"set-cookie"].decode()
-    assert "HttpOnly" in cookie and "SameSite=Strict" in cookie
-    kept = (b"cookie", cookie.partition(";")[0].encode())
-    assert status(other, kept, token="abc") == 200
-    assert status(other, kept, token="abc", query=b"token=abc") == 200  # no second welcome
-    assert status(other, kept, token="abc", kind="websocket") == "websocket.accept"
-    assert status(other, token="abc", kind="websocket") == "websocket.close"
-    assert status(other, token="abc", kind="websocket", query=b"token=abc") == "websocket.close"
-    assert status(other, (b"cookie", f"{COOKIE}=abd".encode()), token="abc") == 401
-    assert status(other, (b"cookie", b"\x00;;=;"), token="abc") == 401
+    kept = (b"cookie", cookie_of(welcome).partition(";")[0].encode())
+    assert TOKEN not in cookie_of(welcome)
+    assert status(OTHER, kept, gate=gate) == 200
+    assert status(OTHER, kept, gate=gate, query=GIVEN) == 200  # no second welcome
+    assert status(OTHER, kept, gate=gate, kind="websocket") == "websocket.accept"
+    for shown in ((), ((b"cookie", f"{COOKIE}={TOKEN}".encode()),), ((b"cookie", kept[1][:-1]),), ((b"cookie", b"\x00;;=;"),)):
+        assert status(OTHER, *shown, gate=gate) == 401
+        assert status(OTHER, *shown, gate=gate, kind="websocket") == "websocket.close"
+    assert status(OTHER, gate=gate, kind="websocket", query=GIVEN) == "websocket.close"
+    assert status(OTHER, kept, token=TOKEN) == 401  # the server has been started again
+
+
+@pytest.mark.parametrize(
+    "value", ['a="' + "\\" * 64_000, f"{COOKIE}=" + '"\\"' * 16_000, "a=1;" * 16_000, ";" * 64_000, "= " * 32_000, f"{COOKIE}=x;" * 3_000]
+)
+def test_no_cookie_keeps_the_loop(value):
+    """Python's SimpleCookie takes ten seconds for the first of these."""
+
+    def seconds():
+        since = time.perf_counter()
+        assert status(OTHER, (b"cookie", f'{value}"'.encode()), token=TOKEN) == 401
+        return time.perf_counter() - since
+
+    assert min(seconds() for _ in range(5)) < 0.05
+
+
+def test_the_cookie_stays_with_the_browser_and_goes_over_tls_only_where_there_is_tls():
+    plain, folded = (cookie_of(ask(OTHER, token=TOKEN, query=GIVEN, scheme=scheme)[0]).split("; ") for scheme in ("http", "https"))
+    assert set(plain[1:]) == {"HttpOnly", "SameSite=Strict", "Path=/"}
+    assert set(folded[1:]) == {"HttpOnly", "SameSite=Strict", "Path=/", "Secure"}
 
 
 def test_health_needs_no_token():
-    assert status((b"host", b"workstation"), token="abc", path="/healthz") == 200
-    assert status((b"host", b"workstation"), token="abc", path="/healthz/other") == 401
+    assert status((b"host", b"workstation"), token=TOKEN, path="/healthz") == 200
+    assert status((b"host", b"workstation"), token=TOKEN, path="/healthz/other") == 401
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    """A time that passes as the test says, and while somebody sleeps."""
+    now = [1000.0]
+
+    async def sleep(seconds):
+        now[0] += seconds
+
+    monkeypatch.setattr(guesses.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(access.asyncio, "sleep", sleep)
+    return now
+
+
+def test_wrong_tokens_cost_more_and_more_time_and_less_again_later(clock):
+    known = Guesses()
+    waits = []
+    for _ in range(9):
+        waits.append(known.next("a"))
+        clock[0] += waits[-1] or 0.0
+    assert waits[0] == 0 and waits[1] == pytest.approx(0.25) and waits[3] == pytest.approx(1, rel=0.1)
+    assert all(later > before for before, later in zip(waits, waits[1:], strict=False)) and waits[-1] <= LONGEST
+    assert known.next("b") == 0  # of somebody else
+    clock[0] += 3600
+    assert known.next("a") == 0
+
+
+def test_many_connections_guess_no_faster_than_one(clock):
+    known = Guesses()
+    heard = [wait for wait in (known.next("a") for _ in range(10_000)) if wait is not None]
+    assert len(heard) < 10 and len(set(heard)) == len(heard)
+    tries = 0
+    for _ in range(3600):
+        clock[0] += 1
+        tries += sum(known.next("a") is not None for _ in range(20))
+    assert tries < 250  # of an hour
+
+
+def test_the_right_token_ends_the_waiting(clock):
+    known = Guesses()
+    for _ in range(5):
+        known.next("a")
+    known.right("a")
+    assert known.next("a") == 0
+
+
+def test_what_is_remembered_of_guesses_is_bounded(clock, monkeypatch):
+    monkeypatch.setattr(guesses, "MOST", 100)
+    known = Guesses()
+    for number in range(1000):
+        known.next(str(number))
+    assert len(known._by) == 100
+
+
+def test_guesses_are_slowed_down_at_the_door_and_a_cookie_is_not(clock):
+    gate = AccessControl(_inner, TOKEN)
+    kept = (b"cookie", cookie_of(ask(OTHER, gate=gate, query=GIVEN)[0]).partition(";")[0].encode())
+    since = clock[0]
+    answers = [status(OTHER, gate=gate, query=b"token=%d" % number) for number in range(6)]
+    assert answers == [401] * 6 and clock[0] - since > 5
+    before = clock[0]
+    assert status(OTHER, kept, gate=gate) == 200 and clock[0] == before
+    assert status(OTHER, gate=gate, client=("192.0.2.9", 1), query=GIVEN) == 303 and clock[0] == before
+    network = [status(OTHER, gate=gate, client=(f"2001:db8::{n}", 1), query=b"token=1") for n in range(20)]
+    assert set(network) <= {401, 429} and clock[0] > before + 60  # one network of IPv6 is one guesser
+    status(OTHER, gate=gate, client=("x" * 60_000, 1), query=b"token=1")  # as a header of a proxy may say
+    assert max(map(len, gate._guesses._by)) < 100
+
+
+# -- how much ------------------------------------------------------------------------------------------------------------------
+
+CHUNKED = (b"transfer-encoding", b"chunked")
 
 
 def test_bodies_are_counted_whatever_their_length_header_says():
-    assert ask(OWN, chunks=[b"x" * LARGEST])[1]["body"] == str(LARGEST).encode()
-    assert status(OWN, chunks=[b"x" * (LARGEST // 2)] * 3) == 413
+    assert ask(OWN, CHUNKED, chunks=[b"x" * LARGEST])[1]["body"] == str(LARGEST).encode()
+    assert status(OWN, CHUNKED, chunks=[b"x" * (LARGEST // 2)] * 3) == 413
     assert status(OWN, (b"content-length", b"10"), chunks=[b"x" * LARGEST, b"x"]) == 413
     assert status(OWN, (b"content-length", str(LARGEST + 1).encode())) == 413
-    assert status(OWN, (b"content-length", b"-1")) == 413
+    for odd in (b"-1", b"+1", b"1e3", b" ", b"\xb2", b"9" * 5000):
+        assert status(OWN, (b"content-length", odd)) == 413
     assert status(OWN, (b"content-length", str(LARGEST).encode())) == 200
 
 
@@ -114,9 +296,70 @@ def test_an_answer_that_has_begun_is_broken_off():
         said.append(message["type"])
 
     with pytest.raises(Exception, match="^$"):
-        loops.run(AccessControl(begins)({"type": "http", "path": "/", "query_string": b"", "headers": [OWN]}, receive, send))
+        loops.run(AccessControl(begins)({"type": "http", "path": "/", "query_string": b"", "headers": [OWN, CHUNKED]}, receive, send))
     assert said == ["http.response.start"]
 
 
-def test_a_websocket_learns_why():
-    assert ask(OWN, (b"origin", b"http://evil.example"), kind="websocket") == [{"type": "websocket.close", "code": 4403}]
+def test_a_body_that_does_not_arrive_is_waited_for_a_while_only(monkeypatch):
+    monkeypatch.setattr(access, "BODY_SECONDS", 0.3)
+    said = []
+
+    async def receive():
+        await asyncio.sleep(0.1)  # one byte after another
+        return {"type": "http.request", "body": b"x", "more_body": True}
+
+    async def send(message):
+        said.append(message)
+
+    since = time.monotonic()
+    scope = {"type": "http", "path": "/", "query_string": b"", "headers": [OWN, (b"content-length", b"50")]}
+    loops.run(AccessControl(_inner)(scope, receive, send))
+    assert said[0]["status"] == 408 and time.monotonic() - since < 2
+
+
+def heard(*texts, **more):
+    """(messages that reach the application, seconds) of a websocket that sends texts at once."""
+    waiting, got = [*texts], []
+
+    async def receive():
+        if not waiting:
+            return {"type": "websocket.disconnect", "code": 1000}
+        text = waiting.pop(0)
+        return {"type": "websocket.receive", **({"bytes": text} if isinstance(text, bytes) else {"text": text})}
+
+    async def inner(scope, receive, send):
+        while True:
+            message = await receive()
+            got.append(message.get("text", message["type"]))
+            if message["type"] == "websocket.disconnect":
+                return
+
+    since = time.monotonic()
+    loops.run(AccessControl(inner)({"type": "websocket", "path": "/_nicegui_ws/socket.io/", "headers": [OWN]}, receive, None))
+    return got, time.monotonic() - since
+
+
+@pytest.mark.parametrize("text", [b"4", b"", "451-[]", '461-["x"]', "b4AAAA"])
+def test_a_websocket_sends_no_binary_data(text):
+    assert heard("2", text, "3")[0] == ["2", "websocket.disconnect"]
+
+
+def test_a_long_message_is_one_long_text():
+    text = '42["event",{"args":["' + 'a = 1, [b], \\"c\\", ' * 50_000 + '"]}]'
+    assert heard(text)[0] == [text, "websocket.disconnect"]
+    for many in ('42["event",[' + "[]," * 300_000 + "0]]", '42["event",[' + '"",' * 300_000 + "0]]", '42["event","' + "x" * 100_000):
+        assert heard(many)[0] == ["websocket.disconnect"]
+
+
+@pytest.mark.parametrize("begin", ['42["event",', '42["event",1'])
+@pytest.mark.parametrize("part", ['""', '"",', '\\"', '"\\', '\\\\"', '"\n', '"\\\n', "[", "\\u0022"])
+def test_a_long_message_is_looked_at_in_no_time(begin, part):
+    """Texts in JSON that never end were once looked for from each of their quotation marks on."""
+    text = begin + part * (2_000_000 // len(part))
+    assert min(heard(text)[1] for _ in range(5)) < 0.05
+
+
+def test_a_flood_of_messages_waits_in_its_own_connection():
+    texts = ["2"] * (FRAMES * 2 + 10)
+    got, seconds = heard(*texts)
+    assert len(got) == len(texts) + 1 and 1.5 < seconds < 10

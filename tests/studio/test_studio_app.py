@@ -2,27 +2,24 @@
 
 import http.client
 import json
-import os
 import re
 import signal
 import socket
-import subprocess
 import sys
 import time
-from contextlib import closing, contextmanager, suppress
+from contextlib import closing, suppress
 from pathlib import Path
-from types import SimpleNamespace
-from urllib.parse import urlsplit
 
 import pytest
 from places import EXAMPLES
+from studio_server import SPEC, below, started, waited
 
 from drivewright.cli import main
 from drivewright.studio.access import COOKIE, LARGEST
 
 pytestmark = [pytest.mark.interface, pytest.mark.needs_studio]
 
-SPEC = EXAMPLES / "four_bar.toml"
+TOKEN = "open-sesame-and-more"
 COMMAND = (sys.executable, "-m", "drivewright")
 # The same command, with a file that waits to be fetched.
 OFFERING = """
@@ -40,48 +37,11 @@ sys.exit(cli.main())
 """
 
 
-@contextmanager
-def started(*launches):
-    """The servers of [(folder, command, options)], all at once, as soon as they have said their addresses; `said()` is all they say."""
-    servers = [_launched(*launch) for launch in launches]
-    try:
-        for server in servers:
-            server.address = urlsplit(_waited(lambda server=server: re.search(r"http://\S+", server.said()), server.process)[0])
-            server.port = server.address.port
-        yield servers
-    finally:
-        for server in servers:
-            server.process.terminate()
-        for server in servers:
-            try:
-                server.process.wait(10)
-            except subprocess.TimeoutExpired:
-                server.process.kill()
-                server.process.wait()
-
-
-def _launched(folder, command, *options):
-    text = folder / "stderr.txt"
-    environment = {**os.environ, "TMPDIR": str(folder), "PYTHONIOENCODING": "utf-8"}
-    with text.open("wb") as stderr:
-        process = subprocess.Popen([*command, "studio", str(SPEC), "--port", "0", "--no-browser", *options], stderr=stderr, env=environment)
-    return SimpleNamespace(folder=folder, process=process, said=lambda: text.read_text(encoding="utf-8"))
-
-
-def _waited(condition, process, seconds=60):
-    deadline = time.monotonic() + seconds
-    while not (found := condition()):
-        assert process.poll() is None and time.monotonic() < deadline
-        time.sleep(0.02)
-    return found
-
-
 @pytest.fixture(scope="module")
 def servers(tmp_path_factory):
     offering = (sys.executable, "-c", OFFERING)
     with started(
-        (tmp_path_factory.mktemp("here"), COMMAND),
-        (tmp_path_factory.mktemp("elsewhere"), offering, "--host", "0.0.0.0", "--token", "open-sesame"),
+        (tmp_path_factory.mktemp("here"), COMMAND), (tmp_path_factory.mktemp("elsewhere"), offering, "--host", "0.0.0.0", "--token", TOKEN)
     ) as both:
         yield both
 
@@ -104,6 +64,15 @@ def ask(server, path="/", **headers):
         return answer.status, answer.headers, b"" if answer.status == 101 else answer.read()
 
 
+def entered(server):
+    """The cookie that the token is worth."""
+    status, headers, _ = ask(server, f"/?token={TOKEN}")
+    assert (status, headers["Location"]) == (303, "/")
+    cookie, *flags = headers["Set-Cookie"].split("; ")
+    assert cookie.startswith(f"{COOKIE}-{server.port}=") and set(flags) == {"HttpOnly", "SameSite=Strict", "Path=/"}
+    return cookie
+
+
 # -- what it serves ------------------------------------------------------------------------------------------------------------
 
 
@@ -119,6 +88,28 @@ def test_the_page_names_our_modules_only(here):
     text = body.decode()
     assert "<title>Drivewright studio</title>" in text and '<link rel="stylesheet" href="/web/studio.css">' in text
     assert not re.search(r"""(?:src|href)=["'](?:https?:)?//""", text)  # nothing from outside
+
+
+def test_the_page_runs_its_own_scripts_only_and_nowhere_else(here):
+    nonces = set()
+    for _ in range(2):
+        _, headers, body = ask(here)
+        policy = dict(part.strip().partition(" ")[::2] for part in headers["Content-Security-Policy"].split(";"))
+        assert policy["default-src"] == policy["frame-ancestors"] == policy["base-uri"] == policy["form-action"] == "'none'"
+        assert "'unsafe-inline'" not in headers["Content-Security-Policy"] and "http" not in headers["Content-Security-Policy"]
+        (nonce,) = re.findall(r"'nonce-([\w-]{20,})'", policy["script-src"])
+        text = body.decode()
+        assert re.findall(rf"<(?:script|style)\b(?! nonce=\"{nonce}\")", text) == []
+        assert not re.search(r"<[^>]* (?:style|on\w+)=", re.sub(r"(?s)<(script|style).*?</\1>", "", text))
+        nonces.add(nonce)
+    assert len(nonces) == 2  # a new one each time
+    for path in ("/web/main.js", "/healthz", "/nothing"):
+        headers = ask(here, path)[1]
+        assert (
+            headers["Content-Security-Policy"].startswith("default-src 'none'")
+            and "frame-ancestors 'none'" in headers["Content-Security-Policy"]
+        )
+        assert headers["X-Frame-Options"] == "DENY" and headers["Cross-Origin-Resource-Policy"] == "same-origin"
 
 
 @pytest.mark.parametrize(
@@ -169,7 +160,7 @@ def test_there_is_nothing_else(here, path):
 
 def test_a_file_is_fetched_once_and_is_only_saved(elsewhere):
     (path,) = re.findall(r"^/download/\S+$", elsewhere.said(), re.MULTILINE)
-    cookie = f"{COOKIE}-{elsewhere.port}=open-sesame"
+    cookie = entered(elsewhere)
     assert ask(elsewhere, path)[0] == 401  # which takes nothing away
     status, headers, body = ask(elsewhere, path, Cookie=cookie)
     assert (status, body) == (200, bytes([0, 255]))
@@ -186,8 +177,28 @@ SOCKET_PATH = "/_nicegui_ws/socket.io/?EIO=4&transport=websocket"
 
 
 def test_another_name_for_this_machine_is_refused(here):
-    assert ask(here, Host="evil.example")[0] == 421
+    for host in ("evil.example", f"a@127.0.0.1:{here.port}", f"evil.example@127.0.0.1:{here.port}", f"127.0.0.1:{here.port}@evil.example"):
+        assert ask(here, Host=host)[0] == 421
+        assert ask(here, SOCKET_PATH, **SOCKET, Host=host)[0] == 403  # which is how a server refuses a websocket
     assert ask(here, Host=f"localhost:{here.port}")[0] == 200
+
+
+@pytest.mark.parametrize("path", ["/", SOCKET_PATH])
+@pytest.mark.parametrize("name", ["Host", "Origin"])
+def test_a_header_that_names_the_place_twice_is_refused(here, path, name):
+    value = f"127.0.0.1:{here.port}" if name == "Host" else f"http://127.0.0.1:{here.port}"
+    head = [f"{name}: {value}"] * 2 + ([f"Host: 127.0.0.1:{here.port}"] if name == "Origin" else [])
+    head += [f"{key}: {text}" for key, text in SOCKET.items()] if path == SOCKET_PATH else []
+    assert raw(here, f"GET {path} HTTP/1.1\r\n" + "\r\n".join(head) + "\r\n\r\n").split()[1] in (
+        [b"400"] if path == "/" else [b"400", b"403"]
+    )
+
+
+def raw(server, text, wait=5):
+    """What the server says to some bytes, until it closes the connection or says nothing more."""
+    with closing(socket.create_connection(("127.0.0.1", server.port), timeout=wait)) as connection:
+        connection.sendall(text if isinstance(text, bytes) else text.encode())
+        return connection.recv(65536)
 
 
 def test_a_page_of_another_site_is_refused(here):
@@ -225,15 +236,14 @@ def _posted(server, path, raw, headers):
 
 
 def test_others_need_the_token_of_the_address(elsewhere):
-    assert elsewhere.address.query == "token=open-sesame"
+    assert elsewhere.address.query == f"token={TOKEN}"
     assert elsewhere.address.hostname == socket.gethostname().lower()  # 0.0.0.0 is no address to go to
     assert ask(elsewhere, "/healthz")[0] == 200
     status, _, body = ask(elsewhere)
     assert status == 401 and b"open the address that the command printed" in body
-    assert ask(elsewhere, "/?token=open-sesam")[0] == 401
-    status, headers, _ = ask(elsewhere, "/?token=open-sesame")
-    assert (status, headers["Location"]) == (303, "/")
-    cookie = headers["Set-Cookie"].partition(";")[0]
+    assert ask(elsewhere, f"/?token={TOKEN[:-1]}")[0] == 401
+    assert ask(elsewhere, Cookie=f"{COOKIE}-{elsewhere.port}={TOKEN}")[0] == 401  # the cookie is not the token
+    cookie = entered(elsewhere)
     assert ask(elsewhere, Cookie=cookie)[0] == 200
     assert ask(elsewhere, Cookie=cookie, Host="workstation.example")[0] == 200
     assert ask(elsewhere, SOCKET_PATH, **SOCKET)[0] == 403
@@ -257,6 +267,13 @@ def test_a_port_that_is_taken(here, capsys):
         f"studio: 127.0.0.1, port {here.port}: cannot listen there (taken, or not allowed); "
         "choose another --port, or --host of this machine"
     ) in re.sub(r"\s+", " ", said)
+
+
+@pytest.mark.parametrize("token", ["x", "fifteen letters", "sixteen letters\N{LATIN SMALL LETTER E WITH ACUTE}", "sixteen letters\n"])
+@pytest.mark.parametrize("host", ["127.0.0.1", "0.0.0.0"])
+def test_a_token_that_could_be_guessed(capsys, token, host):
+    code, said = refused(capsys, "--host", host, "--port", "0", "--token", token)
+    assert code == 2 and f"--token has {len(token)} characters; it wants at least 16" in re.sub(r"\s+", " ", said)
 
 
 @pytest.mark.parametrize("options", [("--host", "192.0.2.1"), ("--port", "70000"), ("--port", "-1"), ("--host", "no.such.host.invalid")])
@@ -283,30 +300,13 @@ def test_a_spec_with_an_error_in_the_words_of_the_command_line(capsys, tmp_path)
 # -- the end -------------------------------------------------------------------------------------------------------------------
 
 
-def below(pid):
-    """Ids of all processes that a process has started, and theirs."""
-    parents = {}
-    for stat in Path("/proc").glob("[0-9]*/stat"):
-        try:
-            fields = stat.read_text().rpartition(")")[2].split()
-        except OSError:  # gone meanwhile
-            continue
-        if fields[0] != "Z":
-            parents[int(stat.parent.name)] = int(fields[1])
-    found, fresh = set(), {pid}
-    while fresh:
-        fresh = {child for child, parent in parents.items() if parent in fresh} - found
-        found |= fresh
-    return found
-
-
 @pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="counts processes in /proc")
 def test_a_signal_ends_it_and_leaves_nothing_behind(tmp_path_factory):
     signals = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
     with started(*((tmp_path_factory.mktemp("end"), COMMAND) for _ in signals)) as all_of_them:
         for server, number in zip(all_of_them, signals, strict=True):
-            children = _waited(lambda server=server: len(found := below(server.process.pid)) > 1 and found, server.process)
+            children = waited(lambda server=server: len(found := below(server.process.pid)) > 1 and found, server.process)
             server.process.send_signal(number)
             code = server.process.wait(8)
             _ended(children)

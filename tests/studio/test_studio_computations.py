@@ -8,7 +8,7 @@ import loops
 import pytest
 
 from drivewright.errors import DoesNotAssemble, GeometryCheckFailed, SpecError
-from drivewright.execution.workers import Cancellation, WorkerDied, WorkerFault
+from drivewright.execution.workers import CallTimedOut, Cancellation, WorkerDied, WorkerFault
 from drivewright.registry import Analysis
 from drivewright.studio import computations, preview
 from drivewright.studio.computations import TabComputations
@@ -40,13 +40,19 @@ class Bench:
 
     def __init__(self):
         self.said, self.calls, self.offered, self.busy = [], [], {}, 0
-        self.quick, self.heavy = (SimpleNamespace(worker=lambda name=name: self._worker(name)) for name in ("quick", "heavy"))
+        self.quick, self.heavy, self.jobs = (self._pool(name) for name in ("quick", "heavy", "jobs"))
         self.computing = TabComputations(self.said.append, lambda error: f"in words: {error}", self)
 
+    def _pool(self, name):
+        return SimpleNamespace(worker=lambda owner: self._worker(name, owner), crowded=False)
+
     @asynccontextmanager
-    async def _worker(self, name):
-        async def call(function, *arguments, on_message=lambda message: None):
+    async def _worker(self, name, owner):
+        assert owner is self.computing  # every tab has its share
+
+        async def call(function, *arguments, on_message=lambda message: None, limit=None):
             made = Call(name, function, arguments, on_message)
+            made.limit = limit
             self.calls.append(made)
             try:
                 return await made.end
@@ -266,6 +272,65 @@ async def test_analyses_tell_how_far_they_are_and_what_they_took(bench):
         {"what": "result", "gen": 1, "full": True, "result": found("motion", "forces")},
         {"what": "work", "state": "idle", "text": ""},
     ]
+
+
+async def too_slow(bench, *begun):
+    """Analyses that take too long after some of them have begun."""
+    for done, name in enumerate(begun):
+        bench.calls[-1].send((done, 2, name))
+    await bench.calls[-1].fail(CallTimedOut("this took more than 120 s and was ended"))
+
+
+@story
+async def test_an_analysis_that_takes_too_long_is_named_and_the_others_keep_their_answers(bench):
+    await bench.look(1)
+    await bench.calls[0].answer(None)
+    assert bench.calls[1].limit == computations.ANALYSIS
+    await too_slow(bench, "motion", "forces")
+    assert bench.calls[2].arguments[1] == ["motion"] and bench.calls[2].limit == computations.ANALYSIS
+    await bench.calls[2].answer((found("motion"), {"motion": 0.1}))
+    assert bench.said[-2:] == [
+        {"what": "result", "gen": 1, "full": False, "result": found("motion")},
+        {"what": "work", "state": "over", "text": "forces", "seconds": computations.ANALYSIS},
+    ]
+
+
+@story
+async def test_a_person_lets_it_run_longer_and_the_next_design_does_not(bench):
+    await bench.look(1)
+    await bench.calls[0].answer(None)
+    await too_slow(bench, "motion")
+    assert bench.said[-1]["state"] == "over" and len(bench.calls) == 2  # nothing was ready
+    bench.computing.analyse(longer=True)
+    await settled()
+    await bench.calls[2].answer(None)
+    assert bench.calls[3].function == "analyse" and bench.calls[3].limit == 10 * computations.ANALYSIS
+    await bench.look(2)
+    await bench.calls[-1].answer(None)
+    assert bench.calls[-1].function == "analyse" and bench.calls[-1].limit == computations.ANALYSIS
+
+
+@story
+async def test_what_is_too_slow_even_without_its_last_is_told_once(bench):
+    await bench.look(1)
+    await bench.calls[0].answer(None)
+    await too_slow(bench, "motion", "forces")
+    await too_slow(bench, "motion")
+    assert [message["state"] for message in bench.told("work")].count("over") == 1 and not bench.told("result")
+
+
+@story
+async def test_while_others_wait_a_drawing_comes_alone(bench):
+    await bench.look(1)
+    await bench.calls[0].answer(None)
+    await bench.calls[1].answer((found("motion", "forces"), {"motion": 0.001, "forces": 0.002}))
+    bench.quick.crowded = True
+    await bench.look(2)
+    assert bench.calls[-1].function == "draw" and list(bench.calls[-1].arguments[1]) == []
+    bench.quick.crowded = False
+    await bench.look(3)
+    await bench.calls[-1].answer(None)
+    assert list(bench.calls[-1].arguments[1]) == ["motion", "forces"]
 
 
 def test_a_design_is_analysed_when_it_has_rested_only(bench, monkeypatch):
@@ -500,7 +565,7 @@ def job(state, gen=4, name="study", **more):
 async def test_a_job_tells_its_way_with_the_generation_it_was_asked_for(bench):
     call = await begun(bench, points=3)
     await bench.look(5)
-    assert call.pool == "heavy" and call.arguments[0] == "study" and call.arguments[1].gen == 4 and call.arguments[2] == {"points": 3}
+    assert call.pool == "jobs" and call.arguments[0] == "study" and call.arguments[1].gen == 4 and call.arguments[2] == {"points": 3}
     call.send((1, 3, "first", None))
     call.send((2, 3, "second", {"rows": 2}))
     await call.answer({"rows": 3})

@@ -1,6 +1,8 @@
 """The document of a browser tab: what a change does, what refuses it, and that nothing is ever lost."""
 
+import pickle
 import random
+import re
 import tomllib
 from copy import deepcopy
 from pathlib import Path
@@ -481,3 +483,56 @@ def test_a_copy_shares_nothing_with_its_model():
     copy, plain = with_unused_name(model, [model]), with_unused_name(["1 mm"], [])
     copy["at"][0] = "2 mm"
     assert copy["name"] == "arm2" and plain == ["1 mm"] and model == {"name": "arm", "at": ["1 mm"]}
+
+
+# -- in two processes ----------------------------------------------------------------------------------------------------------
+
+
+def test_changes_made_in_another_process_are_the_same_changes():
+    """The same hundred steps, on a document and by way of pickled copies with one step of its past: equal after each."""
+    straight, far, random_ = example("four_bar"), example("four_bar"), random.Random(5)
+    speeds = [
+        ("set", {"key": "drive.speed", "text": f"{speed} rpm", "gesture": gesture}) for speed in (90, 91, 92) for gesture in ("", "a")
+    ]
+    others = [("undo", {}), ("undo", {}), ("redo", {}), ("unset", {"key": "drive.speed"}), ("lock", {"key": "drive.speed", "on": True})]
+    others += [("lock", {"key": "drive.speed", "on": False}), ("set", {"key": "drive.speed", "text": "3 kg"}), ("", {})]
+    for _ in range(100):
+        change, arguments = random_.choice(speeds + others)
+        copy = pickle.loads(pickle.dumps(far.present()))
+        try:
+            if change:
+                getattr(copy, change)(**arguments)
+                far.follow(change, copy)
+        except SpecError as error:
+            with pytest.raises(SpecError, match=re.escape(str(error))):
+                getattr(straight, change)(**arguments)
+        else:
+            if change:
+                getattr(straight, change)(**arguments)
+        for document in (straight, far):
+            document.seen = [
+                document.design.toml(),
+                document.locks,
+                document.changed,
+                *([design.toml() for design in designs] for designs in (document._past, document._future)),
+            ]
+        assert straight.seen == far.seen
+
+
+def test_a_copy_for_another_process_does_not_grow_with_the_past():
+    document = example("four_bar")
+    document.set("drive.speed", "91 rpm")
+    first = len(pickle.dumps(document.present()))
+    for speed in range(100, 150):
+        document.set("drive.speed", f"{speed} rpm")
+    assert len(pickle.dumps(document.present())) < 1.5 * first
+
+
+def test_the_past_of_a_large_design_is_shorter(monkeypatch):
+    document = example("four_bar")
+    monkeypatch.setattr("drivewright.studio.document.HISTORY", 5 * len(document.design.toml()) + 100)
+    for speed in range(100, 120):
+        document.set("drive.speed", f"{speed} rpm")
+    assert len(document._past) == 5
+    document.undo()
+    assert at(document, "drive.speed") == "118 rpm"

@@ -175,7 +175,7 @@ def test_every_analysis_has_its_own_seconds(four_bar, monkeypatch):
     now = iter(range(1000))
     monkeypatch.setattr(preview, "time", SimpleNamespace(perf_counter=lambda: next(now)))
 
-    def run(spec, progress, model):
+    def run(spec, only, progress, model):
         for n, name in enumerate(("a", "b", "c")):
             progress(n, 3, name)
             for _ in range(10 * n):
@@ -242,7 +242,7 @@ def test_what_cannot_be_shown_is_remarked_and_still_computed(four_bar, without_a
 
 
 def test_a_whole_result_without_a_scene_has_no_plots(four_bar, without_a_scene, monkeypatch):
-    monkeypatch.setattr(preview.runner, "run", lambda spec, progress, model: "result")
+    monkeypatch.setattr(preview.runner, "run", lambda spec, only, progress, model: "result")
     monkeypatch.setattr(preview, "page_result", lambda result, scene, analyses: scene)
     assert preview.analyse(None, four_bar) == (None, {})
     without_a_scene.scene = None

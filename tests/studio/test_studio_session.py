@@ -1,8 +1,13 @@
 """One tab of the studio without a browser: what it is told, and what it lets nobody do."""
 
+import asyncio
 import json
+import pickle
 import shutil
+from contextlib import asynccontextmanager
+from types import SimpleNamespace
 
+import loops
 import pytest
 from places import EXAMPLES
 
@@ -24,6 +29,22 @@ class Quiet:
         return lambda *arguments: self.asked.append((name, *arguments))
 
 
+class Here:
+    """Stands for the processes that read what a page sends: everything goes there and back pickled."""
+
+    @asynccontextmanager
+    async def worker(self, owner):
+        async def call(function, *arguments, limit):
+            answer = function(None, *pickle.loads(pickle.dumps(arguments)))
+            await asyncio.sleep(0)
+            return pickle.loads(pickle.dumps(answer))
+
+        yield SimpleNamespace(call=call)
+
+    def close(self):
+        pass
+
+
 class Tab:
     """A session and all that it has said."""
 
@@ -34,9 +55,20 @@ class Tab:
 
     def say(self, what, **more):
         """What the session answers to one message."""
+        return self.send({"what": what, **more})
+
+    def send(self, *messages):
+        """What the session answers to messages, whatever they are, that come together."""
+
+        async def sending():
+            for message in messages:
+                self.session.receive(message)
+            if work := self.session._inbox.work:
+                await work
+
         self.heard.clear()
-        self.session.receive({"what": what, **more})
-        json.dumps(self.heard, allow_nan=False)  # everything can be sent
+        loops.run(sending())
+        json.dumps(self.heard, allow_nan=False).encode()  # everything can be sent
         return list(self.heard)
 
     @property
@@ -48,6 +80,7 @@ class Tab:
 def resources(tmp_path, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     shop = ServerResources()
+    shop.reading = Here()
     yield shop
     shop.close()
 
@@ -229,6 +262,21 @@ def test_too_much_is_refused(tab):
     assert "1,000,000 characters" in refused["message"]
 
 
+def test_too_many_messages_at_once_are_refused_in_one_line_each(tab):
+    said = tab.send(*({"what": "unset", "key": "drive.speed"} for _ in range(120)))
+    refused = [message for message in only(said, "refused") if "more than the studio can answer" in message["message"]]
+    assert len(refused) == 20 and len(only(said, "refused")) + len(only(said, "values")) == 120
+
+
+def test_steps_of_one_drag_that_wait_are_one(tab):
+    steps = [{"what": "set", "key": "drive.speed", "text": f"{speed} rpm", "gesture": "a"} for speed in range(100, 150)]
+    said = tab.send(*steps, {"what": "set", "key": "drive.speed", "text": "7 rpm", "gesture": "b"})
+    assert [message["fields"]["drive.speed"]["text"] for message in only(said, "values")] == ["149 rpm", "7 rpm"]
+    assert tab.say("undo")[0]["fields"]["drive.speed"]["text"] == "149 rpm"
+    said = tab.send(*({"what": "set", "key": "drive.speed", "text": f"{speed} rpm"} for speed in (1, 2, 3)))  # typed: each counts
+    assert len(only(said, "values")) == 3
+
+
 # -- odd pages -----------------------------------------------------------------------------------------------------------------
 
 
@@ -238,9 +286,7 @@ ODD = ({}, [], None, "set", {"what": ["set"]}, {"what": None}, {"what": "close"}
 @pytest.mark.parametrize("message", ODD)
 def test_what_is_no_request_is_nothing(tab, message):
     before = tab.toml
-    tab.heard.clear()
-    tab.session.receive(message)
-    assert tab.heard == [] and tab.toml == before
+    assert tab.send(message) == [] and tab.toml == before
 
 
 @pytest.mark.parametrize(

@@ -107,7 +107,10 @@ export function watchVisible(element, tell) {
 /** element("button", {class: "x", title: "y"}, "text", child ...); text is set as text, never as markup. */
 export function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) if (value !== false) made.setAttribute(name, value);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name === "style") made.style.cssText = value;  // the attribute itself is what a content security policy refuses
+    else if (value !== false) made.setAttribute(name, value);
+  }
   made.append(...children);
   return made;
 }

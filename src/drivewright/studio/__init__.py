@@ -3,15 +3,22 @@
 access         who may talk to the studio, and how much: hosts, origins, a token, counted bytes
 app            the studio's server: NiceGUI carries the messages, our own modules draw the page
 computations   what is computed for one tab
+connections    connections of the server: as many as it can hold, and none that keeps it waiting for a request
 design         a design on its way through the studio
 document       the design of one browser tab with its past and future, its locks, and every way to change it
+editing        every change of a document, made in a worker process
 field_info     what a key of a spec is, read off its class
+guesses        wrong tokens cost time
+inbox          messages of one tab that wait for their turn
 input_parsing  raw tables of a design
 jobs           work that takes a while
+opening        where a design comes from: a file of this machine, a preset, the end of an address
+page_policy    what a browser may do with our answers: a content security policy
 preview        what a worker process does with a design for the page
 resources      what all tabs share
 sample_values  what a new table or element of a list begins with
 session        one tab of the browser
 sliders        ranges and steps of sliders, in the unit that the box shows, and the short text of a number that a slider gave
+tabs           the open tabs, and the framework's socket between them and their sessions
 translations   words of the page in another language than English
 """

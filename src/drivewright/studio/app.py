@@ -4,6 +4,7 @@ Everything that holds state lives in the `Session` of a tab; what tabs share is 
 """
 
 import asyncio
+import gc
 import secrets
 import socket
 import webbrowser
@@ -12,14 +13,18 @@ from contextlib import asynccontextmanager, suppress
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import quote
 
+from drivewright import registry
 from drivewright.errors import InputError, MissingExtra
 from drivewright.report.html import MODULES
-from drivewright.studio import preview
-from drivewright.studio.access import LOOPBACK, AccessControl
+from drivewright.studio import preview, translations
+from drivewright.studio.access import LEAST_TOKEN, LOOPBACK, AccessControl
 from drivewright.studio.design import Design
+from drivewright.studio.page_policy import PagePolicy
 from drivewright.studio.resources import ServerResources
 from drivewright.studio.session import Session
+from drivewright.studio.tabs import Tabs
 from drivewright.view.palette import style_sheet
 
 if TYPE_CHECKING:
@@ -32,6 +37,7 @@ TYPES = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
 SAFE = {"X-Content-Type-Options": "nosniff", "Cache-Control": "no-cache"}
 PORT = 8123
 EVERY = ("0.0.0.0", "::")  # all addresses of this machine
+LARGEST_MESSAGE = 2_000_000  # bytes of a message of a page
 AWAY = 30.0  # seconds without a sign of life after which a tab counts as closed; also paces the signs of life
 
 
@@ -53,18 +59,27 @@ def serve(
         import uvicorn
     except ImportError as error:
         raise MissingExtra("drivewright studio", "studio", error) from None
+    if token and (len(token) < LEAST_TOKEN or not token.isascii() or not token.isprintable()):
+        raise InputError(
+            f"studio: --token has {len(token)} characters; it wants at least {LEAST_TOKEN} printable ASCII characters. "
+            "Leave it out, and a new one is made"
+        )
     listening = _listening(host, port)
-    token = "" if host in LOOPBACK else token or secrets.token_urlsafe(18)
+    token = token or ("" if host in LOOPBACK else secrets.token_urlsafe(18))
     number, name_of_host = listening.getsockname()[1], socket.gethostname() if host in EVERY else f"[{host}]" if ":" in host else host
-    address = f"http://{name_of_host}:{number}/{f'?token={token}' if token else ''}"
+    address = f"http://{name_of_host}:{number}/{f'?token={quote(token)}' if token else ''}"
     app = application(start, name, lambda: _ready(address, browser, say))
+    from drivewright.studio.connections import PatientProtocol
+
     config = uvicorn.Config(
-        AccessControl(app, token, number),
-        log_level="warning",
-        ws_max_size=4_000_000,
+        PagePolicy(AccessControl(app, token, number)),
+        http=PatientProtocol,
+        log_level="error",
+        ws_max_size=LARGEST_MESSAGE,
+        ws_max_queue=4,
         timeout_graceful_shutdown=1,
-        ws_per_message_deflate=bool(token),
-    )  # to this machine itself folding costs more time than it saves
+        ws_per_message_deflate=False,  # to this machine itself folding costs more time than it saves, and unfolding is work for nothing
+    )
     with suppress(KeyboardInterrupt):
         uvicorn.Server(config).run(sockets=[listening])
 
@@ -99,12 +114,13 @@ def application(start: Design, name: str = "", ready: Callable[[], object] = lam
     from fastapi import FastAPI, Response
     from nicegui import core, ui
 
-    started = []
+    started, tabs = [], Tabs()
 
     @asynccontextmanager
     async def lifespan(app):
         started.append(ServerResources())
         warming = asyncio.create_task(_warmed(started[-1]))
+        tabs.listen(core.sio)
         ready()
         yield
         warming.cancel()
@@ -113,16 +129,16 @@ def application(start: Design, name: str = "", ready: Callable[[], object] = lam
     app = FastAPI(lifespan=lifespan, docs_url=None, redoc_url=None, openapi_url=None)
 
     @app.get("/healthz")
-    def healthz():
+    async def healthz():
         return {"status": "ok"}
 
     @app.get("/web/{file}")
-    def web(file: str):
+    async def web(file: str):
         served = _files().get(file)
         return Response(served[0], media_type=served[1], headers=SAFE) if served else Response(status_code=404)
 
     @app.get("/download/{token}")
-    def download(token: str):
+    async def download(token: str):
         download_file = started[-1].fetch(token)
         if download_file is None:
             return Response("this file has been fetched already, or is too old: ask for it again\n", 404, media_type="text/plain")
@@ -131,9 +147,13 @@ def application(start: Design, name: str = "", ready: Callable[[], object] = lam
 
     @ui.page("/", title="Drivewright studio", reconnect_timeout=AWAY)
     def page():
-        _page(started[-1], start, name)
+        if tabs.full:
+            return Response(
+                "more tabs than the studio can serve are open: close some, and reload in a minute\n", 503, media_type="text/plain"
+            )
+        return _page(started[-1], tabs, start, name)
 
-    core.sio.eio.max_http_buffer_size = 4_000_000
+    core.sio.eio.max_http_buffer_size = LARGEST_MESSAGE
     ui.run_with(
         app,
         title="Drivewright studio",
@@ -145,22 +165,19 @@ def application(start: Design, name: str = "", ready: Callable[[], object] = lam
     return app
 
 
-def _page(resources, start, name):
+def _page(resources, tabs, start, name):
     """One tab: a session, and the one element that shows it."""
-    from nicegui import background_tasks, core, ui
+    from nicegui import ui
 
     ui.add_head_html(
         f"<style>{style_sheet()}</style>"
         + "".join(f'<link rel="stylesheet" href="/web/{file}">' for file in _files() if file.endswith(".css"))
     )
     client = ui.context.client
-
-    def send(message):
-        background_tasks.create(core.sio.emit("studio", message, room=client.id))
-
-    session = Session(send, resources, start, name)
-    _element()().on("say", lambda event: session.receive(event.args))
-    client.on_delete(session.close)
+    session = Session(lambda message: tabs.send(client.id, message), resources, start, name)
+    _element()().on("say", lambda: None)  # what it says goes to the session directly
+    tabs.open(client.id, session)
+    client.on_delete(lambda: tabs.close(client.id))
 
 
 @cache
@@ -181,18 +198,30 @@ def _files():
 
 
 async def _warmed(resources):
-    """Load what the first drawing needs, before it is asked for."""
+    """Load what the first message and the first drawing need, before they are asked for; it is no garbage to look through again."""
 
-    async def warm(pool):
+    async def warm(pool, function, *arguments):
         async with pool.worker() as worker:
-            await worker.call(preview.warm)
+            await worker.call(function, *arguments)
 
-    await asyncio.gather(warm(resources.quick), warm(resources.heavy), return_exceptions=True)
+    def load():
+        preview.warm(lambda message: None)
+        for kind in (None, *registry.kinds()):
+            translations.texts(kind)
+
+    await asyncio.gather(
+        asyncio.to_thread(load),
+        warm(resources.quick, preview.warm),
+        warm(resources.reading, preview.warm),
+        warm(resources.heavy, preview.warm),
+        return_exceptions=True,
+    )
+    await asyncio.gather(*(warm(resources.quick, preview.warm) for _ in range(2)), return_exceptions=True)  # the next one for other tabs
+    gc.collect()
+    gc.freeze()
 
 
 def _attachment(name):
     """Content-Disposition for a name with any letters."""
-    from urllib.parse import quote
-
     plain = name.encode("ascii", "replace").decode().replace("?", "_").replace('"', "_")
     return f"attachment; filename=\"{plain}\"; filename*=UTF-8''{quote(name)}"

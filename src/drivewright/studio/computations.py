@@ -2,12 +2,12 @@
 
 import asyncio
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any, TypeAlias
 
 from drivewright import registry
 from drivewright.errors import DrivewrightError, GeometryCheckFailed
-from drivewright.execution.workers import Cancellation, WorkerDied, WorkerFault
+from drivewright.execution.workers import CallTimedOut, Cancellation, WorkerDied, WorkerFault
 from drivewright.studio import preview
 from drivewright.studio.design import Design
 from drivewright.studio.jobs import JOBS
@@ -18,6 +18,8 @@ REST = 0.25  # seconds without a change after which the analyses follow
 SLOW = 3.0  # seconds after which a drawing says that it is under way
 PATIENCE = 120.0  # seconds after which it is given up: enough to compile what it needs
 BUDGET = 0.02  # seconds of analyses that go with every drawing
+ANALYSIS = 120.0  # seconds that one analysis may take: enough to compile what it needs
+LONGER = 10  # times as long, where a person asks for it
 
 
 class TabComputations:
@@ -26,6 +28,7 @@ class TabComputations:
     def __init__(self, send: Callable[[Message], object], describe: Callable[[Exception], str], resources: ServerResources) -> None:
         self.send, self.describe, self.resources = send, describe, resources
         self._newest: tuple[int, Design] | None = None
+        self._limit = ANALYSIS
         self._shown: dict[str, Any] | None = None  # what the page shows of it
         self._since = 0  # generation of the first design of this drive
         self._fresh = False  # whether what is shown is the full result of the newest design
@@ -37,7 +40,7 @@ class TabComputations:
 
     def update(self, gen: int, design: Design) -> None:
         """Draw this design as soon as the one under way is drawn, and analyse it when it has rested."""
-        self._newest = gen, design
+        self._newest, self._limit = (gen, design), ANALYSIS
         if self._analyse_task and not self._analyse_task.cancelling():  # a second word would end the process
             self._analyse_task.cancel()
         if self._fresh:
@@ -46,10 +49,11 @@ class TabComputations:
         if not self._draw_loop:
             self._draw_loop = asyncio.create_task(self._draw_newest())
 
-    def analyse(self) -> None:
-        """Begin with the newest design again, after its computation was cancelled."""
+    def analyse(self, longer: bool = False) -> None:
+        """Begin with the newest design again, after its computation was cancelled; `longer` after an analysis took too long."""
         if not self._draw_loop and self._newest:
             self.update(*self._newest)
+            self._limit = LONGER * ANALYSIS if longer else ANALYSIS
 
     def job(self, name: str, gen: int, design: Design, options: Mapping[str, Any]) -> None:
         """Begin a job; one of the same name that is under way ends."""
@@ -125,13 +129,19 @@ class TabComputations:
         def on_message(text):
             self.send({"what": "scene", "gen": gen, "json": text})
 
-        quick = preview.affordable_analyses(registry.mechanism(design.kind).analyses, self._seconds, BUDGET)
-        async with self.resources.quick.worker() as worker:
+        async with self.resources.quick.worker(self) as worker:
+            quick = self._affordable(design)
             with self._limited():
                 result = await worker.call(preview.draw, design, quick, on_message=on_message)
         self.send({"what": "possible", "gen": gen})
         if result:
             self._show(gen, result, quick)
+
+    def _affordable(self, design: Design) -> list[str]:
+        """Analyses that go with the drawing: none while other tabs wait for theirs."""
+        if self.resources.quick.crowded:
+            return []
+        return preview.affordable_analyses(registry.mechanism(design.kind).analyses, self._seconds, BUDGET)
 
     @contextmanager
     def _limited(self) -> Iterator[None]:
@@ -152,12 +162,12 @@ class TabComputations:
         """A design that is a proper spec, but has no solution: the page keeps what it showed and says so."""
         self.send({"what": "impossible", "gen": gen, "key": getattr(error, "key", None) or "", "message": self.describe(error)})
 
-    def _show(self, gen, result, quick=None):
+    def _show(self, gen, result, quick=None, full=True):
         """A result; one of the quick analyses takes over from what is shown where it can, the rest is stale."""
         if gen < self._since:
             return
         self._shown = result if quick is None or self._shown is None else preview.merge_results(self._shown, result)
-        self._fresh = quick is None and self._newest is not None and gen == self._newest[0]
+        self._fresh = full and quick is None and self._newest is not None and gen == self._newest[0]
         self.send({"what": "result", "gen": gen, "full": self._fresh, "result": self._shown})
 
     # -- the analyses ----------------------------------------------------------------------------------------------------------
@@ -165,8 +175,9 @@ class TabComputations:
     async def _analyse(self, gen, design):
         """All default analyses, once the design has rested."""
         await asyncio.sleep(REST)
+        begun: list[str] = []
         try:
-            result, seconds = await self._analysed(design)
+            result, seconds = await self._analysed(design, begun)
             self._seconds = seconds if gen >= self._since else {}
             self._show(gen, result)
             self.send({"what": "work", "state": "idle", "text": ""})
@@ -174,26 +185,38 @@ class TabComputations:
             if self._analyse_task is asyncio.current_task():
                 self.send({"what": "work", "state": "stopped" if Cancellation.NOW in cancelled.args else "drawing", "text": ""})
             raise
+        except CallTimedOut:
+            await self._without_last(gen, design, begun)
         except (WorkerDied, WorkerFault) as error:
             self._lost(error)
         except DrivewrightError as error:
             self._impossible(gen, error)
             self.send({"what": "work", "state": "idle", "text": ""})
 
-    async def _analysed(self, design):
+    async def _without_last(self, gen, design, begun):
+        """After an analysis took too long: say so, with the answers of those before it."""
+        over = {"what": "work", "state": "over", "text": begun[-1] if begun else "", "seconds": self._limit}
+        if len(begun) > 1:
+            with suppress(CallTimedOut, WorkerDied, WorkerFault, DrivewrightError):
+                result, _ = await self._analysed(design, [], begun[:-1])
+                self._show(gen, result, full=False)
+        self.send(over)
+
+    async def _analysed(self, design, begun, only=()):
         def on_message(news):
             done, total, name = news
+            begun.append(name)
             self.send({"what": "work", "state": "analysing", "text": name, "done": done, "total": total})
 
-        async with self.resources.heavy.worker() as worker:
-            return await worker.call(preview.analyse, design, on_message=on_message)
+        async with self.resources.heavy.worker(self) as worker:
+            return await worker.call(preview.analyse, design, only, on_message=on_message, limit=self._limit)
 
     async def _reference(self, title, design):
         scenes = []
         try:
-            async with self.resources.heavy.worker() as worker:
-                await worker.call(preview.draw, design, (), on_message=scenes.append)
-                result, _ = await worker.call(preview.analyse, design)
+            async with self.resources.heavy.worker(self) as worker:
+                await worker.call(preview.draw, design, (), on_message=scenes.append, limit=ANALYSIS)
+                result, _ = await worker.call(preview.analyse, design, limit=ANALYSIS)
             self.send({"what": "reference", "title": title, "json": scenes[-1], "result": result})
         except DrivewrightError as error:
             self.send({"what": "refused", "key": "", "text": "", "message": self.describe(error)})
@@ -216,7 +239,7 @@ class TabComputations:
 
         tell("running", done=0, total=0, text="", answer=None)
         try:
-            async with self.resources.heavy.worker() as worker:
+            async with self.resources.jobs.worker(self) as worker:
                 answer = await worker.call(_work, name, design, options, on_message=on_message)
             tell("done", text="", answer=self._downloaded(answer))
         except asyncio.CancelledError:

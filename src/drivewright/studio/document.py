@@ -5,7 +5,7 @@ A change that is refused raises SpecError in the words of the command line and l
 
 import re
 from collections.abc import Mapping
-from copy import deepcopy
+from copy import copy, deepcopy
 from pathlib import Path
 from typing import Any
 
@@ -32,6 +32,7 @@ from drivewright.studio.sample_values import first_valid_design, sample_values_f
 from drivewright.studio.sliders import tidied
 
 STEPS = 200  # that can be undone
+HISTORY = 4_000_000  # characters of all designs that can be gone back to
 # Absolute paths in a message, but neither units (N m/rad, 1/mm) nor addresses (https://...).
 FOLDERS = re.compile(r"""(?<![\w.)\]/])(?:[A-Za-z]:[\\/]+|\\\\|/)(?:[^\s/\\'":,;<>|]+[/\\]+)+(?=[^\s/\\])""")
 QUOTED = re.compile(r"""(['"])(?:[A-Za-z]:[\\/]|\\\\|/)[^'"\n]*[\\/]([^'"\\/\n]+)\1""")
@@ -91,9 +92,37 @@ class Document:
         if design.toml() == self.design.toml() and design.folder == self.design.folder:
             return
         if gesture is None or gesture != self._gesture:
-            self._past = [*self._past[1 - STEPS :], self.design]
+            self._remember()
         self._future.clear()
         self.design, self._gesture = design, gesture
+
+    def _remember(self) -> None:
+        """The design as it is becomes a step to go back to; the oldest ones go where there are too many, or too large ones."""
+        self._past = [*self._past[1 - STEPS :], self.design]
+        while len(self._past) > 1 and sum(len(design.toml()) for design in self._past) > HISTORY:
+            del self._past[0]
+
+    # -- in two processes ------------------------------------------------------------------------------------------------------
+
+    def present(self) -> "Document":
+        """The document with one step of its past and its future: enough for a change that another process makes of it."""
+        document = copy(self)
+        document._past, document._future = self._past[-1:], self._future[-1:]
+        return document
+
+    def follow(self, change: str, after: "Document") -> None:
+        """Take over what a change has made of `present()` in another process; `change` is the name of the method."""
+        if change == "undo" and self._past:
+            self._future.append(self.design)
+            self._past.pop()
+        elif change == "redo" and self._future:
+            self._past.append(self.design)
+            self._future.pop()
+        elif len(after._past) > min(len(self._past), 1):
+            self._remember()
+        if self._future and not after._future and change not in ("undo", "redo"):
+            self._future.clear()
+        self.design, self.locks, self._gesture = after.design, after.locks, after._gesture
 
     # -- locks -----------------------------------------------------------------------------------------------------------------
 

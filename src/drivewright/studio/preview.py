@@ -36,8 +36,8 @@ def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str
     return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable)
 
 
-def analyse(send: Callable[[Any], object], design: Design) -> tuple[dict[str, Any], dict[str, float]]:
-    """Send (done, total, analysis) on the way; answer (the page's result of all default analyses, seconds of each)."""
+def analyse(send: Callable[[Any], object], design: Design, only: Sequence[str] = ()) -> tuple[dict[str, Any], dict[str, float]]:
+    """Send (done, total, analysis) on the way; answer (the page's result of all default analyses, or of those named; seconds of each)."""
     spec = design.spec()
     model = runner.build(spec)
     began, seconds = [], {}
@@ -47,7 +47,7 @@ def analyse(send: Callable[[Any], object], design: Design) -> tuple[dict[str, An
         send((done, total, name))
         began.append((name, time.perf_counter()))
 
-    result = runner.run(spec, progress=step, model=model)
+    result = runner.run(spec, only=tuple(only), progress=step, model=model)
     _end_of(began, seconds)
     scene, _ = _scene(spec, model)
     return page_result(result, scene, list(seconds)), seconds

@@ -11,16 +11,22 @@ from drivewright.execution.workers import WorkerPool
 from drivewright.report.folder import file_name
 
 KEPT = 600.0  # seconds that a file waits to be fetched
-MOST_OFFERS = 50
+MOST_OFFERS, MOST_BYTES = 50, 200_000_000  # of files that wait
 TABS_FILES = 200  # folders of files that pages sent; the oldest goes
 
 
 class ServerResources:
-    """Made once, in the running loop of the server; `close` leaves nothing behind."""
+    """Made once, in the running loop of the server; `close` leaves nothing behind.
+
+    Each purpose has processes of its own, so that no job keeps a drawing waiting, and no tab has all of a kind.
+    """
 
     def __init__(self) -> None:
         most = max(2, worker_count(None))
-        self.quick, self.heavy = WorkerPool(most), WorkerPool(most)
+        self.reading = WorkerPool(2, share=1, memory=0.1)  # what pages send
+        self.quick = WorkerPool(most, share=most - 1)  # drawings
+        self.heavy = WorkerPool(most, share=most - 1, niceness=5)  # analyses
+        self.jobs = WorkerPool(most, share=most - 1, niceness=10)
         self._root: Path | None = None
         self._folders: list[str] = []
         self._offers: dict[str, tuple[str, bytes, float]] = {}
@@ -36,6 +42,12 @@ class ServerResources:
         (self._root / token).mkdir()
         return token, self._root / token
 
+    def drop_folder(self, token: str) -> None:
+        """Take a folder away again."""
+        if (folder := self.folder(token)) is not None:
+            self._folders.remove(token)
+            shutil.rmtree(folder, ignore_errors=True)
+
     def folder(self, token: str) -> Path | None:
         """The folder behind a token, None where it is none of ours."""
         return self._root / token if self._root is not None and token in self._folders else None
@@ -46,7 +58,7 @@ class ServerResources:
         self._offers = {token: offer for token, offer in self._offers.items() if now - offer[2] < KEPT}
         token = secrets.token_urlsafe(16)
         self._offers[token] = file_name(name), data, now
-        while len(self._offers) > MOST_OFFERS:
+        while len(self._offers) > MOST_OFFERS or len(self._offers) > 1 and sum(len(each[1]) for each in self._offers.values()) > MOST_BYTES:
             del self._offers[next(iter(self._offers))]
         return f"/download/{token}"
 
@@ -57,7 +69,7 @@ class ServerResources:
 
     def close(self) -> None:
         """Processes and files go."""
-        self.quick.close()
-        self.heavy.close()
+        for pool in (self.reading, self.quick, self.heavy, self.jobs):
+            pool.close()
         if self._root is not None:
             shutil.rmtree(self._root, ignore_errors=True)

@@ -1,28 +1,37 @@
 """One tab of the browser: what the page says changes the document, and the page hears what became of it.
 
-Nothing of NiceGUI is in here: `send(message)` reaches the page, `receive(message)` takes what comes from it.
+Nothing of NiceGUI is in here: `send(message)` reaches the page, `receive(message)` takes what comes from it.  Messages are worked off one
+after another, and whatever reads or changes a design does so in a worker process: the server's loop only hands on.
 """
 
-import base64
-import zlib
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from drivewright import registry
 from drivewright.errors import DrivewrightError, InputError, SpecError, brief
+from drivewright.execution.workers import WorkerDied, WorkerFault
 from drivewright.report.folder import file_name
-from drivewright.spec import parse_document, preset_path, read_document
-from drivewright.studio import translations
+from drivewright.studio import editing, translations
 from drivewright.studio.computations import Message, TabComputations
 from drivewright.studio.design import Design
 from drivewright.studio.document import Document, without_folder
-from drivewright.studio.form import changed_fields, form
+from drivewright.studio.editing import Edited
+from drivewright.studio.inbox import Inbox
 from drivewright.studio.jobs import JOBS, OPTIONS
+from drivewright.studio.opening import LARGEST as LARGEST
+from drivewright.studio.opening import first_design as first_design
+from drivewright.studio.opening import limited
+from drivewright.studio.opening import opened as opened
+from drivewright.studio.opening import packed as packed
+from drivewright.studio.opening import unpacked as unpacked
 from drivewright.studio.resources import ServerResources
 
-LARGEST = 1_000_000  # characters that a page may send as files, or as a shared design
 MOST_FILES = 20
+SHORT = 20_000  # characters of a message that the loop itself reads
+LONGEST_KEY = 500  # characters
+PATIENCE = 60.0  # seconds that a change of a design may take, the start of its process included
 ALL = "*"  # every complaint is settled
 
 
@@ -33,7 +42,8 @@ class Session:
         self.send, self.resources, self.start, self.start_name = send, resources, start, name
         self._document: Document | None = None
         self.gen, self.files = 0, ""
-        self._form = self._kind = None
+        self._kept, self._kind = b"", ""
+        self._inbox = Inbox(self._act, self._refuse)
         self.computations = TabComputations(send, self._describe, resources)
 
     @property
@@ -42,156 +52,179 @@ class Session:
         assert self._document is not None
         return self._document
 
+    # -- messages --------------------------------------------------------------------------------------------------------------
+
+    def read(self, text: str) -> None:
+        """One message of the page as JSON; a long one is read in a worker process."""
+        if len(text) > SHORT:
+            return self._inbox.put({"what": "read", "text": text})
+        try:
+            return self.receive(editing.read_message(None, text))
+        except InputError as error:
+            return self._refuse(error)
+
     def receive(self, message: object) -> None:
         """One message {what, ...} of the page; what it asks wrongly is answered in the words of the command line."""
-        arguments = {str(name): value for name, value in message.items()} if isinstance(message, dict) else {}
-        action = ACTIONS.get(str(arguments.pop("what", "")))
+        try:
+            arguments = editing.checked_message(message)
+        except InputError as error:
+            return self._refuse(error)
+        if arguments.get("what") == "cancel":  # which waits for nobody
+            self.computations.cancel(str(arguments.get("name", "")))
+        elif arguments.get("what") in tuple(ACTIONS):
+            self._inbox.put(arguments)
+        return None
+
+    async def _act(self, arguments: dict[str, Any]) -> None:
+        try:
+            if arguments["what"] == "read":
+                arguments = await self._call(editing.read_message, arguments["text"])
+            await self._do(**arguments)
+        except WorkerFault as error:
+            self._refuse(InputError(f"a fault of the program: {str(error).strip().splitlines()[-1]}"))
+        except DrivewrightError as error:
+            self._refuse(error, str(arguments.get("key") or getattr(error, "key", None) or ""), str(arguments.get("text", "")))
+        except OSError as error:
+            self._refuse(InputError(f"a file cannot be kept: {error.strerror}"))
+
+    async def _do(self, what: object = "", **arguments: Any) -> None:
+        action = ACTIONS.get(what) if isinstance(what, str) else None
         if action is None or (self._document is None and action is not ACTIONS["hello"]):
             return
-        try:
-            action(self, **arguments)
-        except DrivewrightError as error:
-            key = str(arguments.get("key") or getattr(error, "key", None) or "")
-            self.send({"what": "refused", "key": key, "text": str(arguments.get("text", "")), "message": self._describe(error, key)})
-        except (TypeError, ValueError, AttributeError, ArithmeticError, LookupError, RecursionError) as error:
-            self.send({"what": "refused", "key": "", "text": "", "message": f"the page asked for something odd: {brief(str(error))}"})
-        except OSError as error:
-            self.send({"what": "refused", "key": "", "text": "", "message": f"a file cannot be kept: {error.strerror}"})
+        with editing.in_words():
+            await action(self, **arguments)
+
+    def _refuse(self, error: Exception, key: str = "", text: str = "") -> None:
+        self.send({"what": "refused", "key": key[:LONGEST_KEY], "text": text[:SHORT], "message": self._describe(error, key)})
+
+    async def _call(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        """What a worker process makes of it; another one where the first died, as one may for the memory that others take."""
+        async with self.resources.reading.worker(self) as worker:
+            with suppress(WorkerDied):
+                return await worker.call(function, *arguments, limit=PATIENCE)
+            return await worker.call(function, *arguments, limit=PATIENCE)
 
     def close(self) -> None:
         """The tab has gone."""
+        self._inbox.close()
         self.computations.close()
 
     # -- beginning -------------------------------------------------------------------------------------------------------------
 
-    def hello(self, saved: str = "", shared: str = "", files: str = "") -> None:
+    async def hello(self, saved: str = "", shared: str = "", files: str = "") -> None:
         """A page begins: with what it had before a reload, with the design in its address, or with the start."""
         self.send({"what": "start", "kinds": _kinds(), "words": translations.texts(None)})
-        design, trouble = self.start, None
-        try:
-            if shared or saved:
-                design = self._kept(unpacked(shared) if shared else _limited(saved), files)
-        except DrivewrightError as error:
-            trouble = error
-        self._open(design, self.start_name if design is self.start else "")
+        trouble = None
+        if shared or saved:
+            try:
+                await self._resume(limited(saved), limited(shared), files)
+            except DrivewrightError as error:
+                trouble = error
+            else:
+                return
+        self._open(await self._call(editing.begin, self.start, self.start_name), "")
         if trouble:
-            self.send({"what": "refused", "key": "", "text": "", "message": self._describe(trouble)})
+            self._refuse(trouble)
 
-    def _kept(self, text: str, files: str) -> Design:
+    async def _resume(self, saved: str, shared: str, files: str) -> None:
         """The design that a page brings, with the files that it once sent, or those of the start."""
         folder = self.resources.folder(files)
-        self.files = files if folder else ""
         place = Design({}, folder, frozenset(folder.iterdir())) if folder else self.start
-        design = place.with_tables(parse_document(text))
-        design.spec()
-        return design
+        self._open(await self._call(editing.begin, place, "", saved, shared), files if folder else "")
 
-    def again(self) -> None:
+    async def again(self) -> None:
         """The connection was lost for a moment: everything once more."""
-        self._form = None
-        self._changed()
+        self._kept = b""
+        await self._edit("", ALL)
 
     # -- changing --------------------------------------------------------------------------------------------------------------
 
-    def set(self, key: str, text: str, gesture: str = "") -> None:
+    async def set(self, key: str, text: str, gesture: str = "") -> None:
         """A value as typed, or as a slider gives it."""
-        self.document.set(str(key), str(text), str(gesture))
-        self._changed(str(key))
+        await self._edit("set", _key(key), key=_key(key), text=str(text), gesture=str(gesture))
 
-    def unset(self, key: str) -> None:
+    async def unset(self, key: str) -> None:
         """Back to the default, or out."""
-        self.document.unset(str(key))
-        self._changed(str(key))
+        await self._edit("unset", _key(key), key=_key(key))
 
-    def add(self, list: str) -> None:
+    async def add(self, list: str) -> None:
         """Another element."""
-        self.document.add(str(list))
-        self._changed()
+        await self._edit("add", key=_key(list))
 
-    def drop(self, list: str, index: int) -> None:
+    async def drop(self, list: str, index: int) -> None:
         """An element less."""
-        self.document.drop(str(list), index)
-        self._changed(ALL)
+        await self._edit("drop", ALL, key=_key(list), index=index)
 
-    def put(self, table: str) -> None:
+    async def put(self, table: str) -> None:
         """An optional table in."""
-        self.document.put(str(table))
-        self._changed()
+        await self._edit("put", key=_key(table))
 
-    def take(self, table: str) -> None:
+    async def take(self, table: str) -> None:
         """An optional table out."""
-        self.document.take(str(table))
-        self._changed(ALL)
+        await self._edit("take", ALL, key=_key(table))
 
-    def undo(self) -> None:
+    async def undo(self) -> None:
         """One step back."""
-        self.document.undo()
-        self._changed(ALL)
+        await self._edit("undo", ALL)
 
-    def redo(self) -> None:
+    async def redo(self) -> None:
         """One step forward."""
-        self.document.redo()
-        self._changed(ALL)
+        await self._edit("redo", ALL)
 
-    def lock(self, key: str, on: bool) -> None:
+    async def lock(self, key: str, on: bool) -> None:
         """Hold a value."""
-        self.document.lock(str(key), bool(on))
-        self._show()
+        self._show(await self._edited("lock", key=_key(key), on=bool(on)))
 
-    def text(self, toml: str) -> None:
+    async def text(self, toml: str) -> None:
         """The whole spec as text."""
-        self.document.text(_limited(toml))
-        self._changed(ALL)
+        await self._edit("text", ALL, toml=limited(toml))
 
-    def load(self, changes: Mapping[str, str]) -> None:
+    async def load(self, changes: Mapping[str, str]) -> None:
         """Several values at once: a row of a study."""
-        self.document.load({str(key): str(text) for key, text in changes.items()})
-        self._changed(ALL)
+        await self._edit("load", ALL, changes={_key(key): str(text) for key, text in changes.items()})
 
-    def preset(self, name: str) -> None:
+    async def preset(self, name: str) -> None:
         """Another preset of the same kind."""
-        self.document.replace(_preset(self.document.design.kind, name))
+        design = await self._call(editing.preset_design, self.document.design.kind, str(name))
+        edited = await self._edited("replace", design=design)
         self.document.saved()
-        self._changed(ALL)
+        self._changed(edited, ALL)
 
     # -- files -----------------------------------------------------------------------------------------------------------------
 
-    def fresh(self, kind: str, preset: str | None = None) -> None:
+    async def fresh(self, kind: str, preset: str | None = None) -> None:
         """Another drive."""
-        self.files = ""
-        self._open(_preset(kind, preset), "")
+        self._open(await self._call(editing.begin_preset, str(kind), preset and str(preset)), "")
 
-    def open(self, files: Sequence[Mapping[str, str]]) -> None:
+    async def open(self, files: Sequence[Mapping[str, str]]) -> None:
         """A spec with its data files, as text."""
-        given = {file_name(str(file["name"])[-80:]): _limited(file["text"]) for file in files[:MOST_FILES]}
+        given = {file_name(str(file["name"])[-80:]): limited(file["text"]) for file in files[:MOST_FILES]}
         specs = [name for name in given if name.lower().endswith(".toml")]
         if len(specs) != 1:
             raise InputError(f"open one spec (.toml) and the data files that it names; here are {len(specs)} specs in {len(given)} files")
-        _limited("".join(given.values()))
-        tables = parse_document(given[specs[0]])
+        limited("".join(given.values()))
         token, folder = self.resources.new_folder()
-        for name, text in given.items():
-            (folder / name).write_text(text, encoding="utf-8")
-        design = Design(tables, folder, frozenset(folder.iterdir()))
-        design.spec()
-        self.files = token
-        self._open(design, Path(specs[0]).stem)
+        try:
+            for name, text in given.items():
+                (folder / name).write_text(text, encoding="utf-8")
+            place = Design({}, folder, frozenset(folder.iterdir()))
+            self._open(await self._call(editing.begin, place, Path(specs[0]).stem, given[specs[0]]), token)
+        finally:
+            if self.files != token:
+                self.resources.drop_folder(token)
 
-    def share(self) -> None:
+    async def share(self) -> None:
         """The design as the end of an address."""
-        design = self.document.design
-        if design.spec().data_files():
-            raise InputError("a design with data files does not fit into an address; save it and send the file")
-        self.send({"what": "shared", "fragment": packed(design.toml())})
+        self.send({"what": "shared", "fragment": await self._call(editing.fragment, self.document.design)})
 
-    def reference(self, preset: str) -> None:
+    async def reference(self, preset: str) -> None:
         """A preset to compare with."""
-        design = _preset(self.document.design.kind, preset)
+        design = await self._call(editing.preset_design, self.document.design.kind, str(preset))
         self.computations.compare_with(str(preset), design)
 
     # -- computing -------------------------------------------------------------------------------------------------------------
 
-    def job(self, name: str, options: Mapping[str, Any] | None = None) -> None:
+    async def job(self, name: str, options: Mapping[str, Any] | None = None) -> None:
         """Begin a job of jobs.JOBS."""
         if name not in JOBS:
             raise InputError(f"there is no job {brief(name)}")
@@ -201,47 +234,50 @@ class Session:
         locks = {"locks": sorted(self.document.locks)} if name in TAKE_LOCKS else {}
         self.computations.job(name, self.gen, self.document.design, {**options, **locks})
 
-    def export(self, format: str, anyway: bool = False) -> None:
+    async def export(self, format: str, anyway: bool = False) -> None:
         """A manufacturing file."""
-        self.job("export", {"format": str(format), "anyway": bool(anyway)})
+        await self.job("export", {"format": str(format), "anyway": bool(anyway)})
 
-    def save(self) -> None:
+    async def save(self) -> None:
         """The spec as a file."""
         self.document.saved()
-        self.job("save")
-        self._show()
+        await self.job("save")
+        self._show(await self._edited(""))
 
-    def analyse(self) -> None:
-        """The analyses once more, after they were cancelled."""
-        self.computations.analyse()
-
-    def cancel(self, name: str) -> None:
-        """End a job, or the analyses ("look")."""
-        self.computations.cancel(str(name))
+    async def analyse(self, longer: bool = False) -> None:
+        """The analyses once more, after they were cancelled; with more time where they took too long."""
+        self.computations.analyse(longer=bool(longer))
 
     # -- telling ---------------------------------------------------------------------------------------------------------------
 
-    def _open(self, design: Design, name: str) -> None:
-        """A design that has nothing to do with the one before."""
-        self._document = Document(design, name)
-        self._changed(ALL, opened=True)
+    async def _edited(self, change: str, **arguments: Any) -> Edited:
+        """A change of the document in a worker process, taken over."""
+        edited = await self._call(editing.edit, self.document.present(), self._kept, change, arguments)
+        self.document.follow(change, edited.document)
+        self._kept = edited.kept
+        return edited
 
-    def _changed(self, *settled: str, opened: bool = False) -> None:
-        """First the drawing, which is waited for; while it is on its way, the form."""
+    async def _edit(self, change: str, *settled: str, **arguments: Any) -> None:
+        self._changed(await self._edited(change, **arguments), *settled)
+
+    def _open(self, edited: Edited, files: str) -> None:
+        """A design that has nothing to do with the one before."""
+        self._document, self._kept, self.files = edited.document, edited.kept, files
+        self._changed(edited, ALL, opened=True)
+
+    def _changed(self, edited: Edited, *settled: str, opened: bool = False) -> None:
+        """Draw it, and show its form."""
         self.gen += 1
         opened = opened or self.document.design.kind != self._kind
         if opened:
-            self._kind, self._form = self.document.design.kind, None
+            self._kind = self.document.design.kind
             self.computations.reset(self.gen)
         self.computations.update(self.gen, self.document.design)
-        self._show(settled, opened)
+        self._show(edited, settled, opened)
 
-    def _show(self, settled: Sequence[str] = (), opened: bool = False) -> None:
+    def _show(self, edited: Edited, settled: Sequence[str] = (), opened: bool = False) -> None:
         """The form; only the fields that differ, where nothing else does."""
         document, design = self.document, self.document.design
-        before = self._form
-        self._form = form(design, translations.fields(design.kind) | translations.tables(design.kind), before)
-        fields = changed_fields(before, self._form) if before else None
         common = {
             "gen": self.gen,
             "undo": document.can_undo,
@@ -252,8 +288,8 @@ class Session:
             "files": self.files,
             "settled": list(settled),
         }
-        if fields is not None:
-            self.send({"what": "values", "fields": fields, **common})
+        if edited.fields is not None:
+            self.send({"what": "values", "fields": edited.fields, **common})
             return
         self.send(
             {
@@ -262,7 +298,7 @@ class Session:
                 "title": str(design.tables.get("title", "")),
                 "name": document.name,
                 "presets": _presets(design.kind),
-                "form": self._form,
+                "form": edited.form,
                 "words": translations.texts(design.kind),
                 "opened": opened,
                 **common,
@@ -277,54 +313,15 @@ class Session:
 
 
 TAKE_LOCKS = ("sensitivity", "optimise")
-ACTIONS = {
-    name: getattr(Session, name)
-    for name in (
-        "hello",
-        "again",
-        "set",
-        "unset",
-        "add",
-        "drop",
-        "put",
-        "take",
-        "undo",
-        "redo",
-        "lock",
-        "text",
-        "load",
-        "preset",
-        "fresh",
-        "open",
-        "share",
-        "reference",
-        "job",
-        "export",
-        "save",
-        "analyse",
-        "cancel",
-    )
-}
+WORDS = "hello again set unset add drop put take undo redo lock text load preset fresh open share reference job export save analyse"
+ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
 
 
-def opened(path: str | Path) -> Design:
-    """The design of a spec file on this machine; it may read what it names, and the tables beside it."""
-    tables, folder = read_document(path), Path(path).resolve().parent
-    named = Design(tables, folder).spec().data_files()
-    beside = [beside_path for pattern in ("*.csv", "*.parquet") for beside_path in folder.glob(pattern)]
-    return Design(tables, folder, frozenset([*named, *beside]))
-
-
-def _preset(kind: str, name: str | None = None) -> Design:
-    path = preset_path(str(kind), name and str(name))
-    if path is None:
-        raise InputError(f"{kind} brings no preset to start from")
-    return opened(path)
-
-
-def first_design() -> Design:
-    """Where the studio begins when it is given no spec: the first kind's own example."""
-    return _preset(next(kind for kind in registry.kinds() if registry.mechanism(kind).presets()))
+def _key(key):
+    """A dotted key, of a length that keys have."""
+    if len(str(key)) > LONGEST_KEY:
+        raise InputError(f"a key has at most {LONGEST_KEY} characters")
+    return str(key)
 
 
 def _presets(kind):
@@ -334,27 +331,3 @@ def _presets(kind):
 
 def _kinds():
     return [{"kind": kind, "summary": registry.mechanism(kind).summary, "presets": _presets(kind)} for kind in registry.kinds()]
-
-
-def _limited(text: object) -> str:
-    if not isinstance(text, str) or len(text) > LARGEST:
-        raise InputError(f"this is no text, or has more than {LARGEST:,} characters; that is too much for the studio")
-    return text
-
-
-def packed(text: str) -> str:
-    """A text as the end of an address."""
-    return "d=" + base64.urlsafe_b64encode(zlib.compress(text.encode(), 9)).decode().rstrip("=")
-
-
-def unpacked(fragment: str) -> str:
-    """The text that `packed` was given; InputError where it is none, or too long."""
-    letters = str(fragment).removeprefix("d=")
-    try:
-        raw = base64.b64decode(letters + "=" * (-len(letters) % 4), altchars="-_", validate=True)
-        text = zlib.decompressobj().decompress(raw, LARGEST + 1).decode()
-    except (ValueError, zlib.error):
-        text = ""
-    if not text:
-        raise InputError("the design in this address is damaged; ask for the file, or for the address once more")
-    return _limited(text)

@@ -19,10 +19,11 @@ function createState({store, say, t}) {
   const wrong = element("span"), close = button(t("Close"), () => store.set({notice: ""}), {look: "quiet"});
   const strip = element("div", {class: "sd-strip", role: "alert", hidden: ""}, wrong, close);
   const again = button(t("Analyse"), () => say({what: "analyse"}), {testid: "analyse", look: "quiet"});
-  const words = element("span", {class: "pn-words"}), line = element("div", {class: "sd-line"}, words, cancel, again);
+  const longer = button(t("Run it longer"), () => say({what: "analyse", longer: true}), {testid: "analyse-longer", look: "quiet"});
+  const words = element("span", {class: "pn-words"}), line = element("div", {class: "sd-line"}, words, cancel, again, longer);
   const node = element("div", {class: "sd-top"}, element("div", {class: "sd-title"}, title, pill), line, bar, strip);
   let timer = 0;
-  cancel.hidden = again.hidden = true;
+  cancel.hidden = again.hidden = longer.hidden = true;
   function working(on) {
     const {work} = store.state;
     node.classList.toggle("is-working", on);
@@ -32,13 +33,15 @@ function createState({store, say, t}) {
   }
   /** What stands there while nothing is under way. */
   function settled() {
-    const {result} = store.state;
+    const {result, work} = store.state;
+    if (work?.state === "over") return t("* took more than * s and was ended", t(work.text || ""), work.seconds);
     if (result?.unsolved) return t("shown is the last design that had a solution");
     return !result ? "" : !result.full || result.verdict.stale ? t("not all checks are up to date") : t("up to date");
   }
   function work({work}) {
     const on = work?.state === "analysing";
     again.hidden = work?.state !== "stopped";
+    longer.hidden = work?.state !== "over";
     if (!on) { clearTimeout(timer); timer = 0; working(false); }
     else if (node.classList.contains("is-working")) working(true);
     else timer ||= setTimeout(() => { timer = 0; if (store.state.work?.state === "analysing") working(true); }, LATE);
