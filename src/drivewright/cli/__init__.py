@@ -8,6 +8,7 @@ plugin_commands  commands of mechanisms, from plug-ins too
 show             what the command line prints: results to stdout, everything else to stderr
 """
 
+import errno
 import sys
 from typing import NoReturn
 
@@ -41,18 +42,30 @@ def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
     except (KeyboardInterrupt, *_aborts()):
         print("interrupted; what was finished before is kept, and the same command goes on", file=sys.stderr)
         sys.exit(exit_code(received))
-    except MemoryError:
-        print("drivewright: there is no memory left for this; take fewer points, cases or workers, or allow more memory", file=sys.stderr)
-        sys.exit(InputError.exit_code)
     except BrokenPipeError:
         sys.stderr.close()
         sys.exit(0)
+    except (MemoryError, ImportError, OSError) as error:
+        if not _wants_memory(error):
+            raise
+        print("drivewright: there is no memory left for this; take fewer points, cases or workers, or allow more memory", file=sys.stderr)
+        sys.exit(InputError.exit_code)
 
 
 def _aborts() -> tuple[type[BaseException], ...]:
     """What the command-line library makes of Ctrl-C."""
     typer = sys.modules.get("typer")
     return (typer.Abort,) if typer else ()
+
+
+def _wants_memory(error: BaseException) -> bool:
+    """Whether an error, also of the loader of shared libraries, says that memory is used up."""
+    words = ("failed to map segment", "cannot allocate memory", "cannot create shared object", "cannot apply additional memory protection")
+    return (
+        isinstance(error, MemoryError)
+        or getattr(error, "errno", None) == errno.ENOMEM
+        or (isinstance(error, ImportError) and any(text in str(error).lower() for text in words))
+    )
 
 
 def _complain(error: DrivewrightError) -> int:

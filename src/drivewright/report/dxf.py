@@ -51,6 +51,8 @@ def write_dxf(drawings: Drawing | Iterable[Drawing], path: str | Path, tolerance
             colour, linetype = LAYERS.get(name, (7, "CONTINUOUS"))
             document.layers.add(name, color=colour, linetype=linetype)
         _lay_out(document.modelspace(), drawings, tolerance, splines)
+        for name in sorted(document.entitydb.dxf_types_in_use()):  # the library takes them in the order of a set
+            document.classes.add_class(name)
         document.saveas(temporary)
 
 

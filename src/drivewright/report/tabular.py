@@ -98,22 +98,30 @@ def _study_sheet(table, path):
     """One sheet with a header that stays in sight; texts are never taken for formulas."""
     import xlsxwriter
 
-    with xlsxwriter.Workbook(path, {"constant_memory": True}) as book:
-        sheet = book.add_worksheet("cases")
-        head = book.add_format({"bold": True, "bottom": 1, "valign": "top", "text_wrap": True})
-        for column, name in enumerate(_headings(table)):
-            sheet.set_column(column, column, min(max(len(name) + 2, 10), 28))
-            sheet.write_string(0, column, name, head)
-        sheet.freeze_panes(1, 1)
-        sheet.autofilter(0, 0, table.num_rows, max(table.num_columns - 1, 0))
-        writers = [_cell_writer(sheet, field.type) for field in table.schema]
-        row = 0
-        for part in _slices(table):
-            for cells in zip(*(column.to_pylist() for column in part.columns), strict=True):
-                row += 1
-                for column, (write, cell) in enumerate(zip(writers, cells, strict=True)):
-                    if cell is not None and cell != "":
-                        write(row, column, cell)
+    try:
+        with xlsxwriter.Workbook(path, {"constant_memory": True}) as book:
+            _fill_sheet(book, table)
+    except xlsxwriter.exceptions.FileCreateError as error:  # what the system said is in it
+        raise next((cause for cause in error.args if isinstance(cause, OSError)), OSError(str(error))) from None
+
+
+def _fill_sheet(book, table):
+    """The cells, the header first."""
+    sheet = book.add_worksheet("cases")
+    head = book.add_format({"bold": True, "bottom": 1, "valign": "top", "text_wrap": True})
+    for column, name in enumerate(_headings(table)):
+        sheet.set_column(column, column, min(max(len(name) + 2, 10), 28))
+        sheet.write_string(0, column, name, head)
+    sheet.freeze_panes(1, 1)
+    sheet.autofilter(0, 0, table.num_rows, max(table.num_columns - 1, 0))
+    writers = [_cell_writer(sheet, field.type) for field in table.schema]
+    row = 0
+    for part in _slices(table):
+        for cells in zip(*(column.to_pylist() for column in part.columns), strict=True):
+            row += 1
+            for column, (write, cell) in enumerate(zip(writers, cells, strict=True)):
+                if cell is not None and cell != "":
+                    write(row, column, cell)
 
 
 def _cell_writer(sheet, kind):

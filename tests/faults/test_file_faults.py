@@ -1,0 +1,40 @@
+"""Kill, tear and fill the disk at every file operation of what writes: nothing of a person is lost, and the next start ends the work."""
+
+import pytest
+from file_faults import run_scenario
+
+pytestmark = pytest.mark.property
+
+FAULTS = ["kill", "torn", "full", "read-only", "once"]
+STEPS = {  # every so many operations, for a few seconds; the slow tests try all of them
+    "run-folder": 8,
+    "run-folder-by-two-renames": 8,
+    "sweep": 25,
+    "sweep-without-ledger": 12,
+    "sweep-with-damaged-ledger": 12,
+    "sweep-with-damaged-part": 25,
+    "optimise": 60,
+    "table": 12,
+}
+LONG = {"answers": 9, "run": 9, "export": 9}  # commands that write the same kinds of file again and again
+
+
+@pytest.mark.parametrize("scenario", STEPS)
+@pytest.mark.parametrize("fault", ["kill", "full"])
+def test_at_some_operations(scenario, fault, tmp_path):
+    assert int(run_scenario(scenario, tmp_path, fault, STEPS[scenario])) >= 3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scenario", [*STEPS, *LONG])
+@pytest.mark.parametrize("fault", FAULTS)
+def test_at_every_operation(scenario, fault, tmp_path):
+    print(scenario, fault, run_scenario(scenario, tmp_path, fault, LONG.get(scenario, 1)))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("scenario", "step"), [("run-folder", 1), ("run-folder-by-two-renames", 1), ("sweep-with-damaged-ledger", 8), ("sweep", 12)]
+)
+def test_at_every_operation_and_again_at_the_next_start(scenario, step, tmp_path):
+    print(scenario, "kill twice", run_scenario(scenario, tmp_path, "kill-twice", step))
