@@ -97,11 +97,12 @@ def _study_csv(table, path):
 def _study_sheet(table, path):
     """One sheet with a header that stays in sight; texts are never taken for formulas."""
     import xlsxwriter
+    from xlsxwriter.exceptions import FileCreateError
 
     try:
         with xlsxwriter.Workbook(path, {"constant_memory": True}) as book:
             _fill_sheet(book, table)
-    except xlsxwriter.exceptions.FileCreateError as error:  # what the system said is in it
+    except FileCreateError as error:  # what the system said is in it
         raise next((cause for cause in error.args if isinstance(cause, OSError)), OSError(str(error))) from None
 
 
