@@ -124,7 +124,10 @@ def test_a_solver_that_gives_up_exits_with_4_and_leaves_a_partial_result(drivewr
 @pytest.mark.parametrize(
     ("arguments", "wanted"),
     [
-        (["nope.toml"], "nope.toml: there is no such file; `drivewright examples` lists worked ones to copy, `drivewright new KIND nope.toml` writes a"),
+        (
+            ["nope.toml"],
+            "nope.toml: there is no such file; `drivewright examples` lists worked ones to copy, `drivewright new KIND nope.toml` writes a",
+        ),
         (["."], ".: is a folder; a spec is a TOML file"),
         (["toy.toml", "--set", "lenght=3 mm"], "toy.toml: lenght: unknown key (did you mean 'length'?)"),
         (["toy.toml", "--set", "length=3"], 'toy.toml: length: a bare number; a length wants its unit, e.g. "3 mm"'),
