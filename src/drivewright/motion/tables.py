@@ -1,6 +1,5 @@
 """Motion given row by row: a CSV file or arrays of angle and absolute lift."""
 
-import csv
 import math
 import re
 from dataclasses import dataclass, field
@@ -11,11 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.errors import InputError, UnitError
+from drivewright.errors import InputError, SpecError, UnitError, brief
 from drivewright.motion.laws import MotionLaw, register
 from drivewright.motion.piecewise import CLOSURE
 from drivewright.motion.ripple import Ripple, ripple
 from drivewright.motion.splines import LEAST_POINTS, refuse_disorder, through_points
+from drivewright.spec.csv_text import csv_rows, read_data_file
 from drivewright.units import unit_factor
 
 HEADER = "angle [deg],lift [mm]"
@@ -70,16 +70,15 @@ def read_table(file: str | Path) -> Rows:
     path = Path(file)
     what = f"table '{path}'"
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{what} cannot be read: {getattr(error, 'strerror', None) or error}.") from None
-    reader = csv.reader(lines)
-    header = next(reader, [])
+        rows = list(csv_rows(read_data_file(path).splitlines(), path))
+    except SpecError as error:
+        raise InputError(f"{what} {error.message}.") from None
+    header = rows[0][1] if rows else []
     columns = [_column(name, header, what) for name in ("angle", "lift")]
     factors = (_factor(columns[0], ("angle",), path)[0], *_factor(columns[1], ("length", "angle"), path))
     numbers, places = [], []
-    for cells in filter(None, reader):
-        place = f"row {len(places) + 1} (line {reader.line_num})"
+    for line, cells in rows[1:]:
+        place = f"row {len(places) + 1} (line {line})"
         numbers.append([_number(cells, index, f"{what}, {place}", name) for (index, name, _) in columns])
         places.append(place)
     values = np.array(numbers).reshape(-1, 2)
@@ -91,7 +90,7 @@ def _column(name, header, what):
     for index, cell in enumerate(header):
         if match := re.fullmatch(rf"\s*{name}\s*\[(.+)\]\s*", cell, re.IGNORECASE):
             return index, name, match[1]
-    raise InputError(f"{what}: no column '{name} [unit]' in the first line {','.join(header)!r}; it should read {HEADER!r}.")
+    raise InputError(f"{what}: no column '{name} [unit]' in the first line {brief(','.join(header))}; it should read {HEADER!r}.")
 
 
 def _factor(column, dimensions, path):
@@ -113,7 +112,7 @@ def _number(cells, index, where, name):
     try:
         return float(cells[index])
     except (ValueError, IndexError):
-        got = repr(cells[index]) if index < len(cells) else "nothing"
+        got = brief(cells[index]) if index < len(cells) else "nothing"
         raise InputError(f"{where}: the {name} is {got}, not a number.") from None
 
 

@@ -1,7 +1,5 @@
 """Tables as CSV and Excel files in the units people read, with the unit of every column in its header: `angle [deg],lift [mm]`."""
 
-import csv
-import io
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +11,7 @@ from drivewright.errors import InputError
 from drivewright.report.atomic import replacing, write_text
 from drivewright.report.records import StudyRecord
 from drivewright.result import Column, Table
+from drivewright.spec.csv_text import FORMULA, csv_line, text_cell
 from drivewright.units import display
 
 if TYPE_CHECKING:
@@ -24,12 +23,12 @@ SHEET_ROWS, SHEET_COLUMNS, SHEET_LETTERS = 1_048_576, 16_384, 32_767  # what an 
 
 
 def write_csv(table: Table, path: str | Path, digits: int = DIGITS) -> None:
-    """CSV file of a `result.Table`: header `name [unit]` (a pure number: `name`), numbers to `digits` figures, missing ones empty."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([heading(column) for column in table.columns])
-    writer.writerows(zip(*(_cells(column, digits) for column in table.columns), strict=True))
-    write_text(path, text.getvalue())
+    """CSV file of a `result.Table`: header `name [unit]` (a pure number: `name`), numbers to `digits` figures, missing ones empty.
+
+    Texts that a spreadsheet would take for a formula get an apostrophe in front (`spec.csv_text`)."""
+    header = [text_cell(heading(column)) for column in table.columns]
+    rows = zip(*(_cells(column, digits) for column in table.columns), strict=True)
+    write_text(path, "".join(map(csv_line, [header, *rows])))
 
 
 def heading(column: Column) -> str:
@@ -46,7 +45,7 @@ def titled(name: str, unit: str) -> str:
 def _cells(column: Column, digits: int) -> list[str]:
     data = np.asarray(column.data)
     if data.dtype.kind not in "iuf":
-        return [str(value) for value in data.tolist()]
+        return [text_cell(str(value)) for value in data.tolist()]
     factor = display(column.unit)[0]
     if data.dtype.kind in "iu" and factor == 1:
         return [str(value) for value in data.tolist()]
@@ -87,11 +86,23 @@ def _study_csv(table, path):
 
     look = arrow_csv.WriteOptions(include_header=False, quoting_style="needed")
     with path.open("wb") as file:
-        head = io.StringIO()
-        csv.writer(head, lineterminator="\n").writerow(_headings(table))
-        file.write(head.getvalue().encode())
+        file.write(csv_line(map(text_cell, _headings(table))).encode())
         for part in _slices(table):
-            arrow_csv.write_csv(part, file, look)
+            arrow_csv.write_csv(_with_text_cells(part), file, look)
+
+
+def _with_text_cells(table):
+    """The table with the texts of all columns as `text_cell` has them."""
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
+    escaped = pc.ReplaceSubstringOptions(f"({FORMULA})", r"'\1", max_replacements=1)
+    is_text = [pa.types.is_string(field.type) or pa.types.is_large_string(field.type) for field in table.schema]
+    columns = [
+        pc.call_function("replace_substring_regex", [column], escaped) if text else column
+        for column, text in zip(table.columns, is_text, strict=True)
+    ]
+    return pa.Table.from_arrays(columns, names=table.column_names)
 
 
 def _study_sheet(table, path):

@@ -1,6 +1,5 @@
 """Two columns of a CSV file by name, each with its unit in brackets in the header: "displacement [um],force [N]"."""
 
-import csv
 import math
 import re
 from collections.abc import Mapping
@@ -10,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.errors import SpecError, UnitError
+from drivewright.errors import SpecError, UnitError, brief
+from drivewright.spec.csv_text import csv_rows, read_data_file
 from drivewright.units import unit_factor
 
 PURE = "a pure number"
@@ -27,14 +27,10 @@ class ColumnPair(NamedTuple):
 
 def read_columns(file: str | Path, x_names: Mapping[str, str], y_names: Mapping[str, str]) -> ColumnPair:
     """The `ColumnPair` of a CSV file with one column of `x_names` and one of `y_names`, each name -> dimension; x must increase."""
-    try:
-        lines = Path(file).read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise SpecError(f"cannot be read: {getattr(error, 'strerror', None) or error}", file=str(file)) from None
-    reader = csv.reader(lines)
-    header = next(reader, [])
+    rows = csv_rows(read_data_file(file).splitlines(), file)
+    _, header = next(rows, (0, []))
     columns = [_column(header, names, file) for names in (x_names, y_names)]
-    numbers = [[_number(cells, index, f"line {reader.line_num}", name, file) for index, name, _ in columns] for cells in reader if cells]
+    numbers = [[_number(cells, index, f"line {line}", name, file) for index, name, _ in columns] for line, cells in rows]
     table = np.array(numbers, dtype=float).reshape(-1, 2) * [factor for _, _, factor in columns]
     _refuse_disorder(table, columns[0][1], file)
     return ColumnPair(columns[0][1], table[:, 0], columns[1][1], table[:, 1])
@@ -47,7 +43,7 @@ def _column(header, names, file):
         if match and match[1].lower() in names:
             return index, match[1].lower(), _factor(match[2], names[match[1].lower()], match[1], file)
     expected = " or ".join(repr(name if dimension == PURE else f"{name} [unit]") for name, dimension in names.items())
-    raise SpecError(f"no column {expected} in the first line {','.join(header)!r}", file=str(file))
+    raise SpecError(f"no column {expected} in the first line {brief(','.join(header))}", file=str(file))
 
 
 def _factor(unit, dimension, name, file):
@@ -65,7 +61,7 @@ def _number(cells, index, place, name, file):
     except (ValueError, IndexError):
         number = math.nan
     if not math.isfinite(number):
-        got = repr(cells[index]) if index < len(cells) else "nothing"
+        got = brief(cells[index]) if index < len(cells) else "nothing"
         raise SpecError(f"{place}: the {name} is {got}, not a finite number", file=str(file))
     return number
 

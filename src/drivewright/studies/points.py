@@ -1,6 +1,6 @@
 """Cases from a file: CSV with `key [unit]` in the first line, or Parquet with the unit in the metadata of each column (SI without)."""
 
-import csv
+import io
 import re
 from pathlib import Path
 from typing import Any
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from drivewright.errors import SpecError, UnitError, brief
 from drivewright.execution.keys import READABLE, key_kind
 from drivewright.spec import MechanismSpec
+from drivewright.spec.csv_text import csv_rows, plain_text, read_data_file
 from drivewright.studies.variables import Variable, column
 
 
@@ -88,16 +89,12 @@ def _cell(kind, cell, place, file):
 
 def _from_csv(file):
     """[(key, unit, cells)] of a CSV file."""
-    try:
-        with Path(file).open(encoding="utf-8-sig", newline="") as stream:
-            rows = [row for row in csv.reader(stream) if row]
-    except (OSError, UnicodeDecodeError) as error:
-        raise SpecError(f"cannot be read: {getattr(error, 'strerror', None) or error}", file=str(file)) from None
+    rows = [row for _, row in csv_rows(io.StringIO(read_data_file(file), newline=""), file)]
     for number, row in enumerate(rows[1:]):
         if len(row) != len(rows[0]):
             hint = "; the columns are separated by commas, and a decimal point is a point" if ";" in "".join(rows[0]) else ""
             raise SpecError(f"case {number} has {len(row)} entries, the first line has {len(rows[0])}{hint}", file=str(file))
-    return [(*_heading(cell, file), [row[n] for row in rows[1:]]) for n, cell in enumerate(rows[0] if rows else [])]
+    return [(*_heading(cell, file), [plain_text(row[n]) for row in rows[1:]]) for n, cell in enumerate(rows[0] if rows else [])]
 
 
 def _heading(cell, file):

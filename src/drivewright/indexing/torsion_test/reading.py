@@ -4,18 +4,17 @@ Further columns: `force [N]` in place of the torque, with the arm given apart; `
 `crank [deg]`, the position of the input at which the loop was taken.  Lines that begin with # are comments; other columns are left alone.
 """
 
-import csv
 import math
 import re
 from collections.abc import Sequence
 from os import PathLike
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from drivewright._typing import Bools, Floats, Ints
 from drivewright.errors import SpecError, UnitError, brief, nearest
+from drivewright.spec.csv_text import csv_rows, read_data_file
 from drivewright.units import unit_factor
 
 QUANTITIES = {"torque": ("torque", "N m"), "force": ("force", "N"), "angle": ("angle", "arcmin"), "crank": ("angle", "deg")}
@@ -69,13 +68,9 @@ def read_test(file: str | PathLike[str], arm: float | None = None) -> Readings:
 
 def _rows(file):
     """(number of the line, cells) of every line that is neither blank nor a comment."""
-    try:
-        lines = Path(file).read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise SpecError(f"cannot be read: {getattr(error, 'strerror', None) or error}", file=str(file)) from None
-    for number, line in enumerate(lines, 1):
+    for number, line in enumerate(read_data_file(file).splitlines(), 1):
         if line.strip() and not line.lstrip().startswith("#"):
-            yield number, next(csv.reader([line]))
+            yield number, next(csv_rows([line], file))[1]
 
 
 def _columns(header: Sequence[str], file: str | PathLike[str]) -> dict[str, _Column]:
