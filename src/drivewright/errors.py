@@ -106,6 +106,13 @@ class SolverError(DrivewrightError, RuntimeError):
         self.partial = partial
 
 
+def counted(count: float, most: int, what: str, remedy: str) -> int:
+    """How many of something will be made, as a whole number; InputError, before they are, where they are more than `most`."""
+    if count <= most:
+        return int(count)
+    raise InputError(f"{count:.3g} {what} are more than the {most:.3g} that fit into memory and time; {remedy}")
+
+
 def nearest(name: object, known: Iterable[str]) -> str:
     """Hint ' (did you mean ...?)' when a known name is close, capitals aside, else ''."""
     by_lower = {str(k).lower(): k for k in known}

@@ -14,6 +14,8 @@ import numpy as np
 
 from drivewright._typing import ArrayLike, Floats
 
+FINEST = 1e-9  # of its radius that a chord of an arc keeps at most: 70 000 points of a circle
+
 Point: TypeAlias = tuple[float, float]  # (x, y) [m]
 Pose: TypeAlias = tuple[float, float, float]  # (x [m], y [m], angle [rad])
 
@@ -57,8 +59,8 @@ class Arc(NamedTuple):
     sweep: float
 
     def points(self, tolerance: float) -> Floats:
-        """Points (n, 2) [m] whose chords keep `tolerance` [m]."""
-        step = 2 * np.arccos(max(1 - tolerance / max(self.radius, tolerance), 0.0))
+        """Points (n, 2) [m] whose chords keep `tolerance` [m], or `FINEST` of the radius where that is more."""
+        step = 2 * np.arccos(1 - min(max(tolerance, FINEST * self.radius) / max(self.radius, tolerance), 1.0))
         angles = self.start + self.sweep * np.linspace(0, 1, max(3, int(np.ceil(abs(self.sweep) / step)) + 1))
         return np.asarray(self.center) + self.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 

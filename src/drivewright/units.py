@@ -102,6 +102,7 @@ WORD = "[A-Za-z\u00b5\u03bc\u00b0]+"  # letters, both micro signs, degree sign
 PATTERN = r"^\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*[^\s0-9].*$"  # the same for editors: a number and a unit
 # What may reach pint's parser: units, one-digit powers of units, products, quotients, and 1 as in 1/min.
 EXPRESSION = re.compile(rf"(?:{WORD}(?:\^[+-]?[0-9](?:\.[0-9])?)?|1(?![0-9.])|[\s*/()])+")
+SMALLEST, LARGEST = 1e-40, 1e40  # magnitude in SI of what a key may say: no drive has more, and products of a few are still numbers
 LONGEST = 100  # characters of a quantity; nobody writes more, and a parser needs an end
 
 
@@ -171,12 +172,16 @@ UNITS_PEOPLE_WRITE = (
 
 @dataclass(frozen=True)
 class Dimension:
-    """A kind of quantity: its SI unit, the unit people read, others they `also` use.  And the pydantic field type of that quantity."""
+    """A kind of quantity: its SI unit, the unit people read, others they `also` use.  And the pydantic field type of that quantity.
+
+    What a spec says is at most `largest`: infinite where ever larger values tend to a limit, as stiff springs do to a rigid one.
+    """
 
     name: str
     unit: str
     display_unit: str
     also: tuple[str, ...] = ()
+    largest: float = LARGEST
     plain: ClassVar[bool] = False  # of a kind whose values are more than a float: what `parse` gives is final
 
     def parse(self, value: Any) -> Any:
@@ -236,9 +241,10 @@ class Dimension:
 
         def validate(value):
             try:
-                return self.parse(value)
+                parsed = self.parse(value)
             except UnitError as error:
                 raise ValueError(error.message) from None
+            return refuse_absurd(parsed, value, f" {self.unit}", largest=self.largest) if isinstance(parsed, float) else parsed
 
         if self.plain:
             return core_schema.no_info_plain_validator_function(validate)
@@ -320,8 +326,8 @@ DIMENSIONS = (
     Dimension("moment of inertia", "kg m^2", "kg m^2"),
     Dimension("force", "N", "N"),
     Dimension("torque", "N m", "N m"),
-    Dimension("stiffness", "N/m", "N/mm"),
-    Dimension("rotational stiffness", "N m/rad", "N m/arcmin", ("N m/rad",)),
+    Dimension("stiffness", "N/m", "N/mm", largest=math.inf),
+    Dimension("rotational stiffness", "N m/rad", "N m/arcmin", ("N m/rad",), largest=math.inf),
     Dimension("damping", "N s/m", "N s/m"),
     Dimension("pressure", "Pa", "MPa"),
     Dimension("area", "m^2", "mm^2"),
@@ -381,6 +387,16 @@ WearCoefficient: TypeAlias = Annotated[float, BY_NAME["wear coefficient"]]
 Slowness: TypeAlias = Annotated[float, BY_NAME["slowness"]]
 Density: TypeAlias = Annotated[float, BY_NAME["density"]]
 LineForce: TypeAlias = Annotated[float, Dimension("force per length", "N/m", "N/mm")]  # of the same kind as a stiffness
+
+
+def refuse_absurd(value: float, given: Any, unit: str = "", smallest: float = SMALLEST, largest: float = LARGEST) -> float:
+    """The value of a key again, also infinity (a word says it); ValueError where it is beyond `largest`, or below `smallest` and not 0."""
+    size = abs(value)
+    if math.isfinite(value) and size > largest:
+        raise ValueError(f"{brief(given)} has no meaning: it is larger than {largest:g}{unit}")
+    if 0 < size < smallest:
+        raise ValueError(f"{brief(given)} has no meaning: it is smaller than {smallest:g}{unit}, which is none at all: write 0")
+    return value
 
 
 def to_si(value: Any, dimension: str) -> float:

@@ -162,7 +162,7 @@ def test_a_table_built_in_python_complains_like_a_file():
         (b'a = 1\nlength = "4 mm"\nlength = "5 mm"', 'is not valid TOML: the key is there twice (at line 3, column 16): length = "5 mm"'),
         (b"[drive]\n[spring]\n[drive]", "is not valid TOML: Cannot declare ('drive',) twice (at line 3, column 7): [drive]"),
         (b"a = [1, 2", "is not valid TOML: Unclosed array (at end of document)"),
-        (b"a = " + b"[" * 5000, "is not valid TOML: nested too deeply"),
+        (b"a = " + b"[" * 5000, "a: line 1: nested too deeply: a key has more than 120 parts"),
         (b"a = " + b"9" * 5000, "is not valid TOML: a number has more than 4300 digits"),
     ],
 )
@@ -185,7 +185,7 @@ def test_a_folder_a_name_too_long_and_an_endless_file_are_refused(tmp_path):
         (tmp_path, "is a folder"),
         ("x" * 5000, "cannot be read: File name too long"),
         ("x\0y", "cannot be read"),
-        ("/dev/zero", "has more than 10000000 characters"),
+        ("/dev/zero", "has more than 1000000 characters"),
     ):
         with pytest.raises(SpecError, match=reason) as caught:
             load(path)

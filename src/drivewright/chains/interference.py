@@ -15,7 +15,10 @@ from drivewright.chains.link import Link, seat_height
 from drivewright.chains.plate import Plate
 from drivewright.chains.sprocket import Sprocket
 from drivewright.chains.tooth import Tooth
+from drivewright.errors import counted
 from drivewright.scene import Arc, Line, place
+
+MOST_POINTS = 1_000_000  # along one outline
 
 
 def folded(points: Floats, teeth: int) -> tuple[Floats, Floats]:
@@ -183,6 +186,8 @@ def sampled(pieces: Mapping[str, Arc | Line], spacing: float) -> tuple[NDArray[n
     """Names (n,) and points (n, 2) along named pieces, no further apart than `spacing` [m]."""
     names, points = [], []
     for name, piece in pieces.items():
+        length = piece.radius * abs(piece.sweep) if isinstance(piece, Arc) else np.hypot(*np.subtract(piece.end, piece.start))
+        counted(length / spacing, MOST_POINTS, f"points along the {name}", "place them further apart")
         course = piece.points(spacing * spacing / 8 / getattr(piece, "radius", np.inf))
         chords = [np.linspace(a, b, int(np.ceil(np.hypot(*(b - a)) / spacing)) + 1) for a, b in zip(course[:-1], course[1:], strict=True)]
         points += chords

@@ -14,9 +14,11 @@ from drivewright._typing import Floats, Numbers
 from drivewright.chains.link import Link, seat_height, seat_support
 from drivewright.chains.sprocket_root import Hob, Root, full_rounding, hob, root
 from drivewright.chains.tooth import Cutter, Tooth, base_half_angle, matching_cutter
-from drivewright.errors import InputError
+from drivewright.errors import InputError, counted
 from drivewright.numerics.roots import bracketed_roots
 from drivewright.scene import Arc, Drawing, Line, Outline, Part, Prism, Shape, Spline, circle
+
+FINEST = 1_000_000, "points of a flank of a tooth", "allow a larger tolerance"
 
 
 def involute(angle: Numbers) -> Numbers:
@@ -164,11 +166,12 @@ class Sprocket:
     def _flank_count(self, tolerance):
         """Points of a flank, equidistant in s = sqrt(r^2 - rb^2), whose sagittas s ds^2/(8 rb^2) stay within a tolerance."""
         low, high = np.sqrt(np.maximum(self._flank_ends**2 - self.tooth.base_radius**2, 0.0))
-        return 8 + int((high - low) / self.tooth.base_radius * np.sqrt(high / (8 * tolerance)))
+        return 8 + counted((high - low) / self.tooth.base_radius * np.sqrt(high / (8 * tolerance)), *FINEST)
 
     def _root_count(self, tolerance):
         """Points of a trochoid, nowhere sharper than the hob's rounding, whose chords stay within a tolerance."""
-        return 8 + int(1.2 * (self.form_radius - self.root_radius + self.tip_rounding) / np.sqrt(8 * tolerance * self.tip_rounding))
+        height = self.form_radius - self.root_radius + self.tip_rounding
+        return 8 + counted(1.2 * height / np.sqrt(8 * tolerance * self.tip_rounding), *FINEST)
 
     def outline(self, tolerance: float = 1e-6) -> Outline:
         """Counter-clockwise Outline of all teeth: arcs for root and tip, splines with knots on the exact trochoids and involutes."""

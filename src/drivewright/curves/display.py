@@ -13,7 +13,7 @@ from drivewright._typing import Complexes, Floats, Ints
 from drivewright.curves.pieces import Piece, gather
 from drivewright.curves.trim import EnvelopeFamily, trim
 from drivewright.numerics.jets import Jet
-from drivewright.scene import Line, Outline, Spline
+from drivewright.scene import FINEST, Line, Outline, Spline
 
 _ROUNDS = 4
 _MOST = 64  # parts into which a chord is divided in one round
@@ -69,11 +69,15 @@ def _run(points):
 
 
 def chords(pieces: Sequence[Piece], tolerance: float, fewest: int = 17) -> tuple[Ints, Floats, Complexes]:
-    """Piece index, parameter and point of samples along the pieces, no chord further than about `tolerance` [m] from its curve."""
+    """Piece index, parameter and point of samples along the pieces.
+
+    No chord is further from its curve than about `tolerance` [m], or `FINEST` of the curve's largest radius where that is more.
+    """
     count = fewest + 1
     index = np.repeat(np.arange(len(pieces)), count)
     t = np.linspace([piece.start for piece in pieces], [piece.stop for piece in pieces], count).T.ravel()
     jet = gather(pieces, index, t)
+    tolerance = max(tolerance, FINEST * np.max(np.abs(jet.d0)))
     for _ in range(_ROUNDS):
         parts = _parts(jet, index, tolerance)
         if np.all(parts == 1):

@@ -7,10 +7,11 @@ import numpy as np
 from scipy.interpolate import PPoly
 
 from drivewright._typing import Floats
-from drivewright.errors import InputError
+from drivewright.errors import InputError, counted
 from drivewright.scene import Arc, Line, Outline, Spline, xy
 
 _ARC = 1e-8  # a piece flagged as an arc may differ from one by this, relative to its radius
+MOST_KNOTS = 1_000_000  # of a spline
 _FEWEST = 8  # chords in a spline
 _TURN = 0.1  # the coarse points of a spline are doubled until the curve turns less than this [rad] between them
 _HALVINGS = 12
@@ -91,7 +92,8 @@ def _spline(span, tolerance):
     t, length, turn = _course(span)
     chords = np.maximum(np.sqrt(length * turn / (4 * tolerance)), _FEWEST / len(length))
     number = np.append(0.0, np.cumsum(chords))
-    knots = np.interp(np.linspace(0, number[-1], int(np.ceil(number[-1])) + 1), number, t)
+    count = counted(np.ceil(number[-1]), MOST_KNOTS, "knots of a curve", "allow a larger tolerance")
+    knots = np.interp(np.linspace(0, number[-1], count + 1), number, t)
     knots[0], knots[-1] = span.start, span.stop
     jet = span.piece.at(knots)
     heading = jet.d1 / np.abs(jet.d1) * np.sign(span.stop - span.start)

@@ -1,6 +1,5 @@
 """Motion over time: kinematics of a mechanism whose drives leave it no freedom, dynamics of any other."""
 
-import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -8,7 +7,7 @@ import numpy as np
 
 from drivewright._jit import plain
 from drivewright._typing import Floats
-from drivewright.errors import DoesNotAssemble
+from drivewright.errors import DoesNotAssemble, counted
 from drivewright.multibody.assembly import Assembly
 from drivewright.multibody.chart import outside_fold, solve_kinematics
 from drivewright.multibody.continuation import Stretch, continue_motion
@@ -25,6 +24,7 @@ from drivewright.stops import Stop, note_stop
 GEAR = 1e-3  # absolute over relative tolerance, at lengths and angles of the size of 1
 WARY, CAREFUL = 3.0, 0.2  # length of a leg towards a singular position, and longest step in it, over the time until it is reached
 STRETCHED = 1e-4  # smallest singular value of loops in which a drive is stuck
+MOST_STATES = 1_500_000  # that are kept of a run: about a kilobyte each with all that is observed of them
 GRID = 720  # samples of a turn where the drives leave no freedom and so no steps to report
 
 
@@ -100,7 +100,8 @@ def simulate(
     """
     if assembly.freedom == 0:
         turns = max(duration * fastest_drive_speed(assembly) / (2 * np.pi), 1.0)
-        grid = np.linspace(start, start + duration, 1 + math.ceil(GRID * turns))
+        count = counted(np.ceil(GRID * turns), MOST_STATES, "states of the run", "ask for fewer turns, or a shorter run")
+        grid = np.linspace(start, start + duration, 1 + count)
         times = grid if samples is None else np.asarray(samples, float)
         return _driven(assembly, times, start + duration, settings, samples is None)
     system = assembly.system

@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 
 from drivewright.curves import offset_outline
-from drivewright.errors import InputError
+from drivewright.errors import InputError, counted
 from drivewright.report.atomic import write_text
 from drivewright.scene import Arc, Drawing
 from drivewright.solids import outlines, pieces
 
 MM = 1e3
+MOST_LEVELS = 10_000
 
 
 def write_gcode(drawing: Drawing, path: str | Path, **settings: Any) -> None:
@@ -62,7 +63,8 @@ def gcode(
     )
     profile, radius = _profile(drawing), cutter_diameter / 2
     path = _climbing(profile, radius, drawing.name)
-    levels = -depth * np.arange(1, math.ceil(depth / step_down - 1e-9) + 1) / math.ceil(depth / step_down - 1e-9)
+    count = counted(np.ceil(depth / step_down - 1e-9), MOST_LEVELS, "passes of the cutter", "make step_down larger")
+    levels = -depth * np.arange(1, count + 1) / count
     write = _Writer(feed, plunge, safe_height, tolerance)
     holes = [outlines.normalised(hole, f"hole of drawing {drawing.name!r}") for hole in drawing.on("hole")]
     lines = _header(drawing, cutter_diameter, tolerance, levels, spindle_speed, warnings) + [f"G0 Z{_mm(safe_height)}"]

@@ -241,7 +241,7 @@ def _name(face: EngineObject, pieces: Sequence[Frustum]) -> tuple[str, Frustum |
         number = _nearest_cut(pieces, face.center.z / MM)
         return (f"cut{number}" if abs(face.mass / _cut_area(pieces, number) - 1) < 1e-3 else "rest"), None
     middle = (low[2] + high[2]) / 2 / MM
-    number = next(n for n, piece in enumerate(pieces) if piece.low < middle < piece.high)
+    number = min(range(len(pieces)), key=lambda n: max(pieces[n].low - middle, middle - pieces[n].high))
     outside = abs(face.mass / _skin_area(pieces[number]) - 1) < 1e-3
     return f"skin{number}" if outside else "rest", pieces[number]
 

@@ -8,7 +8,10 @@ from scipy.interpolate import BSpline, PPoly, make_interp_spline
 
 from drivewright._typing import Floats
 from drivewright.curves import outlines
+from drivewright.errors import counted
 from drivewright.scene import Arc, Line, Piece, Spline
+
+MOST_POINTS = 1_000_000  # of the polyline of a curve
 
 
 def start(piece: Piece) -> Floats:
@@ -87,7 +90,9 @@ def polyline(piece: Piece, tolerance: float) -> Floats:
     curve = interpolant(piece)
     second = np.hypot(*np.moveaxis(curve(curve.x, 2), 1, 0))  # |r''| is piecewise linear at most, so the ends of a span bound it
     step = np.diff(curve.x)
-    parts = np.maximum(1, np.ceil(step * np.sqrt(np.maximum(second[1:], second[:-1]) / (8 * tolerance / 10)))).astype(int)
+    parts = np.maximum(1, np.ceil(step * np.sqrt(np.maximum(second[1:], second[:-1]) / (8 * tolerance / 10))))
+    counted(np.sum(parts), MOST_POINTS, "points of a curve", "allow a larger tolerance")
+    parts = parts.astype(int)
     fine = np.concatenate([curve.x[i] + step[i] * np.arange(n) / n for i, n in enumerate(parts)] + [curve.x[-1:]])
     return np.array(LineString(curve(fine)).simplify(0.9 * tolerance).coords)
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from drivewright._typing import ArrayLike, Bools, Floats, Ints
 from drivewright.errors import InputError
-from drivewright.scene import Turned
+from drivewright.scene import FINEST, Turned
 
 SAME = 1e-6  # m: cuts closer together than this are one
 
@@ -131,7 +131,7 @@ def _without_idle(corners: Floats) -> Floats:
 
 def _turn(radius: float, tolerance: float) -> Floats:
     """Angles of the corners of a polygon in a circle with that sagitta at most; a multiple of four keeps the overall height."""
-    half = np.arccos(max(1 - tolerance / radius, 0.0))
+    half = np.arccos(1 - min(max(tolerance / radius, FINEST), 1.0))
     return np.linspace(0, 2 * np.pi, max(4 * int(np.ceil(np.pi / (4 * half))), 8), endpoint=False)
 
 

@@ -6,7 +6,9 @@ template, the JSON schema and every error message are read off the fields.
 base                the base class of all tables of a spec
 commented_template  the commented template of a spec
 csv_columns         two columns of a CSV file by name, each with its unit in brackets in the header
+csv_text            CSV files as text: read within limits, and texts that no spreadsheet takes for a formula
 designs             many designs in one spec
+document_limits     how much the text of a spec may hold, checked in one pass before it is parsed
 error_messages      validation errors of pydantic as `SpecError`: the dotted key, the value, what would be right
 json_schema         the JSON schema of a kind's spec files, read off the fields
 keys                dotted keys of raw tables: set, or taken out, in place

@@ -34,10 +34,10 @@ def spec_error_of(error: ValidationError, model: type[Any]) -> SpecError:
     """One SpecError naming the first wrong key; the others follow in the message."""
     # Unknown keys first: a misspelt one explains a missing one.
     details = sorted(error.errors(include_url=False), key=lambda item: item["type"] != "extra_forbidden")
-    items = [_complaint(item, model) for item in details]
-    short = [(key, message.partition("; known here")[0]) for key, message in items[1:MAX_COMPLAINTS]]
+    items = [_complaint(item, model) for item in details[:MAX_COMPLAINTS]]
+    short = [(key, message.partition("; known here")[0]) for key, message in items[1:]]
     rest = "".join(f"\n  {key}: {message}" if key else f"\n  {message}" for key, message in short)
-    more = f"\n  ... and {len(items) - MAX_COMPLAINTS} more" if len(items) > MAX_COMPLAINTS else ""
+    more = f"\n  ... and {len(details) - MAX_COMPLAINTS} more" if len(details) > MAX_COMPLAINTS else ""
     missing = any(isinstance(item.get("ctx", {}).get("error"), MissingFile) for item in details)
     return (MissingFile if missing else SpecError)(items[0][1] + rest + more, key=items[0][0] or None)
 

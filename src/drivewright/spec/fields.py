@@ -10,7 +10,7 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, PlainValidator,
 from pydantic.fields import FieldInfo
 
 from drivewright.errors import MissingFile, UnitError, brief
-from drivewright.units import Dimension, any_quantity
+from drivewright.units import Dimension, any_quantity, refuse_absurd
 
 if TYPE_CHECKING:
 
@@ -20,8 +20,17 @@ if TYPE_CHECKING:
 else:
     from pydantic import Field
 
-Number: TypeAlias = Annotated[float, Strict()]
-Integer: TypeAlias = Annotated[int, Strict()]
+MAX_COUNT = 10**15  # that a whole number of a spec may say
+
+
+def _refuse_uncountable(value: int) -> int:
+    if abs(value) > MAX_COUNT:
+        raise ValueError(f"{brief(value)} has no meaning: nothing here is counted beyond {MAX_COUNT:g}")
+    return value
+
+
+Number: TypeAlias = Annotated[float, Strict(), AfterValidator(lambda value: refuse_absurd(value, value, smallest=0.0))]
+Integer: TypeAlias = Annotated[int, Strict(), AfterValidator(_refuse_uncountable)]
 Flag: TypeAlias = Annotated[bool, Strict()]
 Text: TypeAlias = Annotated[str, Strict(), Field(max_length=400)]
 

@@ -3,10 +3,12 @@
 from typing import Any
 
 from drivewright.errors import SpecError, brief, nearest
+from drivewright.spec.document_limits import refuse_long_key
 
 
 def set_key(tables: dict[str, Any], key: str, value: Any) -> dict[str, Any]:
     """Set a dotted key of raw tables, in place; list elements go by their `name` or number."""
+    refuse_long_key(key)
     *path, last = key.split(".")
     place = tables
     for number, step in enumerate(path):
@@ -22,6 +24,7 @@ def set_key(tables: dict[str, Any], key: str, value: Any) -> dict[str, Any]:
 
 def remove_key(tables: dict[str, Any], key: str) -> dict[str, Any]:
     """Take a dotted key out of raw tables, in place; SpecError where it is not there."""
+    refuse_long_key(key)
     *path, last = key.split(".")
     place = tables
     for number, step in enumerate(path):

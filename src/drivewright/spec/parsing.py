@@ -9,10 +9,9 @@ from typing import Any, overload
 from drivewright import registry
 from drivewright.errors import SpecError, UnknownName, brief, nearest
 from drivewright.spec.base import Spec, SpecT, validate_tables
+from drivewright.spec.document_limits import MAX_CHARACTERS, refuse_oversized
 from drivewright.spec.keys import remove_key, set_key
 from drivewright.spec.mechanism_spec import MechanismSpec
-
-MAX_CHARACTERS = 10_000_000  # characters of a spec file
 
 
 def load(path: str | Path, changes: Iterable[str] = ()) -> Any:
@@ -44,12 +43,11 @@ def read_document(path: str | Path) -> dict[str, Any]:
 
 
 def parse_document(text: str) -> dict[str, Any]:
-    """The raw tables of a spec's text; SpecError where it is not TOML."""
+    """The raw tables of a spec's text; SpecError where it is not TOML, or more than a spec may hold."""
+    refuse_oversized(text)
     text += "\n"  # so that tomllib knows the line of a mistake at the very end
     try:
         return tomllib.loads(text)
-    except RecursionError:
-        raise SpecError("is not valid TOML: nested too deeply") from None
     except ValueError as error:  # TOMLDecodeError, and integers of more than 4300 digits
         raise SpecError(f"is not valid TOML: {_explained(str(error), text)}") from None
 
@@ -68,8 +66,9 @@ def _explained(complaint: str, text: str) -> str:
 
 def _text_of(path: Path) -> str:
     try:
+        _refuse_named_pipe(path)
         with path.open(encoding="utf-8-sig") as stream:  # Windows editors put a byte-order mark in front
-            text = stream.read(MAX_CHARACTERS + 1)
+            return stream.read(MAX_CHARACTERS + 1)
     except FileNotFoundError:
         kinds = ", ".join(registry.kinds())
         hint = f"`drivewright examples` lists worked ones to copy, `drivewright new KIND {path.name}` writes a spec (kinds: {kinds})"
@@ -79,11 +78,16 @@ def _text_of(path: Path) -> str:
     except UnicodeDecodeError as error:
         byte = f"byte {error.start} is {error.object[error.start]:#04x}"
         raise SpecError(f"is not text in UTF-8 ({byte}); save it as UTF-8", file=str(path)) from None
+    except SpecError:
+        raise
     except (OSError, ValueError) as error:
         raise SpecError(f"cannot be read: {getattr(error, 'strerror', None) or error}", file=str(path)) from None
-    if len(text) > MAX_CHARACTERS:
-        raise SpecError(f"has more than {MAX_CHARACTERS} characters; that is no spec. Put long tables into data files", file=str(path))
-    return text
+
+
+def _refuse_named_pipe(path: Path) -> None:
+    """It may wait for ever for somebody who writes; the pipe of `<(command)`, which has no place of its own, has somebody."""
+    if path.is_fifo() and path.resolve().exists():
+        raise SpecError("is a named pipe; a spec is a TOML file", file=str(path))
 
 
 def _model_of(tables: Mapping[str, Any]) -> type[MechanismSpec]:
@@ -110,9 +114,11 @@ def change_key(tables: dict[str, Any], change: str) -> dict[str, Any]:
 
 
 def read_value(text: str) -> Any:
-    """A `--set` value: TOML where it parses, text otherwise."""
+    """A `--set` value: TOML where it parses, text otherwise, and where it is more than a spec may hold."""
+    table = f"value = {text}"
     try:
-        tables = tomllib.loads(f"value = {text}")
-    except (ValueError, RecursionError):
+        refuse_oversized(table)
+        tables = tomllib.loads(table)
+    except ValueError:  # of TOML, or a SpecError
         return text.strip()
     return tables["value"] if list(tables) == ["value"] else text.strip()

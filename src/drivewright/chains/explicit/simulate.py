@@ -15,11 +15,12 @@ from drivewright.chains.explicit.snapshots import Snapshots, empty_snapshots
 from drivewright.chains.explicit.stability import refuse_seats, refuse_step
 from drivewright.chains.explicit.state import DriveArrays, compile_model
 from drivewright.chains.model import ChainDrive
-from drivewright.errors import InputError
+from drivewright.errors import InputError, counted
 
 CHUNK = 0.3  # seconds of computing between two looks at the outside world
 ROOM = 16000  # plates, over all snapshots, that are kept until they are measured: what a cache holds
 SEARCH_INTERVAL = 50  # steps between two searches for who may touch whom
+MOST_STEPS, MOST_SAMPLES = 10_000_000, 2_000_000  # between two samples, and samples of a run
 DRIFT = 0.02  # of a tooth that a sprocket may turn in between
 
 
@@ -89,8 +90,9 @@ def _begun(model, begin, settings, step, search_interval):
 def stepping(model: ChainDrive, duration: float, settings: RunSettings) -> tuple[int, float, int]:
     """(steps per sample, step, samples): a whole number of steps per sample and of samples per tooth."""
     between = tooth_time(model) / settings.samples_per_tooth
-    every = int(np.ceil(between / settings.step - 1e-9))
-    return every, between / every, int(np.ceil(duration / between - 1e-9)) + 1
+    every = counted(np.ceil(between / settings.step - 1e-9), MOST_STEPS, "steps between two samples", "make the step longer")
+    samples = counted(np.ceil(duration / between - 1e-9), MOST_SAMPLES, "samples of the run", "ask for a shorter run or fewer a tooth")
+    return every, between / every, samples + 1
 
 
 def tooth_time(model: ChainDrive) -> float:

@@ -1,5 +1,6 @@
 """What the user says of a shaft: material, segments, bearings, stations, loads, limits."""
 
+import math
 from typing import Annotated, Literal
 
 from drivewright.bearings.ball import BallBearing
@@ -37,7 +38,7 @@ class _StiffnessOrRigid(Dimension):
     def parse(self, value):
         """As `Dimension.parse`, of the wider kind."""
         if value == RIGID:
-            return float("inf")
+            return math.inf
         found = BY_NAME["stiffness"].parse(value)
         if not found > 0:
             raise UnitError(
@@ -46,13 +47,13 @@ class _StiffnessOrRigid(Dimension):
         return found
 
     def text(self, value):
-        return RIGID if value == float("inf") else BY_NAME["stiffness"].text(value)
+        return RIGID if value == math.inf else BY_NAME["stiffness"].text(value)
 
     def __get_pydantic_json_schema__(self, schema, handler):
         return {"type": "string", "examples": ["3e7 N/m", RIGID], "x-dimension": "stiffness", "x-unit": "N/m", "x-si-unit": "N/m"}
 
 
-StiffnessOrRigid = Annotated[float, _StiffnessOrRigid('stiffness, or "rigid"', "N/m", "N/m")]
+StiffnessOrRigid = Annotated[float, _StiffnessOrRigid('stiffness, or "rigid"', "N/m", "N/m", largest=math.inf)]
 
 
 class Material(Spec):

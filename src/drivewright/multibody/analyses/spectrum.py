@@ -3,10 +3,11 @@
 import numpy as np
 
 from drivewright._typing import Floats
+from drivewright.errors import counted
 from drivewright.multibody.analyses.simulation_model import SimulationModel, ideal_record, record_of
 from drivewright.multibody.analyses.turns import acceleration
 from drivewright.multibody.record import record
-from drivewright.multibody.simulate import simulate
+from drivewright.multibody.simulate import MOST_STATES, simulate
 from drivewright.numerics.ensemble import estimate
 from drivewright.numerics.signals import order_spectrum, spectrogram
 from drivewright.result import Answer, Column, Table
@@ -23,7 +24,8 @@ def spectrum(model: SimulationModel) -> Answer:
     if turns < 1:
         return Answer(findings=("the spectrum is left out: the window has no whole turn",))
     samples = max(2 * model.samples_per_turn, PER_OSCILLATION * ORDERS)
-    times = start + np.linspace(0, turns * period, turns * samples + 1)
+    count = counted(turns * samples, MOST_STATES, "samples of the spectrum", "lower samples_per_turn, or ask for fewer turns")
+    times = start + np.linspace(0, turns * period, count + 1)
     run = simulate(model.assembly, model.run_length, model.settings, samples=np.minimum(times, model.run_length))
     even, ideal = record(run, model.markers), ideal_record(model)
     orders = np.arange(ORDERS + 1.0)
