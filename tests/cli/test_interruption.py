@@ -5,6 +5,7 @@ import re
 import signal
 import subprocess
 import sys
+import textwrap
 import time
 from pathlib import Path
 
@@ -109,6 +110,23 @@ def test_a_signal_in_any_phase(tmp_path, name):
         assert "leaked" not in said and (code < 0 or "Traceback" not in said), (delay, said)
     assert subprocess.run(sweep(folder), capture_output=True).returncode == 0
     assert len(dw.open_study(folder)) == CASES
+
+
+CAUGHT = """
+    import signal, sys
+    from drivewright.cli.interruption import ending_signals, exit_code
+    with ending_signals() as received:
+        try:
+            exec("signal.raise_signal(signal.SIGTERM)")
+        except KeyboardInterrupt:
+            sys.exit(exit_code(received))
+"""
+
+
+def test_an_interrupt_while_a_class_is_made_keeps_its_exit_code(tmp_path):
+    """CPython would otherwise end by SIGINT, as an interrupt that nobody has caught."""
+    (tmp_path / "caught.py").write_text(textwrap.dedent(CAUGHT))
+    assert subprocess.run([sys.executable, "-m", "caught"], cwd=tmp_path).returncode == 143
 
 
 # -- in this process -----------------------------------------------------------------------------------------------------------

@@ -12,6 +12,7 @@ from drivewright.cases import worker_count
 from drivewright.errors import InputError, brief
 from drivewright.execution.processes import endings_blocked, exit_with_parent, most_processes, worker_environment
 
+STARTS = 3  # of a process that dies before it comes to work: the first may have been killed by chance
 SCHEMES = ("tcp://", "tls://", "ucx://", "ws://", "wss://")
 
 
@@ -129,6 +130,7 @@ class ProcessExecutor:
     capacity: int = 2
 
     def __init__(self) -> None:
+        self._vain_starts = 0
         self._start()
 
     def _start(self) -> None:
@@ -151,8 +153,10 @@ class ProcessExecutor:
             return future
 
     def restart(self) -> None:
-        """A new process in place of the dead one; InputError where that one never came to work."""
-        if not self._warmed.done() or self._warmed.exception() is not None:
+        """A new process in place of the dead one; InputError where none of `STARTS` in a row came to work."""
+        came_to_work = self._warmed.done() and self._warmed.exception() is None
+        self._vain_starts = 0 if came_to_work else self._vain_starts + 1
+        if self._vain_starts >= STARTS:
             raise InputError(
                 "a worker process does not start (its own message stands above, if it had one); mend that, or compute in this "
                 "process with --on serial. Every case that was finished before is kept"

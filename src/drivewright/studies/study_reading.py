@@ -27,7 +27,6 @@ class KeptStudy(NamedTuple):
     remarks: tuple[str, ...]
     identity: dict[str, str]
     damaged: dict[Part, str]
-    unchecked: int  # parts of an older version, which have no checksum
 
 
 def is_study(folder: str | Path) -> bool:
@@ -61,5 +60,4 @@ def _kept(folder: Path, ledger: sqlite3.Connection) -> KeptStudy:
     while damaged and (now := parts_of(ledger)) != parts:  # a sweep has just begun, and replaced them
         parts = now
         tables, damaged = read_parts(folder / PARTS, parts)
-    unchecked = sum(part.sha256 is None for part in parts)
-    return KeptStudy(load(folder / SPEC), tables, seconds, remarks_of(ledger), known, damaged, unchecked)
+    return KeptStudy(load(folder / SPEC), tables, seconds, remarks_of(ledger), known, damaged)
