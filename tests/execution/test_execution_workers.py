@@ -12,7 +12,7 @@ import pytest
 import worker_toy
 
 from drivewright.errors import SpecError
-from drivewright.execution.workers import CallTimedOut, Cancellation, Worker, WorkerDied, WorkerFault, WorkerPool
+from drivewright.execution.workers import LEAST_MEMORY, CallTimedOut, Cancellation, Worker, WorkerDied, WorkerFault, WorkerPool
 
 pytestmark = pytest.mark.interface
 
@@ -135,12 +135,21 @@ def test_a_process_may_take_its_share_of_the_memory_only(worker):
 
 
 @pytest.mark.skipif(not Path("/proc/self/limits").exists(), reason="limits of memory are kept by Linux")
+def test_the_smallest_machine_still_lets_a_process_begin():
+    tiny = Worker(memory=1e-6)
+    try:
+        assert call(tiny, worker_toy.process)
+    finally:
+        tiny.close()
+
+
+@pytest.mark.skipif(not Path("/proc/self/limits").exists(), reason="limits of memory are kept by Linux")
 def test_a_call_that_wants_more_memory_fails_alone():
     modest = Worker(memory=0.1)
     try:
         before = call(modest, worker_toy.process)
         with pytest.raises((WorkerFault, WorkerDied)):
-            call(modest, worker_toy.fill, int(0.15 * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")))
+            call(modest, worker_toy.fill, max(int(0.15 * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")), 2 * LEAST_MEMORY))
         assert call(modest, worker_toy.process) == before  # nothing was taken: the system refused
     finally:
         modest.close()

@@ -135,6 +135,48 @@ def test_a_page_of_another_site_can_neither_frame_the_studio_nor_take_parts_of_i
     assert status(OWN, (b"sec-fetch-site", b"same-origin"), (b"sec-fetch-dest", b"script")) == 200
 
 
+def test_another_site_can_not_have_the_page_fetched_in_advance():
+    other = (b"sec-fetch-site", b"cross-site"), (b"sec-fetch-dest", b"document")
+    assert status(OWN, *other) == 200 and status(OWN, *other, (b"sec-purpose", b"prefetch;prerender")) == 403
+    assert status(OWN, (b"sec-fetch-site", b"none"), (b"sec-purpose", b"prefetch")) == 200
+
+
+def _passed_on(*headers, client):
+    """The scope that reaches the application."""
+    scopes = []
+
+    async def inner(scope, receive, send):
+        scopes.append(scope)
+        await _inner(scope, receive, send)
+
+    assert status(OWN, *headers, gate=AccessControl(inner), client=client) == 200
+    return scopes[0]
+
+
+def test_a_proxy_of_this_machine_may_say_who_asks_and_how_and_nobody_else():
+    told = (b"x-forwarded-for", b"198.51.100.1, 192.0.2.7"), (b"x-forwarded-proto", b"https")
+    scope = _passed_on(*told, client=("127.0.0.1", 5))
+    assert scope["client"][0] == "192.0.2.7" and scope["scheme"] == "https"
+    scope = _passed_on(*told, client=("192.0.2.9", 5))
+    assert scope["client"][0] == "192.0.2.9" and scope["scheme"] == "http"
+    since = time.perf_counter()
+    _passed_on((b"x-forwarded-for", b"1," * 30_000), client=("127.0.0.1", 5))  # five seconds where each one is parsed
+    assert time.perf_counter() - since < 0.5
+
+
+def test_frameworks_see_no_cookies():
+    assert not [name for name, _ in _passed_on((b"Cookie", b"a=1"), client=("127.0.0.1", 5))["headers"] if name.lower() == b"cookie"]
+
+
+def test_a_request_of_the_socket_does_not_wait_for_ever(monkeypatch):
+    monkeypatch.setattr(access, "POLL_SECONDS", 0.1)
+
+    async def waits(scope, receive, send):
+        await asyncio.sleep(60)
+
+    assert status(OWN, gate=AccessControl(waits), path="/_nicegui_ws/socket.io/") == 408
+
+
 def test_a_websocket_learns_why():
     assert ask(OWN, (b"origin", b"http://evil.example"), kind="websocket") == [{"type": "websocket.close", "code": 4403}]
 

@@ -29,9 +29,9 @@ class Page:
     def __init__(self, socket, ids):
         self.socket, self.ids, self.heard, self.news = socket, ids, [], asyncio.Event()
 
-    async def send(self, frame):
+    async def send(self, frame, text=None):
         """A frame as it is."""
-        await self.socket.send(frame)
+        await self.socket.send(frame, text=text)
 
     async def say(self, what, **more):
         """A message as the page sends it."""
@@ -47,8 +47,9 @@ class Page:
             if frame == "2":
                 await self.socket.send("3")
             elif frame.startswith("42"):
-                name, message = json.loads(frame[2:])
+                name, text = json.loads(frame[2:])
                 if name == "studio":
+                    message = json.loads(text)
                     self.heard.append((time.perf_counter(), message))
                     self.news.set()
 

@@ -23,6 +23,7 @@ from drivewright.errors import DrivewrightError
 from drivewright.execution.processes import exit_with_parent, worker_environment
 
 MEMORY_SHARE = 0.4  # of the machine's memory that one process may take
+LEAST_MEMORY = 800_000_000  # bytes that it may take on the smallest machine: Python and our packages want a third of that
 PATIENCE = 60.0  # seconds that a call which nobody waits for may take to notice
 PATIENCE_NOW = 0.3  # seconds that a call may take to clear up
 PATIENCE_DEATH = 5.0  # seconds that the system may take to end a process
@@ -71,7 +72,7 @@ def _limit_memory(part: float) -> None:
     with suppress(ImportError, ValueError, OSError):
         import resource
 
-        share = int(part * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+        share = max(int(part * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")), LEAST_MEMORY)
         resource.setrlimit(resource.RLIMIT_DATA, (share, resource.getrlimit(resource.RLIMIT_DATA)[1]))
 
 

@@ -19,12 +19,14 @@ Send: TypeAlias = Callable[[MutableMapping[str, Any]], Awaitable[None]]
 Application: TypeAlias = Callable[[Scope, Receive, Send], Awaitable[None]]  # of ASGI
 LARGEST = 100_000  # bytes of a request's body: large texts come over the websocket
 BODY_SECONDS = 30.0  # in which it has to arrive
+POLL_SECONDS = 60.0  # that a request of the socket without a websocket may take; the framework waits for ever after an odd one
 FRAMES = 200  # messages that one websocket may send in a second; more of them wait
 COOKIE = "drivewright-studio"
 LEAST_TOKEN = 16  # characters
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 OPEN = ("/healthz",)
-SERVED = ("/web/", "/download/", "/_nicegui/", "/_nicegui_ws/")
+SOCKET = "/_nicegui_ws/"
+SERVED = ("/web/", "/download/", "/_nicegui/", SOCKET)
 PAGES = ("/", "/healthz", "/favicon.ico")
 HOST = re.compile(r"(\[[0-9a-f:.]+\]|[0-9a-z._-]+)(?::([0-9]{1,5}))?", re.IGNORECASE)
 KINDS, BINARY = "0123456", ("45", "46")  # how messages of the socket begin, and those with binary data, of which the page sends none
@@ -52,6 +54,7 @@ class AccessControl:
         if scope["type"] not in ("http", "websocket"):
             return await self.app(scope, receive, send)
         headers = [(name.decode("latin-1").lower(), value.decode("latin-1")) for name, value in scope["headers"]]
+        scope = {**scope, **_before_proxy(scope, dict(headers))}
         if status := _malformed(headers) or self._refused(scope, dict(headers)):
             return await _refuse(scope, receive, send, *status)
         if self.token and scope["path"] not in OPEN and not self._has_cookie(dict(headers)):
@@ -60,9 +63,12 @@ class AccessControl:
             return await _refuse(scope, receive, send, 404, "there is nothing here")
         counted = _Counted(receive, send, any(name in ("content-length", "transfer-encoding") for name, _ in headers))
         try:
-            await self.app(scope, counted.receive, counted.send)
+            async with asyncio.timeout(POLL_SECONDS if scope["type"] == "http" and scope["path"].startswith(SOCKET) else None):
+                await self.app(_without_cookies(scope), counted.receive, counted.send)
+        except TimeoutError:
+            counted.refuse(TOO_SLOW)
         except Exception:  # frameworks wrap what `receive` raises, or swallow it and answer something else
-            if not counted.refused:
+            if not (counted.refused or counted.gone):
                 raise
         return await _refuse(scope, receive, send, *counted.refused) if counted.refused else None
 
@@ -74,7 +80,8 @@ class AccessControl:
         origin = headers.get("origin")
         if origin is not None and origin.lower() not in (f"{scheme}://{host[0].lower()}" for scheme in ("http", "https")):
             return 403, "this page belongs to another site"
-        if headers.get("sec-fetch-site") == "cross-site" and headers.get("sec-fetch-dest", "document") != "document":
+        shown = headers.get("sec-fetch-dest", "document") == "document" and "sec-purpose" not in headers  # or fetched in advance
+        if headers.get("sec-fetch-site") == "cross-site" and not shown:
             return 403, "this page belongs to another site"
         length = headers.get("content-length", "0")
         if not (length.isascii() and length.isdecimal()) or len(length) > 18 or int(length) > LARGEST:
@@ -117,6 +124,22 @@ def _malformed(headers):
     return None
 
 
+def _before_proxy(scope, headers):
+    """{client, scheme} as a proxy of this machine tells them: the last address is its own word, those before it anybody's."""
+    told = {}
+    if (scope.get("client") or ("",))[0] in LOOPBACK:
+        if address := headers.get("x-forwarded-for", "").rpartition(",")[2].strip():
+            told["client"] = (address, 0)
+        if headers.get("x-forwarded-proto", "").strip().lower() == "https" and scope["type"] == "http":
+            told["scheme"] = "https"
+    return told
+
+
+def _without_cookies(scope):
+    """For the frameworks, which need none, and take seconds to read hostile ones."""
+    return {**scope, "headers": [(name, value) for name, value in scope["headers"] if name.lower() != b"cookie"]}
+
+
 def _is_loose(text):
     """Whether a message has more than LOOSE texts, or characters outside of them, or a text that does not end."""
     loose, end = 0, 0
@@ -143,26 +166,34 @@ class _Counted:
     """`receive` and `send` of a request or a websocket: a body is counted and timed, messages are slowed down where there are many."""
 
     def __init__(self, receive, send, has_body):
-        self._receive, self._send, self._bytes, self._begun, self.refused = receive, send, 0, False, None
+        self._receive, self._send, self._bytes, self._begun = receive, send, 0, False
+        self.refused, self.gone = None, False  # the answer instead; whether the peer has left
         self._until = time.monotonic() + BODY_SECONDS if has_body else None  # None when there is no body to wait for any more
         self._second, self._frames = 0.0, 0
 
     async def receive(self):
         """The next message."""
+        message = await self._next()
+        self.gone = message["type"] == "http.disconnect"
         if self._until is None:
-            return await self._paced(await self._receive())
-        try:
-            message = await asyncio.wait_for(self._receive(), self._until - time.monotonic())
-        except TimeoutError:
-            raise self._refuse(TOO_SLOW) from None
+            return await self._paced(message)
         self._bytes += len(message.get("body", b""))
         if self._bytes > LARGEST:
-            raise self._refuse(TOO_LARGE)
+            raise self.refuse(TOO_LARGE)
         if not message.get("more_body"):
             self._until = None
         return message
 
-    def _refuse(self, status):
+    async def _next(self):
+        if self._until is None:
+            return await self._receive()
+        try:
+            return await asyncio.wait_for(self._receive(), self._until - time.monotonic())
+        except TimeoutError:
+            raise self.refuse(TOO_SLOW) from None
+
+    def refuse(self, status):
+        """No answer of the application: (status, words) instead, unless one has begun."""
         self.refused = None if self._begun else status
         return _Refused()
 

@@ -69,7 +69,7 @@ def serve(
     number, name_of_host = listening.getsockname()[1], socket.gethostname() if host in EVERY else f"[{host}]" if ":" in host else host
     address = f"http://{name_of_host}:{number}/{f'?token={quote(token)}' if token else ''}"
     app = application(start, name, lambda: _ready(address, browser, say))
-    from drivewright.studio.connections import PatientProtocol
+    from drivewright.studio.connections import HEADERS, PatientProtocol
 
     config = uvicorn.Config(
         PagePolicy(AccessControl(app, token, number)),
@@ -77,6 +77,8 @@ def serve(
         log_level="error",
         ws_max_size=LARGEST_MESSAGE,
         ws_max_queue=4,
+        h11_max_incomplete_event_size=HEADERS,
+        proxy_headers=False,  # AccessControl reads them: a long list of addresses took uvicorn seconds
         timeout_graceful_shutdown=1,
         ws_per_message_deflate=False,  # to this machine itself folding costs more time than it saves, and unfolding is work for nothing
     )

@@ -27,6 +27,7 @@ class Tabs:
         self._unsent: dict[str, deque[Message]] = {}
         self._senders: dict[str, asyncio.Task[None]] = {}
         self._sio: Any = None
+        self._written: Callable[[object], str]  # a message in JSON: the framework would walk through every part of one that is not text
 
     @property
     def full(self) -> bool:
@@ -47,7 +48,9 @@ class Tabs:
 
     def listen(self, sio: Any) -> None:
         """Take over from the framework what comes over its socket."""
-        self._sio = sio
+        from nicegui import json
+
+        self._sio, self._written = sio, json.dumps
         for name, handler in list(sio.handlers["/"].items()):
             if name in ("connect", "handshake", "ack"):
                 sio.on(name, _forgiving(handler))
@@ -56,6 +59,7 @@ class Tabs:
         sio.on("event", self._hear)
         for logger in ("engineio.server", "socketio.server"):
             logging.getLogger(logger).addFilter(_is_ours)
+        logging.getLogger("uvicorn.error").addFilter(lambda record: not record.getMessage().startswith("Invalid UTF-8"))
 
     async def _hear(self, socket: str, event: object = None, *more: object) -> None:
         """An event of a page, {client_id, args}: its only argument is a message in JSON."""
@@ -89,7 +93,7 @@ class Tabs:
                         await asyncio.gather(*(connection.close(wait=False, abort=True) for connection in behind))
                     await asyncio.sleep(BREATH)
                 if unsent:
-                    await self._sio.emit("studio", unsent.popleft(), room=page)
+                    await self._sio.emit("studio", self._written(unsent.popleft()), room=page)
         finally:
             self._senders.pop(page, None)
 

@@ -129,7 +129,7 @@ function fetched({name, url}) {
 /** The connection: hello until the server answers, "again" when the connection comes back. */
 function joined(page, hears, store) {
   let socket = null, left = false, begun = false;
-  const hear = message => { begun ||= message.what === "start"; hears[message.what]?.(message); };
+  const hear = text => { const message = JSON.parse(text); begun ||= message.what === "start"; hears[message.what]?.(message); };
   const lost = () => store.set({notice: AWAY});
   const greet = () => {
     if (left) return;
