@@ -34,7 +34,7 @@ def test_at_every_operation(scenario, fault, tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("scenario", "step"), [("run-folder", 1), ("run-folder-by-two-renames", 1), ("sweep-with-damaged-ledger", 8), ("sweep", 12)]
+    ("scenario", "step"), [("run-folder", 2), ("run-folder-by-two-renames", 6), ("sweep-with-damaged-ledger", 12), ("sweep", 12)]
 )
-def test_at_every_operation_and_again_at_the_next_start(scenario, step, tmp_path):
+def test_at_operations_and_again_at_those_of_the_next_start(scenario, step, tmp_path):
     print(scenario, "kill twice", run_scenario(scenario, tmp_path, "kill-twice", step))

@@ -51,9 +51,9 @@ def test_in_the_middle(tmp_path, plain):
 @pytest.mark.slow
 def test_at_any_moment(tmp_path, plain):
     killed = 0
-    for moment in range(30):
-        study, was_killed = killed_after(tmp_path / f"S{moment}", 0.1 + 0.15 * moment)
-        assert study.table.equals(plain), f"killed after {0.1 + 0.15 * moment} s"
+    for moment in range(16):
+        study, was_killed = killed_after(tmp_path / f"S{moment}", 0.1 + 0.3 * moment)
+        assert study.table.equals(plain), f"killed after {0.1 + 0.3 * moment} s"
         killed += was_killed
     print("workers killed:", killed)
-    assert killed > 10
+    assert killed > 5
