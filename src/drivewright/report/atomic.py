@@ -105,6 +105,17 @@ def _remove_remnants(path: Path) -> None:
     left = re.compile(rf"\.{re.escape(path.name)}\.{TOKEN}\.tmp{re.escape(path.suffix)}")
     for file in list(path.parent.iterdir()):
         if left.fullmatch(file.name) and file.is_file() and not file.is_symlink():
-            with suppress(OSError):  # gone by now, or not ours to remove
-                if not is_held(file):
-                    file.unlink()
+            with suppress(OSError):  # held by a living writer, gone by now, or not ours to remove
+                _remove_unheld(file)
+
+
+def _remove_unheld(file: Path) -> None:
+    """Remove a file while it is held here, so that no writer can begin to hold it in between; OSError where another holds it."""
+    if fcntl is None:
+        return
+    handle = os.open(file, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        file.unlink()
+    finally:
+        os.close(handle)
