@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from places import EXAMPLES
 
 from drivewright import cli, registry, runner
 from drivewright.errors import InputError, SpecError, counted
@@ -90,3 +91,10 @@ def test_a_budget_says_how_many_of_what_and_what_to_do():
     for count in (21.0, math.inf, math.nan):
         with pytest.raises(InputError, match=r"points are more than the 20 that fit into memory and time; take fewer$"):
             counted(count, 20, "points", "take fewer")
+
+
+def test_a_pin_circle_wider_than_a_galaxy_is_told_from_its_pins():
+    spec = load(EXAMPLES / "cycloid_reducer.toml", ["pin_circle_radius=3.9e20 mm"])
+    with np.errstate(all="ignore"):
+        result = runner.run(spec, "profile")
+    assert result.outcome == "partial" or all(math.isfinite(value.value) for value in result.values.values())

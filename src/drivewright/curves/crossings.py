@@ -9,10 +9,12 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright.curves.pieces import Chain, gather
+from drivewright.errors import counted
 
 _TOLERANCE = 1e-12  # two branches meet when they are this close, relative to the size of the curve
 _TAIL, _JOINT_TAIL = 0.5, 5e-3  # a tail shorter than this [samples], on one piece or across a joint, is one branch meeting itself
 _NEAR, _SMALL = 1e-4, 2e-3  # relative to the size of the curve, sine
+_MOST = 20_000  # places that are looked at one by one
 _SAME = 1e-3  # crossings nearer than this [samples] on both branches are one
 
 
@@ -25,16 +27,17 @@ class Crossing(NamedTuple):
 
 
 def self_crossings(chain: Chain) -> tuple[Crossing, ...]:
-    """All crossings of the chain with itself, in order of their first place."""
+    """All crossings of the chain with itself, in order of their first place; InputError where rounding makes it cross itself everywhere."""
     seeds = np.concatenate([_from_chords(chain), _from_joints(chain)])
     if not len(seeds):
         return ()
+    counted(len(seeds), _MOST, "places at which a curve may cross itself", "its size and its details differ by more than numbers can hold")
     places, steps, points = _refined(chain, seeds)
-    kept, at = [], []
+    kept, at = [], np.empty_like(steps)
     for k in np.lexsort((places[:, 1], places[:, 0])):
-        if not any(np.all(_separation(chain, steps[k], other) < _SAME) for other in at):
+        if not np.any(np.all(_separation(chain, steps[k], at[: len(kept)]) < _SAME, axis=1)):
+            at[len(kept)] = steps[k]
             kept.append(Crossing(float(places[k, 0]), float(places[k, 1]), complex(points[k])))
-            at.append(steps[k])
     return tuple(kept)
 
 
