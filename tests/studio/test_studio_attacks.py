@@ -113,7 +113,7 @@ def _with_points(number):
     return {"what": "text", "toml": TEXT.replace("points = { A", f"points = {{ {points}, A", 1)}
 
 
-LARGE["a form"], LARGE["a form that is too large"] = _with_points(1200), _with_points(9000)
+LARGE["a form"], LARGE["a form that is too large"] = _with_points(1200), _with_points(1700)
 
 
 async def _answered(tab):
