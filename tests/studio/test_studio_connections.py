@@ -78,6 +78,8 @@ def test_nothing_is_handed_on_while_it_would_be_too_much(stop, go):
         getattr(paced, go)()
         await _turns(10)
         assert len(protocol.parts) == 3 and transport.reading
+        getattr(paced, stop)()
+        assert not transport.reading  # nor is more read, with nothing left to hand on
 
     loops.run(work())
 
