@@ -126,6 +126,21 @@ def test_workers_are_made_when_wanted_and_used_again():
     assert not any(worker.process.is_alive() for worker in loops.run(work()))
 
 
+def test_a_closed_pool_starts_nothing_again():
+    async def work():
+        pool = WorkerPool(2)
+        async with pool.worker() as one:
+            pool.close()
+            with pytest.raises(WorkerDied, match="closed"):
+                await one.call(worker_toy.process)
+            with pytest.raises(WorkerDied, match="closed"):
+                async with pool.worker():
+                    pass
+        return one
+
+    assert not loops.run(work()).process.is_alive()
+
+
 @pytest.mark.skipif(not Path("/proc/self/limits").exists(), reason="reads limits in /proc")
 def test_a_process_may_take_its_share_of_the_memory_only(worker):
     call(worker, worker_toy.process)

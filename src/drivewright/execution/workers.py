@@ -26,6 +26,7 @@ MEMORY_SHARE = 0.4  # of the machine's memory that one process may take
 LEAST_MEMORY = 800_000_000  # bytes that it may take on the smallest machine: Python and our packages want a third of that
 PATIENCE = 60.0  # seconds that a call which nobody waits for may take to notice
 PATIENCE_NOW = 0.3  # seconds that a call may take to clear up
+CLOSED = "the computing processes have been closed"
 PATIENCE_DEATH = 5.0  # seconds that the system may take to end a process
 
 
@@ -40,7 +41,7 @@ class Cancelled(Exception):
 
 
 class WorkerDied(DrivewrightError):
-    """The process ended in the middle of a call."""
+    """The process ended in the middle of a call, or was closed before it."""
 
 
 class CallTimedOut(DrivewrightError):
@@ -106,13 +107,13 @@ def _send_answer(pipe: Connection, answer: tuple[str, Any]) -> None:
 
 
 class Worker:
-    """One process; it is made again when it has died.
+    """One process; it is made again when it has died, until it is closed.
 
     With a `niceness` it leaves the processor to those who have less of it; `memory` is the part of the machine's that it may take.
     """
 
     def __init__(self, niceness: int = 0, memory: float = MEMORY_SHARE) -> None:
-        self._settings = niceness, memory
+        self._settings, self._closed = (niceness, memory), False
         self._start()
 
     def _start(self) -> None:
@@ -139,6 +140,8 @@ class Worker:
         Where the caller is cancelled with `Cancellation.NOW`, the process is ended if it does not stop at once.  So it is where the call
         neither ends nor sends a message for `limit` [s].
         """
+        if self._closed:
+            raise WorkerDied(CLOSED)
         if self._killed or not self.process.is_alive():
             self._start()
         call = _Call(self._pipe, self.process, on_message)
@@ -174,7 +177,8 @@ class Worker:
         self.process.kill()
 
     def close(self) -> None:
-        """Let the process go."""
+        """Let the process go, for good: whoever still calls gets WorkerDied, and the program's end waits for nobody."""
+        self._closed = True
         self.kill()
         self.process.join(1)
 
@@ -245,6 +249,7 @@ class WorkerPool:
         self._all: list[Worker] = []
         self._held: Counter[Hashable] = Counter()
         self._waiting: list[tuple[Hashable, asyncio.Future[None]]] = []
+        self._closed = False
 
     @property
     def crowded(self) -> bool:
@@ -298,11 +303,14 @@ class WorkerPool:
         self._grant()
 
     def _new(self) -> Worker:
+        if self._closed:
+            raise WorkerDied(CLOSED)
         self._all.append(Worker(*self._settings))
         return self._all[-1]
 
     def close(self) -> None:
-        """Let all processes go."""
+        """Let all processes go; there will be no others."""
+        self._closed = True
         for worker in self._all:
             worker.kill()
         for worker in self._all:
