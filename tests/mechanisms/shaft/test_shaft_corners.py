@@ -144,21 +144,47 @@ def threads(diameter, **more):
     return shaft(segments=[{"length": "340 mm", "diameter": diameter, **more}], bearings=bearings)
 
 
+def past_the_door(spec, table, **numbers):
+    """The spec with numbers [SI] that no text could say: what the mechanics answer by themselves."""
+    value = getattr(spec, table)
+    changed = (value[0].model_copy(update=numbers),) if isinstance(value, tuple | list) else value.model_copy(update=numbers)
+    return spec.model_copy(update={table: changed})
+
+
 @pytest.mark.parametrize(
     "spec, told",
     [
         (threads("0.000468465 mm"), "gave up: shaft: shaft and bearings are singular to rounding"),
         (
-            threads("1e-90 mm"),
+            past_the_door(threads("20 mm"), "segments", diameter=1e-93),
             "no answer for this design: shaft: from 0 to 56.5 mm, with a diameter of 1e-90 mm, its bending is beyond all",
         ),
-        (threads("1e90 mm"), "with a diameter of 1e\\+90 mm, its bending is beyond all numbers; check the units"),
-        (shaft(material={"youngs_modulus": "1e-300 Pa"}), "its bending is beyond all numbers; .* Young's modulus"),
+        (
+            past_the_door(threads("20 mm"), "segments", diameter=1e87),
+            "with a diameter of 1e\\+90 mm, its bending is beyond all numbers; check the units",
+        ),
+        (past_the_door(shaft(), "material", youngs_modulus=1e-300), "its bending is beyond all numbers; .* Young's modulus"),
     ],
 )
 def test_a_shaft_beyond_measure_is_told_in_our_words(spec, told):
     result = dw.run(spec)
     assert result.outcome == "partial" and any(re.search(told, finding) for finding in result.findings)
+
+
+@pytest.mark.parametrize(
+    ("settings", "told"),
+    [
+        (
+            {"segments": [{"length": "340 mm", "diameter": "1e-90 mm"}]},
+            "segments.0.diameter: '1e-90 mm' has no meaning: it is smaller than",
+        ),
+        ({"segments": [{"length": "340 mm", "diameter": "1e90 mm"}]}, "segments.0.diameter: '1e90 mm' has no meaning: it is larger than"),
+        ({"material": {"youngs_modulus": "1e-300 Pa"}}, "material.youngs_modulus: '1e-300 Pa' has no meaning: it is smaller than"),
+    ],
+)
+def test_the_door_refuses_what_is_beyond_measure(settings, told):
+    with pytest.raises(dw.SpecError, match=told):
+        shaft(**settings)
 
 
 def test_a_thread_on_springs_sags_as_it_should():
