@@ -19,8 +19,7 @@ STEPS = {  # every so many operations, for a few seconds; the slow tests try all
 LONG = {"answers": 9, "run": 9, "export": 9}  # commands that write the same kinds of file again and again
 
 
-@pytest.mark.parametrize("scenario", STEPS)
-@pytest.mark.parametrize("fault", ["kill", "full"])
+@pytest.mark.parametrize(("fault", "scenario"), [*(("kill", name) for name in STEPS), ("full", "run-folder"), ("full", "sweep")])
 def test_at_some_operations(scenario, fault, tmp_path):
     assert int(run_scenario(scenario, tmp_path, fault, STEPS[scenario])) >= 3
 

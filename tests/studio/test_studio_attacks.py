@@ -683,6 +683,7 @@ def test_processes_killed_at_every_phase_cost_a_line_and_no_tab(tmp_path):
         assert "Traceback" not in server.said()
 
 
+@pytest.mark.slow
 def test_a_long_job_of_one_tab_leaves_the_others_their_drawings_analyses_and_jobs(server):
     async def attack():
         async with page(server.port) as greedy, page(server.port) as other:
