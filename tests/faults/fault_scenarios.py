@@ -369,9 +369,23 @@ def _export(place):
 
 
 def _export_is_whole(place):
+    _exported(place, {".dxf", ".svg", ".csv", ".stl"})
+
+
+def _exported(place, suffixes):
     files = list((place / "run" / "cad").iterdir())
-    assert {file.suffix for file in files} == {".dxf", ".svg", ".csv", ".stl"}
+    assert {file.suffix for file in files} == suffixes
     assert not [file for file in files if file.name.startswith(".")]
+
+
+def _export_for_the_shop(place):
+    """Files that other libraries write: a solid, the passes of a cutter, the report on paper."""
+    return command("export", CAM, "--to", "step,gcode,pdf", "--out", place / "run", "--anyway")
+
+
+def _export_for_the_shop_is_whole(place):
+    _exported(place, {".step", ".nc", ".pdf"})
+    assert (place / "run" / "cad" / "report.pdf").read_bytes().rstrip().endswith(b"%%EOF")
 
 
 SCENARIOS = {
@@ -386,6 +400,7 @@ SCENARIOS = {
     "table": Scenario(_whole_study, _tables, _study_is_whole, _tables_are_whole),
     "run": Scenario(_first_cam, _run_cam, _notes_are_somewhere, _cam_is_whole),
     "export": Scenario(_first_cam, _export, _notes_are_somewhere, _export_is_whole),
+    "export-for-the-shop": Scenario(_first_cam, _export_for_the_shop, _notes_are_somewhere, _export_for_the_shop_is_whole),
 }
 FAULTS = {
     "kill": Fault(KILL),

@@ -16,7 +16,7 @@ STEPS = {  # every so many operations, for a few seconds; the slow tests try all
     "optimise": 60,
     "table": 12,
 }
-LONG = {"answers": 9, "run": 9, "export": 9}  # commands that write the same kinds of file again and again
+LONG = {"answers": 9, "run": 9, "export": 9, "export-for-the-shop": 9}  # commands that write the same kinds of file again and again
 
 
 @pytest.mark.parametrize(("fault", "scenario"), [*(("kill", name) for name in STEPS), ("full", "run-folder"), ("full", "sweep")])

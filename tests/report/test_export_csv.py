@@ -58,7 +58,7 @@ def test_missing_numbers_are_empty_whole_numbers_whole_and_text_quoted(tmp_path)
 
 
 def test_file_takes_its_place_only_when_it_is_complete(tmp_path):
-    from drivewright.report.atomic import replacing
+    from drivewright.atomic import replacing
 
     (tmp_path / "t.csv").write_text("old")
     with pytest.raises(RuntimeError, match="half-way"), replacing(tmp_path / "t.csv") as temporary:

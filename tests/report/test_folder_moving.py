@@ -1,5 +1,6 @@
 """A run folder is replaced by one exchange of names; what a process that died has left is brought back, and nothing else is touched."""
 
+import errno
 import multiprocessing
 import os
 import subprocess
@@ -10,8 +11,8 @@ from pathlib import Path
 import pytest
 from sample_designs import four_bar_result, four_bar_scene
 
+from drivewright.atomic import hold, is_held, replacing, write_text
 from drivewright.report import moving, renames
-from drivewright.report.atomic import hold, is_held, replacing, write_text
 from drivewright.report.content import Views
 from drivewright.report.folder import OURS, recover_run_folder, refuse_foreign, write_run_folder
 
@@ -196,3 +197,38 @@ def test_threads_at_one_file(tmp_path):
     for thread in threads:
         thread.join()
     assert (tmp_path / "f").read_text() in texts and [path.name for path in Path(tmp_path).iterdir()] == ["f"]
+
+
+def test_a_full_disk_names_the_file_and_the_folder(tmp_path):
+    """The operating system does not, where it is a write that fails."""
+    for write in (replacing(tmp_path / "x.csv"), moving.replacing_folder(moving.Place(tmp_path / "run", (), lambda folder: None))):
+        with pytest.raises(OSError, match=r"No space left on device: '.*/(x\.csv|run)'"), write:
+            raise OSError(errno.ENOSPC, "No space left on device")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_folder_that_an_export_makes_anew_between_two_renames(tmp_path, monkeypatch):
+    """What it put there is in the folder at the end, with what a person had there."""
+    monkeypatch.setattr(renames, "_renameat2", lambda: None)
+    out = write(tmp_path / "run", "first")
+    (out / "notes.txt").write_text("mine")
+    rename, done = Path.rename, []
+
+    def between(self, target):
+        if ".tmp-" in self.name and Path(target) == out and len(done) < 2:
+            done.append(write_text(out / "cad" / f"part{len(done)}.txt", "a part"))
+        return rename(self, target)
+
+    monkeypatch.setattr(Path, "rename", between)
+    write(out, "second")
+    assert len(done) == 2 and texts(out) == {"notes.txt": "mine", "cad/part0.txt": "a part", "cad/part1.txt": "a part"}
+    assert os.listdir(tmp_path) == ["run"]
+
+
+def test_a_file_that_was_not_finished_does_not_come_along(tmp_path, system):
+    out = write(tmp_path / "run")
+    (out / "cad").mkdir()
+    for name in (f".part.txt.{TOKEN}.tmp.txt", ".hidden.txt", "part.tmp.txt"):
+        (out / "cad" / name).write_text("some")
+    write(out)
+    assert sorted(texts(out)) == ["cad/.hidden.txt", "cad/part.tmp.txt"]

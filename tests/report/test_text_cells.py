@@ -1,6 +1,7 @@
 """Texts in CSV and Excel files: none is taken for a formula, all come back as they were written, and numbers stay numbers."""
 
 import csv
+import io
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,7 +14,7 @@ from openpyxl import load_workbook
 from drivewright.errors import SpecError
 from drivewright.report.tabular import write_csv, write_study_table
 from drivewright.result import Column, Table
-from drivewright.spec.csv_text import csv_rows, plain_text, read_data_file, text_cell
+from drivewright.spec.csv_text import csv_line, csv_rows, plain_text, read_data_file, text_cell
 
 pytestmark = pytest.mark.interface
 
@@ -48,6 +49,12 @@ def rows(path):
 @given(st.text(alphabet=st.sampled_from("'=+-@\t\r\na ")) | st.text())
 def test_a_text_comes_back_and_never_begins_like_a_formula(text):
     assert plain_text(text_cell(text)) == text and not text_cell(text).startswith(SIGNS)
+
+
+@given(st.lists(st.text(alphabet=st.sampled_from('a ,"\n\r')), min_size=1))
+def test_cells_of_a_line_come_back_though_all_be_empty(cells):
+    (row,) = csv.reader(io.StringIO(csv_line(cells), newline=""))
+    assert row == cells
 
 
 def test_a_cell_that_somebody_else_wrote_is_left_alone():

@@ -8,7 +8,7 @@ import time
 import tomllib
 
 import pytest
-from places import EXAMPLES
+from places import EXAMPLES, ROOT
 
 from drivewright import registry
 from drivewright.errors import SpecError
@@ -32,6 +32,9 @@ PARSED = {  # what stays within the limits is parsed in little time, whatever it
     "lines": f'a = """{repeated("x." + chr(10))}"""',
     "quotes inside lines": f'a = """{repeated(chr(34) * 2 + "x")}"""',
     "a literal": f"a = '{'.' * LARGE}'",
+    "brackets in a literal": f"a = '{'[' * LARGE}'",
+    "brackets in a text": f'a = "{"[" * LARGE}"',
+    "brackets in a comment": "#" + "[" * LARGE,
     "literal lines": f"a = '''{repeated(chr(39) * 2 + '.' + chr(10))}'''",
     "comments": repeated("#\n"),
     "end of lines": "\n" * LARGE,
@@ -80,6 +83,10 @@ OVERSIZED = {
     "keys": ("a = 1\n" * 50_000, f"line {MAX_ITEMS + 1}: more than {MAX_ITEMS} values"),
     "entries": (f"a = [{'1,' * 50_000}]", f"line 1: more than {MAX_ITEMS} values"),
     "empty lists": (f"a = [{'[],' * 20_000}]", f"line 1: more than {MAX_ITEMS} values"),
+    "lists around nothing": (
+        "".join(f"k{n} = {'[' * 99}{']' * 99}\n" for n in range(300)),
+        f"line {MAX_ITEMS // 100 + 1}: more than {MAX_ITEMS} values",
+    ),
     "parts of keys": ("a.a.a.a.a = 1\n" * 20_000, f"line {MAX_ITEMS // 5 + 1}: more than {MAX_ITEMS} values"),
     "headers": ("[a]\n" * 5_000, f"line {MAX_TABLES + 1}: more than {MAX_TABLES} headers"),
     "lists of tables": ("[[a.b]]\nx = 1\n" * 5_000, f"line {2 * MAX_TABLES + 1}: more than {MAX_TABLES} headers"),
@@ -155,6 +162,19 @@ def test_a_key_of_the_command_line_has_the_same_limits():
     with pytest.raises(SpecError, match="nested too deeply") as caught:
         change_key({}, f"{DOTTED}=1")
     assert len(str(caught.value)) < 400
+
+
+def test_the_longest_key_of_the_command_line():
+    tables = {}
+    change_key(tables, f"{'a.' * (MAX_DEPTH - 1)}a=1")
+    assert tables["a"]["a"]["a"]
+    with pytest.raises(SpecError, match=f"has {MAX_DEPTH + 1} parts, nested too deeply; a key has at most {MAX_DEPTH}"):
+        change_key({}, f"{'a.' * MAX_DEPTH}a=1")
+
+
+def test_the_limits_are_those_of_the_conventions():
+    said = f"{MAX_CHARACTERS:,} characters; {MAX_ITEMS:,} values and parts of keys; {MAX_TABLES:,} headers; {MAX_DEPTH} levels"
+    assert said in (ROOT / "docs" / "conventions.md").read_text(encoding="utf-8")
 
 
 def test_a_named_pipe_is_refused_and_that_of_a_command_is_read(tmp_path):

@@ -1,6 +1,5 @@
 """The worked examples: listed, copied, run.  They are packed into the wheel; in a checkout they lie beside the sources."""
 
-import shutil
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -48,7 +47,7 @@ def copy(path: Path, folder: Path) -> list[Path]:
     for target in targets:
         show.refuse_existing(target)
     for source, target in zip(sources, targets, strict=True):
-        shutil.copyfile(source, target)
+        show.copy_file(source, target)
     return targets
 
 

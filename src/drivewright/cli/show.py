@@ -2,7 +2,6 @@
 
 import json
 import math
-import shutil
 import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
@@ -10,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from drivewright import digits, registry, units
+from drivewright import atomic, digits, registry, units
 from drivewright.errors import InputError, MissingExtra, SpecError
 
 if TYPE_CHECKING:
@@ -265,12 +264,18 @@ def source(published: "Source", rows: "Iterable[Row]") -> None:
 
 def write_text(path: str | Path, text: str) -> None:
     """A text file, written whole or not at all."""
-    from drivewright.report import atomic
-
     if not Path(path).parent.is_dir():
         raise InputError(f"{path}: there is no folder {str(Path(path).parent)!r}; make it first")
     try:
         atomic.write_text(path, text)
+    except OSError as error:
+        raise _disk_error(error) from None
+
+
+def copy_file(source: Path, target: Path) -> None:
+    """A copy of a file, written whole or not at all."""
+    try:
+        atomic.copy(source, target)
     except OSError as error:
         raise _disk_error(error) from None
 
@@ -287,8 +292,7 @@ def copy_data_files(kind: str, preset: str | None, path: Path) -> None:
         if target.exists() and target.read_bytes() != source.read_bytes():
             note(f"note: {target} exists and is left alone, so the new spec reads it instead of the preset's")
         else:
-            target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(source, target)
+            copy_file(source, target)
 
 
 def refuse_existing(path: str | Path) -> None:

@@ -1,6 +1,5 @@
 """Reports and files of a run: pages, PDF, drawings, CAD files, tables.
 
-atomic     files that appear whole or not at all
 cad        STEP and STL files of parts, in millimetres; the bytes depend on the parts alone
 content    what a report says, as plain text in plain dictionaries
 dxf        DXF drawings of flat parts

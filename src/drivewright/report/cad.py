@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivewright._typing import Floats, Ints
+from drivewright.atomic import replacing, write_text
 from drivewright.errors import InputError
-from drivewright.report.atomic import replacing, write_text
 from drivewright.scene import Part
 from drivewright.solids import cad, facets
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drivewright._typing import Floats
+from drivewright.atomic import replacing
 from drivewright.errors import InputError
-from drivewright.report.atomic import replacing
 from drivewright.scene import Arc, Drawing, Line, Piece, Shape
 from drivewright.solids import outlines, pieces
 

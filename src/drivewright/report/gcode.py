@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
+from drivewright.atomic import write_text
 from drivewright.curves import offset_outline
 from drivewright.errors import InputError, counted
-from drivewright.report.atomic import write_text
 from drivewright.scene import Arc, Drawing
 from drivewright.solids import outlines, pieces
 

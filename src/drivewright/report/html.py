@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drivewright.report.atomic import write_text
+from drivewright.atomic import write_text
 from drivewright.report.content import Picture, Views, content
 from drivewright.report.pack import pack_plots, pack_scene
 from drivewright.result import Result

@@ -7,7 +7,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from drivewright import registry
-from drivewright.report.atomic import write_text
+from drivewright.atomic import write_text
 from drivewright.report.content import program, verdict
 from drivewright.report.html import page
 from drivewright.result import Value

@@ -5,6 +5,7 @@ the new one whatever no run writes; only then is the rest of it removed.  A proc
 next one with the same OUT ends its work (`recover`).  Nothing else has such a name, and what a living process holds is left alone.
 """
 
+import errno
 import os
 import re
 import shutil
@@ -13,8 +14,8 @@ from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import NamedTuple
 
+from drivewright.atomic import TOKEN, UNFINISHED, force, hold, is_held, locate, token
 from drivewright.errors import InputError
-from drivewright.report.atomic import TOKEN, force, hold, is_held, token
 from drivewright.report.renames import exchange, move
 
 
@@ -50,6 +51,9 @@ def replacing_folder(place: Place) -> Iterator[Path]:
             with hold(parent):
                 place.refuse(place.path)
                 _put(fresh, place.path)
+    except OSError as error:
+        locate(error, place.path)
+        raise
     finally:
         recover(place)
 
@@ -79,14 +83,20 @@ def _put(fresh: Path, out: Path) -> None:
 
 
 def _swap(fresh: Path, out: Path) -> None:
-    """The same by two renames; the old folder goes back where the second one fails."""
-    old = _beside(out, "old")
-    out.rename(old)
-    try:
-        fresh.rename(out)
-    except BaseException:
-        old.rename(out)
-        raise
+    """The same by two renames; the old folder goes back where the second one fails.
+
+    Where somebody has made the folder anew in between, to put a file into it, that one is taken away too: what is in it comes back.
+    """
+    while True:
+        old = _beside(out, "old")
+        out.rename(old)
+        try:
+            fresh.rename(out)
+            return
+        except BaseException as error:
+            if getattr(error, "errno", None) not in (errno.ENOTEMPTY, errno.EEXIST):
+                old.rename(out)
+                raise
 
 
 def _beside(out: Path, role: str) -> Path:
@@ -101,7 +111,13 @@ def _remnants(out: Path, role: str) -> list[Path]:
 
 
 def _dissolve(left: Path, place: Place) -> None:
-    """Bring what its writer has not written from a remnant to its place, and remove the rest; without a place, all of it stays."""
+    """Bring what its writer has not written from a remnant to its place, and remove the rest; without a place, all of it stays.
+
+    A file that was not finished when its folder was taken away is never brought: its writer has lost it, and begins again.
+    """
+    for file in left.rglob(".*"):
+        if UNFINISHED.fullmatch(file.name) and _is_file(file):
+            file.unlink(missing_ok=True)
     others = [entry for entry in sorted(left.iterdir()) if entry.name not in place.ours]
     if others:
         if not place.path.is_dir() or not place.accepts(place.path):

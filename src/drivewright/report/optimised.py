@@ -3,8 +3,8 @@
 from dataclasses import replace
 from pathlib import Path
 
+from drivewright import atomic
 from drivewright.execution.case_table import key_info
-from drivewright.report import atomic
 from drivewright.report.content import views
 from drivewright.report.folder import refuse_foreign, write_run_folder
 from drivewright.report.records import OptimisedRecord
@@ -22,8 +22,7 @@ def write_optimised(search: OptimisedRecord, folder: str | Path) -> Path:
     _write_table(folder / "front.parquet", _front(search))
     best, seen = _with_search(search)
     write_run_folder(best, folder / "best", seen=seen)
-    with atomic.replacing(folder / "best.toml") as temporary:
-        search.best.spec.write(temporary)
+    search.best.spec.write(folder / "best.toml")
     return folder
 
 

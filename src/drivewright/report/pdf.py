@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from drivewright.atomic import replacing
 from drivewright.errors import MissingExtra
-from drivewright.report.atomic import replacing
 from drivewright.report.content import Picture, Views, content, pictures, views
 from drivewright.result import Result
 from drivewright.view.palette import ROLES

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from drivewright.report.atomic import replacing, write_text
+from drivewright.atomic import replacing, write_text
 from drivewright.report.content import Views, content, pictures
 from drivewright.report.folder import file_name, record_text
 from drivewright.report.html import embedded, page

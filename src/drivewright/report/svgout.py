@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.report.atomic import write_text
+from drivewright.atomic import write_text
 from drivewright.report.dxf import extent
 from drivewright.scene import Arc, Drawing, Line, Outline, Piece
 from drivewright.solids import outlines, pieces

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drivewright._typing import Floats
+from drivewright.atomic import replacing, write_text
 from drivewright.errors import InputError
-from drivewright.report.atomic import replacing, write_text
 from drivewright.report.records import StudyRecord
 from drivewright.result import Column, Table
 from drivewright.spec.csv_text import FORMULA, csv_line, text_cell

@@ -2,12 +2,11 @@
 
 import filecmp
 import hashlib
-import secrets
-import shutil
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from drivewright import atomic
 from drivewright.spec.base import Spec
 from drivewright.spec.fields import Field, Integer, Text
 from drivewright.spec.optimise_table import Optimise
@@ -33,15 +32,15 @@ class MechanismSpec(Spec):
         return toml_text(self._tables(data_file_places(self.data_files()) if moved else None))
 
     def write(self, path: str | Path) -> None:
-        """The effective spec as a file, with copies of its data files in `data/` beside it: together they can move to another machine."""
+        """The effective spec as a file, with copies of its data files in `data/` beside it: together they can move to another machine.
+        Each file appears whole or not at all."""
         path = Path(path)
         places = data_file_places(self.data_files())
         for source, place in places.items():
             target = path.parent / place
-            target.parent.mkdir(exist_ok=True)
             if not (target.exists() and filecmp.cmp(source, target, shallow=False)):  # it may be the same file
-                _copy(source, target)
-        path.write_text(self.to_toml(moved=True), encoding="utf-8", newline="\n")
+                atomic.copy(source, target)
+        atomic.write_text(path, self.to_toml(moved=True))
 
     def _tables(self, places: Mapping[Path, str] | None = None) -> dict[str, Any]:
         tables = document(self, places)
@@ -56,13 +55,3 @@ class MechanismSpec(Spec):
     def data_files(self) -> list[Path]:
         """Absolute paths of all data files the spec names."""
         return sorted(set(data_files_in(self)))
-
-
-def _copy(source: Path, target: Path) -> None:
-    """A copy of a file that appears whole or not at all."""
-    temporary = target.with_name(f".{target.name}.{secrets.token_hex(8)}.tmp")
-    try:
-        shutil.copyfile(source, temporary)
-        temporary.replace(target)
-    finally:
-        temporary.unlink(missing_ok=True)

@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from drivewright.atomic import replacing
 from drivewright.execution.case_table import CASE
-from drivewright.report.atomic import replacing
 
 if TYPE_CHECKING:
     import pyarrow as pa

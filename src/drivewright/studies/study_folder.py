@@ -15,8 +15,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, NoReturn
 
+from drivewright.atomic import TOKEN
 from drivewright.errors import InputError
-from drivewright.report.atomic import TOKEN, replacing
 from drivewright.spec import MechanismSpec, load
 from drivewright.spec.serialisation import canonical_text
 from drivewright.studies.ledger import LEDGER, LedgerDamaged, identity_of, open_ledger, parts_of, remarks_of, set_aside
@@ -134,8 +134,7 @@ class Folder:
             with self._ledger:
                 self._ledger.executemany("insert into identity values (?, ?)", list(identity.items()))
         if not _has_spec(self.folder, spec):
-            with replacing(self.folder / SPEC) as temporary:
-                spec.write(temporary)
+            spec.write(self.folder / SPEC)
 
     def _clear_away(self):
         """Remove what a start that was killed had begun to write."""

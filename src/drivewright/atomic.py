@@ -7,6 +7,7 @@ the next writer of the same file removes it.
 import os
 import re
 import secrets
+import shutil
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
@@ -17,6 +18,7 @@ except ImportError:  # no such locks on this system
     fcntl = None
 
 TOKEN = r"[0-9a-f]{16}"
+UNFINISHED = re.compile(rf"\..+\.{TOKEN}\.tmp(\..*)?")  # the other name of any file
 
 
 def token() -> str:
@@ -37,14 +39,28 @@ def replacing(path: str | Path) -> Iterator[Path]:
             force(temporary)
             temporary.replace(path)
             force(path.parent)
+    except OSError as error:
+        locate(error, path)
+        raise
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def locate(error: OSError, path: Path) -> None:
+    """Names the file or folder that was written in an error of the disk that does not name one itself."""
+    error.filename = error.filename or str(path)
 
 
 def write_text(path: str | Path, text: str) -> None:
     """`text` as UTF-8 with plain newlines, the same bytes on every system."""
     with replacing(path) as temporary:
         temporary.write_bytes(text.encode())
+
+
+def copy(source: str | Path, path: str | Path) -> None:
+    """A copy of a file, byte for byte."""
+    with replacing(path) as temporary:
+        shutil.copyfile(source, temporary)
 
 
 def force(path: Path) -> None:
