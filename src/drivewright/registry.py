@@ -33,7 +33,8 @@ Row: TypeAlias = tuple[str, float, float, str, float, str]  # of `verify`: name,
 class Analysis(Generic[SpecT, ModelT]):
     """A question a mechanism can answer: `answer(model, done) -> Answer`.
 
-    `needs` names analyses that come first; their answers are in `done` by name.  `default` analyses run without being asked.
+    `needs` names analyses that come first; their answers are in `done` by name.  `default` analyses run without being asked, those of
+    `manufacture` before every export, for their checks or tables are the workshop's.
     `missing(spec)` gives the reason why this analysis has to be left out (missing input), or None.
     """
 
@@ -43,6 +44,7 @@ class Analysis(Generic[SpecT, ModelT]):
     default: bool = True
     needs: tuple[str, ...] = ()
     missing: Callable[[SpecT], str | None] = lambda spec: None
+    manufacture: bool = False
 
 
 @dataclass(frozen=True)

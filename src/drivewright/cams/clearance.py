@@ -17,6 +17,8 @@ from drivewright.numerics.jets import Jet
 from drivewright.numerics.ode import Trajectory, integrate, rate
 from drivewright.stops import Stop, note_stop
 
+STEPS_A_TURN = 200_000  # at most: fifteen times what two cams with play usually take
+
 
 class LeverBetweenCams(NamedTuple):
     """A lever with two rollers between a main cam, which swings it out, and a return cam; it drives a mass on a straight path.
@@ -178,7 +180,7 @@ def simulate_last_turn(system: LeverBetweenCams, turns: int, swing: Callable[[Fl
     Raises SolverError where the run ends before its last turn.
     """
     times = (turns - 1) * system.period + np.linspace(0, system.period, samples)
-    run = simulate_turns(system, turns, times, rtol=1e-7, atol=(1e-10, 1e-7), max_steps=2_000_000)
+    run = simulate_turns(system, turns, times, rtol=1e-7, atol=(1e-10, 1e-7), max_steps=STEPS_A_TURN * turns)
     if len(run.t) < 2:
         raise SolverError(f"the contact simulation ends before its last turn, at t = {run.t_end:.6g} s: {run.advice}")
     delta, delta_rate = run.y.T

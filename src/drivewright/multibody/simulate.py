@@ -24,7 +24,9 @@ from drivewright.stops import Stop, note_stop
 GEAR = 1e-3  # absolute over relative tolerance, at lengths and angles of the size of 1
 WARY, CAREFUL = 3.0, 0.2  # length of a leg towards a singular position, and longest step in it, over the time until it is reached
 STRETCHED = 1e-4  # smallest singular value of loops in which a drive is stuck
-MOST_STATES = 1_500_000  # that are kept of a run: about a kilobyte each with all that is observed of them
+MOST_STATES = 1_500_000  # that are kept of kinematics: about a kilobyte each with all that is observed of them
+MOST_KEPT = 750_000  # that are kept of a run with freedom, whose ensemble is observed side by side: about three kilobytes
+FULL = f"{MOST_KEPT / 1e6:g} million states of it fill the memory that a run may have; ask for fewer turns, or loosen its tolerances"
 GRID = 720  # samples of a turn where the drives leave no freedom and so no steps to report
 
 
@@ -124,6 +126,8 @@ def _legs(assembly, t, end, y, settings, samples):
         impacts.append(_impacts(system, run))
         passages += _passages(system, run)
         t, y, steps, advice = run.t_end, run.y_end, steps + run.steps, run.advice
+        if run.outcome == "max_steps" and steps < settings.max_steps:
+            advice = FULL
         if run.outcome == "min_step" and _stretched(system, t, y):
             advice = _stuck(assembly, t, end)
         if goes_on:
@@ -217,6 +221,7 @@ def touching(system: System, t: float, y: Floats) -> Floats:
 
 
 def _integrate(system, t, leg, y, settings, steps, samples, speed):
+    most = settings.max_steps if samples is not None else min(settings.max_steps, MOST_KEPT // settings.per_step)
     pins, switches = len(system.contacts), Event(switches=True)
     watch = [Event(-1, terminal=True), Event(), *[switches] * pins, *[Event(1, switches=True)] * pins, *[switches] * pins]
     longest = min(leg.max_step, settings.max_step or (2 * np.pi / speed / 100 if speed else np.inf))
@@ -230,7 +235,7 @@ def _integrate(system, t, leg, y, settings, steps, samples, speed):
         method=settings.method,
         samples=samples,
         watch=watch,
-        max_steps=max(settings.max_steps - steps, 0),
+        max_steps=max(most - steps, 0),
         max_step=longest,
         min_step=settings.min_step,
         per_step=settings.per_step,

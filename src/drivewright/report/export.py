@@ -24,14 +24,15 @@ def export(
     anyway: bool = False,
     progress: Callable[[int, int, str], object] | None = None,
 ) -> list[Path]:
-    """Write the formats of a design into `folder`; returns the paths.
+    """Write the formats of a design into `folder`; returns the paths.  What is checked, and what tables there are, is that of the
+    default analyses and of those for manufacture.
 
     GeometryCheckFailed where a geometry check fails, unless `anyway`; a solid format needs the extra 'fe', the PDF the extra 'pdf'.
     """
     _refuse_unknown(formats)
     mechanism = registry.mechanism(spec.mechanism)
     model = mechanism.build(spec)
-    result = runner.run(spec, everything=True, model=model)
+    result = runner.run(spec, [analysis.name for analysis in mechanism.analyses if analysis.default or analysis.manufacture], model=model)
     if not anyway:
         _refuse_bad_geometry(result)
     folder = Path(folder)

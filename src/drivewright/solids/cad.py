@@ -13,7 +13,7 @@ from scipy.interpolate import PPoly
 
 from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.curves import outline_area
-from drivewright.errors import InputError
+from drivewright.errors import InputError, counted
 from drivewright.scene import Arc, Bar, Grooved, Line, Outline, Part, Piece, Prism, Spline, Turned
 from drivewright.solids import grooving, outlines, pieces, turning
 from drivewright.solids.engine import EngineObject, fe_module, translated_errors
@@ -21,6 +21,8 @@ from drivewright.solids.engine import EngineObject, fe_module, translated_errors
 PURPOSE = "a CAD solid"
 MM = 1e3  # millimetres in a metre
 TOLERANCE = 1e-7  # m: a tenth of a micrometre in position keeps the curvature of a cam flank within a few per cent
+MOST_TRIANGLES = 250_000  # of equal sides: a minute of the mesher
+SLIMMEST = 1e4  # largest over smallest side of a part that the mesher still covers with triangles
 COLOURS = {
     "steel": (0.62, 0.65, 0.70),
     "blue": (0.16, 0.38, 0.75),
@@ -68,8 +70,10 @@ def cad_triangles(part: Part, tolerance: float = 1e-5) -> tuple[Floats, Ints]:
     meshing, occ = fe_module("netgen.meshing", "an STL surface"), fe_module("netgen.occ", "an STL surface")
     shape = cad_solid(part)
     low, high = (np.array([corner[i] for i in range(3)]) for corner in shape.bounding_box)
+    _refuse_slim(part, high - low)
     with _kernel(f"part {part.name!r}", "triangulating its surface"):
-        _limit_faces(shape, MM * tolerance)
+        triangles = _limit_faces(shape, MM * tolerance)
+        counted(triangles, MOST_TRIANGLES, f"triangles of the surface of part {part.name!r}", "export STEP, which needs none")
         mesh = occ.OCCGeometry(shape).GenerateMesh(
             maxh=float((high - low).max() / 4), curvaturesafety=0.3, grading=0.5, perfstepsend=meshing.MeshingStep.MESHSURFACE
         )
@@ -77,13 +81,26 @@ def cad_triangles(part: Part, tolerance: float = 1e-5) -> tuple[Floats, Ints]:
     return np.array(mesh.Coordinates()) / MM, corners
 
 
-def _limit_faces(shape: EngineObject, tolerance: float) -> None:
-    """Mesh size on every face that is not plane: what the sharpest of its edges needs; lengths in mm."""
+def _refuse_slim(part: Part, sides: Floats) -> None:
+    """InputError for a part [mm] so slim that the mesher would not come to an end."""
+    if sides.max() > SLIMMEST * sides.min():
+        raise InputError(
+            f"part {part.name!r} is {sides.max():.4g} mm long and {sides.min():.4g} mm thick: its surface cannot be divided into "
+            f"triangles beyond a ratio of {SLIMMEST:g}; export STEP, which needs none, or change its sizes"
+        )
+
+
+def _limit_faces(shape: EngineObject, tolerance: float) -> float:
+    """Mesh size on every face that is not plane: what the sharpest of its edges needs; lengths in mm.  How many triangles that makes of
+    equal sides."""
+    triangles = 0.0
     for face in shape.faces:
         edges = [_along(edge, 33) for edge in face.edges]
         cloud = np.concatenate(edges)
         if np.linalg.svd(cloud - cloud.mean(axis=0), compute_uv=False)[2] > 1e-6:
             face.maxh = np.sqrt(8 * tolerance * min(map(_smallest_radius, edges)))
+            triangles += face.mass / (np.sqrt(3) / 4 * face.maxh**2)
+    return triangles
 
 
 def _along(edge: EngineObject, count: int) -> Floats:

@@ -16,8 +16,8 @@ ANALYSES = (
     Analysis("cams", analyses.cams, "pressure angles, curvature, real profiles and lost motion of both cams"),
     Analysis("load", analyses.load, "rod dynamics, normal forces, Hertz pressure, torque"),
     Analysis("contact", dynamics.contact, "lever between the cams with play: forces, separation, rod error"),
-    Analysis("teeth", manufacture.teeth, "teeth of the elliptic gears", default=False),
-    Analysis("inspection", manufacture.inspection, "radius and angle of both profiles with tolerance", default=False),
+    Analysis("teeth", manufacture.teeth, "teeth of the elliptic gears", default=False, manufacture=True),
+    Analysis("inspection", manufacture.inspection, "radius and angle of both profiles with tolerance", default=False, manufacture=True),
     Analysis("poincare", dynamics.poincare, "Poincare section of the rod's deviation in the contact run", default=False),
     Analysis("clearance", dynamics.clearance_study, "peak force and rod error over clearance and speed", default=False),
 )

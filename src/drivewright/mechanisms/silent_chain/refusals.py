@@ -2,8 +2,12 @@
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from drivewright.errors import SpecError
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
+
+FLATTEST = 1e9  # largest rolling radius over the pitch, which rounding would lose beside a larger one
 
 
 def refuse_contradictions(spec: SilentChainSpec) -> None:
@@ -11,6 +15,8 @@ def refuse_contradictions(spec: SilentChainSpec) -> None:
     joint, plate = spec.joint, spec.plate
     if joint.kind != "revolute" and joint.rolling_radius is None:
         raise SpecError('a rolling joint needs its radius: give rolling_radius, or take kind = "revolute"', "joint.rolling_radius")
+    if joint.rolling_radius is not None and np.any(joint.rolling_radius > FLATTEST * spec.pitch):
+        raise SpecError(f"is more than {FLATTEST:g} pitches, as good as flat; take a smaller one", "joint.rolling_radius")
     for guide in spec.guides:
         if (guide.force is None) != (guide.direction is None):
             raise SpecError(
