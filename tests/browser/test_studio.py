@@ -94,11 +94,9 @@ def test_a_bad_value_shows_its_message_and_loses_nothing(studio, tab):
     analysed(page)
     key = "drive.speed"
     toml = page.evaluate(f"{STATE}.design.toml")
-    for text, words in (("3 kg", r"wants an angular speed, got '3 kg' \(mass\)"), ("fast", "'fast' is not \"number unit\"")):
+    for text, words in (("3 kg", "wants an angular speed, got '3 kg' (mass)"), ("fast", "'fast' is not \"number unit\"")):
         enter(page, key, text)
-        message = page.get_by_test_id(f"message-{key}")
-        message.wait_for()
-        assert re.search(words, message.inner_text()), message.inner_text()
+        page.get_by_test_id(f"message-{key}").filter(has_text=words).wait_for()
         assert field(page, key).locator("input").first.input_value() == text
         assert page.evaluate(f"{STATE}.design.toml") == toml
     enter(page, key, "301 rpm")

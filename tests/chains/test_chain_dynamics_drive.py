@@ -75,6 +75,7 @@ def test_centre_distance_comes_near_the_rigid_loop(slow):
     assert slow.mean(slow.centre_distance) > rigid - compliance
 
 
+@pytest.mark.slow
 def test_thicker_teeth_shorten_the_running_centre_distance_as_at_rest():
     # the pitch lets no plate but the first and the last rise by d/sin a: how far the others do is the balance at rest, of another solver
     models = [drive(speed=-12.0, thick=thick) for thick in (0.0, 2e-5)]

@@ -106,6 +106,7 @@ def rows_of_the_table(path, keep):
     return path
 
 
+@pytest.mark.slow
 def test_calibrated_load_coefficients_agree_with_other_programs(tmp_path):
     """0.01 mm by the closed form of the four-bar, sampled finely; the others by a program written apart from this one."""
     by_another_program = {

@@ -7,10 +7,14 @@ import subprocess
 import sys
 
 import pytest
-from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 from places import EXAMPLES
 
 import drivewright as dw
+
+try:
+    from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
+except ImportError:  # NumPy before 2.0
+    from numpy.core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 
 pytestmark = pytest.mark.property
 

@@ -69,6 +69,7 @@ def test_processes_give_the_same_bytes(serial, kind):
 
 
 @pytest.mark.needs_cluster
+@pytest.mark.slow
 def test_dask_gives_the_same_bytes(serial):
     import distributed
 

@@ -12,6 +12,7 @@ from drivewright.cams import clearance
 from drivewright.errors import DoesNotAssemble, GeometryCheckFailed, InputError, MissingExtra, SolverError
 from drivewright.mechanisms.seedling_pusher import dynamics
 from drivewright.report import content, export
+from drivewright.result import Answer, Check
 from drivewright.studies import verification as verify
 from drivewright.studio import preview
 from drivewright.studio.session import opened
@@ -106,6 +107,25 @@ def test_what_could_not_be_checked_is_not_manufactured(monkeypatch, tmp_path):
         export.export(spec, ("dxf",), tmp_path)
     assert not list(tmp_path.iterdir())
     assert [path.suffix for path in export.export(spec, ("dxf",), tmp_path, anyway=True)][:1] == [".dxf"]
+
+
+@pytest.mark.parametrize(("manufacture", "refused"), [(True, True), (False, False)])
+def test_before_an_export_run_the_default_analyses_and_those_for_manufacture(monkeypatch, tmp_path, manufacture, refused):
+    spec, kind = dw.load(EXAMPLES / "disc_cam.toml"), registry.mechanism("cam")
+    thin = Answer(checks=(Check("wall.rim", 1e-3, 2e-3, ">=", "m", "wall of the rim", ("cam",), geometry=True),))
+    extra = registry.Analysis("rim", lambda model, done: thin, "the rim", default=False, manufacture=manufacture)
+    fake = registry.Mechanism(**{**vars(kind), "analyses": (*kind.analyses, extra)})
+    monkeypatch.setattr(registry, "mechanism", lambda name: fake)
+    if refused:
+        with pytest.raises(GeometryCheckFailed, match=r"wall\.rim = 1.mm, limit >= 2.mm"):
+            export.export(spec, ("dxf",), tmp_path)
+    else:
+        assert export.export(spec, ("dxf",), tmp_path)
+
+
+def test_the_gears_of_a_pusher_are_checked_before_an_export_and_its_studies_do_not_run():
+    asked = {a.name for a in registry.mechanism("seedling-pusher").analyses if a.default or a.manufacture}
+    assert {"teeth", "inspection"} <= asked and not {"clearance", "poincare"} & asked
 
 
 @pytest.mark.parametrize(("share", "failed"), [(0.9, []), (0.1, ["contact"])])

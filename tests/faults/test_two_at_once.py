@@ -133,7 +133,7 @@ def test_a_thousand_workers_are_a_few(monkeypatch):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="limits the address space")
-@pytest.mark.parametrize("megabytes", [200, 400, 800, 1600])
+@pytest.mark.parametrize("megabytes", [200, 400, *(pytest.param(most, marks=pytest.mark.slow) for most in (800, 1600))])
 def test_little_memory_is_told(tmp_path, megabytes):
     """One line, or Python's own where not even the interpreter's libraries can be loaded; never a hang or half a study."""
     limit = megabytes << 20
@@ -151,6 +151,7 @@ def _bytes(folder):
     return {name: content for name, content in files.items() if not name.startswith(("ledger", ".lock", "parts/"))}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", [["run", CAM], ["export", CAM, "--to", "dxf,svg,csv", "--anyway"]])
 def test_the_same_command_gives_the_same_bytes_on_one_and_on_eight_threads(tmp_path, command):
     for name, threads in (("one", 1), ("eight", 8)):
@@ -168,6 +169,7 @@ def _untimed(content):
     return re.sub(rb'"seconds": [0-9.e-]+|<dt>seconds</dt><dd>[^<]*', b"", content)
 
 
+@pytest.mark.slow
 def test_a_study_has_the_same_table_on_one_and_eight_threads_serial_and_parallel(tmp_path):
     tables = []
     for threads, place in ((1, ["--on", "serial"]), (8, ["--on", "serial"]), (8, ["--workers", "2"])):

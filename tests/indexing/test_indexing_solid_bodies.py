@@ -143,6 +143,7 @@ def test_the_mirrored_drive_is_as_stiff():
 
 
 @needs_fe
+@pytest.mark.slow
 def test_set_a_is_softer_than_the_reduced_model_says():
     theta = np.radians([1e-3, 45.0, 83.0])
     found = solved(drive(), Solids(CAM, SHAFT, usual_wheel(wheel(), drive(), WIDTH)), theta=theta, fineness=2.2)

@@ -1,5 +1,6 @@
 """Pins with dry play in the multibody kernel: impacts, momentum, friction's lever arm, energy, exact restart, convergence, a peer."""
 
+import importlib
 from dataclasses import replace
 
 import numpy as np
@@ -339,6 +340,16 @@ def test_step_limit_gives_what_there_is():
     assert "limit of 300 steps" in found.advice
     assert 0 < found.end[1] < TURN
     assert len(found.stretches[0].t) > 250
+
+
+@pytest.mark.parametrize("per_step", [1, 2])
+def test_a_run_ends_where_its_states_fill_the_memory_of_a_run(per_step, monkeypatch):
+    monkeypatch.setattr(importlib.import_module("drivewright.multibody.simulate"), "MOST_KEPT", 300)
+    assembly = assemble(slider_crank())
+    found = simulate(assembly, TURN, Settings(per_step=per_step))
+    assert found.outcome == "partial" and "fill the memory" in found.advice and "fewer turns" in found.advice
+    assert sum(len(part.t) for part in found.stretches) <= 301 and found.steps == 300 // per_step
+    assert simulate(assembly, TURN, samples=np.array([TURN])).outcome == "complete"  # only what is kept fills it
 
 
 def test_two_pins_that_touch_at_the_same_moment():

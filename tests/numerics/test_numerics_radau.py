@@ -104,6 +104,7 @@ def relax(system, *args, **more):
 # ------------------------------------------------------------------------------------------------------- stiff problems
 
 
+@pytest.mark.slow
 def test_van_der_pol_agrees_with_another_code():
     t = np.array([0.1, 0.7, 0.8, 0.81, 1.3, 2.0])  # x jumps from 1 to -2 just before 0.81
     ours = relax(STIFF, 0, 2, START, 1e-9, 1e-11, samples=t)

@@ -9,6 +9,7 @@ import shapely
 from export_cases import BASE, LIFT, assembly, cam, cam_area, lobed, wheel
 
 from drivewright.curves import outline_area
+from drivewright.errors import InputError
 from drivewright.report.cad import write_step, write_stl
 from drivewright.scene import Arc, Bar, Line, Outline, Part, Prism, Spline, circle, place, polygon
 from drivewright.solids import cad, facets, outlines
@@ -247,3 +248,25 @@ def test_stl_error_falls_in_proportion_to_its_tolerance(triangles):
     errors = [1 - triangle_volume(*triangles(part, tolerance)) / exact for tolerance in (8e-5, 2e-5, 5e-6)]
     assert all(2.5 < a / b < 6.5 for a, b in zip(errors[:-1], errors[1:], strict=True))
     assert errors[0] < 8e-5 / 0.02 * 4 / 3 * 1.5
+
+
+def stepped(length, step=0.01):
+    """A bar of 80 mm on one of 40 mm: two prisms, so that the kernel's mesher has to cover them."""
+    return Part("bar", (Prism(circle((0.0, 0.0), 0.04), (), 0.0, step), Prism(circle((0.0, 0.0), 0.02), (), step, length - step)))
+
+
+def test_a_surface_of_too_many_triangles_is_refused_before_it_is_made():
+    with pytest.raises(InputError, match=r"triangles of the surface of part 'bar' are more than the 2.5e\+05 that fit .*export STEP"):
+        cad.cad_triangles(stepped(100.0))
+    with pytest.raises(InputError, match=r"part 'bar' is 1e\+06 mm long and 80 mm thick: .* beyond a ratio of 10000; export STEP"):
+        cad.cad_triangles(stepped(1000.0))
+
+
+def test_triangles_are_counted_before_they_are_made(monkeypatch):
+    """The count is that of equal sides: it grows as area over tolerance, and the mesh has about as many."""
+    counts = []
+    monkeypatch.setattr(cad, "counted", lambda count, *rest: counts.append(float(count)))
+    meshes = [len(cad.cad_triangles(stepped(length), tolerance)[1]) for length, tolerance in ((0.2, 1e-5), (0.4, 1e-5), (0.4, 5e-6))]
+    assert counts[1] - counts[0] == pytest.approx(2 * np.pi * 0.02 * 0.2 / (np.sqrt(3) / 4 * 8 * 0.02e-5), rel=1e-3)
+    assert counts[2] == pytest.approx(2 * counts[1], rel=1e-6)
+    assert all(0.5 * count < mesh < 4 * count for mesh, count in zip(meshes, counts, strict=True))

@@ -65,6 +65,7 @@ def test_our_own_contact_model_agrees():
     assert np.max(np.abs(error - np.interp(angle, ours.angle, ours.deviation))) < 0.05e-3
 
 
+@pytest.mark.slow
 def test_verify_prints_the_rod_error(capsys):
     with pytest.raises(SystemExit) as left:
         main(["verify", str(PUSHER.presets()["design-b"])])

@@ -26,7 +26,9 @@ CASES = [
     pytest.param(("design-b", ["cams.orbit=counter-clockwise"]), id="other sense", marks=pytest.mark.slow),
     pytest.param(("default", ["train.start=far"]), id="far", marks=pytest.mark.slow),
     pytest.param(
-        ("design-a", ["lever.arm_main=14.7 mm", "push.hold=0 deg", "push.law=modified-sine", "arm.tip_reference=planet"]), id="asymmetric"
+        ("design-a", ["lever.arm_main=14.7 mm", "push.hold=0 deg", "push.law=modified-sine", "arm.tip_reference=planet"]),
+        id="asymmetric",
+        marks=pytest.mark.slow,
     ),
 ]
 

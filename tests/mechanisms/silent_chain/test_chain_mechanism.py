@@ -101,6 +101,7 @@ def test_what_cannot_be_drawn_stops_only_what_needs_it():
     assert any("dynamics is left out" in finding for finding in found.findings)
 
 
+@pytest.mark.slow
 def test_the_speeds_of_the_campbell_diagram_are_runs_of_their_own():
     found = run("speeds", 'compare.speeds=["1000 rpm", "2000 rpm"]')
     table = found.tables["speeds"]
