@@ -63,7 +63,7 @@ def drawn(page, seconds=90):
     until(page, f"document.querySelector('[data-gen]')?.dataset.gen === {newest}", seconds)
 
 
-def analysed(page, seconds=120):
+def analysed(page, seconds=400):
     """Wait until all default analyses of the newest design are shown."""
     until(
         page,
