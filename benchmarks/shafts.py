@@ -172,9 +172,9 @@ def ball_bearing():
 
 def machine():
     """(bytes, flops) per second that two threads reach at best: copying memory, and multiply-add over a row that stays in the cache."""
-    from drivewright._jit import outer
+    from drivewright._jit import inner
 
-    @outer
+    @inner
     def multiply_add(rows, turns):
         for _ in range(turns):
             for i in range(rows.size):

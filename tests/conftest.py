@@ -68,7 +68,7 @@ def _nothing_compiles(request):
     if not request.config.getoption("--quick"):
         yield
         return
-    from drivewright._jit import _KernelCache
+    from drivewright._jit.disk_cache import KernelCache
 
     def load_or_skip(self, signature, target):
         compiled = self._for(signature).load_overload(signature, target)
@@ -77,7 +77,7 @@ def _nothing_compiles(request):
         return compiled
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(_KernelCache, "load_overload", load_or_skip)
+        patch.setattr(KernelCache, "load_overload", load_or_skip)
         yield
 
 

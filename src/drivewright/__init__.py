@@ -22,6 +22,7 @@ _WHERE = {
     "Result": "result",
     "Scene": "scene",
     "build": "runner",
+    "by_reference": "_jit",
     "implements": "_jit",
     "kernel": "_jit",
     "load": "spec",

@@ -17,6 +17,7 @@ from drivewright import shafts as shafts
 from drivewright import solids as solids
 from drivewright import studies as studies
 from drivewright import units as units
+from drivewright._jit import by_reference as by_reference
 from drivewright._jit import implements as implements
 from drivewright._jit import kernel as kernel
 from drivewright.errors import DrivewrightError as DrivewrightError

@@ -8,6 +8,7 @@ import time
 import pytest
 
 from drivewright import _jit
+from drivewright._jit import disk_cache
 
 pytestmark = pytest.mark.interface
 
@@ -112,7 +113,7 @@ def test_every_source_counts_and_nothing_else(tmp_path, monkeypatch):
     __import__("some_package")
 
     def digest():
-        return _jit._hash_of.__wrapped__("some_package")
+        return disk_cache.hash_of.__wrapped__("some_package")
 
     digests = [digest(), digest()]
     (package / "notes.txt").write_text("words")
@@ -135,23 +136,23 @@ def test_folders_unused_for_a_month_are_removed(tmp_path):
         stamp = tmp_path / name / "last-used"
         stamp.touch()
         os.utime(stamp, (time.time() - days * 86400,) * 2)
-    _jit._remove_unused(tmp_path)
+    disk_cache.remove_unused(tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["fresh", "kept"]
 
 
 def test_where_the_users_folder_is_not_writable_a_private_one_is_taken(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("not a folder")
     monkeypatch.setattr("platformdirs.user_cache_path", lambda *args, **kwargs: tmp_path / "file")
-    folder = _jit.cache_folder.__wrapped__()
+    folder = disk_cache.cache_folder.__wrapped__()
     assert folder.is_dir() and tmp_path not in folder.parents
     assert os.name == "nt" or folder.stat().st_mode & 0o077 == 0
 
 
 def test_using_a_folder_stamps_it(tmp_path, monkeypatch):
-    monkeypatch.setattr(_jit, "cache_folder", lambda: tmp_path)
-    folder = _jit._folder_of.__wrapped__(frozenset({"drivewright.errors"}))
+    monkeypatch.setattr(disk_cache, "cache_folder", lambda: tmp_path)
+    folder = disk_cache._folder_of.__wrapped__(frozenset({"drivewright.errors"}))
     assert time.time() - (folder / "last-used").stat().st_mtime < 60
-    assert folder != _jit._folder_of.__wrapped__(frozenset({"drivewright.errors", "drivewright._jit"}))
+    assert folder != disk_cache._folder_of.__wrapped__(frozenset({"drivewright.errors", "drivewright._jit"}))
 
 
 def test_warm_runs_each_warmer_and_reports_it(monkeypatch):

@@ -30,6 +30,7 @@ NAMES = [
     "Study",
     "bearings",
     "build",
+    "by_reference",
     "cams",
     "chains",
     "contact",

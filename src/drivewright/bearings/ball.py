@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from pydantic import model_validator
 
-from drivewright._jit import implements, warmer
+from drivewright._jit import by_reference, implements, warmer
 from drivewright._typing import Floats
 from drivewright.bearings.life import REVOLUTIONS
 from drivewright.bearings.newton import BearingMeasures, measures
@@ -79,6 +79,7 @@ class BallBearing(Spec):
         return self.ball_diameter * np.cos(self.contact_angle) / self.pitch_diameter
 
 
+@by_reference
 class BallLaw(NamedTuple):
     """Distance between the groove centres at zero displacement, along z and radially, and A when the ball just touches [m];
     axial^2 + radial^2 - A^2, which only a preload makes other than 0 [m^2]; c [N/m^1.5]; arm R [m]; peak pressure at each race for

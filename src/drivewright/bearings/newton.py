@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drivewright._jit import generic, kernel, outer
+from drivewright._jit import generic, inner, kernel
 from drivewright._typing import Bools, Floats, Ints
 from drivewright.bearings.response import response
 from drivewright.numerics.small import cholesky_solve
@@ -69,7 +69,7 @@ def equilibria(law: Any, forces: Floats, held: Bools) -> tuple[Floats, Ints]:
     return displacements, steps
 
 
-@outer
+@inner
 def centre_ring(law: Any, force: Floats, held: Bools, displacement: Floats) -> None:
     """Put z where the ring centres itself when the load does not push it along the axis.
 
@@ -88,7 +88,7 @@ def _workspace():
     return _Work(np.empty(5), np.empty(5), np.empty(5), np.empty((5, 5)), np.empty((5, 5)), np.empty(5), np.empty(5), np.empty(5))
 
 
-@outer
+@inner
 def _find_equilibrium(law, force, held, displacement, work):
     """Newton's method from `displacement`, in place; the number of steps. force (5,) [N, N m], held (5,), displacement (5,) [m, rad]."""
     sizes = measures(law)
@@ -98,7 +98,7 @@ def _find_equilibrium(law, force, held, displacement, work):
     return _reduce_load(law, force, displacement, work) if steps == NOT_CONVERGED else steps
 
 
-@outer
+@inner
 def _reduce_load(law, force, displacement, work):
     """A load that presses the ring in, reduced to the wanted one; the number of steps.
 
@@ -129,7 +129,7 @@ def _reduce_load(law, force, displacement, work):
     return NOT_CONVERGED
 
 
-@outer
+@inner
 def _newton(law, force, factor, displacement, work):
     """Newton steps at `factor` times the force, in place; the number of steps. force (5,) [N, N m], displacement (5,) [m, rad]."""
     weight = 0.0
@@ -152,7 +152,7 @@ def _newton(law, force, factor, displacement, work):
     return NOT_CONVERGED
 
 
-@outer
+@inner
 def _newton_step(displacement, miss, work):
     """Writes the step [m, rad]; (its size, that of the displacement) in units of `scale`.
 
@@ -185,7 +185,7 @@ def _newton_step(displacement, miss, work):
     return size, here
 
 
-@outer
+@inner
 def _line_search(law, displacement, size, work):
     """Go along the step until the slope has dropped to a part of its first value; False where it never does.
 
@@ -215,7 +215,7 @@ def _line_search(law, displacement, size, work):
     return True
 
 
-@outer
+@inner
 def _slope(work):
     """Change of the potential along the step [J]."""
     slope = 0.0

@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from pydantic import model_validator
 
-from drivewright._jit import implements, inner, warmer
+from drivewright._jit import by_reference, implements, inner, warmer
 from drivewright._typing import ArrayLike, Floats
 from drivewright.bearings.newton import BearingMeasures, measures
 from drivewright.bearings.response import response
@@ -78,6 +78,7 @@ class RollerBearing(Spec):
         return self.roller_diameter * np.cos(self.contact_angle) / self.pitch_diameter
 
 
+@by_reference
 class RollerLaw(NamedTuple):
     """The numbers of a roller bearing; SI.
 

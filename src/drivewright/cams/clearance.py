@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import implements, kernel, warmer
+from drivewright._jit import by_reference, implements, kernel, warmer
 from drivewright._typing import Floats
 from drivewright.contact import KelvinVoigt, normal_force
 from drivewright.errors import SolverError
@@ -20,6 +20,7 @@ from drivewright.stops import Stop, note_stop
 STEPS_A_TURN = 200_000  # at most: fifteen times what two cams with play usually take
 
 
+@by_reference
 class LeverBetweenCams(NamedTuple):
     """A lever with two rollers between a main cam, which swings it out, and a return cam; it drives a mass on a straight path.
 

@@ -50,9 +50,9 @@ def _warm() -> None:
 
 
 def _cache() -> None:
-    from drivewright import _jit
+    from drivewright._jit.disk_cache import cache_folder
 
-    folder = _jit.cache_folder()
+    folder = cache_folder()
     files = [path for path in folder.rglob("*") if path.is_file()]
     size = sum(path.stat().st_size for path in files)
     show.table("kernel cache", (("folder", "left"), ("files", "right"), ("size", "right")), [(folder, len(files), f"{size / 1e6:.1f} MB")])

@@ -7,7 +7,7 @@ The journal keeps its shape.
 
 import numpy as np
 
-from drivewright._jit import outer
+from drivewright._jit import inner
 from drivewright._typing import Floats, Numbers
 from drivewright.errors import InputError
 
@@ -60,7 +60,7 @@ def extrapolate_wear(depths: Floats, depth_per_cycle: Floats, cycles: float) -> 
     return np.asarray(depths) + cycles * np.asarray(depth_per_cycle)
 
 
-@outer
+@inner
 def wear_at(depths: Floats, angle: float) -> tuple[float, float]:
     """(wear depth [m], its slope by the angle [m/rad]) at the angle [rad] on the bearing; depths (bins,) [m], one or more.
 

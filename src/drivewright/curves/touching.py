@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drivewright._jit import inner, kernel, outer
+from drivewright._jit import inner, kernel
 from drivewright._typing import ArrayLike, Complexes, Floats, Ints
 from drivewright.curves.pieces import gather
 
@@ -108,7 +108,7 @@ def _search(nodes, centres, limit, number, points, curvature):
         number[k] = nearest(nodes, centres[k], limit, points[k], curvature[k])
 
 
-@outer
+@inner
 def nearest(nodes: Nodes, centre: complex, limit: float, points: Complexes, curvature: Floats) -> int:
     """Writes points and curvatures of the places nearer to `centre` than `limit`; returns their number, which may exceed the room.
 
@@ -138,7 +138,7 @@ def nearest(nodes: Nodes, centre: complex, limit: float, points: Complexes, curv
     return count
 
 
-@outer
+@inner
 def _known(points: Complexes, count: int, point: complex) -> bool:
     """Whether a foot on the node between two chords, or between the last chord and the first, has been found already.
 
@@ -153,7 +153,7 @@ def _cross(a: complex, b: complex) -> float:
     return a.real * b.imag - a.imag * b.real
 
 
-@outer
+@inner
 def _turn(a: complex, b: complex) -> float:
     """Sine of the angle between two vectors, complex, without its sign."""
     return abs(_cross(a, b)) / (abs(a) * abs(b))
@@ -165,7 +165,7 @@ def _rate(arm, slope):
     return arm.real * slope.real + arm.imag * slope.imag
 
 
-@outer
+@inner
 def _cubic(nodes, k, u):
     """Point, first and second derivative of Hermite's cubic on chord k at u = 0..1."""
     a, b, p, q = nodes.a[k], nodes.b[k], nodes.leave[k], nodes.arrive[k]
@@ -173,7 +173,7 @@ def _cubic(nodes, k, u):
     return a + u * (p + u * (c2 + u * c3)), p + u * (2.0 * c2 + 3.0 * u * c3), 2.0 * c2 + 6.0 * u * c3
 
 
-@outer
+@inner
 def _foot(nodes, k, centre):
     """Parameter on chord k where the distance is least: Newton's method inside a shrinking bracket."""
     low, high = 0.0, 1.0

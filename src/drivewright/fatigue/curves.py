@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import inner, kernel, outer, warmer
+from drivewright._jit import inner, kernel, warmer
 from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
 from drivewright.fatigue.material import StrainLife
@@ -51,7 +51,7 @@ def log_root(log_a: float, p: float, log_b: float, q: float, log_total: float) -
     return y
 
 
-@outer
+@inner
 def cycle_damage(curve: Curve, parameter: float, mean: float) -> float:
     """1/N of a closed cycle; 0 for none, inf where the mean stress reaches sf' and nothing is left to endure a cycle."""
     if not parameter > 0.0:

@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from drivewright._jit import inner, kernel, outer
+from drivewright._jit import by_reference, inner, kernel
 from drivewright._typing import Floats, Ints
 from drivewright.fatigue.curves import Curve, cycle_damage
 from drivewright.fatigue.rainflow import block_cycles
@@ -34,6 +34,7 @@ class Block(NamedTuple):
     gate: float
 
 
+@by_reference
 class PlaneWorkspace(NamedTuple):
     """Working arrays for blocks of n samples.
 
@@ -117,7 +118,7 @@ def contract(w: tuple[float, ...], t: Floats, k: int) -> float:
     return w[0] * t[k, 0] + w[1] * t[k, 1] + w[2] * t[k, 2] + w[3] * t[k, 3] + w[4] * t[k, 4] + w[5] * t[k, 5]
 
 
-@outer
+@inner
 def resolve(block: Block, normal: Vector, direction: Vector, work: PlaneWorkspace) -> int:
     """Fills the signals (2n,) of `work`, shear and normal strain [-] and normal stress [Pa]; the number of cycles on the shear."""
     size = len(block.strain)
@@ -132,7 +133,7 @@ def resolve(block: Block, normal: Vector, direction: Vector, work: PlaneWorkspac
     return cycles
 
 
-@outer
+@inner
 def cycle_measures(work: PlaneWorkspace, cycle: int, gate: float) -> CycleMeasures:
     """The `CycleMeasures` of one cycle; where it closes between two samples, both signals are taken as straight there."""
     shear, normal, stress = work.shear, work.normal, work.stress
@@ -153,7 +154,7 @@ def cycle_measures(work: PlaneWorkspace, cycle: int, gate: float) -> CycleMeasur
     return CycleMeasures(0.5 * reach, 0.5 * (high - low), 0.5 * (most + least))
 
 
-@outer
+@inner
 def plane_damage(block: Block, curve: Curve, normal: Vector, direction: Vector, work: PlaneWorkspace) -> float:
     """Damage of one repeat, the sum of its cycles' after Miner."""
     damage = 0.0
@@ -196,7 +197,7 @@ def turn_frame(normal: Vector, direction: Vector, first: float, second: float, t
     return turn_towards(normal, cross(normal, direction), third), direction
 
 
-@outer
+@inner
 def _evaluate_corner(block, curve, normal, direction, work, row, x, y, z):
     """Writes three angles [rad] and the log damage there into a row of the simplex (5, 4)."""
     there, along = turn_frame(normal, direction, x, y, z)
@@ -205,7 +206,7 @@ def _evaluate_corner(block, curve, normal, direction, work, row, x, y, z):
     s[row, 3] = np.log(plane_damage(block, curve, there, along, work))
 
 
-@outer
+@inner
 def _reflect(block, curve, normal, direction, work, low, factor):
     """Mirrors the lowest corner at the middle of the other three, its distance times factor, in the spare row 4; kept if it is higher."""
     s = work.simplex
@@ -222,7 +223,7 @@ def _reflect(block, curve, normal, direction, work, low, factor):
     return kept
 
 
-@outer
+@inner
 def _shrink(block, curve, normal, direction, work, top):
     """Halves the distances [rad] of all corners of the simplex (5, 4) from its highest."""
     s = work.simplex
@@ -246,7 +247,7 @@ def _rank_corners(s):
     return top, low, second, width
 
 
-@outer
+@inner
 def nelder_mead(
     block: Block, curve: Curve, normal: Vector, direction: Vector, size: float, finest: float, work: PlaneWorkspace
 ) -> tuple[float, Vector, Vector]:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import kernel, outer, warmer
+from drivewright._jit import inner, kernel, warmer
 from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.errors import InputError
 
@@ -24,7 +24,7 @@ class Cycles(NamedTuple):
     end: Ints
 
 
-@outer
+@inner
 def turning_points(x: Floats, first: int, last: int, gate: float, turning: Ints) -> int:
     """Writes the indices of the reversals of x[first..last] larger than `gate`, both ends included; returns their number.
 
@@ -48,7 +48,7 @@ def turning_points(x: Floats, first: int, last: int, gate: float, turning: Ints)
     return count
 
 
-@outer
+@inner
 def pair_cycles(
     x: Floats, turning: Ints, points: int, gate: float, closed: bool, count: Floats, start: Ints, end: Ints, stack: Ints
 ) -> int:
@@ -81,7 +81,7 @@ def pair_cycles(
     return cycles
 
 
-@outer
+@inner
 def block_cycles(x: Floats, size: int, gate: float, turning: Ints, count: Floats, start: Ints, end: Ints, stack: Ints) -> int:
     """Number of the closed cycles of a block that is repeated, x (2 size,) holding it twice; start < end < 2 size."""
     first = 0

@@ -7,7 +7,7 @@ pairs is the longest chord of the path of the shear vector, over all planes.
 
 import numpy as np
 
-from drivewright._jit import inner, kernel, outer
+from drivewright._jit import inner, kernel
 from drivewright._typing import Floats
 from drivewright.fatigue.curves import Curve
 from drivewright.fatigue.planes import Block, PlaneWorkspace, Vector, plane_damage, turn_towards
@@ -46,7 +46,7 @@ def _outer_difference(t, j2):
     return 2.0 * np.sqrt(j2) * np.sin(lode + np.pi / 3.0)
 
 
-@outer
+@inner
 def _largest_shear(strain):
     """The largest shear between any two instants; pairs that cannot reach it, for it is at most 2 sqrt(J2), are passed over."""
     best = 0.0
@@ -140,14 +140,14 @@ def _frame(a, b):
     return turn_towards(a, b, np.pi / 4.0), turn_towards(b, a, -np.pi / 4.0)
 
 
-@outer
+@inner
 def _damage_at(block, curve, fixed, start, sense, angle, work):
     """Damage of a repeat on the plane between the axis `fixed` and `start` turned towards `sense` by an angle [rad]."""
     normal, direction = _frame(fixed, turn_towards(start, sense, angle))
     return plane_damage(block, curve, normal, direction, work)
 
 
-@outer
+@inner
 def _worst_angle(block, curve, fixed, start, sense, cone, work):
     """(greatest damage, its angle): of the two planes at right angles, at 0 and pi, or of the cone between them."""
     places = _AROUND if cone else 2

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from drivewright._jit import outer
+from drivewright._jit import inner
 from drivewright._typing import ArrayLike, Complexes, Floats
 from drivewright.curves.touching import Nodes, nearest
 from drivewright.indexing.motion import TURN
@@ -70,14 +70,14 @@ def _play_of_cam(drive: PlaneDrive, theta: Floats, direction: float) -> Floats:
     return free
 
 
-@outer
+@inner
 def _free_rotations(nodes, centres, place, radius, direction, limit, free, foot_points, curvatures):
     """Writes `free` (n,) [rad]: free rotation at n positions; centres (n, pins), place (n,) complex [m]."""
     for k in range(len(place)):
         free[k] = free_rotation(nodes, centres[k], place[k], radius, direction, limit, foot_points, curvatures)
 
 
-@outer
+@inner
 def free_rotation(
     nodes: Nodes,
     centres: Complexes,
@@ -105,7 +105,7 @@ def free_rotation(
     return np.nan
 
 
-@outer
+@inner
 def _approach(nodes, centres, place, radius, direction, turned, foot_points, curvatures):
     """Least gap [m] of the pins that come nearer when the wheel turns on, and the step [rad] to take."""
     least, step = np.inf, np.inf
@@ -126,7 +126,7 @@ def _approach(nodes, centres, place, radius, direction, turned, foot_points, cur
     return least, step
 
 
-@outer
+@inner
 def _bisected(nodes, centres, place, radius, direction, low, high, foot_points, curvatures):
     """Rotation between a free one and one where a pin is in the profile, to 1e-12 rad. Arrays as for `free_rotation`."""
     while high - low > 1e-12:

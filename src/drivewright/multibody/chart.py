@@ -8,7 +8,7 @@ which the loops are closed exactly; what the rest of the program sees is the smo
 
 import numpy as np
 
-from drivewright._jit import inner, outer
+from drivewright._jit import inner
 from drivewright._typing import Bools, Floats
 from drivewright.multibody.kinematics import (
     close_loops,
@@ -36,7 +36,7 @@ def update_kinematics(system: System, work: Work, t: float, y: Floats) -> bool:
     return update_regular(system, work, t, y)
 
 
-@outer
+@inner
 def update_regular(system: System, work: Work, t: float, y: Floats) -> bool:
     """`update_kinematics` where the loops determine the dependent coordinates; called, not inlined: it is half of every right-hand side.
 
@@ -48,7 +48,7 @@ def update_regular(system: System, work: Work, t: float, y: Floats) -> bool:
     return closed
 
 
-@outer
+@inner
 def update_positions(system: System, work: Work, t: float, y: Floats) -> bool:
     """Coordinates of the state, loops closed, bodies placed; False where the loops cannot be closed.
 
@@ -99,7 +99,7 @@ def lagrange_weight(offsets: Floats, k: int, x: float) -> float:
     return product
 
 
-@outer
+@inner
 def update_interpolated(system: System, work: Work, t: float, y: Floats) -> bool:
     """`update_kinematics` between the nodes of the chart.
 
@@ -176,7 +176,7 @@ def dependency_on_drive(system: System, work: Work, d: int) -> None:
         regular_dependency_on_drive(system, work, d)
 
 
-@outer
+@inner
 def solve_kinematics(system: System, work: Work, t: float, y: Floats) -> bool:
     """`update_kinematics`, to be called from Python.
 
@@ -185,7 +185,7 @@ def solve_kinematics(system: System, work: Work, t: float, y: Floats) -> bool:
     return update_kinematics(system, work, t, y)
 
 
-@outer
+@inner
 def solve_kinematics_all(system: System, work: Work, t: Floats, y: Floats, q: Floats, v: Floats) -> None:
     """Coordinates and rates (m, coordinates) of states y (m, n) at the times t (m,).
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drivewright._jit import inner, outer
+from drivewright._jit import inner
 from drivewright._typing import Floats
 from drivewright.multibody.chart import solve_kinematics, solve_kinematics_all, update_kinematics
 from drivewright.multibody.dynamics import validity_of_split
@@ -120,7 +120,7 @@ def _states(system, times, y):
     return states
 
 
-@outer
+@inner
 def continue_through(
     system: System, work: Work, start: float, times: Floats, y: Floats, rates: Floats, states: Floats
 ) -> tuple[float, int, int]:

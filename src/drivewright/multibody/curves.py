@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drivewright._jit import outer
+from drivewright._jit import inner
 from drivewright._typing import Floats, Numbers
 from drivewright.multibody.records import Records
 
@@ -35,7 +35,7 @@ def curve_slope(curve: Curve, x: Numbers) -> Floats:
     return np.sum(powers * coefficients[piece, 1:] * (x - breaks[piece])[..., None] ** (powers - 1), axis=-1)
 
 
-@outer
+@inner
 def curve_at(curves: Records, pieces: Records, index: int, x: float) -> tuple[float, float, float]:
     """(f, f', f'') of the curve number `index` at x.  curves (n,) of CURVE, pieces (k,) of PIECE."""
     curve = curves[index]

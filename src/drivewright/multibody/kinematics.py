@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from drivewright._jit import inner, outer
+from drivewright._jit import inner
 from drivewright.multibody.curves import curve_at
 from drivewright.multibody.frames import rotated
 from drivewright.multibody.joints.rows import terms_of_row, velocity_product_of_row
@@ -224,14 +224,14 @@ def update_body_velocity_products(system: System, work: Work) -> None:
         here.bias_x, here.bias_y = base.bias_x - ax + bx, base.bias_y - ay + by
 
 
-@outer
+@inner
 def evaluate_at_time(system: System, work: Work, t: float) -> None:
     """Driven coordinates set, bodies placed and rows measured at the coordinates in `work`; the loops stay as they are."""
     update_driven_coordinates(system, work, t)
     evaluate_rows(system, work)
 
 
-@outer
+@inner
 def evaluate_rows(system: System, work: Work) -> None:
     """Bodies placed and rows measured at the coordinates in `work`, driven ones included."""
     update_poses(system, work)

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from drivewright._jit import inner, outer
+from drivewright._jit import inner
 from drivewright._typing import ArrayLike, Floats
 from drivewright.multibody.chart import dependency_on_drive, update_kinematics
 from drivewright.multibody.dynamics import solve_accelerations, update_mass_matrix
@@ -29,7 +29,7 @@ def concatenate(parts: Sequence[Observed]) -> Observed:
     return Observed(*(np.concatenate(fields) for fields in zip(*parts, strict=True)))
 
 
-@outer
+@inner
 def observe_all(motion: Motion, t: Floats, y: Floats, dy: Floats, bodies: Floats, pins: Floats, powers: Floats, drives: Floats) -> None:
     """Fill the arrays of `Observed`; dy is scratch. t (m,) [s], y (m, n); the arrays as in `Observed`, one row a time; dy (n,)."""
     system, work = motion.system, motion.work

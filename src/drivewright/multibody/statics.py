@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import outer
+from drivewright._jit import inner
 from drivewright._typing import Floats, Ints
 from drivewright.errors import InputError, SolverError
 from drivewright.multibody.assembly import Assembly
@@ -142,7 +142,7 @@ def _driven_by(system, start, slope):
     )
 
 
-@outer
+@inner
 def evaluate_loads(system: System, work: Work, t: float, y: Floats, dy: Floats) -> bool:
     """Everything but the accelerations of a state in `work`; False where the loops cannot be closed.
 

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._jit import by_reference
 from drivewright._typing import Floats, Ints
 from drivewright.multibody.forces.contact import Laws, NoLaws
 from drivewright.multibody.joints.rows import Equations, NoEquations
@@ -34,6 +35,7 @@ PARTIAL_VELOCITY = record_type("", "x y t")  # d(place, angle)/d(coordinate)
 RESIDUAL, BIAS, SCRATCH = range(3)  # residual of the rows; q'' of the dependent coordinates at zero q'' of the independent ones; scratch
 
 
+@by_reference
 class Chart(NamedTuple):
     """The dependent coordinates across a singular position, as values at nodes on both sides of it; see `multibody.chart`.
 
@@ -53,6 +55,7 @@ class Chart(NamedTuple):
     reach: float  # |x| up to which the chart holds
 
 
+@by_reference
 class System(NamedTuple):
     """Frozen arrays of records; `stored` are the coordinates in the state, dependent and independent ones."""
 
@@ -81,6 +84,7 @@ class System(NamedTuple):
     chart: Chart
 
 
+@by_reference
 class Work(NamedTuple):
     """Scratch of one run."""
 
@@ -100,6 +104,7 @@ class Work(NamedTuple):
     node_sums: Floats  # (rows, 3 + independent + driven): dependent coordinates, rates, bias and dependency matrix, summed over nodes
 
 
+@by_reference
 class Motion(NamedTuple):
     """A system that moves: what the integrator integrates."""
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright import cases
-from drivewright._jit import inner, outer, plain
+from drivewright._jit import inner, plain
 from drivewright._typing import Floats
 from drivewright.errors import DoesNotAssemble, InputError, UnknownName
 from drivewright.multibody.assembly import Assembly
@@ -187,7 +187,7 @@ def deviations(posture: Posture, moves: Floats) -> Floats:
     return out[1:] - out[0]
 
 
-@outer
+@inner
 def scatter(
     system: System,
     nominal: System,

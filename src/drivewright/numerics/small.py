@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from drivewright._jit import outer
+from drivewright._jit import inner
 from drivewright._typing import Floats, Ints
 
 SINGULAR = 1e-13  # a pivot below this part of the matrix' largest entry
 
 
-@outer
+@inner
 def lu_factor(a: Floats, pivots: Ints) -> bool:
     """Overwrite the square matrix a (n, n) with L and U, rows exchanged as `pivots` (n,) says; False where it is singular."""
     n = a.shape[0]
@@ -34,7 +34,7 @@ def lu_factor(a: Floats, pivots: Ints) -> bool:
     return True
 
 
-@outer
+@inner
 def lu_solve(lu: Floats, pivots: Ints, b: Floats) -> None:
     """Overwrite b (n,) with the solution x of a x = b, from the factors (n, n) and `pivots` (n,) of `lu_factor`."""
     n = lu.shape[0]
@@ -51,7 +51,7 @@ def lu_solve(lu: Floats, pivots: Ints, b: Floats) -> None:
         b[i] /= lu[i, i]
 
 
-@outer
+@inner
 def cholesky_solve(a: Floats, b: Floats) -> None:
     """Overwrite b (n,) with x of a x = b, a (n, n) symmetric and positive definite (its lower half is used up); nan in b where it is
     not."""
@@ -59,7 +59,7 @@ def cholesky_solve(a: Floats, b: Floats) -> None:
     cholesky_substitute(a, b)
 
 
-@outer
+@inner
 def cholesky_factor(a: Floats) -> None:
     """Overwrite the lower half of a (n, n), symmetric and positive definite, with its factor L, a = L L^T; nan where it is not."""
     n = a.shape[0]
@@ -73,7 +73,7 @@ def cholesky_factor(a: Floats) -> None:
             a[i, j] /= a[j, j]
 
 
-@outer
+@inner
 def cholesky_substitute(a: Floats, b: Floats) -> None:
     """Overwrite b (n,) with x of L L^T x = b, L in the lower half of a (n, n)."""
     n = a.shape[0]

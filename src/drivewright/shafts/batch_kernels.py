@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import inner, outer
+from drivewright._jit import by_reference, inner
 from drivewright._typing import Floats, Ints
 from drivewright.shafts.closed_form import flexibility_entry, reaction_shares
 from drivewright.shafts.sections import compliance_integrals
@@ -48,6 +48,7 @@ class DesignColumns(NamedTuple):
     shear: DesignColumn
 
 
+@by_reference
 class BatchWorkspace(NamedTuple):
     """What a design needs on its way, by point: a support or a station; supports are numbered first.
 
@@ -72,7 +73,7 @@ def entry_of(column: DesignColumn, design: int, entry: int) -> float:
     return column.values[design * column.row + entry * column.entry]
 
 
-@outer
+@inner
 def fill_flexibilities(
     designs: DesignColumns, sections: int, begin: int, end: int, work: BatchWorkspace, delta: Floats, carried: Floats
 ) -> None:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import kernel, outer
+from drivewright._jit import inner, kernel
 from drivewright.chains.closure.drive import LEAST_TEETH, refuse_count, refuse_joint, refuse_strands
 from drivewright.chains.closure.measures import measure
 from drivewright.chains.closure.strand import decay, pressing, reach
@@ -55,7 +55,7 @@ def _travel(A, r, bent, count, height, phi, nodes):
     return angle, place, slope
 
 
-@outer
+@inner
 def _lifting(A, r, count, phi, work):
     """Direction at which nothing presses the last seated plate any more, by bisection."""
     low, high = 0.0, phi

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import inner, kernel, outer
+from drivewright._jit import by_reference, inner, kernel
 from drivewright._typing import Floats, Ints
 from drivewright.chains.closure.strand import pressing, reach
 from drivewright.numerics.small import lu_factor, lu_solve
@@ -39,6 +39,7 @@ class Layout(NamedTuple):
     lead: int
 
 
+@by_reference
 class Work(NamedTuple):
     """What a solution leaves: the misses of both strands, dx/dpsi_1 and the two margins of each end of a strand; the rest is scratch."""
 
@@ -67,13 +68,13 @@ def workspace(links: int) -> Work:
     return Work(np.empty(UNKNOWNS), np.empty(UNKNOWNS), np.empty(2 * ENDS), np.empty(UNKNOWNS), jacobian, pivots, np.empty((3, links + 2)))
 
 
-@outer
+@inner
 def free_plates(layout: Layout, seats: Ints) -> tuple[int, int]:
     """Numbers of free plates in the upper and the lower strand, by the teeth `seats` (ENDS,) where it leaves and meets the sprockets."""
     return layout.lead - seats[1] + seats[0] - 1, layout.links - layout.lead - seats[3] + seats[2] - 1
 
 
-@outer
+@inner
 def solve(layout: Layout, seats: Ints, psi: float, x: Floats, work: Work) -> bool:
     """Brings x to the solution for these seats and fills `work`; False where Newton's method does not settle.
 
@@ -97,7 +98,7 @@ def solve(layout: Layout, seats: Ints, psi: float, x: Floats, work: Work) -> boo
     return False
 
 
-@outer
+@inner
 def _equations(layout, seats, psi, x, work):
     """Fills misses, margins and Jacobian, and the right sides of the systems for the Newton step and for the slope."""
     upper, lower = free_plates(layout, seats)
@@ -126,7 +127,7 @@ def _fill(work, row, miss, by_driven, by_distance, by_driver):
     work.jacobian[row, 1], work.jacobian[row + 1, 1] = by_distance, 0.0
 
 
-@outer
+@inner
 def _side(layout, count, arm_start, start, arm_end, end, direction, scratch):
     """The `Side` of a strand from the seated plate at the polar angle `start` of one sprocket to that at `end` of the other one.
 
@@ -140,7 +141,7 @@ def _side(layout, count, arm_start, start, arm_end, end, direction, scratch):
     return Side(here + turn * found.vector - there, 1j * here + by_start, by_end - 1j * there, by_direction)
 
 
-@outer
+@inner
 def _margins(layout, phi_start, phi_end, end, start_angle, end_angle, count, work):
     """Writes the margins of both ends of the strand just solved: by its first free plate, then by its last."""
     first, last = 0.0, 0.0

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import inner, kernel, outer
+from drivewright._jit import inner, kernel
 from drivewright._typing import Floats
 
 _STEPS = 40
@@ -34,7 +34,7 @@ class Reach(NamedTuple):
     last: float
 
 
-@outer
+@inner
 def reach(A: float, r: float, bent: bool, count: int, start: float, end: float, work: Floats) -> Reach:
     """The `Reach` of `count` free plates between seated ones with the directions `start` and `end`; work (3, count + 2) is scratch."""
     if bent:
@@ -62,13 +62,13 @@ def pressing(A: float, r: float, phi: float, seated: float, first: float) -> flo
     return np.sin(seated) - r / A * (np.sin(seated + 0.5 * phi) + np.sin(0.5 * (seated + first)))
 
 
-@outer
+@inner
 def decay(A: float, r: float) -> float:
     """By which factor the bend of a strand shrinks from plate to plate: the smaller root of r (1 + x^2) = 2 (A - r) x."""
     return r / (A - r + np.sqrt(A * (A - 2 * r)))
 
 
-@outer
+@inner
 def _bent(A, r, count, start, end, work):
     """The `Reach` of plates in equilibrium, by Newton's method from two bends that decay; work (3, count + 2) is scratch."""
     d, diagonal, side = work[0], work[1], work[2]
@@ -82,7 +82,7 @@ def _bent(A, r, count, start, end, work):
     return Reach(np.nan + 0j, np.nan + 0j, np.nan + 0j, np.nan, np.nan)
 
 
-@outer
+@inner
 def _newton_step(A, r, count, d, diagonal, side):
     """One Newton step towards equilibrium; its largest part [rad].
 
@@ -102,7 +102,7 @@ def _newton_step(A, r, count, d, diagonal, side):
     return largest
 
 
-@outer
+@inner
 def _solve(r, count, d, diagonal, side):
     """Overwrite `side` with the solution of the tridiagonal system of the plates' directions; beside the diagonal -r/2 cos m_i.
 
@@ -118,7 +118,7 @@ def _solve(r, count, d, diagonal, side):
         side[i] = (side[i] + 0.5 * r * np.cos(0.5 * (d[i] + d[i + 1])) * side[i + 1]) / diagonal[i]
 
 
-@outer
+@inner
 def _reached(A, r, count, d, diagonal, side):
     """The `Reach` in equilibrium.  Across the force the free plates move along with the seated ones: one adjoint solution for both ends.
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import inner, kernel, outer
+from drivewright._jit import inner, kernel
 from drivewright._typing import Bools, Floats, Ints
 from drivewright.chains.closure.loop import ENDS, UNKNOWNS, Layout, free_plates, solve, workspace
 
@@ -72,7 +72,7 @@ def solve_at(layout: Layout, psi: Floats, x: Floats, seats: Ints) -> float:
     return worst
 
 
-@outer
+@inner
 def _settle(layout, seats, psi, x, work):
     """Solves for x (UNKNOWNS,) at psi [rad], and changes one of seats (ENDS,) at a time, the worst first, till no margin is negative."""
     for _ in range(_CHANGES):
@@ -88,7 +88,7 @@ def _settle(layout, seats, psi, x, work):
     return RESTLESS
 
 
-@outer
+@inner
 def _advance(layout, seats, target, x, start, work, held, track):
     """Follows the motion to `target` [rad] and writes the samples, those at events too; start (UNKNOWNS,), held (2 ENDS,) are scratch."""
     for _ in range(_CHANGES):
@@ -114,7 +114,7 @@ def _advance(layout, seats, target, x, start, work, held, track):
     return RESTLESS
 
 
-@outer
+@inner
 def _solve_near(layout, seats, target, psi, x, start, slope, work):
     """Solves for x (UNKNOWNS,) at `target` [rad] from the solution start (UNKNOWNS,) at psi, foreseen by its slope (UNKNOWNS,)."""
     for k in range(UNKNOWNS):
@@ -122,7 +122,7 @@ def _solve_near(layout, seats, target, psi, x, start, slope, work):
     return solve(layout, seats, target, x, work)
 
 
-@outer
+@inner
 def _first_event(layout, seats, psi, high, x, start, slope, work, held, worst):
     """The angle where the first margin vanishes, solved there, and which one it is; nan where a solution is lost."""
     for _ in range(2 * ENDS):
@@ -134,7 +134,7 @@ def _first_event(layout, seats, psi, high, x, start, slope, work, held, worst):
     return np.nan, worst
 
 
-@outer
+@inner
 def _root(layout, seats, psi, high, x, start, slope, work, held, which):
     """Where a margin, `held` at psi and negative at `high`, vanishes: false position with the Illinois weights; nan where lost."""
     low, at_low, at_high = psi, held[which], work.margins[which]
@@ -159,7 +159,7 @@ def _root(layout, seats, psi, high, x, start, slope, work, held, which):
     return np.nan
 
 
-@outer
+@inner
 def _refused(layout, seats):
     """Why seats cannot be: no free plate in a strand, or fewer than two seated ones on a sprocket; else DONE."""
     upper, lower = free_plates(layout, seats)
@@ -202,7 +202,7 @@ def _largest(miss):
     return worst
 
 
-@outer
+@inner
 def _write(track, psi, x, work, before, seats, event):
     """One more sample: x (UNKNOWNS,), its slopes before and after, seats (ENDS,); RESTLESS where there is no room for it."""
     k = track.length[0]

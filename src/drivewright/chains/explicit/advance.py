@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from drivewright._jit import inner, outer, plain
+from drivewright._jit import inner, plain
 from drivewright._typing import Floats, Records
 from drivewright.chains.explicit.bodies import (
     drift_bodies,
@@ -31,10 +31,11 @@ from drivewright.chains.explicit.step import (
 from drivewright.chains.touching.seats import nearest_gap, nearest_tooth
 
 
-@outer
+@inner
 def run(drive: DriveArrays, snapshots: Snapshots, first: int, last: int, every: int, search_interval: float, dt: float) -> None:
     """Snapshots first .. last-1, `every` steps apart; candidates for contact are sought anew every `search_interval` steps."""
-    chain, p, j, t, b, teeth, arcs, candidates, gravity, clock, power, sums = drive
+    chain, p, j, t, b, teeth = drive.chain, drive.plates, drive.joints, drive.touches, drive.bodies, drive.teeth
+    arcs, candidates, gravity, clock, power, sums = drive.arcs, drive.candidates, drive.gravity, drive.clock, drive.power, drive.sums
     for number in range(first, last):
         for n in range(every):
             if clock[1] % search_interval == 0.0:

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import inner
+from drivewright._jit import by_reference, inner
 from drivewright._typing import Floats, Records
 from drivewright.chains.explicit.state import SUMS, ChainConstants, Joints, Plates, Touches
 from drivewright.chains.explicit.step import total
@@ -14,6 +14,7 @@ BODIES = ("q", "vq", "psi", "w", "fx", "fy", "torque", "hq", "hw")
 PLATES = ("x", "y", "angle", "c", "s", "vx", "vy", "w", "hx", "hy", "hw", "fx", "fy", "rx", "ry", "stored", "left", "right")
 
 
+@by_reference
 class Snapshots(NamedTuple):
     """scalars (S, SCALARS), bodies (S, BODIES, B), plates (S, PLATES, N), joints by the plate behind them."""
 

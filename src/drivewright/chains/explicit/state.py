@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drivewright._jit import generic, implements
+from drivewright._jit import by_reference, generic, implements
 from drivewright._typing import Bools, Floats, Ints, Records
 from drivewright.chains.model import LINEAR, ChainDrive, Guide
 from drivewright.chains.roller_tooth import RollerTooth
@@ -19,6 +19,7 @@ from drivewright.errors import InputError
 PLATES_PER_VECTOR = 8  # as many as one vector instruction may hold; loops over plates run over a whole number of these
 
 
+@by_reference
 class Plates(NamedTuple):
     """Per plate: mass centre, direction (cos, sin), rates at the whole step, angle, rates at the half step, load, constants.
 
@@ -56,6 +57,7 @@ class Plates(NamedTuple):
     gy: Floats
 
 
+@by_reference
 class Joints(NamedTuple):
     """Per joint: force on the plate ahead (the one behind gets the opposite), where it acts, torque of its articulation, rate of stretch,
     damping power and its sum.
@@ -79,6 +81,7 @@ class Joints(NamedTuple):
     lost: Floats
 
 
+@by_reference
 class Touches(NamedTuple):
     """Per plate: seat angle of its tooth (less psi), forces of the right and left flank (of roller seat and flank) and what of them is
     damping, loss power and its sum, energy stored, force on the plate, torque on the body."""
@@ -143,6 +146,7 @@ Records, as of guides: a tuple of so many arrays takes long to compile.
 """
 
 
+@by_reference
 class Teeth(NamedTuple):
     """Per sprocket: base radius, support, limits of the support for form and tip, tooth angle, reach; then what a roller's tooth needs."""
 
@@ -166,6 +170,7 @@ ARCS = np.dtype([(name, float) for name in ("radius", "distance", "side", "middl
 """Per guide: radius; distance to the pin line; side (-1 outside, 1 inside); middle of its arc, cosine of half of it; friction, slip."""
 
 
+@by_reference
 class ContactCandidates(NamedTuple):
     """Plates first .. last-1 that may touch a body; `size`[0] of them are in use."""
 
@@ -240,6 +245,7 @@ class ChainConstants(NamedTuple):
     laws: LinearLaws | ContactLaws
 
 
+@by_reference
 class DriveArrays(NamedTuple):
     """All arrays of a drive; clock: time [s], steps done; power and its integral, see SUMS."""
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import inner, outer
+from drivewright._jit import by_reference, inner
 from drivewright._typing import Floats, Ints
 from drivewright.chains.implicit.energy import assemble
 from drivewright.chains.implicit.parts import TORQUE, Parts, State
@@ -36,6 +36,7 @@ class Scheme(NamedTuple):
     most: int
 
 
+@by_reference
 class Run(NamedTuple):
     """A motion under way: parts, state, true and auxiliary accelerations (as State: plates, bodies), works, powers, clock, Newton steps."""
 
@@ -57,7 +58,7 @@ def scheme(h: float, rho: float, tolerance: float, most: int = 80) -> Scheme:
     return Scheme(h, am, af, g, 0.25 * (g + 0.5) ** 2, tolerance, most)
 
 
-@outer
+@inner
 def steps(run: Run, scheme: Scheme, count: int) -> int:
     """`count` steps; how many of them succeeded."""
     for k in range(count):
@@ -179,7 +180,7 @@ def _improve(run, inertial, gain, share):
     return longest
 
 
-@outer
+@inner
 def drive_bodies(run: Run) -> None:
     """Prescribed angles and speeds: w = start + (speed - start)(x - sin(2 pi x)/(2 pi)), x = t/ramp up to 1."""
     time = run.clock[0]
@@ -195,7 +196,7 @@ def drive_bodies(run: Run) -> None:
             run.state.body_rates[n, 1] = body.start + change * (x - np.sin(2 * np.pi * x) / (2 * np.pi))
 
 
-@outer
+@inner
 def tally(run: Run) -> None:
     """Powers at the end of the step: losses below 0, load torques, drive; push of bodies and weight on all plates, and its moment."""
     parts, field, state, powers = run.parts, run.parts.field, run.state, run.powers

@@ -8,7 +8,7 @@ of an implicit step less its mass.  How damping and friction forces turn with th
 
 import numpy as np
 
-from drivewright._jit import inner, outer
+from drivewright._jit import inner
 from drivewright.chains.explicit.state import law_of
 from drivewright.chains.implicit.parts import ARC, CONTACT, GUIDE, JOINT, SLIDE, TORQUE, TURN, Parts, State
 from drivewright.chains.implicit.ring import clear
@@ -16,7 +16,7 @@ from drivewright.chains.implicit.touch import depth_of, drag_guide
 from drivewright.contact.normal import normal_force, stored_energy, tangent
 
 
-@outer
+@inner
 def assemble(parts: Parts, state: State, gain: float) -> float:
     """Fill the field of the parts at this state; returns V [J].  gain [1/s]: by how much rates follow places in the tangent."""
     field = parts.field

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from drivewright._jit import by_reference
 from drivewright._typing import Floats, Ints, Records
 from drivewright.chains.explicit import assembly, state
 from drivewright.chains.explicit.assembly import Start
@@ -54,6 +55,7 @@ BODY = np.dtype(
 PAIR = np.dtype([("body", np.int64), ("plate", np.int64), ("seat", float), ("right", float), ("left", float)])
 
 
+@by_reference
 class State(NamedTuple):
     """Plates (N, 3): x, y of the mass centre, angle; bodies (B, 2): place q on the slide, angle psi; their rates."""
 
@@ -82,6 +84,7 @@ class Field(NamedTuple):
     bend: Floats
 
 
+@by_reference
 class Parts(NamedTuple):
     """All of a drive.
 

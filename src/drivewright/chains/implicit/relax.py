@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import inner, outer
+from drivewright._jit import by_reference, inner
 from drivewright._typing import Floats
 from drivewright.chains.implicit.energy import assemble
 from drivewright.chains.implicit.parts import Parts, State
@@ -17,6 +17,7 @@ _HALVINGS = 30
 _ROUNDING = 1e-14  # part of the energy below which its change says nothing
 
 
+@by_reference
 class Work(NamedTuple):
     """Trial state, step of the plates and of the border, scales (a length per unit) of both."""
 
@@ -38,7 +39,7 @@ def work_for(parts: Parts) -> Work:
     return Work(trial, np.zeros((count, 3)), np.zeros(size), np.array([1.0, 1.0, parts.half[0]]), border)
 
 
-@outer
+@inner
 def relax(parts: Parts, state: State, work: Work, tolerance: float, most: int) -> tuple[float, int]:
     """Bring the state to rest; (residual force [N], steps taken): not at rest where the residual is above tolerance.
 
@@ -101,7 +102,7 @@ def _direction(parts, state, work, shift):
     return shift
 
 
-@outer
+@inner
 def downhill(parts: Parts, work: Work) -> None:
     """Minus the gradient, and from it the step, with the factors of the tangent."""
     field = parts.field

@@ -13,10 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import inner, outer
+from drivewright._jit import by_reference, inner
 from drivewright._typing import Floats
 
 
+@by_reference
 class Ring(NamedTuple):
     """The matrix, overwritten by its factors; `tail` (N, 3, 3 + b), `last` (3 + b, 3 + b) and `rest` (3 + b,) are scratch."""
 
@@ -43,7 +44,7 @@ def empty_ring(count: int, border: int) -> Ring:
     )
 
 
-@outer
+@inner
 def clear(ring: Ring) -> None:
     """All zeros."""
     ring.diagonal[:] = 0.0
@@ -52,7 +53,7 @@ def clear(ring: Ring) -> None:
     ring.corner[:] = 0.0
 
 
-@outer
+@inner
 def factor(ring: Ring) -> bool:
     """Overwrite the matrix with its factors; False where it is not positive definite.
 
@@ -72,7 +73,7 @@ def factor(ring: Ring) -> bool:
     return _cholesky(ring.last)
 
 
-@outer
+@inner
 def solve(ring: Ring, plates: Floats, others: Floats) -> None:
     """Overwrite the right-hand side, plates (N, 3) [N, N, N m] and others (b,) [N or N m], with the solution [m, m, rad], [m or rad].
 

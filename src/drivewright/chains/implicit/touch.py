@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from drivewright._jit import inner, outer
+from drivewright._jit import inner
 from drivewright.chains.implicit.parts import ARC, FRICTION, GAP, Parts, State
 from drivewright.chains.touching.flank import flank_contact, is_active
 from drivewright.chains.touching.guide import is_on_arc, nearest_on_plate
@@ -18,7 +18,7 @@ from drivewright.chains.touching.roller import roller_contact
 from drivewright.chains.touching.seats import nearest_gap, nearest_tooth
 
 
-@outer
+@inner
 def depth_of(parts: Parts, state: State, pair: Any, body: Any, place: int) -> float:
     """Depth [m] of one contact of a pair, -1 where there is none; its derivatives in the field: slope (5,), bend (5, 5).
 
@@ -132,7 +132,7 @@ def _point(field, body, wx, wy, curve, rx, ry, gx, gy):
         bend[4, a] += wx * ways_y[a] - wy * ways_x[a]
 
 
-@outer
+@inner
 def drag_guide(parts: Parts, state: State, pair: Any, body: Any, gain: float) -> None:
     """Friction -mu fn v/sqrt(v^2 + slip^2) along the plate where it touches the guide."""
     field, c, s = parts.field, parts.field.directions[pair.plate, 0], parts.field.directions[pair.plate, 1]
@@ -168,7 +168,7 @@ def drag_guide(parts: Parts, state: State, pair: Any, body: Any, gain: float) ->
 # ------------------------------------------------------------------------------------------------- who may touch whom
 
 
-@outer
+@inner
 def find_candidates(parts: Parts, state: State) -> bool:
     """Pairs of a body and a plate near it, with the tooth that the plate may sit on; of the sprockets only the nearest counts.
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import inner, kernel, outer
+from drivewright._jit import by_reference, inner, kernel
 from drivewright._typing import Bools, Complexes, Floats, Ints
 from drivewright.motion import MotionLaw
 
@@ -53,6 +53,7 @@ class PinPath(NamedTuple):
     a: Complexes
 
 
+@by_reference
 class CellGrid(NamedTuple):
     """Numbers of the samples by the square cell in which they lie: `order[start[c]:start[c + 1]]` in cell c.
 
@@ -66,6 +67,7 @@ class CellGrid(NamedTuple):
     reach: float
 
 
+@by_reference
 class ExposedSegments(NamedTuple):
     """Segments of the envelope that no pin covers, the material on their left.
 
@@ -100,7 +102,7 @@ def _quintics(u: Floats, s: Floats, v: Floats, a: Floats) -> Floats:
     )
 
 
-@outer
+@inner
 def motion_at(table: LawTable, motion_angle: float, theta: float) -> tuple[float, float, float]:
     """s [-] and its first and second derivative by the input angle theta [rad] in 0 .. 2 pi."""
     u = theta / motion_angle
@@ -121,7 +123,7 @@ def motion_at(table: LawTable, motion_angle: float, theta: float) -> tuple[float
     return s, v / (h * motion_angle), a / (h * motion_angle) ** 2
 
 
-@outer
+@inner
 def pin_centre_at(wheel: PinWheelSizes, table: LawTable, theta: float, turn: int) -> tuple[complex, complex, complex]:
     """Centre of pin 0 seen from the cam at theta + 2 pi turn [m], with first and second derivative by theta.
 
@@ -171,7 +173,7 @@ def sort_into_cells(path: PinPath, reach: float, width: float) -> CellGrid:
     return CellGrid(start, order, count, width, reach)
 
 
-@outer
+@inner
 def is_covered(path: PinPath, cells: CellGrid, radius: float, margin: float, point: complex, own: int, last_cover: Ints) -> bool:
     """Whether a pin at another place than about the sample `own` covers the point; writes the sample that does to hint[0].
 
@@ -213,7 +215,7 @@ def _covers_point(path, radius, near, point, own, k, size):
     return _foot_distance(path, arm, k) < radius - _COVER_DEPTH
 
 
-@outer
+@inner
 def _foot_distance(path, arm, k):
     """Distance from the centre curve, by its second order, to the point at `arm` from sample k."""
     v, a, last = path.v[k], path.a[k], len(path.theta)
@@ -234,7 +236,7 @@ def find_exposed_samples(path: PinPath, cells: CellGrid, radius: float, margin: 
     return exposed
 
 
-@outer
+@inner
 def _mark_exposed(path, cells, radius, margin, exposed, last_cover):
     """Writes `exposed` (2, samples); last_cover (1,): the sample that covered the point before."""
     for side in range(2):
@@ -243,7 +245,7 @@ def _mark_exposed(path, cells, radius, margin, exposed, last_cover):
             exposed[side, k] = not is_covered(path, cells, radius, margin, point, k, last_cover)
 
 
-@outer
+@inner
 def _exposed_end(wheel, table, path, cells, margin, last_cover, side, last, beyond):
     """Point and unit heading of the centre at the end of an exposed segment, between its sample `last` and the covered sample `beyond`.
 
@@ -265,7 +267,7 @@ def _exposed_end(wheel, table, path, cells, margin, last_cover, side, last, beyo
     return _envelope(wheel, table, side, free, turn)
 
 
-@outer
+@inner
 def _envelope(wheel, table, side, theta, turn):
     """Point (complex, [m]) of the envelope on a side and unit heading of the centre, at theta [rad] of a turn."""
     z, v, _ = pin_centre_at(wheel, table, theta, turn)
@@ -329,7 +331,7 @@ def _trace_segment(wheel, table, path, cells, margin, exposed, segments, number,
         _reverse_segment(segments, segments.first[number], at - 1)
 
 
-@outer
+@inner
 def _reverse_segment(segments, low, high):
     """The points from `low` to `high` in the other order; loops, for slices that overlap take seconds to compile."""
     point, heading = segments.point, segments.heading

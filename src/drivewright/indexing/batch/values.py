@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from drivewright._jit import kernel, outer
+from drivewright._jit import inner, kernel
 from drivewright._typing import Floats
 from drivewright.curves.touching import nearest
 from drivewright.indexing.batch.envelope import (
@@ -48,7 +48,7 @@ def evaluate_pin_wheel(
     values[7] = _convex_radius(path, exposed)
 
 
-@outer
+@inner
 def _spacing(path):
     """No two neighbours among the samples are further apart [m]."""
     fastest, widest = 0.0, 2 * np.pi - path.theta[-1]
@@ -59,7 +59,7 @@ def _spacing(path):
     return fastest * widest
 
 
-@outer
+@inner
 def _evaluate_contacts(wheel, path, nodes, exposed, stride, count, values, foot_points, curvatures):
     """Least and greatest number of pins that touch; worst angle of the best pin forward, backward, and the best of all.
 
@@ -89,7 +89,7 @@ def _evaluate_contacts(wheel, path, nodes, exposed, stride, count, values, foot_
         values[4 + n] = np.arccos(min(arm / wheel.circle_radius, 1.0))
 
 
-@outer
+@inner
 def _is_on_profile(wheel, path, nodes, exposed, j, turn, side, foot_points, curvatures):
     """Whether the envelope's point lies on the profile. exposed (2, samples); foot_points (n,) [m], curvatures (n,) [1/m]: work arrays."""
     k = turn * len(path.theta) + j
@@ -98,13 +98,13 @@ def _is_on_profile(wheel, path, nodes, exposed, j, turn, side, foot_points, curv
     return nearest(nodes, _envelope_point(wheel, path, k, side), PROFILE_TOLERANCE, foot_points, curvatures) > 0
 
 
-@outer
+@inner
 def _envelope_point(wheel, path, k, side):
     """Point (complex, [m]) of the envelope at sample k on a side, seen from the cam."""
     return path.z[k] + (1 - 2 * side) * wheel.pin_radius * 1j * path.v[k] / abs(path.v[k])
 
 
-@outer
+@inner
 def _arm(wheel, path, j, turn, side):
     """Arm of the cam's force on the pin about the wheel's axis: Im(conj(c) n), n from the contact to the pin's centre."""
     k = turn * len(path.theta) + j
@@ -113,13 +113,13 @@ def _arm(wheel, path, j, turn, side):
     return centre.real * force.imag - centre.imag * force.real
 
 
-@outer
+@inner
 def _crank(wheel, theta):
     """Centre of the cam e exp(i sense theta), complex [m]."""
     return wheel.eccentricity * complex(np.cos(theta), wheel.sense * np.sin(theta))
 
 
-@outer
+@inner
 def _evaluate_play(wheel, path, nodes, exposed, stride, values, foot_points, curvatures, centres):
     """Greatest play forward and backward; nan where nothing stops the wheel somewhere.
 
@@ -139,7 +139,7 @@ def _evaluate_play(wheel, path, nodes, exposed, stride, values, foot_points, cur
                     break
 
 
-@outer
+@inner
 def _is_stopped(wheel, path, exposed, j, direction):
     """Whether a pin that touches stops the wheel in the direction. exposed (2, samples)."""
     for turn in range(wheel.pins):
@@ -152,7 +152,7 @@ def _is_stopped(wheel, path, exposed, j, direction):
     return False
 
 
-@outer
+@inner
 def _convex_radius(path, exposed):
     """Least radius of curvature of the centre curve where the profile is convex, its centre of curvature on the side of the cam.
 

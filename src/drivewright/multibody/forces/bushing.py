@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from drivewright._jit import outer
+from drivewright._jit import inner
 from drivewright.multibody.bodies import Marker
 from drivewright.multibody.forces.element import ForceElement
 from drivewright.multibody.frames import apply_force, apply_torque_pair, relative_motion
@@ -60,7 +60,7 @@ class BushingForce(ForceElement):
         return Reaction(force, twist - cross(displacement, force))
 
 
-@outer
+@inner
 def apply_bushing(poses: Records, bush: OneRecord) -> None:
     """Both points and both angles are pulled together; the force acts at the point of j on both, so that it has no arm of its own.
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from drivewright._jit import inner, outer
+from drivewright._jit import inner
 from drivewright._typing import Floats, Numbers
 from drivewright.contact.film import long_bearing, short_bearing
 from drivewright.contact.friction import ambrosio, coulomb, lugre, lugre_rate
@@ -51,7 +51,7 @@ def wear_depth(wear: Floats, turned_by: float, dx: float, dy: float) -> tuple[fl
     return depth, slope / distance
 
 
-@outer
+@inner
 def normal_of(contact: OneRecord, depth: float, rate: float, memory: Numbers, mobility: float) -> float:
     """Normal force of a depth > 0 that changes at a rate; a contact never pulls.
 
@@ -66,7 +66,7 @@ def normal_of(contact: OneRecord, depth: float, rate: float, memory: Numbers, mo
     return max(elastic + contact.damping * rate, 0.0)
 
 
-@outer
+@inner
 def elastic_of(contact: OneRecord, depth: float) -> float:
     """Elastic force of a depth > 0."""
     if contact.cylinder:
@@ -130,7 +130,7 @@ def contact_signs(system: System, n: int, work: Work, y: Floats) -> tuple[float,
     return depth, reversal, speed + _loss(contact, rate, speed, memory)
 
 
-@outer
+@inner
 def friction_force(contact: OneRecord, normal: float, slip: float, bristle: Any) -> tuple[float, float]:
     """(friction force against the slip, rate of the bristle)."""
     if normal <= 0.0 or contact.law == 0:
@@ -204,7 +204,7 @@ def contact_state(system: System, n: int, work: Work, y: Floats) -> tuple[float,
     return depth, normal, rubbing, slip, bristle_rate, nx, ny, wear_slope
 
 
-@outer
+@inner
 def film_force(contact: OneRecord, poses: Records) -> tuple[float, float]:
     """Force (x, y) of the oil on the bearing, and the torque-free arm is its centre; it fades where the walls touch."""
     dx, dy, vx, vy, _, _, _, _ = relative_motion(poses, contact)

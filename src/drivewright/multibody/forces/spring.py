@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from drivewright._jit import outer
+from drivewright._jit import inner
 from drivewright.multibody.bodies import Marker
 from drivewright.multibody.forces.element import ForceElement
 from drivewright.multibody.frames import apply_force, relative_motion
@@ -37,7 +37,7 @@ class PointSpring(ForceElement):
         }
 
 
-@outer
+@inner
 def apply_spring(poses: Records, spring: OneRecord) -> None:
     """Tension k (L - L0) + c L' along the line between the points.  poses (bodies,) of POSE."""
     dx, dy, vx, vy, px, py, qx, qy = relative_motion(poses, spring)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from drivewright._jit import outer
+from drivewright._jit import inner
 from drivewright._typing import Floats
 from drivewright.numerics.ode.locating import EventRules, StepBatch, apply_switches, record_events, return_to_event
 from drivewright.numerics.ode.method import ERROR, STEP, TIME, StepControl, begin, carry_over, interpolate, restart, step
@@ -11,7 +11,7 @@ from drivewright.numerics.ode.system import copy, events_at
 GOES_ON, FINISHED, EVENT, MIN_STEP, NOT_FINITE = range(5)
 
 
-@outer
+@inner
 def start(work: object, system: object, event_system: object, control: StepControl, clock: Floats, y: Floats, values: Floats) -> int:
     """Rate, first step and event functions (m,) at the start y (n,); GOES_ON, or NOT_FINITE."""
     begin(work, system, control, clock, y)
@@ -19,7 +19,7 @@ def start(work: object, system: object, event_system: object, control: StepContr
     return GOES_ON if np.isfinite(clock[ERROR]) else NOT_FINITE
 
 
-@outer
+@inner
 def advance(
     work: object,
     system: object,

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from drivewright._jit import inner, outer
+from drivewright._jit import by_reference, inner
 from drivewright._typing import Floats, Ints
 from drivewright.numerics.ode.dense_output import component
 from drivewright.numerics.ode.method import STEP, TIME
@@ -13,6 +13,7 @@ VERTEX_NEAR = 0.25  # a parabola whose vertex comes so near to 0, against its en
 STEP_AFTER_EVENT = 0.1  # of the step before: what begins at a switch is often faster than what went before
 
 
+@by_reference
 class EventRules(NamedTuple):
     """Of each event function: the sign change that counts (+1, -1, 0 any), and its effect, NOTE, STOP or SWITCH."""
 
@@ -21,6 +22,7 @@ class EventRules(NamedTuple):
     search_inside: bool  # look inside the steps for what crosses and comes back: for events that switch
 
 
+@by_reference
 class StepBatch(NamedTuple):
     """The steps of a batch of at most s steps, and the events within them."""
 
@@ -88,7 +90,7 @@ def _excursion(event_system, index, before, middle, after, batch, row, y):
     return 1.0
 
 
-@outer
+@inner
 def values_at(event_system: object, theta: float, batch: StepBatch, row: int, y: Floats, values: Floats) -> None:
     """Event functions (m,) at a fraction of step `row` into `values`; y (n,) is scratch."""
     for i in range(y.size):
@@ -145,7 +147,7 @@ def apply_switches(
     return stops
 
 
-@outer
+@inner
 def _locate(event_system, index, before, low, high, batch, row, y):
     """Fraction of the step just after the sign change between two fractions.
 

@@ -10,12 +10,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import generic, inner
+from drivewright._jit import by_reference, generic, inner
 from drivewright._typing import Floats
 
 TIME, STEP, ERROR = range(3)  # the clock: time, size of the next step, last error over its tolerance (nan: rate not finite)
 
 
+@by_reference
 class StepControl(NamedTuple):
     """Until when a run goes, how accurate and how long its steps are."""
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import formulas_of, generic, implements, inner, outer
+from drivewright._jit import by_reference, formulas_of, generic, implements, inner
 from drivewright._typing import ArrayLike, Floats
 
 
@@ -74,6 +74,7 @@ def _(system, index, t, y):
     pass
 
 
+@by_reference
 class FiniteDifferences(NamedTuple):
     """A system whose Jacobian is taken by differences of its rate: y[j] is moved by `share` (|y[j]| + least[j])."""
 
@@ -116,19 +117,19 @@ def with_jacobian(system: tuple[object, ...], rtol: float, atol: Floats) -> tupl
 # ------------------------------------------------------------------------------------------------------------- kernels
 
 
-@outer
+@inner
 def rate_at(system: object, t: float, y: Floats, dy: Floats) -> None:
     """`rate`, compiled once for the places where it is not called often. y (n,), dy (n,) written."""
     rate(system, t, y, dy)
 
 
-@outer
+@inner
 def events_at(event_system: object, t: float, y: Floats, values: Floats) -> None:
     """`events`, likewise. y (n,), values (m,) written."""
     events(event_system, t, y, values)
 
 
-@outer
+@inner
 def switch_at(switch_system: object, index: int, t: float, y: Floats) -> None:
     """`switch`, likewise. y (n,), in place."""
     switch(switch_system, index, t, y)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import implements, kernel, plain
+from drivewright._jit import by_reference, implements, kernel, plain
 from drivewright._typing import Complexes, Floats
 from drivewright.errors import DoesNotAssemble
 from drivewright.numerics.ode import integrate, rate
@@ -19,6 +19,7 @@ TURN = 2 * np.pi
 CRANK, COUPLER, ROCKER, COUPLER_TURN, ROCKER_TURN = range(5)
 
 
+@by_reference
 class FourBar(NamedTuple):
     """Crank O2-A at constant speed, coupler A-B, rocker O4-B, and in each pin a massless link of the clearance's length."""
 

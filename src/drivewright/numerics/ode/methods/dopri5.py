@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import implements, inner
+from drivewright._jit import by_reference, implements, inner
 from drivewright._typing import Floats
 from drivewright.numerics.ode.method import ERROR, STEP, TIME, Method, Tableau, begin, carry_over, first_step, interpolate, restart, step
 from drivewright.numerics.ode.system import copy, rate, rate_at
@@ -39,6 +39,7 @@ _DENSE = np.array(
 )
 
 
+@by_reference
 class DormandPrince(NamedTuple):
     """Workspace: rates at the stages, the first at the start of the step."""
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import implements, inner, outer
+from drivewright._jit import by_reference, implements, inner
 from drivewright._typing import Complexes, Floats, Ints
 from drivewright.numerics.ode.dense_output import component
 from drivewright.numerics.ode.method import ERROR, STEP, TIME, Method, Tableau, begin, carry_over, first_step, interpolate, restart, step
@@ -49,6 +49,7 @@ FACTORED_STEP, JACOBIAN, CONTRACTION, REMAINDER, OLD_STEP, OLD_ERROR = range(6)
 MISSING, FRESH, OLD = range(3)  # the Jacobian
 
 
+@by_reference
 class RadauIIA(NamedTuple):
     """Workspace, n the size of y: what is carried from step to step, and scratch for one."""
 
@@ -125,7 +126,7 @@ def _(work, system, t, y):
     rate_at(system, t, y, work.f)
 
 
-@outer
+@inner
 def _try_step(work, system, control, clock, t, h, again, y, trial):
     """`step`: Newton's method, once more with a new Jacobian where it fails with an old one; then the error and the next step.
 
@@ -142,7 +143,7 @@ def _try_step(work, system, control, clock, t, h, again, y, trial):
     return error <= 1.0  # nan is no success
 
 
-@outer
+@inner
 def _prepare(work, system, control, t, h, y):
     """The tolerance of y; the Jacobian where it is missing, and the factors where they belong to another one or another step. y (n,)."""
     n = y.size
@@ -165,7 +166,7 @@ def _prepare(work, system, control, t, h, y):
         work.history[FACTORED_STEP] = h
 
 
-@outer
+@inner
 def _newton(work, system, control, t, h, y, trial):
     """Solve for the stages; the number of iterations, 0 where they do not converge, -1 where the rate is not finite. y, trial (n,)."""
     target = max(10 * _EPS / control.rtol, min(0.03, np.sqrt(control.rtol)))
@@ -297,7 +298,7 @@ def _interpolant(y, work, dense):
             work.dense[k, i] = dense[k, i]
 
 
-@outer
+@inner
 def _factor(a, pivots):
     """LU factors of `a` in its place, rows exchanged, the diagonal of U inverted; for real and complex numbers.
 
@@ -321,7 +322,7 @@ def _factor(a, pivots):
                 a[i, j] -= a[i, k] * a[k, j]
 
 
-@outer
+@inner
 def _solve(a, pivots, b):
     """Solve in place of b with the factors. a (n, n), pivots (n,), b (n,)."""
     n = len(a)

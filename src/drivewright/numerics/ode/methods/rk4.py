@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import implements, inner
+from drivewright._jit import by_reference, implements, inner
 from drivewright._typing import Floats
 from drivewright.numerics.ode.dense_output import hermite
 from drivewright.numerics.ode.method import ERROR, STEP, TIME, Method, Tableau, begin, carry_over, interpolate, restart, step
@@ -23,6 +23,7 @@ _A = np.array([[0, 0, 0, 0], [1 / 2, 0, 0, 0], [0, 1 / 2, 0, 0], [0, 0, 1, 0]])
 _B = np.array([1 / 6, 1 / 3, 1 / 3, 1 / 6])
 
 
+@by_reference
 class RungeKutta4(NamedTuple):
     """Workspace: rates at the stages and, last, at the end of the step."""
 

@@ -1,0 +1,196 @@
+"""Compiling what Python calls, and optimising it once.
+
+numba makes an optimised module, machine code and two wrappers of every function, inner ones too, and optimises a callee once more in each
+of its callers.  Here a kernel that kernels call is kept as it was lowered (`Lowered`).  One that Python calls is linked with everything
+below it, optimised as a whole, and it alone gets machine code and a wrapper (`Linked`).
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+from llvmlite import binding as llvm
+from numba.core import codegen, compiler, funcdesc, lowering, types
+from numba.core.compiler_machinery import LoweringPass, register_pass
+from numba.core.registry import CPUDispatcher
+from numba.core.typing.templates import AbstractTemplate, infer_global
+
+OPTIONS = {"nopython": True, "nogil": True, "error_model": "numpy", "boundscheck": None}
+
+
+class Lowered(codegen.JITCodeLibrary):
+    """The code of one function as it was lowered."""
+
+    def add_llvm_module(self, ll_module: Any) -> None:
+        """Take a module in as it is: it is optimised where it is linked."""
+        self._final_module.link_in(ll_module)
+
+    def finalize(self) -> None:
+        """Nothing more comes in."""
+        self._raise_if_finalized()
+        self._finalized = True
+
+
+class Linked(Lowered):
+    """The code of a function that Python calls, with everything that it calls."""
+
+    def finalize(self) -> None:
+        """Link, optimise and make machine code."""
+        self._raise_if_finalized()
+        own = self._names()
+        for library in _needed(self):
+            self._reload_init.update(library._reload_init)
+            self._final_module.link_in(library._get_module_for_linking(), preserve=True)
+        for function in self._final_module.functions:
+            if not function.is_declaration and function.name not in own and function.linkage == llvm.Linkage.linkonce_odr:
+                function.linkage = "internal"  # nobody else calls it: what is called once is inlined, what never is goes
+        self._final_module.data_layout = self._codegen._data_layout
+        self._optimize_final_module()
+        self._final_module.verify()
+        self._finalize_final_module()
+
+    def serialize_using_object_code(self) -> Any:
+        """For the disk: the machine code and, instead of the module, the names in it."""
+        self._ensure_finalized()
+        names = "".join(f'define void @"{name}"() {{ ret void }}\n' for name in sorted(self._names()))
+        return self.name, "object", (self._get_compiled_object(), llvm.parse_assembly(names).as_bitcode())
+
+    def _names(self):
+        """Of the functions that can be called from outside."""
+        functions = self._final_module.functions
+        return {each.name for each in functions if not each.is_declaration and each.linkage == llvm.Linkage.external}
+
+
+def _needed(library):
+    """All libraries below one, each once; numba's own have theirs in them."""
+    found, waiting = {}, list(library._linking_libraries)
+    while waiting:
+        each = waiting.pop(0)
+        if id(each) not in found:
+            found[id(each)] = each
+            if isinstance(each, Lowered):
+                waiting += each._linking_libraries
+    return found.values()
+
+
+class _Inside:
+    """Stands for the machine code of a function that only kernels call."""
+
+
+class _Lower(LoweringPass):
+    """The typed function into a library of its own, as numba's pass of this name does."""
+
+    library: type[Lowered] = Lowered
+
+    def __init__(self) -> None:
+        LoweringPass.__init__(self)
+
+    def run_pass(self, state: Any) -> Any:
+        """Lower, and make executable what Python calls."""
+        context, flags = state.targetctx, state.flags
+        state.library = library = self.library(context.codegen(), state.func_id.func_qualname)
+        library.enable_object_caching()
+        library._reload_init.update(state.reload_init)
+        function = funcdesc.PythonFunctionDescriptor.from_specialized_function(
+            state.func_ir,
+            state.typemap,
+            state.return_type,
+            state.calltypes,
+            mangler=context.mangler,
+            inline=flags.forceinline,
+            noalias=flags.noalias,
+            abi_tags=[flags.get_mangle_string()],
+        )
+        with context.push_code_library(library):
+            lower = lowering.Lower(context, library, function, state.func_ir, metadata=state.metadata)
+            lower.lower()
+            entry: Any = _Inside()
+            if self.library is Linked:
+                lower.create_cpython_wrapper(flags.release_gil)
+        if self.library is Linked:
+            entry = context.get_executable(library, function, lower.env)
+        context.insert_user_function(entry, function, [library])
+        state.reload_init.extend(library._reload_init)
+        state["cr"] = compiler._LowerResult(function, lower.call_helper, cfunc=entry, env=lower.env)
+        return True
+
+
+@register_pass(mutates_CFG=True, analysis_only=False)
+class _LowerOnly(_Lower):
+    _name = "drivewright_lowering"
+
+
+@register_pass(mutates_CFG=True, analysis_only=False)
+class _LowerAndLink(_Lower):
+    _name = "drivewright_linking"
+    library = Linked
+
+
+class _ForKernels(compiler.CompilerBase):
+    """numba's compiler with another lowering."""
+
+    lower: type[_Lower] = _LowerOnly
+
+    def define_pipelines(self) -> list[Any]:
+        """numba's passes but for the lowering."""
+        passes = compiler.DefaultPassBuilder.define_nopython_pipeline(self.state)
+        passes.passes = [(self.lower, words) if each.__name__ == "NativeLowering" else (each, words) for each, words in passes.passes]
+        passes._finalized = False
+        passes.finalize()
+        return [passes]
+
+
+class _ForPython(_ForKernels):
+    lower = _LowerAndLink
+
+
+class _Callee(CPUDispatcher):
+    """A kernel as kernels call it."""
+
+    def __init__(self, py_func: Callable[..., Any], targetoptions: dict[str, Any]) -> None:
+        super().__init__(py_func, targetoptions=targetoptions, pipeline_class=_ForKernels)
+
+    def add_overload(self, cres: Any) -> None:
+        """Known to kernels, not to Python."""
+        self.overloads[tuple(cres.signature.args)] = cres
+
+
+class Kernel(CPUDispatcher):
+    """A kernel as Python calls it; kernels call its `callee`."""
+
+    def __init__(self, py_func: Callable[..., Any], locals: Any = None, targetoptions: dict[str, Any] = OPTIONS) -> None:  # noqa: A002
+        self.callee = _Callee(py_func, targetoptions)
+        super().__init__(py_func, targetoptions=targetoptions, pipeline_class=_ForPython)
+
+    def get_call_template(self, args: Any, kws: Any) -> Any:
+        """How kernels call it."""
+        return self.callee.get_call_template(args, kws)
+
+    def get_overload(self, sig: Any) -> Any:
+        """What kernels call."""
+        return self.callee.get_overload(sig)
+
+
+def choose_by_type(dispatch: Callable[..., Any], formula_for: Callable[[Any], Any]) -> None:
+    """Let kernels call `dispatch`: which formula that is follows from the type of the first argument, while the caller is compiled."""
+    callees: dict[Any, _Callee] = {}
+
+    class Choice(AbstractTemplate):
+        key = dispatch
+
+        def __init__(self, context: Any) -> None:
+            super().__init__(context)
+            self.chosen: dict[Any, _Callee] = {}
+
+        def generic(self, args: Any, kws: Any) -> Any:
+            formula = formula_for(args[0])
+            if formula not in callees:
+                callees[formula] = getattr(formula, "callee", None) or _Callee(formula, OPTIONS)
+            template, _, args, kws = callees[formula].get_call_template(args, kws)
+            signature: Any = template(self.context).apply(args, kws)
+            self.chosen[signature.args] = callees[formula]
+            return signature
+
+        def get_impl_key(self, sig: Any) -> Any:
+            return self.chosen[sig.args].get_overload(sig.args)
+
+    infer_global(dispatch, types.Function(Choice))
