@@ -38,7 +38,6 @@ class Linked(Lowered):
         self._raise_if_finalized()
         own = self._names()
         for library in _needed(self):
-            self._reload_init.update(library._reload_init)
             self._final_module.link_in(library._get_module_for_linking(), preserve=True)
         for function in self._final_module.functions:
             if not function.is_declaration and function.name not in own and function.linkage == llvm.Linkage.linkonce_odr:
@@ -89,7 +88,6 @@ class _Lower(LoweringPass):
         context, flags = state.targetctx, state.flags
         state.library = library = self.library(context.codegen(), state.func_id.func_qualname)
         library.enable_object_caching()
-        library._reload_init.update(state.reload_init)
         function = funcdesc.PythonFunctionDescriptor.from_specialized_function(
             state.func_ir,
             state.typemap,
@@ -109,7 +107,6 @@ class _Lower(LoweringPass):
         if self.library is Linked:
             entry = context.get_executable(library, function, lower.env)
         context.insert_user_function(entry, function, [library])
-        state.reload_init.extend(library._reload_init)
         state["cr"] = compiler._LowerResult(function, lower.call_helper, cfunc=entry, env=lower.env)
         return True
 
