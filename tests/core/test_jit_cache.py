@@ -92,6 +92,16 @@ def test_an_edit_in_another_file_gives_the_new_number(python):
     assert python(PLUGIN) == "30.0 0 1"
 
 
+def test_an_edit_of_a_formula_for_the_class_of_another_module_gives_the_new_number(python):
+    call = "from kernels_of_ours import *\nfrom classes import Bare\nimport formulas\n" + REPORT.format(call="work(Bare(3.0), 2)")
+    (python.folder / "classes.py").write_text("from typing import NamedTuple\n\nclass Bare(NamedTuple):\n    k: float\n")
+    formula = "from drivewright._jit import implements\nfrom kernels_of_ours import force\nfrom classes import Bare\n\n"
+    for factor in (2.0, 5.0):
+        law = f"@implements(force, Bare)\ndef _(law, gap):\n    return -{factor} * law.k * gap\n"
+        (python.folder / "formulas.py").write_text(formula + law)
+        assert python(call) == f"{6.0 * factor} 0 1"
+
+
 def test_a_law_of_a_script_is_compiled_and_not_filed(python):
     script = (
         "from typing import NamedTuple\nfrom kernels_of_ours import *\nclass Own(NamedTuple):\n    k: float\n"

@@ -103,7 +103,14 @@ def values_of(table):
     return table.values
 
 
-@pytest.mark.parametrize("thing", [table(1), table(2, True), Pair(table(1), table(2, True), 0.3)])
+def contiguous(table):
+    return table._replace(matrix=np.ascontiguousarray(table.matrix))
+
+
+THINGS = [table(1), table(2, True), Pair(table(1), table(2, True), 0.3), Pair(contiguous(table(1)), table(2), 0.3)]
+
+
+@pytest.mark.parametrize("thing", THINGS)
 def test_a_kernel_reads_what_plain_python_reads(thing):
     assert total(thing, 2.0) == pytest.approx(plain(total)(thing, 2.0), rel=1e-14)
 
