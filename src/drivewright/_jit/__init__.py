@@ -14,6 +14,7 @@ How a kernel is compiled: `_jit.compiling`; where it is kept: `_jit.disk_cache`;
 
 import functools
 import importlib
+import sys
 import time
 import types
 from collections.abc import Callable, Iterator
@@ -25,9 +26,8 @@ from drivewright.errors import InputError
 
 FunctionT = TypeVar("FunctionT", bound=Callable[..., Any])
 KindT = TypeVar("KindT", bound=type)
-_references = []  # classes that kernels get by reference
 _generics = []
-_known_to_numba = []  # of these classes and generics
+_untold = []  # what numba is told when it is imported: generics, and classes that kernels get by reference
 _warmers = []
 
 
@@ -54,8 +54,7 @@ def _compiled(function: FunctionT, **options: Any) -> FunctionT:
 
     compiled: Any = compiling.Kernel(function, targetoptions=compiling.OPTIONS | options)
     compiled._cache = KernelCache(function, _formulas_for)
-    for each in (*_references, *_generics):
-        _tell_numba(each)
+    _tell_numba()
     return compiled
 
 
@@ -64,23 +63,26 @@ def by_reference(kind: KindT) -> KindT:
 
     For tuples of arrays; they are neither made nor indexed inside kernels.
     """
-    _references.append(kind)
-    if _known_to_numba:
-        _tell_numba(kind)
+    _tell_numba_of(kind)
     return kind
 
 
-def _tell_numba(what):
-    """Make a class by reference, or a generic, known to numba, once."""
-    if what in _known_to_numba:
-        return
+def _tell_numba_of(what):
+    """At once where kernels are compiled already, else with the first of them."""
+    _untold.append(what)
+    if f"{__name__}.compiling" in sys.modules:
+        _tell_numba()
+
+
+def _tell_numba():
     from drivewright._jit import compiling, references
 
-    if what in _generics:
-        compiling.choose_by_type(what, functools.partial(_formula_in_kernel, what))
-    else:
-        references.register(what)
-    _known_to_numba.append(what)
+    while _untold:
+        what = _untold.pop(0)
+        if isinstance(what, type):
+            references.register(what)
+        else:
+            compiling.choose_by_type(what, functools.partial(_formula_in_kernel, what))
 
 
 def _formula_in_kernel(dispatch, first):
@@ -103,8 +105,7 @@ def generic(stub: FunctionT) -> FunctionT:
 
     vars(dispatch)["formulas"] = {}
     _generics.append(dispatch)
-    if _known_to_numba:
-        _tell_numba(dispatch)
+    _tell_numba_of(dispatch)
     return cast(FunctionT, dispatch)
 
 

@@ -36,11 +36,10 @@ class Linked(Lowered):
     def finalize(self) -> None:
         """Link, optimise and make machine code."""
         self._raise_if_finalized()
-        own = self._names()
         for library in _needed(self):
             self._final_module.link_in(library._get_module_for_linking(), preserve=True)
         for function in self._final_module.functions:
-            if not function.is_declaration and function.name not in own and function.linkage == llvm.Linkage.linkonce_odr:
+            if not function.is_declaration and function.linkage == llvm.Linkage.linkonce_odr:
                 function.linkage = "internal"  # nobody else calls it: what is called once is inlined, what never is goes
         self._final_module.data_layout = self._codegen._data_layout
         self._optimize_final_module()
@@ -80,12 +79,12 @@ class _Lower(LoweringPass):
 
     library: type[Lowered] = Lowered
 
-    def __init__(self) -> None:
+    def __init__(self) -> None:  # abstract above
         LoweringPass.__init__(self)
 
     def run_pass(self, state: Any) -> Any:
         """Lower, and make executable what Python calls."""
-        context, flags = state.targetctx, state.flags
+        context, flags, for_python = state.targetctx, state.flags, self.library is Linked
         state.library = library = self.library(context.codegen(), state.func_id.func_qualname)
         library.enable_object_caching()
         function = funcdesc.PythonFunctionDescriptor.from_specialized_function(
@@ -101,11 +100,9 @@ class _Lower(LoweringPass):
         with context.push_code_library(library):
             lower = lowering.Lower(context, library, function, state.func_ir, metadata=state.metadata)
             lower.lower()
-            entry: Any = _Inside()
-            if self.library is Linked:
+            if for_python:
                 lower.create_cpython_wrapper(flags.release_gil)
-        if self.library is Linked:
-            entry = context.get_executable(library, function, lower.env)
+        entry = context.get_executable(library, function, lower.env) if for_python else _Inside()
         context.insert_user_function(entry, function, [library])
         state["cr"] = compiler._LowerResult(function, lower.call_helper, cfunc=entry, env=lower.env)
         return True
@@ -172,6 +169,8 @@ def choose_by_type(dispatch: Callable[..., Any], formula_for: Callable[[Any], An
     callees: dict[Any, _Callee] = {}
 
     class Choice(AbstractTemplate):
+        """The formula of one call, as a kernel that kernels call."""
+
         key = dispatch
 
         def __init__(self, context: Any) -> None:
@@ -179,6 +178,7 @@ def choose_by_type(dispatch: Callable[..., Any], formula_for: Callable[[Any], An
             self.chosen: dict[Any, _Callee] = {}
 
         def generic(self, args: Any, kws: Any) -> Any:
+            """The signature of the call; numba asks for it under this name."""
             formula = formula_for(args[0])
             if formula not in callees:
                 callees[formula] = getattr(formula, "callee", None) or _Callee(formula, OPTIONS)
@@ -188,6 +188,7 @@ def choose_by_type(dispatch: Callable[..., Any], formula_for: Callable[[Any], An
             return signature
 
         def get_impl_key(self, sig: Any) -> Any:
+            """What is called."""
             return self.chosen[sig.args].get_overload(sig.args)
 
     infer_global(dispatch, types.Function(Choice))

@@ -32,10 +32,10 @@ def deposit(
     _check_history(time, angle, force, slip, bins)
     share = 0.5 * (np.diff(time, prepend=time[0]) + np.diff(time, append=time[-1]))  # trapezoidal weights
     touching = force > 0
-    worn_off = wear_volume(coefficient, force[touching], (np.abs(slip) * share)[touching])
+    removed = wear_volume(coefficient, force[touching], (np.abs(slip) * share)[touching])
     place = np.mod(angle[touching], 2 * np.pi) * bins / (2 * np.pi)
     node, part = np.floor(place).astype(int), place % 1.0
-    volume = np.bincount(node % bins, worn_off * (1 - part), bins) + np.bincount((node + 1) % bins, worn_off * part, bins)
+    volume = np.bincount(node % bins, removed * (1 - part), bins) + np.bincount((node + 1) % bins, removed * part, bins)
     return volume * bins / (2 * np.pi * radius * length)
 
 

@@ -38,7 +38,7 @@ def update_kinematics(system: System, work: Work, t: float, y: Floats) -> bool:
 
 @inner
 def update_regular(system: System, work: Work, t: float, y: Floats) -> bool:
-    """`update_kinematics` where the loops determine the dependent coordinates; called, not inlined: it is half of every right-hand side.
+    """`update_kinematics` where the loops determine the dependent coordinates: half of every right-hand side.
 
     y (states,) as in `loads.apply_forces`.
     """
