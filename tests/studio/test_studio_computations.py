@@ -265,8 +265,11 @@ async def test_analyses_tell_how_far_they_are_and_what_they_took(bench):
     await bench.look(1)
     await bench.calls[0].answer(None)
     bench.said.clear()
-    bench.calls[1].send((1, 2, "forces"))
-    assert bench.said == [{"what": "work", "state": "analysing", "text": "forces", "done": 1, "total": 2}]
+    place = {"what": "work", "state": "analysing", "text": "forces", "done": 1, "total": 2}
+    for compiling in ("", "compiling kernels", ""):
+        bench.calls[1].send((1, 2, "forces", compiling))
+    assert bench.said == [place | {"compiling": ""}, place | {"compiling": "compiling kernels"}, place | {"compiling": ""}]
+    del bench.said[1:]
     await bench.calls[1].answer((found("motion", "forces"), {"motion": 0.001, "forces": 3.0}))
     assert bench.said[1:] == [
         {"what": "result", "gen": 1, "full": True, "result": found("motion", "forces")},

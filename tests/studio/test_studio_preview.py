@@ -7,6 +7,7 @@ import pytest
 from places import EXAMPLES
 
 from drivewright import registry
+from drivewright._jit import compilation
 from drivewright.errors import DoesNotAssemble, SpecError
 from drivewright.registry import Analysis
 from drivewright.result import Check
@@ -157,10 +158,26 @@ def analysed(four_bar):
 def test_all_default_analyses_are_told_and_timed(four_bar, analysed):
     told, (found, seconds) = analysed
     names = [each.name for each in registry.mechanism(four_bar.kind).analyses if each.default]
-    assert [name for _, _, name in told] == list(seconds) == found["analyses"] == names
-    assert [done for done, _, _ in told] == list(range(len(names))) and {total for _, total, _ in told} == {len(names)}
+    places = list(dict.fromkeys((done, total, name) for done, total, name, compiling in told if total))
+    assert [name for _, _, name in places] == list(seconds) == found["analyses"] == names
+    assert [done for done, _, _ in places] == list(range(len(names))) and {total for _, total, _ in places} == {len(names)}
     assert all(0 < each < found["seconds"] + 1 for each in seconds.values())
     assert 0.5 * found["seconds"] < sum(seconds.values()) < 1.5 * found["seconds"] + 0.1
+
+
+def test_what_is_compiled_is_told_with_the_analysis_that_waits_for_it(four_bar, monkeypatch):
+    def run(spec, only, progress, model):
+        progress(2, 9, "motion")
+        compilation.tell("multibody.some.kernel", compilation.BEGUN)
+        compilation.tell("multibody.some.kernel", compilation.DONE)
+        raise SystemExit
+
+    told = []
+    monkeypatch.setattr(preview.runner, "run", run)
+    with pytest.raises(SystemExit):
+        preview.analyse(told.append, four_bar)
+    assert [each[:3] for each in told] == [(2, 9, "motion")] * 3
+    assert told[0][3] == told[2][3] == "" and told[1][3].startswith("compiling kernels for 'linkage' (first run only) 1/")
 
 
 def test_the_result_is_plain_and_whole(analysed):

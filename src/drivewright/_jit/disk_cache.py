@@ -16,6 +16,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
+from drivewright._jit import compilation
+
 PACKAGE = __name__.partition(".")[0]
 UNUSED_DAYS = 30
 # Nothing below may import these, so that kernels below do not depend on them.
@@ -30,6 +32,7 @@ class KernelCache:
     def __init__(self, function: Callable[..., Any], formulas_for: Callable[[type], Iterable[Callable[..., Any]]]) -> None:
         """`formulas_for` gives the formulas that are chosen by a class."""
         self.function, self.formulas_for = function, formulas_for
+        self.name = f"{function.__module__.removeprefix(f'{PACKAGE}.')}.{function.__qualname__}"
         self.by_modules: dict[frozenset[str], Any] = {}
 
     @property
@@ -39,10 +42,13 @@ class KernelCache:
 
     def load_overload(self, signature: Any, target: Any) -> Any:
         """The compiled kernel for a signature, or None."""
-        return self._for(signature).load_overload(signature, target)
+        found = self._for(signature).load_overload(signature, target)
+        compilation.tell(self.name, compilation.BEGUN if found is None else compilation.FOUND)
+        return found
 
     def save_overload(self, signature: Any, result: Any) -> None:
         """Keep a compiled kernel."""
+        compilation.tell(self.name, compilation.DONE)
         self._for(signature).save_overload(signature, result)
 
     def _for(self, signature):

@@ -101,7 +101,7 @@ def run(
     results = []
     for path in specs:
         spec = _load(path, set_)
-        with show.progress(path.name) as step, show.located(path):
+        with show.progress(path.name, spec.mechanism) as step, show.located(path):
             model = runner.build(spec)
             result = runner.run(spec, _names(only), all_, step, model)
             folder = write_run_folder(result, _folder(path, out, len(specs) > 1), figures, views(result, model))
@@ -125,7 +125,7 @@ def export(
     from drivewright.report.folder import recover_run_folder
 
     loaded = _load(spec, set_)
-    with show.progress(spec.name) as step, show.located(spec):
+    with show.progress(spec.name, loaded.mechanism) as step, show.located(spec):
         folder = _folder(spec, out)
         recover_run_folder(folder)
         files = write(loaded, _names(to), folder / "cad", anyway, step)
@@ -170,7 +170,7 @@ def sweep(
             every_analysis=all_ or None,
             values=_names(values) or None,
         )
-    with show.progress(spec.name) as step, show.located(spec):
+    with show.progress(spec.name, loaded.mechanism) as step, show.located(spec):
         folder = out or Path("out") / f"{spec.stem}-study"
         study = compute(loaded, out=folder, workers=workers, on=on, confirmed=yes, progress=step)
         for notice in study.notices:
@@ -221,7 +221,7 @@ def optimise(
     from drivewright.studies.optimisation import optimise as search
 
     loaded = _load(spec, set_)
-    with show.progress(spec.name) as step, show.located(spec):
+    with show.progress(spec.name, loaded.mechanism) as step, show.located(spec):
         folder = out or Path("out") / f"{spec.stem}-optimised"
         outcome = search(loaded, out=folder, workers=workers, on=on, progress=step)
         folder = write_optimised(outcome, outcome.folder or folder)

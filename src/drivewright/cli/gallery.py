@@ -78,7 +78,7 @@ def run_examples(chosen: Mapping[str, Path], out: Path) -> None:
         show.note(f"[{number}/{len(chosen)}] {name} ...")
         try:
             spec = load(path)
-            with show.progress(name) as step:
+            with show.progress(name, spec.mechanism) as step:
                 model = runner.build(spec)
                 result = runner.run(spec, progress=step, model=model)
                 folders.append(write_run_folder(result, out / name, seen=views(result, model)))

@@ -1,11 +1,13 @@
 """What the command line prints: results to stdout, everything else to stderr."""
 
+import contextlib
 import json
 import math
 import sys
+import threading
+import time
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -33,7 +35,7 @@ def note(text: str) -> None:
     print(text, file=sys.stderr)
 
 
-@contextmanager
+@contextlib.contextmanager
 def located(path: Path) -> Iterator[None]:
     """Names the spec file in an error that does not know where it came from."""
     try:
@@ -53,25 +55,70 @@ def _disk_error(error: OSError) -> InputError:
     return InputError(f"{error.filename or 'the output'}: {error.strerror or error}; nothing was written over")
 
 
-@contextmanager
-def progress(title: str) -> "Iterator[Progress]":
-    """A callable step(done, total, what) that moves a bar; silent where stderr is no terminal."""
+@contextlib.contextmanager
+def progress(title: str, kind: str = "") -> "Iterator[Progress]":
+    """A callable step(done, total, what) that moves a bar; without a terminal only what is compiled is said, on stderr.
+
+    `kind` of the drive, for the words about compiling.
+    """
+    from drivewright._jit.compilation import Compilation, watched_by
+
     if not sys.stderr.isatty():
-        yield lambda done, total, what: None
+        lines = _Lines(kind or title)
+        with watched_by(lines.compilation), contextlib.closing(lines):
+            yield lambda done, total, what: None
         return
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, Task, TextColumn, TimeRemainingColumn
+    from rich.text import Text
 
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TextColumn("{task.fields[what]}"),
-        TimeRemainingColumn(),
-    )
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    compilation = Compilation(kind or title)
+
+    class Work(ProgressColumn):
+        """What is compiled, or which analysis runs."""
+
+        def render(self, task: Task) -> Text:
+            return Text(compilation.words or task.fields["what"])
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), Work(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar, watched_by(compilation):
         task = bar.add_task(title, total=None, what="")
         yield lambda done, total, what: bar.update(task, completed=done, total=total, what=what)
+
+
+class _Lines:
+    """Says on stderr what is compiled: once it has taken, or will take, more than `FIRST` seconds, and then every `EACH` seconds."""
+
+    FIRST, EACH = 2.0, 10.0
+
+    def __init__(self, kind: str) -> None:
+        from drivewright._jit.compilation import Compilation
+
+        self.compilation = Compilation(kind, self._begun)
+        self.told, self.over, self.looking = -math.inf, threading.Event(), None
+        self.one_at_a_time = threading.Lock()
+
+    def _begun(self) -> None:
+        self.look()
+        if self.looking is None:  # one kernel may take longer than what comes between two lines
+            self.looking = threading.Thread(target=self._keep_looking, daemon=True)
+            self.looking.start()
+
+    def _keep_looking(self) -> None:
+        while not self.over.wait(0.25):
+            self.look()
+
+    def look(self) -> None:
+        """Say how far it is, if that is due."""
+        with self.one_at_a_time:
+            words, now = self.compilation.words, time.monotonic()
+            if words and max(self.compilation.seconds, self.compilation.left) > self.FIRST and now - self.told >= self.EACH:
+                self.told = now
+                note(words)
+
+    def close(self) -> None:
+        """Say nothing more."""
+        self.over.set()
 
 
 def table(title: str, header: "Header", rows: Iterable[Iterable[object]]) -> None:

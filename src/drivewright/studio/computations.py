@@ -204,9 +204,10 @@ class TabComputations:
 
     async def _analysed(self, design, begun, only=()):
         def on_message(news):
-            done, total, name = news
-            begun.append(name)
-            self.send({"what": "work", "state": "analysing", "text": name, "done": done, "total": total})
+            done, total, name, compiling = news
+            if name and name not in begun:
+                begun.append(name)
+            self.send({"what": "work", "state": "analysing", "text": name, "done": done, "total": total, "compiling": compiling})
 
         async with self.resources.heavy.worker(self) as worker:
             return await worker.call(preview.analyse, design, only, on_message=on_message, limit=self._limit)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from drivewright import registry, runner
+from drivewright._jit.compilation import Compilation, watched_by
 from drivewright.registry import Analysis
 from drivewright.report.content import summary
 from drivewright.report.pack import pack_plot_groups, pack_scene
@@ -37,17 +38,21 @@ def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str
 
 
 def analyse(send: Callable[[Any], object], design: Design, only: Sequence[str] = ()) -> tuple[dict[str, Any], dict[str, float]]:
-    """Send (done, total, analysis) on the way; answer (the page's result of all default analyses, or of those named; seconds of each)."""
-    spec = design.spec()
-    model = runner.build(spec)
-    began, seconds = [], {}
+    """Send (done, total, analysis, what is compiled for it) on the way; answer (the page's result of all default analyses, or of those
+    named; seconds of each)."""
+    began, seconds, place = [], {}, [(0, 0, "")]
 
     def step(done, total, name):
         _end_of(began, seconds)
-        send((done, total, name))
+        place[0] = done, total, name
+        send((*place[0], ""))
         began.append((name, time.perf_counter()))
 
-    result = runner.run(spec, only=tuple(only), progress=step, model=model)
+    spec = design.spec()
+    compilation = Compilation(spec.mechanism, lambda: send((*place[0], compilation.words)))
+    with watched_by(compilation):
+        model = runner.build(spec)
+        result = runner.run(spec, only=tuple(only), progress=step, model=model)
     _end_of(began, seconds)
     scene, _ = _scene(spec, model)
     return page_result(result, scene, list(seconds)), seconds

@@ -28,7 +28,7 @@ function createState({store, say, t}) {
     const {work} = store.state;
     node.classList.toggle("is-working", on);
     cancel.hidden = !on;
-    put(words, !on ? settled() : work.total ? t("analysing: * * of *", t(work.text || ""), work.done, work.total) : t("analysing …"));
+    put(words, !on ? settled() : work.compiling ? t(work.compiling) : work.total ? t("analysing: * * of *", t(work.text || ""), work.done, work.total) : t("analysing …"));
     part.style.transform = `scaleX(${on && work.total ? work.done / work.total : 0})`;
   }
   /** What stands there while nothing is under way. */

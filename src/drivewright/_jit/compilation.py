@@ -1,0 +1,81 @@
+"""What a first run waits for, in words: which kernels are compiled, how many there usually are, and about how long it still takes."""
+
+import time
+import tomllib
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
+from typing import TypeAlias
+
+FOUND, BEGUN, DONE = "found", "begun", "done"
+Watcher: TypeAlias = Callable[[str, str], object]  # (name of a kernel, FOUND on the disk, compilation BEGUN or DONE)
+USUAL = Path(__file__).parent / "usual_seconds.toml"  # {kind: {kernel: [seconds of each signature]}}, measured by scripts/usual_seconds.py
+
+_watchers: list[Watcher] = []
+
+
+@contextmanager
+def watched_by(watcher: Watcher) -> Iterator[None]:
+    """Within the block the watcher is told of every kernel that Python calls for the first time."""
+    _watchers.append(watcher)
+    try:
+        yield
+    finally:
+        _watchers.remove(watcher)
+
+
+def tell(kernel: str, what: str) -> None:
+    """Tell all watchers."""
+    for watcher in tuple(_watchers):
+        watcher(kernel, what)
+
+
+@cache
+def usual_seconds(kind: str) -> dict[str, list[float]]:
+    """{kernel: [seconds of each signature]} that a first run of this kind of drive usually compiles; empty where nobody measured it."""
+    return tomllib.loads(USUAL.read_text(encoding="utf-8")).get(kind, {})
+
+
+class Compilation:
+    """A `Watcher` that knows how far compiling is; `on_news` is called when a kernel is begun and when it is done."""
+
+    def __init__(self, kind: str, on_news: Callable[[], object] = lambda: None) -> None:
+        self.kind, self.on_news = kind, on_news
+        self.to_come = [(kernel, each) for kernel, seconds in usual_seconds(kind).items() for each in seconds]
+        self.expected = self.spent = 0.0  # seconds of what is done: usual ones, real ones
+        self.kernel, self.usual, self.done, self.began = "", 0.0, 0, 0.0  # what is compiled, its usual seconds, how many are done
+
+    def __call__(self, kernel: str, what: str) -> None:
+        """A kernel is found on the disk, begun or done."""
+        if what == DONE:
+            self.expected += self.usual
+            self.spent += time.monotonic() - self.began
+            self.kernel, self.usual, self.done = "", 0.0, self.done + 1
+            self.on_news()
+            return
+        expected = next((each for each in self.to_come if each[0] == kernel), (kernel, 0.0))
+        self.to_come = [each for each in self.to_come if each is not expected]
+        if what == BEGUN:
+            self.kernel, self.usual, self.began = kernel, expected[1], time.monotonic()
+            self.on_news()
+
+    @property
+    def seconds(self) -> float:
+        """What it has taken so far."""
+        return self.spent + (time.monotonic() - self.began if self.kernel else 0.0)
+
+    @property
+    def left(self) -> float:
+        """Seconds that the rest takes, at the pace so far; of the kernel at hand what it has not had yet."""
+        pace = self.spent / self.expected if self.expected else 1.0
+        now = max(pace * self.usual - (time.monotonic() - self.began), 0.0) if self.kernel else 0.0
+        return now + pace * sum(seconds for _, seconds in self.to_come)
+
+    @property
+    def words(self) -> str:
+        """Which kernel of how many it is, and how long it still takes where that is known; nothing while nothing is compiled."""
+        if not self.kernel:
+            return ""
+        about = f", about {max(self.left, 1.0):.0f} s left" if self.usual or self.to_come else ""
+        return f"compiling kernels for '{self.kind}' (first run only) {self.done + 1}/{self.done + 1 + len(self.to_come)}{about}"
