@@ -192,8 +192,23 @@ class Table:
         import pyarrow as pa
 
         about = [{**column.about(), **({"bounds": owner} if (owner := self.bounded(column.name)) else {})} for column in self.columns]
-        fields = [pa.field(c.name, pa.array(c.data).type, metadata=each) for c, each in zip(self.columns, about, strict=True)]
-        return pa.Table.from_arrays([pa.array(c.data) for c in self.columns], schema=pa.schema(fields, metadata={"title": self.title}))
+        arrays = [_arrow_array(column.data) for column in self.columns]
+        fields = [pa.field(c.name, array.type, metadata=each) for c, array, each in zip(self.columns, arrays, about, strict=True)]
+        return pa.Table.from_arrays(arrays, schema=pa.schema(fields, metadata={"title": self.title}))
+
+
+def _arrow_array(data):
+    """pyarrow.array(data), numbers and texts from their bytes: pyarrow's own way imports pandas where that is installed (0.15 s)."""
+    import pyarrow as pa
+
+    data = np.asarray(data)
+    if data.dtype.kind in "iuf":
+        return pa.Array.from_buffers(pa.from_numpy_dtype(data.dtype), len(data), [None, pa.py_buffer(np.ascontiguousarray(data))])
+    if all(isinstance(each, str) for each in data):
+        texts = [each.encode() for each in data]
+        ends = np.cumsum([0, *map(len, texts)], dtype=np.int32)
+        return pa.Array.from_buffers(pa.string(), len(texts), [None, pa.py_buffer(ends), pa.py_buffer(b"".join(texts))])
+    return pa.array(data)
 
 
 class Check(NamedTuple):

@@ -1,18 +1,21 @@
 """Units at the door: text with a unit -> SI float, once.
 
 A registry of our own, in which **angle is a base dimension**: `rev` and `rpm` exist, "8 Hz" is no angular speed, and
-`N m` (torque) is not `N m/rad` (rotational stiffness).  The registry is built when the first quantity is parsed.
+`N m` (torque) is not `N m/rad` (rotational stiffness).  The registry is built for the first unit that is not among the usual ones of
+`unit_factors.toml`.
 
 Factors are exact fractions and a quantity is rounded once, at the end: "1.27 cm", "12.7 mm" and "0.0127 m" are the same float.
 """
 
 import math
 import re
+import tomllib
 from dataclasses import dataclass
 from decimal import Context, Decimal
 from fractions import Fraction
 from functools import cache, lru_cache
 from numbers import Real
+from pathlib import Path
 from typing import Annotated, Any, ClassVar, TypeAlias
 
 from drivewright.errors import UnitError, brief, nearest
@@ -103,6 +106,7 @@ PATTERN = r"^\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*[^\s0-9].*$"
 # What may reach pint's parser: units, one-digit powers of units, products, quotients, and 1 as in 1/min.
 EXPRESSION = re.compile(rf"(?:{WORD}(?:\^[+-]?[0-9](?:\.[0-9])?)?|1(?![0-9.])|[\s*/()])+")
 SMALLEST, LARGEST = 1e-40, 1e40  # magnitude in SI of what a key may say: no drive has more, and products of a few are still numbers
+FACTORS = Path(__file__).parent / "unit_factors.toml"  # {text: [factor, {base: exponent}]}, written by scripts/unit_factors.py
 LONGEST = 100  # characters of a quantity; nobody writes more, and a parser needs an end
 
 
@@ -119,9 +123,23 @@ def _registry():
     return pint.UnitRegistry(definitions, non_int_type=exact)
 
 
+@cache
+def _factors() -> dict[str, tuple[Fraction, frozenset[tuple[str, float]]]]:
+    """What `parsed_unit` gives for the texts that people write most: pint takes a tenth of a second to import."""
+    table = tomllib.loads(FACTORS.read_text(encoding="utf-8"))
+    return {
+        text: (Fraction(factor), frozenset((base, float(power)) for base, power in bases.items()))
+        for text, (factor, bases) in table.items()
+    }
+
+
 @lru_cache(maxsize=4096)
 def _unit(text: str) -> tuple[Fraction, frozenset[tuple[str, float]]]:
-    """(exact factor to SI, dimensionality as a frozenset of (base, exponent)) of a unit text."""
+    return _factors().get(text) or parsed_unit(text)
+
+
+def parsed_unit(text: str) -> tuple[Fraction, frozenset[tuple[str, float]]]:
+    """(exact factor to SI, dimensionality as a frozenset of (base, exponent)) of a unit text; UnitError where it is none."""
     expression = re.sub(r"\s*[\u00b7\u22c5*]\s*", "*", text.strip().replace("**", "^").replace("\u00b2", "^2").replace("\u00b3", "^3"))
     if not EXPRESSION.fullmatch(expression):
         raise UnitError(f"{brief(text)} is no unit known here")
@@ -416,21 +434,4 @@ def display(si_unit: str) -> tuple[float, str]:
         return 1e3, f"m{si_unit}"
     if dimension is None:
         return 1.0, si_unit
-    return 1 / _DISPLAY_FACTOR.get(dimension.display_unit, 1.0), dimension.display_unit
-
-
-# Typed apart from the registry so that drawing a figure does not import pint; a test holds the two together.
-_DISPLAY_FACTOR = {
-    "mm": 1e-3,
-    "deg": math.pi / 180,
-    "rpm": math.pi / 30,
-    "N/mm": 1e3,
-    "MPa": 1e6,
-    "mm^2": 1e-6,
-    "1/mm": 1e3,
-    "mm^3": 1e-9,
-    "mm^3/(N m)": 1e-9,
-    "um/kN": 1e-9,
-    "N m/arcmin": 10800 / math.pi,
-    "arcmin/(kN m)": math.pi / 10800e3,
-}
+    return float(1 / _unit(dimension.display_unit)[0]), dimension.display_unit

@@ -174,3 +174,26 @@ def test_a_notebook_shows_checks_findings_and_values():
     page = sample(title="<b>a toy</b>")._repr_html_()
     assert "&lt;b&gt;a toy" in page and "✗" in page and "✓" in page and "Height" in page and "<li>one</li>" in page
     assert "Stroke" in page and "0.02 m" in page and page.count("<table>") == page.count("</table>") == 2
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        np.array([0.5, np.nan, -np.inf]),
+        np.arange(10)[::2],
+        np.array([1, 2], dtype=np.int32),
+        np.array(["", "Wälzlager", "键"]),
+        np.array(["a", "bb"], dtype=object),
+        np.array([True, False, True]),
+        np.array(["a", None], dtype=object),
+        np.array([], dtype=float),
+    ],
+    ids=repr,
+)
+def test_a_column_in_arrow_is_what_arrow_makes_of_it(data):
+    import pyarrow as pa
+
+    table = Table("t", "T", (Column("c", "-", "anything", data),)).arrow()
+    table.validate(full=True)
+    expected = pa.array(data)
+    assert table["c"].type == expected.type and table["c"].to_pylist().__repr__() == expected.to_pylist().__repr__()

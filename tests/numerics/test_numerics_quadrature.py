@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
+import scipy
 
 from drivewright.errors import InputError
-from drivewright.numerics.quadrature import cumulative_integral, integrate_periodic, integrate_pieces
+from drivewright.numerics.quadrature import cumulative_integral, cumulative_simpson, integrate_periodic, integrate_pieces, trapezoid
 
 pytestmark = pytest.mark.analytical
 
@@ -44,3 +45,23 @@ def test_constants_are_functions():
 def test_descending_breaks_are_refused():
     with pytest.raises(InputError, match="ascending"):
         integrate_pieces(np.cos, [1, 0])
+
+
+@pytest.mark.parametrize("count", [2, 3, 4, 7, 10, 41])
+def test_simpson_over_samples_is_scipys(count):
+    rng = np.random.default_rng(count)
+    x, y = np.cumsum(rng.uniform(0.1, 2, count)), rng.normal(size=(count, 3))
+    got = cumulative_simpson(y, x)
+    if count > 2:
+        # SciPy lays its parabolas the same way but for the last interval of an even count, for which it takes the last three as well.
+        np.testing.assert_allclose(got, scipy.integrate.cumulative_simpson(y, x=x, axis=0, initial=0.0), rtol=1e-12, atol=1e-13)
+    np.testing.assert_allclose(trapezoid(y, x), scipy.integrate.trapezoid(y, x, axis=0), rtol=1e-13)
+    assert got.shape == y.shape and np.all(got[0] == 0)
+
+
+def test_simpson_over_samples_is_exact_for_parabolas_and_on_even_steps_for_cubics():
+    x = np.array([0.0, 0.3, 1.0, 1.1, 2.5, 4.0])
+    np.testing.assert_allclose(cumulative_simpson(3 * x**2 - 2 * x + 1, x), x**3 - x**2 + x, rtol=1e-13, atol=1e-14)
+    even = np.linspace(0, 4, 9)
+    np.testing.assert_allclose(cumulative_simpson(4 * even**3, even)[::2], even[::2] ** 4, rtol=1e-13, atol=1e-13)
+    np.testing.assert_allclose(cumulative_simpson(np.array([1.0, 3.0]), np.array([0.0, 2.0])), [0.0, 4.0])

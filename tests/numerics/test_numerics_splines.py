@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 from drivewright.errors import InputError
-from drivewright.numerics.splines import interpolating_spline
+from drivewright.numerics.splines import cubic_spline, interpolating_spline, solve_tridiagonal
 
 pytestmark = pytest.mark.analytical
 
@@ -86,3 +87,31 @@ def test_rounding_does_not_open_a_period_but_a_micrometre_does():
 def test_messages(call, word):
     with pytest.raises(InputError, match=word):
         call()
+
+
+@pytest.mark.parametrize("count", [2, 3, 4, 5, 6, 7, 8, 9, 64, 1001])
+def test_the_cubic_spline_of_samples_is_scipys(count):
+    rng = np.random.default_rng(count)
+    x, y = np.cumsum(rng.uniform(0.1, 2, count)), rng.normal(size=count)
+    ours, theirs = cubic_spline(x, y), CubicSpline(x, y)
+    np.testing.assert_allclose(ours.coefficients, theirs.c, rtol=1e-11, atol=1e-11 * np.abs(theirs.c).max())
+    at = np.concatenate([x, rng.uniform(x[0], x[-1], 100)])
+    np.testing.assert_allclose(ours.integrals_to(at), theirs.antiderivative()(at), rtol=1e-12, atol=1e-12)
+
+
+def test_the_cubic_spline_of_a_cubic_is_that_cubic():
+    x = np.array([0.0, 0.1, 0.7, 1.0, 2.5])
+    ours = cubic_spline(x, 4 * x**3 - 3 * x**2 + 2 * x - 1)
+    np.testing.assert_allclose(ours.coefficients[0], 4, rtol=1e-11)
+    at = np.linspace(0, 2.5, 11)
+    np.testing.assert_allclose(ours.integrals_to(at), at**4 - at**3 + at**2 - at, rtol=1e-12, atol=1e-13)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 8, 17, 100])
+def test_cyclic_reduction_solves_the_system(count):
+    rng = np.random.default_rng(count)
+    below, above, right = rng.uniform(-1, 1, (3, count))
+    below[0] = above[-1] = 0
+    diagonal = 2.5 + rng.uniform(0, 1, count)
+    matrix = np.diag(diagonal) + np.diag(below[1:], -1) + np.diag(above[:-1], 1)
+    np.testing.assert_allclose(solve_tridiagonal(below, diagonal, above, right), np.linalg.solve(matrix, right), rtol=1e-12, atol=1e-13)

@@ -1,6 +1,8 @@
 """Quantities at the door: what is read, to which float, and what is refused with which remedy."""
 
 import math
+import subprocess
+import sys
 from decimal import Decimal
 
 import pytest
@@ -235,3 +237,19 @@ def test_what_was_said_in_the_common_unit_is_written_so(digits, power, dimension
 )
 def test_quantities_are_written_as_people_read_them(name, said, written):
     assert units.BY_NAME[name].text(units.to_si(said, name)) == written
+
+
+def test_the_factors_that_are_kept_are_those_of_the_parser():
+    assert len(units._factors()) > 90
+    for text, kept in units._factors().items():
+        assert kept == units.parsed_unit(text), text
+
+
+def test_usual_units_need_no_parser():
+    code = "import sys; from drivewright import units; print(units.to_si('12 N m/rad', 'rotational stiffness'), 'pint' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split() == ["12.0", "False"]
+
+
+@pytest.mark.parametrize("dimension", units.DIMENSIONS, ids=lambda dimension: dimension.name)
+def test_the_units_of_every_kind_of_quantity_are_kept(dimension):
+    assert {dimension.unit, dimension.display_unit, *dimension.also} <= set(units._factors())

@@ -8,7 +8,7 @@ the displacements and strains that the pressure causes.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import ellipkm1, elliprd
+import scipy
 
 from drivewright._typing import Floats, Numbers
 from drivewright.errors import InputError
@@ -119,9 +119,9 @@ def point_contact(force: Numbers, radii: tuple[Numbers, Numbers], modulus: Numbe
     """
     larger, smaller = np.asarray(radii[0], dtype=float), np.asarray(radii[1], dtype=float)
     ratio = axis_ratio(larger / smaller)
-    major = np.cbrt(force * larger * elliprd(0, ratio**2, 1) / (np.pi * modulus))
+    major = np.cbrt(force * larger * scipy.special.elliprd(0, ratio**2, 1) / (np.pi * modulus))
     pressure = 1.5 * force / (np.pi * major**2 * ratio)
-    return PointContact(major, ratio * major, pressure, 1.5 * force * ellipkm1(ratio**2) / (np.pi * major * modulus))
+    return PointContact(major, ratio * major, pressure, 1.5 * force * scipy.special.ellipkm1(ratio**2) / (np.pi * major * modulus))
 
 
 def point_constant(radii: tuple[Numbers, Numbers], modulus: Numbers) -> Numbers:
@@ -138,6 +138,6 @@ def axis_ratio(radius_ratio: Numbers) -> Floats:
     for _ in range(60):
         middle = 0.5 * (low + high)
         square = np.exp(2 * middle)
-        too_round = elliprd(0, 1, square) < wanted * elliprd(0, square, 1)
+        too_round = scipy.special.elliprd(0, 1, square) < wanted * scipy.special.elliprd(0, square, 1)
         low, high = np.where(too_round, low, middle), np.where(too_round, middle, high)
     return np.exp(high)

@@ -14,8 +14,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.linalg import splu, spsolve
+import scipy
 
 from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError, SolverError
@@ -141,15 +140,15 @@ class _Grid:
         self.weights = np.outer(np.ones(n), length).ravel()
         off = -np.ones(m - 2)
         along = _diagonals([np.r_[1.0, np.full(m - 2, 2.0)], off, off], [0, 1, -1]) / (slenderness * du) ** 2
-        film = sparse.diags_array((1 - self.eps * np.cos(self.x)) ** 3)
-        return sparse.kron(around, sparse.diags_array(length)) + sparse.kron(film, along)
+        film = scipy.sparse.diags_array((1 - self.eps * np.cos(self.x)) ** 3)
+        return scipy.sparse.kron(around, scipy.sparse.diags_array(length)) + scipy.sparse.kron(film, along)
 
     def source(self, wedge: float, squeeze: float) -> Floats:
         return np.repeat(squeeze * np.cos(self.x) - wedge * np.sin(self.x), self.shape[1] - 1) * self.weights
 
     def solve(self, wedge: float, squeeze: float) -> Floats:
         """P (n, m) of the full film, negative parts included."""
-        return self._with_end(spsolve(self.matrix, self.source(wedge, squeeze)))
+        return self._with_end(scipy.sparse.linalg.spsolve(self.matrix, self.source(wedge, squeeze)))
 
     def solve_cavitated(self, wedge: float, squeeze: float) -> Floats:
         """P >= 0 with  A P >= f,  one of both equal at every node: Reynolds' condition, by Newton's method on min(P, A P - f) = 0.
@@ -162,7 +161,7 @@ class _Grid:
         for _ in range(100):
             pressure = np.zeros(right.size)
             inside = np.flatnonzero(full)
-            pressure[inside] = splu(rows[inside][:, inside].tocsc()).solve(right[inside])
+            pressure[inside] = scipy.sparse.linalg.splu(rows[inside][:, inside].tocsc()).solve(right[inside])
             now = scale * pressure > rows @ pressure - right
             if np.array_equal(now, full):
                 return self._with_end(pressure)
@@ -187,6 +186,6 @@ class _Grid:
         return np.column_stack([inner.reshape(n, m - 1), np.zeros(n)])
 
 
-def _diagonals(values: Sequence[Floats], offsets: Sequence[int]) -> sparse.dia_array:
+def _diagonals(values: Sequence[Floats], offsets: Sequence[int]) -> "scipy.sparse.dia_array":
     """A sparse matrix of its diagonals."""
-    return sparse.diags_array(values, offsets=offsets)  # pyright: ignore[reportArgumentType]  scipy's default 0 passes for the type
+    return scipy.sparse.diags_array(values, offsets=offsets)  # pyright: ignore[reportArgumentType]  scipy's default 0 passes for the type

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PPoly
+import scipy
 
 from drivewright._typing import Floats
 from drivewright.errors import InputError, counted
@@ -151,7 +151,7 @@ def _gauss(spline):
     return curve(at), curve(at, 1), half * w
 
 
-def interpolant(spline: Spline) -> tuple[PPoly, Floats]:
+def interpolant(spline: Spline) -> "tuple[scipy.interpolate.PPoly, Floats]":
     """Cubic through the knots with the given end tangents, over the running chord length; returns (curve, u at the knots)."""
     from scipy.interpolate import CubicSpline
 

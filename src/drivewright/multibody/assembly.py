@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import null_space
 
 from drivewright._typing import Floats
 from drivewright.errors import DoesNotAssemble
@@ -21,6 +20,7 @@ from drivewright.multibody.partition import evaluate_at, partition_coordinates, 
 from drivewright.multibody.singular import chart_through
 from drivewright.multibody.system import RESIDUAL, System
 from drivewright.multibody.tree import Tree, build_tree, expand
+from drivewright.numerics.linear import null_space
 
 CLOSED = 1e-12  # largest miss of an assembled loop [rad], [lengths of the mechanism]
 WEAK = 0.05  # a coordinate that moves the loops less than this part of its own size is no good dependent one

@@ -3,7 +3,7 @@
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.linalg import eig, null_space
+import scipy
 
 from drivewright._jit import plain
 from drivewright._typing import Complexes, Floats
@@ -22,6 +22,7 @@ from drivewright.multibody.statics import (
     scaled_stiffness,
 )
 from drivewright.multibody.system import motion
+from drivewright.numerics.linear import null_space
 
 STEP = 1e-3  # of the differences, in lengths of the mechanism
 SHARE = 0.01  # ... and of the clearance or the depth of a pin with play
@@ -86,14 +87,14 @@ def modes(linear: Linear) -> Modes:
     both = np.outer(linear.scale, linear.scale)
     (mass, damping, stiffness), speed = _in_own_time(linear.mass * both, linear.damping * both, linear.stiffness * both)
     unit, none = np.eye(free), np.zeros((free, free))
-    pairs: Any = eig(
+    pairs: Any = scipy.linalg.eig(
         np.block([[none, unit], [-stiffness, -damping]]), np.block([[unit, none], [none, mass]]), homogeneous_eigvals=True
     )  # with homogeneous eigenvalues, which SciPy's types do not know
     (top, bottom), vectors = pairs
     moving = (np.abs(top) < INSTANT * np.abs(bottom)) & (np.abs(top) > STANDING * np.abs(bottom))
     roots, vectors = top[moving] / bottom[moving], vectors[:free, moving]
     once = roots.imag > -1e-9 * np.abs(roots)  # one of each conjugate pair
-    still = null_space(stiffness, rcond=STANDING**2 / max(np.linalg.norm(stiffness, 2), STANDING**2))
+    still = null_space(stiffness, rcond=STANDING**2 / max(float(np.linalg.norm(stiffness, 2)), STANDING**2))
     roots, vectors = np.append(np.zeros(still.shape[1]), roots[once] * speed), np.hstack([still, vectors[:, once]])
     order = np.argsort(np.abs(roots), kind="stable")
     return _modes(linear, roots[order], vectors[:, order].T)

@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.linalg import qr
 
 from drivewright._typing import Floats, Ints
 from drivewright.multibody.forces.contact import LUGRE
 from drivewright.multibody.kinematics import evaluate_at_time
 from drivewright.multibody.system import RESIDUAL, System, Work, no_chart, scratch
+from drivewright.numerics.linear import pivot_order
 from drivewright.numerics.small import lu_factor
 
 
@@ -35,7 +35,7 @@ def scaled_residuals(system: System, work: Work) -> Floats:
 def partition_coordinates(system: System, q: Floats, t: float = 0.0) -> System:
     """The system with its coordinates split at q so that the dependent ones follow as firmly as possible."""
     work = evaluate_at(system, q, t)
-    pivots = qr(scaled_jacobian(system, work, system.stored), mode="r", pivoting=True)[-1] if len(system.rows) else np.zeros(0, int)
+    pivots = pivot_order(scaled_jacobian(system, work, system.stored)) if len(system.rows) else np.zeros(0, int)
     return partition_into(system, np.sort(system.stored[pivots[: len(system.rows)]]), work)
 
 

@@ -3,13 +3,13 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import null_space
 
 from drivewright._typing import Floats
 from drivewright.multibody.chart import solve_kinematics
 from drivewright.multibody.kinematics import evaluate_rows
 from drivewright.multibody.partition import evaluate_at, scaled_jacobian
 from drivewright.multibody.system import RESIDUAL, System, motion, scratch
+from drivewright.numerics.linear import null_space
 
 FOLDED = 1e-6  # singular value over the largest that counts as zero in a singular position
 FOURTH = np.array([-1, 16, -30, 16, -1]) / 12  # second difference of the fourth order

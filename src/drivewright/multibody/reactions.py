@@ -8,7 +8,6 @@ independent check of the motion.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import null_space
 
 from drivewright._typing import Floats
 from drivewright.multibody.assembly import Assembly
@@ -17,6 +16,7 @@ from drivewright.multibody.joints.joint import Joint
 from drivewright.multibody.observe import Observed
 from drivewright.multibody.system import System
 from drivewright.multibody.wrenches import ObservedBodies, Reaction, Wrench, cross
+from drivewright.numerics.linear import null_space
 
 CHUNK = 2000  # states at a time: bounds the memory
 RANK = 1e-10  # singular values below this part of the largest are those of redundant constraints

@@ -10,13 +10,13 @@ branch goes through; where two branches only come near each other it does not, a
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import qr
 
 from drivewright._typing import Floats, Ints
 from drivewright.multibody.chart import solve_kinematics
 from drivewright.multibody.forces.contact import LUGRE
 from drivewright.multibody.partition import evaluate_at, partition_into, scaled_jacobian, scaled_residuals
 from drivewright.multibody.system import Chart, System, Work, motion
+from drivewright.numerics.linear import pivot_order
 
 NODES = np.array([-1.0, -0.85, -0.7, -0.55, 0.55, 0.7, 0.85, 1.0])  # of a chart, in parts of its half width
 WIDTHS = 0.12 * 0.5 ** np.arange(6)  # half widths to try [rad], [lengths of the mechanism]
@@ -148,7 +148,7 @@ def _dependent(system, work):
     if not free:
         return system.dependent
     tangent = np.linalg.svd(scaled_jacobian(system, work, system.stored))[2][-free:]
-    pivots = qr(tangent, mode="r", pivoting=True)[-1]
+    pivots = pivot_order(tangent)
     return np.sort(system.stored[pivots[free:]])
 
 

@@ -3,6 +3,7 @@
 `quadrature`     Gauss-Legendre on pieces.
 `roots`          bracketed roots of one variable, damped Newton steps for several, extremes.
 `small`          factors of small matrices in kernels.
+`linear`         null spaces and pivots of small matrices.
 `least_squares`  fits with the covariance of their parameters.
 `splines`        splines through points, as piecewise polynomials.
 `jets`           a value with its first three derivatives.

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError, SolverError
@@ -36,7 +36,9 @@ def fit(
     count = np.size(residuals(start))
     if count < start.size:
         raise InputError(f"fit: {start.size} parameters need at least as many residuals, got {count}.")
-    solution = least_squares(residuals, start, x_scale=scale, bounds=bounds, max_nfev=max_calls, xtol=1e-12, ftol=1e-12, gtol=1e-12)
+    solution = scipy.optimize.least_squares(
+        residuals, start, x_scale=scale, bounds=bounds, max_nfev=max_calls, xtol=1e-12, ftol=1e-12, gtol=1e-12
+    )
     if not solution.success:
         raise SolverError(
             f"fit: not settled after {solution.nfev} calls of the residuals; start nearer or raise max_calls.", partial=solution.x

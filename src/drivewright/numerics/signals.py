@@ -5,12 +5,13 @@ error by at most h^2 max|x''|/8.  Times ascend and may repeat: the first and the
 what lies between them counts for nothing, and no parabola or spline is laid across it.
 """
 
+import math
+
 import numpy as np
-from scipy.fft import next_fast_len, rfft
-from scipy.interpolate import CubicSpline, PPoly
 
 from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
+from drivewright.numerics.splines import Cubics, cubic_spline
 
 
 def local_maxima(t: ArrayLike, x: ArrayLike) -> tuple[Floats, Floats]:
@@ -111,7 +112,7 @@ def order_spectrum(t: ArrayLike, x: ArrayLike, period: float, orders: ArrayLike)
         )
     turns = round(turns)
     bins = _bins(orders, turns, t.size - 1)
-    return _amplitudes(_spline(t, x).antiderivative(), t[0], t[-1], bins, t.size)
+    return _amplitudes(_spline(t, x).integrals_to, t[0], t[-1], bins, t.size)
 
 
 def highest_peaks(frequency: Floats, amplitude: Floats, count: int) -> Floats:
@@ -132,7 +133,7 @@ def spectrogram(t: ArrayLike, x: ArrayLike, period: float, orders: ArrayLike, tu
     if turns < 1 or count < 1:
         raise InputError(f"spectrogram: no window of {turns} periods fits into a signal of {_turns(t, period):.4g}; lengthen the run.")
     samples = int(t.size * turns * period / (t[-1] - t[0]))
-    bins, integral = _bins(orders, turns, samples), _spline(t, x).antiderivative()
+    bins, integral = _bins(orders, turns, samples), _spline(t, x).integrals_to
     start = t[0] + period * np.arange(count)
     rows = [_amplitudes(integral, a, min(a + turns * period, t[-1]), bins, samples) for a in start]
     return start + 0.5 * turns * period, np.array(rows)
@@ -147,8 +148,8 @@ def _turns(t, period):
 def _spline(t, x):
     """The cubic spline through the samples, begun anew at every jump."""
     ends = np.flatnonzero(np.diff(t) == 0) + 1  # a piece begins where the time before it is the same
-    pieces = [CubicSpline(a, b) for a, b in zip(np.split(t, ends), np.split(x, ends), strict=True) if a.size > 1]
-    return PPoly(np.concatenate([piece.c for piece in pieces], axis=1), np.unique(t))
+    pieces = [cubic_spline(a, b) for a, b in zip(np.split(t, ends), np.split(x, ends), strict=True) if a.size > 1]
+    return Cubics(np.unique(t), np.concatenate([piece.coefficients for piece in pieces], axis=1))
 
 
 def _bins(orders, turns, samples):
@@ -168,10 +169,10 @@ def _bins(orders, turns, samples):
 
 def _amplitudes(integral, start, end, bins, samples):
     """Amplitudes over [start, end] from averages over even cells, whose own damping sin(c)/c, c = pi bin/cells, is taken out."""
-    cells = int(next_fast_len(max(2 * samples, 16 * int(np.max(bins))), real=True))  # pyright: ignore[reportArgumentType]  scipy's stub says None
+    cells = 2 ** math.ceil(math.log2(max(2 * samples, 16 * int(np.max(bins)))))
     edges = np.linspace(start, end, cells + 1)
     averages = np.diff(integral(edges)) * cells / (end - start)
-    transform = np.abs(np.asarray(rfft(averages)))[bins] / cells / np.sinc(bins / cells)
+    transform = np.abs(np.fft.rfft(averages))[bins] / cells / np.sinc(bins / cells)
     return np.where(bins == 0, transform, 2 * transform)
 
 

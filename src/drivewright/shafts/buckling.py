@@ -1,7 +1,7 @@
 """Buckling of a shaft under its axial forces."""
 
 import numpy as np
-from scipy.linalg import eigh
+import scipy
 
 from drivewright.errors import SolverError
 from drivewright.shafts import beam as beams
@@ -31,7 +31,7 @@ def buckling_factor(loaded: LoadedShaft) -> float | None:
     basis = model.basis @ held
     geometric = basis[: beam.size].T @ _geometric(beam, tension) @ basis[: beam.size]
     try:
-        factors = eigh(-geometric, stiff, eigvals_only=True)
+        factors = scipy.linalg.eigh(-geometric, stiff, eigvals_only=True)
     except np.linalg.LinAlgError:
         raise SolverError(
             "shaft: beside its bearings the shaft is so soft that its buckling is lost in rounding; check the units of "

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import block_diag, eigh
+import scipy
 
 from drivewright._typing import Floats, Ints
 from drivewright.errors import InputError
@@ -138,7 +138,7 @@ def condense_supports(stiff: Floats, constraints: Floats, compliance: Floats) ->
     own = shapes.T @ stiff @ shapes
     least = np.sqrt(compliance[yields] / (1 + compliance[yields] * np.diag(own)))
     yielding = least[:, None] * own * least + np.diag(1 / (1 + compliance[yields] * np.diag(own)))
-    return np.hstack([held, shapes * least]), np.asarray(block_diag(held.T @ stiff @ held, yielding))
+    return np.hstack([held, shapes * least]), np.asarray(scipy.linalg.block_diag(held.T @ stiff @ held, yielding))
 
 
 def _null_space(rows):
@@ -227,7 +227,7 @@ def _rounded(basis, inertia, k):
 def _eigen(m, k):
     """(1/w^2, vectors with q'Kq = 1)."""
     try:
-        return eigh(m, k)
+        return scipy.linalg.eigh(m, k)
     except np.linalg.LinAlgError:
         raise InputError(UNHELD) from None
 
@@ -283,7 +283,7 @@ def torsional_modes(equilibrium: ShaftEquilibrium, count: int) -> Modes:
     if not inertia[0, 0] > 0:
         return Modes(np.zeros(0), whole)
     mixed = inertia[0, 1:] / inertia[0, 0]
-    inverse, vectors = eigh(inertia[1:, 1:] - np.outer(mixed, inertia[0, 1:]), stiff)
+    inverse, vectors = scipy.linalg.eigh(inertia[1:, 1:] - np.outer(mixed, inertia[0, 1:]), stiff)
     lowest = np.argsort(inverse)[::-1][:count]
     lowest = lowest[inverse[lowest] > NEGLIGIBLE * (np.diag(inertia)[1:] / np.diag(stiff)).sum()]
     whole = np.zeros((equilibrium.model.size, len(lowest)))

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PPoly
+import scipy
 
 from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.curves import outline_area
@@ -236,7 +236,7 @@ def _spline_edge(occ: Any, spline: Spline, a: Floats, b: Floats, tolerance: floa
     )
 
 
-def _distance(edge: EngineObject, at: Floats, points: Floats, curve: PPoly) -> float:
+def _distance(edge: EngineObject, at: Floats, points: Floats, curve: "scipy.interpolate.PPoly") -> float:
     """Largest distance [m], across the curve, between an edge and the curve at and between the knots of both."""
     chord = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
     low, high = edge.parameter_interval

@@ -4,7 +4,7 @@ Everything in metres and radians; a spline is the C2 cubic through its knots ove
 """
 
 import numpy as np
-from scipy.interpolate import BSpline, PPoly, make_interp_spline
+import scipy
 
 from drivewright._typing import Floats
 from drivewright.curves import outlines
@@ -52,13 +52,13 @@ def length(piece: Piece) -> float:
     return float(np.hypot(*np.diff(piece.points(0.0), axis=0).T).sum())
 
 
-def interpolant(spline: Spline) -> PPoly:
+def interpolant(spline: Spline) -> "scipy.interpolate.PPoly":
     """The curve of a `Spline`: clamped C2 cubic over the chord length s [m], as a vectorised function s -> (n, 2) [m]."""
     curve, distance = outlines.interpolant(spline)
-    return PPoly(np.stack([curve.c.real, curve.c.imag], axis=-1), distance)
+    return scipy.interpolate.PPoly(np.stack([curve.c.real, curve.c.imag], axis=-1), distance)
 
 
-def fit(spline: Spline, tolerance: float) -> BSpline:
+def fit(spline: Spline, tolerance: float) -> "scipy.interpolate.BSpline":
     """Clamped cubic BSpline with few spans that stays within `tolerance` [m] of the curve through all the knots.
 
     It interpolates the curve at its breaks, has the same end tangents, and is C2; spans that miss a knot are halved until none is left.
@@ -68,7 +68,7 @@ def fit(spline: Spline, tolerance: float) -> BSpline:
     target, clamp = curve(probe), [[(1, t)] for t in headings(spline)]
     breaks = np.array([curve.x[0], curve.x[-1]])
     while True:
-        sparse = make_interp_spline(breaks, curve(breaks), k=3, bc_type=tuple(clamp))
+        sparse = scipy.interpolate.make_interp_spline(breaks, curve(breaks), k=3, bc_type=tuple(clamp))
         missed = probe[np.hypot(*(sparse(probe) - target).T) > tolerance]
         if not len(missed):
             return sparse

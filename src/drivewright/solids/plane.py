@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
 
 from drivewright._typing import ArrayLike, Bools, Floats, Ints
 from drivewright.errors import InputError
@@ -207,7 +207,7 @@ def _rule(ng: Any) -> tuple[EngineObject, Floats, Floats]:
     return ng.IntegrationRule(points=[(float(s),) for s in node], weights=[0.0] * ALONG_EDGE), node, weight
 
 
-def _rim(ng: Any, mesh: EngineObject, scalar: EngineObject) -> tuple[Rim, csr_array]:
+def _rim(ng: Any, mesh: EngineObject, scalar: EngineObject) -> "tuple[Rim, scipy.sparse.csr_array]":
     """The `Rim` and the sparse matrix that takes a scalar's coefficients to its values there."""
     rule, node, weight = _rule(ng)
     at = mesh.MapToAllElements(rule, mesh.Boundaries(".*"))
@@ -224,7 +224,7 @@ def _rim(ng: Any, mesh: EngineObject, scalar: EngineObject) -> tuple[Rim, csr_ar
     values = _shape_values(ng, scalar, unknowns, node, at)
     rows = np.broadcast_to(np.arange(len(rim.name)).reshape(len(elements), -1, 1), values.shape)
     columns = np.broadcast_to(unknowns[:, None, :], values.shape)
-    return rim, csr_array((values.ravel(), (rows.ravel(), columns.ravel())), shape=(len(rim.name), scalar.ndof))
+    return rim, scipy.sparse.csr_array((values.ravel(), (rows.ravel(), columns.ravel())), shape=(len(rim.name), scalar.ndof))
 
 
 def _outward(ng: Any, mesh: EngineObject, elements: list[EngineObject], points: Floats, at: EngineObject) -> Floats:

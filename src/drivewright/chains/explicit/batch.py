@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.stats import binom
+import scipy
 
 from drivewright._typing import ArrayLike, Floats
 from drivewright.cases import Outcomes, run
@@ -158,6 +158,6 @@ def quantiles(sample: ArrayLike, percentiles: Sequence[float]) -> Floats:
     """
     ordered, shares = np.sort(np.asarray(sample, float)), np.asarray(percentiles, float) / 100
     count, padded = len(ordered), np.concatenate([[np.nan], np.sort(sample), [np.nan]])
-    low = binom.ppf(0.025, count, shares).astype(int)  # P(fewer than low lie below) <= 2.5 %
-    high = binom.ppf(0.975, count, shares).astype(int) + 1
+    low = scipy.stats.binom.ppf(0.025, count, shares).astype(int)  # P(fewer than low lie below) <= 2.5 %
+    high = scipy.stats.binom.ppf(0.975, count, shares).astype(int) + 1
     return np.stack([np.percentile(ordered, percentiles), padded[low], padded[np.minimum(high, count + 1)]])

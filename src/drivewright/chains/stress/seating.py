@@ -13,7 +13,7 @@ of the peak pressure.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import block_diag
+import scipy
 
 from drivewright._typing import ArrayLike, Floats
 from drivewright.chains.plate import Plate
@@ -76,7 +76,7 @@ def _gaps(seats, hats, wall):
     outwards = [np.sum(wall[:, seat.rows] * seat.outward, axis=2) for seat in seats]
     opened = np.vstack([(one * seat.area) @ moved.T for seat, one, moved in zip(seats, hats, outwards, strict=True)])
     areas = [one @ seat.area for seat, one in zip(seats, hats, strict=True)]
-    shift = block_diag(*((one * seat.area) @ seat.outward for seat, one in zip(seats, hats, strict=True)))
+    shift = scipy.linalg.block_diag(*((one * seat.area) @ seat.outward for seat, one in zip(seats, hats, strict=True)))
     return opened, np.concatenate(areas), shift
 
 

@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import cumulative_simpson, trapezoid
 
 from drivewright._typing import Floats
 from drivewright.multibody.observe import POWER_FIELDS
 from drivewright.multibody.record import Record
+from drivewright.numerics.quadrature import cumulative_simpson, trapezoid
 from drivewright.result import Answer, Check, Column, Table, Value
 
 IDLE = 1e-3  # part of the energy exchanged that drives do at least, for the power audit
@@ -52,8 +52,8 @@ def audit(record: Record) -> Audit:
 
 def audit_of_samples(record: Record) -> Audit:
     """The `Audit` of a record at any times, Simpson's rule over neighbouring samples: kinematics has no steps of its own."""
-    works = cumulative_simpson(record.powers, x=record.t, axis=0, initial=0.0)
-    flow = trapezoid(np.abs(record.powers), record.t, axis=0)
+    works = cumulative_simpson(record.powers, record.t)
+    flow = trapezoid(np.abs(record.powers), record.t)
     return _audit(record.t, works, flow, record.energy, record.kinetic, DRIVES)
 
 
@@ -68,8 +68,8 @@ def audit_of_powers(t: Floats, powers: Floats, energy: Floats, kinetic: Floats, 
         piece = slice(first, end)
         works[piece] = works[first - 1] if first else 0.0
         if end - first > 1:
-            works[piece] += cumulative_simpson(powers[piece], x=t[piece], axis=0, initial=0.0)
-            flow += trapezoid(np.abs(powers[piece]), t[piece], axis=0)
+            works[piece] += cumulative_simpson(powers[piece], t[piece])
+            flow += trapezoid(np.abs(powers[piece]), t[piece])
     return _audit(t, works, flow, energy, kinetic, drives)
 
 

@@ -1,9 +1,9 @@
 """Kinematic Monte Carlo of a mechanism: clearances and tolerances of points, and what they make of the outputs."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.special import ndtr
 
 from drivewright.multibody.analyses.simulation_model import SimulationModel
 from drivewright.multibody.tolerance import CIRCLE, READINGS, Source, gradient, posture, sample, shares
@@ -65,7 +65,7 @@ def _histogram(name, unit, data, share):
     reach = max(float(np.max(np.abs(data), initial=0.0)), 3 * sigma) or 1.0
     edges = np.linspace(-reach, reach, BARS + 1)
     counts = np.histogram(data, edges)[0]
-    normal = np.diff(ndtr(edges / sigma)) if sigma > 0 else np.zeros(BARS)
+    normal = np.diff([0.5 * math.erfc(-edge / (math.sqrt(2) * sigma)) for edge in edges]) if sigma > 0 else np.zeros(BARS)
     return Table(
         f"tolerances.{name}",
         f"Deviation of {name!r}",
